@@ -1,0 +1,573 @@
+//! Exact real numbers as they are written: decimals, fractions, and expressions with square roots.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = unary { ("*" | "/") unary }
+//! unary   = "-" unary | literal | "(" sum ")" | "sqrt" "(" sum ")"
+//! literal = digits [ "." digits ] [ ("e" | "E") [ "+" | "-" ] digits ]
+//! ```
+//!
+//! Rational parts are folded, so `0.5 + 1/3` is the rational `5/6`; square roots of squares are
+//! rational. What remains is a tree whose value is enclosed to any precision by [`Exact::enclose`].
+//! [`Exact`]'s text form is canonical: it parses back to the same tree, and a certificate must use
+//! it. Every divisor is proved non-zero and every radicand non-negative when a tree is built.
+
+use crate::enclosure::Scalar;
+use crate::fixed::Fixed;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+use std::fmt;
+
+/// Most bytes of one number's text.
+pub const MAX_TEXT: usize = 8192;
+/// Most literals of one number's text.
+pub const MAX_LITERALS: usize = 256;
+/// Most nested parentheses, roots and signs of one number's text.
+pub const MAX_NESTING: usize = 64;
+/// Most digits of one literal of a canonical text (a decimal of 1,000 digits times `10^-1000`
+/// makes a denominator of up to 2,000 digits).
+pub const MAX_DIGITS: usize = 2100;
+/// Largest exponent of ten of a literal, either way.
+pub const MAX_EXPONENT: i64 = 1000;
+/// Most bits of a numerator or denominator of a folded rational.
+const MAX_RATIONAL_BITS: u64 = 1 << 15;
+/// Precisions tried, in fractional bits, before a sign is given up as undecidable.
+const SIGN_PRECISIONS: [u32; 4] = [128, 512, 2048, 8192];
+
+/// An exact real number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Exact {
+    /// A rational number in lowest terms.
+    Rational(BigRational),
+    /// `-x`, `x` not rational.
+    Neg(Box<Exact>),
+    /// `x + y`, not both rational.
+    Add(Box<Exact>, Box<Exact>),
+    /// `x - y`, not both rational.
+    Sub(Box<Exact>, Box<Exact>),
+    /// `x y`, not both rational.
+    Mul(Box<Exact>, Box<Exact>),
+    /// `x / y`, not both rational, `y != 0`.
+    Div(Box<Exact>, Box<Exact>),
+    /// `sqrt(x)`, `x >= 0` and not the square of a rational number.
+    Sqrt(Box<Exact>),
+}
+
+/// Why a text is not a number; `at` is a byte offset into the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NumberError {
+    /// Byte offset of the defect.
+    pub at: usize,
+    /// What is wrong there.
+    pub kind: NumberErrorKind,
+}
+
+/// The ways in which a text can fail to be a number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NumberErrorKind {
+    /// Something else was expected.
+    Expected(&'static str),
+    /// The text goes on after the number.
+    TrailingText,
+    /// A literal of more digits than the limit.
+    TooManyDigits(usize),
+    /// An exponent of ten beyond the limit.
+    ExponentTooLarge,
+    /// The text, its nesting or a folded value is too large.
+    TooLarge,
+    /// A divisor that is zero, or not provably different from zero.
+    DivisorMayBeZero,
+    /// The square root of a number that is negative, or not provably non-negative.
+    RadicandMayBeNegative,
+}
+
+impl fmt::Display for NumberError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let column = self.at + 1;
+        match &self.kind {
+            NumberErrorKind::Expected(what) => write!(f, "expected {what} at character {column}"),
+            NumberErrorKind::TrailingText => write!(f, "unexpected text at character {column}"),
+            NumberErrorKind::TooManyDigits(limit) => {
+                write!(f, "more than {limit} digits at character {column}")
+            }
+            NumberErrorKind::ExponentTooLarge => {
+                write!(f, "exponent beyond ±{MAX_EXPONENT} at character {column}")
+            }
+            NumberErrorKind::TooLarge => write!(f, "number too large at character {column}"),
+            NumberErrorKind::DivisorMayBeZero => {
+                write!(f, "division by something that is or may be zero at character {column}")
+            }
+            NumberErrorKind::RadicandMayBeNegative => write!(
+                f,
+                "square root of something that is or may be negative at character {column}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NumberError {}
+
+impl Exact {
+    /// The integer `n`.
+    pub fn integer(n: i64) -> Self {
+        Exact::Rational(BigRational::from_integer(n.into()))
+    }
+
+    /// Parses an expression; literals have at most `max_digits` digits.
+    pub fn parse(text: &str, max_digits: usize) -> Result<Self, NumberError> {
+        if text.len() > MAX_TEXT {
+            return Err(NumberError { at: MAX_TEXT, kind: NumberErrorKind::TooLarge });
+        }
+        let mut parser = Parser { text: text.as_bytes(), at: 0, depth: 0, literals: 0, max_digits };
+        let value = parser.sum()?;
+        parser.skip_blank();
+        if parser.at < text.len() {
+            return Err(parser.error(NumberErrorKind::TrailingText));
+        }
+        Ok(value)
+    }
+
+    /// Parses a canonical text: exactly what [`Exact`] prints.
+    pub fn parse_canonical(text: &str) -> Result<Self, NumberError> {
+        let value = Exact::parse(text, MAX_DIGITS)?;
+        if value.to_string() != text {
+            return Err(NumberError { at: 0, kind: NumberErrorKind::Expected("canonical form") });
+        }
+        Ok(value)
+    }
+
+    /// The rational value, if the number was folded to one.
+    pub fn as_rational(&self) -> Option<&BigRational> {
+        match self {
+            Exact::Rational(x) => Some(x),
+            _ => None,
+        }
+    }
+
+    /// An enclosure of `self / 2^scale` with `bits` fractional bits; the tightest one for
+    /// rationals. `None` where the precision does not suffice to divide or take a root.
+    pub fn enclose(&self, scale: i64, bits: u32) -> Option<Fixed> {
+        if let Exact::Rational(x) = self {
+            return Some(Fixed::rational(x, scale, bits));
+        }
+        // 64 guard bits; a negative scale (small numbers) asks for as many bits more.
+        let extra = u32::try_from((-scale).max(0)).ok()?;
+        let working = bits.checked_add(extra)?.checked_add(64)?;
+        Some(self.enclose_at(working)?.rescale(scale, bits))
+    }
+
+    fn enclose_at(&self, bits: u32) -> Option<Fixed> {
+        match self {
+            Exact::Rational(x) => Some(Fixed::rational(x, 0, bits)),
+            Exact::Neg(x) => Some(x.enclose_at(bits)?.neg()),
+            Exact::Add(x, y) => Some(x.enclose_at(bits)?.add(&y.enclose_at(bits)?)),
+            Exact::Sub(x, y) => Some(x.enclose_at(bits)?.sub(&y.enclose_at(bits)?)),
+            Exact::Mul(x, y) => Some(x.enclose_at(bits)?.mul(&y.enclose_at(bits)?)),
+            Exact::Div(x, y) => x.enclose_at(bits)?.div(&y.enclose_at(bits)?),
+            Exact::Sqrt(x) => x.enclose_at(bits)?.sqrt(),
+        }
+    }
+
+    /// The sign (-1, 0, 1), or `None` where no precision tried decides it. Zero is recognised for
+    /// rationals only.
+    pub fn sign(&self) -> Option<i32> {
+        if let Exact::Rational(x) = self {
+            return Some(if x.is_zero() { 0 } else if x.is_positive() { 1 } else { -1 });
+        }
+        SIGN_PRECISIONS.iter().find_map(|&bits| {
+            let x = self.enclose_at(bits)?;
+            if x.lo().is_positive() {
+                Some(1)
+            } else if x.hi().is_negative() {
+                Some(-1)
+            } else {
+                None
+            }
+        })
+    }
+
+    /// The order of two numbers, or `None` where no precision tried decides it. Equality is
+    /// recognised for rationals and for identical trees.
+    pub fn compare(&self, other: &Exact) -> Option<std::cmp::Ordering> {
+        if self == other {
+            return Some(std::cmp::Ordering::Equal);
+        }
+        let difference = self.clone().minus(other.clone()).ok()?;
+        difference.sign().map(|sign| sign.cmp(&0))
+    }
+
+    /// `-self`.
+    pub fn negated(self) -> Self {
+        match self {
+            Exact::Rational(x) => Exact::Rational(-x),
+            x => Exact::Neg(Box::new(x)),
+        }
+    }
+
+    /// `self + other`.
+    pub fn plus(self, other: Exact) -> Result<Self, NumberErrorKind> {
+        fold(self, other, |x, y| x + y, Exact::Add)
+    }
+
+    /// `self - other`.
+    pub fn minus(self, other: Exact) -> Result<Self, NumberErrorKind> {
+        fold(self, other, |x, y| x - y, Exact::Sub)
+    }
+
+    /// `self * other`.
+    pub fn times(self, other: Exact) -> Result<Self, NumberErrorKind> {
+        fold(self, other, |x, y| x * y, Exact::Mul)
+    }
+
+    /// `self / other`; refused unless `other` is provably not zero.
+    pub fn over(self, other: Exact) -> Result<Self, NumberErrorKind> {
+        match other.sign() {
+            None | Some(0) => Err(NumberErrorKind::DivisorMayBeZero),
+            Some(_) => fold(self, other, |x, y| x / y, Exact::Div),
+        }
+    }
+
+    /// `sqrt(self)`; refused unless `self` is provably not negative.
+    pub fn root(self) -> Result<Self, NumberErrorKind> {
+        match self.sign() {
+            None | Some(-1) => return Err(NumberErrorKind::RadicandMayBeNegative),
+            Some(_) => {}
+        }
+        if let Exact::Rational(x) = &self {
+            // In lowest terms p/q is a square exactly if p and q are.
+            let (p, q) = (x.numer().sqrt(), x.denom().sqrt());
+            if &(&p * &p) == x.numer() && &(&q * &q) == x.denom() {
+                return Ok(Exact::Rational(BigRational::new(p, q)));
+            }
+        }
+        Ok(Exact::Sqrt(Box::new(self)))
+    }
+
+    /// How tightly the printed form binds: 1 sum, 2 product or fraction, 3 sign, 4 atom.
+    fn precedence(&self) -> u8 {
+        match self {
+            Exact::Rational(x) if !x.denom().is_one() => 2,
+            Exact::Rational(x) if x.is_negative() => 3,
+            Exact::Rational(_) | Exact::Sqrt(_) => 4,
+            Exact::Add(..) | Exact::Sub(..) => 1,
+            Exact::Mul(..) | Exact::Div(..) => 2,
+            Exact::Neg(_) => 3,
+        }
+    }
+}
+
+fn fold(
+    x: Exact,
+    y: Exact,
+    rational: impl Fn(&BigRational, &BigRational) -> BigRational,
+    tree: impl Fn(Box<Exact>, Box<Exact>) -> Exact,
+) -> Result<Exact, NumberErrorKind> {
+    match (x, y) {
+        (Exact::Rational(x), Exact::Rational(y)) => {
+            let value = rational(&x, &y);
+            if value.numer().bits().max(value.denom().bits()) > MAX_RATIONAL_BITS {
+                return Err(NumberErrorKind::TooLarge);
+            }
+            Ok(Exact::Rational(value))
+        }
+        (x, y) => Ok(tree(Box::new(x), Box::new(y))),
+    }
+}
+
+impl fmt::Display for Exact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // An operand that binds less tightly than `least` needs parentheses.
+        fn operand(f: &mut fmt::Formatter<'_>, x: &Exact, least: u8) -> fmt::Result {
+            if x.precedence() < least {
+                write!(f, "({x})")
+            } else {
+                write!(f, "{x}")
+            }
+        }
+        let (x, sign, y, left, right) = match self {
+            Exact::Rational(x) => return write!(f, "{x}"),
+            Exact::Sqrt(x) => return write!(f, "sqrt({x})"),
+            Exact::Neg(x) => {
+                f.write_str("-")?;
+                return operand(f, x, 3);
+            }
+            Exact::Add(x, y) => (x, "+", y, 1, 2),
+            Exact::Sub(x, y) => (x, "-", y, 1, 2),
+            Exact::Mul(x, y) => (x, "*", y, 2, 3),
+            Exact::Div(x, y) => (x, "/", y, 2, 3),
+        };
+        operand(f, x, left)?;
+        f.write_str(sign)?;
+        operand(f, y, right)
+    }
+}
+
+struct Parser<'a> {
+    text: &'a [u8],
+    at: usize,
+    depth: usize,
+    literals: usize,
+    max_digits: usize,
+}
+
+impl Parser<'_> {
+    fn error(&self, kind: NumberErrorKind) -> NumberError {
+        NumberError { at: self.at, kind }
+    }
+
+    fn skip_blank(&mut self) {
+        while matches!(self.text.get(self.at), Some(b' ' | b'\t')) {
+            self.at += 1;
+        }
+    }
+
+    fn eat(&mut self, byte: u8) -> bool {
+        self.skip_blank();
+        let found = self.text.get(self.at) == Some(&byte);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn combine(
+        &self,
+        at: usize,
+        result: Result<Exact, NumberErrorKind>,
+    ) -> Result<Exact, NumberError> {
+        result.map_err(|kind| NumberError { at, kind })
+    }
+
+    fn sum(&mut self) -> Result<Exact, NumberError> {
+        let mut value = self.product()?;
+        loop {
+            let at = self.at;
+            value = if self.eat(b'+') {
+                let term = self.product()?;
+                self.combine(at, value.plus(term))?
+            } else if self.eat(b'-') {
+                let term = self.product()?;
+                self.combine(at, value.minus(term))?
+            } else {
+                return Ok(value);
+            };
+        }
+    }
+
+    fn product(&mut self) -> Result<Exact, NumberError> {
+        let mut value = self.unary()?;
+        loop {
+            if self.eat(b'*') {
+                let at = self.at;
+                let factor = self.unary()?;
+                value = self.combine(at, value.times(factor))?;
+            } else if self.eat(b'/') {
+                self.skip_blank();
+                let at = self.at;
+                let divisor = self.unary()?;
+                value = self.combine(at, value.over(divisor))?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn unary(&mut self) -> Result<Exact, NumberError> {
+        self.depth += 1;
+        if self.depth > MAX_NESTING {
+            return Err(self.error(NumberErrorKind::TooLarge));
+        }
+        let value = self.unary_within_depth();
+        self.depth -= 1;
+        value
+    }
+
+    fn unary_within_depth(&mut self) -> Result<Exact, NumberError> {
+        if self.eat(b'-') {
+            return Ok(self.unary()?.negated());
+        }
+        if self.eat(b'(') {
+            let value = self.sum()?;
+            return self.closed(value);
+        }
+        if self.text.get(self.at..).is_some_and(|rest| rest.starts_with(b"sqrt")) {
+            self.at += 4;
+            if !self.eat(b'(') {
+                return Err(self.error(NumberErrorKind::Expected("\"(\" after sqrt")));
+            }
+            let at = self.at;
+            let radicand = self.sum()?;
+            let radicand = self.closed(radicand)?;
+            return self.combine(at, radicand.root());
+        }
+        self.literal()
+    }
+
+    fn closed(&mut self, value: Exact) -> Result<Exact, NumberError> {
+        if self.eat(b')') {
+            Ok(value)
+        } else {
+            Err(self.error(NumberErrorKind::Expected("\")\"")))
+        }
+    }
+
+    fn digits(&mut self) -> &str {
+        let start = self.at;
+        while self.text.get(self.at).is_some_and(u8::is_ascii_digit) {
+            self.at += 1;
+        }
+        let run = self.text.get(start..self.at).unwrap_or_default();
+        std::str::from_utf8(run).unwrap_or_default()
+    }
+
+    fn literal(&mut self) -> Result<Exact, NumberError> {
+        let start = self.at;
+        self.literals += 1;
+        if self.literals > MAX_LITERALS {
+            return Err(self.error(NumberErrorKind::TooLarge));
+        }
+        let mut digits = self.digits().to_owned();
+        if digits.is_empty() {
+            return Err(self.error(NumberErrorKind::Expected("a number, \"-\", \"(\" or \"sqrt\"")));
+        }
+        let mut exponent = 0i64;
+        if self.text.get(self.at) == Some(&b'.') {
+            self.at += 1;
+            let fraction = self.digits().to_owned();
+            if fraction.is_empty() {
+                return Err(self.error(NumberErrorKind::Expected("a digit after the point")));
+            }
+            exponent -= i64::try_from(fraction.len()).unwrap_or(i64::MAX);
+            digits.push_str(&fraction);
+        }
+        if digits.len() > self.max_digits {
+            return Err(NumberError {
+                at: start,
+                kind: NumberErrorKind::TooManyDigits(self.max_digits),
+            });
+        }
+        if matches!(self.text.get(self.at), Some(b'e' | b'E')) {
+            self.at += 1;
+            let negative = match self.text.get(self.at) {
+                Some(b'-') => true,
+                Some(b'+') => false,
+                _ => {
+                    self.at -= 1;
+                    false
+                }
+            };
+            self.at += 1;
+            let at = self.at;
+            let written = self.digits().to_owned();
+            if written.is_empty() {
+                return Err(self.error(NumberErrorKind::Expected("the digits of an exponent")));
+            }
+            let size = written.parse::<i64>().ok().filter(|e| *e <= MAX_EXPONENT);
+            let size = size.ok_or(NumberError { at, kind: NumberErrorKind::ExponentTooLarge })?;
+            exponent += if negative { -size } else { size };
+        }
+        let mantissa: BigInt =
+            digits.parse().map_err(|_| self.error(NumberErrorKind::Expected("digits")))?;
+        // |exponent| <= MAX_EXPONENT + max_digits fits u32 by the tests above.
+        let power = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).unwrap_or(0));
+        Ok(Exact::Rational(if exponent < 0 {
+            BigRational::new(mantissa, power)
+        } else {
+            BigRational::from_integer(mantissa * power)
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(input: &str) -> String {
+        match Exact::parse(input, 1000) {
+            Ok(value) => value.to_string(),
+            Err(error) => panic!("{input}: {error}"),
+        }
+    }
+
+    #[test]
+    fn decimals_are_taken_as_written() {
+        assert_eq!(text("310.25"), "1241/4");
+        assert_eq!(text("0.1"), "1/10");
+        assert_eq!(text("-73"), "-73");
+        assert_eq!(text("1e-3"), "1/1000");
+        assert_eq!(text("1.5E+2"), "150");
+        assert_eq!(text("- 1 / 3"), "-1/3");
+        assert_eq!(text("2-3-4"), "-5");
+        assert_eq!(text("12/4/3"), "1");
+        assert_eq!(text("sqrt(9/16)"), "3/4");
+    }
+
+    #[test]
+    fn printed_form_parses_back_to_the_same_tree() {
+        for input in [
+            "174.75*sqrt(3)/2",
+            "-sqrt(2)*3",
+            "-(sqrt(2)*3)",
+            "1-(2-sqrt(3))",
+            "1/(2/sqrt(3))",
+            "sqrt(3)*(3/4)",
+            "sqrt(2+sqrt(3))-1/7",
+            "2--sqrt(2)",
+            "(1-sqrt(2))/(1+sqrt(2))",
+            "200/(1/sqrt(18)+1/sqrt(6))",
+            "-3/4*sqrt(2)",
+            "sqrt(2)*-3/4",
+            "sqrt(2)-(-3/4)",
+        ] {
+            let value = Exact::parse(input, 1000).unwrap();
+            assert_eq!(Exact::parse_canonical(&value.to_string()), Ok(value), "{input}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_refused_with_its_place() {
+        for (input, at) in [
+            ("", 0),
+            ("1.", 2),
+            (".5", 0),
+            ("1e", 2),
+            ("1e1001", 2),
+            ("1 2", 2),
+            ("1+", 2),
+            ("(1", 2),
+            ("sqrt 2", 5),
+            ("sqrt(-1)", 5),
+            ("1/0", 2),
+            ("1/(sqrt(2)*sqrt(2)-2)", 2),
+            ("sqrt(sqrt(2)*sqrt(2)-2)", 5),
+            ("nan", 0),
+            ("inf", 0),
+            ("0x10", 1),
+            ("1_000", 1),
+            ("３", 0),
+        ] {
+            let error = Exact::parse(input, 1000).expect_err(input);
+            assert_eq!(error.at, at, "{input}: {error}");
+        }
+        assert!(Exact::parse(&"1".repeat(1001), 1000).is_err());
+        assert!(Exact::parse(&"(".repeat(4000), 1000).is_err());
+        assert!(Exact::parse(&"-".repeat(4000), 1000).is_err());
+        assert!(Exact::parse(&vec!["1"; 300].join("+"), 1000).is_err());
+        assert!(Exact::parse(&vec!["1e1000"; 500].join("*"), 1000).is_err());
+        assert!(Exact::parse_canonical("2/4").is_err());
+        assert!(Exact::parse_canonical("0.5").is_err());
+    }
+
+    #[test]
+    fn enclosures_contain_the_value_and_shrink_with_precision() {
+        let root = Exact::parse("sqrt(2)", 1000).unwrap();
+        for bits in [8u32, 64, 200] {
+            let x = root.enclose(3, bits).unwrap();
+            // x encloses sqrt(2)/8, so 64 x^2 encloses 2.
+            let (low, high) = (x.lo() * x.lo() * 64, x.hi() * x.hi() * 64);
+            let two = BigInt::from(2) << (2 * bits);
+            assert!(low <= two && two <= high);
+            assert!(x.hi() - x.lo() <= BigInt::from(1));
+        }
+    }
+}
