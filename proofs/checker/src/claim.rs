@@ -4,6 +4,7 @@
 //! `FORMAT.md` gives the meaning of every field; the types here are its vocabulary.
 
 use crate::number::Exact;
+use crate::strict;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::cmp::Ordering;
@@ -14,7 +15,7 @@ use std::fmt;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Claim {
     /// One machine (or every machine within its tolerances) over one workspace.
-    Machine(MachineClaim),
+    Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
 }
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel
@@ -27,17 +28,20 @@ pub struct MachineClaim {
     /// The prescribed workspace, in the frame that the legs are described in.
     pub workspace: Workspace,
     /// What must hold everywhere in it.
+    #[serde(deserialize_with = "strict::object")]
     pub requirements: Requirements,
 }
 
 /// A translational parallel mechanism.
+#[allow(clippy::large_enum_variant, reason = "one value for each claim")]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Mechanism {
     /// Three legs, each with its own numbers.
-    Translational([Leg; 3]),
+    Translational(#[serde(deserialize_with = "strict::three")] [Leg; 3]),
     /// The Orthoglide whose leg length `L`, corners `q_1`, `q_2` and base point follow from
     /// `psi_max` and the side of a cubic workspace (the paper's Steps 1 to 3).
+    #[serde(deserialize_with = "offset")]
     Orthoglide {
         /// Platform offset `e`: `C_i = P - e e_i`.
         offset: Exact,
@@ -64,21 +68,36 @@ pub enum Leg {
 }
 
 /// The sign of `eta_i`: whether the leg points along its guide's direction or against it.
+pub type WorkingMode = Sign;
+
+/// A sign, written `"+"` or `"-"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum WorkingMode {
-    /// `eta_i > 0`.
+pub enum Sign {
+    /// `+1`.
     #[serde(rename = "+")]
     Plus,
-    /// `eta_i < 0`.
+    /// `-1`.
     #[serde(rename = "-")]
     Minus,
 }
 
+impl Sign {
+    /// `+1` or `-1`.
+    pub fn as_integer(self) -> i64 {
+        match self {
+            Sign::Plus => 1,
+            Sign::Minus => -1,
+        }
+    }
+}
+
 /// The set of points that a claim is about. It is closed.
+#[allow(clippy::large_enum_variant, reason = "one value for each claim")]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Workspace {
     /// `min_k <= P_k <= max_k`.
+    #[serde(deserialize_with = "corners")]
     Box {
         /// Least coordinates.
         min: [Exact; 3],
@@ -87,6 +106,7 @@ pub enum Workspace {
     },
     /// The paper's cube `[q_1, q_2]^3`, with `q_2 - q_1` = `side`; goes with
     /// [`Mechanism::Orthoglide`] only.
+    #[serde(deserialize_with = "side")]
     Cube {
         /// `L_workspace > 0`.
         side: Exact,
@@ -98,10 +118,18 @@ pub enum Workspace {
 #[serde(deny_unknown_fields)]
 pub struct Requirements {
     /// Bounds on the velocity transmission factors `psi_1, psi_2, psi_3`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
     pub transmission: Option<Range>,
     /// Bounds on the joint coordinates `rho_1, rho_2, rho_3`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional_three"
+    )]
     pub joint_range: Option<[Range; 3]>,
 }
 
@@ -217,8 +245,7 @@ impl MachineClaim {
                 if range.min.is_some() {
                     return Err(ClaimError::CubeFixesPsiMin);
                 }
-                let above_one =
-                    range.max.as_ref().and_then(|max| max.compare(&Exact::integer(1)));
+                let above_one = range.max.as_ref().and_then(|max| max.compare(&Exact::integer(1)));
                 if above_one != Some(Ordering::Greater) {
                     return Err(ClaimError::CubeNeedsPsiMax);
                 }
@@ -232,32 +259,38 @@ impl MachineClaim {
 impl Leg {
     fn validate(&self, index: usize) -> Result<(), ClaimError> {
         let leg = index + 1;
-        for (name, quantity) in self.quantities() {
-            ordered(&quantity.min, &quantity.max, || format!("leg {leg}: {name}"))?;
-        }
-        match self {
-            Leg::Slider { length, .. } => {
-                positive(&length.min, || format!("leg {leg}: length"))
+        for (parameter, quantity) in self.parameters() {
+            ordered(&quantity.min, &quantity.max, || format!("leg {leg}: {parameter}"))?;
+            if parameter == Parameter::Length {
+                positive(&quantity.min, || format!("leg {leg}: {parameter}"))?;
             }
+        }
+        Ok(())
+    }
+
+    /// Whether both legs have the same drive and working mode.
+    pub fn same_kind(&self, other: &Leg) -> bool {
+        match (self, other) {
+            (Leg::Slider { mode, .. }, Leg::Slider { mode: other, .. }) => mode == other,
         }
     }
 
-    /// Every parameter that may carry a tolerance, by name, in the order of the format.
-    pub fn quantities(&self) -> Vec<(&'static str, &Quantity)> {
+    /// Every parameter that may carry a tolerance, in the order of the format.
+    pub fn parameters(&self) -> Vec<(Parameter, &Quantity)> {
         match self {
             Leg::Slider { direction, anchor, platform, length, .. } => {
                 let mut all = Vec::with_capacity(10);
-                all.extend(direction.iter().map(|q| ("direction", q)));
-                all.extend(anchor.iter().map(|q| ("anchor", q)));
-                all.extend(platform.iter().map(|q| ("platform", q)));
-                all.push(("length", length));
+                all.extend(direction.iter().map(|q| (Parameter::Direction, q)));
+                all.extend(anchor.iter().map(|q| (Parameter::Anchor, q)));
+                all.extend(platform.iter().map(|q| (Parameter::Platform, q)));
+                all.push((Parameter::Length, length));
                 all
             }
         }
     }
 
     /// The same parameters, to be replaced.
-    pub fn quantities_mut(&mut self) -> Vec<&mut Quantity> {
+    pub fn parameters_mut(&mut self) -> Vec<&mut Quantity> {
         match self {
             Leg::Slider { direction, anchor, platform, length, .. } => {
                 let mut all = Vec::with_capacity(10);
@@ -268,6 +301,36 @@ impl Leg {
                 all
             }
         }
+    }
+
+    /// Whether some parameter is an interval.
+    pub fn has_tolerance(&self) -> bool {
+        self.parameters().iter().any(|(_, q)| !q.is_exact())
+    }
+}
+
+/// What a parameter of a leg is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Parameter {
+    /// A component of a direction, whose own size does not matter.
+    Direction,
+    /// A coordinate of the anchor.
+    Anchor,
+    /// A coordinate of the platform's offset.
+    Platform,
+    /// A length, which is positive.
+    Length,
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Parameter::Direction => "direction",
+            Parameter::Anchor => "anchor",
+            Parameter::Platform => "platform",
+            Parameter::Length => "length",
+        })
     }
 }
 
@@ -315,6 +378,38 @@ fn positive(x: &Exact, name: impl Fn() -> String) -> Result<(), ClaimError> {
         Some(1) => Ok(()),
         _ => Err(ClaimError::NotPositive(name())),
     }
+}
+
+// The fields of variants, read strictly: see `crate::strict`.
+
+type Corners = ([Exact; 3], [Exact; 3]);
+
+fn corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Corners, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Fields {
+        min: [Exact; 3],
+        max: [Exact; 3],
+    }
+    strict::object(deserializer).map(|Fields { min, max }| (min, max))
+}
+
+fn side<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Exact, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Fields {
+        side: Exact,
+    }
+    strict::object(deserializer).map(|Fields { side }| side)
+}
+
+fn offset<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Exact, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Fields {
+        offset: Exact,
+    }
+    strict::object(deserializer).map(|Fields { offset }| offset)
 }
 
 impl Serialize for Exact {

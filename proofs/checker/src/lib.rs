@@ -1,5 +1,44 @@
-#![doc = "stub"]
+//! Exact, independent checker of orthocert certificates.
+//!
+//! A certificate states a theorem about a translational parallel machine (its [`claim`]) and an
+//! argument for it or against it. [`read`] and [`check`](fn@check) accept it only if the argument,
+//! recomputed from the claim in integer arithmetic, is complete. There is no floating point and no
+//! `unsafe` here, and nothing of the program that searched for the proof.
+//!
+//! | module          | holds                                                                  |
+//! |-----------------|------------------------------------------------------------------------|
+//! | [`number`]      | exact real numbers as written: rationals, expressions with roots       |
+//! | [`claim`]       | the theorem: mechanism, workspace, requirements                        |
+//! | [`certificate`] | the format: tree, steps, witness                                       |
+//! | [`fixed`]       | fixed-point intervals over big integers                                |
+//! | [`enclosure`]   | the arithmetic that formulas are written in                            |
+//! | [`linear`]      | vectors and 3x3 matrices                                               |
+//! | [`kinematics`]  | legs: row of `M = J^-1`, joint coordinate, slopes                      |
+//! | [`model`]       | a claim's numbers, enclosed                                            |
+//! | [`cell`]        | boxes of the bisection tree                                            |
+//! | [`expansion`]   | `M` over a cell, as a point value and slopes                           |
+//! | [`definite`]    | positive definiteness of interval matrices                             |
+//! | [`rule`]        | the rules, each with its lemma and proof                               |
+//! | [`witness`]     | refutations                                                            |
+//! | [`statement`]   | the claim in words                                                     |
+
+#![forbid(unsafe_code)]
+
+pub mod cell;
+pub mod certificate;
+mod check;
 pub mod claim;
+pub mod definite;
 pub mod enclosure;
+pub mod expansion;
 pub mod fixed;
+pub mod kinematics;
+pub mod linear;
+pub mod model;
 pub mod number;
+pub mod rule;
+pub mod statement;
+mod strict;
+pub mod witness;
+
+pub use check::{check, obligations, read, Accepted, Rejected, TreeSize};

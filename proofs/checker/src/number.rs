@@ -174,7 +174,13 @@ impl Exact {
     /// rationals only.
     pub fn sign(&self) -> Option<i32> {
         if let Exact::Rational(x) = self {
-            return Some(if x.is_zero() { 0 } else if x.is_positive() { 1 } else { -1 });
+            return Some(if x.is_zero() {
+                0
+            } else if x.is_positive() {
+                1
+            } else {
+                -1
+            });
         }
         SIGN_PRECISIONS.iter().find_map(|&bits| {
             let x = self.enclose_at(bits)?;

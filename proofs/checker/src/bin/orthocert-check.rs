@@ -1,0 +1,66 @@
+//! `orthocert-check CERT.json`: exit 0 for an accepted certificate that certifies, 1 for an
+//! accepted refutation, 5 for a certificate that proves nothing, 2 for bad usage.
+
+#![forbid(unsafe_code)]
+
+use orthocert_checker::certificate::{Verdict, MAX_BYTES};
+use orthocert_checker::{check, read, statement};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: orthocert-check CERT.json
+
+Re-proves an orthocert certificate in exact arithmetic and prints what it establishes.
+exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
+
+fn main() -> ExitCode {
+    let arguments: Vec<std::ffi::OsString> = std::env::args_os().skip(1).collect();
+    let [path] = arguments.as_slice() else {
+        return usage();
+    };
+    match path.to_str() {
+        Some("-h" | "--help") => return print(USAGE, ExitCode::SUCCESS),
+        Some("-V" | "--version") => {
+            let version = concat!("orthocert-check ", env!("CARGO_PKG_VERSION"));
+            return print(version, ExitCode::SUCCESS);
+        }
+        Some(option) if option.starts_with('-') && option != "-" => return usage(),
+        _ => {}
+    }
+    let mut bytes = Vec::new();
+    let limit = MAX_BYTES as u64 + 1;
+    let file = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
+    if let Err(error) = file {
+        eprintln!("orthocert-check: {}: {error}", path.display());
+        return ExitCode::from(2);
+    }
+    let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
+    match accepted {
+        Ok((accepted, certificate)) => {
+            let words = statement::statement(&certificate.claim, accepted.verdict);
+            let code = match accepted.verdict {
+                Verdict::Certified => ExitCode::SUCCESS,
+                Verdict::Refuted => ExitCode::from(1),
+            };
+            print(&format!("ACCEPTED: {}\n{}", accepted.verdict, words.unwrap_or_default()), code)
+        }
+        Err(reason) => {
+            eprintln!("REJECTED: {reason}");
+            ExitCode::from(5)
+        }
+    }
+}
+
+fn usage() -> ExitCode {
+    eprintln!("{USAGE}");
+    ExitCode::from(2)
+}
+
+/// Prints `text`; a closed or full output is an I/O failure, not a verdict.
+fn print(text: &str, code: ExitCode) -> ExitCode {
+    match writeln!(std::io::stdout().lock(), "{}", text.trim_end()) {
+        Ok(()) => code,
+        Err(_) => ExitCode::from(4),
+    }
+}

@@ -1,0 +1,206 @@
+//! Certificates: a claim, a verdict and a proof, as JSON. `FORMAT.md` is normative.
+
+use crate::cell::Axis;
+use crate::claim::{Claim, Leg};
+use crate::number::Exact;
+use crate::rule::{Rotation, TightCorner};
+use crate::strict;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The format that this version reads and writes.
+pub const FORMAT: &str = "orthocert/1";
+/// Largest certificate, in bytes.
+pub const MAX_BYTES: usize = 64 << 20;
+/// Most nodes of a tree.
+pub const MAX_NODES: usize = 2_000_000;
+/// Most steps of one node.
+pub const MAX_STEPS: usize = 16;
+/// Admissible precisions, in fractional bits.
+pub const PRECISIONS: std::ops::RangeInclusive<u32> = 32..=1024;
+
+/// A certificate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// [`FORMAT`].
+    pub format: String,
+    /// What is claimed.
+    pub claim: Claim,
+    /// Whether the claim is proved or refuted.
+    pub verdict: Verdict,
+    /// The argument.
+    pub proof: Proof,
+    /// Who wrote the certificate. Never trusted, never needed.
+    #[serde(deserialize_with = "strict::object")]
+    pub provenance: Provenance,
+}
+
+/// What a certificate says of its claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The claim is a theorem.
+    Certified,
+    /// The claim is false.
+    Refuted,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Certified => "certified",
+            Verdict::Refuted => "refuted",
+        })
+    }
+}
+
+/// The argument for a verdict.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proof {
+    /// A bisection tree, for "certified".
+    Tree(#[serde(deserialize_with = "strict::object")] Tree),
+    /// A counterexample, for "refuted".
+    Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
+}
+
+/// A bisection tree of the workspace in preorder: a node, then, if it is split, its lower part
+/// and its upper part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tree {
+    /// Fractional bits of the arithmetic in which the rules are to be evaluated.
+    pub precision: u32,
+    /// The nodes.
+    #[serde(deserialize_with = "strict::nodes")]
+    pub nodes: Vec<Node>,
+}
+
+/// A node: the steps that discharge obligations on its cell, and whether it is split.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Node {
+    /// What is shown of the whole cell.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by: Vec<Step>,
+    /// The axis on which the cell is halved; absent for a leaf.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub split: Option<Axis>,
+}
+
+/// The application of a rule, with its evidence; see [`crate::rule`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Step {
+    /// Vertex rule for the lower bound.
+    Lower(#[serde(deserialize_with = "strict::object")] Rotation),
+    /// Vertex rule about a tight corner of the paper's cube.
+    Corner(TightCorner),
+    /// Vertex rule for the upper bound.
+    Upper,
+    /// The upper bound on the paper's cube, by hand.
+    Cube,
+    /// Enclosure of the joint coordinates.
+    Range,
+}
+
+/// A point of the workspace, and a machine within its tolerances, at which the claim is false.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// Fractional bits of the arithmetic in which the violation is to be evaluated.
+    pub precision: u32,
+    /// `P`, in the claim's unit of length.
+    pub point: [Exact; 3],
+    /// The machine: the claim's legs without tolerance. Present exactly if the claim has any.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional_three"
+    )]
+    pub machine: Option<[Leg; 3]>,
+    /// What is violated there.
+    pub violates: Violation,
+}
+
+/// A provably violated requirement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Violation {
+    /// `|M v|^2 < kappa^2 |v|^2`: some `psi_i > psi_max`.
+    SigmaMin(#[serde(deserialize_with = "strict::object")] Direction),
+    /// `|M v|^2 > k^2 |v|^2`: some `psi_i < psi_min`.
+    SigmaMax(#[serde(deserialize_with = "strict::object")] Direction),
+    /// A leg cannot reach the point, or is serially singular there.
+    Reach(#[serde(deserialize_with = "strict::object")] LegNumber),
+    /// A joint coordinate is outside its range.
+    JointRange(#[serde(deserialize_with = "strict::object")] LegNumber),
+    /// `det M` has opposite signs at two points of the workspace.
+    Singular(#[serde(deserialize_with = "strict::object")] SecondPoint),
+}
+
+/// A direction of motion `v`, not zero.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Direction {
+    /// `v`.
+    pub vector: [i64; 3],
+}
+
+/// A leg.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LegNumber {
+    /// Counted from one.
+    pub leg: usize,
+}
+
+/// A second point of the workspace.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SecondPoint {
+    /// In the claim's unit of length.
+    pub other: [Exact; 3],
+}
+
+/// Who wrote a certificate.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Name of the program.
+    pub tool: String,
+    /// Its version.
+    pub version: String,
+}
+
+impl Certificate {
+    /// The text of the certificate: one node a line, ending in a line feed. A function of the
+    /// certificate alone.
+    ///
+    /// # Errors
+    /// Never for certificates that [`crate::read`] accepts; serialisation of other values may fail.
+    pub fn to_text(&self) -> Result<String, serde_json::Error> {
+        let proof = match &self.proof {
+            Proof::Witness(witness) => {
+                format!("{{\"witness\":{}}}", serde_json::to_string(witness)?)
+            }
+            Proof::Tree(tree) => {
+                let nodes: Result<Vec<String>, _> =
+                    tree.nodes.iter().map(serde_json::to_string).collect();
+                format!(
+                    "{{\"tree\":{{\"precision\":{},\"nodes\":[\n{}\n]}}}}",
+                    tree.precision,
+                    nodes?.join(",\n")
+                )
+            }
+        };
+        Ok(format!(
+            "{{\n\"format\":{},\n\"claim\":{},\n\"verdict\":{},\n\"proof\":{proof},\n\"provenance\":{}\n}}\n",
+            serde_json::to_string(&self.format)?,
+            serde_json::to_string(&self.claim)?,
+            serde_json::to_string(&self.verdict)?,
+            serde_json::to_string(&self.provenance)?,
+        ))
+    }
+}

@@ -1,0 +1,97 @@
+//! Expansions of `M = J^-1` and of the joint coordinates over a cell.
+//!
+//! With a fixed point `c` of the cell and `delta = P - c`, every leg gives slopes with
+//!
+//! ```text
+//! M(P)   = M(c)   + sum_k delta_k E_k(P)
+//! rho(P) = rho(c) + sum_k delta_k g_k(P)
+//! ```
+//!
+//! and `E_k(P)`, `g_k(P)` enclosed over the cell. What is stored is multiplied by the extent of
+//! `delta_k`: `M(P) = M(c) + sum_k lambda_k (h_k E_k)` with `lambda_k` in `[-1, 1]` for a centre
+//! and in `[0, 1]` for a corner (there `h_k` carries the sign of the direction into the cell).
+
+use crate::cell::Cell;
+use crate::enclosure::Enclosure;
+use crate::linear::{scale, Matrix, Vector};
+use crate::model::Model;
+use std::array::from_fn;
+
+/// Where a cell is expanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExpansionPoint {
+    /// The cell's midpoint.
+    Centre,
+    /// The workspace's least corner, `u = (0, 0, 0)`; the cell must touch it.
+    LowerCorner,
+    /// The workspace's greatest corner, `u = (1, 1, 1)`; the cell must touch it.
+    UpperCorner,
+}
+
+/// An expansion of `M` and `rho` over a cell.
+#[derive(Clone, Debug)]
+pub struct Expansion<S> {
+    /// `M(c)`.
+    pub matrix: Matrix<S>,
+    /// `h_k E_k`: `slopes[k][i][j]` belongs to coordinate `k` and entry `(i, j)` of `M`.
+    pub slopes: [Matrix<S>; 3],
+    /// `rho_i(c)`.
+    pub rho: Vector<S>,
+    /// `h_k g_k`: `rho_slopes[i][k]` belongs to leg `i` and coordinate `k`.
+    pub rho_slopes: [Vector<S>; 3],
+}
+
+/// Why there is no expansion: leg `leg` (from zero) is not certainly within reach and free of
+/// serial singularities on all of the cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutOfReach {
+    /// The leg, counted from zero.
+    pub leg: usize,
+}
+
+impl<S: Enclosure> Expansion<S> {
+    /// The expansion of `cell` about `point`. For a corner the caller has made sure that the cell
+    /// touches it.
+    pub fn new(model: &Model<S>, cell: &Cell, point: ExpansionPoint) -> Result<Self, OutOfReach> {
+        let low = model.displacement(cell.edges.map(|e| (e.index, e.level)));
+        let high = model.displacement(cell.edges.map(|e| (e.index + 1, e.level)));
+        let over: Vector<S> = from_fn(|k| low[k].join(&high[k]));
+        let centre = match point {
+            ExpansionPoint::Centre => {
+                model.displacement(cell.edges.map(|e| (2 * e.index + 1, e.level + 1)))
+            }
+            ExpansionPoint::LowerCorner => model.displacement([(0, 0); 3]),
+            ExpansionPoint::UpperCorner => model.displacement([(1, 0); 3]),
+        };
+        let extent = match point {
+            ExpansionPoint::Centre => model.displacement(cell.edges.map(|e| (1, e.level + 1))),
+            ExpansionPoint::LowerCorner => model.displacement(cell.edges.map(|e| (1, e.level))),
+            ExpansionPoint::UpperCorner => {
+                model.displacement(cell.edges.map(|e| (1, e.level))).map(|h| h.neg())
+            }
+        };
+        let (at, over) = (model.leg_vectors(&centre), model.leg_vectors(&over));
+        let expand = |i: usize| model.legs[i].expand(&at[i], &over[i]).ok_or(OutOfReach { leg: i });
+        let legs = [expand(0)?, expand(1)?, expand(2)?];
+        Ok(Expansion {
+            slopes: from_fn(|k| {
+                from_fn(|i| {
+                    let column: Vector<S> = from_fn(|j| legs[i].slope[j][k].clone());
+                    scale(&extent[k], &column)
+                })
+            }),
+            rho_slopes: from_fn(|i| from_fn(|k| extent[k].mul(&legs[i].rho_slope[k]))),
+            matrix: from_fn(|i| legs[i].row.clone()),
+            rho: from_fn(|i| legs[i].rho.clone()),
+        })
+    }
+}
+
+/// The joint coordinate of a leg over a cell, by its formula, without expansion.
+pub fn natural_rho<S: Enclosure>(model: &Model<S>, cell: &Cell, leg: usize) -> Option<S> {
+    let low = model.displacement(cell.edges.map(|e| (e.index, e.level)));
+    let high = model.displacement(cell.edges.map(|e| (e.index + 1, e.level)));
+    let over: Vector<S> = from_fn(|k| low[k].join(&high[k]));
+    let w = crate::linear::add(&model.origin[leg], &over);
+    model.legs[leg].at(&w).map(|state| state.rho)
+}

@@ -1,0 +1,145 @@
+//! A claim in words: what an accepted certificate establishes.
+
+use crate::certificate::Verdict;
+use crate::claim::{
+    Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements, Sign, Workspace,
+};
+use std::fmt::{self, Write};
+
+/// The theorem that an accepted certificate with this claim and verdict establishes.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> {
+    let Claim::Machine(claim) = claim;
+    let mut out = String::new();
+    match verdict {
+        Verdict::Certified => writeln!(out, "It is proved:")?,
+        Verdict::Refuted => writeln!(out, "It is proved that the following is FALSE:")?,
+    }
+    machine(&mut out, claim)?;
+    requirements(&mut out, claim)?;
+    Ok(out)
+}
+
+fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    match &claim.mechanism {
+        Mechanism::Orthoglide { offset } => {
+            writeln!(
+                out,
+                "For the Orthoglide with orthogonal guides along the axes, offset e = {offset},"
+            )?;
+            writeln!(out, "whose leg length L and corners q1 < 0 < q2 follow from psi_max")?;
+            writeln!(
+                out,
+                "(kappa = 1/psi_max, t1 = (1 - kappa)/2, t2 = 1 - kappa if kappa <= 1/2"
+            )?;
+            writeln!(out, "and (1/kappa - 1)/2 otherwise, q1 = -L t1/sqrt(1 + 2 t1^2),")?;
+            writeln!(out, "q2 = L t2/sqrt(1 + 2 t2^2), base a = q1 - e - L):")?;
+        }
+        Mechanism::Translational(legs) => {
+            let toleranced = legs.iter().any(Leg::has_tolerance);
+            let every = if toleranced { "For every machine" } else { "For the machine" };
+            writeln!(out, "{every} with three legs (w_i = P + platform - anchor):")?;
+            for (i, leg) in legs.iter().enumerate() {
+                writeln!(out, "  leg {}: {}", i + 1, Described(leg))?;
+            }
+        }
+    }
+    match &claim.workspace {
+        Workspace::Box { min, max } => {
+            writeln!(out, "and every point P = (x, y, z) of the box")?;
+            for ((axis, min), max) in ["x", "y", "z"].iter().zip(min).zip(max) {
+                writeln!(out, "  {min} <= {axis} <= {max}")?;
+            }
+        }
+        Workspace::Cube { side } => {
+            writeln!(
+                out,
+                "and every point P of the closed cube [q1, q2]^3 with q2 - q1 = {side}:"
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    let Requirements { transmission, joint_range } = &claim.requirements;
+    writeln!(out, "  every leg reaches P without a serial singularity;")?;
+    writeln!(out, "  P is not a parallel singularity;")?;
+    if let Some(range) = transmission {
+        if let (Workspace::Cube { .. }, Some(max)) = (&claim.workspace, &range.max) {
+            writeln!(
+                out,
+                "  1/psi_max <= psi_i(P) <= psi_max for i = 1, 2, 3, with psi_max = {max};"
+            )?;
+        } else {
+            writeln!(out, "  {} for i = 1, 2, 3;", Bounded(range, "psi_i(P)"))?;
+        }
+    }
+    for (i, range) in joint_range.iter().flatten().enumerate() {
+        writeln!(out, "  {};", Bounded(range, &format!("rho_{}(P)", i + 1)))?;
+    }
+    writeln!(out, "where psi_i are the velocity transmission factors at P, the inverse singular")?;
+    writeln!(out, "values of the inverse Jacobian M = J^-1.")
+}
+
+struct Described<'a>(&'a Leg);
+
+impl fmt::Display for Described<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Leg::Slider { direction, anchor, platform, length, mode } => {
+                let sign = match mode {
+                    Sign::Plus => "> 0",
+                    Sign::Minus => "< 0",
+                };
+                write!(
+                    f,
+                    "slider, guide direction {}, anchor {}, platform {}, length {}, eta {sign}",
+                    Triple(direction),
+                    Triple(anchor),
+                    Triple(platform),
+                    Value(length)
+                )
+            }
+        }
+    }
+}
+
+struct Triple<'a>(&'a [Quantity; 3]);
+
+impl fmt::Display for Triple<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0;
+        write!(f, "({}, {}, {})", Value(x), Value(y), Value(z))
+    }
+}
+
+struct Value<'a>(&'a Quantity);
+
+impl fmt::Display for Value<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_exact() {
+            write!(f, "{}", self.0.min)
+        } else {
+            write!(f, "in [{}, {}]", self.0.min, self.0.max)
+        }
+    }
+}
+
+struct Bounded<'a>(&'a Range, &'a str);
+
+impl fmt::Display for Bounded<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Bounded(Range { min, max }, name) = self;
+        if let Some(min) = min {
+            write!(f, "{min} <= ")?;
+        }
+        f.write_str(name)?;
+        if let Some(max) = max {
+            write!(f, " <= {max}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,223 @@
+//! Refutations: one machine, one point, one provably violated requirement.
+
+use crate::certificate::{Violation, Witness, PRECISIONS};
+use crate::claim::{ClaimError, Leg, MachineClaim, Mechanism, Workspace};
+use crate::enclosure::{Enclosure, Scalar};
+use crate::fixed::Fixed;
+use crate::kinematics::LegState;
+use crate::linear::{apply, determinant, norm_squared, Matrix, Vector};
+use crate::model::{CubeConstants, Model};
+use crate::number::Exact;
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Why a witness does not refute its claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WitnessError {
+    /// The precision is not admissible.
+    Precision(u32),
+    /// A point is not provably in the workspace.
+    OutsideWorkspace,
+    /// A machine is given where the claim has no tolerance, or the reverse.
+    MachineMismatch,
+    /// The machine's leg (from one) is not provably within the claim's tolerances.
+    OutsideTolerance(usize),
+    /// The numbers cannot be enclosed.
+    Claim(ClaimError),
+    /// A leg number that is not 1, 2 or 3.
+    NoSuchLeg(usize),
+    /// A direction that is zero.
+    ZeroVector,
+    /// The claim has no such requirement.
+    NoSuchBound,
+    /// The requirement is not provably violated there.
+    NotViolated,
+}
+
+impl From<ClaimError> for WitnessError {
+    fn from(error: ClaimError) -> Self {
+        WitnessError::Claim(error)
+    }
+}
+
+impl fmt::Display for WitnessError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WitnessError::Precision(bits) => write!(f, "precision {bits} is not admissible"),
+            WitnessError::OutsideWorkspace => {
+                write!(f, "a point is not provably in the workspace")
+            }
+            WitnessError::MachineMismatch => write!(
+                f,
+                "a machine is to be given exactly if the claim has tolerances, with the same drives"
+            ),
+            WitnessError::OutsideTolerance(leg) => {
+                write!(f, "leg {leg} of the machine is not provably within its tolerances")
+            }
+            WitnessError::Claim(error) => error.fmt(f),
+            WitnessError::NoSuchLeg(leg) => write!(f, "there is no leg {leg}"),
+            WitnessError::ZeroVector => write!(f, "the vector is zero"),
+            WitnessError::NoSuchBound => write!(f, "the claim has no such requirement"),
+            WitnessError::NotViolated => {
+                write!(f, "the requirement is not provably violated at the point")
+            }
+        }
+    }
+}
+
+/// Accepts a witness that proves `claim` false.
+pub fn check(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError> {
+    if !PRECISIONS.contains(&witness.precision) {
+        return Err(WitnessError::Precision(witness.precision));
+    }
+    claim.validate()?;
+    admit_machine(claim, witness.machine.as_ref())?;
+    let model = model_at(claim, witness, &witness.point)?;
+    match &witness.violates {
+        Violation::SigmaMin(direction) => stretch(&model, &direction.vector, false),
+        Violation::SigmaMax(direction) => stretch(&model, &direction.vector, true),
+        Violation::Reach(leg) => unreachable(&model, leg.leg),
+        Violation::JointRange(leg) => beyond_range(&model, leg.leg),
+        Violation::Singular(second) => {
+            opposite_signs(&model, &model_at(claim, witness, &second.other)?)
+        }
+    }
+}
+
+/// The witness's machine is one that the claim is about.
+fn admit_machine(claim: &MachineClaim, machine: Option<&[Leg; 3]>) -> Result<(), WitnessError> {
+    let legs: &[Leg] = match &claim.mechanism {
+        Mechanism::Translational(legs) => legs,
+        Mechanism::Orthoglide { .. } => &[],
+    };
+    let toleranced = legs.iter().any(Leg::has_tolerance);
+    let machine = match (machine, toleranced) {
+        (None, false) => return Ok(()),
+        (Some(machine), true) => machine,
+        _ => return Err(WitnessError::MachineMismatch),
+    };
+    for (i, (given, claimed)) in machine.iter().zip(legs).enumerate() {
+        if !given.same_kind(claimed) {
+            return Err(WitnessError::MachineMismatch);
+        }
+        let within = given
+            .parameters()
+            .iter()
+            .zip(claimed.parameters())
+            .all(|((_, x), (_, range))| x.is_exact() && range.admits(&x.min));
+        if !within {
+            return Err(WitnessError::OutsideTolerance(i + 1));
+        }
+    }
+    Ok(())
+}
+
+fn model_at(
+    claim: &MachineClaim,
+    witness: &Witness,
+    point: &[Exact; 3],
+) -> Result<Model<Fixed>, WitnessError> {
+    if !contains(claim, point)? {
+        return Err(WitnessError::OutsideWorkspace);
+    }
+    Ok(Model::at_point(claim, witness.machine.as_ref(), point, witness.precision)?)
+}
+
+/// Whether `point` is provably in the workspace.
+fn contains(claim: &MachineClaim, point: &[Exact; 3]) -> Result<bool, WitnessError> {
+    let (min, max) = match &claim.workspace {
+        Workspace::Box { min, max } => (min.clone(), max.clone()),
+        Workspace::Cube { side } => {
+            let psi_max = claim.requirements.transmission.as_ref().and_then(|t| t.max.as_ref());
+            let psi_max = psi_max.ok_or(ClaimError::CubeNeedsPsiMax)?;
+            let cube = CubeConstants::new(psi_max, side)?;
+            let in_length_units = |q: Exact| {
+                q.over(cube.inverse_length.clone())
+                    .map_err(|_| ClaimError::Precision("workspace.cube".into()))
+            };
+            let q1 = in_length_units(cube.q1.clone())?;
+            let q2 = in_length_units(cube.q2.clone())?;
+            ([q1.clone(), q1.clone(), q1], [q2.clone(), q2.clone(), q2])
+        }
+    };
+    let at_most =
+        |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
+    Ok((0..3).all(|k| at_most(&min[k], &point[k]) && at_most(&point[k], &max[k])))
+}
+
+fn states(model: &Model<Fixed>) -> Option<[LegState<Fixed>; 3]> {
+    let [a, b, c] = &model.origin;
+    Some([model.legs[0].at(a)?, model.legs[1].at(b)?, model.legs[2].at(c)?])
+}
+
+fn matrix(model: &Model<Fixed>) -> Result<Matrix<Fixed>, WitnessError> {
+    let states = states(model).ok_or(WitnessError::NotViolated)?;
+    Ok(states.map(|state| state.row))
+}
+
+/// `|M v|^2 > k^2 |v|^2` (`longer`), or `|M v|^2 < kappa^2 |v|^2`, where every leg reaches `P`:
+/// then `sigma_max(M) > k`, or `sigma_min(M) < kappa`.
+fn stretch(model: &Model<Fixed>, v: &[i64; 3], longer: bool) -> Result<(), WitnessError> {
+    if *v == [0; 3] {
+        return Err(WitnessError::ZeroVector);
+    }
+    let m = matrix(model)?;
+    let v: Vector<Fixed> = v.map(|x| Fixed::integer(x, m[0][0].bits()));
+    let (image, length) = (norm_squared(&apply(&m, &v)), norm_squared(&v));
+    let excess = if longer {
+        let k = model.bounds.k.as_ref().ok_or(WitnessError::NoSuchBound)?;
+        image.sub(&k.sqr().mul(&length))
+    } else {
+        if !model.bounds.kappa.is_positive() {
+            return Err(WitnessError::NoSuchBound);
+        }
+        model.bounds.kappa.sqr().mul(&length).sub(&image)
+    };
+    violated(excess.is_positive())
+}
+
+fn violated(provably: bool) -> Result<(), WitnessError> {
+    if provably {
+        Ok(())
+    } else {
+        Err(WitnessError::NotViolated)
+    }
+}
+
+fn position(leg: usize) -> Result<usize, WitnessError> {
+    match leg {
+        1..=3 => Ok(leg - 1),
+        _ => Err(WitnessError::NoSuchLeg(leg)),
+    }
+}
+
+/// The leg's clearance is certainly `<= 0`: it is out of reach, or serially singular.
+fn unreachable(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
+    let i = position(leg)?;
+    let clearance = model.legs[i].clearance(&model.origin[i]);
+    violated(clearance.neg().is_nonnegative())
+}
+
+/// The leg reaches `P` with a joint coordinate that is certainly outside its range.
+fn beyond_range(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
+    let i = position(leg)?;
+    let ranges = model.bounds.joint_range.as_ref().ok_or(WitnessError::NoSuchBound)?;
+    let (min, max) = &ranges[i];
+    let state = model.legs[i].at(&model.origin[i]).ok_or(WitnessError::NotViolated)?;
+    let below = min.as_ref().is_some_and(|min| min.sub(&state.rho).is_positive());
+    let above = max.as_ref().is_some_and(|max| state.rho.sub(max).is_positive());
+    violated(below || above)
+}
+
+/// **Lemma.** If `det M` has opposite signs at two points of a convex workspace, the workspace has
+/// a singularity or a point out of reach. *Proof.* If every leg reaches every point of the segment
+/// between them with `s_i > 0`, then `det M` is continuous on it and vanishes somewhere: a
+/// parallel singularity. Otherwise some point is out of reach or serially singular. ∎
+fn opposite_signs(one: &Model<Fixed>, other: &Model<Fixed>) -> Result<(), WitnessError> {
+    let (one, other) = (determinant(&matrix(one)?), determinant(&matrix(other)?));
+    violated(
+        (one.is_positive() && other.neg().is_positive())
+            || (one.neg().is_positive() && other.is_positive()),
+    )
+}
