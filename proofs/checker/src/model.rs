@@ -27,6 +27,9 @@ pub struct Model<S> {
     pub bounds: Bounds<S>,
     /// Whether this is the paper's cube, whose corners `Q_1`, `Q_2` may meet bounds with equality.
     pub is_cube: bool,
+    /// `scale` where the model's unit of length is `2^scale` of the claim's; `None` where it is the
+    /// leg length of the paper's cube.
+    pub unit_exponent: Option<i64>,
 }
 
 /// The bounds that the obligations are about, in model units.
@@ -57,6 +60,7 @@ impl<S> Model<S> {
                 joint_range: self.bounds.joint_range.as_ref().map(|r| from_fn(|i| ends(&r[i]))),
             },
             is_cube: self.is_cube,
+            unit_exponent: self.unit_exponent,
         }
     }
 }
@@ -184,6 +188,13 @@ impl Units {
         x.enclose(0, self.bits).ok_or_else(|| precision(what))
     }
 
+    fn exponent(&self) -> Option<i64> {
+        match self.form {
+            Form::PowerOfTwo(scale) => Some(scale),
+            Form::Cube(_) => None,
+        }
+    }
+
     fn zero(&self) -> Fixed {
         Fixed::integer(0, self.bits)
     }
@@ -235,7 +246,8 @@ impl Model<Fixed> {
             _ => return Err(ClaimError::CubeNeedsOrthoglide),
         };
         let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
-        Ok(Model { legs, origin, width, bounds: bounds(claim, &units)?, is_cube })
+        let (bounds, unit_exponent) = (bounds(claim, &units)?, units.exponent());
+        Ok(Model { legs, origin, width, bounds, is_cube, unit_exponent })
     }
 
     /// The model of one machine at one point: of zero width, so that `u = 0` is `point`.
@@ -265,7 +277,8 @@ impl Model<Fixed> {
         };
         let width = [units.zero(), units.zero(), units.zero()];
         let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
-        Ok(Model { legs, origin, width, bounds: bounds(claim, &units)?, is_cube })
+        let (bounds, unit_exponent) = (bounds(claim, &units)?, units.exponent());
+        Ok(Model { legs, origin, width, bounds, is_cube, unit_exponent })
     }
 }
 
