@@ -6,6 +6,10 @@ use super::suggestion;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
+/// What a value without quotes could be instead.
+const QUOTED_VALUES: &str =
+    r#"a plain number, or text in quotes: 310.25, "1/3", "310.25 ± 0.02", "orthoglide""#;
+
 /// The text of a design file.
 #[derive(Clone, Copy)]
 pub(super) struct Document<'a> {
@@ -54,17 +58,19 @@ impl<'a> Document<'a> {
 
     /// TOML's own errors: bad syntax, duplicated keys, tables nested too deeply.
     pub fn syntax_error(&self, error: &toml::de::Error) -> DesignError {
-        let end = self.text.len();
-        let at = error.span().unwrap_or(end..end);
+        let end = self.text.trim_end().len();
+        let at = error.span().filter(|at| at.start < end).unwrap_or(end..end);
         let (what, expected) = match error.message().split_once(", expected ") {
+            Some((what @ "string values must be quoted", _)) => (what, QUOTED_VALUES),
             Some((what, expected)) => (what, expected),
             None if error.message() == "duplicate key" => (error.message(), "each key once"),
             None => (error.message(), "TOML text"),
         };
-        let snippet = self.text.get(at.clone()).unwrap_or_default();
-        let found = match snippet.is_empty() {
-            true => what.to_owned(),
-            false => format!("{}: {what}", quoted(snippet)),
+        let rest = self.text.get(at.start..).unwrap_or_default().lines().next().unwrap_or_default();
+        let found = match self.text.get(at.clone()).unwrap_or_default().trim() {
+            "" if rest.trim().is_empty() => format!("the end of the line: {what}"),
+            "" => format!("{}: {what}", quoted(rest.trim())),
+            snippet => format!("{}: {what}", quoted(snippet)),
         };
         let key = self.key_around(at.start);
         self.error(at, (&key, Defect::Syntax), found, expected)
@@ -130,7 +136,7 @@ impl<'a> Table<'a> {
         self.find(name).ok_or_else(|| self.lacks(name, accepted))
     }
 
-    /// The number of entries.
+    /// Whether the table has no entries.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
@@ -225,13 +231,18 @@ pub(super) fn joined(key: &str, name: &str) -> String {
 /// Most characters of a file that are repeated in a message.
 const QUOTED: usize = 48;
 
-/// `text` on one line without control characters, shortened where it is long.
+/// `text` on one line, control characters escaped, shortened where it is long.
 fn quoted(text: &str) -> String {
-    let length = text.chars().count();
-    let visible = |c: char| if c.is_control() { ' ' } else { c };
-    if length <= QUOTED {
-        return text.chars().map(visible).collect();
+    let mut shown = String::new();
+    for c in text.chars().take(QUOTED) {
+        match c {
+            '\n' | '\r' | '\t' => shown.push(' '),
+            c if c.is_control() => shown.extend(c.escape_default()),
+            c => shown.push(c),
+        }
     }
-    let start: String = text.chars().take(QUOTED - 8).map(visible).collect();
-    format!("{start}... ({length} characters)")
+    match text.chars().count() {
+        length if length > QUOTED => format!("{shown}... ({length} characters)"),
+        _ => shown,
+    }
 }

@@ -119,11 +119,11 @@ fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
         (table("mechanism")?, table("workspace")?, table("requirements")?);
     let setting = Setting { cube: points.find("cube"), joint_range: demands.find("joint_range") };
     let cube = setting.cube.is_some();
-    Ok(MachineClaim {
-        mechanism: mechanism::mechanism(&machine, &setting)?,
-        workspace: workspace::workspace(&points)?,
-        requirements: requirements::requirements(&demands, cube)?,
-    })
+    // The form of the workspace decides what the other two tables need.
+    let workspace = workspace::workspace(&points)?;
+    let mechanism = mechanism::mechanism(&machine, &setting)?;
+    let requirements = requirements::requirements(&demands, cube)?;
+    Ok(MachineClaim { mechanism, workspace, requirements })
 }
 
 /// A claim that is not well formed for a reason that no single key shows.

@@ -67,11 +67,11 @@ pub(super) fn ordered(
 ) -> Result<(), DesignError> {
     let relation = match min.compare(max) {
         Some(Ordering::Less | Ordering::Equal) => return Ok(()),
-        Some(Ordering::Greater) => "greater than",
-        None => "not provably at most",
+        Some(Ordering::Greater) => "below",
+        None => "not provably at least",
     };
-    let found = format!("{}, and {} for the lower end", greatest.found(), least.found());
-    let accepted = format!("a number not below the lower end; here that is {relation} it");
+    let found = format!("{}, {relation} the lower end {}", greatest.found(), least.found());
+    let accepted = "an upper end that is at least the lower one";
     Err(greatest.error(Defect::Reversed, found, accepted))
 }
 
@@ -108,19 +108,25 @@ fn decimal(value: &Value<'_>, float: &DeFloat<'_>) -> Result<Exact, DesignError>
     if matches!(text.trim_start_matches(['+', '-']), "inf" | "nan") {
         return Err(value.error(Defect::NotANumber, value.found(), FINITE));
     }
+    literal(value, text)
+}
+
+/// A decimal literal of TOML, its underscores removed.
+fn literal(value: &Value<'_>, text: &str) -> Result<Exact, DesignError> {
     // The grammar of expressions has no unary plus.
-    let text = text.strip_prefix('+').unwrap_or(text);
-    let number = Exact::parse(text, MAX_DIGITS);
-    writable(value, number.map_err(|error| not_a_number(value, text, &error, NUMBER))?)
+    let digits = text.strip_prefix('+').unwrap_or(text);
+    let number = Exact::parse(digits, MAX_DIGITS).map_err(|NumberError { at, kind }| {
+        let error = NumberError { at: at + text.len() - digits.len(), kind };
+        not_a_number(value, text, &error, NUMBER)
+    });
+    writable(value, number?)
 }
 
 fn whole(value: &Value<'_>, integer: &DeInteger<'_>) -> Result<Exact, DesignError> {
     let text = integer.as_str();
-    let text = text.strip_prefix('+').unwrap_or(text);
     let radix = integer.radix();
     if radix == 10 {
-        let number = Exact::parse(text, MAX_DIGITS);
-        return number.map_err(|error| not_a_number(value, text, &error, NUMBER));
+        return literal(value, text);
     }
     let too_large = || value.error(Defect::NotANumber, value.found(), WITHIN_LIMITS);
     if text.len() > MAX_DIGITS {
@@ -194,15 +200,16 @@ fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &s
     let before = text.get(..error.at).unwrap_or(text);
     let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
     let found = format!("{} ({at_character})", value.found());
-    // The content stands in the file as it is, behind an optional quote or sign, unless it has
-    // escapes or underscores.
+    // Between its quotes, if any, the content stands in the file as it is, unless it has escapes or
+    // underscores.
     let written = value.document.text.get(value.at.clone()).unwrap_or_default();
-    let at = match written.find(text) {
-        Some(start) if !text.is_empty() => {
-            let at = value.at.start + start + before.len();
+    let between_quotes = written.get(1..written.len().saturating_sub(1));
+    let at = match (written == text, between_quotes == Some(text)) {
+        (false, false) => value.at.clone(),
+        (as_it_is, _) => {
+            let at = value.at.start + usize::from(!as_it_is) + before.len();
             at..at + 1
         }
-        _ => value.at.clone(),
     };
     value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
 }
