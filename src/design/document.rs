@@ -1,0 +1,248 @@
+//! A TOML document with places: every table and value knows its key's full path and its span, so
+//! that whoever reads it can say precisely what is wrong.
+
+use super::error::{Defect, DesignError};
+use super::suggestion;
+use std::ops::Range;
+use toml::de::{DeTable, DeValue};
+
+/// What a value without quotes could be instead.
+const QUOTED_VALUES: &str =
+    r#"a plain number, or text in quotes: 310.25, "1/3", "310.25 ± 0.02", "orthoglide""#;
+
+/// The text of a design file.
+#[derive(Clone, Copy)]
+pub(super) struct Document<'a> {
+    /// The file's name, for messages.
+    pub file: &'a str,
+    /// All of the file.
+    pub text: &'a str,
+}
+
+/// A table of a document.
+pub(super) struct Table<'a> {
+    document: Document<'a>,
+    key: String,
+    at: Range<usize>,
+    entries: &'a DeTable<'a>,
+}
+
+/// A value of a document.
+pub(super) struct Value<'a> {
+    pub document: Document<'a>,
+    /// The path of keys and indices that leads to it.
+    pub key: String,
+    /// Its bytes in the text.
+    pub at: Range<usize>,
+    pub inner: &'a DeValue<'a>,
+}
+
+impl<'a> Document<'a> {
+    /// The error about `text[at]`.
+    pub fn error(
+        &self,
+        at: Range<usize>,
+        (key, defect): (&str, Defect),
+        found: impl Into<String>,
+        accepted: impl Into<String>,
+    ) -> DesignError {
+        let source = (self.file, self.text);
+        DesignError::new(source, at, (key, defect), found.into(), accepted.into())
+    }
+
+    /// The document's outermost table; what it lacks is reported at the end of the text.
+    pub fn root(self, entries: &'a DeTable<'a>) -> Table<'a> {
+        let end = self.text.trim_end().len();
+        Table { document: self, key: String::new(), at: end..end, entries }
+    }
+
+    /// TOML's own errors: bad syntax, duplicated keys, tables nested too deeply.
+    pub fn syntax_error(&self, error: &toml::de::Error) -> DesignError {
+        let end = self.text.trim_end().len();
+        let at = error.span().filter(|at| at.start < end).unwrap_or(end..end);
+        let (what, expected) = match error.message().split_once(", expected ") {
+            Some((what @ "string values must be quoted", _)) => (what, QUOTED_VALUES),
+            Some((what, expected)) => (what, expected),
+            None if error.message() == "duplicate key" => (error.message(), "each key once"),
+            None => (error.message(), "TOML text"),
+        };
+        let rest = self.text.get(at.start..).unwrap_or_default().lines().next().unwrap_or_default();
+        let found = match self.text.get(at.clone()).unwrap_or_default().trim() {
+            "" if rest.trim().is_empty() => format!("the end of the line: {what}"),
+            "" => format!("{}: {what}", quoted(rest.trim())),
+            snippet => format!("{}: {what}", quoted(snippet)),
+        };
+        let key = self.key_around(at.start);
+        self.error(at, (&key, Defect::Syntax), found, expected)
+    }
+
+    /// The key that the byte at `offset` seems to belong to, where the text is not TOML and can only
+    /// be read line by line: the last table header, and what precedes the line's equals sign.
+    fn key_around(&self, offset: usize) -> String {
+        let end = (offset..self.text.len()).find(|&i| self.text.as_bytes().get(i) == Some(&b'\n'));
+        let lines = self.text.get(..end.unwrap_or(self.text.len())).unwrap_or_default();
+        let name = |text: &str| {
+            let bare = |c: char| c.is_ascii_alphanumeric() || "_-. ".contains(c);
+            Some(text.trim()).filter(|t| t.chars().all(bare)).unwrap_or_default().to_owned()
+        };
+        let header = lines.lines().rev().find_map(|line| line.trim().strip_prefix('['));
+        let header = header.map(|h| name(h.trim_matches(['[', ']', ' ']))).unwrap_or_default();
+        let last = lines.lines().next_back().unwrap_or_default();
+        let key = last.split_once('=').map(|(key, _)| name(key)).unwrap_or_default();
+        match (header.is_empty(), key.is_empty()) {
+            (false, false) => format!("{header}.{key}"),
+            (false, true) => header,
+            (true, _) => key,
+        }
+    }
+}
+
+impl<'a> Table<'a> {
+    /// The path of the entry `name`.
+    pub fn path(&self, name: &str) -> String {
+        joined(&self.key, name)
+    }
+
+    /// The error about this table as a whole, or about the key `name` that it lacks.
+    pub fn lacks(&self, name: &str, accepted: impl Into<String>) -> DesignError {
+        let key = self.path(name);
+        let about = (key.as_str(), Defect::MissingKey);
+        self.document.error(self.at.clone(), about, "no such key", accepted)
+    }
+
+    /// Refuses every key that is not `accepted`, the first in the text first.
+    pub fn only(&self, accepted: &[&str]) -> Result<(), DesignError> {
+        let unknown = self.entries.keys().filter(|key| !accepted.contains(&key.get_ref().as_ref()));
+        let Some(unknown) = unknown.min_by_key(|key| key.span().start) else {
+            return Ok(());
+        };
+        let name = unknown.get_ref();
+        let hint = suggestion::hint(name, accepted, |word| word.to_owned());
+        let key = self.path(name);
+        let accepted = format!("{}{hint}", accepted.join(", "));
+        let about = (key.as_str(), Defect::UnknownKey);
+        Err(self.document.error(unknown.span(), about, "an unknown key", accepted))
+    }
+
+    /// The value of `name`, if there is one.
+    pub fn find(&self, name: &str) -> Option<Value<'a>> {
+        let value = self.entries.get(name)?;
+        let (at, inner) = (value.span(), value.get_ref());
+        Some(Value { document: self.document, key: self.path(name), at, inner })
+    }
+
+    /// The value of `name`, which has to be there; `accepted` says what it could be.
+    pub fn require(&self, name: &str, accepted: &str) -> Result<Value<'a>, DesignError> {
+        self.find(name).ok_or_else(|| self.lacks(name, accepted))
+    }
+
+    /// Whether the table has no entries.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+}
+
+impl<'a> Value<'a> {
+    /// The error about this value.
+    pub fn error(
+        &self,
+        defect: Defect,
+        found: impl Into<String>,
+        accepted: impl Into<String>,
+    ) -> DesignError {
+        self.document.error(self.at.clone(), (&self.key, defect), found, accepted)
+    }
+
+    /// The error that this value is of another type than `accepted`.
+    pub fn wrong_type(&self, accepted: &str) -> DesignError {
+        self.error(Defect::WrongType, self.found(), accepted)
+    }
+
+    /// The value as the file has it, for messages.
+    pub fn found(&self) -> String {
+        let written = self.document.text.get(self.at.clone()).unwrap_or_default();
+        match self.inner {
+            DeValue::Array(elements) if elements.len() == 1 => "an array of one element".into(),
+            DeValue::Array(elements) => format!("an array of {} elements", elements.len()),
+            DeValue::Table(_) => "a table".into(),
+            DeValue::String(text) if written.contains('\n') => quoted(&format!("{text:?}")),
+            DeValue::Boolean(_) | DeValue::Datetime(_) => {
+                format!("the {} {}", self.inner.type_str(), quoted(written))
+            }
+            _ => quoted(written),
+        }
+    }
+
+    /// The table that this value is.
+    pub fn table(&self, accepted: &str) -> Result<Table<'a>, DesignError> {
+        let entries = self.inner.as_table().ok_or_else(|| self.wrong_type(accepted))?;
+        let (key, at) = (self.key.clone(), self.at.clone());
+        Ok(Table { document: self.document, key, at, entries })
+    }
+
+    /// The three elements of the array that this value is.
+    pub fn three(&self, accepted: &str) -> Result<[Value<'a>; 3], DesignError> {
+        let elements = self.inner.as_array().ok_or_else(|| self.wrong_type(accepted))?;
+        let all = elements.iter().enumerate().map(|(i, element)| Value {
+            document: self.document,
+            key: format!("{}[{}]", self.key, i + 1),
+            at: element.span(),
+            inner: element.get_ref(),
+        });
+        <[Value; 3]>::try_from(all.collect::<Vec<_>>()).map_err(|_| self.wrong_type(accepted))
+    }
+
+    /// The text that this value is.
+    pub fn text(&self, accepted: &str) -> Result<&'a str, DesignError> {
+        self.inner.as_str().ok_or_else(|| self.wrong_type(accepted))
+    }
+
+    /// The row of `table` that is named by the word that this value is.
+    pub fn choose<'t, T>(
+        &self,
+        table: &'t [T],
+        name: impl Fn(&T) -> &'static str,
+    ) -> Result<&'t T, DesignError> {
+        let names: Vec<&str> = table.iter().map(name).collect();
+        let shown: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+        let accepted = shown.join(", ");
+        let word = self.text(&accepted)?;
+        let row = names.iter().position(|name| *name == word).and_then(|i| table.get(i));
+        row.ok_or_else(|| {
+            let hint = suggestion::hint(word, &names, |name| format!("{name:?}"));
+            self.error(Defect::UnknownWord, self.found(), format!("{accepted}{hint}"))
+        })
+    }
+}
+
+/// The path of the entry `name` of the table `key`, quoted where TOML needs it.
+pub(super) fn joined(key: &str, name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let name = match !name.is_empty() && name.chars().all(bare) {
+        true => name.to_owned(),
+        false => quoted(&format!("{name:?}")),
+    };
+    match key.is_empty() {
+        true => name,
+        false => format!("{key}.{name}"),
+    }
+}
+
+/// Most characters of a file that are repeated in a message.
+const QUOTED: usize = 48;
+
+/// `text` on one line, control characters escaped, shortened where it is long.
+fn quoted(text: &str) -> String {
+    let mut shown = String::new();
+    for c in text.chars().take(QUOTED) {
+        match c {
+            '\n' | '\r' | '\t' => shown.push(' '),
+            c if c.is_control() => shown.extend(c.escape_default()),
+            c => shown.push(c),
+        }
+    }
+    match text.chars().count() {
+        length if length > QUOTED => format!("{shown}... ({length} characters)"),
+        _ => shown,
+    }
+}

@@ -1,0 +1,252 @@
+//! What a design file is refused for: one message that names file, line, key, what was found there
+//! and what is accepted.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// The class of a defect of a design file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Defect {
+    /// The text is not TOML; duplicated keys and excessive nesting are of this class.
+    Syntax,
+    /// A key that the format does not have at this place.
+    UnknownKey,
+    /// A key that the format demands at this place.
+    MissingKey,
+    /// A key or value that another key excludes or makes meaningless.
+    Conflict,
+    /// A value of another type than the key takes, or an array of another length.
+    WrongType,
+    /// A word that is not among those the key takes.
+    UnknownWord,
+    /// Not an exact finite number within the limits of the format.
+    NotANumber,
+    /// A tolerance where a single exact number is needed, or a negative one.
+    Tolerance,
+    /// A lower end that is not provably at most its upper end.
+    Reversed,
+    /// A number outside of the key's domain, such as a length that is not positive.
+    OutOfDomain,
+    /// The claim as a whole is not well formed.
+    Claim,
+}
+
+/// Why a design file was refused, and where.
+///
+/// Its [`Display`](fmt::Display) form is `FILE:LINE:COLUMN: KEY: found ...; accepted: ...`, followed
+/// by the line and a caret under the place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DesignError {
+    report: Box<Report>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Report {
+    file: String,
+    position: Position,
+    key: String,
+    defect: Defect,
+    found: String,
+    accepted: String,
+    excerpt: Excerpt,
+}
+
+impl DesignError {
+    /// The error about `text[at]`, which is the value of `key` or the place where it should be.
+    pub(super) fn new(
+        (file, text): (&str, &str),
+        at: Range<usize>,
+        (key, defect): (&str, Defect),
+        found: String,
+        accepted: String,
+    ) -> Self {
+        let position = Position::of(text, at.start);
+        let excerpt = Excerpt::of(text, at);
+        let (file, key) = (file.to_owned(), key.to_owned());
+        DesignError {
+            report: Box::new(Report { file, position, key, defect, found, accepted, excerpt }),
+        }
+    }
+
+    /// The name of the file, as it was given.
+    pub fn file(&self) -> &str {
+        &self.report.file
+    }
+
+    /// Where in the file.
+    pub fn position(&self) -> Position {
+        self.report.position
+    }
+
+    /// The key, with the tables that it is in: `mechanism.legs[2].length`. Elements are counted
+    /// from 1, so that `legs[1]` is leg 1 and `min[1]` belongs to x. For [`Defect::Syntax`] it is
+    /// the key that the place seems to belong to, or empty.
+    pub fn key(&self) -> &str {
+        &self.report.key
+    }
+
+    /// The class of the defect.
+    pub fn defect(&self) -> Defect {
+        self.report.defect
+    }
+
+    /// What is there.
+    pub fn found(&self) -> &str {
+        &self.report.found
+    }
+
+    /// What could be there.
+    pub fn accepted(&self) -> &str {
+        &self.report.accepted
+    }
+}
+
+impl fmt::Display for DesignError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Report { file, position, key, found, accepted, excerpt, .. } = &*self.report;
+        write!(f, "{file}:{position}: ")?;
+        if !key.is_empty() {
+            write!(f, "{key}: ")?;
+        }
+        writeln!(f, "found {found}; accepted: {accepted}")?;
+        let line = position.line.to_string();
+        let gutter = " ".repeat(line.len());
+        writeln!(f, "  {line} | {}", excerpt.line)?;
+        write!(f, "  {gutter} | {}{}", " ".repeat(excerpt.caret), "^".repeat(excerpt.width))
+    }
+}
+
+impl std::error::Error for DesignError {}
+
+/// A place in a file: line and column in characters, both counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// The line.
+    pub line: usize,
+    /// The column.
+    pub column: usize,
+}
+
+impl Position {
+    /// The place of byte `offset`, or of the end of `text` if it lies beyond.
+    pub(super) fn of(text: &str, offset: usize) -> Self {
+        let before = before(text, offset);
+        let line = 1 + before.bytes().filter(|&b| b == b'\n').count();
+        let column = 1 + before.rsplit('\n').next().map_or(0, width);
+        Position { line, column }
+    }
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+/// One line of a file, fit for a terminal, and the part of it that an error is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Excerpt {
+    line: String,
+    caret: usize,
+    width: usize,
+}
+
+/// Most characters of a line that are shown, and of those before the caret.
+const SHOWN: usize = 100;
+const SHOWN_BEFORE: usize = 60;
+
+impl Excerpt {
+    fn of(text: &str, at: Range<usize>) -> Self {
+        let before = before(text, at.start);
+        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = text.get(start..).unwrap_or_default().lines().next().unwrap_or_default();
+        let column = width(before.get(start..).unwrap_or_default());
+        let marked = text.get(at).unwrap_or_default().lines().next().map_or(0, width);
+        let skipped = column.saturating_sub(SHOWN_BEFORE);
+        let line: String = line
+            .strip_prefix(BYTE_ORDER_MARK)
+            .unwrap_or(line)
+            .chars()
+            .skip(skipped)
+            .take(SHOWN)
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        let caret = column - skipped;
+        let room = line.chars().count().saturating_sub(caret);
+        Excerpt { line, caret, width: marked.min(room).max(1) }
+    }
+}
+
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// `text` up to byte `offset`, to the next character's start where that splits one.
+fn before(text: &str, offset: usize) -> &str {
+    let end = (offset..text.len()).find(|&i| text.is_char_boundary(i)).unwrap_or(text.len());
+    text.get(..end).unwrap_or(text)
+}
+
+/// Characters that take a column.
+fn width(text: &str) -> usize {
+    text.chars().filter(|&c| c != BYTE_ORDER_MARK).count()
+}
+
+/// Why a design could not be read from a path.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The path is a directory.
+    Directory(PathBuf),
+    /// The operating system's reason.
+    Unreadable(PathBuf, std::io::Error),
+    /// The file has more bytes than [`MAX_FILE`](super::MAX_FILE).
+    TooLarge(PathBuf),
+    /// The file is not UTF-8, as TOML is; the line on which it stops being so.
+    NotUtf8(PathBuf, usize),
+    /// The file was read, but is not a design.
+    Design(DesignError),
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let design = "a design file (TOML text in UTF-8)";
+        match self {
+            ReadError::Directory(path) => {
+                write!(f, "{}: found a directory; accepted: {design}", path.display())
+            }
+            ReadError::Unreadable(path, error) => {
+                write!(f, "{}: cannot be read: {error}; accepted: {design}", path.display())
+            }
+            ReadError::TooLarge(path) => write!(
+                f,
+                "{}: found more than {} bytes; accepted: {design} of at most that size",
+                path.display(),
+                super::MAX_FILE
+            ),
+            ReadError::NotUtf8(path, line) => {
+                write!(
+                    f,
+                    "{}:{line}: found bytes that are not UTF-8; accepted: {design}",
+                    path.display()
+                )
+            }
+            ReadError::Design(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ReadError::Unreadable(_, error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<DesignError> for ReadError {
+    fn from(error: DesignError) -> Self {
+        ReadError::Design(error)
+    }
+}

@@ -1,0 +1,152 @@
+//! Design files: machines, workspaces and requirements as people write them, in TOML.
+//!
+//! A design is read into a [`Claim`] of exact numbers. Nothing is defaulted silently, clamped or
+//! rounded, and whatever is wrong with a file is said in one message ([`DesignError`]).
+//!
+//! ```
+//! # use orthocert::design::Design;
+//! let text = r#"
+//!     [mechanism]
+//!     kind = "orthoglide"
+//!     leg_length = "310.25 ± 0.02"
+//!     [workspace]
+//!     min = [-73, -73, -73]
+//!     max = [126, 126, 126]
+//!     [requirements]
+//!     transmission = { min = "1/2", max = 2 }
+//! "#;
+//! let design = Design::parse(text, "prototype.toml")?;
+//! assert_eq!(design.sources.position("requirements.transmission").map(|at| at.line), Some(9));
+//! # Ok::<(), orthocert::design::DesignError>(())
+//! ```
+
+mod document;
+mod error;
+mod mechanism;
+mod number;
+mod requirements;
+mod sources;
+mod suggestion;
+mod template;
+#[cfg(test)]
+mod tests;
+mod workspace;
+
+pub use error::{Defect, DesignError, Position, ReadError};
+pub use sources::Sources;
+pub use template::{template, TEMPLATES};
+
+use document::{Document, Table};
+use mechanism::Setting;
+use orthocert_checker::claim::{Claim, ClaimError};
+use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::number::Exact;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// Most bytes of a design file.
+pub const MAX_FILE: u64 = 1 << 20;
+
+/// A design: what is claimed about a machine, and where its file says so.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Design {
+    /// The title that the file gives it.
+    pub title: Option<String>,
+    /// The claim, well formed ([`MachineClaim::validate`]).
+    pub claim: Claim,
+    /// Where each key stands in the file; empty for [`Design::prototype`].
+    pub sources: Sources,
+}
+
+impl Design {
+    /// Reads the text of a design file; `file_name` is for messages only.
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, DesignError> {
+        let document = Document { file: file_name, text };
+        let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
+        let root = document.root(tree.get_ref());
+        root.only(&["title", "mechanism", "workspace", "requirements"])?;
+        let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
+        let claim = machine_claim(&root)?;
+        let sources = Sources::of(text, tree.get_ref());
+        claim.validate().map_err(|error| ill_formed(&root, &error))?;
+        Ok(Design { title: title.map(str::to_owned), claim: Claim::Machine(claim), sources })
+    }
+
+    /// Reads a design file.
+    pub fn read(path: &Path) -> Result<Self, ReadError> {
+        let unreadable = |error| ReadError::Unreadable(path.to_owned(), error);
+        if path.is_dir() {
+            return Err(ReadError::Directory(path.to_owned()));
+        }
+        let mut bytes = Vec::new();
+        let file = File::open(path).map_err(unreadable)?;
+        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > MAX_FILE {
+            return Err(ReadError::TooLarge(path.to_owned()));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
+            ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
+        })?;
+        Ok(Design::parse(&text, &path.display().to_string())?)
+    }
+
+    /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.
+    pub fn prototype() -> Self {
+        let transmission = Range { min: None, max: Some(Exact::integer(2)) };
+        let claim = MachineClaim {
+            mechanism: Mechanism::Orthoglide { offset: Exact::integer(0) },
+            workspace: Workspace::Cube { side: Exact::integer(200) },
+            requirements: Requirements { transmission: Some(transmission), joint_range: None },
+        };
+        Design {
+            title: Some("Orthoglide prototype".to_owned()),
+            claim: Claim::Machine(claim),
+            sources: Sources::default(),
+        }
+    }
+}
+
+/// Reads the three tables of a design.
+fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
+    let table = |name: &str| {
+        let accepted = format!("a table [{name}]");
+        root.require(name, &accepted)?.table(&accepted)
+    };
+    let (machine, points, demands) =
+        (table("mechanism")?, table("workspace")?, table("requirements")?);
+    let setting = Setting { cube: points.find("cube"), joint_range: demands.find("joint_range") };
+    let cube = setting.cube.is_some();
+    // The form of the workspace decides what the other two tables need.
+    let workspace = workspace::workspace(&points)?;
+    let mechanism = mechanism::mechanism(&machine, &setting)?;
+    let requirements = requirements::requirements(&demands, cube)?;
+    Ok(MachineClaim { mechanism, workspace, requirements })
+}
+
+/// A claim that is not well formed for a reason that no single key shows.
+fn ill_formed(root: &Table<'_>, error: &ClaimError) -> DesignError {
+    let table = match error {
+        ClaimError::EmptyTransmission
+        | ClaimError::CubeNeedsPsiMax
+        | ClaimError::CubeFixesPsiMin => "requirements",
+        ClaimError::CubeNeedsOrthoglide => "workspace",
+        ClaimError::Reversed(what)
+        | ClaimError::NotPositive(what)
+        | ClaimError::NoBound(what)
+        | ClaimError::Precision(what) => match what {
+            _ if what.starts_with("workspace") => "workspace",
+            _ if what.starts_with("transmission") => "requirements",
+            _ if what.starts_with("joint_range") => "requirements",
+            _ => "mechanism",
+        },
+        _ => "mechanism",
+    };
+    let (found, accepted) = (error.to_string(), "a well-formed claim");
+    match root.find(table) {
+        Some(value) => value.error(Defect::Claim, found, accepted),
+        None => root.lacks(table, accepted),
+    }
+}

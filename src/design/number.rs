@@ -1,0 +1,215 @@
+//! Exact numbers of design files, and tolerances.
+//!
+//! A TOML number means the number that is written: `310.25`, `0.1` and `1e-3` are taken digit by
+//! digit from the text, never by way of a floating-point number. TOML's underscores between digits
+//! have no meaning; hexadecimal, octal and binary integers are converted exactly. A string is an
+//! expression ([`Exact::parse`]), or two with `±` or `+/-` between them: nominal value and
+//! tolerance.
+
+use super::document::Value;
+use super::error::{Defect, DesignError};
+use orthocert_checker::claim::Quantity;
+use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
+use std::cmp::Ordering;
+use toml::de::{DeFloat, DeInteger, DeValue};
+
+/// Most digits of a literal.
+const MAX_DIGITS: usize = 1000;
+
+const NUMBER: &str = r#"a number: 310.25, "1/3", "174.75*sqrt(3)/2""#;
+const QUANTITY: &str =
+    r#"a number or a tolerance: 310.25, "1/3", "310.25 ± 0.02", { min = 310.2, max = 310.3 }"#;
+const FINITE: &str = "a finite number";
+const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
+const NO_TOLERANCE: &str =
+    "one exact number: a machine's parameters may carry a tolerance, workspace and requirements not";
+
+/// The single exact number that `value` is.
+pub(super) fn exact(value: &Value<'_>) -> Result<Exact, DesignError> {
+    let tolerance = match value.inner {
+        DeValue::String(text) => parts_of_tolerance(text).is_some(),
+        DeValue::Table(table) => table.contains_key("min") || table.contains_key("max"),
+        _ => false,
+    };
+    if tolerance {
+        let found = match value.inner {
+            DeValue::Table(_) => "a tolerance { min, max }".to_owned(),
+            _ => format!("the tolerance {}", value.found()),
+        };
+        return Err(value.error(Defect::Tolerance, found, NO_TOLERANCE));
+    }
+    scalar(value, NUMBER)
+}
+
+/// The parameter of a machine, with or without tolerance, that `value` is.
+pub(super) fn quantity(value: &Value<'_>) -> Result<Quantity, DesignError> {
+    match value.inner {
+        DeValue::Table(_) => {
+            let table = value.table(QUANTITY)?;
+            table.only(&["min", "max"])?;
+            let (least, greatest) = (table.require("min", NUMBER)?, table.require("max", NUMBER)?);
+            let (min, max) = (exact(&least)?, exact(&greatest)?);
+            ordered((&least, &min), (&greatest, &max))?;
+            Ok(Quantity { min, max })
+        }
+        DeValue::String(text) => match parts_of_tolerance(text) {
+            Some(parts) => around(value, text, parts),
+            None => scalar(value, QUANTITY).map(Quantity::exactly),
+        },
+        _ => scalar(value, QUANTITY).map(Quantity::exactly),
+    }
+}
+
+/// Demands that `min <= max` is provable.
+pub(super) fn ordered(
+    (least, min): (&Value<'_>, &Exact),
+    (greatest, max): (&Value<'_>, &Exact),
+) -> Result<(), DesignError> {
+    let relation = match min.compare(max) {
+        Some(Ordering::Less | Ordering::Equal) => return Ok(()),
+        Some(Ordering::Greater) => "below",
+        None => "not provably at least",
+    };
+    let found = format!("{}, {relation} the lower end {}", greatest.found(), least.found());
+    let accepted = "an upper end that is at least the lower one";
+    Err(greatest.error(Defect::Reversed, found, accepted))
+}
+
+/// Demands that `number`, which `value` is or begins with, is provably positive; `what` names it.
+pub(super) fn positive(value: &Value<'_>, number: &Exact, what: &str) -> Result<(), DesignError> {
+    let found = match number.sign() {
+        Some(1) => return Ok(()),
+        Some(_) => value.found(),
+        None => format!("{}, which is not provably positive", value.found()),
+    };
+    Err(value.error(Defect::OutOfDomain, found, format!("{what} greater than 0")))
+}
+
+/// `-quantity`.
+pub(super) fn negated(value: &Value<'_>, quantity: &Quantity) -> Result<Quantity, DesignError> {
+    let end = |x: &Exact| writable(value, x.clone().negated());
+    Ok(Quantity { min: end(&quantity.max)?, max: end(&quantity.min)? })
+}
+
+fn scalar(value: &Value<'_>, accepted: &str) -> Result<Exact, DesignError> {
+    match value.inner {
+        DeValue::Integer(integer) => whole(value, integer),
+        DeValue::Float(float) => decimal(value, float),
+        DeValue::String(text) => {
+            let number = Exact::parse(text, MAX_DIGITS);
+            writable(value, number.map_err(|error| not_a_number(value, text, &error, accepted))?)
+        }
+        _ => Err(value.wrong_type(accepted)),
+    }
+}
+
+fn decimal(value: &Value<'_>, float: &DeFloat<'_>) -> Result<Exact, DesignError> {
+    let text = float.as_str();
+    if matches!(text.trim_start_matches(['+', '-']), "inf" | "nan") {
+        return Err(value.error(Defect::NotANumber, value.found(), FINITE));
+    }
+    literal(value, text)
+}
+
+/// A decimal literal of TOML, its underscores removed.
+fn literal(value: &Value<'_>, text: &str) -> Result<Exact, DesignError> {
+    // The grammar of expressions has no unary plus.
+    let digits = text.strip_prefix('+').unwrap_or(text);
+    let number = Exact::parse(digits, MAX_DIGITS).map_err(|NumberError { at, kind }| {
+        let error = NumberError { at: at + text.len() - digits.len(), kind };
+        not_a_number(value, text, &error, NUMBER)
+    });
+    writable(value, number?)
+}
+
+fn whole(value: &Value<'_>, integer: &DeInteger<'_>) -> Result<Exact, DesignError> {
+    let text = integer.as_str();
+    let radix = integer.radix();
+    if radix == 10 {
+        return literal(value, text);
+    }
+    let too_large = || value.error(Defect::NotANumber, value.found(), WITHIN_LIMITS);
+    if text.len() > MAX_DIGITS {
+        return Err(too_large());
+    }
+    let base = Exact::integer(radix.into());
+    let mut number = Exact::integer(0);
+    for digit in text.chars() {
+        let digit = digit.to_digit(radix).ok_or_else(|| value.wrong_type(NUMBER))?;
+        let shifted = number.times(base.clone());
+        let next = shifted.and_then(|number| number.plus(Exact::integer(digit.into())));
+        number = next.map_err(|_| too_large())?;
+    }
+    writable(value, number)
+}
+
+/// The nominal value and the tolerance's text, each with its byte offset in `text`.
+fn parts_of_tolerance(text: &str) -> Option<[(usize, &str); 2]> {
+    let sign = ["±", "+/-"].into_iter().filter_map(|sign| Some((text.find(sign)?, sign.len())));
+    let (at, length) = sign.min()?;
+    Some([(0, text.get(..at)?), (at + length, text.get(at + length..)?)])
+}
+
+/// `nominal ± tolerance`.
+fn around(
+    value: &Value<'_>,
+    text: &str,
+    parts: [(usize, &str); 2],
+) -> Result<Quantity, DesignError> {
+    let part = |(offset, part): (usize, &str)| {
+        Exact::parse(part, MAX_DIGITS).map_err(|NumberError { at, kind }| {
+            not_a_number(value, text, &NumberError { at: at + offset, kind }, QUANTITY)
+        })
+    };
+    let [nominal, tolerance] = parts;
+    let (nominal, tolerance) = (part(nominal)?, part(tolerance)?);
+    match tolerance.sign() {
+        Some(0) => return Ok(Quantity::exactly(writable(value, nominal)?)),
+        Some(1) => {}
+        _ => {
+            let accepted = "a tolerance that is (provably) not negative";
+            return Err(value.error(Defect::Tolerance, value.found(), accepted));
+        }
+    }
+    let end = |end: Result<Exact, NumberErrorKind>| match end {
+        Ok(end) => writable(value, end),
+        Err(_) => Err(value.error(Defect::NotANumber, value.found(), WITHIN_LIMITS)),
+    };
+    let min = end(nominal.clone().minus(tolerance.clone()))?;
+    Ok(Quantity { min, max: end(nominal.plus(tolerance))? })
+}
+
+/// `number`, if its canonical text is within the limits of certificates: those of the parser.
+fn writable(value: &Value<'_>, number: Exact) -> Result<Exact, DesignError> {
+    match Exact::parse_canonical(&number.to_string()) {
+        Ok(same) if same == number => Ok(number),
+        _ => {
+            let found = format!("{}, whose exact value is too long to be written", value.found());
+            Err(value.error(Defect::NotANumber, found, WITHIN_LIMITS))
+        }
+    }
+}
+
+/// The error that `text`, the value's content, is no number, with the caret where it ceases to be.
+fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &str) -> DesignError {
+    use NumberErrorKind::{ExponentTooLarge, TooLarge, TooManyDigits};
+    let accepted = match error.kind {
+        TooManyDigits(_) | ExponentTooLarge | TooLarge => WITHIN_LIMITS,
+        _ => accepted,
+    };
+    let before = text.get(..error.at).unwrap_or(text);
+    let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
+    let found = format!("{} ({at_character})", value.found());
+    // Between its quotes, if any, the content stands in the file as it is, unless it has escapes or
+    // underscores.
+    let written = value.document.text.get(value.at.clone()).unwrap_or_default();
+    let between_quotes = written.get(1..written.len().saturating_sub(1));
+    let at = match (written == text, between_quotes == Some(text)) {
+        (false, false) => value.at.clone(),
+        (as_it_is, _) => {
+            let at = value.at.start + usize::from(!as_it_is) + before.len();
+            at..at + 1
+        }
+    };
+    value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
+}

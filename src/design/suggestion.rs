@@ -1,0 +1,76 @@
+//! "Did you mean": the nearest accepted word to a misspelt one.
+
+/// `"; did you mean ...?"` for the word of `accepted` nearest to `word`, as `show` writes it; empty
+/// if none is near.
+pub(super) fn hint(word: &str, accepted: &[&str], show: impl Fn(&str) -> String) -> String {
+    let word = word.to_lowercase();
+    let ranked = accepted.iter().map(|name| (distance(&word, name), *name));
+    let near =
+        |(edits, name): &(usize, &str)| *edits <= name.len().div_ceil(3) && *edits < name.len();
+    match ranked.filter(near).min() {
+        Some((_, name)) => format!("; did you mean {}?", show(name)),
+        None => String::new(),
+    }
+}
+
+/// Longest word, in characters, that is compared.
+const LONGEST: usize = 40;
+
+/// The least number of insertions, deletions, replacements and exchanges of neighbours that turn
+/// `from` into `to` (optimal string alignment).
+fn distance(from: &str, to: &str) -> usize {
+    let (from, to): (Vec<char>, Vec<char>) = (from.chars().collect(), to.chars().collect());
+    if from.len() > LONGEST || to.len() > LONGEST {
+        return usize::MAX;
+    }
+    // rows[i][j]: from the first i characters of `from` to the first j of `to`.
+    let mut rows = vec![vec![0; to.len() + 1]; from.len() + 1];
+    for i in 0..=from.len() {
+        for j in 0..=to.len() {
+            rows[i][j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let replaced = rows[i - 1][j - 1] + usize::from(from[i - 1] != to[j - 1]);
+                let least = replaced.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+                let exchanged =
+                    i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+                if exchanged {
+                    least.min(rows[i - 2][j - 2] + 1)
+                } else {
+                    least
+                }
+            };
+        }
+    }
+    rows[from.len()][to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_count_edits() {
+        for (from, to, edits) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("base", "base", 0),
+            ("lenght", "length", 1),
+            ("leg-length", "leg_length", 1),
+            ("kitten", "sitting", 3),
+        ] {
+            assert_eq!(distance(from, to), edits, "{from} {to}");
+            assert_eq!(distance(to, from), edits, "{to} {from}");
+        }
+    }
+
+    #[test]
+    fn only_near_words_are_suggested() {
+        let hint = |word| hint(word, &["min", "max", "leg_length"], |w| w.to_owned());
+        assert_eq!(hint("leg_lenght"), "; did you mean leg_length?");
+        assert_eq!(hint("LegLength"), "; did you mean leg_length?");
+        assert_eq!(hint("mx"), "; did you mean max?");
+        assert_eq!(hint("speed"), "");
+        assert_eq!(hint(&"m".repeat(1000)), "");
+    }
+}

@@ -1,0 +1,79 @@
+//! Files: those of `tests/designs`, and paths that cannot be read.
+
+use super::*;
+use crate::design::{ReadError, MAX_FILE};
+use std::path::{Path, PathBuf};
+
+fn designs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/designs")
+}
+
+#[test]
+fn every_design_of_the_test_suite_is_read() {
+    let mut read = 0;
+    for entry in std::fs::read_dir(designs()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(text.starts_with("# Source: "), "{}", path.display());
+            let design = Design::read(&path).unwrap_or_else(|error| panic!("{error}"));
+            assert!(design.title.is_some(), "{}", path.display());
+            read += 1;
+        }
+    }
+    assert!(read >= 11, "{read}");
+}
+
+#[test]
+fn relaxed_bounds_are_exact_expressions() {
+    let design = Design::read(&designs().join("orthoglide-relaxed-1e-9.toml")).unwrap();
+    let Claim::Machine(claim) = design.claim;
+    let transmission = claim.requirements.transmission.unwrap();
+    assert_eq!(transmission.max, Some(number("2.000000002")));
+    assert_eq!(transmission.min, Some(number("1000000000/2000000002")));
+}
+
+#[test]
+fn the_prototype_is_the_file_of_that_name() {
+    let design = Design::read(&designs().join("orthoglide-prototype.toml")).unwrap();
+    assert_eq!(design.claim, Design::prototype().claim);
+    assert_eq!(design.title, Design::prototype().title);
+}
+
+#[test]
+fn what_is_no_text_file_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("design.toml");
+    let message = |error: ReadError| {
+        let message = error.to_string();
+        assert!(message.starts_with(&format!("{}", folder.path().display())), "{message}");
+        message
+    };
+
+    let directory = Design::read(folder.path()).unwrap_err();
+    assert!(matches!(directory, ReadError::Directory(_)));
+    assert!(message(directory).contains("found a directory"));
+
+    let missing = Design::read(&path).unwrap_err();
+    assert!(matches!(missing, ReadError::Unreadable(..)));
+    assert!(message(missing).contains("cannot be read"));
+
+    std::fs::write(&path, b"title = \"a\"\n# caf\xe9\n").unwrap();
+    let latin = Design::read(&path).unwrap_err();
+    assert!(matches!(latin, ReadError::NotUtf8(_, 2)));
+    assert!(message(latin).contains("design.toml:2: found bytes that are not UTF-8"));
+
+    let size = usize::try_from(MAX_FILE).unwrap();
+    std::fs::write(&path, " ".repeat(size + 1)).unwrap();
+    let large = Design::read(&path).unwrap_err();
+    assert!(matches!(large, ReadError::TooLarge(_)));
+    assert!(message(large).contains("1048576 bytes"));
+
+    std::fs::write(&path, format!("{}#{}", CUBE, " ".repeat(size - CUBE.len() - 1))).unwrap();
+    assert!(Design::read(&path).is_ok());
+
+    std::fs::write(&path, "[mechanism]\n").unwrap();
+    let incomplete = Design::read(&path).unwrap_err();
+    assert!(matches!(incomplete, ReadError::Design(_)));
+    assert!(message(incomplete).contains("design.toml:1:12: workspace: found no such key"));
+}

@@ -1,0 +1,148 @@
+//! Tests of the reader: designs to vary line by line, and what follows from each variation.
+
+mod accepted;
+mod files;
+mod refused;
+mod refused_numbers;
+
+use super::{Defect, Design, DesignError};
+use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
+use orthocert_checker::number::Exact;
+
+/// An Orthoglide on a box.
+const BOX: &str = r#"title = "box"
+[mechanism]
+kind = "orthoglide"
+leg_length = "310.25 ± 0.02"
+base = -383.8
+offset = 3
+[workspace]
+min = [-73, -73, -73]
+max = [126, 126, 126]
+[requirements]
+transmission = { min = "1/2", max = 2 }
+joint_range = { min = 0, max = 257 }
+"#;
+
+/// The Orthoglide of a cube.
+const CUBE: &str = r#"title = "cube"
+[mechanism]
+kind = "orthoglide"
+offset = 0
+[workspace]
+cube = 200
+[requirements]
+transmission = { max = 2 }
+"#;
+
+/// A machine leg by leg.
+const LEGS: &str = r#"[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = [0, "174.75", 0]
+platform = [0, 0, 0]
+length = "333.0 ± 0.05"
+mode = "-"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = ["-174.75*sqrt(3)/2", "-174.75/2", 0]
+length = 333
+mode = "-"
+[[mechanism.legs]]
+drive = "slider"
+direction = [0, 0, 1]
+anchor = ["174.75*sqrt(3)/2", "-174.75/2", 0]
+length = 333
+mode = "+"
+[workspace]
+min = [-60, -60, 0]
+max = [60, 60, 200]
+[requirements]
+transmission = { max = 2 }
+"#;
+
+/// `design` with some of its lines, counted from 1, replaced.
+fn with(design: &str, changes: &[(usize, &str)]) -> String {
+    let line =
+        |(i, line)| changes.iter().find(|(at, _)| *at == i + 1).map_or(line, |(_, new)| *new);
+    design.lines().enumerate().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn read(text: &str) -> MachineClaim {
+    match Design::parse(text, "test.toml") {
+        Ok(Design { claim: Claim::Machine(claim), .. }) => claim,
+        Err(error) => panic!("{error}\n{text}"),
+    }
+}
+
+fn refuse(text: &str) -> DesignError {
+    match Design::parse(text, "test.toml") {
+        Ok(design) => panic!("accepted as {:?}\n{text}", design.claim),
+        Err(error) => error,
+    }
+}
+
+fn number(text: &str) -> Exact {
+    Exact::parse(text, 2000).unwrap()
+}
+
+fn between(min: &str, max: &str) -> Quantity {
+    Quantity { min: number(min), max: number(max) }
+}
+
+fn exactly(text: &str) -> Quantity {
+    Quantity::exactly(number(text))
+}
+
+fn legs(claim: &MachineClaim) -> &[Leg; 3] {
+    match &claim.mechanism {
+        Mechanism::Translational(legs) => legs,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// One defect: lines changed, and what the one message has to say.
+struct Row {
+    name: &'static str,
+    design: &'static str,
+    changes: &'static [(usize, &'static str)],
+    line: usize,
+    key: &'static str,
+    defect: Defect,
+    found: &'static str,
+    accepted: &'static str,
+}
+
+fn check(rows: &[Row]) {
+    for row in rows {
+        let text = with(row.design, row.changes);
+        let error = refuse(&text);
+        let context = format!("{}:\n{error}", row.name);
+        println!("{context}");
+        assert_eq!(error.position().line, row.line, "{context}");
+        assert_eq!(error.key(), row.key, "{context}");
+        assert_eq!(error.defect(), row.defect, "{context}");
+        assert!(error.found().contains(row.found), "{context}");
+        assert!(error.accepted().contains(row.accepted), "{context}");
+        check_message(&error, &text);
+    }
+}
+
+/// The message names file, line and key, and marks a place of the line that it shows.
+fn check_message(error: &DesignError, text: &str) {
+    let message = error.to_string();
+    let lines: Vec<&str> = message.lines().collect();
+    let [sentence, excerpt, caret] = lines[..] else { panic!("{message}") };
+    let key = if error.key().is_empty() { String::new() } else { format!("{}: ", error.key()) };
+    let place = format!("{}:{}: {key}found ", error.file(), error.position());
+    assert!(sentence.starts_with(&place), "{message}");
+    assert!(sentence.contains("; accepted: "), "{message}");
+    assert!(error.position().line <= text.lines().count().max(1), "{message}");
+    assert!(excerpt.starts_with(&format!("  {} | ", error.position().line)), "{message}");
+    assert!(caret.trim_start_matches([' ', '|']).chars().all(|c| c == '^'), "{message}");
+    assert!(!message.chars().any(|c| c.is_control() && c != '\n'), "{message}");
+    assert!(caret.chars().count() <= excerpt.chars().count() + 1, "{message}");
+}
