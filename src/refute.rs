@@ -189,17 +189,14 @@ fn between(range: &Quantity, part: f64, digits: i32) -> Option<Exact> {
     let width = &max - &min;
     let value = &min + &width * BigRational::from_f64(part.clamp(0.0, 1.0))?;
     // The power of ten at `digits` places below the width's leading digit.
-    let size = i32::try_from(width.numer().bits()).ok()? - i32::try_from(width.denom().bits()).ok()?;
+    let size =
+        i32::try_from(width.numer().bits()).ok()? - i32::try_from(width.denom().bits()).ok()?;
     let places = digits - (f64::from(size) * std::f64::consts::LOG10_2).floor() as i32;
     let ten = BigRational::from_integer(BigInt::from(10));
     let grid = ten.pow(places);
     let rounded = |x: BigRational| x / &grid;
     let nearest = rounded((&value * &grid).round());
-    let candidates = [
-        nearest,
-        rounded((&value * &grid).floor()),
-        rounded((&value * &grid).ceil()),
-        value,
-    ];
+    let candidates =
+        [nearest, rounded((&value * &grid).floor()), rounded((&value * &grid).ceil()), value];
     candidates.into_iter().find(|x| min <= *x && *x <= max).map(Exact::Rational)
 }

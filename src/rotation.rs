@@ -20,8 +20,7 @@ pub fn candidates(matrix: &Matrix3<f64>) -> Vec<Rotation> {
         return Vec::new();
     };
     let w = (u * v_t).transpose();
-    let (sign, proper) =
-        if w.determinant() < 0.0 { (Sign::Minus, -w) } else { (Sign::Plus, w) };
+    let (sign, proper) = if w.determinant() < 0.0 { (Sign::Minus, -w) } else { (Sign::Plus, w) };
     let rotation = Rotation3::from_matrix_unchecked(proper);
     let q = UnitQuaternion::from_rotation_matrix(&rotation);
     let mut found = Vec::with_capacity(COMPONENT_BITS.len() + 1);

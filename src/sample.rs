@@ -235,7 +235,10 @@ impl Toleranced {
             let end = |parameter: Parameter, x: &Exact| {
                 value(x, if parameter == Parameter::Direction { 0 } else { scale })
             };
-            leg.parameters().iter().map(|(p, q)| Some((end(*p, &q.min)?, end(*p, &q.max)?))).collect()
+            leg.parameters()
+                .iter()
+                .map(|(p, q)| Some((end(*p, &q.min)?, end(*p, &q.max)?)))
+                .collect()
         };
         let free = |leg: &claim::Leg| leg.parameters().iter().map(|(_, q)| !q.is_exact()).collect();
         Some(Toleranced {
@@ -263,9 +266,8 @@ impl Toleranced {
                 })
                 .collect();
             let (leg, offset) = Leg::new(&self.legs[i], &values)?;
-            let w = std::array::from_fn(|k| {
-                Approx(self.least[k] + displacement[k].0 + offset[k].0)
-            });
+            let w =
+                std::array::from_fn(|k| Approx(self.least[k] + displacement[k].0 + offset[k].0));
             Some((leg, w))
         };
         let [a, b, c] = [leg(0)?, leg(1)?, leg(2)?];

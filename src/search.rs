@@ -9,8 +9,8 @@ use crate::interval::Interval;
 use crate::rotation;
 use nalgebra::Matrix3;
 use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{Node, Step};
 pub use orthocert_checker::certificate::Node as TreeNode;
+use orthocert_checker::certificate::{Node, Step};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::expansion::{Expansion, ExpansionPoint};
 use orthocert_checker::linear::Matrix;
@@ -245,7 +245,8 @@ fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
         }
     }
     if let (Ok(expansion), false) = (&expansion, trial.failures.is_empty()) {
-        trial.hopeless = trial.failures.iter().any(|&(o, _)| defeated_at_centre(model, expansion, o));
+        trial.hopeless =
+            trial.failures.iter().any(|&(o, _)| defeated_at_centre(model, expansion, o));
     }
     trial
 }
@@ -327,13 +328,16 @@ fn axes_by_clearance(model: &Model<Interval>, cell: &Cell, leg: usize) -> [Axis;
         let low = ends(cell.edges.map(|e| (e.index, e.level)));
         let high = ends(cell.edges.map(|e| (e.index + 1, e.level)));
         let centre = ends(cell.edges.map(|e| (2 * e.index + 1, e.level + 1)));
-        let along: [Interval; 3] = std::array::from_fn(|axis| {
-            if axis == k {
-                low[axis].join(&high[axis])
-            } else {
-                centre[axis]
-            }
-        });
+        let along: [Interval; 3] =
+            std::array::from_fn(
+                |axis| {
+                    if axis == k {
+                        low[axis].join(&high[axis])
+                    } else {
+                        centre[axis]
+                    }
+                },
+            );
         let clearance = model.legs[leg].clearance(&model.leg_vectors(&along)[leg]);
         clearance.sup() - clearance.inf()
     })

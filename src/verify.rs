@@ -108,7 +108,9 @@ pub fn verify(
     look_into(&sampler, &found.open, &mut worst);
     let answer = match refutation(claim, &sampler, &worst) {
         Some(witness) => refuted(claim, witness),
-        None => Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None }),
+        None => {
+            Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
+        }
     };
     Ok(Verification { answer, worst, boxes })
 }
@@ -179,9 +181,7 @@ fn look_into(sampler: &Sampler, open: &[OpenBox], worst: &mut [Worst]) {
     let t = vec![0.5; sampler.parameters()];
     let stride = open.len().div_ceil(OPEN_CENTRES).max(1);
     for item in open.iter().step_by(stride) {
-        let u = item.cell.edges.map(|e| {
-            (e.index as f64 + 0.5) * (-f64::from(e.level)).exp2()
-        });
+        let u = item.cell.edges.map(|e| (e.index as f64 + 0.5) * (-f64::from(e.level)).exp2());
         let start = Place { u, t: t.clone() };
         for known in worst.iter_mut() {
             let (margin, place) = sampler.descend(known.quality, &start, FINEST);
