@@ -137,6 +137,10 @@ impl Enclosure for Interval {
         (!both.is_empty()).then_some(Interval(both))
     }
 
+    fn ends(&self) -> [Self; 2] {
+        [self.0.inf(), self.0.sup()].map(|x| Interval::new(x, x))
+    }
+
     fn lower(&self) -> Endpoint {
         Endpoint::new(self.0.inf())
     }

@@ -8,6 +8,8 @@
 //! | [`design`]   | reads design files, written by people, into claims in exact numbers     |
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
+//! | [`machine`]  | the machine's obligations and the rules that may discharge them         |
+//! | [`postulate`]| proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
 //! | [`refute`]   | turns a place where a requirement seems to fail into an exact witness   |
 //! | [`rotation`] | finds the orthogonal matrix that the vertex rule takes as evidence      |
 //! | [`search`]   | branch and bound: finds a bisection tree that discharges everything     |
@@ -15,6 +17,8 @@
 
 pub mod design;
 pub mod interval;
+pub mod machine;
+pub mod postulate;
 pub mod refute;
 pub mod rotation;
 pub mod sample;

@@ -1,22 +1,13 @@
 //! Branch and bound: finds a bisection tree whose leaves discharge every obligation.
 //!
-//! A box is tried with every rule that may discharge what is still open on it, with the checker's
-//! own rule functions in floating-point intervals; what stays open is passed on to its two halves.
-//! The tree grows level by level, and what happens to a box depends on the box alone, so the tree
-//! is the same for every number of threads.
+//! A box is tried with every rule that may discharge what is still open on it; what stays open is
+//! passed on to its two halves. The tree grows level by level, and what happens to a box depends on
+//! the box alone, so the tree is the same for every number of threads. The rules themselves are the
+//! [`Problem`]'s business: the checker's own rule functions, in floating-point intervals.
 
-use crate::interval::Interval;
-use crate::rotation;
-use nalgebra::Matrix3;
 use orthocert_checker::cell::{Axis, Cell};
-pub use orthocert_checker::certificate::Node as TreeNode;
 use orthocert_checker::certificate::{Node, Step};
-use orthocert_checker::enclosure::Enclosure;
-use orthocert_checker::expansion::{Expansion, ExpansionPoint};
-use orthocert_checker::linear::Matrix;
-use orthocert_checker::model::Model;
-use orthocert_checker::obligations;
-use orthocert_checker::rule::{self, Failure, Obligation, TightCorner};
+use orthocert_checker::rule::{Failure, Obligation};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -100,18 +91,29 @@ struct Growing {
 }
 
 /// What became of one box.
-struct Trial {
-    steps: Vec<Step>,
-    failures: Vec<(Obligation, Failure)>,
-    /// The axes, most promising first.
-    axes: [Axis; 3],
-    /// Not even the centre satisfies the rule: splitting cannot close all of the box.
-    hopeless: bool,
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The steps that discharge obligations on it.
+    pub steps: Vec<Step>,
+    /// What stays open, and why.
+    pub failures: Vec<(Obligation, Failure)>,
+    /// The axes on which to split, most promising first.
+    pub axes: [Axis; 3],
+    /// Not even the centre satisfies a rule: splitting cannot close all of the box.
+    pub hopeless: bool,
 }
 
-/// Searches for a proof that every obligation of `model` holds on its workspace.
-pub fn search(model: &Model<Interval>, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    let mut tree = vec![growing(Cell::ROOT, obligations(model))];
+/// What a search is about.
+pub trait Problem: Sync {
+    /// What is to be discharged on every box.
+    fn obligations(&self) -> Vec<Obligation>;
+    /// Tries every rule that may discharge what is open on a box; depends on nothing else.
+    fn try_box(&self, cell: &Cell, open: &[Obligation]) -> Trial;
+}
+
+/// Searches for a proof that every obligation of `problem` holds on the root cell.
+pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
+    let mut tree = vec![growing(Cell::ROOT, problem.obligations())];
     let mut level = vec![0];
     let mut boxes = 0;
     let mut closed = 0.0;
@@ -125,7 +127,7 @@ pub fn search(model: &Model<Interval>, budget: Budget, control: &mut Control<'_>
                 stop = reason;
                 break;
             }
-            let trials = try_all(model, &tree, batch);
+            let trials = try_all(problem, &tree, batch);
             for (&at, trial) in batch.iter().zip(trials) {
                 settle(&mut tree, at, trial, &mut next, &mut closed);
             }
@@ -164,8 +166,8 @@ fn interrupted(budget: &Budget, cancel: &AtomicBool) -> Option<Stop> {
     budget.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Stop::Time)
 }
 
-fn try_all(model: &Model<Interval>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
-    let one = |&at: &usize| try_box(model, &tree[at].cell, &tree[at].open);
+fn try_all(problem: &impl Problem, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
+    let one = |&at: &usize| problem.try_box(&tree[at].cell, &tree[at].open);
     if batch.len() < PARALLEL_FROM {
         batch.iter().map(one).collect()
     } else {
@@ -208,144 +210,9 @@ fn settle(
     tree[at].halves = Some((first, first + 1));
 }
 
-/// Tries every rule that may discharge what is open on a box.
-fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
-    let expansion = Expansion::new(model, cell, ExpansionPoint::Centre);
-    let mut trial = Trial {
-        steps: Vec::new(),
-        failures: Vec::new(),
-        axes: match &expansion {
-            Ok(expansion) => axes_by_slopes(expansion),
-            Err(out) => axes_by_clearance(model, cell, out.leg),
-        },
-        hopeless: false,
-    };
-    for &obligation in open {
-        let step = match (obligation, &expansion) {
-            (Obligation::SigmaMax, _) if model.is_cube => Ok(Step::Cube),
-            (Obligation::SigmaMin, expansion) => {
-                let about_centre = match expansion {
-                    Ok(expansion) => lower_step(model, expansion),
-                    Err(out) => Err(Failure::from(*out)),
-                };
-                about_centre.or_else(|failure| corner_step(model, cell).ok_or(failure))
-            }
-            (Obligation::SigmaMax, Ok(expansion)) => {
-                rule::upper(model, expansion).map(|()| Step::Upper)
-            }
-            (Obligation::JointRange, Ok(expansion)) => {
-                rule::range(model, cell, expansion).map(|()| Step::Range)
-            }
-            (_, Err(out)) => Err(Failure::from(*out)),
-            _ => Err(Failure::NoSuchBound),
-        };
-        match step {
-            Ok(step) => trial.steps.push(step),
-            Err(failure) => trial.failures.push((obligation, failure)),
-        }
-    }
-    if let (Ok(expansion), false) = (&expansion, trial.failures.is_empty()) {
-        trial.hopeless =
-            trial.failures.iter().any(|&(o, _)| defeated_at_centre(model, expansion, o));
-    }
-    trial
-}
-
-/// The shortest evidence with which the lower vertex rule holds.
-fn lower_step(model: &Model<Interval>, expansion: &Expansion<Interval>) -> Result<Step, Failure> {
-    let candidates = rotation::candidates(&centre_of(&expansion.matrix));
-    let mut failure = Failure::BadRotation;
-    if let Some(first) = candidates.first().filter(|r| **r == rule::Rotation::IDENTITY) {
-        if rule::lower(model, expansion, first).is_ok() {
-            return Ok(Step::Lower(*first));
-        }
-    }
-    // The last candidate is the best; where it fails, none is expected to hold.
-    if let Some(best) = candidates.last() {
-        match rule::lower(model, expansion, best) {
-            Err(reason) => failure = reason,
-            Ok(()) => {
-                let holds = |r: &&rule::Rotation| rule::lower(model, expansion, r).is_ok();
-                return Ok(Step::Lower(*candidates.iter().find(holds).unwrap_or(best)));
-            }
-        }
-    }
-    Err(failure)
-}
-
-fn corner_step(model: &Model<Interval>, cell: &Cell) -> Option<Step> {
-    let corners = [TightCorner::Q1, TightCorner::Q2];
-    let corner = corners.into_iter().find(|corner| {
-        model.is_cube
-            && corner.touches(cell)
-            && Expansion::new(model, cell, corner.expansion_point())
-                .is_ok_and(|expansion| rule::corner(model, &expansion).is_ok())
-    })?;
-    Some(Step::Corner(corner))
-}
-
-/// Whether the rule fails already on the centre alone: the box contains a point at which it cannot
-/// succeed, because the requirement fails there, holds with equality, or because the parameters'
-/// tolerances are too wide.
-fn defeated_at_centre(
-    model: &Model<Interval>,
-    expansion: &Expansion<Interval>,
-    obligation: Obligation,
-) -> bool {
-    let zero = Interval::new(0.0, 0.0);
-    let mut at_centre = expansion.clone();
-    at_centre.slopes = [[[zero; 3]; 3]; 3];
-    match obligation {
-        Obligation::SigmaMin => lower_step(model, &at_centre).is_err(),
-        Obligation::SigmaMax => rule::upper(model, &at_centre).is_err(),
-        Obligation::JointRange => {
-            let ranges = model.bounds.joint_range.iter().flatten();
-            ranges.zip(&at_centre.rho).any(|((min, max), rho)| {
-                use orthocert_checker::enclosure::Scalar;
-                let above = min.as_ref().is_none_or(|min| rho.sub(min).is_nonnegative());
-                let below = max.as_ref().is_none_or(|max| max.sub(rho).is_nonnegative());
-                !(above && below)
-            })
-        }
-        _ => false,
-    }
-}
-
-/// The midpoints of an interval matrix.
-fn centre_of(matrix: &Matrix<Interval>) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| matrix[i][j].mid())
-}
-
-/// The axes by how much `M` varies along them: `h_k sum_ij mag(E_k)_ij`, greatest first.
-fn axes_by_slopes(expansion: &Expansion<Interval>) -> [Axis; 3] {
-    by_weight(|k| expansion.slopes[k].iter().flatten().map(Interval::mag).sum())
-}
-
-/// The axes by how much a leg's clearance gains in width from them, greatest first.
-fn axes_by_clearance(model: &Model<Interval>, cell: &Cell, leg: usize) -> [Axis; 3] {
-    by_weight(|k| {
-        let ends = |parts: [(u128, u32); 3]| model.displacement(parts);
-        let low = ends(cell.edges.map(|e| (e.index, e.level)));
-        let high = ends(cell.edges.map(|e| (e.index + 1, e.level)));
-        let centre = ends(cell.edges.map(|e| (2 * e.index + 1, e.level + 1)));
-        let along: [Interval; 3] =
-            std::array::from_fn(
-                |axis| {
-                    if axis == k {
-                        low[axis].join(&high[axis])
-                    } else {
-                        centre[axis]
-                    }
-                },
-            );
-        let clearance = model.legs[leg].clearance(&model.leg_vectors(&along)[leg]);
-        clearance.sup() - clearance.inf()
-    })
-}
-
-fn by_weight(weight: impl Fn(usize) -> f64) -> [Axis; 3] {
-    let weights: [f64; 3] = std::array::from_fn(weight);
-    let mut axes = Axis::ALL;
-    axes.sort_by(|a, b| weights[b.index()].total_cmp(&weights[a.index()]));
-    axes
+/// The axes by descending weight; the given order breaks ties.
+pub fn by_weight(axes: [Axis; 3], weights: [f64; 3]) -> [Axis; 3] {
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| weights[b].total_cmp(&weights[a]));
+    order.map(|k| axes[k])
 }

@@ -93,16 +93,9 @@ pub fn verify(
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
     }
     if found.open.is_empty() && found.stop == Stop::Exhausted {
-        let answer = match accepted_proof(claim, found.nodes) {
-            Ok((certificate, accepted)) => {
-                Answer::Decided { certificate: Box::new(certificate), accepted }
-            }
-            Err(objection) => Answer::Undecided(Undecided {
-                open: Vec::new(),
-                stop: found.stop,
-                objection: Some(objection),
-            }),
-        };
+        let answer = accepted(Claim::Machine(claim.clone()), |precision| {
+            Proof::Tree(Tree { precision, nodes: found.nodes.clone() })
+        });
         return Ok(Verification { answer, worst, boxes });
     }
     look_into(&sampler, &found.open, &mut worst);
@@ -115,30 +108,26 @@ pub fn verify(
     Ok(Verification { answer, worst, boxes })
 }
 
-/// The certificate of a tree at the lowest precision at which the checker accepts it.
-fn accepted_proof(
-    claim: &MachineClaim,
-    nodes: Vec<search::TreeNode>,
-) -> Result<(Certificate, Accepted), Rejected> {
-    let tree = Tree { precision: PRECISIONS[0], nodes };
-    let mut certificate = certificate(claim, Verdict::Certified, Proof::Tree(tree));
-    let mut objection = Rejected::VerdictMismatch;
+/// The certificate of a proof, at the lowest precision at which the checker accepts it.
+pub(crate) fn accepted(claim: Claim, proof: impl Fn(u32) -> Proof) -> Answer {
+    let mut certificate = certificate(claim, Verdict::Certified, proof(PRECISIONS[0]));
+    let mut objection = None;
     for bits in PRECISIONS {
-        if let Proof::Tree(tree) = &mut certificate.proof {
-            tree.precision = bits;
-        }
+        certificate.proof = proof(bits);
         match check(&certificate) {
-            Ok(accepted) => return Ok((certificate, accepted)),
-            Err(reason) => objection = reason,
+            Ok(accepted) => {
+                return Answer::Decided { certificate: Box::new(certificate), accepted };
+            }
+            Err(reason) => objection = Some(reason),
         }
     }
-    Err(objection)
+    Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
 }
 
-fn certificate(claim: &MachineClaim, verdict: Verdict, proof: Proof) -> Certificate {
+fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
     Certificate {
         format: FORMAT.to_owned(),
-        claim: Claim::Machine(claim.clone()),
+        claim,
         verdict,
         proof,
         provenance: Provenance {
@@ -150,7 +139,7 @@ fn certificate(claim: &MachineClaim, verdict: Verdict, proof: Proof) -> Certific
 
 fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
     let proof = Proof::Witness(Box::new(witness));
-    let certificate = certificate(claim, Verdict::Refuted, proof);
+    let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
     match check(&certificate) {
         Ok(accepted) => Answer::Decided { certificate: Box::new(certificate), accepted },
         Err(objection) => Answer::Undecided(Undecided {

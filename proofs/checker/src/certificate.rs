@@ -3,6 +3,7 @@
 use crate::cell::Axis;
 use crate::claim::{Claim, Leg};
 use crate::number::Exact;
+use crate::postulate::{Face, Half};
 use crate::rule::{Rotation, TightCorner};
 use crate::strict;
 use serde::{Deserialize, Serialize};
@@ -61,6 +62,8 @@ impl fmt::Display for Verdict {
 pub enum Proof {
     /// A bisection tree, for "certified".
     Tree(#[serde(deserialize_with = "strict::object")] Tree),
+    /// Trees over `kappa` and the faces of the cube, for the postulate.
+    Faces(#[serde(deserialize_with = "strict::object")] Faces),
     /// A counterexample, for "refuted".
     Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
 }
@@ -73,7 +76,31 @@ pub struct Tree {
     /// Fractional bits of the arithmetic in which the rules are to be evaluated.
     pub precision: u32,
     /// The nodes.
-    #[serde(deserialize_with = "strict::nodes")]
+    #[serde(deserialize_with = "strict::list")]
+    pub nodes: Vec<Node>,
+}
+
+/// A proof of the postulate for an interval of `kappa`: a tree for each face and half.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Faces {
+    /// Fractional bits of the arithmetic in which the rules are to be evaluated.
+    pub precision: u32,
+    /// The trees, in the order of [`crate::parts_needed`].
+    #[serde(deserialize_with = "strict::list")]
+    pub parts: Vec<FacePart>,
+}
+
+/// The tree of one face over one half of the `kappa`, with axes `kappa`, `y` and `z`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FacePart {
+    /// The face.
+    pub face: Face,
+    /// The half.
+    pub half: Half,
+    /// The nodes in preorder.
+    #[serde(deserialize_with = "strict::list")]
     pub nodes: Vec<Node>,
 }
 
@@ -103,6 +130,12 @@ pub enum Step {
     Cube,
     /// Enclosure of the joint coordinates.
     Range,
+    /// Postulate: vertex rule for the blow-up about the centre.
+    BlowUp,
+    /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.
+    Edge(TightCorner),
+    /// Postulate: the mirror image of other cells.
+    Mirror,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.
@@ -181,18 +214,29 @@ impl Certificate {
     /// # Errors
     /// Never for certificates that [`crate::read`] accepts; serialisation of other values may fail.
     pub fn to_text(&self) -> Result<String, serde_json::Error> {
+        let lines = |nodes: &[Node]| -> Result<String, serde_json::Error> {
+            let lines: Result<Vec<String>, _> = nodes.iter().map(serde_json::to_string).collect();
+            Ok(lines?.join(",\n"))
+        };
         let proof = match &self.proof {
             Proof::Witness(witness) => {
                 format!("{{\"witness\":{}}}", serde_json::to_string(witness)?)
             }
-            Proof::Tree(tree) => {
-                let nodes: Result<Vec<String>, _> =
-                    tree.nodes.iter().map(serde_json::to_string).collect();
-                format!(
-                    "{{\"tree\":{{\"precision\":{},\"nodes\":[\n{}\n]}}}}",
-                    tree.precision,
-                    nodes?.join(",\n")
-                )
+            Proof::Tree(Tree { precision, nodes }) => {
+                let nodes = lines(nodes)?;
+                format!("{{\"tree\":{{\"precision\":{precision},\"nodes\":[\n{nodes}\n]}}}}")
+            }
+            Proof::Faces(Faces { precision, parts }) => {
+                let part = |part: &FacePart| {
+                    let (face, half) =
+                        (serde_json::to_string(&part.face)?, serde_json::to_string(&part.half)?);
+                    let nodes = lines(&part.nodes)?;
+                    Ok(format!("{{\"face\":{face},\"half\":{half},\"nodes\":[\n{nodes}\n]}}"))
+                };
+                let parts: Result<Vec<String>, serde_json::Error> =
+                    parts.iter().map(part).collect();
+                let parts = parts?.join(",\n");
+                format!("{{\"faces\":{{\"precision\":{precision},\"parts\":[\n{parts}\n]}}}}")
             }
         };
         Ok(format!(

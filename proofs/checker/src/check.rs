@@ -1,18 +1,21 @@
 //! Checking a certificate: the only way to an accepted verdict.
 
-use crate::cell::Cell;
+use crate::cell::{Axis, Cell};
 use crate::certificate::{
-    Certificate, Node, Proof, Step, Tree, Verdict, FORMAT, MAX_BYTES, MAX_NODES, MAX_STEPS,
+    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, FORMAT, MAX_BYTES, MAX_STEPS,
     PRECISIONS,
 };
-use crate::claim::{Claim, ClaimError, MachineClaim};
+use crate::claim::{Claim, ClaimError, MachineClaim, PostulateClaim, PsiMax};
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
 use crate::model::Model;
+use crate::number::Exact;
+use crate::postulate::{self, BlowUp, Face, Half};
 use crate::rule::{self, Failure, Obligation};
 use crate::strict::Strict;
 use crate::witness::{self, WitnessError};
 use std::cell::OnceCell;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -62,6 +65,12 @@ pub enum Rejected {
     TooManySteps(usize),
     /// A cell is split beyond the deepest level.
     TooDeep(usize),
+    /// A node is split on an axis that its tree does not have.
+    NoSuchAxis(usize),
+    /// A single tree proves the postulate for a single `psi_max` only.
+    OneCubeOnly,
+    /// The faces and halves of `kappa` are not those that the claim needs.
+    Parts,
     /// A step does not discharge its obligation.
     Step {
         /// The node, counted from zero in preorder.
@@ -114,6 +123,16 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node} has more than {MAX_STEPS} steps")
             }
             Rejected::TooDeep(node) => write!(f, "node {node} is split too often"),
+            Rejected::NoSuchAxis(node) => {
+                write!(f, "node {node} is split on an axis that its tree does not have")
+            }
+            Rejected::OneCubeOnly => {
+                write!(f, "a tree over one cube proves the postulate for a single psi_max only")
+            }
+            Rejected::Parts => write!(
+                f,
+                "the parts are not the faces and halves of kappa that the claim needs, in order"
+            ),
             Rejected::Step { node, rule, failure } => {
                 write!(f, "node {node}: rule \"{rule}\" does not apply: {failure}")
             }
@@ -144,18 +163,23 @@ pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
 
 /// Checks a certificate: recomputes everything that its proof uses from its claim.
 pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
-    let Claim::Machine(claim) = &certificate.claim;
-    match (&certificate.proof, certificate.verdict) {
-        (Proof::Tree(tree), Verdict::Certified) => {
-            let size = check_tree(claim, tree)?;
-            Ok(Accepted { verdict: Verdict::Certified, size })
+    let mut size = TreeSize::default();
+    match (&certificate.claim, &certificate.proof, certificate.verdict) {
+        (Claim::Machine(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_tree(claim, tree, &mut size)?;
         }
-        (Proof::Witness(witness), Verdict::Refuted) => {
+        (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
-            Ok(Accepted { verdict: Verdict::Refuted, size: TreeSize::default() })
         }
-        _ => Err(Rejected::VerdictMismatch),
+        (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_one_cube(claim, tree, &mut size)?;
+        }
+        (Claim::Postulate(claim), Proof::Faces(faces), Verdict::Certified) => {
+            check_faces(claim, faces, &mut size)?;
+        }
+        _ => return Err(Rejected::VerdictMismatch),
     }
+    Ok(Accepted { verdict: certificate.verdict, size })
 }
 
 /// The obligations that a claim consists of.
@@ -175,46 +199,213 @@ fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
 }
 
-/// Walks the tree in preorder with a stack of cells that wait for their node, each with what its
-/// ancestors have discharged: what holds on a cell holds on its halves.
-///
-/// **Lemma.** If the walk ends without complaint, every obligation holds at every point of the
-/// workspace. *Proof.* By induction the leaves below a cell cover it, as its halves do; on each
-/// leaf every obligation is discharged on it or on a cell that contains it. ∎
-fn check_tree(claim: &MachineClaim, tree: &Tree) -> Result<TreeSize, Rejected> {
-    if !PRECISIONS.contains(&tree.precision) {
-        return Err(Rejected::Precision(tree.precision));
+/// A tree to be walked: its nodes, the number of the first in the certificate, its axes, and what
+/// every leaf has to end with.
+struct Walk<'a> {
+    nodes: &'a [Node],
+    first: usize,
+    axes: [Axis; 3],
+    obligations: &'a [Obligation],
+}
+
+impl Walk<'_> {
+    /// Walks the tree in preorder with a stack of cells that wait for their node, each with what
+    /// its ancestors have discharged: what holds on a cell holds on its halves. `step` checks one
+    /// node's steps on its cell and returns what they discharge.
+    ///
+    /// **Lemma.** If the walk ends without complaint, every obligation holds at every point of the
+    /// root. *Proof.* By induction the leaves below a cell cover it, as its halves do; on each leaf
+    /// every obligation is discharged on it or on a cell that contains it. ∎
+    fn run(
+        &self,
+        size: &mut TreeSize,
+        mut steps: impl FnMut(&Cell, &Node, usize, &mut TreeSize) -> Result<Discharged, Rejected>,
+    ) -> Result<(), Rejected> {
+        let mut waiting: Vec<(Cell, Discharged, usize)> = vec![(Cell::ROOT, 0, 0)];
+        for (position, node) in self.nodes.iter().enumerate() {
+            let index = self.first + position;
+            let Some((cell, inherited, depth)) = waiting.pop() else {
+                return Err(Rejected::TrailingNodes(self.nodes.len() - position));
+            };
+            if node.by.len() > MAX_STEPS {
+                return Err(Rejected::TooManySteps(index));
+            }
+            let discharged = inherited | steps(&cell, node, index, size)?;
+            size.nodes += 1;
+            size.depth = size.depth.max(depth);
+            if let Some(axis) = node.split {
+                if !self.axes.contains(&axis) {
+                    return Err(Rejected::NoSuchAxis(index));
+                }
+                let (lower, upper) = cell.halves(axis).ok_or(Rejected::TooDeep(index))?;
+                waiting.push((upper, discharged, depth + 1));
+                waiting.push((lower, discharged, depth + 1));
+                continue;
+            }
+            size.leaves += 1;
+            if let Some(&obligation) = self.obligations.iter().find(|&&o| discharged & bit(o) == 0)
+            {
+                return Err(Rejected::Open { node: index, obligation });
+            }
+        }
+        if waiting.is_empty() {
+            Ok(())
+        } else {
+            Err(Rejected::MissingNode)
+        }
     }
-    if tree.nodes.len() > MAX_NODES {
-        return Err(Rejected::TrailingNodes(tree.nodes.len() - MAX_NODES));
+}
+
+fn admit_precision(bits: u32) -> Result<(), Rejected> {
+    if PRECISIONS.contains(&bits) {
+        Ok(())
+    } else {
+        Err(Rejected::Precision(bits))
     }
+}
+
+fn check_tree(claim: &MachineClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
     let model = Model::new(claim, tree.precision)?;
     let obligations = obligations(&model);
-    let mut size = TreeSize::default();
-    let mut waiting: Vec<(Cell, Discharged, usize)> = vec![(Cell::ROOT, 0, 0)];
-    for (index, node) in tree.nodes.iter().enumerate() {
-        let Some((cell, inherited, depth)) = waiting.pop() else {
-            return Err(Rejected::TrailingNodes(tree.nodes.len() - index));
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    walk.run(size, |cell, node, index, size| check_steps(&model, cell, node, index, size))
+}
+
+/// The obligations of the postulate. The rules of `sigma_min` enclose `1/s_i`, so `s_i > 0`.
+const POSTULATE: [Obligation; 2] = [Obligation::SigmaMin, Obligation::SigmaMax];
+
+/// The postulate for one `psi_max`: a tree over the cube.
+fn check_one_cube(
+    claim: &PostulateClaim,
+    tree: &Tree,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    claim.validate()?;
+    let (kappa, half) = single_kappa(claim, tree.precision).ok_or(Rejected::OneCubeOnly)?;
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &POSTULATE };
+    walk.run(size, |cell, node, index, size| {
+        let blow_up = || postulate::on_cube(&kappa, half, cell);
+        postulate_steps(blow_up, None, node, index, size)
+    })
+}
+
+/// `kappa = 1/psi_max` enclosed, and its half, for a claim about a single `psi_max`.
+pub fn single_kappa(claim: &PostulateClaim, bits: u32) -> Option<(Fixed, Half)> {
+    let PsiMax::Range(psi) = &claim.psi_max else {
+        return None;
+    };
+    if !psi.is_exact() {
+        return None;
+    }
+    let half = match psi.min.compare(&Exact::integer(2))? {
+        Ordering::Less => Half::High,
+        Ordering::Equal | Ordering::Greater => Half::Low,
+    };
+    let kappa = Exact::integer(1).over(psi.min.clone()).ok()?;
+    Some((kappa.enclose(0, bits)?, half))
+}
+
+/// A tree that a proof by faces consists of, and its range of `kappa`: from `least` to `greatest`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartNeeded {
+    /// The face.
+    pub face: Face,
+    /// The half.
+    pub half: Half,
+    /// Least `kappa`.
+    pub least: Exact,
+    /// Greatest `kappa`.
+    pub greatest: Exact,
+}
+
+/// The trees that a proof of the postulate by faces needs, in order: faces `q_1`, `q_2` over
+/// `[1/psi_max, 1/2]` (where that is not empty) and over `[max(1/psi_max, 1/2), 1]`, for the
+/// greatest `psi_max`; `1/psi_max` is 0 for "all". "Faces suffice" needs every `kappa'` up to 1, so
+/// the least `psi_max` does not matter.
+pub fn parts_needed(claim: &PostulateClaim) -> Option<Vec<PartNeeded>> {
+    let half = Exact::integer(1).over(Exact::integer(2)).ok()?;
+    let least = match &claim.psi_max {
+        PsiMax::All => Exact::integer(0),
+        PsiMax::Range(range) => Exact::integer(1).over(range.max.clone()).ok()?,
+    };
+    let mut needed = Vec::new();
+    for face in [Face::Q1, Face::Q2] {
+        let from = match least.compare(&half)? {
+            Ordering::Less => {
+                let (least, greatest) = (least.clone(), half.clone());
+                needed.push(PartNeeded { face, half: Half::Low, least, greatest });
+                half.clone()
+            }
+            Ordering::Equal | Ordering::Greater => least.clone(),
         };
-        let discharged = inherited | check_steps(&model, &cell, node, index, &mut size)?;
-        size.nodes += 1;
-        size.depth = size.depth.max(depth);
-        if let Some(axis) = node.split {
-            let (lower, upper) = cell.halves(axis).ok_or(Rejected::TooDeep(index))?;
-            waiting.push((upper, discharged, depth + 1));
-            waiting.push((lower, discharged, depth + 1));
-            continue;
-        }
-        size.leaves += 1;
-        if let Some(&obligation) = obligations.iter().find(|&&o| discharged & bit(o) == 0) {
-            return Err(Rejected::Open { node: index, obligation });
-        }
+        let greatest = Exact::integer(1);
+        needed.push(PartNeeded { face, half: Half::High, least: from, greatest });
     }
-    if waiting.is_empty() {
-        Ok(size)
-    } else {
-        Err(Rejected::MissingNode)
+    Some(needed)
+}
+
+impl PartNeeded {
+    /// `least` and `greatest - least`, enclosed.
+    pub fn range(&self, bits: u32) -> Option<(Fixed, Fixed)> {
+        let width = self.greatest.clone().minus(self.least.clone()).ok()?;
+        Some((self.least.enclose(0, bits)?, width.enclose(0, bits)?))
     }
+}
+
+/// The postulate for an interval of `kappa`: a tree for each face and half that is needed.
+fn check_faces(claim: &PostulateClaim, faces: &Faces, size: &mut TreeSize) -> Result<(), Rejected> {
+    admit_precision(faces.precision)?;
+    claim.validate()?;
+    let unenclosed = || ClaimError::Precision("psi_max".into());
+    let needed = parts_needed(claim).ok_or_else(unenclosed)?;
+    let same = |(part, needed): (&FacePart, &PartNeeded)| {
+        part.face == needed.face && part.half == needed.half
+    };
+    if faces.parts.len() != needed.len() || !faces.parts.iter().zip(&needed).all(same) {
+        return Err(Rejected::Parts);
+    }
+    let mut first = 0;
+    for (part, needed) in faces.parts.iter().zip(&needed) {
+        let (least, width) = needed.range(faces.precision).ok_or_else(unenclosed)?;
+        let (half, face) = (needed.half, needed.face);
+        let walk =
+            Walk { nodes: &part.nodes, first, axes: Axis::FACE, obligations: &POSTULATE[..1] };
+        walk.run(size, |cell, node, index, size| {
+            let blow_up = || postulate::on_face(&least, &width, half, face, cell);
+            postulate_steps(blow_up, Some(cell), node, index, size)
+        })?;
+        first += part.nodes.len();
+    }
+    Ok(())
+}
+
+/// Checks the steps of a node of the postulate; `face_cell` is the cell of a face's tree.
+fn postulate_steps(
+    blow_up: impl Fn() -> Option<BlowUp<Fixed>>,
+    face_cell: Option<&Cell>,
+    node: &Node,
+    index: usize,
+    size: &mut TreeSize,
+) -> Result<Discharged, Rejected> {
+    let mut discharged = 0;
+    for step in &node.by {
+        let (rule, obligation) = step.rule();
+        let blown_up = || blow_up().ok_or(Failure::NotEnclosed);
+        let result = match (step, face_cell) {
+            (Step::BlowUp, _) => blown_up().and_then(|b| postulate::blow_up(&b)),
+            (Step::Edge(corner), _) => blown_up().and_then(|b| postulate::edge(&b, *corner)),
+            (Step::Mirror, Some(cell)) => postulate::mirror(cell),
+            // The lemma of `rule::cube` holds for every psi_max > 1.
+            (Step::Cube, None) => Ok(()),
+            _ => Err(Failure::OtherKind),
+        };
+        result.map_err(|failure| Rejected::Step { node: index, rule, failure })?;
+        discharged |= bit(obligation);
+        *size.steps.entry(rule).or_default() += 1;
+    }
+    Ok(discharged)
 }
 
 /// Checks every step of a node; returns what they discharge.
@@ -225,9 +416,6 @@ fn check_steps(
     index: usize,
     size: &mut TreeSize,
 ) -> Result<Discharged, Rejected> {
-    if node.by.len() > MAX_STEPS {
-        return Err(Rejected::TooManySteps(index));
-    }
     let centre = OnceCell::new();
     let mut discharged = 0;
     for step in &node.by {
@@ -267,6 +455,7 @@ fn check_step(
             }
             rule::corner(model, &Expansion::new(model, cell, corner.expansion_point())?)
         }
+        Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }
 
@@ -279,6 +468,9 @@ impl Step {
             Step::Upper => ("upper", Obligation::SigmaMax),
             Step::Cube => ("cube", Obligation::SigmaMax),
             Step::Range => ("range", Obligation::JointRange),
+            Step::BlowUp => ("blow_up", Obligation::SigmaMin),
+            Step::Edge(_) => ("edge", Obligation::SigmaMin),
+            Step::Mirror => ("mirror", Obligation::SigmaMin),
         }
     }
 }

@@ -16,6 +16,55 @@ use std::fmt;
 pub enum Claim {
     /// One machine (or every machine within its tolerances) over one workspace.
     Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
+    /// The Q1/Q2 postulate for one `psi_max`, a range, or every one.
+    Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
+}
+
+/// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
+/// (`L = 1`): every `s_i > 0`, and `1/psi_max <= psi_i(P) <= psi_max`."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostulateClaim {
+    /// The `psi_max` that the claim is about.
+    pub psi_max: PsiMax,
+}
+
+/// A set of `psi_max`, all greater than 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PsiMax {
+    /// Every `psi_max > 1`; written `"all"`.
+    All,
+    /// Every one from `min` to `max`; written as one number where both are the same.
+    Range(Quantity),
+}
+
+impl PostulateClaim {
+    /// Proves the claim well formed: `1 < min <= max`.
+    pub fn validate(&self) -> Result<(), ClaimError> {
+        let PsiMax::Range(range) = &self.psi_max else {
+            return Ok(());
+        };
+        ordered(&range.min, &range.max, || "psi_max".into())?;
+        match range.min.compare(&Exact::integer(1)) {
+            Some(Ordering::Greater) => Ok(()),
+            _ => Err(ClaimError::PsiMaxNotAboveOne),
+        }
+    }
+}
+
+impl Serialize for PsiMax {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            PsiMax::All => serializer.serialize_str("all"),
+            PsiMax::Range(range) => range.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for PsiMax {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberOrTolerance { or_all: true })
+    }
 }
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel
@@ -190,6 +239,8 @@ pub enum ClaimError {
     CubeNeedsOrthoglide,
     /// A cube without `psi_max`, or with `psi_max <= 1`.
     CubeNeedsPsiMax,
+    /// A `psi_max` that is not provably greater than 1.
+    PsiMaxNotAboveOne,
     /// A cube with a `psi_min` of its own.
     CubeFixesPsiMin,
     /// The numbers cannot be enclosed at the precision of the proof.
@@ -212,6 +263,9 @@ impl fmt::Display for ClaimError {
             ),
             ClaimError::CubeNeedsPsiMax => {
                 write!(f, "a workspace \"cube\" needs transmission.max (psi_max) greater than 1")
+            }
+            ClaimError::PsiMaxNotAboveOne => {
+                write!(f, "psi_max is not (provably) greater than 1")
             }
             ClaimError::CubeFixesPsiMin => {
                 write!(f, "with a workspace \"cube\", psi_min = 1/psi_max is not free")
@@ -444,29 +498,40 @@ struct Tolerance {
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NumberOrTolerance;
-        impl<'de> Visitor<'de> for NumberOrTolerance {
-            type Value = Quantity;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number as a string, or an object with min and max")
-            }
-
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Quantity, E> {
-                Exact::parse_canonical(text)
-                    .map(Quantity::exactly)
-                    .map_err(|e| E::custom(format!("not a number: {e}")))
-            }
-
-            fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Quantity, M::Error> {
-                let form = serde::de::value::MapAccessDeserializer::new(map);
-                let Tolerance { min, max } = Tolerance::deserialize(form)?;
-                if min == max {
-                    return Err(M::Error::custom("equal min and max are written as one number"));
-                }
-                Ok(Quantity { min, max })
-            }
+        match deserializer.deserialize_any(NumberOrTolerance { or_all: false })? {
+            PsiMax::Range(quantity) => Ok(quantity),
+            PsiMax::All => Err(D::Error::custom("not a number: \"all\"")),
         }
-        deserializer.deserialize_any(NumberOrTolerance)
+    }
+}
+
+/// Reads a number or an object with `min` and `max`; or, where it may be, the word `all`.
+struct NumberOrTolerance {
+    or_all: bool,
+}
+
+impl<'de> Visitor<'de> for NumberOrTolerance {
+    type Value = PsiMax;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number as a string, or an object with min and max")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<PsiMax, E> {
+        if self.or_all && text == "all" {
+            return Ok(PsiMax::All);
+        }
+        Exact::parse_canonical(text)
+            .map(|x| PsiMax::Range(Quantity::exactly(x)))
+            .map_err(|e| E::custom(format!("not a number: {e}")))
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<PsiMax, M::Error> {
+        let form = serde::de::value::MapAccessDeserializer::new(map);
+        let Tolerance { min, max } = Tolerance::deserialize(form)?;
+        if min == max {
+            return Err(M::Error::custom("equal min and max are written as one number"));
+        }
+        Ok(PsiMax::Range(Quantity { min, max }))
     }
 }

@@ -48,6 +48,8 @@ pub trait Enclosure: Scalar {
     fn join(&self, other: &Self) -> Self;
     /// The intersection; `None` if it is empty.
     fn meet(&self, other: &Self) -> Option<Self>;
+    /// Both endpoints, each as an interval.
+    fn ends(&self) -> [Self; 2];
     /// Lower endpoint.
     fn lower(&self) -> Self::Bound;
     /// Upper endpoint.

@@ -217,6 +217,11 @@ impl Enclosure for Fixed {
         self.intersection(other)
     }
 
+    fn ends(&self) -> [Self; 2] {
+        let point = |x: &BigInt| Fixed { lo: x.clone(), hi: x.clone(), bits: self.bits };
+        [point(&self.lo), point(&self.hi)]
+    }
+
     fn lower(&self) -> BigInt {
         self.lo.clone()
     }

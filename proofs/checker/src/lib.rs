@@ -19,6 +19,7 @@
 //! | [`expansion`]   | `M` over a cell, as a point value and slopes                           |
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
+//! | [`postulate`]   | the Q1/Q2 postulate: blow-up, faces, tight edges                       |
 //! | [`witness`]     | refutations                                                            |
 //! | [`statement`]   | the claim in words                                                     |
 
@@ -36,9 +37,12 @@ pub mod kinematics;
 pub mod linear;
 pub mod model;
 pub mod number;
+pub mod postulate;
 pub mod rule;
 pub mod statement;
 mod strict;
 pub mod witness;
 
-pub use check::{check, obligations, read, Accepted, Rejected, TreeSize};
+pub use check::{
+    check, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded, Rejected, TreeSize,
+};

@@ -2,7 +2,8 @@
 
 use crate::certificate::Verdict;
 use crate::claim::{
-    Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements, Sign, Workspace,
+    Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements,
+    Sign, Workspace,
 };
 use std::fmt::{self, Write};
 
@@ -11,15 +12,47 @@ use std::fmt::{self, Write};
 /// # Errors
 /// Only if the formatter fails.
 pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> {
-    let Claim::Machine(claim) = claim;
     let mut out = String::new();
     match verdict {
         Verdict::Certified => writeln!(out, "It is proved:")?,
         Verdict::Refuted => writeln!(out, "It is proved that the following is FALSE:")?,
     }
-    machine(&mut out, claim)?;
-    requirements(&mut out, claim)?;
+    match claim {
+        Claim::Machine(claim) => {
+            machine(&mut out, claim)?;
+            requirements(&mut out, claim)?;
+        }
+        Claim::Postulate(claim) => postulate(&mut out, claim)?,
+    }
     Ok(out)
+}
+
+fn postulate(out: &mut String, claim: &PostulateClaim) -> fmt::Result {
+    match &claim.psi_max {
+        PsiMax::All => writeln!(out, "For every psi_max > 1,")?,
+        PsiMax::Range(range) if range.is_exact() => writeln!(out, "For psi_max = {},", range.min)?,
+        PsiMax::Range(range) => {
+            writeln!(out, "For every psi_max with {} <= psi_max <= {},", range.min, range.max)?;
+        }
+    }
+    writeln!(
+        out,
+        "with kappa = 1/psi_max, t1 = (1 - kappa)/2, t2 = 1 - kappa if kappa <= 1/2 and"
+    )?;
+    writeln!(
+        out,
+        "(1/kappa - 1)/2 otherwise, q1 = -L t1/sqrt(1 + 2 t1^2), q2 = L t2/sqrt(1 + 2 t2^2),"
+    )?;
+    writeln!(out, "the Orthoglide of any leg length L > 0 has at every point P of [q1, q2]^3:")?;
+    writeln!(out, "  every leg reaches P without a serial singularity;")?;
+    writeln!(out, "  P is not a parallel singularity;")?;
+    writeln!(out, "  1/psi_max <= psi_i(P) <= psi_max for i = 1, 2, 3 (the Q1/Q2 postulate);")?;
+    transmission_factors(out)
+}
+
+fn transmission_factors(out: &mut String) -> fmt::Result {
+    writeln!(out, "where psi_i are the velocity transmission factors at P, the inverse singular")?;
+    writeln!(out, "values of the inverse Jacobian M = J^-1.")
 }
 
 fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
@@ -80,8 +113,7 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     for (i, range) in joint_range.iter().flatten().enumerate() {
         writeln!(out, "  {};", Bounded(range, &format!("rho_{}(P)", i + 1)))?;
     }
-    writeln!(out, "where psi_i are the velocity transmission factors at P, the inverse singular")?;
-    writeln!(out, "values of the inverse Jacobian M = J^-1.")
+    transmission_factors(out)
 }
 
 struct Described<'a>(&'a Leg);

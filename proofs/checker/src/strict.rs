@@ -1,7 +1,7 @@
 //! Reading objects as objects: derived readers also take an array of the fields' values, in order,
 //! for an object; the format does not.
 
-use crate::certificate::{Node, MAX_NODES};
+use crate::certificate::MAX_NODES;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -40,30 +40,34 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Strict<T> {
     }
 }
 
-struct Nodes;
+struct List<T>(PhantomData<T>);
 
-impl<'de> Visitor<'de> for Nodes {
-    type Value = Vec<Node>;
+impl<'de, T: Deserialize<'de>> Visitor<'de> for List<T> {
+    type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an array of nodes")
+        f.write_str("an array of objects")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Vec<Node>, A::Error> {
-        let mut nodes = Vec::new();
-        while let Some(Strict(node)) = items.next_element()? {
-            if nodes.len() == MAX_NODES {
-                return Err(A::Error::custom(format!("more than {MAX_NODES} nodes")));
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Vec<T>, A::Error> {
+        let mut list = Vec::new();
+        while let Some(Strict(item)) = items.next_element()? {
+            if list.len() == MAX_NODES {
+                return Err(A::Error::custom(format!("more than {MAX_NODES} elements")));
             }
-            nodes.push(node);
+            list.push(item);
         }
-        Ok(nodes)
+        Ok(list)
     }
 }
 
-/// Reads an array of at most [`MAX_NODES`] node objects.
-pub(crate) fn nodes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Node>, D::Error> {
-    deserializer.deserialize_seq(Nodes)
+/// Reads an array of at most [`MAX_NODES`] objects.
+pub(crate) fn list<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    deserializer.deserialize_seq(List(PhantomData))
 }
 
 /// Reads three objects.
