@@ -8,7 +8,7 @@
     every base distance a and every tool offset e. *)
 
 From Coq Require Import Reals Lra Psatz.
-From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal CubeLower CubeUpper.
+From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal CubeLower CubeUpper Scaling.
 Local Open Scope R_scope.
 
 (** ** The paper's cube *)
@@ -25,17 +25,6 @@ Definition Q_2 (L psi : R) : vec := diagonal (q_2 L psi).
 (** W = [q_1, q_2]^3. *)
 Definition in_cube (L psi : R) (P : vec) : Prop := in_box (q_1 L psi) (q_2 L psi) P.
 
-(** What the paper requires of the machine at [P]: no singularity, and every
-    velocity transmission factor 1/xi_i between 1/psi and psi. *)
-Definition transmission_within (psi : R) (m : machine) (P : vec) : Prop :=
-  regular m P /\ forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv m P) v) <= psi ^ 2 * norm2 v.
-
-Lemma kappa_range : forall psi, 1 < psi -> 0 < 1 / psi < 1 /\ 1 / (1 / psi) = psi.
-Proof.
-  intros psi h. split; [| field; lra]. split; [apply Rdiv_lt_0_compat; lra |].
-  apply Rmult_lt_reg_r with psi; [lra |]. replace (1 / psi * psi) with 1 by (field; lra). lra.
-Qed.
-
 (** All that the proof needs to know about t_1 and t_2. *)
 Lemma t_facts : forall kappa, 0 < kappa < 1 ->
   0 < t_1 kappa < 1/2 /\ t_1 kappa < t_2 kappa < 1 /\
@@ -45,39 +34,9 @@ Proof.
   set (i := 1 / kappa) in *. destruct (Rle_dec kappa (1/2)); repeat split; try lra; nra.
 Qed.
 
-(** ** Scaling to L = 1 *)
-
 Section Machine.
 Variables L a e : R.
 Hypothesis L_pos : 0 < L.
-
-Lemma in_box_scale : forall lo hi P,
-  in_box (L * lo) (L * hi) P <-> in_box lo hi (vscale (/ L) P).
-Proof.
-  intros lo hi [x y z]. unfold in_box; cbn [vscale vx vy vz].
-  assert (X : forall u, L * lo <= u <= L * hi <-> lo <= / L * u <= hi).
-  { intro u. assert (E : L * (/ L * u) = u) by (field; lra). split; intros [h1 h2].
-    - split; apply Rmult_le_reg_l with L; lra.
-    - rewrite <- E. split; apply Rmult_le_compat_l; lra. }
-  rewrite !X. tauto.
-Qed.
-
-Lemma diagonal_scale : forall c P, vscale (/ L) P = diagonal c <-> P = diagonal (L * c).
-Proof.
-  intros c [x y z]. unfold diagonal, vscale; cbn [vx vy vz]. split; intro h.
-  - injection h as hx hy hz. f_equal; [rewrite <- hx | rewrite <- hy | rewrite <- hz]; field; lra.
-  - injection h as -> -> ->. f_equal; field; lra.
-Qed.
-
-(** Bounds on M at P/L are bounds on the machine at P. *)
-Lemma transmission_from_M : forall psi P, let p := vscale (/ L) P in
-  1 < psi -> reachable_unit p -> sigma_at_least (1 / psi) (M p) -> sigma_at_most psi (M p) ->
-  transmission_within psi (orthoglide L a e) P.
-Proof.
-  intros psi P p hpsi reach low up. destruct (kappa_range psi hpsi) as [k _]. split.
-  - apply (orthoglide_regular L a e L_pos P (1 / psi)); auto; lra.
-  - intro v. rewrite orthoglide_Jinv by assumption. split; [apply low | apply up].
-Qed.
 
 (** ** The theorem *)
 
@@ -101,7 +60,7 @@ Qed.
 
 Lemma cube_scaled : forall P, in_cube L psi P <-> in_box (- c1) c2 (vscale (/ L) P).
 Proof.
-  intro P. rewrite <- in_box_scale. unfold in_cube, q_1, q_2. fold kappa. fold c1. fold c2.
+  intro P. rewrite <- (in_box_scale L L_pos). unfold in_cube, q_1, q_2. fold kappa. fold c1. fold c2.
   replace (L * - c1) with (- L * c1) by ring. reflexivity.
 Qed.
 
@@ -128,7 +87,7 @@ Theorem q1q2_postulate : forall P, in_cube L psi P ->
 Proof.
   intros P h. pose proof kappa_01 as k.
   destruct (t_facts _ k) as [T1 [T2 [E [F _]]]]. destruct corners as [D1 [D2 _]].
-  apply transmission_from_M; [exact psi_gt_1 | apply cube_reachable; exact h | |].
+  apply transmission_from_M; [exact L_pos | exact psi_gt_1 | apply cube_reachable; exact h | |].
   - fold kappa. apply (cube_lower kappa c1 c2 (t_1 kappa) (t_2 kappa)); auto; try lra.
     apply cube_scaled; exact h.
   - apply sigma_at_most_weaken with (1 + 2 * t_2 kappa); [pose proof sum_below_psi; lra |].
@@ -139,25 +98,12 @@ Qed.
 
 Lemma M_at_Q_1 : Jinv (orthoglide L a e) (Q_1 L psi) = constant_offdiagonal (- t_1 kappa).
 Proof.
-  assert (h : in_cube L psi (Q_1 L psi)).
-  { apply cube_scaled. unfold Q_1, q_1. rewrite (proj2 (diagonal_scale (- c1) _));
-      [| fold kappa; fold c1; f_equal; ring].
-    destruct corners as [[? _] [[? _] _]]. unfold in_box, diagonal; cbn [vx vy vz]. lra. }
-  rewrite orthoglide_Jinv by (assumption || apply cube_reachable, h).
-  rewrite (proj2 (diagonal_scale (- c1) _)); [| unfold Q_1, q_1; fold kappa; fold c1; f_equal; ring].
-  apply M_diagonal_neg. apply corners.
+  unfold Q_1, q_1. fold kappa. fold c1. replace (- L * c1) with (L * - c1) by ring.
+  apply Jinv_diagonal_neg; [exact L_pos | apply corners].
 Qed.
 
 Lemma M_at_Q_2 : Jinv (orthoglide L a e) (Q_2 L psi) = constant_offdiagonal (t_2 kappa).
-Proof.
-  assert (h : in_cube L psi (Q_2 L psi)).
-  { apply cube_scaled. unfold Q_2, q_2. rewrite (proj2 (diagonal_scale c2 _));
-      [| reflexivity].
-    destruct corners as [[? _] [[? _] _]]. unfold in_box, diagonal; cbn [vx vy vz]. lra. }
-  rewrite orthoglide_Jinv by (assumption || apply cube_reachable, h).
-  rewrite (proj2 (diagonal_scale c2 _)); [| reflexivity].
-  apply M_diagonal_pos. apply corners.
-Qed.
+Proof. apply Jinv_diagonal_pos; [exact L_pos | apply corners]. Qed.
 
 (** At Q_1 the smallest singular value is 1/psi, whatever psi ... *)
 Theorem tight_at_Q_1 : stretches_by (1 / psi) (Jinv (orthoglide L a e) (Q_1 L psi)).
@@ -194,9 +140,9 @@ Proof.
   intros P h. pose proof kappa_01 as k.
   destruct (t_facts _ k) as [T1 [T2 [E [F _]]]]. destruct corners as [D1 [D2 lt]].
   assert (S1 : vscale (/ L) P = diagonal (- c1) <-> P = Q_1 L psi).
-  { rewrite diagonal_scale. unfold Q_1, q_1. fold kappa. fold c1.
+  { rewrite (diagonal_scale L L_pos). unfold Q_1, q_1. fold kappa. fold c1.
     replace (L * - c1) with (- L * c1) by ring. reflexivity. }
-  assert (S2 : vscale (/ L) P = diagonal c2 <-> P = Q_2 L psi) by apply diagonal_scale.
+  assert (S2 : vscale (/ L) P = diagonal c2 <-> P = Q_2 L psi) by (apply diagonal_scale; exact L_pos).
   split.
   - rewrite orthoglide_Jinv by (assumption || apply cube_reachable, h). rewrite <- S1, <- S2.
     intros [low | [v [nz up]]].
