@@ -51,7 +51,9 @@ Definition mdiag (a b c : R) : mat := Mat (Vec a 0 0) (Vec 0 b 0) (Vec 0 0 c).
 Definition midentity : mat := mdiag 1 1 1.
 Definition det (M : mat) : R := dot (row1 M) (cross (row2 M) (row3 M)).
 
-(** Goals that are equations or inequalities between explicit coordinates. *)
+(** Goals that are equations or inequalities between explicit coordinates.
+    Not for use where a section variable is a vector or a matrix: [destruct]
+    cannot remove it, and the loop does not end. *)
 Ltac unfold_vec :=
   repeat match goal with
     | M : mat |- _ => destruct M
@@ -86,6 +88,15 @@ Proof. vec_ring. Qed.
 
 Lemma mulv_identity : forall v, mulv midentity v = v.
 Proof. intros. apply vec_ext; unfold_vec; ring. Qed.
+
+Lemma mulv_madd : forall M N v, mulv (madd M N) v = vadd (mulv M v) (mulv N v).
+Proof. vec_ring. Qed.
+
+Lemma mulv_msub : forall M N v, mulv (msub M N) v = vsub (mulv M v) (mulv N v).
+Proof. vec_ring. Qed.
+
+Lemma mulv_mscale : forall a M v, mulv (mscale a M) v = vscale a (mulv M v).
+Proof. vec_ring. Qed.
 
 Lemma mulv_scale : forall M a v, mulv M (vscale a v) = vscale a (mulv M v).
 Proof. vec_ring. Qed.
