@@ -6,6 +6,7 @@
 //! | module       | does                                                                    |
 //! |--------------|-------------------------------------------------------------------------|
 //! | [`design`]   | reads design files, written by people, into claims in exact numbers     |
+//! | [`extremes`] | encloses how small and how large each quantity gets                     |
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
 //! | [`machine`]  | the machine's obligations and the rules that may discharge them         |
@@ -17,6 +18,7 @@
 //! | [`verify`]   | decides a claim: certified, refuted, or undecided                       |
 
 pub mod design;
+pub mod extremes;
 pub mod interval;
 pub mod machine;
 pub mod paper;
