@@ -7,8 +7,10 @@
 //! | `numbers`    | random expressions: values, canonical texts, signs                        |
 //! | `definite`   | definiteness of interval matrices against brute force                     |
 //! | `oracle`     | kinematics and singular values against an independent program             |
+//! | `rules`      | each rule: what it accepts, and what it rejects, named after the defect   |
 //! | `slopes`     | expansions over random cells against exact values                         |
 //! | `acceptance` | rules on random cells, bounds near the truth: what is accepted is true    |
+//! | `tree`       | the walk over a tree: complete ones, and one defect each                  |
 
 mod acceptance;
 mod approximate;
@@ -18,4 +20,6 @@ mod machines;
 mod numbers;
 mod oracle;
 mod random;
+mod rules;
 mod slopes;
+mod tree;
