@@ -158,7 +158,7 @@ fn judge(certificate: &Value, random: &mut Random) -> (usize, usize) {
             continue;
         };
         accepted += 1;
-        let Claim::Machine(claim) = &found.claim;
+        let Claim::Machine(claim) = &found.claim else { panic!("{name}") };
         match (verdict.verdict, &found.proof) {
             (Verdict::Certified, _) => assert!(!certainly_false(claim, random), "{name}"),
             (Verdict::Refuted, Proof::Witness(witness)) => {

@@ -26,7 +26,7 @@ fn designs_have_their_stated_verdicts() {
     ] {
         let file = format!("{}/tests/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let design = Design::read(Path::new(&file)).unwrap();
-        let Claim::Machine(claim) = &design.claim;
+        let Claim::Machine(claim) = &design.claim else { panic!("{name}") };
         let found = verified(claim, 20_000);
         assert_eq!(verdict(&found), Some(expected), "{name}");
         assert!(found.boxes <= most_boxes, "{name}: {} boxes", found.boxes);
