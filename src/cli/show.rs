@@ -160,6 +160,11 @@ fn violated(violation: &Violation) -> String {
         Violation::SigmaMax(_) => "the least psi is below psi_min".to_owned(),
         Violation::Reach(leg) => format!("leg {} cannot reach P with s > 0", leg.leg),
         Violation::JointRange(leg) => format!("rho_{} is outside its range", leg.leg),
+        Violation::Conditioning(_) => "the condition number is beyond its bound".to_owned(),
+        Violation::SerialMargin(leg) => format!("leg {} is below the serial margin", leg.leg),
+        Violation::ParallelMargin => "|det A| is below the parallel margin".to_owned(),
+        Violation::LegAngle(leg) => format!("leg {} is beyond its angle to the guide", leg.leg),
+        Violation::JointSpeed(leg) => format!("joint {} is beyond its speed", leg.leg),
         Violation::Singular(_) => "det M has another sign there than at a second point".to_owned(),
     }
 }

@@ -23,12 +23,12 @@ pub struct Frame {
 impl Frame {
     /// The frame of a claim; `None` where its numbers exceed what doubles can show.
     pub fn new<S>(claim: &MachineClaim, model: &Model<S>) -> Option<Self> {
-        if let (Workspace::Box { min, max }, Some(scale)) = (&claim.workspace, model.unit_exponent)
-        {
+        if let Some(scale) = model.unit_exponent {
+            let (min, max) = claim.workspace.bounding_box().ok()?;
             let end = |x: &[_; 3]| -> Option<[f64; 3]> {
                 Some([approximate(&x[0])?, approximate(&x[1])?, approximate(&x[2])?])
             };
-            let (min, max) = (end(min)?, end(max)?);
+            let (min, max) = (end(&min)?, end(&max)?);
             let unit = (scale as f64).exp2();
             return Some(Frame { least: min, width: from_fn(|k| max[k] - min[k]), unit });
         }

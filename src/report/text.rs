@@ -203,8 +203,10 @@ fn describe_counterexample(out: &mut String, found: &Counterexample) {
         let label = format!("leg {} {}", setting.leg, setting.parameter);
         labelled(out, &label, &exact(&setting.value));
     }
-    if let Some([x, y, z]) = found.direction {
-        labelled(out, "moving along", &format!("({x}, {y}, {z})"));
+    let directions = found.directions.iter().map(|[x, y, z]| format!("({x}, {y}, {z})"));
+    let directions: Vec<String> = directions.collect();
+    if !directions.is_empty() {
+        labelled(out, "moving along", &directions.join(" and "));
     }
 }
 

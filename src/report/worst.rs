@@ -1,7 +1,7 @@
 //! The worst values found of every requirement, as rows of a table.
 
 use super::place::{machine_at, Frame, FreeParameter};
-use crate::decimal::readable;
+use crate::decimal::{approximate, readable};
 use crate::sample::{Quality, Reached, Sampler, Values};
 use crate::verify::Worst;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Range, Workspace};
@@ -43,7 +43,7 @@ pub fn rows(claim: &MachineClaim, sampler: &Sampler, frame: &Frame, worst: &[Wor
             bound_text: format!("{relation} {}", readable(&number)),
             bound: format!("{relation} {number}"),
             worst_found: value(claim, found.quality, &values, frame),
-            at: frame.point(&found.place.u),
+            at: frame.point(&sampler.within(found.place.u)),
             machine: machine_at(claim, &found.place),
             seems_violated: found.margin < -NOISE,
         })
@@ -64,39 +64,67 @@ pub struct Bound {
 
 /// What a claim demands of a quality; `None` if nothing.
 pub fn bound(claim: &MachineClaim, quality: Quality) -> Option<Bound> {
-    let transmission = claim.requirements.transmission.as_ref();
-    let joint_range =
-        |leg: usize| -> Option<&Range> { claim.requirements.joint_range.as_ref()?.get(leg) };
-    let new = |requirement: String, relation, number| Some(Bound { requirement, relation, number });
-    match quality {
-        Quality::Clearance => new(clearance_name(claim).into(), ">", Exact::integer(0)),
-        Quality::Determinant => new("|det M|".into(), ">", Exact::integer(0)),
-        Quality::GreatestPsi => new("greatest psi".into(), "<=", transmission?.max.clone()?),
-        Quality::LeastPsi => {
-            let Range { min, max } = transmission?;
-            let psi_min = match (&claim.workspace, min, max) {
-                (Workspace::Cube { .. }, None, Some(psi_max)) => {
-                    Exact::integer(1).over(psi_max.clone()).ok()?
-                }
-                _ => min.clone()?,
-            };
-            new("least psi".into(), ">=", psi_min)
-        }
+    let demands = &claim.requirements;
+    let transmission = demands.transmission.as_ref();
+    let joint_range = |leg: usize| -> Option<&Range> { demands.joint_range.as_ref()?.get(leg) };
+    let degrees = if is_angular(claim) { ", deg" } else { "" };
+    let (requirement, relation, number) = match quality {
+        Quality::Clearance => (clearance_name(claim).to_owned(), ">", Exact::integer(0)),
+        Quality::Determinant => ("least |det M|".to_owned(), ">", Exact::integer(0)),
+        Quality::GreatestPsi => ("greatest psi".to_owned(), "<=", transmission?.max.clone()?),
+        Quality::LeastPsi => ("least psi".to_owned(), ">=", psi_min(claim)?),
         Quality::LeastRho(leg) => {
-            new(format!("least rho_{}", leg + 1), ">=", joint_range(leg)?.min.clone()?)
+            (format!("least rho_{}{degrees}", leg + 1), ">=", joint_range(leg)?.min.clone()?)
         }
         Quality::GreatestRho(leg) => {
-            new(format!("greatest rho_{}", leg + 1), "<=", joint_range(leg)?.max.clone()?)
+            (format!("greatest rho_{}{degrees}", leg + 1), "<=", joint_range(leg)?.max.clone()?)
         }
+        Quality::Conditioning => {
+            ("condition number".to_owned(), "<=", demands.conditioning.as_ref()?.max.clone())
+        }
+        Quality::SerialMargin(leg) => {
+            let min = demands.serial_margin.as_ref()?.min.clone();
+            (format!("serial margin {}", leg + 1), ">=", min)
+        }
+        Quality::ParallelMargin => {
+            ("parallel margin".to_owned(), ">=", demands.parallel_margin.as_ref()?.min.clone())
+        }
+        Quality::LegAngle(leg) => {
+            let max = demands.leg_angle.as_ref()?.max.clone();
+            (format!("leg angle {}, deg", leg + 1), "<=", max)
+        }
+        Quality::JointSpeed(leg) => {
+            let max = demands.joint_speed.as_ref()?.max.clone();
+            (format!("joint speed {}", leg + 1), "<=", max)
+        }
+    };
+    Some(Bound { requirement, relation, number })
+}
+
+/// `psi_min`; on the paper's cube it is `1/psi_max`.
+fn psi_min(claim: &MachineClaim) -> Option<Exact> {
+    let Range { min, max } = claim.requirements.transmission.as_ref()?;
+    match (&claim.workspace, max) {
+        (Workspace::Cube { .. }, Some(psi_max)) => Exact::integer(1).over(psi_max.clone()).ok(),
+        _ => min.clone(),
     }
+}
+
+fn legs(claim: &MachineClaim) -> &[Leg] {
+    match &claim.mechanism {
+        Mechanism::Orthoglide { .. } => &[],
+        Mechanism::Translational(legs) => legs,
+    }
+}
+
+/// Whether joint coordinates are angles; then transmission factors are lengths per radian.
+pub fn is_angular(claim: &MachineClaim) -> bool {
+    legs(claim).iter().any(Leg::is_angular)
 }
 
 /// Whether every leg is a slider, whose clearance is `s_i^2`.
 fn all_sliders(claim: &MachineClaim) -> bool {
-    match &claim.mechanism {
-        Mechanism::Orthoglide { .. } => true,
-        Mechanism::Translational(legs) => legs.iter().all(|leg| matches!(leg, Leg::Slider { .. })),
-    }
+    legs(claim).iter().all(|leg| matches!(leg, Leg::Slider { .. }))
 }
 
 fn clearance_name(claim: &MachineClaim) -> &'static str {
@@ -109,14 +137,24 @@ fn clearance_name(claim: &MachineClaim) -> &'static str {
 
 /// The value of a quality, in the design's unit.
 fn value(claim: &MachineClaim, quality: Quality, values: &Values, frame: &Frame) -> Option<f64> {
-    let Reached { matrix, xi, rho } = values.reached.as_ref()?;
+    let Reached { matrix, xi, rho, cosine, unit_determinant } = values.reached.as_ref()?;
+    // Rows of M are without unit, or inverse lengths for angular joints.
+    let (length, joint) = if is_angular(claim) { (frame.unit, 1.0) } else { (1.0, frame.unit) };
     Some(match quality {
         Quality::Clearance if all_sliders(claim) => values.clearance.max(0.0).sqrt() * frame.unit,
         Quality::Clearance => values.clearance,
-        Quality::Determinant => matrix.determinant().abs(),
-        Quality::GreatestPsi => xi[0].recip(),
-        Quality::LeastPsi => xi[2].recip(),
-        Quality::LeastRho(leg) | Quality::GreatestRho(leg) => rho[leg] * frame.unit,
+        Quality::Determinant => matrix.determinant().abs() / length.powi(3),
+        Quality::GreatestPsi => length / xi[0],
+        Quality::LeastPsi => length / xi[2],
+        Quality::LeastRho(leg) | Quality::GreatestRho(leg) => rho[leg] * joint,
+        Quality::Conditioning => xi[2] / xi[0],
+        Quality::SerialMargin(leg) => cosine[leg]?,
+        Quality::ParallelMargin => unit_determinant.abs(),
+        Quality::LegAngle(leg) => cosine[leg]?.min(1.0).acos().to_degrees(),
+        Quality::JointSpeed(leg) => {
+            let tool = approximate(&claim.requirements.joint_speed.as_ref()?.tool)?;
+            matrix.row(leg).norm() / length * tool
+        }
     })
 }
 
@@ -126,5 +164,10 @@ pub fn obligation(quality: Quality) -> Obligation {
         Quality::Clearance | Quality::Determinant | Quality::GreatestPsi => Obligation::SigmaMin,
         Quality::LeastPsi => Obligation::SigmaMax,
         Quality::LeastRho(_) | Quality::GreatestRho(_) => Obligation::JointRange,
+        Quality::Conditioning => Obligation::Conditioning,
+        Quality::SerialMargin(_) => Obligation::SerialMargin,
+        Quality::ParallelMargin => Obligation::ParallelMargin,
+        Quality::LegAngle(_) => Obligation::LegAngle,
+        Quality::JointSpeed(_) => Obligation::JointSpeed,
     }
 }
