@@ -91,11 +91,14 @@ Lemma q_antitone : forall k k', 0 < k < 1 -> 0 < k' < 1 -> k' <= k ->
   q1_unit k' <= q1_unit k /\ q2_unit k <= q2_unit k'.
 Proof.
   intros k k' h h' le. destruct (t_facts k h) as [T [T2 _]]. destruct (t_facts k' h') as [T' [T2' _]].
-  pose proof (position_on_diagonal (t_1 k) ltac:(lra)) as A. pose proof (position_on_diagonal (t_1 k') ltac:(lra)) as A'.
-  pose proof (position_on_diagonal (t_2 k) ltac:(lra)) as B. pose proof (position_on_diagonal (t_2 k') ltac:(lra)) as B'.
+  pose proof (position_on_diagonal (t_1 k) ltac:(lra)) as A.
+  pose proof (position_on_diagonal (t_1 k') ltac:(lra)) as A'.
+  pose proof (position_on_diagonal (t_2 k) ltac:(lra)) as B.
+  pose proof (position_on_diagonal (t_2 k') ltac:(lra)) as B'.
   unfold q1_unit, q2_unit. split.
   - apply Ropp_le_contravar, (diagonal_le _ _ _ _ A A'), t_1_antitone; exact le.
-  - apply (diagonal_le _ _ _ _ B B'). destruct le as [lt | ->]; [apply Rlt_le, t_2_antitone; assumption | apply Rle_refl].
+  - apply (diagonal_le _ _ _ _ B B').
+    destruct le as [lt | ->]; [apply Rlt_le, t_2_antitone; assumption | apply Rle_refl].
 Qed.
 
 (** A nonzero coordinate within the interval of kappa is an end of the
@@ -132,12 +135,14 @@ Lemma in_interval_of : forall k0 k u, 0 < k0 < 1 -> q1_unit k0 <= u <= q2_unit k
   0 < k < 1 -> k <= kappa_of u -> q1_unit k <= u <= q2_unit k.
 Proof.
   intros k0 k u h0 hu hk le. destruct (t_facts k hk) as [T [T2 _]].
-  destruct (position_on_diagonal (t_1 k) ltac:(lra)) as [a _]. destruct (position_on_diagonal (t_2 k) ltac:(lra)) as [b _].
+  destruct (position_on_diagonal (t_1 k) ltac:(lra)) as [a _].
+  destruct (position_on_diagonal (t_2 k) ltac:(lra)) as [b _].
   destruct (Req_dec u 0) as [-> | nz]; [unfold q1_unit, q2_unit; lra |].
   destruct (kappa_of_end k0 u h0 hu nz) as [b' e]. set (k' := kappa_of u) in *.
   assert (hk' : 0 < k' < 1) by lra. destruct (q_antitone k' k hk' hk le) as [l1 l2].
   destruct (t_facts k' hk') as [S [S2 _]].
-  destruct (position_on_diagonal (t_1 k') ltac:(lra)) as [a' _]. destruct (position_on_diagonal (t_2 k') ltac:(lra)) as [c' _].
+  destruct (position_on_diagonal (t_1 k') ltac:(lra)) as [a' _].
+  destruct (position_on_diagonal (t_2 k') ltac:(lra)) as [c' _].
   unfold q1_unit, q2_unit in *. destruct e as [e | e]; lra.
 Qed.
 
