@@ -112,6 +112,7 @@ pub enum Leg {
         /// `L_i > 0`.
         length: Quantity,
         /// The sign of `eta_i`.
+        #[serde(deserialize_with = "strict::name")]
         mode: WorkingMode,
     },
     /// Extensible leg: `rho_i` is its length.
