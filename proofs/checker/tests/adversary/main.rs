@@ -1,0 +1,3 @@
+//! False claims, and what would prove them: nothing here may be accepted.
+
+mod witnesses;
