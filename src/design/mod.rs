@@ -21,7 +21,9 @@
 //! ```
 
 mod document;
+mod drive;
 mod error;
+mod independence;
 mod mechanism;
 mod number;
 mod requirements;
@@ -121,11 +123,10 @@ fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
     let (machine, points, demands) =
         (table("mechanism")?, table("workspace")?, table("requirements")?);
     let setting = Setting { cube: points.find("cube"), joint_range: demands.find("joint_range") };
-    let cube = setting.cube.is_some();
-    // The form of the workspace decides what the other two tables need.
+    // The form of the workspace decides what the mechanism needs, and both decide what can be asked.
     let workspace = workspace::workspace(&points)?;
     let mechanism = mechanism::mechanism(&machine, &setting)?;
-    let requirements = requirements::requirements(&demands, cube)?;
+    let requirements = requirements::requirements(&demands, &mechanism)?;
     Ok(MachineClaim { mechanism, workspace, requirements })
 }
 
