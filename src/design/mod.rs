@@ -38,10 +38,12 @@ pub use error::{Defect, DesignError, Position, ReadError};
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 
+use crate::verify::MODEL_PRECISION;
 use document::{Document, Table};
 use mechanism::Setting;
 use orthocert_checker::claim::{Claim, ClaimError};
 use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use std::fs::File;
 use std::io::Read;
@@ -56,7 +58,7 @@ pub const MAX_FILE: u64 = 1 << 20;
 pub struct Design {
     /// The title that the file gives it.
     pub title: Option<String>,
-    /// The claim, well formed ([`MachineClaim::validate`]).
+    /// The claim, well formed ([`MachineClaim::validate`]) and with a model ([`Model::new`]).
     pub claim: Claim,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
@@ -73,6 +75,7 @@ impl Design {
         let claim = machine_claim(&root)?;
         let sources = Sources::of(text, tree.get_ref());
         claim.validate().map_err(|error| ill_formed(&root, &error))?;
+        Model::new(&claim, MODEL_PRECISION).map_err(|error| ill_formed(&root, &error))?;
         Ok(Design { title: title.map(str::to_owned), claim: Claim::Machine(claim), sources })
     }
 
