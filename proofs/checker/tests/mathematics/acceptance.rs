@@ -14,7 +14,7 @@ use orthocert_checker::enclosure::{Enclosure, Scalar};
 use orthocert_checker::expansion::{Expansion, ExpansionPoint};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::linear::{determinant, Matrix, Symmetric};
-use orthocert_checker::model::Model;
+use orthocert_checker::model::{JointRange, Model};
 use orthocert_checker::rule::{self, Rotation, TightCorner};
 use std::array::from_fn;
 
@@ -182,9 +182,10 @@ fn range_accepts_only_what_is_true() {
             let (min, max) = (fixed(least.1 - room), fixed(-greatest.1 + room));
             let ends = (random.once_in(2), random.once_in(2));
             let ends = (ends.0.then(|| min.clone()), (!ends.0 || ends.1).then(|| max.clone()));
-            let free = || (None, None);
+            let free = || JointRange::Length { min: None, max: None };
             let mut ranges = [free(), free(), free()];
-            ranges[leg] = ends.clone();
+            let (min, max) = ends.clone();
+            ranges[leg] = JointRange::Length { min, max };
             model.bounds.joint_range = Some(ranges);
             let accepted = rule::range(&model, &cell, &expansion).is_ok();
             counts.add(accepted);
@@ -192,6 +193,7 @@ fn range_accepts_only_what_is_true() {
                 for lambda in [least.0, greatest.0, random_lambda(&mut random)] {
                     let rho =
                         reference(&claim, &within_cell(&cell, &lambda)).unwrap()[leg].rho.clone();
+                    let rho = rho.length().unwrap();
                     let (low, high) = (ends.0.as_ref(), ends.1.as_ref());
                     assert!(low.is_none_or(|x| x.inf() <= rho.sup()), "{name}: {cell} {lambda:?}");
                     assert!(high.is_none_or(|x| rho.inf() <= x.sup()), "{name}: {cell} {lambda:?}");

@@ -69,7 +69,7 @@ impl Approximate {
         let legs = &self.0.legs;
         let states = [legs[0].at(&a)?, legs[1].at(&b)?, legs[2].at(&c)?];
         let matrix = from_fn(|i| from_fn(|j| states[i].row[j].0));
-        let rho = from_fn(|i| states[i].rho.0);
+        let rho = from_fn(|i| states[i].rho.length().map_or(f64::NAN, |rho| rho.0));
         Some(Approximation { xi: singular_values(&matrix), rho })
     }
 

@@ -42,7 +42,7 @@ pub fn slider(
 
 fn transmission(min: Option<&str>, max: Option<&str>) -> Requirements {
     let range = Range { min: min.map(exact), max: max.map(exact) };
-    Requirements { transmission: Some(range), joint_range: None }
+    Requirements { transmission: Some(range), ..Requirements::default() }
 }
 
 /// `[1/1000, 1000]`, bounds that the tests replace in the model.
@@ -113,7 +113,9 @@ pub fn all() -> Vec<(&'static str, MachineClaim)> {
 /// The ends of a workspace in the claim's unit.
 pub fn ends(claim: &MachineClaim) -> ([Exact; 3], [Exact; 3]) {
     match &claim.workspace {
-        Workspace::Box { min, max } => (min.clone(), max.clone()),
+        Workspace::Box { .. } | Workspace::Cylinder { .. } => {
+            claim.workspace.bounding_box().unwrap()
+        }
         Workspace::Cube { side } => {
             let transmission = claim.requirements.transmission.as_ref().unwrap();
             let cube = CubeConstants::new(transmission.max.as_ref().unwrap(), side).unwrap();

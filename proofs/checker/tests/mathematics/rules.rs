@@ -7,10 +7,10 @@ use num_traits::FromPrimitive;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::claim::{MachineClaim, Sign};
 use orthocert_checker::enclosure::{Enclosure, Scalar};
-use orthocert_checker::expansion::{natural_rho, Expansion, ExpansionPoint, OutOfReach};
+use orthocert_checker::expansion::{Expansion, ExpansionPoint, OutOfReach, Region};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::linear::{product, Matrix};
-use orthocert_checker::model::Model;
+use orthocert_checker::model::{JointRange, Model};
 use orthocert_checker::rule::{self, Failure, Rotation, TightCorner, MAX_QUATERNION};
 use std::array::from_fn;
 
@@ -146,8 +146,7 @@ fn singular_between_vertices(axis: usize, entry: usize) -> Expansion<Fixed> {
             true => turned(from_fn(|i| i64::from(i == entry))),
             false => zero.clone(),
         }),
-        rho: from_fn(|_| integer(0)),
-        rho_slopes: from_fn(|_| from_fn(|_| integer(0))),
+        rho: [None, None, None],
     }
 }
 
@@ -263,18 +262,20 @@ fn range_table() {
     let mut model = Model::new(&claim, BITS).unwrap();
     let expansion = centred(&model, &cell);
     let enclosures: [Fixed; 3] = from_fn(|leg| {
-        let centred = expansion.rho_slopes[leg]
-            .iter()
-            .fold(expansion.rho[leg].clone(), |sum, slope| sum.add(&slope.join(&slope.neg())));
-        natural_rho(&model, &cell, leg).unwrap().meet(&centred).unwrap()
+        let (at, slopes) = expansion.rho[leg].as_ref().unwrap();
+        let centred = slopes.iter().fold(at.clone(), |sum, h| sum.add(&h.join(&h.neg())));
+        let over = Region::new(&model, &cell, ExpansionPoint::Centre).over;
+        let natural = model.legs[leg].at(&over[leg]).unwrap();
+        natural.rho.length().unwrap().meet(&centred).unwrap()
     });
     let unit = || Fixed::new(1.into(), 1.into(), BITS).unwrap();
     let point = |x: &num_bigint::BigInt| Fixed::new(x.clone(), x.clone(), BITS).unwrap();
     for (leg, rho) in enclosures.iter().enumerate() {
         let (low, high) = (point(rho.lo()), point(rho.hi()));
         let mut with = |min: Option<Fixed>, max: Option<Fixed>| {
-            let mut ranges = [(None, None), (None, None), (None, None)];
-            ranges[leg] = (min, max);
+            let free = || JointRange::Length { min: None, max: None };
+            let mut ranges = [free(), free(), free()];
+            ranges[leg] = JointRange::Length { min, max };
             model.bounds.joint_range = Some(ranges);
             rule::range(&model, &cell, &expansion)
         };

@@ -5,7 +5,7 @@ use crate::random::Random;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::enclosure::Scalar;
-use orthocert_checker::expansion::{natural_rho, Expansion, ExpansionPoint};
+use orthocert_checker::expansion::{Expansion, ExpansionPoint, Region};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::kinematics::LegState;
 use orthocert_checker::model::Model;
@@ -34,8 +34,9 @@ fn enclosed(expansion: &Expansion<Fixed>, lambda: &[i64; 3], exact: &[LegState<F
             let entry = moved(&expansion.matrix[i][j], slopes, lambda);
             count += u32::from(meets(&entry, &state.row[j]));
         }
-        let rho = moved(&expansion.rho[i], &expansion.rho_slopes[i], lambda);
-        count += u32::from(meets(&rho, &state.rho));
+        let (at, slopes) = expansion.rho[i].as_ref().unwrap();
+        let rho = moved(at, slopes, lambda);
+        count += u32::from(meets(&rho, state.rho.length().unwrap()));
     }
     count
 }
@@ -71,9 +72,13 @@ fn expansions_about_the_centre_enclose_m_and_rho() {
 
 fn assert_natural_rho(model: &Model<Fixed>, cell: &Cell, exact: &[LegState<Fixed>; 3], name: &str) {
     for (leg, state) in exact.iter().enumerate() {
-        let rho = natural_rho(model, cell, leg);
-        let rho = rho.unwrap_or_else(|| panic!("{name}: {cell}: expanded, but no natural rho"));
-        assert!(meets(&rho, &state.rho), "{name}: {cell}: natural rho of leg {leg}");
+        let over = Region::new(model, cell, ExpansionPoint::Centre).over;
+        let found = model.legs[leg].at(&over[leg]);
+        let rho = found.unwrap_or_else(|| panic!("{name}: {cell}: expanded, but no natural rho"));
+        assert!(
+            meets(rho.rho.length().unwrap(), state.rho.length().unwrap()),
+            "{name}: {cell}: natural rho of leg {leg}"
+        );
     }
 }
 
