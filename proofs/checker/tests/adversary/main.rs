@@ -1,5 +1,6 @@
 //! False claims, and what would prove them: nothing here may be accepted.
 
+mod case;
 mod cube;
 mod falsehoods;
 mod identities;
