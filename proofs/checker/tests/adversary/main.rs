@@ -5,5 +5,6 @@ mod cube;
 mod falsehoods;
 mod identities;
 mod random;
+mod statements;
 mod truth;
 mod witnesses;
