@@ -2,6 +2,7 @@
 
 mod case;
 mod cube;
+mod faces;
 mod falsehoods;
 mod identities;
 mod random;
