@@ -5,9 +5,11 @@
 use crate::case::{cells_around, discharged, with_tolerances, workspace, Case};
 use crate::random::Random;
 use crate::truth::{self, determinant, exact, Leg, V};
+use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{LegNumber, SecondPoint, Violation, Witness};
-use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::claim::{AtLeast, MachineClaim, Mechanism, Range, Requirements, Workspace};
 use orthocert_checker::model::Model;
+use orthocert_checker::rule;
 use orthocert_checker::witness;
 use std::array::from_fn;
 use std::collections::BTreeMap;
@@ -240,6 +242,42 @@ fn the_cube_meets_further_requirements_exactly_where_its_sliders_do() {
                 let refuted = witness::check(&claim, &witness).is_ok();
                 assert_eq!(refuted, slack < 0.0 && !unviolated, "round {round}");
             }
+        }
+    }
+}
+
+/// With guides along x and y and a fixed normal along z, `det U = eta_1 eta_2 - x y` for `L = 1`,
+/// which is `1 - (x + y)^2/2` up to fourth powers: all of it is of second order about the centre.
+/// On `|x|, |y| <= a` the least value is near `1 - 2 a^2`, and the slope form gives just that: it
+/// has nothing to spare that would hide a term left out.
+#[test]
+fn the_slope_form_of_the_determinant_misses_no_term_of_second_order() {
+    let a = 0.125;
+    let guide = |direction: V| Leg::Slider {
+        direction,
+        anchor: [0.0; 3],
+        platform: [0.0; 3],
+        length: 1.0,
+        mode: 1.0,
+    };
+    let (x, y) = (guide([1.0, 0.0, 0.0]), guide([0.0, 1.0, 0.0]));
+    let z = Leg::Planar { direction: [0.0, 0.0, 1.0] };
+    for legs in [[x, y, z], [x, z, y], [y, x, z], [y, z, x], [z, x, y], [z, y, x]] {
+        let corner = determinant(&legs.map(|leg| leg.at([a, a, 0.0]).unit)).abs();
+        for (least, holds) in [(corner * (1.0 + 1e-6), false), (1.0 - 2.2 * a * a, true)] {
+            let claim = MachineClaim {
+                mechanism: Mechanism::Translational(legs.map(|leg| leg.claimed())),
+                workspace: Workspace::Box {
+                    min: [-a, -a, 0.0].map(exact),
+                    max: [a, a, 0.0].map(exact),
+                },
+                requirements: Requirements {
+                    parallel_margin: Some(AtLeast { min: exact(least) }),
+                    ..Requirements::default()
+                },
+            };
+            let model = Model::new(&claim, 128).expect("enclosed");
+            assert_eq!(rule::parallel_margin(&model, &Cell::ROOT).is_ok(), holds, "{legs:?}");
         }
     }
 }
