@@ -16,10 +16,11 @@
 //!
 //! The steps `blow_up`, `edge` and `mirror` belong to the postulate, [`crate::postulate`].
 //!
-//! A rule does not know where in the tree it is used; [`crate::check`] adds that. Every rule but
-//! `cube` encloses `M` or `rho` over the cell and can do so only where every leg certainly reaches
-//! every point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes
-//! serial singularities as well as parallel ones.
+//! A rule does not know where in the tree it is used; [`crate::check`] adds that. The rules for
+//! `sigma_min` enclose `M` over the cell and can do so only where every leg certainly reaches every
+//! point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes serial
+//! singularities as well as parallel ones, and the other rules need not. `cube` and `outside`
+//! enclose nothing; `leg_angle`, up to 90 degrees, does not exclude `s_i = 0`.
 //!
 //! All rules are statements about one fixed machine. Where parameters are intervals, the
 //! enclosures hold every machine's `M(c)` and `E_k`, and the rule holds for each of them.

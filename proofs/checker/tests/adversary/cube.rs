@@ -165,9 +165,11 @@ fn the_blow_up_is_the_matrix_that_it_stands_for() {
         let kappa = random_kappa(&mut random, half);
         let about = [None, Some(TightCorner::Q1), Some(TightCorner::Q2)][random.below(3) as usize];
         let (parts, normaliser, blow_up) = random_blow_up(&mut random, half, kappa, about);
-        let touches = |part: &Part| match (part, about) {
-            (Part::AtQ1, Some(TightCorner::Q2)) | (Part::AtQ2, Some(TightCorner::Q1)) => false,
-            _ => true,
+        let touches = |part: &Part| {
+            !matches!(
+                (part, about),
+                (Part::AtQ1, Some(TightCorner::Q2)) | (Part::AtQ2, Some(TightCorner::Q1))
+            )
         };
         let Some(blow_up) = blow_up.filter(|_| parts.iter().all(touches)) else { continue };
         let Ok(expansion) = blow_up.expand(about) else { continue };

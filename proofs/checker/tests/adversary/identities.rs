@@ -35,6 +35,10 @@ fn near(x: &Fixed, value: f64) -> bool {
     x.inf() - &slack <= value && value <= x.sup() + slack
 }
 
+fn all_near(x: &Vector<Fixed>, values: &V) -> bool {
+    x.iter().zip(values).all(|(x, &value)| near(x, value))
+}
+
 fn at_point(legs: &[truth::Leg; 3], p: V) -> Model<Fixed> {
     let point = p.map(exact);
     let claim = MachineClaim {
@@ -58,25 +62,23 @@ fn every_leg_meets_its_slope_identities_and_geometry() {
         let (here, there) = (at_point(&legs, c), at_point(&legs, p));
         let unit = (here.unit_exponent.expect("a power of two") as f64).exp2();
         let angular = matches!(legs[0], truth::Leg::Arm { .. });
-        for i in 0..3 {
+        for (i, numbers) in legs.iter().enumerate() {
             let (w_c, w) = (&here.origin[i], &there.origin[i]);
             let delta = sub(w, w_c);
             let leg = &here.legs[i];
             let expansion = leg.expand(w_c, w).expect("within reach");
             let (state, state_c) = (leg.at(w).expect("reach"), leg.at(w_c).expect("reach"));
             let moved = add(&expansion.row, &apply(&expansion.slope, &delta));
-            assert!(all_same(&expansion.row, &state_c.row), "{:?}", legs[i]);
-            assert!(all_same(&moved, &state.row), "{:?}", legs[i]);
+            assert!(all_same(&expansion.row, &state_c.row), "{numbers:?}");
+            assert!(all_same(&moved, &state.row), "{numbers:?}");
             let (unit_c, unit_slope) = leg.expand_unit(w_c, w).expect("reach");
             let (unit_p, _) = leg.expand_unit(w, w).expect("reach");
             assert!(all_same(&add(&unit_c, &apply(&unit_slope, &delta)), &unit_p));
 
-            let truth = legs[i].at(p);
+            let truth = numbers.at(p);
             let rate = if angular { unit } else { 1.0 };
-            for k in 0..3 {
-                assert!(near(&state.row[k], truth.row[k] * rate), "{:?}", legs[i]);
-                assert!(near(&unit_p[k], truth.unit[k]), "{:?}", legs[i]);
-            }
+            let row = truth.row.map(|x| x * rate);
+            assert!(all_near(&state.row, &row) && all_near(&unit_p, &truth.unit), "{numbers:?}");
             match (&state.rho, &expansion.rho) {
                 (JointCoordinate::Length(rho), Some((rho_c, slope))) => {
                     assert!(same(rho, &rho_c.add(&dot(slope, &delta))));
@@ -123,7 +125,7 @@ fn cosines_and_sines_agree_at_every_precision() {
         }
     }
     // cos 36 = (1 + sqrt 5)/4, an exact value that no symmetry of the series gives.
-    let golden = Exact::parse("(1+sqrt(5))/4", 100).and_then(|x| Ok(x.enclose(0, 1024)));
+    let golden = Exact::parse("(1+sqrt(5))/4", 100).map(|x| x.enclose(0, 1024));
     let golden = golden.expect("a number").expect("enclosed");
     let (cos, _) = cos_sin(&Exact::integer(36), 1024).expect("within a turn");
     assert!(cos.intersection(&golden).is_some());

@@ -17,7 +17,7 @@ fn vector(x: [i64; 3]) -> [Quantity; 3] {
 
 /// Legs of length 1 on arms of `10^-30`, stretched out along the axes, at the single point `O`.
 /// `D = 1 - r^2/4 > 0` for each, and `M` is nearly `I/r`.
-fn tiny_arms() -> MachineClaim {
+pub fn tiny_arms() -> MachineClaim {
     let r = Exact::parse("1e-30", 100).unwrap();
     let leg = |axis, anchor| Leg::Arm {
         axis: vector(axis),
