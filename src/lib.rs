@@ -9,6 +9,7 @@
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
 //! | [`machine`]  | the machine's obligations and the rules that may discharge them         |
+//! | [`paper`]    | the claims of the seed paper, one by one                                |
 //! | [`postulate`]| proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
 //! | [`refute`]   | turns a place where a requirement seems to fail into an exact witness   |
 //! | [`rotation`] | finds the orthogonal matrix that the vertex rule takes as evidence      |
@@ -18,6 +19,7 @@
 pub mod design;
 pub mod interval;
 pub mod machine;
+pub mod paper;
 pub mod postulate;
 pub mod refute;
 pub mod rotation;

@@ -5,9 +5,9 @@ use crate::rotation;
 use crate::search::{by_weight, Problem, Trial};
 use nalgebra::Matrix3;
 use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::Step;
-use orthocert_checker::enclosure::{Enclosure, Scalar};
-use orthocert_checker::expansion::{Expansion, ExpansionPoint};
+use orthocert_checker::certificate::{ConditioningEvidence, Step};
+use orthocert_checker::enclosure::Enclosure;
+use orthocert_checker::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use orthocert_checker::linear::Matrix;
 use orthocert_checker::model::Model;
 use orthocert_checker::rule::{self, Failure, Obligation, TightCorner};
@@ -24,6 +24,10 @@ impl Problem for Model<Interval> {
 
 /// Tries every rule that may discharge what is open on a box.
 fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
+    if rule::outside(model, cell).is_ok() {
+        let axes = Axis::ALL;
+        return Trial { steps: vec![Step::Outside], failures: Vec::new(), axes, hopeless: false };
+    }
     let expansion = Expansion::new(model, cell, ExpansionPoint::Centre);
     let mut trial = Trial {
         steps: Vec::new(),
@@ -35,34 +39,43 @@ fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
         hopeless: false,
     };
     for &obligation in open {
-        let step = match (obligation, &expansion) {
-            (Obligation::SigmaMax, _) if model.is_cube => Ok(Step::Cube),
-            (Obligation::SigmaMin, expansion) => {
-                let about_centre = match expansion {
-                    Ok(expansion) => lower_step(model, expansion),
-                    Err(out) => Err(Failure::from(*out)),
-                };
-                about_centre.or_else(|failure| corner_step(model, cell).ok_or(failure))
-            }
-            (Obligation::SigmaMax, Ok(expansion)) => {
-                rule::upper(model, expansion).map(|()| Step::Upper)
-            }
-            (Obligation::JointRange, Ok(expansion)) => {
-                rule::range(model, cell, expansion).map(|()| Step::Range)
-            }
-            (_, Err(out)) => Err(Failure::from(*out)),
-            _ => Err(Failure::NoSuchBound),
-        };
-        match step {
+        match discharge(model, cell, &expansion, obligation) {
             Ok(step) => trial.steps.push(step),
             Err(failure) => trial.failures.push((obligation, failure)),
         }
     }
-    if let (Ok(expansion), false) = (&expansion, trial.failures.is_empty()) {
-        trial.hopeless =
-            trial.failures.iter().any(|&(o, _)| defeated_at_centre(model, expansion, o));
+    if let Ok(expansion) = &expansion {
+        let defeated = |(o, _): &(Obligation, Failure)| defeated_at_centre(model, expansion, *o);
+        trial.hopeless = trial.failures.iter().any(defeated);
     }
     trial
+}
+
+/// The step that discharges an obligation on a cell, if one does.
+fn discharge(
+    model: &Model<Interval>,
+    cell: &Cell,
+    expansion: &Result<Expansion<Interval>, OutOfReach>,
+    obligation: Obligation,
+) -> Result<Step, Failure> {
+    let about_centre = || expansion.as_ref().map_err(|&out| Failure::from(out));
+    match obligation {
+        Obligation::SigmaMin => {
+            let about_centre = about_centre().and_then(|expansion| lower_step(model, expansion));
+            about_centre.or_else(|failure| corner_step(model, cell).ok_or(failure))
+        }
+        Obligation::SigmaMax if model.is_cube => Ok(Step::Cube),
+        Obligation::SigmaMax => rule::upper(model, about_centre()?).map(|()| Step::Upper),
+        Obligation::JointRange => rule::range(model, cell, about_centre()?).map(|()| Step::Range),
+        Obligation::Conditioning => conditioning_step(model, about_centre()?),
+        Obligation::SerialMargin => rule::serial_margin(model, cell).map(|()| Step::SerialMargin),
+        Obligation::ParallelMargin => {
+            rule::parallel_margin(model, cell).map(|()| Step::ParallelMargin)
+        }
+        Obligation::LegAngle => rule::leg_angle(model, cell).map(|()| Step::LegAngle),
+        Obligation::JointSpeed => rule::speed(model, about_centre()?).map(|()| Step::Speed),
+        _ => Err(Failure::NoSuchBound),
+    }
 }
 
 /// The shortest evidence with which the lower vertex rule holds.
@@ -98,7 +111,33 @@ fn corner_step(model: &Model<Interval>, cell: &Cell) -> Option<Step> {
     Some(Step::Corner(corner))
 }
 
-/// Whether the rule fails already on the centre alone: the box contains a point at which it cannot
+/// The shortest evidence with which the conditioning rule holds. `mu` is put half-way between what
+/// both vertex rules allow: at the centre, and, by differences, along each axis.
+fn conditioning_step(
+    model: &Model<Interval>,
+    expansion: &Expansion<Interval>,
+) -> Result<Step, Failure> {
+    let c = model.bounds.conditioning.as_ref().ok_or(Failure::NoSuchBound)?.mid();
+    let matrix = centre_of(&expansion.matrix);
+    let middle = |m: Matrix3<f64>| {
+        let xi = m.singular_values();
+        (xi.min() + xi.max() / c) / 2.0
+    };
+    let scale = f64::from(rule::MU_BITS).exp2();
+    let mut mu = [(middle(matrix) * scale) as i64, 0, 0, 0];
+    for k in 0..3 {
+        let slope = centre_of(&expansion.slopes[k]);
+        mu[k + 1] = ((middle(matrix + slope) - middle(matrix - slope)) / 2.0 * scale) as i64;
+    }
+    let holds = |rotation: &rule::Rotation| rule::conditioning(model, expansion, rotation, &mu);
+    let candidates = rotation::candidates(&matrix);
+    let best = candidates.last().ok_or(Failure::BadRotation)?;
+    holds(best)?;
+    let rotation = *candidates.iter().find(|r| holds(r).is_ok()).unwrap_or(best);
+    Ok(Step::Conditioning(ConditioningEvidence { rotation, mu }))
+}
+
+/// Whether a rule fails already on the centre alone: the box contains a point at which it cannot
 /// succeed, because the requirement fails there, holds with equality, or because the parameters'
 /// tolerances are too wide.
 fn defeated_at_centre(
@@ -112,14 +151,9 @@ fn defeated_at_centre(
     match obligation {
         Obligation::SigmaMin => lower_step(model, &at_centre).is_err(),
         Obligation::SigmaMax => rule::upper(model, &at_centre).is_err(),
-        Obligation::JointRange => {
-            let ranges = model.bounds.joint_range.iter().flatten();
-            ranges.zip(&at_centre.rho).any(|((min, max), rho)| {
-                let above = min.as_ref().is_none_or(|min| rho.sub(min).is_nonnegative());
-                let below = max.as_ref().is_none_or(|max| max.sub(rho).is_nonnegative());
-                !(above && below)
-            })
-        }
+        Obligation::Conditioning => conditioning_step(model, &at_centre).is_err(),
+        Obligation::JointSpeed => rule::speed(model, &at_centre).is_err(),
+        // Decided by values over the box, not about its centre.
         _ => false,
     }
 }

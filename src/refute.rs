@@ -5,7 +5,9 @@ use nalgebra::Matrix3;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
-use orthocert_checker::certificate::{Direction, LegNumber, SecondPoint, Violation, Witness};
+use orthocert_checker::certificate::{
+    Direction, LegNumber, SecondPoint, TwoDirections, Violation, Witness,
+};
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::model::{CubeConstants, Model};
@@ -35,7 +37,7 @@ pub fn witness_at(
     }
     let workspace = Ends::new(claim)?;
     DIGITS.iter().find_map(|&digits| {
-        let point = workspace.point(&place.u, digits)?;
+        let point = workspace.point(&sampler.within(place.u), digits)?;
         let machine = machine_at(claim, &place.t, digits)?;
         violations(claim, quality, &point, machine.as_ref())?.into_iter().find_map(|violates| {
             let witness = Witness {
@@ -65,10 +67,10 @@ pub fn singular_between(
     DIGITS.iter().find_map(|&digits| {
         let witness = Witness {
             precision: PRECISION,
-            point: workspace.point(&one.u, digits)?,
+            point: workspace.point(&sampler.within(one.u), digits)?,
             machine: machine_at(claim, &one.t, digits)?,
             violates: Violation::Singular(SecondPoint {
-                other: workspace.point(&other.u, digits)?,
+                other: workspace.point(&sampler.within(other.u), digits)?,
             }),
         };
         witness::check(claim, &witness).is_ok().then_some(witness)
@@ -98,6 +100,14 @@ fn violations(
             directions(&matrix, 0).map(direction).collect()
         }
         Quality::LeastRho(leg) | Quality::GreatestRho(leg) => vec![leg_number(leg)],
+        Quality::Conditioning => directions(&matrix, 0)
+            .zip(directions(&matrix, 2))
+            .map(|(u, v)| Violation::Conditioning(TwoDirections { u: u.vector, v: v.vector }))
+            .collect(),
+        Quality::SerialMargin(leg) => vec![Violation::SerialMargin(LegNumber { leg: leg + 1 })],
+        Quality::ParallelMargin => vec![Violation::ParallelMargin],
+        Quality::LegAngle(leg) => vec![Violation::LegAngle(LegNumber { leg: leg + 1 })],
+        Quality::JointSpeed(leg) => vec![Violation::JointSpeed(LegNumber { leg: leg + 1 })],
         Quality::Clearance | Quality::Determinant => Vec::new(),
     })
 }
@@ -130,7 +140,10 @@ struct Ends {
 impl Ends {
     fn new(claim: &MachineClaim) -> Option<Self> {
         match &claim.workspace {
-            Workspace::Box { min, max } => Some(Ends { min: min.clone(), max: max.clone() }),
+            Workspace::Box { .. } | Workspace::Cylinder { .. } => {
+                let (min, max) = claim.workspace.bounding_box().ok()?;
+                Some(Ends { min, max })
+            }
             Workspace::Cube { side } => {
                 let psi_max = claim.requirements.transmission.as_ref()?.max.as_ref()?;
                 let cube = CubeConstants::new(psi_max, side).ok()?;

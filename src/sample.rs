@@ -5,10 +5,10 @@
 
 use crate::interval::Approx;
 use nalgebra::Matrix3;
-use orthocert_checker::claim::{self, MachineClaim, Mechanism, Parameter, Workspace};
-use orthocert_checker::kinematics::Leg;
+use orthocert_checker::claim::{self, MachineClaim, Mechanism};
+use orthocert_checker::kinematics::{JointCoordinate, Leg};
 use orthocert_checker::linear::Vector;
-use orthocert_checker::model::{Bounds, Model};
+use orthocert_checker::model::{Bounds, JointRange, Model};
 use orthocert_checker::number::Exact;
 
 /// A point of the workspace and a machine within the tolerances, each as parts in `[0, 1]`.
@@ -20,10 +20,11 @@ pub struct Place {
     pub t: Vec<f64>,
 }
 
-/// A requirement whose worst value is looked for.
+/// A requirement whose worst value is looked for. Legs are counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quality {
-    /// `s_i / L_i` at its least over the legs: zero at a serial singularity.
+    /// Clearance at its least over the legs: zero at a serial singularity.
     Clearance,
     /// `|det M|`: zero at a parallel singularity.
     Determinant,
@@ -31,16 +32,26 @@ pub enum Quality {
     GreatestPsi,
     /// `psi_min`: the least `psi_i`.
     LeastPsi,
-    /// `rho_i` of this leg (from zero) at its least.
+    /// `rho_i` of this leg at its least.
     LeastRho(usize),
-    /// `rho_i` of this leg (from zero) at its greatest.
+    /// `rho_i` of this leg at its greatest.
     GreatestRho(usize),
+    /// `sigma_max / sigma_min` at its greatest.
+    Conditioning,
+    /// `|eta_i| / L_i` of this leg at its least, against the serial margin.
+    SerialMargin(usize),
+    /// `|det A| / (L_1 L_2 L_3)` at its least.
+    ParallelMargin,
+    /// The angle between this leg and its guide at its greatest.
+    LegAngle(usize),
+    /// `|row_i of M|` at its greatest.
+    JointSpeed(usize),
 }
 
-/// What is found at a place; `None` where some leg does not reach it.
+/// What is found at a place.
 #[derive(Clone, Debug)]
 pub struct Values {
-    /// The least of `(s_i / L_i)^2`, negative out of reach (relative to the model's unit).
+    /// The least of the legs' clearances, in the model's unit: negative out of reach.
     pub clearance: f64,
     /// At places that every leg reaches.
     pub reached: Option<Reached>,
@@ -53,8 +64,12 @@ pub struct Reached {
     pub matrix: Matrix3<f64>,
     /// Singular values of `M`, ascending.
     pub xi: [f64; 3],
-    /// Joint coordinates, in the model's unit.
+    /// Joint coordinates: lengths in the model's unit, angles in degrees.
     pub rho: [f64; 3],
+    /// `|eta_i| / L_i`, for legs with a length.
+    pub cosine: [Option<f64>; 3],
+    /// `det A / (L_1 L_2 L_3)`.
+    pub unit_determinant: f64,
 }
 
 /// Evaluates a claim's machines in floating point.
@@ -101,8 +116,9 @@ impl Sampler {
 
     /// The values at a place.
     pub fn at(&self, place: &Place) -> Values {
+        let u = self.within(place.u);
         let displacement: Vector<Approx> =
-            std::array::from_fn(|k| Approx(self.model.width[k].0 * place.u[k]));
+            std::array::from_fn(|k| Approx(self.model.width[k].0 * u[k]));
         let Some(toleranced) = &self.legs else {
             return evaluate(&self.model.legs, &self.model.leg_vectors(&displacement));
         };
@@ -110,6 +126,19 @@ impl Sampler {
             Some((legs, w)) => evaluate(&legs, &w),
             None => Values { clearance: f64::NEG_INFINITY, reached: None },
         }
+    }
+
+    /// The parts of the workspace's box that a place stands for: in a cylinder, points outside it
+    /// are pulled to its surface along the radius.
+    pub fn within(&self, u: [f64; 3]) -> [f64; 3] {
+        let (x, y) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
+        let radius = x.hypot(y);
+        if !self.model.is_cylinder || radius <= 1.0 {
+            return u;
+        }
+        // A little inward, so that rounding to a short number stays inside.
+        let pull = (1.0 - 1e-12) / radius;
+        [(x * pull + 1.0) / 2.0, (y * pull + 1.0) / 2.0, u[2]]
     }
 
     /// How far a quality is from being violated at a place, relative to its bound: negative where
@@ -128,10 +157,27 @@ impl Sampler {
             }
             Quality::LeastPsi => bounds.k.map(|k| 1.0 - reached.xi[2] / k.0),
             Quality::LeastRho(leg) => {
-                bounds.joint_range.as_ref()?[leg].0.map(|min| reached.rho[leg] - min.0)
+                bounds.joint_range.as_ref()?[leg].least().map(|min| reached.rho[leg] - min)
             }
             Quality::GreatestRho(leg) => {
-                bounds.joint_range.as_ref()?[leg].1.map(|max| max.0 - reached.rho[leg])
+                bounds.joint_range.as_ref()?[leg].greatest().map(|max| max - reached.rho[leg])
+            }
+            Quality::Conditioning => {
+                bounds.conditioning.map(|c| 1.0 - reached.xi[2] / reached.xi[0] / c.0)
+            }
+            Quality::SerialMargin(leg) => {
+                let least = bounds.serial_margin?.0.sqrt();
+                Some(reached.cosine[leg]? / least - 1.0)
+            }
+            Quality::LegAngle(leg) => {
+                let least = bounds.leg_angle?.0.max(0.0).sqrt();
+                Some(reached.cosine[leg]? - least)
+            }
+            Quality::ParallelMargin => {
+                bounds.parallel_margin.map(|min| reached.unit_determinant.abs() / min.0 - 1.0)
+            }
+            Quality::JointSpeed(leg) => {
+                bounds.joint_speed.map(|max| 1.0 - reached.matrix.row(leg).norm() / max.0)
             }
         }
     }
@@ -146,9 +192,16 @@ impl Sampler {
         if bounds.k.is_some() {
             all.push(Quality::LeastPsi);
         }
-        for (leg, (min, max)) in bounds.joint_range.iter().flatten().enumerate() {
-            all.extend(min.is_some().then_some(Quality::LeastRho(leg)));
-            all.extend(max.is_some().then_some(Quality::GreatestRho(leg)));
+        for (leg, range) in bounds.joint_range.iter().flatten().enumerate() {
+            all.extend(range.least().map(|_| Quality::LeastRho(leg)));
+            all.extend(range.greatest().map(|_| Quality::GreatestRho(leg)));
+        }
+        all.extend(bounds.conditioning.map(|_| Quality::Conditioning));
+        all.extend(bounds.parallel_margin.map(|_| Quality::ParallelMargin));
+        for leg in 0..3 {
+            all.extend(bounds.serial_margin.map(|_| Quality::SerialMargin(leg)));
+            all.extend(bounds.leg_angle.map(|_| Quality::LegAngle(leg)));
+            all.extend(bounds.joint_speed.map(|_| Quality::JointSpeed(leg)));
         }
         all
     }
@@ -217,7 +270,46 @@ fn evaluate(legs: &[Leg<Approx>; 3], w: &[Vector<Approx>; 3]) -> Values {
     let matrix = Matrix3::from_fn(|i, j| rows[i][j].0);
     let mut xi: [f64; 3] = matrix.singular_values().into();
     xi.sort_by(f64::total_cmp);
-    Values { clearance, reached: Some(Reached { matrix, xi, rho: [a.rho.0, b.rho.0, c.rho.0] }) }
+    let unit = |i: usize| legs[i].expand_unit(&w[i], &w[i]).map(|(unit, _)| unit.map(|x| x.0));
+    let units = [unit(0), unit(1), unit(2)].map(|u| u.unwrap_or([f64::NAN; 3]));
+    let reached = Reached {
+        matrix,
+        xi,
+        rho: [a.rho, b.rho, c.rho].map(joint_value),
+        cosine: std::array::from_fn(|i| legs[i].cosine_squared(&w[i]).map(|x| x.0.max(0.0).sqrt())),
+        unit_determinant: Matrix3::from_fn(|i, j| units[i][j]).determinant(),
+    };
+    Values { clearance, reached: Some(reached) }
+}
+
+/// A length in the model's unit, or an angle in degrees.
+fn joint_value(rho: JointCoordinate<Approx>) -> f64 {
+    match rho {
+        JointCoordinate::Length(rho) => rho.0,
+        JointCoordinate::Angle { cos, sin } => sin.0.atan2(cos.0).to_degrees(),
+    }
+}
+
+/// The ends of a joint range, in the terms of [`joint_value`].
+trait Ends {
+    fn least(&self) -> Option<f64>;
+    fn greatest(&self) -> Option<f64>;
+}
+
+impl Ends for JointRange<Approx> {
+    fn least(&self) -> Option<f64> {
+        match self {
+            JointRange::Length { min, .. } => min.map(|x| x.0),
+            JointRange::Angle { min, .. } => Some(min.1 .0.atan2(min.0 .0).to_degrees()),
+        }
+    }
+
+    fn greatest(&self) -> Option<f64> {
+        match self {
+            JointRange::Length { max, .. } => max.map(|x| x.0),
+            JointRange::Angle { max, .. } => Some(max.1 .0.atan2(max.0 .0).to_degrees()),
+        }
+    }
 }
 
 impl Toleranced {
@@ -226,14 +318,12 @@ impl Toleranced {
         legs: &[claim::Leg; 3],
         model: &Model<orthocert_checker::fixed::Fixed>,
     ) -> Option<Self> {
-        let Workspace::Box { min, .. } = &claim.workspace else {
-            return None;
-        };
+        let (min, _) = claim.workspace.bounding_box().ok()?;
         let scale = model.unit_exponent?;
         let value = |x: &Exact, scale: i64| Some(Approx::from_fixed(&x.enclose(scale, 128)?).0);
         let ends = |leg: &claim::Leg| -> Option<Vec<(f64, f64)>> {
-            let end = |parameter: Parameter, x: &Exact| {
-                value(x, if parameter == Parameter::Direction { 0 } else { scale })
+            let end = |parameter: claim::Parameter, x: &Exact| {
+                value(x, if parameter.is_direction() { 0 } else { scale })
             };
             leg.parameters()
                 .iter()

@@ -99,7 +99,10 @@ impl Design {
         let claim = MachineClaim {
             mechanism: Mechanism::Orthoglide { offset: Exact::integer(0) },
             workspace: Workspace::Cube { side: Exact::integer(200) },
-            requirements: Requirements { transmission: Some(transmission), joint_range: None },
+            requirements: Requirements {
+                transmission: Some(transmission),
+                ..Requirements::default()
+            },
         };
         Design {
             title: Some("Orthoglide prototype".to_owned()),

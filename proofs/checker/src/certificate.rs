@@ -4,7 +4,7 @@ use crate::cell::Axis;
 use crate::claim::{Claim, Leg};
 use crate::number::Exact;
 use crate::postulate::{Face, Half};
-use crate::rule::{Rotation, TightCorner};
+use crate::rule::{Mu, Rotation, TightCorner};
 use crate::strict;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -132,12 +132,35 @@ pub enum Step {
     Cube,
     /// Enclosure of the joint coordinates.
     Range,
+    /// Both vertex rules with one affine `mu`, for the condition number.
+    Conditioning(#[serde(deserialize_with = "strict::object")] ConditioningEvidence),
+    /// Enclosure of `eta_i / L_i`.
+    SerialMargin,
+    /// Slope form of `det A`.
+    ParallelMargin,
+    /// Enclosure of `eta_i / L_i`, for the angle between leg and guide.
+    LegAngle,
+    /// Rows of `M` at the vertices.
+    Speed,
+    /// The cell has no point of the cylinder.
+    Outside,
     /// Postulate: vertex rule for the blow-up about the centre.
     BlowUp,
     /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.
     Edge(TightCorner),
     /// Postulate: the mirror image of other cells.
     Mirror,
+}
+
+/// Evidence for [`crate::rule::conditioning`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConditioningEvidence {
+    /// `W`.
+    #[serde(deserialize_with = "strict::object")]
+    pub rotation: Rotation,
+    /// `mu`.
+    pub mu: Mu,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.
@@ -171,6 +194,16 @@ pub enum Violation {
     Reach(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A joint coordinate is outside its range.
     JointRange(#[serde(deserialize_with = "strict::object")] LegNumber),
+    /// `|M u|^2 |v|^2 > c^2 |M v|^2 |u|^2`.
+    Conditioning(#[serde(deserialize_with = "strict::object")] TwoDirections),
+    /// `|eta_i| / L_i` is less than its bound.
+    SerialMargin(#[serde(deserialize_with = "strict::object")] LegNumber),
+    /// `|det A| / (L_1 L_2 L_3)` is less than its bound.
+    ParallelMargin,
+    /// The angle between leg and guide is greater than its bound.
+    LegAngle(#[serde(deserialize_with = "strict::object")] LegNumber),
+    /// `|row_i of M|` is greater than its bound.
+    JointSpeed(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// `det M` has opposite signs at two points of the workspace.
     Singular(#[serde(deserialize_with = "strict::object")] SecondPoint),
 }
@@ -181,6 +214,16 @@ pub enum Violation {
 pub struct Direction {
     /// `v`.
     pub vector: [i64; 3],
+}
+
+/// Two directions of motion, not zero.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TwoDirections {
+    /// `u`, which `M` stretches much.
+    pub u: [i64; 3],
+    /// `v`, which `M` stretches little.
+    pub v: [i64; 3],
 }
 
 /// A leg.

@@ -217,19 +217,34 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
 
 /// The obligations that a claim consists of.
 pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
+    let bounds = &model.bounds;
     let needed = |obligation: &Obligation| match obligation {
         Obligation::SigmaMin => true,
-        Obligation::SigmaMax => model.bounds.k.is_some(),
-        Obligation::JointRange => model.bounds.joint_range.is_some(),
+        Obligation::SigmaMax => bounds.k.is_some(),
+        Obligation::JointRange => bounds.joint_range.is_some(),
+        Obligation::Conditioning => bounds.conditioning.is_some(),
+        Obligation::SerialMargin => bounds.serial_margin.is_some(),
+        Obligation::ParallelMargin => bounds.parallel_margin.is_some(),
+        Obligation::LegAngle => bounds.leg_angle.is_some(),
+        Obligation::JointSpeed => bounds.joint_speed.is_some(),
     };
     Obligation::ALL.into_iter().filter(needed).collect()
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u8;
+type Discharged = u32;
+const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
 fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
+}
+
+/// What a step discharges.
+fn discharges(step: &Step) -> Discharged {
+    match step.rule().1 {
+        Some(obligation) => bit(obligation),
+        None => Discharged::MAX,
+    }
 }
 
 /// A tree to be walked: its nodes, the number of the first in the certificate, its axes, and what
@@ -290,15 +305,16 @@ impl Walk<'_> {
     }
 }
 
-/// Every obligation is discharged at most once on a path: that bounds the work for a tree by its
-/// leaves, whatever the file.
+/// Every step discharges something that is not yet discharged on its path: that bounds the work
+/// for a tree by its leaves, whatever the file.
 fn refuse_repetition(mut done: Discharged, node: &Node, index: usize) -> Result<(), Rejected> {
     for step in &node.by {
-        let (rule, obligation) = step.rule();
-        if done & bit(obligation) != 0 {
+        let bits = discharges(step);
+        if bits & !done == 0 {
+            let (rule, _) = step.rule();
             return Err(Rejected::Step { node: index, rule, failure: Failure::Repeated });
         }
-        done |= bit(obligation);
+        done |= bits;
     }
     Ok(())
 }
@@ -438,7 +454,7 @@ fn postulate_steps(
 ) -> Result<Discharged, Rejected> {
     let mut discharged = 0;
     for step in &node.by {
-        let (rule, obligation) = step.rule();
+        let (rule, _) = step.rule();
         let blown_up = || blow_up().ok_or(Failure::NotEnclosed);
         let result = match (step, face_cell) {
             (Step::BlowUp, _) => blown_up().and_then(|b| postulate::blow_up(&b)),
@@ -449,7 +465,7 @@ fn postulate_steps(
             _ => Err(Failure::OtherKind),
         };
         result.map_err(|failure| Rejected::Step { node: index, rule, failure })?;
-        discharged |= bit(obligation);
+        discharged |= discharges(step);
         *size.steps.entry(rule).or_default() += 1;
     }
     Ok(discharged)
@@ -466,13 +482,13 @@ fn check_steps(
     let centre = OnceCell::new();
     let mut discharged = 0;
     for step in &node.by {
-        let (rule, obligation) = step.rule();
+        let (rule, _) = step.rule();
         check_step(model, cell, step, &centre).map_err(|failure| Rejected::Step {
             node: index,
             rule,
             failure,
         })?;
-        discharged |= bit(obligation);
+        discharged |= discharges(step);
         *size.steps.entry(rule).or_default() += 1;
     }
     Ok(discharged)
@@ -502,22 +518,37 @@ fn check_step(
             }
             rule::corner(model, &Expansion::new(model, cell, corner.expansion_point())?)
         }
+        Step::Conditioning(evidence) => {
+            rule::conditioning(model, about_centre()?, &evidence.rotation, &evidence.mu)
+        }
+        Step::SerialMargin => rule::serial_margin(model, cell),
+        Step::ParallelMargin => rule::parallel_margin(model, cell),
+        Step::LegAngle => rule::leg_angle(model, cell),
+        Step::Speed => rule::speed(model, about_centre()?),
+        Step::Outside => rule::outside(model, cell),
         Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }
 
 impl Step {
-    /// The rule's name and what it discharges.
-    pub fn rule(&self) -> (&'static str, Obligation) {
-        match self {
+    /// The rule's name and what it discharges; `None` for everything.
+    pub fn rule(&self) -> (&'static str, Option<Obligation>) {
+        let (name, obligation) = match self {
             Step::Lower(_) => ("lower", Obligation::SigmaMin),
             Step::Corner(_) => ("corner", Obligation::SigmaMin),
             Step::Upper => ("upper", Obligation::SigmaMax),
             Step::Cube => ("cube", Obligation::SigmaMax),
             Step::Range => ("range", Obligation::JointRange),
+            Step::Conditioning(_) => ("conditioning", Obligation::Conditioning),
+            Step::SerialMargin => ("serial_margin", Obligation::SerialMargin),
+            Step::ParallelMargin => ("parallel_margin", Obligation::ParallelMargin),
+            Step::LegAngle => ("leg_angle", Obligation::LegAngle),
+            Step::Speed => ("speed", Obligation::JointSpeed),
             Step::BlowUp => ("blow_up", Obligation::SigmaMin),
             Step::Edge(_) => ("edge", Obligation::SigmaMin),
             Step::Mirror => ("mirror", Obligation::SigmaMin),
-        }
+            Step::Outside => return ("outside", None),
+        };
+        (name, Some(obligation))
     }
 }

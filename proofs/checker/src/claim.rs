@@ -115,6 +115,38 @@ pub enum Leg {
         #[serde(deserialize_with = "strict::name")]
         mode: WorkingMode,
     },
+    /// Extensible leg: `rho_i` is its length.
+    Strut {
+        /// The leg's joint on the base.
+        anchor: [Quantity; 3],
+        /// `d_i`.
+        platform: [Quantity; 3],
+    },
+    /// Leg of fixed length on an arm that a motor turns: `rho_i` is the arm's angle.
+    Arm {
+        /// Direction of the motor's axis, of any length but zero.
+        axis: [Quantity; 3],
+        /// The arm's direction at angle 0: the part of this vector orthogonal to the axis,
+        /// normalised. Angles count positive about the axis.
+        reference: [Quantity; 3],
+        /// A point on the motor's axis: the arm's centre of rotation.
+        anchor: [Quantity; 3],
+        /// `d_i`.
+        platform: [Quantity; 3],
+        /// Length of the arm, from the axis to the elbow.
+        arm: Quantity,
+        /// Length of the leg, from the elbow to the platform.
+        length: Quantity,
+        /// The sign of the leg's component along the elbow's motion.
+        #[serde(deserialize_with = "strict::name")]
+        mode: WorkingMode,
+    },
+    /// Leg that constrains the platform to a plane; row of `M` and `rho_i = n . P` are constant
+    /// along it.
+    Planar {
+        /// Normal of the plane, any non-zero vector; `n` is this vector normalised.
+        direction: [Quantity; 3],
+    },
 }
 
 /// The sign of `eta_i`: whether the leg points along its guide's direction or against it.
@@ -154,6 +186,16 @@ pub enum Workspace {
         /// Greatest coordinates.
         max: [Exact; 3],
     },
+    /// `(x - center_x)^2 + (y - center_y)^2 <= radius^2` and `z_0 <= z <= z_1`.
+    #[serde(deserialize_with = "cylinder")]
+    Cylinder {
+        /// Where the axis, which is parallel to z, crosses the plane `z = 0`.
+        center: [Exact; 2],
+        /// Positive.
+        radius: Exact,
+        /// Least and greatest z.
+        z: [Exact; 2],
+    },
     /// The paper's cube `[q_1, q_2]^3`, with `q_2 - q_1` = `side`; goes with
     /// [`Mechanism::Orthoglide`] only.
     #[serde(deserialize_with = "side")]
@@ -181,6 +223,67 @@ pub struct Requirements {
         deserialize_with = "strict::optional_three"
     )]
     pub joint_range: Option<[Range; 3]>,
+    /// `sigma_max(M) / sigma_min(M) <= max`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub conditioning: Option<AtMost>,
+    /// `|eta_i| / L_i >= min`, for every leg.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub serial_margin: Option<AtLeast>,
+    /// `|det A| / (L_1 L_2 L_3) >= min`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub parallel_margin: Option<AtLeast>,
+    /// The angle between leg and guide, in degrees, is at most `max`, for every leg.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub leg_angle: Option<AtMost>,
+    /// No tool velocity of magnitude `tool` demands a joint speed beyond `max`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub joint_speed: Option<JointSpeed>,
+}
+
+/// `x <= max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtMost {
+    /// Greatest admissible value.
+    pub max: Exact,
+}
+
+/// `x >= min`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtLeast {
+    /// Least admissible value.
+    pub min: Exact,
+}
+
+/// `|row_i of M| tool <= max`, for every leg.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointSpeed {
+    /// Magnitude of the tool's velocity, length per time.
+    pub tool: Exact,
+    /// Greatest joint speed, length per time (for arms: radians per time).
+    pub max: Exact,
 }
 
 /// `min <= x <= max`; an absent bound is no requirement, and one is present.
@@ -242,6 +345,16 @@ pub enum ClaimError {
     CubeNeedsPsiMax,
     /// A `psi_max` that is not provably greater than 1.
     PsiMaxNotAboveOne,
+    /// A number that is not provably greater than this one.
+    NotAbove(String, i64),
+    /// Arms beside other drives: the transmission factors have no common unit.
+    MixedUnits,
+    /// A requirement on `eta_i / L_i` of legs without a length.
+    NeedsLegLengths,
+    /// A requirement on the angle between leg and guide of legs without a guide.
+    NeedsGuides,
+    /// A range of angles without both ends, beyond a turn, or of half a turn or more.
+    AngleRange,
     /// A cube with a `psi_min` of its own.
     CubeFixesPsiMin,
     /// The numbers cannot be enclosed at the precision of the proof.
@@ -265,6 +378,21 @@ impl fmt::Display for ClaimError {
             ClaimError::CubeNeedsPsiMax => {
                 write!(f, "a workspace \"cube\" needs transmission.max (psi_max) greater than 1")
             }
+            ClaimError::NotAbove(what, least) => {
+                write!(f, "{what} is not (provably) greater than {least}")
+            }
+            ClaimError::MixedUnits => write!(
+                f,
+                "arms beside other drives: the transmission factors have no common unit"
+            ),
+            ClaimError::NeedsLegLengths => {
+                write!(f, "serial_margin needs legs with a length: sliders or arms")
+            }
+            ClaimError::NeedsGuides => write!(f, "leg_angle needs legs with a guide: sliders"),
+            ClaimError::AngleRange => write!(
+                f,
+                "joint_range of arms, in degrees, needs min and max within ±360 and less than 180 apart"
+            ),
             ClaimError::PsiMaxNotAboveOne => {
                 write!(f, "psi_max is not (provably) greater than 1")
             }
@@ -285,12 +413,15 @@ impl MachineClaim {
     pub fn validate(&self) -> Result<(), ClaimError> {
         match (&self.mechanism, &self.workspace) {
             (Mechanism::Translational(legs), Workspace::Box { min, max }) => {
-                for (i, leg) in legs.iter().enumerate() {
-                    leg.validate(i)?;
-                }
+                self.validate_legs(legs)?;
                 for ((axis, min), max) in ["x", "y", "z"].iter().zip(min).zip(max) {
                     ordered(min, max, || format!("workspace along {axis}"))?;
                 }
+            }
+            (Mechanism::Translational(legs), Workspace::Cylinder { radius, z, .. }) => {
+                self.validate_legs(legs)?;
+                positive(radius, || "workspace.cylinder.radius".into())?;
+                ordered(&z[0], &z[1], || "workspace.cylinder.z".into())?;
             }
             (Mechanism::Orthoglide { .. }, Workspace::Cube { side }) => {
                 positive(side, || "workspace.cube".into())?;
@@ -309,6 +440,29 @@ impl MachineClaim {
         }
         self.requirements.validate()
     }
+
+    fn validate_legs(&self, legs: &[Leg; 3]) -> Result<(), ClaimError> {
+        for (i, leg) in legs.iter().enumerate() {
+            leg.validate(i)?;
+        }
+        let angular = legs.iter().filter(|leg| leg.is_angular()).count();
+        if angular % 3 != 0 {
+            return Err(ClaimError::MixedUnits);
+        }
+        let requirements = &self.requirements;
+        if requirements.serial_margin.is_some() && !legs.iter().all(Leg::has_length) {
+            return Err(ClaimError::NeedsLegLengths);
+        }
+        if requirements.leg_angle.is_some()
+            && !legs.iter().all(|leg| matches!(leg, Leg::Slider { .. }))
+        {
+            return Err(ClaimError::NeedsGuides);
+        }
+        if angular > 0 {
+            requirements.joint_range.iter().flatten().try_for_each(Range::validate_angle)?;
+        }
+        Ok(())
+    }
 }
 
 impl Leg {
@@ -316,7 +470,7 @@ impl Leg {
         let leg = index + 1;
         for (parameter, quantity) in self.parameters() {
             ordered(&quantity.min, &quantity.max, || format!("leg {leg}: {parameter}"))?;
-            if parameter == Parameter::Length {
+            if parameter.is_length() {
                 positive(&quantity.min, || format!("leg {leg}: {parameter}"))?;
             }
         }
@@ -326,36 +480,68 @@ impl Leg {
     /// Whether both legs have the same drive and working mode.
     pub fn same_kind(&self, other: &Leg) -> bool {
         match (self, other) {
-            (Leg::Slider { mode, .. }, Leg::Slider { mode: other, .. }) => mode == other,
+            (Leg::Slider { mode, .. }, Leg::Slider { mode: other, .. })
+            | (Leg::Arm { mode, .. }, Leg::Arm { mode: other, .. }) => mode == other,
+            (Leg::Strut { .. }, Leg::Strut { .. }) | (Leg::Planar { .. }, Leg::Planar { .. }) => {
+                true
+            }
+            _ => false,
         }
+    }
+
+    /// Whether the joint coordinate is an angle.
+    pub fn is_angular(&self) -> bool {
+        matches!(self, Leg::Arm { .. })
+    }
+
+    /// Whether the leg has a fixed length, so that `eta_i / L_i` is defined.
+    pub fn has_length(&self) -> bool {
+        matches!(self, Leg::Slider { .. } | Leg::Arm { .. })
     }
 
     /// Every parameter that may carry a tolerance, in the order of the format.
     pub fn parameters(&self) -> Vec<(Parameter, &Quantity)> {
-        match self {
-            Leg::Slider { direction, anchor, platform, length, .. } => {
-                let mut all = Vec::with_capacity(10);
-                all.extend(direction.iter().map(|q| (Parameter::Direction, q)));
-                all.extend(anchor.iter().map(|q| (Parameter::Anchor, q)));
-                all.extend(platform.iter().map(|q| (Parameter::Platform, q)));
-                all.push((Parameter::Length, length));
-                all
-            }
-        }
+        let (vectors, lengths): (Vec<(Parameter, &[Quantity; 3])>, Vec<(Parameter, &Quantity)>) =
+            match self {
+                Leg::Slider { direction, anchor, platform, length, .. } => (
+                    vec![
+                        (Parameter::Direction, direction),
+                        (Parameter::Anchor, anchor),
+                        (Parameter::Platform, platform),
+                    ],
+                    vec![(Parameter::Length, length)],
+                ),
+                Leg::Strut { anchor, platform } => {
+                    (vec![(Parameter::Anchor, anchor), (Parameter::Platform, platform)], vec![])
+                }
+                Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => (
+                    vec![
+                        (Parameter::Axis, axis),
+                        (Parameter::Reference, reference),
+                        (Parameter::Anchor, anchor),
+                        (Parameter::Platform, platform),
+                    ],
+                    vec![(Parameter::Arm, arm), (Parameter::Length, length)],
+                ),
+                Leg::Planar { direction } => (vec![(Parameter::Direction, direction)], vec![]),
+            };
+        let components = vectors.into_iter().flat_map(|(p, v)| v.iter().map(move |q| (p, q)));
+        components.chain(lengths).collect()
     }
 
     /// The same parameters, to be replaced.
     pub fn parameters_mut(&mut self) -> Vec<&mut Quantity> {
-        match self {
+        let (vectors, lengths): (Vec<&mut [Quantity; 3]>, Vec<&mut Quantity>) = match self {
             Leg::Slider { direction, anchor, platform, length, .. } => {
-                let mut all = Vec::with_capacity(10);
-                all.extend(direction.iter_mut());
-                all.extend(anchor.iter_mut());
-                all.extend(platform.iter_mut());
-                all.push(length);
-                all
+                (vec![direction, anchor, platform], vec![length])
             }
-        }
+            Leg::Strut { anchor, platform } => (vec![anchor, platform], vec![]),
+            Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => {
+                (vec![axis, reference, anchor, platform], vec![arm, length])
+            }
+            Leg::Planar { direction } => (vec![direction], vec![]),
+        };
+        vectors.into_iter().flatten().chain(lengths).collect()
     }
 
     /// Whether some parameter is an interval.
@@ -374,8 +560,26 @@ pub enum Parameter {
     Anchor,
     /// A coordinate of the platform's offset.
     Platform,
-    /// A length, which is positive.
+    /// The leg's length, which is positive.
     Length,
+    /// A component of a motor's axis, whose own size does not matter.
+    Axis,
+    /// A component of an arm's reference direction, whose own size does not matter.
+    Reference,
+    /// The arm's length, which is positive.
+    Arm,
+}
+
+impl Parameter {
+    /// Whether the parameter is a component of a direction.
+    pub fn is_direction(self) -> bool {
+        matches!(self, Parameter::Direction | Parameter::Axis | Parameter::Reference)
+    }
+
+    /// Whether the parameter is a length, which is positive.
+    pub fn is_length(self) -> bool {
+        matches!(self, Parameter::Length | Parameter::Arm)
+    }
 }
 
 impl fmt::Display for Parameter {
@@ -385,6 +589,9 @@ impl fmt::Display for Parameter {
             Parameter::Anchor => "anchor",
             Parameter::Platform => "platform",
             Parameter::Length => "length",
+            Parameter::Axis => "axis",
+            Parameter::Reference => "reference",
+            Parameter::Arm => "arm",
         })
     }
 }
@@ -407,6 +614,24 @@ impl Requirements {
         for (i, range) in self.joint_range.iter().flatten().enumerate() {
             range.validate(|| format!("joint_range of leg {}", i + 1))?;
         }
+        if let Some(AtMost { max }) = &self.conditioning {
+            above(max, 1, "conditioning.max")?;
+        }
+        for (bound, name) in
+            [(&self.serial_margin, "serial_margin"), (&self.parallel_margin, "parallel_margin")]
+        {
+            if let Some(AtLeast { min }) = bound {
+                positive(min, || format!("{name}.min"))?;
+            }
+        }
+        if let Some(AtMost { max }) = &self.leg_angle {
+            positive(max, || "leg_angle.max".into())?;
+            ordered(max, &Exact::integer(90), || "leg_angle up to 90 degrees".into())?;
+        }
+        if let Some(JointSpeed { tool, max }) = &self.joint_speed {
+            positive(tool, || "joint_speed.tool".into())?;
+            positive(max, || "joint_speed.max".into())?;
+        }
         Ok(())
     }
 }
@@ -418,6 +643,28 @@ impl Range {
             (Some(min), Some(max)) => ordered(min, max, name),
             _ => Ok(()),
         }
+    }
+
+    /// Angles, in degrees: both ends are given, within a turn and less than half a turn apart, so
+    /// that two signs decide membership.
+    fn validate_angle(&self) -> Result<(), ClaimError> {
+        let (Some(min), Some(max)) = (&self.min, &self.max) else {
+            return Err(ClaimError::AngleRange);
+        };
+        let at_most =
+            |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
+        let span = max.clone().minus(min.clone()).map_err(|_| ClaimError::AngleRange)?;
+        let within = span.compare(&Exact::integer(180)) == Some(Ordering::Less)
+            && at_most(&Exact::integer(-360), min)
+            && at_most(max, &Exact::integer(360));
+        within.then_some(()).ok_or(ClaimError::AngleRange)
+    }
+}
+
+fn above(x: &Exact, least: i64, name: &str) -> Result<(), ClaimError> {
+    match x.compare(&Exact::integer(least)) {
+        Some(Ordering::Greater) => Ok(()),
+        _ => Err(ClaimError::NotAbove(name.into(), least)),
     }
 }
 
@@ -447,6 +694,19 @@ fn corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Corners, D::Err
         max: [Exact; 3],
     }
     strict::object(deserializer).map(|Fields { min, max }| (min, max))
+}
+
+type CylinderFields = ([Exact; 2], Exact, [Exact; 2]);
+
+fn cylinder<'de, D: Deserializer<'de>>(deserializer: D) -> Result<CylinderFields, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Fields {
+        center: [Exact; 2],
+        radius: Exact,
+        z: [Exact; 2],
+    }
+    strict::object(deserializer).map(|Fields { center, radius, z }| (center, radius, z))
 }
 
 fn side<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Exact, D::Error> {

@@ -35,10 +35,8 @@ pub struct Expansion<S> {
     pub matrix: Matrix<S>,
     /// `h_k E_k`: `slopes[k][i][j]` belongs to coordinate `k` and entry `(i, j)` of `M`.
     pub slopes: [Matrix<S>; 3],
-    /// `rho_i(c)`.
-    pub rho: Vector<S>,
-    /// `h_k g_k`: `rho_slopes[i][k]` belongs to leg `i` and coordinate `k`.
-    pub rho_slopes: [Vector<S>; 3],
+    /// For each leg, `rho_i(c)` and `h_k g_k` for each coordinate; none for an angle.
+    pub rho: [Option<(S, Vector<S>)>; 3],
 }
 
 /// Why there is no expansion: leg `leg` (from zero) is not certainly within reach and free of
@@ -53,24 +51,8 @@ impl<S: Enclosure> Expansion<S> {
     /// The expansion of `cell` about `point`. For a corner the caller has made sure that the cell
     /// touches it.
     pub fn new(model: &Model<S>, cell: &Cell, point: ExpansionPoint) -> Result<Self, OutOfReach> {
-        let low = model.displacement(cell.edges.map(|e| (e.index, e.level)));
-        let high = model.displacement(cell.edges.map(|e| (e.index + 1, e.level)));
-        let over: Vector<S> = from_fn(|k| low[k].join(&high[k]));
-        let centre = match point {
-            ExpansionPoint::Centre => {
-                model.displacement(cell.edges.map(|e| (2 * e.index + 1, e.level + 1)))
-            }
-            ExpansionPoint::LowerCorner => model.displacement([(0, 0); 3]),
-            ExpansionPoint::UpperCorner => model.displacement([(1, 0); 3]),
-        };
-        let extent = match point {
-            ExpansionPoint::Centre => model.displacement(cell.edges.map(|e| (1, e.level + 1))),
-            ExpansionPoint::LowerCorner => model.displacement(cell.edges.map(|e| (1, e.level))),
-            ExpansionPoint::UpperCorner => {
-                model.displacement(cell.edges.map(|e| (1, e.level))).map(|h| h.neg())
-            }
-        };
-        let (at, over) = (model.leg_vectors(&centre), model.leg_vectors(&over));
+        let region = Region::new(model, cell, point);
+        let (at, over, extent) = (region.at, region.over, region.extent);
         let expand = |i: usize| model.legs[i].expand(&at[i], &over[i]).ok_or(OutOfReach { leg: i });
         let legs = [expand(0)?, expand(1)?, expand(2)?];
         Ok(Expansion {
@@ -80,18 +62,42 @@ impl<S: Enclosure> Expansion<S> {
                     scale(&extent[k], &column)
                 })
             }),
-            rho_slopes: from_fn(|i| from_fn(|k| extent[k].mul(&legs[i].rho_slope[k]))),
             matrix: from_fn(|i| legs[i].row.clone()),
-            rho: from_fn(|i| legs[i].rho.clone()),
+            rho: from_fn(|i| {
+                let (rho, slope) = legs[i].rho.as_ref()?;
+                Some((rho.clone(), from_fn(|k| extent[k].mul(&slope[k]))))
+            }),
         })
     }
 }
 
-/// The joint coordinate of a leg over a cell, by its formula, without expansion.
-pub fn natural_rho<S: Enclosure>(model: &Model<S>, cell: &Cell, leg: usize) -> Option<S> {
-    let low = model.displacement(cell.edges.map(|e| (e.index, e.level)));
-    let high = model.displacement(cell.edges.map(|e| (e.index + 1, e.level)));
-    let over: Vector<S> = from_fn(|k| low[k].join(&high[k]));
-    let w = crate::linear::add(&model.origin[leg], &over);
-    model.legs[leg].at(&w).map(|state| state.rho)
+/// A cell in the terms that legs are met in.
+pub struct Region<S> {
+    /// `w_i` at the expansion point.
+    pub at: [Vector<S>; 3],
+    /// `w_i` over the cell.
+    pub over: [Vector<S>; 3],
+    /// The extent of `delta_k` about the expansion point.
+    pub extent: Vector<S>,
+}
+
+impl<S: Enclosure> Region<S> {
+    /// The cell about `point`.
+    pub fn new(model: &Model<S>, cell: &Cell, point: ExpansionPoint) -> Self {
+        let low = model.displacement(cell.edges.map(|e| (e.index, e.level)));
+        let high = model.displacement(cell.edges.map(|e| (e.index + 1, e.level)));
+        let over: Vector<S> = from_fn(|k| low[k].join(&high[k]));
+        let edge = || model.displacement(cell.edges.map(|e| (1, e.level)));
+        let (centre, extent) = match point {
+            ExpansionPoint::Centre => (
+                model.displacement(cell.edges.map(|e| (2 * e.index + 1, e.level + 1))),
+                model.displacement(cell.edges.map(|e| (1, e.level + 1))),
+            ),
+            ExpansionPoint::LowerCorner => (model.displacement([(0, 0); 3]), edge()),
+            ExpansionPoint::UpperCorner => {
+                (model.displacement([(1, 0); 3]), edge().map(|h| h.neg()))
+            }
+        };
+        Region { at: model.leg_vectors(&centre), over: model.leg_vectors(&over), extent }
+    }
 }

@@ -46,6 +46,11 @@ impl Fixed {
         (lo <= hi).then_some(Fixed { lo, hi, bits })
     }
 
+    /// `[centre - error, centre + error] / 2^bits`, for `error >= 0`.
+    pub(crate) fn around(centre: &BigInt, error: &BigInt, bits: u32) -> Self {
+        Fixed { lo: centre - error, hi: centre + error, bits }
+    }
+
     /// The integer `n`, exactly.
     pub fn integer(n: i64, bits: u32) -> Self {
         let n = BigInt::from(n) << bits;

@@ -20,6 +20,7 @@
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
 //! | [`postulate`]   | the Q1/Q2 postulate: blow-up, faces, tight edges                       |
+//! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
 //! | [`statement`]   | the claim in words                                                     |
 
@@ -41,6 +42,7 @@ pub mod postulate;
 pub mod rule;
 pub mod statement;
 mod strict;
+pub mod trig;
 pub mod witness;
 
 pub use check::{

@@ -9,6 +9,7 @@ use crate::fixed::Fixed;
 use crate::kinematics::{Leg, Slider};
 use crate::linear::Vector;
 use crate::number::{Exact, NumberErrorKind};
+use crate::trig::cos_sin;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::array::from_fn;
@@ -27,6 +28,8 @@ pub struct Model<S> {
     pub bounds: Bounds<S>,
     /// Whether this is the paper's cube, whose corners `Q_1`, `Q_2` may meet bounds with equality.
     pub is_cube: bool,
+    /// Whether only the cylinder inscribed in the box's x and y is asked about.
+    pub is_cylinder: bool,
     /// `scale` where the model's unit of length is `2^scale` of the claim's; `None` where it is the
     /// leg length of the paper's cube.
     pub unit_exponent: Option<i64>,
@@ -40,25 +43,77 @@ pub struct Bounds<S> {
     /// `1/psi_min`.
     pub k: Option<S>,
     /// Least and greatest `rho_i`.
-    pub joint_range: Option<[(Option<S>, Option<S>); 3]>,
+    pub joint_range: Option<[JointRange<S>; 3]>,
+    /// Greatest `sigma_max / sigma_min`.
+    pub conditioning: Option<S>,
+    /// The square of the least `|eta_i| / L_i`.
+    pub serial_margin: Option<S>,
+    /// Least `|det A| / (L_1 L_2 L_3)`.
+    pub parallel_margin: Option<S>,
+    /// The square of the cosine of the greatest angle between leg and guide.
+    pub leg_angle: Option<S>,
+    /// Greatest `|row_i of M|`.
+    pub joint_speed: Option<S>,
+}
+
+/// The range of a joint coordinate.
+#[derive(Clone, Debug)]
+pub enum JointRange<S> {
+    /// Of a length.
+    Length {
+        /// Least value.
+        min: Option<S>,
+        /// Greatest value.
+        max: Option<S>,
+    },
+    /// Of an angle, less than half a turn wide: cosine and sine of both ends.
+    Angle {
+        /// Of the least angle.
+        min: (S, S),
+        /// Of the greatest angle.
+        max: (S, S),
+    },
+}
+
+impl<S> JointRange<S> {
+    fn map<T>(&self, convert: &impl Fn(&S) -> T) -> JointRange<T> {
+        let pair = |(a, b): &(S, S)| (convert(a), convert(b));
+        match self {
+            JointRange::Length { min, max } => JointRange::Length {
+                min: min.as_ref().map(convert),
+                max: max.as_ref().map(convert),
+            },
+            JointRange::Angle { min, max } => JointRange::Angle { min: pair(min), max: pair(max) },
+        }
+    }
+}
+
+impl<S> Bounds<S> {
+    fn map<T>(&self, convert: &impl Fn(&S) -> T) -> Bounds<T> {
+        let optional = |x: &Option<S>| x.as_ref().map(convert);
+        Bounds {
+            kappa: convert(&self.kappa),
+            k: optional(&self.k),
+            joint_range: self.joint_range.as_ref().map(|r| from_fn(|i| r[i].map(convert))),
+            conditioning: optional(&self.conditioning),
+            serial_margin: optional(&self.serial_margin),
+            parallel_margin: optional(&self.parallel_margin),
+            leg_angle: optional(&self.leg_angle),
+            joint_speed: optional(&self.joint_speed),
+        }
+    }
 }
 
 impl<S> Model<S> {
     /// The same model in another arithmetic; `convert` must enclose.
     pub fn map<T>(&self, convert: &impl Fn(&S) -> T) -> Model<T> {
         let vector = |v: &Vector<S>| from_fn(|k| convert(&v[k]));
-        let ends = |(min, max): &(Option<S>, Option<S>)| {
-            (min.as_ref().map(convert), max.as_ref().map(convert))
-        };
         Model {
             legs: from_fn(|i| self.legs[i].map(convert)),
             origin: from_fn(|i| vector(&self.origin[i])),
             width: vector(&self.width),
-            bounds: Bounds {
-                kappa: convert(&self.bounds.kappa),
-                k: self.bounds.k.as_ref().map(convert),
-                joint_range: self.bounds.joint_range.as_ref().map(|r| from_fn(|i| ends(&r[i]))),
-            },
+            bounds: self.bounds.map(convert),
+            is_cylinder: self.is_cylinder,
             is_cube: self.is_cube,
             unit_exponent: self.unit_exponent,
         }
@@ -172,6 +227,12 @@ impl Units {
         Ok(Units { bits, form })
     }
 
+    /// An inverse length (of arms: angle per length) in the model's unit.
+    fn inverse_length(&self, x: &Exact, what: &str) -> Result<Fixed, ClaimError> {
+        let scale = self.exponent().unwrap_or(0);
+        x.enclose(-scale, self.bits).ok_or_else(|| precision(what))
+    }
+
     /// A length in the model's unit.
     fn length(&self, x: &Exact, what: &str) -> Result<Fixed, ClaimError> {
         let enclosed = match &self.form {
@@ -203,8 +264,14 @@ impl Units {
 /// `scale` with `2^scale` near the largest leg length: a choice of unit, with no effect on what is
 /// true of the enclosures.
 fn scale_of(legs: &[claim::Leg; 3]) -> i64 {
-    let parameters = legs.iter().flat_map(claim::Leg::parameters);
-    magnitude(parameters.filter(|(p, _)| *p == Parameter::Length).map(|(_, q)| &q.max))
+    let parameters = || legs.iter().flat_map(claim::Leg::parameters);
+    let lengths = || parameters().filter(|(p, _)| p.is_length()).map(|(_, q)| &q.max);
+    if lengths().next().is_some() {
+        magnitude(lengths())
+    } else {
+        let places = parameters().filter(|(p, _)| !p.is_direction());
+        magnitude(places.flat_map(|(_, q)| [&q.min, &q.max]))
+    }
 }
 
 /// The exponent of the power of two next to the largest absolute value; 0 if all are zero.
@@ -218,14 +285,34 @@ fn magnitude<'a>(numbers: impl Iterator<Item = &'a Exact>) -> i64 {
     sizes.max().unwrap_or(0)
 }
 
+impl Workspace {
+    /// The least and greatest coordinates of a box or cylinder.
+    pub fn bounding_box(&self) -> Result<([Exact; 3], [Exact; 3]), ClaimError> {
+        match self {
+            Workspace::Box { min, max } => Ok((min.clone(), max.clone())),
+            Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
+                let ends = |c: &Exact| {
+                    let (c, r) = (c.clone(), radius.clone());
+                    Ok((c.clone().minus(r.clone())?, c.plus(r)?))
+                };
+                let ends = |c| ends(c).map_err(|_: NumberErrorKind| precision("workspace"));
+                let ((x0, x1), (y0, y1)) = (ends(x)?, ends(y)?);
+                Ok(([x0, y0, low.clone()], [x1, y1, high.clone()]))
+            }
+            Workspace::Cube { .. } => Err(ClaimError::CubeNeedsOrthoglide),
+        }
+    }
+}
+
 impl Model<Fixed> {
     /// The model of a valid claim at a precision of `bits` fractional bits.
     pub fn new(claim: &MachineClaim, bits: u32) -> Result<Self, ClaimError> {
         claim.validate()?;
         let units = Units::new(claim, bits)?;
         let (legs, origin, width) = match (&claim.mechanism, &claim.workspace, &units.form) {
-            (Mechanism::Translational(legs), Workspace::Box { min, max }, _) => {
-                let (legs, origin) = translational(legs, min, &units)?;
+            (Mechanism::Translational(legs), _, Form::PowerOfTwo(_)) => {
+                let (min, max) = claim.workspace.bounding_box()?;
+                let (legs, origin) = translational(legs, &min, &units)?;
                 let mut width = [units.zero(), units.zero(), units.zero()];
                 for k in 0..3 {
                     let edge = max[k].clone().minus(min[k].clone());
@@ -245,9 +332,24 @@ impl Model<Fixed> {
             }
             _ => return Err(ClaimError::CubeNeedsOrthoglide),
         };
-        let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
-        let (bounds, unit_exponent) = (bounds(claim, &units)?, units.exponent());
-        Ok(Model { legs, origin, width, bounds, is_cube, unit_exponent })
+        Model::assemble(claim, &units, (legs, origin), width)
+    }
+
+    fn assemble(
+        claim: &MachineClaim,
+        units: &Units,
+        (legs, origin): LegsAndOrigin,
+        width: Vector<Fixed>,
+    ) -> Result<Self, ClaimError> {
+        Ok(Model {
+            legs,
+            origin,
+            width,
+            bounds: bounds(claim, units)?,
+            is_cube: matches!(claim.workspace, Workspace::Cube { .. }),
+            is_cylinder: matches!(claim.workspace, Workspace::Cylinder { .. }),
+            unit_exponent: units.exponent(),
+        })
     }
 
     /// The model of one machine at one point: of zero width, so that `u = 0` is `point`.
@@ -276,9 +378,7 @@ impl Model<Fixed> {
             _ => return Err(ClaimError::CubeNeedsOrthoglide),
         };
         let width = [units.zero(), units.zero(), units.zero()];
-        let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
-        let (bounds, unit_exponent) = (bounds(claim, &units)?, units.exponent());
-        Ok(Model { legs, origin, width, bounds, is_cube, unit_exponent })
+        Model::assemble(claim, &units, (legs, origin), width)
     }
 }
 
@@ -305,13 +405,16 @@ fn leg_and_origin(
 ) -> Result<(Leg<Fixed>, Vector<Fixed>), ClaimError> {
     let parameters = leg.parameters();
     // A direction's own size does not matter: it is brought to the order of one.
-    let directions = parameters.iter().filter(|(p, _)| *p == Parameter::Direction);
-    let size = magnitude(directions.flat_map(|(_, q)| [&q.min, &q.max]));
+    let size = |kind: Parameter| {
+        let directions = parameters.iter().filter(|(p, _)| *p == kind);
+        magnitude(directions.flat_map(|(_, q)| [&q.min, &q.max]))
+    };
     let enclosed = parameters.iter().map(|&(parameter, q)| {
         let what = format!("leg {number}: {parameter}");
-        if parameter != Parameter::Direction {
+        if !parameter.is_direction() {
             return Ok(units.length(&q.min, &what)?.hull(&units.length(&q.max, &what)?));
         }
+        let size = size(parameter);
         match (q.min.enclose(size, units.bits), q.max.enclose(size, units.bits)) {
             (Some(min), Some(max)) => Ok(min.hull(&max)),
             _ => Err(precision(&what)),
@@ -346,13 +449,25 @@ fn orthoglide(
 }
 
 fn bounds(claim: &MachineClaim, units: &Units) -> Result<Bounds<Fixed>, ClaimError> {
-    let transmission = claim.requirements.transmission.as_ref();
+    let requirements = &claim.requirements;
+    let angular = match &claim.mechanism {
+        Mechanism::Translational(legs) => legs.iter().all(claim::Leg::is_angular),
+        Mechanism::Orthoglide { .. } => false,
+    };
+    // M has the unit of an inverse length for arms, and none for other drives.
+    let rate = |x: &Exact, what: &str| {
+        if angular {
+            units.inverse_length(x, what)
+        } else {
+            units.number(x, what)
+        }
+    };
+    let quotient =
+        |x: &Exact, y: &Exact, what: &str| x.clone().over(y.clone()).map_err(|_| precision(what));
+    let inverse = |psi: &Exact, what: &str| rate(&quotient(&Exact::integer(1), psi, what)?, what);
+    let transmission = requirements.transmission.as_ref();
     let psi_max = transmission.and_then(|t| t.max.as_ref());
     let psi_min = transmission.and_then(|t| t.min.as_ref());
-    let inverse = |psi: &Exact, what: &str| {
-        let xi = Exact::integer(1).over(psi.clone()).map_err(|_| precision(what))?;
-        units.number(&xi, what)
-    };
     let kappa = match psi_max {
         Some(psi) => inverse(psi, "transmission.max")?,
         None => units.zero(),
@@ -362,11 +477,57 @@ fn bounds(claim: &MachineClaim, units: &Units) -> Result<Bounds<Fixed>, ClaimErr
         (_, Some(psi), _) => Some(inverse(psi, "transmission.min")?),
         _ => None,
     };
-    let end = |x: &Option<Exact>| x.as_ref().map(|x| units.length(x, "joint_range")).transpose();
-    let ends = |range: &Range| Ok::<_, ClaimError>((end(&range.min)?, end(&range.max)?));
-    let joint_range = match &claim.requirements.joint_range {
-        Some([a, b, c]) => Some([ends(a)?, ends(b)?, ends(c)?]),
+    let joint_range = match &requirements.joint_range {
+        Some([a, b, c]) => Some([
+            joint_range(a, angular, units)?,
+            joint_range(b, angular, units)?,
+            joint_range(c, angular, units)?,
+        ]),
         None => None,
     };
-    Ok(Bounds { kappa, k, joint_range })
+    let number = |x: Option<&Exact>, what: &str| x.map(|x| units.number(x, what)).transpose();
+    let at_most = |x: &Option<claim::AtMost>| x.as_ref().map(|x| x.max.clone());
+    let at_least = |x: &Option<claim::AtLeast>| x.as_ref().map(|x| x.min.clone());
+    let serial_margin = number(at_least(&requirements.serial_margin).as_ref(), "serial_margin")?;
+    let leg_angle = match at_most(&requirements.leg_angle) {
+        Some(angle) => Some(cos_sin(&angle, units.bits).ok_or_else(|| precision("leg_angle"))?.0),
+        None => None,
+    };
+    let joint_speed = match &requirements.joint_speed {
+        Some(speed) => {
+            let ratio = quotient(&speed.max, &speed.tool, "joint_speed")?;
+            Some(rate(&ratio, "joint_speed")?)
+        }
+        None => None,
+    };
+    Ok(Bounds {
+        kappa,
+        k,
+        joint_range,
+        conditioning: number(at_most(&requirements.conditioning).as_ref(), "conditioning")?,
+        serial_margin: serial_margin.map(|m| m.sqr()),
+        parallel_margin: number(
+            at_least(&requirements.parallel_margin).as_ref(),
+            "parallel_margin",
+        )?,
+        leg_angle: leg_angle.map(|c| c.sqr()),
+        joint_speed,
+    })
+}
+
+fn joint_range(
+    range: &Range,
+    angular: bool,
+    units: &Units,
+) -> Result<JointRange<Fixed>, ClaimError> {
+    if !angular {
+        let end =
+            |x: &Option<Exact>| x.as_ref().map(|x| units.length(x, "joint_range")).transpose();
+        return Ok(JointRange::Length { min: end(&range.min)?, max: end(&range.max)? });
+    }
+    let end = |x: &Option<Exact>| {
+        let angle = x.as_ref().and_then(|x| cos_sin(x, units.bits));
+        angle.ok_or_else(|| precision("joint_range"))
+    };
+    Ok(JointRange::Angle { min: end(&range.min)?, max: end(&range.max)? })
 }

@@ -86,6 +86,10 @@ fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
                 writeln!(out, "  {min} <= {axis} <= {max}")?;
             }
         }
+        Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
+            writeln!(out, "and every point P = (x, y, z) of the cylinder")?;
+            writeln!(out, "  (x - ({x}))^2 + (y - ({y}))^2 <= ({radius})^2, {low} <= z <= {high}")?;
+        }
         Workspace::Cube { side } => {
             writeln!(
                 out,
@@ -97,7 +101,15 @@ fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
 }
 
 fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
-    let Requirements { transmission, joint_range } = &claim.requirements;
+    let Requirements {
+        transmission,
+        joint_range,
+        conditioning,
+        serial_margin,
+        parallel_margin,
+        leg_angle,
+        joint_speed,
+    } = &claim.requirements;
     writeln!(out, "  every leg reaches P without a serial singularity;")?;
     writeln!(out, "  P is not a parallel singularity;")?;
     if let Some(range) = transmission {
@@ -113,6 +125,25 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     for (i, range) in joint_range.iter().flatten().enumerate() {
         writeln!(out, "  {};", Bounded(range, &format!("rho_{}(P)", i + 1)))?;
     }
+    if let Some(bound) = conditioning {
+        writeln!(out, "  sigma_max(M)/sigma_min(M) <= {};", bound.max)?;
+    }
+    if let Some(bound) = serial_margin {
+        writeln!(out, "  |eta_i|/L_i >= {} for every leg;", bound.min)?;
+    }
+    if let Some(bound) = parallel_margin {
+        writeln!(out, "  |det A|/(L_1 L_2 L_3) >= {};", bound.min)?;
+    }
+    if let Some(bound) = leg_angle {
+        writeln!(out, "  every leg is within {} degrees of its guide;", bound.max)?;
+    }
+    if let Some(bound) = joint_speed {
+        writeln!(
+            out,
+            "  |row_i of M| * {} <= {} for every leg (tool and joint speed);",
+            bound.tool, bound.max
+        )?;
+    }
     transmission_factors(out)
 }
 
@@ -120,31 +151,36 @@ struct Described<'a>(&'a Leg);
 
 impl fmt::Display for Described<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Leg::Slider { direction, anchor, platform, length, mode } => {
-                let sign = match mode {
-                    Sign::Plus => "> 0",
-                    Sign::Minus => "< 0",
-                };
-                write!(
-                    f,
-                    "slider, guide direction {}, anchor {}, platform {}, length {}, eta {sign}",
-                    Triple(direction),
-                    Triple(anchor),
-                    Triple(platform),
-                    Value(length)
-                )
+        let mode = match self.0 {
+            Leg::Slider { mode, .. } | Leg::Arm { mode, .. } => Some(mode),
+            Leg::Strut { .. } | Leg::Planar { .. } => None,
+        };
+        f.write_str(match self.0 {
+            Leg::Slider { .. } => "slider",
+            Leg::Strut { .. } => "strut",
+            Leg::Arm { .. } => "arm",
+            Leg::Planar { .. } => "planar",
+        })?;
+        let parameters = self.0.parameters();
+        let mut rest = parameters.as_slice();
+        while let Some(&(parameter, first)) = rest.first() {
+            match rest {
+                [(_, x), (_, y), (_, z), after @ ..] if !parameter.is_length() => {
+                    write!(f, ", {parameter} ({}, {}, {})", Value(x), Value(y), Value(z))?;
+                    rest = after;
+                }
+                [_, after @ ..] => {
+                    write!(f, ", {parameter} {}", Value(first))?;
+                    rest = after;
+                }
+                [] => break,
             }
         }
-    }
-}
-
-struct Triple<'a>(&'a [Quantity; 3]);
-
-impl fmt::Display for Triple<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0;
-        write!(f, "({}, {}, {})", Value(x), Value(y), Value(z))
+        match mode {
+            Some(Sign::Plus) => f.write_str(", eta > 0"),
+            Some(Sign::Minus) => f.write_str(", eta < 0"),
+            None => Ok(()),
+        }
     }
 }
 

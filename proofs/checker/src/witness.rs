@@ -1,13 +1,14 @@
 //! Refutations: one machine, one point, one provably violated requirement.
 
-use crate::certificate::{Violation, Witness, PRECISIONS};
+use crate::certificate::{TwoDirections, Violation, Witness, PRECISIONS};
 use crate::claim::{ClaimError, Leg, MachineClaim, Mechanism, Workspace};
 use crate::enclosure::{Enclosure, Scalar};
 use crate::fixed::Fixed;
-use crate::kinematics::LegState;
+use crate::kinematics::{JointCoordinate, LegState};
 use crate::linear::{apply, determinant, norm_squared, Matrix, Vector};
-use crate::model::{CubeConstants, Model};
+use crate::model::{CubeConstants, JointRange, Model};
 use crate::number::Exact;
+use crate::rule::difference;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -79,6 +80,13 @@ pub fn check(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError
         Violation::SigmaMax(direction) => stretch(&model, &direction.vector, true),
         Violation::Reach(leg) => unreachable(&model, leg.leg),
         Violation::JointRange(leg) => beyond_range(&model, leg.leg),
+        Violation::Conditioning(directions) => ill_conditioned(&model, directions),
+        Violation::SerialMargin(leg) => {
+            oblique(&model, leg.leg, model.bounds.serial_margin.as_ref())
+        }
+        Violation::LegAngle(leg) => oblique(&model, leg.leg, model.bounds.leg_angle.as_ref()),
+        Violation::ParallelMargin => near_singular(&model),
+        Violation::JointSpeed(leg) => too_fast(&model, leg.leg),
         Violation::Singular(second) => {
             opposite_signs(&model, &model_at(claim, witness, &second.other)?)
         }
@@ -126,8 +134,21 @@ fn model_at(
 
 /// Whether `point` is provably in the workspace.
 fn contains(claim: &MachineClaim, point: &[Exact; 3]) -> Result<bool, WitnessError> {
+    let at_most =
+        |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
     let (min, max) = match &claim.workspace {
         Workspace::Box { min, max } => (min.clone(), max.clone()),
+        Workspace::Cylinder { center, radius, z } => {
+            let squared = |x: Exact| x.clone().times(x);
+            let from_axis = |k: usize| squared(point[k].clone().minus(center[k].clone())?);
+            let distance = || from_axis(0)?.plus(from_axis(1)?);
+            let (Ok(distance), Ok(radius)) = (distance(), squared(radius.clone())) else {
+                return Ok(false);
+            };
+            return Ok(at_most(&distance, &radius)
+                && at_most(&z[0], &point[2])
+                && at_most(&point[2], &z[1]));
+        }
         Workspace::Cube { side } => {
             let psi_max = claim.requirements.transmission.as_ref().and_then(|t| t.max.as_ref());
             let psi_max = psi_max.ok_or(ClaimError::CubeNeedsPsiMax)?;
@@ -141,8 +162,6 @@ fn contains(claim: &MachineClaim, point: &[Exact; 3]) -> Result<bool, WitnessErr
             ([q1.clone(), q1.clone(), q1], [q2.clone(), q2.clone(), q2])
         }
     };
-    let at_most =
-        |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
     Ok((0..3).all(|k| at_most(&min[k], &point[k]) && at_most(&point[k], &max[k])))
 }
 
@@ -159,12 +178,7 @@ fn matrix(model: &Model<Fixed>) -> Result<Matrix<Fixed>, WitnessError> {
 /// `|M v|^2 > k^2 |v|^2` (`longer`), or `|M v|^2 < kappa^2 |v|^2`, where every leg reaches `P`:
 /// then `sigma_max(M) > k`, or `sigma_min(M) < kappa`.
 fn stretch(model: &Model<Fixed>, v: &[i64; 3], longer: bool) -> Result<(), WitnessError> {
-    if *v == [0; 3] {
-        return Err(WitnessError::ZeroVector);
-    }
-    let m = matrix(model)?;
-    let v: Vector<Fixed> = v.map(|x| Fixed::integer(x, m[0][0].bits()));
-    let (image, length) = (norm_squared(&apply(&m, &v)), norm_squared(&v));
+    let (image, length) = stretched(&matrix(model)?, v)?;
     let excess = if longer {
         let k = model.bounds.k.as_ref().ok_or(WitnessError::NoSuchBound)?;
         image.sub(&k.sqr().mul(&length))
@@ -175,6 +189,51 @@ fn stretch(model: &Model<Fixed>, v: &[i64; 3], longer: bool) -> Result<(), Witne
         model.bounds.kappa.sqr().mul(&length).sub(&image)
     };
     violated(excess.is_positive())
+}
+
+/// `|M v|^2` and `|v|^2`, for `v` not zero.
+fn stretched(m: &Matrix<Fixed>, v: &[i64; 3]) -> Result<(Fixed, Fixed), WitnessError> {
+    if *v == [0; 3] {
+        return Err(WitnessError::ZeroVector);
+    }
+    let v: Vector<Fixed> = v.map(|x| Fixed::integer(x, m[0][0].bits()));
+    Ok((norm_squared(&apply(m, &v)), norm_squared(&v)))
+}
+
+/// `|M u|/|u| > c |M v|/|v|`: then `sigma_max(M) > c sigma_min(M)`.
+fn ill_conditioned(model: &Model<Fixed>, directions: &TwoDirections) -> Result<(), WitnessError> {
+    let c = model.bounds.conditioning.as_ref().ok_or(WitnessError::NoSuchBound)?;
+    let m = matrix(model)?;
+    let (image_u, length_u) = stretched(&m, &directions.u)?;
+    let (image_v, length_v) = stretched(&m, &directions.v)?;
+    let least = c.sqr().mul(&image_v).mul(&length_u);
+    violated(image_u.mul(&length_v).sub(&least).is_positive())
+}
+
+/// The leg reaches `P` with `(eta_i / L_i)^2` certainly less than `bound`.
+fn oblique(model: &Model<Fixed>, leg: usize, bound: Option<&Fixed>) -> Result<(), WitnessError> {
+    let (i, bound) = (position(leg)?, bound.ok_or(WitnessError::NoSuchBound)?);
+    let cosine = model.legs[i].cosine_squared(&model.origin[i]).ok_or(WitnessError::NoSuchBound)?;
+    violated(bound.sub(&cosine).is_positive())
+}
+
+/// `|det A| / (L_1 L_2 L_3)` is certainly less than its bound.
+fn near_singular(model: &Model<Fixed>) -> Result<(), WitnessError> {
+    let bound = model.bounds.parallel_margin.as_ref().ok_or(WitnessError::NoSuchBound)?;
+    let unit = |i: usize| {
+        let w = &model.origin[i];
+        model.legs[i].expand_unit(w, w).map(|(unit, _)| unit).ok_or(WitnessError::NotViolated)
+    };
+    let det = determinant(&[unit(0)?, unit(1)?, unit(2)?]);
+    violated(bound.sub(&det).is_positive() && bound.add(&det).is_positive())
+}
+
+/// `|row_i of M|` is certainly greater than its bound.
+fn too_fast(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
+    let i = position(leg)?;
+    let bound = model.bounds.joint_speed.as_ref().ok_or(WitnessError::NoSuchBound)?;
+    let state = model.legs[i].at(&model.origin[i]).ok_or(WitnessError::NotViolated)?;
+    violated(norm_squared(&state.row).sub(&bound.sqr()).is_positive())
 }
 
 fn violated(provably: bool) -> Result<(), WitnessError> {
@@ -203,11 +262,21 @@ fn unreachable(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
 fn beyond_range(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
     let i = position(leg)?;
     let ranges = model.bounds.joint_range.as_ref().ok_or(WitnessError::NoSuchBound)?;
-    let (min, max) = &ranges[i];
     let state = model.legs[i].at(&model.origin[i]).ok_or(WitnessError::NotViolated)?;
-    let below = min.as_ref().is_some_and(|min| min.sub(&state.rho).is_positive());
-    let above = max.as_ref().is_some_and(|max| state.rho.sub(max).is_positive());
-    violated(below || above)
+    violated(match (&state.rho, &ranges[i]) {
+        (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
+            min.as_ref().is_some_and(|min| min.sub(rho).is_positive())
+                || max.as_ref().is_some_and(|max| rho.sub(max).is_positive())
+        }
+        // Either sine is negative outside the range only, see `rule::range`.
+        (JointCoordinate::Angle { cos, sin }, JointRange::Angle { min, max }) => {
+            let theta = (cos.clone(), sin.clone());
+            let (above, _) = difference(&theta, min);
+            let (below, _) = difference(max, &theta);
+            above.neg().is_positive() || below.neg().is_positive()
+        }
+        _ => false,
+    })
 }
 
 /// **Lemma.** If `det M` has opposite signs at two points of a convex workspace, the workspace has

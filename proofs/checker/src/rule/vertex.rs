@@ -1,130 +1,18 @@
-//! The rules: each discharges one obligation on one cell.
-//!
-//! | step         | obligation   | rule                                                   |
-//! |--------------|--------------|--------------------------------------------------------|
-//! | `lower`      | `sigma_min`  | [`lower`]: vertex rule about the centre                |
-//! | `corner`     | `sigma_min`  | [`corner`]: vertex rule about a tight corner           |
-//! | `upper`      | `sigma_max`  | [`upper`]: vertex rule about the centre                |
-//! | `cube`       | `sigma_max`  | [`cube`]: the paper's cube, by hand                    |
-//! | `range`      | `joint_range`| [`range`]: enclosure of the joint coordinates          |
-//!
-//! A rule does not know where in the tree it is used; [`crate::check`] adds that. Every rule but
-//! `cube` encloses `M` or `rho` over the cell and can do so only where every leg certainly reaches
-//! every point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes
-//! serial singularities as well as parallel ones.
-//!
-//! All rules are statements about one fixed machine. Where parameters are intervals, the
-//! enclosures hold every machine's `M(c)` and `E_k`, and the rule holds for each of them.
+//! The vertex rules: bounds on the singular values of `M` from the vertices of a cell.
 
+use super::Failure;
 use crate::cell::Cell;
 use crate::claim::Sign;
 use crate::definite::is_positive_definite;
 use crate::enclosure::{Enclosure, Scalar};
-use crate::expansion::{natural_rho, Expansion, ExpansionPoint, OutOfReach};
+use crate::expansion::{Expansion, ExpansionPoint};
 use crate::linear::{add_matrix, product, sub_matrix, Matrix, Symmetric};
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
-use std::fmt;
 
 /// Largest absolute value of a quaternion's component.
 pub const MAX_QUATERNION: i64 = 1 << 20;
-
-/// What is to be shown of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Obligation {
-    /// Every leg reaches every point with `s_i > 0` (no serial singularity), and
-    /// `sigma_min(M) >= kappa` with `kappa = 1/psi_max`; where there is no `psi_max`,
-    /// `sigma_min(M) > 0` (no parallel singularity).
-    SigmaMin,
-    /// `sigma_max(M) <= k` with `k = 1/psi_min`.
-    SigmaMax,
-    /// `rho_i` within its range, for every leg.
-    JointRange,
-}
-
-impl Obligation {
-    /// Every obligation there is, in the order of reports.
-    pub const ALL: [Obligation; 3] =
-        [Obligation::SigmaMin, Obligation::SigmaMax, Obligation::JointRange];
-}
-
-impl fmt::Display for Obligation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Obligation::SigmaMin => "sigma_min",
-            Obligation::SigmaMax => "sigma_max",
-            Obligation::JointRange => "joint_range",
-        })
-    }
-}
-
-/// Why a rule does not discharge its obligation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Failure {
-    /// A leg (from zero) is not certainly within reach and free of serial singularities.
-    OutOfReach(usize),
-    /// The matrix at this vertex of the cell is not certainly positive definite.
-    NotDefinite {
-        /// Bit `k` is set where `delta_k` is at its greater extent.
-        vertex: u8,
-    },
-    /// A joint coordinate (leg from zero) is not certainly within its range.
-    OutOfRange(usize),
-    /// The quaternion is zero, or a component is too large.
-    BadRotation,
-    /// The cell does not touch the corner, or the claim has none.
-    NotAtCorner,
-    /// The claim is not about the paper's cube.
-    NotTheCube,
-    /// The claim asks for nothing that the rule could discharge.
-    NoSuchBound,
-    /// The rule's obligation is already discharged on the cell.
-    Repeated,
-    /// The rule belongs to another kind of tree.
-    OtherKind,
-    /// The numbers cannot be enclosed.
-    NotEnclosed,
-    /// The cell has points with `u_y < u_z`.
-    NotMirrored,
-}
-
-impl From<OutOfReach> for Failure {
-    fn from(error: OutOfReach) -> Self {
-        Failure::OutOfReach(error.leg)
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::OutOfReach(leg) => write!(
-                f,
-                "leg {} is not certainly within reach with s > 0 on the whole box",
-                leg + 1
-            ),
-            Failure::NotDefinite { vertex } => {
-                write!(f, "the matrix at vertex {vertex} is not certainly positive definite")
-            }
-            Failure::OutOfRange(leg) => {
-                write!(f, "rho_{} is not certainly within its range on the whole box", leg + 1)
-            }
-            Failure::BadRotation => {
-                write!(f, "the quaternion is zero or has a component beyond ±{MAX_QUATERNION}")
-            }
-            Failure::NotAtCorner => write!(f, "the box does not touch that corner of the cube"),
-            Failure::NotTheCube => write!(f, "the rule is for the paper's cube only"),
-            Failure::NoSuchBound => write!(f, "the claim has no such requirement"),
-            Failure::Repeated => write!(f, "its obligation is already discharged on the path"),
-            Failure::OtherKind => write!(f, "the rule belongs to another kind of tree"),
-            Failure::NotEnclosed => write!(f, "the numbers cannot be enclosed"),
-            Failure::NotMirrored => write!(f, "the box has points with u_y < u_z"),
-        }
-    }
-}
 
 /// An orthogonal matrix `W = sign Rot(q) / |q|^2`, as evidence for [`lower`].
 ///
@@ -151,7 +39,7 @@ impl Rotation {
     pub const IDENTITY: Rotation = Rotation { q: [1, 0, 0, 0], sign: Sign::Plus };
 
     /// `sign Rot(q)` and `|q|^2`, both integers; `None` if `q` is zero or too large.
-    fn numerators(&self) -> Option<([[i64; 3]; 3], i64)> {
+    pub(super) fn numerators(&self) -> Option<([[i64; 3]; 3], i64)> {
         let [a, b, c, d] = self.q;
         let norm = self.norm_squared()?;
         let s = self.sign.as_integer();
@@ -193,9 +81,8 @@ enum VertexKind {
     AboutCorner,
 }
 
-/// `W A + (W A)^T - 2 kappa I`, times `|q|^2`, for `A` at a vertex is affine in `A`; this is its
-/// linear part.
-fn twice_rotated<S: Scalar>(w: &[[i64; 3]; 3], a: &Matrix<S>) -> Symmetric<S> {
+/// `|q|^2 (W A + (W A)^T)`, linear in `A`.
+pub(super) fn twice_rotated<S: Scalar>(w: &[[i64; 3]; 3], a: &Matrix<S>) -> Symmetric<S> {
     let w: Matrix<S> = w.map(|row| row.map(|x| a[0][0].integer_like(x)));
     Symmetric::twice_part_of(&product(&w, a))
 }
@@ -303,6 +190,17 @@ pub fn corner<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Resul
     all_vertices(1, &at_corner, &slopes, VertexKind::AboutCorner)
 }
 
+/// `A(v) = M(c) + sum_k (+-1) slopes_k`, plus where bit `k` of `vertex` is set.
+pub(super) fn matrix_at_vertex<S: Scalar>(expansion: &Expansion<S>, vertex: u8) -> Matrix<S> {
+    (0..3).fold(expansion.matrix.clone(), |sum, k| {
+        if vertex >> k & 1 == 1 {
+            add_matrix(&sum, &expansion.slopes[k])
+        } else {
+            sub_matrix(&sum, &expansion.slopes[k])
+        }
+    })
+}
+
 /// **Vertex rule, upper bound.** If `k^2 I - A(v)^T A(v)` is positive definite at the 8 vertices,
 /// then `sigma_max(M) < k` on the cell.
 ///
@@ -311,13 +209,7 @@ pub fn corner<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Resul
 pub fn upper<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Result<(), Failure> {
     let k_squared = model.bounds.k.as_ref().ok_or(Failure::NoSuchBound)?.sqr();
     let exceeds = |vertex: &u8| {
-        let at_vertex = (0..3).fold(expansion.matrix.clone(), |sum, k| {
-            if vertex >> k & 1 == 1 {
-                add_matrix(&sum, &expansion.slopes[k])
-            } else {
-                sub_matrix(&sum, &expansion.slopes[k])
-            }
-        });
+        let at_vertex = matrix_at_vertex(expansion, *vertex);
         !is_positive_definite(&Symmetric::gram_of(&at_vertex).subtracted_from(&k_squared))
     };
     match (0..8).find(exceeds) {
@@ -340,31 +232,4 @@ pub fn cube<S>(model: &Model<S>) -> Result<(), Failure> {
     } else {
         Err(Failure::NotTheCube)
     }
-}
-
-/// **Joint range.** Each `rho_i` lies in its range on the cell.
-///
-/// *Proof.* `rho_i` on the cell is in the value of its formula over the cell, and in
-/// `rho_i(c) + sum_k [-1, 1] h_k g_k` by the slope identity; both enclose the same numbers, so
-/// their intersection does. It is compared with the range, ends included. ∎
-pub fn range<S: Enclosure>(
-    model: &Model<S>,
-    cell: &Cell,
-    expansion: &Expansion<S>,
-) -> Result<(), Failure> {
-    let ranges = model.bounds.joint_range.as_ref().ok_or(Failure::NoSuchBound)?;
-    for (leg, (min, max)) in ranges.iter().enumerate() {
-        let centred = expansion.rho_slopes[leg]
-            .iter()
-            .fold(expansion.rho[leg].clone(), |sum, slope| sum.add(&slope.join(&slope.neg())));
-        let rho = natural_rho(model, cell, leg)
-            .and_then(|natural| natural.meet(&centred))
-            .ok_or(Failure::OutOfReach(leg))?;
-        let above = min.as_ref().is_none_or(|min| rho.sub(min).is_nonnegative());
-        let below = max.as_ref().is_none_or(|max| max.sub(&rho).is_nonnegative());
-        if !(above && below) {
-            return Err(Failure::OutOfRange(leg));
-        }
-    }
-    Ok(())
 }
