@@ -158,31 +158,69 @@ impl Enclosure for Interval {
     }
 }
 
-/// An endpoint, or a polynomial of endpoints, as a tight interval: positive only if certainly so.
+/// An endpoint, or a polynomial of endpoints, as a sum of two doubles with a bound on its error:
+/// the number is within `high + low ± error`.
+///
+/// Where two singular values come near a bound together, a determinant is of the order of their
+/// distance squared, and half of a double's digits are lost in it; hence twice the digits.
 #[derive(Clone, Copy, Debug)]
-pub struct Endpoint(Inari);
+pub struct Endpoint {
+    high: f64,
+    low: f64,
+    error: f64,
+}
+
+/// Bounds what is lost by rounding three or four times, relative to the terms' absolute values,
+/// and what is lost below the least normal double.
+const LOSS: f64 = 4.0 * f64::EPSILON;
+const UNDERFLOW: f64 = 4.0 * f64::MIN_POSITIVE;
+
+/// `x + y` as the nearest double and the rest, exactly (Knuth).
+fn two_sum(x: f64, y: f64) -> (f64, f64) {
+    let sum = x + y;
+    let part = sum - x;
+    (sum, (x - (sum - part)) + (y - part))
+}
 
 impl Endpoint {
     fn new(x: f64) -> Self {
-        Endpoint(Inari::try_from((x, x)).unwrap_or(Inari::ENTIRE))
+        Endpoint { high: x, low: 0.0, error: 0.0 }
+    }
+
+    /// `high + (a + b + c)`, with what is lost in the inner sum added to `error`.
+    fn of(high: f64, [a, b, c]: [f64; 3], error: f64) -> Self {
+        let lost = LOSS * (a.abs() + b.abs() + c.abs() + error) + UNDERFLOW;
+        let (high, low) = two_sum(high, a + b + c);
+        Endpoint { high, low, error: error + lost }
+    }
+
+    fn mag(&self) -> f64 {
+        self.high.abs() + self.low.abs()
     }
 }
 
 impl Bound for Endpoint {
     fn add(&self, other: &Self) -> Self {
-        Endpoint(self.0 + other.0)
+        let (high, rest) = two_sum(self.high, other.high);
+        Self::of(high, [self.low, other.low, rest], self.error + other.error)
     }
 
     fn sub(&self, other: &Self) -> Self {
-        Endpoint(self.0 - other.0)
+        self.add(&Endpoint { high: -other.high, low: -other.low, error: other.error })
     }
 
     fn mul(&self, other: &Self) -> Self {
-        Endpoint(self.0 * other.0)
+        let high = self.high * other.high;
+        let rest = self.high.mul_add(other.high, -high);
+        let error = self.mag() * other.error
+            + self.error * (other.mag() + other.error)
+            + (self.low * other.low).abs();
+        Self::of(high, [self.high * other.low, self.low * other.high, rest], error)
     }
 
     fn is_positive(&self) -> bool {
-        !self.0.is_empty() && self.0.inf() > 0.0
+        let error = self.error + LOSS * (self.error + self.low.abs());
+        self.high + (self.low - error) > 0.0
     }
 }
 

@@ -182,6 +182,25 @@ impl Sampler {
         }
     }
 
+    /// The value of a quality at a place, whatever the claim's bounds: lengths in the model's unit,
+    /// angles in degrees, speeds per unit of tool speed. `None` out of reach, or where the legs
+    /// have no such quality.
+    pub fn value(&self, quality: Quality, values: &Values) -> Option<f64> {
+        let reached = values.reached.as_ref()?;
+        match quality {
+            Quality::Clearance => Some(values.clearance),
+            Quality::Determinant => Some(reached.matrix.determinant().abs()),
+            Quality::GreatestPsi => Some(1.0 / reached.xi[0]),
+            Quality::LeastPsi => Some(1.0 / reached.xi[2]),
+            Quality::LeastRho(leg) | Quality::GreatestRho(leg) => Some(reached.rho[leg]),
+            Quality::Conditioning => Some(reached.xi[2] / reached.xi[0]),
+            Quality::SerialMargin(leg) => reached.cosine[leg],
+            Quality::LegAngle(leg) => reached.cosine[leg].map(|c| c.min(1.0).acos().to_degrees()),
+            Quality::ParallelMargin => Some(reached.unit_determinant.abs()),
+            Quality::JointSpeed(leg) => Some(reached.matrix.row(leg).norm()),
+        }
+    }
+
     /// Every quality that the claim bounds, with those of singularities.
     pub fn qualities(&self) -> Vec<Quality> {
         let bounds = &self.model.bounds;

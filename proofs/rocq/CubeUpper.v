@@ -78,7 +78,8 @@ Proof.
   pose proof (pow_incr _ _ 2 (conj (Rabs_pos u3) r3)) as q3.
   assert (nz' : ~ (Rabs a = 0 /\ Rabs b = 0 /\ Rabs c = 0)).
   { intros [za [zb zc]]. apply nz. unfold vzero.
-    f_equal; match goal with |- ?w = 0 => destruct (Req_dec w 0) as [z | n]; [exact z | apply Rabs_no_R0 in n; lra] end. }
+    f_equal; match goal with |- ?w = 0 =>
+      destruct (Req_dec w 0) as [z | n]; [exact z | apply Rabs_no_R0 in n; lra] end. }
   pose proof (Rabs_pos a). pose proof (Rabs_pos b). pose proof (Rabs_pos c).
   pose proof (Rabs_pos u1). pose proof (Rabs_pos u2). pose proof (Rabs_pos u3).
   set (A := Rabs a) in *. set (B := Rabs b) in *. set (C := Rabs c) in *.

@@ -211,7 +211,8 @@ Theorem largest_cube : forall psi c1 c2, 1 < psi -> 0 < c1 -> 0 < c2 ->
 Proof.
   intros psi c1 c2 hpsi p1 p2. destruct (kappa_range psi hpsi) as [k inv].
   destruct (t_facts _ k) as [T1 [T2 [E1 _]]]. destruct (corners psi hpsi) as [D1 [D2 _]].
-  set (kappa := 1 / psi) in *. set (d1 := position_of_entry (t_1 kappa)) in *. set (d2 := position_of_entry (t_2 kappa)) in *.
+  set (kappa := 1 / psi) in *.
+  set (d1 := position_of_entry (t_1 kappa)) in *. set (d2 := position_of_entry (t_2 kappa)) in *.
   assert (q1e : - q_1 L psi = L * d1) by (unfold q_1; fold kappa; fold d1; ring).
   assert (q2e : q_2 L psi = L * d2) by reflexivity.
   assert (sq : forall x y n, 0 <= x -> 0 <= y -> 0 < n -> x ^ 2 * n <= y ^ 2 * n -> x <= y).

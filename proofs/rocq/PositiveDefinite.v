@@ -19,6 +19,11 @@ Definition sym_part (S : mat) : mat := mscale (1/2) (madd S (transpose S)).
 Lemma quad_sym_part : forall S v, quad (sym_part S) v = quad S v.
 Proof. unfold quad, sym_part. intros. unfold_vec. field. Qed.
 
+Lemma positive_definite_sym_part : forall S, positive_definite (sym_part S) <-> positive_definite S.
+Proof.
+  intro S. split; intros h v nz; specialize (h v nz); rewrite quad_sym_part in *; exact h.
+Qed.
+
 Lemma sym_part_symmetric : forall S, transpose (sym_part S) = sym_part S.
 Proof. unfold sym_part. intros. unfold_vec. vec_split; field. Qed.
 

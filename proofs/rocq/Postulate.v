@@ -177,9 +177,11 @@ Proof.
   assert (X : (1 / psi) ^ 2 * psi ^ 2 = 1) by (field; lra).
   assert (0 <= (1 / psi) ^ 2) by apply pow2_ge_0. assert (0 <= psi ^ 2) by apply pow2_ge_0.
   split.
-  - replace (norm2 pdot) with ((1 / psi) ^ 2 * (psi ^ 2 * norm2 pdot)) by (rewrite <- Rmult_assoc, X; ring).
+  - replace (norm2 pdot) with ((1 / psi) ^ 2 * (psi ^ 2 * norm2 pdot))
+      by (rewrite <- Rmult_assoc, X; ring).
     apply Rmult_le_compat_l; lra.
-  - replace (norm2 pdot) with (psi ^ 2 * ((1 / psi) ^ 2 * norm2 pdot)) by (rewrite <- Rmult_assoc, (Rmult_comm (psi ^ 2)), X; ring).
+  - replace (norm2 pdot) with (psi ^ 2 * ((1 / psi) ^ 2 * norm2 pdot))
+      by (rewrite <- Rmult_assoc, (Rmult_comm (psi ^ 2)), X; ring).
     apply Rmult_le_compat_l; lra.
 Qed.
 

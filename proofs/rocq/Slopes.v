@@ -117,7 +117,8 @@ Theorem Jinv_slopes : forall m P c, machine_well_formed m -> legs_reach m P -> l
 Proof.
   intros m P c [w1 [w2 w3]] [p1 [p2 p3]] [c1 [c2 c3]].
   rewrite !Jinv_rows by (apply eta_nonzero; assumption).
-  rewrite (slider_row_slope (leg1 m) P c), (slider_row_slope (leg2 m) P c), (slider_row_slope (leg3 m) P c) by assumption.
+  rewrite (slider_row_slope (leg1 m) P c), (slider_row_slope (leg2 m) P c),
+    (slider_row_slope (leg3 m) P c) by assumption.
   unfold slope_1, slope_2, slope_3.
   generalize (slider_slope (leg1 m) P c) (slider_slope (leg2 m) P c) (slider_slope (leg3 m) P c)
     (Jinv_row (leg1 m) c) (Jinv_row (leg2 m) c) (Jinv_row (leg3 m) c) (vsub P c).

@@ -305,16 +305,16 @@ impl Walk<'_> {
     }
 }
 
-/// Every step discharges something that is not yet discharged on its path: that bounds the work
-/// for a tree by its leaves, whatever the file.
+/// Every step discharges something that its path has not discharged: that bounds the work for a tree by its
+/// leaves, whatever the file.
 fn refuse_repetition(mut done: Discharged, node: &Node, index: usize) -> Result<(), Rejected> {
     for step in &node.by {
-        let bits = discharges(step);
-        if bits & !done == 0 {
+        let new = discharges(step) & !done;
+        if new == 0 {
             let (rule, _) = step.rule();
             return Err(Rejected::Step { node: index, rule, failure: Failure::Repeated });
         }
-        done |= bits;
+        done |= new;
     }
     Ok(())
 }

@@ -163,7 +163,9 @@ impl fmt::Display for Failure {
             Failure::NotAtCorner => write!(f, "the box does not touch that corner of the cube"),
             Failure::NotTheCube => write!(f, "the rule is for the paper's cube only"),
             Failure::NoSuchBound => write!(f, "the claim has no such requirement"),
-            Failure::Repeated => write!(f, "its obligation is already discharged on the path"),
+            Failure::Repeated => {
+                write!(f, "what the rule discharges is already discharged on the box")
+            }
             Failure::OtherKind => write!(f, "the rule belongs to another kind of tree"),
             Failure::NotEnclosed => write!(f, "the numbers cannot be enclosed"),
             Failure::NotMirrored => write!(f, "the box has points with u_y < u_z"),
