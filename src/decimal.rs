@@ -143,9 +143,11 @@ pub fn readable(x: &Exact) -> String {
     if text.len() <= READABLE {
         return text;
     }
-    match approximate(x) {
+    // Beyond the doubles, too, the order of magnitude is what is to be seen.
+    let enclosed = || x.enclose(0, SHOWN_BITS).map(|x| rounded(&x.inf(), SHORTENED, Toward::Below));
+    match approximate(x).filter(|value| *value != 0.0) {
         Some(value) => format!("~{}", significant(value, SHORTENED)),
-        None => text,
+        None => enclosed().filter(|text| text != "0").map_or(text, |text| format!("~{text}")),
     }
 }
 
@@ -203,9 +205,14 @@ pub fn grouped(n: u64) -> String {
 
 /// A number of boxes, in words.
 pub fn boxes(n: usize) -> String {
+    counted(n, "box", "boxes")
+}
+
+/// A number of things, in words.
+pub fn counted(n: usize, one: &str, many: &str) -> String {
     match n {
-        1 => "1 box".to_owned(),
-        n => format!("{} boxes", grouped(n as u64)),
+        1 => format!("1 {one}"),
+        n => format!("{} {many}", grouped(n as u64)),
     }
 }
 
@@ -264,6 +271,7 @@ mod tests {
             ("100*sqrt(3)/(1+sqrt(2))", "~71.7438935"),
             ("310.582854123025", "~310.582854"),
             ("1e-30", "~1e-30"),
+            ("7e400", "~7.00000000e400"),
         ] {
             assert_eq!(readable(&Exact::parse(text, 1000).unwrap()), shown);
         }

@@ -16,7 +16,7 @@ use orthocert_checker::{check, Accepted, Rejected};
 /// written into the certificate.
 const PRECISIONS: [u32; 4] = [64, 96, 128, 256];
 /// Fractional bits in which the claim's numbers are enclosed for the search.
-const MODEL_PRECISION: u32 = 192;
+pub(crate) const MODEL_PRECISION: u32 = 192;
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
 const FINEST: i32 = 26;
 /// Open boxes from whose centres a violation is looked for.

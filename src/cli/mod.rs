@@ -1,6 +1,7 @@
 //! Commands: one module each. Flags are parsed here; every command resolves its own settings and
 //! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
 
+mod bounds;
 mod certify;
 mod check;
 mod completions;
@@ -9,6 +10,7 @@ mod effort;
 mod init;
 mod input;
 mod interrupt;
+mod paper;
 mod postulate;
 mod print;
 mod progress;
@@ -55,6 +57,10 @@ enum Command {
     Init(init::Arguments),
     /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
     Postulate(postulate::Arguments),
+    /// Print the seed paper's claims, and what is proved of each.
+    Paper(paper::Arguments),
+    /// Enclose the least and greatest of every quantity over a design's workspace.
+    Bounds(bounds::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
 }
@@ -157,6 +163,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Design(arguments) => design::run(arguments),
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
+        Command::Paper(arguments) => paper::run(arguments),
+        Command::Bounds(arguments) => bounds::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     }
 }

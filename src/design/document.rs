@@ -180,8 +180,8 @@ impl<'a> Value<'a> {
         Ok(Table { document: self.document, key, at, entries })
     }
 
-    /// The three elements of the array that this value is.
-    pub fn three(&self, accepted: &str) -> Result<[Value<'a>; 3], DesignError> {
+    /// The `N` elements of the array that this value is.
+    pub fn elements<const N: usize>(&self, accepted: &str) -> Result<[Value<'a>; N], DesignError> {
         let elements = self.inner.as_array().ok_or_else(|| self.wrong_type(accepted))?;
         let all = elements.iter().enumerate().map(|(i, element)| Value {
             document: self.document,
@@ -189,7 +189,12 @@ impl<'a> Value<'a> {
             at: element.span(),
             inner: element.get_ref(),
         });
-        <[Value; 3]>::try_from(all.collect::<Vec<_>>()).map_err(|_| self.wrong_type(accepted))
+        <[Value; N]>::try_from(all.collect::<Vec<_>>()).map_err(|_| self.wrong_type(accepted))
+    }
+
+    /// The three elements of the array that this value is.
+    pub fn three(&self, accepted: &str) -> Result<[Value<'a>; 3], DesignError> {
+        self.elements(accepted)
     }
 
     /// The text that this value is.

@@ -1,11 +1,12 @@
-//! The `[mechanism]` table: machines, and the drives of their legs.
+//! The `[mechanism]` table: kinds of machines.
 //!
-//! A kind of machine is a row of [`KINDS`], a drive a row of [`DRIVES`]; each row is a name and the
-//! function that reads what goes with it.
+//! A kind of machine is a row of [`KINDS`]: a name and the function that reads what goes with it.
 
 use super::document::{Table, Value};
+use super::drive::{self, LENGTH};
 use super::error::{Defect, DesignError};
-use super::number::{negated, positive, quantity};
+use super::independence;
+use super::number::{negated, quantity};
 use orthocert_checker::claim::{Leg, Mechanism, Quantity, WorkingMode};
 use orthocert_checker::number::Exact;
 
@@ -27,15 +28,6 @@ const KINDS: &[Kind] = &[
     Kind { name: "translational", read: translational },
 ];
 
-struct Drive {
-    name: &'static str,
-    read: fn(&Table<'_>) -> Result<Leg, DesignError>,
-}
-
-const DRIVES: &[Drive] = &[Drive { name: "slider", read: slider }];
-
-const LENGTH: &str = r#"a length greater than 0, such as 310.25 or "310.25 ± 0.02""#;
-
 /// Reads `[mechanism]`.
 pub(super) fn mechanism(
     table: &Table<'_>,
@@ -52,7 +44,7 @@ fn orthoglide(table: &Table<'_>, setting: &Setting<'_>) -> Result<Mechanism, Des
         return orthoglide_of_cube(table);
     }
     let length = table.require("leg_length", LENGTH)?;
-    let length = self::length(&length)?;
+    let length = drive::length(&length)?;
     let offset = match table.find("offset") {
         Some(offset) => negated(&offset, &quantity(&offset)?)?,
         None => zero(),
@@ -104,46 +96,21 @@ fn orthoglide_of_cube(table: &Table<'_>) -> Result<Mechanism, DesignError> {
 fn translational(table: &Table<'_>, setting: &Setting<'_>) -> Result<Mechanism, DesignError> {
     table.only(&["kind", "legs"])?;
     if let Some(cube) = &setting.cube {
-        let accepted = "min and max: workspace.cube goes with mechanism.kind = \"orthoglide\" only";
+        let accepted = "min and max, or cylinder: workspace.cube goes with mechanism.kind = \
+                        \"orthoglide\" only";
         return Err(cube.error(Defect::Conflict, "a cube, next to another machine", accepted));
     }
     let accepted = "three [[mechanism.legs]] tables";
-    let legs = table.require("legs", accepted)?.three(accepted)?;
-    let leg = |value: &Value<'_>| {
-        let table = value.table("a [[mechanism.legs]] table")?;
-        let drive = word(&table, "drive", DRIVES, |drive| drive.name)?;
-        (drive.read)(&table)
-    };
-    let [first, second, third] = &legs;
-    Ok(Mechanism::Translational([leg(first)?, leg(second)?, leg(third)?]))
-}
-
-/// A leg of fixed length on a linear guide.
-fn slider(table: &Table<'_>) -> Result<Leg, DesignError> {
-    table.only(&["drive", "direction", "anchor", "platform", "length", "mode"])?;
-    let direction = table.require("direction", "[x, y, z]: the guide's direction")?;
-    let anchor = table.require("anchor", "[x, y, z]: the point of the guide where rho = 0")?;
-    let length = table.require("length", LENGTH)?;
-    Ok(Leg::Slider {
-        direction: self::direction(&direction)?,
-        anchor: vector(&anchor)?,
-        platform: match table.find("platform") {
-            Some(platform) => vector(&platform)?,
-            None => [zero(), zero(), zero()],
-        },
-        length: self::length(&length)?,
-        mode: mode(table)?,
-    })
-}
-
-/// `mode`: the sign of `eta_i`.
-fn mode(table: &Table<'_>) -> Result<WorkingMode, DesignError> {
-    let modes = [("+", WorkingMode::Plus), ("-", WorkingMode::Minus)];
-    word(table, "mode", &modes, |(sign, _)| sign).map(|(_, mode)| *mode)
+    let values = table.require("legs", accepted)?.three(accepted)?;
+    let [first, second, third] = &values;
+    let legs = [drive::leg(first)?, drive::leg(second)?, drive::leg(third)?];
+    drive::one_unit(&values, &legs)?;
+    independence::independent(&values, &legs)?;
+    Ok(Mechanism::Translational(legs))
 }
 
 /// The row of `rows` that the word at `key` names.
-fn word<'r, T>(
+pub(super) fn word<'r, T>(
     table: &Table<'_>,
     key: &str,
     rows: &'r [T],
@@ -153,35 +120,11 @@ fn word<'r, T>(
     table.require(key, &names.join(", "))?.choose(rows, name)
 }
 
-/// A length that is positive for every admissible value.
-fn length(value: &Value<'_>) -> Result<Quantity, DesignError> {
-    let length = quantity(value)?;
-    positive(value, &length.min, "a length")?;
-    Ok(length)
-}
-
-/// Three coordinates.
-fn vector(value: &Value<'_>) -> Result<[Quantity; 3], DesignError> {
-    let [x, y, z] = value.three("[x, y, z]: three numbers or tolerances")?;
-    Ok([quantity(&x)?, quantity(&y)?, quantity(&z)?])
-}
-
-/// A vector that is not zero for any admissible values: some coordinate is of one strict sign,
-/// since the coordinates vary independently.
-fn direction(value: &Value<'_>) -> Result<[Quantity; 3], DesignError> {
-    let direction = vector(value)?;
-    if direction.iter().any(|x| x.min.sign() == Some(1) || x.max.sign() == Some(-1)) {
-        return Ok(direction);
-    }
-    let found = "a vector that is, or may be, zero";
-    Err(value.error(Defect::OutOfDomain, found, "a direction: any vector that is not zero"))
-}
-
 /// `quantity` times the unit vector along `axis`.
 fn along(axis: usize, quantity: &Quantity) -> [Quantity; 3] {
     std::array::from_fn(|k| if k == axis { quantity.clone() } else { zero() })
 }
 
-fn zero() -> Quantity {
+pub(super) fn zero() -> Quantity {
     Quantity::exactly(Exact::integer(0))
 }

@@ -21,7 +21,9 @@
 //! ```
 
 mod document;
+mod drive;
 mod error;
+mod independence;
 mod mechanism;
 mod number;
 mod requirements;
@@ -36,10 +38,12 @@ pub use error::{Defect, DesignError, Position, ReadError};
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 
+use crate::verify::MODEL_PRECISION;
 use document::{Document, Table};
 use mechanism::Setting;
 use orthocert_checker::claim::{Claim, ClaimError};
 use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use std::fs::File;
 use std::io::Read;
@@ -54,7 +58,7 @@ pub const MAX_FILE: u64 = 1 << 20;
 pub struct Design {
     /// The title that the file gives it.
     pub title: Option<String>,
-    /// The claim, well formed ([`MachineClaim::validate`]).
+    /// The claim, well formed ([`MachineClaim::validate`]) and with a model ([`Model::new`]).
     pub claim: Claim,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
@@ -71,6 +75,7 @@ impl Design {
         let claim = machine_claim(&root)?;
         let sources = Sources::of(text, tree.get_ref());
         claim.validate().map_err(|error| ill_formed(&root, &error))?;
+        Model::new(&claim, MODEL_PRECISION).map_err(|error| ill_formed(&root, &error))?;
         Ok(Design { title: title.map(str::to_owned), claim: Claim::Machine(claim), sources })
     }
 
@@ -121,11 +126,10 @@ fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
     let (machine, points, demands) =
         (table("mechanism")?, table("workspace")?, table("requirements")?);
     let setting = Setting { cube: points.find("cube"), joint_range: demands.find("joint_range") };
-    let cube = setting.cube.is_some();
-    // The form of the workspace decides what the other two tables need.
+    // The form of the workspace decides what the mechanism needs, and both decide what can be asked.
     let workspace = workspace::workspace(&points)?;
     let mechanism = mechanism::mechanism(&machine, &setting)?;
-    let requirements = requirements::requirements(&demands, cube)?;
+    let requirements = requirements::requirements(&demands, &mechanism)?;
     Ok(MachineClaim { mechanism, workspace, requirements })
 }
 

@@ -5,6 +5,10 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("orthoglide", include_str!("templates/orthoglide.toml")),
     ("orthoglide-cube", include_str!("templates/orthoglide-cube.toml")),
     ("translational", include_str!("templates/translational.toml")),
+    ("linear-delta", include_str!("templates/linear-delta.toml")),
+    ("rotary-delta", include_str!("templates/rotary-delta.toml")),
+    ("strut", include_str!("templates/strut.toml")),
+    ("tripteron", include_str!("templates/tripteron.toml")),
 ];
 
 /// The template called `kind`, one of [`TEMPLATES`].

@@ -14,10 +14,14 @@ struct Form {
     read: fn(&Table<'_>) -> Result<Workspace, DesignError>,
 }
 
-const FORMS: &[Form] =
-    &[Form { keys: &["cube"], read: cube }, Form { keys: &["min", "max"], read: axis_aligned_box }];
+const FORMS: &[Form] = &[
+    Form { keys: &["cube"], read: cube },
+    Form { keys: &["min", "max"], read: axis_aligned_box },
+    Form { keys: &["cylinder"], read: cylinder },
+];
 
-const ANY: &str = "min = [x, y, z] and max = [x, y, z], or cube (the side)";
+const ANY: &str = "min = [x, y, z] and max = [x, y, z], or cylinder, or cube (the side)";
+const CYLINDER: &str = "{ center = [0, 0], radius = 85, z = [0, 200] }, its axis parallel to z";
 const CORNER: &str = "[x, y, z]: three exact numbers";
 const SIDE: &str = "a length greater than 0: the cube's side";
 
@@ -47,6 +51,25 @@ fn axis_aligned_box(table: &Table<'_>) -> Result<Workspace, DesignError> {
     }
     Ok(Workspace::Box { min, max })
 }
+
+/// A cylinder whose axis is parallel to z.
+fn cylinder(table: &Table<'_>) -> Result<Workspace, DesignError> {
+    let table = table.require("cylinder", CYLINDER)?.table(CYLINDER)?;
+    table.only(&["center", "radius", "z"])?;
+    let [x, y] = table.require("center", CENTER)?.elements(CENTER)?;
+    let center = [exact(&x)?, exact(&y)?];
+    let value = table.require("radius", RADIUS)?;
+    let radius = exact(&value)?;
+    positive(&value, &radius, "a radius")?;
+    let [least, greatest] = table.require("z", HEIGHTS)?.elements(HEIGHTS)?;
+    let (low, high) = (exact(&least)?, exact(&greatest)?);
+    ordered((&least, &low), (&greatest, &high))?;
+    Ok(Workspace::Cylinder { center, radius, z: [low, high] })
+}
+
+const CENTER: &str = "[x, y]: where the axis crosses the plane z = 0";
+const RADIUS: &str = "a radius greater than 0";
+const HEIGHTS: &str = "[least z, greatest z]";
 
 /// The paper's cube, by its side.
 fn cube(table: &Table<'_>) -> Result<Workspace, DesignError> {

@@ -18,9 +18,12 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// Fractional bits tried, fewest first.
-const PRECISIONS: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
+const PRECISIONS: [u32; 7] = [256, 512, 1024, 2048, 4096, 8192, 16384];
 /// Bits by which every enclosure is finer than the digits that are shown of it.
 const GUARD_BITS: u64 = 8;
+
+/// The symbol of the base point.
+const BASE: &str = "a";
 
 /// What a quantity is measured in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,22 +113,23 @@ pub fn dimensions(
     }
     let constants = CubeConstants::new(psi_max, cube)?;
     let enclosed = |bits: &u32| enclose(&constants, cube, offset, *bits);
-    let fine = |all: &Vec<Dimension>| all.iter().all(|d| is_fine(&d.value, digits));
+    let fine = |all: &Vec<Dimension>| all.iter().all(|dimension| is_fine(dimension, digits));
     PRECISIONS.iter().filter_map(enclosed).find(fine).ok_or(DimensionError::Precision)
 }
 
 /// Whether an enclosure is narrow enough for so many significant digits: exact, or of a width below
-/// `10^-digits 2^-GUARD_BITS` of its magnitude. A number that no precision tells from zero, such as
-/// a base point that the offset was chosen to bring there, is fine in the highest.
-fn is_fine(x: &Fixed, digits: u32) -> bool {
-    let width = x.hi() - x.lo();
-    if crosses_zero(x) && Some(&x.bits()) == PRECISIONS.last() {
-        return true;
+/// `10^-digits 2^-GUARD_BITS` of its magnitude. The base point, which an offset may bring to zero
+/// where no precision tells, is fine in the highest.
+fn is_fine(Dimension { symbol, value: x, .. }: &Dimension, digits: u32) -> bool {
+    if crosses_zero(x) {
+        let highest = Some(&x.bits()) == PRECISIONS.last();
+        return x.lo() == x.hi() || (*symbol == BASE && highest);
     }
+    let width = x.hi() - x.lo();
     let magnitude = x.lo().bits().min(x.hi().bits());
-    // 10^d < 2^(10 d / 3 + 1), since 10^3 < 2^10.
+    // 10^d < 2^(10 d / 3 + 1), since 10 < 2^(10/3).
     let needed = u64::from(digits) * 10 / 3 + 1 + GUARD_BITS;
-    width.bits() == 0 || (!crosses_zero(x) && magnitude >= needed + width.bits())
+    width.bits() == 0 || magnitude >= needed + width.bits()
 }
 
 fn crosses_zero(x: &Fixed) -> bool {
@@ -162,7 +166,7 @@ fn enclose(
         new("L", "leg length", mm, length),
         new("q1", "corner Q1 = (q1, q1, q1)", mm, q1),
         new("q2", "corner Q2 = (q2, q2, q2)", mm, q2),
-        new("a", "base point of each guide", mm, base),
+        new(BASE, "base point of each guide", mm, base),
         new("rho_max", "joint range, from 0", mm, rho_max),
         new("theta_Q1", "theta at Q1", degree, angle(&t1.neg())?),
         new("theta_Q2", "theta at Q2", degree, angle(&t2)?),

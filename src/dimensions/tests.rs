@@ -4,6 +4,7 @@
 use super::*;
 use crate::decimal::{rounded, Toward};
 use num_rational::BigRational;
+use num_traits::Signed;
 
 fn exact(text: &str) -> Exact {
     Exact::parse(text, 1000).unwrap()
@@ -110,20 +111,15 @@ fn every_enclosure_holds_the_expected_digits() {
         assert_eq!(found.len(), expected.len());
         for (dimension, expected) in found.iter().zip(expected) {
             let expected = exact(expected).as_rational().unwrap().clone();
-            let last_place = BigRational::new(1.into(), 10.into()).pow(23) * &expected;
-            let ends = [&expected - &last_place, &expected + &last_place];
+            // The expected digits themselves are rounded.
+            let uncertain = BigRational::new(1.into(), 10.into()).pow(23) * expected.abs();
+            let (a, b) = (&expected - &uncertain, &expected + &uncertain);
             let (inf, sup) = (dimension.value.inf(), dimension.value.sup());
-            let [a, b] = if ends[0] <= ends[1] {
-                ends
-            } else {
-                let [a, b] = ends;
-                [b, a]
-            };
             assert!(inf <= b && a <= sup, "{} for {psi_max}", dimension.symbol);
             let [lower, upper] =
                 [rounded(&inf, 15, Toward::Below), rounded(&sup, 15, Toward::Above)]
                     .map(|text| exact(&text).as_rational().unwrap().clone());
-            assert!(lower <= a && b <= upper, "{} for {psi_max}", dimension.symbol);
+            assert!(lower <= b && a <= upper, "{} for {psi_max}", dimension.symbol);
         }
     }
 }
@@ -154,6 +150,19 @@ fn the_two_forms_of_the_greatest_theta_agree() {
     let bits = angle.bits();
     let degrees = angle.mul(&Fixed::integer(180, bits)).div(&pi(bits)).unwrap();
     assert!(degrees.intersection(of("theta_max")).is_some());
+}
+
+#[test]
+fn an_offset_may_bring_the_base_point_to_zero() {
+    // psi_max = 2: q1 - L = -L (1 + sin(beta_Q1)), of which only an enclosure is known.
+    let constants = CubeConstants::new(&exact("2"), &exact("200")).unwrap();
+    let offset = constants.q1.minus(exact("1")).unwrap().over(constants.inverse_length).unwrap();
+    let all = dimensions(&exact("2"), &exact("200"), &offset, 15).unwrap();
+    let base = &all.iter().find(|d| d.symbol == BASE).unwrap().value;
+    assert!(
+        crosses_zero(base)
+            && base.sup() - base.inf() < BigRational::new(1.into(), 10.into()).pow(1000)
+    );
 }
 
 #[test]

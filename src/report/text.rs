@@ -5,7 +5,7 @@ use super::{
     CertificateFile, Counterexample, EarlierFile, Outcome, PostulateReport, Remains, Report, Row,
     Size,
 };
-use crate::decimal::{boxes, exact, grouped, significant};
+use crate::decimal::{boxes, counted, exact, grouped, significant};
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
 
@@ -143,9 +143,13 @@ fn table(out: &mut String, rows: &[Row]) {
     let widths = [width(0), width(1), width(2)];
     let mut line = |[a, b, c, d]: &[String; 4]| {
         let [wa, wb, wc] = widths;
-        let text = format!("  {a:wa$}  {b:wb$}  {c:wc$}  {d}");
-        out.push_str(text.trim_end());
-        out.push('\n');
+        let values = format!("  {a:wa$}  {b:wb$}  {c:wc$}");
+        // A place that does not fit stands on a line of its own.
+        let separator = match values.chars().count() + 2 + d.chars().count() {
+            0..=WIDTH => "  ",
+            _ => "\n      at ",
+        };
+        let _ = writeln!(out, "{values}{separator}{d}");
     };
     line(&head);
     for row in &body {
@@ -227,10 +231,7 @@ fn describe_remains(out: &mut String, remains: &Remains) {
     if remains.boxes == 0 {
         return;
     }
-    let regions = match remains.region_count {
-        1 => "1 region".to_owned(),
-        n => format!("{} regions", grouped(n as u64)),
-    };
+    let regions = counted(remains.region_count, "region", "regions");
     labelled(
         out,
         "open",
@@ -284,8 +285,8 @@ fn effort(out: &mut String, proof: Option<&Size>, tried: usize, seconds: f64) {
     let Some(Size { leaves, nodes, depth, precision, .. }) = proof else {
         return labelled(out, "effort", &format!("{tried} tried, {time}"));
     };
-    let (leaves, nodes) = (grouped(*leaves as u64), boxes(*nodes));
-    let size = format!("{leaves} leaves of {nodes}, depth {depth}, {precision} bits");
+    let (leaves, nodes) = (counted(*leaves, "leaf", "leaves"), boxes(*nodes));
+    let size = format!("{leaves} of {nodes}, depth {depth}, {precision} bits");
     labelled(out, "proof", &format!("{size}; {tried} tried, {time}"));
 }
 

@@ -4,10 +4,27 @@ use super::*;
 use crate::design::{template, TEMPLATES};
 use orthocert_checker::claim::{Range, WorkingMode, Workspace};
 
+/// A leg on a guide.
+struct Slider {
+    direction: [Quantity; 3],
+    anchor: [Quantity; 3],
+    platform: [Quantity; 3],
+    length: Quantity,
+    mode: WorkingMode,
+}
+
+fn slider(claim: &MachineClaim, leg: usize) -> Slider {
+    match legs(claim)[leg].clone() {
+        Leg::Slider { direction, anchor, platform, length, mode } => {
+            Slider { direction, anchor, platform, length, mode }
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 fn length(written: &str) -> Quantity {
     let claim = read(&with(BOX, &[(4, &format!("leg_length = {written}"))]));
-    let [Leg::Slider { length, .. }, ..] = legs(&claim);
-    length.clone()
+    slider(&claim, 0).length
 }
 
 #[test]
@@ -71,16 +88,16 @@ fn tolerances_have_three_spellings() {
 #[test]
 fn an_orthoglide_on_a_box_has_three_sliders_along_the_axes() {
     let claim = read(BOX);
-    for (axis, leg) in legs(&claim).iter().enumerate() {
-        let Leg::Slider { direction, anchor, platform, length, mode } = leg;
+    for axis in 0..3 {
+        let Slider { direction, anchor, platform, length, mode } = slider(&claim, axis);
         for k in 0..3 {
             let on = |value: &str| if k == axis { exactly(value) } else { exactly("0") };
             assert_eq!(direction[k], on("1"));
             assert_eq!(anchor[k], on("-383.8"));
             assert_eq!(platform[k], on("-3"));
         }
-        assert_eq!(*length, between("310.23", "310.27"));
-        assert_eq!(*mode, WorkingMode::Plus);
+        assert_eq!(length, between("310.23", "310.27"));
+        assert_eq!(mode, WorkingMode::Plus);
     }
     let corner = |x: &str| [number(x), number(x), number(x)];
     assert_eq!(claim.workspace, Workspace::Box { min: corner("-73"), max: corner("126") });
@@ -93,7 +110,7 @@ fn an_orthoglide_on_a_box_has_three_sliders_along_the_axes() {
 fn base_and_offset_may_carry_tolerances() {
     let changes = [(5, "base = \"-383.8 ± 0.1\""), (6, "offset = { min = 1, max = 2 }")];
     let claim = read(&with(BOX, &changes));
-    let [Leg::Slider { anchor, platform, .. }, ..] = legs(&claim);
+    let Slider { anchor, platform, .. } = slider(&claim, 0);
     assert_eq!(anchor[0], between("-383.9", "-383.7"));
     assert_eq!(platform[0], between("-2", "-1"));
 }
@@ -101,8 +118,9 @@ fn base_and_offset_may_carry_tolerances() {
 #[test]
 fn base_and_offset_are_optional_without_a_joint_range() {
     let claim = read(&with(BOX, &[(5, ""), (6, ""), (12, "")]));
-    for Leg::Slider { anchor, platform, .. } in legs(&claim) {
-        assert!(anchor.iter().chain(platform).all(|x| *x == exactly("0")));
+    for leg in 0..3 {
+        let Slider { anchor, platform, .. } = slider(&claim, leg);
+        assert!(anchor.iter().chain(&platform).all(|x| *x == exactly("0")));
     }
     assert_eq!(claim.requirements.joint_range, None);
 }
@@ -141,16 +159,15 @@ fn a_cube_makes_the_orthoglide_of_the_paper() {
 #[test]
 fn legs_are_read_one_by_one() {
     let claim = read(LEGS);
-    let [Leg::Slider { anchor, platform, length, mode, .. }, second, third] = legs(&claim);
-    assert_eq!(*anchor, [exactly("0"), exactly("174.75"), exactly("0")]);
+    let Slider { anchor, platform, length, mode, .. } = slider(&claim, 0);
+    assert_eq!(anchor, [exactly("0"), exactly("174.75"), exactly("0")]);
     assert!(platform.iter().all(|x| *x == exactly("0")));
-    assert_eq!(*length, between("332.95", "333.05"));
-    assert_eq!(*mode, WorkingMode::Minus);
-    let Leg::Slider { anchor, mode, .. } = second;
+    assert_eq!(length, between("332.95", "333.05"));
+    assert_eq!(mode, WorkingMode::Minus);
+    let Slider { anchor, mode, .. } = slider(&claim, 1);
     assert_eq!(anchor[0], exactly("-174.75*sqrt(3)/2"));
-    assert_eq!(*mode, WorkingMode::Minus);
-    let Leg::Slider { mode, .. } = third;
-    assert_eq!(*mode, WorkingMode::Plus);
+    assert_eq!(mode, WorkingMode::Minus);
+    assert_eq!(slider(&claim, 2).mode, WorkingMode::Plus);
 }
 
 #[test]

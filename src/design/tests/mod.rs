@@ -2,6 +2,7 @@
 
 mod accepted;
 mod files;
+mod machines;
 mod refused;
 mod refused_numbers;
 
@@ -64,6 +65,82 @@ max = [60, 60, 200]
 transmission = { max = 2 }
 "#;
 
+/// A rotary Delta.
+const ARMS: &str = r#"[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [6, 0, 0]
+axis = [0, -1, 0]
+reference = [1, 0, 0]
+arm = 10
+length = "14 ± 0.001"
+platform = [10, 0, 0]
+mode = "+"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [-3, "3*sqrt(3)", 0]
+axis = ["sqrt(3)/2", "1/2", 0]
+reference = ["-1/2", "sqrt(3)/2", 0]
+arm = 10
+length = 14
+platform = [-5, "5*sqrt(3)", 0]
+mode = "+"
+[[mechanism.legs]]
+drive = "arm"
+anchor = [-3, "-3*sqrt(3)", 0]
+axis = ["-sqrt(3)/2", "1/2", 0]
+reference = ["-1/2", "-sqrt(3)/2", 0]
+arm = 10
+length = 14
+platform = [-5, "-5*sqrt(3)", 0]
+mode = "+"
+[workspace]
+cylinder = { center = [0, 1], radius = 3, z = [-14, -12] }
+[requirements]
+transmission = { max = 20 }
+joint_range = { min = -45, max = 120 }
+"#;
+
+/// A Tripteron.
+const PLANES: &str = r#"[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "planar"
+direction = [1, 0, 0]
+[[mechanism.legs]]
+drive = "planar"
+direction = [0, 1, 0]
+[[mechanism.legs]]
+drive = "planar"
+direction = [0, 0, 1]
+[workspace]
+min = [0, 0, 0]
+max = [1, 1, 1]
+[requirements]
+transmission = { max = 2 }
+"#;
+
+/// Three struts.
+const STRUTS: &str = r#"[mechanism]
+kind = "translational"
+[[mechanism.legs]]
+drive = "strut"
+anchor = [2, 0, 0]
+platform = [1, 0, 0]
+[[mechanism.legs]]
+drive = "strut"
+anchor = [0, 2, 0]
+[[mechanism.legs]]
+drive = "strut"
+anchor = [0, 0, 2]
+[workspace]
+min = [5, 5, 5]
+max = [6, 6, 6]
+[requirements]
+conditioning = { max = 30 }
+"#;
+
 /// `design` with some of its lines, counted from 1, replaced.
 fn with(design: &str, changes: &[(usize, &str)]) -> String {
     let line =
@@ -74,6 +151,7 @@ fn with(design: &str, changes: &[(usize, &str)]) -> String {
 fn read(text: &str) -> MachineClaim {
     match Design::parse(text, "test.toml") {
         Ok(Design { claim: Claim::Machine(claim), .. }) => claim,
+        Ok(design) => panic!("{:?}", design.claim),
         Err(error) => panic!("{error}\n{text}"),
     }
 }

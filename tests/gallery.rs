@@ -1,0 +1,102 @@
+//! The gallery: every design of tests/designs and every template gives the verdict that its first
+//! lines state, with a certificate that the checker accepts when it is read back.
+
+use orthocert::design::{Design, TEMPLATES};
+use orthocert::search::{Budget, Control, Progress};
+use orthocert::verify::{verify, Answer, Verification};
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+const MAX_BOXES: usize = 200_000;
+
+/// What a design's comment says of it, and the name of the file.
+struct Stated {
+    name: String,
+    verdict: Option<Verdict>,
+    text: String,
+}
+
+fn gallery() -> Vec<Stated> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/designs");
+    let mut designs: Vec<Stated> = fs::read_dir(folder)
+        .expect("the folder of designs")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .map(|path| {
+            let text = fs::read_to_string(&path).expect("a text");
+            let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+            let verdict = stated(&text).unwrap_or_else(|| panic!("{name} states no verdict"));
+            Stated { name, verdict, text }
+        })
+        .collect();
+    designs.sort_by(|a, b| a.name.cmp(&b.name));
+    designs
+}
+
+/// The verdict of the line `# Verdict: certified`, `refuted` or `undecided`, perhaps with a reason.
+fn stated(text: &str) -> Option<Option<Verdict>> {
+    let line = text.lines().find_map(|line| line.strip_prefix("# Verdict: "))?;
+    match line.split([',', ' ', ':', ';']).next()? {
+        "certified" => Some(Some(Verdict::Certified)),
+        "refuted" => Some(Some(Verdict::Refuted)),
+        "undecided" => Some(None),
+        _ => None,
+    }
+}
+
+fn decide(text: &str, name: &str) -> Verification {
+    let design = Design::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
+    let Claim::Machine(claim) = design.claim else { panic!("{name}: not about a machine") };
+    let cancel = AtomicBool::new(false);
+    let mut progress = |_: Progress| {};
+    let mut control = Control { cancel: &cancel, progress: &mut progress };
+    let budget = Budget { max_boxes: MAX_BOXES, deadline: None };
+    verify(&claim, budget, &mut control).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// The verdict that the checker accepts from the certificate's text, and the number of nodes.
+fn checked(certificate: &Certificate, name: &str) -> Verdict {
+    let text = certificate.to_text().expect("a text");
+    let read = orthocert_checker::read(text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(&read, certificate, "{name}");
+    orthocert_checker::check(&read).unwrap_or_else(|reason| panic!("{name}: {reason}"));
+    read.verdict
+}
+
+fn verdict(text: &str, name: &str) -> (Option<Verdict>, String) {
+    let verification = decide(text, name);
+    let told = format!("{name}: {} boxes, worst {:?}", verification.boxes, verification.worst);
+    match verification.answer {
+        Answer::Decided { certificate, .. } => (Some(checked(&certificate, name)), told),
+        Answer::Undecided(rest) => {
+            let open = rest.open.iter().take(3).map(|item| format!("{item:?}"));
+            let open = open.collect::<Vec<_>>().join("\n  ");
+            (None, format!("{told}; {:?}, {:?}\n  {open}", rest.stop, rest.objection))
+        }
+        Answer::Cancelled => panic!("{name}: cancelled by nobody"),
+    }
+}
+
+#[test]
+fn every_design_gives_its_stated_verdict() {
+    let mut wrong = Vec::new();
+    for Stated { name, verdict: expected, text } in gallery() {
+        let (found, told) = verdict(&text, &name);
+        println!("{name}: {found:?}");
+        if found != expected {
+            wrong.push(format!("{told}\n  expected {expected:?}, found {found:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_template_is_certified() {
+    for (kind, text) in TEMPLATES {
+        let (found, told) = verdict(text, kind);
+        assert_eq!(found, Some(Verdict::Certified), "{told}");
+    }
+}
