@@ -232,7 +232,7 @@ pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u8;
+type Discharged = u32;
 const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
 fn bit(obligation: Obligation) -> Discharged {

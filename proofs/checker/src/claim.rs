@@ -138,6 +138,7 @@ pub enum Leg {
         /// Length of the leg, from the elbow to the platform.
         length: Quantity,
         /// The sign of the leg's component along the elbow's motion.
+        #[serde(deserialize_with = "strict::name")]
         mode: WorkingMode,
     },
     /// Leg that constrains the platform to a plane; row of `M` and `rho_i = n . P` are constant

@@ -6,7 +6,8 @@ use orthocert_checker::{check, read, Rejected};
 /// The prototype's claim with this JSON text as its nodes.
 fn prototype(nodes: &str) -> String {
     format!(
-        r#"{{"format":"orthocert/1","claim":{{"machine":{{"mechanism":{{"orthoglide":{{"offset":"0"}}}},
+        r#"{{"format":"orthocert/1",
+"claim":{{"machine":{{"mechanism":{{"orthoglide":{{"offset":"0"}}}},
 "workspace":{{"cube":{{"side":"200"}}}},"requirements":{{"transmission":{{"max":"2"}}}}}}}},
 "verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},
 "provenance":{{"tool":"hand","version":"1"}}}}"#
