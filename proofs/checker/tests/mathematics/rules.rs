@@ -313,3 +313,50 @@ fn boxes_out_of_reach_have_no_expansion() {
     assert_eq!(about(cell([0, 3, 3], 2)), Err(OutOfReach { leg: 0 }));
     assert_eq!(about(cell([0, 2, 3], 2)), Ok(()));
 }
+
+/// `a I + sum_k lambda_k d_k I` with integers `a` and `d`.
+fn multiples_of_identity(a: i64, d: [i64; 3]) -> Expansion<Fixed> {
+    let integer = |n: i64| Fixed::integer(n, BITS);
+    let times = |n: i64| from_fn(|i| from_fn(|j| integer(if i == j { n } else { 0 })));
+    Expansion {
+        matrix: times(a),
+        slopes: d.map(times),
+        rho: from_fn(|_| integer(0)),
+        rho_slopes: from_fn(|_| from_fn(|_| integer(0))),
+    }
+}
+
+#[test]
+fn every_vertex_matters() {
+    // One vertex of eight violates the bound, by little; it alone must be found.
+    for vertex in 0..8u8 {
+        let towards = |k: usize| if vertex >> k & 1 == 1 { 1 } else { -1 };
+        let alone = Err(Failure::NotDefinite { vertex });
+        let mut model = Model::new(&orthoglide("1", "-1/4", "1/4"), BITS).unwrap();
+        // 10 + sum of three terms of +-1: 7 at one vertex, 9 or more at the others; 13 and 11.
+        let (falling, rising) = (from_fn(|k| -towards(k)), from_fn(towards));
+        for (kappa, expected) in [(6.9, Ok(())), (7.1, alone), (8.9, alone)] {
+            model.bounds.kappa = fixed(kappa);
+            let expansion = multiples_of_identity(10, falling);
+            let found = rule::lower(&model, &expansion, &Rotation::IDENTITY);
+            assert_eq!(found, expected, "{kappa}");
+        }
+        for (k, expected) in [(13.1, Ok(())), (12.9, alone), (11.1, alone)] {
+            model.bounds.k = Some(fixed(k));
+            assert_eq!(rule::upper(&model, &multiples_of_identity(10, rising)), expected, "{k}");
+        }
+    }
+    let mut model = Model::new(&cube("2", "1"), BITS).unwrap();
+    model.bounds.kappa = fixed(6.5);
+    for vertex in 1..8u8 {
+        // From a corner inward: 7 is reached with all of the vertex's own steps, and only there.
+        let steps = i64::from(vertex.count_ones());
+        let towards = from_fn(|k| if vertex >> k & 1 == 1 { -1 } else { 1 });
+        let expansion = multiples_of_identity(6 + steps, towards);
+        let found = rule::corner(&model, &expansion);
+        assert_eq!(found, Err(Failure::NotDefinite { vertex }));
+        assert_eq!(rule::corner(&model, &multiples_of_identity(7 + steps, towards)), Ok(()));
+    }
+    // The corner's own vertex is left to the hand proof.
+    assert_eq!(rule::corner(&model, &multiples_of_identity(6, [1; 3])), Ok(()));
+}
