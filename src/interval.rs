@@ -158,31 +158,49 @@ impl Enclosure for Interval {
     }
 }
 
-/// An endpoint, or a polynomial of endpoints, as a tight interval: positive only if certainly so.
+/// An endpoint, or a polynomial of endpoints, as a sum of two doubles: near tight bounds, where an
+/// eigenvalue is small and perhaps double, minors of matrices are far smaller than the rounding
+/// errors of doubles.
 #[derive(Clone, Copy, Debug)]
-pub struct Endpoint(Inari);
+pub struct Endpoint {
+    head: f64,
+    tail: f64,
+}
 
 impl Endpoint {
     fn new(x: f64) -> Self {
-        Endpoint(Inari::try_from((x, x)).unwrap_or(Inari::ENTIRE))
+        Endpoint { head: x, tail: 0.0 }
+    }
+
+    /// `a + b + rest`, normalised: the rounding error of `a + b` is a double (Knuth).
+    fn sum(a: f64, b: f64, rest: f64) -> Self {
+        let head = a + b;
+        let part = head - a;
+        let tail = (a - (head - part)) + (b - part) + rest;
+        let normal = head + tail;
+        Endpoint { head: normal, tail: tail - (normal - head) }
     }
 }
 
 impl Bound for Endpoint {
     fn add(&self, other: &Self) -> Self {
-        Endpoint(self.0 + other.0)
+        Self::sum(self.head, other.head, self.tail + other.tail)
     }
 
     fn sub(&self, other: &Self) -> Self {
-        Endpoint(self.0 - other.0)
+        Self::sum(self.head, -other.head, self.tail - other.tail)
     }
 
     fn mul(&self, other: &Self) -> Self {
-        Endpoint(self.0 * other.0)
+        let head = self.head * other.head;
+        let tail = self.head.mul_add(other.head, -head);
+        let cross = self.head * other.tail + self.tail * other.head;
+        Self::sum(head, tail, cross)
     }
 
+    /// As good as certainly: the last of some hundred bits may be wrong.
     fn is_positive(&self) -> bool {
-        !self.0.is_empty() && self.0.inf() > 0.0
+        self.head > f64::MIN_POSITIVE && self.head.is_finite()
     }
 }
 
