@@ -78,6 +78,9 @@ pub struct Sampler {
     legs: Option<Toleranced>,
 }
 
+/// A machine's legs, and their vectors `w_i` at a point.
+type Placed = ([Leg<Approx>; 3], [Vector<Approx>; 3]);
+
 /// The legs of a claim with tolerances.
 struct Toleranced {
     legs: [claim::Leg; 3],
@@ -359,11 +362,7 @@ impl Toleranced {
     }
 
     /// The machine with these parts of its tolerances, and its leg vectors.
-    fn machine(
-        &self,
-        t: &[f64],
-        displacement: &Vector<Approx>,
-    ) -> Option<([Leg<Approx>; 3], [Vector<Approx>; 3])> {
+    fn machine(&self, t: &[f64], displacement: &Vector<Approx>) -> Option<Placed> {
         let mut parts = t.iter();
         let mut leg = |i: usize| {
             let values: Vec<Approx> = self.ends[i]
