@@ -44,8 +44,7 @@ fn joint_coordinates_start_at_zero_on_an_axis_and_end_at_q2() {
     let (min, _) = machines::ends(&claim);
     let point = [min[0].clone(), at_axis.clone(), at_axis];
     let model = Model::at_point(&claim, None, &point, REFERENCE_BITS).unwrap();
-    let states = machines::states(&model).unwrap();
-    let rho = states[0].rho.length().unwrap();
+    let rho = machines::states(&model).unwrap()[0].rho.length().unwrap().clone();
     assert!(rho.inf() <= zero && zero <= rho.sup());
     let ones = from_fn(|_| BigRational::from_integer(1.into()));
     let at_q2 = reference(&claim, &ones).unwrap();
@@ -110,8 +109,8 @@ fn the_cube_s_machine_is_the_same_leg_by_leg() {
             for (one, other) in cube.iter().zip(&legs) {
                 let rows = one.row.iter().zip(&other.row);
                 assert!(!rows.into_iter().any(|(x, y)| apart(x, y.inf())), "{psi_max} {offset}");
-                let (one, other) = (one.rho.length().unwrap(), other.rho.length().unwrap());
-                assert!(!apart(one, other.inf() * &unit), "{psi_max} {offset}");
+                let [one_rho, other_rho] = [one, other].map(|state| state.rho.length().unwrap());
+                assert!(!apart(one_rho, other_rho.inf() * &unit), "{psi_max} {offset}");
                 assert!(!apart(&one.eta, other.eta.inf() * &unit), "{psi_max} {offset}");
             }
         }
