@@ -44,7 +44,7 @@ fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
             Err(failure) => trial.failures.push((obligation, failure)),
         }
     }
-    if let Ok(expansion) = &expansion {
+    if let (Ok(expansion), true) = (&expansion, centre_is_asked_about(model, cell)) {
         let defeated = |(o, _): &(Obligation, Failure)| defeated_at_centre(model, expansion, *o);
         trial.hopeless = trial.failures.iter().any(defeated);
     }
@@ -135,6 +135,16 @@ fn conditioning_step(
     holds(best)?;
     let rotation = *candidates.iter().find(|r| holds(r).is_ok()).unwrap_or(best);
     Ok(Step::Conditioning(ConditioningEvidence { rotation, mu }))
+}
+
+/// Whether the cell's centre is in the workspace: where it is not, what fails there need not fail
+/// on the part of the cell that matters.
+fn centre_is_asked_about(model: &Model<Interval>, cell: &Cell) -> bool {
+    let from_axis = |k: usize| {
+        let edge = cell.edges[k];
+        (2.0 * edge.index as f64 + 1.0) * (-f64::from(edge.level)).exp2() - 1.0
+    };
+    !model.is_cylinder || from_axis(0).hypot(from_axis(1)) <= 1.0
 }
 
 /// Whether a rule fails already on the centre alone: the box contains a point at which it cannot
