@@ -6,6 +6,7 @@
 //! | module       | does                                                                    |
 //! |--------------|-------------------------------------------------------------------------|
 //! | [`design`]   | reads design files, written by people, into claims in exact numbers     |
+//! | [`import`]   | makes design files of the configurations of motion controllers          |
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
 //! | [`machine`]  | the machine's obligations and the rules that may discharge them         |
@@ -16,6 +17,7 @@
 //! | [`verify`]   | decides a claim: certified, refuted, or undecided                       |
 
 pub mod design;
+pub mod import;
 pub mod interval;
 pub mod machine;
 pub mod postulate;
