@@ -7,6 +7,7 @@
 //! |--------------|-------------------------------------------------------------------------|
 //! | [`decimal`]  | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]   | reads design files, written by people, into claims in exact numbers     |
+//! | [`export`]   | writes certificates for the formal checker in Rocq                       |
 //! | [`extremes`] | encloses how small and how large each quantity gets                     |
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
@@ -24,6 +25,7 @@
 pub mod decimal;
 pub mod design;
 pub mod dimensions;
+pub mod export;
 pub mod extremes;
 pub mod interval;
 pub mod machine;

@@ -6,6 +6,7 @@ mod check;
 mod completions;
 mod design;
 mod effort;
+mod export;
 mod init;
 mod input;
 mod interrupt;
@@ -55,6 +56,8 @@ enum Command {
     Init(init::Arguments),
     /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
     Postulate(postulate::Arguments),
+    /// Write a certificate for another checker.
+    Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
 }
@@ -157,6 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Design(arguments) => design::run(arguments),
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     }
 }
