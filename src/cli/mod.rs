@@ -8,6 +8,7 @@ mod completions;
 mod design;
 mod effort;
 mod export;
+mod import;
 mod init;
 mod input;
 mod interrupt;
@@ -62,6 +63,8 @@ enum Command {
     Paper(paper::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Make a design file of a motion controller's configuration.
+    Import(import::Arguments),
     /// Write a certificate for another checker.
     Export(export::Arguments),
     /// Print a completion script for a shell.
@@ -168,6 +171,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     }

@@ -197,7 +197,7 @@ fn linear_delta(config: &Config<'_>) -> Result<Imported, ImportError> {
     if ends.len() == 3 {
         let tops: Vec<String> =
             (0..3).map(|i| format!("{}-{}", carriage(i), arms[i].text)).collect();
-        let above = least(&[low.clone()])
+        let above = least(std::slice::from_ref(&low))
             .zip(least(&tops))
             .filter(|((_, low), (_, top))| low.compare(top) == Some(std::cmp::Ordering::Less));
         match above {

@@ -84,7 +84,7 @@ fn an_unreadable_file_is_refused() {
     let folder = Folder::new();
     folder.write("secret.toml", DESIGN);
     let secret = folder.path("secret.toml");
-    std::fs::set_permissions(&secret, std::fs::Permissions::from_mode(0)).unwrap();
+    std::fs::set_permissions(&secret, std::fs::Permissions::from_mode(0o000)).unwrap();
     // The superuser reads everything.
     if std::fs::read(&secret).is_err() {
         folder.run(&["verify", "secret.toml"]).exits(2).complains(&["cannot be read"]);
