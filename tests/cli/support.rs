@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A design that the search gives up on only when its budget is used up.
-pub const LONG: &str = "orthoglide-10-mm-tolerance.toml";
+pub const LONG: &str = "long.toml";
 
 /// A folder in which the binary runs.
 pub struct Folder(TempDir);
@@ -18,9 +18,8 @@ pub struct Run {
     pub stderr: String,
 }
 
-/// The folder of the designs.
-pub fn designs() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/designs")
+fn tests() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
 }
 
 impl Folder {
@@ -32,7 +31,8 @@ impl Folder {
     pub fn with(names: &[&str]) -> Self {
         let folder = Folder::new();
         for name in names {
-            fs::copy(designs().join(name), folder.path(name)).unwrap();
+            let from = if *name == LONG { tests().join("cli") } else { tests().join("designs") };
+            fs::copy(from.join(name), folder.path(name)).unwrap();
         }
         folder
     }

@@ -158,8 +158,8 @@ fn an_arm_of_whole_numbers_has_the_row_that_the_geometry_gives() {
         let state = leg(&arm).0.at(&point(w)).unwrap();
         let JointCoordinate::Angle { cos, sin } = &state.rho else { panic!("an angle") };
         assert!(near(cos, 1.0, 1e-30) && near(sin, 0.0, 1e-30), "{mode:?}");
-        for k in 0..3 {
-            assert!(near(&state.row[k], row[k], 1e-15), "{mode:?} {k}");
+        for (found, expected) in state.row.iter().zip(row) {
+            assert!(near(found, expected, 1e-15), "{mode:?}");
         }
     }
 }
