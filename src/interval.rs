@@ -158,49 +158,69 @@ impl Enclosure for Interval {
     }
 }
 
-/// An endpoint, or a polynomial of endpoints, as a sum of two doubles: near tight bounds, where an
-/// eigenvalue is small and perhaps double, minors of matrices are far smaller than the rounding
-/// errors of doubles.
+/// An endpoint, or a polynomial of endpoints, as a sum of two doubles with a bound on its error:
+/// the number is within `high + low ± error`.
+///
+/// Where two singular values come near a bound together, a determinant is of the order of their
+/// distance squared, and half of a double's digits are lost in it; hence twice the digits.
 #[derive(Clone, Copy, Debug)]
 pub struct Endpoint {
-    head: f64,
-    tail: f64,
+    high: f64,
+    low: f64,
+    error: f64,
+}
+
+/// Bounds what is lost by rounding three or four times, relative to the terms' absolute values,
+/// and what is lost below the least normal double.
+const LOSS: f64 = 4.0 * f64::EPSILON;
+const UNDERFLOW: f64 = 4.0 * f64::MIN_POSITIVE;
+
+/// `x + y` as the nearest double and the rest, exactly (Knuth).
+fn two_sum(x: f64, y: f64) -> (f64, f64) {
+    let sum = x + y;
+    let part = sum - x;
+    (sum, (x - (sum - part)) + (y - part))
 }
 
 impl Endpoint {
     fn new(x: f64) -> Self {
-        Endpoint { head: x, tail: 0.0 }
+        Endpoint { high: x, low: 0.0, error: 0.0 }
     }
 
-    /// `a + b + rest`, normalised: the rounding error of `a + b` is a double (Knuth).
-    fn sum(a: f64, b: f64, rest: f64) -> Self {
-        let head = a + b;
-        let part = head - a;
-        let tail = (a - (head - part)) + (b - part) + rest;
-        let normal = head + tail;
-        Endpoint { head: normal, tail: tail - (normal - head) }
+    /// `high + (a + b + c)`, with what is lost in the inner sum added to `error`.
+    fn of(high: f64, [a, b, c]: [f64; 3], error: f64) -> Self {
+        let lost = LOSS * (a.abs() + b.abs() + c.abs() + error) + UNDERFLOW;
+        let (high, low) = two_sum(high, a + b + c);
+        Endpoint { high, low, error: error + lost }
+    }
+
+    fn mag(&self) -> f64 {
+        self.high.abs() + self.low.abs()
     }
 }
 
 impl Bound for Endpoint {
     fn add(&self, other: &Self) -> Self {
-        Self::sum(self.head, other.head, self.tail + other.tail)
+        let (high, rest) = two_sum(self.high, other.high);
+        Self::of(high, [self.low, other.low, rest], self.error + other.error)
     }
 
     fn sub(&self, other: &Self) -> Self {
-        Self::sum(self.head, -other.head, self.tail - other.tail)
+        self.add(&Endpoint { high: -other.high, low: -other.low, error: other.error })
     }
 
     fn mul(&self, other: &Self) -> Self {
-        let head = self.head * other.head;
-        let tail = self.head.mul_add(other.head, -head);
-        let cross = self.head * other.tail + self.tail * other.head;
-        Self::sum(head, tail, cross)
+        let high = self.high * other.high;
+        let rest = self.high.mul_add(other.high, -high);
+        let error = self.mag() * other.error
+            + self.error * (other.mag() + other.error)
+            + (self.low * other.low).abs();
+        Self::of(high, [self.high * other.low, self.low * other.high, rest], error)
     }
 
-    /// As good as certainly: the last of some hundred bits may be wrong.
     fn is_positive(&self) -> bool {
-        self.head > f64::MIN_POSITIVE && self.head.is_finite()
+        let error = self.error + LOSS * (self.error + self.low.abs());
+        self.high + (self.low - error) > 0.0
     }
 }
 

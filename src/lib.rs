@@ -5,23 +5,35 @@
 //!
 //! | module       | does                                                                    |
 //! |--------------|-------------------------------------------------------------------------|
+//! | [`decimal`]  | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]   | reads design files, written by people, into claims in exact numbers     |
 //! | [`import`]   | makes design files of the configurations of motion controllers          |
+//! | [`extremes`] | encloses how small and how large each quantity gets                     |
 //! | [`interval`] | floating-point intervals and approximations for the search              |
 //! | [`sample`]   | looks around: approximate values at single points and machines          |
 //! | [`machine`]  | the machine's obligations and the rules that may discharge them         |
+//! | [`paper`]    | the claims of the seed paper, one by one                                |
+//! | [`dimensions`]| the paper's Steps 1 to 3, enclosed                                     |
+//! | [`output`]   | files that appear whole or not at all                                   |
 //! | [`postulate`]| proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
 //! | [`refute`]   | turns a place where a requirement seems to fail into an exact witness   |
+//! | [`report`]   | what a verification found, for people and for scripts                   |
 //! | [`rotation`] | finds the orthogonal matrix that the vertex rule takes as evidence      |
 //! | [`search`]   | branch and bound: finds a bisection tree that discharges everything     |
 //! | [`verify`]   | decides a claim: certified, refuted, or undecided                       |
 
+pub mod decimal;
 pub mod design;
+pub mod dimensions;
+pub mod extremes;
 pub mod import;
 pub mod interval;
 pub mod machine;
+pub mod output;
+pub mod paper;
 pub mod postulate;
 pub mod refute;
+pub mod report;
 pub mod rotation;
 pub mod sample;
 pub mod search;

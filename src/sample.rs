@@ -78,6 +78,9 @@ pub struct Sampler {
     legs: Option<Toleranced>,
 }
 
+/// A machine's legs, and their vectors `w_i` at a point.
+type Placed = ([Leg<Approx>; 3], [Vector<Approx>; 3]);
+
 /// The legs of a claim with tolerances.
 struct Toleranced {
     legs: [claim::Leg; 3],
@@ -179,6 +182,25 @@ impl Sampler {
             Quality::JointSpeed(leg) => {
                 bounds.joint_speed.map(|max| 1.0 - reached.matrix.row(leg).norm() / max.0)
             }
+        }
+    }
+
+    /// The value of a quality at a place, whatever the claim's bounds: lengths in the model's unit,
+    /// angles in degrees, speeds per unit of tool speed. `None` out of reach, or where the legs
+    /// have no such quality.
+    pub fn value(&self, quality: Quality, values: &Values) -> Option<f64> {
+        let reached = values.reached.as_ref()?;
+        match quality {
+            Quality::Clearance => Some(values.clearance),
+            Quality::Determinant => Some(reached.matrix.determinant().abs()),
+            Quality::GreatestPsi => Some(1.0 / reached.xi[0]),
+            Quality::LeastPsi => Some(1.0 / reached.xi[2]),
+            Quality::LeastRho(leg) | Quality::GreatestRho(leg) => Some(reached.rho[leg]),
+            Quality::Conditioning => Some(reached.xi[2] / reached.xi[0]),
+            Quality::SerialMargin(leg) => reached.cosine[leg],
+            Quality::LegAngle(leg) => reached.cosine[leg].map(|c| c.min(1.0).acos().to_degrees()),
+            Quality::ParallelMargin => Some(reached.unit_determinant.abs()),
+            Quality::JointSpeed(leg) => Some(reached.matrix.row(leg).norm()),
         }
     }
 
@@ -340,11 +362,7 @@ impl Toleranced {
     }
 
     /// The machine with these parts of its tolerances, and its leg vectors.
-    fn machine(
-        &self,
-        t: &[f64],
-        displacement: &Vector<Approx>,
-    ) -> Option<([Leg<Approx>; 3], [Vector<Approx>; 3])> {
+    fn machine(&self, t: &[f64], displacement: &Vector<Approx>) -> Option<Placed> {
         let mut parts = t.iter();
         let mut leg = |i: usize| {
             let values: Vec<Approx> = self.ends[i]

@@ -124,7 +124,7 @@ pub(crate) fn accepted(claim: Claim, proof: impl Fn(u32) -> Proof) -> Answer {
     Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
 }
 
-fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
+pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
     Certificate {
         format: FORMAT.to_owned(),
         claim,

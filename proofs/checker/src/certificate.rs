@@ -11,10 +11,12 @@ use std::fmt;
 
 /// The format that this version reads and writes.
 pub const FORMAT: &str = "orthocert/1";
-/// Largest certificate, in bytes.
-pub const MAX_BYTES: usize = 64 << 20;
+/// Largest certificate, in bytes: with the next three, a bound on memory and time.
+pub const MAX_BYTES: usize = 16 << 20;
 /// Most nodes of a tree.
-pub const MAX_NODES: usize = 2_000_000;
+pub const MAX_NODES: usize = 500_000;
+/// Most trees of a proof by faces.
+pub const MAX_PARTS: usize = 4;
 /// Most steps of one node.
 pub const MAX_STEPS: usize = 16;
 /// Admissible precisions, in fractional bits.
@@ -76,7 +78,7 @@ pub struct Tree {
     /// Fractional bits of the arithmetic in which the rules are to be evaluated.
     pub precision: u32,
     /// The nodes.
-    #[serde(deserialize_with = "strict::list")]
+    #[serde(deserialize_with = "strict::nodes")]
     pub nodes: Vec<Node>,
 }
 
@@ -87,7 +89,7 @@ pub struct Faces {
     /// Fractional bits of the arithmetic in which the rules are to be evaluated.
     pub precision: u32,
     /// The trees, in the order of [`crate::parts_needed`].
-    #[serde(deserialize_with = "strict::list")]
+    #[serde(deserialize_with = "strict::parts")]
     pub parts: Vec<FacePart>,
 }
 
@@ -100,7 +102,7 @@ pub struct FacePart {
     /// The half.
     pub half: Half,
     /// The nodes in preorder.
-    #[serde(deserialize_with = "strict::list")]
+    #[serde(deserialize_with = "strict::nodes")]
     pub nodes: Vec<Node>,
 }
 
@@ -109,7 +111,7 @@ pub struct FacePart {
 #[serde(deny_unknown_fields)]
 pub struct Node {
     /// What is shown of the whole cell.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::steps")]
     pub by: Vec<Step>,
     /// The axis on which the cell is halved; absent for a leaf.
     #[serde(default, skip_serializing_if = "Option::is_none")]

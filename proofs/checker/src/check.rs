@@ -12,12 +12,16 @@ use crate::model::Model;
 use crate::number::Exact;
 use crate::postulate::{self, BlowUp, Face, Half};
 use crate::rule::{self, Failure, Obligation};
-use crate::strict::Strict;
+use crate::strict::{self, Strict};
 use crate::witness::{self, WitnessError};
+use serde::Deserialize;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt;
+
+/// Most characters of a message that quotes the file.
+const MAX_MESSAGE: usize = 300;
 
 /// What an accepted certificate establishes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -151,14 +155,43 @@ pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
     if bytes.len() > MAX_BYTES {
         return Err(Rejected::TooLarge(bytes.len()));
     }
-    let syntax = |e: &dyn fmt::Display| Rejected::Syntax(e.to_string());
     let text = std::str::from_utf8(bytes).map_err(|e| syntax(&e))?;
-    let Strict(certificate): Strict<Certificate> =
-        serde_json::from_str(text).map_err(|e| syntax(&e))?;
+    let certificate = strictly(text).map_err(|reason| match serde_json::from_str(text) {
+        // A later version may have any shape.
+        Ok(Header { format }) if format != FORMAT => Rejected::Format(quoted(&format)),
+        _ => reason,
+    })?;
     if certificate.format != FORMAT {
-        return Err(Rejected::Format(certificate.format));
+        return Err(Rejected::Format(quoted(&certificate.format)));
     }
     Ok(certificate)
+}
+
+/// What a certificate of any version has.
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+}
+
+fn strictly(text: &str) -> Result<Certificate, Rejected> {
+    if let Some((at, c)) = strict::foreign_byte(text) {
+        return Err(syntax(&format_args!("{c:?} at byte {at}, outside a string")));
+    }
+    let Strict(certificate) = serde_json::from_str(text).map_err(|e| syntax(&e))?;
+    Ok(certificate)
+}
+
+fn syntax(message: &dyn fmt::Display) -> Rejected {
+    Rejected::Syntax(quoted(&message.to_string()))
+}
+
+/// The beginning of a text that may quote the file, fit for a terminal.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().flat_map(|c| {
+        let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
+        plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
+    });
+    escaped.take(MAX_MESSAGE).collect()
 }
 
 /// Checks a certificate: recomputes everything that its proof uses from its claim.
@@ -199,7 +232,8 @@ pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u8;
+type Discharged = u32;
+const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
 fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
@@ -244,6 +278,7 @@ impl Walk<'_> {
             if node.by.len() > MAX_STEPS {
                 return Err(Rejected::TooManySteps(index));
             }
+            refuse_repetition(inherited, node, index)?;
             let discharged = inherited | steps(&cell, node, index, size)?;
             size.nodes += 1;
             size.depth = size.depth.max(depth);
@@ -268,6 +303,20 @@ impl Walk<'_> {
             Err(Rejected::MissingNode)
         }
     }
+}
+
+/// Every step discharges something that its path has not discharged: that bounds the work for a tree by its
+/// leaves, whatever the file.
+fn refuse_repetition(mut done: Discharged, node: &Node, index: usize) -> Result<(), Rejected> {
+    for step in &node.by {
+        let new = discharges(step) & !done;
+        if new == 0 {
+            let (rule, _) = step.rule();
+            return Err(Rejected::Step { node: index, rule, failure: Failure::Repeated });
+        }
+        done |= new;
+    }
+    Ok(())
 }
 
 fn admit_precision(bits: u32) -> Result<(), Rejected> {

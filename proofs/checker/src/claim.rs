@@ -11,6 +11,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// What a certificate is about.
+#[allow(clippy::large_enum_variant, reason = "one value, or three, for each claim")]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Claim {
@@ -98,6 +99,7 @@ pub enum Mechanism {
 }
 
 /// One leg; `w = P + platform - anchor` is the vector that its kinematics start from.
+#[allow(clippy::large_enum_variant, reason = "one value, or three, for each claim")]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "drive", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Leg {
@@ -112,6 +114,7 @@ pub enum Leg {
         /// `L_i > 0`.
         length: Quantity,
         /// The sign of `eta_i`.
+        #[serde(deserialize_with = "strict::name")]
         mode: WorkingMode,
     },
     /// Extensible leg: `rho_i` is its length.
@@ -137,6 +140,7 @@ pub enum Leg {
         /// Length of the leg, from the elbow to the platform.
         length: Quantity,
         /// The sign of the leg's component along the elbow's motion.
+        #[serde(deserialize_with = "strict::name")]
         mode: WorkingMode,
     },
     /// Leg that constrains the platform to a plane; row of `M` and `rho_i = n . P` are constant
@@ -499,30 +503,30 @@ impl Leg {
 
     /// Every parameter that may carry a tolerance, in the order of the format.
     pub fn parameters(&self) -> Vec<(Parameter, &Quantity)> {
-        let (vectors, lengths): (Vec<(Parameter, &[Quantity; 3])>, Vec<(Parameter, &Quantity)>) =
-            match self {
-                Leg::Slider { direction, anchor, platform, length, .. } => (
-                    vec![
-                        (Parameter::Direction, direction),
-                        (Parameter::Anchor, anchor),
-                        (Parameter::Platform, platform),
-                    ],
-                    vec![(Parameter::Length, length)],
-                ),
-                Leg::Strut { anchor, platform } => {
-                    (vec![(Parameter::Anchor, anchor), (Parameter::Platform, platform)], vec![])
-                }
-                Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => (
-                    vec![
-                        (Parameter::Axis, axis),
-                        (Parameter::Reference, reference),
-                        (Parameter::Anchor, anchor),
-                        (Parameter::Platform, platform),
-                    ],
-                    vec![(Parameter::Arm, arm), (Parameter::Length, length)],
-                ),
-                Leg::Planar { direction } => (vec![(Parameter::Direction, direction)], vec![]),
-            };
+        type Named<'a, T> = Vec<(Parameter, &'a T)>;
+        let (vectors, lengths): (Named<'_, [Quantity; 3]>, Named<'_, Quantity>) = match self {
+            Leg::Slider { direction, anchor, platform, length, .. } => (
+                vec![
+                    (Parameter::Direction, direction),
+                    (Parameter::Anchor, anchor),
+                    (Parameter::Platform, platform),
+                ],
+                vec![(Parameter::Length, length)],
+            ),
+            Leg::Strut { anchor, platform } => {
+                (vec![(Parameter::Anchor, anchor), (Parameter::Platform, platform)], vec![])
+            }
+            Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => (
+                vec![
+                    (Parameter::Axis, axis),
+                    (Parameter::Reference, reference),
+                    (Parameter::Anchor, anchor),
+                    (Parameter::Platform, platform),
+                ],
+                vec![(Parameter::Arm, arm), (Parameter::Length, length)],
+            ),
+            Leg::Planar { direction } => (vec![(Parameter::Direction, direction)], vec![]),
+        };
         let components = vectors.into_iter().flat_map(|(p, v)| v.iter().map(move |q| (p, q)));
         components.chain(lengths).collect()
     }

@@ -2,7 +2,8 @@
 //!
 //! `Fixed { lo, hi, bits }` is the closed interval `[lo / 2^bits, hi / 2^bits]`, never empty.
 //! Addition and subtraction are exact; multiplication, division and square root round outward to
-//! the next multiple of `2^-bits`. Operands of one operation carry the same `bits`.
+//! the next multiple of `2^-bits`. Operands of one operation carry the same `bits`, which every
+//! build asserts: one proof has one precision, so that no certificate can violate it.
 //!
 //! Two inequalities carry every rounding in this file, for integers `n` and `k >= 0`, `d > 0`:
 //!
@@ -77,7 +78,7 @@ impl Fixed {
 
     /// The smallest interval that contains both.
     pub fn hull(&self, other: &Self) -> Self {
-        debug_assert_eq!(self.bits, other.bits);
+        assert_eq!(self.bits, other.bits);
         Fixed {
             lo: (&self.lo).min(&other.lo).clone(),
             hi: (&self.hi).max(&other.hi).clone(),
@@ -87,7 +88,7 @@ impl Fixed {
 
     /// The points in both; `None` if there is none.
     pub fn intersection(&self, other: &Self) -> Option<Self> {
-        debug_assert_eq!(self.bits, other.bits);
+        assert_eq!(self.bits, other.bits);
         let lo = (&self.lo).max(&other.lo).clone();
         let hi = (&self.hi).min(&other.hi).clone();
         Fixed::new(lo, hi, self.bits)
@@ -125,12 +126,12 @@ impl Scalar for Fixed {
     }
 
     fn add(&self, other: &Self) -> Self {
-        debug_assert_eq!(self.bits, other.bits);
+        assert_eq!(self.bits, other.bits);
         Fixed { lo: &self.lo + &other.lo, hi: &self.hi + &other.hi, bits: self.bits }
     }
 
     fn sub(&self, other: &Self) -> Self {
-        debug_assert_eq!(self.bits, other.bits);
+        assert_eq!(self.bits, other.bits);
         Fixed { lo: &self.lo - &other.hi, hi: &self.hi - &other.lo, bits: self.bits }
     }
 
@@ -144,7 +145,7 @@ impl Scalar for Fixed {
     /// | `self <= 0`       | `[lo hi', hi lo']` | `[hi hi', lo lo']` | `[lo hi', lo lo']`                 |
     /// | mixed             | `[lo hi', hi hi']` | `[hi lo', lo lo']` | min(lo hi', hi lo'), max(lo lo', hi hi') |
     fn mul(&self, other: &Self) -> Self {
-        debug_assert_eq!(self.bits, other.bits);
+        assert_eq!(self.bits, other.bits);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
         let (lo, hi) = if !a.is_negative() {
             match (c.is_negative(), d.is_positive()) {

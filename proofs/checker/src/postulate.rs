@@ -40,8 +40,9 @@
 //! closed, nested, and shrink to `O`. Let `P` in `W(kappa)`. If `P = O`, `M = I`. Otherwise
 //! `kappa' = max {k : P in W(k)}` exists, is less than 1, and `P` lies on a face of `W(kappa')`
 //! (an inner point would be inner for a slightly greater `k`). So
-//! `sigma_min(M(P)) >= kappa' >= kappa`. ∎ Since `M(pi P) = Pi M(P) Pi^T` for a permutation `pi` of
-//! the coordinates, the faces `x = q_1` and `x = q_2` stand for all six.
+//! `sigma_min(M(P)) >= kappa' >= kappa`. ∎ In the same way `s_i > 0` on the faces, which the rules
+//! show with `F >= 0`, gives `s_i > 0` on `W(kappa)`. Since `M(pi P) = Pi M(P) Pi^T` for a
+//! permutation `pi` of the coordinates, the faces `x = q_1` and `x = q_2` stand for all six.
 
 use crate::cell::{Cell, Edge};
 use crate::definite::is_positive_definite;
@@ -290,10 +291,11 @@ fn definite_at_vertices<S: Enclosure>(
 
 /// **Mirror.** On a face, a cell on which `u_y >= u_z` throughout needs no proof of its own.
 ///
-/// *Proof.* Exchanging `y` and `z` maps the face, and `F` to `Pi F Pi^T`. A point with
-/// `u_y > u_z` is the image of one with `u_y < u_z`, which is in no such cell, so in a leaf that
-/// another rule has closed. A point with `u_y = u_z` is a limit of those, and `F >= 0` is a closed
-/// condition. ∎
+/// *Proof.* Fix `kappa`. Exchanging `y` and `z` maps the face to itself, `F` to `Pi F Pi^T`, and
+/// permutes the `S_i`. A point with `u_y < u_z` is in no such cell, so in a leaf on whose path
+/// another rule has shown `S_i > 0` and `F >= 0`, on all of a closed cell. A point with `u_y > u_z`
+/// is the image of one of those. A point with `u_y = u_z` is a limit of them: as there are finitely
+/// many leaves, it lies in one of theirs. ∎
 pub fn mirror(cell: &Cell) -> Result<(), Failure> {
     let [_, y, z] = cell.edges;
     // index_y / 2^level_y >= (index_z + 1) / 2^level_z; both sides times 2^(level_y + level_z),

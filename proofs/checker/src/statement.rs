@@ -112,6 +112,16 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     } = &claim.requirements;
     writeln!(out, "  every leg reaches P without a serial singularity;")?;
     writeln!(out, "  P is not a parallel singularity;")?;
+    // Motors turn arms: M is in radians per length, joint coordinates are angles.
+    let angular = match &claim.mechanism {
+        Mechanism::Translational(legs) => legs.iter().all(Leg::is_angular),
+        Mechanism::Orthoglide { .. } => false,
+    };
+    let (per_radian, degrees, radians) = if angular {
+        (" (length per radian)", " (degrees, up to whole turns)", ", in radians")
+    } else {
+        ("", "", "")
+    };
     if let Some(range) = transmission {
         if let (Workspace::Cube { .. }, Some(max)) = (&claim.workspace, &range.max) {
             writeln!(
@@ -119,17 +129,22 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
                 "  1/psi_max <= psi_i(P) <= psi_max for i = 1, 2, 3, with psi_max = {max};"
             )?;
         } else {
-            writeln!(out, "  {} for i = 1, 2, 3;", Bounded(range, "psi_i(P)"))?;
+            writeln!(out, "  {}{per_radian} for i = 1, 2, 3;", Bounded(range, "psi_i(P)"))?;
         }
     }
     for (i, range) in joint_range.iter().flatten().enumerate() {
-        writeln!(out, "  {};", Bounded(range, &format!("rho_{}(P)", i + 1)))?;
+        writeln!(out, "  {}{degrees};", Bounded(range, &format!("rho_{}(P)", i + 1)))?;
     }
     if let Some(bound) = conditioning {
         writeln!(out, "  sigma_max(M)/sigma_min(M) <= {};", bound.max)?;
     }
     if let Some(bound) = serial_margin {
-        writeln!(out, "  |eta_i|/L_i >= {} for every leg;", bound.min)?;
+        writeln!(
+            out,
+            "  |eta_i|/L_i >= {} for every leg, eta_i being the leg's component",
+            bound.min
+        )?;
+        writeln!(out, "  along the motion of its driven end;")?;
     }
     if let Some(bound) = parallel_margin {
         writeln!(out, "  |det A|/(L_1 L_2 L_3) >= {};", bound.min)?;
@@ -140,7 +155,7 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     if let Some(bound) = joint_speed {
         writeln!(
             out,
-            "  |row_i of M| * {} <= {} for every leg (tool and joint speed);",
+            "  |row_i of M| * {} <= {} for every leg (tool and joint speed{radians});",
             bound.tool, bound.max
         )?;
     }

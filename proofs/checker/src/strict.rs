@@ -1,12 +1,30 @@
-//! Reading objects as objects: derived readers also take an array of the fields' values, in order,
-//! for an object; the format does not.
+//! Reading nothing but the format: derived readers also take an array of the fields' values, in
+//! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::MAX_NODES;
+use crate::certificate::{MAX_NODES, MAX_PARTS, MAX_STEPS};
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+
+/// The first byte, with its place, that no text of the format has outside its strings: there are
+/// no literals (`null`, `true`, `false`) and no numbers but integers in it.
+pub(crate) fn foreign_byte(text: &str) -> Option<(usize, char)> {
+    let (mut in_string, mut escaped) = (false, false);
+    for (at, c) in text.char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' if in_string => escaped = true,
+            '"' => in_string = !in_string,
+            '{' | '}' | '[' | ']' | ':' | ',' | '-' | '0'..='9' | ' ' | '\t' | '\n' | '\r' => {}
+            _ if in_string => {}
+            _ => return Some((at, c)),
+        }
+    }
+    None
+}
 
 struct Object<T>(PhantomData<T>);
 
@@ -40,20 +58,23 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Strict<T> {
     }
 }
 
-struct List<T>(PhantomData<T>);
+struct List<T> {
+    most: usize,
+    items: PhantomData<T>,
+}
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for List<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an array of objects")
+        f.write_str("an array")
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Vec<T>, A::Error> {
         let mut list = Vec::new();
-        while let Some(Strict(item)) = items.next_element()? {
-            if list.len() == MAX_NODES {
-                return Err(A::Error::custom(format!("more than {MAX_NODES} elements")));
+        while let Some(item) = items.next_element()? {
+            if list.len() == self.most {
+                return Err(A::Error::custom(format!("more than {} elements", self.most)));
             }
             list.push(item);
         }
@@ -61,13 +82,62 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for List<T> {
     }
 }
 
-/// Reads an array of at most [`MAX_NODES`] objects.
-pub(crate) fn list<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+fn list<'de, D, T>(deserializer: D, most: usize) -> Result<Vec<T>, D::Error>
 where
     D: Deserializer<'de>,
     T: Deserialize<'de>,
 {
-    deserializer.deserialize_seq(List(PhantomData))
+    deserializer.deserialize_seq(List { most, items: PhantomData })
+}
+
+fn objects<'de, D, T>(deserializer: D, most: usize) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    let strict: Vec<Strict<T>> = list(deserializer, most)?;
+    Ok(strict.into_iter().map(|Strict(item)| item).collect())
+}
+
+/// Reads an array of at most [`MAX_NODES`] objects.
+pub(crate) fn nodes<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    objects(deserializer, MAX_NODES)
+}
+
+/// Reads an array of at most [`MAX_PARTS`] objects.
+pub(crate) fn parts<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    objects(deserializer, MAX_PARTS)
+}
+
+/// Reads an array of at most [`MAX_STEPS`] names or objects.
+pub(crate) fn steps<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    let mut steps = list(deserializer, MAX_STEPS)?;
+    // There may be many short lists: none keeps room to grow.
+    let mut exact = Vec::with_capacity(steps.len());
+    exact.append(&mut steps);
+    Ok(exact)
+}
+
+/// Reads a value without fields by its name: from a string, and from nothing else.
+pub(crate) fn name<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    let text = Cow::<'de, str>::deserialize(deserializer)?;
+    T::deserialize(text.as_ref().into_deserializer())
 }
 
 /// Reads three objects.

@@ -21,7 +21,7 @@ fn atan_inverse(n: u32, bits: u32) -> Fixed {
     let mut terms = 0u32;
     while power > BigInt::from(0) {
         let term = &power / (2 * terms + 1);
-        sum = if terms % 2 == 0 { sum + term } else { sum - term };
+        sum = if terms.is_multiple_of(2) { sum + term } else { sum - term };
         power /= &square;
         terms += 1;
     }

@@ -279,10 +279,11 @@ fn beyond_range(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
     })
 }
 
-/// **Lemma.** If `det M` has opposite signs at two points of a convex workspace, the workspace has
-/// a singularity or a point out of reach. *Proof.* If every leg reaches every point of the segment
-/// between them with `s_i > 0`, then `det M` is continuous on it and vanishes somewhere: a
-/// parallel singularity. Otherwise some point is out of reach or serially singular. ∎
+/// **Lemma.** If one machine's `det M` has opposite signs at two points of a convex workspace, as
+/// boxes and cylinders are, the workspace has a singularity or a point out of reach. *Proof.* If
+/// every leg reaches every point of the segment between them with `s_i > 0`, then `det M` is
+/// continuous on it and vanishes somewhere: a parallel singularity. Otherwise some point is out of
+/// reach or serially singular. ∎
 fn opposite_signs(one: &Model<Fixed>, other: &Model<Fixed>) -> Result<(), WitnessError> {
     let (one, other) = (determinant(&matrix(one)?), determinant(&matrix(other)?));
     violated(

@@ -176,12 +176,14 @@ impl<S: Scalar> Arm<S> {
         [[zero.clone(), z.neg(), y.clone()], [z, zero.clone(), x.neg()], [y.neg(), x, zero]]
     }
 
-    /// `D`.
+    /// `4 r^2 D = 4 r^2 (L^2 - (k . w)^2) - (|w|^2 - r^2 - L^2)^2`, as
+    /// `2 r (g - r) = |w|^2 - r^2 - L^2`. It has the sign of `D` and needs no division: it is
+    /// enclosed at every precision, also where `r` cannot be told from zero.
     pub(super) fn clearance(&self, w: &Vector<S>) -> S {
-        match self.g(w) {
-            Some(g) => self.d(&dot(&self.k, w), &g),
-            None => w[0].integer_like(-1),
-        }
+        let (r_squared, length_squared) = (self.r.sqr(), self.length.sqr());
+        let across = length_squared.sub(&dot(&self.k, w).sqr());
+        let excess = norm_squared(w).sub(&r_squared).sub(&length_squared);
+        r_squared.integer_like(4).mul(&r_squared).mul(&across).sub(&excess.sqr())
     }
 
     /// `D / L^2`.

@@ -53,6 +53,16 @@ pub enum JointCoordinate<S> {
     },
 }
 
+impl<S> JointCoordinate<S> {
+    /// The length, if it is one.
+    pub fn length(&self) -> Option<&S> {
+        match self {
+            JointCoordinate::Length(rho) => Some(rho),
+            JointCoordinate::Angle { .. } => None,
+        }
+    }
+}
+
 /// What a leg contributes at a point.
 #[derive(Clone, Debug)]
 pub struct LegState<S> {

@@ -16,10 +16,11 @@
 //!
 //! The steps `blow_up`, `edge` and `mirror` belong to the postulate, [`crate::postulate`].
 //!
-//! A rule does not know where in the tree it is used; [`crate::check`] adds that. Every rule but
-//! `cube` encloses `M` or `rho` over the cell and can do so only where every leg certainly reaches
-//! every point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes
-//! serial singularities as well as parallel ones.
+//! A rule does not know where in the tree it is used; [`crate::check`] adds that. The rules for
+//! `sigma_min` enclose `M` over the cell and can do so only where every leg certainly reaches every
+//! point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes serial
+//! singularities as well as parallel ones, and the other rules need not. `cube` and `outside`
+//! enclose nothing; `leg_angle`, up to 90 degrees, does not exclude `s_i = 0`.
 //!
 //! All rules are statements about one fixed machine. Where parameters are intervals, the
 //! enclosures hold every machine's `M(c)` and `E_k`, and the rule holds for each of them.
@@ -122,6 +123,8 @@ pub enum Failure {
     NotTheCube,
     /// The claim asks for nothing that the rule could discharge.
     NoSuchBound,
+    /// The rule's obligation is already discharged on the cell.
+    Repeated,
     /// The rule belongs to another kind of tree.
     OtherKind,
     /// The numbers cannot be enclosed.
@@ -161,6 +164,9 @@ impl fmt::Display for Failure {
             Failure::NotAtCorner => write!(f, "the box does not touch that corner of the cube"),
             Failure::NotTheCube => write!(f, "the rule is for the paper's cube only"),
             Failure::NoSuchBound => write!(f, "the claim has no such requirement"),
+            Failure::Repeated => {
+                write!(f, "what the rule discharges is already discharged on the box")
+            }
             Failure::OtherKind => write!(f, "the rule belongs to another kind of tree"),
             Failure::NotEnclosed => write!(f, "the numbers cannot be enclosed"),
             Failure::NotMirrored => write!(f, "the box has points with u_y < u_z"),

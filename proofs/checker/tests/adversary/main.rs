@@ -1,0 +1,11 @@
+//! False claims, and what would prove them: nothing here may be accepted.
+
+mod case;
+mod cube;
+mod faces;
+mod falsehoods;
+mod identities;
+mod random;
+mod statements;
+mod truth;
+mod witnesses;

@@ -1,0 +1,183 @@
+//! Files made to exhaust the checker or to mislead whoever reads its output.
+
+use orthocert_checker::certificate::{MAX_BYTES, MAX_NODES};
+use orthocert_checker::{check, read, Rejected};
+
+/// The prototype's claim with this JSON text as its nodes.
+fn prototype(nodes: &str) -> String {
+    format!(
+        r#"{{"format":"orthocert/1",
+"claim":{{"machine":{{"mechanism":{{"orthoglide":{{"offset":"0"}}}},
+"workspace":{{"cube":{{"side":"200"}}}},"requirements":{{"transmission":{{"max":"2"}}}}}}}},
+"verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},
+"provenance":{{"tool":"hand","version":"1"}}}}"#
+    )
+}
+
+fn rejection(text: &str) -> Rejected {
+    match read(text.as_bytes()).and_then(|certificate| check(&certificate)) {
+        Ok(_) => panic!("accepted: {text:.300}"),
+        Err(reason) => reason,
+    }
+}
+
+fn syntax(text: &str) -> String {
+    match rejection(text) {
+        Rejected::Syntax(message) => message,
+        other => panic!("{other:?} for {text:.300}"),
+    }
+}
+
+#[test]
+fn a_message_cannot_write_to_the_terminal() {
+    let text = prototype("[]").replace("\"proof\"", r#""\u001b[2K\rACCEPTED: \u202ecertified""#);
+    let message = syntax(&text);
+    assert!(message.contains("ACCEPTED"), "{message}");
+    assert!(!message.chars().any(|c| c.is_control() || c == '\u{202e}'), "{message:?}");
+    let text = prototype("[]").replace("orthocert/1", r"\u001b[2K");
+    assert!(!rejection(&text).to_string().contains('\u{1b}'));
+}
+
+#[test]
+fn messages_are_short() {
+    let long = "é".repeat(1 << 20);
+    for place in ["\"proof\"", "orthocert/1", "\"verdict\"", "\"certified\"", "\"200\""] {
+        let text = prototype("[]").replace(place, &place.replace(|c| c != '"', &long));
+        assert!(rejection(&text).to_string().len() < 1000, "{place}");
+    }
+}
+
+#[test]
+fn nothing_but_integers_stands_outside_strings() {
+    for (from, to) in [
+        // "null" is not "absent".
+        (r#"{"max":"2"}"#, r#"{"min":null,"max":"2"}"#),
+        (r#""requirements":{"#, r#""requirements":{"joint_range":null,"#),
+        (r#""nodes":["#, r#""nodes":[{"split":null}"#),
+        (r#""nodes":["#, r#""nodes":[{"by":null}"#),
+        // A name is a string, not an object that holds null.
+        (r#""nodes":["#, r#""nodes":[{"split":{"x":null}}"#),
+        (r#""nodes":["#, r#""nodes":[{"by":[{"cube":null}]}"#),
+        (r#""certified""#, r#"{"certified":null}"#),
+        ("64", "64.0"),
+        ("64", "6.4e1"),
+        ("64", "64e0"),
+        ("64", "+64"),
+        ("64", "NaN"),
+        ("64", "Infinity"),
+        ("64", "true"),
+    ] {
+        let text = prototype("[]");
+        assert!(text.contains(from));
+        let message = syntax(&text.replacen(from, to, 1));
+        assert!(message.contains("outside a string"), "{to}: {message}");
+    }
+}
+
+#[test]
+fn a_name_is_a_string() {
+    let leg = |i: usize, mode: &str| {
+        let mut direction = ["0"; 3];
+        direction[i] = "1";
+        format!(
+            r#"{{"drive":"slider","direction":{direction:?},"anchor":["0","0","0"],
+            "platform":["0","0","0"],"length":"9","mode":{mode}}}"#
+        )
+    };
+    let text = |mode: &str| {
+        let mechanism =
+            format!(r#"{{"translational":[{},{},{}]}}"#, leg(0, mode), leg(1, mode), leg(2, mode));
+        prototype(r#"[{"by":[{"lower":{"q":[1,0,0,0],"sign":"+"}}]}]"#)
+            .replace(r#"{"orthoglide":{"offset":"0"}}"#, &mechanism)
+            .replace(
+                r#"{"cube":{"side":"200"}}"#,
+                r#"{"box":{"min":["-1","-1","-1"],"max":["1","1","1"]}}"#,
+            )
+    };
+    assert!(read(text(r#""+""#).as_bytes()).and_then(|c| check(&c)).is_ok());
+    for mode in [r#"{"+":{}}"#, r#"{"+":[]}"#, "[]", "0", r#"["+"]"#] {
+        syntax(&text(mode));
+    }
+}
+
+#[test]
+fn another_version_is_named_whatever_its_shape() {
+    let text = r#"{"format":"orthocert/2","something":[1.5,null,{"else":true}]}"#;
+    assert_eq!(rejection(text), Rejected::Format("orthocert/2".into()));
+    syntax(r#"{"format":"orthocert/1","something":[]}"#);
+    syntax(r#"{"format":"orthocert/2","format":"orthocert/1"}"#);
+}
+
+#[test]
+fn a_step_for_what_is_already_discharged_is_refused() {
+    let failure = |nodes: &str| rejection(&prototype(nodes)).to_string();
+    let twice = failure(r#"[{"by":["cube","cube"]}]"#);
+    assert!(twice.starts_with("node 0") && twice.contains("already"), "{twice}");
+    let below = failure(r#"[{"by":["cube"],"split":"x"},{"by":["cube"]},{}]"#);
+    assert!(below.starts_with("node 1") && below.contains("already"), "{below}");
+}
+
+#[test]
+fn deep_nesting_does_not_exhaust_the_stack() {
+    for (open, close) in [("[", "]"), ("{\"by\":[", "]}"), ("{\"a\":", "}")] {
+        let depth = 1_000_000;
+        syntax(&prototype(&(open.repeat(depth) + &close.repeat(depth))));
+        syntax(&open.repeat(depth));
+    }
+}
+
+#[test]
+fn the_size_limit_is_exact() {
+    let text = prototype("[]");
+    let padded = |size: usize| text.clone() + &" ".repeat(size - text.len());
+    assert!(read(padded(MAX_BYTES).as_bytes()).is_ok());
+    assert_eq!(read(padded(MAX_BYTES + 1).as_bytes()), Err(Rejected::TooLarge(MAX_BYTES + 1)));
+}
+
+/// Resident memory of a check of the most wasteful files that are read at all.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_is_bounded() {
+    use std::process::Command;
+    let list = |item: &str, most: usize| {
+        let count = ((MAX_BYTES - 1000) / (item.len() + 1)).min(most);
+        format!("[{}{item}]", format!("{item},").repeat(count - 1))
+    };
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("hostile");
+    std::fs::create_dir_all(&folder).unwrap();
+    let steps = format!("[{{\"by\":{}}}]", list("\"cube\"", MAX_BYTES));
+    let part =
+        |node: &str| format!(r#"{{"face":"q1","half":"low","nodes":{}}}"#, list(node, MAX_NODES));
+    let face_parts = |node: &str| {
+        prototype("[]").replace(
+            r#"{"tree":{"precision":64,"nodes":[]}}"#,
+            &format!(
+                r#"{{"faces":{{"precision":64,"parts":[{}]}}}}"#,
+                vec![part(node); (MAX_BYTES - 1000) / part(node).len()].join(",")
+            ),
+        )
+    };
+    for (name, text) in [
+        ("steps", prototype(&steps)),
+        ("empty-nodes", prototype(&list("{}", MAX_NODES))),
+        ("nodes", prototype(&list(r#"{"by":["cube"]}"#, MAX_NODES))),
+        ("full-nodes", prototype(&list(r#"{"by":["cube","cube","cube"]}"#, MAX_NODES))),
+        ("parts", face_parts("{}")),
+        ("full-parts", face_parts(r#"{"by":["cube"]}"#)),
+        ("key", prototype("[]").replace("proof", &"é".repeat(MAX_BYTES / 2 - 1000))),
+    ] {
+        assert!(text.len() <= MAX_BYTES, "{name}");
+        let path = folder.join(name);
+        std::fs::write(&path, text).unwrap();
+        // The shell's limit on the address space makes an allocation beyond it abort.
+        let status = Command::new("sh")
+            .args(["-c", "ulimit -v 200000 && exec \"$0\" \"$1\""])
+            .arg(env!("CARGO_BIN_EXE_orthocert-check"))
+            .arg(&path)
+            .stderr(std::process::Stdio::null())
+            .status()
+            .unwrap();
+        assert_eq!(status.code(), Some(5), "{name}: {status}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -1,0 +1,111 @@
+(** * Statements and assumptions of the final theorems
+
+    `make` compares the output of this file with `assumptions.expected`: a
+    changed statement or a new axiom makes the build fail. *)
+
+From Coq Require Import Reals.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
+  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi.
+Local Open Scope R_scope.
+Set Printing Width 100.
+
+(** ** The model *)
+
+Check Jinv_velocity.
+Print Assumptions Jinv_velocity.
+Check Jinv_is_derivative.
+Print Assumptions Jinv_is_derivative.
+Check rho_unique.
+Print Assumptions rho_unique.
+Check orthoglide_Jinv_mm.
+Print Assumptions orthoglide_Jinv_mm.
+
+(** ** The postulate *)
+
+Check q1q2_postulate.
+Print Assumptions q1q2_postulate.
+Check velocity_transmission.
+Print Assumptions velocity_transmission.
+Check transmission_factors.
+Print Assumptions transmission_factors.
+Check tight_at_Q_1.
+Print Assumptions tight_at_Q_1.
+Check tight_at_Q_2_lower.
+Print Assumptions tight_at_Q_2_lower.
+Check tight_at_Q_2_upper.
+Print Assumptions tight_at_Q_2_upper.
+Check tight_only_at_Q1_Q2.
+Print Assumptions tight_only_at_Q1_Q2.
+
+(** ** Any diagonal cube *)
+
+Check cube_regular.
+Print Assumptions cube_regular.
+Check min_sigma_min.
+Print Assumptions min_sigma_min.
+Check max_sigma_max.
+Print Assumptions max_sigma_max.
+Check corners_suffice.
+Print Assumptions corners_suffice.
+Check largest_cube.
+Print Assumptions largest_cube.
+
+(** ** The design of the paper *)
+
+Check prescribed_side.
+Print Assumptions prescribed_side.
+Check numbers_200.
+Print Assumptions numbers_200.
+Check orthoglide_200.
+Print Assumptions orthoglide_200.
+Check L_310_too_short.
+Print Assumptions L_310_too_short.
+Check joint_range.
+Print Assumptions joint_range.
+Check joint_range_reached.
+Print Assumptions joint_range_reached.
+Check rho_max_200.
+Print Assumptions rho_max_200.
+
+(** ** Rules of certificates *)
+
+Check symmetric_part.
+Print Assumptions symmetric_part.
+Check leading_minors.
+Print Assumptions leading_minors.
+Check leading_minors_complete.
+Print Assumptions leading_minors_complete.
+Check hertz.
+Print Assumptions hertz.
+Check vertices_suffice.
+Print Assumptions vertices_suffice.
+Check vertex_rule_lower.
+Print Assumptions vertex_rule_lower.
+Check vertex_rule_upper.
+Print Assumptions vertex_rule_upper.
+Check tight_corner_rule.
+Print Assumptions tight_corner_rule.
+Check tight_corner_semidefinite.
+Print Assumptions tight_corner_semidefinite.
+Check quaternion_orthogonal.
+Print Assumptions quaternion_orthogonal.
+
+(** ** Slopes *)
+
+Check entry_slope.
+Print Assumptions entry_slope.
+Check slider_row_slope.
+Print Assumptions slider_row_slope.
+Check slider_rho_slope.
+Print Assumptions slider_rho_slope.
+Check Jinv_slopes.
+Print Assumptions Jinv_slopes.
+
+(** ** All psi at once *)
+
+Check faces_suffice.
+Print Assumptions faces_suffice.
+Check two_faces_suffice.
+Print Assumptions two_faces_suffice.
+Check blow_up.
+Print Assumptions blow_up.

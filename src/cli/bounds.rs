@@ -1,0 +1,253 @@
+//! `orthocert bounds`.
+
+use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use num_rational::BigRational;
+use num_traits::Signed;
+use orthocert::decimal::{rounded, Toward};
+use orthocert::design::Design;
+use orthocert::extremes::{enclose, Enclosed, Extreme, NotEnclosed};
+use orthocert::output;
+use orthocert::report::CertificateFile;
+use orthocert_checker::certificate::{Certificate, Proof};
+use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Significant digits beyond those that the width leaves certain.
+const GUARD_DIGITS: u32 = 2;
+
+/// Boxes after which a width is given up for a looser one: what closes at all closes in a few
+/// hundred.
+const BOXES: usize = 20_000;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The design file; without it, the prototype of the paper
+    #[arg(value_name = "DESIGN.toml")]
+    design: Option<PathBuf>,
+    /// Relative width of every enclosure
+    #[arg(long, value_name = "WIDTH", default_value = "1e-6", allow_hyphen_values = true)]
+    relative: String,
+    /// Write both certificates of every bound into this folder, which exists
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    effort: effort::Effort,
+}
+
+/// A quantity's extreme for scripts.
+#[derive(Serialize)]
+struct Row {
+    quantity: String,
+    /// "least" or "greatest".
+    end: &'static str,
+    /// Below the extreme, or equal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min: Option<Exact>,
+    /// Above the extreme, or equal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<Exact>,
+    /// The point that reaches the inner end, in exact numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    point: Option<[Exact; 3]>,
+    /// The relative width that was reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relative: Option<String>,
+    /// Why there is no enclosure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_enclosed: Option<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    certificates: Vec<CertificateFile>,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let effort = &arguments.effort;
+    let relative = relative(&arguments.relative)?;
+    let design = match &arguments.design {
+        Some(path) => Design::read(path).map_err(Failure::input)?,
+        None => Design::prototype(),
+    };
+    let Claim::Machine(claim) = &design.claim else {
+        return Err(Failure::Defect);
+    };
+    if let Some(folder) = &arguments.output {
+        output::probe(&folder.join("bounds.cert.json"))?;
+    }
+    effort.start_threads()?;
+    interrupt::listen();
+    let mut rows = exact_rows(claim);
+    for extreme in Extreme::of(claim) {
+        let mut budget = effort.budget(started)?;
+        budget.max_boxes = budget.max_boxes.min(BOXES);
+        let mut width = relative.clone();
+        let found = loop {
+            let found = effort.run(|control| enclose(claim, extreme, &width, budget, control));
+            match found {
+                Err(NotEnclosed::Undecided) if width < loosest() => {
+                    width *= BigRational::from_integer(100.into());
+                }
+                other => break other,
+            }
+        };
+        rows.push(row(extreme, found, &width, arguments)?);
+    }
+    match effort.format {
+        Format::Json => print::json(&rows)?,
+        Format::Text => print::answer(&text(&rows, started))?,
+    }
+    let complete = rows.iter().all(|row| row.not_enclosed.is_none());
+    Ok(if complete { Status::Done } else { Status::Undecided })
+}
+
+/// The width up to which an enclosure is loosened before it is given up.
+fn loosest() -> BigRational {
+    BigRational::new(1.into(), 100.into())
+}
+
+fn relative(text: &str) -> Result<BigRational, Failure> {
+    let number = input::number("--relative", text)?;
+    let least = BigRational::new(1.into(), 10.into()).pow(12);
+    match number.as_rational() {
+        Some(x) if x.is_positive() && *x >= least && *x <= loosest() => Ok(x.clone()),
+        _ => Err(Failure::Input(format!(
+            "--relative: found \"{text}\"; accepted: a number from 1e-12 to 0.01"
+        ))),
+    }
+}
+
+/// The rows that the paper's cube has by definition.
+fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
+    let Workspace::Cube { .. } = &claim.workspace else {
+        return Vec::new();
+    };
+    let psi_max = claim.requirements.transmission.as_ref().and_then(|t| t.max.clone());
+    let Some(psi_max) = psi_max else {
+        return Vec::new();
+    };
+    let exactly = |end, value: Option<Exact>| Row {
+        quantity: "psi".into(),
+        end,
+        min: value.clone(),
+        max: value,
+        point: None,
+        relative: Some("0".into()),
+        not_enclosed: None,
+        certificates: Vec::new(),
+    };
+    let inverse = Exact::integer(1).over(psi_max.clone()).ok();
+    // The least psi is 1/psi_max at Q2 for psi_max <= 2 only.
+    let mut rows = vec![exactly("greatest", Some(psi_max.clone()))];
+    if psi_max.compare(&Exact::integer(2)).is_some_and(std::cmp::Ordering::is_le) {
+        rows.insert(0, exactly("least", inverse));
+    }
+    rows
+}
+
+fn row(
+    extreme: Extreme,
+    found: Result<Enclosed, NotEnclosed>,
+    width: &BigRational,
+    arguments: &Arguments,
+) -> Result<Row, Failure> {
+    let (quantity, file) = name(extreme);
+    let mut row = Row {
+        quantity,
+        end: if extreme.is_greatest() { "greatest" } else { "least" },
+        min: None,
+        max: None,
+        point: None,
+        relative: None,
+        not_enclosed: None,
+        certificates: Vec::new(),
+    };
+    match found {
+        Ok(found) => {
+            if let Some(folder) = &arguments.output {
+                for (certificate, side) in [(&found.refuted, "inner"), (&found.certified, "outer")]
+                {
+                    let text = certificate.to_text().map_err(|_| Failure::Defect)?;
+                    let path = folder.join(format!("{file}-{side}.cert.json"));
+                    row.certificates.push(certify::store(&path, &text)?);
+                }
+            }
+            row.point = witness_point(&found.refuted);
+            row.relative = Some(rounded(width, 2, Toward::Above));
+            let (min, max) = if extreme.is_greatest() {
+                (found.inner, found.outer)
+            } else {
+                (found.outer, found.inner)
+            };
+            (row.min, row.max) = (Some(min), Some(max));
+        }
+        Err(NotEnclosed::Cancelled) => return Err(Failure::Interrupted),
+        Err(error @ NotEnclosed::Claim(_)) => return Err(Failure::input(error)),
+        Err(error) => row.not_enclosed = Some(error.to_string()),
+    }
+    Ok(row)
+}
+
+fn witness_point(certificate: &Certificate) -> Option<[Exact; 3]> {
+    match &certificate.proof {
+        Proof::Witness(witness) => Some(witness.point.clone()),
+        _ => None,
+    }
+}
+
+/// What a quantity is called in tables, and in file names.
+fn name(extreme: Extreme) -> (String, String) {
+    let (quantity, file) = match extreme {
+        Extreme::LeastPsi => ("psi", "psi-least"),
+        Extreme::GreatestPsi => ("psi", "psi-greatest"),
+        Extreme::Conditioning => ("sigma_max/sigma_min", "conditioning"),
+        Extreme::SerialMargin => ("|eta_i|/L_i", "serial-margin"),
+        Extreme::ParallelMargin => ("|det A|/(L1 L2 L3)", "parallel-margin"),
+        Extreme::LegAngle => ("leg angle (deg)", "leg-angle"),
+        Extreme::JointSpeed => ("joint/tool speed", "joint-speed"),
+        Extreme::LeastRho(leg) => {
+            return (format!("rho_{}", leg + 1), format!("rho-{}-least", leg + 1));
+        }
+        Extreme::GreatestRho(leg) => {
+            return (format!("rho_{}", leg + 1), format!("rho-{}-greatest", leg + 1));
+        }
+        _ => ("?", "extreme"),
+    };
+    (quantity.to_owned(), file.to_owned())
+}
+
+fn text(rows: &[Row], started: Instant) -> String {
+    let mut out = "Every extreme lies between its two decimals: one is refuted by a witness as a\n\
+         bound, the other is certified.\n\n"
+        .to_owned();
+    let _ = writeln!(out, "  {:<19} {:<9} {:<21} {:<21}", "quantity", "extreme", "from", "to");
+    for row in rows {
+        let _ = write!(out, "  {:<19} {:<9} ", row.quantity, row.end);
+        match (&row.min, &row.max, &row.not_enclosed) {
+            (Some(min), Some(max), _) => {
+                let _ = writeln!(
+                    out,
+                    "{:<21} {:<21}",
+                    shown(min, Toward::Below),
+                    shown(max, Toward::Above)
+                );
+            }
+            (_, _, reason) => {
+                let _ = writeln!(out, "{}", reason.as_deref().unwrap_or("not enclosed"));
+            }
+        }
+    }
+    let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
+    out
+}
+
+fn shown(x: &Exact, toward: Toward) -> String {
+    match x.as_rational() {
+        Some(x) => rounded(x, 12 + GUARD_DIGITS, toward),
+        None => x.to_string(),
+    }
+}

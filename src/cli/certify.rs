@@ -1,0 +1,66 @@
+//! From an answer to a certificate on the disk: what all commands that prove have in common.
+
+use super::{input, Failure};
+use orthocert::output;
+use orthocert::report::{CertificateFile, EarlierFile};
+use orthocert::search::Stop;
+use orthocert::verify::{Answer, Undecided};
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::{read, Rejected};
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use std::path::Path;
+
+/// A verdict, and the certificate of it as it is to be written.
+pub struct Decision {
+    /// The verdict that the exact checker has accepted.
+    pub verdict: Verdict,
+    /// The certificate's text.
+    pub text: String,
+}
+
+/// The decision that an answer amounts to. An answer whose certificate would not read back as the
+/// very one that was accepted becomes undecided.
+pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
+    let objection = match answer {
+        Answer::Cancelled => return Err(Failure::Interrupted),
+        Answer::Undecided(_) => return Ok(None),
+        Answer::Decided { certificate, accepted } => match as_written(certificate) {
+            Ok(text) => return Ok(Some(Decision { verdict: accepted.verdict, text })),
+            Err(objection) => objection,
+        },
+    };
+    let (stop, objection) = (Stop::Exhausted, Some(objection));
+    *answer = Answer::Undecided(Undecided { open: Vec::new(), stop, objection });
+    Ok(None)
+}
+
+fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
+    let text = certificate.to_text().map_err(|error| Rejected::Syntax(error.to_string()))?;
+    if read(text.as_bytes())? == *certificate {
+        Ok(text)
+    } else {
+        Err(Rejected::Syntax("it does not read back as it was written".to_owned()))
+    }
+}
+
+/// Writes a certificate, whole or not at all.
+pub fn store(path: &Path, text: &str) -> Result<CertificateFile, Failure> {
+    output::write(path, text.as_bytes())?;
+    let mut sha256 = String::with_capacity(64);
+    for byte in Sha256::digest(text.as_bytes()) {
+        let _ = write!(sha256, "{byte:02x}");
+    }
+    Ok(CertificateFile { path: path.display().to_string(), bytes: text.len(), sha256 })
+}
+
+/// What stands where a certificate of `claim` would have been written.
+pub fn earlier(path: &Path, claim: &Claim) -> Option<EarlierFile> {
+    if !path.is_file() {
+        return None;
+    }
+    let certificate = input::certificate(path).ok().and_then(|bytes| read(&bytes).ok());
+    let same_claim = certificate.is_some_and(|certificate| certificate.claim == *claim);
+    Some(EarlierFile { path: path.display().to_string(), same_claim })
+}

@@ -1,0 +1,150 @@
+//! `orthocert check`.
+
+use super::{input, interrupt, print, Failure, Format, Status};
+use orthocert::design::Design;
+use orthocert::report::Size;
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::{check, read, statement, Accepted};
+use serde::Serialize;
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The certificate
+    #[arg(value_name = "CERT.json")]
+    certificate: PathBuf,
+    /// Demand that the certificate is about this design's claim
+    #[arg(long, value_name = "DESIGN.toml")]
+    design: Option<PathBuf>,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+/// The answer for scripts.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Answer<'a> {
+    Accepted {
+        accepted: bool,
+        verdict: Verdict,
+        statement: &'a str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        proof: Option<Size>,
+        claim: &'a Claim,
+    },
+    Rejected {
+        accepted: bool,
+        reason: &'a str,
+    },
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    interrupt::listen();
+    // The design first: what is wrong with it is no defect of the certificate.
+    let design = arguments.design.as_deref().map(Design::read).transpose();
+    let design = design.map_err(Failure::input)?;
+    let bytes = input::certificate(&arguments.certificate)?;
+    match examine(&bytes, design.as_ref()) {
+        Ok((certificate, accepted)) => {
+            accept(arguments.format, &certificate, &accepted)?;
+            Ok(Status::Decided(accepted.verdict))
+        }
+        Err(reason) => {
+            match arguments.format {
+                Format::Json => {
+                    print::json(&Answer::Rejected { accepted: false, reason: &reason })?
+                }
+                Format::Text => print::diagnostic(&format!(
+                    "{}: REJECTED: {reason}",
+                    arguments.certificate.display()
+                )),
+            }
+            Ok(Status::Rejected)
+        }
+    }
+}
+
+/// Accepts a certificate, or says why not.
+fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
+    let certificate = read(bytes).map_err(|reason| reason.to_string())?;
+    if let Some(design) = design {
+        if certificate.claim != design.claim {
+            return Err(another_claim(&certificate.claim, &design.claim));
+        }
+    }
+    let accepted = check(&certificate).map_err(|reason| reason.to_string())?;
+    Ok((certificate, accepted))
+}
+
+fn accept(format: Format, certificate: &Certificate, accepted: &Accepted) -> Result<(), Failure> {
+    let verdict = accepted.verdict;
+    let statement = statement::statement(&certificate.claim, verdict).unwrap_or_default();
+    match format {
+        Format::Text => print::answer(&format!("ACCEPTED: {verdict}\n{statement}")),
+        Format::Json => {
+            let proof = Size::accepted(&certificate.proof, &accepted.size);
+            let (statement, claim) = (statement.as_str(), &certificate.claim);
+            print::json(&Answer::Accepted { accepted: true, verdict, statement, proof, claim })
+        }
+    }
+}
+
+/// The sentence for a certificate of another claim than the design's.
+fn another_claim(certified: &Claim, designed: &Claim) -> String {
+    let same = "it is about another claim than the design's";
+    match (serde_json::to_value(certified), serde_json::to_value(designed)) {
+        (Ok(certified), Ok(designed)) => match difference(&certified, &designed, "claim") {
+            Some((key, found, wanted)) => {
+                format!("{same}: {key} is {found} in the certificate and {wanted} in the design")
+            }
+            None => same.to_owned(),
+        },
+        _ => same.to_owned(),
+    }
+}
+
+/// The first place at which two values differ, and what stands there.
+fn difference(one: &Value, other: &Value, key: &str) -> Option<(String, String, String)> {
+    match (one, other) {
+        // Variants of one thing are told apart by their only key.
+        (Value::Object(a), Value::Object(b))
+            if a.len() == 1 && b.len() == 1 && !a.keys().eq(b.keys()) =>
+        {
+            Some((key.to_owned(), shown(one), shown(other)))
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            let keys = a.keys().chain(b.keys().filter(|k| !a.contains_key(*k)));
+            keys.into_iter().find_map(|k| {
+                let of = |map: &serde_json::Map<String, Value>| {
+                    map.get(k).cloned().unwrap_or(Value::Null)
+                };
+                difference(&of(a), &of(b), &format!("{key}.{k}"))
+            })
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a
+            .iter()
+            .zip(b)
+            .enumerate()
+            .find_map(|(i, (x, y))| difference(x, y, &format!("{key}[{}]", i + 1))),
+        _ if one == other => None,
+        _ => Some((key.to_owned(), shown(one), shown(other))),
+    }
+}
+
+fn shown(value: &Value) -> String {
+    const LONGEST: usize = 60;
+    let text = match value {
+        Value::Null => return "absent".to_owned(),
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    };
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain("...".chars()).collect()
+}

@@ -1,0 +1,121 @@
+//! The flags that all commands with a search share: its budget, its threads, its answer's form.
+
+use super::{input, interrupt, Failure, Format};
+use crate::cli::progress::Bar;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+use orthocert::search::{Budget, Control};
+use orthocert_checker::certificate::MAX_NODES;
+use std::time::{Duration, Instant};
+
+/// Boxes tried by default.
+const MAX_BOXES: u64 = 500_000;
+/// Most threads that may be asked for.
+const MAX_THREADS: u64 = 1024;
+
+/// The flags.
+#[derive(Debug, clap::Args)]
+pub struct Effort {
+    /// Boxes after which the search gives up; beyond 2,000,000 no certificate goes
+    #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
+        value_parser = clap::value_parser!(u64).range(1..))]
+    max_boxes: u64,
+    /// Time after which the search gives up: seconds, or a number with ms, s, min or h
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    timeout: Option<String>,
+    /// Threads of the search [default: one for each core]; the certificate does not depend on it
+    #[arg(long, value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS))]
+    threads: Option<u64>,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Print the verdict's line only, and no progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Effort {
+    /// The budget of a search that began at `started`.
+    pub fn budget(&self, started: Instant) -> Result<Budget, Failure> {
+        let timeout = self.timeout.as_deref().map(time).transpose()?;
+        Ok(Budget {
+            max_boxes: usize::try_from(self.max_boxes).unwrap_or(MAX_NODES).min(MAX_NODES),
+            // A deadline beyond what the clock can tell is none.
+            deadline: timeout.and_then(|timeout| started.checked_add(timeout)),
+        })
+    }
+
+    /// Starts the threads that were asked for. Without a number they start when the search first
+    /// has work for them.
+    pub fn start_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else {
+            return Ok(());
+        };
+        let pool =
+            rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
+        pool.build_global().map_err(|error| {
+            Failure::Output(format!("{threads} threads cannot be started: {error}"))
+        })
+    }
+
+    /// Runs a search that can be interrupted and shows its progress.
+    pub fn run<T>(&self, search: impl FnOnce(&mut Control<'_>) -> T) -> T {
+        let mut bar = Bar::new(self.quiet);
+        let mut progress = |now| bar.show(now);
+        let found =
+            search(&mut Control { cancel: interrupt::cancelled(), progress: &mut progress });
+        bar.clear();
+        found
+    }
+}
+
+/// A time: a number with a unit, in seconds without one.
+fn time(text: &str) -> Result<Duration, Failure> {
+    const UNITS: [(&str, u64); 5] = [
+        ("ms", 1_000_000),
+        ("min", 60_000_000_000),
+        ("h", 3_600_000_000_000),
+        ("s", 1_000_000_000),
+        ("", 1_000_000_000),
+    ];
+    let refused = || {
+        let text: String = text.chars().take(60).collect();
+        Failure::Input(format!(
+            "--timeout: found \"{text}\"; accepted: seconds, such as 10 or 0.5, or a time such as \
+             500ms, 10s, 2min or 1h"
+        ))
+    };
+    let with_unit = |&(unit, nanoseconds)| Some((text.strip_suffix(unit)?, nanoseconds));
+    let (number, unit) = UNITS.iter().find_map(with_unit).ok_or_else(refused)?;
+    let number = input::number("--timeout", number.trim()).map_err(|_| refused())?;
+    let number = number.as_rational().filter(|x| !x.is_negative()).ok_or_else(refused)?;
+    let nanoseconds = (number * BigRational::from_integer(BigInt::from(unit))).to_integer();
+    Ok(nanoseconds.to_u64().map_or(Duration::MAX, Duration::from_nanos))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_exact_and_carry_units() {
+        for (text, nanoseconds) in [
+            ("0", 0),
+            ("10", 10_000_000_000),
+            ("0.1", 100_000_000),
+            ("1/3", 333_333_333),
+            ("500ms", 500_000_000),
+            ("2 s", 2_000_000_000),
+            ("2min", 120_000_000_000),
+            ("1h", 3_600_000_000_000),
+        ] {
+            assert_eq!(time(text).unwrap(), Duration::from_nanos(nanoseconds), "{text}");
+        }
+        assert_eq!(time("1e30").unwrap(), Duration::MAX);
+        for text in ["", "-1", "s", "ten", "5 days", "nan", "inf", "sqrt(2)"] {
+            assert!(matches!(time(text), Err(Failure::Input(_))), "{text}");
+        }
+    }
+}

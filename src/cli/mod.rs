@@ -1,0 +1,170 @@
+//! Commands: one module each. Flags are parsed here; every command resolves its own settings and
+//! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
+
+mod bounds;
+mod certify;
+mod check;
+mod completions;
+mod design;
+mod effort;
+mod init;
+mod input;
+mod interrupt;
+mod paper;
+mod postulate;
+mod print;
+mod progress;
+mod show;
+mod verify;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use orthocert::output::OutputError;
+use orthocert_checker::certificate::Verdict;
+use std::fmt;
+use std::process::ExitCode;
+
+const EXIT_CODES: &str = "\
+Exit codes, the same for every command:
+  0  certified (proved), or the command did its work
+  1  refuted (proved)
+  2  bad usage or bad input
+  3  undecided within the budget
+  4  could not finish (input/output failed, interrupted)
+  5  certificate rejected";
+
+/// Certified workspace verification of translational parallel machines.
+///
+/// Proves that a machine keeps its velocity transmission factors within their bounds and stays free
+/// of singularities at every point of a workspace, or proves that it does not.
+#[derive(Debug, Parser)]
+#[command(name = "orthocert", version, after_help = EXIT_CODES, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Prove or refute a design, and write the certificate.
+    Verify(verify::Arguments),
+    /// Re-prove a certificate in exact arithmetic and print what it establishes.
+    Check(check::Arguments),
+    /// Print a certificate's claim, verdict and size, without checking it.
+    Show(show::Arguments),
+    /// Compute the machine that the paper's Steps 1 to 3 give for a cube, with certified digits.
+    Design(design::Arguments),
+    /// Print a commented design file to start from.
+    Init(init::Arguments),
+    /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
+    Postulate(postulate::Arguments),
+    /// Print the seed paper's claims, and what is proved of each.
+    Paper(paper::Arguments),
+    /// Enclose the least and greatest of every quantity over a design's workspace.
+    Bounds(bounds::Arguments),
+    /// Print a completion script for a shell.
+    Completions(completions::Arguments),
+}
+
+/// The form of the answer on standard output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Text for people.
+    #[default]
+    Text,
+    /// One JSON object for scripts.
+    Json,
+}
+
+/// How a command ended that did its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It did what it is for, without a verdict to give.
+    Done,
+    /// A verdict that the exact checker has accepted.
+    Decided(Verdict),
+    /// No verdict within the budget.
+    Undecided,
+    /// The certificate proves nothing.
+    Rejected,
+}
+
+impl Status {
+    /// The exit code.
+    fn code(self) -> u8 {
+        match self {
+            Status::Done | Status::Decided(Verdict::Certified) => 0,
+            Status::Decided(Verdict::Refuted) => 1,
+            Status::Undecided => 3,
+            Status::Rejected => 5,
+        }
+    }
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        ExitCode::from(status.code())
+    }
+}
+
+/// Why a command did not do its work.
+#[derive(Debug)]
+pub enum Failure {
+    /// Bad usage or bad input: exit 2.
+    Input(String),
+    /// A file or standard output could not be written: exit 4.
+    Output(String),
+    /// A signal asked to end: exit 4.
+    Interrupted,
+    /// This program is wrong: exit 4.
+    Defect,
+}
+
+impl Failure {
+    /// Bad input, from anything that explains itself.
+    fn input(error: impl fmt::Display) -> Self {
+        Failure::Input(error.to_string())
+    }
+
+    /// Says why on standard error; returns the exit code.
+    pub fn report(&self) -> ExitCode {
+        let (code, message) = match self {
+            Failure::Input(message) => (2, message.as_str()),
+            Failure::Output(message) => (4, message.as_str()),
+            Failure::Interrupted => return interrupt::end(),
+            Failure::Defect => {
+                (4, "stopped by a defect of this program; no verdict is given. Please report it")
+            }
+        };
+        print::diagnostic(message);
+        ExitCode::from(code)
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Failure::Output(error.to_string())
+    }
+}
+
+/// Prints what the parser of the command line has to say: help, the version, or an error.
+pub fn usage(message: &clap::Error) -> ExitCode {
+    match message.print() {
+        Ok(()) => ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2)),
+        Err(_) => ExitCode::from(4),
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    match &arguments.command {
+        Command::Verify(arguments) => verify::run(arguments),
+        Command::Check(arguments) => check::run(arguments),
+        Command::Show(arguments) => show::run(arguments),
+        Command::Design(arguments) => design::run(arguments),
+        Command::Init(arguments) => init::run(arguments),
+        Command::Postulate(arguments) => postulate::run(arguments),
+        Command::Paper(arguments) => paper::run(arguments),
+        Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments),
+    }
+}

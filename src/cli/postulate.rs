@@ -1,0 +1,87 @@
+//! `orthocert postulate`.
+
+use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
+use clap::ArgGroup;
+use orthocert::output;
+use orthocert::postulate::prove;
+use orthocert::report::{text, PostulateReport};
+use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+#[command(group = ArgGroup::new("for").required(true).args(["psi", "psi_range", "all"]))]
+pub struct Arguments {
+    /// Prove it for this psi_max
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    psi: Option<String>,
+    /// Prove it for every psi_max from A to B
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    psi_range: Option<String>,
+    /// Prove it for every psi_max > 1
+    #[arg(long)]
+    all: bool,
+    /// Where the certificate is written; without it, nowhere
+    #[arg(short, long, value_name = "CERT.json")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let Arguments { effort, output: target, .. } = arguments;
+    let budget = effort.budget(started)?;
+    let claim = PostulateClaim { psi_max: arguments.psi_max()? };
+    claim.validate().map_err(Failure::input)?;
+    target.as_deref().map_or(Ok(()), output::probe)?;
+    effort.start_threads()?;
+    interrupt::listen();
+    let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
+    let decision = certify::decide(&mut found.answer)?;
+    let mut report =
+        PostulateReport::new(&claim, &found, started.elapsed()).ok_or(Failure::Interrupted)?;
+    let status = match (decision, target) {
+        (Some(decision), Some(target)) => {
+            report.certificate = Some(certify::store(target, &decision.text)?);
+            Status::Decided(decision.verdict)
+        }
+        (Some(decision), None) => Status::Decided(decision.verdict),
+        (None, target) => {
+            let claim = Claim::Postulate(claim);
+            report.earlier_certificate =
+                target.as_ref().and_then(|target| certify::earlier(target, &claim));
+            Status::Undecided
+        }
+    };
+    let style = print::style();
+    match effort.format {
+        Format::Json => print::json(&report)?,
+        Format::Text if effort.quiet => {
+            print::answer(&(text::postulate_headline(&report, style) + "\n"))?;
+        }
+        Format::Text => print::answer(&text::postulate(&report, style))?,
+    }
+    Ok(status)
+}
+
+impl Arguments {
+    fn psi_max(&self) -> Result<PsiMax, Failure> {
+        let range = match (&self.psi, &self.psi_range) {
+            (Some(psi), _) => Quantity::exactly(input::number("--psi", psi)?),
+            (None, Some(range)) => {
+                let (min, max) = range.split_once("..").ok_or_else(|| {
+                    Failure::Input(format!(
+                        "--psi-range: found \"{range}\"; accepted: two numbers, such as 1.5..3"
+                    ))
+                })?;
+                let end = |text| input::number("--psi-range", text);
+                Quantity { min: end(min)?, max: end(max)? }
+            }
+            (None, None) => return Ok(PsiMax::All),
+        };
+        Ok(PsiMax::Range(range))
+    }
+}

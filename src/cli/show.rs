@@ -1,0 +1,170 @@
+//! `orthocert show`.
+
+use super::{input, print, Failure, Format, Status};
+use orthocert::decimal::{boxes, grouped};
+use orthocert::report::text::{labelled, wrap};
+use orthocert_checker::certificate::{
+    Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
+};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::{read, statement};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The certificate
+    #[arg(value_name = "CERT.json")]
+    certificate: PathBuf,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+/// What a certificate says of itself.
+#[derive(Serialize)]
+struct Shown<'a> {
+    checked: bool,
+    stated_verdict: Verdict,
+    bytes: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tree: Option<Shape>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    witness: Option<&'a Witness>,
+    provenance: &'a Provenance,
+    claim: &'a Claim,
+}
+
+/// The shape of a proof, as written.
+#[derive(Serialize)]
+struct Shape {
+    precision: u32,
+    trees: usize,
+    nodes: usize,
+    leaves: usize,
+    depth: usize,
+    rules: BTreeMap<&'static str, usize>,
+}
+
+impl Shape {
+    /// The shape of a proof's trees; `None` for a counterexample.
+    fn of(proof: &Proof) -> Option<Self> {
+        let (precision, trees): (u32, Vec<&[Node]>) = match proof {
+            Proof::Tree(tree) => (tree.precision, vec![&tree.nodes]),
+            Proof::Faces(faces) => {
+                (faces.precision, faces.parts.iter().map(|part| &part.nodes[..]).collect())
+            }
+            Proof::Witness(_) => return None,
+        };
+        let mut shape = Shape {
+            precision,
+            trees: trees.len(),
+            nodes: 0,
+            leaves: 0,
+            depth: 0,
+            rules: BTreeMap::new(),
+        };
+        for nodes in trees {
+            shape.add(nodes);
+        }
+        Some(shape)
+    }
+
+    fn add(&mut self, nodes: &[Node]) {
+        self.nodes += nodes.len();
+        let mut waiting = vec![0];
+        for node in nodes {
+            let depth = waiting.pop().unwrap_or(0);
+            self.depth = self.depth.max(depth);
+            match node.split {
+                Some(_) => waiting.extend([depth + 1, depth + 1]),
+                None => self.leaves += 1,
+            }
+            for step in &node.by {
+                *self.rules.entry(step.rule().0).or_default() += 1;
+            }
+        }
+    }
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let bytes = input::certificate(&arguments.certificate)?;
+    let certificate = match read(&bytes) {
+        Ok(certificate) => certificate,
+        Err(reason) => {
+            let path = arguments.certificate.display();
+            print::diagnostic(&format!("{path}: REJECTED: {reason}"));
+            return Ok(Status::Rejected);
+        }
+    };
+    match arguments.format {
+        Format::Text => print::answer(&text(&certificate, bytes.len()))?,
+        Format::Json => print::json(&shown(&certificate, bytes.len()))?,
+    }
+    Ok(Status::Done)
+}
+
+fn shown(certificate: &Certificate, bytes: usize) -> Shown<'_> {
+    let witness = match &certificate.proof {
+        Proof::Witness(witness) => Some(&**witness),
+        _ => None,
+    };
+    Shown {
+        checked: false,
+        stated_verdict: certificate.verdict,
+        bytes,
+        tree: Shape::of(&certificate.proof),
+        witness,
+        provenance: &certificate.provenance,
+        claim: &certificate.claim,
+    }
+}
+
+fn text(certificate: &Certificate, bytes: usize) -> String {
+    let Provenance { tool, version } = &certificate.provenance;
+    let mut out = format!("NOT CHECKED; the certificate says: {}\n\n", certificate.verdict);
+    let statement = statement::statement(&certificate.claim, certificate.verdict);
+    // The statement's first line says that it is proved, which is not known here.
+    let statement = statement.unwrap_or_default();
+    let (_, claim) = statement.split_once('\n').unwrap_or(("", &statement));
+    out.push_str(claim);
+    out.push('\n');
+    if let Some(shape) = Shape::of(&certificate.proof) {
+        let Shape { precision, trees, nodes, leaves, depth, rules } = shape;
+        let trees = if trees == 1 { "a bisection tree".into() } else { format!("{trees} trees") };
+        let (nodes, leaves) = (boxes(nodes), grouped(leaves as u64));
+        let size = format!("{trees} of {nodes}, {leaves} of them leaves, depth {depth}");
+        labelled(&mut out, "proof", &format!("{size}, {precision} bits"));
+        let uses = rules.iter().map(|(rule, uses)| format!("{rule} {uses}"));
+        labelled(&mut out, "rules used", &uses.collect::<Vec<_>>().join(", "));
+    }
+    if let Proof::Witness(witness) = &certificate.proof {
+        let [x, y, z] = &witness.point;
+        let violated = violated(&witness.violates);
+        let text = format!("a counterexample at P = ({x}, {y}, {z}): {violated}");
+        labelled(&mut out, "proof", &text);
+    }
+    labelled(&mut out, "size", &format!("{} bytes", grouped(bytes as u64)));
+    labelled(&mut out, "written by", &format!("{tool} {version}"));
+    wrap(&mut out, "\"orthocert check\" re-proves it.", 2);
+    out
+}
+
+/// What a witness says is violated.
+fn violated(violation: &Violation) -> String {
+    match violation {
+        Violation::SigmaMin(_) => "the greatest psi is beyond psi_max".to_owned(),
+        Violation::SigmaMax(_) => "the least psi is below psi_min".to_owned(),
+        Violation::Reach(leg) => format!("leg {} cannot reach P with s > 0", leg.leg),
+        Violation::JointRange(leg) => format!("rho_{} is outside its range", leg.leg),
+        Violation::Conditioning(_) => "the condition number is beyond its bound".to_owned(),
+        Violation::SerialMargin(leg) => format!("leg {} is below the serial margin", leg.leg),
+        Violation::ParallelMargin => "|det A| is below the parallel margin".to_owned(),
+        Violation::LegAngle(leg) => format!("leg {} is beyond its angle to the guide", leg.leg),
+        Violation::JointSpeed(leg) => format!("joint {} is beyond its speed", leg.leg),
+        Violation::Singular(_) => "det M has another sign there than at a second point".to_owned(),
+    }
+}

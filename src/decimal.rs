@@ -1,0 +1,297 @@
+//! Decimal notation of exact numbers, and of enclosures with every digit certified.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use orthocert_checker::number::Exact;
+use std::cmp::Ordering;
+
+/// Longest text of an exact number that is shown to people as it stands.
+const READABLE: usize = 12;
+/// Most decimal places of a number in full; beyond, it is a fraction.
+const EXACT_PLACES: u32 = 40;
+/// Digits shown of a number that is not.
+const SHORTENED: u32 = 9;
+/// Fractional bits of an enclosure that is only to be shown.
+const SHOWN_BITS: u32 = 128;
+
+/// Which neighbour on the grid of decimals is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Toward {
+    /// The greatest decimal that is at most the number.
+    Below,
+    /// The least decimal that is at least the number.
+    Above,
+}
+
+/// `x` rounded to `digits` significant digits (at least one), outward as `toward` says:
+/// positional for exponents of ten from -5 to 15, with an exponent otherwise.
+pub fn rounded(x: &BigRational, digits: u32, toward: Toward) -> String {
+    if x.is_zero() {
+        return "0".to_owned();
+    }
+    let digits = i64::from(digits.max(1));
+    let mut exponent = order(x);
+    let mut mantissa = on_grid(x, digits - 1 - exponent, toward);
+    if mantissa.abs() == power_of_ten(digits) {
+        // Rounding has reached the next power of ten: 9.99... became 10.00...
+        mantissa /= 10;
+        exponent += 1;
+    }
+    written(&mantissa, exponent, digits)
+}
+
+/// `e` with `10^e <= |x| < 10^(e + 1)`, `x != 0`.
+pub fn order(x: &BigRational) -> i64 {
+    let bits = |n: &BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX / 4);
+    // |x| = 2^(b + r), b the difference of bit lengths, |r| < 1: off by one at most.
+    let estimate = (bits(x.numer()) - bits(x.denom())) as f64 * std::f64::consts::LOG10_2;
+    let mut exponent = estimate.floor() as i64;
+    let magnitude = x.abs();
+    while magnitude < scaled(&BigRational::one(), exponent) {
+        exponent -= 1;
+    }
+    while magnitude >= scaled(&BigRational::one(), exponent + 1) {
+        exponent += 1;
+    }
+    exponent
+}
+
+/// `x * 10^places`, rounded to an integer.
+fn on_grid(x: &BigRational, places: i64, toward: Toward) -> BigInt {
+    let x = scaled(x, places);
+    match toward {
+        Toward::Below => x.numer().div_floor(x.denom()),
+        Toward::Above => x.numer().div_ceil(x.denom()),
+    }
+}
+
+/// `x * 10^places`.
+fn scaled(x: &BigRational, places: i64) -> BigRational {
+    match places.cmp(&0) {
+        Ordering::Less => x / power_of_ten(-places),
+        _ => x * power_of_ten(places),
+    }
+}
+
+fn power_of_ten(exponent: i64) -> BigInt {
+    BigInt::from(10).pow(u32::try_from(exponent).unwrap_or(0))
+}
+
+/// `mantissa * 10^(exponent - digits + 1)`, the mantissa having `digits` digits.
+fn written(mantissa: &BigInt, exponent: i64, digits: i64) -> String {
+    let sign = if mantissa.is_negative() { "-" } else { "" };
+    let text = mantissa.abs().to_string();
+    let zeros = |n: i64| "0".repeat(usize::try_from(n).unwrap_or(0));
+    let split = |at: i64| text.split_at(usize::try_from(at).unwrap_or(0).min(text.len()));
+    if (-5..0).contains(&exponent) {
+        return format!("{sign}0.{}{text}", zeros(-exponent - 1));
+    }
+    if (0..=15).contains(&exponent) {
+        let (whole, fraction) = split(exponent + 1);
+        let padding = zeros(exponent + 1 - digits);
+        return match fraction {
+            "" => format!("{sign}{whole}{padding}"),
+            _ => format!("{sign}{whole}.{fraction}"),
+        };
+    }
+    match split(1) {
+        (first, "") => format!("{sign}{first}e{exponent}"),
+        (first, rest) => format!("{sign}{first}.{rest}e{exponent}"),
+    }
+}
+
+/// The decimal that a rational is exactly, if it has one of at most `places` decimal places.
+pub fn terminating(x: &BigRational, places: u32) -> Option<String> {
+    let mut rest = x.denom().clone();
+    let mut needed = 0;
+    let ten = BigInt::from(10);
+    while !rest.is_one() {
+        if needed == places {
+            return None;
+        }
+        // One decimal place takes a factor of two and a factor of five, where they are there.
+        let gcd = rest.gcd(&ten);
+        if gcd.is_one() {
+            return None;
+        }
+        rest /= gcd;
+        needed += 1;
+    }
+    let digits = (x * ten.pow(needed)).to_integer().abs().to_string();
+    let sign = if x.is_negative() { "-" } else { "" };
+    let width = needed as usize + 1;
+    let digits = format!("{digits:0>width$}");
+    let (whole, fraction) = digits.split_at(digits.len() - needed as usize);
+    Some(if fraction.is_empty() {
+        format!("{sign}{whole}")
+    } else {
+        format!("{sign}{whole}.{fraction}")
+    })
+}
+
+/// An exact number for people: itself where that is short, as a decimal if it is one; else nine
+/// digits after a `~`.
+pub fn readable(x: &Exact) -> String {
+    if let Some(decimal) = x.as_rational().and_then(|x| terminating(x, READABLE as u32)) {
+        if decimal.len() <= READABLE {
+            return decimal;
+        }
+    }
+    let text = x.to_string();
+    if text.len() <= READABLE {
+        return text;
+    }
+    // Beyond the doubles, too, the order of magnitude is what is to be seen.
+    let enclosed = || x.enclose(0, SHOWN_BITS).map(|x| rounded(&x.inf(), SHORTENED, Toward::Below));
+    match approximate(x).filter(|value| *value != 0.0) {
+        Some(value) => format!("~{}", significant(value, SHORTENED)),
+        None => enclosed().filter(|text| text != "0").map_or(text, |text| format!("~{text}")),
+    }
+}
+
+/// An exact number in full: as a decimal, if it is one of at most forty places.
+pub fn exact(x: &Exact) -> String {
+    let decimal = x.as_rational().and_then(|x| terminating(x, EXACT_PLACES));
+    decimal.unwrap_or_else(|| x.to_string())
+}
+
+/// A double near `x`; `None` where there is none.
+pub fn approximate(x: &Exact) -> Option<f64> {
+    let value = match x.as_rational() {
+        Some(x) => x.to_f64()?,
+        None => x.enclose(0, SHOWN_BITS)?.inf().to_f64()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// A double with so many significant digits, positional or with an exponent like [`rounded`],
+/// without trailing zeros.
+pub fn significant(value: f64, digits: u32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".to_owned() } else { value.to_string() };
+    }
+    let scientific = format!("{value:.*e}", digits.max(1) as usize - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-5..=15).contains(&exponent) {
+        let places = (digits as i32 - 1 - exponent).max(0) as usize;
+        return trimmed(&format!("{value:.places$}")).to_owned();
+    }
+    format!("{}e{exponent}", trimmed(mantissa))
+}
+
+fn trimmed(decimal: &str) -> &str {
+    if decimal.contains('.') {
+        decimal.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        decimal
+    }
+}
+
+/// An integer with commas between groups of three digits.
+pub fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut out = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// A number of boxes, in words.
+pub fn boxes(n: usize) -> String {
+    counted(n, "box", "boxes")
+}
+
+/// A number of things, in words.
+pub fn counted(n: usize, one: &str, many: &str) -> String {
+    match n {
+        1 => format!("1 {one}"),
+        n => format!("{} {many}", grouped(n as u64)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(text: &str) -> BigRational {
+        Exact::parse(text, 1000).unwrap().as_rational().unwrap().clone()
+    }
+
+    #[test]
+    fn rounding_is_outward_on_either_side_of_zero() {
+        for (text, below, above) in [
+            ("1/3", "0.3333", "0.3334"),
+            ("-1/3", "-0.3334", "-0.3333"),
+            ("2/3*1e20", "6.666e19", "6.667e19"),
+            ("1/3e30", "3.333e-31", "3.334e-31"),
+            ("99999", "99990", "100000"),
+            ("-99999", "-100000", "-99990"),
+            ("0.99999", "0.9999", "1.000"),
+            ("200", "200.0", "200.0"),
+            ("0", "0", "0"),
+            ("0.00001", "0.00001000", "0.00001000"),
+            ("12345678901234567", "1.234e16", "1.235e16"),
+        ] {
+            let x = exact(text);
+            assert_eq!(rounded(&x, 4, Toward::Below), below, "{text}");
+            assert_eq!(rounded(&x, 4, Toward::Above), above, "{text}");
+        }
+    }
+
+    #[test]
+    fn rounded_decimals_enclose() {
+        for n in 1..400i64 {
+            for d in [3i64, 7, 9, 11, 1000, 999_983] {
+                let x = BigRational::new((n * n - 20_000).into(), d.into());
+                for digits in [1, 2, 5, 15] {
+                    let below = exact(&rounded(&x, digits, Toward::Below));
+                    let above = exact(&rounded(&x, digits, Toward::Above));
+                    assert!(below <= x && x <= above, "{x} {digits}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_are_shown_as_they_are_where_that_is_short() {
+        for (text, shown) in [
+            ("2", "2"),
+            ("-73.2", "-73.2"),
+            ("1/2", "0.5"),
+            ("1/3", "1/3"),
+            ("500/1001", "500/1001"),
+            ("sqrt(2)", "sqrt(2)"),
+            ("100*sqrt(3)/(1+sqrt(2))", "~71.7438935"),
+            ("310.582854123025", "~310.582854"),
+            ("1e-30", "~1e-30"),
+            ("7e400", "~7.00000000e400"),
+        ] {
+            assert_eq!(readable(&Exact::parse(text, 1000).unwrap()), shown);
+        }
+    }
+
+    #[test]
+    fn doubles_are_shown_without_trailing_zeros() {
+        for (value, shown) in [
+            (2.0, "2"),
+            (2.000_000_000_1, "2"),
+            (2.005_041_23, "2.00504123"),
+            (-73.205_080_756_9, "-73.2050808"),
+            (1.5e-7, "1.5e-7"),
+            (0.00012, "0.00012"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(significant(value, 9), shown);
+        }
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(grouped(999), "999");
+    }
+}

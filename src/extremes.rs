@@ -1,0 +1,357 @@
+//! Certified extremes: how small and how large each quantity gets over the workspace.
+//!
+//! An extreme is enclosed by two certificates. The outer end is a bound that is *proved*: the claim
+//! "the quantity stays within it" is certified. The inner end is a bound that is *refuted*, by a
+//! witness: the point, and the machine within the tolerances, at which the quantity goes beyond
+//! it. The search for both is that of [`crate::verify`]; only the claims are new.
+
+use crate::interval::Approx;
+use crate::refute::witness_at;
+use crate::sample::{Place, Quality, Sampler};
+use crate::search::{Budget, Control};
+use crate::verify::{certificate, verify, Answer};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Signed, Zero};
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::claim::{
+    AtLeast, AtMost, Claim, ClaimError, JointSpeed, Leg, MachineClaim, Mechanism, Range,
+    Requirements, Workspace,
+};
+use orthocert_checker::fixed::Fixed;
+use orthocert_checker::model::{CubeConstants, Model};
+use orthocert_checker::number::Exact;
+
+/// Fractional bits in which the claim's numbers are enclosed for sampling.
+const PRECISION: u32 = 192;
+/// Finest step of the search for an extreme.
+const FINEST: i32 = 30;
+/// How often a better inner end may turn up before the search is given up.
+const ROUNDS: usize = 8;
+
+/// A quantity whose extremes are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Extreme {
+    /// The least `psi_i`.
+    LeastPsi,
+    /// The greatest `psi_i`.
+    GreatestPsi,
+    /// The greatest `sigma_max / sigma_min`.
+    Conditioning,
+    /// The least `|eta_i| / L_i` of any leg.
+    SerialMargin,
+    /// The least `|det A| / (L_1 L_2 L_3)`.
+    ParallelMargin,
+    /// The least `rho_i` of this leg, from zero.
+    LeastRho(usize),
+    /// The greatest `rho_i` of this leg, from zero.
+    GreatestRho(usize),
+    /// The greatest angle between a leg and its guide, in degrees.
+    LegAngle,
+    /// The greatest joint speed per tool speed.
+    JointSpeed,
+}
+
+/// An extreme, enclosed from both sides.
+#[derive(Clone, Debug)]
+pub struct Enclosed {
+    /// Which one.
+    pub extreme: Extreme,
+    /// The quantity goes beyond this (certified by a witness).
+    pub inner: Exact,
+    /// The quantity never goes beyond this (certified by a tree).
+    pub outer: Exact,
+    /// The certificate of the inner end: "stays within `inner`" is refuted.
+    pub refuted: Box<Certificate>,
+    /// The certificate of the outer end: "stays within `outer`" is certified.
+    pub certified: Box<Certificate>,
+    /// Boxes tried for the outer end.
+    pub boxes: usize,
+}
+
+/// Why an extreme is not enclosed.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum NotEnclosed {
+    /// Some machine has a singularity, or a point out of reach, in the workspace.
+    Singular,
+    /// Neither a proof nor a refutation was found within the budget.
+    Undecided,
+    /// It was cancelled.
+    Cancelled,
+    /// The claim is not well formed.
+    Claim(ClaimError),
+}
+
+impl std::fmt::Display for NotEnclosed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NotEnclosed::Singular => {
+                f.write_str("there is a singularity or a point out of reach in the workspace")
+            }
+            NotEnclosed::Undecided => f.write_str("not enclosed this tightly within the budget"),
+            NotEnclosed::Cancelled => f.write_str("cancelled"),
+            NotEnclosed::Claim(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NotEnclosed {}
+
+impl From<ClaimError> for NotEnclosed {
+    fn from(error: ClaimError) -> Self {
+        NotEnclosed::Claim(error)
+    }
+}
+
+impl Extreme {
+    /// The extremes that a machine has, in the order of reports; for the paper's cube without those
+    /// of `psi`, which are `1/psi_max` and `psi_max` by the claim itself.
+    pub fn of(claim: &MachineClaim) -> Vec<Extreme> {
+        let mut all = vec![
+            Extreme::LeastPsi,
+            Extreme::GreatestPsi,
+            Extreme::Conditioning,
+            Extreme::SerialMargin,
+            Extreme::ParallelMargin,
+        ];
+        for leg in 0..3 {
+            all.extend([Extreme::LeastRho(leg), Extreme::GreatestRho(leg)]);
+        }
+        all.extend([Extreme::LegAngle, Extreme::JointSpeed]);
+        if matches!(claim.workspace, Workspace::Cube { .. }) {
+            all.retain(|extreme| !matches!(extreme, Extreme::LeastPsi | Extreme::GreatestPsi));
+        }
+        if let Mechanism::Translational(legs) = &claim.mechanism {
+            let lengths = legs.iter().all(Leg::has_length);
+            let guides = legs.iter().all(|leg| matches!(leg, Leg::Slider { .. }));
+            let angular = legs.iter().any(Leg::is_angular);
+            all.retain(|extreme| match extreme {
+                Extreme::SerialMargin => lengths,
+                Extreme::LegAngle => guides,
+                // Ranges of angles need both ends, so one end alone is no claim.
+                Extreme::LeastRho(_) | Extreme::GreatestRho(_) => !angular,
+                _ => true,
+            });
+        }
+        all
+    }
+
+    /// Whether the quantity is bounded from above.
+    pub fn is_greatest(self) -> bool {
+        !matches!(
+            self,
+            Extreme::LeastPsi
+                | Extreme::SerialMargin
+                | Extreme::ParallelMargin
+                | Extreme::LeastRho(_)
+        )
+    }
+
+    fn qualities(self) -> Vec<Quality> {
+        let every_leg = |quality: fn(usize) -> Quality| (0..3).map(quality).collect();
+        match self {
+            Extreme::LeastPsi => vec![Quality::LeastPsi],
+            Extreme::GreatestPsi => vec![Quality::GreatestPsi],
+            Extreme::Conditioning => vec![Quality::Conditioning],
+            Extreme::SerialMargin => every_leg(Quality::SerialMargin),
+            Extreme::ParallelMargin => vec![Quality::ParallelMargin],
+            Extreme::LeastRho(leg) => vec![Quality::LeastRho(leg)],
+            Extreme::GreatestRho(leg) => vec![Quality::GreatestRho(leg)],
+            Extreme::LegAngle => every_leg(Quality::LegAngle),
+            Extreme::JointSpeed => every_leg(Quality::JointSpeed),
+        }
+    }
+
+    /// "The quantity stays within `bound`", and nothing else.
+    fn requirement(self, bound: Exact) -> Requirements {
+        let mut requirements = Requirements::default();
+        let range = |min, max| Some(Range { min, max });
+        match self {
+            Extreme::LeastPsi => requirements.transmission = range(Some(bound), None),
+            Extreme::GreatestPsi => requirements.transmission = range(None, Some(bound)),
+            Extreme::Conditioning => requirements.conditioning = Some(AtMost { max: bound }),
+            Extreme::SerialMargin => requirements.serial_margin = Some(AtLeast { min: bound }),
+            Extreme::ParallelMargin => requirements.parallel_margin = Some(AtLeast { min: bound }),
+            Extreme::LegAngle => requirements.leg_angle = Some(AtMost { max: bound }),
+            Extreme::JointSpeed => {
+                let tool = Exact::integer(1);
+                requirements.joint_speed = Some(JointSpeed { tool, max: bound });
+            }
+            Extreme::LeastRho(leg) | Extreme::GreatestRho(leg) => {
+                let own = match self {
+                    Extreme::LeastRho(_) => Range { min: Some(bound), max: None },
+                    _ => Range { min: None, max: Some(bound) },
+                };
+                let far = BigInt::from(10).pow(30);
+                let free = || Range {
+                    min: None,
+                    max: Some(Exact::Rational(BigRational::from_integer(far.clone()))),
+                };
+                let mut ranges = [free(), free(), free()];
+                if let Some(range) = ranges.get_mut(leg) {
+                    *range = own;
+                }
+                requirements.joint_range = Some(ranges);
+            }
+        }
+        requirements
+    }
+}
+
+/// Encloses an extreme of the claim's machines over its workspace to a relative width (for joint
+/// coordinates and angles: relative to the greatest size that the quantity takes).
+///
+/// The claim's requirements are not used, but for the `psi_max` that defines the paper's cube.
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn enclose(
+    claim: &MachineClaim,
+    extreme: Extreme,
+    relative: &BigRational,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Enclosed, NotEnclosed> {
+    let defining = match &claim.workspace {
+        Workspace::Cube { .. } => claim.requirements.transmission.clone(),
+        Workspace::Box { .. } | Workspace::Cylinder { .. } => None,
+    };
+    let claim_with = |bound: Exact| {
+        let mut requirements = extreme.requirement(bound);
+        requirements.transmission = requirements.transmission.or_else(|| defining.clone());
+        MachineClaim { requirements, ..claim.clone() }
+    };
+    let any = claim_with(Exact::integer(2));
+    let model = Model::new(&any, PRECISION)?;
+    let sampler = Sampler::new(&any, &model).ok_or(NotEnclosed::Undecided)?;
+    let unit = unit_of(claim, &model).ok_or(NotEnclosed::Undecided)?;
+    let (mut quality, mut place) = worst_place(&sampler, extreme);
+    for _ in 0..ROUNDS {
+        let found = value(&sampler, extreme, quality, &place, unit).ok_or(NotEnclosed::Singular)?;
+        let size = scale_of(extreme, found, &sampler, unit);
+        let step = relative * &size;
+        let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
+        // Two thirds of the width on the outer side, where the proof needs room.
+        let third = &step * &sign / BigRational::from_integer(3.into());
+        let found = BigRational::from_f64(found).ok_or(NotEnclosed::Undecided)?;
+        let inner = rounded(&(&found - &third), &step);
+        let outer = rounded(&(&found + &third + &third), &step);
+        let refuted_claim = claim_with(Exact::Rational(inner.clone()));
+        let Some(refuted) = refute(&refuted_claim, quality, &place) else {
+            return Err(NotEnclosed::Undecided);
+        };
+        let certified_claim = claim_with(Exact::Rational(outer.clone()));
+        let verification = verify(&certified_claim, budget, control)?;
+        match verification.answer {
+            Answer::Decided { certificate, accepted } if accepted.verdict == Verdict::Certified => {
+                return Ok(Enclosed {
+                    extreme,
+                    inner: Exact::Rational(inner),
+                    outer: Exact::Rational(outer),
+                    refuted,
+                    certified: certificate,
+                    boxes: verification.boxes,
+                });
+            }
+            Answer::Decided { .. } => {
+                // A worse place than the one known: go on from there.
+                let mut worst = verification.worst;
+                worst.retain(|w| extreme.qualities().contains(&w.quality));
+                worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+                let Some(found) = worst.into_iter().next().filter(|w| w.margin < 0.0) else {
+                    return Err(NotEnclosed::Singular);
+                };
+                (quality, place) = (found.quality, found.place);
+            }
+            Answer::Undecided(_) => return Err(NotEnclosed::Undecided),
+            Answer::Cancelled => return Err(NotEnclosed::Cancelled),
+        }
+    }
+    Err(NotEnclosed::Undecided)
+}
+
+/// The model's unit of length in the claim's.
+fn unit_of(claim: &MachineClaim, model: &Model<Fixed>) -> Option<f64> {
+    match (&claim.workspace, model.unit_exponent) {
+        (_, Some(scale)) => Some((scale as f64).exp2()),
+        (Workspace::Cube { side }, None) => {
+            let psi_max = claim.requirements.transmission.as_ref()?.max.as_ref()?;
+            let inverse = CubeConstants::new(psi_max, side).ok()?.inverse_length;
+            Some(1.0 / Approx::from_fixed(&inverse.enclose(0, PRECISION)?).0)
+        }
+        _ => None,
+    }
+}
+
+/// The place at which the quantity is found to be most extreme.
+fn worst_place(sampler: &Sampler, extreme: Extreme) -> (Quality, Place) {
+    let grid = sampler.grid();
+    let mut best: Option<(f64, Quality, Place)> = None;
+    for quality in extreme.qualities() {
+        let margin = |p: &Place| sampler.margin(quality, &sampler.at(p)).unwrap_or(f64::MAX);
+        let mut starts: Vec<(f64, &Place)> = grid.iter().map(|p| (margin(p), p)).collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, start) in starts.into_iter().take(3) {
+            let (margin, place) = sampler.descend(quality, start, FINEST);
+            if best.as_ref().is_none_or(|(least, ..)| margin < *least) {
+                best = Some((margin, quality, place));
+            }
+        }
+    }
+    match best {
+        Some((_, quality, place)) => (quality, place),
+        None => (Quality::Clearance, Place { u: [0.5; 3], t: Vec::new() }),
+    }
+}
+
+/// The quantity's value at a place, in the claim's unit.
+fn value(
+    sampler: &Sampler,
+    extreme: Extreme,
+    quality: Quality,
+    place: &Place,
+    unit: f64,
+) -> Option<f64> {
+    let value = sampler.value(quality, &sampler.at(place))?;
+    let in_lengths = matches!(extreme, Extreme::LeastRho(_) | Extreme::GreatestRho(_));
+    Some(if in_lengths { value * unit } else { value })
+}
+
+/// What the width is relative to: the value itself, or for joint coordinates, which may be zero,
+/// the size of the workspace's joint motion.
+fn scale_of(extreme: Extreme, found: f64, sampler: &Sampler, unit: f64) -> BigRational {
+    let size = match extreme {
+        Extreme::LeastRho(leg) | Extreme::GreatestRho(leg) => {
+            let rho = |place: &Place| sampler.value(Quality::LeastRho(leg), &sampler.at(place));
+            let all = sampler.grid();
+            let sizes = all.iter().filter_map(rho).map(f64::abs);
+            sizes.fold(found.abs() / unit, f64::max) * unit
+        }
+        _ => found.abs(),
+    };
+    BigRational::from_f64(size)
+        .filter(|x| !x.is_zero())
+        .unwrap_or_else(|| BigRational::from_integer(1.into()))
+}
+
+/// The decimal nearest to `x` on a grid of at most a hundredth of `step`.
+fn rounded(x: &BigRational, step: &BigRational) -> BigRational {
+    let ten = BigRational::from_integer(10.into());
+    let mut grid = BigRational::from_integer(1.into());
+    let wanted = step.abs() / BigRational::from_integer(100.into());
+    while grid > wanted {
+        grid /= &ten;
+    }
+    (x / &grid).round() * grid
+}
+
+/// A refutation of `claim` at a known place.
+fn refute(claim: &MachineClaim, quality: Quality, place: &Place) -> Option<Box<Certificate>> {
+    let model = Model::new(claim, PRECISION).ok()?;
+    let sampler = Sampler::new(claim, &model)?;
+    let witness = witness_at(claim, &sampler, quality, place)?;
+    let proof = Proof::Witness(Box::new(witness));
+    Some(Box::new(certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof)))
+}

@@ -1,0 +1,194 @@
+//! Findings that rest on certificates.
+
+use super::{value, Agreement, Basis, Finding, NotEstablished};
+use crate::design::Design;
+use crate::search::{Budget, Control};
+use crate::verify::{verify, Answer};
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use std::sync::atomic::AtomicBool;
+
+/// Far more than any of the proofs needs.
+const BUDGET: Budget = Budget { max_boxes: 100_000, deadline: None };
+
+/// The closed cube of the prototype with further requirements.
+fn prototype_with(requirements: &str) -> String {
+    format!(
+        "[mechanism]\nkind = \"orthoglide\"\n[workspace]\ncube = 200\n\
+         [requirements]\ntransmission = {{ max = 2 }}\n{requirements}\n"
+    )
+}
+
+/// The Orthoglide of this leg length on a given cube, at `psi_max = 2`.
+fn machine(leg_length: &str, min: &str, max: &str) -> String {
+    format!(
+        "[mechanism]\nkind = \"orthoglide\"\nleg_length = {leg_length}\n[workspace]\n\
+         min = [{min}, {min}, {min}]\nmax = [{max}, {max}, {max}]\n\
+         [requirements]\ntransmission = {{ min = \"1/2\", max = 2 }}\n"
+    )
+}
+
+/// The certificate of a design whose verdict is known.
+fn decided(
+    id: &'static str,
+    design: &str,
+    verdict: Verdict,
+) -> Result<Certificate, NotEstablished> {
+    let fails = |reason: String| NotEstablished { id, reason };
+    let design = Design::parse(design, id).map_err(|e| fails(e.to_string()))?;
+    let Claim::Machine(claim) = &design.claim else {
+        return Err(fails("not a claim about a machine".into()));
+    };
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let found = verify(claim, BUDGET, &mut control).map_err(|e| fails(e.to_string()))?;
+    accepted(id, found.answer, verdict)
+}
+
+fn accepted(
+    id: &'static str,
+    answer: Answer,
+    verdict: Verdict,
+) -> Result<Certificate, NotEstablished> {
+    match answer {
+        Answer::Decided { certificate, accepted } if accepted.verdict == verdict => {
+            Ok(*certificate)
+        }
+        Answer::Decided { accepted, .. } => {
+            let reason = format!("the verdict is {}, not {verdict}", accepted.verdict);
+            Err(NotEstablished { id, reason })
+        }
+        _ => Err(NotEstablished { id, reason: "not decided within the budget".into() }),
+    }
+}
+
+fn postulate(id: &'static str) -> Result<Certificate, NotEstablished> {
+    let claim = PostulateClaim { psi_max: PsiMax::All };
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let proved = crate::postulate::prove(&claim, BUDGET, &mut control)
+        .map_err(|e| NotEstablished { id, reason: e.to_string() })?;
+    accepted(id, proved.answer, Verdict::Certified)
+}
+
+/// The findings with certificates.
+pub(super) fn findings() -> Result<Vec<Finding>, NotEstablished> {
+    Ok(vec![
+        bounds()?,
+        the_postulate()?,
+        joint_range()?,
+        serial_distance()?,
+        parallel_distance()?,
+        rounded_machine()?,
+        published_corners()?,
+    ])
+}
+
+fn bounds() -> Result<Finding, NotEstablished> {
+    let id = "bounds";
+    let certificate = decided(id, &prototype_with(""), Verdict::Certified)?;
+    Ok(Finding {
+        id,
+        place: "Section on the transmission factors",
+        says: "1/2 <= psi_i <= 2 on the 200 mm cube, for psi_max = 2",
+        proved: "1/2 <= psi_i <= 2 on the closed cube, free of serial and parallel singularities",
+        agreement: Agreement::Holds,
+        values: Vec::new(),
+        basis: Basis::Certificates(vec![("paper-bounds", certificate)]),
+    })
+}
+
+fn the_postulate() -> Result<Finding, NotEstablished> {
+    let id = "postulate";
+    Ok(Finding {
+        id,
+        place: "Step 1",
+        says:
+            "if the bounds hold at Q1 and Q2 they hold on the cube; interval analysis can show it",
+        proved: "the bounds hold on the cube for every psi_max > 1",
+        agreement: Agreement::Holds,
+        values: Vec::new(),
+        basis: Basis::Certificates(vec![("paper-postulate", postulate(id)?)]),
+    })
+}
+
+fn joint_range() -> Result<Finding, NotEstablished> {
+    let id = "joint-range";
+    // A little above rho_max; 0 is met with equality.
+    let requirement = "joint_range = { min = 0, max = \"256.993015637\" }";
+    let certificate = decided(id, &prototype_with(requirement), Verdict::Certified)?;
+    let rho_max = "200+200/(1/sqrt(18)+1/sqrt(6))*(1-sqrt(2/3))";
+    Ok(Finding {
+        id,
+        place: "Step 3",
+        says: "joint range 257 mm",
+        proved: "0 <= rho_i <= rho_max on the cube; both ends are attained, rho_max at Q2",
+        agreement: Agreement::Corrected,
+        values: vec![value(id, "rho_max (mm)", rho_max)?],
+        basis: Basis::Certificates(vec![("paper-joint-range", certificate)]),
+    })
+}
+
+fn serial_distance() -> Result<Finding, NotEstablished> {
+    let id = "serial-distance";
+    let requirement = "serial_margin = { min = \"0.816496\" }";
+    let certificate = decided(id, &prototype_with(requirement), Verdict::Certified)?;
+    Ok(Finding {
+        id,
+        place: "Section on singular configurations",
+        says: "serial singularities are far from the workspace",
+        proved: "|eta_i|/L >= 0.816496 on the cube; the least value is attained at Q2",
+        agreement: Agreement::Holds,
+        values: vec![value(id, "min |eta_i|/L", "sqrt(2/3)")?],
+        basis: Basis::Certificates(vec![("paper-serial-distance", certificate)]),
+    })
+}
+
+fn parallel_distance() -> Result<Finding, NotEstablished> {
+    let id = "parallel-distance";
+    let requirement = "parallel_margin = { min = \"0.272165\" }";
+    let certificate = decided(id, &prototype_with(requirement), Verdict::Certified)?;
+    Ok(Finding {
+        id,
+        place: "Section on singular configurations",
+        says: "parallel singularities are far from the workspace",
+        proved: "|det A|/L^3 >= 0.272165 on the cube; Q2 comes within 2e-6 of it",
+        agreement: Agreement::Holds,
+        values: vec![value(id, "|det A|/L^3 at Q2", "2/3*sqrt(2/3)/2")?],
+        basis: Basis::Certificates(vec![("paper-parallel-distance", certificate)]),
+    })
+}
+
+fn rounded_machine() -> Result<Finding, NotEstablished> {
+    let id = "rounded-machine";
+    let rounded = decided(id, &machine("310", "-73.2", "126.8"), Verdict::Refuted)?;
+    Ok(Finding {
+        id,
+        place: "Step 3, example",
+        says: "L = 310 mm for a 200 mm cube at psi_max = 2",
+        proved: "L = 310 violates psi <= 2 on [-73.2, 126.8]^3; the largest cube on the diagonal \
+                 that it admits is smaller than 200 mm",
+        agreement: Agreement::Fails,
+        values: vec![value(id, "largest side for L = 310 (mm)", "310*(1/sqrt(18)+1/sqrt(6))")?],
+        basis: Basis::Certificates(vec![("paper-rounded-machine", rounded)]),
+    })
+}
+
+fn published_corners() -> Result<Finding, NotEstablished> {
+    let id = "published-corners";
+    let refuted = decided(id, &machine("310.25", "-73.65", "126.35"), Verdict::Refuted)?;
+    Ok(Finding {
+        id,
+        place: "later publications of the prototype",
+        says: "L = 310.25 mm with corners -73.65 and 126.35 mm",
+        proved: "psi <= 2 is violated at (-73.65, -73.65, -73.65); no 200 mm cube on the diagonal \
+                 will do",
+        agreement: Agreement::Fails,
+        values: vec![value(
+            id,
+            "largest side for L = 310.25 (mm)",
+            "310.25*(1/sqrt(18)+1/sqrt(6))",
+        )?],
+        basis: Basis::Certificates(vec![("paper-published-corners", refuted)]),
+    })
+}

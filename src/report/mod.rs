@@ -1,0 +1,170 @@
+//! What a verification found, for people ([`text`]) and for scripts (as JSON, by `serde`): the
+//! same facts.
+
+mod counterexample;
+mod place;
+mod postulate;
+mod regions;
+mod remains;
+pub mod text;
+mod worst;
+
+pub use counterexample::{Counterexample, Setting};
+pub use place::{Frame, FreeParameter};
+pub use postulate::PostulateReport;
+pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
+pub use worst::Row;
+
+use crate::sample::Sampler;
+use crate::verify::{Answer, Verification};
+use orthocert_checker::certificate::{Proof, Verdict};
+use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::model::Model;
+use orthocert_checker::TreeSize;
+use remains::Remaining;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Fractional bits of the model from which values are sampled for the table.
+const MODEL_PRECISION: u32 = 128;
+
+/// What is known of a claim after a verification.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The exact checker has accepted a certificate that says so.
+    Decided(Verdict),
+    /// Neither was shown.
+    Undecided,
+}
+
+impl Serialize for Outcome {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Outcome::Decided(verdict) => verdict.serialize(serializer),
+            Outcome::Undecided => serializer.serialize_str("undecided"),
+        }
+    }
+}
+
+/// The facts about one verification.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Certified, refuted or undecided.
+    pub verdict: Outcome,
+    /// The design's title.
+    pub title: Option<String>,
+    /// The design file, as it was named; `None` for the built-in prototype.
+    pub design: Option<String>,
+    /// The requirements, with the worst values found by sampling.
+    pub requirements: Vec<Row>,
+    /// The counterexample of a refutation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub counterexample: Option<Counterexample>,
+    /// The size of a proof.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Size>,
+    /// What an undecided claim leaves open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided: Option<Remains>,
+    /// Boxes tried by the search.
+    pub boxes_tried: usize,
+    /// Seconds from the start to the accepted verdict.
+    pub seconds: f64,
+    /// The certificate that was written.
+    pub certificate: Option<CertificateFile>,
+    /// What an undecided run left in the certificate's place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub earlier_certificate: Option<EarlierFile>,
+    /// The claim, in exact numbers, as it stands in certificates.
+    pub claim: Claim,
+}
+
+/// The size and shape of a proof.
+#[derive(Clone, Debug, Serialize)]
+pub struct Size {
+    /// Boxes that cover the workspace.
+    pub leaves: usize,
+    /// Boxes, split or not.
+    pub nodes: usize,
+    /// Most splits on one path.
+    pub depth: usize,
+    /// Fractional bits of the exact check.
+    pub precision: u32,
+    /// Uses of each rule.
+    pub rules: BTreeMap<String, usize>,
+}
+
+impl Size {
+    /// The size of a proof that the checker has accepted; `None` for a counterexample.
+    pub fn accepted(proof: &Proof, size: &TreeSize) -> Option<Self> {
+        let precision = match proof {
+            Proof::Tree(tree) => tree.precision,
+            Proof::Faces(faces) => faces.precision,
+            Proof::Witness(_) => return None,
+        };
+        let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
+        let TreeSize { leaves, nodes, depth, .. } = *size;
+        Some(Size { leaves, nodes, depth, precision, rules })
+    }
+}
+
+/// A certificate on the disk.
+#[derive(Clone, Debug, Serialize)]
+pub struct CertificateFile {
+    /// Its path.
+    pub path: String,
+    /// Its size.
+    pub bytes: usize,
+    /// The SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+/// A file that an earlier run left where this run's certificate would be.
+#[derive(Clone, Debug, Serialize)]
+pub struct EarlierFile {
+    /// Its path.
+    pub path: String,
+    /// Whether it is a certificate of the very claim of this run.
+    pub same_claim: bool,
+}
+
+impl Report {
+    /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
+    /// numbers exceed what can be shown.
+    pub fn new(claim: &MachineClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
+        let model = Model::new(claim, MODEL_PRECISION).ok()?;
+        let sampler = Sampler::new(claim, &model)?;
+        let frame = Frame::new(claim, &model)?;
+        let mut report = Report {
+            verdict: Outcome::Undecided,
+            title: None,
+            design: None,
+            requirements: worst::rows(claim, &sampler, &frame, &found.worst),
+            counterexample: None,
+            proof: None,
+            undecided: None,
+            boxes_tried: found.boxes,
+            seconds: elapsed.as_secs_f64(),
+            certificate: None,
+            earlier_certificate: None,
+            claim: Claim::Machine(claim.clone()),
+        };
+        match &found.answer {
+            Answer::Cancelled => return None,
+            Answer::Decided { certificate, accepted } => {
+                report.verdict = Outcome::Decided(accepted.verdict);
+                report.proof = Size::accepted(&certificate.proof, &accepted.size);
+                if let Proof::Witness(witness) = &certificate.proof {
+                    report.counterexample = Some(Counterexample::new(claim, witness));
+                }
+            }
+            Answer::Undecided(undecided) => {
+                let (sampler, frame, worst) = (&sampler, &frame, &found.worst[..]);
+                let remaining = Remaining { claim, sampler, frame, worst, boxes: found.boxes };
+                report.undecided = Some(remaining.report(undecided));
+            }
+        }
+        Some(report)
+    }
+}

@@ -1,0 +1,373 @@
+//! Reports for people: the verdict first, then the table, within 80 columns.
+
+use super::place::{point_text, FreeParameter};
+use super::{
+    CertificateFile, Counterexample, EarlierFile, Outcome, PostulateReport, Remains, Report, Row,
+    Size,
+};
+use crate::decimal::{boxes, counted, exact, grouped, significant};
+use orthocert_checker::certificate::Verdict;
+use std::fmt::Write;
+
+/// Columns of a line.
+pub const WIDTH: usize = 80;
+/// Significant digits of values found.
+const VALUE_DIGITS: u32 = 9;
+/// Significant digits of places.
+const PLACE_DIGITS: u32 = 6;
+/// Longest exact coordinate that stands on a line with others.
+const SHORT_COORDINATE: usize = 20;
+
+/// How verdicts are set off on a terminal; the words never depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// No colour.
+    Plain,
+    /// ANSI colours.
+    Colour,
+}
+
+impl Style {
+    /// The word of a verdict.
+    pub fn verdict(self, outcome: Outcome) -> String {
+        let (word, colour) = match outcome {
+            Outcome::Decided(Verdict::Certified) => ("CERTIFIED", 32),
+            Outcome::Decided(Verdict::Refuted) => ("REFUTED", 31),
+            Outcome::Undecided => ("UNDECIDED", 33),
+        };
+        match self {
+            Style::Plain => word.to_owned(),
+            Style::Colour => format!("\x1b[1;{colour}m{word}\x1b[0m"),
+        }
+    }
+}
+
+/// The first line of a report.
+pub fn headline(report: &Report, style: Style) -> String {
+    let name = report.title.as_deref().or(report.design.as_deref()).unwrap_or("design");
+    verdict_line(report.verdict, name, style)
+}
+
+/// A verdict and what it is about, on one line.
+fn verdict_line(verdict: Outcome, subject: &str, style: Style) -> String {
+    let room = WIDTH - "UNDECIDED  ".len();
+    let printable = subject.chars().map(|c| if c.is_control() { ' ' } else { c });
+    format!("{}  {}", style.verdict(verdict), printable.take(room).collect::<String>())
+}
+
+/// The first line of a report about the postulate.
+pub fn postulate_headline(report: &PostulateReport, style: Style) -> String {
+    verdict_line(report.verdict, &report.subject, style)
+}
+
+/// The whole report about the postulate.
+pub fn postulate(report: &PostulateReport, style: Style) -> String {
+    let mut out = postulate_headline(report, style);
+    out.push('\n');
+    let meaning = match report.verdict {
+        Outcome::Decided(_) => {
+            "If the bounds 1/psi_max <= psi_i <= psi_max hold at Q1 and Q2, as they do by \
+             construction, they hold on the whole closed cube [q1, q2]^3, free of singularities. \
+             The proof was accepted by the exact checker."
+        }
+        Outcome::Undecided => "No proof was found.",
+    };
+    wrap(&mut out, meaning, 0);
+    out.push('\n');
+    if let Some(reason) = &report.undecided {
+        labelled(&mut out, "why", reason);
+        labelled(&mut out, "would help", "a larger budget: --max-boxes, --timeout");
+    }
+    effort(&mut out, report.proof.as_ref(), report.boxes_tried, report.seconds);
+    match &report.certificate {
+        Some(file) => certificate(&mut out, file),
+        None if report.undecided.is_some() => labelled(&mut out, "certificate", NONE_UNDECIDED),
+        None => labelled(&mut out, "certificate", "not written; -o CERT.json writes it"),
+    }
+    if let Some(earlier) = &report.earlier_certificate {
+        earlier_file(&mut out, earlier);
+    }
+    out
+}
+
+/// The whole report.
+pub fn report(report: &Report, style: Style) -> String {
+    let mut out = headline(report, style);
+    out.push('\n');
+    let toleranced = report.requirements.iter().any(|row| !row.machine.is_empty());
+    let meaning = match report.verdict {
+        Outcome::Decided(Verdict::Certified) if toleranced => {
+            "Every requirement holds at every point of the workspace, for every machine within the \
+             tolerances. The proof was accepted by the exact checker."
+        }
+        Outcome::Decided(Verdict::Certified) => {
+            "Every requirement holds at every point of the workspace. The proof was accepted by the \
+             exact checker."
+        }
+        Outcome::Decided(Verdict::Refuted) => {
+            "A requirement fails: the counterexample was accepted by the exact checker."
+        }
+        Outcome::Undecided => "Neither a proof nor a counterexample was found.",
+    };
+    wrap(&mut out, meaning, 0);
+    if let Some(counterexample) = &report.counterexample {
+        describe_counterexample(&mut out, counterexample);
+    }
+    if let Some(remains) = &report.undecided {
+        describe_remains(&mut out, remains);
+    }
+    out.push('\n');
+    table(&mut out, &report.requirements);
+    out.push('\n');
+    effort(&mut out, report.proof.as_ref(), report.boxes_tried, report.seconds);
+    files(&mut out, report);
+    out
+}
+
+/// The requirements and the worst values found.
+fn table(out: &mut String, rows: &[Row]) {
+    let head = ["requirement", "bound", "worst found", "at P = (x, y, z)"].map(str::to_owned);
+    let cells = |row: &Row| {
+        let value = match row.worst_found {
+            Some(value) => significant(value, VALUE_DIGITS),
+            None => "out of reach".to_owned(),
+        };
+        let mark = if row.seems_violated { "! " } else { "" };
+        let requirement = format!("{mark}{}", row.requirement);
+        [requirement, row.bound_text.clone(), value, point_text(&row.at, PLACE_DIGITS)]
+    };
+    let body: Vec<[String; 4]> = rows.iter().map(cells).collect();
+    let width = |column: usize| {
+        body.iter().chain([&head]).map(|row| row[column].chars().count()).max().unwrap_or(0)
+    };
+    let widths = [width(0), width(1), width(2)];
+    let mut line = |[a, b, c, d]: &[String; 4]| {
+        let [wa, wb, wc] = widths;
+        let values = format!("  {a:wa$}  {b:wb$}  {c:wc$}");
+        // A place that does not fit stands on a line of its own.
+        let separator = match values.chars().count() + 2 + d.chars().count() {
+            0..=WIDTH => "  ",
+            _ => "\n      at ",
+        };
+        let _ = writeln!(out, "{values}{separator}{d}");
+    };
+    line(&head);
+    for row in &body {
+        line(row);
+    }
+    machines(out, rows);
+    if rows.iter().any(|row| row.seems_violated) {
+        out.push_str("  ! the value found is beyond its bound\n");
+    }
+}
+
+/// The machines at which the worst values were found, where there are tolerances.
+fn machines(out: &mut String, rows: &[Row]) {
+    let mut told: Vec<(String, Vec<&str>)> = Vec::new();
+    for row in rows.iter().filter(|row| !row.machine.is_empty()) {
+        let machine = machine(&row.machine);
+        match told.iter_mut().find(|(other, _)| *other == machine) {
+            Some((_, requirements)) => requirements.push(&row.requirement),
+            None => told.push((machine, vec![&row.requirement])),
+        }
+    }
+    for (machine, requirements) in told {
+        wrap(out, &format!("{}: with {machine}", requirements.join(", ")), 2);
+    }
+}
+
+/// The parameters of a machine, those of one name together: `length 310, 310.1, 310.2 of legs 1,
+/// 2, 3`.
+fn machine(parameters: &[FreeParameter]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for FreeParameter { parameter, .. } in parameters {
+        if !names.contains(&parameter.as_str()) {
+            names.push(parameter);
+        }
+    }
+    let one = |name: &&str| {
+        let same = || parameters.iter().filter(|p| p.parameter == *name);
+        let values: Vec<String> = same().map(|p| significant(p.value, VALUE_DIGITS)).collect();
+        let legs: Vec<String> = same().map(|p| p.leg.to_string()).collect();
+        let leg = if legs.len() == 1 { "leg" } else { "legs" };
+        format!("{name} {} of {leg} {}", values.join(", "), legs.join(", "))
+    };
+    names.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+fn describe_counterexample(out: &mut String, found: &Counterexample) {
+    out.push('\n');
+    labelled(out, "violated", &found.violated);
+    labelled(out, "value there", &found.value);
+    point(out, "at P", &found.point);
+    if let Some(other) = &found.other_point {
+        point(out, "and at P'", other);
+    }
+    for setting in &found.machine {
+        let label = format!("leg {} {}", setting.leg, setting.parameter);
+        labelled(out, &label, &exact(&setting.value));
+    }
+    let directions = found.directions.iter().map(|[x, y, z]| format!("({x}, {y}, {z})"));
+    let directions: Vec<String> = directions.collect();
+    if !directions.is_empty() {
+        labelled(out, "moving along", &directions.join(" and "));
+    }
+}
+
+fn point(out: &mut String, label: &str, point: &[orthocert_checker::number::Exact; 3]) {
+    let [x, y, z] = [0, 1, 2].map(|k| exact(&point[k]));
+    if x.len().max(y.len()).max(z.len()) <= SHORT_COORDINATE {
+        return labelled(out, label, &format!("({x}, {y}, {z})"));
+    }
+    for (axis, value) in ["x", "y", "z"].into_iter().zip([x, y, z]) {
+        labelled(out, &format!("{label}, {axis}"), &value);
+    }
+}
+
+fn describe_remains(out: &mut String, remains: &Remains) {
+    let number = |x: f64| significant(x, 3);
+    out.push('\n');
+    labelled(out, "why", &remains.reason);
+    if remains.boxes == 0 {
+        return;
+    }
+    let regions = counted(remains.region_count, "region", "regions");
+    labelled(
+        out,
+        "open",
+        &format!(
+            "{} in {regions}: volume {}, {} of the workspace",
+            boxes(remains.boxes),
+            number(remains.volume),
+            percent(remains.share)
+        ),
+    );
+    if let Some(worst) = &remains.worst_box {
+        let margin = number(worst.margin);
+        let text = format!("{}: relative margin {margin} at its centre", worst.requirement);
+        labelled(out, "worst box", &text);
+        extent(out, &worst.min, &worst.max);
+    }
+    out.push_str("\n  regions (neighbouring boxes merged)\n");
+    for region in &remains.regions {
+        let text = format!("{}, {} of the workspace", boxes(region.boxes), percent(region.share));
+        wrap(out, &text, 4);
+        extent(out, &region.min, &region.max);
+    }
+    let hidden = remains.region_count - remains.regions.len();
+    if hidden > 0 {
+        let _ = writeln!(out, "    and {} smaller ones", grouped(hidden as u64));
+    }
+    for open in &remains.open {
+        out.push('\n');
+        wrap(out, &format!("{}: {}", open.obligation, open.requirement), 2);
+        let share = percent(open.share);
+        wrap(out, &format!("open on {}, {share}", boxes(open.boxes)), 4);
+        for (reason, count) in &open.reasons {
+            wrap(out, &format!("{} of them: {reason}", grouped(*count as u64)), 4);
+        }
+        wrap(out, &format!("what would help: {}", open.help), 4);
+    }
+}
+
+/// The ends of a box, in as many digits as tell them apart.
+fn extent(out: &mut String, min: &[f64; 3], max: &[f64; 3]) {
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let ends = |digits| (significant(min[k], digits), significant(max[k], digits));
+        let apart = (PLACE_DIGITS..=17).map(ends).find(|(min, max)| min != max);
+        let (min, max) = apart.unwrap_or_else(|| ends(PLACE_DIGITS));
+        let _ = writeln!(out, "      {axis}  {min} .. {max}");
+    }
+}
+
+fn effort(out: &mut String, proof: Option<&Size>, tried: usize, seconds: f64) {
+    let (time, tried) = (duration(seconds), boxes(tried));
+    let Some(Size { leaves, nodes, depth, precision, .. }) = proof else {
+        return labelled(out, "effort", &format!("{tried} tried, {time}"));
+    };
+    let (leaves, nodes) = (counted(*leaves, "leaf", "leaves"), boxes(*nodes));
+    let size = format!("{leaves} of {nodes}, depth {depth}, {precision} bits");
+    labelled(out, "proof", &format!("{size}; {tried} tried, {time}"));
+}
+
+/// What stands for the certificate of an undecided claim.
+const NONE_UNDECIDED: &str = "none is written without a verdict";
+
+fn files(out: &mut String, report: &Report) {
+    match &report.certificate {
+        Some(file) => certificate(out, file),
+        None => labelled(out, "certificate", NONE_UNDECIDED),
+    }
+    if let Some(earlier) = &report.earlier_certificate {
+        earlier_file(out, earlier);
+    }
+}
+
+fn certificate(out: &mut String, file: &CertificateFile) {
+    let bytes = grouped(file.bytes as u64);
+    verbatim(out, "certificate", &format!("{} ({bytes} bytes)", file.path));
+    labelled(out, "sha256", &file.sha256);
+}
+
+fn earlier_file(out: &mut String, earlier: &EarlierFile) {
+    let says = if earlier.same_claim {
+        "was there before this run and stays; it is about this very claim"
+    } else {
+        "was there before this run and stays; it is NOT about this claim"
+    };
+    verbatim(out, "earlier file", &earlier.path);
+    labelled(out, "", says);
+}
+
+/// A share as a percentage.
+fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 3))
+}
+
+/// A duration in the unit in which it is readable.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{} ms", significant(1e3 * seconds, 2))
+    } else {
+        format!("{} s", significant(seconds, 3))
+    }
+}
+
+/// Width of the labels' column.
+const LABEL: usize = 13;
+
+/// A label and a text beside it, wrapped.
+pub fn labelled(out: &mut String, label: &str, text: &str) {
+    let label = format!("  {label:LABEL$} ");
+    let mut body = String::new();
+    wrap(&mut body, text, label.chars().count());
+    let rest: String = body.chars().skip(label.chars().count()).collect();
+    out.push_str(&label);
+    out.push_str(&rest);
+}
+
+/// A label and a text beside it as it is, such as a path.
+pub fn verbatim(out: &mut String, label: &str, text: &str) {
+    let _ = writeln!(out, "  {label:LABEL$} {text}");
+}
+
+/// Appends `text` in lines of at most [`WIDTH`] columns, each indented; a longer word stands alone.
+pub fn wrap(out: &mut String, text: &str, indent: usize) {
+    let margin = " ".repeat(indent);
+    let mut column = 0;
+    for word in text.split_whitespace() {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width <= WIDTH {
+            out.push(' ');
+            column += 1 + width;
+        } else {
+            if column > 0 {
+                out.push('\n');
+            }
+            out.push_str(&margin);
+            column = indent + width;
+        }
+        out.push_str(word);
+    }
+    out.push('\n');
+}

@@ -1,0 +1,101 @@
+//! The committed certificates: what the prover writes today, byte for byte, and accepted.
+//!
+//! After a change that is meant to change them:
+//!
+//! ```text
+//! ORTHOCERT_BLESS=1 cargo test --release --test certificates
+//! ```
+
+use orthocert::design::Design;
+use orthocert::postulate;
+use orthocert::search::{Budget, Control};
+use orthocert::verify::{verify, Answer};
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use orthocert_checker::{check, read};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use Verdict::{Certified, Refuted};
+
+/// A committed certificate: `NAME.cert.json` is the answer to `tests/designs/NAME.toml`.
+const OF_DESIGNS: [(&str, Verdict); 6] = [
+    ("orthoglide-prototype", Certified),
+    ("orthoglide-relaxed-1-percent", Certified),
+    ("orthoglide-tolerance", Certified),
+    ("orthoglide-joint-range", Certified),
+    ("orthoglide-310", Refuted),
+    ("orthoglide-310.25-published", Refuted),
+];
+/// The committed certificate of the postulate for every `psi_max > 1`.
+const POSTULATE: &str = "postulate-all";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn folder() -> PathBuf {
+    root().join("proofs/certificates")
+}
+
+fn path(name: &str) -> PathBuf {
+    folder().join(format!("{name}.cert.json"))
+}
+
+fn decided(claim: &Claim) -> Certificate {
+    let budget = Budget { max_boxes: 10_000, deadline: None };
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let answer = match claim {
+        Claim::Machine(claim) => verify(claim, budget, &mut control).unwrap().answer,
+        Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control).unwrap().answer,
+    };
+    match answer {
+        Answer::Decided { certificate, .. } => *certificate,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn is_what_the_prover_writes(name: &str, claim: &Claim, verdict: Verdict) {
+    let certificate = decided(claim);
+    assert_eq!(certificate.verdict, verdict, "{name}");
+    let text = certificate.to_text().unwrap();
+    if std::env::var_os("ORTHOCERT_BLESS").is_some() {
+        fs::create_dir_all(folder()).unwrap();
+        fs::write(path(name), &text).unwrap();
+    }
+    let committed = fs::read_to_string(path(name)).unwrap();
+    assert!(committed == text, "{name}: the prover now writes\n{text}");
+}
+
+#[test]
+fn committed_certificates_are_what_the_prover_writes() {
+    for (name, verdict) in OF_DESIGNS {
+        let design = root().join("tests/designs").join(format!("{name}.toml"));
+        is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
+    }
+    let claim = Claim::Postulate(PostulateClaim { psi_max: PsiMax::All });
+    is_what_the_prover_writes(POSTULATE, &claim, Certified);
+}
+
+#[test]
+fn no_certificate_is_committed_but_these() {
+    let committed: BTreeSet<_> =
+        fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let known = OF_DESIGNS.iter().map(|(name, _)| *name).chain([POSTULATE]);
+    assert_eq!(committed, known.map(path).collect());
+}
+
+#[test]
+fn committed_certificates_are_accepted_and_written_back_unchanged() {
+    for entry in fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        let bytes = fs::read(&path).unwrap();
+        let certificate = read(&bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let accepted = check(&certificate).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert_eq!(accepted.verdict, certificate.verdict);
+        assert_eq!(certificate.to_text().unwrap().as_bytes(), bytes, "{}", path.display());
+    }
+}
