@@ -9,6 +9,8 @@
 
 use super::toml::{axis, design, least, polar, quoted, Number};
 use super::{ImportError, Imported};
+use orthocert_checker::number::Exact;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// The settings of a configuration, by section and key.
@@ -183,64 +185,77 @@ fn linear_delta(config: &Config<'_>) -> Result<Imported, ImportError> {
         return Err(config.bad("printer", "delta_radius", "a radius less than the arms' length"));
     }
     let low = config.lowest()?;
-    let first = config.number(STEPPERS[0], "position_endstop")?;
-    let mut ends = Vec::new();
-    for stepper in STEPPERS {
-        ends.extend(config.number(stepper, "position_endstop")?.or_else(|| first.clone()));
-    }
-    let carriage = |i: usize| {
-        let (l, end) = (&arms[i].text, &ends[i].text);
-        format!("{end}+sqrt({l}*{l}-{r}*{r})")
-    };
-    let mut requirements = REQUIREMENTS.to_owned();
-    let mut high = quoted(&low);
-    if ends.len() == 3 {
-        let tops: Vec<String> =
-            (0..3).map(|i| format!("{}-{}", carriage(i), arms[i].text)).collect();
-        let above = least(std::slice::from_ref(&low))
-            .zip(least(&tops))
-            .filter(|((_, low), (_, top))| low.compare(top) == Some(std::cmp::Ordering::Less));
-        match above {
-            Some((_, (top, _))) => {
-                high = quoted(&top);
-                notes.push(
-                    "The workspace above the height at which the firmware tapers it towards the \
-                     endstops: a design has cylinders, no cones."
-                        .to_owned(),
-                );
-            }
-            None => notes.push(
-                "The height: the endstops leave no cylinder of the full radius; the workspace is \
-                 flat."
-                    .to_owned(),
-            ),
+    let (high, ranges) = match carriages(config, &radius, &arms)? {
+        Some(carriages) => {
+            notes.push(
+                "The carriages' lower ends: a configuration has endstops at the top only.".into(),
+            );
+            let range = |top: &String| format!("  {{ max = {} }},\n", quoted(top));
+            let ranges: String = carriages.iter().map(range).collect();
+            (highest(&low, &arms, &carriages, &mut notes), format!("joint_range = [\n{ranges}]\n"))
         }
-        requirements.push_str(&format!(
-            "joint_range = [                 # the endstops; lower ends are not in the configuration\n  \
-             {{ max = \"{}\" }},\n  {{ max = \"{}\" }},\n  {{ max = \"{}\" }},\n]\n",
-            carriage(0),
-            carriage(1),
-            carriage(2)
-        ));
-        notes.push(
-            "The carriages' lower ends: a configuration has endstops at the top only.".to_owned(),
-        );
-    } else {
-        notes.push(
-            "The height: position_endstop is not set; the workspace is flat. The factors of a \
-             linear Delta do not depend on z."
-                .to_owned(),
-        );
-    }
+        None => {
+            notes.push(
+                "The height: position_endstop is not set; the workspace is flat. The factors of a \
+                 linear Delta do not depend on z."
+                    .to_owned(),
+            );
+            (low.clone(), String::new())
+        }
+    };
+    let requirements = format!("transmission = {{ min = \"1/4\", max = 4 }}\n{ranges}");
     let workspace = format!(
-        "cylinder = {{ center = [0, 0], radius = {}, z = [{low}, {high}] }}\n",
-        quoted(&print_radius)
+        "cylinder = {{ center = [0, 0], radius = {}, z = [{low}, {}] }}\n",
+        quoted(&print_radius),
+        quoted(&high)
     );
     let design = design(config.file, "Linear Delta", &legs, &workspace, &requirements, &notes);
     Ok(Imported { design, not_carried_over: notes })
 }
 
-const REQUIREMENTS: &str = "transmission = { min = \"1/4\", max = 4 }\n";
+/// Where each carriage is at its endstop; none if an endstop is not set.
+fn carriages(
+    config: &Config<'_>,
+    radius: &Number,
+    arms: &[Number; 3],
+) -> Result<Option<Vec<String>>, ImportError> {
+    let first = config.number(STEPPERS[0], "position_endstop")?;
+    let mut carriages = Vec::new();
+    for (stepper, arm) in STEPPERS.into_iter().zip(arms) {
+        let end = config.number(stepper, "position_endstop")?.or_else(|| first.clone());
+        let Some(Number { text: end, .. }) = end else { return Ok(None) };
+        let (l, r) = (&arm.text, &radius.text);
+        carriages.push(format!("{end}+sqrt({l}*{l}-{r}*{r})"));
+    }
+    Ok(Some(carriages))
+}
+
+/// The greatest z of the full radius: an arm's length below the lowest endstop.
+fn highest(low: &str, arms: &[Number; 3], carriages: &[String], notes: &mut Vec<String>) -> String {
+    let tops = carriages.iter().zip(arms).map(|(top, arm)| format!("{top}-{}", arm.text));
+    let top = least(&tops.collect::<Vec<_>>());
+    let above = |top: &Exact| {
+        Number::parse(low).and_then(|low| low.value.compare(top)) == Some(Ordering::Less)
+    };
+    match top.filter(|(_, value)| above(value)) {
+        Some((top, _)) => {
+            notes.push(
+                "The workspace above the height at which the firmware tapers it towards the \
+                 endstops: a design has cylinders, no cones."
+                    .to_owned(),
+            );
+            top
+        }
+        None => {
+            notes.push(
+                "The height: the endstops leave no cylinder of the full radius; the workspace is \
+                 flat."
+                    .to_owned(),
+            );
+            low.to_owned()
+        }
+    }
+}
 
 fn rotary_delta(config: &Config<'_>) -> Result<Imported, ImportError> {
     let radius = config.required("printer", "shoulder_radius")?;
