@@ -6,12 +6,19 @@
 //! ORTHOCERT_BLESS=1 cargo test --release --test certificates
 //! ```
 
+mod schema;
+
 use orthocert::design::Design;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
-use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::cell::MAX_LEVEL;
+use orthocert_checker::certificate::{
+    Certificate, Verdict, MAX_BYTES, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
+};
 use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use orthocert_checker::number::{MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
+use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
 use std::collections::BTreeSet;
 use std::fs;
@@ -97,5 +104,29 @@ fn committed_certificates_are_accepted_and_written_back_unchanged() {
         let accepted = check(&certificate).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         assert_eq!(accepted.verdict, certificate.verdict);
         assert_eq!(certificate.to_text().unwrap().as_bytes(), bytes, "{}", path.display());
+        schema::holds(std::str::from_utf8(&bytes).unwrap(), &path.display().to_string());
+    }
+}
+
+#[test]
+fn the_format_document_shows_the_prototype_and_the_limits_of_the_checker() {
+    let document = fs::read_to_string(root().join("proofs/FORMAT.md")).unwrap();
+    let prototype = fs::read_to_string(path("orthoglide-prototype")).unwrap();
+    assert!(document.contains(&format!("```json\n{prototype}```\n")));
+    let (least, greatest) = (PRECISIONS.start(), PRECISIONS.end());
+    for row in [
+        format!("bytes of a file | {MAX_BYTES}"),
+        format!("nodes of a tree | {MAX_NODES}"),
+        format!("parts | {MAX_PARTS}"),
+        format!("steps of a node | {MAX_STEPS}"),
+        format!("splits on one axis on a path | {MAX_LEVEL}"),
+        format!("precision, least and greatest | {least}, {greatest}"),
+        format!("component of a quaternion | {MAX_QUATERNION}"),
+        format!("bytes of a number | {MAX_TEXT}"),
+        format!("literals of a number | {MAX_LITERALS}"),
+        format!("digits of a literal | {MAX_DIGITS}"),
+        format!("nested parentheses, roots and signs of a number | {MAX_NESTING}"),
+    ] {
+        assert!(document.contains(&format!("| {row} |\n")), "{row}");
     }
 }

@@ -1,6 +1,8 @@
 //! The gallery: every design of tests/designs and every template gives the verdict that its first
 //! lines state, with a certificate that the checker accepts when it is read back.
 
+mod schema;
+
 use orthocert::design::{Design, TEMPLATES};
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::verify::{verify, Answer, Verification};
@@ -63,6 +65,7 @@ fn checked(certificate: &Certificate, name: &str) -> Verdict {
     let text = certificate.to_text().expect("a text");
     let read = orthocert_checker::read(text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(&read, certificate, "{name}");
+    schema::holds(&text, name);
     orthocert_checker::check(&read).unwrap_or_else(|reason| panic!("{name}: {reason}"));
     read.verdict
 }
