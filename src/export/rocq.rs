@@ -202,7 +202,7 @@ fn slider(out: &mut String, number: usize, leg: &Leg) -> Result<(), ExportError>
     let Leg::Slider { direction, anchor, platform, length, mode } = leg else {
         return Err(ExportError::NotSliders);
     };
-    let _ = write!(out, "(** direction, anchor, platform, length, mode *)\n");
+    let _ = writeln!(out, "(** direction, anchor, platform, length, mode *)");
     let _ = write!(out, "Definition leg_{number} : slider :=\n  Slider");
     for vector in [direction, anchor, platform] {
         let [x, y, z] = vector.each_ref().map(tolerance);
