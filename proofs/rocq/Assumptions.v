@@ -5,8 +5,9 @@
 
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
-  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta.
+  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker
+  CheckerPostulate.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -119,3 +120,10 @@ Check OrthoglideTolerance.certified.
 Print Assumptions OrthoglideTolerance.certified.
 Check LinearDelta.certified.
 Print Assumptions LinearDelta.certified.
+
+(** ** The postulate by subdivision *)
+
+Check check_postulate_sound.
+Print Assumptions check_postulate_sound.
+Check PostulateAll.certified.
+Print Assumptions PostulateAll.certified.

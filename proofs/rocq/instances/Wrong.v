@@ -4,8 +4,8 @@
     that the check is then [false]: no instance could be closed with it. *)
 
 From Coq Require Import ZArith List.
-From Orthocert Require Import Claim Checker.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta.
+From Orthocert Require Import Claim Checker CheckerPostulate.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll.
 Import ListNotations.
 
 (** The first leaf left without a rule. *)
@@ -62,3 +62,34 @@ Example first_leaf_removed : accepts claim (without_first_leaf certificate) = fa
 Example bound_tightened : accepts (with_bounds claim (1 // 2) (3 // 2)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Delta.
+
+Module PostulateForAll.
+Import PostulateAll.
+
+Fixpoint map_rules (f : face_rule -> face_rule) (t : face_tree) : face_tree :=
+  match t with
+  | FaceLeaf by_ => FaceLeaf (f by_)
+  | FaceSplit k first second => FaceSplit k (map_rules f first) (map_rules f second)
+  end.
+
+(** The first leaf, which touches the corner, by another rule. *)
+Fixpoint first_by (rule : face_rule) (t : face_tree) : face_tree :=
+  match t with
+  | FaceLeaf _ => FaceLeaf rule
+  | FaceSplit k first second => FaceSplit k (first_by rule first) second
+  end.
+
+Local Notation accepts := (check_postulate 64).
+
+Example edge_rule_replaced : accepts (first_by BlowUp q1_low) q1_high q2_low q2_high = false.
+Proof. vm_compute. reflexivity. Qed.
+Example edge_rule_moved :
+  accepts (map_rules (fun r => match r with BlowUp => EdgeRule | r => r end) q1_low) q1_high q2_low q2_high = false.
+Proof. vm_compute. reflexivity. Qed.
+Example all_mirrored : accepts q1_low q1_high (map_rules (fun _ => Mirror) q2_low) q2_high = false.
+Proof. vm_compute. reflexivity. Qed.
+Example one_leaf_for_all : accepts q1_low q1_high q2_low (FaceLeaf EdgeRule) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example halves_exchanged : accepts q1_low q1_high q2_high q2_low = false.
+Proof. vm_compute. reflexivity. Qed.
+End PostulateForAll.

@@ -15,3 +15,5 @@ instance() { # name of the instance, design
 
 instance OrthoglideTolerance "$root/tests/designs/orthoglide-tolerance.toml"
 instance LinearDelta "$here/linear-delta.toml"
+"$orthocert" postulate --all -o "$work/PostulateAll.json" > /dev/null
+"$orthocert" export rocq "$work/PostulateAll.json" -o "$here/PostulateAll.v"
