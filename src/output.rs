@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::fmt;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -116,11 +116,8 @@ fn replace(target: &Path, bytes: &[u8], keep: Option<fs::Permissions>) -> io::Re
         fs::set_permissions(temporary.path(), permissions)?;
     }
     temporary.as_file().sync_all()?;
+    // The folder itself need not be flushed: whenever its entry arrives, the file is complete.
     temporary.persist(target).map_err(|error| error.error)?;
-    // The entry of the folder, too, where folders can be opened; the file is complete without it.
-    if let Ok(folder) = File::open(folder) {
-        let _ = folder.sync_all();
-    }
     Ok(())
 }
 

@@ -5,7 +5,8 @@
 
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
-  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi.
+  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -109,3 +110,12 @@ Check two_faces_suffice.
 Print Assumptions two_faces_suffice.
 Check blow_up.
 Print Assumptions blow_up.
+
+(** ** The checker for machines, and what it has checked *)
+
+Check check_sound.
+Print Assumptions check_sound.
+Check OrthoglideTolerance.certified.
+Print Assumptions OrthoglideTolerance.certified.
+Check LinearDelta.certified.
+Print Assumptions LinearDelta.certified.

@@ -173,12 +173,9 @@ Qed.
 (** If det M = 0, the cross products of the rows are in the kernel, hence 0;
     then so are the products of each row with e_1, e_2, e_3, so M = 0 and e_1
     is in the kernel. *)
-Theorem sigma_positive_det : forall kappa M,
-  0 < kappa -> sigma_at_least kappa M -> det M <> 0.
+Theorem trivial_kernel_det : forall M, (forall v, mulv M v = vzero -> v = vzero) -> det M <> 0.
 Proof.
-  intros kappa M hk low d.
-  assert (K : forall v, mulv M v = vzero -> v = vzero)
-    by (intros v; apply (sigma_positive_kernel kappa); assumption).
+  intros M K d.
   destruct M as [a b c]. unfold det in d; cbn [row1 row2 row3] in d.
   assert (bc : cross b c = vzero)
     by (apply K; clear - d; apply vec_ext; unfold_vec; nra).
@@ -202,4 +199,11 @@ Proof.
   assert (b0 : b = vzero) by (apply N; auto).
   assert (c0 : c = vzero) by (apply N; auto).
   subst. assert (e1 = vzero) as F by (apply K; vec_ring). injection F. lra.
+Qed.
+
+Theorem sigma_positive_det : forall kappa M,
+  0 < kappa -> sigma_at_least kappa M -> det M <> 0.
+Proof.
+  intros kappa M hk low. apply trivial_kernel_det.
+  intros v. apply (sigma_positive_kernel kappa); assumption.
 Qed.

@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    effort: effort::Arguments,
+    effort: effort::Effort,
 }
 
 /// A quantity's extreme for scripts.

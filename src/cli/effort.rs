@@ -16,7 +16,7 @@ const MAX_THREADS: u64 = 1024;
 
 /// The flags.
 #[derive(Debug, clap::Args)]
-pub struct Arguments {
+pub struct Effort {
     /// Boxes after which the search gives up; beyond 2,000,000 no certificate goes
     #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -36,7 +36,7 @@ pub struct Arguments {
     pub quiet: bool,
 }
 
-impl Arguments {
+impl Effort {
     /// The budget of a search that began at `started`.
     pub fn budget(&self, started: Instant) -> Result<Budget, Failure> {
         let timeout = self.timeout.as_deref().map(time).transpose()?;

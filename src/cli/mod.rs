@@ -7,6 +7,8 @@ mod check;
 mod completions;
 mod design;
 mod effort;
+mod export;
+mod import;
 mod init;
 mod input;
 mod interrupt;
@@ -61,6 +63,10 @@ enum Command {
     Paper(paper::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Make a design file of a motion controller's configuration.
+    Import(import::Arguments),
+    /// Write a certificate for another checker.
+    Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
 }
@@ -165,6 +171,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Import(arguments) => import::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     }
 }

@@ -1,6 +1,6 @@
 //! `orthocert postulate`.
 
-use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
 use clap::ArgGroup;
 use orthocert::output;
 use orthocert::postulate::prove;
@@ -26,7 +26,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "CERT.json")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    effort: effort::Arguments,
+    effort: Effort,
 }
 
 /// Runs it.

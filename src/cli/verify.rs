@@ -1,6 +1,6 @@
 //! `orthocert verify`.
 
-use super::{certify, effort, interrupt, print, Failure, Format, Status};
+use super::{certify, effort::Effort, interrupt, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::output;
 use orthocert::report::{text, Report};
@@ -23,7 +23,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "CERT.json")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    effort: effort::Arguments,
+    effort: Effort,
 }
 
 /// Runs it.

@@ -94,7 +94,9 @@ fn violation(claim: &MachineClaim, witness: &Witness) -> Option<(String, String)
     let model = at(&witness.point).ok()?;
     let place = At { claim, model: &model };
     match &witness.violates {
-        Violation::SigmaMin(d) => beyond(claim, Quality::GreatestPsi, &place.psi(&d.vector)?),
+        Violation::SigmaMin(d) => {
+            beyond(claim, Quality::GreatestPsi, &place.psi_at_least(&d.vector)?)
+        }
         Violation::SigmaMax(d) => beyond(claim, Quality::LeastPsi, &place.psi(&d.vector)?),
         Violation::Reach(LegNumber { leg }) => Some((
             format!("leg {leg} reaches P and is not serially singular there"),
@@ -141,12 +143,37 @@ struct At<'a> {
 }
 
 impl At<'_> {
-    /// `|v| / |M v|`: a velocity transmission factor between the least and the greatest.
-    fn psi(&self, v: &[i64; 3]) -> Option<Fixed> {
+    /// `|M v|` and `|v|`, squared.
+    fn stretched(&self, v: &[i64; 3]) -> Option<(Fixed, Fixed)> {
         let m = matrix(self.model)?;
         let v: Vector<Fixed> = v.map(|x| Fixed::integer(x, m[0][0].bits()));
-        let psi = norm_squared(&v).sqrt()?.div(&norm_squared(&apply(&m, &v)).sqrt()?)?;
-        Some(if is_angular(self.claim) { self.length(&psi)? } else { psi })
+        Some((norm_squared(&apply(&m, &v)), norm_squared(&v)))
+    }
+
+    /// `|v| / |M v|`: a velocity transmission factor between the least and the greatest.
+    fn psi(&self, v: &[i64; 3]) -> Option<Fixed> {
+        let (image, length) = self.stretched(v)?;
+        self.speed(&image, &length)
+    }
+
+    /// The same, or, where `M v` may be zero, a number that is certainly below it.
+    fn psi_at_least(&self, v: &[i64; 3]) -> Option<Fixed> {
+        self.psi(v).or_else(|| {
+            let (image, length) = self.stretched(v)?;
+            let one_more: num_bigint::BigInt = image.hi() + 1;
+            let image = Fixed::new(one_more.clone(), one_more, image.bits())?;
+            self.speed(&image, &length)
+        })
+    }
+
+    /// The square root of `length / image` in the design's unit.
+    fn speed(&self, image: &Fixed, length: &Fixed) -> Option<Fixed> {
+        let psi = length.sqrt()?.div(&image.sqrt()?)?;
+        if is_angular(self.claim) {
+            self.length(&psi)
+        } else {
+            Some(psi)
+        }
     }
 
     /// A length of the model in the design's unit.

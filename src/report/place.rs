@@ -8,6 +8,9 @@ use orthocert_checker::model::{CubeConstants, Model};
 use serde::Serialize;
 use std::array::from_fn;
 
+/// How finely places are searched, as a part of the workspace.
+const RESOLUTION: f64 = 1e-7;
+
 /// The workspace's bounding box and the model's unit of length, in the design's unit: approximate,
 /// to show where something is.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +48,12 @@ impl Frame {
     /// `P` for parts `u` of the workspace.
     pub fn point(&self, u: &[f64; 3]) -> [f64; 3] {
         from_fn(|k| self.least[k] + self.width[k] * u[k])
+    }
+
+    /// `P` for parts `u` that a search has found: what it has not told from zero is zero.
+    pub fn place(&self, u: &[f64; 3]) -> [f64; 3] {
+        let point = self.point(u);
+        from_fn(|k| if point[k].abs() < RESOLUTION * self.width[k] { 0.0 } else { point[k] })
     }
 
     /// The volume of the bounding box.

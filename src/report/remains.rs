@@ -241,11 +241,14 @@ impl Remaining<'_> {
                  boxes are too close to the bound for the rules"
                     .to_owned()
             }
-            (_, Some(w)) => format!(
-                "{budget}; the worst value found keeps a relative margin of {}, so more room in \
-                 the bounds needs fewer boxes",
-                significant(w.margin, 2)
-            ),
+            (_, Some(w)) => {
+                let also = if self.sampler.parameters() > 0 { " or narrower tolerances" } else { "" };
+                format!(
+                    "{budget}; the worst value found keeps a relative margin of {}, so more room \
+                     in the bounds{also} would need fewer boxes",
+                    significant(w.margin, 2)
+                )
+            }
             _ => budget.to_owned(),
         }
     }

@@ -43,7 +43,7 @@ pub fn rows(claim: &MachineClaim, sampler: &Sampler, frame: &Frame, worst: &[Wor
             bound_text: format!("{relation} {}", readable(&number)),
             bound: format!("{relation} {number}"),
             worst_found: value(claim, found.quality, &values, frame),
-            at: frame.point(&sampler.within(found.place.u)),
+            at: frame.place(&sampler.within(found.place.u)),
             machine: machine_at(claim, &found.place),
             seems_violated: found.margin < -NOISE,
         })

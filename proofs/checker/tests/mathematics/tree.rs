@@ -77,7 +77,6 @@ fn complete_trees_are_accepted_with_their_size() {
             3,
             2,
         ),
-        ("the same step twice", vec![leaf(&[LOWER, LOWER, Step::Upper])], 1, 0),
     ] {
         let count = nodes.len();
         let size = checked(&easy(), nodes).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -93,7 +92,7 @@ fn incomplete_and_overfull_trees_are_rejected() {
     let (min, max) = (Obligation::SigmaMin, Obligation::SigmaMax);
     for (name, nodes, expected) in [
         ("no node", vec![], Rejected::MissingNode),
-        ("missing upper half", vec![node(&both, x), leaf(&both)], Rejected::MissingNode),
+        ("missing upper half", vec![node(&both, x), leaf(&[])], Rejected::MissingNode),
         ("missing both halves", vec![node(&both, x)], Rejected::MissingNode),
         ("node after the root", vec![leaf(&both), leaf(&both)], Rejected::TrailingNodes(1)),
         (
@@ -108,7 +107,7 @@ fn incomplete_and_overfull_trees_are_rejected() {
         ("upper half open", vec![node(&[], x), leaf(&both), leaf(&[Step::Upper])], open(2, min)),
         (
             "shown on the sibling",
-            vec![node(&[LOWER], x), leaf(&[Step::Upper, Step::Upper]), leaf(&[])],
+            vec![node(&[LOWER], x), leaf(&[Step::Upper]), leaf(&[])],
             open(2, max),
         ),
         (
@@ -149,9 +148,29 @@ fn steps_that_do_not_apply_are_rejected_where_they_stand() {
             Failure::NoSuchBound,
         ),
         (
-            "Q1 on the half away from it, where nothing is open any more",
+            "the same step twice",
+            &claim,
+            vec![leaf(&[LOWER, LOWER, Step::Upper])],
+            0,
+            "lower",
+            Failure::Repeated,
+        ),
+        (
+            "shown again below",
+            &claim,
+            vec![node(&[Step::Upper], x), leaf(&[LOWER]), leaf(&[LOWER, Step::Upper])],
+            2,
+            "upper",
+            Failure::Repeated,
+        ),
+        (
+            "Q1 on the half away from it",
             &nearly_isotropic,
-            vec![node(&[Step::Cube, q1.clone()], x), leaf(&[]), leaf(&[q1])],
+            vec![
+                node(&[Step::Cube], x),
+                leaf(std::slice::from_ref(&q1)),
+                leaf(std::slice::from_ref(&q1)),
+            ],
             2,
             "corner",
             Failure::NotAtCorner,

@@ -1,0 +1,17 @@
+#!/bin/sh
+# Proves the designs again and writes the instances anew: `regenerate.sh [ORTHOCERT]`, from any
+# folder. A search that has not changed gives the same files, bit by bit.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../../.." && pwd)
+orthocert=${1:-$root/target/release/orthocert}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+instance() { # name of the instance, design
+    "$orthocert" verify "$2" -o "$work/$1.json" > /dev/null
+    "$orthocert" export rocq "$work/$1.json" -o "$here/$1.v"
+}
+
+instance OrthoglideTolerance "$root/tests/designs/orthoglide-tolerance.toml"
+instance LinearDelta "$here/linear-delta.toml"

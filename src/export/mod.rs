@@ -1,0 +1,3 @@
+//! Certificates in the languages of other checkers.
+
+pub mod rocq;

@@ -1,0 +1,105 @@
+//! Signals, closed and full outputs: exit 4, nothing half-written.
+#![cfg(target_os = "linux")]
+
+use crate::support::{Folder, Run, LONG};
+use std::fs::{self, File};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// Starts a search that ends for no other reason than a signal.
+fn started(folder: &Folder) -> Child {
+    let arguments = ["verify", LONG, "--max-boxes", "2000000", "--threads", "1"];
+    let mut command = folder.command(&arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Waits until the process catches the signal, by its mask of caught signals.
+fn wait_until_caught(child: &mut Child, signal: u32) {
+    while child.try_wait().unwrap().is_none() {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        let mask = u64::from_str_radix(caught.trim(), 16).unwrap();
+        if mask & (1 << (signal - 1)) != 0 {
+            return;
+        }
+        sleep(Duration::from_millis(1));
+    }
+}
+
+fn send(child: &Child, signal: u32) {
+    let kill = format!("kill -{signal} {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
+#[test]
+fn signals_end_a_long_search_with_exit_4() {
+    const SIGINT: u32 = 2;
+    const SIGTERM: u32 = 15;
+    for signal in [SIGINT, SIGTERM] {
+        let folder = Folder::with(&[LONG]);
+        let mut child = started(&folder);
+        wait_until_caught(&mut child, signal);
+        send(&child, signal);
+        let run = Run::from(child.wait_with_output().unwrap()).exits(4);
+        run.complains(&["interrupted"]);
+        assert_eq!(folder.names(), [LONG]);
+    }
+}
+
+#[test]
+fn an_interrupted_run_keeps_the_certificate_that_was_there() {
+    let folder = Folder::with(&[LONG]);
+    let certificate = LONG.replace(".toml", ".cert.json");
+    folder.write(&certificate, "earlier");
+    let mut child = started(&folder);
+    wait_until_caught(&mut child, 2);
+    send(&child, 2);
+    Run::from(child.wait_with_output().unwrap()).exits(4);
+    assert_eq!(folder.read(&certificate), b"earlier");
+}
+
+/// Every command with an answer, and the files it needs.
+const ANSWERS: [&[&str]; 9] = [
+    &["verify"],
+    &["verify", "--format", "json"],
+    &["check", "c.json"],
+    &["show", "c.json"],
+    &["design", "--psi-max", "2", "--cube", "200"],
+    &["init"],
+    &["postulate", "--all"],
+    &["completions", "bash"],
+    &["--help"],
+];
+
+#[test]
+fn a_closed_pipe_exits_4_without_a_panic() {
+    let folder = Folder::new();
+    folder.run(&["verify", "-o", "c.json"]).exits(0);
+    for arguments in ANSWERS {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = folder.command(arguments).stdout(writer).output().unwrap();
+        Run::from(output).exits(4);
+    }
+}
+
+#[test]
+fn a_full_output_exits_4_and_the_certificate_is_whole() {
+    let folder = Folder::new();
+    folder.run(&["verify", "-o", "c.json"]).exits(0);
+    for arguments in ANSWERS {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        Run::from(folder.command(arguments).stdout(full).output().unwrap()).exits(4);
+    }
+    folder.run(&["check", "orthoglide-prototype.cert.json"]).exits(0);
+}
+
+#[test]
+fn a_closed_standard_error_changes_no_exit_code() {
+    let folder = Folder::new();
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = folder.command(&["verify", "missing.toml"]).stderr(writer).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -1,0 +1,110 @@
+//! `--format json`: the same facts, exact numbers as strings.
+
+use crate::support::{Folder, Run};
+use serde_json::Value;
+
+fn object(run: &Run) -> Value {
+    let value: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert!(value.is_object());
+    value
+}
+
+#[test]
+fn a_certified_design() {
+    let folder = Folder::with(&["orthoglide-tolerance.toml"]);
+    let arguments = ["verify", "orthoglide-tolerance.toml", "--format", "json"];
+    let run = folder.run(&arguments).exits(0);
+    assert_eq!(run.stderr, "");
+    let value = object(&run);
+    assert_eq!(value["verdict"], "certified");
+    assert_eq!(value["title"], "Orthoglide, legs of 311.5 mm with tolerance");
+    assert_eq!(value["design"], "orthoglide-tolerance.toml");
+    let rows = value["requirements"].as_array().unwrap();
+    let psi = rows.iter().find(|row| row["requirement"] == "greatest psi").unwrap();
+    assert_eq!(psi["bound"], "<= 2");
+    assert_eq!(psi["seems_violated"], false);
+    assert!(psi["worst_found"].as_f64().unwrap() < 2.0);
+    assert_eq!(psi["at"].as_array().unwrap().len(), 3);
+    assert_eq!(psi["machine"].as_array().unwrap().len(), 3);
+    assert_eq!(psi["machine"][0]["parameter"], "length");
+    assert!(value["proof"]["leaves"].as_u64().unwrap() >= 1);
+    let file = &value["certificate"];
+    assert_eq!(file["path"], "orthoglide-tolerance.cert.json");
+    let bytes = folder.read("orthoglide-tolerance.cert.json");
+    assert_eq!(file["bytes"].as_u64(), Some(bytes.len() as u64));
+    assert_eq!(file["sha256"].as_str().unwrap(), sha256(&bytes));
+    let certificate: Value = serde_json::from_slice(&bytes).unwrap();
+    assert_eq!(value["claim"], certificate["claim"]);
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    use sha2::{Digest, Sha256};
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[test]
+fn a_refuted_design() {
+    let folder = Folder::with(&["orthoglide-310.toml"]);
+    let run = folder.run(&["verify", "orthoglide-310.toml", "--format", "json"]).exits(1);
+    let value = object(&run);
+    assert_eq!(value["verdict"], "refuted");
+    let found = &value["counterexample"];
+    assert_eq!(found["violated"], "greatest psi <= 2");
+    assert!(found["value"].as_str().unwrap().starts_with("greatest psi >= 2.00578"));
+    assert_eq!(found["point"][0], "634/5");
+    assert_eq!(found["directions"][0].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn an_undecided_design() {
+    let folder = Folder::with(&["orthoglide-tie.toml"]);
+    let run = folder.run(&["verify", "orthoglide-tie.toml", "--format", "json"]).exits(3);
+    let value = object(&run);
+    assert_eq!(value["verdict"], "undecided");
+    assert!(value["certificate"].is_null());
+    let open = &value["undecided"];
+    assert_eq!(open["boxes"], 2);
+    assert_eq!(open["region_count"], 2);
+    assert!(open["volume"].as_f64().unwrap() > 0.0);
+    assert_eq!(open["regions"].as_array().unwrap().len(), 2);
+    assert_eq!(open["open"][0]["obligation"], "sigma_min");
+    assert!(open["open"][0]["help"].as_str().unwrap().contains("equality"));
+    assert!(open["worst_box"]["margin"].as_f64().unwrap().abs() < 1e-9);
+}
+
+#[test]
+fn check_show_design_and_postulate() {
+    let folder = Folder::new();
+    folder.run(&["verify", "-o", "c.json"]).exits(0);
+    let value = object(&folder.run(&["check", "c.json", "--format", "json"]).exits(0));
+    assert_eq!(value["accepted"], true);
+    assert_eq!(value["verdict"], "certified");
+    assert!(value["statement"].as_str().unwrap().contains("It is proved"));
+    let value = object(&folder.run(&["show", "c.json", "--format", "json"]).exits(0));
+    assert_eq!(value["checked"], false);
+    assert_eq!(value["stated_verdict"], "certified");
+    let arguments = ["design", "--psi-max", "2", "--cube", "200", "--format", "json"];
+    let value = object(&folder.run(&arguments).exits(0));
+    assert_eq!(value["dimensions"][0]["symbol"], "L");
+    assert_eq!(value["dimensions"][0]["min"], "310.582854123024");
+    assert_eq!(value["dimensions"][0]["max"], "310.582854123025");
+    let value = object(&folder.run(&["postulate", "--all", "--format", "json"]).exits(0));
+    assert_eq!(value["verdict"], "certified");
+    assert_eq!(value["claim"]["postulate"]["psi_max"], "all");
+}
+
+#[test]
+fn a_rejected_certificate() {
+    let folder = Folder::new();
+    folder.write("bad.json", "{}");
+    let run = folder.run(&["check", "bad.json", "--format", "json"]).exits(5);
+    let value = object(&run);
+    assert_eq!(value["accepted"], false);
+    assert!(!value["reason"].as_str().unwrap().is_empty());
+}
+
+#[test]
+fn errors_leave_standard_output_empty() {
+    let run = Folder::new().run(&["verify", "missing.toml", "--format", "json"]).exits(2);
+    run.complains(&["missing.toml"]);
+}

@@ -1,0 +1,168 @@
+//! Every verdict of `verify`: exit code, report, certificate.
+
+use crate::support::{Folder, LONG};
+use orthocert_checker::certificate::Verdict;
+use orthocert_checker::{check, read};
+
+#[test]
+fn without_a_design_the_prototype_is_certified() {
+    let folder = Folder::new();
+    let run = folder.run(&["verify"]).exits(0);
+    let run = run.says(&["greatest psi", "<= 2", ">= 0.5", "orthoglide-prototype.cert.json"]);
+    assert!(run.stdout.starts_with("CERTIFIED  Orthoglide prototype\n"));
+    assert_eq!(run.stderr, "");
+    assert_eq!(folder.names(), ["orthoglide-prototype.cert.json"]);
+    let bytes = folder.read("orthoglide-prototype.cert.json");
+    assert!(bytes.len() <= 10_000);
+    let accepted = check(&read(&bytes).unwrap()).unwrap();
+    assert_eq!(accepted.verdict, Verdict::Certified);
+    assert!(accepted.size.nodes <= 40);
+}
+
+#[test]
+fn every_design_has_its_verdict() {
+    for (name, code) in [
+        ("orthoglide-prototype", 0),
+        ("orthoglide-312", 0),
+        ("orthoglide-joint-range", 0),
+        ("orthoglide-relaxed-10-percent", 0),
+        ("orthoglide-relaxed-1-percent", 0),
+        ("orthoglide-relaxed-0.1-percent", 0),
+        ("orthoglide-relaxed-1e-6", 0),
+        ("orthoglide-tolerance", 0),
+        ("linear-delta-klipper-cylinder", 0),
+        ("rotary-delta-linuxcnc", 0),
+        ("upu-struts", 0),
+        ("tripteron", 0),
+        ("delta-joint-speed", 0),
+        ("delta-conditioning-refuted", 1),
+        ("delta-joint-speed-refuted", 1),
+        ("delta-leg-angle-refuted", 1),
+        ("delta-out-of-reach", 1),
+        ("delta-parallel-margin-refuted", 1),
+        ("delta-serial-margin-refuted", 1),
+        ("rotary-delta-angle-refuted", 1),
+        ("star-singular", 1),
+        ("orthoglide-310", 1),
+        ("orthoglide-310.25-published", 1),
+        ("orthoglide-tie", 3),
+    ] {
+        let design = format!("{name}.toml");
+        let certificate = format!("{name}.cert.json");
+        let folder = Folder::with(&[&design]);
+        let run = folder.run(&["verify", &design]).exits(code);
+        let word = ["CERTIFIED  ", "REFUTED  ", "", "UNDECIDED  "][code as usize];
+        assert!(run.stdout.starts_with(word), "{name}: {}", run.stdout);
+        if code == 3 {
+            assert_eq!(folder.names(), [design]);
+            continue;
+        }
+        let accepted = check(&read(&folder.read(&certificate)).unwrap()).unwrap();
+        let verdict = [Verdict::Certified, Verdict::Refuted][code as usize];
+        assert_eq!(accepted.verdict, verdict, "{name}");
+    }
+}
+
+#[test]
+fn a_refutation_shows_the_point_the_value_and_the_bound() {
+    let folder = Folder::with(&["orthoglide-310.toml"]);
+    let run = folder.run(&["verify", "orthoglide-310.toml"]).exits(1);
+    run.says(&[
+        "violated      greatest psi <= 2",
+        "value there   greatest psi >= 2.00578",
+        "at P          (126.8, 126.8, 126.8)",
+        "moving along  (0, 1, -1)",
+        "! greatest psi",
+        "! the value found is beyond its bound",
+    ]);
+}
+
+#[test]
+fn a_refutation_within_tolerances_names_the_machine() {
+    let folder = Folder::with(&["orthoglide-tolerance.toml"]);
+    let design = String::from_utf8(folder.read("orthoglide-tolerance.toml")).unwrap();
+    folder.write("loose.toml", design.replace("311.5 ± 0.2", "311 ± 1"));
+    let run = folder.run(&["verify", "loose.toml"]).exits(1);
+    run.says(&["leg 1 length", "leg 2 length", "leg 3 length", "310"]);
+}
+
+#[test]
+fn a_tie_is_undecided_with_its_place_and_reason() {
+    let folder = Folder::with(&["orthoglide-tie.toml"]);
+    let run = folder.run(&["verify", "orthoglide-tie.toml"]).exits(3);
+    let run = run.says(&[
+        "UNDECIDED",
+        "2 boxes in 2 regions",
+        "x  -73.20508075689 .. -73.20508075688",
+        "sigma_min: ",
+        "holds with equality, or nearly, at P = (-73.2050808, -73.2050808, -73.2050808)",
+        "none is written without a verdict",
+    ]);
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
+fn an_exhausted_budget_is_undecided() {
+    let folder = Folder::with(&[LONG]);
+    let run = folder.run(&["verify", LONG, "--max-boxes", "500"]).exits(3);
+    run.says(&["the budget of 500 boxes is used up", "not tried within the budget", "--max-boxes"]);
+    let run = folder.run(&["verify", LONG, "--timeout", "0"]).exits(3);
+    run.says(&["the time is used up"]);
+    folder.run(&["verify", LONG, "--timeout", "50ms"]).exits(3).says(&["the time is used up"]);
+    assert_eq!(folder.names(), [LONG]);
+}
+
+#[test]
+fn a_budget_beyond_the_search_changes_nothing() {
+    let folder = Folder::new();
+    folder.run(&["verify", "--max-boxes", "18446744073709551615", "--timeout", "1e900"]).exits(0);
+}
+
+#[test]
+fn reports_fit_80_columns() {
+    let folder = Folder::with(&[
+        "orthoglide-joint-range.toml",
+        "orthoglide-310.toml",
+        "orthoglide-tie.toml",
+    ]);
+    for name in folder.names() {
+        let run = folder.run(&["verify", &name]);
+        for line in run.stdout.lines() {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+    }
+}
+
+#[test]
+fn quiet_prints_the_verdict_alone() {
+    let folder = Folder::new();
+    let run = folder.run(&["verify", "--quiet"]).exits(0);
+    assert_eq!(run.stdout, "CERTIFIED  Orthoglide prototype\n");
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
+fn the_certificate_does_not_depend_on_the_number_of_threads() {
+    let folder = Folder::with(&["linear-delta-klipper-cylinder.toml"]);
+    let design = folder.names()[0].clone();
+    for threads in ["1", "2", "4", "16"] {
+        let name = format!("{threads}.json");
+        folder.run(&["verify", &design, "--threads", threads, "-o", &name]).exits(0);
+        assert_eq!(folder.read(&name), folder.read("1.json"), "{threads} threads");
+    }
+    folder.run(&["verify", &design]).exits(0);
+    assert_eq!(folder.read("linear-delta-klipper-cylinder.cert.json"), folder.read("1.json"));
+}
+
+#[test]
+fn a_title_cannot_disguise_a_verdict() {
+    let folder = Folder::with(&["orthoglide-310.toml"]);
+    let design = String::from_utf8(folder.read("orthoglide-310.toml")).unwrap();
+    let title = "title = \"\\u001b[2K\\rCERTIFIED\\nCERTIFIED\"";
+    let lines = design.lines().map(|l| if l.starts_with("title") { title } else { l });
+    folder.write("a.toml", lines.collect::<Vec<_>>().join("\n"));
+    let run = folder.run(&["verify", "a.toml"]).exits(1);
+    assert!(run.stdout.starts_with("REFUTED  "));
+    assert!(!run.stdout.contains('\u{1b}') && !run.stdout.contains('\r'));
+    assert!(!run.stdout.contains("\nCERTIFIED"));
+}
