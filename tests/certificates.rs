@@ -28,13 +28,23 @@ use std::sync::atomic::AtomicBool;
 use Verdict::{Certified, Refuted};
 
 /// A committed certificate: `NAME.cert.json` is the answer to `tests/designs/NAME.toml`.
-const OF_DESIGNS: [(&str, Verdict); 6] = [
+const OF_DESIGNS: [(&str, Verdict); 16] = [
     ("orthoglide-prototype", Certified),
     ("orthoglide-relaxed-1-percent", Certified),
     ("orthoglide-tolerance", Certified),
     ("orthoglide-joint-range", Certified),
+    ("linear-delta-klipper-cylinder", Certified),
+    ("upu-struts", Certified),
+    ("tripteron", Certified),
+    ("delta-joint-speed", Certified),
+    ("delta-parallel-margin", Certified),
     ("orthoglide-310", Refuted),
     ("orthoglide-310.25-published", Refuted),
+    ("delta-out-of-reach", Refuted),
+    ("delta-conditioning-refuted", Refuted),
+    ("delta-joint-speed-refuted", Refuted),
+    ("rotary-delta-angle-refuted", Refuted),
+    ("star-singular", Refuted),
 ];
 /// The committed certificate of the postulate for every `psi_max > 1`.
 const POSTULATE: &str = "postulate-all";
