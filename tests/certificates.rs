@@ -16,8 +16,8 @@ use orthocert_checker::cell::MAX_LEVEL;
 use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
 };
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
-use orthocert_checker::number::{MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
+use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
+use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
 use std::collections::BTreeSet;
@@ -46,8 +46,16 @@ const OF_DESIGNS: [(&str, Verdict); 16] = [
     ("rotary-delta-angle-refuted", Refuted),
     ("star-singular", Refuted),
 ];
-/// The committed certificate of the postulate for every `psi_max > 1`.
-const POSTULATE: &str = "postulate-all";
+/// The committed certificates of the postulate: name, least and greatest `psi_max`; none for all.
+const POSTULATES: [(&str, Option<(&str, &str)>); 7] = [
+    ("postulate-all", None),
+    ("postulate-1.2-to-6.5", Some(("6/5", "13/2"))),
+    ("postulate-2", Some(("2", "2"))),
+    ("postulate-7-thirds", Some(("7/3", "7/3"))),
+    ("postulate-1.37", Some(("137/100", "137/100"))),
+    ("postulate-1.000000001", Some(("1000000001/1000000000", "1000000001/1000000000"))),
+    ("postulate-1000000000", Some(("1000000000", "1000000000"))),
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -93,15 +101,23 @@ fn committed_certificates_are_what_the_prover_writes() {
         let design = root().join("tests/designs").join(format!("{name}.toml"));
         is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
     }
-    let claim = Claim::Postulate(PostulateClaim { psi_max: PsiMax::All });
-    is_what_the_prover_writes(POSTULATE, &claim, Certified);
+    for (name, range) in POSTULATES {
+        let number = |text| Exact::parse(text, 100).unwrap();
+        let psi_max = match range {
+            None => PsiMax::All,
+            Some((min, max)) => PsiMax::Range(Quantity { min: number(min), max: number(max) }),
+        };
+        let claim = Claim::Postulate(PostulateClaim { psi_max });
+        is_what_the_prover_writes(name, &claim, Certified);
+    }
 }
 
 #[test]
 fn no_certificate_is_committed_but_these() {
     let committed: BTreeSet<_> =
         fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let known = OF_DESIGNS.iter().map(|(name, _)| *name).chain([POSTULATE]);
+    let designs = OF_DESIGNS.iter().map(|(name, _)| *name);
+    let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name));
     assert_eq!(committed, known.map(path).collect());
 }
 

@@ -1,6 +1,6 @@
 //! `orthocert bounds`.
 
-use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
@@ -80,7 +80,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(&folder.join("bounds.cert.json"))?;
     }
     effort.start_threads()?;
-    interrupt::listen();
     let mut rows = exact_rows(claim);
     for extreme in Extreme::of(claim) {
         let mut budget = effort.budget(started)?;
@@ -98,7 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         rows.push(row(extreme, found, &width, arguments)?);
     }
     match effort.format {
-        Format::Json => print::json(&rows)?,
+        Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
         Format::Text => print::answer(&text(&rows, started))?,
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());

@@ -1,6 +1,6 @@
 //! `orthocert check`.
 
-use super::{input, interrupt, print, Failure, Format, Status};
+use super::{input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -44,7 +44,6 @@ enum Answer<'a> {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    interrupt::listen();
     // The design first: what is wrong with it is no defect of the certificate.
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;

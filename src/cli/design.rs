@@ -1,6 +1,6 @@
 //! `orthocert design`.
 
-use super::{input, interrupt, print, Failure, Format, Status};
+use super::{input, print, Failure, Format, Status};
 use orthocert::decimal::{readable, rounded, Toward};
 use orthocert::dimensions::{dimensions, Dimension, DimensionError, Unit};
 use orthocert_checker::number::Exact;
@@ -66,7 +66,6 @@ impl Enclosed {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    interrupt::listen();
     let psi_max = input::number("--psi-max", &arguments.psi_max)?;
     let cube = input::number("--cube", &arguments.cube)?;
     let offset = input::number("--offset", &arguments.offset)?;

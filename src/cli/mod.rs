@@ -162,6 +162,7 @@ pub fn usage(message: &clap::Error) -> ExitCode {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    interrupt::listen();
     match &arguments.command {
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),

@@ -1,6 +1,6 @@
 //! `orthocert paper`.
 
-use super::{certify, interrupt, print, Failure, Format, Status};
+use super::{certify, print, Failure, Format, Status};
 use orthocert::decimal::{rounded, Toward};
 use orthocert::output;
 use orthocert::paper::{findings, Agreement, Basis, Finding, Value};
@@ -54,7 +54,6 @@ struct Enclosed {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    interrupt::listen();
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("paper-bounds.cert.json"))?;
     }
@@ -62,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let rows: Vec<Row> =
         found.iter().map(|finding| row(finding, arguments)).collect::<Result<_, _>>()?;
     match arguments.format {
-        Format::Json => print::json(&rows)?,
+        Format::Json => print::json(&serde_json::json!({ "claims": rows }))?,
         Format::Text => print::answer(&text(&rows))?,
     }
     Ok(Status::Done)

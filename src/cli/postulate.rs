@@ -1,6 +1,6 @@
 //! `orthocert postulate`.
 
-use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
+use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use clap::ArgGroup;
 use orthocert::output;
 use orthocert::postulate::prove;
@@ -38,7 +38,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     claim.validate().map_err(Failure::input)?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
-    interrupt::listen();
     let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
     let decision = certify::decide(&mut found.answer)?;
     let mut report =

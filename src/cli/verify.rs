@@ -1,6 +1,6 @@
 //! `orthocert verify`.
 
-use super::{certify, effort::Effort, interrupt, print, Failure, Format, Status};
+use super::{certify, effort::Effort, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::output;
 use orthocert::report::{text, Report};
@@ -38,7 +38,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let target = arguments.target()?;
     output::probe(&target)?;
     effort.start_threads()?;
-    interrupt::listen();
     let Claim::Machine(claim) = &design.claim else {
         return Err(Failure::Input("a design is about a machine".to_owned()));
     };

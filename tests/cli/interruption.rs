@@ -59,6 +59,20 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
     assert_eq!(folder.read(&certificate), b"earlier");
 }
 
+#[test]
+fn a_command_that_waits_for_its_input_can_be_interrupted() {
+    let folder = Folder::new();
+    let pipe = folder.path("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for arguments in [["check", "pipe"], ["show", "pipe"], ["verify", "pipe"]] {
+        let mut command = folder.command(&arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        wait_until_caught(&mut child, 2);
+        send(&child, 2);
+        Run::from(child.wait_with_output().unwrap()).exits(4).complains(&["interrupted"]);
+    }
+}
+
 /// Every command with an answer, and the files it needs.
 const ANSWERS: [&[&str]; 9] = [
     &["verify"],

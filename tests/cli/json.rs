@@ -94,6 +94,17 @@ fn check_show_design_and_postulate() {
 }
 
 #[test]
+fn bounds_and_paper() {
+    let folder = Folder::new();
+    let arguments = ["bounds", "--relative", "0.01", "--format", "json"];
+    let value = object(&folder.run(&arguments).exits(0));
+    assert_eq!(value["bounds"][0]["quantity"], "psi");
+    assert_eq!(value["bounds"][0]["min"], "1/2");
+    let value = object(&folder.run(&["paper", "--format", "json"]).exits(0));
+    assert_eq!(value["claims"][0]["id"], "leg-length");
+}
+
+#[test]
 fn a_rejected_certificate() {
     let folder = Folder::new();
     folder.write("bad.json", "{}");
