@@ -14,7 +14,7 @@ use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
 use orthocert_checker::cell::MAX_LEVEL;
 use orthocert_checker::certificate::{
-    Certificate, Verdict, MAX_BYTES, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
+    Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
 };
 use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
 use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
@@ -148,6 +148,7 @@ fn the_format_document_shows_the_prototype_and_the_limits_of_the_checker() {
         format!("splits on one axis on a path | {MAX_LEVEL}"),
         format!("precision, least and greatest | {least}, {greatest}"),
         format!("component of a quaternion | {MAX_QUATERNION}"),
+        format!("bytes of a string of the provenance | {MAX_LABEL}"),
         format!("bytes of a number | {MAX_TEXT}"),
         format!("literals of a number | {MAX_LITERALS}"),
         format!("digits of a literal | {MAX_DIGITS}"),

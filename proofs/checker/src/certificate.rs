@@ -19,6 +19,8 @@ pub const MAX_NODES: usize = 500_000;
 pub const MAX_PARTS: usize = 4;
 /// Most steps of one node.
 pub const MAX_STEPS: usize = 16;
+/// Most bytes of a string of the provenance.
+pub const MAX_LABEL: usize = 64;
 /// Admissible precisions, in fractional bits.
 pub const PRECISIONS: std::ops::RangeInclusive<u32> = 32..=1024;
 
@@ -246,9 +248,11 @@ pub struct SecondPoint {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// Name of the program.
+    /// Name of the program: at most [`MAX_LABEL`] printable ASCII characters.
+    #[serde(deserialize_with = "strict::label")]
     pub tool: String,
-    /// Its version.
+    /// Its version, likewise.
+    #[serde(deserialize_with = "strict::label")]
     pub version: String,
 }
 

@@ -1,7 +1,7 @@
 //! Reading nothing but the format: derived readers also take an array of the fields' values, in
 //! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::{MAX_NODES, MAX_PARTS, MAX_STEPS};
+use crate::certificate::{MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -138,6 +138,16 @@ where
 {
     let text = Cow::<'de, str>::deserialize(deserializer)?;
     T::deserialize(text.as_ref().into_deserializer())
+}
+
+/// Reads a string that can be shown as it is.
+pub(crate) fn label<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    let text = Cow::<'de, str>::deserialize(deserializer)?;
+    if text.len() > MAX_LABEL || !text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
+        let limit = format!("a string of more than {MAX_LABEL} bytes, or not printable ASCII");
+        return Err(D::Error::custom(limit));
+    }
+    Ok(text.into_owned())
 }
 
 /// Reads three objects.

@@ -24,7 +24,7 @@ pub enum Kind {
 }
 
 /// The file's name, the variant of the rejection, and words of the reason.
-pub const TABLE: [(&str, Kind, &str); 262] = [
+pub const TABLE: [(&str, Kind, &str); 264] = [
     // Bytes and JSON text.
     ("array-for-the-certificate", Syntax, "invalid type: sequence, expected an object"),
     ("blank", Syntax, "EOF while parsing a value"),
@@ -161,6 +161,8 @@ pub const TABLE: [(&str, Kind, &str); 262] = [
     ("quaternion-of-three-components", Syntax, "invalid length 3, expected an array of length 4"),
     ("two-legs", Syntax, "invalid length 2, expected an array of length 3"),
     ("two-rules-in-one-step", Syntax, "expected value"),
+    ("provenance-too-long", Syntax, "more than 64 bytes, or not printable ASCII"),
+    ("provenance-with-control-characters", Syntax, "more than 64 bytes, or not printable ASCII"),
     // Names.
     (
         "foreign-format",
