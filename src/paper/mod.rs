@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn values_have_the_digits_that_an_independent_evaluation_gives() {
         let findings = findings().unwrap();
-        // Digits from the theory note, truncated: the value is within one unit of the last.
+        // Digits of an independent evaluation, truncated: the value is within one unit of the last.
         for (symbol, digits) in [
             ("L (mm)", "310.582854123025"),
             ("q1 (mm)", "-73.2050807568877"),

@@ -150,7 +150,7 @@ enum Form {
     Cube(Box<CubeConstants>),
 }
 
-/// The paper's Steps 1 and 2 for `L = 1`: theory section 1, "the paper's cube".
+/// The paper's Steps 1 and 2 for `L = 1`; see proofs/README.md, section 1.
 pub struct CubeConstants {
     /// `q_1 = -t_1 / sqrt(1 + 2 t_1^2) < 0`.
     pub q1: Exact,

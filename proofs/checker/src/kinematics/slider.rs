@@ -9,8 +9,8 @@ use crate::enclosure::Scalar;
 use crate::linear::{add, apply, dot, norm_squared, scale, Matrix, Vector};
 use std::array::from_fn;
 
-/// A leg of fixed length `L` on a linear guide of unit direction `n` (the paper's equations (1) to
-/// (3); theory: inverse kinematics of a `P-Pa` leg):
+/// A leg of fixed length `L` on a linear guide of unit direction `n` (the paper's inverse
+/// kinematics):
 ///
 /// ```text
 /// r   = w - (n . w) n          s = sqrt(L^2 - |r|^2)      eta = mode s
