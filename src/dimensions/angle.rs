@@ -1,9 +1,10 @@
-//! Arctangent and pi, enclosed.
+//! The arctangent, enclosed.
 
 use num_bigint::BigInt;
 use num_traits::Signed;
 use orthocert_checker::enclosure::{Enclosure, Scalar};
 use orthocert_checker::fixed::Fixed;
+use orthocert_checker::trig::pi;
 
 /// Bits beyond those of the result, against the rounding of some hundred operations.
 const GUARD_BITS: u32 = 32;
@@ -77,20 +78,6 @@ fn series(x: &Fixed) -> Option<Fixed> {
         power = power.mul(&square);
     }
     None
-}
-
-/// An enclosure of pi: Machin's `pi = 16 atan(1/5) - 4 atan(1/239)`.
-pub fn pi(bits: u32) -> Fixed {
-    let working = bits + GUARD_BITS;
-    let part = |factor: i64, n: i64| {
-        let fraction = Fixed::integer(1, working).div(&Fixed::integer(n, working))?;
-        Some(series(&fraction)?.mul(&Fixed::integer(factor, working)))
-    };
-    match (part(16, 5), part(4, 239)) {
-        (Some(a), Some(b)) => a.sub(&b).rescale(0, bits),
-        // No division above is by zero; 3 < pi < 4 all the same.
-        _ => Fixed::integer(3, bits).hull(&Fixed::integer(4, bits)),
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 
 mod angle;
 
-pub use angle::{atan, pi};
+pub use angle::atan;
+pub use orthocert_checker::trig::pi;
 
 use num_traits::Signed;
 use orthocert_checker::claim::ClaimError;

@@ -1,6 +1,6 @@
 //! The condition number of `M` over a cell.
 
-use super::vertex::{matrix_at_vertex, twice_rotated, Rotation};
+use super::vertex::{matrix_at_vertex, symmetric_at_vertex, twice_rotated, Rotation, VertexKind};
 use super::Failure;
 use crate::definite::is_positive_definite;
 use crate::enclosure::Enclosure;
@@ -51,13 +51,7 @@ pub fn conditioning<S: Enclosure>(
             return Err(Failure::BadMu);
         }
         let mu = c.dyadic_like(value.unsigned_abs().into(), MU_BITS);
-        let symmetric = (0..3).fold(at_centre.clone(), |sum, k| {
-            if vertex >> k & 1 == 1 {
-                sum.add(&slopes[k])
-            } else {
-                sum.sub(&slopes[k])
-            }
-        });
+        let symmetric = symmetric_at_vertex(&at_centre, &slopes, vertex, VertexKind::AboutCentre);
         let lower = symmetric.minus_identity(&mu.mul(&mu.integer_like(2 * norm)));
         let upper = Symmetric::gram_of(&matrix_at_vertex(expansion, vertex))
             .subtracted_from(&c.mul(&mu).sqr());

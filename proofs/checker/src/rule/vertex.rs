@@ -61,7 +61,7 @@ impl Rotation {
 
 /// `M(c) + sum_k lambda_k slopes_k` for `lambda_k = high` where bit `k` of `vertex` is set, `low`
 /// elsewhere, over symmetric matrices.
-fn symmetric_at_vertex<S: Scalar>(
+pub(super) fn symmetric_at_vertex<S: Scalar>(
     at_centre: &Symmetric<S>,
     slopes: &[Symmetric<S>; 3],
     vertex: u8,
@@ -76,7 +76,7 @@ fn symmetric_at_vertex<S: Scalar>(
 
 /// The range of the `lambda_k`: `[-1, 1]` about a centre, `[0, 1]` about a corner.
 #[derive(Clone, Copy)]
-enum VertexKind {
+pub(super) enum VertexKind {
     AboutCentre,
     AboutCorner,
 }
