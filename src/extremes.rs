@@ -3,21 +3,22 @@
 //! An extreme is enclosed by two certificates. The outer end is a bound that is *proved*: the claim
 //! "the quantity stays within it" is certified. The inner end is a bound that is *refuted*, by a
 //! witness: the point, and the machine within the tolerances, at which the quantity goes beyond
-//! it. The search for both is that of [`crate::verify`]; only the claims are new.
+//! it. The searches for both are those of [`crate::verify`]; only the claims are new.
 
-use crate::interval::Approx;
+use crate::interval::{Approx, Interval};
 use crate::refute::witness_at;
 use crate::sample::{Place, Quality, Sampler};
-use crate::search::{Budget, Control};
-use crate::verify::{certificate, verify, Answer};
+use crate::search::{prove, Budget, Control, Stop};
+use crate::verify::{accepted, certificate, look_into, verify, Answer, Worst};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, Zero};
-use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use num_traits::{FromPrimitive, One, Signed, Zero};
+use orthocert_checker::certificate::{Certificate, Proof, Tree, Verdict};
 use orthocert_checker::claim::{
     AtLeast, AtMost, Claim, ClaimError, JointSpeed, Leg, MachineClaim, Mechanism, Range,
     Requirements, Workspace,
 };
+use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::model::{CubeConstants, Model};
 use orthocert_checker::number::Exact;
@@ -26,6 +27,8 @@ use orthocert_checker::number::Exact;
 const PRECISION: u32 = 192;
 /// Finest step of the search for an extreme.
 const FINEST: i32 = 30;
+/// Open boxes from whose centres a better inner end is looked for.
+const OPEN_CENTRES: usize = 8;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 
@@ -58,12 +61,15 @@ pub enum Extreme {
 pub struct Enclosed {
     /// Which one.
     pub extreme: Extreme,
+    /// The relative width.
+    pub width: BigRational,
     /// The quantity goes beyond this (certified by a witness).
     pub inner: Exact,
     /// The quantity never goes beyond this (certified by a tree).
     pub outer: Exact,
-    /// The certificate of the inner end: "stays within `inner`" is refuted.
-    pub refuted: Box<Certificate>,
+    /// The certificate of the inner end: "stays within `inner`" is refuted. `None` where the inner end
+    /// holds by definition: no condition number is less than 1.
+    pub refuted: Option<Box<Certificate>>,
     /// The certificate of the outer end: "stays within `outer`" is certified.
     pub certified: Box<Certificate>,
     /// Boxes tried for the outer end.
@@ -87,10 +93,8 @@ pub enum NotEnclosed {
 impl std::fmt::Display for NotEnclosed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            NotEnclosed::Singular => {
-                f.write_str("there is a singularity or a point out of reach in the workspace")
-            }
-            NotEnclosed::Undecided => f.write_str("not enclosed this tightly within the budget"),
+            NotEnclosed::Singular => f.write_str("none: a singularity, or out of reach, inside"),
+            NotEnclosed::Undecided => f.write_str("not enclosed within the budget"),
             NotEnclosed::Cancelled => f.write_str("cancelled"),
             NotEnclosed::Claim(error) => error.fmt(f),
         }
@@ -126,7 +130,7 @@ impl Extreme {
         if let Mechanism::Translational(legs) = &claim.mechanism {
             let lengths = legs.iter().all(Leg::has_length);
             let guides = legs.iter().all(|leg| matches!(leg, Leg::Slider { .. }));
-            let angular = legs.iter().any(Leg::is_angular);
+            let angular = claim.mechanism.is_angular();
             all.retain(|extreme| match extreme {
                 Extreme::SerialMargin => lengths,
                 Extreme::LegAngle => guides,
@@ -200,7 +204,8 @@ impl Extreme {
     }
 }
 
-/// Encloses an extreme of the claim's machines over its workspace to a relative width (for joint
+/// Encloses an extreme of the claim's machines over its workspace, to the relative width
+/// `relative`, or where that does not succeed to a looser one, up to [`loosest`] (for joint
 /// coordinates and angles: relative to the greatest size that the quantity takes).
 ///
 /// The claim's requirements are not used, but for the `psi_max` that defines the paper's cube.
@@ -214,74 +219,160 @@ pub fn enclose(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
-    let defining = match &claim.workspace {
-        Workspace::Cube { .. } => claim.requirements.transmission.clone(),
-        Workspace::Box { .. } | Workspace::Cylinder { .. } => None,
-    };
-    let claim_with = |bound: Exact| {
-        let mut requirements = extreme.requirement(bound);
-        requirements.transmission = requirements.transmission.or_else(|| defining.clone());
-        MachineClaim { requirements, ..claim.clone() }
-    };
+    let claim_with = |bound: Exact| demanding(claim, extreme.requirement(bound));
     let any = claim_with(Exact::integer(2));
     let model = Model::new(&any, PRECISION)?;
     let sampler = Sampler::new(&any, &model).ok_or(NotEnclosed::Undecided)?;
-    let unit = unit_of(claim, &model).ok_or(NotEnclosed::Undecided)?;
-    let (mut quality, mut place) = worst_place(&sampler, extreme);
-    for _ in 0..ROUNDS {
-        let found = value(&sampler, extreme, quality, &place, unit).ok_or(NotEnclosed::Singular)?;
-        let size = scale_of(extreme, found, &sampler, unit);
-        let step = relative * &size;
-        let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
-        // Two thirds of the width on the outer side, where the proof needs room.
-        let third = &step * &sign / BigRational::from_integer(3.into());
-        let found = BigRational::from_f64(found).ok_or(NotEnclosed::Undecided)?;
-        let inner = rounded(&(&found - &third), &step);
-        let outer = rounded(&(&found + &third + &third), &step);
-        let refuted_claim = claim_with(Exact::Rational(inner.clone()));
-        let Some(refuted) = refute(&refuted_claim, quality, &place) else {
-            return Err(NotEnclosed::Undecided);
-        };
-        let certified_claim = claim_with(Exact::Rational(outer.clone()));
-        let verification = verify(&certified_claim, budget, control)?;
-        match verification.answer {
-            Answer::Decided { certificate, accepted } if accepted.verdict == Verdict::Certified => {
-                return Ok(Enclosed {
-                    extreme,
-                    inner: Exact::Rational(inner),
-                    outer: Exact::Rational(outer),
-                    refuted,
-                    certified: certificate,
-                    boxes: verification.boxes,
-                });
-            }
-            Answer::Decided { .. } => {
+    let unit = Unit::of(claim, &model).ok_or(NotEnclosed::Undecided)?;
+    let mut known = worst_place(&sampler, extreme);
+    let mut width = relative.clone();
+    while width <= loosest() {
+        let mut looser = 2;
+        for _ in 0..ROUNDS {
+            let (quality, place) = &known;
+            let found =
+                value(&sampler, extreme, *quality, place, unit).ok_or(NotEnclosed::Singular)?;
+            let step = &width * scale_of(extreme, found, &sampler, unit);
+            let (inner, outer) = ends(extreme, found, &step).ok_or(NotEnclosed::Undecided)?;
+            match certify(&claim_with(Exact::Rational(outer.clone())), extreme, budget, control)? {
+                Attempt::Certified(certificate, boxes) => {
+                    let refuted = if extreme == Extreme::Conditioning && inner.is_one() {
+                        None
+                    } else {
+                        let claim = claim_with(Exact::Rational(inner.clone()));
+                        Some(refute(&claim, *quality, place).ok_or(NotEnclosed::Undecided)?)
+                    };
+                    return Ok(Enclosed {
+                        extreme,
+                        width,
+                        inner: Exact::Rational(inner),
+                        outer: Exact::Rational(outer),
+                        refuted,
+                        certified: certificate,
+                        boxes,
+                    });
+                }
                 // A worse place than the one known: go on from there.
-                let mut worst = verification.worst;
-                worst.retain(|w| extreme.qualities().contains(&w.quality));
-                worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
-                let Some(found) = worst.into_iter().next().filter(|w| w.margin < 0.0) else {
-                    return Err(NotEnclosed::Singular);
-                };
-                (quality, place) = (found.quality, found.place);
+                Attempt::Worse(quality, place) => known = (quality, place),
+                Attempt::Undecided(stop) => {
+                    // A hopeless width costs little, so the next one is tried soon.
+                    looser = if stop == Stop::Hopeless { 2 } else { 10 };
+                    break;
+                }
             }
-            Answer::Undecided(_) => return Err(NotEnclosed::Undecided),
-            Answer::Cancelled => return Err(NotEnclosed::Cancelled),
         }
+        width *= BigRational::from_integer(looser.into());
     }
     Err(NotEnclosed::Undecided)
 }
 
-/// The model's unit of length in the claim's.
-fn unit_of(claim: &MachineClaim, model: &Model<Fixed>) -> Option<f64> {
-    match (&claim.workspace, model.unit_exponent) {
-        (_, Some(scale)) => Some((scale as f64).exp2()),
-        (Workspace::Cube { side }, None) => {
-            let psi_max = claim.requirements.transmission.as_ref()?.max.as_ref()?;
-            let inverse = CubeConstants::new(psi_max, side).ok()?.inverse_length;
-            Some(1.0 / Approx::from_fixed(&inverse.enclose(0, PRECISION)?).0)
-        }
-        _ => None,
+/// Whether some machine of the claim has a singularity, or a point out of reach, in its workspace:
+/// then quantities have no extremes there.
+///
+/// # Errors
+/// If the claim is not well formed, or the search was cancelled.
+pub fn is_singular(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<bool, NotEnclosed> {
+    let regular = demanding(claim, Requirements::default());
+    match verify(&regular, budget, control)?.answer {
+        Answer::Decided { accepted, .. } => Ok(accepted.verdict == Verdict::Refuted),
+        Answer::Undecided(_) => Ok(false),
+        Answer::Cancelled => Err(NotEnclosed::Cancelled),
+    }
+}
+
+/// The claim with other requirements, but for the `psi_max` that defines the paper's cube.
+fn demanding(claim: &MachineClaim, mut requirements: Requirements) -> MachineClaim {
+    if let Workspace::Cube { .. } = claim.workspace {
+        let defining = claim.requirements.transmission.clone();
+        requirements.transmission = requirements.transmission.or(defining);
+    }
+    MachineClaim { requirements, ..claim.clone() }
+}
+
+/// The width up to which an enclosure is loosened before it is given up.
+pub fn loosest() -> BigRational {
+    BigRational::new(1.into(), 10.into())
+}
+
+/// A bound that the value found goes beyond, and one that no value is expected to go beyond.
+fn ends(extreme: Extreme, found: f64, step: &BigRational) -> Option<(BigRational, BigRational)> {
+    let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
+    // Two thirds of the width on the outer side, where the proof needs room.
+    let third = step * &sign / BigRational::from_integer(3.into());
+    let found = BigRational::from_f64(found)?;
+    let mut inner = rounded(&(&found - &third), step);
+    let outer = rounded(&(&found + &third + &third), step);
+    if extreme == Extreme::Conditioning {
+        inner = inner.max(BigRational::one());
+    }
+    Some((inner, outer))
+}
+
+/// What became of the attempt to certify an outer end.
+enum Attempt {
+    Certified(Box<Certificate>, usize),
+    /// The quantity goes beyond it here.
+    Worse(Quality, Place),
+    Undecided(Stop),
+}
+
+fn certify(
+    claim: &MachineClaim,
+    extreme: Extreme,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Attempt, NotEnclosed> {
+    let model = Model::new(claim, PRECISION)?;
+    let found = prove(&model.map(&Interval::from_fixed), budget, control);
+    if found.stop == Stop::Cancelled {
+        return Err(NotEnclosed::Cancelled);
+    }
+    if found.stop == Stop::Exhausted && found.open.is_empty() {
+        let proof = |precision| Proof::Tree(Tree { precision, nodes: found.nodes.clone() });
+        return Ok(match accepted(Claim::Machine(claim.clone()), proof) {
+            Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
+            _ => Attempt::Undecided(Stop::Hopeless),
+        });
+    }
+    let sampler = Sampler::new(claim, &model).ok_or(NotEnclosed::Undecided)?;
+    let qualities = extreme.qualities().into_iter();
+    let mut worst: Vec<Worst> =
+        qualities.map(|quality| Worst::unknown(quality, &sampler)).collect();
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
+    worst.retain(|found| found.margin < 0.0);
+    worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+    Ok(match worst.into_iter().next() {
+        Some(found) => Attempt::Worse(found.quality, found.place),
+        None => Attempt::Undecided(found.stop),
+    })
+}
+
+/// The model's units in the claim's.
+#[derive(Clone, Copy)]
+struct Unit {
+    /// Of lengths.
+    length: f64,
+    /// Of `1/M`: one, or a length where joint coordinates are angles.
+    inverse_row: f64,
+}
+
+impl Unit {
+    fn of(claim: &MachineClaim, model: &Model<Fixed>) -> Option<Self> {
+        let length = match (&claim.workspace, model.unit_exponent) {
+            (_, Some(scale)) => (scale as f64).exp2(),
+            (Workspace::Cube { side }, None) => {
+                let psi_max = claim.requirements.transmission.as_ref()?.max.as_ref()?;
+                let inverse = CubeConstants::new(psi_max, side).ok()?.inverse_length;
+                1.0 / Approx::from_fixed(&inverse.enclose(0, PRECISION)?).0
+            }
+            _ => return None,
+        };
+        let inverse_row = if claim.mechanism.is_angular() { length } else { 1.0 };
+        Some(Unit { length, inverse_row })
     }
 }
 
@@ -312,22 +403,26 @@ fn value(
     extreme: Extreme,
     quality: Quality,
     place: &Place,
-    unit: f64,
+    unit: Unit,
 ) -> Option<f64> {
     let value = sampler.value(quality, &sampler.at(place))?;
-    let in_lengths = matches!(extreme, Extreme::LeastRho(_) | Extreme::GreatestRho(_));
-    Some(if in_lengths { value * unit } else { value })
+    Some(match extreme {
+        Extreme::LeastRho(_) | Extreme::GreatestRho(_) => value * unit.length,
+        Extreme::LeastPsi | Extreme::GreatestPsi => value * unit.inverse_row,
+        Extreme::JointSpeed => value / unit.inverse_row,
+        _ => value,
+    })
 }
 
 /// What the width is relative to: the value itself, or for joint coordinates, which may be zero,
 /// the size of the workspace's joint motion.
-fn scale_of(extreme: Extreme, found: f64, sampler: &Sampler, unit: f64) -> BigRational {
+fn scale_of(extreme: Extreme, found: f64, sampler: &Sampler, unit: Unit) -> BigRational {
     let size = match extreme {
         Extreme::LeastRho(leg) | Extreme::GreatestRho(leg) => {
             let rho = |place: &Place| sampler.value(Quality::LeastRho(leg), &sampler.at(place));
             let all = sampler.grid();
             let sizes = all.iter().filter_map(rho).map(f64::abs);
-            sizes.fold(found.abs() / unit, f64::max) * unit
+            sizes.fold(found.abs() / unit.length, f64::max) * unit.length
         }
         _ => found.abs(),
     };

@@ -2,9 +2,9 @@
 
 use crate::interval::Interval;
 use crate::rotation;
-use crate::search::{by_weight, Problem, Trial};
+use crate::search::{self, by_weight, Problem, Trial};
 use nalgebra::Matrix3;
-use orthocert_checker::cell::{Axis, Cell};
+use orthocert_checker::cell::{Axis, Cell, Edge};
 use orthocert_checker::certificate::{ConditioningEvidence, Step};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::expansion::{Expansion, ExpansionPoint, OutOfReach};
@@ -44,9 +44,13 @@ fn try_box(model: &Model<Interval>, cell: &Cell, open: &[Obligation]) -> Trial {
             Err(failure) => trial.failures.push((obligation, failure)),
         }
     }
-    if let (Ok(expansion), true) = (&expansion, centre_is_asked_about(model, cell)) {
-        let defeated = |(o, _): &(Obligation, Failure)| defeated_at_centre(model, expansion, *o);
-        trial.hopeless = trial.failures.iter().any(defeated);
+    if search::worth_asking_whether_hopeless(cell) && centre_is_asked_about(model, cell) {
+        let centre = around_centre(cell);
+        let expansion = Expansion::new(model, &centre, ExpansionPoint::Centre);
+        trial.hopeless = trial
+            .failures
+            .iter()
+            .any(|&(obligation, _)| discharge(model, &centre, &expansion, obligation).is_err());
     }
     trial
 }
@@ -147,25 +151,15 @@ fn centre_is_asked_about(model: &Model<Interval>, cell: &Cell) -> bool {
     !model.is_cylinder || from_axis(0).hypot(from_axis(1)) <= 1.0
 }
 
-/// Whether a rule fails already on the centre alone: the box contains a point at which it cannot
-/// succeed, because the requirement fails there, holds with equality, or because the parameters'
-/// tolerances are too wide.
-fn defeated_at_centre(
-    model: &Model<Interval>,
-    expansion: &Expansion<Interval>,
-    obligation: Obligation,
-) -> bool {
-    let zero = Interval::new(0.0, 0.0);
-    let mut at_centre = expansion.clone();
-    at_centre.slopes = [[[zero; 3]; 3]; 3];
-    match obligation {
-        Obligation::SigmaMin => lower_step(model, &at_centre).is_err(),
-        Obligation::SigmaMax => rule::upper(model, &at_centre).is_err(),
-        Obligation::Conditioning => conditioning_step(model, &at_centre).is_err(),
-        Obligation::JointSpeed => rule::speed(model, &at_centre).is_err(),
-        // Decided by values over the box, not about its centre.
-        _ => false,
-    }
+/// A cell so small, next to the cell's centre, that a rule that fails on it fails on account of the
+/// centre itself: the requirement fails there, holds with equality, or the parameters' tolerances
+/// are too wide.
+fn around_centre(cell: &Cell) -> Cell {
+    /// Halvings from the cell's edges to the small cell's.
+    const FINER: u32 = 20;
+    let middle =
+        |edge: Edge| Edge { index: (2 * edge.index + 1) << (FINER - 1), level: edge.level + FINER };
+    Cell { edges: cell.edges.map(middle) }
 }
 
 /// The midpoints of an interval matrix.

@@ -50,6 +50,8 @@ pub struct Control<'a> {
 pub enum Stop {
     /// Every box was either closed or cannot be closed by splitting it further.
     Exhausted,
+    /// A box cannot be closed by splitting it further ([`prove`] only).
+    Hopeless,
     /// `max_boxes` were tried.
     Boxes,
     /// The deadline passed.
@@ -99,8 +101,18 @@ pub struct Trial {
     pub failures: Vec<(Obligation, Failure)>,
     /// The axes on which to split, most promising first.
     pub axes: [Axis; 3],
-    /// Not even the centre satisfies a rule: splitting cannot close all of the box.
+    /// Not even the centre satisfies a rule: splitting cannot close all of the box. Looked at only
+    /// where it is [worth asking](worth_asking_whether_hopeless).
     pub hopeless: bool,
+}
+
+/// Whether a box is so small that it is not split if it is hopeless.
+pub fn worth_asking_whether_hopeless(cell: &Cell) -> bool {
+    depth(cell) >= HOPELESS_DEPTH
+}
+
+fn depth(cell: &Cell) -> u32 {
+    cell.edges.iter().map(|e| e.level).sum()
 }
 
 /// What a search is about.
@@ -113,6 +125,21 @@ pub trait Problem: Sync {
 
 /// Searches for a proof that every obligation of `problem` holds on the root cell.
 pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
+    run(problem, budget, control, false)
+}
+
+/// As [`search`], but ends with the first box that splitting cannot close: for callers who want a
+/// proof or nothing, and no account of what remains.
+pub fn prove(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
+    run(problem, budget, control, true)
+}
+
+fn run(
+    problem: &impl Problem,
+    budget: Budget,
+    control: &mut Control<'_>,
+    proof_only: bool,
+) -> Outcome {
     let mut tree = vec![growing(Cell::ROOT, problem.obligations())];
     let mut level = vec![0];
     let mut boxes = 0;
@@ -128,10 +155,15 @@ pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>)
                 break;
             }
             let trials = try_all(problem, &tree, batch);
+            let hopeless = trials.iter().any(|trial| trial.hopeless);
             for (&at, trial) in batch.iter().zip(trials) {
                 settle(&mut tree, at, trial, &mut next, &mut closed);
             }
             boxes += batch.len();
+            if hopeless && proof_only {
+                stop = Stop::Hopeless;
+                break;
+            }
             (control.progress)(Progress { boxes, closed });
         }
         if stop == Stop::Exhausted && !later.is_empty() {
@@ -186,12 +218,11 @@ fn settle(
     let cell = tree[at].cell;
     tree[at].node.by = trial.steps;
     tree[at].failures = trial.failures.iter().map(|&(o, f)| (o, Some(f))).collect();
-    let depth: u32 = cell.edges.iter().map(|e| e.level).sum();
     if trial.failures.is_empty() {
-        *closed += (-f64::from(depth)).exp2();
+        *closed += (-f64::from(depth(&cell))).exp2();
         return;
     }
-    if trial.hopeless && depth >= HOPELESS_DEPTH {
+    if trial.hopeless && worth_asking_whether_hopeless(&cell) {
         return;
     }
     let splittable = |axis: &Axis| cell.edges[axis.index()].level < MAX_LEVEL;

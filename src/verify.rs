@@ -60,6 +60,14 @@ pub struct Worst {
     pub margin: f64,
 }
 
+impl Worst {
+    /// Nothing is known yet: any place is worse.
+    pub(crate) fn unknown(quality: Quality, sampler: &Sampler) -> Self {
+        let place = Place { u: [0.5; 3], t: vec![0.5; sampler.parameters()] };
+        Worst { quality, place, margin: f64::MAX }
+    }
+}
+
 /// The result of a verification.
 #[derive(Clone, Debug)]
 pub struct Verification {
@@ -98,7 +106,7 @@ pub fn verify(
         });
         return Ok(Verification { answer, worst, boxes });
     }
-    look_into(&sampler, &found.open, &mut worst);
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     let answer = match refutation(claim, &sampler, &worst) {
         Some(witness) => refuted(claim, witness),
         None => {
@@ -165,10 +173,10 @@ fn worst_values(sampler: &Sampler) -> Vec<Worst> {
         .collect()
 }
 
-/// Improves the worst values from the centres of open boxes.
-fn look_into(sampler: &Sampler, open: &[OpenBox], worst: &mut [Worst]) {
+/// Improves the worst values from the centres of at most so many of the open boxes.
+pub(crate) fn look_into(sampler: &Sampler, open: &[OpenBox], centres: usize, worst: &mut [Worst]) {
     let t = vec![0.5; sampler.parameters()];
-    let stride = open.len().div_ceil(OPEN_CENTRES).max(1);
+    let stride = open.len().div_ceil(centres).max(1);
     for item in open.iter().step_by(stride) {
         let u = item.cell.edges.map(|e| (e.index as f64 + 0.5) * (-f64::from(e.level)).exp2());
         let start = Place { u, t: t.clone() };

@@ -34,7 +34,7 @@ const ROWS: &[Row] = &[
         name: "linear Delta 333 / 174.75, r <= 80",
         design: "linear-delta-klipper-box.toml",
         workspace: "cylinder = { center = [0, 0], radius = 80, z = [0, 10] }",
-        most: [200, 1000, 2500],
+        most: [110, 250, 370],
     },
     Row {
         name: "skew guides",

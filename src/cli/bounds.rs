@@ -5,7 +5,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
 use orthocert::design::Design;
-use orthocert::extremes::{enclose, Enclosed, Extreme, NotEnclosed};
+use orthocert::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Proof};
@@ -19,8 +19,8 @@ use std::time::Instant;
 /// Significant digits beyond those that the width leaves certain.
 const GUARD_DIGITS: u32 = 2;
 
-/// Boxes after which a width is given up for a looser one: what closes at all closes in a few
-/// hundred.
+/// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
+/// few hundred.
 const BOXES: usize = 20_000;
 
 /// Its flags.
@@ -80,21 +80,17 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(&folder.join("bounds.cert.json"))?;
     }
     effort.start_threads()?;
+    let mut budget = effort.budget(started)?;
+    budget.max_boxes = budget.max_boxes.min(BOXES);
+    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
     let mut rows = exact_rows(claim);
     for extreme in Extreme::of(claim) {
-        let mut budget = effort.budget(started)?;
-        budget.max_boxes = budget.max_boxes.min(BOXES);
-        let mut width = relative.clone();
-        let found = loop {
-            let found = effort.run(|control| enclose(claim, extreme, &width, budget, control));
-            match found {
-                Err(NotEnclosed::Undecided) if width < loosest() => {
-                    width *= BigRational::from_integer(100.into());
-                }
-                other => break other,
-            }
+        let found = if singular {
+            Err(NotEnclosed::Singular)
+        } else {
+            effort.run(|control| enclose(claim, extreme, &relative, budget, control))
         };
-        rows.push(row(extreme, found, &width, arguments)?);
+        rows.push(row(extreme, found, arguments)?);
     }
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
@@ -104,18 +100,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     Ok(if complete { Status::Done } else { Status::Undecided })
 }
 
-/// The width up to which an enclosure is loosened before it is given up.
-fn loosest() -> BigRational {
-    BigRational::new(1.into(), 100.into())
-}
-
 fn relative(text: &str) -> Result<BigRational, Failure> {
     let number = input::number("--relative", text)?;
     let least = BigRational::new(1.into(), 10.into()).pow(12);
     match number.as_rational() {
         Some(x) if x.is_positive() && *x >= least && *x <= loosest() => Ok(x.clone()),
         _ => Err(Failure::Input(format!(
-            "--relative: found \"{text}\"; accepted: a number from 1e-12 to 0.01"
+            "--relative: found \"{text}\"; accepted: a number from 1e-12 to 0.1"
         ))),
     }
 }
@@ -151,7 +142,6 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
 fn row(
     extreme: Extreme,
     found: Result<Enclosed, NotEnclosed>,
-    width: &BigRational,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
     let (quantity, file) = name(extreme);
@@ -168,15 +158,15 @@ fn row(
     match found {
         Ok(found) => {
             if let Some(folder) = &arguments.output {
-                for (certificate, side) in [(&found.refuted, "inner"), (&found.certified, "outer")]
-                {
+                let inner = found.refuted.iter().map(|certificate| (certificate, "inner"));
+                for (certificate, side) in inner.chain([(&found.certified, "outer")]) {
                     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
                     let path = folder.join(format!("{file}-{side}.cert.json"));
                     row.certificates.push(certify::store(&path, &text)?);
                 }
             }
-            row.point = witness_point(&found.refuted);
-            row.relative = Some(rounded(width, 2, Toward::Above));
+            row.point = found.refuted.as_deref().and_then(witness_point);
+            row.relative = Some(rounded(&found.width, 2, Toward::Above));
             let (min, max) = if extreme.is_greatest() {
                 (found.inner, found.outer)
             } else {
@@ -184,11 +174,19 @@ fn row(
             };
             (row.min, row.max) = (Some(min), Some(max));
         }
-        Err(NotEnclosed::Cancelled) => return Err(Failure::Interrupted),
-        Err(error @ NotEnclosed::Claim(_)) => return Err(Failure::input(error)),
+        Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
+            return Err(failure(error));
+        }
         Err(error) => row.not_enclosed = Some(error.to_string()),
     }
     Ok(row)
+}
+
+fn failure(error: NotEnclosed) -> Failure {
+    match error {
+        NotEnclosed::Cancelled => Failure::Interrupted,
+        error => Failure::input(error),
+    }
 }
 
 fn witness_point(certificate: &Certificate) -> Option<[Exact; 3]> {
@@ -223,17 +221,18 @@ fn text(rows: &[Row], started: Instant) -> String {
     let mut out = "Every extreme lies between its two decimals: one is refuted by a witness as a\n\
          bound, the other is certified.\n\n"
         .to_owned();
-    let _ = writeln!(out, "  {:<19} {:<9} {:<21} {:<21}", "quantity", "extreme", "from", "to");
+    let _ = writeln!(
+        out,
+        "  {:<19} {:<8} {:<17} {:<17} {:>7}",
+        "quantity", "extreme", "from", "to", "width"
+    );
     for row in rows {
-        let _ = write!(out, "  {:<19} {:<9} ", row.quantity, row.end);
+        let _ = write!(out, "  {:<19} {:<8} ", row.quantity, row.end);
         match (&row.min, &row.max, &row.not_enclosed) {
             (Some(min), Some(max), _) => {
-                let _ = writeln!(
-                    out,
-                    "{:<21} {:<21}",
-                    shown(min, Toward::Below),
-                    shown(max, Toward::Above)
-                );
+                let (min, max) = (shown(min, Toward::Below), shown(max, Toward::Above));
+                let width = row.relative.as_deref().unwrap_or_default();
+                let _ = writeln!(out, "{min:<17} {max:<17} {width:>7}");
             }
             (_, _, reason) => {
                 let _ = writeln!(out, "{}", reason.as_deref().unwrap_or("not enclosed"));

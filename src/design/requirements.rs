@@ -118,10 +118,7 @@ fn joint_range(
     mechanism: &Mechanism,
     requirements: &mut Requirements,
 ) -> Result<(), DesignError> {
-    let angular = match mechanism {
-        Mechanism::Translational(legs) => legs.iter().any(Leg::is_angular),
-        Mechanism::Orthoglide { .. } => false,
-    };
+    let angular = mechanism.is_angular();
     let accepted = if angular { ANGLES } else { JOINT_RANGE };
     let range = |value: &Value<'_>| {
         let table = value.table(accepted)?;

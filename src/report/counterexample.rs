@@ -1,7 +1,7 @@
 //! A refutation's witness in words, with certified digits of the value that violates the claim.
 
 use super::place::named_parameters;
-use super::worst::{bound, is_angular, Bound};
+use super::worst::{bound, Bound};
 use crate::decimal::{exact, rounded, significant, Toward};
 use crate::dimensions::{atan, pi};
 use crate::interval::Approx;
@@ -169,7 +169,7 @@ impl At<'_> {
     /// The square root of `length / image` in the design's unit.
     fn speed(&self, image: &Fixed, length: &Fixed) -> Option<Fixed> {
         let psi = length.sqrt()?.div(&image.sqrt()?)?;
-        if is_angular(self.claim) {
+        if self.claim.mechanism.is_angular() {
             self.length(&psi)
         } else {
             Some(psi)
@@ -230,7 +230,7 @@ impl At<'_> {
         let row = self.model.legs.get(leg)?.at(&self.model.origin[leg])?.row;
         let norm = norm_squared(&row).sqrt()?;
         let norm = match self.model.unit_exponent {
-            Some(scale) if is_angular(self.claim) => norm.rescale(scale, norm.bits()),
+            Some(scale) if self.claim.mechanism.is_angular() => norm.rescale(scale, norm.bits()),
             _ => norm,
         };
         let tool = &self.claim.requirements.joint_speed.as_ref()?.tool;

@@ -108,7 +108,7 @@ pub fn reason(undecided: &Undecided, tried: usize) -> String {
     match undecided.stop {
         Stop::Boxes => format!("the budget of {tried} is used up"),
         Stop::Time => format!("the time is used up, after {tried}"),
-        Stop::Exhausted => {
+        Stop::Exhausted | Stop::Hopeless => {
             format!("after {tried}, splitting the remaining ones further cannot close them")
         }
         Stop::Cancelled => "it was interrupted".to_owned(),
@@ -229,14 +229,14 @@ impl Remaining<'_> {
             );
         }
         match (undecided.stop, tightest) {
-            (Stop::Exhausted, Some(w)) if self.sampler.parameters() > 0 => format!(
+            (Stop::Exhausted | Stop::Hopeless, Some(w)) if self.sampler.parameters() > 0 => format!(
                 "narrower tolerances, or more room in the bounds: no violation was found ({} keeps \
                  a relative margin of {}), but no rule covers all machines within the tolerances at \
                  once",
                 self.words(w.quality),
                 significant(w.margin, 2)
             ),
-            (Stop::Exhausted, _) => {
+            (Stop::Exhausted | Stop::Hopeless, _) => {
                 "more room in the bounds, or a smaller workspace: even the centres of the remaining \
                  boxes are too close to the bound for the rules"
                     .to_owned()

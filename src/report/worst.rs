@@ -67,7 +67,7 @@ pub fn bound(claim: &MachineClaim, quality: Quality) -> Option<Bound> {
     let demands = &claim.requirements;
     let transmission = demands.transmission.as_ref();
     let joint_range = |leg: usize| -> Option<&Range> { demands.joint_range.as_ref()?.get(leg) };
-    let degrees = if is_angular(claim) { ", deg" } else { "" };
+    let degrees = if claim.mechanism.is_angular() { ", deg" } else { "" };
     let (requirement, relation, number) = match quality {
         Quality::Clearance => (clearance_name(claim).to_owned(), ">", Exact::integer(0)),
         Quality::Determinant => ("least |det M|".to_owned(), ">", Exact::integer(0)),
@@ -117,11 +117,6 @@ fn legs(claim: &MachineClaim) -> &[Leg] {
     }
 }
 
-/// Whether joint coordinates are angles; then transmission factors are lengths per radian.
-pub fn is_angular(claim: &MachineClaim) -> bool {
-    legs(claim).iter().any(Leg::is_angular)
-}
-
 /// Whether every leg is a slider, whose clearance is `s_i^2`.
 fn all_sliders(claim: &MachineClaim) -> bool {
     legs(claim).iter().all(|leg| matches!(leg, Leg::Slider { .. }))
@@ -139,7 +134,8 @@ fn clearance_name(claim: &MachineClaim) -> &'static str {
 fn value(claim: &MachineClaim, quality: Quality, values: &Values, frame: &Frame) -> Option<f64> {
     let Reached { matrix, xi, rho, cosine, unit_determinant } = values.reached.as_ref()?;
     // Rows of M are without unit, or inverse lengths for angular joints.
-    let (length, joint) = if is_angular(claim) { (frame.unit, 1.0) } else { (1.0, frame.unit) };
+    let (length, joint) =
+        if claim.mechanism.is_angular() { (frame.unit, 1.0) } else { (1.0, frame.unit) };
     Some(match quality {
         Quality::Clearance if all_sliders(claim) => values.clearance.max(0.0).sqrt() * frame.unit,
         Quality::Clearance => values.clearance,

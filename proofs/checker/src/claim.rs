@@ -410,6 +410,17 @@ impl fmt::Display for ClaimError {
 
 impl std::error::Error for ClaimError {}
 
+impl Mechanism {
+    /// Whether joint coordinates are angles; then `M` has the unit radian per length. (A well-formed
+    /// claim has arms only, or none.)
+    pub fn is_angular(&self) -> bool {
+        match self {
+            Mechanism::Translational(legs) => legs.iter().any(Leg::is_angular),
+            Mechanism::Orthoglide { .. } => false,
+        }
+    }
+}
+
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.
     pub fn validate(&self) -> Result<(), ClaimError> {

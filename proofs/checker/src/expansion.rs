@@ -9,10 +9,12 @@
 //!
 //! and `E_k(P)`, `g_k(P)` enclosed over the cell. What is stored is multiplied by the extent of
 //! `delta_k`: `M(P) = M(c) + sum_k lambda_k (h_k E_k)` with `lambda_k` in `[-1, 1]` for a centre
-//! and in `[0, 1]` for a corner (there `h_k` carries the sign of the direction into the cell).
+//! and in `[0, 1]` for a corner (there `h_k` carries the sign of the direction into the cell). The
+//! `lambda` of the points in question are convex combinations of the vertices of [`Hull`].
 
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
+use crate::hull::{Hull, Vertex};
 use crate::linear::{scale, Matrix, Vector};
 use crate::model::Model;
 use std::array::from_fn;
@@ -37,6 +39,8 @@ pub struct Expansion<S> {
     pub slopes: [Matrix<S>; 3],
     /// For each leg, `rho_i(c)` and `h_k g_k` for each coordinate; none for an angle.
     pub rho: [Option<(S, Vector<S>)>; 3],
+    /// The vertices between which `lambda` lies.
+    pub hull: Hull,
 }
 
 /// Why there is no expansion: leg `leg` (from zero) is not certainly within reach and free of
@@ -52,7 +56,7 @@ impl<S: Enclosure> Expansion<S> {
     /// touches it.
     pub fn new(model: &Model<S>, cell: &Cell, point: ExpansionPoint) -> Result<Self, OutOfReach> {
         let region = Region::new(model, cell, point);
-        let (at, over, extent) = (region.at, region.over, region.extent);
+        let Region { at, over, extent, hull } = region;
         let expand = |i: usize| model.legs[i].expand(&at[i], &over[i]).ok_or(OutOfReach { leg: i });
         let legs = [expand(0)?, expand(1)?, expand(2)?];
         Ok(Expansion {
@@ -67,7 +71,19 @@ impl<S: Enclosure> Expansion<S> {
                 let (rho, slope) = legs[i].rho.as_ref()?;
                 Some((rho.clone(), from_fn(|k| extent[k].mul(&slope[k]))))
             }),
+            hull,
         })
+    }
+
+    /// `A(v) = M(c) + sum_k lambda_k (h_k E_k)` at a vertex.
+    pub fn matrix_at(&self, vertex: &Vertex) -> Matrix<S> {
+        from_fn(|i| self.row_at(i, vertex))
+    }
+
+    /// Row `i` of `A(v)`.
+    pub fn row_at(&self, i: usize, vertex: &Vertex) -> Vector<S> {
+        let [x, y, z] = &self.slopes;
+        from_fn(|j| vertex.affine(&self.matrix[i][j], [&x[i][j], &y[i][j], &z[i][j]]))
     }
 }
 
@@ -79,6 +95,8 @@ pub struct Region<S> {
     pub over: [Vector<S>; 3],
     /// The extent of `delta_k` about the expansion point.
     pub extent: Vector<S>,
+    /// The vertices between which the points in question lie, about the expansion point.
+    pub hull: Hull,
 }
 
 impl<S: Enclosure> Region<S> {
@@ -98,6 +116,11 @@ impl<S: Enclosure> Region<S> {
                 (model.displacement([(1, 0); 3]), edge().map(|h| h.neg()))
             }
         };
-        Region { at: model.leg_vectors(&centre), over: model.leg_vectors(&over), extent }
+        let hull = match point {
+            ExpansionPoint::Centre if model.is_cylinder => Hull::in_cylinder(cell),
+            ExpansionPoint::Centre => Hull::CELL,
+            ExpansionPoint::LowerCorner | ExpansionPoint::UpperCorner => Hull::ABOUT_CORNER,
+        };
+        Region { at: model.leg_vectors(&centre), over: model.leg_vectors(&over), extent, hull }
     }
 }

@@ -16,6 +16,7 @@
 //! | [`kinematics`]  | legs: row of `M = J^-1`, joint coordinate, slopes                      |
 //! | [`model`]       | a claim's numbers, enclosed                                            |
 //! | [`cell`]        | boxes of the bisection tree                                            |
+//! | [`hull`]        | the vertices between which a cell's points lie                         |
 //! | [`expansion`]   | `M` over a cell, as a point value and slopes                           |
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
@@ -34,6 +35,7 @@ pub mod definite;
 pub mod enclosure;
 pub mod expansion;
 pub mod fixed;
+pub mod hull;
 pub mod kinematics;
 pub mod linear;
 pub mod model;

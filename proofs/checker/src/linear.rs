@@ -45,16 +45,6 @@ pub fn scale_matrix<S: Scalar>(c: &S, a: &Matrix<S>) -> Matrix<S> {
     from_fn(|i| scale(c, &a[i]))
 }
 
-/// `A + B`.
-pub fn add_matrix<S: Scalar>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
-    from_fn(|i| add(&a[i], &b[i]))
-}
-
-/// `A - B`.
-pub fn sub_matrix<S: Scalar>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
-    from_fn(|i| sub(&a[i], &b[i]))
-}
-
 /// `A B`.
 pub fn product<S: Scalar>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
     from_fn(|i| {

@@ -450,10 +450,7 @@ fn orthoglide(
 
 fn bounds(claim: &MachineClaim, units: &Units) -> Result<Bounds<Fixed>, ClaimError> {
     let requirements = &claim.requirements;
-    let angular = match &claim.mechanism {
-        Mechanism::Translational(legs) => legs.iter().all(claim::Leg::is_angular),
-        Mechanism::Orthoglide { .. } => false,
-    };
+    let angular = claim.mechanism.is_angular();
     // M has the unit of an inverse length for arms, and none for other drives.
     let rate = |x: &Exact, what: &str| {
         if angular {

@@ -113,10 +113,7 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     writeln!(out, "  every leg reaches P without a serial singularity;")?;
     writeln!(out, "  P is not a parallel singularity;")?;
     // Motors turn arms: M is in radians per length, joint coordinates are angles.
-    let angular = match &claim.mechanism {
-        Mechanism::Translational(legs) => legs.iter().all(Leg::is_angular),
-        Mechanism::Orthoglide { .. } => false,
-    };
+    let angular = claim.mechanism.is_angular();
     let (per_radian, degrees, radians) = if angular {
         (" (length per radian)", " (degrees, up to whole turns)", ", in radians")
     } else {

@@ -137,7 +137,7 @@ impl<S: Scalar> Arm<S> {
         let h_sum = add(&o.h, &c.h);
         let ratio_slope = sub(&scale(&inverse_n, &g_slope), &scale(&c.g.mul(&inverse_nn), &h_sum));
         let by_d = inverse_root.mul(&c.root_d.recip()?).mul(&o.root_d.add(&c.root_d).recip()?);
-        let d_slope = scale(&by_d, &self.d_slope(&c, &o, &g_slope));
+        let d_slope = scale(&by_d, &self.d_slope(&o.along.add(&c.along), &o.g.add(&c.g), &g_slope));
         let turned = scale(&inverse_nn, &cross(&self.k, &c.h));
         let k_cross = self.cross_matrix();
         let ratio = o.g.mul(&inverse_n);
@@ -163,10 +163,10 @@ impl<S: Scalar> Arm<S> {
     }
 
     /// Slope of `D`: `-((k . w) + (k . w_c)) k - (g + g_c - 2 r) (slope of g)`.
-    fn d_slope(&self, c: &At<S>, o: &At<S>, g_slope: &Vector<S>) -> Vector<S> {
-        let along = o.along.add(&c.along).neg();
-        let excess = o.g.add(&c.g).sub(&self.r).sub(&self.r);
-        sub(&scale(&along, &self.k), &scale(&excess, g_slope))
+    /// Given `(k . w) + (k . w_c)` and `g + g_c`.
+    fn d_slope(&self, along: &S, g: &S, g_slope: &Vector<S>) -> Vector<S> {
+        let excess = g.sub(&self.r).sub(&self.r);
+        sub(&scale(&along.neg(), &self.k), &scale(&excess, g_slope))
     }
 
     /// `[k]x`, with `[k]x v = k x v`.
@@ -184,6 +184,19 @@ impl<S: Scalar> Arm<S> {
         let across = length_squared.sub(&dot(&self.k, w).sqr());
         let excess = norm_squared(w).sub(&r_squared).sub(&length_squared);
         r_squared.integer_like(4).mul(&r_squared).mul(&across).sub(&excess.sqr())
+    }
+
+    /// `D / L^2` at `centre`, and its slope over `over`: `dD / L^2`, see [`Arm::expand`].
+    pub(super) fn expand_cosine_squared(
+        &self,
+        centre: &Vector<S>,
+        over: &Vector<S>,
+    ) -> Option<(S, Vector<S>)> {
+        let along = dot(&self.k, over).add(&dot(&self.k, centre));
+        let (g, g_c) = (self.g(over)?, self.g(centre)?);
+        let slope = self.d_slope(&along, &g.add(&g_c), &self.g_slope(centre, over)?);
+        let by_length = self.length.sqr().recip()?;
+        Some((self.cosine_squared(centre)?, scale(&by_length, &slope)))
     }
 
     /// `D / L^2`.
@@ -214,7 +227,7 @@ impl<S: Scalar> Arm<S> {
         let ratio_slope = sub(&scale(&inverse_n, &g_slope), &scale(&c.g.mul(&inverse_nn), &h_sum));
         let by_d = o.root_d.add(&c.root_d).recip()?.mul(&inverse_n);
         let root_slope = sub(
-            &scale(&by_d, &self.d_slope(&c, &o, &g_slope)),
+            &scale(&by_d, &self.d_slope(&o.along.add(&c.along), &o.g.add(&c.g), &g_slope)),
             &scale(&c.root_d.mul(&inverse_nn), &h_sum),
         );
         let (ratio, root_ratio) = (o.g.mul(&inverse_n), o.root_d.mul(&inverse_n));

@@ -162,6 +162,19 @@ impl<S: Scalar> Leg<S> {
         }
     }
 
+    /// [`Leg::cosine_squared`] of an arm at `centre`, and its slope over `over`; `None` for other
+    /// legs (of a slider it is concave, which is better than a slope), or where it is not enclosed.
+    pub fn expand_cosine_squared(
+        &self,
+        centre: &Vector<S>,
+        over: &Vector<S>,
+    ) -> Option<(S, Vector<S>)> {
+        match self {
+            Leg::Arm(leg) => leg.expand_cosine_squared(centre, over),
+            Leg::Slider(_) | Leg::Strut(_) | Leg::Planar(_) => None,
+        }
+    }
+
     /// The unit leg vector `(c_i - b_i) / L_i`, a row of `A` divided by the leg's length, about
     /// `centre` over `over`; for a planar leg, its direction.
     pub fn expand_unit(&self, centre: &Vector<S>, over: &Vector<S>) -> Option<UnitExpansion<S>> {

@@ -1,10 +1,11 @@
 //! The condition number of `M` over a cell.
 
-use super::vertex::{matrix_at_vertex, symmetric_at_vertex, twice_rotated, Rotation, VertexKind};
+use super::vertex::{symmetric_at, twice_rotated, Rotation};
 use super::Failure;
 use crate::definite::is_positive_definite;
 use crate::enclosure::Enclosure;
 use crate::expansion::Expansion;
+use crate::hull::LAMBDA_BITS;
 use crate::linear::Symmetric;
 use crate::model::Model;
 use std::array::from_fn;
@@ -19,7 +20,7 @@ const MAX_MU: i64 = 1 << 60;
 pub type Mu = [i64; 4];
 
 /// **Conditioning.** With `A(v)` as in [`crate::rule::lower`], `W` orthogonal and `mu` affine: if at
-/// the 8 vertices `mu(v) > 0`, `sym(W A(v)) - mu(v) I` is positive definite, and so is
+/// the vertices `mu(v) > 0`, `sym(W A(v)) - mu(v) I` is positive definite, and so is
 /// `(c mu(v))^2 I - A(v)^T A(v)`, then `sigma_max(M) < c sigma_min(M)` on the cell.
 ///
 /// *Proof.* Fix `P`. As in the vertex rules, by convexity: `sym(W M) - mu I` is positive definite
@@ -38,25 +39,20 @@ pub fn conditioning<S: Enclosure>(
     }
     let at_centre = twice_rotated(&w, &expansion.matrix);
     let slopes: [Symmetric<S>; 3] = from_fn(|k| twice_rotated(&w, &expansion.slopes[k]));
-    for vertex in 0..8u8 {
-        // The sum of four numbers of at most 2^60 fits i64.
-        let value = (0..3).fold(mu[0], |sum, k| {
-            if vertex >> k & 1 == 1 {
-                sum + mu[k + 1]
-            } else {
-                sum - mu[k + 1]
-            }
-        });
+    for vertex in expansion.hull.vertices() {
+        // 2^16 mu(v) 2^40: the sum of four products of at most 2^76 fits i128.
+        let terms = mu[1..].iter().zip(vertex.lambda).map(|(&m, l)| i128::from(m) * i128::from(l));
+        let value = (i128::from(mu[0]) << LAMBDA_BITS) + terms.sum::<i128>();
         if value <= 0 {
             return Err(Failure::BadMu);
         }
-        let mu = c.dyadic_like(value.unsigned_abs().into(), MU_BITS);
-        let symmetric = symmetric_at_vertex(&at_centre, &slopes, vertex, VertexKind::AboutCentre);
+        let mu = c.dyadic_like(value.unsigned_abs(), MU_BITS + LAMBDA_BITS);
+        let symmetric = symmetric_at(&at_centre, &slopes, &vertex);
         let lower = symmetric.minus_identity(&mu.mul(&mu.integer_like(2 * norm)));
-        let upper = Symmetric::gram_of(&matrix_at_vertex(expansion, vertex))
-            .subtracted_from(&c.mul(&mu).sqr());
+        let upper =
+            Symmetric::gram_of(&expansion.matrix_at(&vertex)).subtracted_from(&c.mul(&mu).sqr());
         if !(is_positive_definite(&lower) && is_positive_definite(&upper)) {
-            return Err(Failure::NotDefinite { vertex });
+            return Err(Failure::NotDefinite { vertex: vertex.number });
         }
     }
     Ok(())

@@ -1,19 +1,18 @@
 //! Joints: ranges of their coordinates, and the speeds that they are asked for.
 
-use super::vertex::matrix_at_vertex;
 use super::Failure;
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, Region};
-use crate::kinematics::JointCoordinate;
+use crate::kinematics::{JointCoordinate, Leg};
 use crate::linear::norm_squared;
 use crate::model::{JointRange, Model};
 
 /// **Joint range.** Each `rho_i` lies in its range on the cell.
 ///
 /// *Proof.* A length `rho_i` on the cell is in the value of its formula over the cell, and in
-/// `rho_i(c) + sum_k [-1, 1] h_k g_k` by the slope identity; both enclose the same numbers, so
-/// their intersection does. It is compared with the range, ends included.
+/// the hull of `rho_i(c) + sum_k lambda_k h_k g_k` at the vertices, by the slope identity, as it is
+/// affine in `lambda`; both enclose the same numbers, so their intersection does. It is compared with the range, ends included.
 ///
 /// An angle is given by its cosine and sine over the cell, and its range spans less than half a
 /// turn. Let `x = theta - min` in `[0, 360)` degrees. `sin(x) >= 0` gives `x <= 180`; then
@@ -32,9 +31,9 @@ pub fn range<S: Enclosure>(
         let within = match (state.rho, range) {
             (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
                 let rho = match &expansion.rho[leg] {
-                    Some((at, slopes)) => {
-                        let spread =
-                            slopes.iter().fold(at.clone(), |sum, h| sum.add(&h.join(&h.neg())));
+                    Some((at, [x, y, z])) => {
+                        let ends = expansion.hull.vertices().map(|v| v.affine(at, [x, y, z]));
+                        let spread = ends.reduce(|a, b| a.join(&b)).unwrap_or_else(|| rho.clone());
                         rho.meet(&spread).ok_or(Failure::OutOfReach(leg))?
                     }
                     None => rho,
@@ -72,16 +71,19 @@ fn angle_within<S: Enclosure>(theta: &(S, S), min: &(S, S), max: &(S, S)) -> boo
 /// **Joint speed.** `|row_i of M|` is at most its bound on the cell, for every leg; the speed of
 /// joint `i` for a tool velocity `v` is `row_i . v`, at most `|row_i| |v|`.
 ///
-/// *Proof.* Fix `P`. Row `i` of `M(P) = A(delta)` is affine in `delta`, and a norm is convex: it is
-/// at most its greatest value at the 8 vertices. ∎
+/// *Proof.* The row of a strut is a unit vector by definition. For other legs fix `P`. Row `i` of
+/// `M(P) = A(delta)` is affine in `delta`, and a norm is convex: it is at most its greatest value at
+/// the vertices. ∎
 pub fn speed<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Result<(), Failure> {
     let bound = model.bounds.joint_speed.as_ref().ok_or(Failure::NoSuchBound)?.sqr();
-    for vertex in 0..8 {
-        let at_vertex = matrix_at_vertex(expansion, vertex);
-        for (leg, row) in at_vertex.iter().enumerate() {
-            if !bound.sub(&norm_squared(row)).is_nonnegative() {
-                return Err(Failure::OutOfRange(leg));
-            }
+    let within = |square: &S| bound.sub(square).is_nonnegative();
+    for (i, leg) in model.legs.iter().enumerate() {
+        let holds = match leg {
+            Leg::Strut(_) => within(&bound.integer_like(1)),
+            _ => expansion.hull.vertices().all(|v| within(&norm_squared(&expansion.row_at(i, &v)))),
+        };
+        if !holds {
+            return Err(Failure::OutOfRange(i));
         }
     }
     Ok(())

@@ -4,12 +4,15 @@ use super::Failure;
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
 use crate::expansion::{ExpansionPoint, Region};
+use crate::kinematics::Leg;
 use crate::linear::{determinant, Matrix};
 use crate::model::Model;
 use std::array::from_fn;
 
 /// **Serial margin.** `(eta_i / L_i)^2` is at least the square of its bound on the cell, for every
-/// leg. *Proof.* It is in the value of its formula over the cell. ∎
+/// leg. *Proof.* For an arm, fix `P`: it is affine in `delta` by the slope identity of `D`, so at
+/// least its least value at the vertices. For a slider it is `1 - |r_i|^2 / L_i^2`, concave in `P`
+/// as `r_i` is affine: the same. ∎
 pub fn serial_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<(), Failure> {
     cosines_at_least(model, cell, model.bounds.serial_margin.as_ref())
 }
@@ -27,11 +30,26 @@ fn cosines_at_least<S: Enclosure>(
     bound: Option<&S>,
 ) -> Result<(), Failure> {
     let bound = bound.ok_or(Failure::NoSuchBound)?;
-    let over = Region::new(model, cell, ExpansionPoint::Centre).over;
+    let Region { at, over, extent, hull } = Region::new(model, cell, ExpansionPoint::Centre);
+    let zero = extent[0].integer_like(0);
+    let along = |k: usize, axis: usize| if k == axis { &extent[k] } else { &zero };
     for (i, leg) in model.legs.iter().enumerate() {
-        let cosine = leg.cosine_squared(&over[i]).ok_or(Failure::OutOfReach(i))?;
-        if !cosine.sub(bound).is_nonnegative() {
-            return Err(Failure::OutOfRange(i));
+        let at_least = |cosine: Option<S>| {
+            let enough = cosine.ok_or(Failure::OutOfReach(i))?.sub(bound).is_nonnegative();
+            enough.then_some(()).ok_or(Failure::OutOfRange(i))
+        };
+        for vertex in hull.vertices() {
+            let cosine = match leg {
+                Leg::Slider(_) => {
+                    let w = from_fn(|j| vertex.affine(&at[i][j], from_fn(|k| along(k, j))));
+                    leg.cosine_squared(&w)
+                }
+                _ => leg.expand_cosine_squared(&at[i], &over[i]).map(|(cosine, slope)| {
+                    let [x, y, z] = from_fn(|k| extent[k].mul(&slope[k]));
+                    vertex.affine(&cosine, [&x, &y, &z])
+                }),
+            };
+            at_least(cosine)?;
         }
     }
     Ok(())
@@ -49,8 +67,8 @@ fn cosines_at_least<S: Enclosure>(
 ///   = sum_k delta_k [det(e_1k, u_2, u_3) + det(c_1, e_2k, u_3) + det(c_1, c_2, e_3k)]
 /// ```
 ///
-/// with `u_i` in `c_i + sum_k [-1, 1] h_k e_ik`. The sum is enclosed, and the result compared with
-/// the bound on either side of zero. ∎
+/// with `u_i` in `c_i + sum_k [-1, 1] h_k e_ik`. The sum, affine in `delta`, is enclosed at the
+/// vertices, and their hull compared with the bound on either side of zero. ∎
 pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<(), Failure> {
     let bound = model.bounds.parallel_margin.as_ref().ok_or(Failure::NoSuchBound)?;
     let region = Region::new(model, cell, ExpansionPoint::Centre);
@@ -66,12 +84,15 @@ pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<()
     let u: Matrix<S> = from_fn(|i| {
         from_fn(|j| (0..3).fold(c[i][j].clone(), |sum, k| sum.add(&either_way(&e[i][k][j]))))
     });
-    let varied = (0..3).fold(determinant(&c), |sum, k| {
+    let slope = |k: usize| {
         let first = determinant(&[e[0][k].clone(), u[1].clone(), u[2].clone()]);
         let second = determinant(&[c[0].clone(), e[1][k].clone(), u[2].clone()]);
         let third = determinant(&[c[0].clone(), c[1].clone(), e[2][k].clone()]);
-        sum.add(&either_way(&first.add(&second).add(&third)))
-    });
+        first.add(&second).add(&third)
+    };
+    let (at, [x, y, z]) = (determinant(&c), [slope(0), slope(1), slope(2)]);
+    let ends = region.hull.vertices().map(|v| v.affine(&at, [&x, &y, &z]));
+    let varied = ends.reduce(|a, b| a.join(&b)).unwrap_or(at);
     let beyond = varied.sub(bound).is_nonnegative() || varied.neg().sub(bound).is_nonnegative();
     if beyond {
         Ok(())

@@ -6,7 +6,8 @@ use crate::claim::Sign;
 use crate::definite::is_positive_definite;
 use crate::enclosure::{Enclosure, Scalar};
 use crate::expansion::{Expansion, ExpansionPoint};
-use crate::linear::{add_matrix, product, sub_matrix, Matrix, Symmetric};
+use crate::hull::Vertex;
+use crate::linear::{product, Matrix, Symmetric, Vector};
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
@@ -59,26 +60,19 @@ impl Rotation {
     }
 }
 
-/// `M(c) + sum_k lambda_k slopes_k` for `lambda_k = high` where bit `k` of `vertex` is set, `low`
-/// elsewhere, over symmetric matrices.
-pub(super) fn symmetric_at_vertex<S: Scalar>(
+/// `B(c) + sum_k lambda_k slopes_k` at a vertex, over symmetric matrices.
+pub(super) fn symmetric_at<S: Enclosure>(
     at_centre: &Symmetric<S>,
-    slopes: &[Symmetric<S>; 3],
-    vertex: u8,
-    kind: VertexKind,
+    [x, y, z]: &[Symmetric<S>; 3],
+    vertex: &Vertex,
 ) -> Symmetric<S> {
-    (0..3).fold(at_centre.clone(), |sum, k| match (vertex >> k & 1 == 1, kind) {
-        (true, _) => sum.add(&slopes[k]),
-        (false, VertexKind::AboutCentre) => sum.sub(&slopes[k]),
-        (false, VertexKind::AboutCorner) => sum,
-    })
-}
-
-/// The range of the `lambda_k`: `[-1, 1]` about a centre, `[0, 1]` about a corner.
-#[derive(Clone, Copy)]
-pub(super) enum VertexKind {
-    AboutCentre,
-    AboutCorner,
+    let sum = |a: &Vector<S>, b: [&Vector<S>; 3]| -> Vector<S> {
+        from_fn(|i| vertex.affine(&a[i], b.map(|b| &b[i])))
+    };
+    Symmetric {
+        diagonal: sum(&at_centre.diagonal, [&x.diagonal, &y.diagonal, &z.diagonal]),
+        off: sum(&at_centre.off, [&x.off, &y.off, &z.off]),
+    }
 }
 
 /// `|q|^2 (W A + (W A)^T)`, linear in `A`.
@@ -89,8 +83,8 @@ pub(super) fn twice_rotated<S: Scalar>(w: &[[i64; 3]; 3], a: &Matrix<S>) -> Symm
 
 /// **Vertex rule, lower bound.** For `P = c + delta` in the cell let
 /// `A(v) = M(c) + sum_k v_k E_k(P)`, so that `M(P) = A(delta)`. If `sym(W A(v)) - kappa I` is
-/// positive definite at the 8 vertices `v` of the cell, for one orthogonal `W`, then
-/// `sigma_min(M(P)) > kappa`.
+/// positive definite at the vertices `v` of the cell's [`crate::hull`] (8 for a box), for one
+/// orthogonal `W`, then `sigma_min(M(P)) > kappa`.
 ///
 /// *Proof.* Fix `P`. `delta` is a convex combination of the vertices, `A` is affine, and positive
 /// definite matrices are a convex set: `sym(W M(P)) - kappa I` is positive definite. For a unit
@@ -109,19 +103,17 @@ pub fn lower<S: Enclosure>(
     let kappa = model.bounds.kappa.mul(&model.bounds.kappa.integer_like(2 * norm));
     let at_centre = twice_rotated(&w, &expansion.matrix).minus_identity(&kappa);
     let slopes = from_fn(|k| twice_rotated(&w, &expansion.slopes[k]));
-    all_vertices(0, &at_centre, &slopes, VertexKind::AboutCentre)
+    all_positive_definite(expansion.hull.vertices(), &at_centre, &slopes)
 }
 
-fn all_vertices<S: Enclosure>(
-    first: u8,
+fn all_positive_definite<S: Enclosure>(
+    mut vertices: impl Iterator<Item = Vertex>,
     at_centre: &Symmetric<S>,
     slopes: &[Symmetric<S>; 3],
-    kind: VertexKind,
 ) -> Result<(), Failure> {
-    match (first..8).find(|&vertex| {
-        !is_positive_definite(&symmetric_at_vertex(at_centre, slopes, vertex, kind))
-    }) {
-        Some(vertex) => Err(Failure::NotDefinite { vertex }),
+    let fails = |v: &Vertex| !is_positive_definite(&symmetric_at(at_centre, slopes, v));
+    match vertices.find(fails) {
+        Some(Vertex { number, .. }) => Err(Failure::NotDefinite { vertex: number }),
         None => Ok(()),
     }
 }
@@ -187,18 +179,8 @@ pub fn corner<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Resul
     let kappa = model.bounds.kappa.mul(&two);
     let at_corner = Symmetric::twice_part_of(&expansion.matrix).minus_identity(&kappa);
     let slopes = from_fn(|k| Symmetric::twice_part_of(&expansion.slopes[k]));
-    all_vertices(1, &at_corner, &slopes, VertexKind::AboutCorner)
-}
-
-/// `A(v) = M(c) + sum_k (+-1) slopes_k`, plus where bit `k` of `vertex` is set.
-pub(super) fn matrix_at_vertex<S: Scalar>(expansion: &Expansion<S>, vertex: u8) -> Matrix<S> {
-    (0..3).fold(expansion.matrix.clone(), |sum, k| {
-        if vertex >> k & 1 == 1 {
-            add_matrix(&sum, &expansion.slopes[k])
-        } else {
-            sub_matrix(&sum, &expansion.slopes[k])
-        }
-    })
+    // The first vertex is the corner itself.
+    all_positive_definite(expansion.hull.vertices().skip(1), &at_corner, &slopes)
 }
 
 /// **Vertex rule, upper bound.** If `k^2 I - A(v)^T A(v)` is positive definite at the 8 vertices,
@@ -208,12 +190,12 @@ pub(super) fn matrix_at_vertex<S: Scalar>(expansion: &Expansion<S>, vertex: u8) 
 /// `||M(P)||_2 < k`. ∎
 pub fn upper<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Result<(), Failure> {
     let k_squared = model.bounds.k.as_ref().ok_or(Failure::NoSuchBound)?.sqr();
-    let exceeds = |vertex: &u8| {
-        let at_vertex = matrix_at_vertex(expansion, *vertex);
-        !is_positive_definite(&Symmetric::gram_of(&at_vertex).subtracted_from(&k_squared))
+    let exceeds = |vertex: &Vertex| {
+        let gram = Symmetric::gram_of(&expansion.matrix_at(vertex));
+        !is_positive_definite(&gram.subtracted_from(&k_squared))
     };
-    match (0..8).find(exceeds) {
-        Some(vertex) => Err(Failure::NotDefinite { vertex }),
+    match expansion.hull.vertices().find(exceeds) {
+        Some(Vertex { number, .. }) => Err(Failure::NotDefinite { vertex: number }),
         None => Ok(()),
     }
 }

@@ -9,6 +9,7 @@ use orthocert_checker::claim::{MachineClaim, Sign};
 use orthocert_checker::enclosure::{Enclosure, Scalar};
 use orthocert_checker::expansion::{Expansion, ExpansionPoint, OutOfReach, Region};
 use orthocert_checker::fixed::Fixed;
+use orthocert_checker::hull::Hull;
 use orthocert_checker::linear::{product, Matrix};
 use orthocert_checker::model::{JointRange, Model};
 use orthocert_checker::rule::{self, Failure, Rotation, TightCorner, MAX_QUATERNION};
@@ -147,6 +148,7 @@ fn singular_between_vertices(axis: usize, entry: usize) -> Expansion<Fixed> {
             false => zero.clone(),
         }),
         rho: [None, None, None],
+        hull: Hull::CELL,
     }
 }
 
@@ -318,7 +320,7 @@ fn boxes_out_of_reach_have_no_expansion() {
 fn multiples_of_identity(a: i64, d: [i64; 3]) -> Expansion<Fixed> {
     let integer = |n: i64| Fixed::integer(n, BITS);
     let times = |n: i64| from_fn(|i| from_fn(|j| integer(if i == j { n } else { 0 })));
-    Expansion { matrix: times(a), slopes: d.map(times), rho: [None, None, None] }
+    Expansion { matrix: times(a), slopes: d.map(times), rho: [None, None, None], hull: Hull::CELL }
 }
 
 #[test]
