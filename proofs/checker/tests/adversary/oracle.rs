@@ -212,12 +212,12 @@ fn look(legs: [Leg; 3], p: V) -> Look {
     for leg in &legs {
         let reach = leg.reach(p);
         let sharp = blur(leg, p, 1.0);
-        if sharp.is_nan() || sharp > 1e-4 {
-            return Look::Unclear;
-        }
         if reach < -100.0 * sharp && !matches!(leg, Leg::Strut { .. }) {
             out = true;
             continue;
+        }
+        if sharp.is_nan() || sharp > 1e-4 {
+            return Look::Unclear;
         }
         let error = blur(leg, p, reach);
         // Not a number counts as unclear as well.
@@ -234,12 +234,8 @@ fn look(legs: [Leg; 3], p: V) -> Look {
     }
     let states = legs.map(|leg| leg.at(p));
     let (sigma, _) = singular(&states.map(|state| state.row));
-    let blur = 10.0 * worst * sigma[2] / sigma[0] + 1e-9;
-    if blur < 1e-3 {
-        Look::Clear(Box::new(Place { legs, p, states, sigma, blur }))
-    } else {
-        Look::Unclear
-    }
+    let blur = 10.0 * worst + 1e-9;
+    Look::Clear(Box::new(Place { legs, p, states, sigma, blur }))
 }
 
 impl Place {
@@ -253,15 +249,25 @@ impl Place {
     }
 
     fn psi_above(&self, side: Side, max: f64) -> bool {
-        self.beyond(side, 1.0 / self.sigma[0], max, max)
+        self.beyond(side, 1.0 / max, self.sigma[0], self.sigma[2])
     }
 
     fn psi_below(&self, side: Side, min: f64) -> bool {
-        self.beyond(side, self.sigma[2], 1.0 / min, 1.0 / min)
+        self.beyond(side, self.sigma[2], 1.0 / min, self.sigma[2])
     }
 
     fn conditioning(&self, side: Side, max: f64) -> bool {
-        self.beyond(side, self.sigma[2] / self.sigma[0], max, max)
+        self.beyond(side, self.sigma[2], max * self.sigma[0], max * self.sigma[2])
+    }
+
+    /// The sign of `det M`, or zero if rounding may have made it.
+    fn sign(&self) -> f64 {
+        let det = determinant(&self.states.map(|state| state.unit));
+        if det.abs() > 10.0 * self.blur {
+            determinant(&self.states.map(|state| state.row)).signum()
+        } else {
+            0.0
+        }
     }
 
     fn cosine_below(&self, side: Side, leg: usize, min: f64) -> bool {
@@ -318,9 +324,9 @@ impl Place {
             ("psi_min", min.is_some_and(|min| self.psi_below(fails, min))),
             (
                 "joint_range",
-                joint_range.as_ref().is_some_and(|ranges| {
-                    any_leg(&|i| self.outside_range(fails, i, &ranges[i]))
-                }),
+                joint_range
+                    .as_ref()
+                    .is_some_and(|ranges| any_leg(&|i| self.outside_range(fails, i, &ranges[i]))),
             ),
             (
                 "conditioning",
@@ -372,7 +378,7 @@ impl Place {
             Violation::SigmaMin(_) => max.is_none_or(|max| self.psi_above(holds, max)),
             Violation::SigmaMax(_) => min.is_none_or(|min| self.psi_below(holds, min)),
             // The place is within reach, by more than rounding.
-            Violation::Reach(_) => self.legs.iter().all(|leg| leg.reach(self.p) > 1e-3),
+            Violation::Reach(leg) => self.legs[leg.leg - 1].reach(self.p) > 1e-3,
             Violation::JointRange(leg) => needed
                 .joint_range
                 .as_ref()
@@ -422,11 +428,10 @@ fn certified(claim: &MachineClaim, random: &mut Random, samples: u64) -> Opinion
                 if let Some(failure) = place.failure(claim) {
                     return Opinion::Contradicts(failure);
                 }
-                let here = determinant(&place.states.map(|state| state.row)).signum();
-                if here * sign < 0.0 {
+                if place.sign() * sign < 0.0 {
                     return Opinion::Contradicts(format!("det M changes its sign at {p:?}"));
                 }
-                sign = here;
+                sign = if place.sign() == 0.0 { sign } else { place.sign() };
             }
         }
     }
@@ -452,12 +457,10 @@ fn refuted(claim: &MachineClaim, witness: &Witness) -> Opinion {
     if let Violation::Singular(second) = &witness.violates {
         let q = from_fn(|k| approximate(&second.other[k]));
         let Look::Clear(other) = look(legs, q) else { return Opinion::None };
-        let signs =
-            [&place, &other].map(|at| determinant(&at.states.map(|state| state.row)).signum());
-        return if signs[0] == signs[1] {
-            Opinion::Contradicts(format!("det M has one sign at {p:?} and {q:?}"))
-        } else {
-            Opinion::Agrees
+        return match place.sign() * other.sign() {
+            1.0 => Opinion::Contradicts(format!("det M has one sign at {p:?} and {q:?}")),
+            -1.0 => Opinion::Agrees,
+            _ => Opinion::None,
         };
     }
     if place.unviolated(claim, &witness.violates) {
