@@ -46,6 +46,7 @@ pub fn paths(value: &Value, at: &str, found: &mut Vec<String>) {
         }
         Value::Object(fields) => {
             for (key, item) in fields {
+                let key = key.replace('~', "~0").replace('/', "~1");
                 paths(item, &format!("{at}/{key}"), found);
             }
         }
