@@ -247,7 +247,7 @@ fn mutants_of_certificates_are_rejected_or_true() {
 
 /// `cargo test --release -p orthocert-checker --test adversary -- --ignored --nocapture`
 #[test]
-#[ignore = "takes minutes; benches/runs/mutation.md has what it said"]
+#[ignore = "takes many minutes"]
 fn every_mutant_of_every_certificate_is_rejected_or_true() {
     judge_all(|_| 1);
 }
