@@ -40,12 +40,10 @@ where
     R: Send + 'static,
 {
     let count = jobs.len();
-    let (work, next) = (Arc::new(work), Arc::new(AtomicUsize::new(0)));
     let (sender, receiver) = mpsc::channel();
-    for _ in 0..workers.clamp(1, count.max(1)) {
-        let (jobs, work) = (Arc::clone(&jobs), Arc::clone(&work));
-        let (next, sender) = (Arc::clone(&next), sender.clone());
-        thread::spawn(move || {
+    let worker = {
+        let next = AtomicUsize::new(0);
+        move || {
             while !cancel.load(Ordering::Relaxed) {
                 let index = next.fetch_add(1, Ordering::Relaxed);
                 let Some(job) = jobs.get(index) else { break };
@@ -56,9 +54,19 @@ where
                     break;
                 }
             }
-        });
+        }
+    };
+    let worker = Arc::new(worker);
+    let start = |_| {
+        let worker = Arc::clone(&worker);
+        thread::Builder::new().spawn(move || worker()).is_ok()
+    };
+    let started = (0..workers.clamp(1, count.max(1))).take_while(|index| start(*index)).count();
+    if started == 0 {
+        // Where not even one thread can be started, this one does the work.
+        worker();
     }
-    drop(sender);
+    drop(worker);
     let mut outcomes: Vec<Outcome<R>> = (0..count).map(|_| Outcome::NotRun).collect();
     let mut cancelled_at: Option<Instant> = None;
     loop {

@@ -103,8 +103,11 @@ pub fn run(
         move |one: &Planned| prove(one, folders, reprove, &budget)
     };
     let tell = |index: usize, outcome: &Outcome<Entry>| {
-        if let (Some(one), false) = (jobs.get(index), effort.quiet) {
-            print::line(&summary::line(&entry(one, outcome), print::error_style()));
+        let Some(entry) = jobs.get(index).map(|one| entry(one, outcome)) else { return };
+        let trouble = matches!(entry.verdict, Ending::BadInput | Ending::NotFinished);
+        // What is wrong is said also where nothing else is.
+        if trouble || !effort.quiet {
+            print::line(&summary::line(&entry, print::error_style()));
         }
     };
     let workers = workers(flags.jobs);

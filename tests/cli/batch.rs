@@ -97,7 +97,7 @@ fn answers_do_not_depend_on_the_jobs() {
         let arguments =
             ["verify", "designs", "--format", "json", "--jobs", jobs, "--reprove", "--quiet"];
         let run = folder.run(&arguments).exits(2);
-        assert_eq!(run.stderr, "");
+        assert!(run.stderr.starts_with("BAD INPUT") && run.stderr.lines().count() == 1);
         (timeless(json(&run)), folder.read("designs/b.cert.json"))
     };
     assert_eq!(answer("1"), answer("4"));
