@@ -164,7 +164,7 @@ impl Entry {
     /// What there is to say beyond the verdict, in one sentence; empty where that is all.
     pub fn remark(&self) -> String {
         if let Some(found) = &self.counterexample {
-            return format!("{} fails: {}", found.violated, found.value);
+            return format!("{}; demanded: {}", found.value, found.violated);
         }
         let first = self.message.as_deref().unwrap_or_default().lines().next();
         first.unwrap_or_default().to_owned()

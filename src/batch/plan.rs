@@ -1,6 +1,7 @@
 //! The designs that files and folders stand for, and where their certificates go.
 
-use std::collections::BTreeMap;
+use crate::output::folder_of;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs;
 use std::io;
@@ -79,7 +80,7 @@ impl std::error::Error for PlanError {
 /// [`PlanError`]: in particular, no two designs of a plan have the same certificate.
 pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, PlanError> {
     let mut planned: Vec<Planned> = Vec::new();
-    let mut known = BTreeMap::new();
+    let mut known = BTreeSet::new();
     for argument in arguments {
         let found = match argument.is_dir() {
             true => below(argument, ".toml")?,
@@ -89,8 +90,7 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
             return Err(PlanError::NoDesigns(argument.clone()));
         }
         for design in found {
-            let identity = fs::canonicalize(&design).unwrap_or_else(|_| design.clone());
-            if known.insert(identity, ()).is_some() {
+            if !known.insert(identity(&design)) {
                 continue;
             }
             let beside = certificate_of(&design);
@@ -101,16 +101,26 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
             planned.push(Planned { design, certificate });
         }
     }
-    let mut targets: BTreeMap<&Path, &Planned> = BTreeMap::new();
+    let mut targets: BTreeMap<PathBuf, &Planned> = BTreeMap::new();
     for one in &planned {
-        if let Some(other) = targets.insert(&one.certificate, one) {
-            return Err(PlanError::Clash(other.clone(), one.clone()));
-        }
-        if fs::canonicalize(&one.certificate).is_ok_and(|path| known.contains_key(&path)) {
+        let target = identity(&one.certificate);
+        if known.contains(&target) {
             return Err(PlanError::OverDesign(one.clone()));
+        }
+        if let Some(other) = targets.insert(target, one) {
+            return Err(PlanError::Clash(other.clone(), one.clone()));
         }
     }
     Ok(planned)
+}
+
+/// The same for all ways to write the path of a file, which need not exist if its folder does.
+pub fn identity(path: &Path) -> PathBuf {
+    let in_folder = || {
+        let folder = fs::canonicalize(folder_of(path)).ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    fs::canonicalize(path).ok().or_else(in_folder).unwrap_or_else(|| path.to_owned())
 }
 
 /// `NAME.cert.json` beside `NAME.toml`.
@@ -231,6 +241,8 @@ mod tests {
             Err(PlanError::Clash(..))
         ));
         assert!(matches!(plan(&[path("b/x.toml"), path("b/x")], None), Err(PlanError::Clash(..))));
+        let other = path("b/../b/x");
+        assert!(matches!(plan(&[path("b/x.toml"), other], None), Err(PlanError::Clash(..))));
         fs::write(path("b/x.cert.json"), "").unwrap();
         let arguments = [path("b/x.toml"), path("b/x.cert.json")];
         assert!(matches!(plan(&arguments, None), Err(PlanError::OverDesign(_))));

@@ -3,6 +3,7 @@
 use super::check::examine;
 use super::{input, print, Failure, Status};
 use orthocert::attestation::{statement, Evidence};
+use orthocert::batch::plan::identity;
 use orthocert::design::Design;
 use orthocert::output;
 use std::path::{Path, PathBuf};
@@ -26,6 +27,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { certificate: path, design: design_path, output } = arguments;
     if let Some(output) = output {
         output::probe(output)?;
+        if [path, design_path].iter().any(|input| identity(input) == identity(output)) {
+            return Err(Failure::Input(format!(
+                "--output: {} is what the statement is about; accepted: another path",
+                output.display()
+            )));
+        }
     }
     // What is hashed is what is read: the bytes are taken once.
     let design_bytes = Design::bytes(design_path).map_err(Failure::input)?;

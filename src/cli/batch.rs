@@ -1,7 +1,7 @@
 //! `orthocert verify` of several designs.
 
 use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
-use orthocert::batch::plan::{plan, Planned};
+use orthocert::batch::plan::{identity, plan, Planned};
 use orthocert::batch::requirement::{broken, requirements, Known};
 use orthocert::batch::run::{run as run_jobs, Outcome};
 use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
@@ -57,7 +57,6 @@ impl Flags {
 
     /// Refuses reports that cannot be written, or that would take the place of something else.
     fn probe(&self, planned: &[Planned]) -> Result<(), Failure> {
-        let identity = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let paths = planned.iter().flat_map(|one| [&one.design, &one.certificate]);
         let mut taken: BTreeSet<PathBuf> = paths.map(|path| identity(path)).collect();
         for (option, path) in self.reports() {

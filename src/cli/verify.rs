@@ -1,11 +1,10 @@
 //! `orthocert verify`.
 
 use super::{batch, effort::Effort, print, prove::Task, Failure, Format, Status};
-use orthocert::batch::plan::certificate_of;
+use orthocert::batch::plan::{certificate_of, identity};
 use orthocert::design::Design;
 use orthocert::report::text;
 use orthocert::verify::verify;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -88,17 +87,10 @@ fn target(output: Option<&Path>, design: Option<&Path>) -> Result<PathBuf, Failu
         (None, Some(design)) => certificate_of(design),
         (None, None) => PathBuf::from(PROTOTYPE),
     };
-    if design.is_some_and(|design| same_file(design, &target)) {
+    if design.is_some_and(|design| identity(design) == identity(&target)) {
         let path = target.display();
         let message = format!("--output: {path} is the design itself; accepted: another path");
         return Err(Failure::Input(message));
     }
     Ok(target)
-}
-
-fn same_file(one: &Path, other: &Path) -> bool {
-    match (fs::canonicalize(one), fs::canonicalize(other)) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => false,
-    }
 }

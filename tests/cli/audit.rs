@@ -113,4 +113,9 @@ fn nothing_is_attested_of_another_claim_or_of_a_rejected_certificate() {
     folder.write("bad.json", "{}");
     folder.run(&[&["attest", "bad.json"][..], &design].concat()).exits(5).complains(&["REJECTED"]);
     assert!(!folder.path("x.json").exists());
+    let arguments = ["attest", "proofs/b.cert.json", "--design", "designs/b.toml", "-o"];
+    for output in ["./proofs/b.cert.json", "designs/sub/../b.toml"] {
+        let run = folder.run(&[&arguments[..], &[output]].concat()).exits(2);
+        run.complains(&["what the statement is about"]);
+    }
 }

@@ -147,6 +147,7 @@ fn clashes_empty_folders_and_misplaced_options_are_refused_before_the_work() {
             vec!["both have the certificate proofs/b.cert.json"],
         ),
         (vec!["designs", "--junit", "designs/b.toml"], vec!["--junit", "a path of its own"]),
+        (vec!["designs", "--junit", "x", "--sarif", "./x"], vec!["--sarif", "a path of its own"]),
     ] {
         let arguments = [&["verify"][..], &arguments].concat();
         folder.run(&arguments).exits(2).complains(&parts);
