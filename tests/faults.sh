@@ -169,11 +169,11 @@ ended=0 refused=0
 for megabytes in 8 12 16 20 24 28 32 40 48 64 96 128 256 512 1024; do
   rm -rf small
   code=0
-  (
+  { (
     ulimit -v $((megabytes * 1024)) -c 0
     # One heap for all threads: glibc's own for each needs 128 MB of addresses, and is slow without.
     MALLOC_ARENA_MAX=1 exec timeout 60 "${batch[@]}" --out small >/dev/null 2>stderr.txt
-  ) 2>/dev/null || code=$?
+  ) || code=$?; } 2>/dev/null
   if [ -d small ]; then whole small; fi
   case $code in
     1) ended=$((ended + 1)) ;;
