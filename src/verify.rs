@@ -158,6 +158,17 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
     }
 }
 
+/// The worst value of every requirement of a claim, found by sampling alone.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
+    let model = Model::new(claim, MODEL_PRECISION)?;
+    let sampler =
+        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
+    Ok(worst_values(&sampler))
+}
+
 /// The worst value of every quality, from the best start of a coarse grid.
 fn worst_values(sampler: &Sampler) -> Vec<Worst> {
     let grid: Vec<_> = sampler.grid().into_iter().map(|p| (sampler.at(&p), p)).collect();

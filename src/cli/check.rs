@@ -1,6 +1,6 @@
 //! `orthocert check`.
 
-use super::{input, print, Failure, Format, Status};
+use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -13,12 +13,19 @@ use std::path::PathBuf;
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The certificate
-    #[arg(value_name = "CERT.json")]
+    /// The certificate; or a folder, all certificates of which are checked against the designs of
+    /// the same names, and in which neither may lack the other
+    #[arg(value_name = "CERT.json|FOLDER")]
     certificate: PathBuf,
     /// Demand that the certificate is about this design's claim
     #[arg(long, value_name = "DESIGN.toml")]
     design: Option<PathBuf>,
+    /// With a folder: where the designs are [default: in the same folder]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "design")]
+    designs: Option<PathBuf>,
+    /// With a folder: certificates at a time [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
+    jobs: Option<u64>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -44,6 +51,15 @@ enum Answer<'a> {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    if arguments.certificate.is_dir() {
+        return folder(arguments);
+    }
+    if arguments.designs.is_some() || arguments.jobs.is_some() {
+        let path = arguments.certificate.display();
+        return Err(Failure::Input(format!(
+            "--designs, --jobs: {path} is no folder; accepted: with a folder of certificates"
+        )));
+    }
     // The design first: what is wrong with it is no defect of the certificate.
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;
@@ -68,8 +84,21 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
 }
 
+/// Checks all of a folder.
+fn folder(arguments: &Arguments) -> Result<Status, Failure> {
+    let Arguments { certificate, design, designs, jobs, format } = arguments;
+    if let Some(design) = design {
+        return Err(Failure::Input(format!(
+            "--design: found {} with a folder of certificates; accepted: --designs FOLDER",
+            design.display()
+        )));
+    }
+    let designs = designs.as_ref().unwrap_or(certificate);
+    audit::run(certificate, designs, *jobs, *format)
+}
+
 /// Accepts a certificate, or says why not.
-fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
+pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
     let certificate = read(bytes).map_err(|reason| reason.to_string())?;
     if let Some(design) = design {
         if certificate.claim != design.claim {

@@ -15,7 +15,7 @@ const MAX_BOXES: u64 = 500_000;
 const MAX_THREADS: u64 = 1024;
 
 /// The flags.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
     /// Boxes after which the search gives up; beyond 2,000,000 no certificate goes
     #[arg(long, value_name = "N", default_value_t = MAX_BOXES,

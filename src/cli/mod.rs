@@ -1,6 +1,9 @@
 //! Commands: one module each. Flags are parsed here; every command resolves its own settings and
 //! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
 
+mod attest;
+mod audit;
+mod batch;
 mod bounds;
 mod certify;
 mod check;
@@ -8,6 +11,7 @@ mod completions;
 mod design;
 mod effort;
 mod export;
+mod github;
 mod import;
 mod init;
 mod input;
@@ -16,6 +20,7 @@ mod paper;
 mod postulate;
 mod print;
 mod progress;
+mod prove;
 mod show;
 mod verify;
 
@@ -47,10 +52,12 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Prove or refute a design, and write the certificate.
+    /// Prove or refute a design, or many of them, and write the certificates.
     Verify(verify::Arguments),
-    /// Re-prove a certificate in exact arithmetic and print what it establishes.
+    /// Re-prove a certificate, or all of a folder, in exact arithmetic and print what it establishes.
     Check(check::Arguments),
+    /// Write an in-toto statement about a design and its certificate, for signing.
+    Attest(attest::Arguments),
     /// Print a certificate's claim, verdict and size, without checking it.
     Show(show::Arguments),
     /// Compute the machine that the paper's Steps 1 to 3 give for a cube, with certified digits.
@@ -92,6 +99,8 @@ pub enum Status {
     Undecided,
     /// The certificate proves nothing.
     Rejected,
+    /// Several endings, the worst of which has this exit code.
+    Worst(u8),
 }
 
 impl Status {
@@ -102,6 +111,7 @@ impl Status {
             Status::Decided(Verdict::Refuted) => 1,
             Status::Undecided => 3,
             Status::Rejected => 5,
+            Status::Worst(code) => code,
         }
     }
 }
@@ -121,6 +131,8 @@ pub enum Failure {
     Output(String),
     /// A signal asked to end: exit 4.
     Interrupted,
+    /// Something could not be written, as was said already: exit 4.
+    Reported,
     /// This program is wrong: exit 4.
     Defect,
 }
@@ -133,16 +145,24 @@ impl Failure {
 
     /// Says why on standard error; returns the exit code.
     pub fn report(&self) -> ExitCode {
-        let (code, message) = match self {
-            Failure::Input(message) => (2, message.as_str()),
-            Failure::Output(message) => (4, message.as_str()),
+        match self {
             Failure::Interrupted => return interrupt::end(),
+            Failure::Reported => {}
+            _ => print::diagnostic(self.message()),
+        }
+        ExitCode::from(if matches!(self, Failure::Input(_)) { 2 } else { 4 })
+    }
+
+    /// Why, in a sentence.
+    fn message(&self) -> &str {
+        match self {
+            Failure::Input(message) | Failure::Output(message) => message,
+            Failure::Interrupted => "interrupted",
+            Failure::Reported => "could not finish",
             Failure::Defect => {
-                (4, "stopped by a defect of this program; no verdict is given. Please report it")
+                "stopped by a defect of this program; no verdict is given. Please report it"
             }
-        };
-        print::diagnostic(message);
-        ExitCode::from(code)
+        }
     }
 }
 
@@ -166,6 +186,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     match &arguments.command {
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Attest(arguments) => attest::run(arguments),
         Command::Show(arguments) => show::run(arguments),
         Command::Design(arguments) => design::run(arguments),
         Command::Init(arguments) => init::run(arguments),

@@ -81,6 +81,11 @@ impl Design {
 
     /// Reads a design file.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
+        Design::of(&Design::bytes(path)?, path)
+    }
+
+    /// The bytes of a design file.
+    pub fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
         let unreadable = |error| ReadError::Unreadable(path.to_owned(), error);
         if path.is_dir() {
             return Err(ReadError::Directory(path.to_owned()));
@@ -91,11 +96,16 @@ impl Design {
         if bytes.len() as u64 > MAX_FILE {
             return Err(ReadError::TooLarge(path.to_owned()));
         }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let valid = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
+        Ok(bytes)
+    }
+
+    /// Reads the bytes of a design file; `path` is for messages only.
+    pub fn of(bytes: &[u8], path: &Path) -> Result<Self, ReadError> {
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let valid = bytes.iter().take(error.valid_up_to());
             ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
         })?;
-        Ok(Design::parse(&text, &path.display().to_string())?)
+        Ok(Design::parse(text, &path.display().to_string())?)
     }
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.

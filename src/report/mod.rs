@@ -23,7 +23,9 @@ use orthocert_checker::model::Model;
 use orthocert_checker::TreeSize;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::time::Duration;
 
 /// Fractional bits of the model from which values are sampled for the table.
@@ -71,7 +73,9 @@ pub struct Report {
     pub boxes_tried: usize,
     /// Seconds from the start to the accepted verdict.
     pub seconds: f64,
-    /// The certificate that was written.
+    /// Whether nothing was searched for: the certificate was there, and was re-checked exactly.
+    pub cached: bool,
+    /// The certificate that was written, or re-checked.
     pub certificate: Option<CertificateFile>,
     /// What an undecided run left in the certificate's place.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -120,6 +124,15 @@ pub struct CertificateFile {
     pub sha256: String,
 }
 
+/// The SHA-256 of `bytes`, in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    let mut out = String::with_capacity(64);
+    for byte in Sha256::digest(bytes) {
+        let _ = write!(out, "{byte:02x}");
+    }
+    out
+}
+
 /// A file that an earlier run left where this run's certificate would be.
 #[derive(Clone, Debug, Serialize)]
 pub struct EarlierFile {
@@ -146,6 +159,7 @@ impl Report {
             undecided: None,
             boxes_tried: found.boxes,
             seconds: elapsed.as_secs_f64(),
+            cached: false,
             certificate: None,
             earlier_certificate: None,
             claim: Claim::Machine(claim.clone()),

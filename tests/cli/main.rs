@@ -3,8 +3,12 @@
 //! | module         | holds                                                             |
 //! |----------------|-------------------------------------------------------------------|
 //! | [`support`]    | running the binary in a folder of its own                         |
+//! | [`junit`]      | reading and judging JUnit reports                                 |
 //! | `verdicts`     | every verdict of `verify`: exit code, report, certificate         |
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
+//! | `batch`        | `verify` of many designs, and its reports                         |
+//! | `cache`        | certificates that are there are re-checked                        |
+//! | `audit`        | `check` of a folder, and `attest`                                 |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `postulate`    | `postulate`                                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
@@ -12,9 +16,13 @@
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 
+mod junit;
 mod support;
 
+mod audit;
 mod bad_input;
+mod batch;
+mod cache;
 mod calculator;
 mod certificates;
 mod files;
