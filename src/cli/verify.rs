@@ -1,15 +1,22 @@
 //! `orthocert verify`.
 
 use super::{batch, effort::Effort, print, prove::Task, Failure, Format, Status};
+use num_rational::BigRational;
 use orthocert::batch::plan::{certificate_of, identity};
 use orthocert::design::Design;
-use orthocert::report::text;
+use orthocert::extremes::{enclose, Extreme};
+use orthocert::report::{text, Margin, Report};
+use orthocert::search::Budget;
 use orthocert::verify::verify;
+use orthocert_checker::claim::Claim;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// The certificate of the built-in prototype, in the current folder.
 const PROTOTYPE: &str = "orthoglide-prototype.cert.json";
+
+/// Most boxes of a proof that leaves time for margins.
+const SHORT_PROOF: usize = 200;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -68,8 +75,11 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         table: !effort.quiet || effort.format == Format::Json,
         started,
     };
-    let (report, status) =
+    let (mut report, status) =
         task.run(|claim| effort.run(|control| verify(claim, budget, control)))?;
+    if task.table {
+        report.margins = margins(&report, &design.claim, effort);
+    }
     match effort.format {
         Format::Json => print::json(&report)?,
         Format::Text if effort.quiet => {
@@ -78,6 +88,25 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         Format::Text => print::answer(&text::report(&report, print::style()))?,
     }
     Ok(status)
+}
+
+/// The certified margins of a certified design, where its proof was short.
+fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
+    let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
+    let Claim::Machine(claim) = claim else {
+        return Vec::new();
+    };
+    if !short || report.cached {
+        return Vec::new();
+    }
+    let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
+    let width = BigRational::new(1.into(), 1000.into());
+    let enclosed = |extreme| effort.run(|control| enclose(claim, extreme, &width, budget, control));
+    Extreme::bounded(claim)
+        .into_iter()
+        .filter_map(|extreme| enclosed(extreme).ok())
+        .map(|found| Margin::of(&found))
+        .collect()
 }
 
 /// Where the certificate goes: never over the design.

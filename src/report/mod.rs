@@ -15,11 +15,13 @@ pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
+use crate::extremes::Enclosed;
 use crate::sample::Sampler;
 use crate::verify::{Answer, Verification};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
+use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
@@ -60,6 +62,9 @@ pub struct Report {
     pub design: Option<String>,
     /// The requirements, with the worst values found by sampling.
     pub requirements: Vec<Row>,
+    /// How far the quantities that requirements bound really go: bounds with certificates of their
+    /// own, which are not kept. Empty where that was not cheap.
+    pub margins: Vec<Margin>,
     /// The counterexample of a refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<Counterexample>,
@@ -82,6 +87,25 @@ pub struct Report {
     pub earlier_certificate: Option<EarlierFile>,
     /// The claim, in exact numbers, as it stands in certificates.
     pub claim: Claim,
+}
+
+/// A quantity never goes beyond this, as certified.
+#[derive(Clone, Debug, Serialize)]
+pub struct Margin {
+    /// The quantity.
+    pub quantity: String,
+    /// `<=` or `>=`.
+    pub relation: &'static str,
+    /// The certified bound.
+    pub bound: Exact,
+}
+
+impl Margin {
+    /// The certified end of an enclosure.
+    pub fn of(found: &Enclosed) -> Self {
+        let relation = if found.extreme.is_greatest() { "<=" } else { ">=" };
+        Margin { quantity: found.extreme.quantity(), relation, bound: found.outer.clone() }
+    }
 }
 
 /// The size and shape of a proof.
@@ -154,6 +178,7 @@ impl Report {
             title: None,
             design: None,
             requirements: worst::rows(claim, &sampler, &frame, &found.worst),
+            margins: Vec::new(),
             counterexample: None,
             proof: None,
             undecided: None,

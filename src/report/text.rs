@@ -2,8 +2,8 @@
 
 use super::place::{point_text, FreeParameter};
 use super::{
-    CertificateFile, Counterexample, EarlierFile, Outcome, PostulateReport, Remains, Report, Row,
-    Size,
+    CertificateFile, Counterexample, EarlierFile, Margin, Outcome, PostulateReport, Remains,
+    Report, Row, Size,
 };
 use crate::decimal::{boxes, counted, exact, grouped, significant};
 use orthocert_checker::certificate::Verdict;
@@ -118,6 +118,11 @@ pub fn report(report: &Report, style: Style) -> String {
     }
     out.push('\n');
     table(&mut out, &report.requirements);
+    if !report.margins.is_empty() {
+        let margin = |m: &Margin| format!("{} {} {}", m.quantity, m.relation, exact(&m.bound));
+        let margins: Vec<String> = report.margins.iter().map(margin).collect();
+        labelled(&mut out, "certified", &margins.join(", "));
+    }
     out.push('\n');
     let tried = (!report.cached).then_some(report.boxes_tried);
     effort(&mut out, report.proof.as_ref(), tried, report.seconds);
