@@ -96,7 +96,7 @@ fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
     let Claim::Machine(claim) = claim else {
         return Vec::new();
     };
-    if !short || report.cached {
+    if !short {
         return Vec::new();
     }
     let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
