@@ -7,6 +7,7 @@
 //! |----------------|-------------------------------------------------------------------------|
 //! | [`decimal`]    | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]     | reads design files, written by people, into claims in exact numbers     |
+//! | [`digest`]     | SHA-256 as people and browsers compare it                               |
 //! | [`dimensions`] | the paper's Steps 1 to 3, enclosed                                      |
 //! | [`export`]     | writes certificates for the formal checker in Rocq                      |
 //! | [`extremes`]   | encloses how small and how large each quantity gets                     |
@@ -14,6 +15,7 @@
 //! | [`interval`]   | floating-point intervals and approximations for the search              |
 //! | [`machine`]    | the machine's obligations and the rules that may discharge them         |
 //! | [`output`]     | files that appear whole or not at all                                   |
+//! | [`page`]       | a certificate as a page to read and to file, and its figures            |
 //! | [`paper`]      | the claims of the seed paper, one by one                                |
 //! | [`postulate`]  | proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
 //! | [`refute`]     | turns a place where a requirement seems to fail into an exact witness   |
@@ -25,6 +27,7 @@
 
 pub mod decimal;
 pub mod design;
+pub mod digest;
 pub mod dimensions;
 pub mod export;
 pub mod extremes;
@@ -32,6 +35,7 @@ pub mod import;
 pub mod interval;
 pub mod machine;
 pub mod output;
+pub mod page;
 pub mod paper;
 pub mod postulate;
 pub mod refute;

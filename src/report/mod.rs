@@ -10,13 +10,13 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use place::{Frame, FreeParameter};
+pub use place::{named_parameters, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
 use crate::sample::Sampler;
-use crate::verify::{Answer, Verification};
+use crate::verify::{worst_values, Answer, Verification};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
@@ -107,6 +107,15 @@ impl Size {
         let TreeSize { leaves, nodes, depth, .. } = *size;
         Some(Size { leaves, nodes, depth, precision, rules })
     }
+}
+
+/// The requirements of a claim with the worst values that sampling finds; `None` if the claim's
+/// numbers exceed what can be shown.
+pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
+    let model = Model::new(claim, MODEL_PRECISION).ok()?;
+    let sampler = Sampler::new(claim, &model)?;
+    let frame = Frame::new(claim, &model)?;
+    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler)))
 }
 
 /// A certificate on the disk.
