@@ -158,23 +158,34 @@ const startSpace = (data) => {
     const limit = upper();
     for (let axis = 0; axis < 3; axis += 1) {
       const end = toward[axis] > 0 ? limit[axis] : 0;
-      const paths = new Map();
-      let drawn = 0;
+      const fills = new Map();
+      const specks = new Set();
+      context.strokeStyle = "rgba(27, 35, 48, 0.75)";
+      context.lineWidth = 0.8;
       onFace(axis, end, limit, (i, low, high) => {
         const key = keyOf(i);
-        if (!paths.has(key)) {
-          paths.set(key, new Path2D());
+        if (!fills.has(key)) {
+          fills.set(key, fillOf(key, range));
         }
-        trace(paths.get(key), corners(axis, end, low, high).map(at));
-        drawn += 1;
+        context.fillStyle = fills.get(key);
+        const [o, p, m, q] = corners(axis, end, low, high).map(at);
+        const size = Math.max(Math.abs(m[0] - o[0]), Math.abs(m[1] - o[1]), Math.abs(p[0] - q[0]), Math.abs(p[1] - q[1]));
+        if (size < 1.5) {
+          // One of all boxes that are too small to be told apart.
+          const speck = Math.round(o[0]) * 65536 + Math.round(o[1]);
+          if (!specks.has(speck)) {
+            specks.add(speck);
+            context.fillRect(Math.round(o[0]), Math.round(o[1]), 1.5, 1.5);
+          }
+          return;
+        }
+        context.beginPath();
+        trace(context, [o, p, m, q]);
+        context.fill();
+        if (size > 4) {
+          context.stroke();
+        }
       });
-      context.strokeStyle = "rgba(27, 35, 48, 0.75)";
-      context.lineWidth = drawn > 3000 ? 0.35 : 0.9;
-      for (const [key, path] of paths) {
-        context.fillStyle = fillOf(key, range);
-        context.fill(path);
-        context.stroke(path);
-      }
       const face = new Path2D();
       trace(face, corners(axis, end, [0, 0, 0], limit).map(at));
       context.fillStyle = `rgba(0, 0, 0, ${leaves().count > 0 ? SHADES[axis] : 0})`;
