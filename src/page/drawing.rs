@@ -25,10 +25,13 @@ pub fn drawing(machine: &Nominal, marks: &[Mark]) -> Picture {
     let mut out = Elements::default();
     workspace(&mut out, machine, &solid, &view, &fitted);
     axes(&mut out, &view);
+    // Names last, so that nothing is drawn over them.
+    let mut names = Elements::default();
     for (i, guide) in guides.iter().enumerate() {
-        leg(&mut out, machine, i, p, *guide, &fitted);
+        leg((&mut out, &mut names), machine, i, p, *guide, &fitted);
     }
-    platform_body(&mut out, machine, p, &fitted);
+    platform_body((&mut out, &mut names), machine, p, &fitted);
+    out.raw(&names.0);
     for mark in marks {
         let at = fitted.at(mark.at);
         out.dot("mark", at, 4.5);
@@ -157,7 +160,7 @@ fn anchor(machine: &Nominal, i: usize) -> Option<Point> {
 }
 
 fn leg(
-    out: &mut Elements,
+    (out, names): (&mut Elements, &mut Elements),
     machine: &Nominal,
     i: usize,
     p: Point,
@@ -179,7 +182,7 @@ fn leg(
         out.line("arm", fitted.at(*anchor), driven);
         out.dot("joint", fitted.at(*anchor), 4.0);
         let at = fitted.at(*anchor);
-        out.text("label end", [at[0] - 8.0, at[1] - 8.0], &format!("A{}", subscript(i)));
+        names.text("label end", [at[0] - 8.0, at[1] - 8.0], &format!("A{}", subscript(i)));
     }
     out.line("leg", driven, platform);
     match &machine.legs[i].numbers {
@@ -194,12 +197,12 @@ fn leg(
     }
     out.dot("joint", platform, 3.5);
     let middle = [0, 1].map(|k| driven[k] + 0.45 * (platform[k] - driven[k]));
-    out.text(
+    names.text(
         "label leg-label start",
         [middle[0] + 7.0, middle[1] - 5.0],
         &format!("leg {}", i + 1),
     );
-    out.text("label start", [driven[0] + 10.0, driven[1] - 8.0], &format!("B{}", subscript(i)));
+    names.text("label start", [driven[0] + 10.0, driven[1] - 8.0], &format!("B{}", subscript(i)));
 }
 
 fn subscript(i: usize) -> char {
@@ -207,7 +210,12 @@ fn subscript(i: usize) -> char {
 }
 
 /// The platform's triangle, where its joints are apart, and `P`.
-fn platform_body(out: &mut Elements, machine: &Nominal, p: Point, fitted: &Fitted) {
+fn platform_body(
+    (out, names): (&mut Elements, &mut Elements),
+    machine: &Nominal,
+    p: Point,
+    fitted: &Fitted,
+) {
     let joints: Option<Vec<Point>> =
         (0..3).map(|i| machine.pose(i, p).map(|pose| pose.platform)).collect();
     let at = fitted.at(p);
@@ -218,7 +226,7 @@ fn platform_body(out: &mut Elements, machine: &Nominal, p: Point, fitted: &Fitte
         }
     }
     out.dot("point", at, 4.0);
-    out.text("label start", [at[0] + 9.0, at[1] + 16.0], "P");
+    names.text("label start", [at[0] + 9.0, at[1] + 16.0], "P");
 }
 
 /// The directions of the frame, in a corner of the picture.

@@ -108,16 +108,18 @@ pub fn hardest(trees: &[Subdivision]) -> String {
     }
     let mut all: Vec<(usize, usize)> = Vec::new();
     for (t, tree) in trees.iter().enumerate() {
-        all.extend((0..tree.leaves.len()).map(|i| (t, i)));
+        let inside = |i: &usize| !tree.leaves[*i].own.iter().any(|rule| is_outside(*rule));
+        all.extend((0..tree.leaves.len()).filter(inside).map(|i| (t, i)));
     }
-    // The smallest box is the deepest: every split halves it.
+    // The smallest box is the deepest: every split halves it. Boxes outside a cylinder are no work.
     all.sort_by_key(|&(t, i)| (std::cmp::Reverse(trees[t].leaves[i].depth), t, i));
-    let deepest = counts.last().copied().unwrap_or(0);
+    let depth = all.first().map_or(0, |&(t, i)| trees[t].leaves[i].depth);
+    let deepest = all.iter().filter(|&&(t, i)| trees[t].leaves[i].depth == depth).count();
     let mut out = format!(
         "<h3 id=\"hardest\">Where the proof worked hardest</h3><p>The smallest boxes are {}, at depth {depth}: \
          1/2<sup>{depth}</sup> of the volume each.{}</p>",
         counted(deepest, "box", "boxes"),
-        if all.len() > HARDEST { format!(" The first {HARDEST} of {} leaves:", grouped(all.len() as u64)) } else { String::new() },
+        if all.len() > HARDEST { format!(" The first {HARDEST} of {}:", counted(all.len(), "leaf", "leaves")) } else { String::new() },
     );
     out.push_str("<div class=\"table\"><table><thead><tr><th class=\"number\">depth</th>");
     let axes = trees.first().map_or(["x", "y", "z"], |tree| tree.axes);
@@ -132,7 +134,7 @@ pub fn hardest(trees: &[Subdivision]) -> String {
             let [low, high] = parts(leaf.cell.edges[k]).map(|u| tree.least[k] + u * tree.width[k]);
             let digits = if (high - low).abs() < 1e-4 * tree.width[k].abs() { 10 } else { 6 };
             let (low, high) = (significant(low, digits), significant(high, digits));
-            let _ = write!(out, "<td>{low} \u{2026} {high}</td>");
+            let _ = write!(out, "<td class=\"place\">{low} \u{2026} {high}</td>");
         }
         let name = if trees.len() > 1 { format!("{}: ", tree.name) } else { String::new() };
         let _ =
@@ -141,6 +143,10 @@ pub fn hardest(trees: &[Subdivision]) -> String {
     out.push_str("</tbody></table></div>");
     out.push_str(&histogram(&counts));
     out
+}
+
+fn is_outside(rule: u8) -> bool {
+    RULES[usize::from(rule)].name == "outside"
 }
 
 /// `lower (sigma_min), range (joint_range)`: what was left to the leaf itself.

@@ -13,7 +13,7 @@ const NODES: usize = 61;
 /// Nodes on every axis from which the levels are chosen.
 const SAMPLES: usize = 9;
 /// Levels aimed at.
-const LEVELS: f64 = 15.0;
+const LEVELS: f64 = 12.0;
 /// Where the greatest value exceeds the least this many times, levels are spaced by factors.
 const WIDE: f64 = 30.0;
 /// A map's width and height, and the margins on the left, above, on the right and below.
@@ -21,6 +21,8 @@ const SIZE: [f64; 2] = [300.0, 322.0];
 const MARGIN: [f64; 4] = [44.0, 30.0, 10.0, 40.0];
 /// Shortest line that carries its level.
 const LABELLED: f64 = 34.0;
+/// Least distance of labels from each other, and from marks.
+const APART: f64 = 19.0;
 /// Sequential, in order of lightness, for those who do not tell colours apart: ColorBrewer YlGnBu.
 const COLOURS: [[f64; 3]; 7] = [
     [255.0, 255.0, 217.0],
@@ -32,15 +34,28 @@ const COLOURS: [[f64; 3]; 7] = [
     [16.0, 40.0, 110.0],
 ];
 
-/// What all maps of a machine have in common.
+/// The colours of a machine's maps, which all have in common, and the levels of each.
 #[derive(Clone, Debug, Serialize)]
 pub struct Scale {
-    /// The levels of the lines, increasing.
+    /// For `psi_1`, `psi_2`, `psi_3`.
+    pub maps: [Levels; 3],
+    /// Least and greatest value sampled in the workspace.
+    #[serde(skip)]
+    range: [f64; 2],
+    /// The values of the first and the last colour.
+    #[serde(skip)]
+    ends: [f64; 2],
+}
+
+/// The lines of a map.
+#[derive(Clone, Debug, Serialize)]
+pub struct Levels {
+    /// Their levels, increasing.
     pub levels: Vec<f64>,
     /// The colours between them: one more.
     pub colours: Vec<String>,
-    /// Least and greatest value sampled in the workspace.
-    pub range: [f64; 2],
+    /// For each line, whether it lies on dark ground.
+    pub dark: Vec<bool>,
 }
 
 /// The colour at `t` in `[0, 1]`.
@@ -57,49 +72,81 @@ impl Scale {
     /// The scale for a machine; `None` where it reaches none of the sampled points.
     pub fn of(machine: &Nominal) -> Option<Self> {
         let part = |i: usize| i as f64 / (SAMPLES - 1) as f64;
-        let mut found = Vec::new();
-        for (i, j, k) in (0..SAMPLES.pow(3)).map(|n| (n % 9, n / 9 % 9, n / 81)) {
-            let u = [part(i), part(j), part(k)];
-            if !machine.is_cylinder || (2.0 * u[0] - 1.0).hypot(2.0 * u[1] - 1.0) <= 1.0 {
-                found.extend(machine.psi(machine.point(u)).into_iter().flatten());
+        let mut found: [Vec<f64>; 3] = Default::default();
+        for n in 0..SAMPLES.pow(3) {
+            let u = [n % SAMPLES, n / SAMPLES % SAMPLES, n / SAMPLES / SAMPLES].map(part);
+            if machine.is_cylinder && (2.0 * u[0] - 1.0).hypot(2.0 * u[1] - 1.0) > 1.0 {
+                continue;
+            }
+            let psi = machine.psi(machine.point(u)).filter(|psi| psi.iter().all(|x| x.is_normal()));
+            for (all, x) in found.iter_mut().zip(psi.into_iter().flatten()) {
+                all.push(x);
             }
         }
-        found.retain(|x| x.is_finite() && *x > 0.0);
-        found.sort_by(f64::total_cmp);
-        let range = [*found.first()?, *found.last()?];
-        // A few points next to a singularity must not set the scale for all others.
-        let at = |share: f64| found[((found.len() - 1) as f64 * share) as usize];
-        let [low, high] = if range[1] / range[0] > WIDE { [at(0.03), at(0.97)] } else { range };
-        let levels = levels(low, high);
-        let last = levels.len().max(1) as f64;
-        let colours = (0..=levels.len()).map(|k| colour(k as f64 / last)).collect();
-        Some(Scale { levels, colours, range })
+        found.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
+        let range = [*found[0].first()?, *found[2].last()?];
+        let shown = [0, 1, 2].map(|i| typical(&found[i]));
+        let ends = [shown[0][0], shown[2][1]];
+        Some(Scale { maps: shown.map(|shown| Levels::within(shown, ends)), range, ends })
     }
 
-    /// The colours and the levels between them, as a strip.
+    /// The colours and some of their values, as a strip.
     pub fn legend(&self) -> String {
-        let [low, high] = self.range.map(|x| significant(x, 4));
-        let width = 520.0 / self.colours.len() as f64;
+        const PIECES: usize = 60;
+        let [low, high] = self.ends;
+        let width = 520.0 / PIECES as f64;
         let mut out = Elements::default();
-        for (k, colour) in self.colours.iter().enumerate() {
-            let x = 10.0 + width * k as f64;
+        for k in 0..PIECES {
+            let (x, colour) = (10.0 + width * k as f64, colour((k as f64 + 0.5) / PIECES as f64));
             out.raw(&format!(
-                "<rect x=\"{x:.1}\" y=\"4\" width=\"{width:.1}\" height=\"12\" fill=\"{colour}\"/>"
+                "<rect x=\"{x:.2}\" y=\"4\" width=\"{:.2}\" height=\"12\" fill=\"{colour}\"/>",
+                width + 0.3
             ));
-            if k > 0 {
-                out.text("tick middle", [x, 29.0], &self.label(k - 1));
-            }
         }
+        for level in levels(low, high) {
+            let x = 10.0 + 520.0 * position(level, self.ends);
+            out.line("axis-line", [x, 16.0], [x, 19.0]);
+            out.text("tick middle", [x, 30.0], &significant(level, 6));
+        }
+        let [low, high] = self.range.map(|x| significant(x, 4));
         format!(
             "<div class=\"scale\"><svg class=\"figure\" viewBox=\"0 0 540 34\" role=\"img\"><title>Scale of the \
              maps</title>{}</svg><span>In the whole workspace, sampled: from {low} to {high}</span></div>",
             out.0
         )
     }
+}
 
-    /// The level as it is written.
-    fn label(&self, k: usize) -> String {
-        significant(self.levels[k], 6)
+/// Where a value stands between the first and the last colour.
+fn position(value: f64, [low, high]: [f64; 2]) -> f64 {
+    if high / low > WIDE {
+        (value / low).ln() / (high / low).ln()
+    } else if high > low {
+        (value - low) / (high - low)
+    } else {
+        0.5
+    }
+}
+
+/// The range of sorted values. A few points next to a singularity must not set it for all others.
+fn typical(sorted: &[f64]) -> [f64; 2] {
+    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
+    if at(1.0) / at(0.0) > WIDE {
+        [at(0.03), at(0.97)]
+    } else {
+        [at(0.0), at(1.0)]
+    }
+}
+
+impl Levels {
+    /// The lines of a map whose values are within `shown`, colours being those of `ends`.
+    fn within([low, high]: [f64; 2], ends: [f64; 2]) -> Self {
+        let levels = levels(low, high);
+        let bounds: Vec<f64> = [&[low], &levels[..], &[high]].concat();
+        let middle = |pair: &[f64]| colour(position((pair[0] + pair[1]) / 2.0, ends));
+        let colours = bounds.windows(2).map(middle).collect();
+        let dark = levels.iter().map(|level| position(*level, ends) >= 0.55).collect();
+        Levels { levels, colours, dark }
     }
 }
 
@@ -178,8 +225,8 @@ pub fn maps(machine: &Nominal, scale: &Scale, marks: &[Mark], z: f64) -> [Pictur
     let reach = field(&|p| -machine.clearance(p)).at_least(0.0);
     from_fn(|i| {
         let field = field(&|p| machine.psi(p).map_or(f64::NAN, |psi| psi[i]));
-        let sets: Vec<LevelSet> = scale.levels.iter().map(|l| field.at_least(*l)).collect();
-        map(i, &plane, machine, scale, (&sets, &reach), marks, z)
+        let sets: Vec<LevelSet> = scale.maps[i].levels.iter().map(|l| field.at_least(*l)).collect();
+        map(i, &plane, machine, &scale.maps[i], (&sets, &reach), marks, z)
     })
 }
 
@@ -193,7 +240,7 @@ fn map(
     i: usize,
     plane: &Plane,
     machine: &Nominal,
-    scale: &Scale,
+    Levels { levels, colours, dark }: &Levels,
     (sets, reach): (&[LevelSet], &LevelSet),
     marks: &[Mark],
     z: f64,
@@ -208,19 +255,29 @@ fn map(
     let [x, y] = plane.corner;
     let [w, h] = plane.size;
     let rectangle = format!("x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"");
-    out.raw(&format!("<rect {rectangle} fill=\"{}\"/>", scale.colours[0]));
-    for (set, fill) in sets.iter().zip(&scale.colours[1..]) {
+    out.raw(&format!("<rect {rectangle} fill=\"{}\"/>", colours[0]));
+    for (set, fill) in sets.iter().zip(&colours[1..]) {
         let d = area(&set.area);
         out.raw(&format!("<path class=\"band\" fill=\"{fill}\" d=\"{d}\"/>"));
     }
+    let marks: Vec<&Mark> = marks
+        .iter()
+        .filter(|mark| (mark.at[2] - z).abs() <= 1e-6 * machine.frame.width[2])
+        .collect();
     let mut labels = Elements::default();
+    let mut taken: Path = marks.iter().map(|mark| plane.at(mark.at[0], mark.at[1])).collect();
     for (k, set) in sets.iter().enumerate() {
-        let class = if 2 * k < sets.len() { "level" } else { "level on-dark" };
+        let class = if dark[k] { "level on-dark" } else { "level" };
         let d: String = set.lines.iter().map(|p| path_data(&shown(p), false)).collect();
         out.raw(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
         let longest = set.lines.iter().map(shown).max_by(|a, b| length(a).total_cmp(&length(b)));
-        if let Some(line) = longest.filter(|line| length(line) >= LABELLED) {
-            labels.text("level-label", middle(&line, k), &scale.label(k));
+        let Some(line) = longest.filter(|line| length(line) >= LABELLED) else {
+            continue;
+        };
+        let at = middle(&line, k);
+        if taken.iter().all(|other| length(&[*other, at]) >= APART) {
+            taken.push(at);
+            labels.text("level-label", at, &significant(levels[k], 6));
         }
     }
     out.raw(&format!(
@@ -230,13 +287,13 @@ fn map(
     out.raw(&labels.0);
     out.raw("</g>");
     frame(&mut out, plane, machine);
-    for mark in marks.iter().filter(|mark| (mark.at[2] - z).abs() <= 1e-6 * machine.frame.width[2])
-    {
+    for mark in marks {
         let at = plane.at(mark.at[0], mark.at[1]);
         let class = if 2.0 * (at[0] - plane.corner[0]) > plane.size[0] { "end" } else { "start" };
         let beside = if class == "end" { -7.0 } else { 7.0 };
+        let above = if at[1] < plane.corner[1] + 18.0 { 15.0 } else { -6.0 };
         out.dot("mark", at, 3.5);
-        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] - 6.0], &mark.name);
+        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] + above], &mark.name);
     }
     out.text("map-title", [plane.corner[0], 18.0], &format!("{symbol}, the {which} factor"));
     out.raw("<g class=\"crosshair\"></g>");
@@ -287,8 +344,8 @@ fn frame(out: &mut Elements, plane: &Plane, machine: &Nominal) {
         out.path("outline", &[[x, y], [r, y], [r, b], [x, b]], true);
     }
     let (bottom, far) = (y + h, [plane.least[0] + plane.width[0], plane.least[1] + plane.width[1]]);
-    out.text("tick start", [x, bottom + 15.0], &significant(plane.least[0], 5));
-    out.text("tick end", [x + w, bottom + 15.0], &significant(far[0], 5));
+    out.text("tick start", [x, bottom + 15.0], &significant(plane.least[0], 4));
+    out.text("tick end", [x + w, bottom + 15.0], &significant(far[0], 4));
     out.text("axis middle", [x + w / 2.0, bottom + 15.0], "x");
     out.text("tick end", [x - 5.0, bottom], &significant(plane.least[1], 4));
     out.text("tick end", [x - 5.0, y + 9.0], &significant(far[1], 4));
@@ -322,10 +379,10 @@ mod tests {
     #[test]
     fn levels_are_round_and_inside() {
         let found = levels(0.5, 2.0);
-        assert_eq!(found.len(), 14, "{found:?}");
+        assert_eq!(found.len(), 7, "{found:?}");
         assert!(
             found.iter().all(|x| *x > 0.5 && *x < 2.0)
-                && found.iter().all(|x| (10.0 * x - (10.0 * x).round()).abs() < 1e-9)
+                && found.iter().all(|x| (5.0 * x - (5.0 * x).round()).abs() < 1e-9)
         );
         assert!(levels(1.0, 1.0).is_empty());
         assert_eq!(levels(0.01, 1.0), [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0]);

@@ -162,16 +162,22 @@ impl<'a> Page<'a> {
         let verdict = self.accepted.verdict;
         let sections = self.sections();
         let provenance = &self.certificate.provenance;
-        let (headline, meaning) = match verdict {
-            Verdict::Certified => (
-                "\u{2713} CERTIFIED",
+        let headline = match verdict {
+            Verdict::Certified => "\u{2713} CERTIFIED",
+            Verdict::Refuted => "\u{2717} REFUTED",
+        };
+        let meaning = match (&self.certificate.claim, verdict) {
+            (Claim::Machine(_), Verdict::Certified) => {
                 "Every requirement holds, at every point of the workspace and for every machine that \
-                 the claim describes. The exact checker accepted the proof.",
-            ),
-            Verdict::Refuted => (
-                "\u{2717} REFUTED",
-                "A requirement fails. The exact checker accepted the counterexample.",
-            ),
+                 the claim describes. The exact checker accepted the proof."
+            }
+            (Claim::Postulate(_), Verdict::Certified) => {
+                "The bounds on the transmission factors hold on the whole closed cube, for every \
+                 psi_max of the claim. The exact checker accepted the proof."
+            }
+            (_, Verdict::Refuted) => {
+                "A requirement fails. The exact checker accepted the counterexample."
+            }
         };
         filled(
             FRAME,
@@ -293,7 +299,7 @@ impl<'a> Page<'a> {
         format!(
             "<section id=\"maps\"><h2>Velocity transmission factors</h2>\
              <p>Lines of equal \u{3c8}<sub>1</sub> \u{2264} \u{3c8}<sub>2</sub> \u{2264} \u{3c8}<sub>3</sub> of the \
-             nominal machine over a plane z = const, in floating point.{at} What no leg configuration reaches is hatched.</p>\
+             nominal machine over a plane z = const, in floating point.{at} Hatched: out of reach of a leg.</p>\
              <div class=\"controls scripted\"><label for=\"slice\">z <input type=\"range\" id=\"slice\" min=\"0\" max=\"200\" step=\"1\"></label>\
              <output id=\"slice-value\" for=\"slice\"></output><button type=\"button\" id=\"slice-reset\">First slice</button></div>\
              <figure><div class=\"maps\">{maps}</div>{legend}\
@@ -325,7 +331,7 @@ impl<'a> Page<'a> {
                 out,
                 "<figure class=\"static\">{}<figcaption>{}</figcaption></figure>",
                 picture.inline(),
-                html(&tree.name)
+                html(&caption(tree))
             );
         }
         if !refuted {
@@ -380,6 +386,7 @@ impl<'a> Page<'a> {
                     "width": tree.width,
                     "shape": tree.proportions(),
                     "code": tree.code,
+                    "filledBy": tree.filled_by,
                 })
             })
             .collect();
@@ -395,6 +402,15 @@ impl<'a> Page<'a> {
             "marksInTree": self.is_machine(),
         })
     }
+}
+
+fn caption(tree: &Subdivision) -> String {
+    let name = tree.name.as_str();
+    if tree.leaves.is_empty() {
+        return name.to_owned();
+    }
+    let parts = if tree.axes[0] == "kappa" { ", y and z as parts of [q1, q2]" } else { "" };
+    format!("{name}{parts}; boxes are filled by the rule for {}", Obligation::ALL[tree.filled_by])
 }
 
 /// The controls of the view in space.
@@ -499,7 +515,11 @@ fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivisio
     let axes = Subdivision::axes_of(Axis::ALL);
     match (&certificate.proof, &certificate.claim) {
         (Proof::Tree(tree), _) => {
-            vec![Subdivision::new("the workspace", axes, least, width, &tree.nodes)]
+            let name = match machine {
+                Some(_) => "the workspace",
+                None => "the workspace, x, y and z as parts of it",
+            };
+            vec![Subdivision::new(name, axes, least, width, &tree.nodes)]
         }
         (Proof::Faces(faces), Claim::Postulate(claim)) => {
             let needed = parts_needed(claim).unwrap_or_default();
@@ -513,7 +533,7 @@ fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivisio
                     Half::High => "kappa >= 1/2",
                 };
                 let ends = [&needed.least, &needed.greatest].map(|x| approximate(x).unwrap_or(0.0));
-                let name = format!("the face {face} for {half}; y and z as parts of [q1, q2]");
+                let name = format!("face {face}, {half}");
                 let axes = Subdivision::axes_of(Axis::FACE);
                 let (least, width) = ([ends[0], 0.0, 0.0], [ends[1] - ends[0], 1.0, 1.0]);
                 Subdivision::new(&name, axes, least, width, &part.nodes)

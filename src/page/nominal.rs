@@ -19,6 +19,9 @@ use std::array::from_fn;
 /// Fractional bits in which the claim's numbers are enclosed before they become doubles.
 const PRECISION: u32 = 128;
 
+/// Lengths beyond this are not drawn: their powers would exceed the doubles.
+const GREATEST: f64 = 1e60;
+
 /// A point or a vector.
 pub type Point = [f64; 3];
 
@@ -92,6 +95,11 @@ impl Nominal {
                 [0, 1, 2].map(|i| NominalLeg::on_axis(i, base, e, length)).transposed()?
             }
         };
+        let sizes = [frame.least, frame.width, [frame.unit; 3]];
+        let offsets = legs.iter().map(|leg| leg.offset);
+        if !sizes.into_iter().chain(offsets).flatten().all(|x| x.abs() < GREATEST) {
+            return None;
+        }
         Some(Nominal {
             legs,
             frame,

@@ -37,23 +37,26 @@ pub const RULES: [RuleStyle; 14] = [
     style("parallel_margin", "#b9a3d9", 1),
     style("leg_angle", "#c9a66b", 3),
     style("speed", "#9fd3c7", 4),
-    style("outside", "#e4e7ec", 4),
+    style("outside", "#eceff3", 5),
     style("blow_up", "#8ecae6", 0),
     style("edge", "#f4a340", 1),
     style("mirror", "#d3a4c8", 3),
 ];
 
 /// Lines of the patterns, on squares of eight units.
-pub const PATTERNS: [&str; 5] = [
+pub const PATTERNS: [&str; 6] = [
     "",
     "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
     "M2 2h1.4M6 6h1.4",
     "M-2 -2L10 10M6 -2L10 2M-2 6L2 10",
     "M0 4H8M4 0V8",
+    "M3 5L5 3",
 ];
 
 /// Rectangles of a face that are drawn one by one; beyond, the face is drawn on a grid.
 const MOST: usize = 2500;
+/// Least breadth of a rectangle that is outlined.
+const OUTLINED: f64 = 1.6;
 /// Squares of that grid on either side.
 const GRID: usize = 80;
 
@@ -85,12 +88,24 @@ pub struct Subdivision {
     pub leaves: Vec<Leaf>,
     /// The nodes in preorder: a letter for each rule, then `X`, `Y`, `Z` for a split or `.`.
     pub code: String,
+    /// The position of the obligation by whose rules boxes are filled.
+    pub filled_by: usize,
 }
 
 /// The part of the way from 0 to 1 at which an edge begins and ends.
 pub fn parts(edge: Edge) -> [f64; 2] {
     let size = (-f64::from(edge.level)).exp2();
     [edge.index as f64 * size, (edge.index as f64 + 1.0) * size]
+}
+
+/// How many steps discharge each obligation by a rule of its own. An obligation without one is none
+/// of the claim's.
+fn uses(nodes: &[Node]) -> [usize; Obligation::ALL.len()] {
+    let mut uses = [0; Obligation::ALL.len()];
+    for discharged in nodes.iter().flat_map(|node| &node.by).filter_map(|step| step.rule().1) {
+        uses[discharged as usize] += 1;
+    }
+    uses
 }
 
 fn position(step: &Step) -> u8 {
@@ -108,6 +123,7 @@ impl Subdivision {
         nodes: &[Node],
     ) -> Self {
         let (mut leaves, mut code) = (Vec::new(), String::with_capacity(2 * nodes.len()));
+        let uses = uses(nodes);
         let mut waiting = vec![(Cell::ROOT, [None; Obligation::ALL.len()], 0)];
         for node in nodes {
             let Some((cell, mut by, depth)) = waiting.pop() else {
@@ -117,8 +133,9 @@ impl Subdivision {
             for (step, &rule) in node.by.iter().zip(&own) {
                 code.push(char::from(b'a' + rule));
                 let discharged = step.rule().1;
-                for (known, obligation) in by.iter_mut().zip(Obligation::ALL) {
-                    if known.is_none() && discharged.is_none_or(|d| d == obligation) {
+                for ((known, obligation), uses) in by.iter_mut().zip(Obligation::ALL).zip(uses) {
+                    let concerned = discharged.map_or(uses > 0, |d| d == obligation);
+                    if known.is_none() && concerned {
                         *known = Some(rule);
                     }
                 }
@@ -136,7 +153,14 @@ impl Subdivision {
                 }
             }
         }
-        Subdivision { name: name.to_owned(), axes, least, width, leaves, code }
+        let most = uses.iter().max().copied().unwrap_or(0);
+        let filled_by = uses.iter().position(|uses| *uses == most).unwrap_or(0);
+        Subdivision { name: name.to_owned(), axes, least, width, leaves, code, filled_by }
+    }
+
+    /// The position of the rule by which a leaf is filled.
+    fn fill(&self, leaf: &Leaf) -> usize {
+        usize::from(leaf.by[self.filled_by].unwrap_or(0))
     }
 
     /// The names of a tree's axes.
@@ -156,7 +180,7 @@ impl Subdivision {
     }
 
     /// The box seen from the first and from the seventh octant, its faces divided as the leaves
-    /// divide them and filled by the rule that shows `sigma_min` there.
+    /// divide them and filled by the rules for one obligation.
     pub fn picture(&self, number: usize, marks: &[Mark]) -> Picture {
         let name = if number == 0 {
             "subdivision".to_owned()
@@ -185,7 +209,7 @@ impl Subdivision {
     fn definitions(&self, name: &str) -> String {
         let mut used = [false; RULES.len()];
         for leaf in &self.leaves {
-            used[usize::from(leaf.by[0].unwrap_or(0))] = true;
+            used[self.fill(leaf)] = true;
         }
         let mut out = "<defs>".to_owned();
         for (k, rule) in RULES.iter().enumerate().filter(|(k, _)| used[*k]) {
@@ -213,13 +237,21 @@ impl Subdivision {
         }
         self.outline(out, &view, &at);
         for mark in marks {
-            let u = from_fn(|k| {
+            let u: Point = from_fn(|k| {
                 if self.width[k] > 0.0 {
                     (mark.at[k] - self.least[k]) / self.width[k]
                 } else {
                     0.5
                 }
             });
+            // A mark behind the faces is not seen.
+            let seen = |k: usize| {
+                let end = if view.toward[k] > 0.0 { 1.0 } else { 0.0 };
+                f64::abs(u[k] - end) < 1e-9
+            };
+            if !self.leaves.is_empty() && !(0..3).any(seen) {
+                continue;
+            }
             let p = at(u);
             out.dot("mark", p, 4.0);
             out.text("mark-label start", [p[0] + 7.0, p[1] - 6.0], &mark.name);
@@ -254,21 +286,26 @@ impl Subdivision {
         for leaf in &self.leaves {
             let [of_axis, of_b, of_c] = [axis, b, c].map(|k| parts(leaf.cell.edges[k]));
             if of_axis.contains(&end) {
-                let rule = usize::from(leaf.by[0].unwrap_or(0));
+                let rule = self.fill(leaf);
                 by_rule[rule].push(([of_b[0], of_c[0]], [of_b[1], of_c[1]]));
                 count += 1;
             }
         }
+        let thin = |[o, p, _, q]: [[f64; 2]; 4]| {
+            let side = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+            side(o, p).min(side(o, q)) < OUTLINED
+        };
         for (rule, all) in by_rule.iter().enumerate().filter(|(_, all)| !all.is_empty()) {
             let drawn = if count > MOST { on_grid(all) } else { all.clone() };
-            let d: String = drawn
-                .iter()
-                .map(|(low, high)| super::svg::path_data(&quad(*low, *high), true))
-                .collect();
-            let class = if count > MOST { "leaf fine" } else { "leaf" };
-            out.raw(&format!(
-                "<path class=\"{class}\" fill=\"url(#{name}-rule-{rule})\" d=\"{d}\"/>"
-            ));
+            let quads = drawn.iter().map(|(low, high)| quad(*low, *high));
+            let (fine, outlined): (Vec<_>, Vec<_>) = quads.partition(|q| count > MOST || thin(*q));
+            for (class, quads) in [("leaf fine", fine), ("leaf", outlined)] {
+                let d: String = quads.iter().map(|q| super::svg::path_data(q, true)).collect();
+                if !d.is_empty() {
+                    let fill = format!("url(#{name}-rule-{rule})");
+                    out.raw(&format!("<path class=\"{class}\" fill=\"{fill}\" d=\"{d}\"/>"));
+                }
+            }
         }
         let class = ["shade-0", "shade-1", "shade-2"][axis];
         out.path(class, &quad([0.0; 2], [1.0; 2]), true);
@@ -368,8 +405,9 @@ mod tests {
         assert_eq!(found.code, "dXa.Za.k.");
         assert_eq!(found.leaves.len(), 3);
         assert_eq!(found.leaves[0].by[..3], [Some(0), Some(3), None]);
-        // What is outside is discharged of all that was open.
-        assert_eq!(found.leaves[2].by[..3], [Some(10), Some(3), Some(10)]);
+        // What is outside is discharged of what the claim asks and was open.
+        assert_eq!(found.leaves[2].by[..3], [Some(10), Some(3), None]);
+        assert_eq!(found.filled_by, 0);
         assert_eq!(found.leaves[2].depth, 2);
         assert_eq!(parts(found.leaves[2].cell.edges[2]), [0.5, 1.0]);
     }

@@ -7,6 +7,7 @@
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `postulate`    | `postulate`                                                       |
+//! | `report`       | `report`: pages and figures                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
 //! | `interruption` | signals, closed and full outputs                                  |
@@ -21,4 +22,5 @@ mod files;
 mod interruption;
 mod json;
 mod postulate;
+mod report;
 mod verdicts;

@@ -18,7 +18,7 @@ const startMaps = (data) => {
     return;
   }
   const NODES = 49;
-  const { levels, colours } = machine.scale;
+  const scales = machine.scale.maps;
   const slider = document.getElementById("slice");
   const readout = document.getElementById("map-readout");
   const invitation = readout.textContent;
@@ -47,7 +47,7 @@ const startMaps = (data) => {
   const lengthOf = (line) =>
     line.slice(1).reduce((sum, p, i) => sum + Math.hypot(p[0] - line[i][0], p[1] - line[i][1]), 0);
 
-  const label = (group, set, frame, k) => {
+  const label = (group, set, frame, level, k, taken) => {
     const lines = set.lines.map((line) => line.map(([x, y]) => onMap(frame, x, y)));
     const longest = lines.reduce((best, line) => (lengthOf(line) > lengthOf(best) ? line : best), []);
     const total = lengthOf(longest);
@@ -64,38 +64,47 @@ const startMaps = (data) => {
       rest -= piece;
       at += 1;
     }
-    const [x, y] = longest[at];
-    const text = shown(levels[k], 6);
-    group.append(svgElement("text", { class: "level-label", x: x.toFixed(1), y: (y + 3.5).toFixed(1) }, text));
+    const [x, y] = [longest[at][0], longest[at][1] + 3.5];
+    if (taken.some((other) => Math.hypot(other[0] - x, other[1] - y) < 19)) {
+      return;
+    }
+    taken.push([x, y]);
+    const text = shown(level, 6);
+    group.append(svgElement("text", { class: "level-label", x: x.toFixed(1), y: y.toFixed(1) }, text));
   };
 
   const drawMap = (i, values, reach) => {
     const [svg, frame] = [svgs[i], frames[i]];
+    const { levels, colours, dark } = scales[i];
     const field = svg.querySelector(".field");
     const name = svg.classList[1];
     const { x, y, w, h } = frame;
     const ground = svgElement("rect", { x, y, width: w, height: h, fill: colours[0] });
     const [bands, lines] = [[], []];
     const texts = svgElement("g", {});
+    const here = marks.filter((mark) => Math.abs(mark.at[2] - height()) <= 1e-6 * machine.width[2]);
+    const taken = here.map((mark) => onMap(frame, mark.at[0], mark.at[1]));
     levels.forEach((level, k) => {
       const set = levelSet(xs, ys, values, level);
       bands.push(svgElement("path", { class: "band", fill: colours[k + 1], d: pathData(set.area, frame, true) }));
-      const className = 2 * k < levels.length ? "level" : "level on-dark";
+      const className = dark[k] ? "level on-dark" : "level";
       lines.push(svgElement("path", { class: className, d: pathData(set.lines, frame, false) }));
-      label(texts, set, frame, k);
+      label(texts, set, frame, level, k, taken);
     });
     const hatched = { class: "unreachable", fill: `url(#${name}-hatch)`, d: pathData(reach.area, frame, true) };
     field.replaceChildren(ground, ...bands, ...lines, svgElement("path", hatched), texts);
     svg.querySelectorAll(".mark, .mark-label").forEach((mark) => mark.remove());
     const crosshair = svg.querySelector(".crosshair");
-    for (const mark of marks) {
-      if (Math.abs(mark.at[2] - height()) <= 1e-6 * machine.width[2]) {
-        const [cx, cy] = onMap(frame, mark.at[0], mark.at[1]);
-        crosshair.before(svgElement("circle", { class: "mark", cx, cy, r: 3.5 }));
-        const end = 2 * (cx - frame.x) > frame.w;
-        const place = { class: `mark-label ${end ? "end" : "start"}`, x: cx + (end ? -7 : 7), y: cy - 6 };
-        crosshair.before(svgElement("text", place, mark.name));
-      }
+    for (const mark of here) {
+      const [cx, cy] = onMap(frame, mark.at[0], mark.at[1]);
+      const end = 2 * (cx - frame.x) > frame.w;
+      const place = {
+        class: `mark-label ${end ? "end" : "start"}`,
+        x: cx + (end ? -7 : 7),
+        y: cy + (cy < frame.y + 18 ? 15 : -6),
+      };
+      crosshair.before(svgElement("circle", { class: "mark", cx, cy, r: 3.5 }));
+      crosshair.before(svgElement("text", place, mark.name));
     }
   };
 

@@ -11,6 +11,7 @@ const leavesOf = (tree, rules, discharges, obligations) => {
     depth: new Uint16Array(count),
     by: new Int8Array(obligations * count).fill(-1),
   };
+  const asked = new Set([...tree.code].map((c) => discharges[c.charCodeAt(0) - 97]));
   const waiting = [{ low: [0, 0, 0], high: [1, 1, 1], depth: 0, by: new Array(obligations).fill(-1) }];
   let [node, by, leaf] = [waiting.pop(), null, 0];
   for (const c of tree.code) {
@@ -19,7 +20,7 @@ const leavesOf = (tree, rules, discharges, obligations) => {
     if (axis < 0 && c !== ".") {
       const rule = c.charCodeAt(0) - 97;
       by.forEach((known, o) => {
-        if (known < 0 && (discharges[rule] === o || discharges[rule] < 0)) {
+        if (known < 0 && asked.has(o) && (discharges[rule] === o || discharges[rule] < 0)) {
           by[o] = rule;
         }
       });
@@ -472,6 +473,8 @@ const startSpace = (data) => {
     }
   });
   option(control("obligation"), data.obligations.length, "depth");
+  state.colour = data.trees[0].filledBy;
+  control("obligation").value = state.colour;
   if (all.every(({ count }) => count === 0)) {
     ["obligation", "cut-axis", "cut", "deep"].forEach((id) => {
       control(id).parentElement.hidden = true;
