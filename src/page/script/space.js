@@ -2,50 +2,6 @@
 // leaves on its three faces towards the viewer are seen, and nothing has to be sorted. Alone, the
 // deepest boxes are drawn from back to front.
 
-const leavesOf = (tree, rules, discharges, obligations) => {
-  const count = (tree.code.match(/\./g) || []).length;
-  const leaves = {
-    count,
-    low: new Float64Array(3 * count),
-    high: new Float64Array(3 * count),
-    depth: new Uint16Array(count),
-    by: new Int8Array(obligations * count).fill(-1),
-  };
-  const asked = new Set([...tree.code].map((c) => discharges[c.charCodeAt(0) - 97]));
-  const waiting = [{ low: [0, 0, 0], high: [1, 1, 1], depth: 0, by: new Array(obligations).fill(-1) }];
-  let [node, by, leaf] = [waiting.pop(), null, 0];
-  for (const c of tree.code) {
-    by = by || node.by.slice();
-    const axis = "XYZ".indexOf(c);
-    if (axis < 0 && c !== ".") {
-      const rule = c.charCodeAt(0) - 97;
-      by.forEach((known, o) => {
-        if (known < 0 && asked.has(o) && (discharges[rule] === o || discharges[rule] < 0)) {
-          by[o] = rule;
-        }
-      });
-      continue;
-    }
-    if (c === ".") {
-      leaves.low.set(node.low, 3 * leaf);
-      leaves.high.set(node.high, 3 * leaf);
-      leaves.depth[leaf] = node.depth;
-      leaves.by.set(by, obligations * leaf);
-      leaf += 1;
-    } else {
-      const middle = (node.low[axis] + node.high[axis]) / 2;
-      const half = (low, high) => ({ low, high, depth: node.depth + 1, by });
-      const [below, above] = [node.high.slice(), node.low.slice()];
-      below[axis] = middle;
-      above[axis] = middle;
-      waiting.push(half(above, node.high), half(node.low, below));
-    }
-    node = waiting.pop();
-    by = null;
-  }
-  return leaves;
-};
-
 const startSpace = (data) => {
   const canvas = document.getElementById("space");
   if (!canvas || !canvas.getContext) {
@@ -95,10 +51,6 @@ const startSpace = (data) => {
     }
     return count > 0 ? [least, most] : [0, 0];
   };
-  const shade = (depth, [least, most]) => {
-    const part = most > least ? (depth - least) / (most - least) : 0.5;
-    return `hsl(${205 + 25 * part} ${45 + 25 * part}% ${90 - 62 * part}%)`;
-  };
   // The style of a leaf, as a key and the fill for it.
   const byDepth = () => state.colour === data.obligations.length;
   const keyOf = (i) =>
@@ -110,33 +62,7 @@ const startSpace = (data) => {
     return key < 0 ? styleOf("--paper") : patternOf(key);
   };
 
-  const projection = () => {
-    const [a, e] = [state.azimuth, state.elevation].map((x) => (x * Math.PI) / 180);
-    const right = [-Math.sin(a), Math.cos(a), 0];
-    const up = [-Math.cos(a) * Math.sin(e), -Math.sin(a) * Math.sin(e), Math.cos(e)];
-    const toward = [Math.cos(a) * Math.cos(e), Math.sin(a) * Math.cos(e), Math.sin(e)];
-    const shape = tree().shape;
-    const size = Math.sqrt(dot(shape, shape));
-    const scale = (state.zoom * 0.92 * Math.min(canvas.width, canvas.height)) / size;
-    const at = (u) => {
-      const p = [0, 1, 2].map((k) => (u[k] - 0.5) * shape[k] * scale);
-      return [canvas.width / 2 + dot(right, p), canvas.height / 2 - dot(up, p)];
-    };
-    return { at, toward };
-  };
-  // The corners of a rectangle u_axis = end.
-  const corners = (axis, end, low, high) => {
-    const [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
-    return [[low[b], low[c]], [high[b], low[c]], [high[b], high[c]], [low[b], high[c]]].map(([x, y]) => {
-      const u = [0, 0, 0];
-      [u[axis], u[b], u[c]] = [end, x, y];
-      return u;
-    });
-  };
-  const trace = (path, points) => {
-    points.forEach(([x, y], i) => (i === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
-    path.closePath();
-  };
+  const projection = () => viewOf(state, tree().shape, canvas.width, canvas.height);
   const upper = () => [0, 1, 2].map((k) => (k === state.axis ? state.cut : 1));
   const SHADES = [0.1, 0.18, 0];
 
@@ -371,17 +297,7 @@ const startSpace = (data) => {
   const leafAt = (x, y) => {
     const { at, toward } = projection();
     const limit = upper();
-    const inside = (axis, end, low, high) => {
-      const [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
-      const [o, p, , q] = corners(axis, end, low, high).map(at);
-      const [e, f] = [[p[0] - o[0], p[1] - o[1]], [q[0] - o[0], q[1] - o[1]]];
-      const det = e[0] * f[1] - e[1] * f[0];
-      const [s, t] = [
-        ((x - o[0]) * f[1] - (y - o[1]) * f[0]) / det,
-        (e[0] * (y - o[1]) - e[1] * (x - o[0])) / det,
-      ];
-      return det !== 0 && high[b] > low[b] && high[c] > low[c] && s >= 0 && s <= 1 && t >= 0 && t <= 1;
-    };
+    const inside = (axis, end, low, high) => covers([x, y], corners(axis, end, low, high).map(at));
     if (alone()) {
       const { chosen } = deepest(toward);
       return chosen.reverse().find((i) => {
