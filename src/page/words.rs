@@ -5,7 +5,10 @@ use super::nominal::Nominal;
 use crate::decimal::{approximate, readable, significant};
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Workspace};
+use orthocert_checker::claim::{
+    Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements, Workspace,
+};
+use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
 use std::fmt::Write;
 
@@ -79,15 +82,114 @@ pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
         html(statement.trim_end())
     );
     out.push_str("<h3>In formulas</h3><ul class=\"formulas\">");
-    for formula in formulas(claim) {
+    for formula in asserted(claim) {
+        let _ = write!(out, "<li>{formula}</li>");
+    }
+    out.push_str("</ul><h3>Where</h3><ul class=\"formulas\">");
+    for formula in definitions(claim) {
         let _ = write!(out, "<li>{formula}</li>");
     }
     out.push_str("</ul></section>\n");
     out
 }
 
+/// What the claim asserts at every point, as markup.
+fn asserted(claim: &Claim) -> Vec<String> {
+    const CUBE: &str = "<var>t</var><sub>1</sub> = (1 \u{2212} \u{3ba})/2, <var>t</var><sub>2</sub> = 1 \u{2212} \u{3ba} for \
+         \u{3ba} \u{2264} \u{bd}, (1/\u{3ba} \u{2212} 1)/2 for \u{3ba} \u{2265} \u{bd}; \
+         <var>q</var><sub>1</sub> = \u{2212}<var>L</var> <var>t</var><sub>1</sub>/\u{221a}(1 + 2<var>t</var><sub>1</sub>\u{b2}), \
+         <var>q</var><sub>2</sub> = <var>L</var> <var>t</var><sub>2</sub>/\u{221a}(1 + 2<var>t</var><sub>2</sub>\u{b2})";
+    const TIGHT: &str = "1/\u{3c8}<sub>max</sub> \u{2264} \u{3c8}<sub>i</sub>(<var>P</var>) \u{2264} \u{3c8}<sub>max</sub>";
+    const FREE: &str = "every leg reaches <var>P</var> and is not serially singular there; det <var>M</var>(<var>P</var>) \u{2260} 0";
+    let everywhere =
+        |set: &str| format!("for every <var>P</var> \u{2208} {set}, <var>i</var> = 1, 2, 3:");
+    let cube = everywhere("[<var>q</var><sub>1</sub>, <var>q</var><sub>2</sub>]\u{b3}");
+    let of_cube = |psi_max: String| {
+        let given = format!("\u{3c8}<sub>max</sub> {psi_max}, \u{3ba} = 1/\u{3c8}<sub>max</sub>");
+        vec![format!("{given}; {CUBE}"), cube.clone(), FREE.to_owned(), TIGHT.to_owned()]
+    };
+    match claim {
+        Claim::Postulate(claim) => of_cube(match &claim.psi_max {
+            PsiMax::All => "&gt; 1, any".to_owned(),
+            PsiMax::Range(range) if range.is_exact() => format!("= {}", number(&range.min)),
+            PsiMax::Range(range) => {
+                format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
+            }
+        }),
+        Claim::Machine(claim) => {
+            let psi = claim.requirements.transmission.as_ref();
+            let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {
+                (Workspace::Cube { side }, Some(psi_max)) => {
+                    let mut out = of_cube(format!("= {}", number(psi_max)));
+                    let length = format!(
+                        "<var>q</var><sub>2</sub> \u{2212} <var>q</var><sub>1</sub> = {}",
+                        number(side)
+                    );
+                    out.insert(1, format!("{length}, which determines <var>L</var>"));
+                    out
+                }
+                _ => {
+                    let mut out = vec![everywhere("<var>W</var>, the workspace"), FREE.to_owned()];
+                    out.extend(psi.map(|range| within(range, "\u{3c8}<sub>i</sub>(<var>P</var>)")));
+                    out
+                }
+            };
+            out.extend(required(&claim.requirements));
+            out
+        }
+    }
+}
+
+/// The requirements but for those on the transmission factors.
+fn required(requirements: &Requirements) -> Vec<String> {
+    let mut out = Vec::new();
+    if let Some(ranges) = &requirements.joint_range {
+        let each = (1..)
+            .zip(ranges)
+            .map(|(i, range)| within(range, &format!("\u{3c1}<sub>{i}</sub>(<var>P</var>)")));
+        out.push(each.collect::<Vec<_>>().join(", "));
+    }
+    let at_most = |what: &str, x: &Exact| format!("{what} \u{2264} {}", number(x));
+    let at_least = |what: &str, x: &Exact| format!("{what} \u{2265} {}", number(x));
+    if let Some(bound) = &requirements.conditioning {
+        out.push(at_most(
+            "\u{3c3}<sub>max</sub>(<var>M</var>)/\u{3c3}<sub>min</sub>(<var>M</var>)",
+            &bound.max,
+        ));
+    }
+    if let Some(bound) = &requirements.serial_margin {
+        out.push(at_least("|\u{3b7}<sub>i</sub>|/<var>L</var><sub>i</sub>", &bound.min));
+    }
+    if let Some(bound) = &requirements.parallel_margin {
+        let determinant = "|det <var>A</var>|/(<var>L</var><sub>1</sub><var>L</var><sub>2</sub><var>L</var><sub>3</sub>)";
+        out.push(format!(
+            "{}, rows of <var>A</var> the leg vectors",
+            at_least(determinant, &bound.min)
+        ));
+    }
+    if let Some(bound) = &requirements.leg_angle {
+        out.push(at_most("angle between leg <var>i</var> and its guide, in degrees", &bound.max));
+    }
+    if let Some(bound) = &requirements.joint_speed {
+        let speed = format!("|row<sub>i</sub> of <var>M</var>| \u{b7} {}", number(&bound.tool));
+        out.push(at_most(&speed, &bound.max));
+    }
+    out
+}
+
+fn within(Range { min, max }: &Range, what: &str) -> String {
+    let least = min.as_ref().map(|x| format!("{} \u{2264} ", number(x))).unwrap_or_default();
+    let most = max.as_ref().map(|x| format!(" \u{2264} {}", number(x))).unwrap_or_default();
+    format!("{least}{what}{most}")
+}
+
+/// A number in full where that is short; the statement above has all of it.
+fn number(x: &Exact) -> String {
+    html(&readable(x))
+}
+
 /// Definitions, as markup.
-fn formulas(claim: &Claim) -> Vec<&'static str> {
+fn definitions(claim: &Claim) -> Vec<&'static str> {
     const SLIDER: &str = "slider: <var>r</var> = <var>w</var> \u{2212} (<var>n</var>\u{b7}<var>w</var>)<var>n</var>, \
          <var>s</var> = \u{221a}(<var>L</var>\u{b2} \u{2212} |<var>r</var>|\u{b2}), \u{3b7} = \u{b1}<var>s</var>; \
          row of <var>M</var>: <var>n</var><sup>T</sup> + <var>r</var><sup>T</sup>/\u{3b7}; \
