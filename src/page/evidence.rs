@@ -116,8 +116,8 @@ pub fn hardest(trees: &[Subdivision]) -> String {
     let depth = all.first().map_or(0, |&(t, i)| trees[t].leaves[i].depth);
     let deepest = all.iter().filter(|&&(t, i)| trees[t].leaves[i].depth == depth).count();
     let mut out = format!(
-        "<h3 id=\"hardest\">Where the proof worked hardest</h3><p>The smallest boxes are {}, at depth {depth}: \
-         1/2<sup>{depth}</sup> of the volume each.{}</p>",
+        "<h3 id=\"hardest\">Where the proof worked hardest</h3><p>Smallest: {}, at depth {depth}, each \
+         1/2<sup>{depth}</sup> of the volume.{}</p>",
         counted(deepest, "box", "boxes"),
         if all.len() > HARDEST { format!(" The first {HARDEST} of {}:", counted(all.len(), "leaf", "leaves")) } else { String::new() },
     );

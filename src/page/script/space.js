@@ -319,7 +319,7 @@ const startSpace = (data) => {
   const describe = (i) => {
     if (i < 0) {
       const { count } = leaves();
-      readout.textContent = count > 0 ? `${count} boxes; none here.` : "No boxes: one point refutes the claim.";
+      readout.textContent = count > 0 ? `${count} boxes; point at one to read it.` : "No boxes: one point refutes the claim.";
       return;
     }
     const [low, high] = boxOf(i);
