@@ -7,7 +7,7 @@
 
 use crate::batch::requirement::{broken, requirements, Known, Standing};
 use crate::design::Design;
-use crate::report::sha256;
+use crate::digest::sha256;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::Accepted;
 use serde::Serialize;

@@ -170,7 +170,7 @@ pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
 }
 
 /// The worst value of every quality, from the best start of a coarse grid.
-fn worst_values(sampler: &Sampler) -> Vec<Worst> {
+pub(crate) fn worst_values(sampler: &Sampler) -> Vec<Worst> {
     let grid: Vec<_> = sampler.grid().into_iter().map(|p| (sampler.at(&p), p)).collect();
     let qualities = sampler.qualities().into_iter();
     qualities

@@ -8,7 +8,7 @@ use orthocert::batch::summary::printable;
 use orthocert::batch::{counts, worst, Ending};
 use orthocert::decimal::counted;
 use orthocert::design::Design;
-use orthocert::report::sha256;
+use orthocert::digest::sha256;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
-use orthocert::output;
-use orthocert::report::{sha256, CertificateFile, EarlierFile};
+use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::search::Stop;
 use orthocert::verify::{Answer, Undecided};
+use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::{read, Rejected};
@@ -46,8 +46,8 @@ fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
 /// Writes a certificate, whole or not at all.
 pub fn store(path: &Path, text: &str) -> Result<CertificateFile, Failure> {
     output::write(path, text.as_bytes())?;
-    let (path, sha256) = (path.display().to_string(), sha256(text.as_bytes()));
-    Ok(CertificateFile { path, bytes: text.len(), sha256 })
+    let sha256 = digest::sha256(text.as_bytes());
+    Ok(CertificateFile { path: path.display().to_string(), bytes: text.len(), sha256 })
 }
 
 /// What stands where a certificate of `claim` would have been written.

@@ -21,6 +21,7 @@ mod postulate;
 mod print;
 mod progress;
 mod prove;
+mod report;
 mod show;
 mod verify;
 
@@ -66,6 +67,8 @@ enum Command {
     Init(init::Arguments),
     /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
     Postulate(postulate::Arguments),
+    /// Write a certificate, once re-proved, as an HTML page with its figures, to read and to file.
+    Report(report::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
@@ -191,6 +194,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Design(arguments) => design::run(arguments),
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Import(arguments) => import::run(arguments),

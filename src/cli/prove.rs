@@ -3,8 +3,9 @@
 
 use super::{certify, input, print, Failure, Status};
 use orthocert::design::Design;
+use orthocert::digest::sha256;
 use orthocert::output;
-use orthocert::report::{sha256, CertificateFile, Report};
+use orthocert::report::{CertificateFile, Report};
 use orthocert::verify::{sampled, Answer, Verification};
 use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::{check, read};

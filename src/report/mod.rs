@@ -10,14 +10,14 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use place::{Frame, FreeParameter};
+pub use place::{named_parameters, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
 use crate::extremes::Enclosed;
 use crate::sample::Sampler;
-use crate::verify::{Answer, Verification};
+use crate::verify::{worst_values, Answer, Verification};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
@@ -25,9 +25,7 @@ use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::time::Duration;
 
 /// Fractional bits of the model from which values are sampled for the table.
@@ -137,6 +135,15 @@ impl Size {
     }
 }
 
+/// The requirements of a claim with the worst values that sampling finds; `None` if the claim's
+/// numbers exceed what can be shown.
+pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
+    let model = Model::new(claim, MODEL_PRECISION).ok()?;
+    let sampler = Sampler::new(claim, &model)?;
+    let frame = Frame::new(claim, &model)?;
+    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler)))
+}
+
 /// A certificate on the disk.
 #[derive(Clone, Debug, Serialize)]
 pub struct CertificateFile {
@@ -146,15 +153,6 @@ pub struct CertificateFile {
     pub bytes: usize,
     /// The SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
-}
-
-/// The SHA-256 of `bytes`, in hexadecimal.
-pub fn sha256(bytes: &[u8]) -> String {
-    let mut out = String::with_capacity(64);
-    for byte in Sha256::digest(bytes) {
-        let _ = write!(out, "{byte:02x}");
-    }
-    out
 }
 
 /// A file that an earlier run left where this run's certificate would be.

@@ -11,6 +11,7 @@
 //! | `audit`        | `check` of a folder, and `attest`                                 |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `postulate`    | `postulate`                                                       |
+//! | `report`       | `report`: pages and figures                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
 //! | `interruption` | signals, closed and full outputs                                  |
@@ -29,4 +30,5 @@ mod files;
 mod interruption;
 mod json;
 mod postulate;
+mod report;
 mod verdicts;
