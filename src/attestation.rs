@@ -61,9 +61,10 @@ struct Predicate {
 pub fn statement(evidence: &Evidence<'_>) -> Statement {
     let Evidence { design, design_file, certificate, certificate_file, accepted } = evidence;
     let subject = |(name, bytes): &(&str, &[u8])| json!({ "name": name, "digest": { "sha256": sha256(bytes) } });
-    let known = match &certificate.proof {
-        Proof::Witness(witness) => Known::Refuted(broken(&witness.violates)),
-        Proof::Tree(_) | Proof::Faces(_) => Known::Certified,
+    let known = match (accepted.verdict, &certificate.proof) {
+        (Verdict::Certified, _) => Known::Certified,
+        (Verdict::Refuted, Proof::Witness(witness)) => Known::Refuted(broken(&witness.violates)),
+        (Verdict::Refuted, _) => Known::Nothing,
     };
     let all = requirements(design, known);
     let of =

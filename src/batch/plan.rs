@@ -80,7 +80,7 @@ impl std::error::Error for PlanError {
 /// [`PlanError`]: in particular, no two designs of a plan have the same certificate.
 pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, PlanError> {
     let mut planned: Vec<Planned> = Vec::new();
-    let mut known = BTreeSet::new();
+    let (mut named, mut known) = (BTreeSet::new(), BTreeSet::new());
     for argument in arguments {
         let found = match argument.is_dir() {
             true => below(argument, ".toml")?,
@@ -90,9 +90,11 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
             return Err(PlanError::NoDesigns(argument.clone()));
         }
         for design in found {
-            if !known.insert(identity(&design)) {
+            // A link is a design of its own, with a certificate of its own.
+            if !named.insert(in_folder(&design).unwrap_or_else(|| design.clone())) {
                 continue;
             }
+            known.insert(identity(&design));
             let beside = certificate_of(&design);
             let certificate = match out {
                 Some(out) => out.join(kept(argument, &beside)),
@@ -116,11 +118,13 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
 
 /// The same for all ways to write the path of a file, which need not exist if its folder does.
 pub fn identity(path: &Path) -> PathBuf {
-    let in_folder = || {
-        let folder = fs::canonicalize(folder_of(path)).ok()?;
-        Some(folder.join(path.file_name()?))
-    };
-    fs::canonicalize(path).ok().or_else(in_folder).unwrap_or_else(|| path.to_owned())
+    fs::canonicalize(path).ok().or_else(|| in_folder(path)).unwrap_or_else(|| path.to_owned())
+}
+
+/// The same for all ways to write the folder; a link stays what it is.
+fn in_folder(path: &Path) -> Option<PathBuf> {
+    let folder = fs::canonicalize(folder_of(path)).ok()?;
+    Some(folder.join(path.file_name()?))
 }
 
 /// `NAME.cert.json` beside `NAME.toml`.
@@ -229,6 +233,24 @@ mod tests {
         let folder = tree(&["x.toml"]);
         let arguments = [folder.path().to_owned(), folder.path().join("x.toml")];
         assert_eq!(plan(&arguments, None).unwrap().len(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_to_designs_are_designs_and_links_to_folders_are_left() {
+        let folder = tree(&["a/x.toml"]);
+        let link = |to: &str, name: &str| {
+            std::os::unix::fs::symlink(to, folder.path().join(name)).unwrap();
+        };
+        link("x.toml", "a/alias.toml");
+        link("../a", "a/loop");
+        let planned = plan(&[folder.path().to_owned()], None).unwrap();
+        let names: Vec<_> = planned.iter().filter_map(|one| one.certificate.file_name()).collect();
+        assert_eq!(names, ["alias.cert.json", "x.cert.json"]);
+        // A certificate that is a link to a design would be written over the design.
+        link("alias.toml", "a/x.cert.json");
+        let refused = plan(&[folder.path().to_owned()], None);
+        assert!(matches!(refused, Err(PlanError::OverDesign(_))));
     }
 
     #[test]

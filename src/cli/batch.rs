@@ -10,6 +10,7 @@ use orthocert::output;
 use orthocert::report::Report;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::verify;
+use orthocert_checker::certificate::Verdict;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -214,8 +215,10 @@ fn known(design: &Design, report: Report, status: Status) -> Entry {
         _ => (Ending::Undecided, Some(undecided(&report))),
     };
     let known = match (status, &report.counterexample) {
-        (Status::Decided(_), Some(found)) => Known::Refuted(broken(&found.violation)),
-        (Status::Decided(_), None) => Known::Certified,
+        (Status::Decided(Verdict::Certified), _) => Known::Certified,
+        (Status::Decided(Verdict::Refuted), Some(found)) => {
+            Known::Refuted(broken(&found.violation))
+        }
         _ => Known::Nothing,
     };
     let requirements = requirements(design, known);

@@ -46,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         [] if !flags.any() => single(arguments, None),
         [design] if !flags.any() && !design.is_dir() => single(arguments, Some(design)),
         _ if output.is_some() => {
-            let message = "--output: found with several designs; accepted: --out FOLDER with them";
+            let message = "--output: found in a run of several designs, or with its options; accepted: --out FOLDER";
             Err(Failure::Input(message.to_owned()))
         }
         [] => {
