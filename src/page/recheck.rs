@@ -27,6 +27,7 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/enclosure.rs",
     "src/expansion.rs",
     "src/fixed.rs",
+    "src/hull.rs",
     "src/kinematics/arm.rs",
     "src/kinematics/mod.rs",
     "src/kinematics/planar.rs",
