@@ -24,12 +24,13 @@ const TREES: [(Face, Half, &str); 4] = [
 ];
 
 /// The file that states the postulate for the claim's range of `psi_max` and proves it by the trees.
+/// Which trees are needed, `psi_max <= 2` or not, Rocq decides.
 pub(super) fn postulate(psi_max: &PsiMax, faces: &Faces) -> Result<String, ExportError> {
     let given: Vec<_> = faces.parts.iter().map(|part| (part.face, part.half)).collect();
     let both = given == TREES.map(|(face, half, _)| (face, half));
     let high_only = given == [(Face::Q1, Half::High), (Face::Q2, Half::High)];
     let bits = faces.precision;
-    let end = match psi_max {
+    let theorem = match psi_max {
         PsiMax::All if both => all(bits),
         PsiMax::Range(range) if both => {
             up_to(&range.max, bits, ["Both q1_low q1_high", "Both q2_low q2_high"])
@@ -51,7 +52,7 @@ pub(super) fn postulate(psi_max: &PsiMax, faces: &Faces) -> Result<String, Expor
         }
         out.push_str(".\n\n");
     }
-    out.push_str(&end);
+    out.push_str(&theorem);
     Ok(out)
 }
 
@@ -65,6 +66,7 @@ Local Open Scope R_scope.
 
 ";
 
+/// Of the theorem, after "for every `psi` and `P`".
 const CONCLUSION: &str = "regular (orthoglide L a e) P /\\
   forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
 ";
