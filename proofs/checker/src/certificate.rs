@@ -192,6 +192,8 @@ pub enum Violation {
     SigmaMin(#[serde(deserialize_with = "strict::object")] Direction),
     /// `|M v|^2 > k^2 |v|^2`: some `psi_i < psi_min`.
     SigmaMax(#[serde(deserialize_with = "strict::object")] Direction),
+    /// `|row_i of M| > k`, or the leg cannot reach the point: some `psi_i < psi_min`.
+    Row(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A leg cannot reach the point, or is serially singular there.
     Reach(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A joint coordinate is outside its range.

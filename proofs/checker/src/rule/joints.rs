@@ -5,8 +5,8 @@ use super::Failure;
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, Region};
-use crate::kinematics::JointCoordinate;
-use crate::linear::norm_squared;
+use crate::kinematics::{JointCoordinate, Leg};
+use crate::linear::{norm_squared, Vector};
 use crate::model::{JointRange, Model};
 
 /// **Joint range.** Each `rho_i` lies in its range on the cell.
@@ -28,17 +28,9 @@ pub fn range<S: Enclosure>(
     let ranges = model.bounds.joint_range.as_ref().ok_or(Failure::NoSuchBound)?;
     let over = Region::new(model, cell, ExpansionPoint::Centre).over;
     for (leg, range) in ranges.iter().enumerate() {
-        let state = model.legs[leg].at(&over[leg]).ok_or(Failure::OutOfReach(leg))?;
-        let within = match (state.rho, range) {
+        let rho = coordinate(&model.legs[leg], &over[leg], expansion.rho[leg].as_ref());
+        let within = match (rho.ok_or(Failure::OutOfReach(leg))?, range) {
             (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
-                let rho = match &expansion.rho[leg] {
-                    Some((at, slopes)) => {
-                        let spread =
-                            slopes.iter().fold(at.clone(), |sum, h| sum.add(&h.join(&h.neg())));
-                        rho.meet(&spread).ok_or(Failure::OutOfReach(leg))?
-                    }
-                    None => rho,
-                };
                 min.as_ref().is_none_or(|min| rho.sub(min).is_nonnegative())
                     && max.as_ref().is_none_or(|max| max.sub(&rho).is_nonnegative())
             }
@@ -54,8 +46,25 @@ pub fn range<S: Enclosure>(
     Ok(())
 }
 
+/// `rho_i` for `w` in `over`: a length is in the value of its formula and in its slope form
+/// (`slope`: `rho_i(c)` and `h_k g_k`), so in their intersection. `None` unless the leg certainly
+/// reaches `over`.
+pub(super) fn coordinate<S: Enclosure>(
+    leg: &Leg<S>,
+    over: &Vector<S>,
+    slope: Option<&(S, Vector<S>)>,
+) -> Option<JointCoordinate<S>> {
+    match (leg.at(over)?.rho, slope) {
+        (JointCoordinate::Length(rho), Some((at, slopes))) => {
+            let spread = slopes.iter().fold(at.clone(), |sum, h| sum.add(&h.join(&h.neg())));
+            rho.meet(&spread).map(JointCoordinate::Length)
+        }
+        (rho, _) => Some(rho),
+    }
+}
+
 /// `sin(a - b)` and `cos(a - b)` of angles given by `(cos, sin)`.
-pub(crate) fn difference<S: Enclosure>(a: &(S, S), b: &(S, S)) -> (S, S) {
+pub(super) fn difference<S: Enclosure>(a: &(S, S), b: &(S, S)) -> (S, S) {
     let sin = a.1.mul(&b.0).sub(&a.0.mul(&b.1));
     let cos = a.0.mul(&b.0).add(&a.1.mul(&b.1));
     (sin, cos)

@@ -53,6 +53,17 @@ fn cosines_at_least<S: Enclosure>(
 /// the bound on either side of zero. ∎
 pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<(), Failure> {
     let bound = model.bounds.parallel_margin.as_ref().ok_or(Failure::NoSuchBound)?;
+    let varied = unit_determinant(model, cell)?;
+    let beyond = varied.sub(bound).is_nonnegative() || varied.neg().sub(bound).is_nonnegative();
+    if beyond {
+        Ok(())
+    } else {
+        Err(Failure::NearSingular)
+    }
+}
+
+/// `det U` over the cell, as in [`parallel_margin`].
+pub(super) fn unit_determinant<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<S, Failure> {
     let region = Region::new(model, cell, ExpansionPoint::Centre);
     let unit = |i: usize| {
         let leg = &model.legs[i];
@@ -66,18 +77,12 @@ pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<()
     let u: Matrix<S> = from_fn(|i| {
         from_fn(|j| (0..3).fold(c[i][j].clone(), |sum, k| sum.add(&either_way(&e[i][k][j]))))
     });
-    let varied = (0..3).fold(determinant(&c), |sum, k| {
+    Ok((0..3).fold(determinant(&c), |sum, k| {
         let first = determinant(&[e[0][k].clone(), u[1].clone(), u[2].clone()]);
         let second = determinant(&[c[0].clone(), e[1][k].clone(), u[2].clone()]);
         let third = determinant(&[c[0].clone(), c[1].clone(), e[2][k].clone()]);
         sum.add(&either_way(&first.add(&second).add(&third)))
-    });
-    let beyond = varied.sub(bound).is_nonnegative() || varied.neg().sub(bound).is_nonnegative();
-    if beyond {
-        Ok(())
-    } else {
-        Err(Failure::NearSingular)
-    }
+    }))
 }
 
 /// `[-1, 1] x`.
