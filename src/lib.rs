@@ -15,10 +15,12 @@
 //! | [`machine`]    | the machine's obligations and the rules that may discharge them         |
 //! | [`output`]     | files that appear whole or not at all                                   |
 //! | [`paper`]      | the claims of the seed paper, one by one                                |
+//! | [`paving`]     | the region of a box where a claim holds, from within and from without   |
 //! | [`postulate`]  | proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
 //! | [`refute`]     | turns a place where a requirement seems to fail into an exact witness   |
 //! | [`report`]     | what a verification found, for people and for scripts                   |
 //! | [`rotation`]   | finds the orthogonal matrix that the vertex rule takes as evidence      |
+//! | [`rough`]      | intervals without rounding, for proposals                               |
 //! | [`sample`]     | looks around: approximate values at single points and machines          |
 //! | [`search`]     | branch and bound: finds a bisection tree that discharges everything     |
 //! | [`verify`]     | decides a claim: certified, refuted, or undecided                       |
@@ -33,10 +35,12 @@ pub mod interval;
 pub mod machine;
 pub mod output;
 pub mod paper;
+pub mod paving;
 pub mod postulate;
 pub mod refute;
 pub mod report;
 pub mod rotation;
+pub mod rough;
 pub mod sample;
 pub mod search;
 pub mod verify;

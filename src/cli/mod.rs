@@ -13,6 +13,7 @@ mod init;
 mod input;
 mod interrupt;
 mod paper;
+mod pave;
 mod postulate;
 mod print;
 mod progress;
@@ -61,6 +62,8 @@ enum Command {
     Postulate(postulate::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
+    /// Pave the part of a box where a design's requirements hold.
+    Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
     /// Make a design file of a motion controller's configuration.
@@ -171,6 +174,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
+        Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),

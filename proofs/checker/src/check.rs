@@ -6,6 +6,7 @@ use crate::certificate::{
     PRECISIONS,
 };
 use crate::claim::{Claim, ClaimError, MachineClaim, PostulateClaim, PsiMax};
+use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
 use crate::model::Model;
@@ -186,7 +187,7 @@ fn syntax(message: &dyn fmt::Display) -> Rejected {
 }
 
 /// The beginning of a text that may quote the file, fit for a terminal.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let escaped = text.chars().flat_map(|c| {
         let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
         plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
@@ -232,15 +233,15 @@ pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u32;
+pub(crate) type Discharged = u32;
 const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
-fn bit(obligation: Obligation) -> Discharged {
+pub(crate) fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
 }
 
 /// What a step discharges.
-fn discharges(step: &Step) -> Discharged {
+pub(crate) fn discharges(step: &Step) -> Discharged {
     match step.rule().1 {
         Some(obligation) => bit(obligation),
         None => Discharged::MAX,
@@ -495,13 +496,13 @@ fn check_steps(
 }
 
 /// The expansion of a cell about its centre, made for the first step that needs it.
-type CentreExpansion = OnceCell<Result<Expansion<Fixed>, OutOfReach>>;
+pub(crate) type CentreExpansion<S> = OnceCell<Result<Expansion<S>, OutOfReach>>;
 
-fn check_step(
-    model: &Model<Fixed>,
+pub(crate) fn check_step<S: Enclosure>(
+    model: &Model<S>,
     cell: &Cell,
     step: &Step,
-    centre: &CentreExpansion,
+    centre: &CentreExpansion<S>,
 ) -> Result<(), Failure> {
     let about_centre = || {
         let expansion = centre.get_or_init(|| Expansion::new(model, cell, ExpansionPoint::Centre));
