@@ -94,7 +94,8 @@ impl Decider {
         }
         let open = self.judge.obligations().iter().filter(|&&o| inherited & bit(o) == 0);
         let wanted = open.clone().count();
-        let mut steps: Vec<Step> = open.filter_map(|&o| self.step(cell, &expansion, o)).collect();
+        let mut steps: Vec<Step> =
+            open.filter_map(|&o| self.step(cell, &expansion, &spectrum, o)).collect();
         if self.judge.steps(cell, &steps).is_err() {
             steps.retain(|step| self.judge.steps(cell, std::slice::from_ref(step)).is_ok());
         }
@@ -219,12 +220,25 @@ impl Decider {
         &self,
         cell: &Cell,
         expansion: &Expansion<Rough>,
+        spectrum: &Spectrum,
         obligation: Obligation,
     ) -> Option<Step> {
         let model = &self.rough;
         let (result, step) = match obligation {
-            Obligation::SigmaMin => return lower(model, expansion),
-            Obligation::SigmaMax => (rule::upper(model, expansion), Step::Upper),
+            Obligation::SigmaMin => {
+                let v = spectrum.least_direction();
+                let least = spectrum.least.sqrt() - variation(expansion, v);
+                let hopeless = least <= model.bounds.kappa.mid();
+                return if hopeless { None } else { lower(model, expansion) };
+            }
+            Obligation::SigmaMax => {
+                let v = spectrum.greatest_direction();
+                let greatest = spectrum.greatest.sqrt() + variation(expansion, v);
+                if greatest >= model.bounds.k?.mid() {
+                    return None;
+                }
+                (rule::upper(model, expansion), Step::Upper)
+            }
             Obligation::JointRange => (rule::range(model, cell, expansion), Step::Range),
             Obligation::SerialMargin => (rule::serial_margin(model, cell), Step::SerialMargin),
             Obligation::ParallelMargin => {
@@ -268,6 +282,19 @@ impl Decider {
             2.0 * along.abs() + e.iter().map(|x| x * x).sum::<f64>()
         })
     }
+}
+
+/// By how much the singular value with the direction `v` varies over the cell, to first order:
+/// `sum_k |u . E_k v|`, `u = M v / |M v|`. At one of the vertices it is lower, at one higher by that
+/// much: a vertex rule that has less room than this cannot hold.
+fn variation(expansion: &Expansion<Rough>, v: [f64; 3]) -> f64 {
+    let apply = |m: &[[Rough; 3]; 3]| -> [f64; 3] {
+        std::array::from_fn(|i| (0..3).map(|j| m[i][j].mid() * v[j]).sum())
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let y = apply(&expansion.matrix);
+    let sum: f64 = expansion.slopes.iter().map(|slope| dot(y, apply(slope)).abs()).sum();
+    sum / (dot(y, y) * dot(v, v)).sqrt()
 }
 
 /// The number of splits above a cell.

@@ -12,8 +12,7 @@ use crate::enclosure::{Bound, Enclosure, Scalar};
 use crate::fixed::Fixed;
 use num_traits::ToPrimitive;
 
-/// Most fractional bits for which the arithmetic is meant: cubes of entries of the order of eight
-/// then fit 128 bits.
+/// Most fractional bits: squares of `2^bits` then fit where they are formed.
 pub const MAX_BITS: u32 = 38;
 
 /// Greatest absolute value of an endpoint times `2^bits`.
@@ -185,11 +184,11 @@ impl Enclosure for Word {
     }
 
     fn lower(&self) -> Wide {
-        Wide(self.known.then_some(self.lo.into()))
+        Wide(self.known.then(|| Limbs::from(i128::from(self.lo))))
     }
 
     fn upper(&self) -> Wide {
-        Wide(self.known.then_some(self.hi.into()))
+        Wide(self.known.then(|| Limbs::from(i128::from(self.hi))))
     }
 
     fn is_positive(&self) -> bool {
@@ -201,21 +200,82 @@ impl Enclosure for Word {
     }
 }
 
-/// An integer of 128 bits; none where it would not fit, or comes from the unknown.
-#[derive(Clone, Copy, Debug)]
-pub struct Wide(Option<i128>);
+/// An integer of 256 bits in two's complement; none where a factor has more than 128 bits, or the
+/// number comes from the unknown.
+///
+/// Products of two endpoints have at most 124 bits and sign, so that the minors of a matrix, of
+/// degree three, are formed exactly: a factor of degree two, a sum of two products, fits 128 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wide(Option<Limbs>);
+
+/// `high 2^128 + low`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Limbs {
+    high: i128,
+    low: u128,
+}
+
+impl From<i128> for Limbs {
+    fn from(x: i128) -> Self {
+        Limbs { high: x >> 127, low: x.cast_unsigned() }
+    }
+}
+
+impl Limbs {
+    /// The number, if it has 128 bits at most.
+    fn narrow(self) -> Option<i128> {
+        let x = self.low.cast_signed();
+        (x >> 127 == self.high).then_some(x)
+    }
+
+    fn plus(self, other: Self) -> Option<Self> {
+        let (low, carry) = self.low.overflowing_add(other.low);
+        let high = self.high.checked_add(other.high)?.checked_add(carry.into())?;
+        Some(Limbs { high, low })
+    }
+
+    fn negated(self) -> Option<Self> {
+        let (low, carry) = (!self.low).overflowing_add(1);
+        Some(Limbs { high: (!self.high).checked_add(carry.into())?, low })
+    }
+
+    fn times(self, other: Self) -> Option<Self> {
+        let (x, y) = (self.narrow()?, other.narrow()?);
+        if let (Ok(x), Ok(y)) = (i64::try_from(x), i64::try_from(y)) {
+            return Some((i128::from(x) * i128::from(y)).into());
+        }
+        // |x|, |y| <= 2^127: the product is at most 2^254.
+        let product = Limbs::product(x.unsigned_abs(), y.unsigned_abs());
+        if (x < 0) == (y < 0) {
+            Some(product)
+        } else {
+            product.negated()
+        }
+    }
+
+    /// `x y` for `x`, `y` of at most 2^127, by halves: with `x = a 2^64 + b`, `y = c 2^64 + d`,
+    /// `x y = ac 2^128 + (ad + bc) 2^64 + bd`, where `ad + bc < 2^128`.
+    fn product(x: u128, y: u128) -> Self {
+        const HALF: u128 = u64::MAX as u128;
+        let (a, b, c, d) = (x >> 64, x & HALF, y >> 64, y & HALF);
+        let middle = a * d + b * c;
+        let (low, carry) = (b * d).overflowing_add(middle << 64);
+        let high = a * c + (middle >> 64) + u128::from(carry);
+        Limbs { high: high.cast_signed(), low }
+    }
+}
 
 impl Bound for Wide {
     fn add(&self, other: &Self) -> Self {
-        Wide(self.0.zip(other.0).and_then(|(x, y)| x.checked_add(y)))
+        Wide(self.0.zip(other.0).and_then(|(x, y)| x.plus(y)))
     }
     fn sub(&self, other: &Self) -> Self {
-        Wide(self.0.zip(other.0).and_then(|(x, y)| x.checked_sub(y)))
+        Wide(self.0.zip(other.0).and_then(|(x, y)| x.plus(y.negated()?)))
     }
     fn mul(&self, other: &Self) -> Self {
-        Wide(self.0.zip(other.0).and_then(|(x, y)| x.checked_mul(y)))
+        Wide(self.0.zip(other.0).and_then(|(x, y)| x.times(y)))
     }
     fn is_positive(&self) -> bool {
-        self.0.is_some_and(|x| x > 0)
+        self.0.is_some_and(|x| x.high > 0 || (x.high == 0 && x.low > 0))
     }
 }
