@@ -62,7 +62,7 @@ enum Command {
     Postulate(postulate::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
-    /// Pave the part of a box where a design's requirements hold.
+    /// Pave a box: where all requirements hold, where some fails, and the volume between.
     Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),

@@ -20,13 +20,13 @@ mod spectrum;
 mod tree;
 
 pub use decide::{Decider, Decision, Fate};
-pub use pass::{pave, PaveError, Paved, Resume};
+pub use pass::{pave, unfinished, PaveError, Paved, Resume};
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
 
 use orthocert_checker::certificate::Provenance;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::paving::{is_symmetric, Header, Symmetry, FORMAT, SHARE_BITS};
+use orthocert_checker::paving::{is_symmetric, Header, Symmetry, FORMAT};
 
 /// Fractional bits of the exact check: the most for which it can be done in machine words.
 const PRECISION: u32 = 36;
@@ -71,7 +71,7 @@ pub fn depth_for_edge(claim: &MachineClaim, edge: &Exact) -> Option<u32> {
         cube = cube.times(edge.clone()).ok()?;
     }
     let two = Exact::integer(2);
-    for depth in 0..=SHARE_BITS {
+    for depth in 0..=pass::DEEPEST {
         if volume.compare(&cube)?.is_le() {
             return Some(depth);
         }

@@ -17,7 +17,7 @@ const COARSE: u32 = 18;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
 const WINDOW: usize = 128;
 /// Deepest tree that is searched for.
-const DEEPEST: u32 = 90;
+pub(super) const DEEPEST: u32 = 90;
 
 /// Why there is no paving.
 #[derive(Debug)]
@@ -99,27 +99,27 @@ pub fn pave(
     claim: &MachineClaim,
     goal: &Goal,
     path: &Path,
-    resume: Resume,
+    mut resume: Resume,
     control: &mut Control<'_>,
 ) -> Result<Paved, PaveError> {
     let part = unfinished(path);
     let decider = Decider::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
     let mut depth = match (resume, goal.depth) {
         (Resume::Yes, _) => earlier_depth(claim, &part)?,
-        (Resume::No, Some(depth)) => depth,
-        (Resume::No, None) => planned(&decider, claim, goal, control)?,
+        (Resume::No, _) => planned(&decider, claim, goal, control)?,
     };
     loop {
         let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
         pass.run(resume, control)?;
         let paved = pass.finish()?;
         let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
-        let wanted = goal.gap.filter(|_| goal.depth.is_none() && resume == Resume::No);
+        let wanted = goal.gap.filter(|_| goal.depth.is_none());
         // The plan is an estimate: where it fell short, the next depth is taken.
         let short = wanted.is_some_and(|wanted| gap > wanted);
         let affordable = paved.boxes.saturating_mul(2) < goal.max_boxes;
         if short && affordable && depth < DEEPEST {
             depth += 1;
+            resume = Resume::No;
             continue;
         }
         std::fs::rename(&part, path).map_err(|error| PaveError::Io(path.to_owned(), error))?;
@@ -147,10 +147,12 @@ fn planned(
     control: &Control<'_>,
 ) -> Result<u32, PaveError> {
     let symmetric = header(claim, 0).symmetry.is_some();
-    let grower = Grower { decider, symmetric, depth: DEEPEST, cancel: control.cancel };
-    let mut above = Tally::up_to(DEEPEST);
-    let segments = grower.segments(COARSE, &mut above)?;
-    Ok(plan::depth(&grower, &segments, &above, COARSE, goal)?)
+    let deepest = goal.depth.unwrap_or(DEEPEST);
+    let coarse = COARSE.min(deepest);
+    let grower = Grower { decider, symmetric, depth: deepest, cancel: control.cancel };
+    let mut above = Tally::up_to(deepest);
+    let segments = grower.segments(coarse, &mut above)?;
+    Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
 }
 
 /// The writing of one tree.

@@ -237,6 +237,13 @@ impl fmt::Display for Rejected {
 
 impl std::error::Error for Rejected {}
 
+/// Whether a file that begins with these bytes is meant as a paving.
+pub fn is_paving(bytes: &[u8]) -> bool {
+    let name = b"\"orthocert-paving/";
+    let start = bytes.get(..64).unwrap_or(bytes);
+    start.windows(name.len()).any(|window| window == name)
+}
+
 /// Which cells' evidence is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
