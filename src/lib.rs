@@ -12,6 +12,7 @@
 //! | [`extremes`]   | encloses how small and how large each quantity gets                     |
 //! | [`import`]     | makes design files of the configurations of motion controllers          |
 //! | [`interval`]   | floating-point intervals and approximations for the search              |
+//! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds           |
 //! | [`machine`]    | the machine's obligations and the rules that may discharge them         |
 //! | [`output`]     | files that appear whole or not at all                                   |
 //! | [`paper`]      | the claims of the seed paper, one by one                                |
@@ -32,6 +33,7 @@ pub mod export;
 pub mod extremes;
 pub mod import;
 pub mod interval;
+pub mod largest_cube;
 pub mod machine;
 pub mod output;
 pub mod paper;

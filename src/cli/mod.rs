@@ -12,6 +12,7 @@ mod import;
 mod init;
 mod input;
 mod interrupt;
+mod largest_cube;
 mod paper;
 mod pave;
 mod postulate;
@@ -62,6 +63,8 @@ enum Command {
     Postulate(postulate::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
+    /// Enclose the side of the largest cube in which all requirements hold.
+    LargestCube(largest_cube::Arguments),
     /// Pave a box: where all requirements hold, where some fails, and the volume between.
     Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
@@ -174,6 +177,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
+        Command::LargestCube(arguments) => largest_cube::run(arguments),
         Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Import(arguments) => import::run(arguments),

@@ -27,6 +27,8 @@ pub enum ExportError {
     Refutes,
     /// It is about the postulate, but not for every `psi_max`.
     Postulate,
+    /// It is about cubes that do not fit.
+    NoCube,
     /// Not all legs are of fixed length on linear guides.
     NotSliders,
     /// The workspace is not a box.
@@ -50,6 +52,7 @@ impl fmt::Display for ExportError {
                 "of the Q1/Q2 postulate only the certificate for all psi_max is exported, which \
                  contains the others"
             ),
+            ExportError::NoCube => write!(f, "the claim is that no cube fits; {and_only}"),
             ExportError::NotSliders => {
                 write!(f, "a leg is not of fixed length on a linear guide; {and_only}")
             }
@@ -86,6 +89,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
             return postulate(faces);
         }
         (Claim::Postulate(_), _) => return Err(ExportError::Postulate),
+        (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);

@@ -44,6 +44,9 @@ pub enum Fate {
     Open(Option<Axis>),
 }
 
+/// The claim seems to hold at the centre.
+struct HoldsAtCentre;
+
 fn bit(obligation: Obligation) -> u32 {
     1 << obligation as u8
 }
@@ -81,16 +84,10 @@ impl Decider {
             };
         };
         let spectrum = Spectrum::of(&expansion.matrix);
-        let failing = self.failing_at_centre(cell, &expansion, &spectrum);
-        if !failing.is_empty() {
-            let holds = |violation: &Violation| {
-                self.violated_roughly(cell, &expansion, violation)
-                    && self.judge.violation(cell, violation).is_ok()
-            };
-            return match failing.into_iter().find(holds) {
-                Some(violation) => closed(Kind::Outer(violation)),
-                None => self.open(cell, Vec::new(), &self.weights(&expansion, &spectrum)),
-            };
+        match self.failing(cell, &expansion, &spectrum) {
+            Ok(Some(violation)) => return closed(Kind::Outer(violation)),
+            Ok(None) => return self.open(cell, Vec::new(), &self.weights(&expansion, &spectrum)),
+            Err(HoldsAtCentre) => {}
         }
         let open = self.judge.obligations().iter().filter(|&&o| inherited & bit(o) == 0);
         let wanted = open.clone().count();
@@ -112,6 +109,32 @@ impl Decider {
             weights[a].total_cmp(&weights[b]).then(b.cmp(&a))
         });
         Decision { steps, fate: Fate::Open(axis.map(|k| Axis::ALL[k])) }
+    }
+
+    /// A violation, confirmed in exact arithmetic, that holds on all of the cell.
+    pub fn violated(&self, cell: &Cell) -> Option<Violation> {
+        let Ok(expansion) = Expansion::new(&self.rough, cell, ExpansionPoint::Centre) else {
+            return self.beyond_reach(cell);
+        };
+        self.failing(cell, &expansion, &Spectrum::of(&expansion.matrix)).ok()?
+    }
+
+    /// A violation that holds on all of the cell, if the claim fails at its centre and there is one;
+    /// an error if the claim holds there.
+    fn failing(
+        &self,
+        cell: &Cell,
+        expansion: &Expansion<Rough>,
+        spectrum: &Spectrum,
+    ) -> Result<Option<Violation>, HoldsAtCentre> {
+        let failing = self.failing_at_centre(cell, expansion, spectrum);
+        if failing.is_empty() {
+            return Err(HoldsAtCentre);
+        }
+        Ok(failing.into_iter().find(|violation| {
+            self.violated_roughly(cell, expansion, violation)
+                && self.judge.violation(cell, violation).is_ok()
+        }))
     }
 
     /// A violation by a leg that does not reach, or hardly reaches, any of the cell.

@@ -2,10 +2,10 @@
 
 use crate::cell::{Axis, Cell};
 use crate::certificate::{
-    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, FORMAT, MAX_BYTES, MAX_STEPS,
-    PRECISIONS,
+    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, Violated, FORMAT, MAX_BYTES,
+    MAX_STEPS, PRECISIONS,
 };
-use crate::claim::{Claim, ClaimError, MachineClaim, PostulateClaim, PsiMax};
+use crate::claim::{Claim, ClaimError, MachineClaim, NoCubeClaim, PostulateClaim, PsiMax};
 use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
@@ -205,6 +205,9 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
         }
+        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_no_cube(claim, tree, &mut size)?;
+        }
         (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
             check_one_cube(claim, tree, &mut size)?;
         }
@@ -334,6 +337,40 @@ fn check_tree(claim: &MachineClaim, tree: &Tree, size: &mut TreeSize) -> Result<
     let obligations = obligations(&model);
     let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
     walk.run(size, |cell, node, index, size| check_steps(&model, cell, node, index, size))
+}
+
+/// No cube: a tree over the box of the centres, each of whose leaves has a step `violated`.
+///
+/// **Lemma.** Then no cube of that side with its centre in the box lies in the region where the
+/// claim of `machine` holds, for any machine described. *Proof.* A centre `C` lies in a leaf, which
+/// or an ancestor of which has a step with the offset `o`. The cell of the claim moved by `o` is that
+/// cell moved by `o`: it contains `C + o`, a point of the cube, and by [`rule::violated`] the claim
+/// fails at each of its points for every machine. ∎
+fn check_no_cube(claim: &NoCubeClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    claim.validate()?;
+    let mut moved: BTreeMap<[i64; 3], Model<Fixed>> = BTreeMap::new();
+    let obligations = [Obligation::SigmaMin];
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    walk.run(size, |cell, node, index, size| {
+        let mut discharged = 0;
+        for step in &node.by {
+            let (rule, _) = step.rule();
+            let failed = |failure| Rejected::Step { node: index, rule, failure };
+            let Step::Violated(Violated { at, violates }) = step else {
+                return Err(failed(Failure::OtherKind));
+            };
+            if !moved.contains_key(at) {
+                let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
+                moved.insert(*at, Model::new(&claim, tree.precision)?);
+            }
+            let model = moved.get(at).ok_or(failed(Failure::NotOfTheCube))?;
+            rule::violated(model, cell, violates).map_err(failed)?;
+            discharged |= discharges(step);
+            *size.steps.entry(rule).or_default() += 1;
+        }
+        Ok(discharged)
+    })
 }
 
 /// The obligations of the postulate. The rules of `sigma_min` enclose `1/s_i`, so `s_i > 0`.
@@ -527,7 +564,7 @@ pub(crate) fn check_step<S: Enclosure>(
         Step::LegAngle => rule::leg_angle(model, cell),
         Step::Speed => rule::speed(model, about_centre()?),
         Step::Outside => rule::outside(model, cell),
-        Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
+        Step::Violated(_) | Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }
 
@@ -549,6 +586,7 @@ impl Step {
             Step::Edge(_) => ("edge", Obligation::SigmaMin),
             Step::Mirror => ("mirror", Obligation::SigmaMin),
             Step::Outside => return ("outside", None),
+            Step::Violated(_) => return ("violated", None),
         };
         (name, Some(obligation))
     }

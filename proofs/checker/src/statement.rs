@@ -2,8 +2,8 @@
 
 use crate::certificate::Verdict;
 use crate::claim::{
-    Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements,
-    Sign, Workspace,
+    Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim, PsiMax, Quantity, Range,
+    Requirements, Sign, Workspace,
 };
 use crate::paving::{self, Shares};
 use std::fmt::{self, Write};
@@ -24,8 +24,21 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
             requirements(&mut out, claim)?;
         }
         Claim::Postulate(claim) => postulate(&mut out, claim)?,
+        Claim::NoCube(claim) => no_cube(&mut out, claim)?,
     }
     Ok(out)
+}
+
+fn no_cube(out: &mut String, claim: &NoCubeClaim) -> fmt::Result {
+    writeln!(out, "No axis-aligned cube of side {} with its centre in the box below", claim.side)?;
+    writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
+    machine(out, &claim.machine)?;
+    requirements(out, &claim.machine)?;
+    writeln!(
+        out,
+        "(The box is that of the centres; P is any point of the cube. With tolerances, the"
+    )?;
+    writeln!(out, "cube has such a point for every machine: none of them has the cube.)")
 }
 
 /// What an accepted paving establishes, in words.
