@@ -6,6 +6,8 @@
 //! | `verdicts`     | every verdict of `verify`: exit code, report, certificate         |
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
+//! | `paving`       | `pave` and `check` of pavings                                     |
+//! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
@@ -20,5 +22,7 @@ mod certificates;
 mod files;
 mod interruption;
 mod json;
+mod largest_cube;
+mod paving;
 mod postulate;
 mod verdicts;

@@ -13,6 +13,7 @@
 //! | `acceptance` | rules on random cells, bounds near the truth: what is accepted is true    |
 //! | `tree`       | the walk over a tree: complete ones, and one defect each                  |
 //! | `violated`   | violations over a cell: accepted, rejected, and right                     |
+//! | `words`      | machine words against big integers                                        |
 
 mod acceptance;
 mod approximate;
@@ -27,3 +28,4 @@ mod rules;
 mod slopes;
 mod tree;
 mod violated;
+mod words;
