@@ -6,12 +6,17 @@ use num_traits::ToPrimitive;
 use orthocert::decimal::{grouped, rounded, significant, Toward};
 use orthocert::design::Design;
 use orthocert::output;
-use orthocert::paving::{depth_for_edge, pave, unfinished, Goal, PaveError, Paved, Resume};
+use orthocert::paving::{
+    components, depth_for_edge, pave, unfinished, Component, Components, Decider, Goal, PaveError,
+    Paved, Resume,
+};
 use orthocert::search::Control;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::paving::Shares;
+use orthocert_checker::paving::{Reader, Shares};
 use serde::Serialize;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -19,6 +24,10 @@ use std::time::{Duration, Instant};
 const GAP: &str = "0.05";
 /// Boxes tried by default, about.
 const MAX_BOXES: u64 = 20_000_000;
+/// Megabytes for components by default.
+const MEMORY: u64 = 1024;
+/// Components that are told apart.
+const SHOWN: usize = 5;
 /// Digits of volumes.
 const DIGITS: u32 = 9;
 
@@ -44,6 +53,10 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
         value_parser = clap::value_parser!(u64).range(1..))]
     max_boxes: u64,
+    /// Megabytes for the table of components, which are left out beyond; the paving itself takes a
+    /// few
+    #[arg(long, value_name = "MB", default_value_t = MEMORY)]
+    memory: u64,
     /// Where the paving is written [default: NAME.paving beside NAME.toml]
     #[arg(short, long, value_name = "PAVING")]
     output: Option<PathBuf>,
@@ -80,9 +93,37 @@ struct Answer {
     /// Boxes left out by symmetry.
     mirrored: u64,
     depth: u32,
+    /// Connected components of the inner boxes; none where the memory is too small.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    components: Option<ComponentsAnswer>,
     /// Boxes tried by this run.
     boxes: u64,
     seconds: f64,
+}
+
+/// The components of the inner boxes: boxes that share a part of a face are connected.
+#[derive(Serialize)]
+struct ComponentsAnswer {
+    /// With images.
+    count: u64,
+    /// The largest, by descending volume.
+    largest: Vec<ComponentAnswer>,
+    /// The least condition number `sigma_max / sigma_min` found at an inner box's centre.
+    best_conditioning: f64,
+    /// That centre, about.
+    best_conditioned_at: [f64; 3],
+}
+
+/// A component.
+#[derive(Serialize)]
+struct ComponentAnswer {
+    /// Its share of the box's volume, with its images.
+    share: f64,
+    boxes: u64,
+    /// Itself and its images under permutations of the axes.
+    copies: u64,
+    /// Whether the best conditioned centre is in it, or in an image of it.
+    best_conditioned: bool,
 }
 
 /// The boxes of one kind, in a box that is searched.
@@ -116,6 +157,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     bar.clear();
     let paved = paved.map_err(|error| failure(error, &target))?;
     let mut answer = Answer::new(claim, &paved, &target, started.elapsed());
+    answer.components = arguments.components(claim, &target)?;
     answer.design = arguments.design.display().to_string();
     answer.title = design.title;
     answer.reached = match (goal.depth, goal.gap) {
@@ -183,6 +225,22 @@ impl Arguments {
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })
     }
 
+    fn components(
+        &self,
+        claim: &MachineClaim,
+        target: &Path,
+    ) -> Result<Option<ComponentsAnswer>, Failure> {
+        let fails = |reason: &dyn std::fmt::Display| {
+            Failure::Output(format!("{}: {reason}", target.display()))
+        };
+        let file = File::open(target).map_err(|error| fails(&error))?;
+        let mut reader = Reader::new(BufReader::new(file)).map_err(|error| fails(&error))?;
+        let decider = Decider::new(reader.header()).map_err(|error| fails(&error))?;
+        let found = components(&mut reader, &decider, self.memory.saturating_mul(1 << 20))
+            .map_err(|error| fails(&error))?;
+        Ok(found.filter(|found| !found.all.is_empty()).map(|found| described(claim, &found)))
+    }
+
     fn target(&self) -> PathBuf {
         self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"))
     }
@@ -216,9 +274,33 @@ impl Answer {
             boundary: part(summary.boundary, summary.boundary_share.clone()),
             mirrored: summary.mirrored,
             depth: paved.header.depth,
+            components: None,
             boxes: paved.boxes,
             seconds: elapsed.as_secs_f64(),
         }
+    }
+}
+
+fn described(claim: &MachineClaim, found: &Components) -> ComponentsAnswer {
+    let unit = (-f64::from(orthocert_checker::paving::SHARE_BITS)).exp2();
+    let described = |component: &Component| ComponentAnswer {
+        share: component.share as f64 * unit,
+        boxes: component.boxes,
+        copies: component.copies,
+        best_conditioned: component.best_conditioned,
+    };
+    let mut at = found.centre;
+    if let Workspace::Box { min, max } = &claim.workspace {
+        for (k, u) in found.centre.iter().enumerate() {
+            let end = |x: &Exact| orthocert::decimal::approximate(x).unwrap_or(f64::NAN);
+            at[k] = end(&min[k]) + (end(&max[k]) - end(&min[k])) * u;
+        }
+    }
+    ComponentsAnswer {
+        count: found.all.iter().map(|component| component.copies).sum(),
+        largest: found.all.iter().take(SHOWN).map(described).collect(),
+        best_conditioning: found.conditioning,
+        best_conditioned_at: at,
     }
 }
 
@@ -264,6 +346,9 @@ fn text(answer: &Answer, quiet: bool) -> String {
         out += "\n  The machine looks the same from permuted axes: only points with x <= y <= z are\n  \
                 paved, and the shares count all images.\n";
     }
+    if let Some(components) = &answer.components {
+        out += &components_text(components);
+    }
     if !answer.reached {
         out += "\n  What was asked for is not reached: raise --max-boxes.\n";
     }
@@ -277,4 +362,32 @@ fn text(answer: &Answer, quiet: bool) -> String {
         significant(answer.seconds, 3),
         grouped(rate as u64),
     )
+}
+
+fn components_text(components: &ComponentsAnswer) -> String {
+    let [x, y, z] = components.best_conditioned_at.map(|x| significant(x, 3));
+    let mut out = format!(
+        "\n  components {:>10}, by shared faces; they may join in undecided boxes\n",
+        grouped(components.count)
+    );
+    for component in &components.largest {
+        let copies = match component.copies {
+            1 => String::new(),
+            n => format!(" together with {} images", n - 1),
+        };
+        let best = if component.best_conditioned {
+            format!(
+                ", with the best conditioned point, sigma_max/sigma_min = {} at ({x}, {y}, {z})",
+                significant(components.best_conditioning, 4)
+            )
+        } else {
+            String::new()
+        };
+        out += &format!(
+            "    {:>9} % of the box{copies}, {} boxes{best}\n",
+            significant(100.0 * component.share, 6),
+            grouped(component.boxes)
+        );
+    }
+    out
 }

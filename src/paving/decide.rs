@@ -111,6 +111,13 @@ impl Decider {
         Decision { steps, fate: Fate::Open(axis.map(|k| Axis::ALL[k])) }
     }
 
+    /// The extreme singular values at a cell's centre, nearly; `None` out of reach.
+    pub(super) fn spectrum_at_centre(&self, cell: &Cell) -> Option<Spectrum> {
+        let at = Region::new(&self.rough, cell, ExpansionPoint::Centre).at;
+        let row = |i: usize| self.rough.legs[i].at(&at[i]).map(|state| state.row);
+        Some(Spectrum::of(&[row(0)?, row(1)?, row(2)?]))
+    }
+
     /// A violation, confirmed in exact arithmetic, that holds on all of the cell.
     pub fn violated(&self, cell: &Cell) -> Option<Violation> {
         let Ok(expansion) = Expansion::new(&self.rough, cell, ExpansionPoint::Centre) else {

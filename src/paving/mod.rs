@@ -7,18 +7,21 @@
 //! | `tree`     | grows the tree, cut into subtrees                                 |
 //! | `plan`     | how deep the tree has to go                                       |
 //! | `pass`     | writes the tree to a file that can be taken up again              |
+//! | `components` | connected components of the inner part                          |
 //!
 //! The tree is grown depth first down to one depth, and what becomes of a cell depends on the cell
 //! and its ancestors alone: the bytes are the same for every number of threads and after every
 //! interruption. Every inner and every outer cell is confirmed by the checker's exact
 //! [`Judge`](orthocert_checker::paving::Judge) before it is written.
 
+mod components;
 mod decide;
 mod pass;
 mod plan;
 mod spectrum;
 mod tree;
 
+pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume};
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
