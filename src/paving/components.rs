@@ -196,7 +196,7 @@ impl Union<'_> {
                 best_conditioned: Some(root as u32) == best_root,
             })
             .collect();
-        all.sort_by(|a, b| b.share.cmp(&a.share));
+        all.sort_by_key(|component| std::cmp::Reverse(component.share));
         let centre = self.inner.get(best.1 as usize).map_or([0.5; 3], centre_of);
         Components { all, conditioning: best.0, centre }
     }

@@ -88,7 +88,7 @@ impl Grower<'_> {
     pub fn grow(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Result<(), Cancelled> {
         let mut waiting = vec![root];
         while let Some(root) = waiting.pop() {
-            if tally.boxes % 256 == 0 && self.cancel.load(Ordering::Relaxed) {
+            if tally.boxes.is_multiple_of(256) && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
             if let Some((lower, upper)) = self.node(root, self.depth, out, tally) {
