@@ -15,7 +15,7 @@ use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Reader, Shares};
 use serde::Serialize;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -145,7 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         return Err(Failure::Input("a design is about a machine".to_owned()));
     };
     let goal = arguments.goal(claim)?;
-    let target = arguments.target();
+    let target = arguments.target()?;
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
     effort::start_threads(arguments.threads)?;
@@ -241,8 +241,23 @@ impl Arguments {
         Ok(found.filter(|found| !found.all.is_empty()).map(|found| described(claim, &found)))
     }
 
-    fn target(&self) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"))
+    /// Where the paving goes: a path that is free, or a file that is not the design. Links are
+    /// followed, for the finished paving takes the file's place.
+    fn target(&self) -> Result<PathBuf, Failure> {
+        let target = self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"));
+        let refused = |what: &str| {
+            let path = target.display();
+            Err(Failure::Input(format!("--output: {path} is {what}; accepted: another path")))
+        };
+        match fs::metadata(&target) {
+            Ok(found) if !found.is_file() => refused("not a regular file"),
+            Ok(_) => match (fs::canonicalize(&target), fs::canonicalize(&self.design)) {
+                (Ok(target), Ok(design)) if target == design => refused("the design itself"),
+                (Ok(target), _) => Ok(target),
+                _ => Ok(target),
+            },
+            Err(_) => Ok(target),
+        }
     }
 }
 

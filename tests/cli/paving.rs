@@ -148,6 +148,11 @@ fn bad_usage_is_refused() {
     ] {
         folder.run(arguments).exits(2).complains(&[complaint]);
     }
+    for (output, complaint) in
+        [("/dev/null", "not a regular file"), ("d.toml", "the design itself")]
+    {
+        folder.run(&["pave", "d.toml", "-o", output]).exits(2).complains(&[complaint]);
+    }
     assert_eq!(folder.names(), ["cube.toml", "d.toml", "flat.toml"]);
     folder.run(&["verify", "d.toml", "-o", "c.json"]);
     folder.run(&["check", "c.json", "--sample", "3"]).exits(2).complains(&["accepted: a paving"]);
