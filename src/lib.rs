@@ -3,29 +3,32 @@
 //! Nothing in this crate has to be trusted: it reads designs and searches for proofs; what it finds
 //! is re-proved in exact arithmetic by [`orthocert_checker`], which never depends on this crate.
 //!
-//! | module          | does                                                                  |
-//! |-----------------|-----------------------------------------------------------------------|
-//! | [`attestation`] | what the checker accepts, as an in-toto statement                     |
-//! | [`batch`]       | many designs at once, and reports for continuous integration          |
-//! | [`decimal`]     | decimal notation of exact numbers, certified digits                   |
-//! | [`design`]      | reads design files, written by people, into claims in exact numbers   |
-//! | [`digest`]      | SHA-256 as people and browsers compare it                             |
-//! | [`dimensions`]  | the paper's Steps 1 to 3, enclosed                                    |
-//! | [`export`]      | writes certificates for the formal checker in Rocq                    |
-//! | [`extremes`]    | encloses how small and how large each quantity gets                   |
-//! | [`import`]      | makes design files of the configurations of motion controllers        |
-//! | [`interval`]    | floating-point intervals and approximations for the search            |
-//! | [`machine`]     | the machine's obligations and the rules that may discharge them       |
-//! | [`output`]      | files that appear whole or not at all                                 |
-//! | [`page`]        | a certificate as a page to read and to file, and its figures          |
-//! | [`paper`]       | the claims of the seed paper, one by one                              |
-//! | [`postulate`]   | proves the Q1/Q2 postulate for one psi_max, a range, or every one     |
-//! | [`refute`]      | turns a place where a requirement seems to fail into an exact witness |
-//! | [`report`]      | what a verification found, for people and for scripts                 |
-//! | [`rotation`]    | finds the orthogonal matrix that the vertex rule takes as evidence    |
-//! | [`sample`]      | looks around: approximate values at single points and machines        |
-//! | [`search`]      | branch and bound: finds a bisection tree that discharges everything   |
-//! | [`verify`]      | decides a claim: certified, refuted, or undecided                     |
+//! | module           | does                                                                  |
+//! |------------------|-----------------------------------------------------------------------|
+//! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
+//! | [`batch`]        | many designs at once, and reports for continuous integration          |
+//! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
+//! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
+//! | [`digest`]       | SHA-256 as people and browsers compare it                             |
+//! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
+//! | [`export`]       | writes certificates for the formal checker in Rocq                    |
+//! | [`extremes`]     | encloses how small and how large each quantity gets                   |
+//! | [`import`]       | makes design files of the configurations of motion controllers        |
+//! | [`interval`]     | floating-point intervals and approximations for the search            |
+//! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
+//! | [`machine`]      | the machine's obligations and the rules that may discharge them       |
+//! | [`output`]       | files that appear whole or not at all                                 |
+//! | [`page`]         | a certificate as a page to read and to file, and its figures          |
+//! | [`paper`]        | the claims of the seed paper, one by one                              |
+//! | [`paving`]       | the region of a box where a claim holds, from within and from without |
+//! | [`postulate`]    | proves the Q1/Q2 postulate for one psi_max, a range, or every one     |
+//! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
+//! | [`report`]       | what a verification found, for people and for scripts                 |
+//! | [`rotation`]     | finds the orthogonal matrix that the vertex rule takes as evidence    |
+//! | [`rough`]        | intervals without rounding, for proposals                             |
+//! | [`sample`]       | looks around: approximate values at single points and machines        |
+//! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
+//! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
 pub mod attestation;
 pub mod batch;
@@ -37,14 +40,17 @@ pub mod export;
 pub mod extremes;
 pub mod import;
 pub mod interval;
+pub mod largest_cube;
 pub mod machine;
 pub mod output;
 pub mod page;
 pub mod paper;
+pub mod paving;
 pub mod postulate;
 pub mod refute;
 pub mod report;
 pub mod rotation;
+pub mod rough;
 pub mod sample;
 pub mod search;
 pub mod verify;

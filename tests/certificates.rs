@@ -9,6 +9,7 @@
 mod schema;
 
 use orthocert::design::Design;
+use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
@@ -16,7 +17,7 @@ use orthocert_checker::cell::MAX_LEVEL;
 use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
 };
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
+use orthocert_checker::claim::{Claim, NoCubeClaim, PostulateClaim, PsiMax, Quantity, Workspace};
 use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
@@ -57,6 +58,9 @@ const POSTULATES: [(&str, Option<(&str, &str)>); 7] = [
     ("postulate-1000000000", Some(("1000000000", "1000000000"))),
 ];
 
+/// No cube of 200 mm for legs of 310 mm.
+const NO_CUBE: &str = "orthoglide-310-no-cube-of-200";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -76,6 +80,10 @@ fn decided(claim: &Claim) -> Certificate {
     let answer = match claim {
         Claim::Machine(claim) => verify(claim, budget, &mut control).unwrap().answer,
         Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control).unwrap().answer,
+        Claim::NoCube(claim) => {
+            let NoCubeClaim { machine, side } = claim;
+            return *exclude(machine, side, budget, &mut control).unwrap().unwrap();
+        }
     };
     match answer {
         Answer::Decided { certificate, .. } => *certificate,
@@ -112,12 +120,23 @@ fn committed_certificates_are_what_the_prover_writes() {
     }
 }
 
+/// Legs of 310 have no cube of side 200. Beyond 217 a corner of it is out of reach: 217 + 100 > 310.
+#[test]
+fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
+    let design = Design::read(&root().join("tests/designs/orthoglide-310.toml")).unwrap();
+    let Claim::Machine(mut machine) = design.claim else { panic!("not a machine") };
+    let corner = |n| [(); 3].map(|()| Exact::integer(n));
+    machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
+    let claim = Claim::NoCube(NoCubeClaim { machine, side: Exact::integer(200) });
+    is_what_the_prover_writes(NO_CUBE, &claim, Certified);
+}
+
 #[test]
 fn no_certificate_is_committed_but_these() {
     let committed: BTreeSet<_> =
         fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
     let designs = OF_DESIGNS.iter().map(|(name, _)| *name);
-    let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name));
+    let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name)).chain([NO_CUBE]);
     assert_eq!(committed, known.map(path).collect());
 }
 

@@ -150,7 +150,7 @@ fn between(min: Option<String>, name: &str, max: Option<&Exact>) -> String {
 /// The rule that a counterexample breaks.
 pub fn broken(violation: &Violation) -> &'static str {
     match violation {
-        Violation::SigmaMin(_) | Violation::SigmaMax(_) => "transmission",
+        Violation::SigmaMin(_) | Violation::SigmaMax(_) | Violation::Row(_) => "transmission",
         Violation::Reach(_) | Violation::Singular(_) => SINGULARITY,
         Violation::JointRange(_) => "joint-range",
         Violation::Conditioning(_) => "conditioning",

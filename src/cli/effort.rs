@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Boxes tried by default.
 const MAX_BOXES: u64 = 500_000;
 /// Most threads that may be asked for.
-const MAX_THREADS: u64 = 1024;
+pub const MAX_THREADS: u64 = 1024;
 
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
@@ -50,14 +50,7 @@ impl Effort {
     /// Starts the threads that were asked for. Without a number they start when the search first
     /// has work for them.
     pub fn start_threads(&self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else {
-            return Ok(());
-        };
-        let pool =
-            rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
-        pool.build_global().map_err(|error| {
-            Failure::Output(format!("{threads} threads cannot be started: {error}"))
-        })
+        start_threads(self.threads)
     }
 
     /// Runs a search that can be interrupted and shows its progress.
@@ -69,6 +62,16 @@ impl Effort {
         bar.clear();
         found
     }
+}
+
+/// Starts so many threads, if a number is given.
+pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
+    pool.build_global()
+        .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
 }
 
 /// A time: a number with a unit, in seconds without one.

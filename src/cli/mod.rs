@@ -16,7 +16,9 @@ mod import;
 mod init;
 mod input;
 mod interrupt;
+mod largest_cube;
 mod paper;
+mod pave;
 mod postulate;
 mod print;
 mod progress;
@@ -71,6 +73,10 @@ enum Command {
     Report(report::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
+    /// Enclose the side of the largest cube in which all requirements hold.
+    LargestCube(largest_cube::Arguments),
+    /// Pave a box: where all requirements hold, where some fails, and the volume between.
+    Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
     /// Make a design file of a motion controller's configuration.
@@ -196,6 +202,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Report(arguments) => report::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
+        Command::LargestCube(arguments) => largest_cube::run(arguments),
+        Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),

@@ -158,6 +158,7 @@ fn violated(violation: &Violation) -> String {
     match violation {
         Violation::SigmaMin(_) => "the greatest psi is beyond psi_max".to_owned(),
         Violation::SigmaMax(_) => "the least psi is below psi_min".to_owned(),
+        Violation::Row(leg) => format!("the least psi is below psi_min, by leg {}", leg.leg),
         Violation::Reach(leg) => format!("leg {} cannot reach P with s > 0", leg.leg),
         Violation::JointRange(leg) => format!("rho_{} is outside its range", leg.leg),
         Violation::Conditioning(_) => "the condition number is beyond its bound".to_owned(),

@@ -26,6 +26,8 @@ pub enum ExportError {
     Refutes,
     /// It proves the postulate by a tree over the cube of one `psi_max`.
     OneCube,
+    /// It is about cubes that do not fit.
+    NoCube,
     /// Not all legs are of fixed length on linear guides.
     NotSliders,
     /// The workspace is not a box.
@@ -50,6 +52,7 @@ impl fmt::Display for ExportError {
                  for all psi_max are exported, which contain it: orthocert postulate --psi-range \
                  A..B with A less than B, or --all"
             ),
+            ExportError::NoCube => write!(f, "the claim is that no cube fits; {and_only}"),
             ExportError::NotSliders => {
                 write!(f, "a leg is not of fixed length on a linear guide; {and_only}")
             }
@@ -88,6 +91,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
             return postulate::postulate(&claim.psi_max, faces);
         }
         (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
+        (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);

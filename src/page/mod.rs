@@ -105,11 +105,12 @@ impl<'a> Page<'a> {
     ) -> Self {
         let machine_claim = match &certificate.claim {
             Claim::Machine(claim) => Some(claim.clone()),
+            Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            Claim::Postulate(_) => Vec::new(),
+            Claim::Postulate(_) | Claim::NoCube(_) => Vec::new(),
         };
         let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, certificate, &rows);
@@ -149,7 +150,7 @@ impl<'a> Page<'a> {
     }
 
     fn is_machine(&self) -> bool {
-        matches!(self.certificate.claim, Claim::Machine(_))
+        matches!(self.certificate.claim, Claim::Machine(_) | Claim::NoCube(_))
     }
 
     /// Every figure.
@@ -176,6 +177,10 @@ impl<'a> Page<'a> {
             (Claim::Postulate(_), Verdict::Certified) => {
                 "The bounds on the transmission factors hold on the whole closed cube, for every \
                  psi_max of the claim. The exact checker accepted the proof."
+            }
+            (Claim::NoCube(_), Verdict::Certified) => {
+                "No cube of this side fits, wherever its centre is in the box. The exact checker \
+                 accepted the proof."
             }
             (_, Verdict::Refuted) => {
                 "A requirement fails. The exact checker accepted the counterexample."

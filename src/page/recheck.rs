@@ -37,6 +37,11 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/linear.rs",
     "src/model.rs",
     "src/number.rs",
+    "src/paving/code.rs",
+    "src/paving/judge.rs",
+    "src/paving/mod.rs",
+    "src/paving/reader.rs",
+    "src/paving/symmetry.rs",
     "src/postulate.rs",
     "src/rule/conditioning.rs",
     "src/rule/joints.rs",
@@ -44,10 +49,12 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/rule/mod.rs",
     "src/rule/outside.rs",
     "src/rule/vertex.rs",
+    "src/rule/violated.rs",
     "src/statement.rs",
     "src/strict.rs",
     "src/trig.rs",
     "src/witness.rs",
+    "src/word.rs",
 ];
 
 /// The SHA-256 of the list of the SHA-256 of the checker's sources: one line a file, its digest, two

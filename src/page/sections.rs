@@ -8,7 +8,7 @@ use super::{evidence, recheck, words, Page, Picture};
 use crate::decimal::{grouped, significant};
 use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_checker::claim::{Claim, NoCubeClaim};
 use orthocert_checker::rule::Obligation;
 use std::fmt::Write;
 
@@ -91,7 +91,9 @@ impl Page<'_> {
             design.inline()
         );
         match &self.certificate.claim {
-            Claim::Machine(claim) => out.push_str(&words::parameters(claim, machine)),
+            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
+                out.push_str(&words::parameters(claim, machine));
+            }
             Claim::Postulate(claim) => {
                 if let Some(claim) = nominal::of_postulate(claim) {
                     out.push_str(&words::parameters(&claim, machine));

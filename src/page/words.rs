@@ -28,6 +28,12 @@ pub fn subject(claim: &Claim) -> String {
                 format!("The Q1/Q2 postulate for every psi_max from {min} to {max}")
             }
         },
+        Claim::NoCube(claim) => format!(
+            "No cube of side {} with its centre in {} for: {}",
+            readable(&claim.side),
+            workspace(&claim.machine),
+            machine(&claim.machine)
+        ),
         Claim::Machine(claim) => format!("{} over {}", machine(claim), workspace(claim)),
     }
 }
@@ -116,6 +122,17 @@ fn asserted(claim: &Claim) -> Vec<String> {
                 format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
             }
         }),
+        Claim::NoCube(claim) => {
+            let side = number(&claim.side);
+            let mut out = vec![format!(
+                "for every <var>C</var> \u{2208} <var>W</var> there is a <var>P</var> with \
+                 |<var>P</var> \u{2212} <var>C</var>|<sub>\u{221e}</sub> \u{2264} {side}/2 at which \
+                 one of these fails:"
+            )];
+            let everywhere = asserted(&Claim::Machine(claim.machine.clone()));
+            out.extend(everywhere.into_iter().skip(1));
+            out
+        }
         Claim::Machine(claim) => {
             let psi = claim.requirements.transmission.as_ref();
             let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {

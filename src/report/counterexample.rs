@@ -101,6 +101,11 @@ fn violation(claim: &MachineClaim, witness: &Witness) -> Option<(String, String)
             beyond(claim, Quality::GreatestPsi, &place.psi_at_least(&d.vector)?)
         }
         Violation::SigmaMax(d) => beyond(claim, Quality::LeastPsi, &place.psi(&d.vector)?),
+        Violation::Row(leg) => {
+            let i = leg.leg.checked_sub(1)?;
+            let inverse = model.legs.get(i)?.inverse_row_squared(&model.origin[i])?;
+            beyond(claim, Quality::LeastPsi, &inverse.sqrt()?)
+        }
         Violation::Reach(LegNumber { leg }) => Some((
             format!("leg {leg} reaches P and is not serially singular there"),
             format!("leg {leg} cannot reach P, or is serially singular there"),

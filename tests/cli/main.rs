@@ -10,6 +10,8 @@
 //! | `cache`        | certificates that are there are re-checked                        |
 //! | `audit`        | `check` of a folder, and `attest`                                 |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
+//! | `paving`       | `pave` and `check` of pavings                                     |
+//! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
 //! | `report`       | `report`: pages and figures                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
@@ -29,6 +31,8 @@ mod certificates;
 mod files;
 mod interruption;
 mod json;
+mod largest_cube;
+mod paving;
 mod postulate;
 mod report;
 mod verdicts;

@@ -146,6 +146,8 @@ pub enum Step {
     Speed,
     /// The cell has no point of the cylinder.
     Outside,
+    /// No cube: with its centre in the cell, the cube has a point at which the claim fails.
+    Violated(#[serde(deserialize_with = "strict::object")] Violated),
     /// Postulate: vertex rule for the blow-up about the centre.
     BlowUp,
     /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.
@@ -163,6 +165,16 @@ pub struct ConditioningEvidence {
     pub rotation: Rotation,
     /// `mu`.
     pub mu: Mu,
+}
+
+/// A point of a cube, relative to its centre, at which a requirement fails.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Violated {
+    /// The point, see [`crate::claim::NoCubeClaim::moved`].
+    pub at: [i64; 3],
+    /// What fails there.
+    pub violates: Violation,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.
@@ -192,6 +204,8 @@ pub enum Violation {
     SigmaMin(#[serde(deserialize_with = "strict::object")] Direction),
     /// `|M v|^2 > k^2 |v|^2`: some `psi_i < psi_min`.
     SigmaMax(#[serde(deserialize_with = "strict::object")] Direction),
+    /// `|row_i of M| > k`, or the leg cannot reach the point: some `psi_i < psi_min`.
+    Row(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A leg cannot reach the point, or is serially singular there.
     Reach(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A joint coordinate is outside its range.

@@ -2,10 +2,11 @@
 
 use crate::cell::{Axis, Cell};
 use crate::certificate::{
-    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, FORMAT, MAX_BYTES, MAX_STEPS,
-    PRECISIONS,
+    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, Violated, FORMAT, MAX_BYTES,
+    MAX_STEPS, PRECISIONS,
 };
-use crate::claim::{Claim, ClaimError, MachineClaim, PostulateClaim, PsiMax};
+use crate::claim::{Claim, ClaimError, MachineClaim, NoCubeClaim, PostulateClaim, PsiMax};
+use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
 use crate::model::Model;
@@ -186,7 +187,7 @@ fn syntax(message: &dyn fmt::Display) -> Rejected {
 }
 
 /// The beginning of a text that may quote the file, fit for a terminal.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let escaped = text.chars().flat_map(|c| {
         let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
         plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
@@ -203,6 +204,9 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
         }
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
+        }
+        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_no_cube(claim, tree, &mut size)?;
         }
         (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
             check_one_cube(claim, tree, &mut size)?;
@@ -232,15 +236,15 @@ pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u32;
+pub(crate) type Discharged = u32;
 const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
-fn bit(obligation: Obligation) -> Discharged {
+pub(crate) fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
 }
 
 /// What a step discharges.
-fn discharges(step: &Step) -> Discharged {
+pub(crate) fn discharges(step: &Step) -> Discharged {
     match step.rule().1 {
         Some(obligation) => bit(obligation),
         None => Discharged::MAX,
@@ -333,6 +337,40 @@ fn check_tree(claim: &MachineClaim, tree: &Tree, size: &mut TreeSize) -> Result<
     let obligations = obligations(&model);
     let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
     walk.run(size, |cell, node, index, size| check_steps(&model, cell, node, index, size))
+}
+
+/// No cube: a tree over the box of the centres, each of whose leaves has a step `violated`.
+///
+/// **Lemma.** Then no cube of that side with its centre in the box lies in the region where the
+/// claim of `machine` holds, for any machine described. *Proof.* A centre `C` lies in a leaf, which
+/// or an ancestor of which has a step with the offset `o`. The cell of the claim moved by `o` is that
+/// cell moved by `o`: it contains `C + o`, a point of the cube, and by [`rule::violated`] the claim
+/// fails at each of its points for every machine. ∎
+fn check_no_cube(claim: &NoCubeClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    claim.validate()?;
+    let mut moved: BTreeMap<[i64; 3], Model<Fixed>> = BTreeMap::new();
+    let obligations = [Obligation::SigmaMin];
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    walk.run(size, |cell, node, index, size| {
+        let mut discharged = 0;
+        for step in &node.by {
+            let (rule, _) = step.rule();
+            let failed = |failure| Rejected::Step { node: index, rule, failure };
+            let Step::Violated(Violated { at, violates }) = step else {
+                return Err(failed(Failure::OtherKind));
+            };
+            if !moved.contains_key(at) {
+                let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
+                moved.insert(*at, Model::new(&claim, tree.precision)?);
+            }
+            let model = moved.get(at).ok_or(failed(Failure::NotOfTheCube))?;
+            rule::violated(model, cell, violates).map_err(failed)?;
+            discharged |= discharges(step);
+            *size.steps.entry(rule).or_default() += 1;
+        }
+        Ok(discharged)
+    })
 }
 
 /// The obligations of the postulate. The rules of `sigma_min` enclose `1/s_i`, so `s_i > 0`.
@@ -495,13 +533,13 @@ fn check_steps(
 }
 
 /// The expansion of a cell about its centre, made for the first step that needs it.
-type CentreExpansion = OnceCell<Result<Expansion<Fixed>, OutOfReach>>;
+pub(crate) type CentreExpansion<S> = OnceCell<Result<Expansion<S>, OutOfReach>>;
 
-fn check_step(
-    model: &Model<Fixed>,
+pub(crate) fn check_step<S: Enclosure>(
+    model: &Model<S>,
     cell: &Cell,
     step: &Step,
-    centre: &CentreExpansion,
+    centre: &CentreExpansion<S>,
 ) -> Result<(), Failure> {
     let about_centre = || {
         let expansion = centre.get_or_init(|| Expansion::new(model, cell, ExpansionPoint::Centre));
@@ -526,7 +564,7 @@ fn check_step(
         Step::LegAngle => rule::leg_angle(model, cell),
         Step::Speed => rule::speed(model, about_centre()?),
         Step::Outside => rule::outside(model, cell),
-        Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
+        Step::Violated(_) | Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }
 
@@ -548,6 +586,7 @@ impl Step {
             Step::Edge(_) => ("edge", Obligation::SigmaMin),
             Step::Mirror => ("mirror", Obligation::SigmaMin),
             Step::Outside => return ("outside", None),
+            Step::Violated(_) => return ("violated", None),
         };
         (name, Some(obligation))
     }

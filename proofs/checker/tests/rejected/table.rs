@@ -24,7 +24,7 @@ pub enum Kind {
 }
 
 /// The file's name, the variant of the rejection, and words of the reason.
-pub const TABLE: [(&str, Kind, &str); 264] = [
+pub const TABLE: [(&str, Kind, &str); 265] = [
     // Bytes and JSON text.
     ("array-for-the-certificate", Syntax, "invalid type: sequence, expected an object"),
     ("blank", Syntax, "EOF while parsing a value"),
@@ -657,6 +657,11 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("witness-singular-from-outside", Witness, "a point is not provably in the workspace"),
     (
         "witness-singular-with-equal-signs",
+        Witness,
+        "the requirement is not provably violated at the point",
+    ),
+    (
+        "witness-row-within-its-bound",
         Witness,
         "the requirement is not provably violated at the point",
     ),
