@@ -144,7 +144,11 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
 
 /// Checks all of a folder.
 fn folder(arguments: &Arguments) -> Result<Status, Failure> {
-    let Arguments { certificate, design, designs, jobs, format } = arguments;
+    let Arguments { certificate, design, designs, jobs, format, sample, .. } = arguments;
+    if sample.is_some() {
+        let message = "--sample: found with a folder; accepted: with one paving";
+        return Err(Failure::Input(message.to_owned()));
+    }
     if let Some(design) = design {
         return Err(Failure::Input(format!(
             "--design: found {} with a folder of certificates; accepted: --designs FOLDER",

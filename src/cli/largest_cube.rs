@@ -20,7 +20,8 @@ use std::time::Instant;
 #[command(after_help = "\
 Cubes have edges along the axes; their centres are searched for in the box [workspace] min and max
 of the design. The lower bound is a certificate for a cube as a workspace; the upper bound one that
-no cube of that side fits, wherever in the box its centre is. With --side the exit code is 0 if such
+no cube of that side fits, wherever in the box its centre is. Where the gap is not reached, the
+bounds are as near as they were found, and the exit code is 3. With --side the exit code is 0 if such
 a cube is certified, and 1 if it is proved that none fits.")]
 pub struct Arguments {
     /// The design; its workspace is the box of the centres

@@ -71,9 +71,11 @@ impl From<ClaimError> for NoAnswer {
     }
 }
 
-/// Shares of the gap that are left between the place found and either bound, tried in turn: the
-/// place is known to a few digits less than doubles have.
-const SHARES: [f64; 4] = [0.3, 0.45, 5.0, 500.0];
+/// Shares of the gap that are left between the place found and either bound, tried in turn. The
+/// later ones are for tolerances, and for regions in which the place is not unique.
+const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
+/// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
+const BOXES: usize = 50_000;
 
 /// Encloses the side of the largest cube with its centre in the workspace of `claim`, a box, to a
 /// relative width of `gap`, or as near to it as the budget allows.
@@ -87,6 +89,7 @@ pub fn largest_cube(
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
     let place = best_place(claim, gap)?.ok_or(NoAnswer::Nowhere)?;
+    let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
     let mut bracket = Bracket::default();
     for share in SHARES {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
