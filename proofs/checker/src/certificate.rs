@@ -147,7 +147,7 @@ pub enum Step {
     /// The cell has no point of the cylinder.
     Outside,
     /// No cube: with its centre in the cell, the cube has a point at which the claim fails.
-    Violated(#[serde(deserialize_with = "strict::object")] Violated),
+    Violated(#[serde(deserialize_with = "strict::object")] Box<Violated>),
     /// Postulate: vertex rule for the blow-up about the centre.
     BlowUp,
     /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.

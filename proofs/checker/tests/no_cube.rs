@@ -50,7 +50,7 @@ fn certificate(claim: NoCubeClaim, nodes: Vec<Node>) -> Certificate {
 }
 
 fn violated(at: [i64; 3], violates: Violation) -> Step {
-    Step::Violated(Violated { at, violates })
+    Step::Violated(Box::new(Violated { at, violates }))
 }
 
 fn leaf(step: Step) -> Node {
