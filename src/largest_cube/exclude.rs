@@ -33,7 +33,9 @@ impl Problem for Centres {
             .iter()
             .find_map(|(at, decider)| decider.violated(cell).map(|violates| (*at, violates)));
         let (steps, failures) = match found {
-            Some((at, violates)) => (vec![Step::Violated(Box::new(Violated { at, violates }))], Vec::new()),
+            Some((at, violates)) => {
+                (vec![Step::Violated(Box::new(Violated { at, violates }))], Vec::new())
+            }
             None => (Vec::new(), vec![(Obligation::SigmaMin, Failure::NotViolated)]),
         };
         Trial { steps, failures, axes, hopeless: false }

@@ -357,10 +357,10 @@ fn check_no_cube(claim: &NoCubeClaim, tree: &Tree, size: &mut TreeSize) -> Resul
         for step in &node.by {
             let (rule, _) = step.rule();
             let failed = |failure| Rejected::Step { node: index, rule, failure };
-            let Step::Violated(violated) = step else {
+            let Step::Violated(evidence) = step else {
                 return Err(failed(Failure::OtherKind));
             };
-            let Violated { at, violates } = violated.as_ref();
+            let Violated { at, violates } = evidence.as_ref();
             if !moved.contains_key(at) {
                 let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
                 moved.insert(*at, Model::new(&claim, tree.precision)?);

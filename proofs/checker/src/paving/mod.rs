@@ -249,8 +249,8 @@ pub fn is_paving(bytes: &[u8]) -> bool {
 pub enum Extent {
     /// That of every node.
     All,
-    /// That of every split node, and of this many inner and outer cells drawn without replacement
-    /// by [`drawn`]: any set of that size is as likely as another for a random seed.
+    /// That of every split node, and of this many inner and outer cells drawn without
+    /// replacement: any set of that size is as likely as another for a random seed.
     Sample {
         /// How many; all if there are fewer.
         size: u64,

@@ -19,7 +19,7 @@ use std::array::from_fn;
 ///
 /// *Proof.* By the tests below, each for a fixed machine and a fixed `P` of the cell. Enclosures
 /// over the cell hold the values at `P`, so a sign that is certain is that of the value. With `y`,
-/// `e_k` as in [`square`], `M` at `P` is defined: the expansion (where it is not defined,
+/// `e_k` as in `square`, `M` at `P` is defined: the expansion (where it is not defined,
 /// [`natural`] in its place) exists only where every leg reaches the cell with `s_i > 0`.
 ///
 /// | violation         | test                                           | then                                  |

@@ -191,7 +191,11 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
         r#"format "orthocert/2" is not known; this checker reads "orthocert/1""#,
     ),
     ("unknown-axis", Syntax, "unknown variant `w`"),
-    ("unknown-claim", Syntax, "unknown variant `folklore`, expected `machine` or `postulate`"),
+    (
+        "unknown-claim",
+        Syntax,
+        "unknown variant `folklore`, expected one of `machine`, `postulate`, `no_cube`",
+    ),
     ("unknown-corner", Syntax, "unknown variant `Q3`, expected `Q1` or `Q2`"),
     ("unknown-drive", Syntax, "unknown variant `hydraulic`"),
     ("unknown-proof", Syntax, "unknown variant `oracle`"),
