@@ -5,6 +5,7 @@
 //!
 //! | module         | does                                                                    |
 //! |----------------|-------------------------------------------------------------------------|
+//! | [`atlas`]      | maps which designs of a box of parameters meet their requirements       |
 //! | [`decimal`]    | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]     | reads design files, written by people, into claims in exact numbers     |
 //! | [`dimensions`] | the paper's Steps 1 to 3, enclosed                                      |
@@ -23,6 +24,7 @@
 //! | [`search`]     | branch and bound: finds a bisection tree that discharges everything     |
 //! | [`verify`]     | decides a claim: certified, refuted, or undecided                       |
 
+pub mod atlas;
 pub mod decimal;
 pub mod design;
 pub mod dimensions;

@@ -14,7 +14,7 @@ use orthocert_checker::{check, Accepted, Rejected};
 
 /// Precisions of the exact check, in fractional bits, lowest first: the first that is accepted is
 /// written into the certificate.
-const PRECISIONS: [u32; 4] = [64, 96, 128, 256];
+pub(crate) const PRECISIONS: [u32; 4] = [64, 96, 128, 256];
 /// Fractional bits in which the claim's numbers are enclosed for the search.
 pub(crate) const MODEL_PRECISION: u32 = 192;
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
@@ -83,7 +83,7 @@ pub fn verify(
     let model = Model::new(claim, MODEL_PRECISION)?;
     let sampler =
         Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
-    let mut worst = worst_values(&sampler);
+    let mut worst = worst_values(&sampler, FINEST);
     if let Some(witness) = refutation(claim, &sampler, &worst) {
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
@@ -150,8 +150,9 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
     }
 }
 
-/// The worst value of every quality, from the best start of a coarse grid.
-fn worst_values(sampler: &Sampler) -> Vec<Worst> {
+/// The worst value of every quality, from the best start of a coarse grid, down to steps of
+/// `2^-finest` of the workspace.
+pub(crate) fn worst_values(sampler: &Sampler, finest: i32) -> Vec<Worst> {
     let grid: Vec<_> = sampler.grid().into_iter().map(|p| (sampler.at(&p), p)).collect();
     let qualities = sampler.qualities().into_iter();
     qualities
@@ -159,7 +160,7 @@ fn worst_values(sampler: &Sampler) -> Vec<Worst> {
             let margin = |values| sampler.margin(quality, values).unwrap_or(f64::MAX);
             let (_, start) =
                 grid.iter().min_by(|(a, _), (b, _)| margin(a).total_cmp(&margin(b)))?;
-            let (margin, place) = sampler.descend(quality, start, FINEST);
+            let (margin, place) = sampler.descend(quality, start, finest);
             Some(Worst { quality, place, margin })
         })
         .collect()

@@ -56,7 +56,7 @@ impl Shape {
             Proof::Faces(faces) => {
                 (faces.precision, faces.parts.iter().map(|part| &part.nodes[..]).collect())
             }
-            Proof::Witness(_) => return None,
+            Proof::Witness(_) | Proof::Atlas(_) => return None,
         };
         let mut shape = Shape {
             precision,

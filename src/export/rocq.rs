@@ -86,6 +86,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
             return postulate(faces);
         }
         (Claim::Postulate(_), _) => return Err(ExportError::Postulate),
+        (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);
@@ -231,6 +232,8 @@ fn number(x: &Exact) -> String {
         Exact::Mul(x, y) => format!("(Times {} {})", number(x), number(y)),
         Exact::Div(x, y) => format!("(Over {} {})", number(x), number(y)),
         Exact::Sqrt(x) => format!("(Root {})", number(x)),
+        // Of atlases only, which are not exported.
+        Exact::Name(name) => name.to_string(),
     }
 }
 

@@ -101,7 +101,7 @@ impl Size {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
             Proof::Faces(faces) => faces.precision,
-            Proof::Witness(_) => return None,
+            Proof::Witness(_) | Proof::Atlas(_) => return None,
         };
         let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
         let TreeSize { leaves, nodes, depth, .. } = *size;

@@ -2,7 +2,7 @@
 
 use crate::certificate::Verdict;
 use crate::claim::{
-    Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements,
+    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements,
     Sign, Workspace,
 };
 use std::fmt::{self, Write};
@@ -23,8 +23,23 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
             requirements(&mut out, claim)?;
         }
         Claim::Postulate(claim) => postulate(&mut out, claim)?,
+        Claim::Atlas(claim) => atlas(&mut out, claim)?,
     }
     Ok(out)
+}
+
+fn atlas(out: &mut String, claim: &AtlasClaim) -> fmt::Result {
+    writeln!(out, "Of the parameters")?;
+    for AtlasParameter { name, min, max } in &claim.parameters {
+        writeln!(out, "  {min} <= {name} <= {max},")?;
+    }
+    writeln!(out, "cut into the cells of the proof, the following holds")?;
+    writeln!(out, "  for all values of the parameters in the cells that it names certified,")?;
+    writeln!(out, "  which fill the share {} of all, and", claim.certified)?;
+    writeln!(out, "  for no values of the parameters in the cells that it names refuted,")?;
+    writeln!(out, "  which fill the share {} of all:", claim.refuted)?;
+    machine(out, &claim.design)?;
+    requirements(out, &claim.design)
 }
 
 fn postulate(out: &mut String, claim: &PostulateClaim) -> fmt::Result {
