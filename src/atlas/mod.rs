@@ -5,11 +5,17 @@
 //! cell depends on the cell alone. So the map is the same for every number of threads, and parts of
 //! it can be made anywhere ([`part`]).
 
+mod best;
 mod decide;
+mod page;
 mod part;
+mod picture;
 
+pub use best::{best, verdict_at, Best, Standing};
 pub use decide::{decide, Decision};
-pub use part::{assemble, grow, Grown, Growing, Interrupted};
+pub use page::page;
+pub use part::{assemble, grow, waiting, Growing, Interrupted, Top};
+pub use picture::{picture, Point};
 
 use crate::design::AtlasDesign;
 use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Proof, Verdict};

@@ -6,6 +6,7 @@ use orthocert_checker::cell::{Axis, Cell};
 use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::claim::AtlasClaim;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The work was cancelled.
@@ -22,15 +23,14 @@ pub struct Growing<'a> {
     pub cancel: &'a AtomicBool,
 }
 
-/// A grown tree, in preorder.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Grown {
-    /// A cell that is not split.
-    Leaf(AtlasCell),
-    /// A cell that is not decided yet, and not tried either.
-    Waiting(Cell),
-    /// A split along the axis of this number, from zero.
-    Split(usize, Box<[Grown; 2]>),
+/// A node of a tree of cells that may not be grown to its end, in preorder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Top {
+    /// As in an atlas.
+    Cell(AtlasCell),
+    /// A cell that was not tried yet.
+    Waiting,
 }
 
 impl<'a> Growing<'a> {
@@ -61,13 +61,8 @@ pub fn grow(
     growing: &mut Growing<'_>,
     root: Cell,
     enough: Option<usize>,
-) -> Result<Grown, Interrupted> {
-    // Positions in `nodes`: leaves, or splits with the positions of both halves.
-    enum Node {
-        Cell(Cell, Option<AtlasCell>),
-        Split(usize, [usize; 2]),
-    }
-    let mut nodes = vec![Node::Cell(root, None)];
+) -> Result<Vec<Top>, Interrupted> {
+    let mut nodes = vec![Node::Waiting];
     let mut level = vec![(0, root)];
     let (mut decided, mut closed) = (0, 0.0);
     while !level.is_empty() && enough.is_none_or(|enough| level.len() < enough) {
@@ -87,10 +82,8 @@ pub fn grow(
                     (Decision::Open, Some(axis)) => {
                         let (lower, upper) = cell.halves(Axis::ALL[axis]).ok_or(Interrupted)?;
                         let first = nodes.len();
-                        for (i, half) in [lower, upper].into_iter().enumerate() {
-                            nodes.push(Node::Cell(half, None));
-                            next.push((first + i, half));
-                        }
+                        nodes.extend([Node::Waiting, Node::Waiting]);
+                        next.extend([(first, lower), (first + 1, upper)]);
                         nodes[*at] = Node::Split(axis, [first, first + 1]);
                         continue;
                     }
@@ -98,40 +91,70 @@ pub fn grow(
                 let depth: u32 = cell.edges.iter().map(|edge| edge.level).sum();
                 decided += 1;
                 closed += (-f64::from(depth)).exp2();
-                nodes[*at] = Node::Cell(*cell, Some(leaf));
+                nodes[*at] = Node::Leaf(leaf);
             }
             (growing.done)(decided, closed);
         }
         level = next;
     }
-    fn grown(nodes: &mut [Node], at: usize) -> Grown {
-        match std::mem::replace(&mut nodes[at], Node::Split(0, [0, 0])) {
-            Node::Cell(_, Some(leaf)) => Grown::Leaf(leaf),
-            Node::Cell(cell, None) => Grown::Waiting(cell),
+    let mut top = Vec::with_capacity(nodes.len());
+    let mut waiting = vec![0];
+    while let Some(at) = waiting.pop() {
+        match nodes[at].take() {
+            Node::Waiting => top.push(Top::Waiting),
+            Node::Leaf(leaf) => top.push(Top::Cell(leaf)),
             Node::Split(axis, [lower, upper]) => {
-                Grown::Split(axis, Box::new([grown(nodes, lower), grown(nodes, upper)]))
+                top.push(Top::Cell(AtlasCell::Split(axis + 1)));
+                waiting.extend([upper, lower]);
             }
         }
     }
-    Ok(grown(&mut nodes, 0))
+    Ok(top)
 }
 
-/// The cells of a tree in preorder; what waits is given by `part`, in order.
-pub fn assemble<E>(
-    tree: &Grown,
-    part: &mut dyn FnMut(&Cell) -> Result<Vec<AtlasCell>, E>,
-) -> Result<Vec<AtlasCell>, E> {
-    let mut cells = Vec::new();
-    let mut waiting = vec![tree];
-    while let Some(node) = waiting.pop() {
+/// A node of the growing tree.
+enum Node {
+    Waiting,
+    Leaf(AtlasCell),
+    /// The axis, and the positions of both halves.
+    Split(usize, [usize; 2]),
+}
+
+impl Node {
+    fn take(&mut self) -> Node {
+        std::mem::replace(self, Node::Waiting)
+    }
+}
+
+/// The cells that wait in a tree below the whole box, in order; `None` if it is not a tree.
+pub fn waiting(top: &[Top]) -> Option<Vec<Cell>> {
+    let mut found = Vec::new();
+    let mut below = vec![Cell::ROOT];
+    for node in top {
+        let cell = below.pop()?;
         match node {
-            Grown::Leaf(leaf) => cells.push(leaf.clone()),
-            Grown::Waiting(cell) => cells.extend(part(cell)?),
-            Grown::Split(axis, halves) => {
-                cells.push(AtlasCell::Split(axis + 1));
-                waiting.extend([&halves[1], &halves[0]]);
+            Top::Waiting => found.push(cell),
+            Top::Cell(AtlasCell::Split(number)) => {
+                let axis = Axis::ALL.get(number.checked_sub(1)?)?;
+                let (lower, upper) = cell.halves(*axis)?;
+                below.extend([upper, lower]);
             }
+            Top::Cell(_) => {}
         }
     }
-    Ok(cells)
+    below.is_empty().then_some(found)
+}
+
+/// The cells of a tree in preorder, with these parts, in order, in the places of the cells that
+/// wait; `None` if there are more or fewer of them.
+pub fn assemble(top: Vec<Top>, parts: Vec<Vec<AtlasCell>>) -> Option<Vec<AtlasCell>> {
+    let mut cells = Vec::new();
+    let mut parts = parts.into_iter();
+    for node in top {
+        match node {
+            Top::Cell(cell) => cells.push(cell),
+            Top::Waiting => cells.extend(parts.next()?),
+        }
+    }
+    parts.next().is_none().then_some(cells)
 }

@@ -1,6 +1,7 @@
 //! Commands: one module each. Flags are parsed here; every command resolves its own settings and
 //! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
 
+mod atlas;
 mod bounds;
 mod certify;
 mod check;
@@ -63,6 +64,8 @@ enum Command {
     Paper(paper::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Map which designs of a box of parameters meet their requirements, and which fail.
+    Atlas(atlas::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
     /// Write a certificate for another checker.
@@ -172,6 +175,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Postulate(arguments) => postulate::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Atlas(arguments) => atlas::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

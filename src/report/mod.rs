@@ -1,6 +1,7 @@
 //! What a verification found, for people ([`text`]) and for scripts (as JSON, by `serde`): the
 //! same facts.
 
+pub mod atlas;
 mod counterexample;
 mod place;
 mod postulate;
