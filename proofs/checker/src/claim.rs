@@ -47,6 +47,7 @@ pub struct AtlasClaim {
 #[serde(deny_unknown_fields)]
 pub struct AtlasParameter {
     /// How expressions call it.
+    #[serde(deserialize_with = "strict::label")]
     pub name: String,
     /// Least value, rational.
     pub min: Exact,

@@ -244,7 +244,12 @@ pub fn check_cell(
     let instance = |side| claim.cell(cell, side).map_err(Rejected::AtlasClaim);
     match said {
         AtlasCell::Split(_) | AtlasCell::Undecided => Ok(()),
-        AtlasCell::Certified(tree) => check_tree(&instance(Side::Strictest)?, tree, size),
+        AtlasCell::Certified(tree) => {
+            // No design of the cell has an empty workspace or no machine: what is certified of it
+            // says something.
+            instance(Side::Loosest)?.validate()?;
+            check_tree(&instance(Side::Strictest)?, tree, size)
+        }
         AtlasCell::Refuted(witness) => {
             let claim = instance(Side::Loosest)?;
             witness::check_every_machine(&claim, witness).map_err(Rejected::Witness)
