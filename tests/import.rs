@@ -25,7 +25,7 @@ fn claim(imported: &Imported) -> MachineClaim {
     }
     match design.claim {
         Claim::Machine(claim) => claim,
-        Claim::Postulate(_) => panic!("not about a machine"),
+        Claim::Postulate(_) | Claim::Atlas(_) => panic!("not about a machine"),
     }
 }
 

@@ -69,7 +69,7 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("precision-string", Syntax, r#"invalid type: string "64", expected u32"#),
     ("precision-zero", Tree, "precision 0 is not within 32..=1024"),
     // Numbers.
-    ("number-all", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-all", Claim, "has a name; only the design of an atlas has names"),
     ("number-as-json-float", Syntax, "'.' at byte 119, outside a string"),
     ("number-as-json-integer", Syntax, "invalid type: integer `200`, expected a string"),
     ("number-blank", Syntax, "expected canonical form"),
