@@ -22,6 +22,7 @@
 //! | [`rotation`]   | finds the orthogonal matrix that the vertex rule takes as evidence      |
 //! | [`sample`]     | looks around: approximate values at single points and machines          |
 //! | [`search`]     | branch and bound: finds a bisection tree that discharges everything     |
+//! | [`shard`]      | long jobs in parts: shards, their results, their merging                |
 //! | [`verify`]     | decides a claim: certified, refuted, or undecided                       |
 
 pub mod atlas;
@@ -41,4 +42,5 @@ pub mod report;
 pub mod rotation;
 pub mod sample;
 pub mod search;
+pub mod shard;
 pub mod verify;

@@ -13,11 +13,14 @@ mod import;
 mod init;
 mod input;
 mod interrupt;
+mod merge;
 mod paper;
 mod postulate;
 mod print;
 mod progress;
+mod run_shard;
 mod show;
+mod split;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -66,6 +69,12 @@ enum Command {
     Bounds(bounds::Arguments),
     /// Map which designs of a box of parameters meet their requirements, and which fail.
     Atlas(atlas::Arguments),
+    /// Cut a long job into shards that any machine can run.
+    Split(split::Arguments),
+    /// Run a shard, or what is left of it.
+    RunShard(run_shard::Arguments),
+    /// Put the results of all shards together.
+    Merge(merge::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
     /// Write a certificate for another checker.
@@ -176,6 +185,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Atlas(arguments) => atlas::run(arguments),
+        Command::Split(arguments) => split::run(arguments),
+        Command::RunShard(arguments) => run_shard::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
