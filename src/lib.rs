@@ -9,6 +9,7 @@
 //! | [`decimal`]    | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]     | reads design files, written by people, into claims in exact numbers     |
 //! | [`dimensions`] | the paper's Steps 1 to 3, enclosed                                      |
+//! | [`engine`]     | hands the shards of a job to Slurm or HyperQueue                        |
 //! | [`export`]     | writes certificates for the formal checker in Rocq                      |
 //! | [`extremes`]   | encloses how small and how large each quantity gets                     |
 //! | [`import`]     | makes design files of the configurations of motion controllers          |
@@ -29,6 +30,7 @@ pub mod atlas;
 pub mod decimal;
 pub mod design;
 pub mod dimensions;
+pub mod engine;
 pub mod export;
 pub mod extremes;
 pub mod import;

@@ -21,6 +21,7 @@ mod progress;
 mod run_shard;
 mod show;
 mod split;
+mod submit;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -73,6 +74,8 @@ enum Command {
     Split(split::Arguments),
     /// Run a shard, or what is left of it.
     RunShard(run_shard::Arguments),
+    /// Hand the shards to Slurm or HyperQueue, with a merge that follows.
+    Submit(submit::Arguments),
     /// Put the results of all shards together.
     Merge(merge::Arguments),
     /// Make a design file of a motion controller's configuration.
@@ -187,6 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Atlas(arguments) => atlas::run(arguments),
         Command::Split(arguments) => split::run(arguments),
         Command::RunShard(arguments) => run_shard::run(arguments),
+        Command::Submit(arguments) => submit::run(arguments),
         Command::Merge(arguments) => merge::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
