@@ -15,7 +15,8 @@ use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
 use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
-    Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
+    Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS,
+    PRECISIONS,
 };
 use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
 use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
@@ -167,7 +168,7 @@ fn the_format_document_shows_the_prototype_and_the_limits_of_the_checker() {
     let (least, greatest) = (PRECISIONS.start(), PRECISIONS.end());
     for row in [
         format!("bytes of a file | {MAX_BYTES}"),
-        format!("nodes of a tree | {MAX_NODES}"),
+        format!("nodes of a tree, and of all trees of an atlas together | {MAX_NODES}"),
         format!("parts | {MAX_PARTS}"),
         format!("steps of a node | {MAX_STEPS}"),
         format!("cells of an atlas | {MAX_CELLS}"),

@@ -72,15 +72,14 @@ fn value(design: &AtlasDesign, expression: &Exact, at: &[Exact]) -> Option<Exact
 pub fn verdict_at(design: &AtlasDesign, mark: &Mark, cells: &[AtlasCell]) -> Standing {
     let claim = design.claim();
     let within = |x: &Exact, (min, max): &Ends| {
-        let at_most = |a: &Exact, b: &Exact| {
-            matches!(a.compare(b), Some(Ordering::Less | Ordering::Equal))
-        };
+        let at_most =
+            |a: &Exact, b: &Exact| matches!(a.compare(b), Some(Ordering::Less | Ordering::Equal));
         at_most(min, x) && at_most(x, max)
     };
     let holds = |cell: &Cell| {
-        claim.ranges(cell).is_ok_and(|ranges| {
-            ranges.iter().zip(&mark.at).all(|((_, ends), x)| within(x, ends))
-        })
+        claim
+            .ranges(cell)
+            .is_ok_and(|ranges| ranges.iter().zip(&mark.at).all(|((_, ends), x)| within(x, ends)))
     };
     let mut standing = Standing::Outside;
     let walked = walk(cells, design.parameters.len(), |_, cell, said| {

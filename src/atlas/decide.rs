@@ -9,9 +9,7 @@ use crate::verify::{worst_values, Worst, MODEL_PRECISION, PRECISIONS};
 use orthocert_checker::atlas::{check_cell, Side};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{AtlasCell, Tree, Witness};
-use orthocert_checker::claim::{
-    AtlasClaim, Leg, MachineClaim, Mechanism, Quantity,
-};
+use orthocert_checker::claim::{AtlasClaim, Leg, MachineClaim, Mechanism, Quantity};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
@@ -94,9 +92,7 @@ fn certified(
     if !found.open.is_empty() || found.stop != Stop::Exhausted {
         return Decision::Open;
     }
-    let tree = |precision| {
-        AtlasCell::Certified(Tree { precision, nodes: found.nodes.clone() })
-    };
+    let tree = |precision| AtlasCell::Certified(Tree { precision, nodes: found.nodes.clone() });
     let proof = PRECISIONS.into_iter().map(tree).find(|proof| accepted(claim, cell, proof));
     proof.map_or(Decision::Open, Decision::Decided)
 }

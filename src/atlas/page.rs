@@ -18,7 +18,8 @@ pub fn page(title: &str, svg: &str, facts: &[(String, String)], statement: &str)
         let (name, value) = (escaped(name), escaped(value));
         let _ = writeln!(out, "<tr><th>{name}</th><td>{value}</td></tr>");
     }
-    let _ = writeln!(out, "</table>\n<h2>What is proved</h2>\n<pre>{}</pre>", escaped_lines(statement));
+    let _ =
+        writeln!(out, "</table>\n<h2>What is proved</h2>\n<pre>{}</pre>", escaped_lines(statement));
     out.push_str("</html>\n");
     out
 }

@@ -4,11 +4,11 @@
 //! four equal parts of the third parameter's range.
 
 use crate::design::AtlasDesign;
+use num_traits::ToPrimitive;
 use orthocert_checker::atlas::walk;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::number::Exact;
-use num_traits::ToPrimitive;
 use std::fmt::Write;
 
 /// Side of a map, in pixels.
@@ -235,7 +235,10 @@ fn ticks(span: Span) -> Vec<f64> {
     let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|s| *s >= rough);
     let step = step.unwrap_or(rough);
     let first = (span.min / step - 1e-9).ceil();
-    (0..12).map(|i| (first + f64::from(i)) * step).filter(|x| *x <= span.max + 1e-9 * step).collect()
+    (0..12)
+        .map(|i| (first + f64::from(i)) * step)
+        .filter(|x| *x <= span.max + 1e-9 * step)
+        .collect()
 }
 
 /// A number with a few digits.

@@ -56,9 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 /// The folder, made if it is not there.
 pub fn made(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::from(OutputError::Io(folder.to_owned(), error))
-    })
+    fs::create_dir_all(folder)
+        .map_err(|error| Failure::from(OutputError::Io(folder.to_owned(), error)))
 }
 
 /// All cells of a design's map.
@@ -187,5 +186,11 @@ fn best_design(
     };
     let sense = if objective.maximise { "maximise" } else { "minimise" };
     let expression = objective.expression.clone();
-    Ok(Some(BestDesign { at: best.at, sense, objective: expression, value: best.value, certificate }))
+    Ok(Some(BestDesign {
+        at: best.at,
+        sense,
+        objective: expression,
+        value: best.value,
+        certificate,
+    }))
 }

@@ -91,9 +91,8 @@ fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
         return Ok(());
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
-    pool.build_global().map_err(|error| {
-        Failure::Output(format!("{threads} threads cannot be started: {error}"))
-    })
+    pool.build_global()
+        .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
 }
 
 /// A time: a number with a unit, in seconds without one.

@@ -80,9 +80,8 @@ fn text_of(answer: &Answer) -> String {
 /// The folder, made if it is not there; it has to be empty, so that nothing is lost or mixed.
 fn empty(folder: &Path) -> Result<(), Failure> {
     atlas::made(folder)?;
-    let unlisted = |error| {
-        Failure::Output(format!("{}: cannot be listed: {error}", folder.display()))
-    };
+    let unlisted =
+        |error| Failure::Output(format!("{}: cannot be listed: {error}", folder.display()));
     match fs::read_dir(folder).map_err(unlisted)?.next() {
         None => Ok(()),
         Some(_) => Err(Failure::Input(format!(

@@ -77,9 +77,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     let submitted = match arguments.scripts_only {
         true => None,
-        false => Some(
-            engine.submit(&submission).map_err(|error| Failure::Output(error.to_string()))?,
-        ),
+        false => {
+            Some(engine.submit(&submission).map_err(|error| Failure::Output(error.to_string()))?)
+        }
     };
     let answer = Answer {
         job: job.job,

@@ -24,8 +24,7 @@ const MAX_LABEL: usize = 80;
 const PARAMETER: &str = r#"{ min = "0.3", max = "0.8", label = "anchor radius / leg length" }"#;
 const PARAMETERS: &str = "one to three parameters, such as radius = { min = 0.3, max = 0.8 }";
 const OBJECTIVE: &str = r#"{ maximise = "an expression with parameters" }, or minimise"#;
-const MARKS: &str =
-    r#"an array of { label = "my machine", ... } with a number for each parameter"#;
+const MARKS: &str = r#"an array of { label = "my machine", ... } with a number for each parameter"#;
 
 /// An atlas file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -207,7 +206,8 @@ fn parameters(value: &Value<'_>) -> Result<(Vec<AtlasParameter>, Vec<String>), D
     for (name, entry) in entries {
         let range = entry.table(PARAMETER)?;
         range.only(&["min", "max", "label"])?;
-        let (least, greatest) = (range.require("min", PARAMETER)?, range.require("max", PARAMETER)?);
+        let (least, greatest) =
+            (range.require("min", PARAMETER)?, range.require("max", PARAMETER)?);
         let (min, max) = (exact(&least)?, exact(&greatest)?);
         for (value, number) in [(&least, &min), (&greatest, &max)] {
             if number.as_rational().is_none() {
@@ -291,9 +291,7 @@ fn probes(parameters: &[AtlasParameter]) -> Vec<Vec<(String, Exact)>> {
 fn at_part(parameters: &[AtlasParameter], part: impl Fn(usize) -> usize) -> Vec<(String, Exact)> {
     let value = |(i, p): (usize, &AtlasParameter)| {
         let value = match (part(i), p.min.as_rational(), p.max.as_rational()) {
-            (1, Some(min), Some(max)) => {
-                Exact::Rational((min + max) / num_bigint::BigInt::from(2))
-            }
+            (1, Some(min), Some(max)) => Exact::Rational((min + max) / num_bigint::BigInt::from(2)),
             (0, ..) => p.min.clone(),
             _ => p.max.clone(),
         };

@@ -103,9 +103,7 @@ fn scalar(value: &Value<'_>, accepted: &str) -> Result<Exact, DesignError> {
     match value.inner {
         DeValue::Integer(integer) => whole(value, integer),
         DeValue::Float(float) => decimal(value, float),
-        DeValue::String(text) => {
-            writable(value, expression(value, text, (0, text), accepted)?)
-        }
+        DeValue::String(text) => writable(value, expression(value, text, (0, text), accepted)?),
         _ => Err(value.wrong_type(accepted)),
     }
 }

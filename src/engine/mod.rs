@@ -145,10 +145,11 @@ fn answer_of(
     name: &'static str,
     help: &'static str,
 ) -> Result<String, EngineError> {
-    let Output { status, stdout, stderr } = command.output().map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => EngineError::NotInstalled { command: name, help },
-        _ => EngineError::Start(name, error),
-    })?;
+    let Output { status, stdout, stderr } =
+        command.output().map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => EngineError::NotInstalled { command: name, help },
+            _ => EngineError::Start(name, error),
+        })?;
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
     if status.success() {
         return Ok(text(&stdout));

@@ -91,11 +91,8 @@ impl AtlasReport {
     /// The first line.
     pub fn headline(&self) -> String {
         let name = self.title.as_deref().unwrap_or(&self.atlas);
-        let decided = format!(
-            "{} certified, {} refuted",
-            self.certified.percent(),
-            self.refuted.percent()
-        );
+        let decided =
+            format!("{} certified, {} refuted", self.certified.percent(), self.refuted.percent());
         format!("ATLAS  {name}: {decided}")
     }
 

@@ -261,11 +261,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
     String::from_utf8(fs::read(path).map_err(unreadable)?).map_err(|_| malformed("no UTF-8 text"))
 }
 
-fn parse<T: DeserializeOwned>(
-    path: &Path,
-    text: &str,
-    kind: &'static str,
-) -> Result<T, FileError> {
+fn parse<T: DeserializeOwned>(path: &Path, text: &str, kind: &'static str) -> Result<T, FileError> {
     serde_json::from_str(text)
         .map_err(|error| FileError::Malformed(path.to_owned(), kind, format!("{error}")))
 }

@@ -4,9 +4,7 @@
 //! A run that is stopped, by whatever, loses the cell that it was at. What it left half-written, or
 //! two runs of one shard at the same time wrote into each other, has no right sum and is done again.
 
-use super::file::{
-    name_of, read_result, sha256, text, FileError, Name, Shard, ShardResult,
-};
+use super::file::{name_of, read_result, sha256, text, FileError, Name, Shard, ShardResult};
 use crate::atlas::{grow, Growing, Interrupted, Top};
 use crate::output::{self, OutputError};
 use orthocert_checker::certificate::AtlasCell;
@@ -127,11 +125,7 @@ pub fn run(
 }
 
 /// The tree of one of the shard's cells.
-fn grown(
-    shard: &Shard,
-    number: usize,
-    cancel: &AtomicBool,
-) -> Result<Vec<AtlasCell>, RunError> {
+fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Vec<AtlasCell>, RunError> {
     let super::Task::Atlas(design) = &shard.task;
     let mut unseen = |_: usize, _: f64| {};
     let mut growing = Growing::new(design, cancel, &mut unseen);
@@ -150,7 +144,9 @@ fn grown(
 /// What earlier runs have done.
 fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Vec<AtlasCell>>> {
     let mut parts = vec![None; shard.cells.len()];
-    let written = fs::read(progress).unwrap_or_default();
+    // Nothing is read of what is no file of ours: a device may never end.
+    let regular = fs::metadata(progress).is_ok_and(|found| found.is_file());
+    let written = if regular { fs::read(progress).unwrap_or_default() } else { Vec::new() };
     for line in written.split(|byte| *byte == b'\n') {
         let Ok(line) = serde_json::from_slice::<Line>(line) else {
             continue;

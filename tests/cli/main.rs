@@ -7,13 +7,16 @@
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `postulate`    | `postulate`                                                       |
+//! | `atlas`        | `atlas`: maps, and what is refused                                |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
+//! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 
 mod support;
 
+mod atlas;
 mod bad_input;
 mod calculator;
 mod certificates;
@@ -21,4 +24,5 @@ mod files;
 mod interruption;
 mod json;
 mod postulate;
+mod shards;
 mod verdicts;

@@ -2,8 +2,8 @@
 
 use crate::certificate::Verdict;
 use crate::claim::{
-    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements,
-    Sign, Workspace,
+    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax,
+    Quantity, Range, Requirements, Sign, Workspace,
 };
 use std::fmt::{self, Write};
 

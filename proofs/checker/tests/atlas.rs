@@ -4,9 +4,7 @@ use num_rational::BigRational;
 use orthocert_checker::atlas::{instance, range, AtlasError, Ends, Side};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Node, Proof, Tree, Verdict};
-use orthocert_checker::claim::{
-    AtlasClaim, Claim, ClaimError, Mechanism, Quantity, Workspace,
-};
+use orthocert_checker::claim::{AtlasClaim, Claim, ClaimError, Mechanism, Quantity, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::witness::WitnessError;
 use orthocert_checker::{check, read, statement, Rejected};
@@ -62,7 +60,8 @@ fn the_committed_atlas_is_accepted_and_told_in_words() {
     let certificate = good();
     assert_eq!(check(&certificate).unwrap().verdict, Verdict::Certified);
     let words = statement::statement(&certificate.claim, certificate.verdict).unwrap();
-    for part in ["6/5 <= psi_max <= 4", "1/psi_max <= psi_i(P) <= psi_max", "certified", "refuted"] {
+    for part in ["6/5 <= psi_max <= 4", "1/psi_max <= psi_i(P) <= psi_max", "certified", "refuted"]
+    {
         assert!(words.contains(part), "{words}");
     }
 }
@@ -83,10 +82,7 @@ fn shares_are_the_sums_of_the_cells() {
 fn the_cells_are_one_tree_over_the_parameters() {
     assert_eq!(rejected(|_, cells| drop(cells.pop())), Rejected::MissingNode);
     assert_eq!(rejected(|_, cells| cells.clear()), Rejected::MissingNode);
-    assert_eq!(
-        rejected(|_, cells| cells.push(AtlasCell::Undecided)),
-        Rejected::TrailingNodes(1)
-    );
+    assert_eq!(rejected(|_, cells| cells.push(AtlasCell::Undecided)), Rejected::TrailingNodes(1));
     for axis in [0, 3, usize::MAX] {
         let reason = rejected(|_, cells| cells[0] = AtlasCell::Split(axis));
         assert_eq!(reason, Rejected::NoSuchAxis(0));
@@ -126,7 +122,10 @@ fn what_is_said_of_a_cell_is_proved_of_that_cell() {
 fn a_wider_box_needs_other_proofs() {
     // The same cells of a box that reaches to smaller psi_max, or to larger cubes.
     let wider = rejected(|claim, _| claim.parameters[0].min = number("1"));
-    assert!(matches!(of_a_cell(wider), Rejected::Step { .. } | Rejected::AtlasClaim(_) | Rejected::Claim(_)));
+    assert!(matches!(
+        of_a_cell(wider),
+        Rejected::Step { .. } | Rejected::AtlasClaim(_) | Rejected::Claim(_)
+    ));
     let wider = rejected(|claim, _| claim.parameters[1].max = number("3/2"));
     assert!(matches!(of_a_cell(wider), Rejected::Step { .. }));
     // And refutations those of a box with smaller cubes.
@@ -235,12 +234,24 @@ fn what_the_workspace_is_cut_to_is_not_empty() {
 fn ranges_hold_every_value() {
     let part = |n: i64| Exact::Rational(BigRational::new(n.into(), 7.into()));
     for text in [
-        "a", "-a", "a+b", "a-b", "a*b", "a*a-b", "a/b", "1/b", "-a/(b+1)", "sqrt(b)", "a*sqrt(3)/2",
-        "(a-b)*(a+b)", "sqrt(b)*a", "2/(1/b+1/(b+a*a))", "(a+1)/2*-sqrt(2)",
+        "a",
+        "-a",
+        "a+b",
+        "a-b",
+        "a*b",
+        "a*a-b",
+        "a/b",
+        "1/b",
+        "-a/(b+1)",
+        "sqrt(b)",
+        "a*sqrt(3)/2",
+        "(a-b)*(a+b)",
+        "sqrt(b)*a",
+        "2/(1/b+1/(b+a*a))",
+        "(a+1)/2*-sqrt(2)",
     ] {
         let x = number(text);
-        let values: [(&str, Ends); 2] =
-            [("a", (part(-5), part(4))), ("b", (part(3), part(19)))];
+        let values: [(&str, Ends); 2] = [("a", (part(-5), part(4))), ("b", (part(3), part(19)))];
         let (least, greatest) = range(&x, &values).unwrap();
         let bounds = Quantity { min: least, max: greatest };
         for a in -5..=4 {
@@ -270,7 +281,8 @@ fn every_design_of_a_cell_is_between_its_two_claims() {
     let claim = parts(&mut certificate).0.clone();
     let (lower, upper) = Cell::ROOT.halves(orthocert_checker::cell::Axis::Y).unwrap();
     for cell in [Cell::ROOT, lower, upper] {
-        let [strict, loose] = [Side::Strictest, Side::Loosest].map(|s| claim.cell(&cell, s).unwrap());
+        let [strict, loose] =
+            [Side::Strictest, Side::Loosest].map(|s| claim.cell(&cell, s).unwrap());
         for (_, (min, max)) in claim.ranges(&cell).unwrap() {
             assert_eq!(min.compare(&max), Some(std::cmp::Ordering::Less));
         }
@@ -279,10 +291,7 @@ fn every_design_of_a_cell_is_between_its_two_claims() {
             at.iter().map(|(name, (min, _))| (*name, (min.clone(), min.clone()))).collect();
         let design = instance(&claim.design, &corner, Side::Strictest).unwrap();
         let at_most = |x: &Exact, y: &Exact| {
-            matches!(
-                x.compare(y),
-                Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)
-            )
+            matches!(x.compare(y), Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal))
         };
         let boxed = |w: &Workspace| match w {
             Workspace::Box { min, max } => (min[0].clone(), max[2].clone()),
@@ -311,10 +320,8 @@ fn a_number_with_no_stricter_side_may_not_vary() {
         radius: number("1/10"),
         z: [number("0"), number("1/10")],
     };
-    let values = [
-        ("side", (number("1/4"), number("1/2"))),
-        ("psi_max", (number("2"), number("3"))),
-    ];
+    let values =
+        [("side", (number("1/4"), number("1/2"))), ("psi_max", (number("2"), number("3")))];
     let varies = AtlasError::Varies("side".into());
     assert_eq!(instance(design, &values, Side::Strictest), Err(varies));
 }

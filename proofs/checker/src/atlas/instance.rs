@@ -72,7 +72,9 @@ pub fn range(x: &Exact, values: &[(&str, Ends)]) -> Result<Ends, AtlasError> {
         Exact::Rational(_) => (x.clone(), x.clone()),
         Exact::Name(name) => {
             let known = values.iter().find(|(known, _)| **known == **name);
-            known.map(|(_, ends)| ends.clone()).ok_or_else(|| AtlasError::Unknown(name.to_string()))?
+            known
+                .map(|(_, ends)| ends.clone())
+                .ok_or_else(|| AtlasError::Unknown(name.to_string()))?
         }
         Exact::Neg(x) => {
             let (least, greatest) = of(x)?;
@@ -91,9 +93,7 @@ pub fn range(x: &Exact, values: &[(&str, Ends)]) -> Result<Ends, AtlasError> {
             let (c, d) = of(y)?;
             // One strict sign at both ends: no zero between.
             match (c.sign(), d.sign()) {
-                (Some(1), Some(1)) | (Some(-1), Some(-1)) => {
-                    bilinear(of(x)?, (c, d), Exact::over)?
-                }
+                (Some(1), Some(1)) | (Some(-1), Some(-1)) => bilinear(of(x)?, (c, d), Exact::over)?,
                 _ => return Err(AtlasError::Number(NumberErrorKind::DivisorMayBeZero)),
             }
         }
@@ -129,7 +129,8 @@ fn times(x: Exact, y: Exact) -> Result<Exact, NumberErrorKind> {
 fn bilinear(x: Ends, y: Ends, operation: Operation) -> Result<Ends, AtlasError> {
     let mut least: Option<Exact> = None;
     let mut greatest: Option<Exact> = None;
-    let distinct = |(a, b): &Ends| if a == b { vec![a.clone()] } else { vec![a.clone(), b.clone()] };
+    let distinct =
+        |(a, b): &Ends| if a == b { vec![a.clone()] } else { vec![a.clone(), b.clone()] };
     for a in distinct(&x) {
         for b in distinct(&y) {
             let value = operation(a.clone(), b)?;

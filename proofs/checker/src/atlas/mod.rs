@@ -67,17 +67,19 @@ impl fmt::Display for AtlasError {
                 "the name {name:?}; a parameter's is a small letter, then small letters, digits \
                  and \"_\", not \"sqrt\", and not another one's"
             ),
-            AtlasError::BadRange(name) => write!(
-                f,
-                "the range of {name}; its min is a rational number less than its max"
-            ),
+            AtlasError::BadRange(name) => {
+                write!(f, "the range of {name}; its min is a rational number less than its max")
+            }
             AtlasError::Unused(name) => write!(f, "no number of the design depends on {name}"),
             AtlasError::Unknown(name) => write!(f, "{name} is not the name of a parameter"),
             AtlasError::Varies(number) => {
                 write!(f, "{number} varies, but is a number that may not depend on parameters")
             }
             AtlasError::Cube => {
-                write!(f, "the design of an atlas is a machine with numbers of its own, no \"cube\"")
+                write!(
+                    f,
+                    "the design of an atlas is a machine with numbers of its own, no \"cube\""
+                )
             }
             AtlasError::Order => write!(f, "the order of two numbers cannot be decided"),
             AtlasError::Number(NumberErrorKind::DivisorMayBeZero) => {

@@ -102,10 +102,9 @@ fn requirements<E>(all: &Requirements, f: Mapping<'_, E>) -> Result<Requirements
         parallel_margin: at_least(all.parallel_margin.as_ref(), f)?,
         leg_angle: at_most(all.leg_angle.as_ref(), f)?,
         joint_speed: match &all.joint_speed {
-            Some(JointSpeed { tool, max }) => Some(JointSpeed {
-                tool: f(tool, Role::Strengthens)?,
-                max: f(max, Role::Weakens)?,
-            }),
+            Some(JointSpeed { tool, max }) => {
+                Some(JointSpeed { tool: f(tool, Role::Strengthens)?, max: f(max, Role::Weakens)? })
+            }
             None => None,
         },
     })
