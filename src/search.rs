@@ -63,6 +63,8 @@ pub enum Stop {
 pub struct OpenBox {
     /// The box.
     pub cell: Cell,
+    /// Its position among the nodes.
+    pub node: usize,
     /// What is open, and why the last rule tried did not close it; no reason where none was tried.
     pub open: Vec<(Obligation, Option<Failure>)>,
 }
@@ -113,12 +115,25 @@ pub trait Problem: Sync {
 
 /// Searches for a proof that every obligation of `problem` holds on the root cell.
 pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    let mut tree = vec![growing(Cell::ROOT, problem.obligations())];
+    search_below(problem, (Cell::ROOT, problem.obligations()), None, budget, control)
+}
+
+/// Searches for a proof that what is open on a cell holds there. Where a number of boxes is
+/// `enough`, the search ends before a level of so many, which remain open without a reason.
+pub fn search_below(
+    problem: &impl Problem,
+    (root, open): (Cell, Vec<Obligation>),
+    enough: Option<usize>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Outcome {
+    let mut tree = vec![growing(root, open)];
     let mut level = vec![0];
     let mut boxes = 0;
     let mut closed = 0.0;
     let mut stop = Stop::Exhausted;
-    while !level.is_empty() && stop == Stop::Exhausted {
+    let few = |level: &[usize]| enough.is_none_or(|enough| level.len() < enough);
+    while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes - boxes);
         let (now, later) = level.split_at(affordable);
         let mut next = Vec::new();
@@ -148,7 +163,10 @@ pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>)
         match grown.halves {
             Some((lower, upper)) => waiting.extend([upper, lower]),
             None if grown.failures.is_empty() => {}
-            None => open.push(OpenBox { cell: grown.cell, open: grown.failures.clone() }),
+            None => {
+                let (cell, node) = (grown.cell, nodes.len() - 1);
+                open.push(OpenBox { cell, node, open: grown.failures.clone() });
+            }
         }
     }
     Outcome { nodes, open, boxes, stop }

@@ -70,6 +70,17 @@ pub struct Mark {
     pub at: Vec<Exact>,
 }
 
+/// Whether a file is meant as an atlas: it has the tables that only atlases have.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn is_atlas(path: &Path) -> Result<bool, ReadError> {
+    let text = text_of(path)?;
+    let tables = DeTable::parse(&text);
+    let has = |key| tables.as_ref().is_ok_and(|tables| tables.get_ref().contains_key(key));
+    Ok(has("parameters") || has("atlas"))
+}
+
 impl AtlasDesign {
     /// Reads an atlas file.
     ///

@@ -35,7 +35,7 @@ mod template;
 mod tests;
 mod workspace;
 
-pub use atlas::{AtlasDesign, Mark, Objective, MAX_RESOLUTION};
+pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
 pub use error::{Defect, DesignError, Position, ReadError};
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};

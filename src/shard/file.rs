@@ -2,9 +2,10 @@
 
 use crate::atlas::Top;
 use crate::design::{AtlasDesign, MAX_RESOLUTION};
-use orthocert_checker::atlas::MAX_PARAMETERS;
 use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::certificate::AtlasCell;
+use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::claim::MachineClaim;
+use orthocert_checker::rule::Obligation;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -29,6 +30,21 @@ const RESULT: &str = "orthocert-result/1";
 pub enum Task {
     /// The map of an atlas.
     Atlas(Box<AtlasDesign>),
+    /// The proof of a design.
+    Verify(Box<Verify>),
+}
+
+/// A design to be proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verify {
+    /// Its title.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What is claimed.
+    pub claim: MachineClaim,
+    /// Most boxes tried below one of the cells that are dealt out.
+    pub boxes: usize,
 }
 
 impl Task {
@@ -38,7 +54,10 @@ impl Task {
     }
 
     fn validate(&self) -> Result<(), String> {
-        let Task::Atlas(design) = self;
+        let design = match self {
+            Task::Atlas(design) => design,
+            Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),
+        };
         design.well_formed()?;
         let known = u32::try_from(MAX_RESOLUTION).unwrap_or(0);
         if design.resolution > known || design.labels.len() != design.parameters.len() {
@@ -48,30 +67,73 @@ impl Task {
     }
 }
 
-/// A cell in a file: index and level of its edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place([(u64, u32); MAX_PARAMETERS]);
+/// A cell in a file: index and level of its edges; of a design to be proved, also what is open on
+/// it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    edges: [(u64, u32); 3],
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) open: Vec<Obligation>,
+}
+
+/// Deepest level of an edge in a file.
+const MAX_LEVEL: u32 = 60;
 
 impl Place {
-    /// The place of a cell; `None` beyond the resolution of atlases.
-    pub fn of(cell: &Cell) -> Option<Self> {
-        let mut edges = [(0, 0); MAX_PARAMETERS];
+    /// The place of a cell; `None` beyond the depth of files.
+    pub fn of(cell: &Cell, open: Vec<Obligation>) -> Option<Self> {
+        let mut edges = [(0, 0); 3];
         for (place, edge) in edges.iter_mut().zip(&cell.edges) {
             *place = (u64::try_from(edge.index).ok()?, edge.level);
         }
-        Some(Place(edges))
+        let place = Place { edges, open };
+        place.cell().is_some().then_some(place)
     }
 
     /// The cell; `None` if it is not within the box.
-    pub fn cell(self) -> Option<Cell> {
+    pub fn cell(&self) -> Option<Cell> {
         let edge = |(index, level): (u64, u32)| {
-            let known = u32::try_from(MAX_RESOLUTION).ok()?;
-            let within = level <= known && index < 1 << level;
+            let within = level <= MAX_LEVEL && index < 1 << level;
             within.then_some(Edge { index: index.into(), level })
         };
-        let [x, y, z] = self.0;
+        let [x, y, z] = self.edges;
         Some(Cell { edges: [edge(x)?, edge(y)?, edge(z)?] })
     }
+}
+
+/// What was found of a cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Part {
+    /// The cells of parameters below it.
+    Cells(Vec<AtlasCell>),
+    /// The nodes of the tree below it.
+    Tree {
+        /// In preorder.
+        nodes: Vec<Node>,
+        /// Boxes on which something is open: none in a proof.
+        open: usize,
+        /// Boxes tried.
+        boxes: usize,
+    },
+}
+
+/// The top of a job's tree.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum JobTop {
+    /// Of an atlas.
+    Cells(Vec<Top>),
+    /// Of a design to be proved.
+    Tree {
+        /// In preorder.
+        nodes: Vec<Node>,
+        /// The positions of the cells that are dealt out, ascending.
+        waiting: Vec<usize>,
+        /// Boxes tried.
+        boxes: usize,
+    },
 }
 
 /// The job as a whole.
@@ -84,7 +146,7 @@ pub struct Job {
     /// What is to be done.
     pub task: Task,
     /// The top of the tree; its waiting cells are dealt out to the shards in turn.
-    pub top: Vec<Top>,
+    pub top: JobTop,
     /// The SHA-256 of every shard's file, in order.
     pub shards: Vec<String>,
 }
@@ -119,13 +181,13 @@ pub struct ShardResult {
     pub answers: String,
     /// The SHA-256 of the parts' text.
     pub sha256: String,
-    /// A tree in preorder for each of the shard's cells.
-    pub parts: Vec<Vec<AtlasCell>>,
+    /// What was found of each of the shard's cells.
+    pub parts: Vec<Part>,
 }
 
 impl Job {
     /// A job.
-    pub fn new(task: Task, top: Vec<Top>, shards: Vec<String>) -> Self {
+    pub fn new(task: Task, top: JobTop, shards: Vec<String>) -> Self {
         Job { format: JOB.to_owned(), job: task.identity(), task, top, shards }
     }
 }
@@ -139,7 +201,7 @@ impl Shard {
 
 impl ShardResult {
     /// The result of a shard with this file.
-    pub fn new(shard: &Shard, answers: String, parts: Vec<Vec<AtlasCell>>) -> Self {
+    pub fn new(shard: &Shard, answers: String, parts: Vec<Part>) -> Self {
         let (job, shard) = (shard.job.clone(), shard.shard);
         let sha256 = sha256(&text(&parts));
         ShardResult { format: RESULT.to_owned(), job, shard, answers, sha256, parts }
@@ -334,9 +396,10 @@ mod tests {
 
     #[test]
     fn places_beyond_the_box_are_no_cells() {
-        assert_eq!(Place::of(&Cell::ROOT).and_then(Place::cell), Some(Cell::ROOT));
-        for edge in [(1, 0), (2, 1), (0, 21), (u64::MAX, 20)] {
-            assert_eq!(Place([(0, 0), edge, (0, 0)]).cell(), None);
+        let root = Place::of(&Cell::ROOT, Vec::new());
+        assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
+        for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
+            assert_eq!(Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new() }.cell(), None);
         }
     }
 }

@@ -1,11 +1,11 @@
 //! From the results of all shards to the whole.
 
 use super::file::{
-    name_of, read_job, read_result, read_text, sha256, FileError, Job, Name, ShardResult, Task,
-    JOB_FILE,
+    name_of, read_job, read_result, read_text, sha256, FileError, Job, JobTop, Name, Part,
+    ShardResult, Task, JOB_FILE,
 };
-use crate::atlas::{assemble, waiting};
-use orthocert_checker::certificate::AtlasCell;
+use crate::atlas::{assemble, Top};
+use orthocert_checker::certificate::{AtlasCell, Node};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
@@ -19,10 +19,24 @@ const NAMED: usize = 8;
 pub struct Merged {
     /// What was to be done.
     pub task: Task,
-    /// The cells of the whole tree.
-    pub cells: Vec<AtlasCell>,
-    /// The number of shards.
-    pub shards: usize,
+    /// What was found.
+    pub whole: Whole,
+}
+
+/// The whole of what the shards found.
+#[derive(Clone, Debug)]
+pub enum Whole {
+    /// The cells of an atlas.
+    Cells(Vec<AtlasCell>),
+    /// The tree of a design.
+    Tree {
+        /// In preorder.
+        nodes: Vec<Node>,
+        /// Boxes on which something is open.
+        open: usize,
+        /// Boxes tried.
+        boxes: usize,
+    },
 }
 
 /// Why there is no whole.
@@ -168,18 +182,45 @@ fn unaltered(folder: &Path, job: &Job, problems: &mut Vec<String>) {
 }
 
 /// The tree with all parts in their places: waiting cell `k` is cell `k / n` of shard `k mod n`.
-fn whole(job: Job, parts: Vec<Vec<Vec<AtlasCell>>>) -> Result<Merged, MergeError> {
-    let shards = parts.len();
-    let waiting = waiting(&job.top).ok_or(MergeError::NotATree)?.len();
+fn whole(job: Job, parts: Vec<Vec<Part>>) -> Result<Merged, MergeError> {
+    let shards = parts.len().max(1);
+    let count = parts.iter().map(Vec::len).sum();
     let mut dealt: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
-    let mut in_order = Vec::with_capacity(waiting);
-    for k in 0..waiting {
-        let next = dealt.get_mut(k % shards.max(1)).and_then(Iterator::next);
-        in_order.push(next.ok_or(MergeError::NotATree)?);
+    let next = |k: usize| dealt.get_mut(k % shards).and_then(Iterator::next);
+    let in_order: Option<Vec<Part>> = (0..count).map(next).collect();
+    let in_order = in_order.ok_or(MergeError::NotATree)?;
+    let whole = match job.top {
+        JobTop::Cells(top) => cells(top, in_order),
+        JobTop::Tree { nodes, waiting, boxes } => tree(nodes, &waiting, boxes, in_order),
+    };
+    Ok(Merged { task: job.task, whole: whole.ok_or(MergeError::NotATree)? })
+}
+
+fn cells(top: Vec<Top>, parts: Vec<Part>) -> Option<Whole> {
+    let of_atlas = |part| match part {
+        Part::Cells(cells) => Some(cells),
+        Part::Tree { .. } => None,
+    };
+    let parts: Option<Vec<_>> = parts.into_iter().map(of_atlas).collect();
+    assemble(top, parts?).map(Whole::Cells)
+}
+
+fn tree(top: Vec<Node>, waiting: &[usize], boxes: usize, parts: Vec<Part>) -> Option<Whole> {
+    let (mut nodes, mut open, mut boxes) = (Vec::new(), 0, boxes);
+    let mut parts = parts.into_iter();
+    for (position, node) in top.into_iter().enumerate() {
+        if waiting.binary_search(&position).is_err() {
+            nodes.push(node);
+            continue;
+        }
+        match parts.next()? {
+            Part::Tree { nodes: below, open: left, boxes: tried } => {
+                nodes.extend(below);
+                open += left;
+                boxes += tried;
+            }
+            Part::Cells(_) => return None,
+        }
     }
-    if dealt.iter_mut().any(|rest| rest.next().is_some()) {
-        return Err(MergeError::NotATree);
-    }
-    let cells = assemble(job.top, in_order).ok_or(MergeError::NotATree)?;
-    Ok(Merged { task: job.task, cells, shards })
+    parts.next().is_none().then_some(Whole::Tree { nodes, open, boxes })
 }

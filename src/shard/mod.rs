@@ -13,9 +13,9 @@ mod run;
 mod split;
 
 pub use file::{
-    name_of, read_job, read_shard, sha256, FileError, Job, Name, Place, Shard, ShardResult, Task,
-    JOB_FILE, MAX_SHARDS,
+    name_of, read_job, read_shard, sha256, FileError, Job, JobTop, Name, Part, Place, Shard,
+    ShardResult, Task, Verify, JOB_FILE, MAX_SHARDS,
 };
-pub use merge::{merge, MergeError, Merged};
+pub use merge::{merge, MergeError, Merged, Whole};
 pub use run::{progress_file, result_file, run, Ran, RunError};
-pub use split::split;
+pub use split::{split, SplitError};

@@ -4,9 +4,13 @@
 //! A run that is stopped, by whatever, loses the cell that it was at. What it left half-written, or
 //! two runs of one shard at the same time wrote into each other, has no right sum and is done again.
 
-use super::file::{name_of, read_result, sha256, text, FileError, Name, Shard, ShardResult};
+use super::file::{
+    name_of, read_result, sha256, text, FileError, Name, Part, Shard, ShardResult, Task,
+};
 use crate::atlas::{grow, Growing, Interrupted, Top};
 use crate::output::{self, OutputError};
+use crate::search::{Budget, Control, Stop};
+use crate::verify;
 use orthocert_checker::certificate::AtlasCell;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -23,7 +27,7 @@ struct Line {
     answers: String,
     cell: usize,
     sha256: String,
-    part: Vec<AtlasCell>,
+    part: Part,
 }
 
 /// What a run did.
@@ -48,6 +52,8 @@ pub enum RunError {
     Output(OutputError),
     /// The place of the result holds that of another job.
     OtherJob(PathBuf),
+    /// The claim has no model.
+    Claim(String),
     /// It was cancelled.
     Interrupted,
 }
@@ -60,6 +66,7 @@ impl fmt::Display for RunError {
             RunError::OtherJob(path) => {
                 write!(f, "{}: is the result of a shard of another job", path.display())
             }
+            RunError::Claim(why) => f.write_str(why),
             RunError::Interrupted => write!(f, "interrupted"),
         }
     }
@@ -124,25 +131,44 @@ pub fn run(
     Ok(Ran::Done { resumed })
 }
 
-/// The tree of one of the shard's cells.
-fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Vec<AtlasCell>, RunError> {
-    let super::Task::Atlas(design) = &shard.task;
-    let mut unseen = |_: usize, _: f64| {};
-    let mut growing = Growing::new(design, cancel, &mut unseen);
+/// What is found of one of the shard's cells.
+fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Part, RunError> {
     // Every place was seen to be a cell when the shard was read.
-    let root = shard.cells.get(number).and_then(|place| place.cell());
-    let root = root.ok_or(RunError::Interrupted)?;
-    let tree = grow(&mut growing, root, None).map_err(|Interrupted| RunError::Interrupted)?;
-    let cells = tree.into_iter().map(|node| match node {
-        Top::Cell(cell) => cell,
-        // Grown to its end, a tree has none.
-        Top::Waiting => AtlasCell::Undecided,
-    });
-    Ok(cells.collect())
+    let place = shard.cells.get(number).ok_or(RunError::Interrupted)?;
+    let root = place.cell().ok_or(RunError::Interrupted)?;
+    let mut unseen = |_: usize, _: f64| {};
+    match &shard.task {
+        Task::Atlas(design) => {
+            let mut growing = Growing::new(design, cancel, &mut unseen);
+            let tree =
+                grow(&mut growing, root, None).map_err(|Interrupted| RunError::Interrupted)?;
+            let cells = tree.into_iter().map(|node| match node {
+                Top::Cell(cell) => cell,
+                // Grown to its end, a tree has none.
+                Top::Waiting => AtlasCell::Undecided,
+            });
+            Ok(Part::Cells(cells.collect()))
+        }
+        Task::Verify(task) => {
+            let budget = Budget { max_boxes: task.boxes, deadline: None };
+            let mut control = Control { cancel, progress: &mut |_| {} };
+            let root = (root, place.open.clone());
+            let found = verify::below(&task.claim, root, budget, &mut control)
+                .map_err(|error| RunError::Claim(error.to_string()))?;
+            match found.stop {
+                Stop::Cancelled => Err(RunError::Interrupted),
+                _ => Ok(Part::Tree {
+                    nodes: found.nodes,
+                    open: found.open.len(),
+                    boxes: found.boxes,
+                }),
+            }
+        }
+    }
 }
 
 /// What earlier runs have done.
-fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Vec<AtlasCell>>> {
+fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Part>> {
     let mut parts = vec![None; shard.cells.len()];
     // Nothing is read of what is no file of ours: a device may never end.
     let regular = fs::metadata(progress).is_ok_and(|found| found.is_file());
@@ -159,13 +185,8 @@ fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Vec<Atla
     parts
 }
 
-fn append(
-    progress: &Path,
-    answers: &str,
-    cell: usize,
-    part: &[AtlasCell],
-) -> Result<(), OutputError> {
-    let (answers, part) = (answers.to_owned(), part.to_vec());
+fn append(progress: &Path, answers: &str, cell: usize, part: &Part) -> Result<(), OutputError> {
+    let (answers, part) = (answers.to_owned(), part.clone());
     let line = Line { answers, cell, sha256: sha256(&text(&part)), part };
     // A line feed first: it ends what a killed run may have left of a line.
     let line = format!("\n{}\n", text(&line));

@@ -32,7 +32,7 @@ mod outside;
 mod vertex;
 
 use crate::expansion::OutOfReach;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 pub use conditioning::{conditioning, Mu, MU_BITS};
@@ -43,7 +43,7 @@ pub use outside::outside;
 pub use vertex::{corner, cube, lower, upper, Rotation, TightCorner, MAX_QUATERNION};
 
 /// What is to be shown of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Obligation {
