@@ -46,7 +46,7 @@ pub fn decide(
     let strictest = claim.cell(cell, Side::Strictest).ok();
     // What seems to fail for some machine of the cell cannot be certified; what seems to hold for
     // a machine in its middle cannot be refuted.
-    if let Some(strictest) = strictest.filter(|claim| promising(claim)) {
+    if let Some(strictest) = strictest.filter(promising) {
         return certified(design, claim, cell, &strictest, cancel);
     }
     let loosest = claim.cell(cell, Side::Loosest).ok();

@@ -50,6 +50,31 @@ fn any_number_of_shards_makes_the_map_of_one_machine() {
 }
 
 #[test]
+fn a_proof_in_shards_is_the_certificate_of_one_machine() {
+    let name = "linear-delta-klipper-cylinder";
+    let design = format!("{name}.toml");
+    let folder = Folder::with(&[&design]);
+    folder.run(&["verify", &design]).exits(0);
+    folder.run(&["split", &design, "--shards", "3", "--out", "job"]).exits(0);
+    (1..=3).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    folder.run(&["merge", "job", "-o", "merged.json"]).exits(0).says(&["CERTIFIED", "520"]);
+    assert!(folder.read("merged.json") == folder.read(&format!("{name}.cert.json")));
+}
+
+#[test]
+fn a_design_that_is_refuted_or_undecided_is_not_merged_to_a_proof() {
+    let folder = Folder::with(&["orthoglide-310.toml", "orthoglide-tolerance.toml"]);
+    let refuted = ["split", "orthoglide-310.toml", "--shards", "2", "--out", "job"];
+    folder.run(&refuted).exits(2).complains(&["refuted by a single point"]);
+    let few =
+        ["split", "orthoglide-tolerance.toml", "--shards", "1", "--max-boxes", "1", "--out", "job"];
+    folder.run(&few).exits(0);
+    run(&folder, 1).exits(0);
+    folder.run(&["merge", "job", "-o", "merged.json"]).exits(3).says(&["UNDECIDED", "remain"]);
+    assert!(!folder.path("merged.json").exists());
+}
+
+#[test]
 fn a_shard_is_run_once() {
     let folder = done(2);
     let before = folder.read("job/result-0001.json");
