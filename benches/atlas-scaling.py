@@ -3,8 +3,8 @@
 
 Usage: benches/atlas-scaling.py ORTHOCERT ATLAS.toml RUNS.json
 
-Measured, one process at a time, each with one thread: `split` for every N, `run-shard` for every
-shard, `merge`. Projected to P cores: split, then the shards in order, each on the first core that is
+Measured, one process at a time, each with one thread, in seconds of processor time, which do not
+depend on what else the machine does: `split` for every N, `run-shard` for every shard, `merge`. Projected to P cores: split, then the shards in order, each on the first core that is
 free (as Slurm and HyperQueue deal out the tasks of an array), then merge. A task costs DISPATCH
 seconds more than its process: what an engine takes to start it. The raw times go to RUNS.json, the
 table to standard output.
@@ -14,10 +14,10 @@ import heapq
 import json
 import os
 import platform
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 SHARDS = [1, 4, 16, 64, 256, 1024]
 CORES = [1, 2, 10, 100, 1000]
@@ -25,9 +25,13 @@ DISPATCH = 0.1
 
 
 def seconds(*command):
-    start = time.perf_counter()
+    def used():
+        children = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return children.ru_utime + children.ru_stime
+
+    before = used()
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return time.perf_counter() - start
+    return used() - before
 
 
 def measure(orthocert, atlas, shards):

@@ -17,6 +17,8 @@ const SIDE: f64 = 420.0;
 const STRIP: f64 = 90.0;
 /// Room left, right, above and below a map.
 const ROOM: [f64; 4] = [84.0, 24.0, 40.0, 66.0];
+/// Height of the line that says where a plane is.
+const PLANE_LABEL: f64 = 24.0;
 /// Planes shown of three parameters.
 const PLANES: u32 = 4;
 /// Colours of certified, refuted and undecided cells: told apart by those who do not tell red from
@@ -67,7 +69,10 @@ pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> S
         .collect();
     let panels = if spans.len() > 2 { PLANES } else { 1 };
     let high = if spans.len() > 1 { SIDE } else { STRIP };
-    let [left, right, above, below] = ROOM;
+    let [left, right, mut above, below] = ROOM;
+    if panels > 1 {
+        above += PLANE_LABEL;
+    }
     let pitch = left + SIDE + right;
     let (width, height) = (pitch * f64::from(panels), above + high + below);
     let mut svg = format!(
@@ -81,12 +86,13 @@ pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> S
         let _ = writeln!(svg, "<g transform=\"translate({x} {above})\">");
         draw_cells(&mut svg, design, cells, high, plane);
         draw_axes(&mut svg, design, &spans, high);
+        if panel == 0 {
+            legend(&mut svg, if panels > 1 { PLANE_LABEL } else { 0.0 });
+        }
         if let (Some((part, of)), Some(span)) = (plane, spans.get(2)) {
             let at = span.min + (span.max - span.min) * f64::from(part) / f64::from(of);
             let label = escaped(design.labels.get(2).map_or("", String::as_str));
             let _ = writeln!(svg, "<text x=\"0\" y=\"-12\">{label} = {}</text>", short(at));
-        } else {
-            legend(&mut svg);
         }
         if plane.is_none() {
             draw_points(&mut svg, &spans, points, high);
@@ -188,15 +194,19 @@ fn draw_axes(svg: &mut String, design: &AtlasDesign, spans: &[Span], high: f64) 
     );
 }
 
-fn legend(svg: &mut String) {
+/// What the colours and patterns mean, `higher` than it stands over a single map.
+fn legend(svg: &mut String, higher: f64) {
     for (i, (class, word)) in
         [("c", "certified"), ("r", "refuted"), ("u", "undecided")].iter().enumerate()
     {
         let x = 120.0 * i as f64;
         let _ = writeln!(
             svg,
-            "<rect class=\"axis {class}\" x=\"{x}\" y=\"-28\" width=\"22\" height=\"16\" /><text x=\"{}\" y=\"-15\">{word}</text>",
-            x + 29.0
+            "<rect class=\"axis {class}\" x=\"{x}\" y=\"{}\" width=\"22\" height=\"16\"/>\
+             <text x=\"{}\" y=\"{}\">{word}</text>",
+            -28.0 - higher,
+            x + 29.0,
+            -15.0 - higher
         );
     }
 }
