@@ -14,7 +14,7 @@ mod picture;
 pub use best::{best, verdict_at, Best, Standing};
 pub use decide::{decide, Decision};
 pub use page::page;
-pub use part::{assemble, grow, waiting, Growing, Interrupted, Top};
+pub use part::{assemble, grow, waiting, Growing, Stopped, Top};
 pub use picture::{picture, Point};
 
 use crate::design::AtlasDesign;

@@ -3,15 +3,62 @@
 use super::decide::{decide, Decision};
 use crate::design::AtlasDesign;
 use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::AtlasCell;
+use orthocert_checker::certificate::{AtlasCell, MAX_BYTES, MAX_CELLS, MAX_NODES};
 use orthocert_checker::claim::AtlasClaim;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The work was cancelled.
+/// Why a tree was not grown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Interrupted;
+pub enum Stopped {
+    /// It was cancelled.
+    Cancelled,
+    /// Its cells would not fit into a certificate.
+    TooLarge,
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stopped::Cancelled => write!(f, "interrupted"),
+            Stopped::TooLarge => write!(
+                f,
+                "the map has more cells or longer proofs than a certificate holds ({MAX_CELLS} \
+                 cells, {MAX_NODES} boxes, {MAX_BYTES} bytes); accepted: a lower atlas.resolution"
+            ),
+        }
+    }
+}
+
+/// What a certificate has room for.
+#[derive(Default)]
+struct Room {
+    cells: usize,
+    nodes: usize,
+    bytes: usize,
+}
+
+/// Bytes kept for what is not cells.
+const REST: usize = 1 << 16;
+
+impl Room {
+    /// Takes the room of a cell, if there is.
+    fn take(&mut self, cell: &AtlasCell) -> Result<(), Stopped> {
+        if let AtlasCell::Certified(tree) = cell {
+            self.nodes += tree.nodes.len();
+        }
+        self.cells += 1;
+        self.bytes += serde_json::to_string(cell).map_or(MAX_BYTES, |text| text.len() + 2);
+        let full =
+            self.cells > MAX_CELLS || self.nodes > MAX_NODES || self.bytes + REST > MAX_BYTES;
+        if full {
+            return Err(Stopped::TooLarge);
+        }
+        Ok(())
+    }
+}
 
 /// A tree of cells that grows.
 pub struct Growing<'a> {
@@ -56,12 +103,13 @@ impl<'a> Growing<'a> {
 /// least `enough` cells wait.
 ///
 /// # Errors
-/// If it was cancelled.
+/// If it was cancelled, or is too large for a certificate.
 pub fn grow(
     growing: &mut Growing<'_>,
     root: Cell,
     enough: Option<usize>,
-) -> Result<Vec<Top>, Interrupted> {
+) -> Result<Vec<Top>, Stopped> {
+    let mut room = Room::default();
     let mut nodes = vec![Node::Waiting];
     let mut level = vec![(0, root)];
     let (mut decided, mut closed) = (0, 0.0);
@@ -70,25 +118,28 @@ pub fn grow(
         let mut next = Vec::new();
         for batch in level.chunks(64) {
             if cancel.load(Ordering::Relaxed) {
-                return Err(Interrupted);
+                return Err(Stopped::Cancelled);
             }
             let decisions: Vec<Decision> =
                 batch.par_iter().map(|(_, cell)| decide(design, claim, cell, cancel)).collect();
             for ((at, cell), decision) in batch.iter().zip(decisions) {
                 let leaf = match (decision, growing.axis(cell)) {
-                    (Decision::Cancelled, _) => return Err(Interrupted),
+                    (Decision::Cancelled, _) => return Err(Stopped::Cancelled),
                     (Decision::Decided(leaf), _) => leaf,
                     (Decision::Open, None) => AtlasCell::Undecided,
                     (Decision::Open, Some(axis)) => {
-                        let (lower, upper) = cell.halves(Axis::ALL[axis]).ok_or(Interrupted)?;
+                        let (lower, upper) =
+                            cell.halves(Axis::ALL[axis]).ok_or(Stopped::TooLarge)?;
                         let first = nodes.len();
                         nodes.extend([Node::Waiting, Node::Waiting]);
                         next.extend([(first, lower), (first + 1, upper)]);
                         nodes[*at] = Node::Split(axis, [first, first + 1]);
+                        room.take(&AtlasCell::Split(axis + 1))?;
                         continue;
                     }
                 };
                 let depth: u32 = cell.edges.iter().map(|edge| edge.level).sum();
+                room.take(&leaf)?;
                 decided += 1;
                 closed += (-f64::from(depth)).exp2();
                 nodes[*at] = Node::Leaf(leaf);
@@ -157,4 +208,22 @@ pub fn assemble(top: Vec<Top>, parts: Vec<Vec<AtlasCell>>) -> Option<Vec<AtlasCe
         }
     }
     parts.next().is_none().then_some(cells)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use orthocert_checker::certificate::{Node as Box, Tree};
+
+    #[test]
+    fn there_is_room_for_what_a_certificate_holds() {
+        let mut room = Room::default();
+        for _ in 0..MAX_CELLS {
+            assert_eq!(room.take(&AtlasCell::Undecided), Ok(()));
+        }
+        assert_eq!(room.take(&AtlasCell::Undecided), Err(Stopped::TooLarge));
+        let tree = Tree { precision: 64, nodes: vec![Box::default(); MAX_NODES + 1] };
+        let large = Room::default().take(&AtlasCell::Certified(tree));
+        assert_eq!(large, Err(Stopped::TooLarge));
+    }
 }

@@ -3,7 +3,7 @@
 use super::effort::Work;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::atlas::{self, Growing, Interrupted, Point, Standing};
+use orthocert::atlas::{self, Growing, Point, Standing, Stopped};
 use orthocert::design::{AtlasDesign, Objective};
 use orthocert::output::{self, OutputError};
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarkedDesign, Part};
@@ -67,7 +67,10 @@ fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
     let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
     let grown = atlas::grow(&mut growing, Cell::ROOT, None);
     bar.clear();
-    let top = grown.map_err(|Interrupted| Failure::Interrupted)?;
+    let top = grown.map_err(|stopped| match stopped {
+        Stopped::Cancelled => Failure::Interrupted,
+        Stopped::TooLarge => Failure::Input(stopped.to_string()),
+    })?;
     atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)
 }
 

@@ -7,7 +7,7 @@
 use super::file::{
     name_of, read_result, sha256, text, FileError, Name, Part, Shard, ShardResult, Task,
 };
-use crate::atlas::{grow, Growing, Interrupted, Top};
+use crate::atlas::{grow, Growing, Stopped, Top};
 use crate::output::{self, OutputError};
 use crate::search::{Budget, Control, Stop};
 use crate::verify;
@@ -52,7 +52,7 @@ pub enum RunError {
     Output(OutputError),
     /// The place of the result holds that of another job.
     OtherJob(PathBuf),
-    /// The claim has no model.
+    /// The claim has no model, or what is found is too large.
     Claim(String),
     /// It was cancelled.
     Interrupted,
@@ -140,8 +140,10 @@ fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Part, RunE
     match &shard.task {
         Task::Atlas(design) => {
             let mut growing = Growing::new(design, cancel, &mut unseen);
-            let tree =
-                grow(&mut growing, root, None).map_err(|Interrupted| RunError::Interrupted)?;
+            let tree = grow(&mut growing, root, None).map_err(|stopped| match stopped {
+                Stopped::Cancelled => RunError::Interrupted,
+                Stopped::TooLarge => RunError::Claim(stopped.to_string()),
+            })?;
             let cells = tree.into_iter().map(|node| match node {
                 Top::Cell(cell) => cell,
                 // Grown to its end, a tree has none.

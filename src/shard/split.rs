@@ -1,7 +1,7 @@
 //! From a job to its shards.
 
 use super::file::{sha256, text, Job, JobTop, Place, Shard, Task, Verify};
-use crate::atlas::{grow, waiting, Growing, Interrupted};
+use crate::atlas::{grow, waiting, Growing, Stopped};
 use crate::design::AtlasDesign;
 use crate::search::{Control, Stop};
 use crate::verify;
@@ -24,6 +24,8 @@ pub enum SplitError {
     Claim(ClaimError),
     /// The design is refuted by a single point.
     Refuted,
+    /// The map would not fit into a certificate.
+    TooLarge,
     /// A box near the top cannot be closed by splitting it.
     Hopeless,
 }
@@ -38,6 +40,7 @@ impl fmt::Display for SplitError {
                 "the design is refuted by a single point, so that there is nothing to be shared \
                  out; orthocert verify writes the certificate"
             ),
+            SplitError::TooLarge => Stopped::TooLarge.fmt(f),
             SplitError::Hopeless => write!(
                 f,
                 "a box near the top of the tree cannot be closed; orthocert verify says why"
@@ -80,8 +83,10 @@ fn of_atlas(
     done: &mut dyn FnMut(usize, f64),
 ) -> Result<(JobTop, Vec<Place>), SplitError> {
     let mut growing = Growing::new(design, cancel, done);
-    let top = grow(&mut growing, Cell::ROOT, Some(enough))
-        .map_err(|Interrupted| SplitError::Interrupted)?;
+    let top = grow(&mut growing, Cell::ROOT, Some(enough)).map_err(|stopped| match stopped {
+        Stopped::Cancelled => SplitError::Interrupted,
+        Stopped::TooLarge => SplitError::TooLarge,
+    })?;
     let cells = waiting(&top).unwrap_or_default();
     let places = cells.iter().filter_map(|cell| Place::of(cell, Vec::new())).collect();
     Ok((JobTop::Cells(top), places))
