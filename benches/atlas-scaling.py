@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 
-SHARDS = [1, 4, 16, 64, 256, 1024]
+SHARDS = [1, 4, 16, 64, 256]
 CORES = [1, 2, 10, 100, 1000]
 DISPATCH = 0.1
 

@@ -43,7 +43,8 @@ pub(super) fn scripts(submission: &Submission) -> Vec<Script> {
          try:\n\
          \x20   client = Client(os.environ.get(\"HQ_SERVER_DIR\"))\n\
          except Exception as error:\n\
-         \x20   sys.exit(f\"no HyperQueue server can be reached: {{error}}\".replace(\"\\n\", \" \"))\n\
+         \x20   reason = str(error).split(\"\\n\")[0]\n\
+         \x20   sys.exit(f\"no HyperQueue server can be reached: {{reason}}\")\n\
          print(client.submit(job).id)\n",
         job = submission.job,
         shards = submission.shards,

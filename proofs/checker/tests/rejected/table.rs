@@ -99,7 +99,7 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("number-unbalanced", Syntax, r#"expected ")""#),
     ("number-unfolded", Syntax, "expected canonical form"),
     ("number-unicode-digits", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
-    ("number-word", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-word", Syntax, "unexpected text"),
     // Keys.
     ("duplicate-claim-kind", Syntax, "expected value"),
     ("duplicate-claim", Syntax, "duplicate field `claim`"),
@@ -191,7 +191,11 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
         r#"format "orthocert/2" is not known; this checker reads "orthocert/1""#,
     ),
     ("unknown-axis", Syntax, "unknown variant `w`"),
-    ("unknown-claim", Syntax, "unknown variant `folklore`, expected `machine` or `postulate`"),
+    (
+        "unknown-claim",
+        Syntax,
+        "unknown variant `folklore`, expected one of `machine`, `postulate`, `atlas`",
+    ),
     ("unknown-corner", Syntax, "unknown variant `Q3`, expected `Q1` or `Q2`"),
     ("unknown-drive", Syntax, "unknown variant `hydraulic`"),
     ("unknown-proof", Syntax, "unknown variant `oracle`"),
