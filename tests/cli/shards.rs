@@ -90,15 +90,15 @@ fn a_stopped_shard_goes_on_where_it_was() {
     // What a run that was killed in its second cell leaves: its first one, and half a line. The
     // cell is taken over as it is: here one that says less than a new run would.
     let shard = String::from_utf8(folder.read("job/shard-0001.json")).unwrap();
-    let (answers, sum) = (sha256(&shard), sha256("[\"undecided\"]"));
+    let (answers, sum) = (sha256(&shard), sha256("{\"cells\":[\"undecided\"]}"));
     let line = |sum: &str| {
-        format!("{{\"answers\":\"{answers}\",\"cell\":0,\"sha256\":\"{sum}\",\"part\":[\"undecided\"]}}")
+        format!("{{\"answers\":\"{answers}\",\"cell\":0,\"sha256\":\"{sum}\",\"part\":{{\"cells\":[\"undecided\"]}}}}")
     };
     fs::remove_file(folder.path("job/result-0001.json")).unwrap();
     folder.write("job/result-0001.part", format!("\n{}\n\n{{\"answers\":\"", line(&sum)));
     run(&folder, 1).exits(0).says(&["1 of them by earlier runs"]);
     let resumed = String::from_utf8(folder.read("job/result-0001.json")).unwrap();
-    assert!(resumed.contains("\"parts\":[[\"undecided\"],"));
+    assert!(resumed.contains("\"parts\":[{\"cells\":[\"undecided\"]},"));
     // A line that is not what was written, or of another shard, is done again.
     fs::remove_file(folder.path("job/result-0001.json")).unwrap();
     folder.write(
@@ -192,11 +192,11 @@ fn a_forged_result_is_not_accepted() {
     let mut result: serde_json::Value = serde_json::from_str(&text).unwrap();
     let parts = result["parts"].as_array_mut().unwrap();
     parts.iter_mut().for_each(|part| {
-        *part = serde_json::json!([{"certified": {"precision": 64, "nodes": [{}]}}]);
+        *part = serde_json::json!({"cells": [{"certified": {"precision": 64, "nodes": [{}]}}]});
     });
     let sum = sha256(&format!(
         "[{}]",
-        vec![r#"[{"certified":{"precision":64,"nodes":[{}]}}]"#; parts.len()].join(",")
+        vec![r#"{"cells":[{"certified":{"precision":64,"nodes":[{}]}}]}"#; parts.len()].join(",")
     ));
     result["sha256"] = sum.into();
     folder.write("job/result-0001.json", result.to_string());
