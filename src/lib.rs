@@ -5,12 +5,14 @@
 //!
 //! | module           | does                                                                  |
 //! |------------------|-----------------------------------------------------------------------|
+//! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
 //! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
 //! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
+//! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`extremes`]     | encloses how small and how large each quantity gets                   |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
@@ -28,14 +30,17 @@
 //! | [`rough`]        | intervals without rounding, for proposals                             |
 //! | [`sample`]       | looks around: approximate values at single points and machines        |
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
+//! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
+pub mod atlas;
 pub mod attestation;
 pub mod batch;
 pub mod decimal;
 pub mod design;
 pub mod digest;
 pub mod dimensions;
+pub mod engine;
 pub mod export;
 pub mod extremes;
 pub mod import;
@@ -53,4 +58,5 @@ pub mod rotation;
 pub mod rough;
 pub mod sample;
 pub mod search;
+pub mod shard;
 pub mod verify;

@@ -34,7 +34,8 @@ pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
     Ok(None)
 }
 
-fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
+/// The text of a certificate, which reads back as the certificate.
+pub fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
     let text = certificate.to_text().map_err(|error| Rejected::Syntax(error.to_string()))?;
     if read(text.as_bytes())? == *certificate {
         Ok(text)

@@ -64,6 +64,28 @@ impl Effort {
     }
 }
 
+/// The flags of commands whose files say how much work is to be done.
+#[derive(Debug, clap::Args)]
+pub struct Work {
+    /// Threads [default: one for each core]; what is written does not depend on it
+    #[arg(long, value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS))]
+    threads: Option<u64>,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Print one line only, and no progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Work {
+    /// Starts the threads that were asked for.
+    pub fn start_threads(&self) -> Result<(), Failure> {
+        start_threads(self.threads)
+    }
+}
+
 /// Starts so many threads, if a number is given.
 pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
     let Some(threads) = threads else {

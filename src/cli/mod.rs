@@ -1,6 +1,7 @@
 //! Commands: one module each. Flags are parsed here; every command resolves its own settings and
 //! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
 
+mod atlas;
 mod attest;
 mod audit;
 mod batch;
@@ -17,6 +18,7 @@ mod init;
 mod input;
 mod interrupt;
 mod largest_cube;
+mod merge;
 mod paper;
 mod pave;
 mod postulate;
@@ -24,7 +26,10 @@ mod print;
 mod progress;
 mod prove;
 mod report;
+mod run_shard;
 mod show;
+mod split;
+mod submit;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -79,6 +84,16 @@ enum Command {
     Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Map which designs of a box of parameters meet their requirements, and which fail.
+    Atlas(atlas::Arguments),
+    /// Cut a long job into shards that any machine can run.
+    Split(split::Arguments),
+    /// Run a shard, or what is left of it.
+    RunShard(run_shard::Arguments),
+    /// Hand the shards to Slurm or HyperQueue, with a merge that follows.
+    Submit(submit::Arguments),
+    /// Put the results of all shards together.
+    Merge(merge::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
     /// Write a certificate for another checker.
@@ -205,6 +220,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::LargestCube(arguments) => largest_cube::run(arguments),
         Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Atlas(arguments) => atlas::run(arguments),
+        Command::Split(arguments) => split::run(arguments),
+        Command::RunShard(arguments) => run_shard::run(arguments),
+        Command::Submit(arguments) => submit::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

@@ -92,6 +92,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
         }
         (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
         (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
+        (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);
@@ -237,6 +238,8 @@ fn number(x: &Exact) -> String {
         Exact::Mul(x, y) => format!("(Times {} {})", number(x), number(y)),
         Exact::Div(x, y) => format!("(Over {} {})", number(x), number(y)),
         Exact::Sqrt(x) => format!("(Root {})", number(x)),
+        // Of atlases only, which are not exported.
+        Exact::Name(name) => name.to_string(),
     }
 }
 

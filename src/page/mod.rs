@@ -107,10 +107,11 @@ impl<'a> Page<'a> {
             Claim::Machine(claim) => Some(claim.clone()),
             Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
+            Claim::Atlas(_) => None,
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            Claim::Postulate(_) | Claim::NoCube(_) => Vec::new(),
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
         };
         let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, certificate, &rows);
@@ -177,6 +178,10 @@ impl<'a> Page<'a> {
             (Claim::Postulate(_), Verdict::Certified) => {
                 "The bounds on the transmission factors hold on the whole closed cube, for every \
                  psi_max of the claim. The exact checker accepted the proof."
+            }
+            (Claim::Atlas(_), Verdict::Certified) => {
+                "Every design of the cells that the map names certified meets the requirements, and \
+                 none of those that it names refuted does. The exact checker accepted all proofs."
             }
             (Claim::NoCube(_), Verdict::Certified) => {
                 "No cube of this side fits, wherever its centre is in the box. The exact checker \

@@ -18,6 +18,9 @@ macro_rules! checker_sources {
 /// The sources of the checker with which this program was built, in the order of their paths.
 const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "Cargo.toml",
+    "src/atlas/instance.rs",
+    "src/atlas/mod.rs",
+    "src/atlas/role.rs",
     "src/bin/orthocert-check.rs",
     "src/cell.rs",
     "src/certificate.rs",

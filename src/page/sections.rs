@@ -45,6 +45,9 @@ impl Page<'_> {
         let mut facts = Vec::new();
         match &self.certificate.proof {
             Proof::Witness(_) => facts.push(("proof", "one counterexample".to_owned())),
+            Proof::Atlas(atlas) => {
+                facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
+            }
             Proof::Tree(_) | Proof::Faces(_) => {
                 facts.push(("boxes that cover the workspace", grouped(size.leaves as u64)));
                 facts.push(("boxes in all", grouped(size.nodes as u64)));
@@ -52,11 +55,13 @@ impl Page<'_> {
             }
         }
         let bits = match &self.certificate.proof {
-            Proof::Tree(tree) => tree.precision,
-            Proof::Faces(faces) => faces.precision,
-            Proof::Witness(witness) => witness.precision,
+            Proof::Tree(tree) => Some(tree.precision),
+            Proof::Faces(faces) => Some(faces.precision),
+            Proof::Witness(witness) => Some(witness.precision),
+            // Each cell has its own.
+            Proof::Atlas(_) => None,
         };
-        facts.push(("fractional bits", bits.to_string()));
+        facts.extend(bits.map(|bits| ("fractional bits", bits.to_string())));
         facts.push(("certificate", self.file.name.to_owned()));
         let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
         for (name, value) in facts {
@@ -72,7 +77,7 @@ impl Page<'_> {
             let reason = if self.is_machine() {
                 "its numbers are beyond what floating point can show"
             } else {
-                "the claim is about a machine for each psi_max"
+                "the claim is about many machines"
             };
             let _ = write!(out, "<p>There is no drawing, and no map of transmission factors: {reason}.</p></section>");
             return out;
@@ -99,6 +104,7 @@ impl Page<'_> {
                     out.push_str(&words::parameters(&claim, machine));
                 }
             }
+            Claim::Atlas(_) => {}
         }
         out + "</section>\n"
     }

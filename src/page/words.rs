@@ -6,7 +6,8 @@ use crate::decimal::{approximate, readable, significant};
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
-    Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements, Workspace,
+    AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements,
+    Workspace,
 };
 use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
@@ -28,6 +29,10 @@ pub fn subject(claim: &Claim) -> String {
                 format!("The Q1/Q2 postulate for every psi_max from {min} to {max}")
             }
         },
+        Claim::Atlas(claim) => {
+            let names: Vec<&str> = claim.parameters.iter().map(|p| p.name.as_str()).collect();
+            format!("A map of designs over {}", names.join(", "))
+        }
         Claim::NoCube(claim) => format!(
             "No cube of side {} with its centre in {} for: {}",
             readable(&claim.side),
@@ -122,6 +127,18 @@ fn asserted(claim: &Claim) -> Vec<String> {
                 format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
             }
         }),
+        Claim::Atlas(claim) => {
+            let range = |p: &AtlasParameter| {
+                format!("{} \u{2264} {} \u{2264} {}", number(&p.min), html(&p.name), number(&p.max))
+            };
+            let ranges: Vec<String> = claim.parameters.iter().map(range).collect();
+            let share = |share| format!("the share {} of the box", number(share));
+            vec![
+                ranges.join(", "),
+                format!("certified: {}", share(&claim.certified)),
+                format!("refuted: {}", share(&claim.refuted)),
+            ]
+        }
         Claim::NoCube(claim) => {
             let side = number(&claim.side);
             let mut out = vec![format!(

@@ -1,6 +1,7 @@
 //! What a verification found, for people ([`text`]) and for scripts (as JSON, by `serde`): the
 //! same facts.
 
+pub mod atlas;
 mod counterexample;
 mod place;
 mod postulate;
@@ -17,7 +18,7 @@ pub use worst::Row;
 
 use crate::extremes::Enclosed;
 use crate::sample::Sampler;
-use crate::verify::{worst_values, Answer, Verification};
+use crate::verify::{worst_values, Answer, Verification, FINEST};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
@@ -127,7 +128,7 @@ impl Size {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
             Proof::Faces(faces) => faces.precision,
-            Proof::Witness(_) => return None,
+            Proof::Witness(_) | Proof::Atlas(_) => return None,
         };
         let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
         let TreeSize { leaves, nodes, depth, .. } = *size;
@@ -141,7 +142,7 @@ pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
     let model = Model::new(claim, MODEL_PRECISION).ok()?;
     let sampler = Sampler::new(claim, &model)?;
     let frame = Frame::new(claim, &model)?;
-    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler)))
+    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
 }
 
 /// A certificate on the disk.

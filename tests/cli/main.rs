@@ -14,14 +14,17 @@
 //! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
 //! | `report`       | `report`: pages and figures                                       |
+//! | `atlas`        | `atlas`: maps, and what is refused                                |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
+//! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 
 mod junit;
 mod support;
 
+mod atlas;
 mod audit;
 mod bad_input;
 mod batch;
@@ -35,4 +38,5 @@ mod largest_cube;
 mod paving;
 mod postulate;
 mod report;
+mod shards;
 mod verdicts;

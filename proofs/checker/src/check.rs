@@ -1,9 +1,10 @@
 //! Checking a certificate: the only way to an accepted verdict.
 
+use crate::atlas::{self, AtlasError};
 use crate::cell::{Axis, Cell};
 use crate::certificate::{
     Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, Violated, FORMAT, MAX_BYTES,
-    MAX_STEPS, PRECISIONS,
+    MAX_NODES, MAX_STEPS, PRECISIONS,
 };
 use crate::claim::{Claim, ClaimError, MachineClaim, NoCubeClaim, PostulateClaim, PsiMax};
 use crate::enclosure::Enclosure;
@@ -94,6 +95,19 @@ pub enum Rejected {
     },
     /// The witness does not refute the claim.
     Witness(WitnessError),
+    /// The claim of an atlas, or of a cell of it, is not well formed.
+    AtlasClaim(AtlasError),
+    /// The trees of an atlas have too many nodes together.
+    TooManyNodes(usize),
+    /// The shares that an atlas claims are not those of its cells.
+    Shares,
+    /// What an atlas says of a cell is not proved.
+    Cell {
+        /// The cell, counted from zero in preorder.
+        cell: usize,
+        /// Why.
+        reason: Box<Rejected>,
+    },
 }
 
 impl From<ClaimError> for Rejected {
@@ -145,6 +159,17 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node} is a leaf, but {obligation} is not discharged on its path")
             }
             Rejected::Witness(error) => write!(f, "the witness does not refute: {error}"),
+            Rejected::AtlasClaim(error) => {
+                write!(f, "the claim of the atlas is not well formed: {error}")
+            }
+            Rejected::TooManyNodes(nodes) => write!(
+                f,
+                "the trees of the atlas have {nodes} nodes; at most {MAX_NODES} are accepted"
+            ),
+            Rejected::Shares => {
+                write!(f, "the shares that are claimed are not those of the proof's cells")
+            }
+            Rejected::Cell { cell, reason } => write!(f, "cell {cell} of the atlas: {reason}"),
         }
     }
 }
@@ -213,6 +238,9 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
         }
         (Claim::Postulate(claim), Proof::Faces(faces), Verdict::Certified) => {
             check_faces(claim, faces, &mut size)?;
+        }
+        (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
+            atlas::check(claim, map, &mut size)?;
         }
         _ => return Err(Rejected::VerdictMismatch),
     }
@@ -331,7 +359,12 @@ fn admit_precision(bits: u32) -> Result<(), Rejected> {
     }
 }
 
-fn check_tree(claim: &MachineClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+/// Checks that a tree proves a machine claim.
+pub(crate) fn check_tree(
+    claim: &MachineClaim,
+    tree: &Tree,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
     admit_precision(tree.precision)?;
     let model = Model::new(claim, tree.precision)?;
     let obligations = obligations(&model);

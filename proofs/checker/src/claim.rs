@@ -21,6 +21,8 @@ pub enum Claim {
     Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
     /// No cube of some side fits, wherever its centre is in a box.
     NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
+    /// Every machine of a box of parameters, in part.
+    Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
 }
 
 /// "For every machine described and every point `C` of the box, the closed cube of this side with
@@ -66,6 +68,38 @@ impl NoCubeClaim {
         }
         Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine.clone() })
     }
+}
+
+/// "Of the box of parameters, the cells that the proof names certified, which fill the share
+/// `certified` of it, hold only designs that meet every requirement; the cells that it names
+/// refuted, which fill the share `refuted`, hold only designs that do not."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasClaim {
+    /// What is varied: one to three parameters, in the order of the axes of the map.
+    #[serde(deserialize_with = "strict::parameters")]
+    pub parameters: Vec<AtlasParameter>,
+    /// A machine claim, some numbers of which are expressions with the parameters' names: one
+    /// claim for each choice of their values.
+    #[serde(deserialize_with = "strict::object")]
+    pub design: MachineClaim,
+    /// The share of the box in certified cells.
+    pub certified: Exact,
+    /// The share of the box in refuted cells.
+    pub refuted: Exact,
+}
+
+/// A parameter of an atlas: every real value from `min` to `max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasParameter {
+    /// How expressions call it.
+    #[serde(deserialize_with = "strict::label")]
+    pub name: String,
+    /// Least value, rational.
+    pub min: Exact,
+    /// Greatest value, rational and greater than the least.
+    pub max: Exact,
 }
 
 /// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
@@ -410,6 +444,8 @@ pub enum ClaimError {
     CubeFixesPsiMin,
     /// The numbers cannot be enclosed at the precision of the proof.
     Precision(String),
+    /// A number with a name, which only the design of an atlas has.
+    Open(String),
 }
 
 impl fmt::Display for ClaimError {
@@ -454,6 +490,9 @@ impl fmt::Display for ClaimError {
             ClaimError::Precision(what) => {
                 write!(f, "{what} cannot be enclosed at the precision of the proof")
             }
+            ClaimError::Open(number) => {
+                write!(f, "{number:?} has a name; only the design of an atlas has names")
+            }
         }
     }
 }
@@ -474,6 +513,10 @@ impl Mechanism {
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.
     pub fn validate(&self) -> Result<(), ClaimError> {
+        self.try_map(&mut |x, _| match x.is_open() {
+            true => Err(ClaimError::Open(x.to_string())),
+            false => Ok(x.clone()),
+        })?;
         match (&self.mechanism, &self.workspace) {
             (Mechanism::Translational(legs), Workspace::Box { min, max }) => {
                 self.validate_legs(legs)?;

@@ -86,6 +86,30 @@ pub fn check(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError
     }
     claim.validate()?;
     admit_machine(claim, witness.machine.as_ref())?;
+    violated_at_the_point(claim, witness)
+}
+
+/// Accepts a witness, without a machine, that proves the claim false of **every** machine within
+/// its tolerances: at one point, every one of them violates the same requirement.
+///
+/// **Lemma.** The evaluation below without a machine is that of [`check`] with every parameter
+/// enclosed by its whole interval. An enclosure that is certainly beyond a bound is so for the value
+/// of every machine. ∎
+///
+/// # Errors
+/// If it does not.
+pub fn check_every_machine(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError> {
+    if !PRECISIONS.contains(&witness.precision) {
+        return Err(WitnessError::Precision(witness.precision));
+    }
+    if witness.machine.is_some() {
+        return Err(WitnessError::MachineMismatch);
+    }
+    claim.validate()?;
+    violated_at_the_point(claim, witness)
+}
+
+fn violated_at_the_point(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError> {
     let model = model_at(claim, witness, &witness.point)?;
     match &witness.violates {
         Violation::Singular(second) => {

@@ -117,6 +117,8 @@ fn real(x: &Exact) -> String {
         Exact::Mul(x, y) => format!("({} * {})", real(x), real(y)),
         Exact::Div(x, y) => format!("({} / {})", real(x), real(y)),
         Exact::Sqrt(x) => format!("(sqrt {})", real(x)),
+        // Names stand in atlases only, which are not exported.
+        Exact::Name(name) => name.to_string(),
     }
 }
 

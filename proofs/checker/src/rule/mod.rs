@@ -35,7 +35,7 @@ mod vertex;
 mod violated;
 
 use crate::expansion::OutOfReach;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 pub use conditioning::{conditioning, Mu, MU_BITS};
@@ -46,7 +46,7 @@ pub use vertex::{corner, cube, lower, upper, Rotation, TightCorner, MAX_QUATERNI
 pub use violated::{shrunk, stretched, violated};
 
 /// What is to be shown of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Obligation {

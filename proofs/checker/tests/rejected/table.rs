@@ -69,7 +69,7 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
     ("precision-string", Syntax, r#"invalid type: string "64", expected u32"#),
     ("precision-zero", Tree, "precision 0 is not within 32..=1024"),
     // Numbers.
-    ("number-all", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-all", Claim, "has a name; only the design of an atlas has names"),
     ("number-as-json-float", Syntax, "'.' at byte 119, outside a string"),
     ("number-as-json-integer", Syntax, "invalid type: integer `200`, expected a string"),
     ("number-blank", Syntax, "expected canonical form"),
@@ -99,7 +99,7 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
     ("number-unbalanced", Syntax, r#"expected ")""#),
     ("number-unfolded", Syntax, "expected canonical form"),
     ("number-unicode-digits", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
-    ("number-word", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-word", Syntax, "unexpected text"),
     // Keys.
     ("duplicate-claim-kind", Syntax, "expected value"),
     ("duplicate-claim", Syntax, "duplicate field `claim`"),
@@ -194,7 +194,7 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
     (
         "unknown-claim",
         Syntax,
-        "unknown variant `folklore`, expected one of `machine`, `postulate`, `no_cube`",
+        "unknown variant `folklore`, expected one of `machine`, `postulate`, `no_cube`, `atlas`",
     ),
     ("unknown-corner", Syntax, "unknown variant `Q3`, expected `Q1` or `Q2`"),
     ("unknown-drive", Syntax, "unknown variant `hydraulic`"),
