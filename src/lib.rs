@@ -8,7 +8,7 @@
 //! | [`decimal`]    | decimal notation of exact numbers, certified digits                     |
 //! | [`design`]     | reads design files, written by people, into claims in exact numbers     |
 //! | [`dimensions`] | the paper's Steps 1 to 3, enclosed                                      |
-//! | [`export`]     | writes certificates for the formal checker in Rocq                      |
+//! | [`export`]     | certificates for the formal checker in Rocq, surfaces as meshes         |
 //! | [`extremes`]   | encloses how small and how large each quantity gets                     |
 //! | [`import`]     | makes design files of the configurations of motion controllers          |
 //! | [`interval`]   | floating-point intervals and approximations for the search              |
