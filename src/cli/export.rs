@@ -123,7 +123,8 @@ fn opened(path: &Path) -> Result<BufReader<File>, Failure> {
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a paving"));
     }
-    let mut reader = File::open(path).map(BufReader::new).map_err(|e| unreadable(&e.to_string()))?;
+    let mut reader =
+        File::open(path).map(BufReader::new).map_err(|e| unreadable(&e.to_string()))?;
     let start = reader.fill_buf().map_err(|error| unreadable(&error.to_string()))?;
     if is_paving(start) {
         Ok(reader)

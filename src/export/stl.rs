@@ -19,7 +19,8 @@ pub fn stl(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
     let triangles = 2 * surface.faces.len();
     let mut bytes = Vec::with_capacity(HEADER + 4 + TRIANGLE * triangles);
     // Not beginning with "solid", by which readers know the textual form.
-    bytes.extend(format!("{:HEADER$}", "binary STL by orthocert: surface of an inner part").bytes());
+    bytes
+        .extend(format!("{:HEADER$}", "binary STL by orthocert: surface of an inner part").bytes());
     // A surface has at most 2^24 faces.
     bytes.extend((triangles as u32).to_le_bytes());
     for face in &surface.faces {
@@ -37,9 +38,8 @@ pub fn stl(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
 
 /// The unit normal of a rectangle with sides along two axes, corner `a` between `b` and `d`.
 fn normal(a: [f32; 3], b: [f32; 3], d: [f32; 3]) -> [f32; 3] {
-    let sign = |k: usize, q: [f32; 3]| {
-        f32::from(i8::from(q[k] > a[k])) - f32::from(i8::from(q[k] < a[k]))
-    };
+    let sign =
+        |k: usize, q: [f32; 3]| f32::from(i8::from(q[k] > a[k])) - f32::from(i8::from(q[k] < a[k]));
     let cross = |i, j| sign(i, b) * sign(j, d) - sign(j, b) * sign(i, d);
     [cross(1, 2), cross(2, 0), cross(0, 1)]
 }

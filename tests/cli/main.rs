@@ -7,6 +7,7 @@
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `paving`       | `pave` and `check` of pavings                                     |
+//! | `surface`      | `export vtk` and `export stl`                                     |
 //! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
 //! | `bad_input`    | every class of bad usage and bad input                            |
@@ -25,4 +26,5 @@ mod json;
 mod largest_cube;
 mod paving;
 mod postulate;
+mod surface;
 mod verdicts;
