@@ -1,6 +1,6 @@
 """How time, boxes and memory of a paving grow with its precision. Prints Markdown.
 
-usage: python3 benches/growth.py target/release/orthocert [DEPTH...] > benches/runs/paving-growth.md
+usage: python3 benches/growth.py target/release/orthocert [--depths D...] [--gaps G...]
 
 The Orthoglide with L = 1, transmission factors within [1/2, 2], in [-0.7, 0.7]^3. A paving of depth
 d splits undecided boxes to edges of 1.4 * 2^(-d/3) in the geometric mean. Processor time is user and
@@ -8,10 +8,10 @@ system of the whole process, the exact check of every box included; where the ma
 it is steadier than the clock's. Exponents are of power laws fitted to the logarithms.
 """
 
+import argparse
 import json
 import os
 import subprocess
-import sys
 import tempfile
 import time
 from math import log
@@ -52,13 +52,18 @@ def exponent(xs, ys):
     return sum((s - a) * (t - b) for s, t in zip(u, v)) / sum((s - a) ** 2 for s in u)
 
 
-orthocert = str(Path(sys.argv[1]).resolve())
-depths = [int(depth) for depth in sys.argv[2:]] or [18, 21, 24, 27]
+parser = argparse.ArgumentParser()
+parser.add_argument("orthocert")
+parser.add_argument("--depths", type=int, nargs="+", default=[18, 21, 24, 27, 30])
+parser.add_argument("--gaps", nargs="+", default=["0.1", "0.05", "0.01", "0.002"])
+arguments = parser.parse_args()
+orthocert, depths = str(Path(arguments.orthocert).resolve()), arguments.depths
 version = subprocess.run([orthocert, "--version"], capture_output=True, text=True).stdout.strip()
 processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo")
                   if line.startswith("model name")), os.uname().machine)
 print("# Growth of a paving with its precision\n")
-print(f"`python3 benches/growth.py target/release/orthocert {' '.join(map(str, depths))}`; {version}, "
+print(f"`benches/growth.py --depths {' '.join(map(str, depths))} --gaps {' '.join(arguments.gaps)}`; "
+      f"{version}, "
       f"{processor}, {os.cpu_count()} cores, load at the start "
       f"{os.getloadavg()[0]:.1f}. What is measured: the head of `benches/growth.py`.\n")
 with tempfile.TemporaryDirectory() as folder:
@@ -84,7 +89,7 @@ with tempfile.TemporaryDirectory() as folder:
         print(f"{'' if what != 'boxes' else chr(10)}* {what} ~ edge^{exponent(edges, values):.3f}")
     print("\n| gap asked for | reached | depth | boxes | processor time | memory | clock, 2 threads |")
     print("|---|---|---|---|---|---|---|", flush=True)
-    for gap in ("0.1", "0.05", "0.01", "0.002")[:len(depths)]:
+    for gap in arguments.gaps:
         answer, clock, spent, memory = run("--volume-gap", gap, threads=2)
         print(f"| {gap} | {answer['gap']:.5f} | {answer['depth']} | {boxes_of(answer):,} "
               f"| {spent:.2f} s | {memory:.0f} MB | {clock:.2f} s |", flush=True)
