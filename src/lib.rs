@@ -13,7 +13,7 @@
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
-//! | [`export`]       | writes certificates for the formal checker in Rocq                    |
+//! | [`export`]       | certificates for the formal checker in Rocq, surfaces as meshes       |
 //! | [`extremes`]     | encloses how small and how large each quantity gets                   |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
 //! | [`interval`]     | floating-point intervals and approximations for the search            |

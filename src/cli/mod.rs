@@ -96,7 +96,7 @@ enum Command {
     Merge(merge::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
-    /// Write a certificate for another checker.
+    /// Write a certificate for another checker, or a paving's surface as a mesh.
     Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),

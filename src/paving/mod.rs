@@ -8,6 +8,7 @@
 //! | `plan`     | how deep the tree has to go                                       |
 //! | `pass`     | writes the tree to a file that can be taken up again              |
 //! | `components` | connected components of the inner part                          |
+//! | `surface`  | the surface of the inner part                                     |
 //!
 //! The tree is grown depth first down to one depth, and what becomes of a cell depends on the cell
 //! and its ancestors alone: the bytes are the same for every number of threads and after every
@@ -19,11 +20,13 @@ mod decide;
 mod pass;
 mod plan;
 mod spectrum;
+mod surface;
 mod tree;
 
 pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume};
+pub use surface::{surface, Beyond, Face, Surface, SurfaceError};
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
 
 use orthocert_checker::certificate::Provenance;

@@ -11,6 +11,7 @@
 //! | `audit`        | `check` of a folder, and `attest`                                 |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
 //! | `paving`       | `pave` and `check` of pavings                                     |
+//! | `surface`      | `export vtk` and `export stl`                                     |
 //! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
 //! | `report`       | `report`: pages and figures                                       |
@@ -39,4 +40,5 @@ mod paving;
 mod postulate;
 mod report;
 mod shards;
+mod surface;
 mod verdicts;
