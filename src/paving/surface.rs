@@ -236,11 +236,9 @@ impl Tree {
         self.nodes.get(at as usize).copied().unwrap_or(Node::Outer)
     }
 
-    /// What lies at a cell of the grid; `None` if that is inner.
-    fn beyond(&self, mut cell: [u64; 3]) -> Option<Beyond> {
-        if self.symmetric {
-            cell.sort_unstable();
-        }
+    /// What lies at a cell of the grid, with its coordinates in order where there is symmetry; `None`
+    /// if that is inner.
+    fn beyond(&self, cell: [u64; 3]) -> Option<Beyond> {
         let mut at = self.root;
         let mut left = self.levels;
         loop {
@@ -316,8 +314,10 @@ impl Tree {
 
     /// The walls on one side of a cell, and their images.
     ///
-    /// With symmetry, those are taken where the cell of the grid has its coordinates in order, and
-    /// of two axes with the same coordinate the first: each wall is an image of exactly one such.
+    /// With symmetry, those are taken where the coordinates of both neighbours are in order: each
+    /// wall is an image of exactly one such, and the inner one of two neighbours of which one cell
+    /// has only one lies at its side. *Proof.* Of axes with the same coordinate the last can go up,
+    /// and the first down, with the order kept; the others are images of that. A cell is a box. ∎
     fn side(
         &self,
         range: &[[u64; 2]; 3],
@@ -334,7 +334,11 @@ impl Tree {
             cell[b] = along;
             for across in range[c][0]..=range[c][1] {
                 cell[c] = across;
-                let repeated = axis > 0 && cell[axis - 1] == cell[axis];
+                let repeated = if upward {
+                    axis < 2 && cell[axis + 1] == cell[axis]
+                } else {
+                    axis > 0 && cell[axis - 1] == cell[axis]
+                };
                 if self.symmetric && (!cell.is_sorted() || repeated) {
                     continue;
                 }
