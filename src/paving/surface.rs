@@ -275,14 +275,12 @@ impl Tree {
 
     /// A cell's first and last part along each axis in the grid.
     fn range(&self, cell: &Cell) -> [[u64; 2]; 3] {
-        let mut range = [[0; 2]; 3];
-        for k in 0..3 {
+        std::array::from_fn(|k| {
             let edge = cell.edges[k];
             let finer = self.levels[k] - edge.level;
             // index < 2^level, level + finer <= 40.
-            range[k] = [(edge.index as u64) << finer, ((edge.index as u64 + 1) << finer) - 1];
-        }
-        range
+            [(edge.index as u64) << finer, ((edge.index as u64 + 1) << finer) - 1]
+        })
     }
 
     fn faces(&self, cancel: &AtomicBool) -> Result<Vec<Wall>, SurfaceError> {
@@ -314,10 +312,12 @@ impl Tree {
 
     /// The walls on one side of a cell, and their images.
     ///
-    /// With symmetry, those are taken where the coordinates of both neighbours are in order: each
-    /// wall is an image of exactly one such, and the inner one of two neighbours of which one cell
-    /// has only one lies at its side. *Proof.* Of axes with the same coordinate the last can go up,
-    /// and the first down, with the order kept; the others are images of that. A cell is a box. ∎
+    /// With symmetry, those are taken of which the cells of the grid on both sides have their
+    /// coordinates in order. **Lemma.** Each wall is an image of exactly one such, and that is found.
+    /// *Proof.* Put the inner cell's coordinates in order; of axes with the same coordinate, the last
+    /// can go up, and the first down, with the order kept, and a wall on another of them is an image
+    /// of that. A cell of the tree is a box: what is next to a part of it and not within lies beyond
+    /// the side. ∎
     fn side(
         &self,
         range: &[[u64; 2]; 3],
