@@ -236,11 +236,9 @@ impl Tree {
         self.nodes.get(at as usize).copied().unwrap_or(Node::Outer)
     }
 
-    /// What lies at a cell of the grid; `None` if that is inner.
-    fn beyond(&self, mut cell: [u64; 3]) -> Option<Beyond> {
-        if self.symmetric {
-            cell.sort_unstable();
-        }
+    /// What lies at a cell of the grid, with its coordinates in order where there is symmetry; `None`
+    /// if that is inner.
+    fn beyond(&self, cell: [u64; 3]) -> Option<Beyond> {
         let mut at = self.root;
         let mut left = self.levels;
         loop {
@@ -277,14 +275,12 @@ impl Tree {
 
     /// A cell's first and last part along each axis in the grid.
     fn range(&self, cell: &Cell) -> [[u64; 2]; 3] {
-        let mut range = [[0; 2]; 3];
-        for k in 0..3 {
+        std::array::from_fn(|k| {
             let edge = cell.edges[k];
             let finer = self.levels[k] - edge.level;
             // index < 2^level, level + finer <= 40.
-            range[k] = [(edge.index as u64) << finer, ((edge.index as u64 + 1) << finer) - 1];
-        }
-        range
+            [(edge.index as u64) << finer, ((edge.index as u64 + 1) << finer) - 1]
+        })
     }
 
     fn faces(&self, cancel: &AtomicBool) -> Result<Vec<Wall>, SurfaceError> {
@@ -316,8 +312,12 @@ impl Tree {
 
     /// The walls on one side of a cell, and their images.
     ///
-    /// With symmetry, those are taken where the cell of the grid has its coordinates in order, and
-    /// of two axes with the same coordinate the first: each wall is an image of exactly one such.
+    /// With symmetry, those are taken of which the cells of the grid on both sides have their
+    /// coordinates in order. **Lemma.** Each wall is an image of exactly one such, and that is found.
+    /// *Proof.* Put the inner cell's coordinates in order; of axes with the same coordinate, the last
+    /// can go up, and the first down, with the order kept, and a wall on another of them is an image
+    /// of that. A cell of the tree is a box: what is next to a part of it and not within lies beyond
+    /// the side. ∎
     fn side(
         &self,
         range: &[[u64; 2]; 3],
@@ -334,7 +334,11 @@ impl Tree {
             cell[b] = along;
             for across in range[c][0]..=range[c][1] {
                 cell[c] = across;
-                let repeated = axis > 0 && cell[axis - 1] == cell[axis];
+                let repeated = if upward {
+                    axis < 2 && cell[axis + 1] == cell[axis]
+                } else {
+                    axis > 0 && cell[axis - 1] == cell[axis]
+                };
                 if self.symmetric && (!cell.is_sorted() || repeated) {
                     continue;
                 }

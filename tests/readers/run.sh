@@ -32,7 +32,7 @@ max = [0.7, 0.7, $top]
 [requirements]
 transmission = { min = "1/2", max = 2 }
 TOML
-  "$orthocert" pave "$symmetric.toml" --volume-gap 0.2 --quiet >/dev/null
+  "$orthocert" pave "$symmetric.toml" --precision 0.1 --quiet >/dev/null
   "$orthocert" check "$symmetric.paving" --format json > "$symmetric.json"
   "$orthocert" export vtk "$symmetric.paving" -o "$symmetric.vtu"
   "$orthocert" export stl "$symmetric.paving" -o "$symmetric.stl"

@@ -140,6 +140,15 @@ fn a_cell_across_the_planes_counts_only_within_the_order() {
     });
     assert_eq!((found.levels, found.cells()), ([1; 3], 7));
     assert_eq!(found.faces.len(), 24);
+    // [0, 1] x [0, 1/2] x [0, 1]: two coordinates are in the lower half, at least. The face between
+    // (1/2, 1/2, .) and its neighbour up in x lies within the cell, and is one of the surface's.
+    let found = held(true, |cell| match cell.edges[1].level {
+        0 => Fate::Split(Axis::Y),
+        _ if cell.edges[1].index == 0 => Fate::Inner,
+        _ => Fate::Undecided,
+    });
+    assert_eq!((found.levels, found.cells()), ([1; 3], 4));
+    assert_eq!(found.faces.len(), 18);
 }
 
 #[test]
