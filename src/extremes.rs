@@ -142,6 +142,40 @@ impl Extreme {
         all
     }
 
+    /// The extremes that the claim's requirements bound, but for those that the paper's cube has by
+    /// definition.
+    pub fn bounded(claim: &MachineClaim) -> Vec<Extreme> {
+        let Requirements { transmission, joint_range, .. } = &claim.requirements;
+        let psi = transmission.as_ref();
+        let rho = |leg: usize| joint_range.as_ref().and_then(|ranges| ranges.get(leg));
+        let mut all = Extreme::of(claim);
+        all.retain(|extreme| match *extreme {
+            Extreme::LeastPsi => psi.is_some_and(|range| range.min.is_some()),
+            Extreme::GreatestPsi => psi.is_some_and(|range| range.max.is_some()),
+            Extreme::LeastRho(leg) => rho(leg).is_some_and(|range| range.min.is_some()),
+            Extreme::GreatestRho(leg) => rho(leg).is_some_and(|range| range.max.is_some()),
+            Extreme::Conditioning => claim.requirements.conditioning.is_some(),
+            Extreme::SerialMargin => claim.requirements.serial_margin.is_some(),
+            Extreme::ParallelMargin => claim.requirements.parallel_margin.is_some(),
+            Extreme::LegAngle => claim.requirements.leg_angle.is_some(),
+            Extreme::JointSpeed => claim.requirements.joint_speed.is_some(),
+        });
+        all
+    }
+
+    /// The quantity's name in tables.
+    pub fn quantity(self) -> String {
+        match self {
+            Extreme::LeastPsi | Extreme::GreatestPsi => "psi".into(),
+            Extreme::Conditioning => "sigma_max/sigma_min".into(),
+            Extreme::SerialMargin => "|eta_i|/L_i".into(),
+            Extreme::ParallelMargin => "|det A|/(L1 L2 L3)".into(),
+            Extreme::LegAngle => "leg angle (deg)".into(),
+            Extreme::JointSpeed => "joint/tool speed".into(),
+            Extreme::LeastRho(leg) | Extreme::GreatestRho(leg) => format!("rho_{}", leg + 1),
+        }
+    }
+
     /// Whether the quantity is bounded from above.
     pub fn is_greatest(self) -> bool {
         !matches!(

@@ -3,40 +3,60 @@
 //! Nothing in this crate has to be trusted: it reads designs and searches for proofs; what it finds
 //! is re-proved in exact arithmetic by [`orthocert_checker`], which never depends on this crate.
 //!
-//! | module         | does                                                                    |
-//! |----------------|-------------------------------------------------------------------------|
-//! | [`decimal`]    | decimal notation of exact numbers, certified digits                     |
-//! | [`design`]     | reads design files, written by people, into claims in exact numbers     |
-//! | [`dimensions`] | the paper's Steps 1 to 3, enclosed                                      |
-//! | [`export`]     | writes certificates for the formal checker in Rocq                      |
-//! | [`extremes`]   | encloses how small and how large each quantity gets                     |
-//! | [`import`]     | makes design files of the configurations of motion controllers          |
-//! | [`interval`]   | floating-point intervals and approximations for the search              |
-//! | [`machine`]    | the machine's obligations and the rules that may discharge them         |
-//! | [`output`]     | files that appear whole or not at all                                   |
-//! | [`paper`]      | the claims of the seed paper, one by one                                |
-//! | [`postulate`]  | proves the Q1/Q2 postulate for one psi_max, a range, or every one       |
-//! | [`refute`]     | turns a place where a requirement seems to fail into an exact witness   |
-//! | [`report`]     | what a verification found, for people and for scripts                   |
-//! | [`rotation`]   | finds the orthogonal matrix that the vertex rule takes as evidence      |
-//! | [`sample`]     | looks around: approximate values at single points and machines          |
-//! | [`search`]     | branch and bound: finds a bisection tree that discharges everything     |
-//! | [`verify`]     | decides a claim: certified, refuted, or undecided                       |
+//! | module           | does                                                                  |
+//! |------------------|-----------------------------------------------------------------------|
+//! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
+//! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
+//! | [`batch`]        | many designs at once, and reports for continuous integration          |
+//! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
+//! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
+//! | [`digest`]       | SHA-256 as people and browsers compare it                             |
+//! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
+//! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
+//! | [`export`]       | certificates for the formal checker in Rocq, surfaces as meshes       |
+//! | [`extremes`]     | encloses how small and how large each quantity gets                   |
+//! | [`import`]       | makes design files of the configurations of motion controllers        |
+//! | [`interval`]     | floating-point intervals and approximations for the search            |
+//! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
+//! | [`machine`]      | the machine's obligations and the rules that may discharge them       |
+//! | [`output`]       | files that appear whole or not at all                                 |
+//! | [`page`]         | a certificate as a page to read and to file, and its figures          |
+//! | [`paper`]        | the claims of the seed paper, one by one                              |
+//! | [`paving`]       | the region of a box where a claim holds, from within and from without |
+//! | [`postulate`]    | proves the Q1/Q2 postulate for one psi_max, a range, or every one     |
+//! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
+//! | [`report`]       | what a verification found, for people and for scripts                 |
+//! | [`rotation`]     | finds the orthogonal matrix that the vertex rule takes as evidence    |
+//! | [`rough`]        | intervals without rounding, for proposals                             |
+//! | [`sample`]       | looks around: approximate values at single points and machines        |
+//! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
+//! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
+//! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
+pub mod atlas;
+pub mod attestation;
+pub mod batch;
 pub mod decimal;
 pub mod design;
+pub mod digest;
 pub mod dimensions;
+pub mod engine;
 pub mod export;
 pub mod extremes;
 pub mod import;
 pub mod interval;
+pub mod largest_cube;
 pub mod machine;
 pub mod output;
+pub mod page;
 pub mod paper;
+pub mod paving;
 pub mod postulate;
 pub mod refute;
 pub mod report;
 pub mod rotation;
+pub mod rough;
 pub mod sample;
 pub mod search;
+pub mod shard;
 pub mod verify;

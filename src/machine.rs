@@ -117,7 +117,7 @@ fn corner_step(model: &Model<Interval>, cell: &Cell) -> Option<Step> {
 
 /// The shortest evidence with which the conditioning rule holds. `mu` is put half-way between what
 /// both vertex rules allow: at the centre, and, by differences, along each axis.
-fn conditioning_step(
+pub(crate) fn conditioning_step(
     model: &Model<Interval>,
     expansion: &Expansion<Interval>,
 ) -> Result<Step, Failure> {

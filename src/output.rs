@@ -110,6 +110,10 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 fn replace(target: &Path, bytes: &[u8], keep: Option<fs::Permissions>) -> io::Result<()> {
     let _writing = hold();
     let folder = folder_of(target);
+    #[cfg(target_os = "linux")]
+    if let Some(complete) = nameless(folder, bytes, keep.as_ref())? {
+        return complete.persist(target).map_err(|error| error.error);
+    }
     let mut temporary = builder().tempfile_in(folder)?;
     temporary.write_all(bytes)?;
     if let Some(permissions) = keep {
@@ -119,6 +123,32 @@ fn replace(target: &Path, bytes: &[u8], keep: Option<fs::Permissions>) -> io::Re
     // The folder itself need not be flushed: whenever its entry arrives, the file is complete.
     temporary.persist(target).map_err(|error| error.error)?;
     Ok(())
+}
+
+/// Writes a file that has no name until it is complete, so that not even a process that is killed
+/// leaves a part of it; `None` where the file system has no such files.
+#[cfg(target_os = "linux")]
+fn nameless(
+    folder: &Path,
+    bytes: &[u8],
+    keep: Option<&fs::Permissions>,
+) -> io::Result<Option<tempfile::TempPath>> {
+    use rustix::fs::{linkat, open, AtFlags, Mode, OFlags, CWD};
+    use std::os::fd::AsRawFd;
+    let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+    let Ok(file) = open(folder, flags, Mode::from_raw_mode(0o666)) else {
+        return Ok(None);
+    };
+    let mut file = fs::File::from(file);
+    file.write_all(bytes)?;
+    if let Some(permissions) = keep {
+        file.set_permissions(permissions.clone())?;
+    }
+    file.sync_all()?;
+    let itself = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let named = builder()
+        .make_in(folder, |path| Ok(linkat(CWD, &itself, CWD, path, AtFlags::SYMLINK_FOLLOW)?));
+    Ok(named.ok().map(tempfile::NamedTempFile::into_temp_path))
 }
 
 fn builder() -> tempfile::Builder<'static, 'static> {

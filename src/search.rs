@@ -65,6 +65,8 @@ pub enum Stop {
 pub struct OpenBox {
     /// The box.
     pub cell: Cell,
+    /// Its position among the nodes.
+    pub node: usize,
     /// What is open, and why the last rule tried did not close it; no reason where none was tried.
     pub open: Vec<(Obligation, Option<Failure>)>,
 }
@@ -125,27 +127,51 @@ pub trait Problem: Sync {
 
 /// Searches for a proof that every obligation of `problem` holds on the root cell.
 pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    run(problem, budget, control, false)
+    run(problem, (Cell::ROOT, problem.obligations()), Ends::default(), budget, control)
 }
 
 /// As [`search`], but ends with the first box that splitting cannot close: for callers who want a
 /// proof or nothing, and no account of what remains.
 pub fn prove(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    run(problem, budget, control, true)
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    run(problem, (Cell::ROOT, problem.obligations()), ends, budget, control)
+}
+
+/// Searches for a proof that what is open on a cell holds there. Where a number of boxes is
+/// `enough`, the search ends before a level of so many, which remain open without a reason.
+pub fn search_below(
+    problem: &impl Problem,
+    below: (Cell, Vec<Obligation>),
+    enough: Option<usize>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Outcome {
+    run(problem, below, Ends { enough, ..Ends::default() }, budget, control)
+}
+
+/// What ends a search, beside its budget.
+#[derive(Default)]
+struct Ends {
+    /// A level of so many boxes.
+    enough: Option<usize>,
+    /// A hopeless box.
+    hopeless: bool,
 }
 
 fn run(
     problem: &impl Problem,
+    (root, open): (Cell, Vec<Obligation>),
+    ends: Ends,
     budget: Budget,
     control: &mut Control<'_>,
-    proof_only: bool,
 ) -> Outcome {
-    let mut tree = vec![growing(Cell::ROOT, problem.obligations())];
+    let mut tree = vec![growing(root, open)];
     let mut level = vec![0];
     let mut boxes = 0;
     let mut closed = 0.0;
     let mut stop = Stop::Exhausted;
-    while !level.is_empty() && stop == Stop::Exhausted {
+    let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
+    while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes - boxes);
         let (now, later) = level.split_at(affordable);
         let mut next = Vec::new();
@@ -160,7 +186,7 @@ fn run(
                 settle(&mut tree, at, trial, &mut next, &mut closed);
             }
             boxes += batch.len();
-            if hopeless && proof_only {
+            if hopeless && ends.hopeless {
                 stop = Stop::Hopeless;
                 break;
             }
@@ -180,7 +206,10 @@ fn run(
         match grown.halves {
             Some((lower, upper)) => waiting.extend([upper, lower]),
             None if grown.failures.is_empty() => {}
-            None => open.push(OpenBox { cell: grown.cell, open: grown.failures.clone() }),
+            None => {
+                let (cell, node) = (grown.cell, nodes.len() - 1);
+                open.push(OpenBox { cell, node, open: grown.failures.clone() });
+            }
         }
     }
     Outcome { nodes, open, boxes, stop }

@@ -3,22 +3,24 @@
 use crate::interval::Interval;
 use crate::refute;
 use crate::sample::{Place, Quality, Sampler};
-use crate::search::{self, Budget, Control, OpenBox, Stop};
+use crate::search::{self, Budget, Control, OpenBox, Outcome, Problem, Stop};
+use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{
-    Certificate, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+    Certificate, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
 use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
+use orthocert_checker::rule::Obligation;
 use orthocert_checker::{check, Accepted, Rejected};
 
 /// Precisions of the exact check, in fractional bits, lowest first: the first that is accepted is
 /// written into the certificate.
-const PRECISIONS: [u32; 4] = [64, 96, 128, 256];
+pub(crate) const PRECISIONS: [u32; 4] = [64, 96, 128, 256];
 /// Fractional bits in which the claim's numbers are enclosed for the search.
 pub(crate) const MODEL_PRECISION: u32 = 192;
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
-const FINEST: i32 = 26;
+pub(crate) const FINEST: i32 = 26;
 /// Open boxes from whose centres a violation is looked for.
 const OPEN_CENTRES: usize = 64;
 
@@ -91,7 +93,7 @@ pub fn verify(
     let model = Model::new(claim, MODEL_PRECISION)?;
     let sampler =
         Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
-    let mut worst = worst_values(&sampler);
+    let mut worst = worst_values(&sampler, FINEST);
     if let Some(witness) = refutation(claim, &sampler, &worst) {
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
@@ -113,6 +115,61 @@ pub fn verify(
             Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
         }
     };
+    Ok(Verification { answer, worst, boxes })
+}
+
+/// The top of a claim's tree, to be grown in parts: as [`verify`] begins, but for at most so many
+/// boxes in a level. `None` if the claim is refuted on the spot.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn top(
+    claim: &MachineClaim,
+    enough: usize,
+    control: &mut Control<'_>,
+) -> Result<Option<Outcome>, ClaimError> {
+    let model = Model::new(claim, MODEL_PRECISION)?;
+    let sampler =
+        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
+    if refutation(claim, &sampler, &worst_values(&sampler, FINEST)).is_some() {
+        return Ok(None);
+    }
+    let model = model.map(&Interval::from_fixed);
+    let root = (Cell::ROOT, Problem::obligations(&model));
+    let budget = Budget { max_boxes: usize::MAX, deadline: None };
+    Ok(Some(search::search_below(&model, root, Some(enough), budget, control)))
+}
+
+/// The tree below a cell on which these obligations are open.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn below(
+    claim: &MachineClaim,
+    root: (Cell, Vec<Obligation>),
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Outcome, ClaimError> {
+    let model = Model::new(claim, MODEL_PRECISION)?.map(&Interval::from_fixed);
+    Ok(search::search_below(&model, root, None, budget, control))
+}
+
+/// What a tree that was grown in parts, and on which nothing is open, amounts to.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn concluded(
+    claim: &MachineClaim,
+    nodes: Vec<Node>,
+    boxes: usize,
+) -> Result<Verification, ClaimError> {
+    let model = Model::new(claim, MODEL_PRECISION)?;
+    let sampler =
+        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
+    let worst = worst_values(&sampler, FINEST);
+    let answer = accepted(Claim::Machine(claim.clone()), |precision| {
+        Proof::Tree(Tree { precision, nodes: nodes.clone() })
+    });
     Ok(Verification { answer, worst, boxes })
 }
 
@@ -158,8 +215,20 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
     }
 }
 
-/// The worst value of every quality, from the best start of a coarse grid.
-fn worst_values(sampler: &Sampler) -> Vec<Worst> {
+/// The worst value of every requirement of a claim, found by sampling alone.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
+    let model = Model::new(claim, MODEL_PRECISION)?;
+    let sampler =
+        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
+    Ok(worst_values(&sampler, FINEST))
+}
+
+/// The worst value of every quality, from the best start of a coarse grid, down to steps of
+/// `2^-finest` of the workspace.
+pub(crate) fn worst_values(sampler: &Sampler, finest: i32) -> Vec<Worst> {
     let grid: Vec<_> = sampler.grid().into_iter().map(|p| (sampler.at(&p), p)).collect();
     let qualities = sampler.qualities().into_iter();
     qualities
@@ -167,7 +236,7 @@ fn worst_values(sampler: &Sampler) -> Vec<Worst> {
             let margin = |values| sampler.margin(quality, values).unwrap_or(f64::MAX);
             let (_, start) =
                 grid.iter().min_by(|(a, _), (b, _)| margin(a).total_cmp(&margin(b)))?;
-            let (margin, place) = sampler.descend(quality, start, FINEST);
+            let (margin, place) = sampler.descend(quality, start, finest);
             Some(Worst { quality, place, margin })
         })
         .collect()

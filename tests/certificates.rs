@@ -8,15 +8,18 @@
 
 mod schema;
 
-use orthocert::design::Design;
+use orthocert::atlas::{assemble, certify, grow, Growing};
+use orthocert::design::{AtlasDesign, Design};
+use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
-use orthocert_checker::cell::MAX_LEVEL;
+use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
-    Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS, PRECISIONS,
+    Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS,
+    PRECISIONS,
 };
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
+use orthocert_checker::claim::{Claim, NoCubeClaim, PostulateClaim, PsiMax, Quantity, Workspace};
 use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
@@ -57,6 +60,12 @@ const POSTULATES: [(&str, Option<(&str, &str)>); 7] = [
     ("postulate-1000000000", Some(("1000000000", "1000000000"))),
 ];
 
+/// No cube of 200 mm for legs of 310 mm.
+const NO_CUBE: &str = "orthoglide-310-no-cube-of-200";
+/// The committed certificates of atlases: `NAME.cert.json` is the answer to the atlas of
+/// `tests/atlases` at this resolution.
+const OF_ATLASES: [(&str, &str, u32); 1] = [("orthoglide-atlas", "orthoglide", 3)];
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -76,6 +85,11 @@ fn decided(claim: &Claim) -> Certificate {
     let answer = match claim {
         Claim::Machine(claim) => verify(claim, budget, &mut control).unwrap().answer,
         Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control).unwrap().answer,
+        Claim::NoCube(claim) => {
+            let NoCubeClaim { machine, side } = claim;
+            return *exclude(machine, side, budget, &mut control).unwrap().unwrap();
+        }
+        Claim::Atlas(_) => panic!("an atlas is not decided"),
     };
     match answer {
         Answer::Decided { certificate, .. } => *certificate,
@@ -86,6 +100,10 @@ fn decided(claim: &Claim) -> Certificate {
 fn is_what_the_prover_writes(name: &str, claim: &Claim, verdict: Verdict) {
     let certificate = decided(claim);
     assert_eq!(certificate.verdict, verdict, "{name}");
+    is_committed(name, &certificate);
+}
+
+fn is_committed(name: &str, certificate: &Certificate) {
     let text = certificate.to_text().unwrap();
     if std::env::var_os("ORTHOCERT_BLESS").is_some() {
         fs::create_dir_all(folder()).unwrap();
@@ -112,12 +130,38 @@ fn committed_certificates_are_what_the_prover_writes() {
     }
 }
 
+/// Legs of 310 have no cube of side 200. Beyond 217 a corner of it is out of reach: 217 + 100 > 310.
+#[test]
+fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
+    let design = Design::read(&root().join("tests/designs/orthoglide-310.toml")).unwrap();
+    let Claim::Machine(mut machine) = design.claim else { panic!("not a machine") };
+    let corner = |n| [(); 3].map(|()| Exact::integer(n));
+    machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
+    let claim = Claim::NoCube(NoCubeClaim { machine, side: Exact::integer(200) });
+    is_what_the_prover_writes(NO_CUBE, &claim, Certified);
+}
+
+#[test]
+fn committed_atlases_are_what_the_prover_writes() {
+    for (name, atlas, resolution) in OF_ATLASES {
+        let path = root().join("tests/atlases").join(format!("{atlas}.toml"));
+        let mut design = AtlasDesign::read(&path).unwrap();
+        design.resolution = resolution;
+        let cancel = AtomicBool::new(false);
+        let mut done = |_: usize, _: f64| {};
+        let top = grow(&mut Growing::new(&design, &cancel, &mut done), Cell::ROOT, None).unwrap();
+        let (certificate, _) = certify(&design, assemble(top, Vec::new()).unwrap()).unwrap();
+        is_committed(name, &certificate);
+    }
+}
+
 #[test]
 fn no_certificate_is_committed_but_these() {
     let committed: BTreeSet<_> =
         fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
     let designs = OF_DESIGNS.iter().map(|(name, _)| *name);
-    let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name));
+    let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name)).chain([NO_CUBE]);
+    let known = known.chain(OF_ATLASES.iter().map(|(name, ..)| *name));
     assert_eq!(committed, known.map(path).collect());
 }
 
@@ -142,9 +186,10 @@ fn the_format_document_shows_the_prototype_and_the_limits_of_the_checker() {
     let (least, greatest) = (PRECISIONS.start(), PRECISIONS.end());
     for row in [
         format!("bytes of a file | {MAX_BYTES}"),
-        format!("nodes of a tree | {MAX_NODES}"),
+        format!("nodes of a tree, and of all trees of an atlas together | {MAX_NODES}"),
         format!("parts | {MAX_PARTS}"),
         format!("steps of a node | {MAX_STEPS}"),
+        format!("cells of an atlas | {MAX_CELLS}"),
         format!("splits on one axis on a path | {MAX_LEVEL}"),
         format!("precision, least and greatest | {least}, {greatest}"),
         format!("component of a quaternion | {MAX_QUATERNION}"),

@@ -25,7 +25,7 @@ fn claim(imported: &Imported) -> MachineClaim {
     }
     match design.claim {
         Claim::Machine(claim) => claim,
-        Claim::Postulate(_) => panic!("not about a machine"),
+        _ => panic!("not about a machine"),
     }
 }
 

@@ -67,7 +67,7 @@ fn claim_of(row: &Row) -> MachineClaim {
     let text = format!("{machine}[workspace]\n{}\n{rest}\n", row.workspace);
     match Design::parse(&text, row.design).unwrap_or_else(|error| panic!("{error}")).claim {
         Claim::Machine(claim) => claim,
-        Claim::Postulate(_) => panic!("not about a machine"),
+        _ => panic!("not about a machine"),
     }
 }
 

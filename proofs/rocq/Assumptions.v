@@ -7,7 +7,7 @@ From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker
   CheckerPostulate.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -127,3 +127,9 @@ Check check_postulate_sound.
 Print Assumptions check_postulate_sound.
 Check PostulateAll.certified.
 Print Assumptions PostulateAll.certified.
+Check check_postulate_up_to_sound.
+Print Assumptions check_postulate_up_to_sound.
+Check PostulateUpTo2.certified.
+Print Assumptions PostulateUpTo2.certified.
+Check PostulateUpTo2.at_greatest.
+Print Assumptions PostulateUpTo2.at_greatest.

@@ -1,4 +1,4 @@
-(** * The checker for the postulate, for every psi at once
+(** * The checker for the postulate, for a range of psi or every psi at once
 
     A second proof of [q1q2_postulate]'s lower bound, by subdivision: the faces
     x = q_1 and x = q_2 suffice ([AllPsi.v]); on a face the form
@@ -13,7 +13,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool List.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal CubeLower CubeUpper Scaling Postulate
-  PositiveDefinite AllPsi WeightedCauchy Fixed Enclosure Checker.
+  PositiveDefinite AllPsi WeightedCauchy Fixed Enclosure Claim Checker.
 Local Open Scope R_scope.
 
 (** ** The form on a face *)
@@ -553,15 +553,36 @@ Proof.
 Qed.
 
 Definition half_unit : Z := 2 ^ (Zpos bits - 1).
-Definition kappa_cell (high : bool) : fixed :=
-  if high then Fixed half_unit (unit_Z bits) else Fixed 0 half_unit.
+Definition from_half : fixed := Fixed half_unit (unit_Z bits).
 Definition unit_edge : fixed := Fixed 0 (unit_Z bits).
 
-Definition check_face (q2 high : bool) (t : face_tree) : bool := run_face q2 high t (kappa_cell high) unit_edge unit_edge.
+(** The trees of a face: for kappa up to and from 1/2; where kappa >= 1/2 throughout, one. *)
+Inductive halves :=
+  | Both (low high : face_tree)
+  | HighOnly (high : face_tree).
 
-(** The faces of q_1 and of q_2, kappa up to and from 1/2. *)
-Definition check_postulate (t1 t2 t3 t4 : face_tree) : bool :=
-  check_face false false t1 && check_face false true t2 && check_face true false t3 && check_face true true t4.
+(** A face, for kappa from least / 2^bits. *)
+Definition check_face (least : Z) (q2 : bool) (trees : halves) : bool :=
+  match trees with
+  | Both low high =>
+      run_face q2 false low (Fixed least half_unit) unit_edge unit_edge
+      && run_face q2 true high from_half unit_edge unit_edge
+  | HighOnly high =>
+      (half_unit <=? least)%Z && run_face q2 true high (Fixed least (unit_Z bits)) unit_edge unit_edge
+  end.
+
+(** Both faces. *)
+Definition check_from (least : Z) (q1 q2 : halves) : bool := check_face least false q1 && check_face least true q2.
+
+(** Every psi > 1: the faces of q_1 and of q_2, kappa up to and from 1/2. *)
+Definition check_postulate (t1 t2 t3 t4 : face_tree) : bool := check_from 0 (Both t1 t2) (Both t3 t4).
+
+(** Every psi from 1 to a greatest one, which is more than 1. *)
+Definition check_postulate_up_to (greatest : number) (q1 q2 : halves) : bool :=
+  match inverse bits greatest with
+  | Some k => (hi k <? unit_Z bits)%Z && check_from (lo k) q1 q2
+  | None => false
+  end.
 
 Lemma half_unit_value : IZR half_unit = unit_R bits / 2.
 Proof.
@@ -577,20 +598,28 @@ Proof.
   unfold g12, g13, g23 in *. rewrite S. lra.
 Qed.
 
-Lemma check_face_sound : forall q2 high t kappa wy wz, check_face q2 high t = true ->
-  0 < kappa < 1 -> in_half high kappa -> 0 <= wy <= 1 -> 0 <= wz <= 1 ->
+Lemma check_face_sound : forall least q2 trees kappa wy wz, check_face least q2 trees = true ->
+  IZR least <= kappa * unit_R bits -> 0 < kappa < 1 -> 0 <= wy <= 1 -> 0 <= wz <= 1 ->
   good (sgn q2) (diagonal_of q2 kappa) (corner_t q2 kappa ^ 2)
     (1 - wy * span_of q2 kappa) (1 - wz * span_of q2 kappa).
 Proof.
-  intros q2 high t kappa wy wz h k hh by' bz. pose proof (unit_R_pos bits) as u. pose proof half_unit_value as H.
-  assert (K : contains (kappa_cell high) kappa).
-  { unfold kappa_cell. destruct high; cbn [in_half] in hh; split; cbn [lo hi]; rewrite ?H; fold (unit_R bits); nra. }
+  intros least q2 trees kappa wy wz h l k by' bz. pose proof (unit_R_pos bits) as u. pose proof half_unit_value as H.
   assert (Y : forall w, 0 <= w <= 1 -> in_y unit_edge w /\ in_z unit_edge w).
   { intros w b. assert (contains unit_edge w) by (split; cbn [unit_edge lo hi]; fold (unit_R bits); nra).
     split; (split; [assumption | left; reflexivity]). }
-  destruct (Rle_dec wy wz) as [c | c].
-  - apply (run_face_sound q2 high t (kappa_cell high) unit_edge unit_edge); auto; apply Y; assumption.
-  - apply good_mirror. apply (run_face_sound q2 high t (kappa_cell high) unit_edge unit_edge); auto; try lra; apply Y; assumption.
+  assert (G : forall high t ik, run_face q2 high t ik unit_edge unit_edge = true -> contains ik kappa -> in_half high kappa ->
+    good (sgn q2) (diagonal_of q2 kappa) (corner_t q2 kappa ^ 2)
+      (1 - wy * span_of q2 kappa) (1 - wz * span_of q2 kappa)).
+  { intros high t ik r hk hh. destruct (Rle_dec wy wz) as [c | c].
+    - apply (run_face_sound q2 high t ik unit_edge unit_edge); auto; apply Y; assumption.
+    - apply good_mirror. apply (run_face_sound q2 high t ik unit_edge unit_edge); auto; try lra; apply Y; assumption. }
+  assert (U : kappa * unit_R bits <= unit_R bits) by nra.
+  destruct trees as [low high | high]; cbn [check_face] in h; apply andb_true_iff in h as [h1 h2].
+  - destruct (Rle_dec kappa (1 / 2)) as [c | c].
+    + apply (G false low _ h1); [| exact c]. split; cbn [lo hi]; [exact l |]. rewrite H. nra.
+    + apply (G true high _ h2); [| cbn [in_half]; lra]. split; cbn [from_half lo hi]; [| exact U]. rewrite H. nra.
+  - apply Z.leb_le, IZR_le in h1. rewrite H in h1.
+    apply (G true high _ h2); [split; [exact l | exact U] |]. cbn [in_half]. nra.
 Qed.
 End Precision.
 
@@ -645,14 +674,14 @@ Proof.
   destruct hs as [-> | ->]; field; lra.
 Qed.
 
-(** A certificate by faces proves the postulate, for every psi > 1. *)
-Theorem check_postulate_sound : forall bits t1 t2 t3 t4, check_postulate bits t1 t2 t3 t4 = true ->
-  forall L a e, 0 < L -> forall psi, 1 < psi -> forall P, in_cube L psi P ->
+(** Faces checked for kappa from least / 2^bits prove the postulate for every psi with 1/psi in that range. *)
+Lemma check_from_sound : forall bits least q1 q2, check_from bits least q1 q2 = true ->
+  forall L a e, 0 < L -> forall psi, 1 < psi -> IZR least <= 1 / psi * unit_R bits -> forall P, in_cube L psi P ->
   regular (orthoglide L a e) P /\
   forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
 Proof.
-  intros bits t1 t2 t3 t4 h L a e hL psi hpsi P hP. unfold check_postulate in h.
-  apply andb_true_iff in h as [h f4]. apply andb_true_iff in h as [h f3]. apply andb_true_iff in h as [f1 f2].
+  intros bits least q1 q2 h L a e hL psi hpsi from P hP. pose proof (unit_R_pos bits) as u.
+  apply andb_true_iff in h as [h1 h2].
   destruct (kappa_range psi hpsi) as [k _].
   assert (reach : reachable_unit (vscale (/ L) P)) by (eapply cube_reachable; eassumption).
   apply transmission_from_M; [exact hL | exact hpsi | exact reach | |].
@@ -670,11 +699,9 @@ Proof.
     assert (G : forall q2 wy wz, 0 <= wy <= 1 -> 0 <= wz <= 1 ->
       good (sgn q2) (diagonal_of q2 kappa) (corner_t q2 kappa ^ 2)
         (1 - wy * span_of q2 kappa) (1 - wz * span_of q2 kappa)).
-    { intros q2 wy wz by' bz. destruct (Rle_dec kappa (1 / 2)) as [l | l]; destruct q2.
-      - apply (check_face_sound bits true false t3); auto.
-      - apply (check_face_sound bits false false t1); auto.
-      - apply (check_face_sound bits true true t4); auto. cbn [in_half]. lra.
-      - apply (check_face_sound bits false true t2); auto. cbn [in_half]. lra. }
+    { assert (l : IZR least <= kappa * unit_R bits)
+        by (apply Rle_trans with (1 := from), Rmult_le_compat_r; lra).
+      intros [|] wy wz by' bz; eapply check_face_sound; eassumption. }
     destruct face as [fx | fx].
     + destruct (edge_part (-1) (corner_c false kappa) (corner_c true kappa) y ltac:(auto) P1 P2 ltac:(lra)) as [wy [by' ey]].
       destruct (edge_part (-1) (corner_c false kappa) (corner_c true kappa) z ltac:(auto) P1 P2 ltac:(lra)) as [wz [bz ez]].
@@ -691,4 +718,44 @@ Proof.
     + pose proof (sum_below_psi psi hpsi). lra.
     + apply (cube_upper (position_of_entry (t_2 (1 / psi)))); [apply position_on_diagonal; lra |].
       apply (cube_inside L hL psi hpsi). exact hP.
+Qed.
+
+(** A certificate by faces proves the postulate, for every psi > 1. *)
+Theorem check_postulate_sound : forall bits t1 t2 t3 t4, check_postulate bits t1 t2 t3 t4 = true ->
+  forall L a e, 0 < L -> forall psi, 1 < psi -> forall P, in_cube L psi P ->
+  regular (orthoglide L a e) P /\
+  forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
+Proof.
+  intros bits t1 t2 t3 t4 h L a e hL psi hpsi. apply (check_from_sound bits _ _ _ h); [exact hL | exact hpsi |].
+  pose proof (unit_R_pos bits). destruct (kappa_range psi hpsi). apply Rmult_le_pos; lra.
+Qed.
+
+Lemma greatest_checked : forall bits greatest q1 q2, check_postulate_up_to bits greatest q1 q2 = true ->
+  1 < value greatest /\ exists least, IZR least <= 1 / value greatest * unit_R bits /\ check_from bits least q1 q2 = true.
+Proof.
+  intros bits greatest q1 q2 h. unfold check_postulate_up_to in h. pose proof (unit_R_pos bits) as u.
+  destruct (inverse bits greatest) as [k |] eqn:e; [| discriminate].
+  apply andb_true_iff in h as [h1 h2]. apply Z.ltb_lt, IZR_lt in h1. fold (unit_R bits) in h1.
+  destruct (inverse_sound bits _ _ e) as [i [l r]]. set (g := value greatest) in *.
+  assert (i1 : 1 / g < 1) by (apply Rmult_lt_reg_r with (unit_R bits); lra).
+  assert (g0 : 0 < g) by (rewrite <- (Rinv_inv g); apply Rinv_0_lt_compat; lra).
+  split; [| exists (lo k); split; assumption].
+  apply Rmult_lt_reg_l with (1 / g); [exact i |]. replace (1 / g * g) with 1 by (field; lra). lra.
+Qed.
+
+(** The greatest psi is an admissible one. *)
+Lemma check_postulate_greatest : forall bits greatest q1 q2, check_postulate_up_to bits greatest q1 q2 = true ->
+  1 < value greatest.
+Proof. intros bits greatest q1 q2 h. apply (greatest_checked _ _ _ _ h). Qed.
+
+(** The same for every psi up to a greatest one: smaller cubes need only the faces with kappa >= 1 / psi. *)
+Theorem check_postulate_up_to_sound : forall bits greatest q1 q2, check_postulate_up_to bits greatest q1 q2 = true ->
+  forall L a e, 0 < L -> forall psi, 1 < psi <= value greatest -> forall P, in_cube L psi P ->
+  regular (orthoglide L a e) P /\
+  forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
+Proof.
+  intros bits greatest q1 q2 h L a e hL psi [hpsi le]. destruct (greatest_checked _ _ _ _ h) as [g [least [l c]]].
+  apply (check_from_sound bits _ _ _ c); [exact hL | exact hpsi |]. apply Rle_trans with (1 := l).
+  apply Rmult_le_compat_r; [apply Rlt_le, unit_R_pos |]. unfold Rdiv. rewrite !Rmult_1_l.
+  apply Rinv_le_contravar; lra.
 Qed.

@@ -144,9 +144,8 @@ fn row(
     found: Result<Enclosed, NotEnclosed>,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
-    let (quantity, file) = name(extreme);
     let mut row = Row {
-        quantity,
+        quantity: extreme.quantity(),
         end: if extreme.is_greatest() { "greatest" } else { "least" },
         min: None,
         max: None,
@@ -161,7 +160,7 @@ fn row(
                 let inner = found.refuted.iter().map(|certificate| (certificate, "inner"));
                 for (certificate, side) in inner.chain([(&found.certified, "outer")]) {
                     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
-                    let path = folder.join(format!("{file}-{side}.cert.json"));
+                    let path = folder.join(format!("{}-{side}.cert.json", file_stem(extreme)));
                     row.certificates.push(certify::store(&path, &text)?);
                 }
             }
@@ -196,25 +195,20 @@ fn witness_point(certificate: &Certificate) -> Option<[Exact; 3]> {
     }
 }
 
-/// What a quantity is called in tables, and in file names.
-fn name(extreme: Extreme) -> (String, String) {
-    let (quantity, file) = match extreme {
-        Extreme::LeastPsi => ("psi", "psi-least"),
-        Extreme::GreatestPsi => ("psi", "psi-greatest"),
-        Extreme::Conditioning => ("sigma_max/sigma_min", "conditioning"),
-        Extreme::SerialMargin => ("|eta_i|/L_i", "serial-margin"),
-        Extreme::ParallelMargin => ("|det A|/(L1 L2 L3)", "parallel-margin"),
-        Extreme::LegAngle => ("leg angle (deg)", "leg-angle"),
-        Extreme::JointSpeed => ("joint/tool speed", "joint-speed"),
-        Extreme::LeastRho(leg) => {
-            return (format!("rho_{}", leg + 1), format!("rho-{}-least", leg + 1));
-        }
-        Extreme::GreatestRho(leg) => {
-            return (format!("rho_{}", leg + 1), format!("rho-{}-greatest", leg + 1));
-        }
-        _ => ("?", "extreme"),
-    };
-    (quantity.to_owned(), file.to_owned())
+/// What the files of a quantity's certificates begin with.
+fn file_stem(extreme: Extreme) -> String {
+    match extreme {
+        Extreme::LeastPsi => "psi-least".into(),
+        Extreme::GreatestPsi => "psi-greatest".into(),
+        Extreme::Conditioning => "conditioning".into(),
+        Extreme::SerialMargin => "serial-margin".into(),
+        Extreme::ParallelMargin => "parallel-margin".into(),
+        Extreme::LegAngle => "leg-angle".into(),
+        Extreme::JointSpeed => "joint-speed".into(),
+        Extreme::LeastRho(leg) => format!("rho-{}-least", leg + 1),
+        Extreme::GreatestRho(leg) => format!("rho-{}-greatest", leg + 1),
+        _ => "extreme".into(),
+    }
 }
 
 fn text(rows: &[Row], started: Instant) -> String {

@@ -1,15 +1,13 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
-use orthocert::output;
 use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::search::Stop;
 use orthocert::verify::{Answer, Undecided};
+use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::{read, Rejected};
-use sha2::{Digest, Sha256};
-use std::fmt::Write;
 use std::path::Path;
 
 /// A verdict, and the certificate of it as it is to be written.
@@ -36,7 +34,8 @@ pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
     Ok(None)
 }
 
-fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
+/// The text of a certificate, which reads back as the certificate.
+pub fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
     let text = certificate.to_text().map_err(|error| Rejected::Syntax(error.to_string()))?;
     if read(text.as_bytes())? == *certificate {
         Ok(text)
@@ -48,10 +47,7 @@ fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
 /// Writes a certificate, whole or not at all.
 pub fn store(path: &Path, text: &str) -> Result<CertificateFile, Failure> {
     output::write(path, text.as_bytes())?;
-    let mut sha256 = String::with_capacity(64);
-    for byte in Sha256::digest(text.as_bytes()) {
-        let _ = write!(sha256, "{byte:02x}");
-    }
+    let sha256 = digest::sha256(text.as_bytes());
     Ok(CertificateFile { path: path.display().to_string(), bytes: text.len(), sha256 })
 }
 

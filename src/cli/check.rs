@@ -1,24 +1,40 @@
 //! `orthocert check`.
 
-use super::{input, print, Failure, Format, Status};
+use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
+use orthocert_checker::paving::{self, Extent, Header, Summary};
 use orthocert_checker::{check, read, statement, Accepted};
 use serde::Serialize;
 use serde_json::Value;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::PathBuf;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The certificate
-    #[arg(value_name = "CERT.json")]
+    /// The certificate, or a paving; or a folder, all certificates of which are checked against the
+    /// designs of the same names, and in which neither may lack the other
+    #[arg(value_name = "CERT.json|PAVING|FOLDER")]
     certificate: PathBuf,
     /// Demand that the certificate is about this design's claim
     #[arg(long, value_name = "DESIGN.toml")]
     design: Option<PathBuf>,
+    /// With a folder: where the designs are [default: in the same folder]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "design")]
+    designs: Option<PathBuf>,
+    /// With a folder: certificates at a time [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
+    jobs: Option<u64>,
+    /// Of a paving, check the evidence of so many inner and outer boxes only, drawn at random
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    sample: Option<u64>,
+    /// The seed of the draw
+    #[arg(long, value_name = "S", requires = "sample", default_value_t = 0)]
+    seed: u64,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -44,32 +60,107 @@ enum Answer<'a> {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    if arguments.certificate.is_dir() {
+        return folder(arguments);
+    }
+    if arguments.designs.is_some() || arguments.jobs.is_some() {
+        let path = arguments.certificate.display();
+        return Err(Failure::Input(format!(
+            "--designs, --jobs: {path} is no folder; accepted: with a folder of certificates"
+        )));
+    }
     // The design first: what is wrong with it is no defect of the certificate.
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;
     let bytes = input::certificate(&arguments.certificate)?;
+    if paving::is_paving(&bytes) {
+        return check_paving(arguments, design.as_ref());
+    }
+    if arguments.sample.is_some() {
+        return Err(Failure::Input("--sample: found a certificate; accepted: a paving".to_owned()));
+    }
     match examine(&bytes, design.as_ref()) {
         Ok((certificate, accepted)) => {
             accept(arguments.format, &certificate, &accepted)?;
             Ok(Status::Decided(accepted.verdict))
         }
-        Err(reason) => {
-            match arguments.format {
-                Format::Json => {
-                    print::json(&Answer::Rejected { accepted: false, reason: &reason })?
-                }
-                Format::Text => print::diagnostic(&format!(
-                    "{}: REJECTED: {reason}",
-                    arguments.certificate.display()
-                )),
-            }
-            Ok(Status::Rejected)
-        }
+        Err(reason) => reject(arguments, &reason),
     }
 }
 
+/// The answer about a paving, for scripts.
+#[derive(Serialize)]
+struct PavingAnswer<'a> {
+    accepted: bool,
+    statement: &'a str,
+    /// Inner and outer boxes whose evidence was checked.
+    checked: u64,
+    #[serde(flatten)]
+    summary: &'a Summary,
+    header: &'a Header,
+}
+
+fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status, Failure> {
+    let extent = match arguments.sample {
+        Some(size) => Extent::Sample { size, seed: arguments.seed },
+        None => Extent::All,
+    };
+    let open = || File::open(&arguments.certificate).map(BufReader::new);
+    let accepted = paving::check(open, extent).map_err(|reason| reason.to_string());
+    let accepted = accepted.and_then(|accepted| match design {
+        Some(design) if accepted.header.claim != design.claim => {
+            Err(another_claim(&accepted.header.claim, &design.claim))
+        }
+        _ => Ok(accepted),
+    });
+    match accepted {
+        Ok(accepted) => {
+            let statement = statement::paving(&accepted).unwrap_or_default();
+            match arguments.format {
+                Format::Text => print::answer(&format!("ACCEPTED: paving\n{statement}"))?,
+                Format::Json => print::json(&PavingAnswer {
+                    accepted: true,
+                    statement: &statement,
+                    checked: accepted.checked,
+                    summary: &accepted.summary,
+                    header: &accepted.header,
+                })?,
+            }
+            Ok(Status::Done)
+        }
+        Err(reason) => reject(arguments, &reason),
+    }
+}
+
+fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
+    match arguments.format {
+        Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
+        Format::Text => {
+            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.display()))
+        }
+    }
+    Ok(Status::Rejected)
+}
+
+/// Checks all of a folder.
+fn folder(arguments: &Arguments) -> Result<Status, Failure> {
+    let Arguments { certificate, design, designs, jobs, format, sample, .. } = arguments;
+    if sample.is_some() {
+        let message = "--sample: found with a folder; accepted: with one paving";
+        return Err(Failure::Input(message.to_owned()));
+    }
+    if let Some(design) = design {
+        return Err(Failure::Input(format!(
+            "--design: found {} with a folder of certificates; accepted: --designs FOLDER",
+            design.display()
+        )));
+    }
+    let designs = designs.as_ref().unwrap_or(certificate);
+    audit::run(certificate, designs, *jobs, *format)
+}
+
 /// Accepts a certificate, or says why not.
-fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
+pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
     let certificate = read(bytes).map_err(|reason| reason.to_string())?;
     if let Some(design) = design {
         if certificate.claim != design.claim {

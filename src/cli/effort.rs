@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 /// Boxes tried by default.
 const MAX_BOXES: u64 = 500_000;
 /// Most threads that may be asked for.
-const MAX_THREADS: u64 = 1024;
+pub const MAX_THREADS: u64 = 1024;
 
 /// The flags.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
     /// Boxes after which the search gives up; beyond 2,000,000 no certificate goes
     #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
@@ -50,14 +50,7 @@ impl Effort {
     /// Starts the threads that were asked for. Without a number they start when the search first
     /// has work for them.
     pub fn start_threads(&self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else {
-            return Ok(());
-        };
-        let pool =
-            rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
-        pool.build_global().map_err(|error| {
-            Failure::Output(format!("{threads} threads cannot be started: {error}"))
-        })
+        start_threads(self.threads)
     }
 
     /// Runs a search that can be interrupted and shows its progress.
@@ -69,6 +62,38 @@ impl Effort {
         bar.clear();
         found
     }
+}
+
+/// The flags of commands whose files say how much work is to be done.
+#[derive(Debug, clap::Args)]
+pub struct Work {
+    /// Threads [default: one for each core]; what is written does not depend on it
+    #[arg(long, value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS))]
+    threads: Option<u64>,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Print one line only, and no progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Work {
+    /// Starts the threads that were asked for.
+    pub fn start_threads(&self) -> Result<(), Failure> {
+        start_threads(self.threads)
+    }
+}
+
+/// Starts so many threads, if a number is given.
+pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::try_from(threads).unwrap_or(1));
+    pool.build_global()
+        .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
 }
 
 /// A time: a number with a unit, in seconds without one.

@@ -1,10 +1,15 @@
 //! `orthocert export`.
 
-use super::{input, print, Failure, Status};
+use super::{input, interrupt, print, Failure, Status};
 use clap::Subcommand;
+use orthocert::decimal::grouped;
+use orthocert::paving::{surface, Surface, SurfaceError};
 use orthocert::{export, output};
+use orthocert_checker::paving::{is_paving, Reader};
 use orthocert_checker::read;
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -24,11 +29,44 @@ enum Language {
         #[arg(short, long, value_name = "FILE.v")]
         output: Option<PathBuf>,
     },
+    /// The surface of a paving's inner part, with all images, as a VTK XML unstructured grid.
+    ///
+    /// Quadrilaterals, each edge shared; cell data `beyond` (what is on the other side: 0 outer
+    /// boxes, 1 undecided ones, 2 outside the box that is paved) and `depth` (of the inner box). The
+    /// paving's evidence is not checked: that is what `check` does.
+    Vtk {
+        /// The paving
+        #[arg(value_name = "PAVING")]
+        paving: PathBuf,
+        /// Where the file is written
+        #[arg(short, long, value_name = "FILE.vtu")]
+        output: PathBuf,
+    },
+    /// The surface of a paving's inner part, with all images, as binary STL.
+    ///
+    /// Closed: every edge is shared, by two triangles or, where parts touch in an edge, by four. The
+    /// corners are rounded to single precision. The paving's evidence is not checked: that is what
+    /// `check` does.
+    Stl {
+        /// The paving
+        #[arg(value_name = "PAVING")]
+        paving: PathBuf,
+        /// Where the file is written
+        #[arg(short, long, value_name = "FILE.stl")]
+        output: PathBuf,
+    },
 }
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    let Language::Rocq { certificate: path, output } = &arguments.language;
+    match &arguments.language {
+        Language::Rocq { certificate, output } => rocq(certificate, output.as_deref()),
+        Language::Vtk { paving, output } => mesh(paving, output, export::vtk::vtu),
+        Language::Stl { paving, output } => mesh(paving, output, export::stl::stl),
+    }
+}
+
+fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
     let bytes = input::certificate(path)?;
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
@@ -44,4 +82,53 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None => print::answer(&text)?,
     }
     Ok(Status::Done)
+}
+
+fn mesh(
+    path: &Path,
+    output: &Path,
+    file: fn(&Surface) -> Result<Vec<u8>, SurfaceError>,
+) -> Result<Status, Failure> {
+    let paving = opened(path)?;
+    output::probe(output)?;
+    let found = Reader::new(paving)
+        .map_err(SurfaceError::from)
+        .and_then(|reader| surface(reader, interrupt::cancelled()))
+        .and_then(|surface| Ok((file(&surface)?, surface)));
+    let (bytes, surface) = match found {
+        Ok(found) => found,
+        Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
+        Err(error @ SurfaceError::Rejected(_)) => {
+            print::diagnostic(&format!("{}: {error}", path.display()));
+            return Ok(Status::Rejected);
+        }
+        Err(error) => {
+            return Err(Failure::Input(format!("{}: not exported: {error}", path.display())))
+        }
+    };
+    output::write(output, &bytes)?;
+    print::answer(&format!(
+        "{}: {} faces, {} corners\n",
+        output.display(),
+        grouped(surface.faces.len() as u64),
+        grouped(surface.points.len() as u64)
+    ))?;
+    Ok(Status::Done)
+}
+
+/// A file that begins like a paving.
+fn opened(path: &Path) -> Result<BufReader<File>, Failure> {
+    let unreadable =
+        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
+    if path.is_dir() {
+        return Err(unreadable("it is a folder; accepted: a paving"));
+    }
+    let mut reader =
+        File::open(path).map(BufReader::new).map_err(|e| unreadable(&e.to_string()))?;
+    let start = reader.fill_buf().map_err(|error| unreadable(&error.to_string()))?;
+    if is_paving(start) {
+        Ok(reader)
+    } else {
+        Err(unreadable("it does not begin like a paving; accepted: a file that `pave` writes"))
+    }
 }

@@ -6,12 +6,12 @@
 use super::print;
 use orthocert::output;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// How long the work may take to end by itself.
-const GRACE: Duration = Duration::from_millis(400);
+/// How long the work may take to end by itself, in milliseconds.
+static GRACE: AtomicU64 = AtomicU64::new(400);
 /// The exit code of an interrupted command.
 const CODE: u8 = 4;
 
@@ -22,7 +22,7 @@ static SAID: AtomicBool = AtomicBool::new(false);
 pub fn listen() {
     let listening = ctrlc::set_handler(|| {
         CANCEL.store(true, Ordering::Relaxed);
-        thread::sleep(GRACE);
+        thread::sleep(Duration::from_millis(GRACE.load(Ordering::Relaxed)));
         let _no_file_is_begun = output::hold();
         say();
         std::process::exit(i32::from(CODE));
@@ -35,8 +35,22 @@ pub fn cancelled() -> &'static AtomicBool {
     &CANCEL
 }
 
-/// Says once that the command was interrupted; returns the exit code.
+/// Whether a signal has come.
+pub fn is_cancelled() -> bool {
+    CANCEL.load(Ordering::Relaxed)
+}
+
+/// Gives the work that long to end by itself: for a command that still has something to write, and
+/// that looks at [`cancelled`] all the time.
+pub fn grant(grace: Duration) {
+    let milliseconds = u64::try_from(grace.as_millis()).unwrap_or(u64::MAX);
+    GRACE.store(milliseconds, Ordering::Relaxed);
+}
+
+/// Says once that the command was interrupted; returns the exit code. From now on no file is begun,
+/// so that the process may end under the threads that are left.
 pub fn end() -> ExitCode {
+    std::mem::forget(output::hold());
     say();
     ExitCode::from(CODE)
 }

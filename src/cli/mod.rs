@@ -1,6 +1,10 @@
 //! Commands: one module each. Flags are parsed here; every command resolves its own settings and
 //! ends in a [`Status`] or a [`Failure`], which alone decide the exit code.
 
+mod atlas;
+mod attest;
+mod audit;
+mod batch;
 mod bounds;
 mod certify;
 mod check;
@@ -8,15 +12,24 @@ mod completions;
 mod design;
 mod effort;
 mod export;
+mod github;
 mod import;
 mod init;
 mod input;
 mod interrupt;
+mod largest_cube;
+mod merge;
 mod paper;
+mod pave;
 mod postulate;
 mod print;
 mod progress;
+mod prove;
+mod report;
+mod run_shard;
 mod show;
+mod split;
+mod submit;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -47,10 +60,12 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Prove or refute a design, and write the certificate.
+    /// Prove or refute a design, or many of them, and write the certificates.
     Verify(verify::Arguments),
-    /// Re-prove a certificate in exact arithmetic and print what it establishes.
+    /// Re-prove a certificate, or all of a folder, in exact arithmetic and print what it establishes.
     Check(check::Arguments),
+    /// Write an in-toto statement about a design and its certificate, for signing.
+    Attest(attest::Arguments),
     /// Print a certificate's claim, verdict and size, without checking it.
     Show(show::Arguments),
     /// Compute the machine that the paper's Steps 1 to 3 give for a cube, with certified digits.
@@ -59,13 +74,29 @@ enum Command {
     Init(init::Arguments),
     /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
     Postulate(postulate::Arguments),
+    /// Write a certificate, once re-proved, as an HTML page with its figures, to read and to file.
+    Report(report::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
+    /// Enclose the side of the largest cube in which all requirements hold.
+    LargestCube(largest_cube::Arguments),
+    /// Pave a box: where all requirements hold, where some fails, and the volume between.
+    Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Map which designs of a box of parameters meet their requirements, and which fail.
+    Atlas(atlas::Arguments),
+    /// Cut a long job into shards that any machine can run.
+    Split(split::Arguments),
+    /// Run a shard, or what is left of it.
+    RunShard(run_shard::Arguments),
+    /// Hand the shards to Slurm or HyperQueue, with a merge that follows.
+    Submit(submit::Arguments),
+    /// Put the results of all shards together.
+    Merge(merge::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
-    /// Write a certificate for another checker.
+    /// Write a certificate for another checker, or a paving's surface as a mesh.
     Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
@@ -92,6 +123,8 @@ pub enum Status {
     Undecided,
     /// The certificate proves nothing.
     Rejected,
+    /// Several endings, the worst of which has this exit code.
+    Worst(u8),
 }
 
 impl Status {
@@ -102,6 +135,7 @@ impl Status {
             Status::Decided(Verdict::Refuted) => 1,
             Status::Undecided => 3,
             Status::Rejected => 5,
+            Status::Worst(code) => code,
         }
     }
 }
@@ -121,6 +155,8 @@ pub enum Failure {
     Output(String),
     /// A signal asked to end: exit 4.
     Interrupted,
+    /// Something could not be written, as was said already: exit 4.
+    Reported,
     /// This program is wrong: exit 4.
     Defect,
 }
@@ -133,16 +169,24 @@ impl Failure {
 
     /// Says why on standard error; returns the exit code.
     pub fn report(&self) -> ExitCode {
-        let (code, message) = match self {
-            Failure::Input(message) => (2, message.as_str()),
-            Failure::Output(message) => (4, message.as_str()),
+        match self {
             Failure::Interrupted => return interrupt::end(),
+            Failure::Reported => {}
+            _ => print::diagnostic(self.message()),
+        }
+        ExitCode::from(if matches!(self, Failure::Input(_)) { 2 } else { 4 })
+    }
+
+    /// Why, in a sentence.
+    fn message(&self) -> &str {
+        match self {
+            Failure::Input(message) | Failure::Output(message) => message,
+            Failure::Interrupted => "interrupted",
+            Failure::Reported => "could not finish",
             Failure::Defect => {
-                (4, "stopped by a defect of this program; no verdict is given. Please report it")
+                "stopped by a defect of this program; no verdict is given. Please report it"
             }
-        };
-        print::diagnostic(message);
-        ExitCode::from(code)
+        }
     }
 }
 
@@ -166,12 +210,21 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     match &arguments.command {
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Attest(arguments) => attest::run(arguments),
         Command::Show(arguments) => show::run(arguments),
         Command::Design(arguments) => design::run(arguments),
         Command::Init(arguments) => init::run(arguments),
         Command::Postulate(arguments) => postulate::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
+        Command::LargestCube(arguments) => largest_cube::run(arguments),
+        Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Atlas(arguments) => atlas::run(arguments),
+        Command::Split(arguments) => split::run(arguments),
+        Command::RunShard(arguments) => run_shard::run(arguments),
+        Command::Submit(arguments) => submit::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

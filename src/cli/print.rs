@@ -25,11 +25,25 @@ pub fn diagnostic(message: &str) {
     let _ = writeln!(io::stderr().lock(), "orthocert: {message}");
 }
 
+/// A line about work under way, on standard error as it is.
+pub fn line(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
 /// Colour on a terminal, unless `NO_COLOR` is set or the terminal has none.
 pub fn style() -> Style {
+    style_of(&io::stdout())
+}
+
+/// The same for standard error.
+pub fn error_style() -> Style {
+    style_of(&io::stderr())
+}
+
+fn style_of(stream: &impl IsTerminal) -> Style {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    if io::stdout().is_terminal() && !set("NO_COLOR") && !dumb {
+    if stream.is_terminal() && !set("NO_COLOR") && !dumb {
         Style::Colour
     } else {
         Style::Plain

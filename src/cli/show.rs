@@ -4,7 +4,7 @@ use super::{input, print, Failure, Format, Status};
 use orthocert::decimal::{boxes, grouped};
 use orthocert::report::text::{labelled, wrap};
 use orthocert_checker::certificate::{
-    Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
+    Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
 };
 use orthocert_checker::claim::Claim;
 use orthocert_checker::{read, statement};
@@ -57,6 +57,7 @@ impl Shape {
                 (faces.precision, faces.parts.iter().map(|part| &part.nodes[..]).collect())
             }
             Proof::Witness(_) => return None,
+            Proof::Atlas(atlas) => return Some(Shape::of_atlas(atlas)),
         };
         let mut shape = Shape {
             precision,
@@ -70,6 +71,21 @@ impl Shape {
             shape.add(nodes);
         }
         Some(shape)
+    }
+
+    /// The trees of an atlas's certified cells together; of precisions, the greatest.
+    fn of_atlas(atlas: &Atlas) -> Self {
+        let (trees, depth) = (0, 0);
+        let mut shape =
+            Shape { precision: 0, trees, nodes: 0, leaves: 0, depth, rules: BTreeMap::new() };
+        for cell in &atlas.cells {
+            if let AtlasCell::Certified(tree) = cell {
+                shape.trees += 1;
+                shape.precision = shape.precision.max(tree.precision);
+                shape.add(&tree.nodes);
+            }
+        }
+        shape
     }
 
     fn add(&mut self, nodes: &[Node]) {
@@ -141,6 +157,18 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
         let uses = rules.iter().map(|(rule, uses)| format!("{rule} {uses}"));
         labelled(&mut out, "rules used", &uses.collect::<Vec<_>>().join(", "));
     }
+    if let Proof::Atlas(Atlas { cells }) = &certificate.proof {
+        let count = |wanted: fn(&AtlasCell) -> bool| {
+            grouped(cells.iter().filter(|cell| wanted(cell)).count() as u64)
+        };
+        let text = format!(
+            "an atlas of {} certified, {} refuted and {} undecided cells",
+            count(|cell| matches!(cell, AtlasCell::Certified(_))),
+            count(|cell| matches!(cell, AtlasCell::Refuted(_))),
+            count(|cell| matches!(cell, AtlasCell::Undecided))
+        );
+        labelled(&mut out, "map", &text);
+    }
     if let Proof::Witness(witness) = &certificate.proof {
         let [x, y, z] = &witness.point;
         let violated = violated(&witness.violates);
@@ -158,6 +186,7 @@ fn violated(violation: &Violation) -> String {
     match violation {
         Violation::SigmaMin(_) => "the greatest psi is beyond psi_max".to_owned(),
         Violation::SigmaMax(_) => "the least psi is below psi_min".to_owned(),
+        Violation::Row(leg) => format!("the least psi is below psi_min, by leg {}", leg.leg),
         Violation::Reach(leg) => format!("leg {} cannot reach P with s > 0", leg.leg),
         Violation::JointRange(leg) => format!("rho_{} is outside its range", leg.leg),
         Violation::Conditioning(_) => "the condition number is beyond its bound".to_owned(),

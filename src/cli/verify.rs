@@ -1,63 +1,85 @@
 //! `orthocert verify`.
 
-use super::{certify, effort::Effort, print, Failure, Format, Status};
+use super::{batch, effort::Effort, print, prove::Task, Failure, Format, Status};
+use num_rational::BigRational;
+use orthocert::batch::plan::{certificate_of, identity};
 use orthocert::design::Design;
-use orthocert::output;
-use orthocert::report::{text, Report};
+use orthocert::extremes::{enclose, Extreme};
+use orthocert::report::{text, Margin, Report};
+use orthocert::search::Budget;
 use orthocert::verify::verify;
 use orthocert_checker::claim::Claim;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// The certificate of the built-in prototype, in the current folder.
 const PROTOTYPE: &str = "orthoglide-prototype.cert.json";
 
+/// Most boxes of a proof that leaves time for margins.
+const SHORT_PROOF: usize = 200;
+
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The design; without it, the paper's prototype (cube of 200 mm, psi_max = 2)
-    #[arg(value_name = "DESIGN.toml")]
-    design: Option<PathBuf>,
-    /// Where the certificate is written [default: NAME.cert.json beside NAME.toml]
+    /// A design, or several, or folders of them; without any, the paper's prototype (cube of
+    /// 200 mm, psi_max = 2)
+    #[arg(value_name = "DESIGN.toml|FOLDER")]
+    designs: Vec<PathBuf>,
+    /// Where the certificate of a single design is written [default: NAME.cert.json beside
+    /// NAME.toml]
     #[arg(short, long, value_name = "CERT.json")]
     output: Option<PathBuf>,
+    /// Search for a proof even where a certificate of the very claim is there; without it, that
+    /// certificate is re-checked exactly
+    #[arg(long)]
+    reprove: bool,
+    #[command(flatten)]
+    batch: batch::Flags,
     #[command(flatten)]
     effort: Effort,
 }
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let Arguments { designs, output, reprove, batch: flags, effort } = arguments;
+    match designs.as_slice() {
+        [] if !flags.any() => single(arguments, None),
+        [design] if !flags.any() && !design.is_dir() => single(arguments, Some(design)),
+        _ if output.is_some() => {
+            let message = "--output: found in a run of several designs, or with its options; accepted: --out FOLDER";
+            Err(Failure::Input(message.to_owned()))
+        }
+        [] => {
+            let message = "no design is given; accepted: design files and folders of them";
+            Err(Failure::Input(message.to_owned()))
+        }
+        designs => batch::run(designs, flags, *reprove, effort),
+    }
+}
+
+fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failure> {
     let started = Instant::now();
-    let Arguments { design: path, effort, .. } = arguments;
+    let Arguments { output, reprove, effort, .. } = arguments;
     let budget = effort.budget(started)?;
     let design = match path {
         Some(path) => Design::read(path).map_err(Failure::input)?,
         None => Design::prototype(),
     };
-    let target = arguments.target()?;
-    output::probe(&target)?;
+    let target = target(output.as_deref(), path.map(PathBuf::as_path))?;
     effort.start_threads()?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(Failure::Input("a design is about a machine".to_owned()));
+    let task = Task {
+        design: &design,
+        file: path.map(PathBuf::as_path),
+        target: &target,
+        reprove: *reprove,
+        table: !effort.quiet || effort.format == Format::Json,
+        started,
     };
-    let mut found = effort.run(|control| verify(claim, budget, control)).map_err(Failure::input)?;
-    let decision = certify::decide(&mut found.answer)?;
-    let mut report = Report::new(claim, &found, started.elapsed()).ok_or_else(|| {
-        Failure::Input("the design's numbers exceed what can be reported".to_owned())
-    })?;
-    report.title.clone_from(&design.title);
-    report.design = path.as_ref().map(|path| path.display().to_string());
-    let status = match decision {
-        Some(decision) => {
-            report.certificate = Some(certify::store(&target, &decision.text)?);
-            Status::Decided(decision.verdict)
-        }
-        None => {
-            report.earlier_certificate = certify::earlier(&target, &design.claim);
-            Status::Undecided
-        }
-    };
+    let (mut report, status) =
+        task.run(|claim| effort.run(|control| verify(claim, budget, control)))?;
+    if task.table {
+        report.margins = margins(&report, &design.claim, effort);
+    }
     match effort.format {
         Format::Json => print::json(&report)?,
         Format::Text if effort.quiet => {
@@ -68,51 +90,36 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     Ok(status)
 }
 
-impl Arguments {
-    /// Where the certificate goes: never over the design.
-    fn target(&self) -> Result<PathBuf, Failure> {
-        let target = match (&self.output, &self.design) {
-            (Some(output), _) => output.clone(),
-            (None, Some(design)) => beside(design),
-            (None, None) => PathBuf::from(PROTOTYPE),
-        };
-        if self.design.as_deref().is_some_and(|design| same_file(design, &target)) {
-            let path = target.display();
-            let message = format!("--output: {path} is the design itself; accepted: another path");
-            return Err(Failure::Input(message));
-        }
-        Ok(target)
+/// The certified margins of a certified design, where its proof was short.
+fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
+    let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
+    let Claim::Machine(claim) = claim else {
+        return Vec::new();
+    };
+    if !short {
+        return Vec::new();
     }
+    let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
+    let width = BigRational::new(1.into(), 1000.into());
+    let enclosed = |extreme| effort.run(|control| enclose(claim, extreme, &width, budget, control));
+    Extreme::bounded(claim)
+        .into_iter()
+        .filter_map(|extreme| enclosed(extreme).ok())
+        .map(|found| Margin::of(&found))
+        .collect()
 }
 
-/// `NAME.cert.json` beside `NAME.toml`.
-fn beside(design: &Path) -> PathBuf {
-    let toml = design.extension().is_some_and(|extension| extension == "toml");
-    let name = if toml { design.file_stem() } else { design.file_name() };
-    let mut name = name.unwrap_or_default().to_owned();
-    name.push(".cert.json");
-    design.with_file_name(name)
-}
-
-fn same_file(one: &Path, other: &Path) -> bool {
-    match (fs::canonicalize(one), fs::canonicalize(other)) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => false,
+/// Where the certificate goes: never over the design.
+fn target(output: Option<&Path>, design: Option<&Path>) -> Result<PathBuf, Failure> {
+    let target = match (output, design) {
+        (Some(output), _) => output.to_owned(),
+        (None, Some(design)) => certificate_of(design),
+        (None, None) => PathBuf::from(PROTOTYPE),
+    };
+    if design.is_some_and(|design| identity(design) == identity(&target)) {
+        let path = target.display();
+        let message = format!("--output: {path} is the design itself; accepted: another path");
+        return Err(Failure::Input(message));
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn certificates_stand_beside_their_designs() {
-        for (design, certificate) in [
-            ("a.toml", "a.cert.json"),
-            ("x/y/delta.v2.toml", "x/y/delta.v2.cert.json"),
-            ("x/plain", "x/plain.cert.json"),
-        ] {
-            assert_eq!(beside(Path::new(design)), Path::new(certificate));
-        }
-    }
+    Ok(target)
 }

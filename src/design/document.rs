@@ -3,6 +3,7 @@
 
 use super::error::{Defect, DesignError};
 use super::suggestion;
+use orthocert_checker::number::Exact;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
@@ -17,6 +18,20 @@ pub(super) struct Document<'a> {
     pub file: &'a str,
     /// All of the file.
     pub text: &'a str,
+    /// What names in expressions mean.
+    pub names: Names<'a>,
+}
+
+/// What names in expressions mean.
+#[derive(Clone, Copy)]
+pub(super) enum Names<'a> {
+    /// Nothing: a design has none.
+    None,
+    /// These parameters of an atlas have these values.
+    Values(&'a [(String, Exact)]),
+    /// These parameters of an atlas stay names. Nothing can be proved of expressions with them, so
+    /// what numbers have to be is not demanded: the same file is read with values for that.
+    Kept(&'a [(String, Exact)]),
 }
 
 /// A table of a document.
@@ -38,6 +53,11 @@ pub(super) struct Value<'a> {
 }
 
 impl<'a> Document<'a> {
+    /// Whether numbers have to be what their keys demand.
+    pub fn demands(&self) -> bool {
+        !matches!(self.names, Names::Kept(_))
+    }
+
     /// The error about `text[at]`.
     pub fn error(
         &self,
@@ -136,6 +156,17 @@ impl<'a> Table<'a> {
         self.find(name).ok_or_else(|| self.lacks(name, accepted))
     }
 
+    /// The entries in the order of the file.
+    pub fn entries(&self) -> Vec<(&'a str, Value<'a>)> {
+        let mut keys: Vec<_> = self.entries.keys().collect();
+        keys.sort_by_key(|key| key.span().start);
+        let entry = |key: &&'a toml::Spanned<toml::de::DeString<'a>>| {
+            let name: &'a str = key.get_ref();
+            Some((name, self.find(name)?))
+        };
+        keys.iter().filter_map(entry).collect()
+    }
+
     /// Whether the table has no entries.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
@@ -182,6 +213,16 @@ impl<'a> Value<'a> {
 
     /// The `N` elements of the array that this value is.
     pub fn elements<const N: usize>(&self, accepted: &str) -> Result<[Value<'a>; N], DesignError> {
+        <[Value; N]>::try_from(self.list(accepted)?).map_err(|_| self.wrong_type(accepted))
+    }
+
+    /// The three elements of the array that this value is.
+    pub fn three(&self, accepted: &str) -> Result<[Value<'a>; 3], DesignError> {
+        self.elements(accepted)
+    }
+
+    /// The elements of the array that this value is.
+    pub fn list(&self, accepted: &str) -> Result<Vec<Value<'a>>, DesignError> {
         let elements = self.inner.as_array().ok_or_else(|| self.wrong_type(accepted))?;
         let all = elements.iter().enumerate().map(|(i, element)| Value {
             document: self.document,
@@ -189,12 +230,7 @@ impl<'a> Value<'a> {
             at: element.span(),
             inner: element.get_ref(),
         });
-        <[Value; N]>::try_from(all.collect::<Vec<_>>()).map_err(|_| self.wrong_type(accepted))
-    }
-
-    /// The three elements of the array that this value is.
-    pub fn three(&self, accepted: &str) -> Result<[Value<'a>; 3], DesignError> {
-        self.elements(accepted)
+        Ok(all.collect())
     }
 
     /// The text that this value is.

@@ -20,6 +20,7 @@
 //! # Ok::<(), orthocert::design::DesignError>(())
 //! ```
 
+mod atlas;
 mod document;
 mod drive;
 mod error;
@@ -34,12 +35,13 @@ mod template;
 mod tests;
 mod workspace;
 
+pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
 pub use error::{Defect, DesignError, Position, ReadError};
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 
 use crate::verify::MODEL_PRECISION;
-use document::{Document, Table};
+use document::{Document, Names, Table};
 use mechanism::Setting;
 use orthocert_checker::claim::{Claim, ClaimError};
 use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
@@ -67,20 +69,24 @@ pub struct Design {
 impl Design {
     /// Reads the text of a design file; `file_name` is for messages only.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, DesignError> {
-        let document = Document { file: file_name, text };
+        let document = Document { file: file_name, text, names: Names::None };
         let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
         let root = document.root(tree.get_ref());
         root.only(&["title", "mechanism", "workspace", "requirements"])?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
         let claim = machine_claim(&root)?;
         let sources = Sources::of(text, tree.get_ref());
-        claim.validate().map_err(|error| ill_formed(&root, &error))?;
-        Model::new(&claim, MODEL_PRECISION).map_err(|error| ill_formed(&root, &error))?;
+        modelled(&root, &claim)?;
         Ok(Design { title: title.map(str::to_owned), claim: Claim::Machine(claim), sources })
     }
 
     /// Reads a design file.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
+        Design::of(&Design::bytes(path)?, path)
+    }
+
+    /// The bytes of a design file.
+    pub fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
         let unreadable = |error| ReadError::Unreadable(path.to_owned(), error);
         if path.is_dir() {
             return Err(ReadError::Directory(path.to_owned()));
@@ -91,11 +97,12 @@ impl Design {
         if bytes.len() as u64 > MAX_FILE {
             return Err(ReadError::TooLarge(path.to_owned()));
         }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let valid = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
-            ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
-        })?;
-        Ok(Design::parse(&text, &path.display().to_string())?)
+        Ok(bytes)
+    }
+
+    /// Reads the bytes of a design file; `path` is for messages only.
+    pub fn of(bytes: &[u8], path: &Path) -> Result<Self, ReadError> {
+        Ok(Design::parse(text_of(bytes, path)?, &path.display().to_string())?)
     }
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.
@@ -115,6 +122,20 @@ impl Design {
             sources: Sources::default(),
         }
     }
+}
+
+/// The text of a file; `path` is for messages only.
+fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let valid = bytes.iter().take(error.valid_up_to());
+        ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
+    })
+}
+
+/// Demands a claim that is well formed and has a model.
+fn modelled(root: &Table<'_>, claim: &MachineClaim) -> Result<(), DesignError> {
+    claim.validate().map_err(|error| ill_formed(root, &error))?;
+    Model::new(claim, MODEL_PRECISION).map(drop).map_err(|error| ill_formed(root, &error))
 }
 
 /// Reads the three tables of a design.

@@ -6,8 +6,10 @@
 //! expression ([`Exact::parse`]), or two with `±` or `+/-` between them: nominal value and
 //! tolerance.
 
-use super::document::Value;
+use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
+use super::suggestion;
+use orthocert_checker::atlas::{range, AtlasError, Ends};
 use orthocert_checker::claim::Quantity;
 use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
 use std::cmp::Ordering;
@@ -65,6 +67,9 @@ pub(super) fn ordered(
     (least, min): (&Value<'_>, &Exact),
     (greatest, max): (&Value<'_>, &Exact),
 ) -> Result<(), DesignError> {
+    if !least.document.demands() {
+        return Ok(());
+    }
     let relation = match min.compare(max) {
         Some(Ordering::Less | Ordering::Equal) => return Ok(()),
         Some(Ordering::Greater) => "below",
@@ -77,6 +82,9 @@ pub(super) fn ordered(
 
 /// Demands that `number`, which `value` is or begins with, is provably positive; `what` names it.
 pub(super) fn positive(value: &Value<'_>, number: &Exact, what: &str) -> Result<(), DesignError> {
+    if !value.document.demands() {
+        return Ok(());
+    }
     let found = match number.sign() {
         Some(1) => return Ok(()),
         Some(_) => value.found(),
@@ -95,11 +103,44 @@ fn scalar(value: &Value<'_>, accepted: &str) -> Result<Exact, DesignError> {
     match value.inner {
         DeValue::Integer(integer) => whole(value, integer),
         DeValue::Float(float) => decimal(value, float),
-        DeValue::String(text) => {
-            let number = Exact::parse(text, MAX_DIGITS);
-            writable(value, number.map_err(|error| not_a_number(value, text, &error, accepted))?)
-        }
+        DeValue::String(text) => writable(value, expression(value, text, (0, text), accepted)?),
         _ => Err(value.wrong_type(accepted)),
+    }
+}
+
+/// The number that `part`, at this offset of the value's `text`, denotes.
+fn expression(
+    value: &Value<'_>,
+    text: &str,
+    (offset, part): (usize, &str),
+    accepted: &str,
+) -> Result<Exact, DesignError> {
+    let refused = |NumberError { at, kind }| {
+        not_a_number(value, text, &NumberError { at: at + offset, kind }, accepted)
+    };
+    let (known, keep) = match value.document.names {
+        Names::None => return Exact::parse(part, MAX_DIGITS).map_err(refused),
+        Names::Values(known) => (known, false),
+        Names::Kept(known) => (known, true),
+    };
+    let open = Exact::parse_open(part, MAX_DIGITS).map_err(refused)?;
+    let points: Vec<(&str, Ends)> =
+        known.iter().map(|(name, x)| (name.as_str(), (x.clone(), x.clone()))).collect();
+    match range(&open, &points) {
+        Ok((number, _)) => Ok(if keep { open } else { number }),
+        Err(AtlasError::Unknown(name)) => {
+            let names: Vec<&str> = points.iter().map(|(name, _)| *name).collect();
+            let hint = suggestion::hint(&name, &names, |word| word.to_owned());
+            let found = format!("{}, with the name {name}", value.found());
+            let accepted = format!("the names of [parameters]: {}{hint}", names.join(", "));
+            Err(value.error(Defect::UnknownWord, found, accepted))
+        }
+        Err(error) => {
+            let at: Vec<String> =
+                points.iter().map(|(name, (x, _))| format!("{name} = {x}")).collect();
+            let found = format!("{}; for {} {error}", value.found(), at.join(", "));
+            Err(value.error(Defect::NotANumber, found, accepted))
+        }
     }
 }
 
@@ -156,16 +197,13 @@ fn around(
     text: &str,
     parts: [(usize, &str); 2],
 ) -> Result<Quantity, DesignError> {
-    let part = |(offset, part): (usize, &str)| {
-        Exact::parse(part, MAX_DIGITS).map_err(|NumberError { at, kind }| {
-            not_a_number(value, text, &NumberError { at: at + offset, kind }, QUANTITY)
-        })
-    };
+    let part = |part| expression(value, text, part, QUANTITY);
     let [nominal, tolerance] = parts;
     let (nominal, tolerance) = (part(nominal)?, part(tolerance)?);
     match tolerance.sign() {
         Some(0) => return Ok(Quantity::exactly(writable(value, nominal)?)),
         Some(1) => {}
+        None if !value.document.demands() => {}
         _ => {
             let accepted = "a tolerance that is (provably) not negative";
             return Err(value.error(Defect::Tolerance, value.found(), accepted));

@@ -87,7 +87,7 @@ fn transmission(
         return psi_max_alone(&table, &range).map(|()| requirements.transmission = Some(range));
     }
     if let (Some(min), Some(max), Some(greatest)) = (&range.min, &range.max, &greatest) {
-        if min.compare(max) != Some(Ordering::Less) {
+        if greatest.document.demands() && min.compare(max) != Some(Ordering::Less) {
             let found = format!("{}, not (provably) above psi_min", greatest.found());
             let accepted = "psi_max greater than psi_min";
             return Err(greatest.error(Defect::Reversed, found, accepted));
@@ -106,7 +106,7 @@ fn psi_max_alone(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
     }
     let greatest = table.require("max", CUBE_BOUND)?;
     let above_one = range.max.as_ref().and_then(|max| max.compare(&Exact::integer(1)));
-    if above_one != Some(Ordering::Greater) {
+    if greatest.document.demands() && above_one != Some(Ordering::Greater) {
         return Err(greatest.error(Defect::OutOfDomain, greatest.found(), CUBE_BOUND));
     }
     Ok(())
@@ -152,6 +152,9 @@ fn angles(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
     let (Some(min), Some(max)) = (&range.min, &range.max) else {
         return Err(table.lacks("max", ANGLES));
     };
+    if !least.document.demands() {
+        return Ok(());
+    }
     let at_most =
         |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
     if !at_most(&Exact::integer(-360), min) {
@@ -173,7 +176,7 @@ fn conditioning(
 ) -> Result<(), DesignError> {
     let accepted = "{ max = 3 }, greater than 1";
     let (bound, max) = single(value, "max", accepted)?;
-    if max.compare(&Exact::integer(1)) != Some(Ordering::Greater) {
+    if bound.document.demands() && max.compare(&Exact::integer(1)) != Some(Ordering::Greater) {
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
     requirements.conditioning = Some(AtMost { max });
@@ -217,7 +220,9 @@ fn leg_angle(
     let accepted = "{ max = 60 }, in degrees, greater than 0 and at most 90";
     let (bound, max) = single(value, "max", accepted)?;
     let up_to_90 = max.compare(&Exact::integer(90));
-    if max.sign() != Some(1) || !matches!(up_to_90, Some(Ordering::Less | Ordering::Equal)) {
+    let within =
+        max.sign() == Some(1) && matches!(up_to_90, Some(Ordering::Less | Ordering::Equal));
+    if bound.document.demands() && !within {
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
     if !all_legs(mechanism, |leg| matches!(leg, Leg::Slider { .. })) {

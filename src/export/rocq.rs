@@ -8,16 +8,15 @@
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert_checker::cell::Axis;
-use orthocert_checker::certificate::{Certificate, Faces, Node, Proof, Step, Verdict};
+use orthocert_checker::certificate::{Certificate, Node, Proof, Step, Verdict};
 use orthocert_checker::claim::{
-    Claim, Leg, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Requirements, Sign,
-    Workspace,
+    Claim, Leg, MachineClaim, Mechanism, Quantity, Requirements, Sign, Workspace,
 };
 use orthocert_checker::number::Exact;
-use orthocert_checker::postulate::{Face, Half};
-use orthocert_checker::rule::TightCorner;
 use std::fmt::{self, Write};
 use std::slice::Iter;
+
+mod postulate;
 
 /// Why a certificate is not exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +24,10 @@ use std::slice::Iter;
 pub enum ExportError {
     /// It refutes.
     Refutes,
-    /// It is about the postulate, but not for every `psi_max`.
-    Postulate,
+    /// It proves the postulate by a tree over the cube of one `psi_max`.
+    OneCube,
+    /// It is about cubes that do not fit.
+    NoCube,
     /// Not all legs are of fixed length on linear guides.
     NotSliders,
     /// The workspace is not a box.
@@ -35,7 +36,7 @@ pub enum ExportError {
     NotTransmission,
     /// The tree uses this rule.
     Rule(&'static str),
-    /// The nodes are not those of one tree over x, y and z.
+    /// The nodes are not those of one tree over x, y and z, or of the trees of the faces.
     NotATree,
 }
 
@@ -45,11 +46,13 @@ impl fmt::Display for ExportError {
             "only certified claims about slider legs, a box and transmission are exported";
         match self {
             ExportError::Refutes => write!(f, "the certificate refutes its claim; {and_only}"),
-            ExportError::Postulate => write!(
+            ExportError::OneCube => write!(
                 f,
-                "of the Q1/Q2 postulate only the certificate for all psi_max is exported, which \
-                 contains the others"
+                "it proves the Q1/Q2 postulate for one psi_max alone; certificates for a range or \
+                 for all psi_max are exported, which contain it: orthocert postulate --psi-range \
+                 A..B with A less than B, or --all"
             ),
+            ExportError::NoCube => write!(f, "the claim is that no cube fits; {and_only}"),
             ExportError::NotSliders => {
                 write!(f, "a leg is not of fixed length on a linear guide; {and_only}")
             }
@@ -64,7 +67,9 @@ impl fmt::Display for ExportError {
                     "the proof uses the rule \"{name}\", which machines do not need; {and_only}"
                 )
             }
-            ExportError::NotATree => write!(f, "the nodes are not those of one tree over x, y, z"),
+            ExportError::NotATree => {
+                write!(f, "the nodes are not those of the trees that the claim needs")
+            }
         }
     }
 }
@@ -82,10 +87,12 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
     }
     let claim = match (&certificate.claim, &certificate.proof) {
         (Claim::Machine(claim), _) => claim,
-        (Claim::Postulate(PostulateClaim { psi_max: PsiMax::All }), Proof::Faces(faces)) => {
-            return postulate(faces);
+        (Claim::Postulate(claim), Proof::Faces(faces)) => {
+            return postulate::postulate(&claim.psi_max, faces);
         }
-        (Claim::Postulate(_), _) => return Err(ExportError::Postulate),
+        (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
+        (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
+        (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);
@@ -231,6 +238,8 @@ fn number(x: &Exact) -> String {
         Exact::Mul(x, y) => format!("(Times {} {})", number(x), number(y)),
         Exact::Div(x, y) => format!("(Over {} {})", number(x), number(y)),
         Exact::Sqrt(x) => format!("(Root {})", number(x)),
+        // Of atlases only, which are not exported.
+        Exact::Name(name) => name.to_string(),
     }
 }
 
@@ -277,102 +286,4 @@ fn step(step: &Step) -> Result<String, ExportError> {
         Step::Upper => Ok("Upper".to_owned()),
         other => Err(ExportError::Rule(other.rule().0)),
     }
-}
-
-/// The postulate for every `psi_max`, by its four trees.
-fn postulate(faces: &Faces) -> Result<String, ExportError> {
-    let mut out = String::from(POSTULATE_HEADER);
-    let needed = [
-        (Face::Q1, Half::Low),
-        (Face::Q1, Half::High),
-        (Face::Q2, Half::Low),
-        (Face::Q2, Half::High),
-    ];
-    let given: Vec<_> = faces.parts.iter().map(|part| (part.face, part.half)).collect();
-    if given != needed {
-        return Err(ExportError::NotATree);
-    }
-    for (part, name) in faces.parts.iter().zip(["q1_low", "q1_high", "q2_low", "q2_high"]) {
-        let _ = writeln!(out, "Definition {name} : face_tree :=");
-        let mut nodes = part.nodes.iter();
-        face_node(&mut out, &mut nodes, part.face, 1)?;
-        if nodes.next().is_some() {
-            return Err(ExportError::NotATree);
-        }
-        out.push_str(".\n\n");
-    }
-    let bits = faces.precision;
-    let _ = write!(
-        out,
-        "Lemma checked : check_postulate {bits} q1_low q1_high q2_low q2_high = true.\n\
-         Proof. vm_cast_no_check (eq_refl true). Qed.\n\n{POSTULATE_THEOREM}\
-         Proof. exact (check_postulate_sound {bits} q1_low q1_high q2_low q2_high checked). Qed.\n"
-    );
-    Ok(out)
-}
-
-const POSTULATE_HEADER: &str = "\
-(** Written by `orthocert export rocq`; nothing here is trusted but what is read: the last theorem,
-    with the definitions of Postulate.v and Kinematics.v. *)
-
-From Coq Require Import ZArith Reals.
-From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Checker CheckerPostulate.
-Local Open Scope R_scope.
-
-";
-
-const POSTULATE_THEOREM: &str = "\
-Theorem certified : forall L a e, 0 < L -> forall psi, 1 < psi -> forall P, in_cube L psi P ->
-  regular (orthoglide L a e) P /\\
-  forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
-";
-
-/// The tree of a face that begins with the next node. The formal checker measures a face from its
-/// tight corner: on the face of `q_2`, where `w = 1 - u`, halves and the axes y and z change places,
-/// so that the mirrored half is the same.
-fn face_node(
-    out: &mut String,
-    nodes: &mut Iter<'_, Node>,
-    face: Face,
-    depth: usize,
-) -> Result<(), ExportError> {
-    let Node { by, split } = nodes.next().ok_or(ExportError::NotATree)?;
-    let indent = "  ".repeat(depth.min(MAX_INDENT));
-    let corner = match face {
-        Face::Q1 => TightCorner::Q1,
-        Face::Q2 => TightCorner::Q2,
-    };
-    let Some(axis) = split else {
-        let [step] = by.as_slice() else {
-            return Err(ExportError::NotATree);
-        };
-        let rule = match step {
-            Step::BlowUp => "BlowUp",
-            Step::Edge(at) if *at == corner => "EdgeRule",
-            Step::Mirror => "Mirror",
-            other => return Err(ExportError::Rule(other.rule().0)),
-        };
-        let _ = write!(out, "{indent}(FaceLeaf {rule})");
-        return Ok(());
-    };
-    if !by.is_empty() {
-        return Err(ExportError::NotATree);
-    }
-    let turned = matches!(face, Face::Q2) && !matches!(axis, Axis::Kappa);
-    let along = match (axis, turned) {
-        (Axis::Kappa, _) => "AlongX",
-        (Axis::Y, false) | (Axis::Z, true) => "AlongY",
-        (Axis::Z, false) | (Axis::Y, true) => "AlongZ",
-        (Axis::X, _) => return Err(ExportError::NotATree),
-    };
-    let mut halves = [String::new(), String::new()];
-    for half in &mut halves {
-        face_node(half, nodes, face, depth + 1)?;
-    }
-    if turned {
-        halves.reverse();
-    }
-    let [first, second] = halves;
-    let _ = write!(out, "{indent}(FaceSplit {along}\n{first}\n{second})");
-    Ok(())
 }

@@ -25,6 +25,9 @@ const BOUND_BITS: u32 = 256;
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counterexample {
+    /// What is violated, as in the certificate.
+    #[serde(skip)]
+    pub violation: Violation,
     /// What is violated: `greatest psi <= 2`.
     pub violated: String,
     /// The value there, with certified digits: `greatest psi >= 2.0050`.
@@ -68,8 +71,8 @@ impl Counterexample {
             _ => Vec::new(),
         };
         let machine = settings(claim, witness);
-        let point = witness.point.clone();
-        Counterexample { violated, value, point, other_point, machine, directions }
+        let (violation, point) = (witness.violates.clone(), witness.point.clone());
+        Counterexample { violation, violated, value, point, other_point, machine, directions }
     }
 }
 
@@ -98,6 +101,11 @@ fn violation(claim: &MachineClaim, witness: &Witness) -> Option<(String, String)
             beyond(claim, Quality::GreatestPsi, &place.psi_at_least(&d.vector)?)
         }
         Violation::SigmaMax(d) => beyond(claim, Quality::LeastPsi, &place.psi(&d.vector)?),
+        Violation::Row(leg) => {
+            let i = leg.leg.checked_sub(1)?;
+            let inverse = model.legs.get(i)?.inverse_row_squared(&model.origin[i])?;
+            beyond(claim, Quality::LeastPsi, &inverse.sqrt()?)
+        }
         Violation::Reach(LegNumber { leg }) => Some((
             format!("leg {leg} reaches P and is not serially singular there"),
             format!("leg {leg} cannot reach P, or is serially singular there"),

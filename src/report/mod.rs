@@ -1,6 +1,7 @@
 //! What a verification found, for people ([`text`]) and for scripts (as JSON, by `serde`): the
 //! same facts.
 
+pub mod atlas;
 mod counterexample;
 mod place;
 mod postulate;
@@ -10,16 +11,18 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use place::{Frame, FreeParameter};
+pub use place::{named_parameters, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
+use crate::extremes::Enclosed;
 use crate::sample::Sampler;
-use crate::verify::{Answer, Verification};
+use crate::verify::{worst_values, Answer, Verification, FINEST};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
+use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
@@ -58,6 +61,9 @@ pub struct Report {
     pub design: Option<String>,
     /// The requirements, with the worst values found by sampling.
     pub requirements: Vec<Row>,
+    /// How far the quantities that requirements bound really go: bounds with certificates of their
+    /// own, which are not kept. Empty where that was not cheap.
+    pub margins: Vec<Margin>,
     /// The counterexample of a refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<Counterexample>,
@@ -71,13 +77,34 @@ pub struct Report {
     pub boxes_tried: usize,
     /// Seconds from the start to the accepted verdict.
     pub seconds: f64,
-    /// The certificate that was written.
+    /// Whether nothing was searched for: the certificate was there, and was re-checked exactly.
+    pub cached: bool,
+    /// The certificate that was written, or re-checked.
     pub certificate: Option<CertificateFile>,
     /// What an undecided run left in the certificate's place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub earlier_certificate: Option<EarlierFile>,
     /// The claim, in exact numbers, as it stands in certificates.
     pub claim: Claim,
+}
+
+/// A quantity never goes beyond this, as certified.
+#[derive(Clone, Debug, Serialize)]
+pub struct Margin {
+    /// The quantity.
+    pub quantity: String,
+    /// `<=` or `>=`.
+    pub relation: &'static str,
+    /// The certified bound.
+    pub bound: Exact,
+}
+
+impl Margin {
+    /// The certified end of an enclosure.
+    pub fn of(found: &Enclosed) -> Self {
+        let relation = if found.extreme.is_greatest() { "<=" } else { ">=" };
+        Margin { quantity: found.extreme.quantity(), relation, bound: found.outer.clone() }
+    }
 }
 
 /// The size and shape of a proof.
@@ -101,12 +128,21 @@ impl Size {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
             Proof::Faces(faces) => faces.precision,
-            Proof::Witness(_) => return None,
+            Proof::Witness(_) | Proof::Atlas(_) => return None,
         };
         let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
         let TreeSize { leaves, nodes, depth, .. } = *size;
         Some(Size { leaves, nodes, depth, precision, rules })
     }
+}
+
+/// The requirements of a claim with the worst values that sampling finds; `None` if the claim's
+/// numbers exceed what can be shown.
+pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
+    let model = Model::new(claim, MODEL_PRECISION).ok()?;
+    let sampler = Sampler::new(claim, &model)?;
+    let frame = Frame::new(claim, &model)?;
+    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
 }
 
 /// A certificate on the disk.
@@ -141,11 +177,13 @@ impl Report {
             title: None,
             design: None,
             requirements: worst::rows(claim, &sampler, &frame, &found.worst),
+            margins: Vec::new(),
             counterexample: None,
             proof: None,
             undecided: None,
             boxes_tried: found.boxes,
             seconds: elapsed.as_secs_f64(),
+            cached: false,
             certificate: None,
             earlier_certificate: None,
             claim: Claim::Machine(claim.clone()),

@@ -143,7 +143,7 @@ mod tests {
 
     fn open(edges: [(u128, u32); 3]) -> OpenBox {
         let edges = edges.map(|(index, level)| Edge { index, level });
-        OpenBox { cell: Cell { edges }, open: Vec::new() }
+        OpenBox { cell: Cell { edges }, node: 0, open: Vec::new() }
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use super::place::{point_text, FreeParameter};
 use super::{
-    CertificateFile, Counterexample, EarlierFile, Outcome, PostulateReport, Remains, Report, Row,
-    Size,
+    CertificateFile, Counterexample, EarlierFile, Margin, Outcome, PostulateReport, Remains,
+    Report, Row, Size,
 };
 use crate::decimal::{boxes, counted, exact, grouped, significant};
 use orthocert_checker::certificate::Verdict;
@@ -78,7 +78,7 @@ pub fn postulate(report: &PostulateReport, style: Style) -> String {
         labelled(&mut out, "why", reason);
         labelled(&mut out, "would help", "a larger budget: --max-boxes, --timeout");
     }
-    effort(&mut out, report.proof.as_ref(), report.boxes_tried, report.seconds);
+    effort(&mut out, report.proof.as_ref(), Some(report.boxes_tried), report.seconds);
     match &report.certificate {
         Some(file) => certificate(&mut out, file),
         None if report.undecided.is_some() => labelled(&mut out, "certificate", NONE_UNDECIDED),
@@ -118,8 +118,14 @@ pub fn report(report: &Report, style: Style) -> String {
     }
     out.push('\n');
     table(&mut out, &report.requirements);
+    if !report.margins.is_empty() {
+        let margin = |m: &Margin| format!("{} {} {}", m.quantity, m.relation, exact(&m.bound));
+        let margins: Vec<String> = report.margins.iter().map(margin).collect();
+        labelled(&mut out, "certified", &margins.join(", "));
+    }
     out.push('\n');
-    effort(&mut out, report.proof.as_ref(), report.boxes_tried, report.seconds);
+    let tried = (!report.cached).then_some(report.boxes_tried);
+    effort(&mut out, report.proof.as_ref(), tried, report.seconds);
     files(&mut out, report);
     out
 }
@@ -280,23 +286,35 @@ fn extent(out: &mut String, min: &[f64; 3], max: &[f64; 3]) {
     }
 }
 
-fn effort(out: &mut String, proof: Option<&Size>, tried: usize, seconds: f64) {
-    let (time, tried) = (duration(seconds), boxes(tried));
+/// The proof's size and the boxes tried for it; without a number of them, nothing was searched for.
+fn effort(out: &mut String, proof: Option<&Size>, tried: Option<usize>, seconds: f64) {
+    let tried = match tried {
+        Some(tried) => format!("{} tried", boxes(tried)),
+        None => "re-checked, not searched for".to_owned(),
+    };
+    let time = duration(seconds);
     let Some(Size { leaves, nodes, depth, precision, .. }) = proof else {
-        return labelled(out, "effort", &format!("{tried} tried, {time}"));
+        return labelled(out, "effort", &format!("{tried}, {time}"));
     };
     let (leaves, nodes) = (counted(*leaves, "leaf", "leaves"), boxes(*nodes));
     let size = format!("{leaves} of {nodes}, depth {depth}, {precision} bits");
-    labelled(out, "proof", &format!("{size}; {tried} tried, {time}"));
+    labelled(out, "proof", &format!("{size}; {tried}, {time}"));
 }
 
 /// What stands for the certificate of an undecided claim.
 const NONE_UNDECIDED: &str = "none is written without a verdict";
 
+/// What is said of a certificate that was not written by this run.
+const CACHED: &str =
+    "was there, about this very claim, and was re-checked exactly; --reprove proves anew";
+
 fn files(out: &mut String, report: &Report) {
     match &report.certificate {
         Some(file) => certificate(out, file),
         None => labelled(out, "certificate", NONE_UNDECIDED),
+    }
+    if report.cached {
+        labelled(out, "", CACHED);
     }
     if let Some(earlier) = &report.earlier_certificate {
         earlier_file(out, earlier);

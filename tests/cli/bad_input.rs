@@ -69,7 +69,7 @@ fn what_is_no_text_is_refused() {
 #[test]
 fn paths_that_are_no_files_are_refused() {
     let folder = Folder::new();
-    folder.run(&["verify", "."]).exits(2).complains(&["directory"]);
+    folder.run(&["verify", "."]).exits(2).complains(&["without designs"]);
     folder.run(&["verify", "missing.toml"]).exits(2).complains(&["missing.toml", "cannot be read"]);
     folder.run(&["verify", ""]).exits(2);
     folder.write("file", "");
@@ -97,7 +97,7 @@ fn bad_usage_exits_2() {
         &[][..],
         &["prove"],
         &["verify", "--fast"],
-        &["verify", "a.toml", "b.toml"],
+        &["verify", "--jobs", "0", "a.toml"],
         &["verify", "--max-boxes", "0"],
         &["verify", "--max-boxes", "-1"],
         &["verify", "--max-boxes", "many"],

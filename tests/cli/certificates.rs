@@ -65,9 +65,9 @@ fn what_cannot_be_read_is_bad_input() {
             .run(&[command, "missing.json"])
             .exits(2)
             .complains(&["missing.json", "cannot be read"]);
-        folder.run(&[command, "."]).exits(2).complains(&["it is a folder"]);
         folder.run(&[command]).exits(2);
     }
+    folder.run(&["show", "."]).exits(2).complains(&["it is a folder"]);
     folder.run(&["check", "good.json", "--design", "missing.toml"]).exits(2);
 }
 

@@ -57,7 +57,7 @@ fn a_design_is_never_overwritten_by_its_certificate() {
 #[test]
 fn an_undecided_run_leaves_an_earlier_certificate_and_says_so() {
     let folder = Folder::with(&["orthoglide-312.toml", "orthoglide-310.toml"]);
-    let (undecided, output) = (["--max-boxes", "1"], ["-o", "a.json"]);
+    let (undecided, output) = (["--max-boxes", "1", "--reprove"], ["-o", "a.json"]);
     folder.run(&["verify", "orthoglide-312.toml", output[0], output[1]]).exits(0);
     let before = folder.read("a.json");
     let arguments = [&["verify", "orthoglide-312.toml"][..], &output, &undecided].concat();

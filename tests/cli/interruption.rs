@@ -60,6 +60,29 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
 }
 
 #[test]
+fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    let pave = ["pave", "d.toml", "--volume-gap", "0.02", "--threads", "1"];
+    let mut command = folder.command(&pave);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let part = folder.path("d.paving.part");
+    while fs::metadata(&part).map_or(0, |file| file.len()) < 50_000 {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it was interrupted");
+        sleep(Duration::from_millis(1));
+    }
+    send(&child, 2);
+    let run = Run::from(child.wait_with_output().unwrap()).exits(4);
+    run.complains(&["interrupted", "d.paving.part", "--resume"]);
+    assert_eq!(folder.names(), ["d.paving.part", "d.toml"]);
+    let resumed = [&pave[..], &["--resume"]].concat();
+    folder.run(&resumed).exits(0);
+    folder.run(&[&pave[..], &["-o", "whole.paving"]].concat()).exits(0);
+    assert_eq!(folder.read("d.paving"), folder.read("whole.paving"));
+    assert_eq!(folder.names(), ["d.paving", "d.toml", "whole.paving"]);
+}
+
+#[test]
 fn a_command_that_waits_for_its_input_can_be_interrupted() {
     let folder = Folder::new();
     let pipe = folder.path("pipe");

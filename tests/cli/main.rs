@@ -3,22 +3,42 @@
 //! | module         | holds                                                             |
 //! |----------------|-------------------------------------------------------------------|
 //! | [`support`]    | running the binary in a folder of its own                         |
+//! | [`junit`]      | reading and judging JUnit reports                                 |
 //! | `verdicts`     | every verdict of `verify`: exit code, report, certificate         |
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
+//! | `batch`        | `verify` of many designs, and its reports                         |
+//! | `cache`        | certificates that are there are re-checked                        |
+//! | `audit`        | `check` of a folder, and `attest`                                 |
 //! | `calculator`   | `design`, `init`, `completions`, help                             |
+//! | `paving`       | `pave` and `check` of pavings                                     |
+//! | `surface`      | `export vtk` and `export stl`                                     |
+//! | `largest_cube` | `largest-cube`                                                    |
 //! | `postulate`    | `postulate`                                                       |
+//! | `report`       | `report`: pages and figures                                       |
+//! | `atlas`        | `atlas`: maps, and what is refused                                |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
+//! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 
+mod junit;
 mod support;
 
+mod atlas;
+mod audit;
 mod bad_input;
+mod batch;
+mod cache;
 mod calculator;
 mod certificates;
 mod files;
 mod interruption;
 mod json;
+mod largest_cube;
+mod paving;
 mod postulate;
+mod report;
+mod shards;
+mod surface;
 mod verdicts;

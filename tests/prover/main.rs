@@ -3,12 +3,14 @@
 //!
 //! | module      | tests                                                                      |
 //! |-------------|----------------------------------------------------------------------------|
+//! | `atlas`     | maps against the closed form, and against single designs                   |
 //! | `intervals` | enclosures in doubles against the oracle and exact values                  |
 //! | `search`    | determinism, completeness of the tree, budgets                             |
 //! | `verdicts`  | stated verdicts of designs, sweeps over `psi_max`                          |
 //! | `diagonal`  | cubes on the diagonal, decided in closed form, either side of the truth    |
 //! | `mutation`  | altered certificates are rejected, or still true                           |
 
+mod atlas;
 mod diagonal;
 mod intervals;
 mod mutation;

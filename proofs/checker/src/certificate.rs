@@ -15,6 +15,8 @@ pub const FORMAT: &str = "orthocert/1";
 pub const MAX_BYTES: usize = 16 << 20;
 /// Most nodes of a tree.
 pub const MAX_NODES: usize = 500_000;
+/// Most cells of an atlas, split or not.
+pub const MAX_CELLS: usize = 200_000;
 /// Most trees of a proof by faces.
 pub const MAX_PARTS: usize = 4;
 /// Most steps of one node.
@@ -70,6 +72,31 @@ pub enum Proof {
     Faces(#[serde(deserialize_with = "strict::object")] Faces),
     /// A counterexample, for "refuted".
     Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
+    /// A bisection tree of a box of parameters, for an atlas.
+    Atlas(#[serde(deserialize_with = "strict::object")] Atlas),
+}
+
+/// A bisection tree of the parameters in preorder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Atlas {
+    /// The cells.
+    #[serde(deserialize_with = "strict::cells")]
+    pub cells: Vec<AtlasCell>,
+}
+
+/// What is shown of a cell of parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtlasCell {
+    /// Nothing; its halves along the parameter of this number, counted from one, follow.
+    Split(usize),
+    /// Every design of the cell meets every requirement: a tree for all of them.
+    Certified(#[serde(deserialize_with = "strict::object")] Tree),
+    /// No design of the cell meets every requirement: one witness for all of them.
+    Refuted(#[serde(deserialize_with = "strict::object")] Box<Witness>),
+    /// Nothing.
+    Undecided,
 }
 
 /// A bisection tree of the workspace in preorder: a node, then, if it is split, its lower part
@@ -146,6 +173,8 @@ pub enum Step {
     Speed,
     /// The cell has no point of the cylinder.
     Outside,
+    /// No cube: with its centre in the cell, the cube has a point at which the claim fails.
+    Violated(#[serde(deserialize_with = "strict::object")] Box<Violated>),
     /// Postulate: vertex rule for the blow-up about the centre.
     BlowUp,
     /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.
@@ -163,6 +192,16 @@ pub struct ConditioningEvidence {
     pub rotation: Rotation,
     /// `mu`.
     pub mu: Mu,
+}
+
+/// A point of a cube, relative to its centre, at which a requirement fails.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Violated {
+    /// The point, see [`crate::claim::NoCubeClaim::moved`].
+    pub at: [i64; 3],
+    /// What fails there.
+    pub violates: Violation,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.
@@ -192,6 +231,8 @@ pub enum Violation {
     SigmaMin(#[serde(deserialize_with = "strict::object")] Direction),
     /// `|M v|^2 > k^2 |v|^2`: some `psi_i < psi_min`.
     SigmaMax(#[serde(deserialize_with = "strict::object")] Direction),
+    /// `|row_i of M| > k`, or the leg cannot reach the point: some `psi_i < psi_min`.
+    Row(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A leg cannot reach the point, or is serially singular there.
     Reach(#[serde(deserialize_with = "strict::object")] LegNumber),
     /// A joint coordinate is outside its range.
@@ -257,7 +298,7 @@ pub struct Provenance {
 }
 
 impl Certificate {
-    /// The text of the certificate: one node a line, ending in a line feed. A function of the
+    /// The text of the certificate: one node, or cell of an atlas, a line, ending in a line feed. A function of the
     /// certificate alone.
     ///
     /// # Errors
@@ -268,6 +309,11 @@ impl Certificate {
             Ok(lines?.join(",\n"))
         };
         let proof = match &self.proof {
+            Proof::Atlas(Atlas { cells }) => {
+                let cells: Result<Vec<String>, _> =
+                    cells.iter().map(serde_json::to_string).collect();
+                format!("{{\"atlas\":{{\"cells\":[\n{}\n]}}}}", cells?.join(",\n"))
+            }
             Proof::Witness(witness) => {
                 format!("{{\"witness\":{}}}", serde_json::to_string(witness)?)
             }

@@ -1,11 +1,13 @@
 //! Checking a certificate: the only way to an accepted verdict.
 
+use crate::atlas::{self, AtlasError};
 use crate::cell::{Axis, Cell};
 use crate::certificate::{
-    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, FORMAT, MAX_BYTES, MAX_STEPS,
-    PRECISIONS,
+    Certificate, FacePart, Faces, Node, Proof, Step, Tree, Verdict, Violated, FORMAT, MAX_BYTES,
+    MAX_NODES, MAX_STEPS, PRECISIONS,
 };
-use crate::claim::{Claim, ClaimError, MachineClaim, PostulateClaim, PsiMax};
+use crate::claim::{Claim, ClaimError, MachineClaim, NoCubeClaim, PostulateClaim, PsiMax};
+use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
 use crate::model::Model;
@@ -93,6 +95,19 @@ pub enum Rejected {
     },
     /// The witness does not refute the claim.
     Witness(WitnessError),
+    /// The claim of an atlas, or of a cell of it, is not well formed.
+    AtlasClaim(AtlasError),
+    /// The trees of an atlas have too many nodes together.
+    TooManyNodes(usize),
+    /// The shares that an atlas claims are not those of its cells.
+    Shares,
+    /// What an atlas says of a cell is not proved.
+    Cell {
+        /// The cell, counted from zero in preorder.
+        cell: usize,
+        /// Why.
+        reason: Box<Rejected>,
+    },
 }
 
 impl From<ClaimError> for Rejected {
@@ -144,6 +159,17 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node} is a leaf, but {obligation} is not discharged on its path")
             }
             Rejected::Witness(error) => write!(f, "the witness does not refute: {error}"),
+            Rejected::AtlasClaim(error) => {
+                write!(f, "the claim of the atlas is not well formed: {error}")
+            }
+            Rejected::TooManyNodes(nodes) => write!(
+                f,
+                "the trees of the atlas have {nodes} nodes; at most {MAX_NODES} are accepted"
+            ),
+            Rejected::Shares => {
+                write!(f, "the shares that are claimed are not those of the proof's cells")
+            }
+            Rejected::Cell { cell, reason } => write!(f, "cell {cell} of the atlas: {reason}"),
         }
     }
 }
@@ -186,7 +212,7 @@ fn syntax(message: &dyn fmt::Display) -> Rejected {
 }
 
 /// The beginning of a text that may quote the file, fit for a terminal.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let escaped = text.chars().flat_map(|c| {
         let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
         plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
@@ -204,11 +230,17 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
         }
+        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_no_cube(claim, tree, &mut size)?;
+        }
         (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
             check_one_cube(claim, tree, &mut size)?;
         }
         (Claim::Postulate(claim), Proof::Faces(faces), Verdict::Certified) => {
             check_faces(claim, faces, &mut size)?;
+        }
+        (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
+            atlas::check(claim, map, &mut size)?;
         }
         _ => return Err(Rejected::VerdictMismatch),
     }
@@ -232,15 +264,15 @@ pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
 }
 
 /// A set of obligations, as a bit for each.
-type Discharged = u32;
+pub(crate) type Discharged = u32;
 const _: () = assert!(Obligation::ALL.len() <= Discharged::BITS as usize);
 
-fn bit(obligation: Obligation) -> Discharged {
+pub(crate) fn bit(obligation: Obligation) -> Discharged {
     1 << obligation as u8
 }
 
 /// What a step discharges.
-fn discharges(step: &Step) -> Discharged {
+pub(crate) fn discharges(step: &Step) -> Discharged {
     match step.rule().1 {
         Some(obligation) => bit(obligation),
         None => Discharged::MAX,
@@ -327,12 +359,52 @@ fn admit_precision(bits: u32) -> Result<(), Rejected> {
     }
 }
 
-fn check_tree(claim: &MachineClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+/// Checks that a tree proves a machine claim.
+pub(crate) fn check_tree(
+    claim: &MachineClaim,
+    tree: &Tree,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
     admit_precision(tree.precision)?;
     let model = Model::new(claim, tree.precision)?;
     let obligations = obligations(&model);
     let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
     walk.run(size, |cell, node, index, size| check_steps(&model, cell, node, index, size))
+}
+
+/// No cube: a tree over the box of the centres, each of whose leaves has a step `violated`.
+///
+/// **Lemma.** Then no cube of that side with its centre in the box lies in the region where the
+/// claim of `machine` holds, for any machine described. *Proof.* A centre `C` lies in a leaf, which
+/// or an ancestor of which has a step with the offset `o`. The cell of the claim moved by `o` is that
+/// cell moved by `o`: it contains `C + o`, a point of the cube, and by [`rule::violated`] the claim
+/// fails at each of its points for every machine. ∎
+fn check_no_cube(claim: &NoCubeClaim, tree: &Tree, size: &mut TreeSize) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    claim.validate()?;
+    let mut moved: BTreeMap<[i64; 3], Model<Fixed>> = BTreeMap::new();
+    let obligations = [Obligation::SigmaMin];
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    walk.run(size, |cell, node, index, size| {
+        let mut discharged = 0;
+        for step in &node.by {
+            let (rule, _) = step.rule();
+            let failed = |failure| Rejected::Step { node: index, rule, failure };
+            let Step::Violated(evidence) = step else {
+                return Err(failed(Failure::OtherKind));
+            };
+            let Violated { at, violates } = evidence.as_ref();
+            if !moved.contains_key(at) {
+                let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
+                moved.insert(*at, Model::new(&claim, tree.precision)?);
+            }
+            let model = moved.get(at).ok_or(failed(Failure::NotOfTheCube))?;
+            rule::violated(model, cell, violates).map_err(failed)?;
+            discharged |= discharges(step);
+            *size.steps.entry(rule).or_default() += 1;
+        }
+        Ok(discharged)
+    })
 }
 
 /// The obligations of the postulate. The rules of `sigma_min` enclose `1/s_i`, so `s_i > 0`.
@@ -495,13 +567,13 @@ fn check_steps(
 }
 
 /// The expansion of a cell about its centre, made for the first step that needs it.
-type CentreExpansion = OnceCell<Result<Expansion<Fixed>, OutOfReach>>;
+pub(crate) type CentreExpansion<S> = OnceCell<Result<Expansion<S>, OutOfReach>>;
 
-fn check_step(
-    model: &Model<Fixed>,
+pub(crate) fn check_step<S: Enclosure>(
+    model: &Model<S>,
     cell: &Cell,
     step: &Step,
-    centre: &CentreExpansion,
+    centre: &CentreExpansion<S>,
 ) -> Result<(), Failure> {
     let about_centre = || {
         let expansion = centre.get_or_init(|| Expansion::new(model, cell, ExpansionPoint::Centre));
@@ -526,7 +598,7 @@ fn check_step(
         Step::LegAngle => rule::leg_angle(model, cell),
         Step::Speed => rule::speed(model, about_centre()?),
         Step::Outside => rule::outside(model, cell),
-        Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
+        Step::Violated(_) | Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }
 
@@ -548,6 +620,7 @@ impl Step {
             Step::Edge(_) => ("edge", Obligation::SigmaMin),
             Step::Mirror => ("mirror", Obligation::SigmaMin),
             Step::Outside => return ("outside", None),
+            Step::Violated(_) => return ("violated", None),
         };
         (name, Some(obligation))
     }

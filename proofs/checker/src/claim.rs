@@ -19,6 +19,87 @@ pub enum Claim {
     Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
     /// The Q1/Q2 postulate for one `psi_max`, a range, or every one.
     Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
+    /// No cube of some side fits, wherever its centre is in a box.
+    NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
+    /// Every machine of a box of parameters, in part.
+    Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
+}
+
+/// "For every machine described and every point `C` of the box, the closed cube of this side with
+/// the centre `C` and edges along the axes has a point at which the claim of `machine` fails."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoCubeClaim {
+    /// The machine, the requirements, and, as the workspace, the box of the centres.
+    #[serde(deserialize_with = "strict::object")]
+    pub machine: MachineClaim,
+    /// The cube's side.
+    pub side: Exact,
+}
+
+/// The parts that half a cube's side is divided in, for [`NoCubeClaim::moved`].
+pub const OFFSET_PARTS: i64 = 8;
+
+impl NoCubeClaim {
+    /// Proves the claim well formed: a claim about a box of centres, and a positive side.
+    pub fn validate(&self) -> Result<(), ClaimError> {
+        self.machine.validate()?;
+        if !matches!(self.machine.workspace, Workspace::Box { .. }) {
+            return Err(ClaimError::NeedsCentres);
+        }
+        positive(&self.side, || "side".into())
+    }
+
+    /// The claim about the points `C + offset side / (2 OFFSET_PARTS)`, `C` in the box of centres;
+    /// `None` if that is not a point of the cube, or beyond what numbers may be.
+    pub fn moved(&self, offset: &[i64; 3]) -> Option<MachineClaim> {
+        let Workspace::Box { min, max } = &self.machine.workspace else {
+            return None;
+        };
+        if !offset.iter().all(|n| (-OFFSET_PARTS..=OFFSET_PARTS).contains(n)) {
+            return None;
+        }
+        let part = self.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok()?;
+        let (mut min, mut max) = (min.clone(), max.clone());
+        for (k, &n) in offset.iter().enumerate() {
+            let by = part.clone().times(Exact::integer(n)).ok()?;
+            min[k] = min[k].clone().plus(by.clone()).ok()?;
+            max[k] = max[k].clone().plus(by).ok()?;
+        }
+        Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine.clone() })
+    }
+}
+
+/// "Of the box of parameters, the cells that the proof names certified, which fill the share
+/// `certified` of it, hold only designs that meet every requirement; the cells that it names
+/// refuted, which fill the share `refuted`, hold only designs that do not."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasClaim {
+    /// What is varied: one to three parameters, in the order of the axes of the map.
+    #[serde(deserialize_with = "strict::parameters")]
+    pub parameters: Vec<AtlasParameter>,
+    /// A machine claim, some numbers of which are expressions with the parameters' names: one
+    /// claim for each choice of their values.
+    #[serde(deserialize_with = "strict::object")]
+    pub design: MachineClaim,
+    /// The share of the box in certified cells.
+    pub certified: Exact,
+    /// The share of the box in refuted cells.
+    pub refuted: Exact,
+}
+
+/// A parameter of an atlas: every real value from `min` to `max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasParameter {
+    /// How expressions call it.
+    #[serde(deserialize_with = "strict::label")]
+    pub name: String,
+    /// Least value, rational.
+    pub min: Exact,
+    /// Greatest value, rational and greater than the least.
+    pub max: Exact,
 }
 
 /// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
@@ -343,6 +424,8 @@ pub enum ClaimError {
     NoBound(String),
     /// A cube without the Orthoglide that it defines, or the reverse.
     CubeNeedsOrthoglide,
+    /// Centres of cubes that are not in a box.
+    NeedsCentres,
     /// A cube without `psi_max`, or with `psi_max <= 1`.
     CubeNeedsPsiMax,
     /// A `psi_max` that is not provably greater than 1.
@@ -361,6 +444,8 @@ pub enum ClaimError {
     CubeFixesPsiMin,
     /// The numbers cannot be enclosed at the precision of the proof.
     Precision(String),
+    /// A number with a name, which only the design of an atlas has.
+    Open(String),
 }
 
 impl fmt::Display for ClaimError {
@@ -377,6 +462,7 @@ impl fmt::Display for ClaimError {
                 f,
                 "a workspace \"cube\" goes with the mechanism \"orthoglide\", and only with it"
             ),
+            ClaimError::NeedsCentres => write!(f, "the centres of cubes are not given as a box"),
             ClaimError::CubeNeedsPsiMax => {
                 write!(f, "a workspace \"cube\" needs transmission.max (psi_max) greater than 1")
             }
@@ -404,6 +490,9 @@ impl fmt::Display for ClaimError {
             ClaimError::Precision(what) => {
                 write!(f, "{what} cannot be enclosed at the precision of the proof")
             }
+            ClaimError::Open(number) => {
+                write!(f, "{number:?} has a name; only the design of an atlas has names")
+            }
         }
     }
 }
@@ -424,6 +513,10 @@ impl Mechanism {
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.
     pub fn validate(&self) -> Result<(), ClaimError> {
+        self.try_map(&mut |x, _| match x.is_open() {
+            true => Err(ClaimError::Open(x.to_string())),
+            false => Ok(x.clone()),
+        })?;
         match (&self.mechanism, &self.workspace) {
             (Mechanism::Translational(legs), Workspace::Box { min, max }) => {
                 self.validate_legs(legs)?;

@@ -87,6 +87,18 @@ impl<S: Enclosure> Expansion<S> {
     }
 }
 
+/// `M(P)` itself, enclosed over a cell, with slopes of zero: the identity of [`Expansion`] with
+/// `M(P)` in the place of `M(c)`. Looser, but defined wherever the rows are.
+pub fn natural<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<Expansion<S>, OutOfReach> {
+    let over = Region::new(model, cell, ExpansionPoint::Centre).over;
+    let row = |i: usize| model.legs[i].at(&over[i]).ok_or(OutOfReach { leg: i });
+    let rows = [row(0)?.row, row(1)?.row, row(2)?.row];
+    let zero = model.width[0].integer_like(0);
+    let zeros = || from_fn(|_| from_fn(|_| zero.clone()));
+    let slopes = [zeros(), zeros(), zeros()];
+    Ok(Expansion { matrix: rows, slopes, rho: [None, None, None], hull: Hull::CELL })
+}
+
 /// A cell in the terms that legs are met in.
 pub struct Region<S> {
     /// `w_i` at the expansion point.

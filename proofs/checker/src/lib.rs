@@ -20,13 +20,17 @@
 //! | [`expansion`]   | `M` over a cell, as a point value and slopes                           |
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
+//! | [`atlas`]       | maps of a box of parameters: the claims of its cells, their shares     |
 //! | [`postulate`]   | the Q1/Q2 postulate: blow-up, faces, tight edges                       |
 //! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
+//! | [`paving`]      | pavings of a search box: inner, outer and boundary cells               |
+//! | [`word`]        | fixed-point intervals over machine words, as [`fixed`] but faster      |
 //! | [`statement`]   | the claim in words                                                     |
 
 #![forbid(unsafe_code)]
 
+pub mod atlas;
 pub mod cell;
 pub mod certificate;
 mod check;
@@ -40,12 +44,14 @@ pub mod kinematics;
 pub mod linear;
 pub mod model;
 pub mod number;
+pub mod paving;
 pub mod postulate;
 pub mod rule;
 pub mod statement;
 mod strict;
 pub mod trig;
 pub mod witness;
+pub mod word;
 
 pub use check::{
     check, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded, Rejected, TreeSize,

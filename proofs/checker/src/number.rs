@@ -7,6 +7,12 @@
 //! literal = digits [ "." digits ] [ ("e" | "E") [ "+" | "-" ] digits ]
 //! ```
 //!
+//! In the design of an atlas, a `unary` may also be a name, of a parameter:
+//! `letter { letter | digit | "_" }`, small letters only. An expression with names is *open*
+//! ([`Exact::is_open`]): it has no sign, order or enclosure, so that nothing is proved of it, and
+//! what its divisors and radicands have to be is proved when the names are given values
+//! ([`crate::atlas`]).
+//!
 //! Rational parts are folded, so `0.5 + 1/3` is the rational `5/6`; square roots of squares are
 //! rational. What remains is a tree whose value is enclosed to any precision by [`Exact::enclose`].
 //! [`Exact`]'s text form is canonical: it parses back to the same tree, and a certificate must use
@@ -29,6 +35,8 @@ pub const MAX_NESTING: usize = 64;
 /// Most digits of one literal of a canonical text (a decimal of 1,000 digits times `10^-1000`
 /// makes a denominator of up to 2,000 digits).
 pub const MAX_DIGITS: usize = 2100;
+/// Most bytes of a name.
+pub const MAX_NAME: usize = 32;
 /// Largest exponent of ten of a literal, either way.
 pub const MAX_EXPONENT: i64 = 1000;
 /// Most bits of a numerator or denominator of a folded rational.
@@ -53,6 +61,8 @@ pub enum Exact {
     Div(Box<Exact>, Box<Exact>),
     /// `sqrt(x)`, `x >= 0` and not the square of a rational number.
     Sqrt(Box<Exact>),
+    /// A parameter of an atlas.
+    Name(Box<str>),
 }
 
 /// Why a text is not a number; `at` is a byte offset into the text.
@@ -118,10 +128,21 @@ impl Exact {
 
     /// Parses an expression; literals have at most `max_digits` digits.
     pub fn parse(text: &str, max_digits: usize) -> Result<Self, NumberError> {
+        Exact::parse_with(text, max_digits, false)
+    }
+
+    /// Parses an expression that may have names.
+    pub fn parse_open(text: &str, max_digits: usize) -> Result<Self, NumberError> {
+        Exact::parse_with(text, max_digits, true)
+    }
+
+    fn parse_with(text: &str, max_digits: usize, names: bool) -> Result<Self, NumberError> {
         if text.len() > MAX_TEXT {
             return Err(NumberError { at: MAX_TEXT, kind: NumberErrorKind::TooLarge });
         }
-        let mut parser = Parser { text: text.as_bytes(), at: 0, depth: 0, literals: 0, max_digits };
+        let text_bytes = text.as_bytes();
+        let mut parser =
+            Parser { text: text_bytes, at: 0, depth: 0, literals: 0, max_digits, names };
         let value = parser.sum()?;
         parser.skip_blank();
         if parser.at < text.len() {
@@ -130,9 +151,9 @@ impl Exact {
         Ok(value.value)
     }
 
-    /// Parses a canonical text: exactly what [`Exact`] prints.
+    /// Parses a canonical text, with or without names: exactly what [`Exact`] prints.
     pub fn parse_canonical(text: &str) -> Result<Self, NumberError> {
-        let value = Exact::parse(text, MAX_DIGITS)?;
+        let value = Exact::parse_open(text, MAX_DIGITS)?;
         if value.to_string() != text {
             return Err(NumberError { at: 0, kind: NumberErrorKind::Expected("canonical form") });
         }
@@ -147,8 +168,21 @@ impl Exact {
         }
     }
 
+    /// Whether the expression has a name, so that it is not a number.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Exact::Rational(_) => false,
+            Exact::Name(_) => true,
+            Exact::Neg(x) | Exact::Sqrt(x) => x.is_open(),
+            Exact::Add(x, y) | Exact::Sub(x, y) | Exact::Mul(x, y) | Exact::Div(x, y) => {
+                x.is_open() || y.is_open()
+            }
+        }
+    }
+
     /// An enclosure of `self / 2^scale` with `bits` fractional bits; the tightest one for
-    /// rationals. `None` where the precision does not suffice to divide or take a root.
+    /// rationals. `None` where the precision does not suffice to divide or take a root, and for
+    /// what is open.
     pub fn enclose(&self, scale: i64, bits: u32) -> Option<Fixed> {
         if let Exact::Rational(x) = self {
             return Some(Fixed::rational(x, scale, bits));
@@ -168,6 +202,7 @@ impl Exact {
             Exact::Mul(x, y) => Some(x.enclose_at(bits)?.mul(&y.enclose_at(bits)?)),
             Exact::Div(x, y) => x.enclose_at(bits)?.div(&y.enclose_at(bits)?),
             Exact::Sqrt(x) => x.enclose_at(bits)?.sqrt(),
+            Exact::Name(_) => None,
         }
     }
 
@@ -219,7 +254,7 @@ impl Exact {
         fold(self, other, |x, y| x * y, Exact::Mul)
     }
 
-    /// `self / other`; refused unless `other` is provably not zero.
+    /// `self / other`; refused unless `other` is open or provably not zero.
     pub fn over(self, other: Exact) -> Result<Self, NumberErrorKind> {
         let sign = other.sign();
         self.over_with_sign(other, sign)
@@ -228,12 +263,13 @@ impl Exact {
     /// `self / other`, for an `other` of this sign.
     fn over_with_sign(self, other: Exact, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
         match sign {
+            None if other.is_open() => fold(self, other, |x, y| x / y, Exact::Div),
             None | Some(0) => Err(NumberErrorKind::DivisorMayBeZero),
             Some(_) => fold(self, other, |x, y| x / y, Exact::Div),
         }
     }
 
-    /// `sqrt(self)`; refused unless `self` is provably not negative.
+    /// `sqrt(self)`; refused unless `self` is open or provably not negative.
     pub fn root(self) -> Result<Self, NumberErrorKind> {
         let sign = self.sign();
         self.root_with_sign(sign)
@@ -242,6 +278,7 @@ impl Exact {
     /// `sqrt(self)`, for a `self` of this sign.
     fn root_with_sign(self, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
         match sign {
+            None if self.is_open() => {}
             None | Some(-1) => return Err(NumberErrorKind::RadicandMayBeNegative),
             Some(_) => {}
         }
@@ -260,7 +297,7 @@ impl Exact {
         match self {
             Exact::Rational(x) if !x.denom().is_one() => 2,
             Exact::Rational(x) if x.is_negative() => 3,
-            Exact::Rational(_) | Exact::Sqrt(_) => 4,
+            Exact::Rational(_) | Exact::Sqrt(_) | Exact::Name(_) => 4,
             Exact::Add(..) | Exact::Sub(..) => 1,
             Exact::Mul(..) | Exact::Div(..) => 2,
             Exact::Neg(_) => 3,
@@ -310,6 +347,7 @@ impl fmt::Display for Exact {
         let (x, sign, y, left, right) = match self {
             Exact::Rational(x) => return write!(f, "{x}"),
             Exact::Sqrt(x) => return write!(f, "sqrt({x})"),
+            Exact::Name(name) => return f.write_str(name),
             Exact::Neg(x) => {
                 f.write_str("-")?;
                 return operand(f, x, 3);
@@ -357,6 +395,7 @@ impl Traced {
             Exact::Mul(..) => Some(operand(0)?.mul(operand(1)?)),
             Exact::Div(..) => operand(0)?.div(operand(1)?),
             Exact::Sqrt(_) => operand(0)?.sqrt(),
+            Exact::Name(_) => None,
         }
     }
 
@@ -404,6 +443,8 @@ struct Parser<'a> {
     depth: usize,
     literals: usize,
     max_digits: usize,
+    /// Whether names are numbers.
+    names: bool,
 }
 
 impl Parser<'_> {
@@ -484,6 +525,10 @@ impl Parser<'_> {
             let value = self.sum()?;
             return self.closed(value);
         }
+        let word = self.word();
+        if self.names && word > 0 && self.text.get(self.at..self.at + word) != Some(b"sqrt") {
+            return Ok(Traced::new(self.name(word)?, Vec::new()));
+        }
         if self.text.get(self.at..).is_some_and(|rest| rest.starts_with(b"sqrt")) {
             self.at += 4;
             if !self.eat(b'(') {
@@ -495,6 +540,27 @@ impl Parser<'_> {
             return self.combine(at, radicand.root());
         }
         Ok(Traced::new(self.literal()?, Vec::new()))
+    }
+
+    /// The number of bytes of the name or `sqrt` that begins here; 0 if none does.
+    fn word(&self) -> usize {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let letters = |c: &&u8| matches!(c, b'a'..=b'z' | b'0'..=b'9' | b'_');
+        match rest.first() {
+            Some(b'a'..=b'z') => rest.iter().take_while(letters).count(),
+            _ => 0,
+        }
+    }
+
+    fn name(&mut self, length: usize) -> Result<Exact, NumberError> {
+        self.literals += 1;
+        if self.literals > MAX_LITERALS || length > MAX_NAME {
+            return Err(self.error(NumberErrorKind::TooLarge));
+        }
+        let name = self.text.get(self.at..self.at + length).unwrap_or_default();
+        let name = String::from_utf8_lossy(name).into();
+        self.at += length;
+        Ok(Exact::Name(name))
     }
 
     fn closed(&mut self, value: Traced) -> Result<Traced, NumberError> {

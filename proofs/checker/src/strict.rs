@@ -1,7 +1,7 @@
 //! Reading nothing but the format: derived readers also take an array of the fields' values, in
 //! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::{MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
+use crate::certificate::{MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -117,6 +117,24 @@ where
     objects(deserializer, MAX_PARTS)
 }
 
+/// Reads an array of at most three objects.
+pub(crate) fn parameters<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    objects(deserializer, 3)
+}
+
+/// Reads an array of at most [`MAX_CELLS`] names or objects.
+pub(crate) fn cells<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    list(deserializer, MAX_CELLS)
+}
+
 /// Reads an array of at most [`MAX_STEPS`] names or objects.
 pub(crate) fn steps<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
 where
@@ -177,4 +195,13 @@ where
     T: Deserialize<'de>,
 {
     three(deserializer).map(Some)
+}
+
+/// Reads an optional name.
+pub(crate) fn optional_name<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    name(deserializer).map(Some)
 }

@@ -1,14 +1,15 @@
 //! Refutations: one machine, one point, one provably violated requirement.
 
-use crate::certificate::{TwoDirections, Violation, Witness, PRECISIONS};
+use crate::cell::Cell;
+use crate::certificate::{Violation, Witness, PRECISIONS};
 use crate::claim::{ClaimError, Leg, MachineClaim, Mechanism, Workspace};
 use crate::enclosure::{Enclosure, Scalar};
 use crate::fixed::Fixed;
-use crate::kinematics::{JointCoordinate, LegState};
-use crate::linear::{apply, determinant, norm_squared, Matrix, Vector};
-use crate::model::{CubeConstants, JointRange, Model};
+use crate::kinematics::LegState;
+use crate::linear::{determinant, Matrix};
+use crate::model::{CubeConstants, Model};
 use crate::number::Exact;
-use crate::rule::difference;
+use crate::rule::{self, Failure};
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -39,6 +40,17 @@ pub enum WitnessError {
 impl From<ClaimError> for WitnessError {
     fn from(error: ClaimError) -> Self {
         WitnessError::Claim(error)
+    }
+}
+
+impl From<Failure> for WitnessError {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::NoSuchBound => WitnessError::NoSuchBound,
+            Failure::NoSuchLeg(leg) => WitnessError::NoSuchLeg(leg),
+            Failure::ZeroVector => WitnessError::ZeroVector,
+            _ => WitnessError::NotViolated,
+        }
     }
 }
 
@@ -74,22 +86,37 @@ pub fn check(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError
     }
     claim.validate()?;
     admit_machine(claim, witness.machine.as_ref())?;
+    violated_at_the_point(claim, witness)
+}
+
+/// Accepts a witness, without a machine, that proves the claim false of **every** machine within
+/// its tolerances: at one point, every one of them violates the same requirement.
+///
+/// **Lemma.** The evaluation below without a machine is that of [`check`] with every parameter
+/// enclosed by its whole interval. An enclosure that is certainly beyond a bound is so for the value
+/// of every machine. ∎
+///
+/// # Errors
+/// If it does not.
+pub fn check_every_machine(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError> {
+    if !PRECISIONS.contains(&witness.precision) {
+        return Err(WitnessError::Precision(witness.precision));
+    }
+    if witness.machine.is_some() {
+        return Err(WitnessError::MachineMismatch);
+    }
+    claim.validate()?;
+    violated_at_the_point(claim, witness)
+}
+
+fn violated_at_the_point(claim: &MachineClaim, witness: &Witness) -> Result<(), WitnessError> {
     let model = model_at(claim, witness, &witness.point)?;
     match &witness.violates {
-        Violation::SigmaMin(direction) => stretch(&model, &direction.vector, false),
-        Violation::SigmaMax(direction) => stretch(&model, &direction.vector, true),
-        Violation::Reach(leg) => unreachable(&model, leg.leg),
-        Violation::JointRange(leg) => beyond_range(&model, leg.leg),
-        Violation::Conditioning(directions) => ill_conditioned(&model, directions),
-        Violation::SerialMargin(leg) => {
-            oblique(&model, leg.leg, model.bounds.serial_margin.as_ref())
-        }
-        Violation::LegAngle(leg) => oblique(&model, leg.leg, model.bounds.leg_angle.as_ref()),
-        Violation::ParallelMargin => near_singular(&model),
-        Violation::JointSpeed(leg) => too_fast(&model, leg.leg),
         Violation::Singular(second) => {
             opposite_signs(&model, &model_at(claim, witness, &second.other)?)
         }
+        // The model has no width: every cell of it is the point.
+        violation => Ok(rule::violated(&model, &Cell::ROOT, violation)?),
     }
 }
 
@@ -175,108 +202,12 @@ fn matrix(model: &Model<Fixed>) -> Result<Matrix<Fixed>, WitnessError> {
     Ok(states.map(|state| state.row))
 }
 
-/// `|M v|^2 > k^2 |v|^2` (`longer`), or `|M v|^2 < kappa^2 |v|^2`, where every leg reaches `P`:
-/// then `sigma_max(M) > k`, or `sigma_min(M) < kappa`.
-fn stretch(model: &Model<Fixed>, v: &[i64; 3], longer: bool) -> Result<(), WitnessError> {
-    let (image, length) = stretched(&matrix(model)?, v)?;
-    let excess = if longer {
-        let k = model.bounds.k.as_ref().ok_or(WitnessError::NoSuchBound)?;
-        image.sub(&k.sqr().mul(&length))
-    } else {
-        if !model.bounds.kappa.is_positive() {
-            return Err(WitnessError::NoSuchBound);
-        }
-        model.bounds.kappa.sqr().mul(&length).sub(&image)
-    };
-    violated(excess.is_positive())
-}
-
-/// `|M v|^2` and `|v|^2`, for `v` not zero.
-fn stretched(m: &Matrix<Fixed>, v: &[i64; 3]) -> Result<(Fixed, Fixed), WitnessError> {
-    if *v == [0; 3] {
-        return Err(WitnessError::ZeroVector);
-    }
-    let v: Vector<Fixed> = v.map(|x| Fixed::integer(x, m[0][0].bits()));
-    Ok((norm_squared(&apply(m, &v)), norm_squared(&v)))
-}
-
-/// `|M u|/|u| > c |M v|/|v|`: then `sigma_max(M) > c sigma_min(M)`.
-fn ill_conditioned(model: &Model<Fixed>, directions: &TwoDirections) -> Result<(), WitnessError> {
-    let c = model.bounds.conditioning.as_ref().ok_or(WitnessError::NoSuchBound)?;
-    let m = matrix(model)?;
-    let (image_u, length_u) = stretched(&m, &directions.u)?;
-    let (image_v, length_v) = stretched(&m, &directions.v)?;
-    let least = c.sqr().mul(&image_v).mul(&length_u);
-    violated(image_u.mul(&length_v).sub(&least).is_positive())
-}
-
-/// The leg reaches `P` with `(eta_i / L_i)^2` certainly less than `bound`.
-fn oblique(model: &Model<Fixed>, leg: usize, bound: Option<&Fixed>) -> Result<(), WitnessError> {
-    let (i, bound) = (position(leg)?, bound.ok_or(WitnessError::NoSuchBound)?);
-    let cosine = model.legs[i].cosine_squared(&model.origin[i]).ok_or(WitnessError::NoSuchBound)?;
-    violated(bound.sub(&cosine).is_positive())
-}
-
-/// `|det A| / (L_1 L_2 L_3)` is certainly less than its bound.
-fn near_singular(model: &Model<Fixed>) -> Result<(), WitnessError> {
-    let bound = model.bounds.parallel_margin.as_ref().ok_or(WitnessError::NoSuchBound)?;
-    let unit = |i: usize| {
-        let w = &model.origin[i];
-        model.legs[i].expand_unit(w, w).map(|(unit, _)| unit).ok_or(WitnessError::NotViolated)
-    };
-    let det = determinant(&[unit(0)?, unit(1)?, unit(2)?]);
-    violated(bound.sub(&det).is_positive() && bound.add(&det).is_positive())
-}
-
-/// `|row_i of M|` is certainly greater than its bound.
-fn too_fast(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
-    let i = position(leg)?;
-    let bound = model.bounds.joint_speed.as_ref().ok_or(WitnessError::NoSuchBound)?;
-    let state = model.legs[i].at(&model.origin[i]).ok_or(WitnessError::NotViolated)?;
-    violated(norm_squared(&state.row).sub(&bound.sqr()).is_positive())
-}
-
 fn violated(provably: bool) -> Result<(), WitnessError> {
     if provably {
         Ok(())
     } else {
         Err(WitnessError::NotViolated)
     }
-}
-
-fn position(leg: usize) -> Result<usize, WitnessError> {
-    match leg {
-        1..=3 => Ok(leg - 1),
-        _ => Err(WitnessError::NoSuchLeg(leg)),
-    }
-}
-
-/// The leg's clearance is certainly `<= 0`: it is out of reach, or serially singular.
-fn unreachable(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
-    let i = position(leg)?;
-    let clearance = model.legs[i].clearance(&model.origin[i]);
-    violated(clearance.neg().is_nonnegative())
-}
-
-/// The leg reaches `P` with a joint coordinate that is certainly outside its range.
-fn beyond_range(model: &Model<Fixed>, leg: usize) -> Result<(), WitnessError> {
-    let i = position(leg)?;
-    let ranges = model.bounds.joint_range.as_ref().ok_or(WitnessError::NoSuchBound)?;
-    let state = model.legs[i].at(&model.origin[i]).ok_or(WitnessError::NotViolated)?;
-    violated(match (&state.rho, &ranges[i]) {
-        (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
-            min.as_ref().is_some_and(|min| min.sub(rho).is_positive())
-                || max.as_ref().is_some_and(|max| rho.sub(max).is_positive())
-        }
-        // Either sine is negative outside the range only, see `rule::range`.
-        (JointCoordinate::Angle { cos, sin }, JointRange::Angle { min, max }) => {
-            let theta = (cos.clone(), sin.clone());
-            let (above, _) = difference(&theta, min);
-            let (below, _) = difference(max, &theta);
-            above.neg().is_positive() || below.neg().is_positive()
-        }
-        _ => false,
-    })
 }
 
 /// **Lemma.** If one machine's `det M` has opposite signs at two points of a convex workspace, as

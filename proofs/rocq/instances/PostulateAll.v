@@ -1,8 +1,8 @@
-(** Written by `orthocert export rocq`; nothing here is trusted but what is read: the last theorem,
-    with the definitions of Postulate.v and Kinematics.v. *)
+(** Written by `orthocert export rocq`; nothing here is trusted but what is read: the theorem
+    `certified`, with the definitions of Postulate.v and Kinematics.v. *)
 
 From Coq Require Import ZArith Reals.
-From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Checker CheckerPostulate.
+From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim Checker CheckerPostulate.
 Local Open Scope R_scope.
 
 Definition q1_low : face_tree :=

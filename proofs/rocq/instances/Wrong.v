@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith List.
 From Orthocert Require Import Claim Checker CheckerPostulate.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 (** The first leaf left without a rule. *)
@@ -63,9 +63,6 @@ Example bound_tightened : accepts (with_bounds claim (1 // 2) (3 // 2)) certific
 Proof. vm_compute. reflexivity. Qed.
 End Delta.
 
-Module PostulateForAll.
-Import PostulateAll.
-
 Fixpoint map_rules (f : face_rule -> face_rule) (t : face_tree) : face_tree :=
   match t with
   | FaceLeaf by_ => FaceLeaf (f by_)
@@ -78,6 +75,9 @@ Fixpoint first_by (rule : face_rule) (t : face_tree) : face_tree :=
   | FaceLeaf _ => FaceLeaf rule
   | FaceSplit k first second => FaceSplit k (first_by rule first) second
   end.
+
+Module PostulateForAll.
+Import PostulateAll.
 
 Local Notation accepts := (check_postulate 64).
 
@@ -93,3 +93,21 @@ Proof. vm_compute. reflexivity. Qed.
 Example halves_exchanged : accepts q1_low q1_high q2_high q2_low = false.
 Proof. vm_compute. reflexivity. Qed.
 End PostulateForAll.
+
+(** Trees prove the range of kappa that they were found for, and a greatest psi no greater than theirs. *)
+Module PostulateForARange.
+Import PostulateUpTo2.
+Local Notation accepts := (check_postulate_up_to 64).
+
+Example greatest_increased : accepts (2000001 // 1000000) q1 q2 = false.
+Proof. vm_compute. reflexivity. Qed.
+Example trees_of_kappa_above_half_also_below :
+  accepts (3 // 1) (Both q1_high q1_high) (Both q2_high q2_high) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example tree_of_kappa_below_half_above : accepts (2 // 1) (HighOnly PostulateAll.q1_low) q2 = false.
+Proof. vm_compute. reflexivity. Qed.
+Example greatest_not_above_one : accepts (1 // 1) q1 q2 = false. Proof. vm_compute. reflexivity. Qed.
+Example edge_rule_replaced : accepts (2 // 1) (HighOnly (first_by BlowUp q1_high)) q2 = false.
+Proof. vm_compute. reflexivity. Qed.
+Example faces_exchanged : accepts (2 // 1) q2 q1 = false. Proof. vm_compute. reflexivity. Qed.
+End PostulateForARange.

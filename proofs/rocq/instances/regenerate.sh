@@ -13,7 +13,14 @@ instance() { # name of the instance, design
     "$orthocert" export rocq "$work/$1.json" -o "$here/$1.v"
 }
 
+postulate() { # name of the instance, flags
+    name=$1
+    shift
+    "$orthocert" postulate "$@" -o "$work/$name.json" > /dev/null
+    "$orthocert" export rocq "$work/$name.json" -o "$here/$name.v"
+}
+
 instance OrthoglideTolerance "$root/tests/designs/orthoglide-tolerance.toml"
 instance LinearDelta "$here/linear-delta.toml"
-"$orthocert" postulate --all -o "$work/PostulateAll.json" > /dev/null
-"$orthocert" export rocq "$work/PostulateAll.json" -o "$here/PostulateAll.v"
+postulate PostulateAll --all
+postulate PostulateUpTo2 --psi-range 1.5..2

@@ -1,7 +1,7 @@
 //! Every class of bad structure: keys, types, words, conflicts, syntax.
 
 use super::*;
-use crate::design::document::Document;
+use crate::design::document::{Document, Names};
 use crate::design::ill_formed;
 use orthocert_checker::claim::ClaimError;
 use Defect::{
@@ -284,7 +284,7 @@ fn deep_nesting_is_refused_without_recursion() {
 #[test]
 fn a_claim_refused_as_a_whole_points_to_the_table_at_fault() {
     let tree = toml::de::DeTable::parse(LEGS).unwrap();
-    let root = Document { file: "test.toml", text: LEGS }.root(tree.get_ref());
+    let root = Document { file: "test.toml", text: LEGS, names: Names::None }.root(tree.get_ref());
     for (error, line) in [
         (ClaimError::Reversed("leg 2: length".into()), 1),
         (ClaimError::Reversed("workspace along x".into()), 22),

@@ -1,17 +1,18 @@
-//! `orthocert-check CERT.json`: exit 0 for an accepted certificate that certifies, 1 for an
-//! accepted refutation, 5 for a certificate that proves nothing, 2 for bad usage.
+//! `orthocert-check FILE`: exit 0 for an accepted certificate that certifies and for an accepted
+//! paving, 1 for an accepted refutation, 5 for a file that proves nothing, 2 for bad usage.
 
 #![forbid(unsafe_code)]
 
 use orthocert_checker::certificate::{Verdict, MAX_BYTES};
+use orthocert_checker::paving::{self, Extent};
 use orthocert_checker::{check, read, statement};
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{BufReader, Read, Write};
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: orthocert-check CERT.json
+const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
 
-Re-proves an orthocert certificate in exact arithmetic and prints what it establishes.
+Re-proves an orthocert certificate or paving in exact arithmetic and prints what it establishes.
 exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
 
 fn main() -> ExitCode {
@@ -35,6 +36,9 @@ fn main() -> ExitCode {
         eprintln!("orthocert-check: {}: {error}", path.display());
         return ExitCode::from(2);
     }
+    if paving::is_paving(&bytes) {
+        return check_paving(path);
+    }
     let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     match accepted {
         Ok((accepted, certificate)) => {
@@ -44,6 +48,19 @@ fn main() -> ExitCode {
                 Verdict::Refuted => ExitCode::from(1),
             };
             print(&format!("ACCEPTED: {}\n{}", accepted.verdict, words.unwrap_or_default()), code)
+        }
+        Err(reason) => {
+            eprintln!("REJECTED: {reason}");
+            ExitCode::from(5)
+        }
+    }
+}
+
+fn check_paving(path: &std::ffi::OsStr) -> ExitCode {
+    match paving::check(|| File::open(path).map(BufReader::new), Extent::All) {
+        Ok(accepted) => {
+            let words = statement::paving(&accepted).unwrap_or_default();
+            print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
         }
         Err(reason) => {
             eprintln!("REJECTED: {reason}");

@@ -204,6 +204,11 @@ impl<S: Scalar> Arm<S> {
         self.d(&dot(&self.k, w), &self.g(w)?).div(&self.length.sqr())
     }
 
+    /// `r^2 D / L^2`.
+    pub(super) fn inverse_row_squared(&self, w: &Vector<S>) -> Option<S> {
+        Some(self.r.sqr().mul(&self.cosine_squared(w)?))
+    }
+
     /// The leg is `w - u` with the elbow `u = (r/N) (g h - m sqrt(D) k x h)`: substituting
     /// `alpha e + beta f = h` and `beta e - alpha f = -(k x h)` in `cos theta e + sin theta f`. Its
     /// unit vector `(w - u)/L` has the slope `(I - slope of u)/L`, with

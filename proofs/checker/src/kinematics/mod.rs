@@ -175,6 +175,21 @@ impl<S: Scalar> Leg<S> {
         }
     }
 
+    /// `c_i = 1 / |row_i of M|^2` where the leg reaches `w` and is not serially singular, and not
+    /// positive elsewhere; `None` for legs whose row is a unit vector.
+    ///
+    /// *Why.* The row of a slider is its leg vector over `eta`, `|row| = L/s`; that of an arm is
+    /// its leg vector over the component `r eta` along the elbow's motion, `|row| = L/(r sqrt(D))`.
+    /// So `c_i` is [`Leg::cosine_squared`], times `r^2` for an arm: `1 - |r|^2/L^2` and `r^2 D/L^2`,
+    /// defined everywhere.
+    pub fn inverse_row_squared(&self, w: &Vector<S>) -> Option<S> {
+        match self {
+            Leg::Slider(leg) => leg.cosine_squared(w),
+            Leg::Arm(leg) => leg.inverse_row_squared(w),
+            Leg::Strut(_) | Leg::Planar(_) => None,
+        }
+    }
+
     /// The unit leg vector `(c_i - b_i) / L_i`, a row of `A` divided by the leg's length, about
     /// `centre` over `over`; for a planar leg, its direction.
     pub fn expand_unit(&self, centre: &Vector<S>, over: &Vector<S>) -> Option<UnitExpansion<S>> {

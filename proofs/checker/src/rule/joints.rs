@@ -4,15 +4,17 @@ use super::Failure;
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, Region};
+use crate::hull::Hull;
 use crate::kinematics::{JointCoordinate, Leg};
-use crate::linear::norm_squared;
+use crate::linear::{norm_squared, Vector};
 use crate::model::{JointRange, Model};
 
 /// **Joint range.** Each `rho_i` lies in its range on the cell.
 ///
 /// *Proof.* A length `rho_i` on the cell is in the value of its formula over the cell, and in
 /// the hull of `rho_i(c) + sum_k lambda_k h_k g_k` at the vertices, by the slope identity, as it is
-/// affine in `lambda`; both enclose the same numbers, so their intersection does. It is compared with the range, ends included.
+/// affine in `lambda`; both enclose the same numbers, so their intersection does. It is compared
+/// with the range, ends included.
 ///
 /// An angle is given by its cosine and sine over the cell, and its range spans less than half a
 /// turn. Let `x = theta - min` in `[0, 360)` degrees. `sin(x) >= 0` gives `x <= 180`; then
@@ -27,17 +29,10 @@ pub fn range<S: Enclosure>(
     let ranges = model.bounds.joint_range.as_ref().ok_or(Failure::NoSuchBound)?;
     let over = Region::new(model, cell, ExpansionPoint::Centre).over;
     for (leg, range) in ranges.iter().enumerate() {
-        let state = model.legs[leg].at(&over[leg]).ok_or(Failure::OutOfReach(leg))?;
-        let within = match (state.rho, range) {
+        let slope = expansion.rho[leg].as_ref();
+        let rho = coordinate(&model.legs[leg], &over[leg], slope, &expansion.hull);
+        let within = match (rho.ok_or(Failure::OutOfReach(leg))?, range) {
             (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
-                let rho = match &expansion.rho[leg] {
-                    Some((at, [x, y, z])) => {
-                        let ends = expansion.hull.vertices().map(|v| v.affine(at, [x, y, z]));
-                        let spread = ends.reduce(|a, b| a.join(&b)).unwrap_or_else(|| rho.clone());
-                        rho.meet(&spread).ok_or(Failure::OutOfReach(leg))?
-                    }
-                    None => rho,
-                };
                 min.as_ref().is_none_or(|min| rho.sub(min).is_nonnegative())
                     && max.as_ref().is_none_or(|max| max.sub(&rho).is_nonnegative())
             }
@@ -53,8 +48,27 @@ pub fn range<S: Enclosure>(
     Ok(())
 }
 
+/// `rho_i` for `w` in `over`: a length is in the value of its formula and in its slope form
+/// (`slope`: `rho_i(c)` and `h_k g_k`) at the vertices of `hull`, so in their intersection. `None`
+/// unless the leg certainly reaches `over`.
+pub(super) fn coordinate<S: Enclosure>(
+    leg: &Leg<S>,
+    over: &Vector<S>,
+    slope: Option<&(S, Vector<S>)>,
+    hull: &Hull,
+) -> Option<JointCoordinate<S>> {
+    match (leg.at(over)?.rho, slope) {
+        (JointCoordinate::Length(rho), Some((at, [x, y, z]))) => {
+            let ends = hull.vertices().map(|v| v.affine(at, [x, y, z]));
+            let spread = ends.reduce(|a, b| a.join(&b)).unwrap_or_else(|| rho.clone());
+            rho.meet(&spread).map(JointCoordinate::Length)
+        }
+        (rho, _) => Some(rho),
+    }
+}
+
 /// `sin(a - b)` and `cos(a - b)` of angles given by `(cos, sin)`.
-pub(crate) fn difference<S: Enclosure>(a: &(S, S), b: &(S, S)) -> (S, S) {
+pub(super) fn difference<S: Enclosure>(a: &(S, S), b: &(S, S)) -> (S, S) {
     let sin = a.1.mul(&b.0).sub(&a.0.mul(&b.1));
     let cos = a.0.mul(&b.0).add(&a.1.mul(&b.1));
     (sin, cos)

@@ -4,6 +4,7 @@ use super::Failure;
 use crate::cell::Cell;
 use crate::enclosure::Enclosure;
 use crate::expansion::{ExpansionPoint, Region};
+use crate::hull::Hull;
 use crate::kinematics::Leg;
 use crate::linear::{determinant, Matrix};
 use crate::model::Model;
@@ -72,6 +73,22 @@ fn cosines_at_least<S: Enclosure>(
 pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<(), Failure> {
     let bound = model.bounds.parallel_margin.as_ref().ok_or(Failure::NoSuchBound)?;
     let region = Region::new(model, cell, ExpansionPoint::Centre);
+    let varied = unit_determinant(model, &region, &region.hull)?;
+    let beyond = varied.sub(bound).is_nonnegative() || varied.neg().sub(bound).is_nonnegative();
+    if beyond {
+        Ok(())
+    } else {
+        Err(Failure::NearSingular)
+    }
+}
+
+/// `det U` over the part of a cell in `hull`, as in [`parallel_margin`]; `region` is about the
+/// cell's centre.
+pub(super) fn unit_determinant<S: Enclosure>(
+    model: &Model<S>,
+    region: &Region<S>,
+    hull: &Hull,
+) -> Result<S, Failure> {
     let unit = |i: usize| {
         let leg = &model.legs[i];
         leg.expand_unit(&region.at[i], &region.over[i]).ok_or(Failure::OutOfReach(i))
@@ -91,14 +108,8 @@ pub fn parallel_margin<S: Enclosure>(model: &Model<S>, cell: &Cell) -> Result<()
         first.add(&second).add(&third)
     };
     let (at, [x, y, z]) = (determinant(&c), [slope(0), slope(1), slope(2)]);
-    let ends = region.hull.vertices().map(|v| v.affine(&at, [&x, &y, &z]));
-    let varied = ends.reduce(|a, b| a.join(&b)).unwrap_or(at);
-    let beyond = varied.sub(bound).is_nonnegative() || varied.neg().sub(bound).is_nonnegative();
-    if beyond {
-        Ok(())
-    } else {
-        Err(Failure::NearSingular)
-    }
+    let ends = hull.vertices().map(|v| v.affine(&at, [&x, &y, &z]));
+    Ok(ends.reduce(|a, b| a.join(&b)).unwrap_or(at))
 }
 
 /// `[-1, 1] x`.

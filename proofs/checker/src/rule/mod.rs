@@ -14,6 +14,8 @@
 //! | `speed`      | `joint_speed`| [`speed`]: vertices of the rows of `M`                 |
 //! | `outside`    | all          | [`outside`]: no point of the cylinder                  |
 //!
+//! [`violated`] shows the opposite: that a requirement fails at every point of a cell.
+//!
 //! The steps `blow_up`, `edge` and `mirror` belong to the postulate, [`crate::postulate`].
 //!
 //! A rule does not know where in the tree it is used; [`crate::check`] adds that. The rules for
@@ -30,20 +32,21 @@ mod joints;
 mod margin;
 mod outside;
 mod vertex;
+mod violated;
 
 use crate::expansion::OutOfReach;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 pub use conditioning::{conditioning, Mu, MU_BITS};
-pub(crate) use joints::difference;
 pub use joints::{range, speed};
 pub use margin::{leg_angle, parallel_margin, serial_margin};
 pub use outside::outside;
 pub use vertex::{corner, cube, lower, upper, Rotation, TightCorner, MAX_QUATERNION};
+pub use violated::{shrunk, stretched, violated};
 
 /// What is to be shown of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Obligation {
@@ -131,6 +134,14 @@ pub enum Failure {
     NotEnclosed,
     /// The cell has points with `u_y < u_z`.
     NotMirrored,
+    /// The requirement is not certainly violated on the whole cell.
+    NotViolated,
+    /// A leg number that is not 1, 2 or 3.
+    NoSuchLeg(usize),
+    /// A direction that is zero.
+    ZeroVector,
+    /// An offset that is not one of the cube's points.
+    NotOfTheCube,
 }
 
 impl From<OutOfReach> for Failure {
@@ -170,6 +181,12 @@ impl fmt::Display for Failure {
             Failure::OtherKind => write!(f, "the rule belongs to another kind of tree"),
             Failure::NotEnclosed => write!(f, "the numbers cannot be enclosed"),
             Failure::NotMirrored => write!(f, "the box has points with u_y < u_z"),
+            Failure::NotViolated => {
+                write!(f, "the requirement is not provably violated on the whole box")
+            }
+            Failure::NoSuchLeg(leg) => write!(f, "there is no leg {leg}"),
+            Failure::NotOfTheCube => write!(f, "the offset is not a point of the cube"),
+            Failure::ZeroVector => write!(f, "the vector is zero"),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::claim::Sign;
 use crate::definite::is_positive_definite;
 use crate::enclosure::{Enclosure, Scalar};
 use crate::expansion::{Expansion, ExpansionPoint};
-use crate::hull::Vertex;
+use crate::hull::{Hull, Vertex};
 use crate::linear::{product, Matrix, Symmetric, Vector};
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
@@ -180,7 +180,7 @@ pub fn corner<S: Enclosure>(model: &Model<S>, expansion: &Expansion<S>) -> Resul
     let at_corner = Symmetric::twice_part_of(&expansion.matrix).minus_identity(&kappa);
     let slopes = from_fn(|k| Symmetric::twice_part_of(&expansion.slopes[k]));
     // The first vertex is the corner itself.
-    all_positive_definite(expansion.hull.vertices().skip(1), &at_corner, &slopes)
+    all_positive_definite(Hull::ABOUT_CORNER.vertices().skip(1), &at_corner, &slopes)
 }
 
 /// **Vertex rule, upper bound.** If `k^2 I - A(v)^T A(v)` is positive definite at the 8 vertices,

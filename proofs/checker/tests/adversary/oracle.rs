@@ -32,6 +32,7 @@ pub fn approximate(x: &Exact) -> f64 {
         Exact::Mul(x, y) => approximate(x) * approximate(y),
         Exact::Div(x, y) => approximate(x) / approximate(y),
         Exact::Sqrt(x) => approximate(x).sqrt(),
+        Exact::Name(_) => f64::NAN,
     }
 }
 
@@ -47,6 +48,7 @@ pub fn opinion(certificate: &Certificate, random: &mut Random, samples: u64) -> 
             }
             _ => Opinion::Agrees,
         },
+        (Claim::NoCube(_) | Claim::Atlas(_), _) => Opinion::None,
     }
 }
 
@@ -402,6 +404,9 @@ impl Place {
                 let rate = approximate(&speed.max) / approximate(&speed.tool);
                 self.too_fast(holds, leg.leg - 1, rate)
             }),
+            Violation::Row(leg) => {
+                min.is_none_or(|min| self.too_fast(holds, leg.leg - 1, 1.0 / min))
+            }
             // Two points are needed.
             Violation::Singular(_) => false,
         }

@@ -12,6 +12,8 @@
 //! | `slopes`     | expansions over random cells against exact values                         |
 //! | `acceptance` | rules on random cells, bounds near the truth: what is accepted is true    |
 //! | `tree`       | the walk over a tree: complete ones, and one defect each                  |
+//! | `violated`   | violations over a cell: accepted, rejected, and right                     |
+//! | `words`      | machine words against big integers                                        |
 
 mod acceptance;
 mod approximate;
@@ -25,3 +27,5 @@ mod random;
 mod rules;
 mod slopes;
 mod tree;
+mod violated;
+mod words;

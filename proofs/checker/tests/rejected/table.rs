@@ -24,7 +24,7 @@ pub enum Kind {
 }
 
 /// The file's name, the variant of the rejection, and words of the reason.
-pub const TABLE: [(&str, Kind, &str); 264] = [
+pub const TABLE: [(&str, Kind, &str); 265] = [
     // Bytes and JSON text.
     ("array-for-the-certificate", Syntax, "invalid type: sequence, expected an object"),
     ("blank", Syntax, "EOF while parsing a value"),
@@ -69,7 +69,7 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("precision-string", Syntax, r#"invalid type: string "64", expected u32"#),
     ("precision-zero", Tree, "precision 0 is not within 32..=1024"),
     // Numbers.
-    ("number-all", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-all", Claim, "has a name; only the design of an atlas has names"),
     ("number-as-json-float", Syntax, "'.' at byte 119, outside a string"),
     ("number-as-json-integer", Syntax, "invalid type: integer `200`, expected a string"),
     ("number-blank", Syntax, "expected canonical form"),
@@ -99,7 +99,7 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("number-unbalanced", Syntax, r#"expected ")""#),
     ("number-unfolded", Syntax, "expected canonical form"),
     ("number-unicode-digits", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
-    ("number-word", Syntax, r#"expected a number, "-", "(" or "sqrt""#),
+    ("number-word", Syntax, "unexpected text"),
     // Keys.
     ("duplicate-claim-kind", Syntax, "expected value"),
     ("duplicate-claim", Syntax, "duplicate field `claim`"),
@@ -191,7 +191,11 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
         r#"format "orthocert/2" is not known; this checker reads "orthocert/1""#,
     ),
     ("unknown-axis", Syntax, "unknown variant `w`"),
-    ("unknown-claim", Syntax, "unknown variant `folklore`, expected `machine` or `postulate`"),
+    (
+        "unknown-claim",
+        Syntax,
+        "unknown variant `folklore`, expected one of `machine`, `postulate`, `no_cube`, `atlas`",
+    ),
     ("unknown-corner", Syntax, "unknown variant `Q3`, expected `Q1` or `Q2`"),
     ("unknown-drive", Syntax, "unknown variant `hydraulic`"),
     ("unknown-proof", Syntax, "unknown variant `oracle`"),
@@ -657,6 +661,11 @@ pub const TABLE: [(&str, Kind, &str); 264] = [
     ("witness-singular-from-outside", Witness, "a point is not provably in the workspace"),
     (
         "witness-singular-with-equal-signs",
+        Witness,
+        "the requirement is not provably violated at the point",
+    ),
+    (
+        "witness-row-within-its-bound",
         Witness,
         "the requirement is not provably violated at the point",
     ),

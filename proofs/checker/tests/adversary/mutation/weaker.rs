@@ -35,6 +35,7 @@ pub fn known(claim: &Claim) -> bool {
             PsiMax::All => true,
             PsiMax::Range(range) => above_one(&range.min) && at_most(&range.min, &range.max),
         },
+        Claim::NoCube(_) | Claim::Atlas(_) => false,
         Claim::Machine(claim) => {
             let Workspace::Cube { side } = &claim.workspace else { return false };
             let alone = Requirements {

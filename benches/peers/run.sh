@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The same paving and the same yes/no questions for orthocert, Codac and IBEX, on this machine in one
+# run. Prints Markdown; what is compared, and how, stands in peers.py.
+# usage: benches/peers/run.sh [EDGE...] > benches/runs/DATE-peers.md
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$here/../.."
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+venv=${PEERS_VENV:-$scratch/venv}
+if [ ! -x "$venv/bin/python" ]; then
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
+fi
+cargo build --release --locked --quiet
+"$venv/bin/python" "$here/peers.py" "${CARGO_TARGET_DIR:-target}/release/orthocert" "$@"

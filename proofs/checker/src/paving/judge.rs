@@ -1,0 +1,104 @@
+//! What is shown of a cell, in exact arithmetic.
+
+use super::code::{Item, Kind};
+use super::reader::Visited;
+use super::{symmetry, Header, Rejected};
+use crate::cell::Cell;
+use crate::certificate::{Step, Violation, PRECISIONS};
+use crate::check::{bit, check_step, discharges, obligations, CentreExpansion, Discharged};
+use crate::enclosure::Enclosure;
+use crate::fixed::Fixed;
+use crate::model::Model;
+use crate::rule::{violated, Failure, Obligation};
+use crate::word::{Word, MAX_BITS};
+
+/// Checks the evidence of cells.
+///
+/// Every test is evaluated in [`Word`] where the precision admits it and, if it fails there, in
+/// [`Fixed`]: what the first accepts the second accepts, so the answer is that of [`Fixed`].
+pub struct Judge {
+    obligations: Vec<Obligation>,
+    word: Option<Model<Word>>,
+    fixed: Model<Fixed>,
+    symmetric: bool,
+}
+
+impl Judge {
+    /// For the pavings that begin with this header, which is checked.
+    pub fn new(header: &Header) -> Result<Self, Rejected> {
+        let claim = header.machine_claim()?;
+        if !PRECISIONS.contains(&header.precision) {
+            return Err(Rejected::Precision(header.precision));
+        }
+        let symmetric = header.symmetry.is_some();
+        if symmetric && !symmetry::is_symmetric(claim) {
+            return Err(Rejected::NotSymmetric);
+        }
+        let fixed = Model::new(claim, header.precision)?;
+        let word = (header.precision <= MAX_BITS).then(|| fixed.map(&Word::from_fixed));
+        Ok(Judge { obligations: obligations(&fixed), word, fixed, symmetric })
+    }
+
+    /// What is to be shown of an inner cell.
+    pub fn obligations(&self) -> &[Obligation] {
+        &self.obligations
+    }
+
+    /// Whether the steps discharge their obligations on the cell; else which does not, and why.
+    pub fn steps(&self, cell: &Cell, steps: &[Step]) -> Result<(), (&'static str, Failure)> {
+        match &self.word {
+            Some(word) if run(word, cell, steps).is_ok() => Ok(()),
+            _ => run(&self.fixed, cell, steps),
+        }
+    }
+
+    /// Whether the violation holds on all of the cell.
+    pub fn violation(&self, cell: &Cell, violation: &Violation) -> Result<(), Failure> {
+        match &self.word {
+            Some(word) if violated(word, cell, violation).is_ok() => Ok(()),
+            _ => violated(&self.fixed, cell, violation),
+        }
+    }
+
+    /// Checks the evidence of a node.
+    pub fn check(&self, visited: &Visited) -> Result<(), Rejected> {
+        let Visited { cell, inherited, item, node, .. } = visited;
+        let steps = |item: &Item| {
+            let not_applied = |(rule, failure)| Rejected::Step(*node, rule, failure);
+            self.steps(cell, &item.steps).map_err(not_applied)
+        };
+        match &item.kind {
+            Kind::Split(_) => steps(item),
+            Kind::Inner => {
+                steps(item)?;
+                let done = inherited | discharged(&item.steps);
+                match self.obligations.iter().find(|&&o| done & bit(o) == 0) {
+                    Some(&open) => Err(Rejected::Open(*node, open)),
+                    None => Ok(()),
+                }
+            }
+            Kind::Outer(violation) => {
+                self.violation(cell, violation).map_err(|failure| Rejected::Outer(*node, failure))
+            }
+            Kind::Mirrored if self.symmetric && symmetry::is_mirrored(cell) => Ok(()),
+            Kind::Mirrored => Err(Rejected::NotMirrored(*node)),
+            Kind::Boundary => Ok(()),
+        }
+    }
+}
+
+/// What steps discharge, as a bit for each obligation.
+pub(super) fn discharged(steps: &[Step]) -> Discharged {
+    steps.iter().fold(0, |done, step| done | discharges(step))
+}
+
+fn run<S: Enclosure>(
+    model: &Model<S>,
+    cell: &Cell,
+    steps: &[Step],
+) -> Result<(), (&'static str, Failure)> {
+    let centre = CentreExpansion::new();
+    steps.iter().try_for_each(|step| {
+        check_step(model, cell, step, &centre).map_err(|failure| (step.rule().0, failure))
+    })
+}

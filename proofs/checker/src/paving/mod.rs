@@ -1,0 +1,335 @@
+//! Pavings: a search box cut into cells, each shown to be within or outside the region where a
+//! claim holds, or left undecided. `FORMAT.md` is normative.
+//!
+//! | module     | holds                                                                 |
+//! |------------|-----------------------------------------------------------------------|
+//! | `code`     | the bytes of a node                                                   |
+//! | `judge`    | what is shown of a cell, in exact arithmetic                          |
+//! | `reader`   | the nodes of a paving, one by one, and their cells                    |
+//! | `symmetry` | machines that look the same from permuted axes                        |
+//!
+//! A claim about a box is true or false of each point of it: the *region* is the set of the points
+//! at which it is true for every machine of the claim. A paving is a bisection tree of the
+//! box; nothing of it is kept in memory but the path to the node that is read.
+
+mod code;
+mod judge;
+mod reader;
+mod symmetry;
+
+use crate::certificate::Provenance;
+use crate::claim::{Claim, ClaimError, MachineClaim, Workspace};
+use crate::number::Exact;
+use crate::rule::{Failure, Obligation};
+use crate::strict;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::io::{self, BufRead};
+
+pub use code::{Item, Kind};
+pub use judge::Judge;
+pub use reader::{header, Reader, Visited};
+pub use symmetry::{is_mirrored, is_symmetric, six_ordered};
+
+/// The format that this version reads and writes.
+pub const FORMAT: &str = "orthocert-paving/1";
+/// Most bytes of the header's and of the last line.
+pub const MAX_LINE: usize = 1 << 20;
+/// Deepest bisection of one axis: three of them are [`SHARE_BITS`].
+pub const MAX_AXIS_LEVEL: u32 = 40;
+/// Shares of the box's volume are multiples of `2^-SHARE_BITS`.
+pub const SHARE_BITS: u32 = 120;
+
+/// The first line of a paving.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// [`FORMAT`].
+    pub format: String,
+    /// The claim whose region is paved: about a machine and a box.
+    pub claim: Claim,
+    /// Fractional bits of the arithmetic in which the rules are to be evaluated.
+    pub precision: u32,
+    /// Most splits on a path.
+    pub depth: u32,
+    /// Present if cells are left out by symmetry.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional_name"
+    )]
+    pub symmetry: Option<Symmetry>,
+    /// Who wrote the paving. Never trusted, never needed.
+    #[serde(deserialize_with = "strict::object")]
+    pub provenance: Provenance,
+}
+
+/// A symmetry of the claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Symmetry {
+    /// Every permutation of the coordinates, see [`is_symmetric`].
+    Permutations,
+}
+
+impl Header {
+    /// The claim, if it is about a machine and a box that has a volume.
+    pub fn machine_claim(&self) -> Result<&MachineClaim, Rejected> {
+        let Claim::Machine(claim) = &self.claim else {
+            return Err(Rejected::NotABox);
+        };
+        claim.validate()?;
+        let Workspace::Box { min, max } = &claim.workspace else {
+            return Err(Rejected::NotABox);
+        };
+        let less = |(a, b): (&Exact, &Exact)| a.compare(b) == Some(std::cmp::Ordering::Less);
+        if min.iter().zip(max).all(less) {
+            Ok(claim)
+        } else {
+            Err(Rejected::NotABox)
+        }
+    }
+}
+
+/// The last line of a paving: how many nodes of each kind there are, and what they cover.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// Nodes that are split.
+    pub splits: u64,
+    /// Cells on which the claim holds.
+    pub inner: u64,
+    /// Cells on which it fails everywhere.
+    pub outer: u64,
+    /// Undecided cells.
+    pub boundary: u64,
+    /// Cells that are left out by symmetry.
+    pub mirrored: u64,
+    /// The inner cells' share of the box's volume; with symmetry, of all their images.
+    pub inner_share: Exact,
+    /// The undecided cells' share of the box's volume, likewise.
+    pub boundary_share: Exact,
+}
+
+/// The shares of a paving, in units of `2^-SHARE_BITS` of the box's volume.
+///
+/// **Lemma.** The volume of the region is at least that of the inner cells, and at most that of the
+/// inner and the undecided cells. *Proof.* Cells of a tree overlap in faces only; the region
+/// contains the inner cells and meets no outer one. With symmetry: let `D` be the points with
+/// `u_x <= u_y <= u_z`. The region and the box are invariant under the six permutations of the
+/// coordinates, whose images of `D` cover the box and overlap in planes only: volumes are six times
+/// those within `D`, which mirrored cells meet in no inner point. ∎
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shares {
+    /// Of the inner cells.
+    pub inner: u128,
+    /// Of the undecided cells.
+    pub boundary: u128,
+}
+
+impl Shares {
+    /// A number of units as a fraction of the box's volume.
+    pub fn fraction(units: u128) -> Exact {
+        let one = BigInt::from(1) << SHARE_BITS;
+        Exact::Rational(BigRational::new(BigInt::from(units), one))
+    }
+}
+
+/// Why a paving is rejected.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Rejected {
+    /// It cannot be read.
+    Io(io::Error),
+    /// The first line is not a header.
+    Header(String),
+    /// Another format or version.
+    Format(String),
+    /// The claim is not well formed.
+    Claim(ClaimError),
+    /// The claim is not about a machine and a box that has a volume.
+    NotABox,
+    /// The precision is not admissible.
+    Precision(u32),
+    /// The header's depth is more than [`SHARE_BITS`].
+    Depth(u32),
+    /// The claim does not have the symmetry.
+    NotSymmetric,
+    /// The bytes end within the tree.
+    Truncated(u64),
+    /// A byte that no node begins with, or evidence that is none.
+    BadCode(u64, u8),
+    /// A node has steps but is neither split nor inner.
+    IdleSteps(u64),
+    /// A cell is split more often than the header says, or an axis more than [`MAX_AXIS_LEVEL`].
+    TooDeep(u64),
+    /// A step does not discharge its obligation.
+    Step(u64, &'static str, Failure),
+    /// An inner cell leaves an obligation open.
+    Open(u64, Obligation),
+    /// A cell is not shown to be outside.
+    Outer(u64, Failure),
+    /// A cell is not left out by symmetry.
+    NotMirrored(u64),
+    /// The last line is not the summary of the tree.
+    Summary(String),
+}
+
+impl From<io::Error> for Rejected {
+    fn from(error: io::Error) -> Self {
+        Rejected::Io(error)
+    }
+}
+
+impl From<ClaimError> for Rejected {
+    fn from(error: ClaimError) -> Self {
+        Rejected::Claim(error)
+    }
+}
+
+impl fmt::Display for Rejected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Rejected::Io(error) => write!(f, "it cannot be read: {error}"),
+            Rejected::Header(message) => write!(f, "the first line is not a header: {message}"),
+            Rejected::Format(found) => {
+                write!(f, "format {found:?} is not known; this checker reads {FORMAT:?}")
+            }
+            Rejected::Claim(error) => write!(f, "the claim is not well formed: {error}"),
+            Rejected::NotABox => {
+                write!(f, "the claim is not about a machine and a box of positive volume")
+            }
+            Rejected::Precision(bits) => {
+                write!(f, "precision {bits} is not within {:?}", crate::certificate::PRECISIONS)
+            }
+            Rejected::Depth(depth) => write!(f, "depth {depth} is more than {SHARE_BITS}"),
+            Rejected::NotSymmetric => write!(
+                f,
+                "the claim is not provably the same in every permutation of the coordinates"
+            ),
+            Rejected::Truncated(node) => write!(f, "the bytes end within node {node}"),
+            Rejected::BadCode(node, byte) => {
+                write!(f, "node {node}: byte {byte:#04x} has no meaning there")
+            }
+            Rejected::IdleSteps(node) => {
+                write!(f, "node {node} has steps but is neither split nor inner")
+            }
+            Rejected::TooDeep(node) => write!(f, "node {node} is split too often"),
+            Rejected::Step(node, rule, failure) => {
+                write!(f, "node {node}: rule \"{rule}\" does not apply: {failure}")
+            }
+            Rejected::Open(node, obligation) => {
+                write!(f, "node {node} is inner, but {obligation} is not discharged on its path")
+            }
+            Rejected::Outer(node, failure) => write!(f, "node {node} is not outer: {failure}"),
+            Rejected::NotMirrored(node) => write!(
+                f,
+                "node {node} is left out by symmetry, but has points with u_x < u_y < u_z"
+            ),
+            Rejected::Summary(message) => {
+                write!(f, "the last line is not the summary of the tree: {message}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Rejected {}
+
+/// Whether a file that begins with these bytes is meant as a paving.
+pub fn is_paving(bytes: &[u8]) -> bool {
+    let name = b"\"orthocert-paving/";
+    let start = bytes.get(..64).unwrap_or(bytes);
+    start.windows(name.len()).any(|window| window == name)
+}
+
+/// Which cells' evidence is checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// That of every node.
+    All,
+    /// That of every split node, and of this many inner and outer cells drawn without
+    /// replacement: any set of that size is as likely as another for a random seed.
+    Sample {
+        /// How many; all if there are fewer.
+        size: u64,
+        /// The seed of the draw.
+        seed: u64,
+    },
+}
+
+/// What an accepted paving establishes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accepted {
+    /// The first line.
+    pub header: Header,
+    /// The last line, recomputed.
+    pub summary: Summary,
+    /// The shares of the volume.
+    pub shares: Shares,
+    /// Inner and outer cells whose evidence was checked.
+    pub checked: u64,
+}
+
+/// Checks a paving, which `open` opens: once for [`Extent::All`], twice for a sample. The shape of
+/// the tree, the symmetry and the summary are always checked whole.
+pub fn check<R: BufRead>(
+    open: impl Fn() -> io::Result<R>,
+    extent: Extent,
+) -> Result<Accepted, Rejected> {
+    let mut draw = match extent {
+        Extent::All => Draw::everything(),
+        Extent::Sample { size, seed } => {
+            let mut reader = Reader::new(open()?)?;
+            while reader.next()?.is_some() {}
+            let (summary, _) = reader.finish()?;
+            Draw::new(size, summary.inner.saturating_add(summary.outer), seed)
+        }
+    };
+    let mut reader = Reader::new(open()?)?;
+    let judge = reader.judge()?;
+    let mut checked = 0;
+    while let Some(visited) = reader.next()? {
+        let decided = matches!(visited.item.kind, Kind::Inner | Kind::Outer(_));
+        if decided && !draw.next() {
+            continue;
+        }
+        judge.check(&visited)?;
+        checked += u64::from(decided);
+    }
+    let header = reader.header().clone();
+    let (summary, shares) = reader.finish()?;
+    Ok(Accepted { header, summary, shares, checked })
+}
+
+/// Draws `wanted` of `left` things, one after the other: each is taken with the probability
+/// `wanted / left` of what then remain (Knuth, TAOCP 3.4.2, algorithm S), by SplitMix64.
+struct Draw {
+    wanted: u64,
+    left: u64,
+    state: u64,
+}
+
+impl Draw {
+    fn new(size: u64, left: u64, seed: u64) -> Self {
+        Draw { wanted: size.min(left), left, state: seed }
+    }
+
+    fn everything() -> Self {
+        Draw { wanted: u64::MAX, left: u64::MAX, state: 0 }
+    }
+
+    fn next(&mut self) -> bool {
+        if self.wanted == self.left {
+            return true;
+        }
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let taken = (z ^ (z >> 31)) % self.left.max(1) < self.wanted;
+        self.left = self.left.saturating_sub(1);
+        self.wanted = self.wanted.saturating_sub(u64::from(taken));
+        taken
+    }
+}

@@ -1,0 +1,135 @@
+//! Machines that look the same from permuted axes.
+
+use crate::cell::{Cell, Edge};
+use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirements, Workspace};
+use crate::paving::SHARE_BITS;
+
+/// A transposition and a cycle: they generate the permutations of three things.
+const GENERATORS: [[usize; 3]; 2] = [[1, 0, 2], [1, 2, 0]];
+
+/// **Lemma.** If the claim's text stays the same when the coordinates are permuted, leg `i` becoming
+/// leg `p(i)` with coordinate `k` of its vectors becoming coordinate `p(k)`, then its region is
+/// invariant under that permutation of the coordinates.
+///
+/// *Proof.* Let `Pi e_k = e_p(k)`. A machine of the claim with legs `l_i` at `P` has the same joint
+/// coordinates, clearances and leg vectors turned by `Pi` as the machine with legs `Pi l_i` at
+/// `Pi P` (drives are defined by scalar products and lengths; `M' = Pi M Pi^T`, the same singular
+/// values and row lengths, and `|det U|`). That machine is one of the claim's: its quantities vary
+/// over the same intervals, independently. Every requirement is the same for all legs, or is
+/// permuted with them. So the claim holds at `P` for every machine if and only if it holds at
+/// `Pi P`, and the box is invariant. ∎
+///
+/// Arms are turned by their axis, which a transposition reverses (`k x h` changes its sign): they
+/// are refused.
+pub fn is_symmetric(claim: &MachineClaim) -> bool {
+    let Mechanism::Translational(legs) = &claim.mechanism else {
+        return false;
+    };
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return false;
+    };
+    let Requirements { joint_range, .. } = &claim.requirements;
+    let all_same = |x: &[crate::number::Exact; 3]| x[0] == x[1] && x[1] == x[2];
+    let permuted = |p: &[usize; 3]| {
+        (0..3).all(|i| is_image(&legs[i], &legs[p[i]], p))
+            && joint_range.as_ref().is_none_or(|range| (0..3).all(|i| range[i] == range[p[i]]))
+    };
+    all_same(min) && all_same(max) && GENERATORS.iter().all(permuted)
+}
+
+/// Whether `image` is `leg` with coordinate `k` of its vectors moved to `p(k)`.
+fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
+    let moved = |a: &[Quantity; 3], b: &[Quantity; 3]| (0..3).all(|k| a[k] == b[p[k]]);
+    match (leg, image) {
+        (
+            Leg::Slider { direction, anchor, platform, length, mode },
+            Leg::Slider { direction: n, anchor: a, platform: d, length: l, mode: m },
+        ) => {
+            moved(direction, n)
+                && moved(anchor, a)
+                && moved(platform, d)
+                && length == l
+                && mode == m
+        }
+        (Leg::Strut { anchor, platform }, Leg::Strut { anchor: a, platform: d }) => {
+            moved(anchor, a) && moved(platform, d)
+        }
+        (Leg::Planar { direction }, Leg::Planar { direction: n }) => moved(direction, n),
+        _ => false,
+    }
+}
+
+/// How two dyadic intervals lie: such intervals are nested or overlap in an end at most.
+enum Relation {
+    Before,
+    After,
+    Equal,
+    Contains,
+    Within,
+}
+
+fn relation(a: Edge, b: Edge) -> Relation {
+    if a.level <= b.level {
+        let ancestor = b.index >> (b.level - a.level);
+        match a.index.cmp(&ancestor) {
+            std::cmp::Ordering::Less => Relation::Before,
+            std::cmp::Ordering::Greater => Relation::After,
+            std::cmp::Ordering::Equal if a.level == b.level => Relation::Equal,
+            std::cmp::Ordering::Equal => Relation::Contains,
+        }
+    } else {
+        match relation(b, a) {
+            Relation::Before => Relation::After,
+            Relation::After => Relation::Before,
+            Relation::Contains => Relation::Within,
+            other => other,
+        }
+    }
+}
+
+/// Whether a cell has no point with `u_x < u_y < u_z`: some coordinate that should be the less lies
+/// wholly after one that should be the greater.
+pub fn is_mirrored(cell: &Cell) -> bool {
+    let [x, y, z] = cell.edges;
+    [(x, y), (y, z), (x, z)].iter().any(|&(a, b)| matches!(relation(a, b), Relation::After))
+}
+
+/// Six times the volume of the cell's points with `u_x <= u_y <= u_z`, in units of
+/// `2^-`[`SHARE_BITS`]; every level is at most [`MAX_AXIS_LEVEL`](super::MAX_AXIS_LEVEL).
+///
+/// *Proof.* Nested edges are halved, the longer one, until every two are equal or overlap in an end
+/// at most. Then all points are in order, or none; of two equal edges half the points are, of three
+/// a sixth. Levels stay those of the cell at most, so volumes are whole units. ∎
+pub fn six_ordered(cell: &Cell) -> u128 {
+    let [x, y, z] = cell.edges;
+    let mut equal = 0;
+    for (a, b) in [(0, 1), (1, 2), (0, 2)] {
+        let longer = match relation(cell.edges[a], cell.edges[b]) {
+            Relation::After => return 0,
+            Relation::Before => continue,
+            Relation::Equal => {
+                equal += 1;
+                continue;
+            }
+            Relation::Contains => a,
+            Relation::Within => b,
+        };
+        // An edge that lies after another leaves nothing, whatever is halved.
+        if is_mirrored(cell) {
+            return 0;
+        }
+        let Edge { index, level } = cell.edges[longer];
+        let half = |index| {
+            let mut cell = *cell;
+            cell.edges[longer] = Edge { index, level: level + 1 };
+            six_ordered(&cell)
+        };
+        return half(2 * index) + half(2 * index + 1);
+    }
+    let volume = 1 << (SHARE_BITS - x.level - y.level - z.level);
+    match equal {
+        0 => 6 * volume,
+        1 => 3 * volume,
+        _ => volume,
+    }
+}

@@ -1,0 +1,42 @@
+//! Makes the map of an atlas: which of the designs within a box of parameters meet their
+//! requirements.
+//!
+//! Cells of parameters are decided one by one, and those that are not are halved; what becomes of a
+//! cell depends on the cell alone. So the map is the same for every number of threads, and parts of
+//! it can be made anywhere ([`part`]).
+
+mod best;
+mod decide;
+mod page;
+mod part;
+mod picture;
+
+pub use best::{best, verdict_at, Best, Standing};
+pub use decide::{decide, Decision};
+pub use page::page;
+pub use part::{assemble, grow, waiting, Growing, Stopped, Top};
+pub use picture::{picture, Point};
+
+use crate::design::AtlasDesign;
+use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Proof, Verdict};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::number::Exact;
+use orthocert_checker::{atlas, check, Accepted, Rejected};
+
+/// The certificate of a map whose cells are these, accepted by the checker.
+///
+/// # Errors
+/// If the checker does not accept it.
+pub fn certify(
+    design: &AtlasDesign,
+    cells: Vec<AtlasCell>,
+) -> Result<(Certificate, Accepted), Rejected> {
+    let mut claim = design.claim();
+    let shares = atlas::walk(&cells, claim.parameters.len(), |_, _, _| Ok(()))?;
+    claim.certified = Exact::Rational(shares.certified);
+    claim.refuted = Exact::Rational(shares.refuted);
+    let proof = Proof::Atlas(Atlas { cells });
+    let certificate = crate::verify::certificate(Claim::Atlas(claim), Verdict::Certified, proof);
+    let accepted = check(&certificate)?;
+    Ok((certificate, accepted))
+}

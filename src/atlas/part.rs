@@ -1,0 +1,229 @@
+//! Growing the tree of cells, from the whole box or from cells of it.
+
+use super::decide::{decide, Decision};
+use crate::design::AtlasDesign;
+use orthocert_checker::cell::{Axis, Cell};
+use orthocert_checker::certificate::{AtlasCell, MAX_BYTES, MAX_CELLS, MAX_NODES};
+use orthocert_checker::claim::AtlasClaim;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Why a tree was not grown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stopped {
+    /// It was cancelled.
+    Cancelled,
+    /// Its cells would not fit into a certificate.
+    TooLarge,
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stopped::Cancelled => write!(f, "interrupted"),
+            Stopped::TooLarge => write!(
+                f,
+                "the map has more cells or longer proofs than a certificate holds ({MAX_CELLS} \
+                 cells, {MAX_NODES} boxes, {MAX_BYTES} bytes); accepted: a lower atlas.resolution"
+            ),
+        }
+    }
+}
+
+/// What a certificate has room for.
+#[derive(Default)]
+struct Room {
+    cells: usize,
+    nodes: usize,
+    bytes: usize,
+}
+
+/// Bytes kept for what is not cells.
+const REST: usize = 1 << 16;
+
+impl Room {
+    /// Takes the room of a cell, if there is.
+    fn take(&mut self, cell: &AtlasCell) -> Result<(), Stopped> {
+        if let AtlasCell::Certified(tree) = cell {
+            self.nodes += tree.nodes.len();
+        }
+        self.cells += 1;
+        self.bytes += serde_json::to_string(cell).map_or(MAX_BYTES, |text| text.len() + 2);
+        let full =
+            self.cells > MAX_CELLS || self.nodes > MAX_NODES || self.bytes + REST > MAX_BYTES;
+        if full {
+            return Err(Stopped::TooLarge);
+        }
+        Ok(())
+    }
+}
+
+/// A tree of cells that grows.
+pub struct Growing<'a> {
+    design: &'a AtlasDesign,
+    claim: AtlasClaim,
+    /// Cells decided, and the share of the box that they are, for progress.
+    pub done: &'a mut dyn FnMut(usize, f64),
+    /// Set to make the work end.
+    pub cancel: &'a AtomicBool,
+}
+
+/// A node of a tree of cells that may not be grown to its end, in preorder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Top {
+    /// As in an atlas.
+    Cell(AtlasCell),
+    /// A cell that was not tried yet.
+    Waiting,
+}
+
+impl<'a> Growing<'a> {
+    /// The growth of a design's tree.
+    pub fn new(
+        design: &'a AtlasDesign,
+        cancel: &'a AtomicBool,
+        done: &'a mut dyn FnMut(usize, f64),
+    ) -> Self {
+        Growing { design, claim: design.claim(), done, cancel }
+    }
+
+    /// The axis on which a cell is split: the one that was halved least, the first of these; `None`
+    /// at the finest resolution.
+    fn axis(&self, cell: &Cell) -> Option<usize> {
+        let levels = cell.edges.iter().map(|edge| edge.level).take(self.claim.parameters.len());
+        let (level, axis) = levels.enumerate().map(|(axis, level)| (level, axis)).min()?;
+        (level < self.design.resolution).then_some(axis)
+    }
+}
+
+/// Grows the tree below `root` level by level, until nothing is open or, at the end of a level, at
+/// least `enough` cells wait.
+///
+/// # Errors
+/// If it was cancelled, or is too large for a certificate.
+pub fn grow(
+    growing: &mut Growing<'_>,
+    root: Cell,
+    enough: Option<usize>,
+) -> Result<Vec<Top>, Stopped> {
+    let mut room = Room::default();
+    let mut nodes = vec![Node::Waiting];
+    let mut level = vec![(0, root)];
+    let (mut decided, mut closed) = (0, 0.0);
+    while !level.is_empty() && enough.is_none_or(|enough| level.len() < enough) {
+        let (design, claim, cancel) = (growing.design, &growing.claim, growing.cancel);
+        let mut next = Vec::new();
+        for batch in level.chunks(64) {
+            if cancel.load(Ordering::Relaxed) {
+                return Err(Stopped::Cancelled);
+            }
+            let decisions: Vec<Decision> =
+                batch.par_iter().map(|(_, cell)| decide(design, claim, cell, cancel)).collect();
+            for ((at, cell), decision) in batch.iter().zip(decisions) {
+                let leaf = match (decision, growing.axis(cell)) {
+                    (Decision::Cancelled, _) => return Err(Stopped::Cancelled),
+                    (Decision::Decided(leaf), _) => leaf,
+                    (Decision::Open, None) => AtlasCell::Undecided,
+                    (Decision::Open, Some(axis)) => {
+                        let (lower, upper) =
+                            cell.halves(Axis::ALL[axis]).ok_or(Stopped::TooLarge)?;
+                        let first = nodes.len();
+                        nodes.extend([Node::Waiting, Node::Waiting]);
+                        next.extend([(first, lower), (first + 1, upper)]);
+                        nodes[*at] = Node::Split(axis, [first, first + 1]);
+                        room.take(&AtlasCell::Split(axis + 1))?;
+                        continue;
+                    }
+                };
+                let depth: u32 = cell.edges.iter().map(|edge| edge.level).sum();
+                room.take(&leaf)?;
+                decided += 1;
+                closed += (-f64::from(depth)).exp2();
+                nodes[*at] = Node::Leaf(leaf);
+            }
+            (growing.done)(decided, closed);
+        }
+        level = next;
+    }
+    let mut top = Vec::with_capacity(nodes.len());
+    let mut waiting = vec![0];
+    while let Some(at) = waiting.pop() {
+        match nodes[at].take() {
+            Node::Waiting => top.push(Top::Waiting),
+            Node::Leaf(leaf) => top.push(Top::Cell(leaf)),
+            Node::Split(axis, [lower, upper]) => {
+                top.push(Top::Cell(AtlasCell::Split(axis + 1)));
+                waiting.extend([upper, lower]);
+            }
+        }
+    }
+    Ok(top)
+}
+
+/// A node of the growing tree.
+enum Node {
+    Waiting,
+    Leaf(AtlasCell),
+    /// The axis, and the positions of both halves.
+    Split(usize, [usize; 2]),
+}
+
+impl Node {
+    fn take(&mut self) -> Node {
+        std::mem::replace(self, Node::Waiting)
+    }
+}
+
+/// The cells that wait in a tree below the whole box, in order; `None` if it is not a tree.
+pub fn waiting(top: &[Top]) -> Option<Vec<Cell>> {
+    let mut found = Vec::new();
+    let mut below = vec![Cell::ROOT];
+    for node in top {
+        let cell = below.pop()?;
+        match node {
+            Top::Waiting => found.push(cell),
+            Top::Cell(AtlasCell::Split(number)) => {
+                let axis = Axis::ALL.get(number.checked_sub(1)?)?;
+                let (lower, upper) = cell.halves(*axis)?;
+                below.extend([upper, lower]);
+            }
+            Top::Cell(_) => {}
+        }
+    }
+    below.is_empty().then_some(found)
+}
+
+/// The cells of a tree in preorder, with these parts, in order, in the places of the cells that
+/// wait; `None` if there are more or fewer of them.
+pub fn assemble(top: Vec<Top>, parts: Vec<Vec<AtlasCell>>) -> Option<Vec<AtlasCell>> {
+    let mut cells = Vec::new();
+    let mut parts = parts.into_iter();
+    for node in top {
+        match node {
+            Top::Cell(cell) => cells.push(cell),
+            Top::Waiting => cells.extend(parts.next()?),
+        }
+    }
+    parts.next().is_none().then_some(cells)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use orthocert_checker::certificate::{Node as Box, Tree};
+
+    #[test]
+    fn there_is_room_for_what_a_certificate_holds() {
+        let mut room = Room::default();
+        for _ in 0..MAX_CELLS {
+            assert_eq!(room.take(&AtlasCell::Undecided), Ok(()));
+        }
+        assert_eq!(room.take(&AtlasCell::Undecided), Err(Stopped::TooLarge));
+        let tree = Tree { precision: 64, nodes: vec![Box::default(); MAX_NODES + 1] };
+        let large = Room::default().take(&AtlasCell::Certified(tree));
+        assert_eq!(large, Err(Stopped::TooLarge));
+    }
+}

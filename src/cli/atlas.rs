@@ -1,0 +1,199 @@
+//! `orthocert atlas`, and what it has in common with a merge of parts of an atlas.
+
+use super::effort::Work;
+use super::{certify, interrupt, print, Failure, Format, Status};
+use crate::cli::progress::Bar;
+use orthocert::atlas::{self, Growing, Point, Standing, Stopped};
+use orthocert::design::{AtlasDesign, Objective};
+use orthocert::output::{self, OutputError};
+use orthocert::report::atlas::{AtlasReport, BestDesign, MarkedDesign, Part};
+use orthocert::report::CertificateFile;
+use orthocert::search::{Budget, Control, Progress};
+use orthocert::verify::verify;
+use orthocert_checker::cell::Cell;
+use orthocert_checker::certificate::AtlasCell;
+use orthocert_checker::claim::Claim;
+use orthocert_checker::number::Exact;
+use orthocert_checker::{statement, Accepted};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The files in the folder of an atlas.
+const CERTIFICATE: &str = "atlas.cert.json";
+const BEST: &str = "best.cert.json";
+const PICTURE: &str = "map.svg";
+const PAGE: &str = "index.html";
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The atlas: a design file with [parameters] and [atlas]
+    #[arg(value_name = "ATLAS.toml")]
+    atlas: PathBuf,
+    /// The folder of the map, made if it is not there [default: NAME.atlas beside NAME.toml]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    work: Work,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let design = AtlasDesign::read(&arguments.atlas).map_err(Failure::input)?;
+    let folder = match &arguments.output {
+        Some(folder) => folder.clone(),
+        None => arguments.atlas.with_extension("atlas"),
+    };
+    made(&folder)?;
+    arguments.work.start_threads()?;
+    let cells = map(&design, arguments.work.quiet)?;
+    let name = arguments.atlas.display().to_string();
+    let report = publish(&design, name, cells, &folder, started)?;
+    answer(&report, &arguments.work)
+}
+
+/// The folder, made if it is not there.
+pub fn made(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder)
+        .map_err(|error| Failure::from(OutputError::Io(folder.to_owned(), error)))
+}
+
+/// All cells of a design's map.
+fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
+    let mut bar = Bar::new(quiet);
+    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
+    let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
+    let grown = atlas::grow(&mut growing, Cell::ROOT, None);
+    bar.clear();
+    let top = grown.map_err(|stopped| match stopped {
+        Stopped::Cancelled => Failure::Interrupted,
+        Stopped::TooLarge => Failure::Input(stopped.to_string()),
+    })?;
+    atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)
+}
+
+/// Has the map accepted by the checker, and writes everything there is to write of it: a function
+/// of the design and its cells alone.
+pub fn publish(
+    design: &AtlasDesign,
+    name: String,
+    cells: Vec<AtlasCell>,
+    folder: &Path,
+    started: Instant,
+) -> Result<AtlasReport, Failure> {
+    let rejected = |reason| Failure::Output(format!("the map was not accepted: {reason}"));
+    let (certificate, accepted) = atlas::certify(design, cells.clone()).map_err(rejected)?;
+    let Claim::Atlas(claim) = &certificate.claim else {
+        return Err(Failure::Defect);
+    };
+    let text = certify::as_written(&certificate).map_err(rejected)?;
+    let best = match &design.objective {
+        Some(objective) => best_design(design, objective, &cells, &folder.join(BEST))?,
+        None => None,
+    };
+    if best.as_ref().is_none_or(|best| best.certificate.is_none()) {
+        // What an earlier map left there is about another design.
+        let _ = fs::remove_file(folder.join(BEST));
+    }
+    let marks = design.marks.iter().map(|mark| MarkedDesign {
+        label: mark.label.clone(),
+        at: mark.at.clone(),
+        verdict: atlas::verdict_at(design, mark, &cells),
+    });
+    let file = |name: &str| folder.join(name).display().to_string();
+    let mut report = AtlasReport {
+        title: design.title.clone(),
+        atlas: name,
+        parameters: design.parameters.clone(),
+        certified: part(&cells, claim.certified.clone(), Standing::Certified),
+        refuted: part(&cells, claim.refuted.clone(), Standing::Refuted),
+        undecided: part(&cells, rest(&claim.certified, &claim.refuted)?, Standing::Undecided),
+        nodes: nodes(&accepted),
+        best,
+        marks: marks.collect(),
+        certificate: CertificateFile { path: String::new(), bytes: 0, sha256: String::new() },
+        files: vec![file(PICTURE), file(PAGE)],
+        seconds: 0.0,
+    };
+    let svg = atlas::picture(design, &cells, &points(&report));
+    output::write(&folder.join(PICTURE), svg.as_bytes())?;
+    let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
+    let title = design.title.as_deref().unwrap_or("Atlas");
+    let page = atlas::page(title, &svg, &report.facts(), &words);
+    output::write(&folder.join(PAGE), page.as_bytes())?;
+    report.certificate = certify::store(&folder.join(CERTIFICATE), &text)?;
+    report.seconds = started.elapsed().as_secs_f64();
+    Ok(report)
+}
+
+/// Prints the report.
+pub fn answer(report: &AtlasReport, work: &Work) -> Result<Status, Failure> {
+    match work.format {
+        Format::Json => print::json(report)?,
+        Format::Text if work.quiet => print::answer(&(report.headline() + "\n"))?,
+        Format::Text => print::answer(&report.text())?,
+    }
+    let decided = report.certified.cells + report.refuted.cells;
+    Ok(if decided > 0 { Status::Done } else { Status::Undecided })
+}
+
+fn nodes(accepted: &Accepted) -> usize {
+    accepted.size.nodes
+}
+
+fn part(cells: &[AtlasCell], share: Exact, standing: Standing) -> Part {
+    let same = |cell: &&AtlasCell| match cell {
+        AtlasCell::Certified(_) => standing == Standing::Certified,
+        AtlasCell::Refuted(_) => standing == Standing::Refuted,
+        AtlasCell::Undecided => standing == Standing::Undecided,
+        AtlasCell::Split(_) => false,
+    };
+    Part { cells: cells.iter().filter(same).count(), share }
+}
+
+fn rest(certified: &Exact, refuted: &Exact) -> Result<Exact, Failure> {
+    let rest = Exact::integer(1).minus(certified.clone());
+    rest.and_then(|rest| rest.minus(refuted.clone())).map_err(|_| Failure::Defect)
+}
+
+/// The marked designs, and the best one, as they are drawn.
+fn points(report: &AtlasReport) -> Vec<Point> {
+    let point = |label: &str, at: &[Exact]| Point { label: label.to_owned(), at: at.to_vec() };
+    let mut points: Vec<Point> =
+        report.marks.iter().map(|mark| point(&mark.label, &mark.at)).collect();
+    points.extend(report.best.iter().map(|best| point("best", &best.at)));
+    points
+}
+
+/// The best design, with an ordinary certificate of its own.
+fn best_design(
+    design: &AtlasDesign,
+    objective: &Objective,
+    cells: &[AtlasCell],
+    path: &Path,
+) -> Result<Option<BestDesign>, Failure> {
+    let Some(best) = atlas::best(design, objective, cells) else {
+        return Ok(None);
+    };
+    let claim = design.at(&best.at).map_err(Failure::Input)?;
+    // A part of what was proved of its cell: the same number of boxes is enough in all but rare
+    // cases, and where it is not, the report says so.
+    let budget = Budget { max_boxes: 10 * design.boxes, deadline: None };
+    let mut control = Control { cancel: interrupt::cancelled(), progress: &mut |_| {} };
+    let mut found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
+    let certificate = match certify::decide(&mut found.answer)? {
+        Some(decision) => Some(certify::store(path, &decision.text)?),
+        None => None,
+    };
+    let sense = if objective.maximise { "maximise" } else { "minimise" };
+    let expression = objective.expression.clone();
+    Ok(Some(BestDesign {
+        at: best.at,
+        sense,
+        objective: expression,
+        value: best.value,
+        certificate,
+    }))
+}

@@ -1,0 +1,199 @@
+//! `orthocert largest-cube`.
+
+use super::{certify, effort::Effort, input, print, Failure, Format, Status};
+use num_traits::ToPrimitive;
+use orthocert::decimal::{readable, significant};
+use orthocert::design::Design;
+use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket, NoAnswer};
+use orthocert::output;
+use orthocert::report::CertificateFile;
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Cubes have edges along the axes; their centres are searched for in the box [workspace] min and max
+of the design. The lower bound is a certificate for a cube as a workspace; the upper bound one that
+no cube of that side fits, wherever in the box its centre is. Where the gap is not reached, the
+bounds are as near as they were found, and the exit code is 3. With --side the exit code is 0 if such
+a cube is certified, and 1 if it is proved that none fits.")]
+pub struct Arguments {
+    /// The design; its workspace is the box of the centres
+    #[arg(value_name = "DESIGN.toml")]
+    design: PathBuf,
+    /// Relative distance of both bounds
+    #[arg(long, value_name = "GAP", default_value = "1e-6", allow_hyphen_values = true)]
+    gap: String,
+    /// Decide whether a cube of this side fits, instead
+    #[arg(long, value_name = "S", conflicts_with = "gap", allow_hyphen_values = true)]
+    side: Option<String>,
+    /// The folder for both certificates, NAME.cube.cert.json and NAME.no-cube.cert.json [default:
+    /// that of the design]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// The answer.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    title: Option<String>,
+    /// A side that is certified, below the greatest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min: Option<Exact>,
+    /// The centre of the cube of that side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<[Exact; 3]>,
+    /// A side for which no cube fits, above the greatest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<Exact>,
+    /// `(max - min) / min`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap: Option<f64>,
+    certificates: Vec<CertificateFile>,
+    seconds: f64,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let effort = &arguments.effort;
+    let gap = gap(&arguments.gap)?;
+    let side = arguments.side.as_deref().map(side).transpose()?;
+    let budget = effort.budget(started)?;
+    let design = Design::read(&arguments.design).map_err(Failure::input)?;
+    let claim = boxed(&design)?;
+    let targets = ["cube", "no-cube"].map(|name| arguments.target(name));
+    for target in &targets {
+        output::probe(target)?;
+    }
+    effort.start_threads()?;
+    let found = effort.run(|control| match &side {
+        Some(side) => cube_of_side(claim, side, budget, control),
+        None => largest_cube(claim, gap, budget, control),
+    });
+    let bracket = match found {
+        Ok(bracket) => bracket,
+        Err(NoAnswer::Cancelled) => return Err(Failure::Interrupted),
+        Err(NoAnswer::Claim(reason)) => return Err(Failure::Input(reason)),
+        Err(_) => Bracket::default(),
+    };
+    let mut certificates = Vec::new();
+    let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
+    let too_large = bracket.too_large.as_ref().map(|too_large| &too_large.certificate);
+    for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
+        if let Some(certificate) = certificate {
+            certificates.push(stored(certificate, target)?);
+        }
+    }
+    let answer = Answer {
+        title: design.title.clone(),
+        gap: reached(&bracket),
+        min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
+        centre: bracket.inside.map(|inside| inside.centre),
+        max: bracket.too_large.map(|too_large| too_large.side),
+        certificates,
+        seconds: started.elapsed().as_secs_f64(),
+    };
+    match effort.format {
+        Format::Json => print::json(&answer)?,
+        Format::Text => print::answer(&text(&answer, effort.quiet))?,
+    }
+    Ok(match (&answer.min, &answer.max, side) {
+        (Some(_), _, Some(_)) => Status::Decided(Verdict::Certified),
+        (_, Some(_), Some(_)) => Status::Decided(Verdict::Refuted),
+        // Both sides are rounded to a hundredth of the gap.
+        (_, _, None) if answer.gap.is_some_and(|found| found <= gap) => Status::Done,
+        _ => Status::Undecided,
+    })
+}
+
+fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
+    match &design.claim {
+        Claim::Machine(claim) if matches!(claim.workspace, Workspace::Box { .. }) => Ok(claim),
+        _ => Err(Failure::Input(
+            "the workspace is not a box; accepted: [workspace] with min and max".to_owned(),
+        )),
+    }
+}
+
+fn stored(certificate: &Certificate, target: &std::path::Path) -> Result<CertificateFile, Failure> {
+    let text = certificate
+        .to_text()
+        .map_err(|error| Failure::Output(format!("the certificate cannot be written: {error}")))?;
+    certify::store(target, &text)
+}
+
+/// `(max - min) / min`, where both are there.
+fn reached(bracket: &Bracket) -> Option<f64> {
+    let (inside, too_large) = (bracket.inside.as_ref()?, bracket.too_large.as_ref()?);
+    let (min, max) = (inside.side.as_rational()?, too_large.side.as_rational()?);
+    ((max - min) / min).to_f64()
+}
+
+fn gap(text: &str) -> Result<f64, Failure> {
+    let number = input::number("--gap", text)?;
+    match orthocert::decimal::approximate(&number) {
+        Some(gap) if (1e-9..=0.5).contains(&gap) => Ok(gap),
+        _ => Err(Failure::Input(format!(
+            "--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"
+        ))),
+    }
+}
+
+fn side(text: &str) -> Result<Exact, Failure> {
+    let number = input::number("--side", text)?;
+    match number.sign() {
+        Some(1) => Ok(number),
+        _ => Err(Failure::Input(format!("--side: found {text}; accepted: a positive number"))),
+    }
+}
+
+impl Arguments {
+    fn target(&self, name: &str) -> PathBuf {
+        let mut file = self.design.file_stem().unwrap_or_default().to_owned();
+        file.push(format!(".{name}.cert.json"));
+        match &self.output {
+            Some(folder) => folder.join(file),
+            None => self.design.with_file_name(file),
+        }
+    }
+}
+
+fn text(answer: &Answer, quiet: bool) -> String {
+    let number = |x: &Exact| readable(x);
+    let mut out = match (&answer.min, &answer.max) {
+        (Some(min), Some(max)) => {
+            format!("largest cube: side between {} and {}\n", exactly(min), exactly(max))
+        }
+        (Some(min), None) => format!("a cube of side {} fits\n", exactly(min)),
+        (None, Some(max)) => format!("no cube of side {} fits\n", exactly(max)),
+        (None, None) => "undecided: no cube is certified, and no side is excluded\n".to_owned(),
+    };
+    if quiet {
+        return out;
+    }
+    if let Some([x, y, z]) = &answer.centre {
+        let _ = write!(out, "\n  centre ({}, {}, {})", number(x), number(y), number(z));
+    }
+    if let Some(gap) = answer.gap {
+        let _ = write!(out, "\n  gap {}", significant(gap, 3));
+    }
+    for certificate in &answer.certificates {
+        let _ = write!(out, "\n  {} ({} bytes)", certificate.path, certificate.bytes);
+    }
+    let _ = writeln!(out, "\n  {} s", significant(answer.seconds, 3));
+    out
+}
+
+fn exactly(x: &Exact) -> String {
+    orthocert::decimal::exact(x)
+}

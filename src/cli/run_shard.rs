@@ -1,0 +1,79 @@
+//! `orthocert run-shard`.
+
+use super::effort::Work;
+use super::{interrupt, print, Failure, Format, Status};
+use crate::cli::progress::Bar;
+use orthocert::search::Progress;
+use orthocert::shard::{self, Ran, RunError};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The shard; its result is written beside it
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    work: Work,
+}
+
+/// What was done.
+#[derive(Serialize)]
+struct Answer {
+    job: String,
+    shard: usize,
+    of: usize,
+    cells: usize,
+    resumed: usize,
+    already_done: bool,
+    result: String,
+    seconds: f64,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let (shard, answers) = shard::read_shard(&arguments.file).map_err(Failure::input)?;
+    arguments.work.start_threads()?;
+    let mut bar = Bar::new(arguments.work.quiet);
+    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
+    let cancel = interrupt::cancelled();
+    let ran = shard::run(&arguments.file, &shard, &answers, cancel, &mut done);
+    bar.clear();
+    let ran = ran.map_err(|error| match error {
+        RunError::Interrupted => Failure::Interrupted,
+        RunError::Output(error) => Failure::from(error),
+        other => Failure::input(other),
+    })?;
+    let resumed = match ran {
+        Ran::AlreadyDone => shard.cells.len(),
+        Ran::Done { resumed } => resumed,
+    };
+    let answer = Answer {
+        result: shard::result_file(&arguments.file, &shard).display().to_string(),
+        shard: shard.shard,
+        of: shard.of,
+        cells: shard.cells.len(),
+        resumed,
+        already_done: ran == Ran::AlreadyDone,
+        seconds: started.elapsed().as_secs_f64(),
+        job: shard.job,
+    };
+    match arguments.work.format {
+        Format::Json => print::json(&answer)?,
+        Format::Text => print::answer(&text(&answer))?,
+    }
+    Ok(Status::Done)
+}
+
+fn text(answer: &Answer) -> String {
+    let Answer { shard, of, cells, resumed, result, .. } = answer;
+    let how = match (answer.already_done, resumed) {
+        (true, _) => "was done already".to_owned(),
+        (false, 0) => format!("done, {cells} cells"),
+        (false, _) => format!("done, {cells} cells, {resumed} of them by earlier runs"),
+    };
+    format!("SHARD  {shard} of {of} {how}: {result}\n")
+}

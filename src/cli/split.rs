@@ -1,0 +1,119 @@
+//! `orthocert split`.
+
+use super::effort::Work;
+use super::{atlas, interrupt, print, Failure, Format, Status};
+use crate::cli::progress::Bar;
+use orthocert::decimal::{counted, grouped};
+use orthocert::design::{is_atlas, AtlasDesign, Design};
+use orthocert::output;
+use orthocert::search::Progress;
+use orthocert::shard::{
+    self, name_of, JobTop, Name, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
+};
+use orthocert_checker::certificate::MAX_NODES;
+use orthocert_checker::claim::Claim;
+use serde::Serialize;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The job: an atlas file, or a design that takes long to prove
+    #[arg(value_name = "JOB")]
+    job: PathBuf,
+    /// How many shards
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_SHARDS))]
+    shards: u64,
+    /// The folder of the shards: a new one, or an empty one
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Of a design: boxes tried below one of the cells that are dealt out
+    #[arg(long, value_name = "N", default_value_t = MAX_NODES as u64,
+        value_parser = clap::value_parser!(u64).range(1..=MAX_NODES as u64))]
+    max_boxes: u64,
+    #[command(flatten)]
+    work: Work,
+}
+
+/// What was written.
+#[derive(Serialize)]
+struct Answer {
+    job: String,
+    folder: String,
+    shards: usize,
+    cells: usize,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let task = arguments.task()?;
+    let folder = &arguments.out;
+    empty(folder)?;
+    arguments.work.start_threads()?;
+    let mut bar = Bar::new(arguments.work.quiet);
+    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
+    let count = usize::try_from(arguments.shards).unwrap_or(1);
+    let split = shard::split(&task, count, interrupt::cancelled(), &mut done);
+    bar.clear();
+    let (job, texts) = split.map_err(|error| match error {
+        SplitError::Interrupted => Failure::Interrupted,
+        error => Failure::Input(format!("{}: {error}", arguments.job.display())),
+    })?;
+    for (i, text) in texts.iter().enumerate() {
+        output::write(&folder.join(name_of(Name::Shard(i + 1))), text.as_bytes())?;
+    }
+    // Last: a folder with it is complete.
+    let text = serde_json::to_string(&job).map_err(|error| Failure::Output(error.to_string()))?;
+    output::write(&folder.join(JOB_FILE), (text + "\n").as_bytes())?;
+    let cells = match &job.top {
+        JobTop::Cells(top) => orthocert::atlas::waiting(top).map_or(0, |cells| cells.len()),
+        JobTop::Tree { waiting, .. } => waiting.len(),
+    };
+    let answer =
+        Answer { job: job.job, folder: folder.display().to_string(), shards: count, cells };
+    match arguments.work.format {
+        Format::Json => print::json(&answer)?,
+        Format::Text => print::answer(&text_of(&answer))?,
+    }
+    Ok(Status::Done)
+}
+
+impl Arguments {
+    fn task(&self) -> Result<Task, Failure> {
+        if is_atlas(&self.job).map_err(Failure::input)? {
+            let design = AtlasDesign::read(&self.job).map_err(Failure::input)?;
+            return Ok(Task::Atlas(Box::new(design)));
+        }
+        let design = Design::read(&self.job).map_err(Failure::input)?;
+        let Claim::Machine(claim) = design.claim else {
+            return Err(Failure::Input("a design is about a machine".to_owned()));
+        };
+        let boxes = usize::try_from(self.max_boxes).unwrap_or(MAX_NODES);
+        Ok(Task::Verify(Box::new(Verify { title: design.title, claim, boxes })))
+    }
+}
+
+fn text_of(answer: &Answer) -> String {
+    format!(
+        "SPLIT  job {:.12} into {} of {} in all, in {}\n",
+        answer.job,
+        counted(answer.shards, "shard", "shards"),
+        grouped(answer.cells as u64) + " cells",
+        answer.folder
+    )
+}
+
+/// The folder, made if it is not there; it has to be empty, so that nothing is lost or mixed.
+fn empty(folder: &Path) -> Result<(), Failure> {
+    atlas::made(folder)?;
+    let unlisted =
+        |error| Failure::Output(format!("{}: cannot be listed: {error}", folder.display()));
+    match fs::read_dir(folder).map_err(unlisted)?.next() {
+        None => Ok(()),
+        Some(_) => Err(Failure::Input(format!(
+            "--out: {} has files in it; accepted: a new folder, or an empty one",
+            folder.display()
+        ))),
+    }
+}

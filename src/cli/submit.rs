@@ -1,0 +1,120 @@
+//! `orthocert submit`.
+
+use super::{atlas, print, Failure, Format, Status};
+use clap::ValueEnum;
+use orthocert::engine::{self, Submission};
+use orthocert::output;
+use orthocert::shard::{read_job, JOB_FILE};
+use serde::Serialize;
+use std::path::{self, Path, PathBuf};
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The folder of the shards, which every machine of the engine has to see
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// What runs the shards
+    #[arg(long, value_enum)]
+    engine: Engine,
+    /// Where the merge that follows writes the whole
+    #[arg(short, long, value_name = "RESULT")]
+    output: PathBuf,
+    /// Write the scripts into DIR/engine, and submit nothing
+    #[arg(long)]
+    scripts_only: bool,
+    /// The form of the answer
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Further options for sbatch, such as --partition=NAME
+    #[arg(last = true, value_name = "OPTION")]
+    options: Vec<String>,
+}
+
+/// The engines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Engine {
+    /// A Slurm job array and a dependent merge job, by sbatch
+    Slurm,
+    /// A HyperQueue job, by the Python package hyperqueue
+    Hyperqueue,
+}
+
+/// What was submitted.
+#[derive(Serialize)]
+struct Answer {
+    job: String,
+    shards: usize,
+    scripts: String,
+    engine_job: Option<String>,
+    engine_merge: Option<String>,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let engine = match arguments.engine {
+        Engine::Slurm => engine::Engine::Slurm,
+        Engine::Hyperqueue => engine::Engine::HyperQueue,
+    };
+    if engine == engine::Engine::HyperQueue && !arguments.options.is_empty() {
+        let message = "options after -- are for sbatch; with --engine hyperqueue there are none";
+        return Err(Failure::Input(message.to_owned()));
+    }
+    let job = read_job(&arguments.folder.join(JOB_FILE)).map_err(Failure::input)?;
+    let submission = Submission {
+        program: std::env::current_exe()
+            .map_err(|error| Failure::Output(format!("this program has no path: {error}")))?,
+        folder: absolute(&arguments.folder)?,
+        result: absolute(&arguments.output)?,
+        job: job.job.clone(),
+        shards: job.shards.len(),
+        options: arguments.options.clone(),
+    };
+    let folder = engine::folder(&submission.folder);
+    atlas::made(&folder)?;
+    for (name, text) in engine.scripts(&submission) {
+        output::write(&folder.join(name), text.as_bytes())?;
+    }
+    let submitted = match arguments.scripts_only {
+        true => None,
+        false => {
+            Some(engine.submit(&submission).map_err(|error| Failure::Output(error.to_string()))?)
+        }
+    };
+    let answer = Answer {
+        job: job.job,
+        shards: submission.shards,
+        scripts: folder.display().to_string(),
+        engine_job: submitted.as_ref().map(|submitted| submitted.shards.clone()),
+        engine_merge: submitted.map(|submitted| submitted.merge),
+    };
+    match arguments.format {
+        Format::Json => print::json(&answer)?,
+        Format::Text => print::answer(&text(&answer))?,
+    }
+    Ok(Status::Done)
+}
+
+fn text(answer: &Answer) -> String {
+    let Answer { job, shards, scripts, .. } = answer;
+    match (&answer.engine_job, &answer.engine_merge) {
+        (Some(array), Some(merge)) => format!(
+            "SUBMITTED  {shards} shards of job {job:.12} as {array}, the merge as {merge}\n\
+             Scripts and logs are in {scripts}\n"
+        ),
+        _ => format!("SCRIPTS  for {shards} shards of job {job:.12} are in {scripts}\n"),
+    }
+}
+
+/// The path as every machine is to know it. A path with a line feed is in no script.
+fn absolute(path: &Path) -> Result<PathBuf, Failure> {
+    let absolute = path::absolute(path)
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+    match absolute.to_str() {
+        Some(text) if !text.contains(['\n', '\r']) => Ok(absolute),
+        _ => Err(Failure::Input(format!(
+            "{}: accepted: a path in UTF-8 without line feeds",
+            path.display()
+        ))),
+    }
+}

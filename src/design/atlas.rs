@@ -1,0 +1,313 @@
+//! Atlas files: a design some numbers of which are expressions with the names of parameters, the
+//! parameters' ranges, and how the map of them is to be made.
+
+use super::document::{Document, Names, Table, Value};
+use super::error::{Defect, DesignError, ReadError};
+use super::number::{exact, ordered};
+use super::{machine_claim, modelled, text_of, Design};
+use orthocert_checker::atlas::{range, Ends, MAX_PARAMETERS};
+use orthocert_checker::claim::{AtlasClaim, AtlasParameter, MachineClaim};
+use orthocert_checker::number::Exact;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// Most halvings of one parameter.
+pub const MAX_RESOLUTION: i64 = 20;
+/// Most boxes for one cell.
+const MAX_BOXES: i64 = 100_000;
+/// Most machines drawn on a map.
+const MAX_MARKS: usize = 64;
+/// Most characters of a label.
+const MAX_LABEL: usize = 80;
+
+const PARAMETER: &str = r#"{ min = "0.3", max = "0.8", label = "anchor radius / leg length" }"#;
+const PARAMETERS: &str = "one to three parameters, such as radius = { min = 0.3, max = 0.8 }";
+const OBJECTIVE: &str = r#"{ maximise = "an expression with parameters" }, or minimise"#;
+const MARKS: &str = r#"an array of { label = "my machine", ... } with a number for each parameter"#;
+
+/// An atlas file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasDesign {
+    /// The title that the file gives it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What is varied.
+    pub parameters: Vec<AtlasParameter>,
+    /// What the axes of the map are called, one for each parameter.
+    pub labels: Vec<String>,
+    /// The claim about a design, with the names of parameters.
+    pub design: MachineClaim,
+    /// Most halvings of each parameter's range.
+    pub resolution: u32,
+    /// Most boxes tried for a cell.
+    pub boxes: usize,
+    /// What the best design is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<Objective>,
+    /// Machines to be shown on the map.
+    pub marks: Vec<Mark>,
+}
+
+/// What the best design is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Objective {
+    /// Whether the greatest value is the best, or the least.
+    pub maximise: bool,
+    /// An expression with the names of parameters.
+    pub expression: Exact,
+}
+
+/// A machine shown on the map.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mark {
+    /// Its name.
+    pub label: String,
+    /// Its parameters.
+    pub at: Vec<Exact>,
+}
+
+/// Whether a file is meant as an atlas: it has the tables that only atlases have.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn is_atlas(path: &Path) -> Result<bool, ReadError> {
+    let bytes = Design::bytes(path)?;
+    let tables = DeTable::parse(text_of(&bytes, path)?);
+    let has = |key| tables.as_ref().is_ok_and(|tables| tables.get_ref().contains_key(key));
+    Ok(has("parameters") || has("atlas"))
+}
+
+impl AtlasDesign {
+    /// Reads an atlas file.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not one.
+    pub fn read(path: &Path) -> Result<Self, ReadError> {
+        let bytes = Design::bytes(path)?;
+        Ok(AtlasDesign::parse(text_of(&bytes, path)?, &path.display().to_string())?)
+    }
+
+    /// Reads the text of an atlas file; `file` is for messages only. The design is read at the
+    /// vertices and the middle of the box of parameters, where all that is demanded of designs has
+    /// to hold, and once more with the names kept.
+    ///
+    /// # Errors
+    /// If it is not one; the message names line, key, what was found and what is accepted.
+    pub fn parse(text: &str, file: &str) -> Result<Self, DesignError> {
+        let document = Document { file, text, names: Names::None };
+        let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
+        let root = document.root(tree.get_ref());
+        let keys = ["title", "parameters", "atlas", "mechanism", "workspace", "requirements"];
+        root.only(&keys)?;
+        let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
+        let table = root.require("parameters", "a table [parameters]")?;
+        let (parameters, labels) = parameters(&table)?;
+        let settings = root.require("atlas", "a table [atlas] with resolution and boxes")?;
+        let settings = settings.table("a table [atlas]")?;
+        settings.only(&["resolution", "boxes", "objective", "marks"])?;
+        let resolution = whole(&settings, "resolution", MAX_RESOLUTION)?;
+        let boxes = whole(&settings, "boxes", MAX_BOXES)?;
+        let marks = match settings.find("marks") {
+            Some(value) => marks(&value, &parameters)?,
+            None => Vec::new(),
+        };
+        for values in probes(&parameters) {
+            let document = Document { names: Names::Values(&values), ..document };
+            let root = document.root(tree.get_ref());
+            modelled(&root, &machine_claim(&root)?)?;
+        }
+        let middle = at_part(&parameters, |_| 1);
+        let document = Document { names: Names::Kept(&middle), ..document };
+        let root = document.root(tree.get_ref());
+        let design = machine_claim(&root)?;
+        let objective = root.require("atlas", "")?.table("")?.find("objective");
+        let objective = objective.map(|value| self::objective(&value)).transpose()?;
+        let read = AtlasDesign {
+            title: title.map(str::to_owned),
+            parameters,
+            labels,
+            design,
+            resolution: u32::try_from(resolution).unwrap_or(0),
+            boxes: usize::try_from(boxes).unwrap_or(0),
+            objective,
+            marks,
+        };
+        read.well_formed().map_err(|reason| {
+            table.error(Defect::Claim, reason, "parameters that make designs everywhere")
+        })?;
+        Ok(read)
+    }
+
+    /// The claim, with shares to be stated.
+    pub fn claim(&self) -> AtlasClaim {
+        AtlasClaim {
+            parameters: self.parameters.clone(),
+            design: self.design.clone(),
+            certified: Exact::integer(0),
+            refuted: Exact::integer(0),
+        }
+    }
+
+    /// Demands parameters that are used, and lengths that are positive all over their box.
+    ///
+    /// # Errors
+    /// A sentence.
+    pub fn well_formed(&self) -> Result<(), String> {
+        let claim = self.claim();
+        claim.validate().map_err(|error| error.to_string())?;
+        let box_of_all = orthocert_checker::cell::Cell::ROOT;
+        let ends = claim.ranges(&box_of_all).map_err(|error| error.to_string())?;
+        self.lengths().iter().try_for_each(|(what, length)| {
+            let least = range(length, &ends).map_err(|error| format!("{what}: {error}"))?.0;
+            match least.sign() {
+                Some(1) => Ok(()),
+                _ => Err(format!(
+                    "{what} = {length}, which is not (provably) positive for all values of the \
+                     parameters: a cell may have a length of zero"
+                )),
+            }
+        })
+    }
+
+    /// The numbers of the design that have to be positive, and what they are.
+    fn lengths(&self) -> Vec<(String, Exact)> {
+        use orthocert_checker::claim::{Mechanism, Workspace};
+        let mut lengths = Vec::new();
+        if let Mechanism::Translational(legs) = &self.design.mechanism {
+            for (i, leg) in legs.iter().enumerate() {
+                let positive = leg.parameters().into_iter().filter(|(p, _)| p.is_length());
+                lengths.extend(
+                    positive.map(|(p, q)| (format!("{p} of leg {}", i + 1), q.min.clone())),
+                );
+            }
+        }
+        if let Workspace::Cylinder { radius, .. } = &self.design.workspace {
+            lengths.push(("radius of the workspace".to_owned(), radius.clone()));
+        }
+        lengths
+    }
+
+    /// The design at values of its parameters.
+    ///
+    /// # Errors
+    /// A sentence, if there is none.
+    pub fn at(&self, values: &[Exact]) -> Result<MachineClaim, String> {
+        let names = self.parameters.iter().map(|parameter| parameter.name.as_str());
+        let points: Vec<(&str, Ends)> =
+            names.zip(values).map(|(name, x)| (name, (x.clone(), x.clone()))).collect();
+        let strictest = orthocert_checker::atlas::Side::Strictest;
+        orthocert_checker::atlas::instance(&self.design, &points, strictest)
+            .map_err(|error| error.to_string())
+    }
+}
+
+/// Reads `[parameters]`.
+fn parameters(value: &Value<'_>) -> Result<(Vec<AtlasParameter>, Vec<String>), DesignError> {
+    let table = value.table("a table [parameters]")?;
+    let entries = table.entries();
+    if entries.is_empty() || entries.len() > MAX_PARAMETERS {
+        let found = format!("{} parameters", entries.len());
+        return Err(value.error(Defect::OutOfDomain, found, PARAMETERS));
+    }
+    let mut parameters = Vec::new();
+    let mut labels = Vec::new();
+    for (name, entry) in entries {
+        let range = entry.table(PARAMETER)?;
+        range.only(&["min", "max", "label"])?;
+        let (least, greatest) =
+            (range.require("min", PARAMETER)?, range.require("max", PARAMETER)?);
+        let (min, max) = (exact(&least)?, exact(&greatest)?);
+        for (value, number) in [(&least, &min), (&greatest, &max)] {
+            if number.as_rational().is_none() {
+                let accepted = "a rational number: ranges of parameters are cut in equal parts";
+                return Err(value.error(Defect::NotANumber, value.found(), accepted));
+            }
+        }
+        ordered((&least, &min), (&greatest, &max))?;
+        if min == max {
+            let accepted = "a max greater than min: a range to be explored";
+            return Err(greatest.error(Defect::Reversed, greatest.found(), accepted));
+        }
+        labels.push(match range.find("label") {
+            Some(value) => label(&value)?,
+            None => name.to_owned(),
+        });
+        parameters.push(AtlasParameter { name: name.to_owned(), min, max });
+    }
+    Ok((parameters, labels))
+}
+
+fn label(value: &Value<'_>) -> Result<String, DesignError> {
+    let accepted = "a text in quotes, of one line and at most 80 characters";
+    let text = value.text(accepted)?;
+    if text.chars().count() > MAX_LABEL || text.chars().any(char::is_control) {
+        return Err(value.error(Defect::OutOfDomain, value.found(), accepted));
+    }
+    Ok(text.to_owned())
+}
+
+/// A whole number from 1 to `most`.
+fn whole(table: &Table<'_>, key: &str, most: i64) -> Result<i64, DesignError> {
+    let accepted = format!("a whole number from 1 to {most}");
+    let value = table.require(key, &accepted)?;
+    let number = match value.inner {
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        _ => None,
+    };
+    number
+        .filter(|n| (1..=most).contains(n))
+        .ok_or_else(|| value.error(Defect::OutOfDomain, value.found(), accepted))
+}
+
+fn marks(value: &Value<'_>, parameters: &[AtlasParameter]) -> Result<Vec<Mark>, DesignError> {
+    let values = value.list(MARKS)?;
+    if values.len() > MAX_MARKS {
+        return Err(value.error(Defect::OutOfDomain, value.found(), "at most 64 marks"));
+    }
+    let mut keys = vec!["label"];
+    keys.extend(parameters.iter().map(|parameter| parameter.name.as_str()));
+    let mark = |value: &Value<'_>| {
+        let table = value.table(MARKS)?;
+        table.only(&keys)?;
+        let at = parameters.iter().map(|p| exact(&table.require(&p.name, "a number")?));
+        let at = at.collect::<Result<_, _>>()?;
+        Ok(Mark { label: label(&table.require("label", "a text in quotes")?)?, at })
+    };
+    values.iter().map(mark).collect()
+}
+
+fn objective(value: &Value<'_>) -> Result<Objective, DesignError> {
+    let table = value.table(OBJECTIVE)?;
+    table.only(&["maximise", "minimise"])?;
+    let (maximise, expression) = match (table.find("maximise"), table.find("minimise")) {
+        (Some(expression), None) => (true, expression),
+        (None, Some(expression)) => (false, expression),
+        _ => return Err(value.error(Defect::Conflict, value.found(), OBJECTIVE)),
+    };
+    Ok(Objective { maximise, expression: exact(&expression)? })
+}
+
+/// The values of the parameters at the vertices of their box and in its middle.
+fn probes(parameters: &[AtlasParameter]) -> Vec<Vec<(String, Exact)>> {
+    let vertices = 0..1usize << parameters.len();
+    let mut probes = vec![at_part(parameters, |_| 1)];
+    probes.extend(vertices.map(|vertex| at_part(parameters, |i| 2 * (vertex >> i & 1))));
+    probes
+}
+
+/// The values at `part(i)` halves of the range of parameter `i`.
+fn at_part(parameters: &[AtlasParameter], part: impl Fn(usize) -> usize) -> Vec<(String, Exact)> {
+    let value = |(i, p): (usize, &AtlasParameter)| {
+        let value = match (part(i), p.min.as_rational(), p.max.as_rational()) {
+            (1, Some(min), Some(max)) => Exact::Rational((min + max) / num_bigint::BigInt::from(2)),
+            (0, ..) => p.min.clone(),
+            _ => p.max.clone(),
+        };
+        (p.name.clone(), value)
+    };
+    parameters.iter().enumerate().map(value).collect()
+}

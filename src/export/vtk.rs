@@ -1,0 +1,100 @@
+//! Surfaces as VTK XML unstructured grids (`.vtu`), little-endian base64 in place.
+//!
+//! | array         | is                                                                        |
+//! |---------------|---------------------------------------------------------------------------|
+//! | `Points`      | the corners, each once                                                    |
+//! | cells         | quadrilaterals (VTK type 9), counterclockwise seen from without           |
+//! | `beyond`      | what a face separates the inner part from: 0 outer boxes, 1 undecided ones, 2 what is outside the box that is paved |
+//! | `depth`       | splits above the inner box that the face is part of                       |
+
+use crate::paving::{Beyond, Surface, SurfaceError};
+
+/// VTK's number for quadrilaterals.
+const QUAD: u8 = 9;
+
+/// The file of a surface.
+///
+/// # Errors
+/// [`SurfaceError::TooClose`] if corners coincide in double precision.
+pub fn vtu(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
+    let points = surface.coordinates(|x| x)?;
+    let faces = &surface.faces;
+    let mut text = format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\">\n<UnstructuredGrid>\n\
+         <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+        points.len(),
+        faces.len()
+    );
+    let numbers = points.as_flattened().iter().flat_map(|x| x.to_le_bytes());
+    array(&mut text, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", numbers);
+    text.push_str("</Points>\n<Cells>\n");
+    let corners = faces.iter().flat_map(|face| face.corners);
+    let corners = corners.flat_map(|at| i64::from(at).to_le_bytes());
+    array(&mut text, "type=\"Int64\" Name=\"connectivity\"", corners);
+    let ends = (1..=faces.len() as i64).flat_map(|n| (4 * n).to_le_bytes());
+    array(&mut text, "type=\"Int64\" Name=\"offsets\"", ends);
+    array(&mut text, "type=\"UInt8\" Name=\"types\"", faces.iter().map(|_| QUAD));
+    text.push_str("</Cells>\n<CellData>\n");
+    let beyond = faces.iter().map(|face| match face.beyond {
+        Beyond::Outer => 0,
+        Beyond::Undecided => 1,
+        Beyond::OutsideBox => 2,
+    });
+    array(&mut text, "type=\"UInt8\" Name=\"beyond\"", beyond);
+    let depth = faces.iter().map(|face| face.depth as u8); // At most 120.
+    array(&mut text, "type=\"UInt8\" Name=\"depth\"", depth);
+    text.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    Ok(text.into_bytes())
+}
+
+/// An array of numbers: the count of its bytes, and they, as base64.
+fn array(text: &mut String, attributes: &str, bytes: impl Iterator<Item = u8>) {
+    let bytes: Vec<u8> = bytes.collect();
+    text.push_str(&format!("<DataArray {attributes} format=\"binary\">\n"));
+    let mut all = (bytes.len() as u64).to_le_bytes().to_vec();
+    all.extend(bytes);
+    base64(&all, text);
+    text.push_str("\n</DataArray>\n");
+}
+
+/// Appends the base64 of the bytes (RFC 4648, section 4).
+fn base64(bytes: &[u8], text: &mut String) {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    text.reserve(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(group.get(i).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for digit in 0..4 {
+            // `group.len()` bytes are `group.len() + 1` digits, the rest is padding.
+            let value = bits >> (18 - 6 * digit) & 63;
+            text.push(if digit <= group.len() { DIGITS[value as usize] as char } else { '=' });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::base64;
+
+    #[test]
+    fn base64_is_that_of_the_standard() {
+        for (bytes, expected) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ] {
+            let mut text = String::new();
+            base64(bytes.as_bytes(), &mut text);
+            assert_eq!(text, expected);
+        }
+        let mut text = String::new();
+        base64(&[0xfb, 0xff, 0xbf], &mut text);
+        assert_eq!(text, "+/+/");
+    }
+}

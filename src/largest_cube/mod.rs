@@ -1,0 +1,184 @@
+//! The largest axis-aligned cube in the region where a claim holds, between a cube that is
+//! certified and a side for which none fits.
+//!
+//! | module    | does                                                                |
+//! |-----------|---------------------------------------------------------------------|
+//! | `place`   | looks for the best centre, in doubles                               |
+//! | `exclude` | proves that no cube of a side fits, wherever its centre is in a box |
+//!
+//! The lower bound is a certificate for the cube as a workspace of its own; the upper bound is a
+//! certificate of the claim [`NoCube`](orthocert_checker::claim::Claim::NoCube).
+
+mod exclude;
+mod place;
+
+use crate::search::{Budget, Control};
+use crate::verify::{verify, Answer};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::{ClaimError, MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+
+pub use exclude::exclude;
+pub use place::{best_place, Place};
+
+/// A cube that is certified.
+#[derive(Clone, Debug)]
+pub struct Inside {
+    /// Its side.
+    pub side: Exact,
+    /// Its centre.
+    pub centre: [Exact; 3],
+    /// The certificate for the cube as a workspace.
+    pub certificate: Box<Certificate>,
+}
+
+/// A side for which no cube fits.
+#[derive(Clone, Debug)]
+pub struct TooLarge {
+    /// The side.
+    pub side: Exact,
+    /// The certificate.
+    pub certificate: Box<Certificate>,
+}
+
+/// Both bounds, as far as they were found.
+#[derive(Clone, Debug, Default)]
+pub struct Bracket {
+    /// The greatest cube that was certified.
+    pub inside: Option<Inside>,
+    /// The least side that was excluded.
+    pub too_large: Option<TooLarge>,
+}
+
+/// Why there is no answer at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoAnswer {
+    /// It was cancelled.
+    Cancelled,
+    /// The claim is not well formed, or its workspace is not a box with a volume.
+    Claim(String),
+    /// No centre was found at which the requirements hold.
+    Nowhere,
+}
+
+impl From<ClaimError> for NoAnswer {
+    fn from(error: ClaimError) -> Self {
+        NoAnswer::Claim(error.to_string())
+    }
+}
+
+/// Shares of the gap that are left between the place found and either bound, tried in turn. The
+/// later ones are for tolerances, and for regions in which the place is not unique.
+const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
+/// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
+const BOXES: usize = 50_000;
+
+/// Encloses the side of the largest cube with its centre in the workspace of `claim`, a box, to a
+/// relative width of `gap`, or as near to it as the budget allows.
+///
+/// # Errors
+/// [`NoAnswer`].
+pub fn largest_cube(
+    claim: &MachineClaim,
+    gap: f64,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    let place = best_place(claim, gap)?.ok_or(NoAnswer::Nowhere)?;
+    let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
+    let mut bracket = Bracket::default();
+    for share in SHARES {
+        let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
+        let Some(side) = side.filter(|side| side.sign() == Some(1)) else { break };
+        bracket.inside = certified(claim, &side, &place.centre, gap, budget, control)?;
+        if bracket.inside.is_some() {
+            break;
+        }
+    }
+    for share in SHARES {
+        let Some(side) = decimal(place.side * (1.0 + share * gap), place.side * gap) else { break };
+        if let Some(certificate) = exclude(claim, &side, budget, control)? {
+            bracket.too_large = Some(TooLarge { side, certificate });
+            break;
+        }
+    }
+    Ok(bracket)
+}
+
+/// Whether a cube of this side fits with its centre in the workspace of `claim`: at most one of the
+/// bounds, and none where it is not decided.
+///
+/// # Errors
+/// [`NoAnswer`].
+pub fn cube_of_side(
+    claim: &MachineClaim,
+    side: &Exact,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    const FINE: f64 = 1e-9;
+    let mut bracket = Bracket::default();
+    let wanted = crate::decimal::approximate(side).unwrap_or(f64::INFINITY);
+    let place = best_place(claim, FINE)?;
+    if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
+        bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
+    }
+    if bracket.inside.is_none() {
+        let excluded = exclude(claim, side, budget, control)?;
+        bracket.too_large =
+            excluded.map(|certificate| TooLarge { side: side.clone(), certificate });
+    }
+    Ok(bracket)
+}
+
+/// The certificate for a cube, if there is one within the budget.
+fn certified(
+    claim: &MachineClaim,
+    side: &Exact,
+    centre: &[f64; 3],
+    gap: f64,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Inside>, NoAnswer> {
+    let size = crate::decimal::approximate(side).unwrap_or(1.0);
+    let centre = centre.map(|x| decimal(x, size * gap * 0.1).unwrap_or(Exact::integer(0)));
+    if !contains(claim, &centre) {
+        return Ok(None);
+    }
+    let too_large = |_| NoAnswer::Claim("its numbers exceed what can be reported".to_owned());
+    let half = side.clone().over(Exact::integer(2)).map_err(too_large)?;
+    let (mut min, mut max) = (centre.clone(), centre.clone());
+    for k in 0..3 {
+        min[k] = centre[k].clone().minus(half.clone()).map_err(too_large)?;
+        max[k] = centre[k].clone().plus(half.clone()).map_err(too_large)?;
+    }
+    let cube = MachineClaim { workspace: Workspace::Box { min, max }, ..claim.clone() };
+    match verify(&cube, budget, control)?.answer {
+        Answer::Cancelled => Err(NoAnswer::Cancelled),
+        Answer::Decided { certificate, accepted } if accepted.verdict == Verdict::Certified => {
+            Ok(Some(Inside { side: side.clone(), centre, certificate }))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Whether a point is provably in the workspace, a box.
+fn contains(claim: &MachineClaim, point: &[Exact; 3]) -> bool {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return false;
+    };
+    let at_most = |x: &Exact, y: &Exact| x.compare(y).is_some_and(std::cmp::Ordering::is_le);
+    (0..3).all(|k| at_most(&min[k], &point[k]) && at_most(&point[k], &max[k]))
+}
+
+/// A decimal within a hundredth of `width` of `x`.
+fn decimal(x: f64, width: f64) -> Option<Exact> {
+    let places = 2 - width.log10().floor() as i32;
+    let grid = BigRational::from_integer(BigInt::from(10)).pow(places);
+    let nearest = (BigRational::from_f64(x)? * &grid).round() / grid;
+    Some(Exact::Rational(nearest))
+}

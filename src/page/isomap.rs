@@ -1,0 +1,400 @@
+//! Maps of the velocity transmission factors over a plane `z = const` of the workspace.
+
+use super::contour::{Field, LevelSet, Path};
+use super::nominal::{Nominal, Point};
+use super::svg::{path_data, Elements, Picture};
+use crate::decimal::significant;
+use serde::Serialize;
+use std::array::from_fn;
+use std::fmt::Write;
+
+/// Nodes of the grid on either side.
+const NODES: usize = 61;
+/// Nodes on every axis from which the levels are chosen.
+const SAMPLES: usize = 9;
+/// Levels aimed at.
+const LEVELS: f64 = 12.0;
+/// Where the greatest value exceeds the least this many times, levels are spaced by factors.
+const WIDE: f64 = 30.0;
+/// A map's width and height, and the margins on the left, above, on the right and below.
+const SIZE: [f64; 2] = [300.0, 322.0];
+const MARGIN: [f64; 4] = [44.0, 30.0, 10.0, 40.0];
+/// Shortest line that carries its level.
+const LABELLED: f64 = 34.0;
+/// Least distance of labels from each other, and from marks.
+const APART: f64 = 19.0;
+/// Sequential, in order of lightness, for those who do not tell colours apart: ColorBrewer YlGnBu.
+const COLOURS: [[f64; 3]; 7] = [
+    [255.0, 255.0, 217.0],
+    [214.0, 239.0, 179.0],
+    [143.0, 212.0, 185.0],
+    [75.0, 184.0, 196.0],
+    [33.0, 140.0, 187.0],
+    [35.0, 88.0, 163.0],
+    [16.0, 40.0, 110.0],
+];
+
+/// The colours of a machine's maps, which all have in common, and the levels of each.
+#[derive(Clone, Debug, Serialize)]
+pub struct Scale {
+    /// For `psi_1`, `psi_2`, `psi_3`.
+    pub maps: [Levels; 3],
+    /// Least and greatest value sampled in the workspace.
+    #[serde(skip)]
+    range: [f64; 2],
+    /// The values of the first and the last colour.
+    #[serde(skip)]
+    ends: [f64; 2],
+}
+
+/// The lines of a map.
+#[derive(Clone, Debug, Serialize)]
+pub struct Levels {
+    /// Their levels, increasing.
+    pub levels: Vec<f64>,
+    /// The colours between them: one more.
+    pub colours: Vec<String>,
+    /// For each line, whether it lies on dark ground.
+    pub dark: Vec<bool>,
+}
+
+/// The colour at `t` in `[0, 1]`.
+fn colour(t: f64) -> String {
+    let x = t.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
+    let i = (x as usize).min(COLOURS.len() - 2);
+    let part = x - i as f64;
+    let [r, g, b] =
+        from_fn(|k| (COLOURS[i][k] + part * (COLOURS[i + 1][k] - COLOURS[i][k])).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+impl Scale {
+    /// The scale for a machine; `None` where it reaches none of the sampled points.
+    pub fn of(machine: &Nominal) -> Option<Self> {
+        let part = |i: usize| i as f64 / (SAMPLES - 1) as f64;
+        let mut found: [Vec<f64>; 3] = Default::default();
+        for n in 0..SAMPLES.pow(3) {
+            let u = [n % SAMPLES, n / SAMPLES % SAMPLES, n / SAMPLES / SAMPLES].map(part);
+            if machine.is_cylinder && (2.0 * u[0] - 1.0).hypot(2.0 * u[1] - 1.0) > 1.0 {
+                continue;
+            }
+            let psi = machine.psi(machine.point(u)).filter(|psi| psi.iter().all(|x| x.is_normal()));
+            for (all, x) in found.iter_mut().zip(psi.into_iter().flatten()) {
+                all.push(x);
+            }
+        }
+        found.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
+        let range = [*found[0].first()?, *found[2].last()?];
+        let shown = [0, 1, 2].map(|i| typical(&found[i]));
+        let ends = [shown[0][0], shown[2][1]];
+        Some(Scale { maps: shown.map(|shown| Levels::within(shown, ends)), range, ends })
+    }
+
+    /// The colours and some of their values, as a strip.
+    pub fn legend(&self) -> String {
+        const PIECES: usize = 60;
+        let [low, high] = self.ends;
+        let width = 520.0 / PIECES as f64;
+        let mut out = Elements::default();
+        for k in 0..PIECES {
+            let (x, colour) = (10.0 + width * k as f64, colour((k as f64 + 0.5) / PIECES as f64));
+            out.raw(&format!(
+                "<rect x=\"{x:.2}\" y=\"4\" width=\"{:.2}\" height=\"12\" fill=\"{colour}\"/>",
+                width + 0.3
+            ));
+        }
+        for level in levels(low, high) {
+            let x = 10.0 + 520.0 * position(level, self.ends);
+            out.line("axis-line", [x, 16.0], [x, 19.0]);
+            out.text("tick middle", [x, 30.0], &significant(level, 6));
+        }
+        let [low, high] = self.range.map(|x| significant(x, 4));
+        format!(
+            "<div class=\"scale\"><svg class=\"figure\" viewBox=\"0 0 540 34\" role=\"img\"><title>Scale of the \
+             maps</title>{}</svg><span>In the whole workspace, sampled: from {low} to {high}</span></div>",
+            out.0
+        )
+    }
+}
+
+/// Where a value stands between the first and the last colour.
+fn position(value: f64, [low, high]: [f64; 2]) -> f64 {
+    if high / low > WIDE {
+        (value / low).ln() / (high / low).ln()
+    } else if high > low {
+        (value - low) / (high - low)
+    } else {
+        0.5
+    }
+}
+
+/// The range of sorted values. A few points next to a singularity must not set it for all others.
+fn typical(sorted: &[f64]) -> [f64; 2] {
+    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
+    if at(1.0) / at(0.0) > WIDE {
+        [at(0.03), at(0.97)]
+    } else {
+        [at(0.0), at(1.0)]
+    }
+}
+
+impl Levels {
+    /// The lines of a map whose values are within `shown`, colours being those of `ends`.
+    fn within([low, high]: [f64; 2], ends: [f64; 2]) -> Self {
+        let levels = levels(low, high);
+        let bounds: Vec<f64> = [&[low], &levels[..], &[high]].concat();
+        let middle = |pair: &[f64]| colour(position((pair[0] + pair[1]) / 2.0, ends));
+        let colours = bounds.windows(2).map(middle).collect();
+        let dark = levels.iter().map(|level| position(*level, ends) >= 0.55).collect();
+        Levels { levels, colours, dark }
+    }
+}
+
+/// Round numbers between two values.
+fn levels(low: f64, high: f64) -> Vec<f64> {
+    if high - low <= 1e-9 * high {
+        return Vec::new();
+    }
+    if high / low > WIDE {
+        let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+        let all = decades.flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e)));
+        return all.filter(|x| (low..=high).contains(x)).take(24).collect();
+    }
+    let raw = (high - low) / LEVELS;
+    let unit = 10f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|m| m * unit).find(|s| *s >= raw);
+    let step = step.unwrap_or(raw);
+    let first = (low / step).ceil() as i64;
+    let inner = (first..first + 24).map(|i| i as f64 * step);
+    inner.filter(|x| *x > low + 1e-9 * step && *x < high - 1e-9 * step).collect()
+}
+
+/// A point that is marked on the maps.
+#[derive(Clone, Debug, Serialize)]
+pub struct Mark {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub at: Point,
+}
+
+/// The plane of a map in the picture.
+struct Plane {
+    corner: [f64; 2],
+    size: [f64; 2],
+    least: [f64; 2],
+    width: [f64; 2],
+}
+
+impl Plane {
+    fn of(machine: &Nominal) -> Self {
+        let [left, top, right, bottom] = MARGIN;
+        let room = [SIZE[0] - left - right, SIZE[1] - top - bottom];
+        let width = [machine.frame.width[0], machine.frame.width[1]];
+        // True to scale, unless that leaves a strip.
+        let scale =
+            (0..2).map(|k| room[k] / width[k].max(f64::MIN_POSITIVE)).fold(f64::MAX, f64::min);
+        let size = from_fn(|k| (scale * width[k]).max(room[k] / 4.0));
+        let corner = [left + (room[0] - size[0]) / 2.0, top + (room[1] - size[1]) / 2.0];
+        Plane { corner, size, least: [machine.frame.least[0], machine.frame.least[1]], width }
+    }
+
+    fn at(&self, x: f64, y: f64) -> [f64; 2] {
+        let part = |k: usize, v: f64| {
+            if self.width[k] > 0.0 {
+                (v - self.least[k]) / self.width[k]
+            } else {
+                0.5
+            }
+        };
+        [
+            self.corner[0] + part(0, x) * self.size[0],
+            self.corner[1] + (1.0 - part(1, y)) * self.size[1],
+        ]
+    }
+}
+
+/// The three maps `psi_1`, `psi_2`, `psi_3` in the plane `z`.
+pub fn maps(machine: &Nominal, scale: &Scale, marks: &[Mark], z: f64) -> [Picture; 3] {
+    let plane = Plane::of(machine);
+    let nodes = |k: usize| -> Vec<f64> {
+        let (least, width) = (plane.least[k], plane.width[k]);
+        (0..NODES).map(|i| least + width * i as f64 / (NODES - 1) as f64).collect()
+    };
+    let field = |f: &dyn Fn(Point) -> f64| Field::of(nodes(0), nodes(1), |x, y| f([x, y, z]));
+    let reach = field(&|p| -machine.clearance(p)).at_least(0.0);
+    from_fn(|i| {
+        let field = field(&|p| machine.psi(p).map_or(f64::NAN, |psi| psi[i]));
+        let sets: Vec<LevelSet> = scale.maps[i].levels.iter().map(|l| field.at_least(*l)).collect();
+        map(i, &plane, machine, &scale.maps[i], (&sets, &reach), marks, z)
+    })
+}
+
+const NAMES: [(&str, &str, &str); 3] = [
+    ("psi-1", "\u{3c8}\u{2081}", "least"),
+    ("psi-2", "\u{3c8}\u{2082}", "middle"),
+    ("psi-3", "\u{3c8}\u{2083}", "greatest"),
+];
+
+fn map(
+    i: usize,
+    plane: &Plane,
+    machine: &Nominal,
+    Levels { levels, colours, dark }: &Levels,
+    (sets, reach): (&[LevelSet], &LevelSet),
+    marks: &[Mark],
+    z: f64,
+) -> Picture {
+    let (name, symbol, which) = NAMES[i];
+    let mut out = Elements::default();
+    let shown = |path: &Path| -> Path { path.iter().map(|p| plane.at(p[0], p[1])).collect() };
+    let area =
+        |paths: &[Path]| paths.iter().map(|p| path_data(&shown(p), true)).collect::<String>();
+    out.raw(&frame_definitions(name, plane, machine.is_cylinder));
+    out.raw(&format!("<g class=\"field\" clip-path=\"url(#{name}-clip)\">"));
+    let [x, y] = plane.corner;
+    let [w, h] = plane.size;
+    let rectangle = format!("x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"");
+    out.raw(&format!("<rect {rectangle} fill=\"{}\"/>", colours[0]));
+    for (set, fill) in sets.iter().zip(&colours[1..]) {
+        let d = area(&set.area);
+        out.raw(&format!("<path class=\"band\" fill=\"{fill}\" d=\"{d}\"/>"));
+    }
+    let marks: Vec<&Mark> = marks
+        .iter()
+        .filter(|mark| (mark.at[2] - z).abs() <= 1e-6 * machine.frame.width[2])
+        .collect();
+    let mut labels = Elements::default();
+    let mut taken: Path = marks.iter().map(|mark| plane.at(mark.at[0], mark.at[1])).collect();
+    for (k, set) in sets.iter().enumerate() {
+        let class = if dark[k] { "level on-dark" } else { "level" };
+        let d: String = set.lines.iter().map(|p| path_data(&shown(p), false)).collect();
+        out.raw(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
+        let longest = set.lines.iter().map(shown).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let Some(line) = longest.filter(|line| length(line) >= LABELLED) else {
+            continue;
+        };
+        let at = middle(&line, k);
+        if taken.iter().all(|other| length(&[*other, at]) >= APART) {
+            taken.push(at);
+            labels.text("level-label", at, &significant(levels[k], 6));
+        }
+    }
+    out.raw(&format!(
+        "<path class=\"unreachable\" fill=\"url(#{name}-hatch)\" d=\"{}\"/>",
+        area(&reach.area)
+    ));
+    out.raw(&labels.0);
+    out.raw("</g>");
+    frame(&mut out, plane, machine);
+    for mark in marks {
+        let at = plane.at(mark.at[0], mark.at[1]);
+        let class = if 2.0 * (at[0] - plane.corner[0]) > plane.size[0] { "end" } else { "start" };
+        let beside = if class == "end" { -7.0 } else { 7.0 };
+        let above = if at[1] < plane.corner[1] + 18.0 { 15.0 } else { -6.0 };
+        out.dot("mark", at, 3.5);
+        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] + above], &mark.name);
+    }
+    out.text("map-title", [plane.corner[0], 18.0], &format!("{symbol}, the {which} factor"));
+    out.raw("<g class=\"crosshair\"></g>");
+    let z = significant(z, 6);
+    Picture {
+        name: name.to_owned(),
+        title: format!("Lines of equal {symbol}, the {which} velocity transmission factor, at z = {z}"),
+        size: SIZE,
+        attributes: format!(
+            "data-map=\"{i}\" data-x=\"{x:.3}\" data-y=\"{y:.3}\" data-w=\"{w:.3}\" data-h=\"{h:.3}\""
+        ),
+        content: out.0,
+    }
+}
+
+/// The clip of the workspace and the hatching of what is out of reach.
+fn frame_definitions(name: &str, plane: &Plane, is_cylinder: bool) -> String {
+    let ([x, y], [w, h]) = (plane.corner, plane.size);
+    let mut out = format!("<defs><clipPath id=\"{name}-clip\">");
+    let _ = if is_cylinder {
+        let (rx, ry) = (w / 2.0, h / 2.0);
+        let (cx, cy) = (x + rx, y + ry);
+        write!(out, "<ellipse cx=\"{cx:.1}\" cy=\"{cy:.1}\" rx=\"{rx:.1}\" ry=\"{ry:.1}\"/>")
+    } else {
+        write!(out, "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/>")
+    };
+    out.push_str("</clipPath>");
+    let _ = write!(
+        out,
+        "<pattern id=\"{name}-hatch\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">\
+         <rect class=\"hatch-ground\" width=\"6\" height=\"6\"/>\
+         <path class=\"hatch\" d=\"M-1 7L7 -1M-1 1L1 -1M5 7L7 5\"/></pattern></defs>"
+    );
+    out
+}
+
+/// The workspace's outline and the axes.
+fn frame(out: &mut Elements, plane: &Plane, machine: &Nominal) {
+    let ([x, y], [w, h]) = (plane.corner, plane.size);
+    if machine.is_cylinder {
+        let (rx, ry) = (w / 2.0, h / 2.0);
+        let (cx, cy) = (x + rx, y + ry);
+        out.raw(&format!(
+            "<ellipse class=\"outline\" cx=\"{cx:.1}\" cy=\"{cy:.1}\" rx=\"{rx:.1}\" ry=\"{ry:.1}\"/>"
+        ));
+    } else {
+        let (r, b) = (x + w, y + h);
+        out.path("outline", &[[x, y], [r, y], [r, b], [x, b]], true);
+    }
+    let (bottom, far) = (y + h, [plane.least[0] + plane.width[0], plane.least[1] + plane.width[1]]);
+    out.text("tick start", [x, bottom + 15.0], &significant(plane.least[0], 4));
+    out.text("tick end", [x + w, bottom + 15.0], &significant(far[0], 4));
+    out.text("axis middle", [x + w / 2.0, bottom + 15.0], "x");
+    out.text("tick end", [x - 5.0, bottom], &significant(plane.least[1], 4));
+    out.text("tick end", [x - 5.0, y + 9.0], &significant(far[1], 4));
+    out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], "y");
+}
+
+fn length(line: &[[f64; 2]]) -> f64 {
+    line.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
+}
+
+/// A point near the middle of a line; neighbouring levels are labelled at different parts.
+fn middle(line: &[[f64; 2]], level: usize) -> [f64; 2] {
+    let part = [0.5, 0.38, 0.62][level % 3];
+    let mut rest = part * length(line);
+    for pair in line.windows(2) {
+        let piece = length(pair);
+        if piece >= rest {
+            let t = if piece > 0.0 { rest / piece } else { 0.0 };
+            let at = |k: usize| pair[0][k] + t * (pair[1][k] - pair[0][k]);
+            return [at(0), at(1) + 3.5];
+        }
+        rest -= piece;
+    }
+    line[line.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_round_and_inside() {
+        let found = levels(0.5, 2.0);
+        assert_eq!(found.len(), 7, "{found:?}");
+        assert!(
+            found.iter().all(|x| *x > 0.5 && *x < 2.0)
+                && found.iter().all(|x| (5.0 * x - (5.0 * x).round()).abs() < 1e-9)
+        );
+        assert!(levels(1.0, 1.0).is_empty());
+        assert_eq!(levels(0.01, 1.0), [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn colours_darken_with_the_value() {
+        let light = |t: f64| {
+            let c = u32::from_str_radix(&colour(t)[1..], 16).unwrap();
+            2126 * (c >> 16) + 7152 * (c >> 8 & 255) + 722 * (c & 255)
+        };
+        let all: Vec<u32> = (0..=20).map(|i| light(f64::from(i) / 20.0)).collect();
+        assert!(all.windows(2).all(|w| w[1] < w[0]), "{all:?}");
+    }
+}

@@ -1,0 +1,301 @@
+//! A certificate as one HTML file: to read, to print, to attach. A function of the certificate, the
+//! checker's verdict on it, and the names it is given; of it, the verdict alone is proved.
+//!
+//! | module          | holds                                                          |
+//! |-----------------|----------------------------------------------------------------|
+//! | `sections`      | the sections, in their order                                   |
+//! | `scene`         | the slice, the marked points and the trees of a certificate    |
+//! | `words`         | the claim in words, formulas and tables                        |
+//! | `nominal`       | the nominal machine in doubles                                 |
+//! | `drawing`       | the machine and its workspace                                  |
+//! | `isomap`        | lines of equal transmission factors                            |
+//! | `contour`       | level sets on a grid                                           |
+//! | `subdivision`   | the boxes of the proof                                         |
+//! | `evidence`      | margins, the counterexample, where the proof worked hardest    |
+//! | `recheck`       | how to check again, and the digests                            |
+//! | `svg`           | views of space and parts of figures                            |
+//! | [`raster`]      | figures as PNG                                                 |
+//! | `escape`        | the only ways in which text gets into a page                   |
+//!
+//! `page.html`, `page.css`, `figure.css` and `script/` are the page's frame, its style, and what it
+//! does in a browser. The script computes the factors again, from the nominal machine's numbers.
+
+mod contour;
+mod drawing;
+mod escape;
+mod evidence;
+mod isomap;
+mod nominal;
+pub mod raster;
+mod recheck;
+mod scene;
+mod sections;
+mod subdivision;
+mod svg;
+mod words;
+
+use crate::digest::policy_source;
+use crate::report::{worst_found, Row};
+use escape::html;
+use isomap::{Mark, Scale};
+use nominal::Nominal;
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::rule::Obligation;
+use orthocert_checker::Accepted;
+use scene::{marks, slice, trees};
+use serde_json::{json, Value};
+use subdivision::{Subdivision, PATTERNS, RULES};
+
+pub use recheck::{checker_sha256, CHECKER_COMMAND};
+pub use svg::Picture;
+
+const FRAME: &str = include_str!("page.html");
+const SCRIPT: &str = concat!(
+    "\"use strict\";\n",
+    include_str!("script/kinematics.js"),
+    include_str!("script/contour.js"),
+    include_str!("script/maps.js"),
+    include_str!("script/leaves.js"),
+    include_str!("script/view.js"),
+    include_str!("script/space.js"),
+    include_str!("script/start.js"),
+);
+
+/// The certificate's file.
+#[derive(Clone, Copy, Debug)]
+pub struct File<'a> {
+    /// Its name, without folders.
+    pub name: &'a str,
+    /// Its content.
+    pub bytes: &'a [u8],
+}
+
+/// What is on a page.
+#[derive(Debug)]
+pub struct Page<'a> {
+    certificate: &'a Certificate,
+    accepted: &'a Accepted,
+    file: File<'a>,
+    title: String,
+    /// The machine, and the scale of its maps; none where there is no single one, or where its
+    /// numbers exceed what doubles can show.
+    machine: Option<(Nominal, Option<Scale>)>,
+    rows: Vec<Row>,
+    marks: Vec<Mark>,
+    trees: Vec<Subdivision>,
+    figures: Figures,
+}
+
+/// The pictures on a page.
+#[derive(Debug, Default)]
+struct Figures {
+    design: Option<Picture>,
+    maps: Vec<Picture>,
+    subdivisions: Vec<Picture>,
+}
+
+impl<'a> Page<'a> {
+    /// The page of a certificate that the checker has accepted.
+    pub fn new(
+        certificate: &'a Certificate,
+        accepted: &'a Accepted,
+        file: File<'a>,
+        title: Option<&str>,
+    ) -> Self {
+        let machine_claim = match &certificate.claim {
+            Claim::Machine(claim) => Some(claim.clone()),
+            Claim::NoCube(claim) => Some(claim.machine.clone()),
+            Claim::Postulate(claim) => nominal::of_postulate(claim),
+            Claim::Atlas(_) => None,
+        };
+        let rows = match &certificate.claim {
+            Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
+        };
+        let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
+            machine.slice = slice(&machine, certificate, &rows);
+            let scale = Scale::of(&machine);
+            (machine, scale)
+        });
+        let marks = marks(machine.as_ref().map(|(machine, _)| machine), certificate);
+        let trees = trees(certificate, machine.as_ref().map(|(machine, _)| machine));
+        let mut page = Page {
+            certificate,
+            accepted,
+            file,
+            title: title.unwrap_or(stem(file.name)).to_owned(),
+            machine,
+            rows,
+            marks,
+            trees,
+            figures: Figures::default(),
+        };
+        page.figures = page.draw();
+        page
+    }
+
+    fn draw(&self) -> Figures {
+        let mut figures = Figures::default();
+        if let Some((machine, scale)) = &self.machine {
+            figures.design = Some(drawing::drawing(machine, &self.marks));
+            if let Some(scale) = scale {
+                let z = machine.point([0.0, 0.0, machine.slice])[2];
+                figures.maps = isomap::maps(machine, scale, &self.marks, z).into();
+            }
+        }
+        let marks = if self.is_machine() { &self.marks[..] } else { &[] };
+        let trees = self.trees.iter().enumerate();
+        figures.subdivisions = trees.map(|(i, tree)| tree.picture(i, marks)).collect();
+        figures
+    }
+
+    fn is_machine(&self) -> bool {
+        matches!(self.certificate.claim, Claim::Machine(_) | Claim::NoCube(_))
+    }
+
+    /// Every figure.
+    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+        let Figures { design, maps, subdivisions } = &self.figures;
+        design.iter().chain(maps).chain(subdivisions)
+    }
+
+    /// The HTML file.
+    pub fn html(&self) -> String {
+        let style = format!("{}{}", include_str!("page.css"), include_str!("figure.css"));
+        let verdict = self.accepted.verdict;
+        let sections = self.sections();
+        let provenance = &self.certificate.provenance;
+        let headline = match verdict {
+            Verdict::Certified => "\u{2713} CERTIFIED",
+            Verdict::Refuted => "\u{2717} REFUTED",
+        };
+        let meaning = match (&self.certificate.claim, verdict) {
+            (Claim::Machine(_), Verdict::Certified) => {
+                "Every requirement holds, at every point of the workspace and for every machine that \
+                 the claim describes. The exact checker accepted the proof."
+            }
+            (Claim::Postulate(_), Verdict::Certified) => {
+                "The bounds on the transmission factors hold on the whole closed cube, for every \
+                 psi_max of the claim. The exact checker accepted the proof."
+            }
+            (Claim::Atlas(_), Verdict::Certified) => {
+                "Every design of the cells that the map names certified meets the requirements, and \
+                 none of those that it names refuted does. The exact checker accepted all proofs."
+            }
+            (Claim::NoCube(_), Verdict::Certified) => {
+                "No cube of this side fits, wherever its centre is in the box. The exact checker \
+                 accepted the proof."
+            }
+            (_, Verdict::Refuted) => {
+                "A requirement fails. The exact checker accepted the counterexample."
+            }
+        };
+        filled(
+            FRAME,
+            &[
+                ("script-policy", &policy_source(SCRIPT)),
+                ("style-policy", &policy_source(&style)),
+                ("style", &style),
+                ("script", SCRIPT),
+                ("title", &html(&self.title)),
+                ("subject", &html(&words::subject(&self.certificate.claim))),
+                ("verdict", &verdict.to_string()),
+                ("headline", headline),
+                ("meaning", meaning),
+                ("contents", &contents(&sections)),
+                (
+                    "sections",
+                    &sections.iter().map(|(_, _, text)| text.as_str()).collect::<String>(),
+                ),
+                ("version", env!("CARGO_PKG_VERSION")),
+                ("written-by", &html(&format!("{} {}", provenance.tool, provenance.version))),
+                ("data", &escape::data(&self.data().to_string())),
+            ],
+        )
+    }
+
+    /// What the script works on.
+    fn data(&self) -> Value {
+        let machine = self.machine.as_ref().map(|(machine, scale)| {
+            json!({
+                "legs": machine.legs.each_ref().map(|leg| &leg.numbers),
+                "least": machine.frame.least,
+                "width": machine.frame.width,
+                "cylinder": machine.is_cylinder,
+                "slice": machine.slice,
+                "scale": scale,
+            })
+        });
+        let trees: Vec<Value> = self
+            .trees
+            .iter()
+            .map(|tree| {
+                json!({
+                    "name": tree.name,
+                    "axes": tree.axes,
+                    "least": tree.least,
+                    "width": tree.width,
+                    "shape": tree.proportions(),
+                    "code": tree.code,
+                    "filledBy": tree.filled_by,
+                })
+            })
+            .collect();
+        let discharges: Vec<i64> = RULES.iter().map(|rule| discharged(rule.name)).collect();
+        json!({
+            "machine": machine,
+            "trees": trees,
+            "rules": RULES,
+            "discharges": discharges,
+            "obligations": Obligation::ALL.map(|o| o.to_string()),
+            "patterns": PATTERNS,
+            "marks": self.marks,
+            "marksInTree": self.is_machine(),
+        })
+    }
+}
+
+/// The obligation that a rule discharges, by its position; -1 for all.
+fn discharged(rule: &str) -> i64 {
+    let name = match rule {
+        "lower" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
+        "upper" | "cube" => "sigma_max",
+        "range" => "joint_range",
+        "speed" => "joint_speed",
+        other => other,
+    };
+    let found = Obligation::ALL.iter().position(|o| o.to_string() == name);
+    found.and_then(|i| i64::try_from(i).ok()).unwrap_or(-1)
+}
+
+fn contents(sections: &[(&str, &str, String)]) -> String {
+    let link = |(id, name, _): &(&str, &str, String)| format!("<a href=\"#{id}\">{name}</a>");
+    sections.iter().map(link).collect()
+}
+
+/// The frame with what stands for its `{{names}}`; what is put in is not looked at again.
+fn filled(frame: &str, values: &[(&str, &str)]) -> String {
+    let mut out =
+        String::with_capacity(frame.len() + values.iter().map(|v| v.1.len()).sum::<usize>());
+    let mut rest = frame;
+    while let Some((before, after)) = rest.split_once("{{") {
+        out.push_str(before);
+        let Some((name, after)) = after.split_once("}}") else {
+            break;
+        };
+        out.push_str(values.iter().find(|(known, _)| *known == name).map_or("", |v| v.1));
+        rest = after;
+    }
+    out.push_str(rest);
+    out
+}
+
+/// `NAME` of `NAME.cert.json`.
+fn stem(name: &str) -> &str {
+    let name = name.strip_suffix(".json").unwrap_or(name);
+    name.strip_suffix(".cert").unwrap_or(name)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,27 @@
+// Starts what the page can do beyond being read.
+
+const start = () => {
+  const root = document.documentElement;
+  root.classList.add("js");
+  const data = JSON.parse(document.getElementById("data").textContent);
+  startMaps(data);
+  const redraw = startSpace(data);
+  const button = document.getElementById("theme");
+  const preferred = window.matchMedia("(prefers-color-scheme: dark)");
+  const isDark = () => (root.dataset.theme ? root.dataset.theme === "dark" : preferred.matches);
+  const say = () => {
+    button.textContent = isDark() ? "Light" : "Dark";
+    button.setAttribute("aria-pressed", String(isDark()));
+    if (redraw) {
+      redraw();
+    }
+  };
+  button.addEventListener("click", () => {
+    root.dataset.theme = isDark() ? "light" : "dark";
+    say();
+  });
+  preferred.addEventListener("change", say);
+  say();
+};
+
+start();

@@ -1,0 +1,208 @@
+//! The sections of a page, in their order.
+
+use super::escape::html;
+use super::isomap::Scale;
+use super::nominal::{self, Numbers};
+use super::subdivision::{Subdivision, PATTERNS, RULES};
+use super::{evidence, recheck, words, Page, Picture};
+use crate::decimal::{grouped, significant};
+use crate::report::Counterexample;
+use orthocert_checker::certificate::{Proof, Verdict};
+use orthocert_checker::claim::{Claim, NoCubeClaim};
+use orthocert_checker::rule::Obligation;
+use std::fmt::Write;
+
+impl Page<'_> {
+    /// Anchor, name and text of every section.
+    pub(super) fn sections(&self) -> Vec<(&'static str, &'static str, String)> {
+        let verdict = self.accepted.verdict;
+        let mut all = vec![
+            ("overview", "Overview", self.overview()),
+            ("claim", "Claim", words::claim_section(&self.certificate.claim, verdict)),
+        ];
+        if let (Claim::Machine(claim), Proof::Witness(witness)) =
+            (&self.certificate.claim, &self.certificate.proof)
+        {
+            let found = Counterexample::new(claim, witness);
+            all.push(("counterexample", "Counterexample", evidence::counterexample(&found)));
+        }
+        all.push(("machine", "Machine", self.machine_section()));
+        if !self.figures.maps.is_empty() {
+            all.push(("maps", "Transmission factors", self.maps_section()));
+        }
+        if !self.rows.is_empty() {
+            all.push(("margins", "Margins", evidence::margins(&self.rows)));
+        }
+        all.push(("proof", "Proof", self.proof_section()));
+        let version = env!("CARGO_PKG_VERSION");
+        let recheck = recheck::section(self.file.name, self.file.bytes, version);
+        all.push(("recheck", "Check it again", recheck));
+        all
+    }
+
+    fn overview(&self) -> String {
+        let size = &self.accepted.size;
+        let mut facts = Vec::new();
+        match &self.certificate.proof {
+            Proof::Witness(_) => facts.push(("proof", "one counterexample".to_owned())),
+            Proof::Atlas(atlas) => {
+                facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
+            }
+            Proof::Tree(_) | Proof::Faces(_) => {
+                facts.push(("boxes that cover the workspace", grouped(size.leaves as u64)));
+                facts.push(("boxes in all", grouped(size.nodes as u64)));
+                facts.push(("halvings, at most", size.depth.to_string()));
+            }
+        }
+        let bits = match &self.certificate.proof {
+            Proof::Tree(tree) => Some(tree.precision),
+            Proof::Faces(faces) => Some(faces.precision),
+            Proof::Witness(witness) => Some(witness.precision),
+            // Each cell has its own.
+            Proof::Atlas(_) => None,
+        };
+        facts.extend(bits.map(|bits| ("fractional bits", bits.to_string())));
+        facts.push(("certificate", self.file.name.to_owned()));
+        let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
+        for (name, value) in facts {
+            let class = if name == "certificate" { " class=\"wide\"" } else { "" };
+            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", html(&value));
+        }
+        out + "</dl></section>\n"
+    }
+
+    fn machine_section(&self) -> String {
+        let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
+        let (Some((machine, _)), Some(design)) = (&self.machine, &self.figures.design) else {
+            let reason = if self.is_machine() {
+                "its numbers are beyond what floating point can show"
+            } else {
+                "the claim is about many machines"
+            };
+            let _ = write!(out, "<p>There is no drawing, and no map of transmission factors: {reason}.</p></section>");
+            return out;
+        };
+        let planar = machine.legs.iter().any(|leg| matches!(leg.numbers, Numbers::Planar { .. }));
+        let note = if planar {
+            " Planar legs are drawn schematically, from a guide beside the workspace."
+        } else {
+            ""
+        };
+        let unit = if self.is_machine() { "" } else { " Its leg length L is 1." };
+        let _ = write!(
+            out,
+            "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): guides \
+             dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}</figcaption></figure>",
+            design.inline()
+        );
+        match &self.certificate.claim {
+            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
+                out.push_str(&words::parameters(claim, machine));
+            }
+            Claim::Postulate(claim) => {
+                if let Some(claim) = nominal::of_postulate(claim) {
+                    out.push_str(&words::parameters(&claim, machine));
+                }
+            }
+            Claim::Atlas(_) => {}
+        }
+        out + "</section>\n"
+    }
+
+    fn maps_section(&self) -> String {
+        let cube = self.machine.as_ref().map(|(machine, _)| machine).filter(|m| m.is_cube);
+        let at = if cube.is_some() { " The first slice is the one through Q\u{2081}." } else { "" };
+        let maps: String = self.figures.maps.iter().map(Picture::inline).collect();
+        let legend = self.machine.as_ref().and_then(|(_, scale)| scale.as_ref()).map(Scale::legend);
+        format!(
+            "<section id=\"maps\"><h2>Velocity transmission factors</h2>\
+             <p>Lines of equal \u{3c8}<sub>1</sub> \u{2264} \u{3c8}<sub>2</sub> \u{2264} \u{3c8}<sub>3</sub> of the \
+             nominal machine over a plane z = const, in floating point.{at} Hatched: out of reach of a leg.</p>\
+             <div class=\"controls scripted\"><label for=\"slice\">z <input type=\"range\" id=\"slice\" min=\"0\" max=\"200\" step=\"1\"></label>\
+             <output id=\"slice-value\" for=\"slice\"></output><button type=\"button\" id=\"slice-reset\">First slice</button></div>\
+             <figure><div class=\"maps\">{maps}</div>{legend}\
+             <output class=\"readout scripted\" id=\"map-readout\" aria-live=\"polite\">Point at a map, or focus one and \
+             move the cross with the arrow keys, to read the values there.</output>\
+             <figcaption class=\"scripted\">Keys on a map: <kbd>\u{2190}</kbd> <kbd>\u{2192}</kbd> <kbd>\u{2191}</kbd> <kbd>\u{2193}</kbd> move the \
+             cross (with <kbd>Shift</kbd> in large steps), <kbd>Page Up</kbd> <kbd>Page Down</kbd> move the slice.</figcaption>\
+             <figcaption class=\"static\">z = {z}</figcaption></figure>{corners}</section>\n",
+            corners = cube.map(words::corners).unwrap_or_default(),
+            legend = legend.unwrap_or_default(),
+            z = self.machine.as_ref().map_or(String::new(), |(m, _)| significant(m.point([0.0, 0.0, m.slice])[2], 6)),
+        )
+    }
+
+    fn proof_section(&self) -> String {
+        let refuted = self.accepted.verdict == Verdict::Refuted;
+        let mut out = "<section id=\"proof\"><h2>The proof</h2>".to_owned();
+        if refuted {
+            out.push_str("<p>A refutation needs one point and no subdivision; here it is in the workspace.</p>");
+        } else {
+            out.push_str(
+                "<p>The workspace is halved until every requirement can be shown on every box by one of the \
+                 checker's rules. A requirement shown on a box holds on all its parts.</p>",
+            );
+        }
+        out.push_str(VIEWER);
+        for (picture, tree) in self.figures.subdivisions.iter().zip(&self.trees) {
+            let _ = write!(
+                out,
+                "<figure class=\"static\">{}<figcaption>{}</figcaption></figure>",
+                picture.inline(),
+                html(&caption(tree))
+            );
+        }
+        if !refuted {
+            out.push_str(&self.legend());
+            out.push_str(&evidence::hardest(&self.trees));
+        }
+        out + "</section>\n"
+    }
+
+    /// The rules that are used, with their colours, patterns and uses.
+    fn legend(&self) -> String {
+        let mut out = "<ul class=\"legend\" aria-label=\"Rules used\">".to_owned();
+        for (k, rule) in RULES.iter().enumerate() {
+            let Some(uses) = self.accepted.size.steps.get(rule.name) else {
+                continue;
+            };
+            let d = PATTERNS[rule.pattern];
+            let _ = write!(
+                out,
+                "<li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><defs><pattern id=\"legend-{k}\" \
+                 width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><rect width=\"8\" height=\"8\" fill=\"{}\"/>\
+                 <path class=\"pattern\" d=\"{d}\"/></pattern></defs><rect class=\"leaf\" width=\"26\" height=\"16\" \
+                 fill=\"url(#legend-{k})\"/></svg><span><code>{}</code> \u{d7} {}</span></li>",
+                rule.colour,
+                rule.name,
+                grouped(*uses as u64)
+            );
+        }
+        out + "</ul>"
+    }
+}
+
+fn caption(tree: &Subdivision) -> String {
+    let name = tree.name.as_str();
+    if tree.leaves.is_empty() {
+        return name.to_owned();
+    }
+    let parts = if tree.axes[0] == "kappa" { ", y and z as parts of [q1, q2]" } else { "" };
+    format!("{name}{parts}; boxes are filled by the rule for {}", Obligation::ALL[tree.filled_by])
+}
+
+/// The controls of the view in space.
+const VIEWER: &str = "<div class=\"scripted\" id=\"viewer\"><div class=\"controls\">\
+    <label for=\"tree\" id=\"tree-label\">part <select id=\"tree\"></select></label>\
+    <label for=\"obligation\">colour by <select id=\"obligation\"></select></label>\
+    <label for=\"cut-axis\">cut along <select id=\"cut-axis\"></select></label>\
+    <label for=\"cut\">at <input type=\"range\" id=\"cut\" min=\"0\" max=\"1000\" value=\"1000\"></label>\
+    <output id=\"cut-value\" for=\"cut\"></output>\
+    <label for=\"deep\">boxes of depth at least <input type=\"range\" id=\"deep\" min=\"0\" value=\"0\"></label>\
+    <output id=\"deep-value\" for=\"deep\"></output>\
+    <button type=\"button\" id=\"view-reset\">Reset view</button></div>\
+    <canvas id=\"space\" width=\"900\" height=\"600\" tabindex=\"0\" role=\"img\" aria-label=\"The boxes of the proof in \
+    space; arrow keys turn the view\"></canvas>\
+    <output class=\"readout\" id=\"space-readout\" aria-live=\"polite\"></output>\
+    <p class=\"note\">Drag, or use the arrow keys, to turn; <kbd>+</kbd> <kbd>\u{2212}</kbd> to scale; <kbd>[</kbd> \
+    <kbd>]</kbd> move the cut; point at a box, or press <kbd>Enter</kbd> for the one in the middle, to read it.</p></div>";

@@ -1,0 +1,89 @@
+use super::*;
+use orthocert_checker::{check, read};
+
+fn certificate(name: &str) -> Vec<u8> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    std::fs::read(root.join(format!("proofs/certificates/{name}.cert.json"))).unwrap()
+}
+
+fn with_page<T>(bytes: &[u8], title: Option<&str>, look: impl Fn(&Page<'_>) -> T) -> T {
+    let certificate = read(bytes).unwrap();
+    let accepted = check(&certificate).unwrap();
+    let file = File { name: "it's <b>.cert.json", bytes };
+    look(&Page::new(&certificate, &accepted, file, title))
+}
+
+#[test]
+fn a_page_is_a_function_of_the_certificate_and_its_names() {
+    let bytes = certificate("orthoglide-prototype");
+    let [one, other] = [(); 2].map(|()| with_page(&bytes, None, |page| page.html()));
+    assert_eq!(one, other);
+    assert!(one.len() < 1_000_000);
+    assert!(one.contains("CERTIFIED") && one.contains("310.582854"));
+    // It asks for nothing: no address but those of namespaces.
+    assert!(
+        !one.contains("http://")
+            || one.matches("http://").count() == one.matches("http://www.w3.org/2000/svg").count()
+    );
+    assert!(!one.contains("https://") && !one.contains("@import") && !one.contains("src="));
+}
+
+#[test]
+fn names_and_titles_stay_text() {
+    let bytes = certificate("orthoglide-310");
+    let text = String::from_utf8(bytes).unwrap();
+    let hostile =
+        text.replace("\"tool\":\"orthocert\"", "\"tool\":\"<img src=x onerror=alert(1)>\"");
+    let title = "</title><script>alert('{{data}}')</script>";
+    let page = with_page(hostile.as_bytes(), Some(title), |page| page.html());
+    assert!(!page.contains("<script>alert") && !page.contains("<img") && !page.contains("<b>"));
+    assert!(page.contains("&lt;script&gt;alert(&#39;{{data}}&#39;)&lt;/script&gt;"));
+    assert!(page.contains("it&#39;\\&#39;&#39;s &lt;b&gt;.cert.json&#39;"));
+}
+
+#[test]
+fn every_committed_certificate_has_a_page() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/certificates");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let bytes = std::fs::read(entry.unwrap().path()).unwrap();
+        with_page(&bytes, None, |page| {
+            let html = page.html();
+            let json = html.split("id=\"data\">").nth(1).and_then(|s| s.split("</script>").next());
+            let data: Value = serde_json::from_str(json.unwrap()).unwrap();
+            assert!(!data["trees"].as_array().unwrap().is_empty());
+            for picture in page.pictures() {
+                let file = picture.file();
+                assert!(file.ends_with("</svg>\n") && !file.contains("var("), "{}", picture.name);
+                assert!(!file.contains("NaN") && !file.contains("inf"), "{}", picture.name);
+            }
+        });
+    }
+}
+
+/// The paper's last figure: through `Q_1`, where one factor is 2; at `Q_2` one is 1/2, at `O` all
+/// are 1.
+#[test]
+fn the_factors_of_the_prototype_are_the_papers() {
+    let bytes = certificate("orthoglide-prototype");
+    with_page(&bytes, None, |page| {
+        let (machine, _) = page.machine.as_ref().unwrap();
+        assert_eq!(machine.slice, 0.0);
+        let near = |p: [f64; 3], expected: [f64; 3]| {
+            let psi = machine.psi(p).unwrap();
+            assert!(psi.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-9), "{psi:?}");
+        };
+        near([0.0; 3], [1.0; 3]);
+        near(machine.point([0.0; 3]), [0.8, 0.8, 2.0]);
+        near(machine.point([1.0; 3]), [0.5, 2.0, 2.0]);
+    });
+}
+
+#[test]
+fn what_does_not_apply_is_left_out_with_a_word() {
+    let page = with_page(&certificate("postulate-all"), None, |page| page.html());
+    assert!(page.contains("There is no drawing, and no map") && !page.contains("data-map="));
+    assert_eq!(page.matches("class=\"figure subdivision").count(), 4);
+    let page = with_page(&certificate("orthoglide-310"), None, |page| page.html());
+    assert!(page.contains("needs one point and no subdivision"));
+    assert!(page.contains("634/5") || page.contains("126.8"));
+}

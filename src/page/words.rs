@@ -1,0 +1,340 @@
+//! A claim in words, formulas and tables.
+
+use super::escape::html;
+use super::nominal::Nominal;
+use crate::decimal::{approximate, readable, significant};
+use crate::report::named_parameters;
+use orthocert_checker::certificate::Verdict;
+use orthocert_checker::claim::{
+    AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements,
+    Workspace,
+};
+use orthocert_checker::number::Exact;
+use orthocert_checker::statement;
+use std::fmt::Write;
+
+/// Digits of numbers that are computed for people.
+const DIGITS: u32 = 9;
+
+/// What the claim is about, on a line.
+pub fn subject(claim: &Claim) -> String {
+    match claim {
+        Claim::Postulate(claim) => match &claim.psi_max {
+            PsiMax::All => "The Q1/Q2 postulate for every psi_max > 1".to_owned(),
+            PsiMax::Range(range) if range.is_exact() => {
+                format!("The Q1/Q2 postulate for psi_max = {}", readable(&range.min))
+            }
+            PsiMax::Range(range) => {
+                let (min, max) = (readable(&range.min), readable(&range.max));
+                format!("The Q1/Q2 postulate for every psi_max from {min} to {max}")
+            }
+        },
+        Claim::Atlas(claim) => {
+            let names: Vec<&str> = claim.parameters.iter().map(|p| p.name.as_str()).collect();
+            format!("A map of designs over {}", names.join(", "))
+        }
+        Claim::NoCube(claim) => format!(
+            "No cube of side {} with its centre in {} for: {}",
+            readable(&claim.side),
+            workspace(&claim.machine),
+            machine(&claim.machine)
+        ),
+        Claim::Machine(claim) => format!("{} over {}", machine(claim), workspace(claim)),
+    }
+}
+
+fn machine(claim: &MachineClaim) -> String {
+    let Mechanism::Translational(legs) = &claim.mechanism else {
+        return "The Orthoglide of the paper's Steps 1 to 3".to_owned();
+    };
+    let drive = |leg: &Leg| match leg {
+        Leg::Slider { .. } => "slider",
+        Leg::Strut { .. } => "strut",
+        Leg::Arm { .. } => "arm",
+        Leg::Planar { .. } => "planar leg",
+    };
+    let names = [drive(&legs[0]), drive(&legs[1]), drive(&legs[2])];
+    let kinds = if names[0] == names[1] && names[1] == names[2] {
+        format!("three {}s", names[0])
+    } else {
+        names.join(", ")
+    };
+    let tolerances = legs.iter().flat_map(Leg::parameters).filter(|(_, q)| !q.is_exact()).count();
+    match tolerances {
+        0 => format!("A machine of {kinds}"),
+        1 => format!("Every machine of {kinds} within one tolerance"),
+        n => format!("Every machine of {kinds} within {n} tolerances"),
+    }
+}
+
+fn workspace(claim: &MachineClaim) -> String {
+    match &claim.workspace {
+        Workspace::Cube { side } => format!("the closed cube of side {}", readable(side)),
+        Workspace::Box { min, max } => {
+            let ends = |k: usize| format!("[{}, {}]", readable(&min[k]), readable(&max[k]));
+            format!("the box {} \u{d7} {} \u{d7} {}", ends(0), ends(1), ends(2))
+        }
+        Workspace::Cylinder { radius, z: [low, high], .. } => format!(
+            "the cylinder of radius {}, {} \u{2264} z \u{2264} {}",
+            readable(radius),
+            readable(low),
+            readable(high)
+        ),
+    }
+}
+
+/// The claim in the checker's words, and the formulas of what it speaks of.
+pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
+    let statement = statement::statement(claim, verdict).unwrap_or_default();
+    let mut out = format!(
+        "<section id=\"claim\"><h2>What is {}</h2>\
+         <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>",
+        if verdict == Verdict::Certified { "proved" } else { "refuted" },
+        html(statement.trim_end())
+    );
+    out.push_str("<h3>In formulas</h3><ul class=\"formulas\">");
+    for formula in asserted(claim) {
+        let _ = write!(out, "<li>{formula}</li>");
+    }
+    out.push_str("</ul><h3>Where</h3><ul class=\"formulas\">");
+    for formula in definitions(claim) {
+        let _ = write!(out, "<li>{formula}</li>");
+    }
+    out.push_str("</ul></section>\n");
+    out
+}
+
+/// What the claim asserts at every point, as markup.
+fn asserted(claim: &Claim) -> Vec<String> {
+    const CUBE: &str = "<var>t</var><sub>1</sub> = (1 \u{2212} \u{3ba})/2, <var>t</var><sub>2</sub> = 1 \u{2212} \u{3ba} for \
+         \u{3ba} \u{2264} \u{bd}, (1/\u{3ba} \u{2212} 1)/2 for \u{3ba} \u{2265} \u{bd}; \
+         <var>q</var><sub>1</sub> = \u{2212}<var>L</var> <var>t</var><sub>1</sub>/\u{221a}(1 + 2<var>t</var><sub>1</sub>\u{b2}), \
+         <var>q</var><sub>2</sub> = <var>L</var> <var>t</var><sub>2</sub>/\u{221a}(1 + 2<var>t</var><sub>2</sub>\u{b2})";
+    const TIGHT: &str = "1/\u{3c8}<sub>max</sub> \u{2264} \u{3c8}<sub>i</sub>(<var>P</var>) \u{2264} \u{3c8}<sub>max</sub>";
+    const FREE: &str = "every leg reaches <var>P</var> and is not serially singular there; det <var>M</var>(<var>P</var>) \u{2260} 0";
+    let everywhere =
+        |set: &str| format!("for every <var>P</var> \u{2208} {set}, <var>i</var> = 1, 2, 3:");
+    let cube = everywhere("[<var>q</var><sub>1</sub>, <var>q</var><sub>2</sub>]\u{b3}");
+    let of_cube = |psi_max: String| {
+        let given = format!("\u{3c8}<sub>max</sub> {psi_max}, \u{3ba} = 1/\u{3c8}<sub>max</sub>");
+        vec![format!("{given}; {CUBE}"), cube.clone(), FREE.to_owned(), TIGHT.to_owned()]
+    };
+    match claim {
+        Claim::Postulate(claim) => of_cube(match &claim.psi_max {
+            PsiMax::All => "&gt; 1, any".to_owned(),
+            PsiMax::Range(range) if range.is_exact() => format!("= {}", number(&range.min)),
+            PsiMax::Range(range) => {
+                format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
+            }
+        }),
+        Claim::Atlas(claim) => {
+            let range = |p: &AtlasParameter| {
+                format!("{} \u{2264} {} \u{2264} {}", number(&p.min), html(&p.name), number(&p.max))
+            };
+            let ranges: Vec<String> = claim.parameters.iter().map(range).collect();
+            let share = |share| format!("the share {} of the box", number(share));
+            vec![
+                ranges.join(", "),
+                format!("certified: {}", share(&claim.certified)),
+                format!("refuted: {}", share(&claim.refuted)),
+            ]
+        }
+        Claim::NoCube(claim) => {
+            let side = number(&claim.side);
+            let mut out = vec![format!(
+                "for every <var>C</var> \u{2208} <var>W</var> there is a <var>P</var> with \
+                 |<var>P</var> \u{2212} <var>C</var>|<sub>\u{221e}</sub> \u{2264} {side}/2 at which \
+                 one of these fails:"
+            )];
+            let everywhere = asserted(&Claim::Machine(claim.machine.clone()));
+            out.extend(everywhere.into_iter().skip(1));
+            out
+        }
+        Claim::Machine(claim) => {
+            let psi = claim.requirements.transmission.as_ref();
+            let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {
+                (Workspace::Cube { side }, Some(psi_max)) => {
+                    let mut out = of_cube(format!("= {}", number(psi_max)));
+                    let length = format!(
+                        "<var>q</var><sub>2</sub> \u{2212} <var>q</var><sub>1</sub> = {}",
+                        number(side)
+                    );
+                    out.insert(1, format!("{length}, which determines <var>L</var>"));
+                    out
+                }
+                _ => {
+                    let mut out = vec![everywhere("<var>W</var>, the workspace"), FREE.to_owned()];
+                    out.extend(psi.map(|range| within(range, "\u{3c8}<sub>i</sub>(<var>P</var>)")));
+                    out
+                }
+            };
+            out.extend(required(&claim.requirements));
+            out
+        }
+    }
+}
+
+/// The requirements but for those on the transmission factors.
+fn required(requirements: &Requirements) -> Vec<String> {
+    let mut out = Vec::new();
+    if let Some(ranges) = &requirements.joint_range {
+        let each = (1..)
+            .zip(ranges)
+            .map(|(i, range)| within(range, &format!("\u{3c1}<sub>{i}</sub>(<var>P</var>)")));
+        out.push(each.collect::<Vec<_>>().join(", "));
+    }
+    let at_most = |what: &str, x: &Exact| format!("{what} \u{2264} {}", number(x));
+    let at_least = |what: &str, x: &Exact| format!("{what} \u{2265} {}", number(x));
+    if let Some(bound) = &requirements.conditioning {
+        out.push(at_most(
+            "\u{3c3}<sub>max</sub>(<var>M</var>)/\u{3c3}<sub>min</sub>(<var>M</var>)",
+            &bound.max,
+        ));
+    }
+    if let Some(bound) = &requirements.serial_margin {
+        out.push(at_least("|\u{3b7}<sub>i</sub>|/<var>L</var><sub>i</sub>", &bound.min));
+    }
+    if let Some(bound) = &requirements.parallel_margin {
+        let determinant = "|det <var>A</var>|/(<var>L</var><sub>1</sub><var>L</var><sub>2</sub><var>L</var><sub>3</sub>)";
+        out.push(format!(
+            "{}, rows of <var>A</var> the leg vectors",
+            at_least(determinant, &bound.min)
+        ));
+    }
+    if let Some(bound) = &requirements.leg_angle {
+        out.push(at_most("angle between leg <var>i</var> and its guide, in degrees", &bound.max));
+    }
+    if let Some(bound) = &requirements.joint_speed {
+        let speed = format!("|row<sub>i</sub> of <var>M</var>| \u{b7} {}", number(&bound.tool));
+        out.push(at_most(&speed, &bound.max));
+    }
+    out
+}
+
+fn within(Range { min, max }: &Range, what: &str) -> String {
+    let least = min.as_ref().map(|x| format!("{} \u{2264} ", number(x))).unwrap_or_default();
+    let most = max.as_ref().map(|x| format!(" \u{2264} {}", number(x))).unwrap_or_default();
+    format!("{least}{what}{most}")
+}
+
+/// A number in full where that is short; the statement above has all of it.
+fn number(x: &Exact) -> String {
+    html(&readable(x))
+}
+
+/// Definitions, as markup.
+fn definitions(claim: &Claim) -> Vec<&'static str> {
+    const SLIDER: &str = "slider: <var>r</var> = <var>w</var> \u{2212} (<var>n</var>\u{b7}<var>w</var>)<var>n</var>, \
+         <var>s</var> = \u{221a}(<var>L</var>\u{b2} \u{2212} |<var>r</var>|\u{b2}), \u{3b7} = \u{b1}<var>s</var>; \
+         row of <var>M</var>: <var>n</var><sup>T</sup> + <var>r</var><sup>T</sup>/\u{3b7}; \
+         \u{3c1} = <var>n</var>\u{b7}<var>w</var> \u{2212} \u{3b7}; serially singular where <var>s</var> = 0";
+    const STRUT: &str = "strut: row of <var>M</var>: <var>w</var><sup>T</sup>/|<var>w</var>|; \u{3c1} = |<var>w</var>|";
+    const ARM: &str = "arm: <var>h</var> = <var>w</var> \u{2212} (<var>k</var>\u{b7}<var>w</var>)<var>k</var>, \
+         <var>N</var> = |<var>h</var>|\u{b2}, <var>g</var> = (|<var>w</var>|\u{b2} + <var>r</var>\u{b2} \u{2212} <var>L</var>\u{b2})/2<var>r</var>, \
+         <var>D</var> = <var>N</var> \u{2212} <var>g</var>\u{b2}, <var>q</var> = <var>w</var>/<var>r</var> \u{2212} (<var>g</var>/<var>N</var>)<var>h</var>; \
+         row of <var>M</var>: (<var>k</var>\u{d7}<var>h</var>)<sup>T</sup>/<var>N</var> \u{b1} <var>q</var><sup>T</sup>/\u{221a}<var>D</var>; \
+         serially singular where <var>D</var> = 0";
+    const PLANAR: &str = "planar leg: row of <var>M</var>: <var>n</var><sup>T</sup>; \u{3c1} = <var>n</var>\u{b7}<var>P</var>";
+    let mut out = vec![
+        "<var>w</var> = <var>P</var> + <var>d</var> \u{2212} <var>a</var> for each leg, with its platform offset <var>d</var> and its anchor <var>a</var>",
+    ];
+    let mut seen = Vec::new();
+    let legs: &[Leg] = match claim {
+        Claim::Machine(MachineClaim { mechanism: Mechanism::Translational(legs), .. }) => legs,
+        _ => &[],
+    };
+    for leg in legs {
+        let formula = match leg {
+            Leg::Slider { .. } => SLIDER,
+            Leg::Strut { .. } => STRUT,
+            Leg::Arm { .. } => ARM,
+            Leg::Planar { .. } => PLANAR,
+        };
+        if !seen.contains(&formula) {
+            seen.push(formula);
+        }
+    }
+    if legs.is_empty() {
+        seen.push(SLIDER);
+    }
+    out.extend(seen);
+    out.push(
+        "<var>M</var> = <var>J</var><sup>\u{2212}1</sup>: joint velocities are <var>M</var> times the platform's velocity; \
+         \u{3be}<sub>1</sub>, \u{3be}<sub>2</sub>, \u{3be}<sub>3</sub> are its singular values, \u{3c8}<sub>i</sub> = 1/\u{3be}<sub>i</sub> the velocity transmission factors",
+    );
+    out.push("parallel singularity: det <var>M</var> = 0");
+    out
+}
+
+/// The machine's numbers: of each leg, exact; of the paper's cube, what follows from it.
+pub fn parameters(claim: &MachineClaim, machine: &Nominal) -> String {
+    match &claim.mechanism {
+        Mechanism::Translational(legs) => of_legs(legs),
+        Mechanism::Orthoglide { offset } => {
+            let (q1, side, length) =
+                (machine.frame.least[0], machine.frame.width[0], machine.frame.unit);
+            let e = approximate(offset).unwrap_or(0.0);
+            let rows = [
+                ("leg length L", length),
+                ("corner Q\u{2081}, every coordinate", q1),
+                ("corner Q\u{2082}, every coordinate", q1 + side),
+                ("base a, where \u{3c1} = 0", q1 - e - length),
+                ("offset e", e),
+            ];
+            let mut out = "<div class=\"table\"><table><thead><tr><th>follows from the claim</th>\
+                           <th class=\"number\">about</th></tr></thead><tbody>"
+                .to_owned();
+            for (name, value) in rows {
+                let value = significant(value, DIGITS);
+                let _ = write!(out, "<tr><td>{name}</td><td class=\"number\">{value}</td></tr>");
+            }
+            out + "</tbody></table></div>"
+        }
+    }
+}
+
+/// The factors at the corners and at the origin of the paper's cube.
+pub fn corners(machine: &Nominal) -> String {
+    let [q1, q2] = [0.0, 1.0].map(|u| machine.point([u; 3]));
+    let mut out = "<div class=\"table\"><table><thead><tr><th>at</th><th class=\"number\">\u{3c8}<sub>1</sub></th>\
+                   <th class=\"number\">\u{3c8}<sub>2</sub></th><th class=\"number\">\u{3c8}<sub>3</sub></th></tr></thead><tbody>"
+        .to_owned();
+    for (name, p) in [("Q\u{2081}", q1), ("O, the origin", [0.0; 3]), ("Q\u{2082}", q2)] {
+        let _ = write!(out, "<tr><td>{name}</td>");
+        for psi in machine.psi(p).unwrap_or([f64::NAN; 3]) {
+            let _ = write!(out, "<td class=\"number\">{}</td>", significant(psi, DIGITS));
+        }
+        out.push_str("</tr>");
+    }
+    out + "</tbody></table></div>"
+}
+
+fn of_legs(legs: &[Leg; 3]) -> String {
+    let named: Vec<Vec<(String, Quantity)>> = legs.iter().map(named_parameters).collect();
+    let mut names: Vec<&String> = Vec::new();
+    for (name, _) in named.iter().flatten() {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let mut out = "<div class=\"table\"><table><thead><tr><th>parameter</th><th>leg 1</th>\
+                   <th>leg 2</th><th>leg 3</th></tr></thead><tbody>"
+        .to_owned();
+    for name in names {
+        let _ = write!(out, "<tr><td>{}</td>", html(name));
+        for leg in &named {
+            let quantity = leg.iter().find(|(other, _)| other == name).map(|(_, q)| value(q));
+            let _ = write!(out, "<td>{}</td>", html(&quantity.unwrap_or_default()));
+        }
+        out.push_str("</tr>");
+    }
+    out + "</tbody></table></div>"
+}
+
+fn value(q: &Quantity) -> String {
+    if q.is_exact() {
+        readable(&q.min)
+    } else {
+        format!("{} to {}", readable(&q.min), readable(&q.max))
+    }
+}

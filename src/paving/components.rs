@@ -1,0 +1,333 @@
+//! Connected components of the inner part of a paving.
+//!
+//! Inner boxes that share a part of a face are connected: their union is. What is counted as two
+//! components may be one component of the region, joined in the undecided boxes between them.
+
+use super::Decider;
+use orthocert_checker::cell::{Axis, Cell, Edge};
+use orthocert_checker::paving::{six_ordered, Kind, Reader, Rejected, SHARE_BITS};
+use std::io::BufRead;
+
+/// Bytes that a node and its box take, about.
+const NODE_BYTES: u64 = 64;
+
+/// A component, or several that are images of each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Component {
+    /// Its share of the box's volume, with its images, in units of `2^-SHARE_BITS`.
+    pub share: u128,
+    /// Boxes, without images.
+    pub boxes: u64,
+    /// How many components it stands for: 1, 3 or 6 with symmetry, else 1.
+    pub copies: u64,
+    /// Whether it, or an image of it, has the box with the best conditioned centre.
+    pub best_conditioned: bool,
+}
+
+/// The components of the inner part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Components {
+    /// By descending share.
+    pub all: Vec<Component>,
+    /// The least `sigma_max / sigma_min` found at an inner box's centre.
+    pub conditioning: f64,
+    /// That centre, in parts of the box that is paved.
+    pub centre: [f64; 3],
+}
+
+/// The tree without what has no inner box.
+#[derive(Clone, Copy)]
+enum Node {
+    Split(Axis, u32, u32),
+    Inner(u32),
+    Nothing,
+}
+
+/// Finds the components of a paving; `None` if that takes more than `memory` bytes.
+///
+/// # Errors
+/// If the paving cannot be read.
+pub fn components<R: BufRead>(
+    reader: &mut Reader<R>,
+    decider: &Decider,
+    memory: u64,
+) -> Result<Option<Components>, Rejected> {
+    let most = usize::try_from(memory / NODE_BYTES).unwrap_or(usize::MAX).min(u32::MAX as usize);
+    let symmetric = reader.header().symmetry.is_some();
+    let mut nodes: Vec<Node> = Vec::new();
+    let mut inner: Vec<Cell> = Vec::new();
+    // Splits that wait for their halves: the axis, and the lower half once it is known.
+    let mut waiting: Vec<(Axis, Option<u32>)> = Vec::new();
+    let mut root = NOTHING;
+    while let Some(visited) = reader.next()? {
+        if nodes.len() + inner.len() + waiting.len() > most {
+            return Ok(None);
+        }
+        let mut done = match visited.item.kind {
+            Kind::Split(axis) => {
+                waiting.push((axis, None));
+                continue;
+            }
+            Kind::Inner => {
+                inner.push(visited.cell);
+                nodes.push(Node::Inner(inner.len() as u32 - 1));
+                nodes.len() as u32 - 1
+            }
+            _ => NOTHING,
+        };
+        while let Some((axis, lower)) = waiting.pop() {
+            let Some(lower) = lower else {
+                waiting.push((axis, Some(done)));
+                break;
+            };
+            if lower != NOTHING || done != NOTHING {
+                nodes.push(Node::Split(axis, lower, done));
+                done = nodes.len() as u32 - 1;
+            }
+        }
+        root = done;
+    }
+    let mut union =
+        Union { nodes: &nodes, inner: &inner, parent: (0..inner.len() as u32).collect() };
+    union.within(root);
+    Ok(Some(union.found(decider, symmetric)))
+}
+
+/// The place of a subtree that has no inner box.
+const NOTHING: u32 = u32::MAX;
+
+/// Sets of inner boxes that are known to be connected.
+struct Union<'a> {
+    nodes: &'a [Node],
+    inner: &'a [Cell],
+    parent: Vec<u32>,
+}
+
+impl Union<'_> {
+    fn node(&self, at: u32) -> Node {
+        self.nodes.get(at as usize).copied().unwrap_or(Node::Nothing)
+    }
+
+    fn root(&mut self, mut at: u32) -> u32 {
+        while self.parent[at as usize] != at {
+            let above = self.parent[self.parent[at as usize] as usize];
+            self.parent[at as usize] = above;
+            at = above;
+        }
+        at
+    }
+
+    /// Joins what touches within a subtree, in a walk over its splits.
+    fn within(&mut self, top: u32) {
+        let mut waiting = vec![(top, Cell::ROOT)];
+        while let Some((at, cell)) = waiting.pop() {
+            if let (Node::Split(axis, lower, upper), Some((below, above))) =
+                (self.node(at), halves(&cell, self.node(at)))
+            {
+                waiting.extend([(lower, below), (upper, above)]);
+                self.across(axis, (lower, below), (upper, above));
+            }
+        }
+    }
+
+    /// Joins what touches across a plane orthogonal to `axis`, with `low` next to it from below and
+    /// `high` from above.
+    fn across(&mut self, axis: Axis, low: (u32, Cell), high: (u32, Cell)) {
+        let mut waiting = vec![(low, high)];
+        while let Some((low, high)) = waiting.pop() {
+            let overlap = |k: usize| overlaps(low.1.edges[k], high.1.edges[k]);
+            if !(0..3).all(|k| k == axis.index() || overlap(k)) {
+                continue;
+            }
+            match (self.node(low.0), self.node(high.0)) {
+                (Node::Nothing, _) | (_, Node::Nothing) => {}
+                (Node::Inner(a), Node::Inner(b)) => {
+                    let (a, b) = (self.root(a), self.root(b));
+                    self.parent[a.max(b) as usize] = a.min(b);
+                }
+                (split @ Node::Split(along, lower, upper), _) => {
+                    let Some((below, above)) = halves(&low.1, split) else { continue };
+                    waiting.push(((upper, above), high));
+                    if along != axis {
+                        waiting.push(((lower, below), high));
+                    }
+                }
+                (Node::Inner(_), split @ Node::Split(along, lower, upper)) => {
+                    let Some((below, above)) = halves(&high.1, split) else { continue };
+                    waiting.push((low, (lower, below)));
+                    if along != axis {
+                        waiting.push((low, (upper, above)));
+                    }
+                }
+            }
+        }
+    }
+
+    fn found(mut self, decider: &Decider, symmetric: bool) -> Components {
+        let mut sums: Vec<(u128, u64, u8)> = vec![(0, 0, 0); self.inner.len()];
+        let mut best = (f64::INFINITY, 0);
+        for (i, cell) in self.inner.iter().enumerate() {
+            let root = self.root(i as u32);
+            let sum = &mut sums[root as usize];
+            let level: u32 = cell.edges.iter().map(|e| e.level).sum();
+            sum.0 += if symmetric { six_ordered(cell) } else { 1 << (SHARE_BITS - level) };
+            sum.1 += 1;
+            sum.2 |= mirrors(cell);
+            let conditioning = decider.conditioning(cell);
+            if conditioning < best.0 {
+                best = (conditioning, i as u32);
+            }
+        }
+        let best_root = self.inner.get(best.1 as usize).map(|_| self.root(best.1));
+        let copies = |planes: u8| match planes.count_ones() {
+            _ if !symmetric => 1,
+            0 => 6,
+            1 => 3,
+            _ => 1,
+        };
+        let mut all: Vec<Component> = sums
+            .iter()
+            .enumerate()
+            .filter(|(_, sum)| sum.1 > 0)
+            .map(|(root, &(share, boxes, planes))| Component {
+                share,
+                boxes,
+                copies: copies(planes),
+                best_conditioned: Some(root as u32) == best_root,
+            })
+            .collect();
+        all.sort_by_key(|component| std::cmp::Reverse(component.share));
+        let centre = self.inner.get(best.1 as usize).map_or([0.5; 3], centre_of);
+        Components { all, conditioning: best.0, centre }
+    }
+}
+
+fn halves(cell: &Cell, node: Node) -> Option<(Cell, Cell)> {
+    match node {
+        Node::Split(axis, ..) => cell.halves(axis),
+        _ => None,
+    }
+}
+
+/// Whether two dyadic intervals have inner points in common: one contains the other.
+fn overlaps(a: Edge, b: Edge) -> bool {
+    if a.level <= b.level {
+        b.index >> (b.level - a.level) == a.index
+    } else {
+        a.index >> (a.level - b.level) == b.index
+    }
+}
+
+/// The planes `u_x = u_y`, `u_y = u_z`, `u_x = u_z` that have inner points of the cell: it overlaps
+/// with its image in them. The images of a component under the group that its planes generate are
+/// the component itself: of the six, one is left for two planes or more, three for one.
+fn mirrors(cell: &Cell) -> u8 {
+    let [x, y, z] = cell.edges;
+    u8::from(overlaps(x, y)) | u8::from(overlaps(y, z)) << 1 | u8::from(overlaps(x, z)) << 2
+}
+
+fn centre_of(cell: &Cell) -> [f64; 3] {
+    cell.edges.map(|e| (e.index as f64 + 0.5) * (-f64::from(e.level)).exp2())
+}
+
+impl Decider {
+    /// `sigma_max / sigma_min` at a cell's centre, nearly.
+    fn conditioning(&self, cell: &Cell) -> f64 {
+        self.spectrum_at_centre(cell)
+            .map_or(f64::INFINITY, |s| (s.greatest / s.least.max(f64::MIN_POSITIVE)).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::paving::header;
+    use orthocert_checker::certificate::Step;
+    use orthocert_checker::claim::Claim;
+    use orthocert_checker::paving::{Header, Item};
+    use orthocert_checker::rule::Rotation;
+
+    /// A small box about the isotropic point, with every cell inner or not as the test wants:
+    /// components do not look at evidence.
+    fn claimed(symmetric: bool) -> Header {
+        let text = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
+                    min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
+                    transmission = { min = \"1/2\", max = 2 }\n";
+        let design = crate::design::Design::parse(text, "test").unwrap();
+        let Claim::Machine(claim) = design.claim else { panic!("not a machine") };
+        let mut header = header(&claim, 9);
+        if !symmetric {
+            header.symmetry = None;
+        }
+        header
+    }
+
+    /// The components where the cells of a grid of eight along each axis are inner as told.
+    fn of(symmetric: bool, inner: impl Fn([u128; 3]) -> bool) -> Vec<(u64, u64)> {
+        let header = claimed(symmetric);
+        let mut bytes = serde_json::to_vec(&header).unwrap();
+        bytes.push(b'\n');
+        let mut waiting = vec![(Cell::ROOT, 0)];
+        while let Some((cell, depth)) = waiting.pop() {
+            let kind = if depth < 9 {
+                let axis = Axis::ALL[depth % 3];
+                let (lower, upper) = cell.halves(axis).unwrap();
+                waiting.extend([(upper, depth + 1), (lower, depth + 1)]);
+                Kind::Split(axis)
+            } else if inner(cell.edges.map(|e| e.index)) {
+                Kind::Inner
+            } else {
+                Kind::Boundary
+            };
+            let steps = match kind {
+                Kind::Inner => vec![Step::Lower(Rotation::IDENTITY), Step::Upper],
+                _ => Vec::new(),
+            };
+            Item { steps, kind }.write(&mut bytes).unwrap();
+        }
+        let mut reader = Reader::new(bytes.as_slice()).unwrap();
+        let decider = Decider::new(&header).unwrap();
+        let found = components(&mut reader, &decider, 1 << 30).unwrap().unwrap();
+        assert_eq!(found.all.iter().filter(|c| c.best_conditioned).count(), 1);
+        found.all.iter().map(|c| (c.boxes, c.copies)).collect()
+    }
+
+    #[test]
+    fn boxes_are_connected_by_faces_alone() {
+        assert_eq!(of(false, |_| true), [(512, 1)]);
+        assert_eq!(of(false, |[x, _, _]| x != 3), [(256, 1), (192, 1)]);
+        // Along a diagonal boxes touch in edges or corners.
+        assert_eq!(of(false, |[x, y, z]| x == y && z == 0), [(1, 1); 8]);
+        assert_eq!(of(false, |[x, y, z]| (x == y || x == y + 1) && z == 0), [(15, 1)]);
+        // A shell, and what is within it.
+        let shell = |x: u128| x == 0 || x == 7;
+        let apart = |[x, y, z]: [u128; 3]| {
+            shell(x) || shell(y) || shell(z) || [x, y, z].iter().all(|k| (2..6).contains(k))
+        };
+        assert_eq!(of(false, apart), [(296, 1), (64, 1)]);
+    }
+
+    #[test]
+    fn images_are_counted_by_the_planes_that_a_component_crosses() {
+        // Of the whole box, all is one; of a box off the planes there are six.
+        assert_eq!(of(true, |_| true), [(512, 1)]);
+        assert_eq!(of(true, |c| c == [1, 3, 6]), [(1, 6)]);
+        assert_eq!(of(true, |c| c == [3, 3, 6]), [(1, 3)]);
+        assert_eq!(of(true, |c| c == [3, 3, 3]), [(1, 1)]);
+        // From one plane to another.
+        assert_eq!(of(true, |[x, y, z]| x == 1 && z == 6 && (1..=6).contains(&y)), [(6, 1)]);
+    }
+
+    #[test]
+    fn too_little_memory_is_said() {
+        let header = claimed(false);
+        let mut bytes = serde_json::to_vec(&header).unwrap();
+        bytes.push(b'\n');
+        for kind in [Kind::Split(Axis::X), Kind::Boundary, Kind::Boundary] {
+            Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
+        }
+        let mut reader = Reader::new(bytes.as_slice()).unwrap();
+        let decider = Decider::new(&header).unwrap();
+        assert_eq!(components(&mut reader, &decider, 0).unwrap(), None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Pavings: the region of a search box where a claim holds, from within and from without.
+//!
+//! | module     | does                                                              |
+//! |------------|-------------------------------------------------------------------|
+//! | `decide`   | what becomes of one cell                                          |
+//! | `spectrum` | extreme singular values of a matrix                               |
+//! | `tree`     | grows the tree, cut into subtrees                                 |
+//! | `plan`     | how deep the tree has to go                                       |
+//! | `pass`     | writes the tree to a file that can be taken up again              |
+//! | `components` | connected components of the inner part                          |
+//! | `surface`  | the surface of the inner part                                     |
+//!
+//! The tree is grown depth first down to one depth, and what becomes of a cell depends on the cell
+//! and its ancestors alone: the bytes are the same for every number of threads and after every
+//! interruption. Every inner and every outer cell is confirmed by the checker's exact
+//! [`Judge`](orthocert_checker::paving::Judge) before it is written.
+
+mod components;
+mod decide;
+mod pass;
+mod plan;
+mod spectrum;
+mod surface;
+mod tree;
+
+pub use components::{components, Component, Components};
+pub use decide::{Decider, Decision, Fate};
+pub use pass::{pave, unfinished, PaveError, Paved, Resume};
+pub use surface::{surface, Beyond, Face, Surface, SurfaceError};
+pub use tree::{Cancelled, Grower, Root, Segment, Tally};
+
+use orthocert_checker::certificate::Provenance;
+use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+use orthocert_checker::paving::{is_symmetric, Header, Symmetry, FORMAT};
+
+/// Fractional bits of the exact check: the most for which it can be done in machine words.
+const PRECISION: u32 = 36;
+
+/// How fine a paving is to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Goal {
+    /// The depth, where it is given.
+    pub depth: Option<u32>,
+    /// The greatest volume of the undecided boxes relative to that of the inner ones.
+    pub gap: Option<f64>,
+    /// Most boxes to be tried.
+    pub max_boxes: u64,
+}
+
+/// The first line of a paving of a claim.
+pub fn header(claim: &MachineClaim, depth: u32) -> Header {
+    Header {
+        format: FORMAT.to_owned(),
+        claim: Claim::Machine(claim.clone()),
+        precision: PRECISION,
+        depth,
+        symmetry: is_symmetric(claim).then_some(Symmetry::Permutations),
+        provenance: Provenance {
+            tool: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+    }
+}
+
+/// The depth at which boxes have edges of at most `edge` in the geometric mean: the volume of the
+/// workspace's box is at most `2^depth edge^3`. `None` if the workspace is not a box, or the depth
+/// is beyond what pavings have.
+pub fn depth_for_edge(claim: &MachineClaim, edge: &Exact) -> Option<u32> {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return None;
+    };
+    let mut volume = Exact::integer(1);
+    let mut cube = Exact::integer(1);
+    for (min, max) in min.iter().zip(max) {
+        volume = volume.times(max.clone().minus(min.clone()).ok()?).ok()?;
+        cube = cube.times(edge.clone()).ok()?;
+    }
+    let two = Exact::integer(2);
+    for depth in 0..=pass::DEEPEST {
+        if volume.compare(&cube)?.is_le() {
+            return Some(depth);
+        }
+        cube = cube.times(two.clone()).ok()?;
+    }
+    None
+}

@@ -1,0 +1,312 @@
+//! Writes a paving, subtree by subtree, to a file that can be taken up again.
+
+use super::tree::{Cancelled, Grower, Root, Segment, Tally};
+use super::{header, plan, Decider, Goal};
+use crate::search::{Control, Progress};
+use orthocert_checker::claim::MachineClaim;
+use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
+use rayon::prelude::*;
+use std::fmt;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+/// Depth of the subtrees' roots: some thousands of them.
+const COARSE: u32 = 18;
+/// Subtrees that are grown together and wait in memory for their turn to be written.
+const WINDOW: usize = 128;
+/// Deepest tree that is searched for.
+pub(super) const DEEPEST: u32 = 90;
+
+/// Why there is no paving.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum PaveError {
+    /// It was cancelled; what is written can be taken up again.
+    Cancelled,
+    /// The claim cannot be paved.
+    Claim(Rejected),
+    /// There is nothing to take up again, or it is of another paving.
+    Resume(PathBuf, String),
+    /// A file cannot be written or read.
+    Io(PathBuf, io::Error),
+    /// The checker does not accept what was written.
+    Defect(Rejected),
+}
+
+impl fmt::Display for PaveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PaveError::Cancelled => write!(f, "interrupted"),
+            PaveError::Claim(reason) => write!(f, "{reason}"),
+            PaveError::Resume(path, reason) => {
+                write!(f, "{}: cannot be taken up again: {reason}", path.display())
+            }
+            PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
+            PaveError::Defect(reason) => {
+                write!(f, "the checker does not accept the paving: {reason}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for PaveError {}
+
+impl From<Cancelled> for PaveError {
+    fn from(_: Cancelled) -> Self {
+        PaveError::Cancelled
+    }
+}
+
+/// Whether a paving is begun or taken up again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resume {
+    /// Begun; what was there is replaced.
+    No,
+    /// Taken up again where it was interrupted.
+    Yes,
+}
+
+/// A paving that is complete.
+#[derive(Clone, Debug)]
+pub struct Paved {
+    /// Its first line.
+    pub header: Header,
+    /// Its last line, as the checker's reader recomputes it.
+    pub summary: Summary,
+    /// The shares of the volume.
+    pub shares: Shares,
+    /// Boxes tried by this run.
+    pub boxes: u64,
+    /// Bytes of the file.
+    pub bytes: u64,
+}
+
+/// The unfinished file of a paving.
+pub fn unfinished(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    path.with_file_name(name)
+}
+
+/// Paves the claim's box and writes the paving to `path`, which holds what it held before until the
+/// paving is complete.
+///
+/// # Errors
+/// [`PaveError`].
+pub fn pave(
+    claim: &MachineClaim,
+    goal: &Goal,
+    path: &Path,
+    mut resume: Resume,
+    control: &mut Control<'_>,
+) -> Result<Paved, PaveError> {
+    let part = unfinished(path);
+    let decider = Decider::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
+    let mut depth = match (resume, goal.depth) {
+        (Resume::Yes, _) => earlier_depth(claim, &part)?,
+        (Resume::No, _) => planned(&decider, claim, goal, control)?,
+    };
+    loop {
+        let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
+        pass.run(resume, control)?;
+        let paved = pass.finish()?;
+        let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
+        let wanted = goal.gap.filter(|_| goal.depth.is_none());
+        // The plan is an estimate: where it fell short, the next depth is taken.
+        let short = wanted.is_some_and(|wanted| gap > wanted);
+        let affordable = paved.boxes.saturating_mul(2) < goal.max_boxes;
+        if short && affordable && depth < DEEPEST {
+            depth += 1;
+            resume = Resume::No;
+            continue;
+        }
+        std::fs::rename(&part, path).map_err(|error| PaveError::Io(path.to_owned(), error))?;
+        return Ok(paved);
+    }
+}
+
+/// The depth in the first line of an unfinished paving of the same claim.
+fn earlier_depth(claim: &MachineClaim, part: &Path) -> Result<u32, PaveError> {
+    let fails = |reason: String| PaveError::Resume(part.to_owned(), reason);
+    let file = File::open(part).map_err(|error| fails(error.to_string()))?;
+    let found = orthocert_checker::paving::header(&mut BufReader::new(file))
+        .map_err(|reason| fails(reason.to_string()))?;
+    if found == header(claim, found.depth) {
+        Ok(found.depth)
+    } else {
+        Err(fails("it is the beginning of another design's paving".to_owned()))
+    }
+}
+
+fn planned(
+    decider: &Decider,
+    claim: &MachineClaim,
+    goal: &Goal,
+    control: &Control<'_>,
+) -> Result<u32, PaveError> {
+    let symmetric = header(claim, 0).symmetry.is_some();
+    let deepest = goal.depth.unwrap_or(DEEPEST);
+    let coarse = COARSE.min(deepest);
+    let grower = Grower { decider, symmetric, depth: deepest, cancel: control.cancel };
+    let mut above = Tally::up_to(deepest);
+    let segments = grower.segments(coarse, &mut above)?;
+    Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
+}
+
+/// The writing of one tree.
+struct Pass<'a> {
+    grower: Grower<'a>,
+    header: Header,
+    part: PathBuf,
+    segments: Vec<Segment>,
+    boxes: u64,
+}
+
+impl<'a> Pass<'a> {
+    fn new(
+        decider: &'a Decider,
+        header: Header,
+        part: &Path,
+        cancel: &'a AtomicBool,
+    ) -> Result<Self, PaveError> {
+        let symmetric = header.symmetry.is_some();
+        let grower = Grower { decider, symmetric, depth: header.depth, cancel };
+        let mut above = Tally::up_to(header.depth);
+        let segments = grower.segments(COARSE.min(header.depth), &mut above)?;
+        Ok(Pass { grower, header, part: part.to_owned(), segments, boxes: above.boxes })
+    }
+
+    fn io(&self, error: io::Error) -> PaveError {
+        PaveError::Io(self.part.clone(), error)
+    }
+
+    fn first_line(&self) -> Result<Vec<u8>, PaveError> {
+        let text = serde_json::to_string(&self.header).map_err(|e| self.io(e.into()))?;
+        Ok((text + "\n").into_bytes())
+    }
+
+    fn run(&mut self, resume: Resume, control: &mut Control<'_>) -> Result<(), PaveError> {
+        let (mut file, mut done) = match resume {
+            Resume::No => {
+                let mut file = File::create(&self.part).map_err(|e| self.io(e))?;
+                file.write_all(&self.first_line()?).map_err(|e| self.io(e))?;
+                (file, 0)
+            }
+            Resume::Yes => self.take_up()?,
+        };
+        while done < self.segments.len() {
+            let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
+            let grown: Result<Vec<(Vec<u8>, u64)>, Cancelled> =
+                window.par_iter().with_max_len(1).map(|segment| self.grown(segment)).collect();
+            for (bytes, boxes) in grown? {
+                file.write_all(&bytes).map_err(|e| self.io(e))?;
+                self.boxes += boxes;
+            }
+            file.sync_data().map_err(|e| self.io(e))?;
+            done += window.len();
+            let closed = done as f64 / self.segments.len() as f64;
+            let boxes = usize::try_from(self.boxes).unwrap_or(usize::MAX);
+            (control.progress)(Progress { boxes, closed });
+        }
+        Ok(())
+    }
+
+    fn grown(&self, segment: &Segment) -> Result<(Vec<u8>, u64), Cancelled> {
+        match segment {
+            Segment::Known(bytes) => Ok((bytes.clone(), 0)),
+            Segment::Subtree(root) => {
+                let mut bytes = Vec::new();
+                let mut tally = Tally::up_to(self.header.depth);
+                self.grower.grow(*root, &mut bytes, &mut tally)?;
+                Ok((bytes, tally.boxes))
+            }
+        }
+    }
+
+    /// Opens the unfinished file after the last segment that it holds whole. Every node that is
+    /// kept is checked again.
+    fn take_up(&self) -> Result<(File, usize), PaveError> {
+        let fails = |reason: String| PaveError::Resume(self.part.clone(), reason);
+        let open = |e: io::Error| fails(e.to_string());
+        let file = File::open(&self.part).map_err(open)?;
+        let mut input = Counting { input: BufReader::new(file), count: 0 };
+        let mut first = vec![0; self.first_line()?.len()];
+        input.read_exact(&mut first).map_err(open)?;
+        if first != self.first_line()? {
+            return Err(fails("its first line is another".to_owned()));
+        }
+        let (mut whole, mut kept) = (input.count, 0);
+        for segment in &self.segments {
+            if self.follows(segment, &mut input).is_err() {
+                break;
+            }
+            (whole, kept) = (input.count, kept + 1);
+        }
+        let mut file = OpenOptions::new().write(true).open(&self.part).map_err(open)?;
+        file.set_len(whole).and_then(|()| file.seek(SeekFrom::End(0))).map_err(open)?;
+        Ok((file, kept))
+    }
+
+    /// Reads a segment, whose evidence has to hold.
+    fn follows(&self, segment: &Segment, input: &mut impl Read) -> Result<(), Rejected> {
+        let root = match segment {
+            Segment::Known(bytes) => {
+                let mut found = vec![0; bytes.len()];
+                input.read_exact(&mut found)?;
+                return if found == *bytes { Ok(()) } else { Err(Rejected::Truncated(0)) };
+            }
+            Segment::Subtree(root) => *root,
+        };
+        let mut waiting = vec![root];
+        while let Some(Root { cell, inherited, depth }) = waiting.pop() {
+            let item = Item::read(input, 0)?;
+            let done = item.steps.iter().fold(inherited, |done, step| {
+                done | step.rule().1.map_or(0, |obligation| 1 << obligation as u8)
+            });
+            if let Kind::Split(axis) = item.kind {
+                let halves = cell.halves(axis).filter(|_| depth < self.header.depth);
+                let (lower, upper) = halves.ok_or(Rejected::TooDeep(0))?;
+                let half = |cell| Root { cell, inherited: done, depth: depth + 1 };
+                waiting.extend([half(upper), half(lower)]);
+            }
+            let visited = Visited { cell, inherited, depth, node: 0, item };
+            self.grower.decider.judge().check(&visited)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the summary, as the checker's reader finds it, and reads the whole once more.
+    fn finish(&self) -> Result<Paved, PaveError> {
+        let reopened = || File::open(&self.part).map(BufReader::new).map_err(|e| self.io(e));
+        let mut reader = Reader::new(reopened()?).map_err(PaveError::Defect)?;
+        while reader.next().map_err(PaveError::Defect)?.is_some() {}
+        let text = serde_json::to_string(&reader.summary()).map_err(|e| self.io(e.into()))?;
+        let file = OpenOptions::new().append(true).open(&self.part).map_err(|e| self.io(e))?;
+        let mut file = BufWriter::new(file);
+        file.write_all(text.as_bytes())
+            .and_then(|()| file.write_all(b"\n"))
+            .and_then(|()| file.flush())
+            .and_then(|()| file.get_ref().sync_all())
+            .map_err(|e| self.io(e))?;
+        let bytes = file.get_ref().metadata().map_err(|e| self.io(e))?.len();
+        let shares = reader.shares();
+        let summary = reader.summary();
+        Ok(Paved { header: self.header.clone(), summary, shares, boxes: self.boxes, bytes })
+    }
+}
+
+/// Counts the bytes that are read.
+struct Counting<R> {
+    input: R,
+    count: u64,
+}
+
+impl<R: BufRead> Read for Counting<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.input.read(buffer)?;
+        self.count += read as u64;
+        Ok(read)
+    }
+}

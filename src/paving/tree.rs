@@ -1,0 +1,171 @@
+//! The tree of a paving: written depth first, cut into subtrees for the threads.
+
+use super::decide::{Decider, Fate};
+use orthocert_checker::cell::Cell;
+use orthocert_checker::paving::{six_ordered, Item, Kind, SHARE_BITS};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A cell whose subtree is still to be grown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// The cell.
+    pub cell: Cell,
+    /// What its ancestors discharge.
+    pub inherited: u32,
+    /// Splits above it.
+    pub depth: u32,
+}
+
+impl Root {
+    /// The whole box.
+    pub const WHOLE: Root = Root { cell: Cell::ROOT, inherited: 0, depth: 0 };
+}
+
+/// A stretch of a tree in preorder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Segment {
+    /// Nodes that are known.
+    Known(Vec<u8>),
+    /// A subtree.
+    Subtree(Root),
+}
+
+/// What a growing tree has come to.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Cells tried.
+    pub boxes: u64,
+    /// Shares that became inner at each depth, in units of `2^-SHARE_BITS`.
+    pub inner_at: Vec<u128>,
+    /// Shares that are undecided at each depth.
+    pub open_at: Vec<u128>,
+    /// Cells tried at each depth.
+    pub boxes_at: Vec<u64>,
+}
+
+impl Tally {
+    /// Room for depths up to `depth`.
+    pub fn up_to(depth: u32) -> Self {
+        let length = depth as usize + 1;
+        Tally {
+            boxes: 0,
+            inner_at: vec![0; length],
+            open_at: vec![0; length],
+            boxes_at: vec![0; length],
+        }
+    }
+
+    /// Adds another tally.
+    pub fn add(&mut self, other: &Tally) {
+        self.boxes += other.boxes;
+        let sum = |to: &mut Vec<u128>, from: &Vec<u128>| {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+        };
+        sum(&mut self.inner_at, &other.inner_at);
+        sum(&mut self.open_at, &other.open_at);
+        self.boxes_at.iter_mut().zip(&other.boxes_at).for_each(|(to, from)| *to += from);
+    }
+}
+
+/// Grows trees of one claim down to one depth.
+pub struct Grower<'a> {
+    /// Decides the cells.
+    pub decider: &'a Decider,
+    /// Whether cells stand for their images under permutations.
+    pub symmetric: bool,
+    /// Most splits on a path.
+    pub depth: u32,
+    /// Set to give up.
+    pub cancel: &'a AtomicBool,
+}
+
+/// The tree cannot be finished: it was cancelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+impl Grower<'_> {
+    /// Appends a subtree's nodes to `out`.
+    pub fn grow(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Result<(), Cancelled> {
+        let mut waiting = vec![root];
+        while let Some(root) = waiting.pop() {
+            if tally.boxes.is_multiple_of(256) && self.cancel.load(Ordering::Relaxed) {
+                return Err(Cancelled);
+            }
+            if let Some((lower, upper)) = self.node(root, self.depth, out, tally) {
+                waiting.extend([upper, lower]);
+            }
+        }
+        Ok(())
+    }
+
+    /// The whole tree, with the subtrees below `coarse` left to be grown.
+    pub fn segments(&self, coarse: u32, tally: &mut Tally) -> Result<Vec<Segment>, Cancelled> {
+        let mut segments = Vec::new();
+        let mut known = Vec::new();
+        let mut waiting = vec![Root::WHOLE];
+        while let Some(root) = waiting.pop() {
+            if self.cancel.load(Ordering::Relaxed) {
+                return Err(Cancelled);
+            }
+            if root.depth == coarse && self.depth > coarse {
+                if !known.is_empty() {
+                    segments.push(Segment::Known(std::mem::take(&mut known)));
+                }
+                segments.push(Segment::Subtree(root));
+            } else if let Some((lower, upper)) = self.node(root, self.depth, &mut known, tally) {
+                waiting.extend([upper, lower]);
+            }
+        }
+        if !known.is_empty() {
+            segments.push(Segment::Known(known));
+        }
+        Ok(segments)
+    }
+
+    /// Decides a node and appends it; returns its halves, if it is split.
+    fn node(
+        &self,
+        root: Root,
+        depth: u32,
+        out: &mut Vec<u8>,
+        tally: &mut Tally,
+    ) -> Option<(Root, Root)> {
+        let decision = self.decider.decide(&root.cell, root.inherited);
+        let at = root.depth as usize;
+        tally.boxes += 1;
+        tally.boxes_at[at] += 1;
+        let split = match decision.fate {
+            Fate::Open(axis) if root.depth < depth => axis,
+            _ => None,
+        };
+        let halves = split.and_then(|axis| root.cell.halves(axis));
+        let kind = match (decision.fate, split) {
+            (Fate::Closed(kind), _) => kind,
+            (Fate::Open(_), Some(axis)) => Kind::Split(axis),
+            (Fate::Open(_), None) => Kind::Boundary,
+        };
+        match kind {
+            Kind::Inner => tally.inner_at[at] += self.share(&root.cell),
+            Kind::Split(_) | Kind::Boundary => tally.open_at[at] += self.share(&root.cell),
+            Kind::Outer(_) | Kind::Mirrored => {}
+        }
+        let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
+        let inherited = steps.iter().fold(root.inherited, |done, step| {
+            done | step.rule().1.map_or(0, |obligation| 1 << obligation as u8)
+        });
+        // Every step and violation that a decision makes has a code.
+        let written = Item { steps, kind }.write(out);
+        debug_assert!(written.is_some());
+        let (lower, upper) = halves?;
+        let half = |cell| Root { cell, inherited, depth: root.depth + 1 };
+        Some((half(lower), half(upper)))
+    }
+
+    fn share(&self, cell: &Cell) -> u128 {
+        if self.symmetric {
+            six_ordered(cell)
+        } else {
+            1 << (SHARE_BITS - cell.edges.iter().map(|e| e.level).sum::<u32>())
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What a map of designs holds, for people and for scripts.
+
+use super::text::{labelled, verbatim, wrap};
+use super::CertificateFile;
+use crate::atlas::Standing;
+use crate::decimal::{boxes, counted, exact, grouped, significant};
+use num_traits::ToPrimitive;
+use orthocert_checker::claim::AtlasParameter;
+use orthocert_checker::number::Exact;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The report of an atlas.
+#[derive(Clone, Debug, Serialize)]
+pub struct AtlasReport {
+    /// The atlas's title.
+    pub title: Option<String>,
+    /// The atlas's file, or what it was merged from.
+    pub atlas: String,
+    /// What was varied.
+    pub parameters: Vec<AtlasParameter>,
+    /// Cells certified, and their share of the box.
+    pub certified: Part,
+    /// Cells refuted.
+    pub refuted: Part,
+    /// The rest.
+    pub undecided: Part,
+    /// Boxes of all trees together.
+    pub nodes: usize,
+    /// The best certified design, where the file has an objective and the map a certified cell.
+    pub best: Option<BestDesign>,
+    /// What the map says of the marked designs.
+    pub marks: Vec<MarkedDesign>,
+    /// The map's certificate.
+    pub certificate: CertificateFile,
+    /// The other files written.
+    pub files: Vec<String>,
+    /// Seconds taken.
+    pub seconds: f64,
+}
+
+/// Cells of one verdict.
+#[derive(Clone, Debug, Serialize)]
+pub struct Part {
+    /// How many.
+    pub cells: usize,
+    /// The share of the box that they fill, exactly.
+    pub share: Exact,
+}
+
+/// The best design of the certified cells.
+#[derive(Clone, Debug, Serialize)]
+pub struct BestDesign {
+    /// Its parameters.
+    pub at: Vec<Exact>,
+    /// `maximise` or `minimise`.
+    pub sense: &'static str,
+    /// The objective.
+    pub objective: Exact,
+    /// Its value.
+    pub value: Exact,
+    /// The design's own certificate; `null` if no separate proof was found within the budget.
+    pub certificate: Option<CertificateFile>,
+}
+
+/// A marked design.
+#[derive(Clone, Debug, Serialize)]
+pub struct MarkedDesign {
+    /// Its name.
+    pub label: String,
+    /// Its parameters.
+    pub at: Vec<Exact>,
+    /// What the map says of it.
+    pub verdict: Standing,
+}
+
+impl Part {
+    /// The share in per cent.
+    fn percent(&self) -> String {
+        let share = self.share.as_rational().and_then(|x| x.to_f64()).unwrap_or(0.0);
+        format!("{} %", significant(100.0 * share, 4))
+    }
+
+    fn text(&self) -> String {
+        let cells = counted(self.cells, "cell", "cells");
+        format!("{} of the box ({}) in {cells}", self.percent(), self.share)
+    }
+}
+
+impl AtlasReport {
+    /// The first line.
+    pub fn headline(&self) -> String {
+        let name = self.title.as_deref().unwrap_or(&self.atlas);
+        let decided =
+            format!("{} certified, {} refuted", self.certified.percent(), self.refuted.percent());
+        format!("ATLAS  {name}: {decided}")
+    }
+
+    /// A design's parameters.
+    fn place(&self, at: &[Exact]) -> String {
+        let value = |(p, x): (&AtlasParameter, &Exact)| format!("{} = {}", p.name, exact(x));
+        self.parameters.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
+    }
+
+    /// What the map says, in rows of a name and a text, without what depends on the run.
+    pub fn facts(&self) -> Vec<(String, String)> {
+        let mut facts = vec![
+            ("certified".to_owned(), self.certified.text()),
+            ("refuted".to_owned(), self.refuted.text()),
+            ("undecided".to_owned(), self.undecided.text()),
+        ];
+        if let Some(best) = &self.best {
+            let text = format!(
+                "{} {} = {} at {}",
+                best.sense,
+                best.objective,
+                exact(&best.value),
+                self.place(&best.at)
+            );
+            facts.push(("best".to_owned(), text));
+        }
+        for mark in &self.marks {
+            let verdict = match mark.verdict {
+                Standing::Certified => "certified",
+                Standing::Refuted => "refuted",
+                Standing::Undecided => "undecided",
+                Standing::Outside => "outside of the map",
+            };
+            facts.push((mark.label.clone(), format!("{verdict}: {}", self.place(&mark.at))));
+        }
+        facts
+    }
+
+    /// The report for people.
+    pub fn text(&self) -> String {
+        let mut out = self.headline();
+        out.push('\n');
+        let meaning = "Every design of the certified cells meets every requirement, and every \
+                       design of the refuted cells fails one. The proof of every cell was accepted \
+                       by the exact checker.";
+        wrap(&mut out, meaning, 0);
+        out.push('\n');
+        for (name, text) in self.facts() {
+            labelled(&mut out, &name, &text);
+        }
+        out.push('\n');
+        labelled(&mut out, "proof", &format!("{} in the trees of all cells", boxes(self.nodes)));
+        let CertificateFile { path, bytes, .. } = &self.certificate;
+        let size = grouped(*bytes as u64);
+        verbatim(&mut out, "certificate", &format!("{path} ({size} bytes)"));
+        let best = self.best.as_ref().and_then(|best| best.certificate.as_ref());
+        for path in best.map(|file| &file.path).into_iter().chain(&self.files) {
+            verbatim(&mut out, "", path);
+        }
+        let _ = writeln!(out, "  {:13} {} s", "time", significant(self.seconds, 3));
+        out
+    }
+}

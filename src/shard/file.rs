@@ -1,0 +1,405 @@
+//! The files of a job in parts, and reading them.
+
+use crate::atlas::Top;
+use crate::design::{AtlasDesign, MAX_RESOLUTION};
+use orthocert_checker::cell::{Cell, Edge};
+use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::claim::MachineClaim;
+use orthocert_checker::rule::Obligation;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The file of the job as a whole.
+pub const JOB_FILE: &str = "job.json";
+/// Most shards of a job.
+pub const MAX_SHARDS: u64 = 10_000;
+/// Most bytes of one of these files.
+const MAX_FILE: u64 = 1 << 30;
+
+const JOB: &str = "orthocert-job/1";
+const SHARD: &str = "orthocert-shard/1";
+const RESULT: &str = "orthocert-result/1";
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Task {
+    /// The map of an atlas.
+    Atlas(Box<AtlasDesign>),
+    /// The proof of a design.
+    Verify(Box<Verify>),
+}
+
+/// A design to be proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verify {
+    /// Its title.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What is claimed.
+    pub claim: MachineClaim,
+    /// Most boxes tried below one of the cells that are dealt out.
+    pub boxes: usize,
+}
+
+impl Task {
+    /// The SHA-256 of the task's text: what identifies the job.
+    pub fn identity(&self) -> String {
+        sha256(&text(self))
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let design = match self {
+            Task::Atlas(design) => design,
+            Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),
+        };
+        design.well_formed()?;
+        let known = u32::try_from(MAX_RESOLUTION).unwrap_or(0);
+        if design.resolution > known || design.labels.len() != design.parameters.len() {
+            return Err("the settings are not those of an atlas".to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// A cell in a file: index and level of its edges; of a design to be proved, also what is open on
+/// it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    edges: [(u64, u32); 3],
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) open: Vec<Obligation>,
+}
+
+/// Deepest level of an edge in a file.
+const MAX_LEVEL: u32 = 60;
+
+impl Place {
+    /// The place of a cell; `None` beyond the depth of files.
+    pub fn of(cell: &Cell, open: Vec<Obligation>) -> Option<Self> {
+        let mut edges = [(0, 0); 3];
+        for (place, edge) in edges.iter_mut().zip(&cell.edges) {
+            *place = (u64::try_from(edge.index).ok()?, edge.level);
+        }
+        let place = Place { edges, open };
+        place.cell().is_some().then_some(place)
+    }
+
+    /// The cell; `None` if it is not within the box.
+    pub fn cell(&self) -> Option<Cell> {
+        let edge = |(index, level): (u64, u32)| {
+            let within = level <= MAX_LEVEL && index < 1 << level;
+            within.then_some(Edge { index: index.into(), level })
+        };
+        let [x, y, z] = self.edges;
+        Some(Cell { edges: [edge(x)?, edge(y)?, edge(z)?] })
+    }
+}
+
+/// What was found of a cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Part {
+    /// The cells of parameters below it.
+    Cells(Vec<AtlasCell>),
+    /// The nodes of the tree below it.
+    Tree {
+        /// In preorder.
+        nodes: Vec<Node>,
+        /// Boxes on which something is open: none in a proof.
+        open: usize,
+        /// Boxes tried.
+        boxes: usize,
+    },
+}
+
+/// The top of a job's tree.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum JobTop {
+    /// Of an atlas.
+    Cells(Vec<Top>),
+    /// Of a design to be proved.
+    Tree {
+        /// In preorder.
+        nodes: Vec<Node>,
+        /// The positions of the cells that are dealt out, ascending.
+        waiting: Vec<usize>,
+        /// Boxes tried.
+        boxes: usize,
+    },
+}
+
+/// The job as a whole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Job {
+    format: String,
+    /// [`Task::identity`].
+    pub job: String,
+    /// What is to be done.
+    pub task: Task,
+    /// The top of the tree; its waiting cells are dealt out to the shards in turn.
+    pub top: JobTop,
+    /// The SHA-256 of every shard's file, in order.
+    pub shards: Vec<String>,
+}
+
+/// A part of a job, complete in itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shard {
+    format: String,
+    /// [`Task::identity`].
+    pub job: String,
+    /// The number of the shard, from one.
+    pub shard: usize,
+    /// How many there are.
+    pub of: usize,
+    /// What is to be done.
+    pub task: Task,
+    /// The cells to be grown.
+    pub cells: Vec<Place>,
+}
+
+/// What a shard found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShardResult {
+    format: String,
+    /// [`Task::identity`].
+    pub job: String,
+    /// The number of the shard.
+    pub shard: usize,
+    /// The SHA-256 of the shard's file.
+    pub answers: String,
+    /// The SHA-256 of the parts' text.
+    pub sha256: String,
+    /// What was found of each of the shard's cells.
+    pub parts: Vec<Part>,
+}
+
+impl Job {
+    /// A job.
+    pub fn new(task: Task, top: JobTop, shards: Vec<String>) -> Self {
+        Job { format: JOB.to_owned(), job: task.identity(), task, top, shards }
+    }
+}
+
+impl Shard {
+    /// A shard.
+    pub fn new(task: Task, shard: usize, of: usize, cells: Vec<Place>) -> Self {
+        Shard { format: SHARD.to_owned(), job: task.identity(), shard, of, task, cells }
+    }
+}
+
+impl ShardResult {
+    /// The result of a shard with this file.
+    pub fn new(shard: &Shard, answers: String, parts: Vec<Part>) -> Self {
+        let (job, shard) = (shard.job.clone(), shard.shard);
+        let sha256 = sha256(&text(&parts));
+        ShardResult { format: RESULT.to_owned(), job, shard, answers, sha256, parts }
+    }
+
+    /// Whether the content is what was written.
+    pub fn is_whole(&self) -> bool {
+        self.format == RESULT && self.sha256 == sha256(&text(&self.parts))
+    }
+}
+
+/// The file names of a job's folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Name {
+    /// [`JOB_FILE`].
+    Job,
+    /// `shard-0001.json`.
+    Shard(usize),
+    /// `result-0001.json`.
+    Result(usize),
+    /// `result-0001.part`: a shard that runs, or was stopped.
+    Progress(usize),
+    /// `.orthocert-....part`: what a killed process left behind.
+    Leftover,
+    /// `engine`: the scripts and logs of [`crate::engine`].
+    Engine,
+}
+
+impl Name {
+    /// What a name in a job's folder stands for; `None` for foreign files.
+    pub fn parse(name: &str) -> Option<Self> {
+        let number = |prefix: &str, suffix: &str| {
+            let digits = name.strip_prefix(prefix)?.strip_suffix(suffix)?;
+            digits.parse().ok().filter(|n| *n > 0 && format!("{n:04}") == digits)
+        };
+        match name {
+            JOB_FILE => return Some(Name::Job),
+            "engine" => return Some(Name::Engine),
+            _ if name.starts_with(".orthocert-") => return Some(Name::Leftover),
+            _ => {}
+        }
+        let shard = number("shard-", ".json").map(Name::Shard);
+        let result = || number("result-", ".json").map(Name::Result);
+        shard.or_else(result).or_else(|| number("result-", ".part").map(Name::Progress))
+    }
+}
+
+/// The name of a file of a job's folder.
+pub fn name_of(name: Name) -> String {
+    match name {
+        Name::Job => JOB_FILE.to_owned(),
+        Name::Shard(n) => format!("shard-{n:04}.json"),
+        Name::Result(n) => format!("result-{n:04}.json"),
+        Name::Progress(n) => format!("result-{n:04}.part"),
+        Name::Leftover => ".orthocert-".to_owned(),
+        Name::Engine => "engine".to_owned(),
+    }
+}
+
+/// Why a file is of no use.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The operating system's reason.
+    Unreadable(PathBuf, std::io::Error),
+    /// Not a file of the kind, or not of this version; why.
+    Malformed(PathBuf, &'static str, String),
+    /// What the file calls its job is not its task's identity.
+    Altered(PathBuf),
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FileError::Unreadable(path, error) => {
+                write!(f, "{}: cannot be read: {error}", path.display())
+            }
+            FileError::Malformed(path, kind, why) => {
+                write!(f, "{}: found {why}; accepted: {kind}", path.display())
+            }
+            FileError::Altered(path) => write!(
+                f,
+                "{}: was altered: its task is not the one that its \"job\" identifies",
+                path.display()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for FileError {}
+
+/// The lower-case hexadecimal SHA-256 of a text.
+pub fn sha256(text: &str) -> String {
+    use fmt::Write;
+    let mut hex = String::with_capacity(64);
+    for byte in Sha256::digest(text.as_bytes()) {
+        let _ = write!(hex, "{byte:02x}");
+    }
+    hex
+}
+
+/// The text of a value, a function of the value; these values have one.
+pub(super) fn text(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+/// The text of a file of a job.
+pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
+    let unreadable = |error| FileError::Unreadable(path.to_owned(), error);
+    let malformed =
+        |why: &str| FileError::Malformed(path.to_owned(), "a file of a job", why.to_owned());
+    let found = fs::metadata(path).map_err(unreadable)?;
+    if !found.is_file() {
+        return Err(malformed("no regular file"));
+    }
+    if found.len() > MAX_FILE {
+        return Err(malformed("more than 1 GiB"));
+    }
+    String::from_utf8(fs::read(path).map_err(unreadable)?).map_err(|_| malformed("no UTF-8 text"))
+}
+
+fn parse<T: DeserializeOwned>(path: &Path, text: &str, kind: &'static str) -> Result<T, FileError> {
+    serde_json::from_str(text)
+        .map_err(|error| FileError::Malformed(path.to_owned(), kind, format!("{error}")))
+}
+
+fn identified(
+    path: &Path,
+    (task, job): (&Task, &str),
+    (found, wanted): (&str, &str),
+    kind: &'static str,
+) -> Result<(), FileError> {
+    let malformed = |why| FileError::Malformed(path.to_owned(), kind, why);
+    if found != wanted {
+        return Err(malformed(format!("the format {found:?}")));
+    }
+    if task.identity() != job {
+        return Err(FileError::Altered(path.to_owned()));
+    }
+    task.validate().map_err(malformed)
+}
+
+/// Reads a job's file.
+///
+/// # Errors
+/// If it is none.
+pub fn read_job(path: &Path) -> Result<Job, FileError> {
+    let kind = "the job.json that orthocert split wrote";
+    let job: Job = parse(path, &read_text(path)?, kind)?;
+    identified(path, (&job.task, &job.job), (&job.format, JOB), kind)?;
+    Ok(job)
+}
+
+/// Reads a shard's file; also returns the SHA-256 of its text.
+///
+/// # Errors
+/// If it is none.
+pub fn read_shard(path: &Path) -> Result<(Shard, String), FileError> {
+    let kind = "a shard that orthocert split wrote";
+    let text = read_text(path)?;
+    let shard: Shard = parse(path, &text, kind)?;
+    identified(path, (&shard.task, &shard.job), (&shard.format, SHARD), kind)?;
+    let malformed = |why: &str| FileError::Malformed(path.to_owned(), kind, why.to_owned());
+    if shard.shard == 0 || shard.shard > shard.of {
+        return Err(malformed("a shard's number that is not one of its job's"));
+    }
+    if shard.cells.iter().any(|place| place.cell().is_none()) {
+        return Err(malformed("a cell that is not within the box"));
+    }
+    Ok((shard, sha256(&text)))
+}
+
+/// Reads a result's file; whether it is whole is for the reader to ask.
+pub(super) fn read_result(path: &Path) -> Result<ShardResult, FileError> {
+    parse(path, &read_text(path)?, "a result that orthocert run-shard wrote")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_that_are_written() {
+        let names = [Name::Job, Name::Shard(1), Name::Result(9999), Name::Progress(10_000)];
+        for name in names {
+            assert_eq!(Name::parse(&name_of(name)), Some(name));
+        }
+        for foreign in ["shard-1.json", "shard-0000.json", "result-00001.json", "a.txt", ""] {
+            assert_eq!(Name::parse(foreign), None, "{foreign}");
+        }
+    }
+
+    #[test]
+    fn places_beyond_the_box_are_no_cells() {
+        let root = Place::of(&Cell::ROOT, Vec::new());
+        assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
+        for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
+            assert_eq!(Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new() }.cell(), None);
+        }
+    }
+}

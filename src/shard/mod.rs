@@ -1,0 +1,21 @@
+//! Long jobs in parts: shards that any machine can run, and their merging.
+//!
+//! A job's tree is grown from the root until enough cells wait; these are dealt out to the shards.
+//! What becomes of a cell depends on the cell alone, so the parts, put in their places, are byte for
+//! byte what one machine would have found. Every file names its job by the SHA-256 of the job's
+//! text; results also name the shard that they answer, by the SHA-256 of its file, and carry the
+//! SHA-256 of their content. What is missing, doubled, altered or of another job is named
+//! ([`MergeError`]); and what was merged has still to be accepted by the exact checker as a whole.
+
+mod file;
+mod merge;
+mod run;
+mod split;
+
+pub use file::{
+    name_of, read_job, read_shard, sha256, FileError, Job, JobTop, Name, Part, Place, Shard,
+    ShardResult, Task, Verify, JOB_FILE, MAX_SHARDS,
+};
+pub use merge::{merge, MergeError, Merged, Whole};
+pub use run::{progress_file, result_file, run, Ran, RunError};
+pub use split::{split, SplitError};

@@ -1,0 +1,206 @@
+//! Running one shard: again and again, from where it was stopped.
+//!
+//! The tree of every cell that is done is appended, with its SHA-256, to a file beside the result.
+//! A run that is stopped, by whatever, loses the cell that it was at. What it left half-written, or
+//! two runs of one shard at the same time wrote into each other, has no right sum and is done again.
+
+use super::file::{
+    name_of, read_result, sha256, text, FileError, Name, Part, Shard, ShardResult, Task,
+};
+use crate::atlas::{grow, Growing, Stopped, Top};
+use crate::output::{self, OutputError};
+use crate::search::{Budget, Control, Stop};
+use crate::verify;
+use orthocert_checker::certificate::AtlasCell;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+/// A cell that is done, a line of the progress file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    /// The shard's SHA-256.
+    answers: String,
+    cell: usize,
+    sha256: String,
+    part: Part,
+}
+
+/// What a run did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ran {
+    /// The result was there already.
+    AlreadyDone,
+    /// The result was written; so many cells had been done by an earlier run.
+    Done {
+        /// Cells taken over.
+        resumed: usize,
+    },
+}
+
+/// Why a shard was not finished.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum RunError {
+    /// A file could not be read.
+    File(FileError),
+    /// A file could not be written: what is done stays.
+    Output(OutputError),
+    /// The place of the result holds that of another job.
+    OtherJob(PathBuf),
+    /// The claim has no model, or what is found is too large.
+    Claim(String),
+    /// It was cancelled.
+    Interrupted,
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunError::File(error) => error.fmt(f),
+            RunError::Output(error) => error.fmt(f),
+            RunError::OtherJob(path) => {
+                write!(f, "{}: is the result of a shard of another job", path.display())
+            }
+            RunError::Claim(why) => f.write_str(why),
+            RunError::Interrupted => write!(f, "interrupted"),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}
+
+impl From<OutputError> for RunError {
+    fn from(error: OutputError) -> Self {
+        RunError::Output(error)
+    }
+}
+
+/// Where the result of the shard in the file `path` goes.
+pub fn result_file(path: &Path, shard: &Shard) -> PathBuf {
+    path.with_file_name(name_of(Name::Result(shard.shard)))
+}
+
+/// Where a run of the shard in the file `path` keeps what is done.
+pub fn progress_file(path: &Path, shard: &Shard) -> PathBuf {
+    path.with_file_name(name_of(Name::Progress(shard.shard)))
+}
+
+/// Runs a shard, the text of whose file at `path` has the SHA-256 `answers`, unless that was done.
+///
+/// # Errors
+/// [`RunError`]; what is done stays done.
+pub fn run(
+    path: &Path,
+    shard: &Shard,
+    answers: &str,
+    cancel: &AtomicBool,
+    done: &mut dyn FnMut(usize, f64),
+) -> Result<Ran, RunError> {
+    let (target, progress) = (result_file(path, shard), progress_file(path, shard));
+    output::probe(&target)?;
+    if target.exists() {
+        match read_result(&target) {
+            Ok(result) if result.job != shard.job => return Err(RunError::OtherJob(target)),
+            Ok(result) if result.answers == answers && result.is_whole() => {
+                remove(&progress);
+                return Ok(Ran::AlreadyDone);
+            }
+            // Half a result, or that of another split: it is done again.
+            _ => {}
+        }
+    }
+    let mut parts = resumed(&progress, shard, answers);
+    let resumed = parts.iter().flatten().count();
+    for (number, part) in parts.iter_mut().enumerate() {
+        if part.is_none() {
+            let grown = grown(shard, number, cancel)?;
+            append(&progress, answers, number, &grown)?;
+            *part = Some(grown);
+        }
+        done(number + 1, (number + 1) as f64 / shard.cells.len() as f64);
+    }
+    let parts = parts.into_iter().flatten().collect();
+    let result = text(&ShardResult::new(shard, answers.to_owned(), parts)) + "\n";
+    output::write(&target, result.as_bytes())?;
+    remove(&progress);
+    Ok(Ran::Done { resumed })
+}
+
+/// What is found of one of the shard's cells.
+fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Part, RunError> {
+    // Every place was seen to be a cell when the shard was read.
+    let place = shard.cells.get(number).ok_or(RunError::Interrupted)?;
+    let root = place.cell().ok_or(RunError::Interrupted)?;
+    let mut unseen = |_: usize, _: f64| {};
+    match &shard.task {
+        Task::Atlas(design) => {
+            let mut growing = Growing::new(design, cancel, &mut unseen);
+            let tree = grow(&mut growing, root, None).map_err(|stopped| match stopped {
+                Stopped::Cancelled => RunError::Interrupted,
+                Stopped::TooLarge => RunError::Claim(stopped.to_string()),
+            })?;
+            let cells = tree.into_iter().map(|node| match node {
+                Top::Cell(cell) => cell,
+                // Grown to its end, a tree has none.
+                Top::Waiting => AtlasCell::Undecided,
+            });
+            Ok(Part::Cells(cells.collect()))
+        }
+        Task::Verify(task) => {
+            let budget = Budget { max_boxes: task.boxes, deadline: None };
+            let mut control = Control { cancel, progress: &mut |_| {} };
+            let root = (root, place.open.clone());
+            let found = verify::below(&task.claim, root, budget, &mut control)
+                .map_err(|error| RunError::Claim(error.to_string()))?;
+            match found.stop {
+                Stop::Cancelled => Err(RunError::Interrupted),
+                _ => Ok(Part::Tree {
+                    nodes: found.nodes,
+                    open: found.open.len(),
+                    boxes: found.boxes,
+                }),
+            }
+        }
+    }
+}
+
+/// What earlier runs have done.
+fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Part>> {
+    let mut parts = vec![None; shard.cells.len()];
+    // Nothing is read of what is no file of ours: a device may never end.
+    let regular = fs::metadata(progress).is_ok_and(|found| found.is_file());
+    let written = if regular { fs::read(progress).unwrap_or_default() } else { Vec::new() };
+    for line in written.split(|byte| *byte == b'\n') {
+        let Ok(line) = serde_json::from_slice::<Line>(line) else {
+            continue;
+        };
+        let whole = line.answers == answers && line.sha256 == sha256(&text(&line.part));
+        if let (true, Some(part)) = (whole, parts.get_mut(line.cell)) {
+            *part = Some(line.part);
+        }
+    }
+    parts
+}
+
+fn append(progress: &Path, answers: &str, cell: usize, part: &Part) -> Result<(), OutputError> {
+    let (answers, part) = (answers.to_owned(), part.clone());
+    let line = Line { answers, cell, sha256: sha256(&text(&part)), part };
+    // A line feed first: it ends what a killed run may have left of a line.
+    let line = format!("\n{}\n", text(&line));
+    let written = || {
+        let mut file = OpenOptions::new().create(true).append(true).open(progress)?;
+        file.write_all(line.as_bytes())?;
+        file.sync_data()
+    };
+    written().map_err(|error| OutputError::Io(progress.to_owned(), error))
+}
+
+/// Removes what is of no more use; where that fails, it is in nobody's way.
+fn remove(path: &Path) {
+    let _ = fs::remove_file(path);
+}

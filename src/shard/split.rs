@@ -1,0 +1,118 @@
+//! From a job to its shards.
+
+use super::file::{sha256, text, Job, JobTop, Place, Shard, Task, Verify};
+use crate::atlas::{grow, waiting, Growing, Stopped};
+use crate::design::AtlasDesign;
+use crate::search::{Control, Stop};
+use crate::verify;
+use orthocert_checker::cell::Cell;
+use orthocert_checker::claim::ClaimError;
+use std::fmt;
+use std::sync::atomic::AtomicBool;
+
+/// Cells that a shard has at least, where the tree has as many: dealt out in turn, so that costly
+/// regions are shared out.
+const CELLS_A_SHARD: usize = 4;
+
+/// Why there is nothing to be dealt out.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum SplitError {
+    /// It was cancelled.
+    Interrupted,
+    /// The claim is not well formed.
+    Claim(ClaimError),
+    /// The design is refuted by a single point.
+    Refuted,
+    /// The map would not fit into a certificate.
+    TooLarge,
+    /// A box near the top cannot be closed by splitting it.
+    Hopeless,
+}
+
+impl fmt::Display for SplitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SplitError::Interrupted => write!(f, "interrupted"),
+            SplitError::Claim(error) => error.fmt(f),
+            SplitError::Refuted => write!(
+                f,
+                "the design is refuted by a single point, so that there is nothing to be shared \
+                 out; orthocert verify writes the certificate"
+            ),
+            SplitError::TooLarge => Stopped::TooLarge.fmt(f),
+            SplitError::Hopeless => write!(
+                f,
+                "a box near the top of the tree cannot be closed; orthocert verify says why"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for SplitError {}
+
+/// The job and the texts of its shards, in order.
+///
+/// # Errors
+/// If it was cancelled, or there is nothing to be dealt out.
+pub fn split(
+    task: &Task,
+    shards: usize,
+    cancel: &AtomicBool,
+    done: &mut dyn FnMut(usize, f64),
+) -> Result<(Job, Vec<String>), SplitError> {
+    let enough = shards.saturating_mul(CELLS_A_SHARD);
+    let (top, cells) = match task {
+        Task::Atlas(design) => of_atlas(design, enough, cancel, done)?,
+        Task::Verify(task) => of_design(task, enough, cancel, done)?,
+    };
+    let texts: Vec<String> = (0..shards)
+        .map(|shard| {
+            let own = cells.iter().skip(shard).step_by(shards).cloned();
+            text(&Shard::new(task.clone(), shard + 1, shards, own.collect())) + "\n"
+        })
+        .collect();
+    let job = Job::new(task.clone(), top, texts.iter().map(|text| sha256(text)).collect());
+    Ok((job, texts))
+}
+
+fn of_atlas(
+    design: &AtlasDesign,
+    enough: usize,
+    cancel: &AtomicBool,
+    done: &mut dyn FnMut(usize, f64),
+) -> Result<(JobTop, Vec<Place>), SplitError> {
+    let mut growing = Growing::new(design, cancel, done);
+    let top = grow(&mut growing, Cell::ROOT, Some(enough)).map_err(|stopped| match stopped {
+        Stopped::Cancelled => SplitError::Interrupted,
+        Stopped::TooLarge => SplitError::TooLarge,
+    })?;
+    let cells = waiting(&top).unwrap_or_default();
+    let places = cells.iter().filter_map(|cell| Place::of(cell, Vec::new())).collect();
+    Ok((JobTop::Cells(top), places))
+}
+
+fn of_design(
+    task: &Verify,
+    enough: usize,
+    cancel: &AtomicBool,
+    done: &mut dyn FnMut(usize, f64),
+) -> Result<(JobTop, Vec<Place>), SplitError> {
+    let mut progress = |now: crate::search::Progress| done(now.boxes, now.closed);
+    let mut control = Control { cancel, progress: &mut progress };
+    let found = verify::top(&task.claim, enough, &mut control).map_err(SplitError::Claim)?;
+    let found = found.ok_or(SplitError::Refuted)?;
+    if found.stop == Stop::Cancelled {
+        return Err(SplitError::Interrupted);
+    }
+    let place = |open: &crate::search::OpenBox| {
+        // A reason means that it was tried and cannot be split.
+        let untried = open.open.iter().all(|(_, reason)| reason.is_none());
+        let open_there = open.open.iter().map(|(obligation, _)| *obligation).collect();
+        untried.then(|| Place::of(&open.cell, open_there)).flatten()
+    };
+    let places: Option<Vec<Place>> = found.open.iter().map(place).collect();
+    let places = places.ok_or(SplitError::Hopeless)?;
+    let waiting = found.open.iter().map(|open| open.node).collect();
+    Ok((JobTop::Tree { nodes: found.nodes, waiting, boxes: found.boxes }, places))
+}

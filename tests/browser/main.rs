@@ -1,0 +1,272 @@
+//! Reports in a browser: what is drawn, read out, turned and moved, and that nothing is asked of a
+//! network.
+//!
+//! Where there is no Chromium the tests say so and pass, unless `ORTHOCERT_BROWSER` is `required`.
+//! The screenshots that they take stay in the target folder, under `tmp/report`.
+
+mod chromium;
+mod support;
+
+use chromium::Browser;
+use support::{differ, kept, numbers, report, shades, Folder};
+
+/// Pages whose figures are all there, light and dark, without a word on the console.
+#[test]
+fn figures_are_drawn_light_and_dark_without_complaint() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    for (name, maps) in [
+        ("orthoglide-prototype", 3),
+        ("orthoglide-310", 3),
+        ("linear-delta-klipper-cylinder", 3),
+        ("upu-struts", 3),
+        ("tripteron", 3),
+        ("rotary-delta-angle-refuted", 3),
+        ("star-singular", 3),
+        ("orthoglide-tolerance", 3),
+        ("postulate-2", 3),
+        ("postulate-all", 0),
+    ] {
+        let page = folder.report_of_committed(name, &[]);
+        browser.prefer("light");
+        browser.open(&page);
+        assert_eq!(browser.complaints(), Vec::<String>::new(), "{name}");
+        let counted = |browser: &mut Browser, selector: &str| {
+            browser.evaluate(&format!("document.querySelectorAll({selector:?}).length")).as_u64()
+        };
+        assert_eq!(counted(&mut browser, "svg[data-map] .field rect"), Some(maps), "{name}");
+        assert_eq!(counted(&mut browser, "svg.design"), Some(maps / 3), "{name}");
+        let light = browser.screenshot();
+        browser.prefer("dark");
+        let dark = browser.screenshot();
+        kept(name, "light", &light);
+        kept(name, "dark", &dark);
+        assert!(shades(&light) > 20 && shades(&dark) > 20, "{name}: blank");
+        assert!(differ(&light, &dark) > 0.5, "{name}: light and dark look alike");
+        assert_eq!(browser.complaints(), Vec::<String>::new(), "{name}");
+    }
+}
+
+/// The value under the pointer, and the value read by keys, are the oracle's.
+#[test]
+fn values_under_the_cross_are_the_oracles() {
+    let Some(mut browser) = Browser::start() else { return };
+    let oracle = include_str!("../../proofs/checker/tests/oracle/points.json");
+    let oracle: serde_json::Value = serde_json::from_str(oracle).unwrap();
+    let mut read = 0;
+    for case in oracle["cases"].as_array().unwrap() {
+        let reachable = |p: &&serde_json::Value| p["reachable"] == true && p["det"] != "0";
+        for point in case["points"].as_array().unwrap().iter().filter(reachable).take(2) {
+            let folder = Folder::new();
+            let Some(page) = folder.report_about(case, point) else { continue };
+            browser.open(&page);
+            let expected = support::psi(point);
+            // The first press puts the cross in the middle, where the oracle's point is.
+            browser.focus("svg[data-map='0']");
+            browser.evaluate(
+                "document.getElementById('slice').value = 100; \
+                document.getElementById('slice').dispatchEvent(new Event('input'))",
+            );
+            browser.settle();
+            browser.key("ArrowLeft");
+            let by_key = browser.text("#map-readout");
+            let frame = browser.evaluate(
+                "(() => { const d = document.querySelector(\"svg[data-map='1']\").dataset; \
+                 return [(Number(d.x) + Number(d.w) / 2) / 300, (Number(d.y) + Number(d.h) / 2) / 322]; })()",
+            );
+            let (x, y) = (frame[0].as_f64().unwrap(), frame[1].as_f64().unwrap());
+            let at = browser.place("svg[data-map='1']", x, y);
+            browser.pointer("mouseMoved", at, false);
+            browser.settle();
+            let by_pointer = browser.text("#map-readout");
+            for text in [by_key, by_pointer] {
+                let found = numbers(&text);
+                assert_eq!(found.len(), 6, "{text}");
+                for (found, expected) in found[3..].iter().zip(expected) {
+                    assert!((found / expected - 1.0).abs() < 1e-6, "{text}: not {expected}");
+                }
+            }
+            read += 1;
+        }
+    }
+    assert!(read >= 6, "{read} points");
+}
+
+/// The script's formulas are those of the prover, for every drive.
+#[test]
+fn the_scripts_formulas_are_the_provers() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    for design in
+        ["upu-struts", "rotary-delta-linuxcnc", "tripteron", "skew-guides", "orthoglide-as-built"]
+    {
+        let (page, claim) = folder.report_of_design(design);
+        browser.open(&page);
+        for u in support::places() {
+            let expected = support::psi_range(&claim, u);
+            let found = browser.evaluate(&format!(
+                "(() => {{ const m = JSON.parse(document.getElementById('data').textContent).machine; \
+                 const u = {u:?}; \
+                 return factorsAt(m.legs, u.map((x, k) => m.least[k] + x * m.width[k])).psi; }})()"
+            ));
+            let (least, greatest) = (found[0].as_f64().unwrap(), found[2].as_f64().unwrap());
+            for (found, expected) in [(least, expected[0]), (greatest, expected[1])] {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-9,
+                    "{design} at {u:?}: {found}, {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// The slider and the keys move the slice, and every map with it.
+#[test]
+fn the_slider_moves_the_slice() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    browser.open(&folder.report_of_committed("orthoglide-prototype", &[]));
+    let drawn =
+        "[...document.querySelectorAll('svg[data-map] .field')].map((f) => f.innerHTML).join()";
+    assert_eq!(browser.text("#slice-value"), "z = -73.2051");
+    let first = browser.evaluate(drawn);
+    let (left, middle) = browser.place("#slice", 0.5, 0.5);
+    for kind in ["mousePressed", "mouseReleased"] {
+        browser.pointer(kind, (left, middle), kind == "mousePressed");
+    }
+    browser.settle();
+    assert!(numbers(&browser.text("#slice-value"))[0] > 0.0);
+    let second = browser.evaluate(drawn);
+    assert_ne!(first, second);
+    browser.focus("svg[data-map='2']");
+    browser.key("PageUp");
+    assert_ne!(browser.evaluate(drawn), second);
+    browser.evaluate("document.getElementById('slice-reset').click()");
+    browser.settle();
+    assert_eq!(browser.text("#slice-value"), "z = -73.2051");
+    // Through Q_1, at Q_1: one factor is 2, the others 0.8.
+    browser.focus("svg[data-map='2']");
+    for _ in 0..8 {
+        browser.evaluate(
+            "document.activeElement.dispatchEvent(new KeyboardEvent('keydown', \
+            { key: 'ArrowLeft', shiftKey: true }))",
+        );
+        browser.evaluate(
+            "document.activeElement.dispatchEvent(new KeyboardEvent('keydown', \
+            { key: 'ArrowDown', shiftKey: true }))",
+        );
+    }
+    let found = numbers(&browser.text("#map-readout"));
+    assert_eq!(
+        found[3..].iter().map(|x| (x * 1e6).round() / 1e6).collect::<Vec<_>>(),
+        [0.8, 0.8, 2.0]
+    );
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// The view in space turns by pointer and by keys, is cut, and tells of its boxes.
+#[test]
+fn the_view_in_space_turns_and_is_cut() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    browser.open(&folder.report_of_committed("orthoglide-prototype", &[]));
+    let drawn = "document.getElementById('space').toDataURL()";
+    let mut seen = vec![browser.evaluate(drawn)];
+    let mut look = |browser: &mut Browser| {
+        browser.settle();
+        let now = browser.evaluate(drawn);
+        assert!(!seen.contains(&now), "the picture is as it was");
+        seen.push(now);
+    };
+    let (x, y) = browser.place("#space", 0.5, 0.5);
+    browser.pointer("mouseMoved", (x, y), false);
+    browser.settle();
+    let told = browser.text("#space-readout");
+    assert!(told.contains("sigma_min by") && told.contains("sigma_max by cube"), "{told}");
+    browser.pointer("mousePressed", (x, y), true);
+    browser.pointer("mouseMoved", (x + 60.0, y + 20.0), true);
+    browser.pointer("mouseReleased", (x + 60.0, y + 20.0), false);
+    look(&mut browser);
+    for key in ["ArrowLeft", "ArrowUp", "+", "["] {
+        browser.key(key);
+        look(&mut browser);
+    }
+    browser.key("Enter");
+    assert!(browser.text("#space-readout").starts_with("Box: x from "));
+    for (id, value) in [("cut-axis", "2"), ("deep", "3"), ("obligation", "8")] {
+        browser.evaluate(&format!(
+            "(() => {{ const e = document.getElementById({id:?}); e.value = {value:?}; \
+             e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change')); }})()"
+        ));
+        look(&mut browser);
+    }
+    assert_eq!(browser.text("#deep-value"), "3: 2 boxes");
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// A refutation shows where; a hostile name stays a name.
+#[test]
+fn a_refutation_is_marked_and_hostile_text_stays_text() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    let hostile =
+        "\"><script>window.hacked = 1</script><img src=x onerror='window.hacked = 2'>{{data}}";
+    let page = folder.report_of_committed("orthoglide-310", &["--title", hostile]);
+    browser.open(&page);
+    assert_eq!(browser.text("h1"), hostile);
+    assert_eq!(browser.evaluate("typeof window.hacked"), "undefined");
+    assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 2);
+    assert!(browser.text("svg.design").contains("counterexample"));
+    assert!(browser.text("#counterexample").contains("greatest psi"));
+    assert!(browser.text(".verdict").contains("REFUTED"));
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// More than 20,000 boxes: small enough to send, and quick to turn.
+#[test]
+fn twenty_thousand_boxes_are_no_burden() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    let design = include_str!("many-boxes.toml");
+    let page = report(&folder, "many-boxes", design, 0).unwrap();
+    assert!(std::fs::metadata(&page).unwrap().len() < 5_000_000);
+    browser.open(&page);
+    let leaves = browser.evaluate(
+        "JSON.parse(document.getElementById('data').textContent).trees[0].code.split('.').length - 1",
+    );
+    assert!(leaves.as_u64().unwrap() >= 20_000, "{leaves}");
+    kept("many-boxes", "light", &browser.screenshot());
+    browser.focus("#space");
+    let start = std::time::Instant::now();
+    for _ in 0..10 {
+        browser.key("ArrowRight");
+    }
+    let each = start.elapsed() / 10;
+    eprintln!("a turn of {leaves} boxes takes {each:?}");
+    assert!(each.as_millis() < 1000, "{each:?}");
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// Without scripts the static parts are there; on paper it has few pages.
+#[test]
+fn it_can_be_read_without_scripts_and_on_paper() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    let page = folder.report_of_committed("orthoglide-prototype", &[]);
+    let drawn =
+        "[...document.querySelectorAll('svg.figure')].filter((s) => s.clientWidth > 0).length";
+    browser.open(&page);
+    let with = browser.evaluate(drawn).as_u64().unwrap();
+    let pdf = browser.pdf();
+    kept("orthoglide-prototype", "pdf", &pdf);
+    let text = String::from_utf8_lossy(&pdf);
+    let pages = text.matches("/Type /Page\n").count();
+    assert!((3..=8).contains(&pages), "{pages} pages");
+    browser.call("Emulation.setScriptExecutionDisabled", serde_json::json!({ "value": true }));
+    browser.open_still(&page);
+    let without = browser.screenshot();
+    kept("orthoglide-prototype", "without-scripts", &without);
+    assert!(shades(&without) > 20);
+    // The subdivision is drawn from two sides instead of in space.
+    assert_eq!(browser.evaluate(drawn).as_u64(), Some(with + 1));
+}

@@ -1,0 +1,144 @@
+//! Reports to look at, and looking at pictures.
+
+use orthocert::design::Design;
+use orthocert::sample::{Place, Quality, Sampler};
+use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::model::Model;
+use resvg::tiny_skia::Pixmap;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+/// A folder for certificates and reports.
+pub struct Folder(TempDir);
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+impl Folder {
+    pub fn new() -> Self {
+        Folder(tempfile::tempdir().unwrap())
+    }
+
+    fn run(&self, arguments: &[&str]) -> Option<i32> {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_orthocert"));
+        command.current_dir(self.0.path()).args(arguments).stdin(Stdio::null());
+        command.stdout(Stdio::null()).status().unwrap().code()
+    }
+
+    /// The report of a committed certificate.
+    pub fn report_of_committed(&self, name: &str, options: &[&str]) -> PathBuf {
+        let file = format!("{name}.cert.json");
+        fs::copy(root().join("proofs/certificates").join(&file), self.0.path().join(&file))
+            .unwrap();
+        let code = self.run(&[&["report", &file], options].concat());
+        assert!(matches!(code, Some(0 | 1)), "{name}: {code:?}");
+        self.0.path().join(format!("{name}.report.html"))
+    }
+
+    /// The report of a committed design, and its claim.
+    pub fn report_of_design(&self, name: &str) -> (PathBuf, MachineClaim) {
+        let path = root().join("tests/designs").join(format!("{name}.toml"));
+        let text = fs::read_to_string(&path).unwrap();
+        let page = report(self, name, &text, 0).unwrap();
+        let Claim::Machine(claim) = Design::read(&path).unwrap().claim else { unreachable!() };
+        (page, claim)
+    }
+
+    /// The report about a machine of the oracle in a small box about one of its points; `None` if
+    /// that box is undecided.
+    pub fn report_about(&self, case: &Value, point: &Value) -> Option<PathBuf> {
+        let mut design = "[mechanism]\nkind = \"translational\"\n".to_owned();
+        for leg in case["legs"].as_array().unwrap() {
+            design.push_str("[[mechanism.legs]]\ndrive = \"slider\"\n");
+            for key in ["direction", "anchor", "platform", "length", "mode"] {
+                design.push_str(&format!("{key} = {}\n", leg[key]));
+            }
+        }
+        let end = |sign: &str| -> Vec<String> {
+            let ends = point["point"].as_array().unwrap().iter();
+            ends.map(|x| format!("\"{} {sign} 1/1000\"", x.as_str().unwrap())).collect()
+        };
+        let [min, max] = [end("-"), end("+")].map(|ends| ends.join(", "));
+        design.push_str(&format!("[workspace]\nmin = [{min}]\nmax = [{max}]\n"));
+        design.push_str("[requirements]\ntransmission = { max = 1000 }\n");
+        report(self, "oracle", &design, 0)
+    }
+}
+
+/// The report of a design with this verdict; `None` if there is another.
+pub fn report(folder: &Folder, name: &str, design: &str, verdict: i32) -> Option<PathBuf> {
+    let [file, certificate] = [format!("{name}.toml"), format!("{name}.cert.json")];
+    fs::write(folder.0.path().join(&file), design).unwrap();
+    if folder.run(&["verify", &file]) != Some(verdict) {
+        return None;
+    }
+    assert_eq!(folder.run(&["report", &certificate]), Some(verdict));
+    Some(folder.0.path().join(format!("{name}.report.html")))
+}
+
+/// The oracle's factors at a point, increasing.
+pub fn psi(point: &Value) -> [f64; 3] {
+    let xi = point["singular_values"].as_array().unwrap();
+    let psi = |i: usize| 1.0 / xi[i].as_str().unwrap().parse::<f64>().unwrap();
+    [psi(2), psi(1), psi(0)]
+}
+
+/// The least and the greatest factor that the prover's sampling finds at parts of the workspace.
+pub fn psi_range(claim: &MachineClaim, u: [f64; 3]) -> [f64; 2] {
+    let model = Model::new(claim, 128).unwrap();
+    let sampler = Sampler::new(claim, &model).unwrap();
+    let place = Place { u, t: vec![0.5; sampler.parameters()] };
+    let values = sampler.at(&place);
+    assert_eq!(sampler.within(u), u, "outside the workspace");
+    let angular = format!("{:?}", claim.mechanism).contains("Arm");
+    let unit = if angular { (model.unit_exponent.unwrap() as f64).exp2() } else { 1.0 };
+    [Quality::LeastPsi, Quality::GreatestPsi].map(|q| sampler.value(q, &values).unwrap() * unit)
+}
+
+/// Parts of a workspace, within its cylinder if it is one.
+pub fn places() -> Vec<[f64; 3]> {
+    let mut all = Vec::new();
+    for x in [0.15, 0.3, 0.5, 0.8] {
+        for y in [0.2, 0.5, 0.8] {
+            all.extend([0.0, 0.4, 1.0].map(|z| [x, y, z]));
+        }
+    }
+    all
+}
+
+/// The numbers in a text, in order; indices of letters are none.
+pub fn numbers(text: &str) -> Vec<f64> {
+    let parts = text.split(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c)));
+    parts.filter_map(|part| part.trim_end_matches('.').parse().ok()).collect()
+}
+
+/// Leaves a picture in the target folder.
+pub fn kept(name: &str, kind: &str, bytes: &[u8]) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
+    fs::create_dir_all(&folder).unwrap();
+    let file = if kind == "pdf" { format!("{name}.pdf") } else { format!("{name}.{kind}.png") };
+    fs::write(folder.join(file), bytes).unwrap();
+}
+
+fn pixels(png: &[u8]) -> Pixmap {
+    Pixmap::decode_png(png).unwrap()
+}
+
+/// How many colours a picture has, of 4096.
+pub fn shades(png: &[u8]) -> usize {
+    let coarse = |c: &[u8]| (c[0] >> 4, c[1] >> 4, c[2] >> 4);
+    pixels(png).data().chunks(4).map(coarse).collect::<BTreeSet<_>>().len()
+}
+
+/// The part of two pictures' pixels that differ.
+pub fn differ(one: &[u8], other: &[u8]) -> f64 {
+    let (one, other) = (pixels(one), pixels(other));
+    let pairs = one.data().chunks(4).zip(other.data().chunks(4));
+    let different = pairs.filter(|(a, b)| a != b).count();
+    different as f64 / (one.data().len() / 4) as f64
+}

@@ -1,0 +1,175 @@
+//! `atlas`: maps, what is written of them, and what is refused.
+
+use crate::support::{Folder, Run};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The Orthoglides of `tests/atlases`, at a coarse resolution.
+pub fn coarse() -> Folder {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/atlases/orthoglide.toml");
+    let text = fs::read_to_string(path).unwrap();
+    let folder = Folder::new();
+    folder.write("map.toml", text.replace("resolution = 8", "resolution = 4"));
+    folder
+}
+
+fn json(run: &Run) -> Value {
+    serde_json::from_str(&run.stdout).unwrap()
+}
+
+#[test]
+fn a_map_is_written_with_everything_and_accepted() {
+    let folder = coarse();
+    let report = json(&folder.run(&["atlas", "map.toml", "--format", "json"]).exits(0));
+    let share = |part: &str| report[part]["share"].as_str().unwrap().to_owned();
+    assert_eq!((share("certified"), share("refuted")), ("9/16".into(), "21/64".into()));
+    assert_eq!(report["marks"][0]["verdict"], "undecided");
+    assert_eq!(report["best"]["sense"], "maximise");
+    let names: Vec<_> = fs::read_dir(folder.path("map.atlas")).unwrap().collect();
+    assert_eq!(names.len(), 4);
+    folder.run(&["check", "map.atlas/atlas.cert.json"]).exits(0).says(&[
+        "ACCEPTED: certified",
+        "6/5 <= psi_max <= 4",
+        "the share 9/16",
+    ]);
+    folder.run(&["check", "map.atlas/best.cert.json"]).exits(0);
+    folder.run(&["show", "map.atlas/atlas.cert.json"]).exits(0).says(&["NOT CHECKED", "atlas of"]);
+    let svg = String::from_utf8(folder.read("map.atlas/map.svg")).unwrap();
+    for part in ["class=\"cell c\"", "class=\"cell r\"", "class=\"cell u\"", "prototype", "best"] {
+        assert!(svg.contains(part), "{part}");
+    }
+    let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
+    assert!(
+        page.contains("<svg")
+            && page.contains("It is proved:")
+            && !page.contains("http://www.w3.org/1999")
+    );
+}
+
+#[test]
+fn a_map_does_not_depend_on_the_threads() {
+    let folder = coarse();
+    for threads in ["1", "3"] {
+        let run = ["atlas", "map.toml", "-o", threads, "--threads", threads, "--quiet"];
+        folder.run(&run).exits(0).says(&["ATLAS", "certified", "refuted"]);
+    }
+    for name in ["atlas.cert.json", "best.cert.json", "map.svg", "index.html"] {
+        assert!(folder.read(&format!("1/{name}")) == folder.read(&format!("3/{name}")), "{name}");
+    }
+}
+
+#[test]
+fn maps_of_one_and_of_three_parameters_are_drawn() {
+    let folder = coarse();
+    let two = String::from_utf8(folder.read("map.toml")).unwrap();
+    let one = two
+        .replace("psi_max = { min = \"1.2\", max = 4, label = \"psi_max = 1/psi_min\" }", "")
+        .replace("{ min = \"1/psi_max\", max = \"psi_max\" }", "{ min = \"1/2\", max = 2 }")
+        .replace("psi_max = 2, side", "side");
+    folder.write("one.toml", &one);
+    folder.run(&["atlas", "one.toml"]).exits(0).says(&["prototype"]);
+    let three = two
+        .replace("side = { min", "leg = { min = \"0.9\", max = \"1.1\" }\nside = { min")
+        .replace("leg_length = 1", "leg_length = \"leg\"")
+        .replace("psi_max = 2, side", "leg = 1, psi_max = 2, side")
+        .replace("resolution = 4", "resolution = 2");
+    folder.write("three.toml", &three);
+    folder.run(&["atlas", "three.toml"]).exits(0);
+    let svg = String::from_utf8(folder.read("three.atlas/map.svg")).unwrap();
+    assert_eq!(svg.matches("<g transform").count(), 4);
+}
+
+#[test]
+fn nothing_decided_is_exit_3() {
+    let folder = coarse();
+    let text = String::from_utf8(folder.read("map.toml")).unwrap();
+    let text = text
+        .replace("min = \"1.2\", max = 4", "min = \"1.99\", max = \"2.2\"")
+        .replace("min = \"0.1\", max = 1,", "min = \"0.63\", max = \"0.66\",")
+        .replace("resolution = 4", "resolution = 1")
+        .replace("boxes = 300", "boxes = 1");
+    folder.write("map.toml", text);
+    let run = folder.run(&["atlas", "map.toml"]);
+    run.exits(3).says(&["0 % certified", "0 % refuted"]);
+}
+
+/// The atlas with one text replaced, refused with exit 2 and these words.
+fn refused(from: &str, to: &str, words: &[&str]) {
+    refused_after(&[(from, to)], words);
+}
+
+/// The same with several edits.
+fn refused_after(edits: &[(&str, &str)], words: &[&str]) {
+    let folder = coarse();
+    let mut text = String::from_utf8(folder.read("map.toml")).unwrap();
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    folder.write("map.toml", text);
+    folder.run(&["atlas", "map.toml"]).exits(2).complains(words);
+    assert_eq!(folder.names().iter().filter(|name| *name != "map.toml").count(), 0);
+}
+
+#[test]
+fn bad_parameters_are_refused_with_a_sentence() {
+    const SIDE: &str = r#"side = { min = "0.1", max = 1,"#;
+    let with = |range: &str| format!("side = {{ {range},");
+    refused(SIDE, &with("min = 1, max = \"0.1\""), &["parameters.side.max", "below the lower end"]);
+    refused(SIDE, &with("min = 1, max = 1"), &["a max greater than min"]);
+    refused(SIDE, &with("min = 1"), &["parameters.side.max", "no such key"]);
+    refused(SIDE, &with("min = \"sqrt(2)/9\", max = 1"), &["a rational number"]);
+    refused(SIDE, &with("min = 0, max = 1, step = 2"), &["parameters.side.step", "unknown key"]);
+    let more = "a = { min = 1, max = 2 }\nb = { min = 1, max = 2 }\n";
+    refused("side = {", &format!("{more}side = {{"), &["4 parameters", "one to three"]);
+    const NO_MARK: (&str, &str) = ("    { label", "    # {");
+    refused_after(
+        &[("side = {", "spare = { min = 1, max = 2 }\nside = {"), NO_MARK],
+        &["no number of the design depends on spare"],
+    );
+    let capital = &["the name side", "did you mean Side?"];
+    refused_after(&[("side = {", "Side = {"), NO_MARK], capital);
+    let root = ("side = {", "sqrt = { min = 1, max = 2 }\nside = {");
+    refused_after(&[root, NO_MARK], &["\"sqrt\""]);
+}
+
+#[test]
+fn designs_that_are_none_somewhere_in_the_box_are_refused() {
+    refused(
+        "leg_length = 1",
+        "leg_length = \"side - 1/10\"",
+        &["leg_length", "a length greater than 0"],
+    );
+    // Zero in the inside of the range only.
+    refused(
+        "leg_length = 1",
+        "leg_length = \"(side-1/2)*(side-1/2)\"",
+        &["may have a length of zero"],
+    );
+    refused("max = \"psi_max\"", "max = \"psi_max + 0/(psi_max-4)\"", &["divisor"]);
+    refused("max = \"psi_max\"", "max = \"psi_max + foo\"", &["the name foo", "psi_max, side"]);
+    refused("resolution = 4", "resolution = 0", &["atlas.resolution", "from 1 to 20"]);
+    refused("resolution = 4", "resolution = 4.5", &["atlas.resolution", "a whole number"]);
+    refused("boxes = 300\n", "", &["atlas.boxes", "no such key"]);
+    refused("{ maximise = \"side\" }", "{ maximise = \"size\" }", &["objective", "the name size"]);
+    refused("side = \"1/sqrt", "size = \"1/sqrt", &["marks[1].size", "unknown key"]);
+    refused("leg_length = 1", "", &["leg_length", "no such key"]);
+}
+
+#[test]
+fn names_are_refused_in_ordinary_designs() {
+    let folder = Folder::new();
+    let design = "[mechanism]\nkind = \"orthoglide\"\nleg_length = \"side\"\n[workspace]\n\
+                  min = [0,0,0]\nmax = [1,1,1]\n[requirements]\ntransmission = { max = 2 }\n";
+    folder.write("a.toml", design);
+    folder.run(&["verify", "a.toml"]).exits(2).complains(&["leg_length", "found \"side\""]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_exit_4() {
+    let folder = coarse();
+    folder.write("file", "");
+    folder.run(&["atlas", "map.toml", "-o", "file"]).exits(4).complains(&["file"]);
+    assert_eq!(folder.read("file"), b"");
+}

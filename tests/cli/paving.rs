@@ -1,0 +1,159 @@
+//! `pave`, and `check` of pavings.
+
+use crate::support::Folder;
+use serde_json::Value;
+
+/// The Orthoglide with legs of length one, over a box that reaches beyond its region.
+pub const DESIGN: &str = r#"
+    [mechanism]
+    kind = "orthoglide"
+    leg_length = 1
+    [workspace]
+    min = [-0.7, -0.7, -0.7]
+    max = [0.7, 0.7, 0.7]
+    [requirements]
+    transmission = { min = "1/2", max = 2 }
+"#;
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("d.toml", DESIGN);
+    folder
+}
+
+#[test]
+fn a_box_is_paved_and_the_paving_is_accepted() {
+    let folder = folder();
+    let run = folder.run(&["pave", "d.toml", "--volume-gap", "0.1"]).exits(0);
+    run.says(&["volume: between 1.5", "and 1.6", "inner", "outer", "boundary", "d.paving"]);
+    folder.run(&["check", "d.paving"]).exits(0).says(&[
+        "ACCEPTED: paving",
+        "It is proved: the volume of R is at least the share",
+        "1/2 <= psi_i(P) <= 2",
+    ]);
+    folder.run(&["check", "d.paving", "--design", "d.toml"]).exits(0);
+    let sampled = folder.run(&["check", "d.paving", "--sample", "50", "--seed", "7"]).exits(0);
+    sampled.says(&["The evidence of 50 of the", "If that of the others holds"]);
+    assert_eq!(folder.names(), ["d.paving", "d.toml"]);
+}
+
+#[test]
+fn the_bytes_do_not_depend_on_threads_and_the_json_has_the_same_facts() {
+    let folder = folder();
+    let mut first = Vec::new();
+    for threads in ["1", "2", "5"] {
+        let run = folder.run(&[
+            "pave",
+            "d.toml",
+            "--precision",
+            "0.02",
+            "--threads",
+            threads,
+            "--format",
+            "json",
+        ]);
+        let run = run.exits(0);
+        let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+        // V = 1.4^3 = 2.744 <= 2^19 0.02^3 = 4.19.
+        assert_eq!(answer["depth"], 19);
+        let (inner, open) = (&answer["inner"]["share"], &answer["boundary"]["share"]);
+        assert!(inner.is_string() && open.is_string());
+        let gap = answer["gap"].as_f64().unwrap();
+        assert!((0.05..0.5).contains(&gap), "{gap}");
+        let bytes = folder.read("d.paving");
+        assert_eq!(answer["bytes"], bytes.len());
+        if first.is_empty() {
+            first = bytes;
+        } else {
+            assert!(first == bytes, "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn a_paving_is_taken_up_from_wherever_it_ends() {
+    let folder = folder();
+    let pave = ["pave", "d.toml", "--precision", "0.015"];
+    folder.run(&pave).exits(0);
+    let whole = folder.read("d.paving");
+    let start = whole.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+    for length in [start, start + 1, whole.len() / 3, whole.len() - 1] {
+        folder.write("d.paving.part", &whole[..length]);
+        folder.write("d.paving", "earlier");
+        folder.run(&[&pave[..], &["--resume"]].concat()).exits(0);
+        assert!(folder.read("d.paving") == whole, "{length} bytes");
+        assert_eq!(folder.names(), ["d.paving", "d.toml"]);
+    }
+    // What does not prove what it says is not taken up, but made again.
+    let mut spoiled = whole.clone();
+    let middle = whole.len() / 2;
+    spoiled[middle..middle + 50].fill(3);
+    folder.write("d.paving.part", &spoiled);
+    folder.run(&[&pave[..], &["--resume"]].concat()).exits(0);
+    assert!(folder.read("d.paving") == whole, "spoiled");
+}
+
+#[test]
+fn there_has_to_be_something_to_take_up() {
+    let folder = folder();
+    let resume = ["pave", "d.toml", "--resume"];
+    folder.run(&resume).exits(2).complains(&["d.paving.part", "cannot be taken up again"]);
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.3"]).exits(0);
+    folder.write("d.paving.part", folder.read("d.paving"));
+    folder.write("d.toml", DESIGN.replace("max = 2 }", "max = 3 }"));
+    folder.run(&resume).exits(2).complains(&["another design's paving"]);
+}
+
+#[test]
+fn files_that_prove_nothing_are_rejected() {
+    let folder = folder();
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.3"]).exits(0);
+    let bytes = folder.read("d.paving");
+    folder.write("cut.paving", &bytes[..bytes.len() - 1]);
+    folder.run(&["check", "cut.paving"]).exits(5).complains(&["REJECTED", "last line"]);
+    folder.write("half.paving", &bytes[..bytes.len() / 2]);
+    folder.run(&["check", "half.paving"]).exits(5).complains(&["REJECTED", "end within node"]);
+    folder.write("other.toml", DESIGN.replace("max = 2 }", "max = 3 }"));
+    let other = folder.run(&["check", "d.paving", "--design", "other.toml"]).exits(5);
+    other.complains(&["another claim than the design's"]);
+    let json = folder.run(&["check", "half.paving", "--format", "json"]).exits(5);
+    let answer: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(answer["accepted"], false);
+}
+
+#[test]
+fn too_few_boxes_leave_the_gap_open() {
+    let folder = folder();
+    let few = ["pave", "d.toml", "--volume-gap", "0.001", "--max-boxes", "30000"];
+    folder.run(&few).exits(3).says(&["What was asked for is not reached"]);
+    folder.run(&["check", "d.paving"]).exits(0);
+}
+
+#[test]
+fn bad_usage_is_refused() {
+    let folder = folder();
+    folder.write("cube.toml", "[mechanism]\nkind = \"orthoglide\"\n[workspace]\ncube = 200\n[requirements]\ntransmission = { max = 2 }\n");
+    folder
+        .write("flat.toml", DESIGN.replace("min = [-0.7, -0.7, -0.7]", "min = [-0.7, -0.7, 0.7]"));
+    for (arguments, complaint) in [
+        (&["pave", "d.toml", "--precision", "0"][..], "--precision: found 0"),
+        (&["pave", "d.toml", "--precision", "1e-20"], "at most 90 splits"),
+        (&["pave", "d.toml", "--volume-gap", "-1"], "accepted: a positive number"),
+        (&["pave", "d.toml", "--volume-gap", "x"], "not a number"),
+        (&["pave", "d.toml", "--precision", "1", "--volume-gap", "1"], "cannot be used with"),
+        (&["pave", "d.toml", "--max-boxes", "0"], "--max-boxes"),
+        (&["pave", "cube.toml"], "the workspace is not a box"),
+        (&["pave", "flat.toml"], "a box of positive volume"),
+        (&["pave", "missing.toml"], "missing.toml"),
+    ] {
+        folder.run(arguments).exits(2).complains(&[complaint]);
+    }
+    for (output, complaint) in
+        [("/dev/null", "not a regular file"), ("d.toml", "the design itself")]
+    {
+        folder.run(&["pave", "d.toml", "-o", output]).exits(2).complains(&[complaint]);
+    }
+    assert_eq!(folder.names(), ["cube.toml", "d.toml", "flat.toml"]);
+    folder.run(&["verify", "d.toml", "-o", "c.json"]);
+    folder.run(&["check", "c.json", "--sample", "3"]).exits(2).complains(&["accepted: a paving"]);
+}

@@ -1,0 +1,97 @@
+//! `report`: a page for what the checker accepts, and for nothing else.
+
+use crate::support::Folder;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+fn committed(folder: &Folder, name: &str) -> String {
+    let file = format!("{name}.cert.json");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let from = root.join("proofs/certificates").join(&file);
+    std::fs::copy(from, folder.path(&file)).unwrap();
+    file
+}
+
+#[test]
+fn it_ends_with_the_verdict_and_stands_beside_the_certificate() {
+    let folder = Folder::new();
+    for (name, code, word) in
+        [("orthoglide-prototype", 0, "CERTIFIED"), ("orthoglide-310", 1, "REFUTED")]
+    {
+        let file = committed(&folder, name);
+        let run = folder.run(&["report", &file]).exits(code);
+        assert_eq!(run.stderr, "");
+        let page = format!("{name}.report.html");
+        run.says(&["ACCEPTED", &page]);
+        let page = String::from_utf8(folder.read(&page)).unwrap();
+        assert!(page.contains(word) && page.contains(&format!("<h1>{name}</h1>")));
+        let digest: String =
+            Sha256::digest(folder.read(&file)).iter().map(|b| format!("{b:02x}")).collect();
+        assert!(page.contains(&digest));
+    }
+}
+
+#[test]
+fn a_rejected_certificate_gets_no_page() {
+    let folder = Folder::new();
+    let file = committed(&folder, "orthoglide-prototype");
+    let good = String::from_utf8(folder.read(&file)).unwrap();
+    folder.write("bad.cert.json", good.replace("\"corner\":\"Q1\"", "\"corner\":\"Q2\""));
+    let run = folder.run(&["report", "bad.cert.json", "--svg", "figures"]).exits(5);
+    run.complains(&["bad.cert.json: REJECTED", "no report is written"]);
+    assert_eq!(folder.names(), ["bad.cert.json", file.as_str()]);
+    let run = folder.run(&["report", "bad.cert.json", "--format", "json"]).exits(5);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(answer["accepted"], false);
+}
+
+#[test]
+fn what_cannot_be_read_or_written_is_said() {
+    let folder = Folder::new();
+    let file = committed(&folder, "orthoglide-prototype");
+    folder.run(&["report", "missing.json"]).exits(2).complains(&["cannot be read"]);
+    folder.run(&["report", &file, "-o", &file]).exits(2).complains(&["the certificate itself"]);
+    folder.run(&["report", &file, "-o", "no/such/a.html"]).exits(4).complains(&["no folder"]);
+    folder.run(&["report", &file, "-o", "."]).exits(4).complains(&["is a folder"]);
+    folder.write("plain", "");
+    let run = folder.run(&["report", &file, "--svg", "plain"]).exits(4);
+    run.complains(&["plain: cannot be made a folder"]);
+    let run = folder.run(&["report", &file, "--png", "png", "--font", "plain"]).exits(2);
+    run.complains(&["--font: plain is not a TrueType or OpenType font"]);
+    folder.run(&["report", &file, "--font", "plain"]).exits(2);
+}
+
+#[test]
+fn figures_are_written_as_svg() {
+    let folder = Folder::new();
+    let file = committed(&folder, "orthoglide-prototype");
+    let options = ["report", &file, "-o", "a.html", "--svg", "x/figures", "--format", "json"];
+    let run = folder.run(&options).exits(0);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((&answer["accepted"], &answer["verdict"]), (&true.into(), &"certified".into()));
+    let files: Vec<&str> =
+        answer["files"].as_array().unwrap().iter().map(|f| f["path"].as_str().unwrap()).collect();
+    let figures = ["design", "psi-1", "psi-2", "psi-3", "subdivision"];
+    let expected = figures.map(|name| format!("x/figures/{name}.svg"));
+    assert_eq!(files[0], "a.html");
+    assert_eq!(files[1..], expected);
+    for path in expected {
+        let svg = String::from_utf8(folder.read(&path)).unwrap();
+        assert!(svg.starts_with("<?xml") && svg.contains("<title>"), "{path}");
+    }
+}
+
+/// A system without a known font is told what to do; one with a font gets pictures.
+#[test]
+fn figures_are_written_as_png_where_there_is_a_font() {
+    let folder = Folder::new();
+    let file = committed(&folder, "orthoglide-prototype");
+    let run = folder.run(&["report", &file, "--png", "png"]);
+    if run.code == Some(2) {
+        run.complains(&["--png: the text needs a font", "--font FILE.ttf", "--svg"]);
+        return;
+    }
+    run.exits(0).says(&["png/psi-3.png"]);
+    let png = folder.read("png/psi-3.png");
+    assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000);
+}

@@ -1,0 +1,255 @@
+//! `split`, `run-shard`, `merge`, `submit`: the same as one machine, and nothing else.
+
+use crate::atlas::coarse;
+use crate::support::Folder;
+use orthocert::shard::sha256;
+use std::fs;
+
+/// A folder with the map of one machine in `one`, and shards of the same job in `job`.
+fn split(shards: &str) -> Folder {
+    let folder = coarse();
+    folder.run(&["atlas", "map.toml", "-o", "one"]).exits(0);
+    folder
+        .run(&["split", "map.toml", "--shards", shards, "--out", "job"])
+        .exits(0)
+        .says(&["SPLIT"]);
+    folder
+}
+
+fn run(folder: &Folder, shard: usize) -> crate::support::Run {
+    folder.run(&["run-shard", &format!("job/shard-{shard:04}.json")])
+}
+
+fn done(shards: usize) -> Folder {
+    let folder = split(&shards.to_string());
+    (1..=shards).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    folder
+}
+
+fn is_the_same(folder: &Folder) {
+    for name in ["atlas.cert.json", "best.cert.json", "map.svg", "index.html"] {
+        let [one, merged] = ["one", "merged"].map(|from| folder.read(&format!("{from}/{name}")));
+        assert!(one == merged, "{name}");
+    }
+}
+
+/// A merge that is refused with this code and these words, and writes nothing.
+fn refused(folder: &Folder, code: i32, words: &[&str]) {
+    folder.run(&["merge", "job", "-o", "merged"]).exits(code).complains(words);
+    assert!(!folder.path("merged").exists());
+}
+
+#[test]
+fn any_number_of_shards_makes_the_map_of_one_machine() {
+    // More than there are cells: some shards have nothing to do.
+    for shards in [1, 3, 90] {
+        let folder = done(shards);
+        folder.run(&["merge", "job", "-o", "merged"]).exits(0);
+        is_the_same(&folder);
+    }
+}
+
+#[test]
+fn a_proof_in_shards_is_the_certificate_of_one_machine() {
+    let name = "linear-delta-klipper-cylinder";
+    let design = format!("{name}.toml");
+    let folder = Folder::with(&[&design]);
+    folder.run(&["verify", &design]).exits(0);
+    folder.run(&["split", &design, "--shards", "3", "--out", "job"]).exits(0);
+    (1..=3).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    folder.run(&["merge", "job", "-o", "merged.json"]).exits(0).says(&["CERTIFIED", "520"]);
+    assert!(folder.read("merged.json") == folder.read(&format!("{name}.cert.json")));
+}
+
+#[test]
+fn a_design_that_is_refuted_or_undecided_is_not_merged_to_a_proof() {
+    let folder = Folder::with(&["orthoglide-310.toml", "orthoglide-tolerance.toml"]);
+    let refuted = ["split", "orthoglide-310.toml", "--shards", "2", "--out", "job"];
+    folder.run(&refuted).exits(2).complains(&["refuted by a single point"]);
+    let few =
+        ["split", "orthoglide-tolerance.toml", "--shards", "1", "--max-boxes", "1", "--out", "job"];
+    folder.run(&few).exits(0);
+    run(&folder, 1).exits(0);
+    folder.run(&["merge", "job", "-o", "merged.json"]).exits(3).says(&["UNDECIDED", "remain"]);
+    assert!(!folder.path("merged.json").exists());
+}
+
+#[test]
+fn a_shard_is_run_once() {
+    let folder = done(2);
+    let before = folder.read("job/result-0001.json");
+    run(&folder, 1).exits(0).says(&["was done already"]);
+    assert!(folder.read("job/result-0001.json") == before);
+}
+
+#[test]
+fn a_stopped_shard_goes_on_where_it_was() {
+    let folder = split("2");
+    run(&folder, 1).exits(0);
+    let whole = folder.read("job/result-0001.json");
+    // What a run that was killed in its second cell leaves: its first one, and half a line. The
+    // cell is taken over as it is: here one that says less than a new run would.
+    let shard = String::from_utf8(folder.read("job/shard-0001.json")).unwrap();
+    let (answers, sum) = (sha256(&shard), sha256("{\"cells\":[\"undecided\"]}"));
+    let line = |sum: &str| {
+        format!("{{\"answers\":\"{answers}\",\"cell\":0,\"sha256\":\"{sum}\",\"part\":{{\"cells\":[\"undecided\"]}}}}")
+    };
+    fs::remove_file(folder.path("job/result-0001.json")).unwrap();
+    folder.write("job/result-0001.part", format!("\n{}\n\n{{\"answers\":\"", line(&sum)));
+    run(&folder, 1).exits(0).says(&["1 of them by earlier runs"]);
+    let resumed = String::from_utf8(folder.read("job/result-0001.json")).unwrap();
+    assert!(resumed.contains("\"parts\":[{\"cells\":[\"undecided\"]},"));
+    // A line that is not what was written, or of another shard, is done again.
+    fs::remove_file(folder.path("job/result-0001.json")).unwrap();
+    folder.write(
+        "job/result-0001.part",
+        format!("{}\n{}\n", line("0"), line(&sum).replace(&answers, "0")),
+    );
+    run(&folder, 1).exits(0);
+    assert!(folder.read("job/result-0001.json") == whole);
+    assert!(!folder.path("job/result-0001.part").exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_exit_4_and_the_rest_is_kept() {
+    let folder = split("2");
+    std::os::unix::fs::symlink("/dev/full", folder.path("job/result-0001.part")).unwrap();
+    run(&folder, 1).exits(4).complains(&["result-0001.part", "No space left"]);
+    assert!(!folder.path("job/result-0001.json").exists());
+    fs::remove_file(folder.path("job/result-0001.part")).unwrap();
+    run(&folder, 1).exits(0);
+}
+
+#[test]
+fn a_missing_result_is_named() {
+    let folder = done(3);
+    fs::remove_file(folder.path("job/result-0002.json")).unwrap();
+    refused(&folder, 4, &["shard 2 has no result"]);
+}
+
+#[test]
+fn a_doubled_result_is_named() {
+    let folder = done(3);
+    fs::copy(folder.path("job/result-0001.json"), folder.path("job/result-0002.json")).unwrap();
+    refused(
+        &folder,
+        2,
+        &["shard 1 is there twice: result-0001.json and result-0002.json", "shard 2 has no result"],
+    );
+}
+
+#[test]
+fn a_result_of_another_job_is_named() {
+    let (folder, other) = (done(3), coarse());
+    let text = String::from_utf8(other.read("map.toml")).unwrap();
+    other.write("map.toml", text.replace("max = 4", "max = 5"));
+    other.run(&["split", "map.toml", "--shards", "3", "--out", "job"]).exits(0);
+    run(&other, 2).exits(0);
+    let alien = other.read("job/result-0002.json");
+    folder.write("job/result-0002.json", &alien);
+    refused(&folder, 2, &["result-0002.json is of another job"]);
+    // Nor is it overwritten, or taken for done.
+    run(&folder, 2).exits(2).complains(&["another job"]);
+    assert!(folder.read("job/result-0002.json") == alien);
+    // A shard of the other job, its result with it.
+    folder.write("job/shard-0002.json", other.read("job/shard-0002.json"));
+    refused(&folder, 2, &["shard-0002.json was altered, or is of another job"]);
+}
+
+#[test]
+fn a_result_of_another_split_is_named() {
+    let (folder, other) = (done(3), done(2));
+    folder.write("job/result-0002.json", other.read("job/result-0002.json"));
+    refused(&folder, 2, &["answers another split"]);
+}
+
+#[test]
+fn an_edited_file_is_named() {
+    let edit = |name: &str, from: &str, to: &str| {
+        let folder = done(3);
+        let text = String::from_utf8(folder.read(name)).unwrap();
+        assert!(text.contains(from), "{name}: {from}");
+        folder.write(name, text.replacen(from, to, 1));
+        folder
+    };
+    let folder = edit("job/result-0001.json", "\"precision\":64", "\"precision\":96");
+    refused(&folder, 2, &["result-0001.json was altered"]);
+    let folder = edit("job/shard-0003.json", "\"boxes\":300", "\"boxes\":301");
+    refused(&folder, 2, &["shard-0003.json was altered"]);
+    run(&folder, 3).exits(2).complains(&["was altered"]);
+    let folder = edit("job/job.json", "\"resolution\":4", "\"resolution\":5");
+    refused(&folder, 2, &["job.json: was altered"]);
+    let folder = edit("job/result-0002.json", "}", "");
+    refused(&folder, 2, &["result-0002.json", "accepted: a result that orthocert run-shard wrote"]);
+}
+
+#[test]
+fn a_forged_result_is_not_accepted() {
+    // With every sum right: the checker still wants proofs.
+    let folder = done(1);
+    let text = String::from_utf8(folder.read("job/result-0001.json")).unwrap();
+    let mut result: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let parts = result["parts"].as_array_mut().unwrap();
+    parts.iter_mut().for_each(|part| {
+        *part = serde_json::json!({"cells": [{"certified": {"precision": 64, "nodes": [{}]}}]});
+    });
+    let sum = sha256(&format!(
+        "[{}]",
+        vec![r#"{"cells":[{"certified":{"precision":64,"nodes":[{}]}}]}"#; parts.len()].join(",")
+    ));
+    result["sha256"] = sum.into();
+    folder.write("job/result-0001.json", result.to_string());
+    let run = folder.run(&["merge", "job", "-o", "merged"]).exits(4);
+    run.complains(&["the map was not accepted", "is not discharged"]);
+}
+
+#[test]
+fn foreign_files_are_named() {
+    let folder = done(2);
+    folder.write("job/notes.txt", "");
+    refused(&folder, 2, &["notes.txt is a foreign file"]);
+    fs::remove_file(folder.path("job/notes.txt")).unwrap();
+    folder.write("job/shard-0003.json", "{}");
+    refused(&folder, 2, &["shard-0003.json is no shard of this job"]);
+}
+
+#[test]
+fn bad_usage_is_refused() {
+    let folder = split("2");
+    folder.run(&["split", "map.toml", "--shards", "0", "--out", "x"]).exits(2);
+    folder.run(&["split", "map.toml", "--shards", "10001", "--out", "x"]).exits(2);
+    let again = ["split", "map.toml", "--shards", "2", "--out", "job"];
+    folder.run(&again).exits(2).complains(&["job has files in it", "a new folder"]);
+    folder
+        .run(&["run-shard", "map.toml"])
+        .exits(2)
+        .complains(&["a shard that orthocert split wrote"]);
+    folder.run(&["run-shard", "job/job.json"]).exits(2).complains(&["accepted: a shard"]);
+    folder.run(&["run-shard", "absent.json"]).exits(2).complains(&["cannot be read"]);
+    folder.run(&["merge", ".", "-o", "merged"]).exits(2).complains(&["job.json"]);
+}
+
+#[test]
+fn scripts_are_written_and_missing_engines_named() {
+    let folder = done(2);
+    let submit = |engine: &str, more: &[&str]| {
+        let mut arguments = vec!["submit", "job", "--engine", engine, "-o", "merged"];
+        arguments.extend(more);
+        let mut command = folder.command(&arguments);
+        // No engine is on an empty path.
+        crate::support::Run::from(command.env("PATH", folder.path("empty")).output().unwrap())
+    };
+    submit("slurm", &["--scripts-only"]).exits(0).says(&["SCRIPTS", "2 shards"]);
+    let script = String::from_utf8(folder.read("job/engine/array.sbatch")).unwrap();
+    for part in ["#SBATCH --array=1-2\n", "#SBATCH --requeue\n", "scontrol requeue"] {
+        assert!(script.contains(part), "{script}");
+    }
+    submit("slurm", &[]).exits(4).complains(&["sbatch is not installed here"]);
+    submit("hyperqueue", &[]).exits(4).complains(&["python3 is not installed here"]);
+    submit("hyperqueue", &["--", "--partition=x"]).exits(2).complains(&["for sbatch"]);
+    submit("pbs", &[]).exits(2);
+    // The folder with scripts in it is still the job's.
+    folder.run(&["merge", "job", "-o", "merged"]).exits(0);
+    is_the_same(&folder);
+}

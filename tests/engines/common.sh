@@ -1,0 +1,46 @@
+# What both engines' tests share: a job of a few seconds, the folder that one machine writes for it,
+# and the mishaps. Sourced with `orthocert` (the program) and `scratch` (an empty folder) set.
+
+atlas=$scratch/job.toml
+sed -e 's/^resolution = .*/resolution = 6/' -e 's/^boxes = .*/boxes = 4000/' \
+  "$(dirname "${BASH_SOURCE[0]}")/../atlases/linear-delta-2.toml" >"$atlas"
+
+reference() { "$orthocert" atlas "$atlas" --output "$scratch/one" --quiet; }
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+# Waits until a file is there: wait_for FILE SECONDS WHAT
+wait_for() {
+  local end=$((SECONDS + $2))
+  until [ -e "$1" ]; do
+    [ $SECONDS -lt $end ] || fail "$3 was not finished within $2 s"
+    sleep 0.2
+  done
+}
+
+identical() { diff -r "$scratch/one" "$1" || fail "$1 is not what one machine writes"; }
+
+# The processes that run shards of a folder, by what they were started with.
+running() {
+  local pid
+  for pid in $(pgrep -x orthocert); do
+    tr '\0' '\n' <"/proc/$pid/cmdline" 2>/dev/null | grep -q "^$1/shard-" && echo "$pid"
+  done
+  return 0
+}
+
+# Kills one of those every so often, until told to stop: mishaps FOLDER
+kill_workers() {
+  local pids
+  while sleep 0.4; do
+    pids=$(running "$1")
+    # The first of them.
+    if [ -n "$pids" ] && kill -KILL "${pids%%[[:space:]]*}" 2>/dev/null; then
+      echo "${pids%%[[:space:]]*}" >>"$scratch/killed"
+    fi
+  done
+}
+
+# Puts shard 5's progress on a full disk.
+fill_disk() { ln -s /dev/full "$1/result-0005.part"; }
+free_disk() { rm -f "$1/result-0005.part"; }

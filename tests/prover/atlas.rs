@@ -1,0 +1,152 @@
+//! Atlases against what is known otherwise: the closed form for Orthoglides on diagonal cubes, and
+//! single designs.
+
+use num_traits::ToPrimitive;
+use orthocert::atlas::{assemble, certify, decide, grow, waiting, Decision, Growing, Top};
+use orthocert::design::AtlasDesign;
+use orthocert::search::{Budget, Control};
+use orthocert::verify::{verify, Answer};
+use orthocert_checker::atlas::{walk, Ends};
+use orthocert_checker::cell::Cell;
+use orthocert_checker::certificate::{AtlasCell, Verdict};
+use orthocert_checker::number::Exact;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+fn atlas(name: &str, resolution: u32) -> AtlasDesign {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/atlases");
+    let mut design = AtlasDesign::read(&folder.join(format!("{name}.toml"))).unwrap();
+    design.resolution = resolution;
+    design
+}
+
+fn grown(design: &AtlasDesign, root: Cell, enough: Option<usize>) -> Vec<Top> {
+    let cancel = AtomicBool::new(false);
+    let mut done = |_: usize, _: f64| {};
+    grow(&mut Growing::new(design, &cancel, &mut done), root, enough).unwrap()
+}
+
+fn map(design: &AtlasDesign) -> Vec<AtlasCell> {
+    assemble(grown(design, Cell::ROOT, None), Vec::new()).unwrap()
+}
+
+fn approximate(x: &Exact) -> f64 {
+    x.as_rational().and_then(|x| x.to_f64()).unwrap()
+}
+
+/// How far the Orthoglide of leg length 1 is within its bounds on the cube of this side, by the
+/// closed form of proofs/README.md, section 3; negative beyond them.
+fn closed_form(psi_max: f64, side: f64) -> f64 {
+    let tangent = |c: f64| c / (1.0 - 2.0 * c * c).sqrt();
+    let root = 3f64.sqrt();
+    let (t, u) = (tangent(side * (root - 1.0) / 2.0), tangent(side * (3.0 - root) / 2.0));
+    if !(t.is_finite() && u.is_finite() && 2.0 * t < 1.0 && u < 1.0) {
+        return -1.0;
+    }
+    let least = 1.0 - f64::max(2.0 * t, u);
+    f64::min(least - 1.0 / psi_max, psi_max - (1.0 + 2.0 * u))
+}
+
+#[test]
+fn orthoglides_agree_with_the_closed_form() {
+    let design = atlas("orthoglide", 6);
+    let cells = map(&design);
+    let (certificate, _) = certify(&design, cells.clone()).unwrap();
+    assert_eq!(certificate.verdict, Verdict::Certified);
+    let claim = design.claim();
+    let (mut certified, mut refuted) = (0, 0);
+    let shares = walk(&cells, 2, |_, cell, said| {
+        let ranges = claim.ranges(cell).unwrap();
+        let ends = |i: usize| {
+            let (_, (min, max)): &(&str, Ends) = &ranges[i];
+            (approximate(min), approximate(max))
+        };
+        let ((psi_low, psi_high), (small, large)) = (ends(0), ends(1));
+        // The most demanding and the least demanding design of the cell.
+        match said {
+            AtlasCell::Certified(_) => {
+                assert!(closed_form(psi_low, large) > -1e-12, "{psi_low} {large}");
+                certified += 1;
+            }
+            AtlasCell::Refuted(_) => {
+                assert!(closed_form(psi_high, small) < 1e-12, "{psi_high} {small}");
+                refuted += 1;
+            }
+            // Only where the border is, or near.
+            _ => {
+                let near = 0.02;
+                assert!(closed_form(psi_low - near, large + near) < 0.0);
+                assert!(closed_form(psi_high + near, small - near) > 0.0);
+            }
+        }
+        Ok(())
+    });
+    assert!(certified > 50 && refuted > 50, "{certified} {refuted}");
+    let shares = shares.unwrap();
+    let decided = (shares.certified + shares.refuted).to_f64().unwrap();
+    assert!(decided > 0.97, "{decided}");
+}
+
+/// The design at values of the parameters, decided by itself.
+fn alone(design: &AtlasDesign, at: &[Exact]) -> Option<Verdict> {
+    let claim = design.at(at).unwrap();
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let budget = Budget { max_boxes: 20_000, deadline: None };
+    match verify(&claim, budget, &mut control).unwrap().answer {
+        Answer::Decided { accepted, .. } => Some(accepted.verdict),
+        _ => None,
+    }
+}
+
+#[test]
+fn single_designs_are_what_their_cell_says() {
+    for name in ["linear-delta-2", "linear-delta-3"] {
+        let design = atlas(name, 3);
+        let claim = design.claim();
+        let mut certified = 0;
+        walk(&map(&design), 2, |_, cell, said| {
+            let expected = match said {
+                AtlasCell::Certified(_) => Verdict::Certified,
+                AtlasCell::Refuted(_) => Verdict::Refuted,
+                _ => return Ok(()),
+            };
+            certified += usize::from(expected == Verdict::Certified);
+            let ranges = claim.ranges(cell).unwrap();
+            let third = |(_, (min, max)): &(&str, Ends)| {
+                let width = max.clone().minus(min.clone()).unwrap();
+                min.clone().plus(width.over(Exact::integer(3)).unwrap()).unwrap()
+            };
+            let at: Vec<Exact> = ranges.iter().map(third).collect();
+            assert_eq!(alone(&design, &at), Some(expected), "{name}: {at:?}");
+            Ok(())
+        })
+        .unwrap();
+        assert!(certified > 0, "{name}");
+    }
+}
+
+#[test]
+fn parts_put_in_their_places_are_the_whole() {
+    let design = atlas("orthoglide", 5);
+    let whole = map(&design);
+    for enough in [1, 2, 7, 40, 10_000] {
+        let top = grown(&design, Cell::ROOT, Some(enough));
+        let cells = waiting(&top).unwrap();
+        let parts =
+            cells.iter().map(|cell| assemble(grown(&design, *cell, None), Vec::new()).unwrap());
+        let parts: Vec<_> = parts.collect();
+        assert_eq!(assemble(top.clone(), parts.clone()), Some(whole.clone()), "{enough}");
+        if !parts.is_empty() {
+            assert_eq!(assemble(top, parts[1..].to_vec()), None);
+        }
+    }
+}
+
+#[test]
+fn a_cell_with_both_kinds_of_designs_stays_open() {
+    let design = atlas("orthoglide", 3);
+    let cancel = AtomicBool::new(false);
+    let decision = decide(&design, &design.claim(), &Cell::ROOT, &cancel);
+    assert_eq!(decision, Decision::Open);
+}
