@@ -23,6 +23,7 @@ use crate::fixed::Fixed;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use std::cell::OnceCell;
 use std::fmt;
 
 /// Most bytes of one number's text.
@@ -147,7 +148,7 @@ impl Exact {
         if parser.at < text.len() {
             return Err(parser.error(NumberErrorKind::TrailingText));
         }
-        Ok(value)
+        Ok(value.value)
     }
 
     /// Parses a canonical text, with or without names: exactly what [`Exact`] prints.
@@ -217,16 +218,7 @@ impl Exact {
                 -1
             });
         }
-        SIGN_PRECISIONS.iter().find_map(|&bits| {
-            let x = self.enclose_at(bits)?;
-            if x.lo().is_positive() {
-                Some(1)
-            } else if x.hi().is_negative() {
-                Some(-1)
-            } else {
-                None
-            }
-        })
+        SIGN_PRECISIONS.iter().find_map(|&bits| sign_of_all(&self.enclose_at(bits)?))
     }
 
     /// The order of two numbers, or `None` where no precision tried decides it. Equality is
@@ -264,7 +256,13 @@ impl Exact {
 
     /// `self / other`; refused unless `other` is open or provably not zero.
     pub fn over(self, other: Exact) -> Result<Self, NumberErrorKind> {
-        match other.sign() {
+        let sign = other.sign();
+        self.over_with_sign(other, sign)
+    }
+
+    /// `self / other`, for an `other` of this sign; an open one has none.
+    fn over_with_sign(self, other: Exact, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
+        match sign {
             None if other.is_open() => fold(self, other, |x, y| x / y, Exact::Div),
             None | Some(0) => Err(NumberErrorKind::DivisorMayBeZero),
             Some(_) => fold(self, other, |x, y| x / y, Exact::Div),
@@ -273,7 +271,13 @@ impl Exact {
 
     /// `sqrt(self)`; refused unless `self` is open or provably not negative.
     pub fn root(self) -> Result<Self, NumberErrorKind> {
-        match self.sign() {
+        let sign = self.sign();
+        self.root_with_sign(sign)
+    }
+
+    /// `sqrt(self)`, for a `self` of this sign; an open one has none.
+    fn root_with_sign(self, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
+        match sign {
             None if self.is_open() => {}
             None | Some(-1) => return Err(NumberErrorKind::RadicandMayBeNegative),
             Some(_) => {}
@@ -298,6 +302,17 @@ impl Exact {
             Exact::Mul(..) | Exact::Div(..) => 2,
             Exact::Neg(_) => 3,
         }
+    }
+}
+
+/// The sign that all values of an enclosure have, if none is zero.
+fn sign_of_all(x: &Fixed) -> Option<i32> {
+    if x.lo().is_positive() {
+        Some(1)
+    } else if x.hi().is_negative() {
+        Some(-1)
+    } else {
+        None
     }
 }
 
@@ -348,6 +363,80 @@ impl fmt::Display for Exact {
     }
 }
 
+/// A number while it is read, with its enclosures at the precisions of the sign test. Each is
+/// computed once, from those of the operands, so that divisors within divisors and roots within
+/// roots take time in proportion to the text, not to its square. The outcome of every test is that
+/// of [`Exact::sign`], which encloses by the same operations in the same order.
+struct Traced {
+    value: Exact,
+    /// What `value` is made of; nothing for a rational number.
+    operands: Vec<Traced>,
+    enclosures: [OnceCell<Option<Fixed>>; SIGN_PRECISIONS.len()],
+}
+
+impl Traced {
+    fn new(value: Exact, operands: Vec<Traced>) -> Self {
+        Traced { value, operands, enclosures: Default::default() }
+    }
+
+    /// The enclosure at `SIGN_PRECISIONS[level]`, as by [`Exact::enclose_at`].
+    fn enclosure(&self, level: usize) -> Option<&Fixed> {
+        let computed = self.enclosures.get(level)?;
+        computed.get_or_init(|| self.enclose(level)).as_ref()
+    }
+
+    fn enclose(&self, level: usize) -> Option<Fixed> {
+        let operand = |i: usize| self.operands.get(i)?.enclosure(level);
+        match &self.value {
+            Exact::Rational(x) => Some(Fixed::rational(x, 0, *SIGN_PRECISIONS.get(level)?)),
+            Exact::Neg(_) => Some(operand(0)?.neg()),
+            Exact::Add(..) => Some(operand(0)?.add(operand(1)?)),
+            Exact::Sub(..) => Some(operand(0)?.sub(operand(1)?)),
+            Exact::Mul(..) => Some(operand(0)?.mul(operand(1)?)),
+            Exact::Div(..) => operand(0)?.div(operand(1)?),
+            Exact::Sqrt(_) => operand(0)?.sqrt(),
+            Exact::Name(_) => None,
+        }
+    }
+
+    /// As [`Exact::sign`].
+    fn sign(&self) -> Option<i32> {
+        if let Exact::Rational(_) = self.value {
+            return self.value.sign();
+        }
+        (0..SIGN_PRECISIONS.len()).find_map(|level| sign_of_all(self.enclosure(level)?))
+    }
+
+    fn negated(self) -> Self {
+        Traced::new(self.value.clone().negated(), vec![self])
+    }
+
+    fn plus(self, other: Traced) -> Result<Self, NumberErrorKind> {
+        let value = self.value.clone().plus(other.value.clone())?;
+        Ok(Traced::new(value, vec![self, other]))
+    }
+
+    fn minus(self, other: Traced) -> Result<Self, NumberErrorKind> {
+        let value = self.value.clone().minus(other.value.clone())?;
+        Ok(Traced::new(value, vec![self, other]))
+    }
+
+    fn times(self, other: Traced) -> Result<Self, NumberErrorKind> {
+        let value = self.value.clone().times(other.value.clone())?;
+        Ok(Traced::new(value, vec![self, other]))
+    }
+
+    fn over(self, other: Traced) -> Result<Self, NumberErrorKind> {
+        let value = self.value.clone().over_with_sign(other.value.clone(), other.sign())?;
+        Ok(Traced::new(value, vec![self, other]))
+    }
+
+    fn root(self) -> Result<Self, NumberErrorKind> {
+        let value = self.value.clone().root_with_sign(self.sign())?;
+        Ok(Traced::new(value, vec![self]))
+    }
+}
+
 struct Parser<'a> {
     text: &'a [u8],
     at: usize,
@@ -379,12 +468,12 @@ impl Parser<'_> {
     fn combine(
         &self,
         at: usize,
-        result: Result<Exact, NumberErrorKind>,
-    ) -> Result<Exact, NumberError> {
+        result: Result<Traced, NumberErrorKind>,
+    ) -> Result<Traced, NumberError> {
         result.map_err(|kind| NumberError { at, kind })
     }
 
-    fn sum(&mut self) -> Result<Exact, NumberError> {
+    fn sum(&mut self) -> Result<Traced, NumberError> {
         let mut value = self.product()?;
         loop {
             let at = self.at;
@@ -400,7 +489,7 @@ impl Parser<'_> {
         }
     }
 
-    fn product(&mut self) -> Result<Exact, NumberError> {
+    fn product(&mut self) -> Result<Traced, NumberError> {
         let mut value = self.unary()?;
         loop {
             if self.eat(b'*') {
@@ -418,7 +507,7 @@ impl Parser<'_> {
         }
     }
 
-    fn unary(&mut self) -> Result<Exact, NumberError> {
+    fn unary(&mut self) -> Result<Traced, NumberError> {
         self.depth += 1;
         if self.depth > MAX_NESTING {
             return Err(self.error(NumberErrorKind::TooLarge));
@@ -428,7 +517,7 @@ impl Parser<'_> {
         value
     }
 
-    fn unary_within_depth(&mut self) -> Result<Exact, NumberError> {
+    fn unary_within_depth(&mut self) -> Result<Traced, NumberError> {
         if self.eat(b'-') {
             return Ok(self.unary()?.negated());
         }
@@ -438,7 +527,7 @@ impl Parser<'_> {
         }
         let word = self.word();
         if self.names && word > 0 && self.text.get(self.at..self.at + word) != Some(b"sqrt") {
-            return self.name(word);
+            return Ok(Traced::new(self.name(word)?, Vec::new()));
         }
         if self.text.get(self.at..).is_some_and(|rest| rest.starts_with(b"sqrt")) {
             self.at += 4;
@@ -450,7 +539,7 @@ impl Parser<'_> {
             let radicand = self.closed(radicand)?;
             return self.combine(at, radicand.root());
         }
-        self.literal()
+        Ok(Traced::new(self.literal()?, Vec::new()))
     }
 
     /// The number of bytes of the name or `sqrt` that begins here; 0 if none does.
@@ -474,7 +563,7 @@ impl Parser<'_> {
         Ok(Exact::Name(name))
     }
 
-    fn closed(&mut self, value: Exact) -> Result<Exact, NumberError> {
+    fn closed(&mut self, value: Traced) -> Result<Traced, NumberError> {
         if self.eat(b')') {
             Ok(value)
         } else {

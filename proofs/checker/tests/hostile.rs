@@ -1,7 +1,10 @@
 //! Files made to exhaust the checker or to mislead whoever reads its output.
 
+use num_bigint::BigInt;
 use orthocert_checker::certificate::{MAX_BYTES, MAX_NODES};
+use orthocert_checker::number::Exact;
 use orthocert_checker::{check, read, Rejected};
+use std::time::Instant;
 
 /// The prototype's claim with this JSON text as its nodes.
 fn prototype(nodes: &str) -> String {
@@ -132,6 +135,32 @@ fn the_size_limit_is_exact() {
     let padded = |size: usize| text.clone() + &" ".repeat(size - text.len());
     assert!(read(padded(MAX_BYTES).as_bytes()).is_ok());
     assert_eq!(read(padded(MAX_BYTES + 1).as_bytes()), Err(Rejected::TooLarge(MAX_BYTES + 1)));
+}
+
+/// Divisors within divisors, the sign of each of which only the last precisions tell: reading does
+/// not begin anew at every depth. (It once did, and a claim of 200 kB took a minute to read.)
+#[test]
+fn deep_divisors_are_read_in_the_time_of_one_sign_test_or_a_few() {
+    let ten = BigInt::from(10).pow(1000);
+    let root = (2u32 * &ten * &ten).sqrt();
+    let mut text = format!("(sqrt(2)-{root}/{ten})");
+    for _ in 0..58 {
+        text = format!("1/({text}*sqrt(3)*sqrt(5)*sqrt(7))");
+    }
+    let least = |work: &dyn Fn()| {
+        let times = (0..3).map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed()
+        });
+        times.min().unwrap()
+    };
+    let number = Exact::parse(&text, 2000).unwrap();
+    assert_eq!(number.sign(), Some(1));
+    let sign = least(&|| assert!(number.sign().is_some()));
+    let reading = least(&|| assert!(Exact::parse(&text, 2000).is_ok()));
+    // Anew at every depth, it is 20 times as long.
+    assert!(reading < 6 * sign, "{reading:?} to read, {sign:?} for the sign");
 }
 
 /// Resident memory of a check of the most wasteful files that are read at all.

@@ -5,6 +5,8 @@ mod cube;
 mod faces;
 mod falsehoods;
 mod identities;
+mod mutation;
+mod oracle;
 mod random;
 mod statements;
 mod truth;

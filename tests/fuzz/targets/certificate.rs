@@ -1,0 +1,64 @@
+//! Good certificates with any number of edits, each of any value: a byte chooses the certificate,
+//! two or three the place and the edit.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use orthocert_checker::number::Exact;
+use orthocert_fuzz::edits::{edits, paths};
+use orthocert_fuzz::examine;
+use orthocert_fuzz::reader::Reader;
+use serde_json::{json, Value};
+
+macro_rules! certificates {
+    ($($name:literal)*) => {
+        [$(include_str!(concat!("../../../proofs/certificates/", $name, ".cert.json"))),*]
+    };
+}
+
+const CERTIFICATES: [&str; 16] = certificates![
+    "orthoglide-prototype" "orthoglide-tolerance" "orthoglide-joint-range" "orthoglide-310"
+    "orthoglide-relaxed-1-percent" "tripteron" "upu-struts" "delta-joint-speed"
+    "delta-conditioning-refuted" "delta-joint-speed-refuted" "delta-out-of-reach"
+    "rotary-delta-angle-refuted" "star-singular" "postulate-2" "postulate-1.2-to-6.5"
+    "postulate-all"
+];
+
+/// The integer or number at a place, moved by what the bytes say.
+fn moved(value: &Value, bytes: &mut Reader<'_>) -> Option<Value> {
+    let by = i64::from(bytes.byte() as i8);
+    if let Some(n) = value.as_i64() {
+        return Some(json!(n.checked_add(by.checked_mul(1 << bytes.below(24))?)?));
+    }
+    let number = Exact::parse_canonical(value.as_str()?).ok()?;
+    let step = Exact::integer(by).over(Exact::integer(1 << bytes.below(48))).ok()?;
+    Some(json!(number.plus(step).ok()?.to_string()))
+}
+
+fuzz_target!(|bytes: &[u8]| {
+    let mut bytes = Reader(bytes);
+    let text = CERTIFICATES[bytes.below(CERTIFICATES.len())];
+    let mut certificate: Value = serde_json::from_str(text).expect("JSON");
+    let mut edited = 0;
+    while !bytes.is_empty() && edited < 40 {
+        edited += 1;
+        let mut all = Vec::new();
+        paths(&certificate, "", &mut all);
+        let path = &all[bytes.below(all.len())];
+        let value = certificate.pointer(path).expect("a path of the document");
+        let other = if bytes.byte() < 128 {
+            moved(value, &mut bytes)
+        } else {
+            let mut all = edits(path, value);
+            // Edits of the root, and copies of copies, only make a text longer.
+            let chosen = (!all.is_empty() && !path.is_empty()).then(|| bytes.below(all.len()));
+            chosen.map(|chosen| all.swap_remove(chosen).1)
+        };
+        if let Some(other) = other {
+            *certificate.pointer_mut(path).expect("a path of the document") = other;
+        }
+        if certificate.to_string().len() > 1 << 16 {
+            return;
+        }
+    }
+    examine(certificate.to_string().as_bytes());
+});

@@ -1,0 +1,29 @@
+//! Any text as a design file: what is read states a claim that the checker reads back as it is,
+//! and whatever is wrong is said in a few printable words.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use orthocert::design::Design;
+use orthocert_checker::certificate::Verdict;
+use orthocert_checker::claim::Claim;
+use orthocert_checker::statement::statement;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let design = match Design::parse(text, "design.toml") {
+        Ok(design) => design,
+        Err(error) => {
+            let message = error.to_string();
+            let clean = !message.chars().any(|c| c.is_control() && c != '\n');
+            assert!(clean && message.len() < 4000, "{message:?}");
+            return;
+        }
+    };
+    let written = serde_json::to_string(&design.claim).expect("a text");
+    let again: Claim = serde_json::from_str(&written).expect("a claim");
+    assert_eq!(again, design.claim, "{written}");
+    if let Claim::Machine(claim) = &again {
+        claim.validate().expect("a claim that is well formed");
+    }
+    statement(&again, Verdict::Certified).expect("a statement");
+});
