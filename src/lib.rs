@@ -13,6 +13,7 @@
 //! | [`dimensions`]  | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`export`]      | writes certificates for the formal checker in Rocq                    |
 //! | [`extremes`]    | encloses how small and how large each quantity gets                   |
+//! | [`frontier`]    | how far a number of a claim goes before its verdict changes           |
 //! | [`import`]      | makes design files of the configurations of motion controllers        |
 //! | [`interval`]    | floating-point intervals and approximations for the search            |
 //! | [`machine`]     | the machine's obligations and the rules that may discharge them       |
@@ -25,6 +26,8 @@
 //! | [`rotation`]    | finds the orthogonal matrix that the vertex rule takes as evidence    |
 //! | [`sample`]      | looks around: approximate values at single points and machines        |
 //! | [`search`]      | branch and bound: finds a bisection tree that discharges everything   |
+//! | [`size`]        | the smallest machine for a cube of a given side                       |
+//! | [`tolerance`]   | the widest tolerances with which a design is still certified          |
 //! | [`verify`]      | decides a claim: certified, refuted, or undecided                     |
 
 pub mod attestation;
@@ -35,6 +38,7 @@ pub mod digest;
 pub mod dimensions;
 pub mod export;
 pub mod extremes;
+pub mod frontier;
 pub mod import;
 pub mod interval;
 pub mod machine;
@@ -47,4 +51,6 @@ pub mod report;
 pub mod rotation;
 pub mod sample;
 pub mod search;
+pub mod size;
+pub mod tolerance;
 pub mod verify;

@@ -23,6 +23,8 @@ mod progress;
 mod prove;
 mod report;
 mod show;
+mod size;
+mod tolerance;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -73,6 +75,10 @@ enum Command {
     Paper(paper::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
+    /// Enclose the widest tolerances with which a design is still certified.
+    Tolerance(tolerance::Arguments),
+    /// Enclose the smallest machine for a cube of a given side.
+    Size(size::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
     /// Write a certificate for another checker.
@@ -197,6 +203,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Report(arguments) => report::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
+        Command::Tolerance(arguments) => tolerance::run(arguments),
+        Command::Size(arguments) => size::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

@@ -16,6 +16,8 @@
 //! | `files`        | certificates appear whole or not at all                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
+//! | `tolerance`    | `tolerance`: both ends, together, refused                         |
+//! | `size`         | `size`: against the closed form, scaled, refused                  |
 
 mod junit;
 mod support;
@@ -31,4 +33,6 @@ mod interruption;
 mod json;
 mod postulate;
 mod report;
+mod size;
+mod tolerance;
 mod verdicts;
