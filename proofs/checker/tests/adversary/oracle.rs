@@ -32,6 +32,7 @@ pub fn approximate(x: &Exact) -> f64 {
         Exact::Mul(x, y) => approximate(x) * approximate(y),
         Exact::Div(x, y) => approximate(x) / approximate(y),
         Exact::Sqrt(x) => approximate(x).sqrt(),
+        Exact::Name(_) => f64::NAN,
     }
 }
 
@@ -47,6 +48,7 @@ pub fn opinion(certificate: &Certificate, random: &mut Random, samples: u64) -> 
             }
             _ => Opinion::Agrees,
         },
+        (Claim::NoCube(_) | Claim::Atlas(_), _) => Opinion::None,
     }
 }
 
