@@ -13,8 +13,9 @@
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
-//! | [`export`]       | certificates for the formal checker in Rocq, surfaces as meshes       |
+//! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`extremes`]     | encloses how small and how large each quantity gets                   |
+//! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
 //! | [`interval`]     | floating-point intervals and approximations for the search            |
 //! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
@@ -31,6 +32,8 @@
 //! | [`sample`]       | looks around: approximate values at single points and machines        |
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
+//! | [`size`]         | the smallest machine for a cube of a given side                       |
+//! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
 pub mod atlas;
@@ -43,6 +46,7 @@ pub mod dimensions;
 pub mod engine;
 pub mod export;
 pub mod extremes;
+pub mod frontier;
 pub mod import;
 pub mod interval;
 pub mod largest_cube;
@@ -59,4 +63,6 @@ pub mod rough;
 pub mod sample;
 pub mod search;
 pub mod shard;
+pub mod size;
+pub mod tolerance;
 pub mod verify;

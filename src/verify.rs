@@ -202,7 +202,8 @@ pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certi
     }
 }
 
-fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
+/// The refutation by a witness, once the checker has accepted it.
+pub(crate) fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
     let proof = Proof::Witness(Box::new(witness));
     let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
     match check(&certificate) {
@@ -259,7 +260,11 @@ pub(crate) fn look_into(sampler: &Sampler, open: &[OpenBox], centres: usize, wor
 }
 
 /// A witness for the requirement that fails most, if any fails.
-fn refutation(claim: &MachineClaim, sampler: &Sampler, worst: &[Worst]) -> Option<Witness> {
+pub(crate) fn refutation(
+    claim: &MachineClaim,
+    sampler: &Sampler,
+    worst: &[Worst],
+) -> Option<Witness> {
     let mut by_margin: Vec<&Worst> = worst.iter().collect();
     by_margin.sort_by(|a, b| a.margin.total_cmp(&b.margin));
     let direct = by_margin

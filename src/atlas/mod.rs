@@ -3,7 +3,7 @@
 //!
 //! Cells of parameters are decided one by one, and those that are not are halved; what becomes of a
 //! cell depends on the cell alone. So the map is the same for every number of threads, and parts of
-//! it can be made anywhere ([`part`]).
+//! it can be made anywhere (`part`).
 
 mod best;
 mod decide;

@@ -28,8 +28,10 @@ mod prove;
 mod report;
 mod run_shard;
 mod show;
+mod size;
 mod split;
 mod submit;
+mod tolerance;
 mod verify;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -94,6 +96,10 @@ enum Command {
     Submit(submit::Arguments),
     /// Put the results of all shards together.
     Merge(merge::Arguments),
+    /// Enclose the widest tolerances with which a design is still certified.
+    Tolerance(tolerance::Arguments),
+    /// Enclose the smallest machine for a cube of a given side.
+    Size(size::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),
     /// Write a certificate for another checker, or a paving's surface as a mesh.
@@ -225,6 +231,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::RunShard(arguments) => run_shard::run(arguments),
         Command::Submit(arguments) => submit::run(arguments),
         Command::Merge(arguments) => merge::run(arguments),
+        Command::Tolerance(arguments) => tolerance::run(arguments),
+        Command::Size(arguments) => size::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

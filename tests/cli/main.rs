@@ -21,6 +21,8 @@
 //! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
+//! | `tolerance`    | `tolerance`: both ends, together, refused                         |
+//! | `size`         | `size`: against the closed form, scaled, refused                  |
 
 mod junit;
 mod support;
@@ -40,5 +42,7 @@ mod paving;
 mod postulate;
 mod report;
 mod shards;
+mod size;
 mod surface;
+mod tolerance;
 mod verdicts;

@@ -260,7 +260,7 @@ impl Exact {
         self.over_with_sign(other, sign)
     }
 
-    /// `self / other`, for an `other` of this sign.
+    /// `self / other`, for an `other` of this sign; an open one has none.
     fn over_with_sign(self, other: Exact, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
         match sign {
             None if other.is_open() => fold(self, other, |x, y| x / y, Exact::Div),
@@ -275,7 +275,7 @@ impl Exact {
         self.root_with_sign(sign)
     }
 
-    /// `sqrt(self)`, for a `self` of this sign.
+    /// `sqrt(self)`, for a `self` of this sign; an open one has none.
     fn root_with_sign(self, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
         match sign {
             None if self.is_open() => {}

@@ -378,7 +378,9 @@ impl Place {
         let min = if cube { max.map(|max| 1.0 / max) } else { min };
         match violates {
             Violation::SigmaMin(_) => max.is_none_or(|max| self.psi_above(holds, max)),
-            Violation::SigmaMax(_) => min.is_none_or(|min| self.psi_below(holds, min)),
+            Violation::SigmaMax(_) | Violation::Row(_) => {
+                min.is_none_or(|min| self.psi_below(holds, min))
+            }
             // The place is within reach, by more than rounding.
             Violation::Reach(leg) => self.legs[leg.leg - 1].reach(self.p) > 1e-3,
             Violation::JointRange(leg) => needed
@@ -404,9 +406,6 @@ impl Place {
                 let rate = approximate(&speed.max) / approximate(&speed.tool);
                 self.too_fast(holds, leg.leg - 1, rate)
             }),
-            Violation::Row(leg) => {
-                min.is_none_or(|min| self.too_fast(holds, leg.leg - 1, 1.0 / min))
-            }
             // Two points are needed.
             Violation::Singular(_) => false,
         }

@@ -35,7 +35,6 @@ pub fn known(claim: &Claim) -> bool {
             PsiMax::All => true,
             PsiMax::Range(range) => above_one(&range.min) && at_most(&range.min, &range.max),
         },
-        Claim::NoCube(_) | Claim::Atlas(_) => false,
         Claim::Machine(claim) => {
             let Workspace::Cube { side } = &claim.workspace else { return false };
             let alone = Requirements {
@@ -48,6 +47,7 @@ pub fn known(claim: &Claim) -> bool {
                 && transmission
                     .is_some_and(|t| t.min.is_none() && t.max.as_ref().is_some_and(above_one))
         }
+        Claim::NoCube(_) | Claim::Atlas(_) => false,
     }
 }
 

@@ -1,0 +1,316 @@
+//! `orthocert tolerance`.
+
+use super::size::{explain, file, gap, gap_text, shown};
+use super::{effort, print, Failure, Format, Status};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert::decimal::{exact, Toward};
+use orthocert::design::Design;
+use orthocert::frontier::{proof, refutation, Bracket};
+use orthocert::output;
+use orthocert::report::CertificateFile;
+use orthocert::report::Counterexample;
+use orthocert::search::Budget;
+use orthocert::tolerance::{widest, Kind, Scheme};
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::claim::{Claim, MachineClaim, Mechanism};
+use orthocert_checker::number::Exact;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Boxes after which a tolerance counts as not certified: what closes at all mostly closes in a few
+/// hundred.
+const BOXES: usize = 2_000;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The design file
+    #[arg(value_name = "DESIGN.toml")]
+    design: PathBuf,
+    /// The kinds of parameters: leg_length, anchor, direction, platform, axis, reference, arm
+    /// [default: all that the mechanism has]
+    #[arg(long, value_name = "KIND,...", value_delimiter = ',')]
+    on: Vec<String>,
+    /// Relative distance of the certified and the refuted tolerance to stop at
+    #[arg(long, value_name = "WIDTH", default_value = "1e-3", allow_hyphen_values = true)]
+    gap: String,
+    /// Write the certificates of both ends into this folder, which exists
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    effort: effort::Effort,
+}
+
+/// What a row's number is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Measure {
+    /// A length, in the design's unit.
+    Length,
+    /// A direction's component.
+    Component,
+    /// A part of each kind's own certified tolerance.
+    Share,
+}
+
+/// A row for scripts.
+#[derive(Serialize)]
+struct Row {
+    on: Vec<&'static str>,
+    measure: Measure,
+    /// For [`Measure::Share`]: the tolerance of each kind at share 1.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    weights: BTreeMap<&'static str, Exact>,
+    /// The widest tolerance that was certified.
+    certified: Option<Exact>,
+    /// The narrowest that was refuted.
+    refuted: Option<Exact>,
+    /// `refuted/certified - 1`, rounded up.
+    gap: Option<String>,
+    gap_reached: bool,
+    /// The machine and the point of the refutation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    counterexample: Option<Counterexample>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    certificates: Vec<CertificateFile>,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let effort = &arguments.effort;
+    let width = gap(&arguments.gap, 1e-6, 0.5)?;
+    let design = Design::read(&arguments.design).map_err(Failure::input)?;
+    let Claim::Machine(claim) = &design.claim else {
+        return Err(Failure::Defect);
+    };
+    let kinds = named(&arguments.on, claim)?;
+    if let Some(folder) = &arguments.output {
+        output::probe(&folder.join("tolerance.cert.json"))?;
+    }
+    effort.start_threads()?;
+    let budget = effort.budget(started)?;
+    let nominal = Scheme::common(&kinds).claim(claim, &BigRational::from_integer(0.into()));
+    let nominal = nominal.ok_or_else(too_large)?;
+    if let Some(status) = not_certified(&nominal, arguments, budget)? {
+        return Ok(status);
+    }
+    let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
+    let mut rows = Vec::new();
+    let mut weights = Vec::new();
+    for (scheme, measure) in schemes(&kinds) {
+        let found = effort
+            .run(|control| widest(claim, &scheme, width, budget, control))
+            .map_err(explain)?;
+        if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.certified) {
+            weights.push((*kind, t.clone()));
+        }
+        rows.push(row(&scheme, measure, &found, width, arguments)?);
+    }
+    if mixed(&kinds) && weights.len() == kinds.len() {
+        let scheme = Scheme { weights };
+        let found = effort
+            .run(|control| widest(claim, &scheme, width, budget, control))
+            .map_err(explain)?;
+        rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
+    }
+    match effort.format {
+        Format::Json => {
+            print::json(&serde_json::json!({ "nominal": "certified", "tolerances": rows }))?;
+        }
+        Format::Text => print::answer(&text(&rows, started))?,
+    }
+    let complete = rows.iter().all(|row| row.certified.is_some() && row.refuted.is_some());
+    Ok(if complete { Status::Done } else { Status::Undecided })
+}
+
+fn too_large() -> Failure {
+    Failure::Input("the design's numbers exceed what can be reported".to_owned())
+}
+
+/// The kinds that are asked for, in the order of [`Kind::ALL`].
+fn named(on: &[String], claim: &MachineClaim) -> Result<Vec<Kind>, Failure> {
+    let there = Kind::of(&claim.mechanism);
+    if let Mechanism::Orthoglide { .. } = &claim.mechanism {
+        return Err(Failure::Input(
+            "workspace.cube: found the Orthoglide that meets its bounds with equality, which \
+             leaves no room for tolerances; accepted: a design with leg_length, min and max"
+                .to_owned(),
+        ));
+    }
+    for name in on {
+        if !there.iter().any(|kind| kind.name() == name.trim()) {
+            let names: Vec<&str> = there.iter().map(|kind| kind.name()).collect();
+            let found: String = name.chars().take(60).collect();
+            return Err(Failure::Input(format!(
+                "--on: found \"{found}\"; accepted, as this mechanism has them: {}",
+                names.join(", ")
+            )));
+        }
+    }
+    let wanted = |kind: &Kind| on.is_empty() || on.iter().any(|name| kind.name() == name.trim());
+    Ok(there.into_iter().filter(wanted).collect())
+}
+
+fn mixed(kinds: &[Kind]) -> bool {
+    kinds.iter().any(|kind| kind.is_direction()) && kinds.iter().any(|kind| !kind.is_direction())
+}
+
+/// Every kind alone, then all lengths and all directions by a common tolerance.
+fn schemes(kinds: &[Kind]) -> Vec<(Scheme, Measure)> {
+    let measure = |direction: bool| if direction { Measure::Component } else { Measure::Length };
+    let alone = |kind: &Kind| (Scheme::common(&[*kind]), measure(kind.is_direction()));
+    let mut all: Vec<(Scheme, Measure)> = kinds.iter().map(alone).collect();
+    for direction in [false, true] {
+        let same: Vec<Kind> =
+            kinds.iter().copied().filter(|kind| kind.is_direction() == direction).collect();
+        if same.len() > 1 {
+            all.push((Scheme::common(&same), measure(direction)));
+        }
+    }
+    all
+}
+
+/// Says so and gives the status, if the design with nominal values is not certified.
+fn not_certified(
+    nominal: &MachineClaim,
+    arguments: &Arguments,
+    budget: Budget,
+) -> Result<Option<Status>, Failure> {
+    let effort = &arguments.effort;
+    let refuted = effort.run(|control| refutation(nominal, control)).map_err(explain)?;
+    let counterexample = refuted.as_deref().and_then(|found| witness(nominal, found));
+    if refuted.is_none()
+        && effort.run(|control| proof(nominal, budget, control)).map_err(explain)?.is_some()
+    {
+        return Ok(None);
+    }
+    let (word, status) = match refuted {
+        Some(_) => ("refuted", Status::Decided(Verdict::Refuted)),
+        None => ("undecided", Status::Undecided),
+    };
+    match effort.format {
+        Format::Json => print::json(&serde_json::json!({
+            "nominal": word, "counterexample": counterexample, "tolerances": [],
+        }))?,
+        Format::Text => {
+            let mut out = format!(
+                "{}  the design without tolerances on the parameters named.\n\
+                 There is no tolerance with which it could be certified.\n",
+                word.to_uppercase()
+            );
+            if let Some(found) = counterexample {
+                let _ = writeln!(out, "\n  {}", found.value);
+                let [x, y, z] = found.point.each_ref().map(exact);
+                let _ = writeln!(out, "  at P = ({x}, {y}, {z})");
+            }
+            print::answer(&out)?;
+        }
+    }
+    Ok(Some(status))
+}
+
+fn witness(claim: &MachineClaim, certificate: &Certificate) -> Option<Counterexample> {
+    match &certificate.proof {
+        Proof::Witness(witness) => Some(Counterexample::new(claim, witness)),
+        _ => None,
+    }
+}
+
+fn row(
+    scheme: &Scheme,
+    measure: Measure,
+    found: &Bracket,
+    width: f64,
+    arguments: &Arguments,
+) -> Result<Row, Failure> {
+    let names: Vec<&'static str> = scheme.weights.iter().map(|(kind, _)| kind.name()).collect();
+    let stem = match (&names[..], measure) {
+        ([name], _) => (*name).to_owned(),
+        (_, Measure::Length) => "lengths".to_owned(),
+        (_, Measure::Component) => "directions".to_owned(),
+        (_, Measure::Share) => "all".to_owned(),
+    };
+    let mut certificates = Vec::new();
+    if let Some(folder) = &arguments.output {
+        for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
+            if let Some((_, certificate)) = end {
+                let path = folder.join(format!("tolerance-{stem}-{side}.cert.json"));
+                certificates.push(file(&path, certificate)?);
+            }
+        }
+    }
+    let counterexample = found.refuted.as_ref().and_then(|(_, certificate)| {
+        let Claim::Machine(claim) = &certificate.claim else { return None };
+        witness(claim, certificate)
+    });
+    let weights = match measure {
+        Measure::Share => scheme
+            .weights
+            .iter()
+            .map(|(kind, weight)| (kind.name(), Exact::Rational(weight.clone())))
+            .collect(),
+        _ => BTreeMap::new(),
+    };
+    let end =
+        |end: &Option<(BigRational, _)>| end.as_ref().map(|(t, _)| Exact::Rational(t.clone()));
+    let reached = found.gap();
+    Ok(Row {
+        on: names,
+        measure,
+        weights,
+        certified: end(&found.certified),
+        refuted: end(&found.refuted),
+        gap: reached.as_ref().map(gap_text),
+        gap_reached: reached.and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width),
+        counterexample,
+        certificates,
+    })
+}
+
+fn text(rows: &[Row], started: Instant) -> String {
+    let mut out = "Every parameter of the kinds named lies within ± t of its nominal value,\n\
+         independently of all others. The design is certified for the t on the left, and\n\
+         refuted, by one machine and point, for the t on the right.\n\n"
+        .to_owned();
+    let _ = writeln!(
+        out,
+        "  {:<24} {:<10} {:>12} {:>12} {:>9}",
+        "on", "t is a", "certified", "refuted", "gap"
+    );
+    for row in rows {
+        let name = match (&row.on[..], row.measure) {
+            ([name], _) => name,
+            (_, Measure::Length) => "all lengths, coordinates",
+            (_, Measure::Component) => "all directions",
+            (_, Measure::Share) => "all, at a common share",
+        };
+        let measure = match row.measure {
+            Measure::Length => "length",
+            Measure::Component => "component",
+            Measure::Share => "share",
+        };
+        let certified =
+            row.certified.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Below));
+        let refuted = row.refuted.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Above));
+        let gap = row.gap.as_deref().unwrap_or("-");
+        let _ = writeln!(out, "  {name:<24} {measure:<10} {certified:>12} {refuted:>12} {gap:>9}");
+    }
+    if rows.iter().any(|row| row.measure == Measure::Component) {
+        out += "\n  A direction's t is that of its components as the design writes them.\n";
+    }
+    if rows.iter().any(|row| row.measure == Measure::Share) {
+        out += "\n  The last row widens every kind by this share of its own certified t above.\n";
+    }
+    if rows.iter().any(|row| row.refuted.is_some() && !row.gap_reached) {
+        out +=
+            "\n  Where the gap is wider than asked for, the tolerances between are undecided:\n  \
+                no proof was found, and no machine that fails.\n";
+    }
+    let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
+    out
+}

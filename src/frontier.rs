@@ -1,0 +1,298 @@
+//! How far a number of a claim goes before its verdict changes.
+//!
+//! A family of claims depends on one positive number, such that what is proved for one value holds
+//! for all values on one side of it. [`frontier`] looks for the last value at which a test succeeds:
+//! steps of a growing factor until the test changes, then halves by the geometric mean. Every value
+//! tried is a decimal, which is taken exactly. The tests are [`proof`] and [`refutation`], which
+//! give certificates that the exact checker has accepted.
+
+use crate::interval::Interval;
+use crate::sample::{Place, Sampler};
+use crate::search::{prove, Budget, Control, Stop};
+use crate::verify::MODEL_PRECISION;
+use crate::verify::{accepted, refutation as witness, refuted, worst_values, Answer, Worst};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert_checker::certificate::{Certificate, Proof, Tree};
+use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::enclosure::Enclosure;
+use orthocert_checker::model::Model;
+use orthocert_checker::number::Exact;
+use std::fmt;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// Largest factor between one value and the next.
+const LARGEST_FACTOR: f64 = 10.0;
+/// Machines from which a violation is looked for, beside the middle one.
+const MACHINES: usize = 16;
+/// Finest step of that search, `2^-FINEST` of the workspace and the tolerances.
+const FINEST: i32 = 26;
+
+/// A value, and the certificate of the claim for it.
+pub type Certified = (BigRational, Box<Certificate>);
+
+/// Where the verdict changes, as far as it was found.
+#[derive(Clone, Debug, Default)]
+pub struct Bracket {
+    /// The claim is certified for this value.
+    pub certified: Option<Certified>,
+    /// The claim is refuted for this value.
+    pub refuted: Option<Certified>,
+}
+
+impl Bracket {
+    /// The relative distance of the two ends: greater over smaller, less one.
+    pub fn gap(&self) -> Option<BigRational> {
+        let ((a, _), (b, _)) = self.certified.as_ref().zip(self.refuted.as_ref())?;
+        Some(a.max(b) / a.min(b) - BigRational::from_integer(1.into()))
+    }
+}
+
+/// Why there is no answer at all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoAnswer {
+    /// It was cancelled.
+    Cancelled,
+    /// The question does not fit the claim: a sentence that says what was found.
+    Claim(String),
+}
+
+impl fmt::Display for NoAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoAnswer::Cancelled => write!(f, "cancelled"),
+            NoAnswer::Claim(found) => write!(f, "{found}"),
+        }
+    }
+}
+
+impl std::error::Error for NoAnswer {}
+
+/// On which side of a success all values succeed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Succeeds {
+    /// Smaller values succeed too.
+    Below,
+    /// Greater values succeed too.
+    Above,
+}
+
+/// How a frontier is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk {
+    /// Where it begins.
+    pub start: f64,
+    /// Which side succeeds.
+    pub succeeds: Succeeds,
+    /// The first step's factor; every later one is the square of the one before, up to ten.
+    pub factor: f64,
+    /// Whether to go on from a start that succeeds.
+    pub improve: bool,
+    /// Values beyond these are not tried.
+    pub limits: (f64, f64),
+    /// Relative distance, from the last success to the first failure, at which to stop.
+    pub gap: f64,
+    /// The moment at which to stop.
+    pub deadline: Option<Instant>,
+}
+
+impl Walk {
+    fn step(&self, x: f64, factor: f64, success: bool) -> f64 {
+        match (self.succeeds, success) {
+            (Succeeds::Below, true) | (Succeeds::Above, false) => x * factor,
+            (Succeeds::Below, false) | (Succeeds::Above, true) => x / factor,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+}
+
+/// The last value found at which `test` succeeds, and what it gave; `None` where none did.
+///
+/// # Errors
+/// Those of `test`.
+pub fn frontier<T>(
+    walk: &Walk,
+    mut test: impl FnMut(&BigRational) -> Result<Option<T>, NoAnswer>,
+) -> Result<Option<(BigRational, T)>, NoAnswer> {
+    let (mut best, mut failed) = (None, None);
+    let (mut x, mut factor) = (walk.start, walk.factor);
+    while !walk.is_over() && (walk.limits.0..=walk.limits.1).contains(&x) {
+        let Some(value) = decimal(x, walk.gap) else { break };
+        let found = test(&value)?;
+        let success = found.is_some();
+        match found {
+            Some(found) => best = Some((x, value, found)),
+            None => failed = Some(x),
+        }
+        if best.is_some() && (failed.is_some() || !walk.improve) {
+            break;
+        }
+        x = walk.step(x, factor, success);
+        factor = (factor * factor).min(LARGEST_FACTOR);
+    }
+    while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
+        if walk.is_over() || (good / bad).max(bad / good) <= 1.0 + walk.gap {
+            break;
+        }
+        let middle = (good * bad).sqrt();
+        let Some(value) = decimal(middle, walk.gap).filter(|value| value != last) else { break };
+        match test(&value)? {
+            Some(found) => best = Some((middle, value, found)),
+            None => failed = Some(middle),
+        }
+    }
+    Ok(best.map(|(_, value, found)| (value, found)))
+}
+
+/// The decimal nearest to `x > 0` with three digits more than a relative distance of `gap` needs.
+pub fn decimal(x: f64, gap: f64) -> Option<BigRational> {
+    let digits = (3.0 - gap.log10()).ceil().clamp(3.0, 17.0) as usize;
+    let text = format!("{x:.*e}", digits - 1);
+    let value = Exact::parse(&text, 64).ok()?.as_rational()?.clone();
+    value.to_f64().filter(|x| *x > 0.0).map(|_| value)
+}
+
+/// A certificate that `claim` holds, if the search finds one within the budget. A claim that is not
+/// well formed has none.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn proof(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    let Ok(model) = Model::new(claim, MODEL_PRECISION) else {
+        return Ok(None);
+    };
+    let found = prove(&model.map(&Interval::from_fixed), budget, control);
+    if found.stop == Stop::Cancelled {
+        return Err(NoAnswer::Cancelled);
+    }
+    if found.stop != Stop::Exhausted || !found.open.is_empty() {
+        return Ok(None);
+    }
+    let tree = |precision| Proof::Tree(Tree { precision, nodes: found.nodes.clone() });
+    Ok(decided(accepted(Claim::Machine(claim.clone()), tree)))
+}
+
+/// A certificate that `claim` does not hold, if sampling finds a witness. A claim that is not well
+/// formed has none.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn refutation(
+    claim: &MachineClaim,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    if control.cancel.load(Ordering::Relaxed) {
+        return Err(NoAnswer::Cancelled);
+    }
+    let Ok(model) = Model::new(claim, MODEL_PRECISION) else {
+        return Ok(None);
+    };
+    let Some(sampler) = Sampler::new(claim, &model) else {
+        return Ok(None);
+    };
+    let mut worst = worst_values(&sampler, FINEST);
+    let found = witness(claim, &sampler, &worst).or_else(|| {
+        other_machines(&sampler, &mut worst);
+        witness(claim, &sampler, &worst)
+    });
+    Ok(found.and_then(|witness| decided(refuted(claim, witness))))
+}
+
+/// Improves the worst values from machines at pseudo-random ends of the tolerances: where singular
+/// values coincide, a descent from the middle machine may stay at a saddle.
+fn other_machines(sampler: &Sampler, worst: &mut [Worst]) {
+    if sampler.parameters() == 0 {
+        return;
+    }
+    let mut state = 1u64;
+    let mut end = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        if state >> 63 == 1 {
+            1.0
+        } else {
+            0.0
+        }
+    };
+    let machines: Vec<Vec<f64>> =
+        (0..MACHINES).map(|_| (0..sampler.parameters()).map(|_| end()).collect()).collect();
+    for known in worst {
+        let u = known.place.u;
+        for t in &machines {
+            let start = Place { u, t: t.clone() };
+            let (margin, place) = sampler.descend(known.quality, &start, FINEST);
+            if margin < known.margin {
+                (known.margin, known.place) = (margin, place);
+            }
+        }
+    }
+}
+
+fn decided(answer: Answer) -> Option<Box<Certificate>> {
+    match answer {
+        Answer::Decided { certificate, .. } => Some(certificate),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WALK: Walk = Walk {
+        start: 1.0,
+        succeeds: Succeeds::Below,
+        factor: 10.0,
+        improve: true,
+        limits: (1e-12, 1e12),
+        gap: 1e-6,
+        deadline: None,
+    };
+
+    fn found(walk: Walk, succeeds: impl Fn(f64) -> bool) -> Option<f64> {
+        let test = |x: &BigRational| Ok(x.to_f64().filter(|x| succeeds(*x)));
+        frontier(&walk, test).unwrap().map(|(value, seen)| {
+            assert_eq!(value.to_f64(), Some(seen));
+            seen
+        })
+    }
+
+    #[test]
+    fn the_last_success_is_found_from_either_side() {
+        for threshold in [3e-9, 0.7, 1.0, 42.0, 6e8] {
+            for start in [1e-3, 1.0, 1e4] {
+                let walk = Walk { start, ..WALK };
+                let x = found(walk, |x| x <= threshold).unwrap();
+                assert!(x <= threshold && x * (1.0 + 2e-6) > threshold, "{x} {threshold}");
+                let walk = Walk { succeeds: Succeeds::Above, ..walk };
+                let x = found(walk, |x| x >= threshold).unwrap();
+                assert!(x >= threshold && x < threshold * (1.0 + 2e-6), "{x} {threshold}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_good_start_is_not_improved_unless_asked_for() {
+        let walk = Walk { improve: false, start: 0.3, ..WALK };
+        assert_eq!(found(walk, |x| x <= 5.0), Some(0.3));
+        assert!(found(walk, |x| x <= 0.2).is_some_and(|x| x <= 0.2 && x > 0.199_999));
+    }
+
+    #[test]
+    fn nothing_is_found_where_nothing_succeeds_and_the_limits_hold() {
+        assert_eq!(found(WALK, |_| false), None);
+        let last = found(WALK, |_| true).unwrap();
+        assert!((1e11..=1e12).contains(&last));
+        let walk = Walk { deadline: Some(Instant::now()), ..WALK };
+        assert_eq!(found(walk, |_| true), None);
+    }
+}

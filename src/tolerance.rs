@@ -1,0 +1,217 @@
+//! The widest tolerances with which a design is still certified.
+//!
+//! Every parameter of the named kinds lies within `t` of its nominal value, independently of all
+//! others, and everything else is as in the design. The claims are nested: a machine within a
+//! tolerance is within every wider one. So what is certified for one `t` holds for every smaller
+//! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
+//! a band, where the tolerances, which are not subdivided, are too wide to be proved.
+
+use crate::decimal::approximate;
+use crate::frontier::{frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk};
+use crate::search::{Budget, Control};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Parameter, Quantity};
+use orthocert_checker::number::{Exact, NumberErrorKind};
+use std::fmt;
+
+/// The first tolerance tried, relative to the greatest number of its unit.
+const START: f64 = 1e-3;
+/// Limits of the tolerances tried, relative to the same.
+const LIMITS: (f64, f64) = (1e-12, 10.0);
+/// Share of the gap that is spent on the refuted end.
+const REFUTED_SHARE: f64 = 0.25;
+/// The first step's factor where the tolerances just short of the refuted one are not proved.
+const UNPROVED: f64 = 1.3;
+
+/// A kind of parameter, which all legs that have it share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// The legs' lengths.
+    LegLength,
+    /// The coordinates of the anchors.
+    Anchor,
+    /// The components of the guides' directions, as they are written.
+    Direction,
+    /// The coordinates of the platform's offsets.
+    Platform,
+    /// The components of the motors' axes, as they are written.
+    Axis,
+    /// The components of the arms' reference directions, as they are written.
+    Reference,
+    /// The arms' lengths.
+    Arm,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 7] = [
+        Kind::LegLength,
+        Kind::Anchor,
+        Kind::Direction,
+        Kind::Platform,
+        Kind::Axis,
+        Kind::Reference,
+        Kind::Arm,
+    ];
+
+    /// Those that a mechanism has.
+    pub fn of(mechanism: &Mechanism) -> Vec<Kind> {
+        let Mechanism::Translational(legs) = mechanism else {
+            return Vec::new();
+        };
+        let has = |kind: &Kind| {
+            legs.iter().flat_map(Leg::parameters).any(|(parameter, _)| kind.is(parameter))
+        };
+        Kind::ALL.into_iter().filter(has).collect()
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::LegLength => "leg_length",
+            Kind::Anchor => "anchor",
+            Kind::Direction => "direction",
+            Kind::Platform => "platform",
+            Kind::Axis => "axis",
+            Kind::Reference => "reference",
+            Kind::Arm => "arm",
+        }
+    }
+
+    /// Whether its tolerance is one of a direction's components, and not a length.
+    pub fn is_direction(self) -> bool {
+        matches!(self, Kind::Direction | Kind::Axis | Kind::Reference)
+    }
+
+    fn is(self, parameter: Parameter) -> bool {
+        let own = match self {
+            Kind::LegLength => Parameter::Length,
+            Kind::Anchor => Parameter::Anchor,
+            Kind::Direction => Parameter::Direction,
+            Kind::Platform => Parameter::Platform,
+            Kind::Axis => Parameter::Axis,
+            Kind::Reference => Parameter::Reference,
+            Kind::Arm => Parameter::Arm,
+        };
+        own == parameter
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What is widened, and how: every parameter of a kind by its weight times `t`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scheme {
+    /// The kinds, and their weights.
+    pub weights: Vec<(Kind, BigRational)>,
+}
+
+impl Scheme {
+    /// Every one of these kinds by `t`.
+    pub fn common(kinds: &[Kind]) -> Self {
+        let one = BigRational::from_integer(1.into());
+        Scheme { weights: kinds.iter().map(|&kind| (kind, one.clone())).collect() }
+    }
+
+    /// The claim about every machine of which the named parameters lie within `t` times their
+    /// weight of their nominal values: the middle of what the design admits. `None` where the
+    /// numbers become too large.
+    pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> Option<MachineClaim> {
+        let mut widened = claim.clone();
+        let Mechanism::Translational(legs) = &mut widened.mechanism else {
+            return None;
+        };
+        for leg in legs {
+            let names: Vec<Parameter> = leg.parameters().iter().map(|(name, _)| *name).collect();
+            for (name, quantity) in names.into_iter().zip(leg.parameters_mut()) {
+                if let Some((_, weight)) = self.weights.iter().find(|(kind, _)| kind.is(name)) {
+                    *quantity = around(quantity, &Exact::Rational(weight * t)).ok()?;
+                }
+            }
+        }
+        Some(widened)
+    }
+
+    /// The greatest number among the parameters that have the same unit as those named, which
+    /// measures tolerances: directions with directions, lengths with lengths.
+    fn scale(&self, claim: &MachineClaim) -> f64 {
+        let Mechanism::Translational(legs) = &claim.mechanism else {
+            return 1.0;
+        };
+        let directions = self.weights.iter().all(|(kind, _)| kind.is_direction());
+        let all = legs.iter().flat_map(Leg::parameters);
+        let same = all.filter(|(parameter, _)| parameter.is_direction() == directions);
+        let sizes = same.filter_map(|(_, q)| approximate(&q.max)).map(f64::abs);
+        let greatest = sizes.fold(0.0, f64::max);
+        if greatest > 0.0 {
+            greatest
+        } else {
+            1.0
+        }
+    }
+}
+
+/// `nominal - t` to `nominal + t`.
+fn around(quantity: &Quantity, t: &Exact) -> Result<Quantity, NumberErrorKind> {
+    let nominal = if quantity.is_exact() {
+        quantity.min.clone()
+    } else {
+        quantity.min.clone().plus(quantity.max.clone())?.over(Exact::integer(2))?
+    };
+    if t.sign() == Some(0) {
+        return Ok(Quantity::exactly(nominal));
+    }
+    Ok(Quantity { min: nominal.clone().minus(t.clone())?, max: nominal.plus(t.clone())? })
+}
+
+/// Encloses the widest `t` for which the claim widened by `scheme` holds. The refuted end is found
+/// to a part of `gap`; the certified end is the widest that the search proves, to `gap`.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn widest(
+    claim: &MachineClaim,
+    scheme: &Scheme,
+    gap: f64,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Bracket, NoAnswer> {
+    let scale = scheme.scale(claim);
+    let weight = scheme.weights.iter().filter_map(|(_, weight)| weight.to_f64());
+    let scale = scale / weight.fold(f64::MIN_POSITIVE, f64::max);
+    let walk = Walk {
+        start: START * scale,
+        succeeds: Succeeds::Above,
+        factor: 10.0,
+        improve: true,
+        limits: (LIMITS.0 * scale, LIMITS.1 * scale),
+        gap: gap * REFUTED_SHARE,
+        deadline: budget.deadline,
+    };
+    let refuted = frontier(&walk, |t| match scheme.claim(claim, t) {
+        Some(claim) => refutation(&claim, control),
+        None => Ok(None),
+    })?;
+    let walk = Walk { succeeds: Succeeds::Below, gap, ..walk };
+    let walk = match refuted.as_ref().and_then(|(t, _)| t.to_f64()) {
+        // The best that can be hoped for; where it fails, down by steps that grow.
+        Some(t) => Walk {
+            start: t / (1.0 + gap * (1.0 - REFUTED_SHARE)),
+            factor: UNPROVED,
+            improve: false,
+            ..walk
+        },
+        None => walk,
+    };
+    let certified = frontier(&walk, |t| match scheme.claim(claim, t) {
+        Some(claim) => proof(&claim, budget, control),
+        None => Ok(None),
+    })?;
+    Ok(Bracket { certified, refuted })
+}

@@ -1,0 +1,72 @@
+//! `size`: both ends against the closed form, scales, and what is refused.
+
+use crate::support::Folder;
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    let text = value.as_str().unwrap();
+    match text.split_once('/') {
+        Some((p, q)) => p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap(),
+        None => text.parse().unwrap(),
+    }
+}
+
+fn sized(folder: &Folder, arguments: &[&str]) -> Value {
+    let all = [&["size"], arguments, &["--format", "json"]].concat();
+    serde_json::from_str(&folder.run(&all).exits(0).stdout).unwrap()
+}
+
+#[test]
+fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
+    let closed_form = 200.0 / (1.0 / 18f64.sqrt() + 1.0 / 6f64.sqrt());
+    assert!((closed_form - 310.582854123025).abs() < 1e-9);
+    let folder = Folder::with(&["orthoglide-312.toml"]);
+    for design in [&[][..], &["orthoglide-312.toml"]] {
+        for gap in [1e-3, 1e-6] {
+            let gap_text = gap.to_string();
+            let arguments = [design, &["--cube", "200", "--gap", &gap_text, "-o", "."]].concat();
+            let value = sized(&folder, &arguments);
+            let (low, high) = (number(&value["refuted"]), number(&value["certified"]));
+            assert!(low < closed_form && closed_form < high, "{low} {high}");
+            assert!(high / low - 1.0 <= gap * 1.000_001, "{low} {high}");
+            assert_eq!(value["unknown"], "leg_length");
+            assert_eq!(value["refuted_for"], "this placement");
+            assert_eq!(value["gap_reached"], true);
+            // The centre of the largest cube for legs of length 1.
+            let centre = number(&value["centre_for_size_one"][0]);
+            assert!((centre - 0.086_273_0).abs() < gap, "{centre}");
+        }
+    }
+    folder.run(&["check", "size-certified.cert.json"]).exits(0).says(&["It is proved"]);
+    folder.run(&["check", "size-refuted.cert.json"]).exits(1);
+}
+
+#[test]
+fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
+    let folder = Folder::with(&["linear-delta-linuxcnc-box.toml"]);
+    let scale = |side: &str| {
+        let arguments = ["linear-delta-linuxcnc-box.toml", "--cube", side, "--gap", "1e-3"];
+        let value = sized(&folder, &arguments);
+        assert_eq!(value["unknown"], "scale");
+        (number(&value["refuted"]), number(&value["certified"]))
+    };
+    let ((low, high), (twice_low, twice_high)) = (scale("100"), scale("200"));
+    assert!(low < high && high / low < 1.002);
+    assert!((twice_low / low - 2.0).abs() < 0.01 && (twice_high / high - 2.0).abs() < 0.01);
+}
+
+#[test]
+fn questions_without_a_smallest_machine_are_refused() {
+    let folder = Folder::with(&["linear-delta-klipper-box.toml", "tripteron.toml"]);
+    let joints = folder.run(&["size", "linear-delta-klipper-box.toml", "--cube", "9"]).exits(2);
+    joints.complains(&["joint_range", "accepted"]);
+    let endless = folder.run(&["size", "tripteron.toml", "--cube", "9"]).exits(2);
+    endless.complains(&["no smallest machine"]);
+    for side in ["0", "-1", "sqrt(2)", "many"] {
+        folder.run(&["size", "--cube", side]).exits(2).complains(&["--cube", "accepted"]);
+    }
+    for gap in ["0", "1", "1e-12", "x"] {
+        let run = folder.run(&["size", "--cube", "200", "--gap", gap]).exits(2);
+        run.complains(&["--gap", "accepted"]);
+    }
+}

@@ -1,0 +1,94 @@
+//! `tolerance`: both ends, each kind and all together, and what is refused.
+
+use crate::support::Folder;
+use serde_json::Value;
+
+const DESIGN: &str = "orthoglide-312.toml";
+
+fn widened(folder: &Folder, arguments: &[&str]) -> Value {
+    let all = [&["tolerance", DESIGN, "--gap", "1e-2"], arguments, &["--format", "json"]].concat();
+    serde_json::from_str(&folder.run(&all).exits(0).stdout).unwrap()
+}
+
+fn end(value: &Value) -> f64 {
+    let text = value.as_str().unwrap();
+    match text.split_once('/') {
+        Some((p, q)) => p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap(),
+        None => text.parse().unwrap(),
+    }
+}
+
+#[test]
+fn both_ends_are_what_verify_says_of_them() {
+    let folder = Folder::with(&[DESIGN]);
+    let value = widened(&folder, &["--on", "leg_length", "-o", "."]);
+    let row = &value["tolerances"][0];
+    let (certified, refuted) = (end(&row["certified"]), end(&row["refuted"]));
+    assert!(0.5 < certified && certified < refuted && refuted < 1.5, "{certified} {refuted}");
+    assert_eq!(row["counterexample"]["machine"].as_array().unwrap().len(), 3);
+    folder.run(&["check", "tolerance-leg_length-certified.cert.json"]).exits(0);
+    folder.run(&["check", "tolerance-leg_length-refuted.cert.json"]).exits(1);
+    let design = String::from_utf8(folder.read(DESIGN)).unwrap();
+    for (name, t, code) in [("in.toml", &row["certified"], 0), ("out.toml", &row["refuted"], 1)] {
+        let length = format!("leg_length = \"312 ± {}\"", t.as_str().unwrap());
+        folder.write(name, design.replace("leg_length = 312", &length));
+        let stem = name.trim_end_matches(".toml");
+        folder.run(&["verify", name]).exits(code);
+        // The certificate is of that very design.
+        let side = if code == 0 { "certified" } else { "refuted" };
+        let certificate = format!("tolerance-leg_length-{side}.cert.json");
+        folder.run(&["check", &certificate, "--design", name]).exits(code);
+        assert!(folder.path(&format!("{stem}.cert.json")).is_file());
+    }
+}
+
+#[test]
+fn kinds_together_admit_less_than_each_alone() {
+    let folder = Folder::with(&[DESIGN]);
+    let value = widened(&folder, &["--on", "direction,leg_length,anchor"]);
+    let rows = value["tolerances"].as_array().unwrap();
+    let measures: Vec<&str> = rows.iter().map(|row| row["measure"].as_str().unwrap()).collect();
+    assert_eq!(measures, ["length", "length", "component", "length", "share"]);
+    let certified: Vec<f64> = rows.iter().map(|row| end(&row["certified"])).collect();
+    assert!(certified[3] < certified[0] && certified[3] < certified[1], "{certified:?}");
+    assert!(certified[4] < 1.0, "{certified:?}");
+    for row in rows {
+        assert!(end(&row["certified"]) < end(&row["refuted"]));
+        let reached = end(&row["refuted"]) / end(&row["certified"]) - 1.0 <= 0.01;
+        assert_eq!(row["gap_reached"], reached);
+    }
+    assert_eq!(rows[4]["weights"]["anchor"], rows[1]["certified"]);
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_threads() {
+    let folder = Folder::with(&[DESIGN]);
+    let one = widened(&folder, &["--on", "anchor", "--threads", "1"]);
+    assert_eq!(one, widened(&folder, &["--on", "anchor", "--threads", "3"]));
+    let text = folder.run(&["tolerance", DESIGN, "--on", "anchor"]).exits(0).stdout;
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}
+
+#[test]
+fn a_design_that_is_not_certified_has_no_tolerance() {
+    let folder = Folder::with(&["orthoglide-310.toml"]);
+    let run = folder.run(&["tolerance", "orthoglide-310.toml"]).exits(1);
+    run.says(&["REFUTED", "no tolerance"]);
+    let arguments = ["tolerance", "orthoglide-310.toml", "--format", "json"];
+    let value: Value = serde_json::from_str(&folder.run(&arguments).exits(1).stdout).unwrap();
+    assert_eq!(value["nominal"], "refuted");
+    assert_eq!(value["tolerances"], serde_json::json!([]));
+}
+
+#[test]
+fn kinds_that_the_mechanism_lacks_are_refused() {
+    let folder = Folder::with(&[DESIGN, "orthoglide-prototype.toml"]);
+    for kind in ["arm", "axis", "legs", ""] {
+        let run = folder.run(&["tolerance", DESIGN, "--on", kind]).exits(2);
+        run.complains(&["--on", "leg_length, anchor, direction, platform"]);
+    }
+    let cube = folder.run(&["tolerance", "orthoglide-prototype.toml"]).exits(2);
+    cube.complains(&["workspace.cube", "accepted"]);
+    let gap = folder.run(&["tolerance", DESIGN, "--gap", "-1"]).exits(2);
+    gap.complains(&["--gap", "accepted"]);
+}
