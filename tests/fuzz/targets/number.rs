@@ -40,6 +40,7 @@ fn value(x: &Exact) -> Option<(f64, f64)> {
             (x > 2.0 * e).then_some(())?;
             rounded(x.sqrt(), e / (x - e).sqrt())
         }
+        Exact::Name(_) => None,
     }
 }
 

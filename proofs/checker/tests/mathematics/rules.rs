@@ -349,11 +349,14 @@ fn every_vertex_matters() {
         // From a corner inward: 7 is reached with all of the vertex's own steps, and only there.
         let steps = i64::from(vertex.count_ones());
         let towards = from_fn(|k| if vertex >> k & 1 == 1 { -1 } else { 1 });
-        let expansion = multiples_of_identity(6 + steps, towards);
-        let found = rule::corner(&model, &expansion);
-        assert_eq!(found, Err(Failure::NotDefinite { vertex }));
-        assert_eq!(rule::corner(&model, &multiples_of_identity(7 + steps, towards)), Ok(()));
+        let about_corner = |a| {
+            let expansion = multiples_of_identity(a, towards);
+            rule::corner(&model, &Expansion { hull: Hull::ABOUT_CORNER, ..expansion })
+        };
+        assert_eq!(about_corner(6 + steps), Err(Failure::NotDefinite { vertex }));
+        assert_eq!(about_corner(7 + steps), Ok(()));
     }
     // The corner's own vertex is left to the hand proof.
-    assert_eq!(rule::corner(&model, &multiples_of_identity(6, [1; 3])), Ok(()));
+    let expansion = Expansion { hull: Hull::ABOUT_CORNER, ..multiples_of_identity(6, [1; 3]) };
+    assert_eq!(rule::corner(&model, &expansion), Ok(()));
 }

@@ -11,6 +11,7 @@ use crate::oracle::{opinion, Opinion};
 use crate::random::Random;
 use edits::{edits, paths, texts, Kind};
 use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::{check, read};
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
@@ -264,6 +265,10 @@ fn the_oracle_is_not_blind() {
     ];
     let (mut good_ones, mut seen) = (0, 0);
     for good in good_certificates() {
+        // What no place of one machine can show.
+        if matches!(good.certificate.claim, Claim::NoCube(_) | Claim::Atlas(_)) {
+            continue;
+        }
         let looks = opinion(&good.certificate, &mut random, SAMPLES);
         assert_eq!(looks, Opinion::Agrees, "{}", good.name);
         good_ones += 1;
