@@ -27,6 +27,7 @@ mod progress;
 mod prove;
 mod report;
 mod run_shard;
+mod schema;
 mod show;
 mod size;
 mod split;
@@ -106,6 +107,8 @@ enum Command {
     Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
+    /// Print the JSON schema of what the commands answer with --format json.
+    Schema(schema::Arguments),
 }
 
 /// The form of the answer on standard output.
@@ -235,6 +238,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Size(arguments) => size::run(arguments),
         Command::Import(arguments) => import::run(arguments),
         Command::Export(arguments) => export::run(arguments),
+        Command::Schema(arguments) => schema::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     }
 }

@@ -21,12 +21,14 @@
 //! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
+//! | `answers`      | `--format json` is as its schema says                             |
 //! | `tolerance`    | `tolerance`: both ends, together, refused                         |
 //! | `size`         | `size`: against the closed form, scaled, refused                  |
 
 mod junit;
 mod support;
 
+mod answers;
 mod atlas;
 mod audit;
 mod bad_input;
