@@ -1,6 +1,6 @@
 //! The map as a page: one HTML file that needs nothing else.
 
-use super::picture::escaped;
+use crate::page::escape::html;
 use std::fmt::Write;
 
 const STYLE: &str = "body { font: 16px/1.45 sans-serif; max-width: 60em; margin: 2em auto; \
@@ -9,13 +9,13 @@ pre { white-space: pre-wrap } td, th { text-align: left; padding: .15em 1.2em .1
 
 /// A page with a title, the picture, a table of facts, and the statement of the certificate.
 pub fn page(title: &str, svg: &str, facts: &[(String, String)], statement: &str) -> String {
-    let title = escaped(title);
+    let title = html(title);
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
          <style>{STYLE}</style>\n<h1>{title}</h1>\n{svg}<table>\n"
     );
     for (name, value) in facts {
-        let (name, value) = (escaped(name), escaped(value));
+        let (name, value) = (html(name), html(value));
         let _ = writeln!(out, "<tr><th>{name}</th><td>{value}</td></tr>");
     }
     let _ =
@@ -25,5 +25,5 @@ pub fn page(title: &str, svg: &str, facts: &[(String, String)], statement: &str)
 }
 
 fn escaped_lines(text: &str) -> String {
-    text.lines().map(escaped).collect::<Vec<_>>().join("\n")
+    text.lines().map(html).collect::<Vec<_>>().join("\n")
 }

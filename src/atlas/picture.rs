@@ -4,6 +4,7 @@
 //! four equal parts of the third parameter's range.
 
 use crate::design::AtlasDesign;
+use crate::page::escape::html;
 use num_traits::ToPrimitive;
 use orthocert_checker::atlas::walk;
 use orthocert_checker::cell::{Cell, Edge};
@@ -78,7 +79,7 @@ pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> S
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
          width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{}</title>\n{STYLE}",
-        escaped(design.title.as_deref().unwrap_or("Atlas"))
+        html(design.title.as_deref().unwrap_or("Atlas"))
     );
     for panel in 0..panels {
         let plane = (panels > 1).then(|| (2 * panel + 1, 2 * PLANES));
@@ -91,7 +92,7 @@ pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> S
         }
         if let (Some((part, of)), Some(span)) = (plane, spans.get(2)) {
             let at = span.min + (span.max - span.min) * f64::from(part) / f64::from(of);
-            let label = escaped(design.labels.get(2).map_or("", String::as_str));
+            let label = html(design.labels.get(2).map_or("", String::as_str));
             let _ = writeln!(svg, "<text x=\"0\" y=\"-12\">{label} = {}</text>", short(at));
         }
         if plane.is_none() {
@@ -166,7 +167,7 @@ fn draw_axes(svg: &mut String, design: &AtlasDesign, spans: &[Span], high: f64) 
             short(tick)
         );
     }
-    let label = |i: usize| escaped(design.labels.get(i).map_or("", String::as_str));
+    let label = |i: usize| html(design.labels.get(i).map_or("", String::as_str));
     let _ = writeln!(
         svg,
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
@@ -230,7 +231,7 @@ fn draw_points(svg: &mut String, spans: &[Span], points: &[Point], high: f64) {
             short(py),
             short(px + dx),
             short(py),
-            escaped(&point.label)
+            html(&point.label)
         );
     }
 }
@@ -258,22 +259,6 @@ fn short(x: f64) -> String {
     format!("{}", rounded + 0.0)
 }
 
-/// Text as XML has it.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -292,6 +277,6 @@ mod tests {
 
     #[test]
     fn text_cannot_break_the_picture() {
-        assert_eq!(escaped("a<b & \"c\"\u{7}"), "a&lt;b &amp; &quot;c&quot; ");
+        assert_eq!(html("a<b & \"c\"\u{7}"), "a&lt;b &amp; &quot;c&quot; ");
     }
 }

@@ -22,7 +22,7 @@
 
 mod contour;
 mod drawing;
-mod escape;
+pub(crate) mod escape;
 mod evidence;
 mod isomap;
 mod nominal;

@@ -88,7 +88,8 @@ scontrol update NodeName="$node" State=DOWN Reason=lost
 free_disk "$scratch/rough"
 rm -f "$scratch/slurmd.pid"
 slurmd
-scontrol update NodeName="$node" State=RESUME
+# Refused where the node has come back by itself already.
+scontrol update NodeName="$node" State=RESUME 2>/dev/null || true
 # What was requeued would wait two minutes by Slurm's own rule.
 for _ in $(seq 300); do
   [ -e "$scratch/rough-map/atlas.cert.json" ] && break
