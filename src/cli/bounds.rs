@@ -4,7 +4,6 @@ use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
-use orthocert::design::Design;
 use orthocert::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert::output;
 use orthocert::report::CertificateFile;
@@ -69,10 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let relative = relative(&arguments.relative)?;
-    let design = match &arguments.design {
-        Some(path) => Design::read(path).map_err(Failure::input)?,
-        None => Design::prototype(),
-    };
+    let design = input::design(arguments.design.as_deref())?;
     let Claim::Machine(claim) = &design.claim else {
         return Err(Failure::Defect);
     };

@@ -1,6 +1,7 @@
-//! Reading what commands are given: certificates and numbers.
+//! Reading what commands are given: designs, certificates and numbers.
 
 use super::Failure;
+use orthocert::design::Design;
 use orthocert_checker::certificate::MAX_BYTES;
 use orthocert_checker::number::Exact;
 use std::fs::File;
@@ -9,6 +10,14 @@ use std::path::Path;
 
 /// Most digits of a literal on the command line, as in design files.
 const MAX_DIGITS: usize = 1000;
+
+/// The design of a file; without one, the prototype of the paper.
+pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
+    match path {
+        Some(path) => Design::read(path).map_err(Failure::input),
+        None => Ok(Design::prototype()),
+    }
+}
 
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -4,7 +4,6 @@ use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, rounded, terminating, Toward};
-use orthocert::design::Design;
 use orthocert::frontier::{Bracket, NoAnswer};
 use orthocert::output;
 use orthocert::report::CertificateFile;
@@ -71,10 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-9, 0.1)?;
     let side = side(&arguments.cube)?;
-    let design = match &arguments.design {
-        Some(path) => Design::read(path).map_err(Failure::input)?,
-        None => Design::prototype(),
-    };
+    let design = input::design(arguments.design.as_deref())?;
     let Claim::Machine(claim) = &design.claim else {
         return Err(Failure::Defect);
     };

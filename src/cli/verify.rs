@@ -1,9 +1,8 @@
 //! `orthocert verify`.
 
-use super::{batch, effort::Effort, print, prove::Task, Failure, Format, Status};
+use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::batch::plan::{certificate_of, identity};
-use orthocert::design::Design;
 use orthocert::extremes::{enclose, Extreme};
 use orthocert::report::{text, Margin, Report};
 use orthocert::search::Budget;
@@ -61,10 +60,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
     let started = Instant::now();
     let Arguments { output, reprove, effort, .. } = arguments;
     let budget = effort.budget(started)?;
-    let design = match path {
-        Some(path) => Design::read(path).map_err(Failure::input)?,
-        None => Design::prototype(),
-    };
+    let design = input::design(path.map(PathBuf::as_path))?;
     let target = target(output.as_deref(), path.map(PathBuf::as_path))?;
     effort.start_threads()?;
     let task = Task {

@@ -22,6 +22,7 @@ use orthocert_checker::claim::{ClaimError, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 
 pub use exclude::exclude;
+pub(crate) use place::direction;
 pub use place::{best_place, Place};
 
 /// A cube that is certified.

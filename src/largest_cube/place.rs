@@ -119,8 +119,8 @@ impl Cubes {
         while step > best.side * fine * 0.1 && best.side > 0.0 {
             let mut moved = false;
             for n in 0..58 {
-                let centre: [f64; 3] =
-                    std::array::from_fn(|k| best.centre[k] + step * direction(n, k, &mut state));
+                let along = direction(n, &mut state);
+                let centre: [f64; 3] = std::array::from_fn(|k| best.centre[k] + step * along[k]);
                 let within = (0..3)
                     .all(|k| (self.min[k]..=self.min[k] + self.width[k]).contains(&centre[k]));
                 if within && self.fits(&centre, best.side * (1.0 + fine)) {
@@ -136,12 +136,15 @@ impl Cubes {
     }
 }
 
-/// Component `k` of direction `n`: the 26 of `{-1, 0, 1}^3`, then pseudo-random ones.
-fn direction(n: usize, k: usize, state: &mut u64) -> f64 {
+/// Direction `n`: the 26 of `{-1, 0, 1}^3`, then pseudo-random ones.
+pub(crate) fn direction(n: usize, state: &mut u64) -> [f64; 3] {
     if n < 26 {
         let n = if n < 13 { n } else { n + 1 };
-        return (n / 3usize.pow(k as u32) % 3) as f64 - 1.0;
+        return [n % 3, n / 3 % 3, n / 9].map(|i| i as f64 - 1.0);
     }
-    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    std::array::from_fn(|_| {
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    })
 }

@@ -2,6 +2,7 @@
 
 use crate::decimal::approximate;
 use crate::frontier::NoAnswer;
+use crate::largest_cube::direction;
 use crate::sample::{Place, Quality, Sampler};
 use crate::verify::MODEL_PRECISION;
 use num_rational::BigRational;
@@ -169,17 +170,4 @@ impl Cubes {
         }
         best
     }
-}
-
-/// Direction `n`: the 26 of `{-1, 0, 1}^3`, then pseudo-random ones.
-fn direction(n: usize, state: &mut u64) -> [f64; 3] {
-    if n < 26 {
-        let n = if n < 13 { n } else { n + 1 };
-        return [n % 3, n / 3 % 3, n / 9].map(|i| i as f64 - 1.0);
-    }
-    from_fn(|_| {
-        *state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    })
 }

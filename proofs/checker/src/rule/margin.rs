@@ -113,6 +113,6 @@ pub(super) fn unit_determinant<S: Enclosure>(
 }
 
 /// `[-1, 1] x`.
-fn either_way<S: Enclosure>(x: &S) -> S {
+pub(super) fn either_way<S: Enclosure>(x: &S) -> S {
     x.join(&x.neg())
 }

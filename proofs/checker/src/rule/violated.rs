@@ -1,7 +1,7 @@
 //! Violations that hold on all of a cell: the opposite of what the other rules show.
 
 use super::joints::{coordinate, difference};
-use super::margin::unit_determinant;
+use super::margin::{either_way, unit_determinant};
 use super::Failure;
 use crate::cell::Cell;
 use crate::certificate::{TwoDirections, Violation};
@@ -125,11 +125,6 @@ impl<S: Enclosure> Square<S> {
         let varied = |sum: S, linear: &S| sum.add(&either_way(linear));
         self.linear.iter().fold(self.at_centre.add(&self.rest), varied)
     }
-}
-
-/// `[-1, 1] x`.
-fn either_way<S: Enclosure>(x: &S) -> S {
-    x.join(&x.neg())
 }
 
 /// `|M v|^2` over the cell, and `|v|^2`, for `v` not zero.
