@@ -180,24 +180,29 @@ struct Place {
     blur: f64,
 }
 
-/// Rounding in a leg at a point, relative, for a clearance `reach`.
+/// Rounding in a leg at a point, relative, for a clearance `reach`; not a number where squares of
+/// what the leg is made of overflow or underflow.
 fn blur(leg: &Leg, p: V, reach: f64) -> f64 {
     let size = |vectors: &[V]| vectors.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
-    let moderate = |v: V| (1e-60..1e60).contains(&size(&[v]));
+    let moderate = |x: f64| (1e-60..1e60).contains(&x);
     match *leg {
-        Leg::Slider { direction, anchor, platform, length, .. } if moderate(direction) => {
+        Leg::Slider { direction, anchor, platform, length, .. }
+            if moderate(size(&[direction])) && moderate(length) =>
+        {
             let size = size(&[p, anchor, platform]).max(length) / length;
             1e-13 * size * size / reach
         }
-        Leg::Strut { anchor, platform } => 1e-13 * size(&[p, anchor, platform]) / reach,
+        Leg::Strut { anchor, platform } if moderate(reach) => {
+            1e-13 * size(&[p, anchor, platform]) / reach
+        }
         Leg::Arm { axis, reference, anchor, platform, arm, length, .. }
-            if moderate(axis) && moderate(reference) =>
+            if [size(&[axis]), size(&[reference]), arm, length].into_iter().all(moderate) =>
         {
             let size = size(&[p, anchor, platform]).max(length).max(arm) / length.min(arm);
             let along = dot(axis, reference).powi(2) / dot(axis, axis) / dot(reference, reference);
             1e-13 * size * size / reach / (1.0 - along)
         }
-        Leg::Planar { direction } if moderate(direction) => 1e-13,
+        Leg::Planar { direction } if moderate(size(&[direction])) => 1e-13,
         _ => f64::NAN,
     }
 }

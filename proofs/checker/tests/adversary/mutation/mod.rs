@@ -11,7 +11,8 @@ use crate::oracle::{opinion, Opinion};
 use crate::random::Random;
 use edits::{edits, paths, texts, Kind};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_checker::claim::{Claim, Leg, Mechanism};
+use orthocert_checker::number::Exact;
 use orthocert_checker::{check, read};
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
@@ -294,4 +295,27 @@ fn the_oracle_is_not_blind() {
         }
     }
     assert!(good_ones > 20 && seen > 20, "{good_ones}, {seen}");
+}
+
+/// Legs so long that the square of their length overflows make `M` nearly the identity.
+#[test]
+fn beyond_doubles_the_oracle_is_silent() {
+    let mut random = Random::new(78);
+    let good = good_certificates();
+    let good = good.iter().find(|good| good.name == "orthoglide-relaxed-1-percent").expect("it");
+    for (factor, silent) in [("1", false), ("1e50", false), ("1e200", true), ("1e400", true)] {
+        let mut certificate = good.certificate.clone();
+        let Claim::Machine(claim) = &mut certificate.claim else { panic!("a machine") };
+        let Mechanism::Translational(legs) = &mut claim.mechanism else { panic!("legs") };
+        for leg in legs {
+            let Leg::Slider { length, .. } = leg else { panic!("sliders") };
+            for end in [&mut length.min, &mut length.max] {
+                let factor = Exact::parse(factor, 10).expect("a number");
+                *end = end.clone().times(factor).expect("a number");
+            }
+        }
+        check(&certificate).expect("longer legs are still good");
+        let looks = opinion(&certificate, &mut random, SAMPLES);
+        assert_eq!(looks == Opinion::None, silent, "{factor}: {looks:?}");
+    }
 }
