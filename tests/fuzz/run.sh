@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the fuzz targets, each for some seconds, as many at a time as there are processors:
 #   run.sh [SECONDS [TARGET...]]
+# ORTHOCERT_FUZZ_SEED=N fixes what is random.
 # Builds them with the instrumentation that `cargo fuzz` asks for, but for the address sanitizer
 # (there is no unsafe code here); stable Rust and a C++ compiler are enough. The corpora, seeded from
 # the repository's certificates and designs, and what is found are in target/fuzz.
@@ -31,7 +32,8 @@ fuzz() {
   local target=$1 log=$work/$1.log
   mkdir -p "$work/found/$target"
   if ! "$work/build/$host/release/$target" "$work/corpus/$target" -max_total_time="$seconds" \
-    -timeout=5 -rss_limit_mb=400 -max_len="$(most_bytes "$target")" -print_final_stats=1 \
+    -timeout=5 -rss_limit_mb=400 -max_len="$(most_bytes "$target")" \
+    -seed="${ORTHOCERT_FUZZ_SEED:-0}" -print_final_stats=1 \
     -artifact_prefix="$work/found/$target/" >"$log" 2>&1; then
     tail -40 "$log" >&2
     echo "$target: the input is in $work/found/$target" >&2
