@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 /// The gap that is aimed at by default.
 const GAP: &str = "0.05";
 /// Boxes tried by default, about.
-const MAX_BOXES: u64 = 20_000_000;
+const MAX_BOXES: u64 = 50_000_000;
 /// Megabytes for components by default.
 const MEMORY: u64 = 1024;
 /// Components that are told apart.

@@ -6,6 +6,7 @@
 use super::Decider;
 use orthocert_checker::cell::{Axis, Cell, Edge};
 use orthocert_checker::paving::{six_ordered, Kind, Reader, Rejected, SHARE_BITS};
+use rayon::prelude::*;
 use std::io::BufRead;
 
 /// Bytes that a node and its box take, about.
@@ -165,7 +166,11 @@ impl Union<'_> {
 
     fn found(mut self, decider: &Decider, symmetric: bool) -> Components {
         let mut sums: Vec<(u128, u64, u8)> = vec![(0, 0, 0); self.inner.len()];
-        let mut best = (f64::INFINITY, 0);
+        let centres = self.inner.par_iter().enumerate();
+        let best = centres
+            .map(|(i, cell)| (decider.conditioning(cell), i as u32))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .unwrap_or((f64::INFINITY, 0));
         for (i, cell) in self.inner.iter().enumerate() {
             let root = self.root(i as u32);
             let sum = &mut sums[root as usize];
@@ -173,10 +178,6 @@ impl Union<'_> {
             sum.0 += if symmetric { six_ordered(cell) } else { 1 << (SHARE_BITS - level) };
             sum.1 += 1;
             sum.2 |= mirrors(cell);
-            let conditioning = decider.conditioning(cell);
-            if conditioning < best.0 {
-                best = (conditioning, i as u32);
-            }
         }
         let best_root = self.inner.get(best.1 as usize).map(|_| self.root(best.1));
         let copies = |planes: u8| match planes.count_ones() {

@@ -155,6 +155,15 @@ fn planned(
     Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
 }
 
+/// The bytes of a segment, and the boxes that were tried for them.
+type Grown = (Vec<u8>, u64);
+
+/// Writes segments so that they stay.
+fn written(file: &mut File, segments: &[Grown]) -> io::Result<()> {
+    segments.iter().try_for_each(|(bytes, _)| file.write_all(bytes))?;
+    file.sync_data()
+}
+
 /// The writing of one tree.
 struct Pass<'a> {
     grower: Grower<'a>,
@@ -196,16 +205,20 @@ impl<'a> Pass<'a> {
             }
             Resume::Yes => self.take_up()?,
         };
-        while done < self.segments.len() {
+        // What is grown waits for the disk while the next is grown.
+        let mut grown: Vec<Grown> = Vec::new();
+        while done < self.segments.len() || !grown.is_empty() {
             let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
-            let grown: Result<Vec<(Vec<u8>, u64)>, Cancelled> =
-                window.par_iter().with_max_len(1).map(|segment| self.grown(segment)).collect();
-            for (bytes, boxes) in grown? {
-                file.write_all(&bytes).map_err(|e| self.io(e))?;
-                self.boxes += boxes;
-            }
-            file.sync_data().map_err(|e| self.io(e))?;
+            let (written, next) = std::thread::scope(|scope| {
+                let writer = scope.spawn(|| written(&mut file, &grown));
+                let next: Result<Vec<Grown>, Cancelled> =
+                    window.par_iter().with_max_len(1).map(|segment| self.grown(segment)).collect();
+                (writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), next)
+            });
+            written.map_err(|e| self.io(e))?;
+            grown = next?;
             done += window.len();
+            self.boxes += grown.iter().map(|(_, boxes)| boxes).sum::<u64>();
             let closed = done as f64 / self.segments.len() as f64;
             let boxes = usize::try_from(self.boxes).unwrap_or(usize::MAX);
             (control.progress)(Progress { boxes, closed });
@@ -213,7 +226,7 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    fn grown(&self, segment: &Segment) -> Result<(Vec<u8>, u64), Cancelled> {
+    fn grown(&self, segment: &Segment) -> Result<Grown, Cancelled> {
         match segment {
             Segment::Known(bytes) => Ok((bytes.clone(), 0)),
             Segment::Subtree(root) => {
