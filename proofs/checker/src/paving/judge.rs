@@ -5,21 +5,16 @@ use super::reader::Visited;
 use super::{symmetry, Header, Rejected};
 use crate::cell::Cell;
 use crate::certificate::{Step, Violation, PRECISIONS};
-use crate::check::{bit, check_step, discharges, obligations, CentreExpansion, Discharged};
+use crate::check::{bit, discharges, obligations, Discharged, Evaluator};
 use crate::enclosure::Enclosure;
-use crate::fixed::Fixed;
 use crate::model::Model;
-use crate::rule::{violated, Failure, Obligation};
+use crate::rule::{Failure, Obligation};
 use crate::word::{Word, MAX_BITS};
 
 /// Checks the evidence of cells.
-///
-/// Every test is evaluated in [`Word`] where the precision admits it and, if it fails there, in
-/// [`Fixed`]: what the first accepts the second accepts, so the answer is that of [`Fixed`].
 pub struct Judge {
     obligations: Vec<Obligation>,
-    word: Option<Model<Word>>,
-    fixed: Model<Fixed>,
+    evaluator: Evaluator,
     symmetric: bool,
 }
 
@@ -36,7 +31,8 @@ impl Judge {
         }
         let fixed = Model::new(claim, header.precision)?;
         let word = (header.precision <= MAX_BITS).then(|| fixed.map(&Word::from_fixed));
-        Ok(Judge { obligations: obligations(&fixed), word, fixed, symmetric })
+        let obligations = obligations(&fixed);
+        Ok(Judge { obligations, evaluator: Evaluator::new(fixed, word), symmetric })
     }
 
     /// What is to be shown of an inner cell.
@@ -46,18 +42,12 @@ impl Judge {
 
     /// Whether the steps discharge their obligations on the cell; else which does not, and why.
     pub fn steps(&self, cell: &Cell, steps: &[Step]) -> Result<(), (&'static str, Failure)> {
-        match &self.word {
-            Some(word) if run(word, cell, steps).is_ok() => Ok(()),
-            _ => run(&self.fixed, cell, steps),
-        }
+        self.evaluator.steps(cell, steps).map(|_| ())
     }
 
     /// Whether the violation holds on all of the cell.
     pub fn violation(&self, cell: &Cell, violation: &Violation) -> Result<(), Failure> {
-        match &self.word {
-            Some(word) if violated(word, cell, violation).is_ok() => Ok(()),
-            _ => violated(&self.fixed, cell, violation),
-        }
+        self.evaluator.violation(cell, violation)
     }
 
     /// Checks the evidence of a node.
@@ -90,15 +80,4 @@ impl Judge {
 /// What steps discharge, as a bit for each obligation.
 pub(super) fn discharged(steps: &[Step]) -> Discharged {
     steps.iter().fold(0, |done, step| done | discharges(step))
-}
-
-fn run<S: Enclosure>(
-    model: &Model<S>,
-    cell: &Cell,
-    steps: &[Step],
-) -> Result<(), (&'static str, Failure)> {
-    let centre = CentreExpansion::new();
-    steps.iter().try_for_each(|step| {
-        check_step(model, cell, step, &centre).map_err(|failure| (step.rule().0, failure))
-    })
 }

@@ -1,0 +1,79 @@
+//! Trees about a machine: over a workspace, or over the centres of cubes.
+
+use super::evaluate::Evaluator;
+use super::walk::{admit_precision, discharges, Walk};
+use super::{obligations, Rejected, TreeSize};
+use crate::cell::Axis;
+use crate::certificate::{Step, Tree, Violated};
+use crate::claim::{MachineClaim, NoCubeClaim};
+use crate::enclosure::Enclosure;
+use crate::fixed::Fixed;
+use crate::model::Model;
+use crate::rule::{self, Failure, Obligation};
+use crate::word::{Word, MAX_BITS};
+use std::collections::BTreeMap;
+
+/// Checks that a tree proves a machine claim.
+pub(crate) fn check_tree(
+    claim: &MachineClaim,
+    tree: &Tree,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    let model = Model::new(claim, tree.precision)?;
+    let obligations = obligations(&model);
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    let coarse = (tree.nodes.len() >= WORTH_A_COARSE_MODEL)
+        .then(|| Some(Model::new(claim, MAX_BITS).ok()?.map(&Word::from_fixed)));
+    let evaluator = Evaluator::new(model, coarse.flatten());
+    walk.run(size, |cell, node, index, size| {
+        let failed = |(rule, failure)| Rejected::Step { node: index, rule, failure };
+        let discharged = evaluator.steps(cell, &node.by).map_err(failed)?;
+        for step in &node.by {
+            *size.steps.entry(step.rule().0).or_default() += 1;
+        }
+        Ok(discharged)
+    })
+}
+
+/// Nodes from which on a coarse model saves more than it costs.
+const WORTH_A_COARSE_MODEL: usize = 20;
+
+/// No cube: a tree over the box of the centres, each of whose leaves has a step `violated`.
+///
+/// **Lemma.** Then no cube of that side with its centre in the box lies in the region where the
+/// claim of `machine` holds, for any machine described. *Proof.* A centre `C` lies in a leaf, which
+/// or an ancestor of which has a step with the offset `o`. The cell of the claim moved by `o` is that
+/// cell moved by `o`: it contains `C + o`, a point of the cube, and by [`rule::violated`] the claim
+/// fails at each of its points for every machine. ∎
+pub(super) fn check_no_cube(
+    claim: &NoCubeClaim,
+    tree: &Tree,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    admit_precision(tree.precision)?;
+    claim.validate()?;
+    let mut moved: BTreeMap<[i64; 3], Model<Fixed>> = BTreeMap::new();
+    let obligations = [Obligation::SigmaMin];
+    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    walk.run(size, |cell, node, index, size| {
+        let mut discharged = 0;
+        for step in &node.by {
+            let (rule, _) = step.rule();
+            let failed = |failure| Rejected::Step { node: index, rule, failure };
+            let Step::Violated(evidence) = step else {
+                return Err(failed(Failure::OtherKind));
+            };
+            let Violated { at, violates } = evidence.as_ref();
+            if !moved.contains_key(at) {
+                let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
+                moved.insert(*at, Model::new(&claim, tree.precision)?);
+            }
+            let model = moved.get(at).ok_or(failed(Failure::NotOfTheCube))?;
+            rule::violated(model, cell, violates).map_err(failed)?;
+            discharged |= discharges(step);
+            *size.steps.entry(rule).or_default() += 1;
+        }
+        Ok(discharged)
+    })
+}

@@ -1,0 +1,143 @@
+//! Checking a certificate: the only way to an accepted verdict.
+//!
+//! | module      | holds                                                               |
+//! |-------------|---------------------------------------------------------------------|
+//! | `walk`      | the walk over a tree, and what every tree is held to                |
+//! | `evaluate`  | the steps of a node on its cell                                     |
+//! | `machine`   | trees about a machine: over a workspace, or over centres of cubes   |
+//! | `postulate` | trees about the Q1/Q2 postulate                                     |
+//! | `rejected`  | why certificates are rejected                                       |
+
+mod evaluate;
+mod machine;
+mod postulate;
+mod rejected;
+mod walk;
+
+use crate::certificate::{Certificate, Proof, Verdict, FORMAT, MAX_BYTES};
+use crate::claim::Claim;
+use crate::model::Model;
+use crate::rule::Obligation;
+use crate::strict::{self, Strict};
+use crate::{atlas, witness};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fmt;
+
+pub(crate) use evaluate::Evaluator;
+pub(crate) use machine::check_tree;
+pub use postulate::{parts_needed, single_kappa, PartNeeded};
+pub use rejected::Rejected;
+pub(crate) use walk::{bit, discharges, Discharged};
+
+/// Most characters of a message that quotes the file.
+const MAX_MESSAGE: usize = 300;
+
+/// What an accepted certificate establishes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Accepted {
+    /// The claim is a theorem (`Certified`), or it is false (`Refuted`).
+    pub verdict: Verdict,
+    /// The size of the tree; all zero for a witness.
+    pub size: TreeSize,
+}
+
+/// The size and shape of a tree.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TreeSize {
+    /// Nodes, split or not.
+    pub nodes: usize,
+    /// Nodes that are not split: the boxes that cover the workspace.
+    pub leaves: usize,
+    /// Most splits on one path.
+    pub depth: usize,
+    /// Uses of each rule.
+    pub steps: BTreeMap<&'static str, usize>,
+}
+
+/// Reads a certificate.
+pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Rejected::TooLarge(bytes.len()));
+    }
+    let text = std::str::from_utf8(bytes).map_err(|e| syntax(&e))?;
+    let certificate = strictly(text).map_err(|reason| match serde_json::from_str(text) {
+        // A later version may have any shape.
+        Ok(Header { format }) if format != FORMAT => Rejected::Format(quoted(&format)),
+        _ => reason,
+    })?;
+    if certificate.format != FORMAT {
+        return Err(Rejected::Format(quoted(&certificate.format)));
+    }
+    Ok(certificate)
+}
+
+/// What a certificate of any version has.
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+}
+
+fn strictly(text: &str) -> Result<Certificate, Rejected> {
+    if let Some((at, c)) = strict::foreign_byte(text) {
+        return Err(syntax(&format_args!("{c:?} at byte {at}, outside a string")));
+    }
+    let Strict(certificate) = serde_json::from_str(text).map_err(|e| syntax(&e))?;
+    Ok(certificate)
+}
+
+fn syntax(message: &dyn fmt::Display) -> Rejected {
+    Rejected::Syntax(quoted(&message.to_string()))
+}
+
+/// The beginning of a text that may quote the file, fit for a terminal.
+pub(crate) fn quoted(text: &str) -> String {
+    let escaped = text.chars().flat_map(|c| {
+        let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
+        plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
+    });
+    escaped.take(MAX_MESSAGE).collect()
+}
+
+/// Checks a certificate: recomputes everything that its proof uses from its claim.
+pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
+    let mut size = TreeSize::default();
+    match (&certificate.claim, &certificate.proof, certificate.verdict) {
+        (Claim::Machine(claim), Proof::Tree(tree), Verdict::Certified) => {
+            check_tree(claim, tree, &mut size)?;
+        }
+        (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
+            witness::check(claim, witness).map_err(Rejected::Witness)?;
+        }
+        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
+            machine::check_no_cube(claim, tree, &mut size)?;
+        }
+        (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
+            postulate::check_one_cube(claim, tree, &mut size)?;
+        }
+        (Claim::Postulate(claim), Proof::Faces(faces), Verdict::Certified) => {
+            postulate::check_faces(claim, faces, &mut size)?;
+        }
+        (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
+            atlas::check(claim, map, &mut size)?;
+        }
+        _ => return Err(Rejected::VerdictMismatch),
+    }
+    Ok(Accepted { verdict: certificate.verdict, size })
+}
+
+/// The obligations that a claim consists of.
+pub fn obligations<S>(model: &Model<S>) -> Vec<Obligation> {
+    let bounds = &model.bounds;
+    let needed = |obligation: &Obligation| match obligation {
+        Obligation::SigmaMin => true,
+        Obligation::SigmaMax => bounds.k.is_some(),
+        Obligation::JointRange => bounds.joint_range.is_some(),
+        Obligation::Conditioning => bounds.conditioning.is_some(),
+        Obligation::SerialMargin => bounds.serial_margin.is_some(),
+        Obligation::ParallelMargin => bounds.parallel_margin.is_some(),
+        Obligation::LegAngle => bounds.leg_angle.is_some(),
+        Obligation::JointSpeed => bounds.joint_speed.is_some(),
+    };
+    Obligation::ALL.into_iter().filter(needed).collect()
+}

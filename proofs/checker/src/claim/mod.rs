@@ -1,0 +1,316 @@
+//! Claims: complete theorems about a machine, in exact numbers.
+//!
+//! A [`Claim`] says, without reference to any other file, what a certificate proves or refutes.
+//! `FORMAT.md` gives the meaning of every field; the types here are its vocabulary.
+//!
+//! | module     | holds                                                                 |
+//! |------------|-----------------------------------------------------------------------|
+//! | `leg`      | legs and their parameters                                             |
+//! | `validate` | which claims are well formed                                          |
+//! | `form`     | how claims are written and read                                       |
+
+mod form;
+mod leg;
+mod validate;
+
+use crate::number::Exact;
+use crate::strict;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+pub use leg::{Leg, Parameter, Sign, WorkingMode};
+pub use validate::ClaimError;
+
+/// What a certificate is about.
+#[allow(clippy::large_enum_variant, reason = "one value, or three, for each claim")]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Claim {
+    /// One machine (or every machine within its tolerances) over one workspace.
+    Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
+    /// The Q1/Q2 postulate for one `psi_max`, a range, or every one.
+    Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
+    /// No cube of some side fits, wherever its centre is in a box.
+    NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
+    /// Every machine of a box of parameters, in part.
+    Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
+}
+
+/// "For every machine described and every point `C` of the box, the closed cube of this side with
+/// the centre `C` and edges along the axes has a point at which the claim of `machine` fails."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoCubeClaim {
+    /// The machine, the requirements, and, as the workspace, the box of the centres.
+    #[serde(deserialize_with = "strict::object")]
+    pub machine: MachineClaim,
+    /// The cube's side.
+    pub side: Exact,
+}
+
+/// The parts that half a cube's side is divided in, for [`NoCubeClaim::moved`].
+pub const OFFSET_PARTS: i64 = 8;
+
+impl NoCubeClaim {
+    /// The claim about the points `C + offset side / (2 OFFSET_PARTS)`, `C` in the box of centres;
+    /// `None` if that is not a point of the cube, or beyond what numbers may be.
+    pub fn moved(&self, offset: &[i64; 3]) -> Option<MachineClaim> {
+        let Workspace::Box { min, max } = &self.machine.workspace else {
+            return None;
+        };
+        if !offset.iter().all(|n| (-OFFSET_PARTS..=OFFSET_PARTS).contains(n)) {
+            return None;
+        }
+        let part = self.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok()?;
+        let (mut min, mut max) = (min.clone(), max.clone());
+        for (k, &n) in offset.iter().enumerate() {
+            let by = part.clone().times(Exact::integer(n)).ok()?;
+            min[k] = min[k].clone().plus(by.clone()).ok()?;
+            max[k] = max[k].clone().plus(by).ok()?;
+        }
+        Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine.clone() })
+    }
+}
+
+/// "Of the box of parameters, the cells that the proof names certified, which fill the share
+/// `certified` of it, hold only designs that meet every requirement; the cells that it names
+/// refuted, which fill the share `refuted`, hold only designs that do not."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasClaim {
+    /// What is varied: one to three parameters, in the order of the axes of the map.
+    #[serde(deserialize_with = "strict::parameters")]
+    pub parameters: Vec<AtlasParameter>,
+    /// A machine claim, some numbers of which are expressions with the parameters' names: one
+    /// claim for each choice of their values.
+    #[serde(deserialize_with = "strict::object")]
+    pub design: MachineClaim,
+    /// The share of the box in certified cells.
+    pub certified: Exact,
+    /// The share of the box in refuted cells.
+    pub refuted: Exact,
+}
+
+/// A parameter of an atlas: every real value from `min` to `max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasParameter {
+    /// How expressions call it.
+    #[serde(deserialize_with = "strict::label")]
+    pub name: String,
+    /// Least value, rational.
+    pub min: Exact,
+    /// Greatest value, rational and greater than the least.
+    pub max: Exact,
+}
+
+/// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
+/// (`L = 1`): every `s_i > 0`, and `1/psi_max <= psi_i(P) <= psi_max`."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostulateClaim {
+    /// The `psi_max` that the claim is about.
+    pub psi_max: PsiMax,
+}
+
+/// A set of `psi_max`, all greater than 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PsiMax {
+    /// Every `psi_max > 1`; written `"all"`.
+    All,
+    /// Every one from `min` to `max`; written as one number where both are the same.
+    Range(Quantity),
+}
+
+/// "Every machine described, at every point of the workspace, is free of serial and parallel
+/// singularities and meets every requirement."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MachineClaim {
+    /// The machine.
+    pub mechanism: Mechanism,
+    /// The prescribed workspace, in the frame that the legs are described in.
+    pub workspace: Workspace,
+    /// What must hold everywhere in it.
+    #[serde(deserialize_with = "strict::object")]
+    pub requirements: Requirements,
+}
+
+/// A translational parallel mechanism.
+#[allow(clippy::large_enum_variant, reason = "one value for each claim")]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Mechanism {
+    /// Three legs, each with its own numbers.
+    Translational(#[serde(deserialize_with = "strict::three")] [Leg; 3]),
+    /// The Orthoglide whose leg length `L`, corners `q_1`, `q_2` and base point follow from
+    /// `psi_max` and the side of a cubic workspace (the paper's Steps 1 to 3).
+    #[serde(deserialize_with = "form::offset")]
+    Orthoglide {
+        /// Platform offset `e`: `C_i = P - e e_i`.
+        offset: Exact,
+    },
+}
+
+/// The set of points that a claim is about. It is closed.
+#[allow(clippy::large_enum_variant, reason = "one value for each claim")]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Workspace {
+    /// `min_k <= P_k <= max_k`.
+    #[serde(deserialize_with = "form::corners")]
+    Box {
+        /// Least coordinates.
+        min: [Exact; 3],
+        /// Greatest coordinates.
+        max: [Exact; 3],
+    },
+    /// `(x - center_x)^2 + (y - center_y)^2 <= radius^2` and `z_0 <= z <= z_1`.
+    #[serde(deserialize_with = "form::cylinder")]
+    Cylinder {
+        /// Where the axis, which is parallel to z, crosses the plane `z = 0`.
+        center: [Exact; 2],
+        /// Positive.
+        radius: Exact,
+        /// Least and greatest z.
+        z: [Exact; 2],
+    },
+    /// The paper's cube `[q_1, q_2]^3`, with `q_2 - q_1` = `side`; goes with
+    /// [`Mechanism::Orthoglide`] only.
+    #[serde(deserialize_with = "form::side")]
+    Cube {
+        /// `L_workspace > 0`.
+        side: Exact,
+    },
+}
+
+/// What must hold at every point of the workspace, besides freedom from singularities.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirements {
+    /// Bounds on the velocity transmission factors `psi_1, psi_2, psi_3`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub transmission: Option<Range>,
+    /// Bounds on the joint coordinates `rho_1, rho_2, rho_3`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional_three"
+    )]
+    pub joint_range: Option<[Range; 3]>,
+    /// `sigma_max(M) / sigma_min(M) <= max`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub conditioning: Option<AtMost>,
+    /// `|eta_i| / L_i >= min`, for every leg.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub serial_margin: Option<AtLeast>,
+    /// `|det A| / (L_1 L_2 L_3) >= min`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub parallel_margin: Option<AtLeast>,
+    /// The angle between leg and guide, in degrees, is at most `max`, for every leg.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub leg_angle: Option<AtMost>,
+    /// No tool velocity of magnitude `tool` demands a joint speed beyond `max`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::optional"
+    )]
+    pub joint_speed: Option<JointSpeed>,
+}
+
+/// `x <= max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtMost {
+    /// Greatest admissible value.
+    pub max: Exact,
+}
+
+/// `x >= min`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtLeast {
+    /// Least admissible value.
+    pub min: Exact,
+}
+
+/// `|row_i of M| tool <= max`, for every leg.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointSpeed {
+    /// Magnitude of the tool's velocity, length per time.
+    pub tool: Exact,
+    /// Greatest joint speed, length per time (for arms: radians per time).
+    pub max: Exact,
+}
+
+/// `min <= x <= max`; an absent bound is no requirement, and one is present.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
+    /// Least admissible value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min: Option<Exact>,
+    /// Greatest admissible value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max: Option<Exact>,
+}
+
+/// A parameter of a machine: every value with `min <= x <= max`, independently of all others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Least value.
+    pub min: Exact,
+    /// Greatest value; equal to `min` for a parameter without tolerance.
+    pub max: Exact,
+}
+
+impl Quantity {
+    /// The parameter that is exactly `x`.
+    pub fn exactly(x: Exact) -> Self {
+        Quantity { min: x.clone(), max: x }
+    }
+
+    /// Whether there is a single admissible value.
+    pub fn is_exact(&self) -> bool {
+        self.min == self.max
+    }
+
+    /// Whether `x` is provably admissible.
+    pub fn admits(&self, x: &Exact) -> bool {
+        let above = matches!(self.min.compare(x), Some(Ordering::Less | Ordering::Equal));
+        above && matches!(x.compare(&self.max), Some(Ordering::Less | Ordering::Equal))
+    }
+}
+
+impl Mechanism {
+    /// Whether joint coordinates are angles; then `M` has the unit radian per length. (A well-formed
+    /// claim has arms only, or none.)
+    pub fn is_angular(&self) -> bool {
+        match self {
+            Mechanism::Translational(legs) => legs.iter().any(Leg::is_angular),
+            Mechanism::Orthoglide { .. } => false,
+        }
+    }
+}
