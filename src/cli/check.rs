@@ -117,7 +117,10 @@ fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status
         Ok(accepted) => {
             let statement = statement::paving(&accepted).unwrap_or_default();
             match arguments.format {
-                Format::Text => print::answer(&format!("ACCEPTED: paving\n{statement}"))?,
+                Format::Text => {
+                    let answer = format!("ACCEPTED: paving\n{statement}");
+                    print::answer(&statement::wrapped(&answer))?;
+                }
                 Format::Json => print::json(&PavingAnswer {
                     accepted: true,
                     statement: &statement,
@@ -175,7 +178,9 @@ fn accept(format: Format, certificate: &Certificate, accepted: &Accepted) -> Res
     let verdict = accepted.verdict;
     let statement = statement::statement(&certificate.claim, verdict).unwrap_or_default();
     match format {
-        Format::Text => print::answer(&format!("ACCEPTED: {verdict}\n{statement}")),
+        Format::Text => {
+            print::answer(&statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}")))
+        }
         Format::Json => {
             let proof = Size::accepted(&certificate.proof, &accepted.size);
             let (statement, claim) = (statement.as_str(), &certificate.claim);

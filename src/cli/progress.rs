@@ -32,7 +32,7 @@ impl Bar {
         }
         let bar = self.bar.get_or_insert_with(|| {
             let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
+            if let Ok(style) = ProgressStyle::with_template("{bar:24} {msg}") {
                 bar.set_style(style.progress_chars("=> "));
             }
             bar
@@ -40,7 +40,7 @@ impl Bar {
         bar.set_position((now.closed * STEPS as f64) as u64);
         let rate = now.boxes as f64 / elapsed.as_secs_f64();
         bar.set_message(format!(
-            "{} % of the volume closed, {} boxes, {} boxes/s",
+            "{} % of volume, {} boxes, {} boxes/s",
             significant(100.0 * now.closed, 4),
             grouped(now.boxes as u64),
             grouped(rate as u64)

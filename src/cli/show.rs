@@ -146,7 +146,7 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
     // The statement's first line says that it is proved, which is not known here.
     let statement = statement.unwrap_or_default();
     let (_, claim) = statement.split_once('\n').unwrap_or(("", &statement));
-    out.push_str(claim);
+    out.push_str(&statement::wrapped(claim));
     out.push('\n');
     if let Some(shape) = Shape::of(&certificate.proof) {
         let Shape { precision, trees, nodes, leaves, depth, rules } = shape;

@@ -3,6 +3,8 @@
 use crate::support::{Folder, LONG};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::{check, read};
+use std::fs;
+use std::path::Path;
 
 #[test]
 fn without_a_design_the_prototype_is_certified() {
@@ -131,6 +133,18 @@ fn reports_fit_80_columns() {
         let run = folder.run(&["verify", &name]);
         for line in run.stdout.lines() {
             assert!(line.chars().count() <= 80, "{line}");
+        }
+    }
+    let certificates = Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/certificates");
+    for entry in fs::read_dir(certificates).unwrap() {
+        let path = entry.unwrap().path();
+        for command in ["show", "check"] {
+            let run = folder.run(&[command, path.to_str().unwrap()]);
+            for line in run.stdout.lines() {
+                // A number may be longer than a line; a line breaks between two only.
+                let short = line.chars().count() <= 80 || !line.trim_start().contains(", ");
+                assert!(short, "{command} {}: {line}", path.display());
+            }
         }
     }
 }

@@ -30,16 +30,50 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
     Ok(out)
 }
 
+/// Most characters of a line, where commas outside parentheses allow it.
+const WIDTH: usize = 80;
+
+/// A text for a terminal: long lines go on in the next, indented by four more.
+pub fn wrapped(text: &str) -> String {
+    let mut out = String::new();
+    for line in text.lines() {
+        let blanks = line.len() - line.trim_start().len();
+        let (mut column, mut piece) = (0, String::new());
+        let mut place = |out: &mut String, piece: &mut String| {
+            let length = piece.trim_end().chars().count();
+            if column > blanks && column + length > WIDTH {
+                out.truncate(out.trim_end_matches(' ').len());
+                out.push('\n');
+                out.push_str(&" ".repeat(blanks + 4));
+                column = blanks + 4;
+            }
+            column += piece.chars().count();
+            out.push_str(piece);
+            piece.clear();
+        };
+        let mut open = 0u32;
+        for c in line.chars() {
+            piece.push(c);
+            match c {
+                '(' | '[' => open += 1,
+                ')' | ']' => open = open.saturating_sub(1),
+                ' ' if open == 0 && piece.ends_with(", ") => place(&mut out, &mut piece),
+                _ => {}
+            }
+        }
+        place(&mut out, &mut piece);
+        out.push('\n');
+    }
+    out
+}
+
 fn no_cube(out: &mut String, claim: &NoCubeClaim) -> fmt::Result {
     writeln!(out, "No axis-aligned cube of side {} with its centre in the box below", claim.side)?;
     writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
     machine(out, &claim.machine)?;
     requirements(out, &claim.machine)?;
-    writeln!(
-        out,
-        "(The box is that of the centres; P is any point of the cube. With tolerances, the"
-    )?;
-    writeln!(out, "cube has such a point for every machine: none of them has the cube.)")
+    writeln!(out, "(The box is that of the centres; P is any point of the cube. With tolerances,")?;
+    writeln!(out, "the cube has such a point for every machine: none of them has the cube.)")
 }
 
 /// What an accepted paving establishes, in words.
@@ -109,11 +143,12 @@ fn postulate(out: &mut String, claim: &PostulateClaim) -> fmt::Result {
         out,
         "with kappa = 1/psi_max, t1 = (1 - kappa)/2, t2 = 1 - kappa if kappa <= 1/2 and"
     )?;
+    writeln!(out, "(1/kappa - 1)/2 otherwise, q1 = -L t1/sqrt(1 + 2 t1^2) and")?;
     writeln!(
         out,
-        "(1/kappa - 1)/2 otherwise, q1 = -L t1/sqrt(1 + 2 t1^2), q2 = L t2/sqrt(1 + 2 t2^2),"
+        "q2 = L t2/sqrt(1 + 2 t2^2), the Orthoglide of any leg length L > 0 has at every"
     )?;
-    writeln!(out, "the Orthoglide of any leg length L > 0 has at every point P of [q1, q2]^3:")?;
+    writeln!(out, "point P of [q1, q2]^3:")?;
     writeln!(out, "  every leg reaches P without a serial singularity;")?;
     writeln!(out, "  P is not a parallel singularity;")?;
     writeln!(out, "  1/psi_max <= psi_i(P) <= psi_max for i = 1, 2, 3 (the Q1/Q2 postulate);")?;
@@ -291,5 +326,22 @@ impl fmt::Display for Bounded<'_> {
             write!(f, " <= {max}")?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lines_go_on_in_the_next_with_nothing_lost() {
+        let long = format!("  leg 1: slider, {}anchor (0, 0, 0), eta > 0", "length 1, ".repeat(7));
+        let wrapped = wrapped(&long);
+        let lines: Vec<&str> = wrapped.lines().collect();
+        assert!(lines[0].len() <= WIDTH && lines[0].ends_with("length 1,"), "{wrapped}");
+        assert_eq!(lines[1], "      length 1, anchor (0, 0, 0), eta > 0");
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(words(&wrapped), words(&long));
+        assert_eq!(super::wrapped("a\n\n  b\n"), "a\n\n  b\n");
     }
 }

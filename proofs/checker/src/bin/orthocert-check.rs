@@ -76,7 +76,7 @@ fn usage() -> ExitCode {
 
 /// Prints `text`; a closed or full output is an I/O failure, not a verdict.
 fn print(text: &str, code: ExitCode) -> ExitCode {
-    match writeln!(std::io::stdout().lock(), "{}", text.trim_end()) {
+    match writeln!(std::io::stdout().lock(), "{}", statement::wrapped(text).trim_end()) {
         Ok(()) => code,
         Err(_) => ExitCode::from(4),
     }
