@@ -10,11 +10,11 @@ the claim is q_i > 0, H(1/4) >= 0 and -H(4) >= 0, which hold if and only if all 
 Each minor is a `SepInverse` of an `AnalyticFunction`; their intersection is given to `pave`. Of the
 formulations that were tried, that had the least gap and the least time for it: leading minors alone,
 the coefficients of the characteristic polynomials, and all nine leading minors as one vector function
-were no better.
+were no better. IBEX has the same constraints, see ibex.py.
 
 Codac and ibexsolve are rounded outward, but nothing re-checks them; orthocert's time includes the
 exact check of every box. Times are processor time of one thread, user and system, of the call to
-`pave` for Codac and of the whole process for orthocert: on a loaded machine they are steadier than
+`pave` for Codac and of the whole process for orthocert and ibexsolve: on a loaded machine they are steadier than
 the clock's.
 """
 
@@ -22,7 +22,6 @@ import importlib.metadata
 import json
 import platform
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -30,6 +29,7 @@ import time
 from math import log
 from pathlib import Path
 
+import ibex
 from codac import (AnalyticFunction, Interval, IntervalVector, PavingInOut, SepInverse, VectorVar,
                    oo, pave, sqr, sqrt)
 
@@ -153,46 +153,66 @@ print(f"`benches/peers/run.sh {' '.join(sys.argv[2:])}`; {version}, "
       f"Codac {importlib.metadata.version('codac')} (PyPI), Python {platform.python_version()}, "
       f"{processor}, one thread each, processor time. Load of the machine at the start: "
       f"{Path('/proc/loadavg').read_text().split()[0]}. Formulations: `benches/peers/peers.py`.\n")
-if shutil.which("ibexsolve") is None:
-    print("IBEX: `ibexsolve` is not on PATH here; it is not compared.\n")
+with_ibex = ibex.available()
+if with_ibex:
+    print(f"IBEX: {ibex.version()}.\n")
 else:
-    print("IBEX: `ibexsolve` is on PATH, but has no formulation here yet; it is not compared.\n")
+    print("IBEX: `ibexsolve` is not on PATH here; it is not compared.\n")
 
-print("## The paving\n\nGap: volume of the undecided boxes over that of the inner ones. Orthocert's boxes are "
-      "split down to the first depth at which its gap is at most Codac's.\nIt paves a sixth of the box, by symmetry, which Codac is "
-      "not told: \"whole box\" is the same machine with the box 1e-6 higher in z, which has no "
-      "symmetry.\n")
-print("| Codac: edge | boxes | gap | time | orthocert: gap | boxes | time | ratio "
-      "| whole box: gap | boxes | time | ratio |")
-print("|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
-region = separator()
-times, gaps = [], []
-with tempfile.TemporaryDirectory() as folder:
-    names = [str(Path(folder, name)) for name in ("sixth.toml", "whole.toml")]
-    for name, top in zip(names, (None, "0.700001")):
-        Path(name).write_text(design([-0.7, 0.7], top))
+print("## The paving\n\nGap: volume of the undecided boxes over that of the inner ones. Orthocert's "
+      "boxes are split down to the first depth at which its gap is at most the other's. It paves a "
+      "sixth of the box, by symmetry, which the others are not told: \"whole box\" is the same "
+      "machine with the box 1e-6 higher in z, which has no symmetry.")
+
+
+def compared(name, runs, folder):
+    """A table of pavings by another program; returns its times and gaps."""
+    print(f"\n| {name}: edge | boxes | gap | time | orthocert: gap | boxes | time | ratio "
+          "| whole box: gap | boxes | time | ratio |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
+    found = []
     for edge in edges:
-        seconds, inner, bound, boxes, _ = codac_paving(region, [-0.7, 0.7], edge)
-        gap = bound / inner
-        times.append(seconds)
-        gaps.append(gap)
+        seconds, gap, boxes = runs(edge)
+        found.append((gap, seconds))
         row = f"| {edge} | {boxes:,} | {gap:.3f} | {seconds:.2f} s "
-        for name in names:
-            ours, reached, count = orthocert_paving(name, gap)
+        for box in ("sixth.toml", "whole.toml"):
+            ours, reached, count = orthocert_paving(str(Path(folder, box)), gap)
             row += f"| {reached:.3f} | {count:,} | {1000 * ours:.0f} ms | {seconds / ours:,.0f} "
         print(row + "|", flush=True)
+    return found
+
+
+def with_codac(edge):
+    seconds, inner, bound, boxes, _ = codac_paving(region, [-0.7, 0.7], edge)
+    return seconds, bound / inner, boxes
+
+
+region = separator()
+with tempfile.TemporaryDirectory() as folder:
+    for name, top in (("sixth.toml", None), ("whole.toml", "0.700001")):
+        Path(folder, name).write_text(design([-0.7, 0.7], top))
+    found = compared("Codac", with_codac, folder)
     if len(edges) > 1:
-        print(f"\nCodac's time grows with its gap to the power {exponent(gaps, times):.2f}.")
+        print(f"\nCodac's time grows with its gap to the power {exponent(*zip(*found)):.2f}.")
+    if with_ibex:
+        compared("IBEX", lambda edge: ibex.paving(folder, [-0.7, 0.7], edge), folder)
 
     print(f"\n## Questions\n\nDo all points of the cube have their transmission factors within [1/2, 2]? "
           f"Codac paves with edges of a half, a quarter, ... of the cube's, until all is decided or an "
           f"outer box is found, and starts no further paving after {PATIENCE} s; the time is that of the "
-          f"last paving alone, as if its edge had been known. Orthocert's answers are certificates, "
-          f"accepted by the exact checker.\n")
-    print("| cube | Codac | time | orthocert | time | ratio |\n|---|---|---|---|---|---|", flush=True)
+          f"last paving alone, as if its edge had been known. IBEX is asked for a point that violates a "
+          f"constraint, one constraint after the other, each for at most {PATIENCE} s. Orthocert's answers are "
+          f"certificates, accepted by the exact checker.\n")
+    names = ["Codac", "IBEX"] if with_ibex else ["Codac"]
+    print("| cube | orthocert | time |" + "".join(f" {name} | time | ratio |" for name in names))
+    print("|---|---|---|" + "---|---|---|" * len(names), flush=True)
     for text, ends in QUESTIONS:
         Path(folder, "question.toml").write_text(design(ends))
-        answer, seconds = codac_answer(region, ends)
         ours, spent = orthocert_answer(str(Path(folder, "question.toml")))
-        print(f"| {text} | {answer} | {seconds:.2f} s | {ours} | {1000 * spent:.0f} ms "
-              f"| {seconds / spent:,.0f} |", flush=True)
+        row = f"| {text} | {ours} | {1000 * spent:.0f} ms |"
+        others = [codac_answer(region, ends)]
+        if with_ibex:
+            others.append(ibex.answer(folder, ends, PATIENCE))
+        for answer, seconds in others:
+            row += f" {answer} | {seconds:.2f} s | {seconds / spent:,.0f} |"
+        print(row, flush=True)
