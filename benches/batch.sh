@@ -46,10 +46,10 @@ for jobs in 1 2; do
   done
 done
 
-# For each design, the best cached run over the best cold run, on one core.
+# For each design that has a verdict, the best cached run over the best cold run, on one core.
 seconds() {
-  cat "$1"-jobs1-?.json | awk -F'"' '/^      "design"/ {name = $4}
-    /^      "seconds"/ {gsub(/[:, ]/, "", $3); if (!(name in s) || $3 < s[name]) s[name] = $3}
+  cat "$1"-jobs1-?.json | awk -F'"' '/^      "design"/ {name = $4} /^      "verdict"/ {verdict = $4}
+    verdict != "undecided" && /^      "seconds"/ {gsub(/[:, ]/, "", $3); if (!(name in s) || $3 < s[name]) s[name] = $3}
     END {for (name in s) print name, s[name]}' | sort
 }
 join <(seconds cold) <(seconds cached) | sort -k1 | awk '{

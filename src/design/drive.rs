@@ -4,7 +4,7 @@
 
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
-use super::independence::{not_parallel, product};
+use super::independence::{not_parallel, product, sign_within};
 use super::mechanism::{word, zero};
 use super::number::{positive, quantity};
 use orthocert_checker::claim::{Leg, Quantity, WorkingMode};
@@ -84,6 +84,9 @@ fn planar(table: &Table<'_>) -> Result<Leg, DesignError> {
     Ok(Leg::Planar { direction: self::direction(&direction)? })
 }
 
+/// Fractional bits in which a product that is not zero shows.
+const ORTHOGONAL: u32 = 512;
+
 const REFERENCE: &str = "[x, y, z]: the arm's direction at angle 0, orthogonal to the axis";
 
 /// Demands a reference that determines the angle's zero: not parallel to the axis for any
@@ -101,9 +104,11 @@ fn orthogonal(
         return refused("a reference that is, or may be, parallel to the axis");
     }
     if axis.iter().chain(reference).all(Quantity::is_exact) {
+        // A zero made of roots shows no sign, however fine its enclosure, and one this fine is dear
+        // enough. Nothing rests on it: of the reference, its part orthogonal to the axis counts.
         let component = |k: usize| product(&axis[k].min, &reference[k].min);
         let dot = || component(0)?.plus(component(1)?)?.plus(component(2)?);
-        if dot().ok().and_then(|dot: Exact| dot.sign()).is_some_and(|sign| sign != 0) {
+        if dot().ok().and_then(|dot: Exact| sign_within(&dot, ORTHOGONAL)).is_some() {
             return refused("a reference that is not orthogonal to the axis");
         }
     }

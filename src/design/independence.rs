@@ -4,7 +4,11 @@
 use super::document::Value;
 use super::error::{Defect, DesignError};
 use orthocert_checker::claim::{Leg, Quantity};
+use orthocert_checker::enclosure::{Enclosure, Scalar};
 use orthocert_checker::number::{Exact, NumberErrorKind};
+
+/// Fractional bits in which the sign of a number that is not tiny shows.
+const PLAIN: u32 = 128;
 
 /// Demands that the legs' rows can be independent somewhere, as far as their description shows.
 pub(super) fn independent(values: &[Value<'_>; 3], legs: &[Leg; 3]) -> Result<(), DesignError> {
@@ -29,7 +33,7 @@ pub(super) fn independent(values: &[Value<'_>; 3], legs: &[Leg; 3]) -> Result<()
         [Leg::Planar { direction: u }, Leg::Planar { direction: v }, Leg::Planar { direction: w }] =>
         {
             let numbers: Vec<&Quantity> = [u, v, w].into_iter().flatten().collect();
-            if !constant_sign(&numbers, determinant) {
+            if !constant_sign(&numbers, determinant, Exact::sign) {
                 let found = "three directions that are, or may be, dependent";
                 return dependent(&values[2], "direction", found.into());
             }
@@ -53,10 +57,27 @@ fn dependent(leg: &Value<'_>, key: &str, found: String) -> Result<(), DesignErro
 /// Whether two directions are provably not parallel, whatever their admissible values: a component
 /// of their cross product is of one strict sign.
 pub(super) fn not_parallel(u: &[Quantity; 3], v: &[Quantity; 3]) -> bool {
-    [(1, 2), (2, 0), (0, 1)].into_iter().any(|(i, j)| {
-        let minor = |x: &[&Exact]| product(x[0], x[3])?.minus(product(x[1], x[2])?);
-        constant_sign(&[&u[i], &u[j], &v[i], &v[j]], minor)
-    })
+    let shown = |sign: fn(&Exact) -> Option<i32>| {
+        [(1, 2), (2, 0), (0, 1)].into_iter().any(|(i, j)| {
+            let minor = |x: &[&Exact]| product(x[0], x[3])?.minus(product(x[1], x[2])?);
+            constant_sign(&[&u[i], &u[j], &v[i], &v[j]], minor, sign)
+        })
+    };
+    // One component is mostly plain, and another a zero made of roots, which is dear to look at.
+    shown(|x| sign_within(x, PLAIN)) || shown(Exact::sign)
+}
+
+/// The sign of a number, if it is rational, or shows with so many fractional bits.
+pub(super) fn sign_within(x: &Exact, bits: u32) -> Option<i32> {
+    if x.as_rational().is_some() {
+        return x.sign().filter(|sign| *sign != 0);
+    }
+    let enclosed = x.enclose(0, bits)?;
+    match (enclosed.is_positive(), enclosed.neg().is_positive()) {
+        (true, _) => Some(1),
+        (_, true) => Some(-1),
+        _ => None,
+    }
 }
 
 pub(super) fn product(x: &Exact, y: &Exact) -> Result<Exact, NumberErrorKind> {
@@ -68,6 +89,7 @@ pub(super) fn product(x: &Exact, y: &Exact) -> Result<Exact, NumberErrorKind> {
 fn constant_sign(
     numbers: &[&Quantity],
     f: impl Fn(&[&Exact]) -> Result<Exact, NumberErrorKind>,
+    sign: impl Fn(&Exact) -> Option<i32>,
 ) -> bool {
     let free: Vec<usize> = (0..numbers.len()).filter(|&k| !numbers[k].is_exact()).collect();
     let mut signs = (0..1usize << free.len()).map(|ends| {
@@ -77,7 +99,7 @@ fn constant_sign(
                 at[k] = &numbers[k].max;
             }
         }
-        f(&at).ok().and_then(|value| value.sign()).filter(|sign| *sign != 0)
+        f(&at).ok().and_then(|value| sign(&value)).filter(|sign| *sign != 0)
     });
     let first = signs.next().flatten();
     first.is_some() && signs.all(|sign| sign == first)
@@ -109,5 +131,33 @@ fn on_one_line(legs: &[Leg; 3]) -> bool {
     match (span(1), span(2)) {
         (Ok(u), Ok(v)) => !not_parallel(&u, &v),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(text: &str) -> Exact {
+        Exact::parse(text, 1000).unwrap()
+    }
+
+    #[test]
+    fn a_sign_shows_where_the_bits_suffice_and_a_zero_shows_none() {
+        let sign = |text: &str| sign_within(&number(text), 128);
+        assert_eq!(sign("1e-900"), Some(1));
+        assert_eq!(sign("0"), None);
+        assert_eq!(sign("sqrt(2)-sqrt(3)"), Some(-1));
+        assert_eq!(sign("sqrt(3)*sqrt(2)-sqrt(6)"), None);
+        assert_eq!(sign("1e-900*sqrt(2)"), None);
+    }
+
+    #[test]
+    fn directions_that_differ_by_little_are_not_parallel() {
+        let vector = |texts: [&str; 3]| texts.map(|text| Quantity::exactly(number(text)));
+        let u = vector(["1", "sqrt(2)", "0"]);
+        assert!(not_parallel(&u, &vector(["1", "sqrt(2)", "1e-900*sqrt(2)"])));
+        assert!(not_parallel(&u, &vector(["1", "sqrt(3)", "0"])));
+        assert!(!not_parallel(&u, &vector(["sqrt(2)", "2", "0"])));
     }
 }

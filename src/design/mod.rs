@@ -134,7 +134,6 @@ fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
 
 /// Demands a claim that is well formed and has a model.
 fn modelled(root: &Table<'_>, claim: &MachineClaim) -> Result<(), DesignError> {
-    claim.validate().map_err(|error| ill_formed(root, &error))?;
     Model::new(claim, MODEL_PRECISION).map(drop).map_err(|error| ill_formed(root, &error))
 }
 

@@ -6,7 +6,6 @@ use crate::decimal::{exact, rounded, significant, Toward};
 use crate::dimensions::{atan, pi};
 use crate::interval::Approx;
 use crate::sample::Quality;
-use num_rational::BigRational;
 use orthocert_checker::certificate::{LegNumber, Violation, Witness};
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Workspace};
 use orthocert_checker::enclosure::{Enclosure, Scalar};
@@ -256,29 +255,22 @@ fn matrix(model: &Model<Fixed>) -> Option<Matrix<Fixed>> {
 fn beyond(claim: &MachineClaim, quality: Quality, value: &Fixed) -> Option<(String, String)> {
     let Bound { requirement, relation, number } = bound(claim, quality)?;
     let limit = number.enclose(0, BOUND_BITS)?;
-    let parsed = |text: &str| -> Option<BigRational> {
-        Exact::parse(text, 1000).ok()?.as_rational().cloned()
-    };
     // Rounded towards the bound, so that what is printed is true of the value.
-    let (towards, reverse): (Toward, &str) = match relation {
-        "<=" => (Toward::Below, ">="),
-        _ => (Toward::Above, "<="),
+    let (towards, reverse, end, limit) = match relation {
+        "<=" => (Toward::Below, ">=", value.inf(), limit.sup()),
+        _ => (Toward::Above, "<=", value.sup(), limit.inf()),
     };
-    let text = DIGITS.into_iter().find_map(|digits| {
-        let (text, shows) = match towards {
-            Toward::Below => {
-                let text = rounded(&value.inf(), digits, towards);
-                let shows = parsed(&text)? > limit.sup();
-                (text, shows)
-            }
-            Toward::Above => {
-                let text = rounded(&value.sup(), digits, towards);
-                let shows = parsed(&text)? < limit.inf();
-                (text, shows)
-            }
-        };
-        shows.then_some(text)
-    })?;
+    let shows = |digits: u32| {
+        let number = Exact::parse(&rounded(&end, digits, towards), 1000).ok();
+        number.as_ref().and_then(Exact::as_rational).is_some_and(|number| match towards {
+            Toward::Below => *number > limit,
+            Toward::Above => *number < limit,
+        })
+    };
+    // More digits are nearer to the value: where some show it, more do.
+    let all: Vec<u32> = DIGITS.collect();
+    let digits = *all.get(all.partition_point(|&digits| !shows(digits)))?;
+    let text = rounded(&end, digits, towards);
     Some((
         format!("{requirement} {relation} {}", exact(&number)),
         format!("{requirement} {reverse} {text}"),

@@ -169,14 +169,11 @@ impl Report {
     /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
     /// numbers exceed what can be shown.
     pub fn new(claim: &MachineClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
-        let model = Model::new(claim, MODEL_PRECISION).ok()?;
-        let sampler = Sampler::new(claim, &model)?;
-        let frame = Frame::new(claim, &model)?;
         let mut report = Report {
             verdict: Outcome::Undecided,
             title: None,
             design: None,
-            requirements: worst::rows(claim, &sampler, &frame, &found.worst),
+            requirements: Vec::new(),
             margins: Vec::new(),
             counterexample: None,
             proof: None,
@@ -196,12 +193,21 @@ impl Report {
                 if let Proof::Witness(witness) = &certificate.proof {
                     report.counterexample = Some(Counterexample::new(claim, witness));
                 }
+                if found.worst.is_empty() {
+                    // A certificate that was re-checked: nothing was sampled beside it.
+                    return Some(report);
+                }
             }
-            Answer::Undecided(undecided) => {
-                let (sampler, frame, worst) = (&sampler, &frame, &found.worst[..]);
-                let remaining = Remaining { claim, sampler, frame, worst, boxes: found.boxes };
-                report.undecided = Some(remaining.report(undecided));
-            }
+            Answer::Undecided(_) => {}
+        }
+        let model = Model::new(claim, MODEL_PRECISION).ok()?;
+        let sampler = Sampler::new(claim, &model)?;
+        let frame = Frame::new(claim, &model)?;
+        report.requirements = worst::rows(claim, &sampler, &frame, &found.worst);
+        if let Answer::Undecided(undecided) = &found.answer {
+            let (sampler, frame, worst) = (&sampler, &frame, &found.worst[..]);
+            let remaining = Remaining { claim, sampler, frame, worst, boxes: found.boxes };
+            report.undecided = Some(remaining.report(undecided));
         }
         Some(report)
     }

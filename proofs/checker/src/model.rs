@@ -409,15 +409,18 @@ fn leg_and_origin(
         let directions = parameters.iter().filter(|(p, _)| *p == kind);
         magnitude(directions.flat_map(|(_, q)| [&q.min, &q.max]))
     };
-    let enclosed = parameters.iter().map(|&(parameter, q)| {
+    let end = |parameter: Parameter, x: &Exact| {
         let what = format!("leg {number}: {parameter}");
-        if !parameter.is_direction() {
-            return Ok(units.length(&q.min, &what)?.hull(&units.length(&q.max, &what)?));
+        match parameter.is_direction() {
+            true => x.enclose(size(parameter), units.bits).ok_or_else(|| precision(&what)),
+            false => units.length(x, &what),
         }
-        let size = size(parameter);
-        match (q.min.enclose(size, units.bits), q.max.enclose(size, units.bits)) {
-            (Some(min), Some(max)) => Ok(min.hull(&max)),
-            _ => Err(precision(&what)),
+    };
+    let enclosed = parameters.iter().map(|&(parameter, q)| {
+        let min = end(parameter, &q.min)?;
+        match q.is_exact() {
+            true => Ok(min),
+            false => Ok(min.hull(&end(parameter, &q.max)?)),
         }
     });
     let enclosed: Vec<Fixed> = enclosed.collect::<Result<_, ClaimError>>()?;

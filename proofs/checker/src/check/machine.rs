@@ -23,9 +23,8 @@ pub(crate) fn check_tree(
     let model = Model::new(claim, tree.precision)?;
     let obligations = obligations(&model);
     let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
-    let coarse = (tree.nodes.len() >= WORTH_A_COARSE_MODEL)
-        .then(|| Some(Model::new(claim, MAX_BITS).ok()?.map(&Word::from_fixed)));
-    let evaluator = Evaluator::new(model, coarse.flatten());
+    let coarse = Model::new(claim, MAX_BITS).ok().map(|model| model.map(&Word::from_fixed));
+    let evaluator = Evaluator::new(model, coarse);
     walk.run(size, |cell, node, index, size| {
         let failed = |(rule, failure)| Rejected::Step { node: index, rule, failure };
         let discharged = evaluator.steps(cell, &node.by).map_err(failed)?;
@@ -35,9 +34,6 @@ pub(crate) fn check_tree(
         Ok(discharged)
     })
 }
-
-/// Nodes from which on a coarse model saves more than it costs.
-const WORTH_A_COARSE_MODEL: usize = 20;
 
 /// No cube: a tree over the box of the centres, each of whose leaves has a step `violated`.
 ///
