@@ -5,11 +5,30 @@ use std::fmt::Write;
 
 /// The SHA-256 of `bytes`, in hexadecimal, as `sha256sum` prints it.
 pub fn sha256(bytes: &[u8]) -> String {
-    let mut out = String::with_capacity(64);
-    for byte in Sha256::digest(bytes) {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+/// Bytes in lower-case hexadecimal.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    let mut out = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
         let _ = write!(out, "{byte:02x}");
     }
     out
+}
+
+/// The bytes that [`hexadecimal`] writes so; `None` for other texts.
+pub fn from_hexadecimal(text: &str) -> Option<Vec<u8>> {
+    let digit = |byte: u8| match byte {
+        b'0'..=b'9' => Some(byte - b'0'),
+        b'a'..=b'f' => Some(byte - b'a' + 10),
+        _ => None,
+    };
+    let byte = |pair: &[u8]| match pair {
+        [high, low] => Some(digit(*high)? << 4 | digit(*low)?),
+        _ => None,
+    };
+    text.as_bytes().chunks(2).map(byte).collect()
 }
 
 /// The source of a content security policy that admits an inline text by its SHA-256.
@@ -41,6 +60,10 @@ mod tests {
         // FIPS 180-4, "abc"; RFC 4648, section 10.
         let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(sha256(b"abc"), abc);
+        assert_eq!(from_hexadecimal(abc).map(|bytes| hexadecimal(&bytes)).as_deref(), Some(abc));
+        for none in ["a", "0g", "0A", "é"] {
+            assert_eq!(from_hexadecimal(none), None, "{none}");
+        }
         for (text, encoded) in [
             ("", ""),
             ("f", "Zg=="),

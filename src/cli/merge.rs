@@ -1,11 +1,13 @@
 //! `orthocert merge`.
 
 use super::effort::Work;
-use super::{atlas, certify, print, Failure, Format, Status};
+use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
 use orthocert::decimal::counted;
 use orthocert::output;
+use orthocert::paving::{unfinished, PaveError};
+use orthocert::report::paving::PavingReport;
 use orthocert::report::{text, Report};
-use orthocert::shard::{self, MergeError, Task, Verify, Whole};
+use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use orthocert::verify::concluded;
 use orthocert_checker::certificate::Node;
 use serde::Serialize;
@@ -18,8 +20,8 @@ pub struct Arguments {
     /// The folder of the shards and their results
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Where the whole is written: the folder of a map, made if it is not there, or the
-    /// certificate of a design
+    /// Where the whole is written: the folder of a map, made if it is not there, the certificate of
+    /// a design, or the paving
     #[arg(short, long, value_name = "RESULT")]
     output: PathBuf,
     #[command(flatten)]
@@ -29,11 +31,11 @@ pub struct Arguments {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
+    arguments.work.start_threads()?;
     let merged = shard::merge(&arguments.folder).map_err(|error| match error {
         MergeError::Missing(_) => Failure::Output(error.to_string()),
         error => Failure::Input(format!("{}: {error}", arguments.folder.display())),
     })?;
-    arguments.work.start_threads()?;
     match (merged.task, merged.whole) {
         (Task::Atlas(design), Whole::Cells(cells)) => {
             atlas::made(&arguments.output)?;
@@ -45,6 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             proved(arguments, &task, nodes, boxes, started)
         }
         (Task::Verify(_), Whole::Tree { open, .. }) => undecided(arguments, open),
+        (Task::Pave(task), Whole::Paving(tree)) => paved(arguments, *task, &tree, started),
         _ => Err(Failure::Input(MergeError::NotATree.to_string())),
     }
 }
@@ -80,6 +83,30 @@ fn proved(
         Format::Text => print::answer(&text::report(&report, print::style()))?,
     }
     Ok(status)
+}
+
+/// The paving that `pave` would have written, and its report.
+fn paved(
+    arguments: &Arguments,
+    task: Pave,
+    tree: &Stretches,
+    started: Instant,
+) -> Result<Status, Failure> {
+    let target = pave::regular(&arguments.output)?;
+    output::probe(&target)?;
+    output::probe(&unfinished(&target))?;
+    let paved =
+        tree.write(&task, &target, interrupt::cancelled()).map_err(|error| match error {
+            PaveError::Cancelled => Failure::Interrupted,
+            error => Failure::Output(error.to_string()),
+        })?;
+    let elapsed = started.elapsed();
+    let found = pave::connected(&target, pave::MEMORY)?;
+    let mut report = PavingReport::new(&task.claim, &paved, found.as_ref(), &target);
+    report.design = arguments.folder.display().to_string();
+    report.title = task.title;
+    report.seconds = elapsed.as_secs_f64();
+    pave::answer(&report, arguments.work.format, arguments.work.quiet)
 }
 
 /// Boxes remain: no certificate.

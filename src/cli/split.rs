@@ -1,15 +1,13 @@
 //! `orthocert split`.
 
 use super::effort::Work;
-use super::{atlas, interrupt, print, Failure, Format, Status};
+use super::{atlas, interrupt, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use orthocert::decimal::{counted, grouped};
 use orthocert::design::{is_atlas, AtlasDesign, Design};
 use orthocert::output;
 use orthocert::search::Progress;
-use orthocert::shard::{
-    self, name_of, JobTop, Name, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS,
-};
+use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
 use orthocert_checker::certificate::MAX_NODES;
 use orthocert_checker::claim::Claim;
 use serde::Serialize;
@@ -18,8 +16,12 @@ use std::path::{Path, PathBuf};
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+A paving in shards has a precision: whether a box is split then depends on the box alone. The number of
+boxes and the gap that is reached are known of the whole only: merge says what they are, and
+orthocert pave has flags for them.")]
 pub struct Arguments {
-    /// The job: an atlas file, or a design that takes long to prove
+    /// The job: an atlas file, a design that takes long to prove, or one whose box is to be paved
     #[arg(value_name = "JOB")]
     job: PathBuf,
     /// How many shards
@@ -32,6 +34,12 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = MAX_NODES as u64,
         value_parser = clap::value_parser!(u64).range(1..=MAX_NODES as u64))]
     max_boxes: u64,
+    /// Pave the design's box, to the precision given
+    #[arg(long, requires = "precision", conflicts_with = "max_boxes")]
+    pave: bool,
+    /// Of a paving: split undecided boxes until the geometric mean of their edges is at most E
+    #[arg(long, value_name = "E", requires = "pave", allow_hyphen_values = true)]
+    precision: Option<String>,
     #[command(flatten)]
     work: Work,
 }
@@ -66,10 +74,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     // Last: a folder with it is complete.
     let text = serde_json::to_string(&job).map_err(|error| Failure::Output(error.to_string()))?;
     output::write(&folder.join(JOB_FILE), (text + "\n").as_bytes())?;
-    let cells = match &job.top {
-        JobTop::Cells(top) => orthocert::atlas::waiting(top).map_or(0, |cells| cells.len()),
-        JobTop::Tree { waiting, .. } => waiting.len(),
-    };
+    let cells = job.top.waiting();
     let answer =
         Answer { job: job.job, folder: folder.display().to_string(), shards: count, cells };
     match arguments.work.format {
@@ -82,6 +87,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 impl Arguments {
     fn task(&self) -> Result<Task, Failure> {
         if is_atlas(&self.job).map_err(Failure::input)? {
+            if self.pave {
+                let refused = "--pave: found an atlas; accepted: a design";
+                return Err(Failure::Input(refused.to_owned()));
+            }
             let design = AtlasDesign::read(&self.job).map_err(Failure::input)?;
             return Ok(Task::Atlas(Box::new(design)));
         }
@@ -89,6 +98,10 @@ impl Arguments {
         let Claim::Machine(claim) = design.claim else {
             return Err(Failure::Input("a design is about a machine".to_owned()));
         };
+        if let Some(precision) = &self.precision {
+            let depth = pave::depth(&claim, precision)?;
+            return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
+        }
         let boxes = usize::try_from(self.max_boxes).unwrap_or(MAX_NODES);
         Ok(Task::Verify(Box::new(Verify { title: design.title, claim, boxes })))
     }

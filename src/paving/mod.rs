@@ -7,6 +7,7 @@
 //! | `tree`     | grows the tree, cut into subtrees                                 |
 //! | `plan`     | how deep the tree has to go                                       |
 //! | `pass`     | writes the tree to a file that can be taken up again              |
+//! | `parts`    | the tree in parts that are made anywhere                          |
 //! | `components` | connected components of the inner part                          |
 //! | `surface`  | the surface of the inner part                                     |
 //!
@@ -17,6 +18,7 @@
 
 mod components;
 mod decide;
+mod parts;
 mod pass;
 mod plan;
 mod spectrum;
@@ -25,7 +27,8 @@ mod tree;
 
 pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
-pub use pass::{pave, unfinished, PaveError, Paved, Resume};
+pub use parts::{Parts, Tree};
+pub use pass::{pave, unfinished, PaveError, Paved, Resume, DEEPEST};
 pub use surface::{surface, Beyond, Face, Surface, SurfaceError};
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
 

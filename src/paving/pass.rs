@@ -1,11 +1,10 @@
 //! Writes a paving, subtree by subtree, to a file that can be taken up again.
 
-use super::tree::{Cancelled, Grower, Root, Segment, Tally};
+use super::tree::{Cancelled, Grower, Grown, Root, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::search::{Control, Progress};
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
-use rayon::prelude::*;
 use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
@@ -15,9 +14,9 @@ use std::sync::atomic::AtomicBool;
 /// Depth of the subtrees' roots: some thousands of them.
 const COARSE: u32 = 18;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
-const WINDOW: usize = 128;
+pub(super) const WINDOW: usize = 128;
 /// Deepest tree that is searched for.
-pub(super) const DEEPEST: u32 = 90;
+pub const DEEPEST: u32 = 90;
 
 /// Why there is no paving.
 #[derive(Debug)]
@@ -111,7 +110,7 @@ pub fn pave(
     loop {
         let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
         pass.run(resume, control)?;
-        let paved = pass.finish()?;
+        let paved = finish(&part, pass.boxes)?;
         let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
         let wanted = goal.gap.filter(|_| goal.depth.is_none());
         // The plan is an estimate: where it fell short, the next depth is taken.
@@ -151,12 +150,9 @@ fn planned(
     let coarse = COARSE.min(deepest);
     let grower = Grower { decider, symmetric, depth: deepest, cancel: control.cancel };
     let mut above = Tally::up_to(deepest);
-    let segments = grower.segments(coarse, &mut above)?;
+    let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
     Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
 }
-
-/// The bytes of a segment, and the boxes that were tried for them.
-type Grown = (Vec<u8>, u64);
 
 /// Writes segments so that they stay.
 fn written(file: &mut File, segments: &[Grown]) -> io::Result<()> {
@@ -183,7 +179,7 @@ impl<'a> Pass<'a> {
         let symmetric = header.symmetry.is_some();
         let grower = Grower { decider, symmetric, depth: header.depth, cancel };
         let mut above = Tally::up_to(header.depth);
-        let segments = grower.segments(COARSE.min(header.depth), &mut above)?;
+        let segments = grower.segments(Root::WHOLE, COARSE.min(header.depth), &mut above)?;
         Ok(Pass { grower, header, part: part.to_owned(), segments, boxes: above.boxes })
     }
 
@@ -192,8 +188,7 @@ impl<'a> Pass<'a> {
     }
 
     fn first_line(&self) -> Result<Vec<u8>, PaveError> {
-        let text = serde_json::to_string(&self.header).map_err(|e| self.io(e.into()))?;
-        Ok((text + "\n").into_bytes())
+        first_line(&self.header).map_err(|e| self.io(e))
     }
 
     fn run(&mut self, resume: Resume, control: &mut Control<'_>) -> Result<(), PaveError> {
@@ -211,8 +206,7 @@ impl<'a> Pass<'a> {
             let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
             let (written, next) = std::thread::scope(|scope| {
                 let writer = scope.spawn(|| written(&mut file, &grown));
-                let next: Result<Vec<Grown>, Cancelled> =
-                    window.par_iter().with_max_len(1).map(|segment| self.grown(segment)).collect();
+                let next = self.grower.grow_all(window);
                 (writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), next)
             });
             written.map_err(|e| self.io(e))?;
@@ -224,18 +218,6 @@ impl<'a> Pass<'a> {
             (control.progress)(Progress { boxes, closed });
         }
         Ok(())
-    }
-
-    fn grown(&self, segment: &Segment) -> Result<Grown, Cancelled> {
-        match segment {
-            Segment::Known(bytes) => Ok((bytes.clone(), 0)),
-            Segment::Subtree(root) => {
-                let mut bytes = Vec::new();
-                let mut tally = Tally::up_to(self.header.depth);
-                self.grower.grow(*root, &mut bytes, &mut tally)?;
-                Ok((bytes, tally.boxes))
-            }
-        }
     }
 
     /// Opens the unfinished file after the last segment that it holds whole. Every node that is
@@ -289,25 +271,30 @@ impl<'a> Pass<'a> {
         }
         Ok(())
     }
+}
 
-    /// Writes the summary, as the checker's reader finds it, and reads the whole once more.
-    fn finish(&self) -> Result<Paved, PaveError> {
-        let reopened = || File::open(&self.part).map(BufReader::new).map_err(|e| self.io(e));
-        let mut reader = Reader::new(reopened()?).map_err(PaveError::Defect)?;
-        while reader.next().map_err(PaveError::Defect)?.is_some() {}
-        let text = serde_json::to_string(&reader.summary()).map_err(|e| self.io(e.into()))?;
-        let file = OpenOptions::new().append(true).open(&self.part).map_err(|e| self.io(e))?;
-        let mut file = BufWriter::new(file);
-        file.write_all(text.as_bytes())
-            .and_then(|()| file.write_all(b"\n"))
-            .and_then(|()| file.flush())
-            .and_then(|()| file.get_ref().sync_all())
-            .map_err(|e| self.io(e))?;
-        let bytes = file.get_ref().metadata().map_err(|e| self.io(e))?.len();
-        let shares = reader.shares();
-        let summary = reader.summary();
-        Ok(Paved { header: self.header.clone(), summary, shares, boxes: self.boxes, bytes })
-    }
+/// The bytes of the first line.
+pub(super) fn first_line(header: &Header) -> io::Result<Vec<u8>> {
+    Ok((serde_json::to_string(header)? + "\n").into_bytes())
+}
+
+/// Appends the summary to a tree, as the checker's reader finds it. `boxes` were tried for it.
+pub(super) fn finish(part: &Path, boxes: u64) -> Result<Paved, PaveError> {
+    let io = |error: io::Error| PaveError::Io(part.to_owned(), error);
+    let file = File::open(part).map_err(io)?;
+    let mut reader = Reader::new(BufReader::new(file)).map_err(PaveError::Defect)?;
+    while reader.next().map_err(PaveError::Defect)?.is_some() {}
+    let text = serde_json::to_string(&reader.summary()).map_err(|e| io(e.into()))?;
+    let file = OpenOptions::new().append(true).open(part).map_err(io)?;
+    let mut file = BufWriter::new(file);
+    file.write_all(text.as_bytes())
+        .and_then(|()| file.write_all(b"\n"))
+        .and_then(|()| file.flush())
+        .and_then(|()| file.get_ref().sync_all())
+        .map_err(io)?;
+    let bytes = file.get_ref().metadata().map_err(io)?.len();
+    let (shares, summary) = (reader.shares(), reader.summary());
+    Ok(Paved { header: reader.header().clone(), summary, shares, boxes, bytes })
 }
 
 /// Counts the bytes that are read.

@@ -3,6 +3,7 @@
 use super::decide::{Decider, Fate};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::paving::{six_ordered, Item, Kind, SHARE_BITS};
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A cell whose subtree is still to be grown.
@@ -29,6 +30,9 @@ pub enum Segment {
     /// A subtree.
     Subtree(Root),
 }
+
+/// The bytes of a segment, and the boxes that were tried for them.
+pub type Grown = (Vec<u8>, u64);
 
 /// What a growing tree has come to.
 #[derive(Clone, Debug, Default)]
@@ -98,11 +102,30 @@ impl Grower<'_> {
         Ok(())
     }
 
-    /// The whole tree, with the subtrees below `coarse` left to be grown.
-    pub fn segments(&self, coarse: u32, tally: &mut Tally) -> Result<Vec<Segment>, Cancelled> {
+    /// The bytes of segments, which are grown side by side, and the cells tried for each.
+    pub fn grow_all(&self, segments: &[Segment]) -> Result<Vec<Grown>, Cancelled> {
+        let grown = |segment: &Segment| match segment {
+            Segment::Known(bytes) => Ok((bytes.clone(), 0)),
+            Segment::Subtree(root) => {
+                let mut bytes = Vec::new();
+                let mut tally = Tally::up_to(self.depth);
+                self.grow(*root, &mut bytes, &mut tally)?;
+                Ok((bytes, tally.boxes))
+            }
+        };
+        segments.par_iter().with_max_len(1).map(grown).collect()
+    }
+
+    /// The tree below `root`, with the subtrees below `coarse` left to be grown.
+    pub fn segments(
+        &self,
+        root: Root,
+        coarse: u32,
+        tally: &mut Tally,
+    ) -> Result<Vec<Segment>, Cancelled> {
         let mut segments = Vec::new();
         let mut known = Vec::new();
-        let mut waiting = vec![Root::WHOLE];
+        let mut waiting = vec![root];
         while let Some(root) = waiting.pop() {
             if self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);

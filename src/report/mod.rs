@@ -3,6 +3,7 @@
 
 pub mod atlas;
 mod counterexample;
+pub mod paving;
 mod place;
 mod postulate;
 mod regions;

@@ -1,20 +1,17 @@
 //! The files of a job in parts, and reading them.
 
+use super::task::Task;
 use crate::atlas::Top;
-use crate::design::{AtlasDesign, MAX_RESOLUTION};
+use crate::digest;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::{AtlasCell, Node};
-use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::rule::Obligation;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The file of the job as a whole.
-pub const JOB_FILE: &str = "job.json";
 /// Most shards of a job.
 pub const MAX_SHARDS: u64 = 10_000;
 /// Most bytes of one of these files.
@@ -24,50 +21,7 @@ const JOB: &str = "orthocert-job/1";
 const SHARD: &str = "orthocert-shard/1";
 const RESULT: &str = "orthocert-result/1";
 
-/// What is to be done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Task {
-    /// The map of an atlas.
-    Atlas(Box<AtlasDesign>),
-    /// The proof of a design.
-    Verify(Box<Verify>),
-}
-
-/// A design to be proved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Verify {
-    /// Its title.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub title: Option<String>,
-    /// What is claimed.
-    pub claim: MachineClaim,
-    /// Most boxes tried below one of the cells that are dealt out.
-    pub boxes: usize,
-}
-
-impl Task {
-    /// The SHA-256 of the task's text: what identifies the job.
-    pub fn identity(&self) -> String {
-        sha256(&text(self))
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        let design = match self {
-            Task::Atlas(design) => design,
-            Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),
-        };
-        design.well_formed()?;
-        let known = u32::try_from(MAX_RESOLUTION).unwrap_or(0);
-        if design.resolution > known || design.labels.len() != design.parameters.len() {
-            return Err("the settings are not those of an atlas".to_owned());
-        }
-        Ok(())
-    }
-}
-
-/// A cell in a file: index and level of its edges; of a design to be proved, also what is open on
+/// A cell in a file: index and level of its edges; but for cells of an atlas, also what is open on
 /// it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -117,6 +71,39 @@ pub enum Part {
         /// Boxes tried.
         boxes: usize,
     },
+    /// The nodes of a paving below it, which are in the [`Name::Nodes`](super::Name::Nodes) beside the result, those of
+    /// one cell after those of the other.
+    Nodes(Nodes),
+}
+
+impl Part {
+    /// The bytes that it has in the file beside the result.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Part::Nodes(nodes) => nodes.bytes,
+            Part::Cells(_) | Part::Tree { .. } => 0,
+        }
+    }
+}
+
+/// A stretch of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Nodes {
+    /// Its length.
+    pub bytes: u64,
+    /// The SHA-256 of the bytes.
+    pub sha256: String,
+}
+
+/// A stretch of the top of a paving's tree.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Stretch {
+    /// Nodes, as in a paving, in hexadecimal.
+    Nodes(String),
+    /// A cell that is dealt out.
+    Waiting,
 }
 
 /// The top of a job's tree.
@@ -134,6 +121,19 @@ pub enum JobTop {
         /// Boxes tried.
         boxes: usize,
     },
+    /// Of a paving.
+    Paving(Vec<Stretch>),
+}
+
+impl JobTop {
+    /// How many cells are dealt out.
+    pub fn waiting(&self) -> usize {
+        match self {
+            JobTop::Cells(top) => top.iter().filter(|node| **node == Top::Waiting).count(),
+            JobTop::Tree { waiting, .. } => waiting.len(),
+            JobTop::Paving(top) => top.iter().filter(|part| **part == Stretch::Waiting).count(),
+        }
+    }
 }
 
 /// The job as a whole.
@@ -213,54 +213,6 @@ impl ShardResult {
     }
 }
 
-/// The file names of a job's folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Name {
-    /// [`JOB_FILE`].
-    Job,
-    /// `shard-0001.json`.
-    Shard(usize),
-    /// `result-0001.json`.
-    Result(usize),
-    /// `result-0001.part`: a shard that runs, or was stopped.
-    Progress(usize),
-    /// `.orthocert-....part`: what a killed process left behind.
-    Leftover,
-    /// `engine`: the scripts and logs of [`crate::engine`].
-    Engine,
-}
-
-impl Name {
-    /// What a name in a job's folder stands for; `None` for foreign files.
-    pub fn parse(name: &str) -> Option<Self> {
-        let number = |prefix: &str, suffix: &str| {
-            let digits = name.strip_prefix(prefix)?.strip_suffix(suffix)?;
-            digits.parse().ok().filter(|n| *n > 0 && format!("{n:04}") == digits)
-        };
-        match name {
-            JOB_FILE => return Some(Name::Job),
-            "engine" => return Some(Name::Engine),
-            _ if name.starts_with(".orthocert-") => return Some(Name::Leftover),
-            _ => {}
-        }
-        let shard = number("shard-", ".json").map(Name::Shard);
-        let result = || number("result-", ".json").map(Name::Result);
-        shard.or_else(result).or_else(|| number("result-", ".part").map(Name::Progress))
-    }
-}
-
-/// The name of a file of a job's folder.
-pub fn name_of(name: Name) -> String {
-    match name {
-        Name::Job => JOB_FILE.to_owned(),
-        Name::Shard(n) => format!("shard-{n:04}.json"),
-        Name::Result(n) => format!("result-{n:04}.json"),
-        Name::Progress(n) => format!("result-{n:04}.part"),
-        Name::Leftover => ".orthocert-".to_owned(),
-        Name::Engine => "engine".to_owned(),
-    }
-}
-
 /// Why a file is of no use.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -295,12 +247,7 @@ impl std::error::Error for FileError {}
 
 /// The lower-case hexadecimal SHA-256 of a text.
 pub fn sha256(text: &str) -> String {
-    use fmt::Write;
-    let mut hex = String::with_capacity(64);
-    for byte in Sha256::digest(text.as_bytes()) {
-        let _ = write!(hex, "{byte:02x}");
-    }
-    hex
+    digest::sha256(text.as_bytes())
 }
 
 /// The text of a value, a function of the value; these values have one.
@@ -368,7 +315,8 @@ pub fn read_shard(path: &Path) -> Result<(Shard, String), FileError> {
     if shard.shard == 0 || shard.shard > shard.of {
         return Err(malformed("a shard's number that is not one of its job's"));
     }
-    if shard.cells.iter().any(|place| place.cell().is_none()) {
+    let foreign = |place: &Place| place.cell().is_none_or(|cell| !shard.task.has(&cell));
+    if shard.cells.iter().any(foreign) {
         return Err(malformed("a cell that is not within the box"));
     }
     Ok((shard, sha256(&text)))
@@ -382,17 +330,6 @@ pub(super) fn read_result(path: &Path) -> Result<ShardResult, FileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn names_are_those_that_are_written() {
-        let names = [Name::Job, Name::Shard(1), Name::Result(9999), Name::Progress(10_000)];
-        for name in names {
-            assert_eq!(Name::parse(&name_of(name)), Some(name));
-        }
-        for foreign in ["shard-1.json", "shard-0000.json", "result-00001.json", "a.txt", ""] {
-            assert_eq!(Name::parse(foreign), None, "{foreign}");
-        }
-    }
 
     #[test]
     fn places_beyond_the_box_are_no_cells() {

@@ -1,11 +1,14 @@
 //! From the results of all shards to the whole.
 
 use super::file::{
-    name_of, read_job, read_result, read_text, sha256, FileError, Job, JobTop, Name, Part,
-    ShardResult, Task, JOB_FILE,
+    read_job, read_result, read_text, sha256, FileError, Job, JobTop, Part, ShardResult,
 };
+use super::name::{name_of, Name, JOB_FILE};
+use super::paving::{self, Stretches};
+use super::task::Task;
 use crate::atlas::{assemble, Top};
 use orthocert_checker::certificate::{AtlasCell, Node};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
@@ -37,6 +40,8 @@ pub enum Whole {
         /// Boxes tried.
         boxes: usize,
     },
+    /// The tree of a paving, which is in the shards' files.
+    Paving(Stretches),
 }
 
 /// Why there is no whole.
@@ -97,10 +102,14 @@ pub fn merge(folder: &Path) -> Result<Merged, MergeError> {
     let job = read_job(&folder.join(JOB_FILE)).map_err(MergeError::Job)?;
     let mut problems = Vec::new();
     let mut results: BTreeMap<usize, Vec<(String, ShardResult)>> = BTreeMap::new();
+    let in_nodes = matches!(job.task, Task::Pave(_));
     for (name, kind) in listed(folder, &mut problems)? {
         match kind {
             Some(Name::Shard(n)) if n > job.shards.len() => {
                 problems.push(format!("{name} is no shard of this job"));
+            }
+            Some(Name::Nodes(n)) if !in_nodes || n > job.shards.len() => {
+                problems.push(format!("{name} is a foreign file"));
             }
             Some(Name::Result(_)) => match read_result(&folder.join(&name)) {
                 Err(error) => problems.push(error.to_string()),
@@ -122,6 +131,9 @@ pub fn merge(folder: &Path) -> Result<Merged, MergeError> {
             problems.push(format!("{} is the result of shard {shard}", names.join("")));
         }
     }
+    if in_nodes {
+        altered_nodes(folder, &results, &mut problems);
+    }
     let missing: Vec<usize> =
         (1..=job.shards.len()).filter(|shard| !results.contains_key(shard)).collect();
     if !problems.is_empty() {
@@ -132,7 +144,7 @@ pub fn merge(folder: &Path) -> Result<Merged, MergeError> {
         return Err(MergeError::Missing(missing));
     }
     let parts = results.into_values().flatten().map(|(_, result)| result.parts).collect();
-    whole(job, parts)
+    whole(folder, job, parts)
 }
 
 /// The names in a folder with what they stand for, sorted.
@@ -181,8 +193,27 @@ fn unaltered(folder: &Path, job: &Job, problems: &mut Vec<String>) {
     }
 }
 
+/// The nodes of a paving are there as they were written.
+fn altered_nodes(
+    folder: &Path,
+    results: &BTreeMap<usize, Vec<(String, ShardResult)>>,
+    problems: &mut Vec<String>,
+) {
+    let found: Vec<&ShardResult> = results.values().flatten().map(|(_, result)| result).collect();
+    let altered = found.par_iter().filter_map(|result| {
+        let name = name_of(Name::Nodes(result.shard));
+        let why = paving::objection(&folder.join(&name), &result.parts)?;
+        Some(format!("{name} {why}"))
+    });
+    problems.extend(altered.collect::<Vec<_>>());
+}
+
 /// The tree with all parts in their places: waiting cell `k` is cell `k / n` of shard `k mod n`.
-fn whole(job: Job, parts: Vec<Vec<Part>>) -> Result<Merged, MergeError> {
+fn whole(folder: &Path, job: Job, parts: Vec<Vec<Part>>) -> Result<Merged, MergeError> {
+    if let JobTop::Paving(top) = &job.top {
+        let whole = Stretches::new(folder, top, &parts).ok_or(MergeError::NotATree)?;
+        return Ok(Merged { task: job.task, whole: Whole::Paving(whole) });
+    }
     let shards = parts.len().max(1);
     let count = parts.iter().map(Vec::len).sum();
     let mut dealt: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
@@ -192,6 +223,7 @@ fn whole(job: Job, parts: Vec<Vec<Part>>) -> Result<Merged, MergeError> {
     let whole = match job.top {
         JobTop::Cells(top) => cells(top, in_order),
         JobTop::Tree { nodes, waiting, boxes } => tree(nodes, &waiting, boxes, in_order),
+        JobTop::Paving(_) => None,
     };
     Ok(Merged { task: job.task, whole: whole.ok_or(MergeError::NotATree)? })
 }
@@ -199,7 +231,7 @@ fn whole(job: Job, parts: Vec<Vec<Part>>) -> Result<Merged, MergeError> {
 fn cells(top: Vec<Top>, parts: Vec<Part>) -> Option<Whole> {
     let of_atlas = |part| match part {
         Part::Cells(cells) => Some(cells),
-        Part::Tree { .. } => None,
+        Part::Tree { .. } | Part::Nodes(_) => None,
     };
     let parts: Option<Vec<_>> = parts.into_iter().map(of_atlas).collect();
     assemble(top, parts?).map(Whole::Cells)
@@ -219,7 +251,7 @@ fn tree(top: Vec<Node>, waiting: &[usize], boxes: usize, parts: Vec<Part>) -> Op
                 open += left;
                 boxes += tried;
             }
-            Part::Cells(_) => return None,
+            Part::Cells(_) | Part::Nodes(_) => return None,
         }
     }
     parts.next().is_none().then_some(Whole::Tree { nodes, open, boxes })

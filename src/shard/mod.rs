@@ -9,13 +9,19 @@
 
 mod file;
 mod merge;
+mod name;
+mod paving;
 mod run;
 mod split;
+mod task;
 
 pub use file::{
-    name_of, read_job, read_shard, sha256, FileError, Job, JobTop, Name, Part, Place, Shard,
-    ShardResult, Task, Verify, JOB_FILE, MAX_SHARDS,
+    read_job, read_shard, sha256, FileError, Job, JobTop, Nodes, Part, Place, Shard, ShardResult,
+    Stretch, MAX_SHARDS,
 };
 pub use merge::{merge, MergeError, Merged, Whole};
+pub use name::{name_of, Name, JOB_FILE};
+pub use paving::Stretches;
 pub use run::{progress_file, result_file, run, Ran, RunError};
 pub use split::{split, SplitError};
+pub use task::{Pave, Task, Verify};

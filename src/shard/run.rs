@@ -4,11 +4,13 @@
 //! A run that is stopped, by whatever, loses the cell that it was at. What it left half-written, or
 //! two runs of one shard at the same time wrote into each other, has no right sum and is done again.
 
-use super::file::{
-    name_of, read_result, sha256, text, FileError, Name, Part, Shard, ShardResult, Task,
-};
+use super::file::{read_result, sha256, text, FileError, Part, Shard, ShardResult};
+use super::name::{name_of, Name};
+use super::paving;
+use super::task::Task;
 use crate::atlas::{grow, Growing, Stopped, Top};
 use crate::output::{self, OutputError};
+use crate::paving::Cancelled;
 use crate::search::{Budget, Control, Stop};
 use crate::verify;
 use orthocert_checker::certificate::AtlasCell;
@@ -80,6 +82,12 @@ impl From<OutputError> for RunError {
     }
 }
 
+impl From<Cancelled> for RunError {
+    fn from(_: Cancelled) -> Self {
+        RunError::Interrupted
+    }
+}
+
 /// Where the result of the shard in the file `path` goes.
 pub fn result_file(path: &Path, shard: &Shard) -> PathBuf {
     path.with_file_name(name_of(Name::Result(shard.shard)))
@@ -88,6 +96,11 @@ pub fn result_file(path: &Path, shard: &Shard) -> PathBuf {
 /// Where a run of the shard in the file `path` keeps what is done.
 pub fn progress_file(path: &Path, shard: &Shard) -> PathBuf {
     path.with_file_name(name_of(Name::Progress(shard.shard)))
+}
+
+/// Where a run of the shard in the file `path` writes the nodes of a paving.
+fn nodes_file(path: &Path, shard: &Shard) -> PathBuf {
+    path.with_file_name(name_of(Name::Nodes(shard.shard)))
 }
 
 /// Runs a shard, the text of whose file at `path` has the SHA-256 `answers`, unless that was done.
@@ -102,11 +115,17 @@ pub fn run(
     done: &mut dyn FnMut(usize, f64),
 ) -> Result<Ran, RunError> {
     let (target, progress) = (result_file(path, shard), progress_file(path, shard));
+    let nodes = nodes_file(path, shard);
+    let in_nodes = matches!(shard.task, Task::Pave(_));
     output::probe(&target)?;
     if target.exists() {
         match read_result(&target) {
             Ok(result) if result.job != shard.job => return Err(RunError::OtherJob(target)),
-            Ok(result) if result.answers == answers && result.is_whole() => {
+            Ok(result)
+                if result.answers == answers
+                    && result.is_whole()
+                    && !(in_nodes && paving::objection(&nodes, &result.parts).is_some()) =>
+            {
                 remove(&progress);
                 return Ok(Ran::AlreadyDone);
             }
@@ -115,14 +134,26 @@ pub fn run(
         }
     }
     let mut parts = resumed(&progress, shard, answers);
+    if in_nodes {
+        paving::keep_written(&nodes, &mut parts);
+    }
     let resumed = parts.iter().flatten().count();
+    let mut at = 0;
     for (number, part) in parts.iter_mut().enumerate() {
-        if part.is_none() {
-            let grown = grown(shard, number, cancel)?;
-            append(&progress, answers, number, &grown)?;
-            *part = Some(grown);
-        }
+        let found = match part.take() {
+            Some(found) => found,
+            None => {
+                let found = grown(shard, number, (&nodes, at), cancel)?;
+                append(&progress, answers, number, &found)?;
+                found
+            }
+        };
+        at += found.bytes();
+        *part = Some(found);
         done(number + 1, (number + 1) as f64 / shard.cells.len() as f64);
+    }
+    if in_nodes {
+        paving::close(&nodes, at)?;
     }
     let parts = parts.into_iter().flatten().collect();
     let result = text(&ShardResult::new(shard, answers.to_owned(), parts)) + "\n";
@@ -131,8 +162,13 @@ pub fn run(
     Ok(Ran::Done { resumed })
 }
 
-/// What is found of one of the shard's cells.
-fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Part, RunError> {
+/// What is found of one of the shard's cells; nodes of pavings go to a file, from a byte of it on.
+fn grown(
+    shard: &Shard,
+    number: usize,
+    nodes: (&Path, u64),
+    cancel: &AtomicBool,
+) -> Result<Part, RunError> {
     // Every place was seen to be a cell when the shard was read.
     let place = shard.cells.get(number).ok_or(RunError::Interrupted)?;
     let root = place.cell().ok_or(RunError::Interrupted)?;
@@ -150,6 +186,9 @@ fn grown(shard: &Shard, number: usize, cancel: &AtomicBool) -> Result<Part, RunE
                 Top::Waiting => AtlasCell::Undecided,
             });
             Ok(Part::Cells(cells.collect()))
+        }
+        Task::Pave(task) => {
+            paving::grown(nodes, task, (root, &place.open), cancel).map(Part::Nodes)
         }
         Task::Verify(task) => {
             let budget = Budget { max_boxes: task.boxes, deadline: None };

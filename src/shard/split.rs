@@ -1,6 +1,8 @@
 //! From a job to its shards.
 
-use super::file::{sha256, text, Job, JobTop, Place, Shard, Task, Verify};
+use super::file::{sha256, text, Job, JobTop, Place, Shard};
+use super::paving;
+use super::task::{Task, Verify};
 use crate::atlas::{grow, waiting, Growing, Stopped};
 use crate::design::AtlasDesign;
 use crate::search::{Control, Stop};
@@ -26,6 +28,8 @@ pub enum SplitError {
     Refuted,
     /// The map would not fit into a certificate.
     TooLarge,
+    /// The design's box cannot be paved.
+    Paving(String),
     /// A box near the top cannot be closed by splitting it.
     Hopeless,
 }
@@ -40,6 +44,7 @@ impl fmt::Display for SplitError {
                 "the design is refuted by a single point, so that there is nothing to be shared \
                  out; orthocert verify writes the certificate"
             ),
+            SplitError::Paving(reason) => f.write_str(reason),
             SplitError::TooLarge => Stopped::TooLarge.fmt(f),
             SplitError::Hopeless => write!(
                 f,
@@ -65,6 +70,7 @@ pub fn split(
     let (top, cells) = match task {
         Task::Atlas(design) => of_atlas(design, enough, cancel, done)?,
         Task::Verify(task) => of_design(task, enough, cancel, done)?,
+        Task::Pave(task) => paving::top(task, shards, cancel)?,
     };
     let texts: Vec<String> = (0..shards)
         .map(|shard| {

@@ -19,6 +19,7 @@
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
 //! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
+//! | `paving_shards` | the same of pavings                                              |
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 //! | `answers`      | `--format json` is as its schema says                             |
@@ -41,6 +42,7 @@ mod interruption;
 mod json;
 mod largest_cube;
 mod paving;
+mod paving_shards;
 mod postulate;
 mod report;
 mod shards;

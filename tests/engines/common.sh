@@ -5,7 +5,28 @@ atlas=$scratch/job.toml
 sed -e 's/^resolution = .*/resolution = 6/' -e 's/^boxes = .*/boxes = 4000/' \
   "$(dirname "${BASH_SOURCE[0]}")/../atlases/linear-delta-2.toml" >"$atlas"
 
-reference() { "$orthocert" atlas "$atlas" --output "$scratch/one" --quiet; }
+# A paving of a few seconds.
+design=$scratch/design.toml
+cat >"$design" <<'DESIGN'
+[mechanism]
+kind = "orthoglide"
+leg_length = 1
+[workspace]
+min = [-0.7, -0.7, -0.7]
+max = [0.7, 0.7, 0.7]
+[requirements]
+transmission = { min = "1/2", max = 2 }
+DESIGN
+precision=0.0022
+
+reference() {
+  "$orthocert" atlas "$atlas" --output "$scratch/one" --quiet
+  "$orthocert" pave "$design" --precision $precision --output "$scratch/one.paving" --quiet
+}
+
+split_paving() {
+  "$orthocert" split "$design" --pave --precision $precision --shards 8 --out "$scratch/pave"
+}
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
@@ -19,6 +40,8 @@ wait_for() {
 }
 
 identical() { diff -r "$scratch/one" "$1" || fail "$1 is not what one machine writes"; }
+
+identical_paving() { cmp "$scratch/one.paving" "$1" || fail "$1 is not what one machine writes"; }
 
 # The processes that run shards of a folder, by what they were started with.
 running() {

@@ -24,6 +24,14 @@ echo "== undisturbed"
 python3 "$cluster" "$orthocert" "$scratch/calm" "$scratch/calm-map" 60
 identical "$scratch/calm-map"
 
+echo "== a paving, workers killed"
+split_paving
+kill_workers "$scratch/pave" &
+started+=($!)
+(sleep 3; kill "${started[-1]}" 2>/dev/null) &
+python3 "$cluster" "$orthocert" "$scratch/pave" "$scratch/merged.paving" 60
+identical_paving "$scratch/merged.paving"
+
 echo "== workers killed, a full disk, the cluster lost"
 "$orthocert" split "$atlas" --shards 8 --out "$scratch/rough"
 fill_disk "$scratch/rough"
@@ -33,7 +41,7 @@ python3 "$cluster" "$orthocert" "$scratch/rough" "$scratch/rough-map" 60 &
 lost=$!
 sleep 3
 kill -KILL "$lost" $(running "$scratch/rough") 2>/dev/null || true
-kill "${started[0]}" 2>/dev/null || true
+kill "${started[-1]}" 2>/dev/null || true
 wait "$lost" 2>/dev/null || true
 [ ! -e "$scratch/rough-map/atlas.cert.json" ] || fail "the job was over before the cluster was lost"
 free_disk "$scratch/rough"

@@ -70,6 +70,12 @@ echo "== undisturbed"
 wait_for "$scratch/calm-map/atlas.cert.json" 90 "the merge"
 identical "$scratch/calm-map"
 
+echo "== a paving"
+split_paving
+"$orthocert" submit "$scratch/pave" --engine slurm --output "$scratch/merged.paving"
+wait_for "$scratch/merged.paving" 90 "the merge of the paving"
+identical_paving "$scratch/merged.paving"
+
 echo "== workers killed, a full disk, the node lost"
 "$orthocert" split "$atlas" --shards 8 --out "$scratch/rough"
 fill_disk "$scratch/rough"

@@ -1,0 +1,176 @@
+//! A paving in parts that are made anywhere: the top of its tree, the subtrees below, and all of
+//! them in one file.
+
+use super::pass::{finish, first_line, unfinished, WINDOW};
+use super::tree::{Cancelled, Grower, Root, Segment, Tally};
+use super::{header, Decider, PaveError, Paved};
+use orthocert_checker::cell::Cell;
+use orthocert_checker::claim::MachineClaim;
+use orthocert_checker::paving::{Header, Reader};
+use orthocert_checker::rule::Obligation;
+use rayon::prelude::*;
+use std::fs::{self, File};
+use std::io::{self, BufReader, BufWriter, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Least depth of the subtrees that are left to be grown: of a region's boxes about one in
+/// `2^(2/3 BELOW)`, 64, is then in the top.
+const BELOW: u32 = 9;
+/// Nodes that are checked side by side.
+const BATCH: usize = 1 << 14;
+
+/// The paving of one claim to one depth.
+pub struct Parts {
+    header: Header,
+    decider: Decider,
+}
+
+impl Parts {
+    /// The paving of a claim's box to a depth.
+    ///
+    /// # Errors
+    /// If the claim cannot be paved.
+    pub fn new(claim: &MachineClaim, depth: u32) -> Result<Self, PaveError> {
+        let header = header(claim, depth);
+        let decider = Decider::new(&header).map_err(PaveError::Claim)?;
+        Ok(Parts { header, decider })
+    }
+
+    fn grower<'a>(&'a self, cancel: &'a AtomicBool) -> Grower<'a> {
+        let symmetric = self.header.symmetry.is_some();
+        Grower { decider: &self.decider, symmetric, depth: self.header.depth, cancel }
+    }
+
+    /// The tree with subtrees left to be grown: at least `enough`, all of one depth, where the tree
+    /// is so deep that its top is a small part of the work.
+    ///
+    /// # Errors
+    /// If it was cancelled.
+    pub fn top(&self, enough: usize, cancel: &AtomicBool) -> Result<Vec<Segment>, Cancelled> {
+        let grower = self.grower(cancel);
+        let deepest = self.header.depth.saturating_sub(BELOW);
+        // At most 2^depth cells have a depth.
+        let mut depth = enough.next_power_of_two().ilog2().min(deepest);
+        loop {
+            let mut tally = Tally::up_to(self.header.depth);
+            let top = grower.segments(Root::WHOLE, depth, &mut tally)?;
+            let left = top.iter().filter(|segment| matches!(segment, Segment::Subtree(_))).count();
+            if left >= enough || depth >= deepest {
+                return Ok(top);
+            }
+            depth += 1;
+        }
+    }
+
+    /// What is not discharged above a subtree.
+    pub fn open(&self, root: &Root) -> Vec<Obligation> {
+        let open = |o: &Obligation| root.inherited & (1 << *o as u8) == 0;
+        self.decider.judge().obligations().iter().copied().filter(open).collect()
+    }
+
+    /// The root of a subtree above which all but `open` is discharged.
+    pub fn root(&self, cell: Cell, open: &[Obligation]) -> Root {
+        let done = self.decider.judge().obligations().iter().filter(|o| !open.contains(o));
+        let inherited = done.fold(0, |done, o| done | 1 << *o as u8);
+        Root { cell, inherited, depth: cell.edges.iter().map(|edge| edge.level).sum() }
+    }
+
+    /// Grows a subtree and hands its bytes on, in order.
+    ///
+    /// # Errors
+    /// If it was cancelled, or the bytes are refused.
+    pub fn grow<E: From<Cancelled>>(
+        &self,
+        root: Root,
+        cancel: &AtomicBool,
+        mut to: impl FnMut(&[u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let grower = self.grower(cancel);
+        let depth = root.depth + BELOW;
+        let segments = grower.segments(root, depth, &mut Tally::up_to(self.header.depth))?;
+        for window in segments.chunks(WINDOW) {
+            for (bytes, _) in grower.grow_all(window)? {
+                to(&bytes)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the paving to `path`, with the tree as `tree` writes it, once every node is accepted by
+    /// the checker: until then, and if it is not, `path` holds what it held before.
+    ///
+    /// # Errors
+    /// [`PaveError`].
+    pub fn write(
+        &self,
+        path: &Path,
+        cancel: &AtomicBool,
+        tree: impl FnOnce(&mut Tree<'_>) -> Result<(), PaveError>,
+    ) -> Result<Paved, PaveError> {
+        let part = unfinished(path);
+        let written = || {
+            let io = |error| PaveError::Io(part.clone(), error);
+            let file = BufWriter::new(File::create(&part).map_err(io)?);
+            let mut out = Tree { file, path: &part };
+            out.write(&first_line(&self.header).map_err(io)?)?;
+            tree(&mut out)?;
+            out.file.flush().map_err(io)?;
+            let mut paved = finish(&part, 0)?;
+            paved.boxes = checked(&part, cancel)?;
+            fs::rename(&part, path).map_err(|error| PaveError::Io(path.to_owned(), error))?;
+            Ok(paved)
+        };
+        let paved = written();
+        if paved.is_err() {
+            // Where that fails, it is in nobody's way.
+            let _ = fs::remove_file(&part);
+        }
+        paved
+    }
+}
+
+/// A paving that is being written.
+pub struct Tree<'a> {
+    file: BufWriter<File>,
+    path: &'a Path,
+}
+
+impl Tree<'_> {
+    /// Appends nodes.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn write(&mut self, nodes: &[u8]) -> Result<(), PaveError> {
+        self.file.write_all(nodes).map_err(|error| PaveError::Io(self.path.to_owned(), error))
+    }
+}
+
+/// Has every node of a paving accepted by the checker, many side by side, then its summary; returns
+/// how many there are.
+fn checked(path: &Path, cancel: &AtomicBool) -> Result<u64, PaveError> {
+    let open = || File::open(path).map(BufReader::new);
+    let file = open().map_err(|error: io::Error| PaveError::Io(path.to_owned(), error))?;
+    let mut reader = Reader::new(file).map_err(PaveError::Defect)?;
+    let judge = reader.judge().map_err(PaveError::Defect)?;
+    loop {
+        let mut batch = Vec::with_capacity(BATCH);
+        while batch.len() < BATCH {
+            match reader.next().map_err(PaveError::Defect)? {
+                Some(visited) => batch.push(visited),
+                None => break,
+            }
+        }
+        if batch.is_empty() {
+            break;
+        }
+        if cancel.load(Ordering::Relaxed) {
+            return Err(PaveError::Cancelled);
+        }
+        let first = batch.par_iter().map(|visited| judge.check(visited)).find_first(Result::is_err);
+        first.unwrap_or(Ok(())).map_err(PaveError::Defect)?;
+    }
+    let nodes = reader.nodes();
+    reader.finish().map_err(PaveError::Defect)?;
+    Ok(nodes)
+}

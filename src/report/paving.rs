@@ -1,0 +1,242 @@
+//! What a paving holds, for people and for scripts.
+
+use crate::decimal::{approximate, grouped, rounded, significant, Toward};
+use crate::paving::{Component, Components, Paved};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use orthocert_checker::claim::{MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+use orthocert_checker::paving::{Shares, SHARE_BITS};
+use serde::Serialize;
+use std::path::Path;
+
+/// Components that are told apart.
+const SHOWN: usize = 5;
+/// Digits of volumes.
+const DIGITS: u32 = 9;
+
+/// The report of a paving.
+#[derive(Clone, Debug, Serialize)]
+pub struct PavingReport {
+    /// The design's title.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// The design's file, or what it was merged from.
+    pub design: String,
+    /// Where the paving is.
+    pub paving: String,
+    /// Its length.
+    pub bytes: u64,
+    /// The volume of the undecided boxes over that of the inner ones; none without inner boxes.
+    pub gap: Option<f64>,
+    /// Whether the precision or gap that was asked for is reached.
+    pub reached: bool,
+    /// Boxes at every point of which all requirements hold.
+    pub inner: Part,
+    /// Boxes at every point of which some requirement fails.
+    pub outer: Part,
+    /// The rest.
+    pub boundary: Part,
+    /// Boxes left out by symmetry.
+    pub mirrored: u64,
+    /// Most splits on a path.
+    pub depth: u32,
+    /// Connected components of the inner boxes; none where the memory is too small.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub components: Option<ComponentsReport>,
+    /// Boxes tried by this run, or merged.
+    pub boxes: u64,
+    /// Seconds taken.
+    pub seconds: f64,
+}
+
+/// The components of the inner boxes: boxes that share a part of a face are connected.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComponentsReport {
+    /// With images.
+    pub count: u64,
+    /// The largest, by descending volume.
+    pub largest: Vec<ComponentReport>,
+    /// The least condition number `sigma_max / sigma_min` found at an inner box's centre.
+    pub best_conditioning: f64,
+    /// That centre, about.
+    pub best_conditioned_at: [f64; 3],
+}
+
+/// A component.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComponentReport {
+    /// Its share of the box's volume, with its images.
+    pub share: f64,
+    /// How many.
+    pub boxes: u64,
+    /// Itself and its images under permutations of the axes.
+    pub copies: u64,
+    /// Whether the best conditioned centre is in it, or in an image of it.
+    pub best_conditioned: bool,
+}
+
+/// The boxes of one kind, in a box that is searched.
+#[derive(Clone, Debug, Serialize)]
+pub struct Part {
+    /// How many.
+    pub boxes: u64,
+    /// Their share of the box's volume, with their images.
+    pub share: Exact,
+    /// Their volume with their images, where the box's volume is rational.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume: Option<Exact>,
+}
+
+impl PavingReport {
+    /// What a paving, at `target`, holds of a claim.
+    pub fn new(
+        claim: &MachineClaim,
+        paved: &Paved,
+        components: Option<&Components>,
+        target: &Path,
+    ) -> Self {
+        let volume = volume(claim);
+        let part = |boxes: u64, share: Exact| {
+            let volume = volume.clone().zip(share.as_rational().cloned());
+            Part { boxes, share, volume: volume.map(|(v, share)| Exact::Rational(v * share)) }
+        };
+        let summary = &paved.summary;
+        let Shares { inner, boundary } = paved.shares;
+        let whole = 1 << SHARE_BITS;
+        let outer = Shares::fraction(whole - inner - boundary);
+        let gap = match (inner, boundary) {
+            (_, 0) => Some(0.0),
+            (0, _) => None,
+            _ => Some(boundary as f64 / inner as f64),
+        };
+        PavingReport {
+            title: None,
+            design: String::new(),
+            paving: target.display().to_string(),
+            bytes: paved.bytes,
+            gap,
+            reached: true,
+            inner: part(summary.inner, summary.inner_share.clone()),
+            outer: part(summary.outer, outer),
+            boundary: part(summary.boundary, summary.boundary_share.clone()),
+            mirrored: summary.mirrored,
+            depth: paved.header.depth,
+            components: components.map(|found| described(claim, found)),
+            boxes: paved.boxes,
+            seconds: 0.0,
+        }
+    }
+
+    /// The report for people, or its first line.
+    pub fn text(&self, quiet: bool) -> String {
+        let size = |part: &Part| part.volume.as_ref().unwrap_or(&part.share).as_rational().cloned();
+        let (inner, open) = (size(&self.inner), size(&self.boundary));
+        let (Some(inner), Some(open)) = (inner, open) else {
+            return String::new();
+        };
+        let unit = if self.inner.volume.is_some() { "" } else { " of the box" };
+        let gap =
+            self.gap.map_or("none".to_owned(), |gap| format!("{} %", significant(100.0 * gap, 3)));
+        let first = format!(
+            "volume: between {}{unit} and {}{unit}, gap {gap}\n",
+            rounded(&inner, DIGITS, Toward::Below),
+            rounded(&(&inner + &open), DIGITS, Toward::Above),
+        );
+        if quiet {
+            return first;
+        }
+        let row = |name: &str, part: &Part, what: &str| {
+            let share = part.share.as_rational().and_then(BigRational::to_f64).unwrap_or(f64::NAN);
+            format!(
+                "  {name:<9} {:>13} boxes {:>9} % of the box   {what}\n",
+                grouped(part.boxes),
+                significant(100.0 * share, 6)
+            )
+        };
+        let mut out = first + "\n";
+        out += &row("inner", &self.inner, "all requirements hold at every point");
+        out += &row("outer", &self.outer, "some requirement fails at every point");
+        out += &row("boundary", &self.boundary, "undecided");
+        if self.mirrored > 0 {
+            out += "\n  The machine looks the same from permuted axes: only points with x <= y <= z are\n  \
+                paved, and the shares count all images.\n";
+        }
+        if let Some(components) = &self.components {
+            out += &components_text(components);
+        }
+        if !self.reached {
+            out += "\n  What was asked for is not reached: raise --max-boxes.\n";
+        }
+        let rate = self.boxes as f64 / self.seconds;
+        out + &format!(
+        "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  {} boxes in {} s, {} \
+         boxes/s\n",
+        self.paving,
+        grouped(self.bytes),
+        grouped(self.boxes),
+        significant(self.seconds, 3),
+        grouped(rate as u64),
+    )
+    }
+}
+
+fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
+    let unit = (-f64::from(SHARE_BITS)).exp2();
+    let described = |component: &Component| ComponentReport {
+        share: component.share as f64 * unit,
+        boxes: component.boxes,
+        copies: component.copies,
+        best_conditioned: component.best_conditioned,
+    };
+    let mut at = found.centre;
+    if let Workspace::Box { min, max } = &claim.workspace {
+        for (k, u) in found.centre.iter().enumerate() {
+            let end = |x: &Exact| approximate(x).unwrap_or(f64::NAN);
+            at[k] = end(&min[k]) + (end(&max[k]) - end(&min[k])) * u;
+        }
+    }
+    ComponentsReport {
+        count: found.all.iter().map(|component| component.copies).sum(),
+        largest: found.all.iter().take(SHOWN).map(described).collect(),
+        best_conditioning: found.conditioning,
+        best_conditioned_at: at,
+    }
+}
+
+/// The volume of the box, where it is rational.
+fn volume(claim: &MachineClaim) -> Option<BigRational> {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return None;
+    };
+    let edges = min.iter().zip(max).map(|(min, max)| Some(max.as_rational()? - min.as_rational()?));
+    edges.product()
+}
+
+fn components_text(components: &ComponentsReport) -> String {
+    let [x, y, z] = components.best_conditioned_at.map(|x| significant(x, 3));
+    let mut out = format!(
+        "\n  components {:>10}, by shared faces; they may join in undecided boxes\n",
+        grouped(components.count)
+    );
+    for component in &components.largest {
+        let copies = match component.copies {
+            1 => String::new(),
+            n => format!(" together with {} images", n - 1),
+        };
+        let best = if component.best_conditioned {
+            format!(
+                ", with the best conditioned point, sigma_max/sigma_min = {} at ({x}, {y}, {z})",
+                significant(components.best_conditioning, 4)
+            )
+        } else {
+            String::new()
+        };
+        out += &format!(
+            "    {:>9} % of the box{copies}, {} boxes{best}\n",
+            significant(100.0 * component.share, 6),
+            grouped(component.boxes)
+        );
+    }
+    out
+}

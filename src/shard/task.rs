@@ -1,0 +1,87 @@
+//! What is to be done in shards.
+
+use super::file::{sha256, text};
+use crate::design::{AtlasDesign, MAX_RESOLUTION};
+use crate::paving::{Parts, DEEPEST};
+use orthocert_checker::cell::Cell;
+use orthocert_checker::claim::MachineClaim;
+use orthocert_checker::paving::MAX_AXIS_LEVEL;
+use serde::{Deserialize, Serialize};
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Task {
+    /// The map of an atlas.
+    Atlas(Box<AtlasDesign>),
+    /// The proof of a design.
+    Verify(Box<Verify>),
+    /// The paving of a design's box.
+    Pave(Box<Pave>),
+}
+
+/// A box to be paved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pave {
+    /// The design's title.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What is claimed of the region's points.
+    pub claim: MachineClaim,
+    /// Most splits on a path.
+    pub depth: u32,
+}
+
+/// A design to be proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verify {
+    /// Its title.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What is claimed.
+    pub claim: MachineClaim,
+    /// Most boxes tried below one of the cells that are dealt out.
+    pub boxes: usize,
+}
+
+impl Task {
+    /// The SHA-256 of the task's text: what identifies the job.
+    pub fn identity(&self) -> String {
+        sha256(&text(self))
+    }
+
+    /// Demands settings that a task may have.
+    pub(super) fn validate(&self) -> Result<(), String> {
+        let design = match self {
+            Task::Atlas(design) => design,
+            Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),
+            Task::Pave(task) if task.depth > DEEPEST => {
+                return Err(format!("{} splits; pavings have at most {DEEPEST}", task.depth));
+            }
+            Task::Pave(task) => {
+                let parts = Parts::new(&task.claim, task.depth);
+                return parts.map(|_| ()).map_err(|error| error.to_string());
+            }
+        };
+        design.well_formed()?;
+        let known = u32::try_from(MAX_RESOLUTION).unwrap_or(0);
+        if design.resolution > known || design.labels.len() != design.parameters.len() {
+            return Err("the settings are not those of an atlas".to_owned());
+        }
+        Ok(())
+    }
+
+    /// Whether a cell may be one of the task's.
+    pub(super) fn has(&self, cell: &Cell) -> bool {
+        let levels = cell.edges.map(|edge| edge.level);
+        match self {
+            Task::Pave(task) => {
+                let deepest = levels.iter().all(|level| *level <= MAX_AXIS_LEVEL);
+                deepest && levels.iter().sum::<u32>() <= task.depth
+            }
+            Task::Atlas(_) | Task::Verify(_) => true,
+        }
+    }
+}
