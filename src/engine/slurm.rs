@@ -40,11 +40,12 @@ pub(super) fn scripts(submission: &Submission) -> Vec<Script> {
          # Puts the results of orthocert job {job} together, after all of its shards.\n\
          #SBATCH --job-name=orthocert-merge-{job:.8}\n\
          #SBATCH --ntasks=1\n\
+         # The exact check of maps and pavings goes over as many cores as there are here.\n\
          #SBATCH --cpus-per-task=1\n\
          #SBATCH --requeue\n\
          #SBATCH --open-mode=append\n\
          #SBATCH --output=\"{logs}/merge.log\"\n\
-         exec {program} merge {folder} --output {result} --threads 1 --quiet\n",
+         exec {program} merge {folder} --output {result} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet\n",
         program = quoted(&submission.program),
         folder = quoted(&submission.folder),
         result = quoted(&submission.result)

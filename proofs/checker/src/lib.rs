@@ -54,5 +54,6 @@ pub mod witness;
 pub mod word;
 
 pub use check::{
-    check, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded, Rejected, TreeSize,
+    check, check_part, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded,
+    Rejected, TreeSize,
 };

@@ -7,7 +7,8 @@ use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Node, Proof,
 use orthocert_checker::claim::{AtlasClaim, Claim, ClaimError, Mechanism, Quantity, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::witness::WitnessError;
-use orthocert_checker::{check, read, statement, Rejected};
+use orthocert_checker::{check, check_part, read, statement, Rejected};
+use std::num::NonZeroUsize;
 
 /// Orthoglides, parameters `psi_max` and `side`, resolution `2^-3`.
 const ATLAS: &[u8] = include_bytes!("../../certificates/orthoglide-atlas.cert.json");
@@ -64,6 +65,30 @@ fn the_committed_atlas_is_accepted_and_told_in_words() {
     {
         assert!(words.contains(part), "{words}");
     }
+}
+
+#[test]
+fn the_parts_of_a_check_are_the_whole() {
+    let whole = check(&good()).unwrap().size;
+    for of in [1, 2, 7, 1000].map(|of| NonZeroUsize::new(of).unwrap()) {
+        let part = |part| check_part(&good(), part, of).unwrap().nodes;
+        assert_eq!((0..of.get()).map(part).sum::<usize>(), whole.nodes, "{of}");
+    }
+    // Whatever cell is wrong, one of the parts rejects it; what is of no cell, all of them.
+    let of = NonZeroUsize::new(3).unwrap();
+    let rejecting = |certificate: &Certificate| {
+        (0..3).filter(|part| check_part(certificate, *part, of).is_err()).collect::<Vec<_>>()
+    };
+    let mut wrong = good();
+    for number in 0..parts(&mut wrong).1.len() {
+        let mut wrong = good();
+        if let AtlasCell::Certified(tree) = &mut parts(&mut wrong).1[number] {
+            tree.nodes = vec![Node::default()];
+            assert_eq!(rejecting(&wrong), [number % 3]);
+        }
+    }
+    parts(&mut wrong).0.refuted = number("1/2");
+    assert_eq!(rejecting(&wrong), [0, 1, 2]);
 }
 
 #[test]

@@ -259,10 +259,11 @@ pub fn check_cell(
     }
 }
 
-/// Checks an atlas: every cell, and the shares that the claim states.
+/// Checks an atlas: every cell whose number `is_wanted`, and the shares that the claim states.
 pub(crate) fn check(
     claim: &AtlasClaim,
     atlas: &Atlas,
+    is_wanted: impl Fn(usize) -> bool,
     size: &mut TreeSize,
 ) -> Result<(), Rejected> {
     claim.validate().map_err(Rejected::AtlasClaim)?;
@@ -275,6 +276,9 @@ pub(crate) fn check(
         return Err(Rejected::TooManyNodes(nodes));
     }
     let shares = walk(&atlas.cells, claim.parameters.len(), |number, cell, said| {
+        if !is_wanted(number) {
+            return Ok(());
+        }
         check_cell(claim, cell, said, size)
             .map_err(|reason| Rejected::Cell { cell: number, reason: Box::new(reason) })
     })?;

@@ -23,6 +23,7 @@ use crate::{atlas, witness};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::num::NonZeroUsize;
 
 pub(crate) use evaluate::Evaluator;
 pub(crate) use machine::check_tree;
@@ -101,6 +102,18 @@ pub(crate) fn quoted(text: &str) -> String {
 
 /// Checks a certificate: recomputes everything that its proof uses from its claim.
 pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
+    let size = check_part(certificate, 0, NonZeroUsize::MIN)?;
+    Ok(Accepted { verdict: certificate.verdict, size })
+}
+
+/// Checks all of a certificate but, of an atlas, the cells whose number is not `part` modulo `of`;
+/// returns the size of what was checked. Each cell is of exactly one part: a certificate of which
+/// the parts `0..of` are admitted, say by as many threads, is accepted by [`check`](fn@check).
+pub fn check_part(
+    certificate: &Certificate,
+    part: usize,
+    of: NonZeroUsize,
+) -> Result<TreeSize, Rejected> {
     let mut size = TreeSize::default();
     match (&certificate.claim, &certificate.proof, certificate.verdict) {
         (Claim::Machine(claim), Proof::Tree(tree), Verdict::Certified) => {
@@ -119,11 +132,11 @@ pub fn check(certificate: &Certificate) -> Result<Accepted, Rejected> {
             postulate::check_faces(claim, faces, &mut size)?;
         }
         (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
-            atlas::check(claim, map, &mut size)?;
+            atlas::check(claim, map, |number| number % of == part, &mut size)?;
         }
         _ => return Err(Rejected::VerdictMismatch),
     }
-    Ok(Accepted { verdict: certificate.verdict, size })
+    Ok(size)
 }
 
 /// The obligations that a claim consists of.
