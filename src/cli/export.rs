@@ -31,9 +31,9 @@ enum Language {
     },
     /// The surface of a paving's inner part, with all images, as a VTK XML unstructured grid.
     ///
-    /// Quadrilaterals, each edge shared; cell data `beyond` (what is on the other side: 0 outer
-    /// boxes, 1 undecided ones, 2 outside the box that is paved) and `depth` (of the inner box). The
-    /// paving's evidence is not checked: that is what `check` does.
+    /// Quadrilaterals and triangles that share all their edges; cell data `beyond` (what is on the
+    /// other side: 0 outer boxes, 1 boxes some of which are undecided, 2 outside the box that is
+    /// paved). The paving's evidence is not checked: that is what `check` does.
     Vtk {
         /// The paving
         #[arg(value_name = "PAVING")]
@@ -110,7 +110,7 @@ fn mesh(
     print::answer(&format!(
         "{}: {} faces, {} corners\n",
         output.display(),
-        grouped(surface.faces.len() as u64),
+        grouped(surface.faces() as u64),
         grouped(surface.points.len() as u64)
     ))?;
     Ok(Status::Done)

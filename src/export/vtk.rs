@@ -1,16 +1,17 @@
 //! Surfaces as VTK XML unstructured grids (`.vtu`), little-endian base64 in place.
 //!
-//! | array         | is                                                                        |
-//! |---------------|---------------------------------------------------------------------------|
-//! | `Points`      | the corners, each once                                                    |
-//! | cells         | quadrilaterals (VTK type 9), counterclockwise seen from without           |
-//! | `beyond`      | what a face separates the inner part from: 0 outer boxes, 1 undecided ones, 2 what is outside the box that is paved |
-//! | `depth`       | splits above the inner box that the face is part of                       |
+//! | array    | is                                                                             |
+//! |----------|--------------------------------------------------------------------------------|
+//! | `Points` | the corners, each once                                                         |
+//! | cells    | quadrilaterals (VTK type 9), then triangles (5), counterclockwise seen from without |
+//! | `beyond` | what a face separates the inner part from: 0 outer boxes, 1 boxes some of which are undecided, 2 what is outside the box that is paved |
 
 use crate::paving::{Beyond, Surface, SurfaceError};
 
 /// VTK's number for quadrilaterals.
 const QUAD: u8 = 9;
+/// VTK's number for triangles.
+const TRIANGLE: u8 = 5;
 
 /// The file of a surface.
 ///
@@ -18,33 +19,37 @@ const QUAD: u8 = 9;
 /// [`SurfaceError::TooClose`] if corners coincide in double precision.
 pub fn vtu(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
     let points = surface.coordinates(|x| x)?;
-    let faces = &surface.faces;
+    let Surface { quads, triangles, .. } = surface;
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt64\">\n<UnstructuredGrid>\n\
          <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
         points.len(),
-        faces.len()
+        surface.faces()
     );
     let numbers = points.as_flattened().iter().flat_map(|x| x.to_le_bytes());
     array(&mut text, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", numbers);
     text.push_str("</Points>\n<Cells>\n");
-    let corners = faces.iter().flat_map(|face| face.corners);
+    let of_quads = quads.iter().flat_map(|face| face.corners);
+    let corners = of_quads.chain(triangles.iter().flat_map(|face| face.corners));
     let corners = corners.flat_map(|at| i64::from(at).to_le_bytes());
     array(&mut text, "type=\"Int64\" Name=\"connectivity\"", corners);
-    let ends = (1..=faces.len() as i64).flat_map(|n| (4 * n).to_le_bytes());
+    let of_quads = (1..=quads.len()).map(|n| 4 * n);
+    let ends = of_quads.chain((1..=triangles.len()).map(|n| 4 * quads.len() + 3 * n));
+    let ends = ends.flat_map(|end| (end as i64).to_le_bytes());
     array(&mut text, "type=\"Int64\" Name=\"offsets\"", ends);
-    array(&mut text, "type=\"UInt8\" Name=\"types\"", faces.iter().map(|_| QUAD));
+    let types = quads.iter().map(|_| QUAD).chain(triangles.iter().map(|_| TRIANGLE));
+    array(&mut text, "type=\"UInt8\" Name=\"types\"", types);
     text.push_str("</Cells>\n<CellData>\n");
-    let beyond = faces.iter().map(|face| match face.beyond {
-        Beyond::Outer => 0,
-        Beyond::Undecided => 1,
-        Beyond::OutsideBox => 2,
-    });
+    let of_quads = quads.iter().map(|face| face.beyond);
+    let beyond =
+        of_quads.chain(triangles.iter().map(|face| face.beyond)).map(|beyond| match beyond {
+            Beyond::Outer => 0,
+            Beyond::Undecided => 1,
+            Beyond::OutsideBox => 2,
+        });
     array(&mut text, "type=\"UInt8\" Name=\"beyond\"", beyond);
-    let depth = faces.iter().map(|face| face.depth as u8); // At most 120.
-    array(&mut text, "type=\"UInt8\" Name=\"depth\"", depth);
     text.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     Ok(text.into_bytes())
 }

@@ -27,9 +27,12 @@ mod tree;
 
 pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
-pub use parts::{Parts, Tree};
+pub use parts::{Parts, TreeWriter};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume, DEEPEST};
-pub use surface::{surface, Beyond, Face, Surface, SurfaceError};
+pub use surface::{
+    ends, surface, walls, Beyond, Detail, Face, Node, Surface, SurfaceError, Tree, Wall, EDGE,
+    INNER, OUTER, UNDECIDED,
+};
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
 
 use orthocert_checker::certificate::Provenance;

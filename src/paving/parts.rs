@@ -106,13 +106,13 @@ impl Parts {
         &self,
         path: &Path,
         cancel: &AtomicBool,
-        tree: impl FnOnce(&mut Tree<'_>) -> Result<(), PaveError>,
+        tree: impl FnOnce(&mut TreeWriter<'_>) -> Result<(), PaveError>,
     ) -> Result<Paved, PaveError> {
         let part = unfinished(path);
         let written = || {
             let io = |error| PaveError::Io(part.clone(), error);
             let file = BufWriter::new(File::create(&part).map_err(io)?);
-            let mut out = Tree { file, path: &part };
+            let mut out = TreeWriter { file, path: &part };
             out.write(&first_line(&self.header).map_err(io)?)?;
             tree(&mut out)?;
             out.file.flush().map_err(io)?;
@@ -131,12 +131,12 @@ impl Parts {
 }
 
 /// A paving that is being written.
-pub struct Tree<'a> {
+pub struct TreeWriter<'a> {
     file: BufWriter<File>,
     path: &'a Path,
 }
 
-impl Tree<'_> {
+impl TreeWriter<'_> {
     /// Appends nodes.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use super::split::SplitError;
 use super::task::Pave;
 use crate::digest::{from_hexadecimal, hexadecimal};
 use crate::output::OutputError;
-use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, Tree};
+use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::rule::Obligation;
 use sha2::{Digest, Sha256};
@@ -212,7 +212,7 @@ impl Stretches {
 }
 
 impl Held {
-    fn copy(&self, out: &mut Tree<'_>) -> Result<(), PaveError> {
+    fn copy(&self, out: &mut TreeWriter<'_>) -> Result<(), PaveError> {
         let (path, at, bytes) = match self {
             Held::InHand(bytes) => return out.write(bytes),
             Held::InFile { path, at, bytes } => (path, *at, *bytes),

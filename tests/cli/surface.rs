@@ -17,19 +17,19 @@ fn attribute(text: &str, key: &str) -> usize {
 }
 
 #[test]
-fn the_surface_is_written_in_both_formats_with_the_same_faces() {
+fn the_surface_is_written_in_both_formats_with_the_same_corners() {
     let folder = folder();
     let run = folder.run(&["export", "vtk", "d.paving", "-o", "s.vtu"]).exits(0);
     run.says(&["s.vtu:", "faces", "corners"]);
     folder.run(&["export", "stl", "d.paving", "-o", "s.stl"]).exits(0).says(&["s.stl:"]);
     let text = String::from_utf8(folder.read("s.vtu")).unwrap();
     let (faces, points) = (attribute(&text, "NumberOfCells"), attribute(&text, "NumberOfPoints"));
-    // On a closed surface of quadrilaterals E = 2 F, and V - E + F is the Euler characteristic.
-    assert!(faces > 1000 && points > 1000, "{faces} faces, {points} points");
-    assert_eq!(faces % 6, 0, "images");
+    assert!(faces > 500 && points > 300, "{faces} faces, {points} points");
     let bytes = folder.read("s.stl");
     let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
-    assert_eq!(triangles, 2 * faces);
+    // On a closed surface of triangles 2 E = 3 F, and V - E + F is at most 2 where it is connected.
+    assert!(triangles % 2 == 0 && triangles >= 2 * points - 4, "{triangles} triangles");
+    assert!((faces..2 * faces).contains(&triangles));
     assert_eq!(bytes.len(), 84 + 50 * triangles);
     assert!(!bytes.starts_with(b"solid"));
 }
