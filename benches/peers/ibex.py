@@ -3,7 +3,7 @@
 The paving: all constraints at once; solution boxes meet them everywhere, boundary and unknown boxes
 are undecided, the rest of the box is outside. A question: whether a point violates a constraint,
 each constraint by itself, up to the first box that is found. No box for any constraint: yes. A
-solution box: no. Else the answer is left open.
+solution box: no. Else, or where it crashes on a constraint, the answer is left open.
 """
 
 import re
@@ -18,6 +18,10 @@ BOX = re.compile(r"(solution|boundary|unknown|pending) n°\d+ = "
                  rf"\(\[({NUMBER}), ({NUMBER})\] ; \[({NUMBER}), ({NUMBER})\] ; "
                  rf"\[({NUMBER}), ({NUMBER})\]\)")
 PRECISION = 1e-3  # edge of the boxes that a question is given up at
+
+
+class Crashed(Exception):
+    """`ibexsolve` ended before its results were written."""
 
 
 def available():
@@ -42,8 +46,10 @@ def constraints():
         if sign < 0:
             texts += [d, e, f]
         texts += [f"{d}*{e}-{a}^2", f"{d}*{f}-{b}^2", f"{e}*{f}-{c}^2"]
-        cross = "+" if sign > 0 else "-"
-        texts += [f"{d}*{e}*{f}{cross}2*{a}*{b}*{c}-{d}*{c}^2-{e}*{b}^2-{f}*{a}^2"]
+        # The determinant of [[d, +-a, +-b], [+-a, e, +-c], [+-b, +-c, f]] by its first row.
+        t = "-" if sign > 0 else "+"
+        u = "+" if sign > 0 else "-"
+        texts += [f"{d}*({e}*{f}-{c}^2)-{a}*({a}*{f}{t}{b}*{c}){u}{b}*({a}*{c}{t}{e}*{b})"]
     return texts
 
 
@@ -54,10 +60,17 @@ def solved(folder, ends, needed, options):
     variables = "".join(f"  {name} in [{low}, {high}];\n" for name in "xyz")
     path.write_text(f"Variables\n{variables}Constraints\n" + "".join(f"  {c};\n" for c in needed)
                     + "end\n")
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    run = subprocess.run(["ibexsolve", str(path), "--quiet", "--sols", *options], cwd=folder,
-                         capture_output=True, text=True, check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    # 2.9.1 may end in a segmentation fault: in its destructors, after its last line, or before,
+    # with some levels of simplification.
+    for level in (1, 0, 2):
+        command = ["ibexsolve", str(path), "--sols", f"--simpl={level}", *options]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if "results written in" in run.stdout:
+            break
+    else:
+        raise Crashed(f"ibexsolve: exit code {run.returncode}")
     spent = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
     boxes = {"solution": [], "boundary": [], "unknown": [], "pending": []}
     for kind, *found in BOX.findall(run.stdout):
@@ -86,7 +99,11 @@ def answer(folder, ends, patience):
     spent, open_ones = 0, 0
     for constraint in constraints():
         options = [f"--eps-min={PRECISION}", "--stop-at-first", f"--timeout={patience}"]
-        boxes, seconds = solved(folder, ends, [f"{constraint} < 0"], options)
+        try:
+            boxes, seconds = solved(folder, ends, [f"{constraint} < 0"], options)
+        except Crashed:
+            open_ones += 1
+            continue
         spent += seconds
         if boxes["solution"]:
             return "no", spent

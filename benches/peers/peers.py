@@ -172,7 +172,11 @@ def compared(name, runs, folder):
     print("|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
     found = []
     for edge in edges:
-        seconds, gap, boxes = runs(edge)
+        try:
+            seconds, gap, boxes = runs(edge)
+        except ibex.Crashed as crash:
+            print(f"| {edge} | {crash} |" + " |" * 10, flush=True)
+            continue
         found.append((gap, seconds))
         row = f"| {edge} | {boxes:,} | {gap:.3f} | {seconds:.2f} s "
         for box in ("sixth.toml", "whole.toml"):
