@@ -19,8 +19,8 @@ use std::time::Instant;
 const GUARD_DIGITS: u32 = 2;
 
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
-/// few hundred.
-const BOXES: usize = 20_000;
+/// few hundred; the condition number of the rotary Delta takes 40,000.
+const BOXES: u64 = 100_000;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -76,8 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(&folder.join("bounds.cert.json"))?;
     }
     effort.start_threads()?;
-    let mut budget = effort.budget(started)?;
-    budget.max_boxes = budget.max_boxes.min(BOXES);
+    let budget = effort.budget_or(BOXES, started)?;
     let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
     let mut rows = exact_rows(claim);
     for extreme in Extreme::of(claim) {

@@ -17,10 +17,10 @@ pub const MAX_THREADS: u64 = 1024;
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
-    /// Boxes after which the search gives up; beyond 2,000,000 no certificate goes
-    #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
-        value_parser = clap::value_parser!(u64).range(1..))]
-    max_boxes: u64,
+    /// Boxes after which the search gives up [default: 500000; of bounds, for each width that is
+    /// tried, 100000]; beyond 2,000,000 no certificate goes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     timeout: Option<String>,
@@ -39,9 +39,15 @@ pub struct Effort {
 impl Effort {
     /// The budget of a search that began at `started`.
     pub fn budget(&self, started: Instant) -> Result<Budget, Failure> {
+        self.budget_or(MAX_BOXES, started)
+    }
+
+    /// As [`budget`](Self::budget), with a default number of boxes of the command's own.
+    pub fn budget_or(&self, boxes: u64, started: Instant) -> Result<Budget, Failure> {
+        let max_boxes = self.max_boxes.unwrap_or(boxes);
         let timeout = self.timeout.as_deref().map(time).transpose()?;
         Ok(Budget {
-            max_boxes: usize::try_from(self.max_boxes).unwrap_or(MAX_NODES).min(MAX_NODES),
+            max_boxes: usize::try_from(max_boxes).unwrap_or(MAX_NODES).min(MAX_NODES),
             // A deadline beyond what the clock can tell is none.
             deadline: timeout.and_then(|timeout| started.checked_add(timeout)),
         })
