@@ -6,15 +6,16 @@
 //! tried is a decimal, which is taken exactly. The tests are [`proof`] and [`refutation`], which
 //! give certificates that the exact checker has accepted.
 
+use crate::adverse::worst_machines;
 use crate::interval::Interval;
-use crate::sample::{Place, Sampler};
+use crate::sample::Sampler;
 use crate::search::{prove, Budget, Control, Stop};
 use crate::verify::MODEL_PRECISION;
-use crate::verify::{accepted, refutation as witness, refuted, worst_values, Answer, Worst};
+use crate::verify::{accepted, refutation as witness, refuted, worst_values, Answer};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Tree};
-use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
@@ -22,11 +23,9 @@ use std::fmt;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// Largest factor between one value and the next.
-const LARGEST_FACTOR: f64 = 10.0;
-/// Machines from which a violation is looked for, beside the middle one.
-const MACHINES: usize = 16;
-/// Finest step of that search, `2^-FINEST` of the workspace and the tolerances.
+/// Largest factor between one value and the next that is of use.
+pub const LARGEST_FACTOR: f64 = 10.0;
+/// Finest step of the search for a violation, `2^-FINEST` of the workspace and the tolerances.
 const FINEST: i32 = 26;
 
 /// A value, and the certificate of the claim for it.
@@ -70,6 +69,12 @@ impl fmt::Display for NoAnswer {
 
 impl std::error::Error for NoAnswer {}
 
+impl From<ClaimError> for NoAnswer {
+    fn from(error: ClaimError) -> Self {
+        NoAnswer::Claim(error.to_string())
+    }
+}
+
 /// On which side of a success all values succeed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Succeeds {
@@ -86,8 +91,10 @@ pub struct Walk {
     pub start: f64,
     /// Which side succeeds.
     pub succeeds: Succeeds,
-    /// The first step's factor; every later one is the square of the one before, up to ten.
+    /// The first step's factor; every later one is the square of the one before.
     pub factor: f64,
+    /// The greatest factor.
+    pub most: f64,
     /// Whether to go on from a start that succeeds.
     pub improve: bool,
     /// Values beyond these are not tried.
@@ -133,7 +140,7 @@ pub fn frontier<T>(
             break;
         }
         x = walk.step(x, factor, success);
-        factor = (factor * factor).min(LARGEST_FACTOR);
+        factor = (factor * factor).min(walk.most);
     }
     while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
         if walk.is_over() || (good / bad).max(bad / good) <= 1.0 + walk.gap {
@@ -199,42 +206,12 @@ pub fn refutation(
     let Some(sampler) = Sampler::new(claim, &model) else {
         return Ok(None);
     };
-    let mut worst = worst_values(&sampler, FINEST);
-    let found = witness(claim, &sampler, &worst).or_else(|| {
-        other_machines(&sampler, &mut worst);
-        witness(claim, &sampler, &worst)
-    });
-    Ok(found.and_then(|witness| decided(refuted(claim, witness))))
-}
-
-/// Improves the worst values from machines at pseudo-random ends of the tolerances: where singular
-/// values coincide, a descent from the middle machine may stay at a saddle.
-fn other_machines(sampler: &Sampler, worst: &mut [Worst]) {
-    if sampler.parameters() == 0 {
-        return;
-    }
-    let mut state = 1u64;
-    let mut end = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        if state >> 63 == 1 {
-            1.0
-        } else {
-            0.0
-        }
+    let worst = match sampler.parameters() {
+        0 => worst_values(&sampler, FINEST),
+        _ => worst_machines(&sampler, FINEST),
     };
-    let machines: Vec<Vec<f64>> =
-        (0..MACHINES).map(|_| (0..sampler.parameters()).map(|_| end()).collect()).collect();
-    for known in worst {
-        let u = known.place.u;
-        for t in &machines {
-            let start = Place { u, t: t.clone() };
-            let (margin, place) = sampler.descend(known.quality, &start, FINEST);
-            if margin < known.margin {
-                (known.margin, known.place) = (margin, place);
-            }
-        }
-    }
+    let found = witness(claim, &sampler, &worst);
+    Ok(found.and_then(|witness| decided(refuted(claim, witness))))
 }
 
 fn decided(answer: Answer) -> Option<Box<Certificate>> {
@@ -252,6 +229,7 @@ mod tests {
         start: 1.0,
         succeeds: Succeeds::Below,
         factor: 10.0,
+        most: LARGEST_FACTOR,
         improve: true,
         limits: (1e-12, 1e12),
         gap: 1e-6,

@@ -5,6 +5,7 @@
 //!
 //! | module           | does                                                                  |
 //! |------------------|-----------------------------------------------------------------------|
+//! | [`adverse`]      | the machine of a tolerance that makes a requirement worst             |
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
@@ -24,6 +25,7 @@
 //! | [`page`]         | a certificate as a page to read and to file, and its figures          |
 //! | [`paper`]        | the claims of the seed paper, one by one                              |
 //! | [`paving`]       | the region of a box where a claim holds, from within and from without |
+//! | [`placement`]    | the best place for a cube, as it seems                                |
 //! | [`postulate`]    | proves the Q1/Q2 postulate for one psi_max, a range, or every one     |
 //! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
 //! | [`report`]       | what a verification found, for people and for scripts                 |
@@ -36,6 +38,7 @@
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
+pub mod adverse;
 pub mod atlas;
 pub mod attestation;
 pub mod batch;
@@ -55,6 +58,7 @@ pub mod output;
 pub mod page;
 pub mod paper;
 pub mod paving;
+pub mod placement;
 pub mod postulate;
 pub mod refute;
 pub mod report;

@@ -244,6 +244,16 @@ impl Sampler {
     /// The place near `start` at which `quality` has its least margin: a compass search over the
     /// point and the machine, from steps of one half down to `2^-finest`.
     pub fn descend(&self, quality: Quality, start: &Place, finest: i32) -> (f64, Place) {
+        self.compass(quality, start, finest, 3 + start.t.len())
+    }
+
+    /// As [`Sampler::descend`], for the machine of `start`.
+    pub fn descend_to_point(&self, quality: Quality, start: &Place, finest: i32) -> (f64, Place) {
+        self.compass(quality, start, finest, 3)
+    }
+
+    /// A compass search along the first so many axes of points and machines.
+    fn compass(&self, quality: Quality, start: &Place, finest: i32, axes: usize) -> (f64, Place) {
         let mut best = start.clone();
         let worst = |place: &Place| self.margin(quality, &self.at(place)).unwrap_or(f64::MAX);
         let mut least = worst(&best);
@@ -252,7 +262,7 @@ impl Sampler {
             // A few rounds a step: the next, finer step takes over what is left.
             for _ in 0..4 {
                 let mut moved = false;
-                for axis in 0..3 + best.t.len() {
+                for axis in 0..axes {
                     for signed in [step, -step] {
                         let candidate = best.moved(axis, signed);
                         let margin = if candidate == best { f64::MAX } else { worst(&candidate) };

@@ -7,13 +7,16 @@
 //! a band, where the tolerances, which are not subdivided, are too wide to be proved.
 
 use crate::decimal::approximate;
-use crate::frontier::{frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk};
+use crate::frontier::{
+    frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Parameter, Quantity};
 use orthocert_checker::number::{Exact, NumberErrorKind};
 use std::fmt;
+use std::time::Instant;
 
 /// The first tolerance tried, relative to the greatest number of its unit.
 const START: f64 = 1e-3;
@@ -21,6 +24,10 @@ const START: f64 = 1e-3;
 const LIMITS: (f64, f64) = (1e-12, 10.0);
 /// Share of the gap that is spent on the refuted end.
 const REFUTED_SHARE: f64 = 0.25;
+/// A tolerance that is not yet beyond all machines, relative to the same, and the factor of the
+/// steps from there on.
+const LAST: f64 = 0.1;
+const SHORT: f64 = 1.25;
 /// The first step's factor where the tolerances just short of the refuted one are not proved.
 const UNPROVED: f64 = 1.3;
 
@@ -171,7 +178,8 @@ fn around(quantity: &Quantity, t: &Exact) -> Result<Quantity, NumberErrorKind> {
 }
 
 /// Encloses the widest `t` for which the claim widened by `scheme` holds. The refuted end is found
-/// to a part of `gap`; the certified end is the widest that the search proves, to `gap`.
+/// to a part of `gap`; the certified end is the widest that the search proves, to `gap`. Where there
+/// is a deadline, a third of the time is for the refuted end.
 ///
 /// # Errors
 /// If it was cancelled.
@@ -189,16 +197,27 @@ pub fn widest(
         start: START * scale,
         succeeds: Succeeds::Above,
         factor: 10.0,
+        most: LARGEST_FACTOR,
         improve: true,
         limits: (LIMITS.0 * scale, LIMITS.1 * scale),
         gap: gap * REFUTED_SHARE,
-        deadline: budget.deadline,
+        deadline: budget.deadline.map(|end| {
+            let now = Instant::now();
+            now + end.saturating_duration_since(now) / 3
+        }),
     };
-    let refuted = frontier(&walk, |t| match scheme.claim(claim, t) {
-        Some(claim) => refutation(&claim, control),
-        None => Ok(None),
-    })?;
-    let walk = Walk { succeeds: Succeeds::Below, gap, ..walk };
+    let mut refute = |walk: &Walk| {
+        frontier(walk, |t| match scheme.claim(claim, t) {
+            Some(claim) => refutation(&claim, control),
+            None => Ok(None),
+        })
+    };
+    let refuted = match refute(&walk)? {
+        // Beyond some tolerance there is no machine, a direction being zero: less far, then.
+        None => refute(&Walk { start: LAST * scale, factor: SHORT, most: SHORT, ..walk })?,
+        found => found,
+    };
+    let walk = Walk { succeeds: Succeeds::Below, gap, deadline: budget.deadline, ..walk };
     let walk = match refuted.as_ref().and_then(|(t, _)| t.to_f64()) {
         // The best that can be hoped for; where it fails, down by steps that grow.
         Some(t) => Walk {

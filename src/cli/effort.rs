@@ -17,8 +17,8 @@ pub const MAX_THREADS: u64 = 1024;
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
-    /// Boxes after which the search gives up [default: 500000; of bounds, for each width that is
-    /// tried, 100000]; beyond 2,000,000 no certificate goes
+    /// Boxes after which a search gives up [default: 500000; in bounds, size and tolerance, which
+    /// search many times, less]; beyond 2,000,000 no certificate goes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
@@ -45,7 +45,7 @@ impl Effort {
     /// As [`budget`](Self::budget), with a default number of boxes of the command's own.
     pub fn budget_or(&self, boxes: u64, started: Instant) -> Result<Budget, Failure> {
         let max_boxes = self.max_boxes.unwrap_or(boxes);
-        let timeout = self.timeout.as_deref().map(time).transpose()?;
+        let timeout = self.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;
         Ok(Budget {
             max_boxes: usize::try_from(max_boxes).unwrap_or(MAX_NODES).min(MAX_NODES),
             // A deadline beyond what the clock can tell is none.
@@ -102,8 +102,8 @@ pub fn start_threads(threads: Option<u64>) -> Result<(), Failure> {
         .map_err(|error| Failure::Output(format!("{threads} threads cannot be started: {error}")))
 }
 
-/// A time: a number with a unit, in seconds without one.
-fn time(text: &str) -> Result<Duration, Failure> {
+/// The time that an option's value is: a number with a unit, in seconds without one.
+pub fn time(option: &str, text: &str) -> Result<Duration, Failure> {
     const UNITS: [(&str, u64); 5] = [
         ("ms", 1_000_000),
         ("min", 60_000_000_000),
@@ -114,13 +114,13 @@ fn time(text: &str) -> Result<Duration, Failure> {
     let refused = || {
         let text: String = text.chars().take(60).collect();
         Failure::Input(format!(
-            "--timeout: found \"{text}\"; accepted: seconds, such as 10 or 0.5, or a time such as \
+            "{option}: found \"{text}\"; accepted: seconds, such as 10 or 0.5, or a time such as \
              500ms, 10s, 2min or 1h"
         ))
     };
     let with_unit = |&(unit, nanoseconds)| Some((text.strip_suffix(unit)?, nanoseconds));
     let (number, unit) = UNITS.iter().find_map(with_unit).ok_or_else(refused)?;
-    let number = input::number("--timeout", number.trim()).map_err(|_| refused())?;
+    let number = input::number(option, number.trim()).map_err(|_| refused())?;
     let number = number.as_rational().filter(|x| !x.is_negative()).ok_or_else(refused)?;
     let nanoseconds = (number * BigRational::from_integer(BigInt::from(unit))).to_integer();
     Ok(nanoseconds.to_u64().map_or(Duration::MAX, Duration::from_nanos))
@@ -142,11 +142,15 @@ mod tests {
             ("2min", 120_000_000_000),
             ("1h", 3_600_000_000_000),
         ] {
-            assert_eq!(time(text).unwrap(), Duration::from_nanos(nanoseconds), "{text}");
+            assert_eq!(
+                time("--timeout", text).unwrap(),
+                Duration::from_nanos(nanoseconds),
+                "{text}"
+            );
         }
-        assert_eq!(time("1e30").unwrap(), Duration::MAX);
+        assert_eq!(time("--timeout", "1e30").unwrap(), Duration::MAX);
         for text in ["", "-1", "s", "ten", "5 days", "nan", "inf", "sqrt(2)"] {
-            assert!(matches!(time(text), Err(Failure::Input(_))), "{text}");
+            assert!(matches!(time("--timeout", text), Err(Failure::Input(_))), "{text}");
         }
     }
 }

@@ -1,10 +1,10 @@
 //! `orthocert largest-cube`.
 
-use super::{certify, effort::Effort, input, print, Failure, Format, Status};
+use super::{certify, effort::Effort, input, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
 use orthocert::decimal::{readable, significant};
 use orthocert::design::Design;
-use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket, NoAnswer};
+use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -80,12 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });
-    let bracket = match found {
-        Ok(bracket) => bracket,
-        Err(NoAnswer::Cancelled) => return Err(Failure::Interrupted),
-        Err(NoAnswer::Claim(reason)) => return Err(Failure::Input(reason)),
-        Err(_) => Bracket::default(),
-    };
+    let bracket = found.map_err(size::explain)?;
     let mut certificates = Vec::new();
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
     let too_large = bracket.too_large.as_ref().map(|too_large| &too_large.certificate);

@@ -4,10 +4,10 @@ use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, rounded, terminating, Toward};
-use orthocert::frontier::{Bracket, NoAnswer};
+use orthocert::frontier::{Bracket, Certified, NoAnswer};
 use orthocert::output;
 use orthocert::report::CertificateFile;
-use orthocert::size::{is_side, Family, Unknown};
+use orthocert::size::{is_side, Family, Scope, Unknown};
 use orthocert_checker::certificate::Certificate;
 use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
@@ -16,8 +16,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Boxes after which a size counts as not certified.
-const BOXES: usize = 20_000;
+/// Boxes after which a size counts as not certified; of centres, as not refuted for every placement.
+const BOXES: u64 = 20_000;
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
 
@@ -33,7 +33,8 @@ pub struct Arguments {
     /// Relative distance of the certified and the refuted size to stop at
     #[arg(long, value_name = "WIDTH", default_value = "1e-6", allow_hyphen_values = true)]
     gap: String,
-    /// Write the certificates of both ends into this folder, which exists
+    /// Write the certificates of all ends into this folder, which exists: size-certified,
+    /// size-refuted (for the cube's place) and size-excluded (for every place)
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -48,13 +49,17 @@ struct Answer {
     cube: Exact,
     /// The smallest size that was certified.
     certified: Option<Exact>,
-    /// The greatest that was refuted, for this placement.
+    /// The greatest that was refuted.
     refuted: Option<Exact>,
-    /// What the refutation speaks about: always "this placement".
+    /// For which placements of the cube.
     refuted_for: &'static str,
     /// `certified/refuted - 1`, rounded up.
     gap: Option<String>,
     gap_reached: bool,
+    /// The greatest that was refuted for more than one placement.
+    excluded: Option<Exact>,
+    /// For which; `null` if that is not known how to prove.
+    excluded_for: Option<&'static str>,
     /// The cube's centre for size 1: it moves in proportion to the size.
     centre_for_size_one: [Exact; 3],
     /// The cube's centre for the certified size.
@@ -78,11 +83,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(&folder.join("size.cert.json"))?;
     }
     effort.start_threads()?;
-    let mut budget = effort.budget(started)?;
-    budget.max_boxes = budget.max_boxes.min(BOXES);
+    let budget = effort.budget_or(BOXES, started)?;
     let family = Family::new(claim, &side, width).map_err(explain)?;
     let found = effort.run(|control| family.smallest(width, budget, control)).map_err(explain)?;
-    let answer = answer(&family, &found, side, width, arguments)?;
+    let excluded =
+        effort.run(|control| family.excluded(width, budget, control)).map_err(explain)?;
+    let answer = answer(&family, (found, excluded), side, width, arguments)?;
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, started))?,
@@ -141,31 +147,39 @@ pub fn shown(x: &Exact, digits: u32, toward: Toward) -> String {
     short.unwrap_or_else(|| rounded(value, digits, toward))
 }
 
+fn scope(scope: Scope) -> &'static str {
+    match scope {
+        Scope::Everywhere => "every placement",
+        Scope::Workspace => "every centre in the workspace, scaled",
+    }
+}
+
 fn answer(
     family: &Family,
-    found: &Bracket,
+    (mut found, excluded): (Bracket, Option<Certified>),
     side: BigRational,
     width: f64,
     arguments: &Arguments,
 ) -> Result<Answer, Failure> {
-    let mut certificates = Vec::new();
-    if let Some(folder) = &arguments.output {
-        for (end, name) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
-            if let Some((_, certificate)) = end {
-                certificates
-                    .push(file(&folder.join(format!("size-{name}.cert.json")), certificate)?);
-            }
-        }
-    }
-    let end = |end: &Option<(BigRational, _)>| {
-        end.as_ref().map(|(size, _)| Exact::Rational(size.clone()))
+    let certificates = match &arguments.output {
+        Some(folder) => stored(folder, &found, excluded.as_ref())?,
+        None => Vec::new(),
     };
-    let (certified, refuted) = (end(&found.certified), end(&found.refuted));
+    let reaches =
+        |found: &Bracket| found.gap().and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width);
+    let end = |end: &Option<Certified>| end.as_ref().map(|(size, _)| Exact::Rational(size.clone()));
+    let excluded_for = family.scope().map(scope);
+    let for_all = Bracket { refuted: excluded, ..found.clone() };
+    let excluded = end(&for_all.refuted);
+    let mut refuted_for = "this placement";
+    if let (true, Some(all)) = (reaches(&for_all), excluded_for) {
+        (found, refuted_for) = (for_all, all);
+    }
+    let certified = end(&found.certified);
     let centre = certified.as_ref().and_then(|size| {
         let [x, y, z] = family.centre.each_ref().map(|c| c.clone().times(size.clone()).ok());
         Some([x?, y?, z?])
     });
-    let reached = found.gap();
     Ok(Answer {
         unknown: match family.unknown {
             Unknown::LegLength => "leg_length",
@@ -173,14 +187,35 @@ fn answer(
         },
         cube: Exact::Rational(side),
         certified,
-        refuted,
-        refuted_for: "this placement",
-        gap: reached.as_ref().map(gap_text),
-        gap_reached: reached.and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width),
+        refuted: end(&found.refuted),
+        refuted_for,
+        gap: found.gap().as_ref().map(gap_text),
+        gap_reached: reaches(&found),
+        excluded,
+        excluded_for,
         centre_for_size_one: family.centre.clone(),
         centre,
         certificates,
     })
+}
+
+/// Writes the certificates that there are.
+fn stored(
+    folder: &Path,
+    found: &Bracket,
+    excluded: Option<&Certified>,
+) -> Result<Vec<CertificateFile>, Failure> {
+    let ends = [
+        ("certified", found.certified.as_ref()),
+        ("refuted", found.refuted.as_ref()),
+        ("excluded", excluded),
+    ];
+    let there = ends.into_iter().filter_map(|(name, end)| Some((name, &end?.1)));
+    there
+        .map(|(name, certificate)| {
+            file(&folder.join(format!("size-{name}.cert.json")), certificate)
+        })
+        .collect()
 }
 
 fn text(answer: &Answer, started: Instant) -> String {
@@ -193,21 +228,29 @@ fn text(answer: &Answer, started: Instant) -> String {
     let cube = exact(&answer.cube);
     let mut out = format!("The smallest machine for a cube of side {cube},\nby {what}.\n\n");
     let row = |out: &mut String, label: &str, value: &str, note: &str| {
-        let _ = writeln!(out, "  {label:<22} {value:<20} {note}");
+        let line = format!("  {label:<22} {value:<20} {note}");
+        let _ = writeln!(out, "{}", line.trim_end());
     };
     match &answer.certified {
         Some(size) => {
             let value = shown(size, DIGITS, Toward::Above);
-            row(&mut out, &format!("{name}, certified"), &value, "and every greater one");
+            row(&mut out, &format!("{name}, certified"), &value, "");
         }
         None => row(&mut out, &format!("{name}, certified"), "none", "no proof was found"),
     }
     match &answer.refuted {
         Some(size) => {
             let value = shown(size, DIGITS, Toward::Below);
-            row(&mut out, &format!("{name}, refuted"), &value, "for this placement, and smaller");
+            let note = format!("for {}", answer.refuted_for);
+            row(&mut out, &format!("{name}, refuted"), &value, &note);
         }
         None => row(&mut out, &format!("{name}, refuted"), "none", "no point that fails was found"),
+    }
+    if let (Some(size), Some(all)) = (&answer.excluded, answer.excluded_for) {
+        if answer.refuted_for != all {
+            let value = shown(size, DIGITS, Toward::Below);
+            row(&mut out, &format!("{name}, excluded"), &value, &format!("for {all}"));
+        }
     }
     if let Some(gap) = &answer.gap {
         let _ = writeln!(out, "  {:<22} {gap}", "relative gap");
@@ -218,9 +261,19 @@ fn text(answer: &Answer, started: Instant) -> String {
             let _ = writeln!(out, "    {axis} = {}", shown(x, DIGITS, Toward::Below));
         }
     }
-    out +=
-        "\n  The centre moves in proportion to the size. The refutation is for the cube placed\n  \
-            so, the best place that was found: that no other place works is not proved.\n";
+    out += "\n  The centre moves in proportion to the size. What is certified is for every greater\n  \
+              size too, what is refuted or excluded for every smaller one.\n";
+    out += match (answer.excluded_for, &answer.excluded) {
+        (Some(all), Some(_)) if answer.refuted_for == all => "",
+        (Some(_), Some(_)) => {
+            "  The refutation is for the cube placed so, the best place that was found; of other\n  \
+              places, the exclusion says what is proved.\n"
+        }
+        _ => {
+            "  The refutation is for the cube placed so, the best place that was found: that no\n  \
+              other place works is not proved.\n"
+        }
+    };
     let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
     out
 }

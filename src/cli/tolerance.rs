@@ -22,8 +22,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Boxes after which a tolerance counts as not certified: what closes at all mostly closes in a few
-/// hundred.
-const BOXES: usize = 2_000;
+/// hundred, or in a few times as many as without tolerances.
+const BOXES: (usize, usize) = (2_000, 4);
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -38,6 +38,9 @@ pub struct Arguments {
     /// Relative distance of the certified and the refuted tolerance to stop at
     #[arg(long, value_name = "WIDTH", default_value = "1e-3", allow_hyphen_values = true)]
     gap: String,
+    /// Time for each row of the answer [default: no limit]: seconds, or a number with ms, s, min or h
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    each: Option<String>,
     /// Write the certificates of both ends into this folder, which exists
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -72,6 +75,8 @@ struct Row {
     /// `refuted/certified - 1`, rounded up.
     gap: Option<String>,
     gap_reached: bool,
+    /// Whether the row's time was up before the search for it ended.
+    out_of_time: bool,
     /// The machine and the point of the refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
     counterexample: Option<Counterexample>,
@@ -92,37 +97,44 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;
     }
-    effort.start_threads()?;
+    let each = arguments.each.as_deref().map(|text| effort::time("--each", text)).transpose()?;
     let budget = effort.budget(started)?;
+    effort.start_threads()?;
     let nominal = Scheme::common(&kinds).claim(claim, &BigRational::from_integer(0.into()));
     let nominal = nominal.ok_or_else(too_large)?;
-    if let Some(status) = not_certified(&nominal, arguments, budget)? {
-        return Ok(status);
-    }
-    let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
+    let nodes = match nodes_or_status(&nominal, arguments, budget)? {
+        Ok(nodes) => nodes,
+        Err(status) => return Ok(status),
+    };
+    let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
+    let budget = effort.budget_or(enough as u64, started)?;
+    let bracket = |scheme: &Scheme| {
+        let own = each.and_then(|each| Instant::now().checked_add(each));
+        let deadline = [budget.deadline, own].into_iter().flatten().min();
+        let budget = Budget { deadline, ..budget };
+        let found = effort.run(|control| widest(claim, scheme, width, budget, control));
+        let out_of_time = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        found.map(|found| (found, out_of_time)).map_err(explain)
+    };
     let mut rows = Vec::new();
     let mut weights = Vec::new();
     for (scheme, measure) in schemes(&kinds) {
-        let found = effort
-            .run(|control| widest(claim, &scheme, width, budget, control))
-            .map_err(explain)?;
-        if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.certified) {
+        let found = bracket(&scheme)?;
+        if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.0.certified) {
             weights.push((*kind, t.clone()));
         }
-        rows.push(row(&scheme, measure, &found, width, arguments)?);
+        rows.push(row(&scheme, measure, found, width, arguments)?);
     }
     if mixed(&kinds) && weights.len() == kinds.len() {
         let scheme = Scheme { weights };
-        let found = effort
-            .run(|control| widest(claim, &scheme, width, budget, control))
-            .map_err(explain)?;
-        rows.push(row(&scheme, Measure::Share, &found, width, arguments)?);
+        let found = bracket(&scheme)?;
+        rows.push(row(&scheme, Measure::Share, found, width, arguments)?);
     }
     match effort.format {
-        Format::Json => {
-            print::json(&serde_json::json!({ "nominal": "certified", "tolerances": rows }))?;
-        }
-        Format::Text => print::answer(&text(&rows, started))?,
+        Format::Json => print::json(&serde_json::json!({
+            "nominal": "certified", "each": &arguments.each, "tolerances": rows,
+        }))?,
+        Format::Text => print::answer(&text(&rows, arguments.each.as_deref(), started))?,
     }
     let complete = rows.iter().all(|row| row.certified.is_some() && row.refuted.is_some());
     Ok(if complete { Status::Done } else { Status::Undecided })
@@ -175,19 +187,21 @@ fn schemes(kinds: &[Kind]) -> Vec<(Scheme, Measure)> {
     all
 }
 
-/// Says so and gives the status, if the design with nominal values is not certified.
-fn not_certified(
+/// The nodes of the proof of the design with nominal values. If it is not certified, says so and
+/// gives the status.
+fn nodes_or_status(
     nominal: &MachineClaim,
     arguments: &Arguments,
     budget: Budget,
-) -> Result<Option<Status>, Failure> {
+) -> Result<Result<usize, Status>, Failure> {
     let effort = &arguments.effort;
     let refuted = effort.run(|control| refutation(nominal, control)).map_err(explain)?;
     let counterexample = refuted.as_deref().and_then(|found| witness(nominal, found));
-    if refuted.is_none()
-        && effort.run(|control| proof(nominal, budget, control)).map_err(explain)?.is_some()
-    {
-        return Ok(None);
+    if refuted.is_none() {
+        let found = effort.run(|control| proof(nominal, budget, control)).map_err(explain)?;
+        if let Some(Proof::Tree(tree)) = found.map(|certificate| certificate.proof) {
+            return Ok(Ok(tree.nodes.len()));
+        }
     }
     let (word, status) = match refuted {
         Some(_) => ("refuted", Status::Decided(Verdict::Refuted)),
@@ -195,7 +209,8 @@ fn not_certified(
     };
     match effort.format {
         Format::Json => print::json(&serde_json::json!({
-            "nominal": word, "counterexample": counterexample, "tolerances": [],
+            "nominal": word, "counterexample": counterexample, "each": &arguments.each,
+            "tolerances": [],
         }))?,
         Format::Text => {
             let mut out = format!(
@@ -211,7 +226,7 @@ fn not_certified(
             print::answer(&out)?;
         }
     }
-    Ok(Some(status))
+    Ok(Err(status))
 }
 
 fn witness(claim: &MachineClaim, certificate: &Certificate) -> Option<Counterexample> {
@@ -224,7 +239,7 @@ fn witness(claim: &MachineClaim, certificate: &Certificate) -> Option<Counterexa
 fn row(
     scheme: &Scheme,
     measure: Measure,
-    found: &Bracket,
+    (found, out_of_time): (Bracket, bool),
     width: f64,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
@@ -267,12 +282,13 @@ fn row(
         refuted: end(&found.refuted),
         gap: reached.as_ref().map(gap_text),
         gap_reached: reached.and_then(|gap| gap.to_f64()).is_some_and(|gap| gap <= width),
+        out_of_time,
         counterexample,
         certificates,
     })
 }
 
-fn text(rows: &[Row], started: Instant) -> String {
+fn text(rows: &[Row], each: Option<&str>, started: Instant) -> String {
     let mut out = "Every parameter of the kinds named lies within ± t of its nominal value,\n\
          independently of all others. The design is certified for the t on the left, and\n\
          refuted, by one machine and point, for the t on the right.\n\n"
@@ -298,7 +314,18 @@ fn text(rows: &[Row], started: Instant) -> String {
             row.certified.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Below));
         let refuted = row.refuted.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Above));
         let gap = row.gap.as_deref().unwrap_or("-");
-        let _ = writeln!(out, "  {name:<24} {measure:<10} {certified:>12} {refuted:>12} {gap:>9}");
+        let mark = if row.out_of_time { " *" } else { "" };
+        let _ = writeln!(
+            out,
+            "  {name:<24} {measure:<10} {certified:>12} {refuted:>12} {gap:>9}{mark}"
+        );
+    }
+    if rows.iter().any(|row| row.out_of_time) {
+        out += "\n  * The time was up: with more of it the ends may be nearer to each other.\n";
+    }
+    if let Some(each) = each {
+        let each: String = each.chars().take(20).collect();
+        let _ = writeln!(out, "\n  Each row had at most {each} of time.");
     }
     if rows.iter().any(|row| row.measure == Measure::Component) {
         out += "\n  A direction's t is that of its components as the design writes them.\n";

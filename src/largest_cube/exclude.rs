@@ -1,6 +1,6 @@
 //! No cube of a side fits: a tree over the centres.
 
-use super::NoAnswer;
+use crate::frontier::NoAnswer;
 use crate::paving::{header, Decider};
 use crate::search::{by_weight, search, Budget, Control, Problem, Stop, Trial};
 use crate::verify::{accepted, Answer};

@@ -3,27 +3,25 @@
 //!
 //! | module    | does                                                                |
 //! |-----------|---------------------------------------------------------------------|
-//! | `place`   | looks for the best centre, in doubles                               |
 //! | `exclude` | proves that no cube of a side fits, wherever its centre is in a box |
 //!
 //! The lower bound is a certificate for the cube as a workspace of its own; the upper bound is a
 //! certificate of the claim [`NoCube`](orthocert_checker::claim::Claim::NoCube).
 
 mod exclude;
-mod place;
 
+use crate::frontier::NoAnswer;
+use crate::placement::{best_place, cube_about, Centres};
 use crate::search::{Budget, Control};
 use crate::verify::{verify, Answer};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{ClaimError, MachineClaim, Workspace};
+use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 
 pub use exclude::exclude;
-pub(crate) use place::direction;
-pub use place::{best_place, Place};
 
 /// A cube that is certified.
 #[derive(Clone, Debug)]
@@ -54,29 +52,14 @@ pub struct Bracket {
     pub too_large: Option<TooLarge>,
 }
 
-/// Why there is no answer at all.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NoAnswer {
-    /// It was cancelled.
-    Cancelled,
-    /// The claim is not well formed, or its workspace is not a box with a volume.
-    Claim(String),
-    /// No centre was found at which the requirements hold.
-    Nowhere,
-}
-
-impl From<ClaimError> for NoAnswer {
-    fn from(error: ClaimError) -> Self {
-        NoAnswer::Claim(error.to_string())
-    }
-}
-
 /// Shares of the gap that are left between the place found and either bound, tried in turn. The
 /// later ones are for tolerances, and for regions in which the place is not unique.
 const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
 /// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
 const BOXES: usize = 50_000;
+
+/// Precision of the side of a place, relative to the gap.
+const PLACEMENT: f64 = 1e-3;
 
 /// Encloses the side of the largest cube with its centre in the workspace of `claim`, a box, to a
 /// relative width of `gap`, or as near to it as the budget allows.
@@ -89,7 +72,9 @@ pub fn largest_cube(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
-    let place = best_place(claim, gap)?.ok_or(NoAnswer::Nowhere)?;
+    let Some(place) = best_place(claim, Centres::Workspace, gap * PLACEMENT)? else {
+        return Ok(Bracket::default());
+    };
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
     let mut bracket = Bracket::default();
     for share in SHARES {
@@ -124,7 +109,7 @@ pub fn cube_of_side(
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
     let wanted = crate::decimal::approximate(side).unwrap_or(f64::INFINITY);
-    let place = best_place(claim, FINE)?;
+    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT)?;
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
@@ -151,13 +136,8 @@ fn certified(
         return Ok(None);
     }
     let too_large = |_| NoAnswer::Claim("its numbers exceed what can be reported".to_owned());
-    let half = side.clone().over(Exact::integer(2)).map_err(too_large)?;
-    let (mut min, mut max) = (centre.clone(), centre.clone());
-    for k in 0..3 {
-        min[k] = centre[k].clone().minus(half.clone()).map_err(too_large)?;
-        max[k] = centre[k].clone().plus(half.clone()).map_err(too_large)?;
-    }
-    let cube = MachineClaim { workspace: Workspace::Box { min, max }, ..claim.clone() };
+    let workspace = cube_about(&centre, side).map_err(too_large)?;
+    let cube = MachineClaim { workspace, ..claim.clone() };
     match verify(&cube, budget, control)?.answer {
         Answer::Cancelled => Err(NoAnswer::Cancelled),
         Answer::Decided { certificate, accepted } if accepted.verdict == Verdict::Certified => {

@@ -13,7 +13,7 @@ const DESIGNS: [&str; 5] = [
 
 /// A definition of the schema, the arguments of a command, and its exit code, in order: later ones
 /// read what earlier ones write.
-const COMMANDS: [(&str, &[&str], i32); 24] = [
+const COMMANDS: [(&str, &[&str], i32); 26] = [
     ("verify", &["verify", "orthoglide-312.toml"], 0),
     ("verify", &["verify", "orthoglide-310.toml"], 1),
     ("verify", &["verify", "orthoglide-tie.toml", "--max-boxes", "50"], 3),
@@ -39,7 +39,9 @@ const COMMANDS: [(&str, &[&str], i32); 24] = [
     ("run_shard", &["run-shard", "job/shard-0001.json"], 0),
     ("pave", &["merge", "job", "-o", "merged.paving"], 0),
     ("largest_cube", &["largest-cube", "region.toml", "--side", "250"], 1),
-    ("tolerance", &["tolerance", "orthoglide-312.toml", "--on", "anchor", "--gap", "0.5"], 0),
+    ("tolerance", &["tolerance", "orthoglide-312.toml", "--gap", "0.5"], 0),
+    ("tolerance", &["tolerance", "orthoglide-310.toml"], 1),
+    ("tolerance", &["tolerance", "orthoglide-312.toml", "--each", "0"], 3),
     ("size", &["size", "orthoglide-312.toml", "--cube", "200", "--gap", "0.01"], 0),
     ("show", &["show", "postulate.cert.json"], 0),
 ];

@@ -30,7 +30,8 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
             assert!(low < closed_form && closed_form < high, "{low} {high}");
             assert!(high / low - 1.0 <= gap * 1.000_001, "{low} {high}");
             assert_eq!(value["unknown"], "leg_length");
-            assert_eq!(value["refuted_for"], "this placement");
+            assert_eq!(value["refuted_for"], "every placement");
+            assert_eq!(value["excluded"], value["refuted"]);
             assert_eq!(value["gap_reached"], true);
             // The centre of the largest cube for legs of length 1.
             let centre = number(&value["centre_for_size_one"][0]);
@@ -39,6 +40,46 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
     }
     folder.run(&["check", "size-certified.cert.json"]).exits(0).says(&["It is proved"]);
     folder.run(&["check", "size-refuted.cert.json"]).exits(1);
+    let excluded = folder.run(&["check", "size-excluded.cert.json"]).exits(0);
+    excluded.says(&["No axis-aligned cube of side 200"]);
+    let certificate: Value =
+        serde_json::from_slice(&folder.read("size-excluded.cert.json")).unwrap();
+    // The box of the centres is that of the lemma: plus or minus the leg length.
+    let machine = &certificate["claim"]["no_cube"]["machine"];
+    let length = number(&machine["mechanism"]["translational"][0]["length"]);
+    for k in 0..3 {
+        assert_eq!(number(&machine["workspace"]["box"]["min"][k]), -length);
+        assert_eq!(number(&machine["workspace"]["box"]["max"][k]), length);
+    }
+    assert!(length < closed_form);
+}
+
+#[test]
+fn what_is_not_proved_of_every_placement_is_said() {
+    let folder = Folder::with(&["linear-delta-linuxcnc-box.toml"]);
+    let design = String::from_utf8(folder.read("linear-delta-linuxcnc-box.toml")).unwrap();
+    // The best place of a cube is far from this corner of the region.
+    let corner = design.replace("min = [-50, -50, 0]", "min = [40, 40, 0]");
+    folder.write("corner.toml", corner);
+    let arguments = ["corner.toml", "--cube", "100", "--gap", "1e-2", "-o", "."];
+    let value = sized(&folder, &arguments);
+    assert_eq!(value["refuted_for"], "this placement");
+    assert_eq!((&value["excluded"], &value["excluded_for"]), (&Value::Null, &Value::Null));
+    assert!(!folder.path("size-excluded.cert.json").exists());
+    let text = folder.run(&["size", "corner.toml", "--cube", "100", "--gap", "1e-2"]).exits(0);
+    text.says(&["for this placement", "no other place works is not proved"]);
+}
+
+#[test]
+fn a_small_budget_leaves_a_looser_exclusion() {
+    let folder = Folder::new();
+    let value = sized(&folder, &["--cube", "200", "--max-boxes", "2000"]);
+    assert_eq!(value["refuted_for"], "this placement");
+    let (refuted, excluded) = (number(&value["refuted"]), number(&value["excluded"]));
+    assert!(excluded < refuted, "{excluded} {refuted}");
+    assert_eq!(value["excluded_for"], "every placement");
+    let run = folder.run(&["size", "--cube", "200", "--max-boxes", "2000"]).exits(0);
+    run.says(&["leg length, excluded", "for every placement", "the exclusion says what is proved"]);
 }
 
 #[test]
@@ -48,6 +89,7 @@ fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
         let arguments = ["linear-delta-linuxcnc-box.toml", "--cube", side, "--gap", "1e-3"];
         let value = sized(&folder, &arguments);
         assert_eq!(value["unknown"], "scale");
+        assert_eq!(value["refuted_for"], "every centre in the workspace, scaled");
         (number(&value["refuted"]), number(&value["certified"]))
     };
     let ((low, high), (twice_low, twice_high)) = (scale("100"), scale("200"));

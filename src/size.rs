@@ -6,18 +6,18 @@
 //! scale `s` what one of side `a/s` with its centre at `c` does for scale 1. The latter are nested.
 //! So for one `c` there is one threshold: certified for a scale means possible for every greater
 //! one, and refuted for a scale means impossible, *for this placement*, for every smaller one.
-//!
-//! | module  | does                                      |
-//! |---------|-------------------------------------------|
-//! | `place` | looks for the best placement, in doubles  |
-
-mod place;
+//! [`Family::excluded`] shows the latter for every placement at once.
 
 use crate::decimal::approximate;
-use crate::frontier::{decimal, frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk};
+use crate::frontier::{
+    decimal, frontier, proof, refutation, Bracket, Certified, NoAnswer, Succeeds, Walk,
+    LARGEST_FACTOR,
+};
+use crate::largest_cube::exclude;
+use crate::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::{FromPrimitive, Signed, ToPrimitive};
 use orthocert_checker::claim::{
     Leg, MachineClaim, Mechanism, Quantity, Range, WorkingMode, Workspace,
 };
@@ -27,9 +27,12 @@ use std::array::from_fn;
 /// Share of the gap that is left between the size found and either end.
 const SHARE: f64 = 0.4;
 /// Significance of a placement, relative to the gap.
-const PLACEMENT: f64 = 1e-3;
+const PLACEMENT: f64 = 1e-4;
 /// Sizes tried, relative to the one found.
 const SPREAD: f64 = 100.0;
+/// How far below the size found every placement is excluded first, and what this is divided by
+/// while that succeeds.
+const EXCLUDED: (f64, f64) = (0.1, 10.0);
 
 /// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +41,15 @@ pub enum Unknown {
     LegLength,
     /// The factor of all lengths and coordinates of the machine.
     Scale,
+}
+
+/// Which placements of the cube it is proved about a size that they are impossible for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every one.
+    Everywhere,
+    /// Those with the centre in the workspace's bounding box, which is scaled with the machine.
+    Workspace,
 }
 
 /// A family of machines, one for every size, and where each has its cube.
@@ -64,7 +76,7 @@ impl Family {
         let claim = as_box(claim)?;
         scale_free(&claim)?;
         let orthoglide = leg_length(&claim);
-        let place = place::best_place(&claim, orthoglide.is_some(), gap * PLACEMENT)?;
+        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT)?;
         let (unknown, own) = match orthoglide {
             Some(length) => (Unknown::LegLength, length),
             None => (Unknown::Scale, 1.0),
@@ -77,6 +89,13 @@ impl Family {
     /// The claim about the machine of size `x`, and its cube. `None` where the numbers become too
     /// large.
     pub fn claim(&self, x: &BigRational) -> Option<MachineClaim> {
+        let centre = scaled(&self.centre, &Exact::Rational(x.clone()))?;
+        let workspace = cube_about(&centre, &Exact::Rational(self.side.clone())).ok()?;
+        Some(MachineClaim { workspace, ..self.machine(x)? })
+    }
+
+    /// The machine of size `x`, in the workspace of size 1.
+    fn machine(&self, x: &BigRational) -> Option<MachineClaim> {
         let factor = Exact::Rational(x.clone());
         let mut claim = self.claim.clone();
         let Mechanism::Translational(legs) = &mut claim.mechanism else {
@@ -96,21 +115,75 @@ impl Family {
                 *quantity = Quantity { min: end(&quantity.min)?, max: end(&quantity.max)? };
             }
         }
-        let half = Exact::Rational(&self.side / BigRational::from_integer(2.into()));
-        let [centre_x, centre_y, centre_z] = self.centre.each_ref();
-        let at = |centre: &Exact| centre.clone().times(factor.clone()).ok();
-        let centre = [at(centre_x)?, at(centre_y)?, at(centre_z)?];
-        let (mut min, mut max) = (centre.clone(), centre.clone());
-        for k in 0..3 {
-            min[k] = centre[k].clone().minus(half.clone()).ok()?;
-            max[k] = centre[k].clone().plus(half.clone()).ok()?;
-        }
-        claim.workspace = Workspace::Box { min, max };
         Some(claim)
     }
 
-    /// Encloses the smallest size whose cube can be certified, to a relative width of `gap`, or as
-    /// near to it as the budget allows.
+    /// The placements that [`Family::excluded`] is about; `None` if the one found is not among them.
+    pub fn scope(&self) -> Option<Scope> {
+        if self.unknown == Unknown::LegLength {
+            return Some(Scope::Everywhere);
+        }
+        let (min, max) = self.claim.workspace.bounding_box().ok()?;
+        let at_most = |x: &Exact, y: &Exact| x.compare(y).is_some_and(std::cmp::Ordering::is_le);
+        let within =
+            |k: usize| at_most(&min[k], &self.centre[k]) && at_most(&self.centre[k], &max[k]);
+        (0..3).all(within).then_some(Scope::Workspace)
+    }
+
+    /// The machine of size `x`, whose workspace is the box of the centres of [`Scope`].
+    ///
+    /// For an Orthoglide of leg length `x` that is `[-x, x]^3`. **Lemma.** Then no cube with another
+    /// centre fits. *Proof.* Leg `i` reaches `P` only if the squares of the two coordinates of `P`
+    /// across its guide, which lies on axis `i`, sum to at most `x^2`. Every coordinate is across
+    /// some guide: at a centre with a coordinate beyond `[-x, x]`, a point of the cube, some leg is
+    /// out of reach. ∎
+    fn centres(&self, x: &BigRational) -> Option<MachineClaim> {
+        let factor = Exact::Rational(x.clone());
+        let (min, max) = match self.scope()? {
+            Scope::Everywhere => {
+                (from_fn(|_| factor.clone().negated()), from_fn(|_| factor.clone()))
+            }
+            Scope::Workspace => {
+                let (min, max) = self.claim.workspace.bounding_box().ok()?;
+                (scaled(&min, &factor)?, scaled(&max, &factor)?)
+            }
+        };
+        Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine(x)? })
+    }
+
+    /// The greatest size for which it is proved that none of the placements of [`Family::scope`] is
+    /// possible, nor for any smaller size: as near to the size expected as `gap` and the budget
+    /// allow. `None` where nothing of the kind is proved.
+    ///
+    /// # Errors
+    /// If it was cancelled.
+    pub fn excluded(
+        &self,
+        gap: f64,
+        budget: Budget,
+        control: &mut Control<'_>,
+    ) -> Result<Option<Certified>, NoAnswer> {
+        let side = Exact::Rational(self.side.clone());
+        let (mut best, mut below) = (None, EXCLUDED.0);
+        // A size far below is excluded by few boxes, and what fails costs most.
+        loop {
+            let share = f64::max(below, SHARE * gap);
+            let Some(size) = decimal(self.expected * (1.0 - share), gap) else { break };
+            let Some(claim) = self.centres(&size) else { break };
+            match exclude(&claim, &side, budget, control)? {
+                Some(certificate) => best = Some((size, certificate)),
+                None => break,
+            }
+            if share > below {
+                break;
+            }
+            below /= EXCLUDED.1;
+        }
+        Ok(best)
+    }
+
+    /// Encloses the smallest size whose cube can be certified at the place found, to a relative width
+    /// of `gap`, or as near to it as the budget allows.
     ///
     /// # Errors
     /// If it was cancelled.
@@ -124,6 +197,7 @@ impl Family {
             start: self.expected * (1.0 + SHARE * gap),
             succeeds: Succeeds::Above,
             factor: 1.0 + gap,
+            most: LARGEST_FACTOR,
             improve: false,
             limits: (self.expected / SPREAD, self.expected * SPREAD),
             gap,
@@ -140,6 +214,42 @@ impl Family {
             None => Ok(None),
         })?;
         Ok(Bracket { certified, refuted })
+    }
+}
+
+/// `x` times `factor`; `None` where the numbers become too large.
+fn scaled(x: &[Exact; 3], factor: &Exact) -> Option<[Exact; 3]> {
+    let [a, b, c] = x.each_ref().map(|x| x.clone().times(factor.clone()).ok());
+    Some([a?, b?, c?])
+}
+
+/// The best place found for a cube, searched from a cube about the claim's workspace.
+fn placed(claim: &MachineClaim, diagonal: bool, precision: f64) -> Result<Cube, NoAnswer> {
+    let refused = |why: &str| NoAnswer::Claim(why.to_owned());
+    let too_large = || refused("the design's numbers are too large");
+    let (min, max) = claim.workspace.bounding_box()?;
+    let ends = |k: usize| approximate(&min[k]).zip(approximate(&max[k]));
+    let ends = [ends(0), ends(1), ends(2)].into_iter().collect::<Option<Vec<_>>>();
+    let ends = ends.ok_or_else(too_large)?;
+    let width = ends.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    let width = if width > 0.0 { width } else { 1.0 };
+    let number = |x: f64| BigRational::from_f64(x).map(Exact::Rational).ok_or_else(too_large);
+    let middle = |k: usize| number((ends[k].0 + ends[k].1) / 2.0);
+    let workspace = cube_about(&[middle(0)?, middle(1)?, middle(2)?], &number(width)?);
+    let workspace = workspace.map_err(|_| too_large())?;
+    let centres = if diagonal { Centres::Diagonal } else { Centres::Anywhere };
+    let place = best_place(&MachineClaim { workspace, ..claim.clone() }, centres, precision)?;
+    let place = place.ok_or_else(|| {
+        refused(
+            "no point of the workspace was found at which every requirement holds, to put a cube \
+             there; accepted: a design whose workspace holds such a point",
+        )
+    })?;
+    match is_endless(&place, width) {
+        true => {
+            Err(refused("the requirements hold in cubes of any size: there is no smallest machine"))
+        }
+        false => Ok(place),
     }
 }
 
