@@ -185,6 +185,37 @@ impl Sampler {
         }
     }
 
+    /// By what factor, less one, the bound of a quality is tightened until it is met with equality
+    /// at a place ([`crate::atlas::tightened`]): negative where it is violated, -1 where a leg does
+    /// not reach. `None` where there is no bound, or a joint's range has one end only.
+    pub fn room(&self, quality: Quality, values: &Values) -> Option<f64> {
+        let margin = self.margin(quality, values)?;
+        let Some(reached) = &values.reached else {
+            return Some(-1.0);
+        };
+        match quality {
+            Quality::Clearance | Quality::Determinant => (margin <= 0.0).then_some(-1.0),
+            // The value over the bound, less one.
+            Quality::GreatestPsi | Quality::SerialMargin(_) | Quality::ParallelMargin => {
+                Some(margin)
+            }
+            // One less the value over the bound.
+            Quality::LeastPsi | Quality::Conditioning | Quality::JointSpeed(_) => {
+                Some(1.0 / (1.0 - margin) - 1.0)
+            }
+            Quality::LegAngle(_) => {
+                let greatest = self.model.bounds.leg_angle?.0.clamp(0.0, 1.0).sqrt().acos();
+                Some(greatest.to_degrees() / self.value(quality, values)? - 1.0)
+            }
+            Quality::LeastRho(leg) | Quality::GreatestRho(leg) => {
+                let range = &self.model.bounds.joint_range.as_ref()?[leg];
+                let (least, greatest) = (range.least()?, range.greatest()?);
+                let off = (reached.rho[leg] - (least + greatest) / 2.0).abs();
+                Some((greatest - least) / 2.0 / off - 1.0)
+            }
+        }
+    }
+
     /// The value of a quality at a place, whatever the claim's bounds: lengths in the model's unit,
     /// angles in degrees, speeds per unit of tool speed. `None` out of reach, or where the legs
     /// have no such quality.

@@ -1,6 +1,6 @@
 //! What a map says of single designs: the best one, and those that are marked.
 
-use crate::design::{AtlasDesign, Mark, Objective};
+use crate::design::{AtlasDesign, Mark};
 use orthocert_checker::atlas::{range, walk, Ends};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::AtlasCell;
@@ -31,11 +31,16 @@ pub enum Standing {
     Outside,
 }
 
-/// The best vertex of a certified cell, the first in the order of the map among equals. Cells are
-/// closed, so that their vertices are certified.
-pub fn best(design: &AtlasDesign, objective: &Objective, cells: &[AtlasCell]) -> Option<Best> {
+/// The vertex of a certified cell at which the value of an expression compares as `better` with all
+/// others, the first in the order of the map among equals. Cells are closed, so that their vertices
+/// are certified.
+pub fn best(
+    design: &AtlasDesign,
+    expression: &Exact,
+    better: Ordering,
+    cells: &[AtlasCell],
+) -> Option<Best> {
     let claim = design.claim();
-    let better = if objective.maximise { Ordering::Greater } else { Ordering::Less };
     let mut best: Option<Best> = None;
     // The tree's shape was checked with the certificate.
     let walked = walk(cells, design.parameters.len(), |_, cell, said| {
@@ -48,7 +53,7 @@ pub fn best(design: &AtlasDesign, objective: &Objective, cells: &[AtlasCell]) ->
                 _ => ends.1.clone(),
             };
             let at: Vec<Exact> = ranges.iter().enumerate().map(end).collect();
-            let Some(value) = value(design, &objective.expression, &at) else {
+            let Some(value) = value(design, expression, &at) else {
                 continue;
             };
             if best.as_ref().is_none_or(|best| value.compare(&best.value) == Some(better)) {

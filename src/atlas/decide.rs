@@ -49,12 +49,14 @@ pub fn decide(
     if let Some(strictest) = strictest.filter(promising) {
         return certified(design, claim, cell, &strictest, cancel);
     }
-    let loosest = claim.cell(cell, Side::Loosest).ok();
-    let witness = loosest.and_then(|loosest| common_witness(&loosest));
-    match witness.map(|witness| AtlasCell::Refuted(Box::new(witness))) {
-        Some(refuted) if accepted(claim, cell, &refuted) => Decision::Decided(refuted),
-        _ => Decision::Open,
-    }
+    refuted(claim, cell).map_or(Decision::Open, Decision::Decided)
+}
+
+/// A cell refuted, if the checker accepts a witness that is found for it.
+pub(super) fn refuted(claim: &AtlasClaim, cell: &Cell) -> Option<AtlasCell> {
+    let loosest = claim.cell(cell, Side::Loosest).ok()?;
+    let refuted = AtlasCell::Refuted(Box::new(common_witness(&loosest)?));
+    accepted(claim, cell, &refuted).then_some(refuted)
 }
 
 fn accepted(claim: &AtlasClaim, cell: &Cell, said: &AtlasCell) -> bool {
@@ -62,7 +64,7 @@ fn accepted(claim: &AtlasClaim, cell: &Cell, said: &AtlasCell) -> bool {
 }
 
 /// Samples the claim; `None` if it has no model.
-fn sampled(claim: &MachineClaim) -> Option<(Sampler, Vec<Worst>)> {
+pub(super) fn sampled(claim: &MachineClaim) -> Option<(Sampler, Vec<Worst>)> {
     let model = Model::new(claim, MODEL_PRECISION).ok()?;
     let sampler = Sampler::new(claim, &model)?;
     let worst = worst_values(&sampler, FINEST);

@@ -6,16 +6,22 @@
 //! it can be made anywhere (`part`).
 
 mod best;
+mod contours;
 mod decide;
+mod margin;
 mod page;
 mod part;
 mod picture;
+mod widest;
 
 pub use best::{best, verdict_at, Best, Standing};
+pub use contours::{contours, Contour};
 pub use decide::{decide, Decision};
+pub use margin::{margin, tightened, without_margin};
 pub use page::page;
 pub use part::{assemble, grow, waiting, Growing, Stopped, Top};
 pub use picture::{picture, Point};
+pub use widest::{widest, Bound, Widest};
 
 use crate::design::AtlasDesign;
 use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Proof, Verdict};

@@ -93,10 +93,15 @@ impl<'a> Growing<'a> {
     /// The axis on which a cell is split: the one that was halved least, the first of these; `None`
     /// at the finest resolution.
     fn axis(&self, cell: &Cell) -> Option<usize> {
-        let levels = cell.edges.iter().map(|edge| edge.level).take(self.claim.parameters.len());
-        let (level, axis) = levels.enumerate().map(|(axis, level)| (level, axis)).min()?;
-        (level < self.design.resolution).then_some(axis)
+        least_halved(cell, self.claim.parameters.len(), self.design.resolution)
     }
+}
+
+/// The axis of a cell that was halved least, the first of these, if less than `finest` times.
+pub(super) fn least_halved(cell: &Cell, parameters: usize, finest: u32) -> Option<usize> {
+    let levels = cell.edges.iter().map(|edge| edge.level).take(parameters);
+    let (level, axis) = levels.enumerate().map(|(axis, level)| (level, axis)).min()?;
+    (level < finest).then_some(axis)
 }
 
 /// Grows the tree below `root` level by level, until nothing is open or, at the end of a level, at
@@ -148,6 +153,21 @@ pub fn grow(
         }
         level = next;
     }
+    Ok(in_order(nodes))
+}
+
+/// A node of the growing tree.
+pub(super) enum Node {
+    /// It was not tried yet.
+    Waiting,
+    /// It is decided, or not to be split.
+    Leaf(AtlasCell),
+    /// The axis, and the positions of both halves.
+    Split(usize, [usize; 2]),
+}
+
+/// The nodes of a tree whose root is the first, in preorder.
+pub(super) fn in_order(mut nodes: Vec<Node>) -> Vec<Top> {
     let mut top = Vec::with_capacity(nodes.len());
     let mut waiting = vec![0];
     while let Some(at) = waiting.pop() {
@@ -160,15 +180,7 @@ pub fn grow(
             }
         }
     }
-    Ok(top)
-}
-
-/// A node of the growing tree.
-enum Node {
-    Waiting,
-    Leaf(AtlasCell),
-    /// The axis, and the positions of both halves.
-    Split(usize, [usize; 2]),
+    top
 }
 
 impl Node {

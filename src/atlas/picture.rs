@@ -1,10 +1,13 @@
-//! The map as a picture (SVG): verdicts by colour and by pattern, axes with ticks, marks.
+//! The map as a picture (SVG): verdicts by colour and by pattern, lines of equal margin, axes with
+//! ticks, marks.
 //!
 //! One parameter makes a strip, two a map, three a row of maps: the planes through the middles of
 //! four equal parts of the third parameter's range.
 
+use super::contours::Contour;
 use crate::design::AtlasDesign;
 use crate::page::escape::html;
+use crate::page::svg::path_data;
 use num_traits::ToPrimitive;
 use orthocert_checker::atlas::walk;
 use orthocert_checker::cell::{Cell, Edge};
@@ -18,6 +21,12 @@ const SIDE: f64 = 420.0;
 const STRIP: f64 = 90.0;
 /// Room left, right, above and below a map.
 const ROOM: [f64; 4] = [84.0, 24.0, 40.0, 66.0];
+/// Half the width and half the height of a label, at most.
+const LABEL: [f64; 2] = [24.0, 9.0];
+/// Distance at which labels are far enough from each other.
+const FAR: f64 = 40.0;
+/// Distance of the entries of the legend.
+const KEY: f64 = 100.0;
 /// Height of the line that says where a plane is.
 const PLANE_LABEL: f64 = 24.0;
 /// Planes shown of three parameters.
@@ -28,8 +37,14 @@ const STYLE: &str = r##"<style>
 text { font: 13px sans-serif; fill: #222 }
 .axis { stroke: #222; fill: none } .cell { stroke: #fff; stroke-width: .25 }
 .c { fill: #4c9bd6 } .r { fill: url(#failing) } .u { fill: url(#unknown) }
+.iso { fill: none; stroke: #082340; stroke-width: 1.3 }
+.level { font-size: 11px; fill: #082340; paint-order: stroke; stroke: #a9d1ef; stroke-width: 3px }
 .mark { fill: #ffd400; stroke: #111; stroke-width: 1.5 }
-.name { paint-order: stroke; stroke: #fff; stroke-width: 4px }
+.name { paint-order: stroke; stroke: #fff; stroke-width: 4px; fill: #222 }
+@media (prefers-color-scheme: dark) {
+text { fill: #e6eaf0 } .axis { stroke: #e6eaf0 } .key { stroke: #8fc7f2 }
+.level { fill: #082340 } .name { fill: #222 }
+}
 </style>
 <defs>
 <pattern id="failing" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
@@ -62,7 +77,12 @@ impl Span {
 }
 
 /// The picture of a map.
-pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> String {
+pub fn picture(
+    design: &AtlasDesign,
+    cells: &[AtlasCell],
+    contours: &[Contour],
+    points: &[Point],
+) -> String {
     let spans: Vec<Span> = design
         .parameters
         .iter()
@@ -86,9 +106,11 @@ pub fn picture(design: &AtlasDesign, cells: &[AtlasCell], points: &[Point]) -> S
         let x = left + pitch * f64::from(panel);
         let _ = writeln!(svg, "<g transform=\"translate({x} {above})\">");
         draw_cells(&mut svg, design, cells, high, plane);
+        draw_contours(&mut svg, contours, &names(&spans, points, high), high);
         draw_axes(&mut svg, design, &spans, high);
         if panel == 0 {
-            legend(&mut svg, if panels > 1 { PLANE_LABEL } else { 0.0 });
+            let higher = if panels > 1 { PLANE_LABEL } else { 0.0 };
+            legend(&mut svg, higher, !contours.is_empty());
         }
         if let (Some((part, of)), Some(span)) = (plane, spans.get(2)) {
             let at = span.min + (span.max - span.min) * f64::from(part) / f64::from(of);
@@ -155,6 +177,54 @@ fn draw_cells(
     });
 }
 
+/// The lines of equal margin, with their margins where there is room.
+fn draw_contours(svg: &mut String, contours: &[Contour], names: &[[f64; 2]], high: f64) {
+    let mut taken = names.to_vec();
+    for Contour { percent, lines } in contours {
+        let shown = |[x, y]: &[f64; 2]| [x * SIDE, high - y * high];
+        let lines: Vec<Vec<[f64; 2]>> =
+            lines.iter().map(|line| line.iter().map(shown).collect()).collect();
+        let longest = lines.iter().max_by_key(|line| line.len());
+        // A line in a corner that has no room for its margin says nothing.
+        let Some([x, y]) = longest.and_then(|line| free(line, &taken, high)) else {
+            continue;
+        };
+        for line in &lines {
+            let _ = writeln!(svg, "<path class=\"iso\" d=\"{}\"/>", path_data(line, false));
+        }
+        taken.push([x, y]);
+        let _ = writeln!(
+            svg,
+            "<text class=\"level\" x=\"{}\" y=\"{}\" dy=\".35em\" text-anchor=\"middle\">{} \
+             %</text>",
+            short(x),
+            short(y),
+            short(*percent)
+        );
+    }
+}
+
+/// The point of a line next to its middle that is far enough from all that is taken, or the
+/// farthest; of those around which a label is within the map.
+fn free(line: &[[f64; 2]], taken: &[[f64; 2]], high: f64) -> Option<[f64; 2]> {
+    let middle = line.len() as f64 / 2.0;
+    let room = |[x, y]: &[f64; 2]| {
+        let far = taken.iter().map(|t| (x - t[0]).hypot(2.0 * (y - t[1])));
+        far.fold(FAR, f64::min)
+    };
+    let off = |i: usize| (i as f64 - middle).abs();
+    let within = |[x, y]: &[f64; 2]| {
+        let [across, up] = LABEL;
+        (across..=SIDE - across).contains(x) && (up..=high - up).contains(y)
+    };
+    let best = line
+        .iter()
+        .enumerate()
+        .filter(|(_, point)| within(point))
+        .min_by(|(i, a), (j, b)| room(b).total_cmp(&room(a)).then(off(*i).total_cmp(&off(*j))));
+    best.map(|(_, point)| *point)
+}
+
 fn draw_axes(svg: &mut String, design: &AtlasDesign, spans: &[Span], high: f64) {
     let _ = writeln!(svg, "<rect class=\"axis\" width=\"{SIDE}\" height=\"{high}\"/>");
     for tick in ticks(spans[0]) {
@@ -195,42 +265,66 @@ fn draw_axes(svg: &mut String, design: &AtlasDesign, spans: &[Span], high: f64) 
     );
 }
 
-/// What the colours and patterns mean, `higher` than it stands over a single map.
-fn legend(svg: &mut String, higher: f64) {
-    for (i, (class, word)) in
-        [("c", "certified"), ("r", "refuted"), ("u", "undecided")].iter().enumerate()
-    {
-        let x = 120.0 * i as f64;
+/// What the colours, the patterns and the lines mean, `higher` than it stands over a single map.
+fn legend(svg: &mut String, higher: f64, has_contours: bool) {
+    let top = -28.0 - higher;
+    let words = [("c", "certified"), ("r", "refuted"), ("u", "undecided")];
+    for (i, (class, word)) in words.iter().enumerate() {
+        let x = KEY * i as f64;
         let _ = writeln!(
             svg,
-            "<rect class=\"axis {class}\" x=\"{x}\" y=\"{}\" width=\"22\" height=\"16\"/>\
+            "<rect class=\"axis {class}\" x=\"{x}\" y=\"{top}\" width=\"22\" height=\"16\"/>\
              <text x=\"{}\" y=\"{}\">{word}</text>",
-            -28.0 - higher,
             x + 29.0,
-            -15.0 - higher
+            top + 13.0
+        );
+    }
+    if has_contours {
+        let x = KEY * words.len() as f64;
+        let _ = writeln!(
+            svg,
+            "<path class=\"iso key\" d=\"M{x} {}h22\"/><text x=\"{}\" y=\"{}\">margin, \
+             sampled</text>",
+            top + 8.0,
+            x + 29.0,
+            top + 13.0
         );
     }
 }
 
+/// Where a point is, and which way its name goes: where there is room.
+fn seen(spans: &[Span], point: &Point, high: f64) -> Option<([f64; 2], f64)> {
+    let mut parts = spans.iter().zip(&point.at).map(|(span, x)| span.part(approximate(x)));
+    let x = parts.next().unwrap_or(0.0);
+    let y = parts.next().unwrap_or(0.5);
+    let within = (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y);
+    within.then_some(([x * SIDE, high - y * high], if x > 0.7 { -1.0 } else { 1.0 }))
+}
+
+/// The ends and the middles of what is drawn of points.
+fn names(spans: &[Span], points: &[Point], high: f64) -> Vec<[f64; 2]> {
+    let seen = points.iter().filter_map(|point| Some((point, seen(spans, point, high)?)));
+    seen.flat_map(|(point, ([x, y], way))| {
+        let long = 9.0 + 7.0 * point.label.chars().count() as f64;
+        [0.0, 0.5, 1.0].map(|part| [x + way * part * long, y])
+    })
+    .collect()
+}
+
 fn draw_points(svg: &mut String, spans: &[Span], points: &[Point], high: f64) {
     for point in points {
-        let mut parts = spans.iter().zip(&point.at).map(|(span, x)| span.part(approximate(x)));
-        let x = parts.next().unwrap_or(0.0);
-        let y = parts.next().unwrap_or(0.5);
-        if !(0.0..=1.0).contains(&x) || !(0.0..=1.0).contains(&y) {
+        let Some(([x, y], way)) = seen(spans, point, high) else {
             continue;
-        }
-        let (px, py) = (x * SIDE, high - y * high);
-        // The name goes where there is room.
-        let (anchor, dx) = if x > 0.7 { ("end", -9.0) } else { ("start", 9.0) };
+        };
+        let anchor = if way < 0.0 { "end" } else { "start" };
         let _ = writeln!(
             svg,
             "<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"5\"/><text class=\"name\" x=\"{}\" \
              y=\"{}\" dy=\".35em\" text-anchor=\"{anchor}\">{}</text>",
-            short(px),
-            short(py),
-            short(px + dx),
-            short(py),
+            short(x),
+            short(y),
+            short(x + 9.0 * way),
+            short(y),
             html(&point.label)
         );
     }

@@ -3,18 +3,20 @@
 use super::effort::Work;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::atlas::{self, Growing, Point, Standing, Stopped};
+use orthocert::atlas::{self, Bound, Growing, Point, Standing, Stopped, Widest};
 use orthocert::design::{AtlasDesign, Objective};
+use orthocert::frontier::NoAnswer;
 use orthocert::output::{self, OutputError};
-use orthocert::report::atlas::{AtlasReport, BestDesign, MarkedDesign, Part};
+use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::verify::verify;
 use orthocert_checker::cell::Cell;
-use orthocert_checker::certificate::AtlasCell;
+use orthocert_checker::certificate::{AtlasCell, Certificate};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use orthocert_checker::{statement, Accepted};
+use std::cmp::Ordering;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,6 +24,7 @@ use std::time::Instant;
 /// The files in the folder of an atlas.
 const CERTIFICATE: &str = "atlas.cert.json";
 const BEST: &str = "best.cert.json";
+const BOUND: &str = "bound.cert.json";
 const PICTURE: &str = "map.svg";
 const PAGE: &str = "index.html";
 
@@ -90,12 +93,17 @@ pub fn publish(
     };
     let text = certify::as_written(&certificate).map_err(rejected)?;
     let best = match &design.objective {
-        Some(objective) => best_design(design, objective, &cells, &folder.join(BEST))?,
+        Some(Objective::Maximise(x)) => best_value(design, (x, Ordering::Greater), &cells, folder)?,
+        Some(Objective::Minimise(x)) => best_value(design, (x, Ordering::Less), &cells, folder)?,
+        Some(Objective::WidestMargin) => widest_margin(design, &cells, folder)?,
         None => None,
     };
+    // What an earlier map left there is about other designs.
     if best.as_ref().is_none_or(|best| best.certificate.is_none()) {
-        // What an earlier map left there is about another design.
         let _ = fs::remove_file(folder.join(BEST));
+    }
+    if best.as_ref().is_none_or(|best| best.bound.is_none()) {
+        let _ = fs::remove_file(folder.join(BOUND));
     }
     let marks = design.marks.iter().map(|mark| MarkedDesign {
         label: mark.label.clone(),
@@ -117,11 +125,12 @@ pub fn publish(
         files: vec![file(PICTURE), file(PAGE)],
         seconds: 0.0,
     };
-    let svg = atlas::picture(design, &cells, &points(&report));
+    let contours = atlas::contours(design, &cells);
+    let svg = atlas::picture(design, &cells, &contours, &points(&report));
     output::write(&folder.join(PICTURE), svg.as_bytes())?;
     let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
     let title = design.title.as_deref().unwrap_or("Atlas");
-    let page = atlas::page(title, &svg, &report.facts(), &words);
+    let page = atlas::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
     output::write(&folder.join(PAGE), page.as_bytes())?;
     report.certificate = certify::store(&folder.join(CERTIFICATE), &text)?;
     report.seconds = started.elapsed().as_secs_f64();
@@ -167,14 +176,14 @@ fn points(report: &AtlasReport) -> Vec<Point> {
     points
 }
 
-/// The best design, with an ordinary certificate of its own.
-fn best_design(
+/// The design with the best value, with an ordinary certificate of its own.
+fn best_value(
     design: &AtlasDesign,
-    objective: &Objective,
+    (expression, better): (&Exact, Ordering),
     cells: &[AtlasCell],
-    path: &Path,
+    folder: &Path,
 ) -> Result<Option<BestDesign>, Failure> {
-    let Some(best) = atlas::best(design, objective, cells) else {
+    let Some(best) = atlas::best(design, expression, better, cells) else {
         return Ok(None);
     };
     let claim = design.at(&best.at).map_err(Failure::Input)?;
@@ -184,16 +193,45 @@ fn best_design(
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut |_| {} };
     let mut found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
     let certificate = match certify::decide(&mut found.answer)? {
-        Some(decision) => Some(certify::store(path, &decision.text)?),
+        Some(decision) => Some(certify::store(&folder.join(BEST), &decision.text)?),
         None => None,
     };
-    let sense = if objective.maximise { "maximise" } else { "minimise" };
-    let expression = objective.expression.clone();
     Ok(Some(BestDesign {
         at: best.at,
-        sense,
-        objective: expression,
+        sense: if better == Ordering::Greater { "maximise" } else { "minimise" },
+        objective: expression.to_string(),
         value: best.value,
         certificate,
+        bound: None,
     }))
+}
+
+/// The design with the widest margin, with the certificates of both sides.
+fn widest_margin(
+    design: &AtlasDesign,
+    cells: &[AtlasCell],
+    folder: &Path,
+) -> Result<Option<BestDesign>, Failure> {
+    let found =
+        atlas::widest(design, cells, interrupt::cancelled()).map_err(|none| match none {
+            NoAnswer::Cancelled => Failure::Interrupted,
+            other => Failure::input(other),
+        })?;
+    let Some(Widest { at, margin, certificate, bound }) = found else {
+        return Ok(None);
+    };
+    let stored = |name: &str, certificate: &Certificate| {
+        let text = certify::as_written(certificate)
+            .map_err(|reason| Failure::Output(format!("{name} was not accepted: {reason}")))?;
+        certify::store(&folder.join(name), &text)
+    };
+    let certificate = Some(stored(BEST, &certificate)?);
+    let bound = match bound {
+        Some(Bound { margin: value, certificate }) => {
+            Some(MarginBound { value, certificate: stored(BOUND, &certificate)? })
+        }
+        None => None,
+    };
+    let objective = MARGIN.to_owned();
+    Ok(Some(BestDesign { at, sense: "maximise", objective, value: margin, certificate, bound }))
 }

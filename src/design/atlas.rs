@@ -5,6 +5,7 @@ use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError, ReadError};
 use super::number::{exact, ordered};
 use super::{machine_claim, modelled, text_of, Design};
+use crate::atlas::without_margin;
 use orthocert_checker::atlas::{range, Ends, MAX_PARAMETERS};
 use orthocert_checker::claim::{AtlasClaim, AtlasParameter, MachineClaim};
 use orthocert_checker::number::Exact;
@@ -23,7 +24,8 @@ const MAX_LABEL: usize = 80;
 
 const PARAMETER: &str = r#"{ min = "0.3", max = "0.8", label = "anchor radius / leg length" }"#;
 const PARAMETERS: &str = "one to three parameters, such as radius = { min = 0.3, max = 0.8 }";
-const OBJECTIVE: &str = r#"{ maximise = "an expression with parameters" }, or minimise"#;
+const OBJECTIVE: &str =
+    r#"{ maximise = "an expression with parameters" }, or minimise, or "widest margin""#;
 const MARKS: &str = r#"an array of { label = "my machine", ... } with a number for each parameter"#;
 
 /// An atlas file.
@@ -52,12 +54,14 @@ pub struct AtlasDesign {
 
 /// What the best design is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Objective {
-    /// Whether the greatest value is the best, or the least.
-    pub maximise: bool,
-    /// An expression with the names of parameters.
-    pub expression: Exact,
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Objective {
+    /// The greatest value of an expression with the names of parameters.
+    Maximise(Exact),
+    /// The least value of one.
+    Minimise(Exact),
+    /// The widest margin ([`crate::atlas::tightened`]).
+    WidestMargin,
 }
 
 /// A machine shown on the map.
@@ -125,7 +129,7 @@ impl AtlasDesign {
         let root = document.root(tree.get_ref());
         let design = machine_claim(&root)?;
         let objective = root.require("atlas", "")?.table("")?.find("objective");
-        let objective = objective.map(|value| self::objective(&value)).transpose()?;
+        let objective = objective.map(|value| self::objective(&value, &design)).transpose()?;
         let read = AtlasDesign {
             title: title.map(str::to_owned),
             parameters,
@@ -280,15 +284,27 @@ fn marks(value: &Value<'_>, parameters: &[AtlasParameter]) -> Result<Vec<Mark>, 
     values.iter().map(mark).collect()
 }
 
-fn objective(value: &Value<'_>) -> Result<Objective, DesignError> {
+fn objective(value: &Value<'_>, design: &MachineClaim) -> Result<Objective, DesignError> {
+    if let DeValue::String(text) = value.inner {
+        if text != "widest margin" {
+            return Err(value.error(Defect::WrongType, value.found(), OBJECTIVE));
+        }
+        return match without_margin(design) {
+            None => Ok(Objective::WidestMargin),
+            Some(why) => Err(value.error(
+                Defect::Conflict,
+                format!("{} of designs without margins: {why}", value.found()),
+                "requirements whose bounds can be tightened",
+            )),
+        };
+    }
     let table = value.table(OBJECTIVE)?;
     table.only(&["maximise", "minimise"])?;
-    let (maximise, expression) = match (table.find("maximise"), table.find("minimise")) {
-        (Some(expression), None) => (true, expression),
-        (None, Some(expression)) => (false, expression),
-        _ => return Err(value.error(Defect::Conflict, value.found(), OBJECTIVE)),
-    };
-    Ok(Objective { maximise, expression: exact(&expression)? })
+    match (table.find("maximise"), table.find("minimise")) {
+        (Some(expression), None) => Ok(Objective::Maximise(exact(&expression)?)),
+        (None, Some(expression)) => Ok(Objective::Minimise(exact(&expression)?)),
+        _ => Err(value.error(Defect::Conflict, value.found(), OBJECTIVE)),
+    }
 }
 
 /// The values of the parameters at the vertices of their box and in its middle.

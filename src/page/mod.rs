@@ -20,7 +20,7 @@
 //! `page.html`, `page.css`, `figure.css` and `script/` are the page's frame, its style, and what it
 //! does in a browser. The script computes the factors again, from the nominal machine's numbers.
 
-mod contour;
+pub(crate) mod contour;
 mod drawing;
 pub(crate) mod escape;
 mod evidence;
@@ -31,7 +31,7 @@ mod recheck;
 mod scene;
 mod sections;
 mod subdivision;
-mod svg;
+pub(crate) mod svg;
 mod words;
 
 use crate::digest::policy_source;

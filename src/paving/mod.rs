@@ -27,7 +27,7 @@ mod tree;
 
 pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
-pub use parts::{Parts, TreeWriter};
+pub use parts::{merging, Parts, TreeWriter};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume, DEEPEST};
 pub use surface::{
     ends, surface, walls, Beyond, Detail, Face, Node, Surface, SurfaceError, Tree, Wall, EDGE,

@@ -1,7 +1,7 @@
 //! A paving in parts that are made anywhere: the top of its tree, the subtrees below, and all of
 //! them in one file.
 
-use super::pass::{finish, first_line, unfinished, WINDOW};
+use super::pass::{finish, first_line, suffixed, WINDOW};
 use super::tree::{Cancelled, Grower, Root, Segment, Tally};
 use super::{header, Decider, PaveError, Paved};
 use orthocert_checker::cell::Cell;
@@ -11,7 +11,7 @@ use orthocert_checker::rule::Obligation;
 use rayon::prelude::*;
 use std::fs::{self, File};
 use std::io::{self, BufReader, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Least depth of the subtrees that are left to be grown: of a region's boxes about one in
@@ -108,7 +108,7 @@ impl Parts {
         cancel: &AtomicBool,
         tree: impl FnOnce(&mut TreeWriter<'_>) -> Result<(), PaveError>,
     ) -> Result<Paved, PaveError> {
-        let part = unfinished(path);
+        let part = merging(path);
         let written = || {
             let io = |error| PaveError::Io(part.clone(), error);
             let file = BufWriter::new(File::create(&part).map_err(io)?);
@@ -128,6 +128,12 @@ impl Parts {
         }
         paved
     }
+}
+
+/// The file of a paving that is being put together: another than that of one that can be taken up
+/// again.
+pub fn merging(path: &Path) -> PathBuf {
+    suffixed(path, ".merging")
 }
 
 /// A paving that is being written.

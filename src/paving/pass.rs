@@ -84,8 +84,12 @@ pub struct Paved {
 
 /// The unfinished file of a paving.
 pub fn unfinished(path: &Path) -> PathBuf {
+    suffixed(path, ".part")
+}
+
+pub(super) fn suffixed(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
+    name.push(suffix);
     path.with_file_name(name)
 }
 

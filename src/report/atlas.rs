@@ -10,6 +10,9 @@ use orthocert_checker::number::Exact;
 use serde::Serialize;
 use std::fmt::Write;
 
+/// What the objective of the widest margin is called.
+pub const MARGIN: &str = "margin";
+
 /// The report of an atlas.
 #[derive(Clone, Debug, Serialize)]
 pub struct AtlasReport {
@@ -55,12 +58,41 @@ pub struct BestDesign {
     pub at: Vec<Exact>,
     /// `maximise` or `minimise`.
     pub sense: &'static str,
-    /// The objective.
-    pub objective: Exact,
-    /// Its value.
+    /// The objective: an expression, or `margin`.
+    pub objective: String,
+    /// Its value; of a margin, what is certified of it.
     pub value: Exact,
-    /// The design's own certificate; `null` if no separate proof was found within the budget.
+    /// The design's own certificate, for a margin with its bounds tightened by it; `null` if no
+    /// separate proof was found within the budget.
     pub certificate: Option<CertificateFile>,
+    /// Of a margin: what no design of the box has, if that was proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<MarginBound>,
+}
+
+/// A margin that no design of an atlas has.
+#[derive(Clone, Debug, Serialize)]
+pub struct MarginBound {
+    /// The margin.
+    pub value: Exact,
+    /// The atlas with bounds tightened by it, all of which is refuted.
+    pub certificate: CertificateFile,
+}
+
+impl BestDesign {
+    /// How far the best may be from what was found, in words.
+    fn gap(&self) -> String {
+        let Some(bound) = &self.bound else {
+            return "; no bound on the margins of other designs was proved".to_owned();
+        };
+        let ends = (bound.value.as_rational(), self.value.as_rational());
+        let gap = match ends {
+            (Some(bound), Some(value)) => (bound / value).to_f64().map_or(f64::NAN, |x| x - 1.0),
+            _ => f64::NAN,
+        };
+        let gap = significant(100.0 * gap, 2);
+        format!("; no design of the box has {} (gap {gap} %)", exact(&bound.value))
+    }
 }
 
 /// A marked design.
@@ -110,13 +142,11 @@ impl AtlasReport {
             ("undecided".to_owned(), self.undecided.text()),
         ];
         if let Some(best) = &self.best {
-            let text = format!(
-                "{} {} = {} at {}",
-                best.sense,
-                best.objective,
-                exact(&best.value),
-                self.place(&best.at)
-            );
+            let (value, place) = (exact(&best.value), self.place(&best.at));
+            let mut text = format!("{} {} = {value} at {place}", best.sense, best.objective);
+            if best.objective == MARGIN {
+                text += &best.gap();
+            }
             facts.push(("best".to_owned(), text));
         }
         for mark in &self.marks {
@@ -148,8 +178,10 @@ impl AtlasReport {
         let CertificateFile { path, bytes, .. } = &self.certificate;
         let size = grouped(*bytes as u64);
         verbatim(&mut out, "certificate", &format!("{path} ({size} bytes)"));
-        let best = self.best.as_ref().and_then(|best| best.certificate.as_ref());
-        for path in best.map(|file| &file.path).into_iter().chain(&self.files) {
+        let best = self.best.as_ref();
+        let own = best.and_then(|best| best.certificate.as_ref()).map(|file| &file.path);
+        let bound = best.and_then(|best| best.bound.as_ref()).map(|bound| &bound.certificate.path);
+        for path in own.into_iter().chain(bound).chain(&self.files) {
             verbatim(&mut out, "", path);
         }
         let _ = writeln!(out, "  {:13} {} s", "time", significant(self.seconds, 3));

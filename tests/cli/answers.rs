@@ -13,7 +13,7 @@ const DESIGNS: [&str; 5] = [
 
 /// A definition of the schema, the arguments of a command, and its exit code, in order: later ones
 /// read what earlier ones write.
-const COMMANDS: [(&str, &[&str], i32); 26] = [
+const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("verify", &["verify", "orthoglide-312.toml"], 0),
     ("verify", &["verify", "orthoglide-310.toml"], 1),
     ("verify", &["verify", "orthoglide-tie.toml", "--max-boxes", "50"], 3),
@@ -38,6 +38,7 @@ const COMMANDS: [(&str, &[&str], i32); 26] = [
     ),
     ("run_shard", &["run-shard", "job/shard-0001.json"], 0),
     ("pave", &["merge", "job", "-o", "merged.paving"], 0),
+    ("atlas", &["atlas", "map.toml"], 0),
     ("largest_cube", &["largest-cube", "region.toml", "--side", "250"], 1),
     ("tolerance", &["tolerance", "orthoglide-312.toml", "--gap", "0.5"], 0),
     ("tolerance", &["tolerance", "orthoglide-310.toml"], 1),
@@ -58,9 +59,10 @@ fn every_answer_is_as_the_schema_says() {
         "region.toml",
         format!("{machine}[workspace]\n{region}\n[requirements]{requirements}"),
     );
+    folder.write("map.toml", crate::atlas::widest().read("map.toml"));
     let text = folder.run(&["schema"]).exits(0).stdout;
     let schema: Value = serde_json::from_str(&text).unwrap();
-    for (name, arguments, code) in COMMANDS {
+    for (name, arguments, code) in COMMANDS.iter().copied() {
         let arguments = [arguments, &["--format", "json"]].concat();
         let answer = folder.run(&arguments).exits(code).stdout;
         let answer: Value = serde_json::from_str(&answer).unwrap();

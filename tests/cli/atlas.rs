@@ -36,7 +36,9 @@ fn a_map_is_written_with_everything_and_accepted() {
     folder.run(&["check", "map.atlas/best.cert.json"]).exits(0);
     folder.run(&["show", "map.atlas/atlas.cert.json"]).exits(0).says(&["NOT CHECKED", "atlas of"]);
     let svg = String::from_utf8(folder.read("map.atlas/map.svg")).unwrap();
-    for part in ["class=\"cell c\"", "class=\"cell r\"", "class=\"cell u\"", "prototype", "best"] {
+    for part in
+        ["cell c\"", "cell r\"", "cell u\"", "prototype", "best", "margin, sampled", "100 %"]
+    {
         assert!(svg.contains(part), "{part}");
     }
     let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
@@ -45,6 +47,44 @@ fn a_map_is_written_with_everything_and_accepted() {
             && page.contains("It is proved:")
             && !page.contains("http://www.w3.org/1999")
     );
+}
+
+/// The coarse map with the widest margin as its objective.
+pub fn widest() -> Folder {
+    let folder = coarse();
+    let text = String::from_utf8(folder.read("map.toml")).unwrap();
+    let objective = "objective = { maximise = \"side\" }";
+    assert!(text.contains(objective));
+    folder.write("map.toml", text.replace(objective, "objective = \"widest margin\""));
+    folder
+}
+
+#[test]
+fn the_widest_margin_has_a_certificate_and_a_bound() {
+    let folder = widest();
+    let report = json(&folder.run(&["atlas", "map.toml", "--format", "json"]).exits(0));
+    let best = &report["best"];
+    assert_eq!((&best["objective"], &best["at"]), (&"margin".into(), &["4", "1/10"].into()));
+    folder.run(&["check", "map.atlas/best.cert.json"]).exits(0).says(&["<= psi_i(P) <="]);
+    let bound = folder.run(&["check", "map.atlas/bound.cert.json"]).exits(0);
+    bound.says(&["for no values of the parameters", "the share 1 of all"]);
+    let says = ["maximise margin = ", "psi_max = 4, side = 0.1; no design of the box has"];
+    folder.run(&["atlas", "map.toml"]).exits(0).says(&says);
+    let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
+    assert!(page.contains("class=\"iso\"") && page.contains("Lines of equal margin"));
+    // Another objective leaves nothing of it.
+    folder.write("map.toml", coarse().read("map.toml"));
+    folder.run(&["atlas", "map.toml"]).exits(0);
+    assert!(!folder.path("map.atlas/bound.cert.json").exists());
+}
+
+#[test]
+fn margins_are_refused_where_there_are_none() {
+    const OBJECTIVE: (&str, &str) = ("{ maximise = \"side\" }", "\"widest margin\"");
+    refused("{ maximise = \"side\" }", "\"widest\"", &["atlas.objective", "or \"widest margin\""]);
+    let half = ("max = \"psi_max\" }", "max = \"psi_max\" }\njoint_range = { min = -2 }");
+    let base = ("leg_length = 1", "leg_length = 1\nbase = 0");
+    refused_after(&[OBJECTIVE, half, base], &["atlas.objective", "one end"]);
 }
 
 #[test]
@@ -78,6 +118,7 @@ fn maps_of_one_and_of_three_parameters_are_drawn() {
     folder.run(&["atlas", "three.toml"]).exits(0);
     let svg = String::from_utf8(folder.read("three.atlas/map.svg")).unwrap();
     assert_eq!(svg.matches("<g transform").count(), 4);
+    assert!(!svg.contains("class=\"iso"));
 }
 
 #[test]

@@ -40,6 +40,7 @@ fn merge(folder: &Folder) -> Run {
 /// A merge that is refused with this code and these words, and leaves what was there.
 fn refused(folder: &Folder, code: i32, words: &[&str]) {
     folder.write("merged", "earlier");
+    folder.write("merged.part", "of a run that was interrupted");
     let before = folder.names();
     merge(folder).exits(code).complains(words);
     assert!(folder.read("merged") == b"earlier");

@@ -1,6 +1,6 @@
 //! `split`, `run-shard`, `merge`, `submit`: the same as one machine, and nothing else.
 
-use crate::atlas::coarse;
+use crate::atlas::{coarse, widest};
 use crate::support::Folder;
 use orthocert::shard::sha256;
 use std::fs;
@@ -47,6 +47,17 @@ fn any_number_of_shards_makes_the_map_of_one_machine() {
         folder.run(&["merge", "job", "-o", "merged"]).exits(0);
         is_the_same(&folder);
     }
+}
+
+#[test]
+fn the_widest_margin_of_a_merged_map_is_that_of_one_machine() {
+    let folder = widest();
+    folder.run(&["atlas", "map.toml", "-o", "one"]).exits(0);
+    folder.run(&["split", "map.toml", "--shards", "2", "--out", "job"]).exits(0);
+    (1..=2).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    folder.run(&["merge", "job", "-o", "merged", "--threads", "1"]).exits(0);
+    is_the_same(&folder);
+    assert!(folder.read("one/bound.cert.json") == folder.read("merged/bound.cert.json"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! single designs.
 
 use num_traits::ToPrimitive;
-use orthocert::atlas::{assemble, certify, decide, grow, waiting, Decision, Growing, Top};
+use orthocert::atlas::{assemble, certify, decide, grow, margin, waiting, Decision, Growing, Top};
 use orthocert::design::AtlasDesign;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::{verify, Answer};
@@ -45,6 +45,19 @@ fn closed_form(psi_max: f64, side: f64) -> f64 {
     }
     let least = 1.0 - f64::max(2.0 * t, u);
     f64::min(least - 1.0 / psi_max, psi_max - (1.0 + 2.0 * u))
+}
+
+#[test]
+fn margins_agree_with_the_closed_form() {
+    let design = atlas("orthoglide", 1);
+    for (psi_max, side) in [("2", "0.2"), ("2", "0.6"), ("3", "0.7"), ("1.3", "0.25"), ("4", "0.1")]
+    {
+        let number = |text| Exact::parse(text, 10).unwrap();
+        let found = margin(&design.at(&[number(psi_max), number(side)]).unwrap());
+        let (psi_max, side): (f64, f64) = (psi_max.parse().unwrap(), side.parse().unwrap());
+        let fails = |m: f64| closed_form(psi_max / (1.0 + m), side) < 0.0;
+        assert!(!fails(found - 1e-4) && fails(found + 1e-4), "{psi_max} {side}: {found}");
+    }
 }
 
 #[test]
