@@ -77,7 +77,8 @@ enum Command {
     Init(init::Arguments),
     /// Prove the Q1/Q2 postulate for one psi_max, a range, or every psi_max > 1.
     Postulate(postulate::Arguments),
-    /// Write a certificate, once re-proved, as an HTML page with its figures, to read and to file.
+    /// Write a certificate or a paving, once re-proved, as an HTML page with its figures, to read and
+    /// to file.
     Report(report::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),

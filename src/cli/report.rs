@@ -1,11 +1,15 @@
 //! `orthocert report`.
 
-use super::{input, print, Failure, Format, Status};
+use super::{input, interrupt, print, Failure, Format, Status};
 use orthocert::decimal::grouped;
 use orthocert::digest::sha256;
-use orthocert::page::{raster::Fonts, File, Page};
+use orthocert::page::paving::{PavingPage, DEPTH};
+use orthocert::page::{raster::Fonts, File, Page, Picture};
+use orthocert::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
 use orthocert::{output, page};
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::number::Exact;
+use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
 use orthocert_checker::{check, read};
 use serde::Serialize;
 use std::fs;
@@ -14,10 +18,10 @@ use std::path::{Path, PathBuf};
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The certificate
-    #[arg(value_name = "CERT.json")]
+    /// The certificate, or a paving
+    #[arg(value_name = "CERT.json|PAVING")]
     certificate: PathBuf,
-    /// Where the report is written [default: NAME.report.html beside NAME.cert.json]
+    /// Where the report is written [default: NAME.report.html beside NAME.cert.json or NAME.paving]
     #[arg(short, long, value_name = "REPORT.html")]
     output: Option<PathBuf>,
     /// The report's title [default: the certificate's name]
@@ -38,12 +42,30 @@ pub struct Arguments {
     format: Format,
 }
 
+/// Megabytes for the table of a paving's components, which is left out beyond.
+const MEMORY: u64 = 1024;
+
 /// The answer for scripts.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Answer<'a> {
-    Written { accepted: bool, verdict: Verdict, certificate_sha256: String, files: Vec<Written> },
-    Rejected { accepted: bool, reason: &'a str },
+    Written {
+        accepted: bool,
+        verdict: Verdict,
+        certificate_sha256: String,
+        files: Vec<Written>,
+    },
+    Paving {
+        accepted: bool,
+        inner_share: Exact,
+        boundary_share: Exact,
+        paving_sha256: String,
+        files: Vec<Written>,
+    },
+    Rejected {
+        accepted: bool,
+        reason: &'a str,
+    },
 }
 
 /// A file that was written.
@@ -61,6 +83,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&target)?;
     let fonts = arguments.png.as_ref().map(|_| Fonts::find(arguments.font.as_deref()));
     let fonts = fonts.transpose().map_err(Failure::input)?;
+    if is_paving(&bytes) {
+        // Longer than a certificate may be, perhaps.
+        let bytes = fs::read(path).map_err(|error| {
+            Failure::Input(format!("{}: cannot be read: {error}", path.display()))
+        })?;
+        return of_paving(arguments, &bytes, &target, fonts.as_ref());
+    }
     let checked = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     let (accepted, certificate) = match checked {
         Ok(checked) => checked,
@@ -69,26 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let file = File { name: &name, bytes: &bytes };
     let page = Page::new(&certificate, &accepted, file, arguments.title.as_deref());
-    let mut files = Vec::new();
-    let mut write = |path: &Path, bytes: &[u8]| -> Result<(), Failure> {
-        output::write(path, bytes)?;
-        files.push(Written { path: path.display().to_string(), bytes: bytes.len() });
-        Ok(())
-    };
-    write(&target, page.html().as_bytes())?;
-    if let Some(folder) = &arguments.svg {
-        make(folder)?;
-        for picture in page.pictures() {
-            write(&folder.join(format!("{}.svg", picture.name)), picture.file().as_bytes())?;
-        }
-    }
-    if let (Some(folder), Some(fonts)) = (&arguments.png, &fonts) {
-        make(folder)?;
-        for picture in page.pictures() {
-            let png = page::raster::png(picture, fonts).map_err(Failure::Output)?;
-            write(&folder.join(format!("{}.png", picture.name)), &png)?;
-        }
-    }
+    let pictures: Vec<&Picture> = page.pictures().collect();
+    let files = arguments.write(&target, &page.html(), &pictures, fonts.as_ref())?;
     let verdict = accepted.verdict;
     match arguments.format {
         Format::Json => print::json(&Answer::Written {
@@ -97,15 +108,64 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             certificate_sha256: sha256(&bytes),
             files,
         })?,
-        Format::Text => {
-            let mut text = format!("ACCEPTED: {verdict}\n");
-            for Written { path, bytes } in files {
-                text.push_str(&format!("  {path} ({} bytes)\n", grouped(bytes as u64)));
-            }
-            print::answer(&text)?;
-        }
+        Format::Text => print::answer(&listed(&verdict.to_string(), &files))?,
     }
     Ok(Status::Decided(verdict))
+}
+
+fn listed(verdict: &str, files: &[Written]) -> String {
+    let mut text = format!("ACCEPTED: {verdict}\n");
+    for Written { path, bytes } in files {
+        text.push_str(&format!("  {path} ({} bytes)\n", grouped(*bytes as u64)));
+    }
+    text
+}
+
+fn of_paving(
+    arguments: &Arguments,
+    bytes: &[u8],
+    target: &Path,
+    fonts: Option<&Fonts>,
+) -> Result<Status, Failure> {
+    let (accepted, tree, components) = match examined(bytes) {
+        Ok(examined) => examined,
+        Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
+        Err(SurfaceError::Rejected(reason)) => return reject(arguments, &reason.to_string()),
+        Err(error) => return Err(Failure::Input(format!("{}: {error}", arguments.shown()))),
+    };
+    let name = arguments.certificate.file_name().unwrap_or_default().to_string_lossy();
+    let file = File { name: &name, bytes };
+    let title = arguments.title.as_deref();
+    let page = PavingPage::new(&accepted, &tree, components.as_ref(), file, title);
+    let page = page.ok_or_else(|| {
+        let path = arguments.shown();
+        Failure::Input(format!("{path}: the box's ends are beyond what floating point can show"))
+    })?;
+    let pictures: Vec<&Picture> = page.pictures().collect();
+    let files = arguments.write(target, &page.html(), &pictures, fonts)?;
+    match arguments.format {
+        Format::Json => print::json(&Answer::Paving {
+            accepted: true,
+            inner_share: accepted.summary.inner_share,
+            boundary_share: accepted.summary.boundary_share,
+            paving_sha256: sha256(bytes),
+            files,
+        })?,
+        Format::Text => print::answer(&listed("paving", &files))?,
+    }
+    Ok(Status::Done)
+}
+
+/// What the exact checker says of a paving, its tree, and the components of its inner part.
+fn examined(bytes: &[u8]) -> Result<(Accepted, Tree, Option<Components>), SurfaceError> {
+    let accepted = paving::check(|| Ok(bytes), Extent::All)?;
+    let (header, tree) =
+        Tree::read(Reader::new(bytes)?, Detail::Depth(DEPTH), interrupt::cancelled())?;
+    let components = match Decider::new(&header) {
+        Ok(decider) => components(&mut Reader::new(bytes)?, &decider, MEMORY << 20)?,
+        Err(_) => None,
+    };
+    Ok((accepted, tree, components))
 }
 
 fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
@@ -127,7 +187,42 @@ fn make(folder: &Path) -> Result<(), Failure> {
 }
 
 impl Arguments {
-    /// Where the report goes: never over the certificate.
+    fn shown(&self) -> std::path::Display<'_> {
+        self.certificate.display()
+    }
+
+    /// Writes the page, and the figures that are asked for.
+    fn write(
+        &self,
+        target: &Path,
+        html: &str,
+        pictures: &[&Picture],
+        fonts: Option<&Fonts>,
+    ) -> Result<Vec<Written>, Failure> {
+        let mut files = Vec::new();
+        let mut write = |path: &Path, bytes: &[u8]| -> Result<(), Failure> {
+            output::write(path, bytes)?;
+            files.push(Written { path: path.display().to_string(), bytes: bytes.len() });
+            Ok(())
+        };
+        write(target, html.as_bytes())?;
+        if let Some(folder) = &self.svg {
+            make(folder)?;
+            for picture in pictures {
+                write(&folder.join(format!("{}.svg", picture.name)), picture.file().as_bytes())?;
+            }
+        }
+        if let (Some(folder), Some(fonts)) = (&self.png, fonts) {
+            make(folder)?;
+            for picture in pictures {
+                let png = page::raster::png(picture, fonts).map_err(Failure::Output)?;
+                write(&folder.join(format!("{}.png", picture.name)), &png)?;
+            }
+        }
+        Ok(files)
+    }
+
+    /// Where the report goes: never over what it is about.
     fn target(&self) -> Result<PathBuf, Failure> {
         let target = match &self.output {
             Some(output) => output.clone(),
@@ -139,20 +234,22 @@ impl Arguments {
         };
         if same {
             let path = target.display();
-            let message =
-                format!("--output: {path} is the certificate itself; accepted: another path");
+            let message = format!(
+                "--output: {path} is the very file to be reported on; accepted: another path"
+            );
             return Err(Failure::Input(message));
         }
         Ok(target)
     }
 }
 
-/// `NAME.report.html` beside `NAME.cert.json`.
+/// `NAME.report.html` beside `NAME.cert.json` or `NAME.paving`.
 fn beside(certificate: &Path) -> PathBuf {
     let name = certificate.file_name().unwrap_or_default();
     let mut report = match name.to_str() {
         Some(text) => {
             let text = text.strip_suffix(".json").unwrap_or(text);
+            let text = text.strip_suffix(".paving").unwrap_or(text);
             text.strip_suffix(".cert").unwrap_or(text).into()
         }
         None => name.to_owned(),
@@ -171,6 +268,7 @@ mod tests {
             ("a.cert.json", "a.report.html"),
             ("x/y/delta.v2.json", "x/y/delta.v2.report.html"),
             ("x/plain", "x/plain.report.html"),
+            ("x/region.paving", "x/region.report.html"),
         ] {
             assert_eq!(beside(Path::new(certificate)), Path::new(report));
         }

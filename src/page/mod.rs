@@ -15,6 +15,7 @@
 //! | `recheck`       | how to check again, and the digests                            |
 //! | `svg`           | views of space and parts of figures                            |
 //! | [`raster`]      | figures as PNG                                                 |
+//! | [`paving`]      | the page of a paving                                           |
 //! | `escape`        | the only ways in which text gets into a page                   |
 //!
 //! `page.html`, `page.css`, `figure.css` and `script/` are the page's frame, its style, and what it
@@ -26,6 +27,7 @@ pub(crate) mod escape;
 mod evidence;
 mod isomap;
 mod nominal;
+pub mod paving;
 pub mod raster;
 mod recheck;
 mod scene;
@@ -59,6 +61,7 @@ const SCRIPT: &str = concat!(
     include_str!("script/leaves.js"),
     include_str!("script/view.js"),
     include_str!("script/space.js"),
+    include_str!("script/region.js"),
     include_str!("script/start.js"),
 );
 
@@ -209,6 +212,7 @@ impl<'a> Page<'a> {
                     &sections.iter().map(|(_, _, text)| text.as_str()).collect::<String>(),
                 ),
                 ("version", env!("CARGO_PKG_VERSION")),
+                ("kind", "certificate"),
                 ("written-by", &html(&format!("{} {}", provenance.tool, provenance.version))),
                 ("data", &escape::data(&self.data().to_string())),
             ],
@@ -291,9 +295,10 @@ fn filled(frame: &str, values: &[(&str, &str)]) -> String {
     out
 }
 
-/// `NAME` of `NAME.cert.json`.
+/// `NAME` of `NAME.cert.json` or `NAME.paving`.
 fn stem(name: &str) -> &str {
     let name = name.strip_suffix(".json").unwrap_or(name);
+    let name = name.strip_suffix(".paving").unwrap_or(name);
     name.strip_suffix(".cert").unwrap_or(name)
 }
 

@@ -79,17 +79,28 @@ pub fn checker_sha256() -> String {
     sha256(list.as_bytes())
 }
 
-/// The section.
+/// The section about a certificate.
 pub fn section(file_name: &str, certificate: &[u8], version: &str) -> String {
+    let codes = "Exit code 0: certified; 1: refuted; 5: the certificate proves nothing.";
+    of("certificate", codes, file_name, certificate, version)
+}
+
+/// The section about a paving.
+pub fn of_paving(file_name: &str, paving: &[u8], version: &str) -> String {
+    let codes = "Exit code 0: accepted; 5: the paving proves nothing.";
+    of("paving", codes, file_name, paving, version)
+}
+
+fn of(kind: &str, codes: &str, file_name: &str, certificate: &[u8], version: &str) -> String {
     let file = html(&shell(file_name));
     let (digest, checker) = (sha256(certificate), checker_sha256());
     let bytes = grouped(certificate.len() as u64);
     format!(
         "<section id=\"recheck\"><h2>Check it again</h2>\
-         <p>This page is a picture of the certificate and proves nothing by itself. The certificate \
+         <p>This page is a picture of the {kind} and proves nothing by itself. The {kind} \
          ({bytes} bytes) is the proof; its check needs the checker alone, a Rust program of integer \
          arithmetic that shares nothing with the search that found the proof.</p>\
-         <h3>1. The certificate is the one that this page is about</h3>\
+         <h3>1. The {kind} is the one that this page is about</h3>\
          <pre>sha256sum {file}\n<span id=\"sha-certificate\">{digest}</span></pre>\
          <h3>2. The checker is the one that accepted it (orthocert {version})</h3>\
          <pre>cd proofs/checker\n{command}\n<span id=\"sha-checker\">{checker}</span></pre>\
@@ -97,8 +108,7 @@ pub fn section(file_name: &str, certificate: &[u8], version: &str) -> String {
          source, by path.</p>\
          <h3>3. The checker accepts it</h3>\
          <pre>cargo run --release -p orthocert-checker -- {file}</pre>\
-         <p>or, where orthocert is installed, <code>orthocert check {file}</code>. Exit code 0: \
-         certified; 1: refuted; 5: the certificate proves nothing. It prints the claim in words: \
+         <p>or, where orthocert is installed, <code>orthocert check {file}</code>. {codes} It prints the claim in words: \
          compare it with the one above. The theorems and the format are in <code>proofs/README.md</code> and \
          <code>proofs/FORMAT.md</code>.</p></section>\n",
         command = html(CHECKER_COMMAND),

@@ -43,6 +43,11 @@ pub fn subject(claim: &Claim) -> String {
     }
 }
 
+/// What a paving is about, on a line.
+pub fn region(claim: &MachineClaim) -> String {
+    format!("Where the requirements hold: {}, in {}", machine(claim), workspace(claim))
+}
+
 fn machine(claim: &MachineClaim) -> String {
     let Mechanism::Translational(legs) = &claim.mechanism else {
         return "The Orthoglide of the paper's Steps 1 to 3".to_owned();
@@ -92,16 +97,37 @@ pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
         if verdict == Verdict::Certified { "proved" } else { "refuted" },
         html(statement.trim_end())
     );
-    out.push_str("<h3>In formulas</h3><ul class=\"formulas\">");
-    for formula in asserted(claim) {
+    out.push_str(&formulas(claim, &asserted(claim)));
+    out + "</section>\n"
+}
+
+/// The same of a paving, of which the statement is given.
+pub fn region_section(claim: &Claim, statement: &str) -> String {
+    let mut asserted = asserted(claim);
+    if let Some(first) = asserted.first_mut() {
+        *first =
+            "<var>R</var>: the points <var>P</var> of the box, for <var>i</var> = 1, 2, 3, with:"
+                .to_owned();
+    }
+    format!(
+        "<section id=\"claim\"><h2>What is proved</h2>\
+         <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
+         {}</section>\n",
+        html(statement.trim_end()),
+        formulas(claim, &asserted)
+    )
+}
+
+fn formulas(claim: &Claim, asserted: &[String]) -> String {
+    let mut out = "<h3>In formulas</h3><ul class=\"formulas\">".to_owned();
+    for formula in asserted {
         let _ = write!(out, "<li>{formula}</li>");
     }
     out.push_str("</ul><h3>Where</h3><ul class=\"formulas\">");
     for formula in definitions(claim) {
         let _ = write!(out, "<li>{formula}</li>");
     }
-    out.push_str("</ul></section>\n");
-    out
+    out + "</ul>"
 }
 
 /// What the claim asserts at every point, as markup.

@@ -35,6 +35,7 @@ pub use surface::{
 };
 pub use tree::{Cancelled, Grower, Root, Segment, Tally};
 
+use num_rational::BigRational;
 use orthocert_checker::certificate::Provenance;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
@@ -67,6 +68,15 @@ pub fn header(claim: &MachineClaim, depth: u32) -> Header {
             version: env!("CARGO_PKG_VERSION").to_owned(),
         },
     }
+}
+
+/// The volume of a claim's box, where it is rational.
+pub fn box_volume(claim: &MachineClaim) -> Option<BigRational> {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return None;
+    };
+    let edges = min.iter().zip(max).map(|(min, max)| Some(max.as_rational()? - min.as_rational()?));
+    edges.product()
 }
 
 /// The depth at which boxes have edges of at most `edge` in the geometric mean: the volume of the

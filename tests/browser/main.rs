@@ -247,6 +247,55 @@ fn twenty_thousand_boxes_are_no_burden() {
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 
+/// The region of a paving can be turned, cut and read, light and dark; without scripts it is drawn
+/// from two sides.
+#[test]
+fn the_region_of_a_paving_is_turned_and_cut() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    let page = folder.report_of_paving("0.01");
+    assert!(std::fs::metadata(&page).unwrap().len() < 5_000_000);
+    browser.prefer("light");
+    browser.open(&page);
+    let light = browser.screenshot();
+    browser.prefer("dark");
+    let dark = browser.screenshot();
+    kept("paving", "light", &light);
+    kept("paving", "dark", &dark);
+    assert!(shades(&light) > 20 && shades(&dark) > 20 && differ(&light, &dark) > 0.5);
+    let count = "Number(document.getElementById('region-space').dataset.faces)";
+    let faces = browser.evaluate(count).as_u64().unwrap();
+    assert!(faces > 2000, "{faces}");
+    browser.focus("#region-space");
+    // Half of it is cut away, and the cut goes through inner boxes.
+    for _ in 0..25 {
+        browser.key("[");
+    }
+    browser.settle();
+    assert_eq!(browser.text("#region-cut-value"), "x \u{2264} 0");
+    kept("paving", "cut", &browser.screenshot());
+    browser.key("Enter");
+    let text = browser.text("#region-readout");
+    assert!(text.starts_with("Inner") && numbers(&text).len() == 6, "{text}");
+    let start = std::time::Instant::now();
+    for _ in 0..10 {
+        browser.key("ArrowRight");
+    }
+    let each = start.elapsed() / 10;
+    eprintln!("a turn of {faces} faces takes {each:?}");
+    assert!(each.as_millis() < 1000, "{each:?}");
+    let view = "document.getElementById('region-space').dataset.view";
+    browser.settle();
+    assert!(browser.evaluate(view).as_str().unwrap().starts_with("92.0"));
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+    browser.call("Emulation.setScriptExecutionDisabled", serde_json::json!({ "value": true }));
+    browser.open_still(&page);
+    kept("paving", "without-scripts", &browser.screenshot());
+    let drawn = "[...document.querySelectorAll('svg.figure.region, svg.figure.slices')]\
+        .filter((s) => s.clientWidth > 0).length";
+    assert_eq!(browser.evaluate(drawn).as_u64(), Some(2));
+}
+
 /// Without scripts the static parts are there; on paper it has few pages.
 #[test]
 fn it_can_be_read_without_scripts_and_on_paper() {

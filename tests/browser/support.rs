@@ -49,6 +49,17 @@ impl Folder {
         (page, claim)
     }
 
+    /// The report of a paving of the Orthoglide's dextrous region with boxes of this edge.
+    pub fn report_of_paving(&self, edge: &str) -> PathBuf {
+        let design = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
+                      min = [-0.7, -0.7, -0.7]\nmax = [0.7, 0.7, 0.7]\n[requirements]\n\
+                      transmission = { min = \"1/2\", max = 2 }\n";
+        fs::write(self.0.path().join("region.toml"), design).unwrap();
+        assert_eq!(self.run(&["pave", "region.toml", "--precision", edge, "--quiet"]), Some(0));
+        assert_eq!(self.run(&["report", "region.paving"]), Some(0));
+        self.0.path().join("region.report.html")
+    }
+
     /// The report about a machine of the oracle in a small box about one of its points; `None` if
     /// that box is undecided.
     pub fn report_about(&self, case: &Value, point: &Value) -> Option<PathBuf> {

@@ -39,6 +39,7 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("run_shard", &["run-shard", "job/shard-0001.json"], 0),
     ("pave", &["merge", "job", "-o", "merged.paving"], 0),
     ("atlas", &["atlas", "map.toml"], 0),
+    ("report_paving", &["report", "region.paving"], 0),
     ("largest_cube", &["largest-cube", "region.toml", "--side", "250"], 1),
     ("tolerance", &["tolerance", "orthoglide-312.toml", "--gap", "0.5"], 0),
     ("tolerance", &["tolerance", "orthoglide-310.toml"], 1),

@@ -50,7 +50,10 @@ fn what_cannot_be_read_or_written_is_said() {
     let folder = Folder::new();
     let file = committed(&folder, "orthoglide-prototype");
     folder.run(&["report", "missing.json"]).exits(2).complains(&["cannot be read"]);
-    folder.run(&["report", &file, "-o", &file]).exits(2).complains(&["the certificate itself"]);
+    folder
+        .run(&["report", &file, "-o", &file])
+        .exits(2)
+        .complains(&["the very file to be reported on"]);
     folder.run(&["report", &file, "-o", "no/such/a.html"]).exits(4).complains(&["no folder"]);
     folder.run(&["report", &file, "-o", "."]).exits(4).complains(&["is a folder"]);
     folder.write("plain", "");
@@ -94,4 +97,87 @@ fn figures_are_written_as_png_where_there_is_a_font() {
     run.exits(0).says(&["png/psi-3.png"]);
     let png = folder.read("png/psi-3.png");
     assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000);
+}
+
+/// The volume of the inner leaves of a page's tree, in parts of the box.
+fn inner_volume(page: &str) -> f64 {
+    let data = page.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: Value = serde_json::from_str(data).unwrap();
+    let (mut volume, mut waiting) = (0.0, vec![1.0]);
+    for kind in data["region"]["code"].as_str().unwrap().chars() {
+        let size: f64 = waiting.pop().unwrap();
+        match kind {
+            'X' | 'Y' | 'Z' => waiting.extend([size / 2.0; 2]),
+            '#' => volume += size,
+            _ => assert!("?.".contains(kind), "{kind}"),
+        }
+    }
+    assert!(waiting.is_empty());
+    volume
+}
+
+#[test]
+fn a_paving_gets_a_page_with_its_volume_and_region() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    let paved = folder.run(&["pave", "d.toml", "--precision", "0.1"]).exits(0).stdout;
+    let volumes = paved.split(", gap").next().unwrap().strip_prefix("volume: ").unwrap();
+    let run = folder.run(&["report", "d.paving", "--svg", "svg"]).exits(0);
+    assert_eq!(run.stderr, "");
+    run.says(&["ACCEPTED: paving", "d.report.html", "svg/region.svg", "svg/slices.svg"]);
+    let page = String::from_utf8(folder.read("d.report.html")).unwrap();
+    assert!(page.contains(&format!("CERTIFIED: volume {volumes}")), "{volumes}");
+    assert!(page.contains("All boxes of the paving are shown."));
+    let digest: String =
+        Sha256::digest(folder.read("d.paving")).iter().map(|b| format!("{b:02x}")).collect();
+    assert!(page.contains(&digest) && page.contains("connected by shared faces"));
+    let answer = folder.run(&["check", "d.paving", "--format", "json"]).exits(0).stdout;
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    let share = answer["inner_share"].as_str().unwrap();
+    let (p, q) = share.split_once('/').unwrap();
+    let share = p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap();
+    assert!((inner_volume(&page) / share - 1.0).abs() < 1e-12, "{share}");
+    for name in ["design", "region", "slices"] {
+        let svg = String::from_utf8(folder.read(&format!("svg/{name}.svg"))).unwrap();
+        assert!(
+            svg.ends_with("</svg>\n") && !svg.contains("var(") && !svg.contains("NaN"),
+            "{name}"
+        );
+    }
+}
+
+/// A fine paving is drawn coarser than it is: the page says so, and claims no more than is proved.
+#[test]
+fn the_picture_of_a_fine_paving_stays_within_it() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.04"]).exits(0);
+    folder.run(&["report", "d.paving", "-o", "a.html"]).exits(0);
+    let page = String::from_utf8(folder.read("a.html")).unwrap();
+    assert!(page.len() < 5_000_000, "{}", page.len());
+    assert!(page.contains("The inner part is larger than its picture"));
+    let answer = folder.run(&["check", "d.paving", "--format", "json"]).exits(0).stdout;
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    let (p, q) = answer["inner_share"].as_str().unwrap().split_once('/').unwrap();
+    let share = p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap();
+    let drawn = inner_volume(&page);
+    assert!(drawn < share && drawn > 0.9 * share, "{drawn} of {share}");
+}
+
+#[test]
+fn a_rejected_paving_gets_no_page() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    folder.run(&["pave", "d.toml", "--precision", "0.2"]).exits(0);
+    let bytes = folder.read("d.paving");
+    folder.write("cut.paving", &bytes[..bytes.len() - 1]);
+    folder.run(&["report", "cut.paving"]).exits(5).complains(&["REJECTED", "no report is written"]);
+    // Legs of half the length: the boxes that were inner are not.
+    let text = bytes.windows(12).position(|w| w == b"\"length\":\"1\"").unwrap();
+    let mut other = bytes.clone();
+    other[text + 10] = b'2';
+    folder.write("other.paving", &other);
+    folder.run(&["report", "other.paving"]).exits(5).complains(&["REJECTED"]);
+    folder.run(&["report", "d.paving", "-o", "d.paving"]).exits(2);
+    assert_eq!(folder.names(), ["cut.paving", "d.paving", "d.toml", "other.paving"]);
 }

@@ -28,7 +28,7 @@ fn the_surface_is_written_in_both_formats_with_the_same_corners() {
     let bytes = folder.read("s.stl");
     let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
     // On a closed surface of triangles 2 E = 3 F, and V - E + F is at most 2 where it is connected.
-    assert!(triangles % 2 == 0 && triangles >= 2 * points - 4, "{triangles} triangles");
+    assert!(triangles.is_multiple_of(2) && triangles >= 2 * points - 4, "{triangles} triangles");
     assert!((faces..2 * faces).contains(&triangles));
     assert_eq!(bytes.len(), 84 + 50 * triangles);
     assert!(!bytes.starts_with(b"solid"));

@@ -14,7 +14,7 @@ const startSpace = (data) => {
   const all = data.trees.map((tree) =>
     leavesOf(tree, data.rules, data.discharges, data.obligations.length));
   const HOME = { azimuth: 32, elevation: 24, zoom: 1 };
-  const state = { tree: 0, axis: 0, cut: 1, deep: 0, colour: 0, ...HOME, waiting: false };
+  const state = { tree: 0, axis: 0, cut: 1, deep: 0, colour: 0, ...HOME };
   const tree = () => data.trees[state.tree];
   const leaves = () => all[state.tree];
   const patterns = new Map();
@@ -25,7 +25,6 @@ const startSpace = (data) => {
     element.textContent = text;
     select.append(element);
   };
-  const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   const patternOf = (rule) => {
     if (!patterns.has(rule)) {
@@ -190,29 +189,8 @@ const startSpace = (data) => {
       }
     }
     context.setLineDash([]);
-    drawNames(at);
+    drawNames(context, tree().axes, at, styleOf("--ink"));
     drawMarks(at, toward);
-  };
-  const drawNames = (at) => {
-    context.fillStyle = styleOf("--ink");
-    context.font = `italic ${Math.round(canvas.width / 62)}px sans-serif`;
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    const [cx, cy] = at([0.5, 0.5, 0.5]);
-    tree().axes.forEach((name, k) => {
-      const [b, c] = [(k + 1) % 3, (k + 2) % 3];
-      const edges = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([x, y]) => {
-        const u = [0.5, 0.5, 0.5];
-        [u[b], u[c]] = [x, y];
-        return at(u);
-      });
-      // Beside the edge farthest from the middle of the picture, the lowest of those.
-      const reach = ([x, y]) => Math.hypot(x - cx, y - cy) + 0.01 * y;
-      const [x, y] = edges.reduce((best, p) => (reach(p) > reach(best) ? p : best));
-      const away = Math.hypot(x - cx, y - cy) || 1;
-      const beyond = canvas.width / 45;
-      context.fillText(name, x + (beyond * (x - cx)) / away, y + (beyond * (y - cy)) / away);
-    });
   };
   const drawMarks = (at, toward) => {
     if (!data.marksInTree) {
@@ -283,15 +261,7 @@ const startSpace = (data) => {
     control("deep-value").textContent = deep;
     canvas.dataset.view = `${state.azimuth.toFixed(1)} ${state.elevation.toFixed(1)} ${state.zoom.toFixed(2)}`;
   };
-  const drawSoon = () => {
-    if (!state.waiting) {
-      state.waiting = true;
-      requestAnimationFrame(() => {
-        state.waiting = false;
-        draw();
-      });
-    }
-  };
+  const drawSoon = soon(draw);
 
   // The leaf that is seen at a point of the canvas, or -1.
   const leafAt = (x, y) => {
@@ -349,27 +319,10 @@ const startSpace = (data) => {
     describe(-1);
     drawSoon();
   };
-  const turn = (azimuth, elevation) => {
-    state.azimuth = (((state.azimuth + azimuth) % 360) + 360) % 360;
-    state.elevation = Math.min(Math.max(state.elevation + elevation, -89), 89);
-    drawSoon();
-  };
   const moveCut = (cut) => {
     state.cut = Math.min(Math.max(cut, 0.001), 1);
     control("cut").value = Math.round(1000 * state.cut);
     drawSoon();
-  };
-  const resize = () => {
-    const scale = Math.min(window.devicePixelRatio || 1, 2);
-    const width = Math.max(canvas.clientWidth, 300);
-    canvas.width = Math.round(width * scale);
-    canvas.height = Math.round((width * scale * 2) / 3);
-    drawSoon();
-  };
-  const onCanvas = (event) => {
-    const box = canvas.getBoundingClientRect();
-    const scale = canvas.width / box.width;
-    return [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
   };
 
   data.trees.forEach((one, t) => option(control("tree"), t, one.name));
@@ -419,49 +372,7 @@ const startSpace = (data) => {
     control("deep").value = depths()[0];
     state.deep = depths()[0];
   });
-  let drag = null;
-  canvas.addEventListener("pointerdown", (event) => {
-    drag = [event.clientX, event.clientY];
-    canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (drag) {
-      turn(-0.5 * (event.clientX - drag[0]), 0.5 * (event.clientY - drag[1]));
-      drag = [event.clientX, event.clientY];
-    } else {
-      describe(leafAt(...onCanvas(event)));
-    }
-  });
-  for (const end of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(end, () => {
-      drag = null;
-    });
-  }
-  canvas.addEventListener("keydown", (event) => {
-    const zoom = (factor) => {
-      state.zoom = Math.min(Math.max(state.zoom * factor, 0.3), 12);
-      drawSoon();
-    };
-    const keys = {
-      ArrowLeft: () => turn(-6, 0),
-      ArrowRight: () => turn(6, 0),
-      ArrowUp: () => turn(0, 6),
-      ArrowDown: () => turn(0, -6),
-      "+": () => zoom(1.15),
-      "=": () => zoom(1.15),
-      "-": () => zoom(1 / 1.15),
-      "[": () => moveCut(state.cut - 0.02),
-      "]": () => moveCut(state.cut + 0.02),
-      Enter: () => describe(leafAt(canvas.width / 2, canvas.height / 2)),
-    };
-    if (event.key in keys && !event.ctrlKey && !event.metaKey && !event.altKey) {
-      keys[event.key]();
-      event.preventDefault();
-    }
-  });
-  window.addEventListener("resize", resize);
+  startTurning(canvas, state, { drawSoon, moveCut, describe: (x, y) => describe(leafAt(x, y)) });
   chooseTree(0);
-  resize();
   return drawSoon;
 };

@@ -5,16 +5,14 @@ const start = () => {
   root.classList.add("js");
   const data = JSON.parse(document.getElementById("data").textContent);
   startMaps(data);
-  const redraw = startSpace(data);
+  const redraws = [startSpace(data), startRegion(data)].filter(Boolean);
   const button = document.getElementById("theme");
   const preferred = window.matchMedia("(prefers-color-scheme: dark)");
   const isDark = () => (root.dataset.theme ? root.dataset.theme === "dark" : preferred.matches);
   const say = () => {
     button.textContent = isDark() ? "Light" : "Dark";
     button.setAttribute("aria-pressed", String(isDark()));
-    if (redraw) {
-      redraw();
-    }
+    redraws.forEach((redraw) => redraw());
   };
   button.addEventListener("click", () => {
     root.dataset.theme = isDark() ? "light" : "dark";

@@ -42,3 +42,107 @@ const shade = (depth, [least, most]) => {
   const part = most > least ? (depth - least) / (most - least) : 0.5;
   return `hsl(${205 + 25 * part} ${45 + 25 * part}% ${90 - 62 * part}%)`;
 };
+
+const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+// A function that calls once before the next frame, however often it is called.
+const soon = (call) => {
+  let waiting = false;
+  return () => {
+    if (!waiting) {
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        call();
+      });
+    }
+  };
+};
+
+// The names of the axes, beside edges of the unit cube.
+const drawNames = (context, axes, at, colour) => {
+  const size = context.canvas.width;
+  context.fillStyle = colour;
+  context.font = `italic ${Math.round(size / 62)}px sans-serif`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  const [cx, cy] = at([0.5, 0.5, 0.5]);
+  axes.forEach((name, k) => {
+    const [b, c] = [(k + 1) % 3, (k + 2) % 3];
+    const edges = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([x, y]) => {
+      const u = [0.5, 0.5, 0.5];
+      [u[b], u[c]] = [x, y];
+      return at(u);
+    });
+    // Beside the edge farthest from the middle of the picture, the lowest of those.
+    const reach = ([x, y]) => Math.hypot(x - cx, y - cy) + 0.01 * y;
+    const [x, y] = edges.reduce((best, p) => (reach(p) > reach(best) ? p : best));
+    const away = Math.hypot(x - cx, y - cy) || 1;
+    const beyond = size / 45;
+    context.fillText(name, x + (beyond * (x - cx)) / away, y + (beyond * (y - cy)) / away);
+  });
+};
+
+// Turns, scales and cuts a view by pointer and keys, and describes what is at a place of the canvas.
+const startTurning = (canvas, state, { drawSoon, moveCut, describe }) => {
+  const turn = (azimuth, elevation) => {
+    state.azimuth = (((state.azimuth + azimuth) % 360) + 360) % 360;
+    state.elevation = Math.min(Math.max(state.elevation + elevation, -89), 89);
+    drawSoon();
+  };
+  const zoom = (factor) => {
+    state.zoom = Math.min(Math.max(state.zoom * factor, 0.3), 12);
+    drawSoon();
+  };
+  const resize = () => {
+    const scale = Math.min(window.devicePixelRatio || 1, 2);
+    const width = Math.max(canvas.clientWidth, 300);
+    canvas.width = Math.round(width * scale);
+    canvas.height = Math.round((width * scale * 2) / 3);
+    drawSoon();
+  };
+  const onCanvas = (event) => {
+    const box = canvas.getBoundingClientRect();
+    const scale = canvas.width / box.width;
+    return [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+  };
+  let drag = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    drag = [event.clientX, event.clientY];
+    canvas.setPointerCapture(event.pointerId);
+    canvas.focus({ preventScroll: true });
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (drag) {
+      turn(-0.5 * (event.clientX - drag[0]), 0.5 * (event.clientY - drag[1]));
+      drag = [event.clientX, event.clientY];
+    } else {
+      describe(...onCanvas(event));
+    }
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, () => {
+      drag = null;
+    });
+  }
+  canvas.addEventListener("keydown", (event) => {
+    const keys = {
+      ArrowLeft: () => turn(-6, 0),
+      ArrowRight: () => turn(6, 0),
+      ArrowUp: () => turn(0, 6),
+      ArrowDown: () => turn(0, -6),
+      "+": () => zoom(1.15),
+      "=": () => zoom(1.15),
+      "-": () => zoom(1 / 1.15),
+      "[": () => moveCut(state.cut - 0.02),
+      "]": () => moveCut(state.cut + 0.02),
+      Enter: () => describe(canvas.width / 2, canvas.height / 2),
+    };
+    if (event.key in keys && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      keys[event.key]();
+      event.preventDefault();
+    }
+  });
+  window.addEventListener("resize", resize);
+  resize();
+};

@@ -213,14 +213,26 @@ fn surfaces_of_random_trees_are_closed() {
 #[test]
 fn a_depth_keeps_only_what_is_inner_throughout() {
     let ball = |c: [u128; 3]| c.iter().map(|x| (2 * x + 1).abs_diff(16).pow(2)).sum::<u128>() < 200;
-    let bytes = paving(true, |cell| grid(cell, 4, ball));
+    let sixth = paving(true, |cell| grid(cell, 4, ball));
     let share = |depth: u32| {
-        let reader = Reader::new(bytes.as_slice()).unwrap();
+        let reader = Reader::new(sixth.as_slice()).unwrap();
         let cancel = AtomicBool::new(false);
         let (header, tree) = Tree::read(reader, Detail::Depth(depth), &cancel).unwrap();
         let walls = walls(&tree, &cancel).unwrap();
         mesh::assembled(&walls, ends(&header).unwrap()).share()
     };
+    // The same, of a tree that is there: without images depths are those of the paving.
+    let bytes = paving(false, |cell| grid(cell, 4, ball));
+    let read = |detail: Detail| {
+        let cancel = AtomicBool::new(false);
+        Tree::read(Reader::new(bytes.as_slice()).unwrap(), detail, &cancel).unwrap().1
+    };
+    let cancel = AtomicBool::new(false);
+    for depth in 0..=12 {
+        let [one, other] = [read(Detail::Depth(depth)), read(Detail::Depth(12)).to_depth(depth)];
+        assert_eq!(walls(&one, &cancel).unwrap(), walls(&other, &cancel).unwrap(), "{depth}");
+        assert!(one.depth() <= depth && one.depth() == other.depth(), "{depth}");
+    }
     let shares: Vec<i128> = (3..=12).map(share).collect();
     assert!(shares.is_sorted() && shares[0] < shares[5] && shares[5] < shares[9], "{shares:?}");
     assert_eq!(shares[9], held(true, |cell| grid(cell, 4, ball)).share());

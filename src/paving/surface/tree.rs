@@ -119,6 +119,18 @@ impl Tree {
         Ok((header, tree))
     }
 
+    /// Most splits on a path.
+    pub fn depth(&self) -> u32 {
+        let (mut deepest, mut waiting) = (0, vec![(self.root, 0)]);
+        while let Some((node, depth)) = waiting.pop() {
+            deepest = depth.max(deepest);
+            if let Some((_, lower, upper)) = self.split(node) {
+                waiting.extend([(lower, depth + 1), (upper, depth + 1)]);
+            }
+        }
+        deepest
+    }
+
     /// The tree down to a depth, as [`Detail::Depth`] has it.
     pub fn to_depth(&self, depth: u32) -> Self {
         let mut tree = Tree::new();

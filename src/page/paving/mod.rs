@@ -1,0 +1,176 @@
+//! A paving as one HTML file, like those of certificates.
+//!
+//! | module   | holds                                              |
+//! |----------|----------------------------------------------------|
+//! | `region` | the region in pictures, from the paving's tree     |
+//!
+//! Proved are the volumes, and what is said of the boxes. Pictures stop at a depth that keeps the file
+//! small, which they say; a box that is split further counts as undecided in them, unless all of it
+//! is inner, or all outer.
+
+mod region;
+mod sections;
+
+use super::isomap::Mark;
+use super::nominal::{Nominal, Point};
+use super::{contents, drawing, escape, filled, stem, words, File, Picture, FRAME, SCRIPT};
+use crate::decimal::{approximate, rounded, significant, Toward};
+use crate::digest::policy_source;
+use crate::paving::{box_volume, Components, Tree};
+use escape::html;
+use num_rational::BigRational;
+use orthocert_checker::claim::{MachineClaim, Workspace};
+use orthocert_checker::number::Exact;
+use orthocert_checker::paving::Accepted;
+use region::Region;
+use serde_json::json;
+
+/// The depth down to which a paving is read for its page.
+pub const DEPTH: u32 = 24;
+/// Most boxes of the view in space, of the pictures of it, and of the slices.
+const MOST: [usize; 3] = [40_000, 6_000, 400_000];
+/// Digits of volumes.
+const DIGITS: u32 = 9;
+
+/// What is on a page.
+pub struct PavingPage<'a> {
+    claim: &'a MachineClaim,
+    accepted: &'a Accepted,
+    components: Option<&'a Components>,
+    file: File<'a>,
+    title: String,
+    machine: Option<Nominal>,
+    marks: Vec<Mark>,
+    /// The tree of the view in space.
+    tree: Tree,
+    ends: [Point; 2],
+    /// The depths of the view in space, of the pictures of it, and of the slices; none where all of
+    /// the paving is there.
+    depths: [Option<u32>; 3],
+    pictures: Vec<Picture>,
+}
+
+impl<'a> PavingPage<'a> {
+    /// The page of a paving that the checker has accepted; `tree` is its tree down to [`DEPTH`].
+    /// `None` if its box is beyond floating point.
+    pub fn new(
+        accepted: &'a Accepted,
+        tree: &Tree,
+        components: Option<&'a Components>,
+        file: File<'a>,
+        title: Option<&str>,
+    ) -> Option<Self> {
+        let claim = accepted.header.machine_claim().ok()?;
+        let Workspace::Box { min, max } = &claim.workspace else {
+            return None;
+        };
+        let near = |x: &Exact| approximate(x).filter(|x| x.abs() < 1e60);
+        let point = |x: &[Exact; 3]| Some([near(&x[0])?, near(&x[1])?, near(&x[2])?]);
+        let (least, most) = (point(min)?, point(max)?);
+        let width: Point = std::array::from_fn(|k| most[k] - least[k]);
+        if width.iter().any(|w| *w <= 0.0) {
+            return None;
+        }
+        // Images are of parts of boxes: their tree may be deeper than the paving.
+        let deepest = tree.depth();
+        let depth = |most: usize| {
+            let fits = |depth: &u32| region::leaves(&tree.to_depth(*depth)) <= most;
+            (0..=deepest).rev().find(fits).unwrap_or(0)
+        };
+        let depths = MOST.map(depth);
+        let [view, pictures, slices] = depths.map(|depth| tree.to_depth(depth));
+        let is_whole = accepted.header.depth <= DEPTH;
+        let depths = depths.map(|depth| Some(depth).filter(|d| !is_whole || *d < deepest));
+        let mark = components.map(|found| Mark {
+            name: "best conditioned".to_owned(),
+            at: std::array::from_fn(|k| least[k] + found.centre[k] * width[k]),
+        });
+        let marks: Vec<Mark> = mark.into_iter().collect();
+        let machine = Nominal::new(claim);
+        let mut drawn: Vec<Picture> =
+            machine.iter().map(|machine| drawing::drawing(machine, &[])).collect();
+        drawn.push(Region { tree: &pictures, least, width }.picture());
+        drawn.push(Region { tree: &slices, least, width }.slices(&marks));
+        Some(PavingPage {
+            claim,
+            accepted,
+            components,
+            file,
+            title: title.unwrap_or(stem(file.name)).to_owned(),
+            machine,
+            marks,
+            tree: view,
+            ends: [least, width],
+            depths,
+            pictures: drawn,
+        })
+    }
+
+    /// Every figure.
+    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+        self.pictures.iter()
+    }
+
+    fn picture(&self, name: &str) -> String {
+        let found = self.pictures.iter().find(|picture| picture.name == name);
+        found.map(Picture::inline).unwrap_or_default()
+    }
+
+    /// The HTML file.
+    pub fn html(&self) -> String {
+        let style = format!("{}{}", include_str!("../page.css"), include_str!("../figure.css"));
+        let provenance = &self.accepted.header.provenance;
+        let sections = self.sections();
+        let [least, width] = self.ends;
+        let region = Region { tree: &self.tree, least, width };
+        let data = json!({ "trees": [], "marks": [], "region": region.data(&self.marks) });
+        let [low, high] = self.volume();
+        let headline = format!("\u{2713} CERTIFIED: volume between {low} and {high}");
+        let meaning =
+            "Every inner box lies in the region where all requirements hold, and no outer box \
+            meets it. The exact checker accepted the evidence of every box.";
+        filled(
+            FRAME,
+            &[
+                ("script-policy", &policy_source(SCRIPT)),
+                ("style-policy", &policy_source(&style)),
+                ("style", &style),
+                ("script", SCRIPT),
+                ("title", &html(&self.title)),
+                ("subject", &html(&words::region(self.claim))),
+                ("verdict", "certified"),
+                ("headline", &html(&headline)),
+                ("meaning", meaning),
+                ("contents", &contents(&sections)),
+                (
+                    "sections",
+                    &sections.iter().map(|section| section.2.as_str()).collect::<String>(),
+                ),
+                ("version", env!("CARGO_PKG_VERSION")),
+                ("kind", "paving"),
+                ("written-by", &html(&format!("{} {}", provenance.tool, provenance.version))),
+                ("data", &escape::data(&data.to_string())),
+            ],
+        )
+    }
+
+    /// The certified bounds of the region's volume, rounded outwards; as shares of the box where its
+    /// own volume is not rational.
+    fn volume(&self) -> [String; 2] {
+        let summary = &self.accepted.summary;
+        let share = |share: &Exact| share.as_rational().cloned().unwrap_or_default();
+        let (inner, open) = (share(&summary.inner_share), share(&summary.boundary_share));
+        let (unit, whole) = match box_volume(self.claim) {
+            Some(volume) => ("", volume),
+            None => (" of the box", BigRational::from_integer(1.into())),
+        };
+        let low = rounded(&(&inner * &whole), DIGITS, Toward::Below);
+        let high = rounded(&((inner + open) * whole), DIGITS, Toward::Above);
+        [low + unit, high + unit]
+    }
+
+    /// A share of the box, in percent.
+    fn percent(share: &Exact) -> String {
+        approximate(share).map_or(String::new(), |x| format!("{} %", significant(100.0 * x, 6)))
+    }
+}

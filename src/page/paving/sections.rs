@@ -1,0 +1,216 @@
+//! The sections of a paving's page, in their order.
+
+use super::super::{recheck, words};
+use super::{html, PavingPage};
+use crate::decimal::{grouped, significant};
+use orthocert_checker::paving::{Shares, SHARE_BITS};
+use orthocert_checker::statement;
+use std::fmt::Write;
+
+/// Components that are listed.
+const SHOWN: usize = 8;
+
+impl PavingPage<'_> {
+    /// Anchor, name and text of every section.
+    pub(super) fn sections(&self) -> Vec<(&'static str, &'static str, String)> {
+        let version = env!("CARGO_PKG_VERSION");
+        let recheck = recheck::of_paving(self.file.name, self.file.bytes, version);
+        vec![
+            ("overview", "Overview", self.overview()),
+            ("region", "Region", self.region_section()),
+            ("slices", "Slices", self.slices_section()),
+            ("components", "Components", self.components_section()),
+            ("claim", "Claim", self.claim_section()),
+            ("machine", "Machine", self.machine_section()),
+            ("recheck", "Check it again", recheck),
+        ]
+    }
+
+    fn overview(&self) -> String {
+        let (summary, header) = (&self.accepted.summary, &self.accepted.header);
+        let Shares { inner, boundary } = self.accepted.shares;
+        let outer = Shares::fraction((1 << SHARE_BITS) - inner - boundary);
+        let [low, high] = self.volume();
+        let gap = match (inner, boundary) {
+            (_, 0) => "0".to_owned(),
+            (0, _) => "none: no box is inner".to_owned(),
+            _ => format!("{} %", significant(100.0 * boundary as f64 / inner as f64, 3)),
+        };
+        let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
+        for (name, value) in [
+            ("volume, at least", low),
+            ("volume, at most", high),
+            ("gap: undecided over inner", gap),
+            ("halvings, at most", header.depth.to_string()),
+            ("paving", self.file.name.to_owned()),
+        ] {
+            let class = if name == "paving" { " class=\"wide\"" } else { "" };
+            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", html(&value));
+        }
+        out.push_str(
+            "</dl><div class=\"table\"><table><thead><tr><th>boxes</th><th class=\"number\">number</th>\
+             <th class=\"number\">share of the box</th><th>what is proved of them</th></tr></thead><tbody>",
+        );
+        for (name, boxes, share, what) in [
+            (
+                "inner",
+                summary.inner,
+                &summary.inner_share,
+                "all requirements hold at every point, for every machine of the claim",
+            ),
+            ("outer", summary.outer, &outer, "at every point some requirement fails"),
+            ("undecided", summary.boundary, &summary.boundary_share, "nothing"),
+        ] {
+            let _ = write!(
+                out,
+                "<tr><td>{name}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{what}</td></tr>",
+                grouped(boxes),
+                Self::percent(share)
+            );
+        }
+        out.push_str("</tbody></table></div>");
+        if header.symmetry.is_some() {
+            out.push_str(
+                "<p class=\"note\">The machine looks the same from permuted axes: only points with x \u{2264} y \
+                 \u{2264} z are paved, and the shares count all images.</p>",
+            );
+        }
+        out + "</section>\n"
+    }
+
+    /// What is said of a picture that stops at a depth.
+    fn stops(depth: Option<u32>) -> String {
+        let Some(depth) = depth else {
+            return "All boxes of the paving are shown.".to_owned();
+        };
+        format!(
+            "Drawn with boxes of at least 2<sup>\u{2212}{depth}</sup> of the box that was searched: smaller ones \
+             count as undecided here, unless all that such a box is cut into are inner, or all outer. The inner \
+             part is larger than its picture."
+        )
+    }
+
+    fn region_section(&self) -> String {
+        let [view, picture, _] = self.depths;
+        format!(
+            "<section id=\"region\"><h2>The region in space</h2>\
+             <p>The surface of the inner boxes: within it, all requirements are proved. Outside, up to the \
+             undecided boxes, they may hold too.</p>{VIEWER}<p class=\"note scripted\">{}</p>\
+             <figure class=\"static\">{}<figcaption>{}</figcaption></figure>{LEGEND}</section>\n",
+            Self::stops(view),
+            self.picture("region"),
+            Self::stops(picture)
+        )
+    }
+
+    fn slices_section(&self) -> String {
+        format!(
+            "<section id=\"slices\"><h2>Slices</h2><figure>{}<figcaption>Planes z = const through the inner \
+             part, x to the right and y up. White: outer, no point meets the requirements.{} {}</figcaption>\
+             </figure>{SLICE_LEGEND}</section>\n",
+            self.picture("slices"),
+            if self.marks.is_empty() { "" } else { " Dot: the best conditioned centre of a box, near its plane." },
+            Self::stops(self.depths[2])
+        )
+    }
+
+    fn components_section(&self) -> String {
+        let mut out = "<section id=\"components\"><h2>Connected components</h2>".to_owned();
+        let Some(found) = self.components.filter(|found| !found.all.is_empty()) else {
+            out.push_str("<p>No box is inner, or there are too many to tell components apart.</p></section>\n");
+            return out;
+        };
+        let count: u64 = found.all.iter().map(|component| component.copies).sum();
+        let _ = write!(
+            out,
+            "<p>The inner boxes make up <strong>{}</strong>, connected by shared faces; what is apart here may \
+             join in undecided boxes.</p>",
+            if count == 1 { "one component".to_owned() } else { format!("{} components", grouped(count)) }
+        );
+        out.push_str(
+            "<div class=\"table\"><table><thead><tr><th class=\"number\">share of the box</th><th class=\"number\">boxes \
+             paved</th><th class=\"number\">images, itself included</th><th>contains</th></tr></thead><tbody>",
+        );
+        for component in found.all.iter().take(SHOWN) {
+            let share = component.share as f64 * (-f64::from(SHARE_BITS)).exp2();
+            let contains = if component.best_conditioned {
+                let [x, y, z] = [0, 1, 2]
+                    .map(|k| significant(self.ends[0][k] + found.centre[k] * self.ends[1][k], 3));
+                format!(
+                    "the best conditioned centre of a box, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at \
+                     ({x}, {y}, {z})",
+                    significant(found.conditioning, 4)
+                )
+            } else {
+                String::new()
+            };
+            let _ = write!(
+                out,
+                "<tr><td class=\"number\">{} %</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
+                 <td>{contains}</td></tr>",
+                significant(100.0 * share, 6),
+                grouped(component.boxes),
+                component.copies
+            );
+        }
+        out.push_str("</tbody></table></div>");
+        if found.all.len() > SHOWN {
+            let _ = write!(out, "<p class=\"note\">The {SHOWN} largest are listed.</p>");
+        }
+        out + "</section>\n"
+    }
+
+    fn claim_section(&self) -> String {
+        let statement = statement::paving(self.accepted).unwrap_or_default();
+        words::region_section(&self.accepted.header.claim, &statement)
+    }
+
+    fn machine_section(&self) -> String {
+        let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
+        match &self.machine {
+            Some(machine) => {
+                let _ = write!(
+                    out,
+                    "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): \
+                     guides dash-dotted, legs from B<sub>i</sub> to the platform at P, the box that is paved in \
+                     colour.</figcaption></figure>{}",
+                    self.picture("design"),
+                    words::parameters(self.claim, machine)
+                );
+            }
+            None => out.push_str("<p>Its numbers are beyond what floating point can show.</p>"),
+        }
+        out + "</section>\n"
+    }
+}
+
+/// The controls of the view in space.
+const VIEWER: &str = "<div class=\"scripted\" id=\"region-viewer\"><div class=\"controls\">\
+    <label for=\"region-axis\">cut along <select id=\"region-axis\"><option value=\"0\">x</option>\
+    <option value=\"1\">y</option><option value=\"2\">z</option></select></label>\
+    <label for=\"region-cut\">at <input type=\"range\" id=\"region-cut\" min=\"0\" max=\"1000\" value=\"1000\"></label>\
+    <output id=\"region-cut-value\" for=\"region-cut\"></output>\
+    <button type=\"button\" id=\"region-reset\">Reset view</button></div>\
+    <canvas id=\"region-space\" width=\"900\" height=\"600\" tabindex=\"0\" role=\"img\" aria-label=\"The inner boxes of \
+    the paving in space; arrow keys turn the view\"></canvas>\
+    <output class=\"readout\" id=\"region-readout\" aria-live=\"polite\"></output>\
+    <p class=\"note\">Drag, or use the arrow keys, to turn; <kbd>+</kbd> <kbd>\u{2212}</kbd> to scale; <kbd>[</kbd> \
+    <kbd>]</kbd> move the cut; point at a box, or press <kbd>Enter</kbd> for the one in the middle, to read it.</p></div>";
+
+const LEGEND: &str = "<ul class=\"legend\" aria-label=\"Colours\">\
+    <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"wall-1\" width=\"26\" height=\"16\"/></svg>\
+    <span>faces beside undecided or outer boxes</span></li>\
+    <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"side-1\" width=\"26\" height=\"16\"/></svg>\
+    <span>where the region reaches the side of the box that was searched</span></li>\
+    <li class=\"scripted\"><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"slice-inner\" width=\"26\" \
+    height=\"16\"/></svg><span>inner, on the cut</span></li>\
+    <li class=\"scripted\"><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"slice-undecided\" width=\"26\" \
+    height=\"16\"/></svg><span>undecided, on the cut</span></li></ul>";
+
+const SLICE_LEGEND: &str = "<ul class=\"legend\" aria-label=\"Colours of slices\">\
+    <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"slice-inner\" width=\"26\" height=\"16\"/></svg>\
+    <span>inner: all requirements hold</span></li>\
+    <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"slice-undecided\" width=\"26\" \
+    height=\"16\"/></svg><span>undecided</span></li>\
+    <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"slice-outer\" width=\"26\" \
+    height=\"16\"/></svg><span>outer: some requirement fails</span></li></ul>";
