@@ -4,8 +4,8 @@ use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Sta
 use orthocert::design::Design;
 use orthocert::output;
 use orthocert::paving::{
-    components, depth_for_edge, pave, unfinished, Components, Decider, Goal, PaveError, Resume,
-    DEEPEST,
+    components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal, PaveError,
+    Resume, DEEPEST,
 };
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
@@ -27,14 +27,17 @@ pub const MEMORY: u64 = 1024;
 /// Its flags.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The box is [workspace] min and max of the design. The region is the set of its points at which all
+The box is [workspace] min and max of the design, or --box. The region is the set of its points at which all
 requirements hold, for every machine of the tolerance. Without --precision and --volume-gap the gap
 that is aimed at is 0.05. An interrupted run leaves PAVING.part, which --resume takes up again: the
 paving is the same, byte for byte. So it is for every number of threads.")]
 pub struct Arguments {
-    /// The design; its workspace is the box that is searched
+    /// The design; its workspace is the box that is searched, without --box
     #[arg(value_name = "DESIGN.toml")]
     design: PathBuf,
+    /// The box that is searched, in the place of the design's workspace, which may then be any
+    #[arg(long = "box", value_name = "X0,X1,Y0,Y1,Z0,Z1", allow_hyphen_values = true)]
+    search_box: Option<String>,
     /// Split undecided boxes until the geometric mean of their edges is at most E, in the design's
     /// unit of length
     #[arg(long, value_name = "E", conflicts_with = "volume_gap", allow_hyphen_values = true)]
@@ -75,6 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Claim::Machine(claim) = &design.claim else {
         return Err(Failure::Input("a design is about a machine".to_owned()));
     };
+    let claim = &arguments.claim(claim)?;
     let goal = arguments.goal(claim)?;
     let target = arguments.target()?;
     output::probe(&target)?;
@@ -126,6 +130,23 @@ fn failure(error: PaveError, target: &Path) -> Failure {
 }
 
 impl Arguments {
+    /// The design's claim, over the box that is searched.
+    fn claim(&self, claim: &MachineClaim) -> Result<MachineClaim, Failure> {
+        let Some(text) = &self.search_box else {
+            return Ok(claim.clone());
+        };
+        let numbers = text.split(',').map(|text| input::number("--box", text));
+        let numbers: Vec<Exact> = numbers.collect::<Result<_, _>>()?;
+        let Ok([x0, x1, y0, y1, z0, z1]) = <[Exact; 6]>::try_from(numbers) else {
+            return Err(Failure::Input(format!(
+                "--box: found {text}; accepted: six numbers X0,X1,Y0,Y1,Z0,Z1, the ends along x, y \
+                 and z"
+            )));
+        };
+        in_box(claim, [x0, y0, z0], [x1, y1, z1])
+            .map_err(|error| Failure::Input(format!("--box: found {text}; {error}")))
+    }
+
     fn goal(&self, claim: &MachineClaim) -> Result<Goal, Failure> {
         is_a_box(claim)?;
         let depth = self.precision.as_deref().map(|edge| depth(claim, edge)).transpose()?;
@@ -156,7 +177,9 @@ fn is_a_box(claim: &MachineClaim) -> Result<(), Failure> {
     if matches!(claim.workspace, Workspace::Box { .. }) {
         return Ok(());
     }
-    let refused = "the workspace is not a box; accepted: [workspace] with min and max";
+    let refused =
+        "the workspace is not a box; accepted: [workspace] with min and max, or, of pave, \
+                   --box X0,X1,Y0,Y1,Z0,Z1";
     Err(Failure::Input(refused.to_owned()))
 }
 

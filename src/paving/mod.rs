@@ -6,6 +6,7 @@
 //! | `spectrum` | extreme singular values of a matrix                               |
 //! | `tree`     | grows the tree, cut into subtrees                                 |
 //! | `plan`     | how deep the tree has to go                                       |
+//! | `search_box` | a claim with another box in the place of its workspace          |
 //! | `pass`     | writes the tree to a file that can be taken up again              |
 //! | `parts`    | the tree in parts that are made anywhere                          |
 //! | `components` | connected components of the inner part                          |
@@ -21,6 +22,7 @@ mod decide;
 mod parts;
 mod pass;
 mod plan;
+mod search_box;
 mod spectrum;
 mod surface;
 mod tree;
@@ -29,6 +31,7 @@ pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
 pub use parts::{merging, Parts, TreeWriter};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume, DEEPEST};
+pub use search_box::{in_box, SearchBoxError};
 pub use surface::{
     ends, surface, walls, Beyond, Detail, Face, Node, Surface, SurfaceError, Tree, Wall, EDGE,
     INNER, OUTER, UNDECIDED,

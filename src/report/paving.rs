@@ -1,7 +1,7 @@
 //! What a paving holds, for people and for scripts.
 
 use crate::decimal::{approximate, grouped, rounded, significant, Toward};
-use crate::paving::{Component, Components, Paved};
+use crate::paving::{box_volume, Component, Components, Paved};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::claim::{MachineClaim, Workspace};
@@ -96,7 +96,7 @@ impl PavingReport {
         components: Option<&Components>,
         target: &Path,
     ) -> Self {
-        let volume = volume(claim);
+        let volume = box_volume(claim);
         let part = |boxes: u64, share: Exact| {
             let volume = volume.clone().zip(share.as_rational().cloned());
             Part { boxes, share, volume: volume.map(|(v, share)| Exact::Rational(v * share)) }
@@ -204,15 +204,6 @@ fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
     }
 }
 
-/// The volume of the box, where it is rational.
-fn volume(claim: &MachineClaim) -> Option<BigRational> {
-    let Workspace::Box { min, max } = &claim.workspace else {
-        return None;
-    };
-    let edges = min.iter().zip(max).map(|(min, max)| Some(max.as_rational()? - min.as_rational()?));
-    edges.product()
-}
-
 fn components_text(components: &ComponentsReport) -> String {
     let [x, y, z] = components.best_conditioned_at.map(|x| significant(x, 3));
     let mut out = format!(
@@ -224,19 +215,18 @@ fn components_text(components: &ComponentsReport) -> String {
             1 => String::new(),
             n => format!(" together with {} images", n - 1),
         };
-        let best = if component.best_conditioned {
-            format!(
-                ", with the best conditioned point, sigma_max/sigma_min = {} at ({x}, {y}, {z})",
-                significant(components.best_conditioning, 4)
-            )
-        } else {
-            String::new()
-        };
         out += &format!(
-            "    {:>9} % of the box{copies}, {} boxes{best}\n",
+            "    {:>9} % of the box{copies}, {} boxes\n",
             significant(100.0 * component.share, 6),
             grouped(component.boxes)
         );
+        if component.best_conditioned {
+            let least = significant(components.best_conditioning, 4);
+            out += &format!(
+                "              has the best conditioned point, ({x}, {y}, {z}):\n              \
+                 sigma_max/sigma_min = {least}\n"
+            );
+        }
     }
     out
 }

@@ -157,3 +157,65 @@ fn bad_usage_is_refused() {
     folder.run(&["verify", "d.toml", "-o", "c.json"]);
     folder.run(&["check", "c.json", "--sample", "3"]).exits(2).complains(&["accepted: a paving"]);
 }
+
+/// The paper's prototype, with an offset.
+const CUBE: &str = "[mechanism]\nkind = \"orthoglide\"\noffset = 7\n[workspace]\ncube = 200\n\
+                    [requirements]\ntransmission = { max = 2 }\n";
+
+#[test]
+fn a_box_in_the_place_of_the_workspace_takes_any_design() {
+    let folder = Folder::new();
+    folder.write("cube.toml", CUBE);
+    let refused = folder.run(&["pave", "cube.toml"]).exits(2);
+    refused.complains(&["the workspace is not a box", "--box X0,X1,Y0,Y1,Z0,Z1"]);
+    // A hair within the paper's cube, all of it is inner; beyond Q_1 and Q_2, not.
+    let within = "-73.2,126.79,-73.2,126.79,-73.2,126.79";
+    let pave = |range: &str, to: &str| {
+        let options = ["--precision", "20", "-o", to, "--format", "json", "--box", range];
+        let run = folder.run(&[&["pave", "cube.toml"], &options[..]].concat());
+        let answer: Value = serde_json::from_str(&run.exits(0).stdout).unwrap();
+        answer["inner"]["share"].as_str().unwrap().to_owned()
+    };
+    let share = |text: String| {
+        let (p, q) = text.split_once('/').unwrap_or((&text, "1"));
+        p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()
+    };
+    let inner = share(pave(within, "a.paving"));
+    assert!(inner > 0.99, "{inner}");
+    let check = folder.run(&["check", "a.paving"]).exits(0);
+    check.says(&["ACCEPTED: paving", "1/2 <= psi_i(P) <= 2", "12679/100"]);
+    folder.run(&["check", "a.paving", "--design", "cube.toml"]).exits(5);
+    assert!(share(pave("-250,250,-250,250,-250,250", "b.paving")) < 0.7);
+    // The ends are exact numbers; the design's own box is replaced.
+    folder.write("d.toml", DESIGN);
+    let half = ["pave", "d.toml", "--precision", "0.2", "--box", "0,sqrt(2)/4,0,1/3,-0.1,1e-1"];
+    folder.run(&half).exits(0);
+    folder.run(&["check", "d.paving"]).exits(0).says(&["sqrt(2)", "1/3", "-1/10"]);
+}
+
+#[test]
+fn a_cylinder_is_searched_in_a_box() {
+    let folder = Folder::with(&["linear-delta-klipper-cylinder.toml"]);
+    let design = "linear-delta-klipper-cylinder.toml";
+    folder.run(&["pave", design]).exits(2).complains(&["--box"]);
+    let run = folder.run(&["pave", design, "--box", "-60,60,-60,60,0,50", "--precision", "15"]);
+    run.exits(0).says(&["inner"]);
+    folder.run(&["check", "linear-delta-klipper-cylinder.paving"]).exits(0);
+}
+
+#[test]
+fn boxes_that_are_none_are_refused() {
+    let folder = folder();
+    for (range, complaint) in [
+        ("0,1,0,1,0", "six numbers"),
+        ("0,1,0,1,0,1,2", "six numbers"),
+        ("0,1,0,x,0,1", "is not a number"),
+        ("0,1,0,,0,1", "is not a number"),
+        ("0,1,1,1,0,1", "along y the first number is not less"),
+        ("0,1,0,1,2,1", "along z the first number is not less"),
+    ] {
+        let run = folder.run(&["pave", "d.toml", "--box", range]).exits(2);
+        run.complains(&["--box", complaint]);
+    }
+    assert_eq!(folder.names(), ["d.toml"]);
+}

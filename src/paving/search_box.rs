@@ -1,0 +1,104 @@
+//! A claim with another box in the place of its workspace.
+
+use orthocert_checker::claim::{
+    ClaimError, Leg, MachineClaim, Mechanism, Quantity, Range, WorkingMode, Workspace,
+};
+use orthocert_checker::model::CubeConstants;
+use orthocert_checker::number::{Exact, NumberErrorKind};
+use std::array::from_fn;
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Why a claim has no such box.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum SearchBoxError {
+    /// On this axis the lower end is not provably less than the upper one.
+    Empty(usize),
+    /// The machine's numbers cannot be made explicit.
+    Machine(ClaimError),
+}
+
+impl fmt::Display for SearchBoxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SearchBoxError::Empty(axis) => {
+                let name = ["x", "y", "z"].get(*axis).unwrap_or(&"an axis");
+                write!(f, "along {name} the first number is not less than the second")
+            }
+            SearchBoxError::Machine(error) => {
+                write!(f, "the machine of the cube cannot be written out: {error}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SearchBoxError {}
+
+/// The same machine and requirements, over the box `[min, max]`.
+///
+/// Of the paper's cube, whose machine follows from its side and `psi_max`, the machine is written
+/// out by Steps 1 to 3, with `q_1`, `q_2` for `L = 1`:
+///
+/// `L = side/(q_2 - q_1)`, `a = q_1 L - e - L`, `n_i = e_i`, `a_i = a e_i`, `d_i = -e e_i`,
+/// `eta_i > 0`, `psi_min = 1/psi_max`.
+///
+/// # Errors
+/// [`SearchBoxError`].
+pub fn in_box(
+    claim: &MachineClaim,
+    min: [Exact; 3],
+    max: [Exact; 3],
+) -> Result<MachineClaim, SearchBoxError> {
+    let less = |k: &usize| min[*k].compare(&max[*k]) == Some(Ordering::Less);
+    if let Some(axis) = (0..3).find(|k| !less(k)) {
+        return Err(SearchBoxError::Empty(axis));
+    }
+    let mut claim = match (&claim.mechanism, &claim.workspace) {
+        (Mechanism::Orthoglide { offset }, Workspace::Cube { side }) => {
+            written_out(claim, offset, side).map_err(SearchBoxError::Machine)?
+        }
+        _ => claim.clone(),
+    };
+    claim.workspace = Workspace::Box { min, max };
+    claim.validate().map_err(SearchBoxError::Machine)?;
+    Ok(claim)
+}
+
+fn written_out(
+    claim: &MachineClaim,
+    offset: &Exact,
+    side: &Exact,
+) -> Result<MachineClaim, ClaimError> {
+    let too_large = |_: NumberErrorKind| ClaimError::Precision("workspace.cube".to_owned());
+    let psi_max = claim.requirements.transmission.as_ref().and_then(|range| range.max.as_ref());
+    let psi_max = psi_max.ok_or(ClaimError::CubeNeedsPsiMax)?;
+    let CubeConstants { t1, q2, .. } = CubeConstants::new(psi_max, side)?;
+    let one = Exact::integer(1);
+    let numbers = || {
+        // -q_1 = t_1 / sqrt(1 + 2 t_1^2), which makes shorter expressions than q_1.
+        let square = t1.clone().times(t1.clone())?.times(Exact::integer(2))?;
+        let minus_q1 = t1.over(one.clone().plus(square)?.root()?)?;
+        let length = side.clone().over(q2.plus(minus_q1.clone())?)?;
+        let end = minus_q1.times(length.clone())?.plus(offset.clone())?.plus(length.clone())?;
+        Ok((length, end.negated(), one.clone().over(psi_max.clone())?))
+    };
+    let (length, base, psi_min) = numbers().map_err(too_large)?;
+    let along = |axis: usize, x: &Exact| -> [Quantity; 3] {
+        from_fn(|k| Quantity::exactly(if k == axis { x.clone() } else { Exact::integer(0) }))
+    };
+    let leg = |axis: usize| Leg::Slider {
+        direction: along(axis, &one),
+        anchor: along(axis, &base),
+        platform: along(axis, &offset.clone().negated()),
+        length: Quantity::exactly(length.clone()),
+        mode: WorkingMode::Plus,
+    };
+    let mut requirements = claim.requirements.clone();
+    requirements.transmission = Some(Range { min: Some(psi_min), max: Some(psi_max.clone()) });
+    Ok(MachineClaim {
+        mechanism: Mechanism::Translational(from_fn(leg)),
+        workspace: claim.workspace.clone(),
+        requirements,
+    })
+}
