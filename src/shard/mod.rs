@@ -4,8 +4,10 @@
 //! What becomes of a cell depends on the cell alone, so the parts, put in their places, are byte for
 //! byte what one machine would have found. Every file names its job by the SHA-256 of the job's
 //! text; results also name the shard that they answer, by the SHA-256 of its file, and carry the
-//! SHA-256 of their content. What is missing, doubled, altered or of another job is named
-//! ([`MergeError`]); and what was merged has still to be accepted by the exact checker as a whole.
+//! SHA-256 of their content. What a shard of a paving found may be larger than memory: it is in a
+//! file of its own, whose stretches the result names. What is missing, doubled, altered or of another
+//! job is named ([`MergeError`]); and what was merged has still to be accepted by the exact checker
+//! as a whole.
 
 mod file;
 mod merge;

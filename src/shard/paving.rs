@@ -15,7 +15,7 @@ use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::rule::Obligation;
 use sha2::{Digest, Sha256};
-use std::fs::{File, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -49,7 +49,8 @@ pub(super) fn top(
     Ok((JobTop::Paving(top), places))
 }
 
-/// Writes the nodes below a cell, on which these obligations are open, to the file at `path`, from its byte `at` on.
+/// Writes the nodes below a cell, on which these obligations are open, to the file at `path`, from
+/// its byte `at` on.
 pub(super) fn grown(
     (path, at): (&Path, u64),
     task: &Pave,
@@ -111,11 +112,10 @@ pub(super) fn objection(path: &Path, parts: &[Part]) -> Option<String> {
     (!whole).then(|| "was altered: its content does not have its SHA-256".to_owned())
 }
 
-/// The file, if it is one: a device may never end.
+/// The file, if it is one: a pipe may never begin, a device never end.
 fn regular(path: &Path) -> io::Result<File> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_file() {
-        Ok(file)
+    if fs::metadata(path)?.is_file() {
+        File::open(path)
     } else {
         Err(io::Error::other("no regular file"))
     }
