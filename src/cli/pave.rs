@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Claim::Machine(claim) = &design.claim else {
         return Err(Failure::Input("a design is about a machine".to_owned()));
     };
-    let claim = &arguments.claim(claim)?;
+    let claim = &searched(claim, arguments.search_box.as_deref())?;
     let goal = arguments.goal(claim)?;
     let target = arguments.target()?;
     output::probe(&target)?;
@@ -129,24 +129,23 @@ fn failure(error: PaveError, target: &Path) -> Failure {
     }
 }
 
-impl Arguments {
-    /// The design's claim, over the box that is searched.
-    fn claim(&self, claim: &MachineClaim) -> Result<MachineClaim, Failure> {
-        let Some(text) = &self.search_box else {
-            return Ok(claim.clone());
-        };
-        let numbers = text.split(',').map(|text| input::number("--box", text));
-        let numbers: Vec<Exact> = numbers.collect::<Result<_, _>>()?;
-        let Ok([x0, x1, y0, y1, z0, z1]) = <[Exact; 6]>::try_from(numbers) else {
-            return Err(Failure::Input(format!(
-                "--box: found {text}; accepted: six numbers X0,X1,Y0,Y1,Z0,Z1, the ends along x, y \
-                 and z"
-            )));
-        };
-        in_box(claim, [x0, y0, z0], [x1, y1, z1])
-            .map_err(|error| Failure::Input(format!("--box: found {text}; {error}")))
-    }
+/// The claim over the box that `--box` says, where it does.
+pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim, Failure> {
+    let Some(text) = text else {
+        return Ok(claim.clone());
+    };
+    let numbers = text.split(',').map(|text| input::number("--box", text));
+    let numbers: Vec<Exact> = numbers.collect::<Result<_, _>>()?;
+    let Ok([x0, x1, y0, y1, z0, z1]) = <[Exact; 6]>::try_from(numbers) else {
+        return Err(Failure::Input(format!(
+            "--box: found {text}; accepted: six numbers X0,X1,Y0,Y1,Z0,Z1, the ends along x, y and z"
+        )));
+    };
+    in_box(claim, [x0, y0, z0], [x1, y1, z1])
+        .map_err(|error| Failure::Input(format!("--box: found {text}; {error}")))
+}
 
+impl Arguments {
     fn goal(&self, claim: &MachineClaim) -> Result<Goal, Failure> {
         is_a_box(claim)?;
         let depth = self.precision.as_deref().map(|edge| depth(claim, edge)).transpose()?;
@@ -177,9 +176,8 @@ fn is_a_box(claim: &MachineClaim) -> Result<(), Failure> {
     if matches!(claim.workspace, Workspace::Box { .. }) {
         return Ok(());
     }
-    let refused =
-        "the workspace is not a box; accepted: [workspace] with min and max, or, of pave, \
-                   --box X0,X1,Y0,Y1,Z0,Z1";
+    let refused = "the workspace is not a box; accepted: [workspace] with min and max, or --box \
+                   X0,X1,Y0,Y1,Z0,Z1";
     Err(Failure::Input(refused.to_owned()))
 }
 

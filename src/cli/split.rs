@@ -40,6 +40,14 @@ pub struct Arguments {
     /// Of a paving: split undecided boxes until the geometric mean of their edges is at most E
     #[arg(long, value_name = "E", requires = "pave", allow_hyphen_values = true)]
     precision: Option<String>,
+    /// Of a paving: the box that is searched, in the place of the design's workspace
+    #[arg(
+        long = "box",
+        value_name = "X0,X1,Y0,Y1,Z0,Z1",
+        requires = "pave",
+        allow_hyphen_values = true
+    )]
+    search_box: Option<String>,
     #[command(flatten)]
     work: Work,
 }
@@ -99,6 +107,7 @@ impl Arguments {
             return Err(Failure::Input("a design is about a machine".to_owned()));
         };
         if let Some(precision) = &self.precision {
+            let claim = pave::searched(&claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
         }

@@ -281,3 +281,18 @@ fn bad_usage_is_refused() {
         folder.run(&["merge", "job", "-o", output]).exits(2).complains(&[complaint]);
     }
 }
+
+#[test]
+fn another_box_is_paved_in_shards_as_by_one_machine() {
+    let folder = Folder::with(&["linear-delta-klipper-cylinder.toml"]);
+    let design = "linear-delta-klipper-cylinder.toml";
+    let range = ["--box", "-60,60,-60,60,0,50", "--precision", "15"];
+    folder.run(&[&["pave", design, "-o", "one"][..], &range].concat()).exits(0);
+    let split = ["split", design, "--pave", "--shards", "2", "--out", "job"];
+    folder.run(&[&split[..], &range].concat()).exits(0);
+    (1..=2).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    merge(&folder).exits(0);
+    assert!(folder.read("merged") == folder.read("one"));
+    let split = ["split", design, "--shards", "2", "--out", "other", "--box", "0,1,0,1,0,1"];
+    folder.run(&split).exits(2).complains(&["--pave"]);
+}
