@@ -27,8 +27,12 @@ use serde_json::json;
 
 /// The depth down to which a paving is read for its page.
 pub const DEPTH: u32 = 24;
-/// Most boxes of the view in space, of the pictures of it, and of the slices.
-const MOST: [usize; 3] = [40_000, 6_000, 400_000];
+/// Most boxes of the view in space.
+const MOST_IN_VIEW: usize = 40_000;
+/// Most boxes of the picture of it.
+const MOST_IN_PICTURE: usize = 6_000;
+/// Most bytes of the slices.
+const MOST_OF_SLICES: usize = 1_500_000;
 /// Digits of volumes.
 const DIGITS: u32 = 9;
 
@@ -71,26 +75,38 @@ impl<'a> PavingPage<'a> {
         if width.iter().any(|w| *w <= 0.0) {
             return None;
         }
-        // Images are of parts of boxes: their tree may be deeper than the paving.
-        let deepest = tree.depth();
-        let depth = |most: usize| {
-            let fits = |depth: &u32| region::leaves(&tree.to_depth(*depth)) <= most;
-            (0..=deepest).rev().find(fits).unwrap_or(0)
-        };
-        let depths = MOST.map(depth);
-        let [view, pictures, slices] = depths.map(|depth| tree.to_depth(depth));
-        let is_whole = accepted.header.depth <= DEPTH;
-        let depths = depths.map(|depth| Some(depth).filter(|d| !is_whole || *d < deepest));
+        let components = components.filter(|found| !found.all.is_empty());
         let mark = components.map(|found| Mark {
             name: "best conditioned".to_owned(),
             at: std::array::from_fn(|k| least[k] + found.centre[k] * width[k]),
         });
         let marks: Vec<Mark> = mark.into_iter().collect();
+        // Images are of parts of boxes: their tree may be deeper than the paving.
+        let deepest = tree.depth();
+        let fitting = |most: usize| {
+            let trees = (0..=deepest).rev().map(|depth| (depth, tree.to_depth(depth)));
+            let mut trees = trees.filter(|(_, tree)| region::leaves(tree) <= most);
+            trees.next().unwrap_or_else(|| (0, tree.to_depth(0)))
+        };
+        let (of_view, view) = fitting(MOST_IN_VIEW);
+        let (of_picture, coarse) = fitting(MOST_IN_PICTURE);
+        let in_slices = |depth: u32| {
+            let tree = tree.to_depth(depth);
+            (depth, Region { tree: &tree, least, width }.slices(&marks))
+        };
+        let is_small = |slices: &Picture| slices.content.len() <= MOST_OF_SLICES;
+        let mut slices = (0..=deepest).rev().map(in_slices);
+        let (of_slices, slices) = slices.find(|(depth, slices)| *depth == 0 || is_small(slices))?;
+        let is_whole = accepted.header.depth <= DEPTH;
+        let depths = [of_view, of_picture, of_slices].map(|depth| match depth {
+            _ if !is_whole => Some(depth.min(DEPTH)),
+            _ => Some(depth).filter(|depth| *depth < deepest),
+        });
         let machine = Nominal::new(claim);
-        let mut drawn: Vec<Picture> =
+        let mut pictures: Vec<Picture> =
             machine.iter().map(|machine| drawing::drawing(machine, &[])).collect();
-        drawn.push(Region { tree: &pictures, least, width }.picture());
-        drawn.push(Region { tree: &slices, least, width }.slices(&marks));
+        pictures.push(Region { tree: &coarse, least, width }.picture());
+        pictures.push(slices);
         Some(PavingPage {
             claim,
             accepted,
@@ -102,7 +118,7 @@ impl<'a> PavingPage<'a> {
             tree: view,
             ends: [least, width],
             depths,
-            pictures: drawn,
+            pictures,
         })
     }
 

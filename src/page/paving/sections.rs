@@ -116,7 +116,7 @@ impl PavingPage<'_> {
 
     fn components_section(&self) -> String {
         let mut out = "<section id=\"components\"><h2>Connected components</h2>".to_owned();
-        let Some(found) = self.components.filter(|found| !found.all.is_empty()) else {
+        let Some(found) = self.components else {
             out.push_str("<p>No box is inner, or there are too many to tell components apart.</p></section>\n");
             return out;
         };

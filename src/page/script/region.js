@@ -177,7 +177,8 @@ const startRegion = (data) => {
   const describe = (x, y) => {
     const leaf = leafAt(x, y);
     if (!leaf) {
-      readout.textContent = "Point at a box to read it. The dashed ring is the best conditioned centre of a box.";
+      const ring = marks.length > 0 ? " The dashed ring is the best conditioned centre of a box." : "";
+      readout.textContent = `Point at a box to read it.${ring}`;
       return;
     }
     const edges = axes.map((name, k) => {
