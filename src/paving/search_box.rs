@@ -102,3 +102,46 @@ fn written_out(
         requirements,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decimal::approximate;
+    use crate::design::Design;
+    use orthocert_checker::claim::Claim;
+
+    /// Leg length, `a_1`, `d_1` along the guide, and `psi_min`, of a cube of side 200.
+    fn numbers(psi_max: &str, offset: &str) -> [f64; 4] {
+        let text = format!(
+            "[mechanism]\nkind = \"orthoglide\"\noffset = {offset}\n[workspace]\ncube = 200\n\
+             [requirements]\ntransmission = {{ max = {psi_max} }}\n"
+        );
+        let Claim::Machine(claim) = Design::parse(&text, "test").unwrap().claim else { panic!() };
+        let ends = |x: i64| from_fn(|_| Exact::integer(x));
+        let found = in_box(&claim, ends(-10), ends(10)).unwrap();
+        let Mechanism::Translational([Leg::Slider { anchor, platform, length, .. }, ..]) =
+            found.mechanism
+        else {
+            panic!()
+        };
+        let psi_min = found.requirements.transmission.unwrap().min.unwrap();
+        [&length.min, &anchor[0].min, &platform[0].min, &psi_min].map(|x| approximate(x).unwrap())
+    }
+
+    #[test]
+    fn the_machine_of_the_cube_is_that_of_steps_1_to_3() {
+        for (psi_max, kappa, offset) in [("2", 0.5, "7"), ("1.25", 0.8, "0"), ("4", 0.25, "-3")] {
+            let t1 = (1.0 - kappa) / 2.0;
+            let t2 = if kappa <= 0.5 { 1.0 - kappa } else { (1.0 / kappa - 1.0) / 2.0 };
+            let [q1, q2] = [-t1, t2].map(|t: f64| t / (1.0 + 2.0 * t * t).sqrt());
+            let (length, e): (f64, f64) = (200.0 / (q2 - q1), offset.parse().unwrap());
+            let expected = [length, q1 * length - e - length, -e, kappa];
+            let found = numbers(psi_max, offset);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-9, "{psi_max}: {found}, {expected}");
+            }
+        }
+        // The paper's prototype.
+        assert!((numbers("2", "0")[0] - 310.582_854_123_025).abs() < 1e-9);
+    }
+}

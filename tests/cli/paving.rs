@@ -186,6 +186,8 @@ fn a_box_in_the_place_of_the_workspace_takes_any_design() {
     check.says(&["ACCEPTED: paving", "1/2 <= psi_i(P) <= 2", "12679/100"]);
     folder.run(&["check", "a.paving", "--design", "cube.toml"]).exits(5);
     assert!(share(pave("-250,250,-250,250,-250,250", "b.paving")) < 0.7);
+    // Just beyond Q_2 = (126.794.., 126.794.., 126.794..) there is none.
+    assert_eq!(share(pave("126.8,127,126.8,127,126.8,127", "c.paving")), 0.0);
     // The ends are exact numbers; the design's own box is replaced.
     folder.write("d.toml", DESIGN);
     let half = ["pave", "d.toml", "--precision", "0.2", "--box", "0,sqrt(2)/4,0,1/3,-0.1,1e-1"];
