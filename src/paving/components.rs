@@ -3,10 +3,12 @@
 //! Inner boxes that share a part of a face are connected: their union is. What is counted as two
 //! components may be one component of the region, joined in the undecided boxes between them.
 
+use super::isotropy::{best_conditioned, centre_of, parts_of, sides, Point};
 use super::Decider;
 use orthocert_checker::cell::{Axis, Cell, Edge};
 use orthocert_checker::paving::{six_ordered, Kind, Reader, Rejected, SHARE_BITS};
 use rayon::prelude::*;
+use std::array::from_fn;
 use std::io::BufRead;
 
 /// Bytes that a node and its box take, about.
@@ -21,7 +23,7 @@ pub struct Component {
     pub boxes: u64,
     /// How many components it stands for: 1, 3 or 6 with symmetry, else 1.
     pub copies: u64,
-    /// Whether it, or an image of it, has the box with the best conditioned centre.
+    /// Whether it, or an image of it, has the best conditioned point.
     pub best_conditioned: bool,
 }
 
@@ -30,10 +32,30 @@ pub struct Component {
 pub struct Components {
     /// By descending share.
     pub all: Vec<Component>,
-    /// The least `sigma_max / sigma_min` found at an inner box's centre.
+    /// The least `sigma_max / sigma_min` found in an inner box: 1 at an isotropic point.
     pub conditioning: f64,
-    /// That centre, in parts of the box that is paved.
-    pub centre: [f64; 3],
+    /// Where that is, in parts of the box that is paved.
+    pub best_conditioned_at: [f64; 3],
+}
+
+impl Components {
+    /// The best conditioned point, in the box that begins at `least` and is so wide: to eight digits
+    /// of its width, as it was found by searching.
+    pub fn point(&self, least: [f64; 3], width: [f64; 3]) -> [f64; 3] {
+        from_fn(|k| {
+            let grid = 1e-8 * width[k];
+            ((least[k] + self.best_conditioned_at[k] * width[k]) / grid).round() * grid + 0.0
+        })
+    }
+
+    /// What the best conditioned point is.
+    pub fn what_is_there(&self) -> &'static str {
+        if self.conditioning < 1.0 + 1e-6 {
+            "isotropic point"
+        } else {
+            "best conditioned point found"
+        }
+    }
 }
 
 /// The tree without what has no inner box.
@@ -91,7 +113,7 @@ pub fn components<R: BufRead>(
     let mut union =
         Union { nodes: &nodes, inner: &inner, parent: (0..inner.len() as u32).collect() };
     union.within(root);
-    Ok(Some(union.found(decider, symmetric)))
+    Ok(Some(union.found(root, decider, symmetric)))
 }
 
 /// The place of a subtree that has no inner box.
@@ -164,13 +186,22 @@ impl Union<'_> {
         }
     }
 
-    fn found(mut self, decider: &Decider, symmetric: bool) -> Components {
+    /// The inner box that a point is in, below a node.
+    fn box_of(&self, (at, cell): (u32, Cell), point: &Point) -> Option<u32> {
+        let split = match self.node(at) {
+            Node::Nothing => return None,
+            Node::Inner(found) => return Some(found),
+            split => split,
+        };
+        let Node::Split(axis, lower, upper) = split else { return None };
+        let (below, above) = halves(&cell, split)?;
+        let [in_lower, in_upper] = sides(&cell, axis.index(), point);
+        let found = in_lower.then(|| self.box_of((lower, below), point)).flatten();
+        found.or_else(|| in_upper.then(|| self.box_of((upper, above), point)).flatten())
+    }
+
+    fn found(mut self, top: u32, decider: &Decider, symmetric: bool) -> Components {
         let mut sums: Vec<(u128, u64, u8)> = vec![(0, 0, 0); self.inner.len()];
-        let centres = self.inner.par_iter().enumerate();
-        let best = centres
-            .map(|(i, cell)| (decider.conditioning(cell), i as u32))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-            .unwrap_or((f64::INFINITY, 0));
         for (i, cell) in self.inner.iter().enumerate() {
             let root = self.root(i as u32);
             let sum = &mut sums[root as usize];
@@ -179,7 +210,24 @@ impl Union<'_> {
             sum.1 += 1;
             sum.2 |= mirrors(cell);
         }
-        let best_root = self.inner.get(best.1 as usize).map(|_| self.root(best.1));
+        // Of a point, the image that a symmetric paving holds.
+        let held = |point: &Point| {
+            let mut held = *point;
+            if symmetric {
+                held.sort_unstable();
+            }
+            self.box_of((top, Cell::ROOT), &held)
+        };
+        let centres = self.inner.par_iter().enumerate();
+        let start = centres
+            .map(|(i, cell)| (decider.conditioning(cell), i, cell))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let best = start.map(|(_, _, cell)| {
+            best_conditioned(decider, centre_of(cell), |point| held(point).is_some())
+        });
+        let (point, conditioning) = best.unwrap_or(([0; 3], f64::INFINITY));
+        let best_box = best.and_then(|(point, _)| held(&point));
+        let best_root = best_box.map(|found| self.root(found));
         let copies = |planes: u8| match planes.count_ones() {
             _ if !symmetric => 1,
             0 => 6,
@@ -198,8 +246,7 @@ impl Union<'_> {
             })
             .collect();
         all.sort_by_key(|component| std::cmp::Reverse(component.share));
-        let centre = self.inner.get(best.1 as usize).map_or([0.5; 3], centre_of);
-        Components { all, conditioning: best.0, centre }
+        Components { all, conditioning, best_conditioned_at: parts_of(&point) }
     }
 }
 
@@ -227,13 +274,9 @@ fn mirrors(cell: &Cell) -> u8 {
     u8::from(overlaps(x, y)) | u8::from(overlaps(y, z)) << 1 | u8::from(overlaps(x, z)) << 2
 }
 
-fn centre_of(cell: &Cell) -> [f64; 3] {
-    cell.edges.map(|e| (e.index as f64 + 0.5) * (-f64::from(e.level)).exp2())
-}
-
 impl Decider {
     /// `sigma_max / sigma_min` at a cell's centre, nearly.
-    fn conditioning(&self, cell: &Cell) -> f64 {
+    pub(super) fn conditioning(&self, cell: &Cell) -> f64 {
         self.spectrum_at_centre(cell)
             .map_or(f64::INFINITY, |s| (s.greatest / s.least.max(f64::MIN_POSITIVE)).sqrt())
     }

@@ -10,6 +10,7 @@
 //! | `pass`     | writes the tree to a file that can be taken up again              |
 //! | `parts`    | the tree in parts that are made anywhere                          |
 //! | `components` | connected components of the inner part                          |
+//! | `isotropy` | the best conditioned point of the inner part                      |
 //! | `surface`  | the surface of the inner part                                     |
 //!
 //! The tree is grown depth first down to one depth, and what becomes of a cell depends on the cell
@@ -19,6 +20,7 @@
 
 mod components;
 mod decide;
+mod isotropy;
 mod parts;
 mod pass;
 mod plan;

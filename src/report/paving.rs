@@ -57,10 +57,13 @@ pub struct ComponentsReport {
     pub count: u64,
     /// The largest, by descending volume.
     pub largest: Vec<ComponentReport>,
-    /// The least condition number `sigma_max / sigma_min` found at an inner box's centre.
+    /// The least condition number `sigma_max / sigma_min` found in an inner box.
     pub best_conditioning: f64,
-    /// That centre, about.
+    /// Where that is, about.
     pub best_conditioned_at: [f64; 3],
+    /// What that point is.
+    #[serde(skip)]
+    what_is_there: &'static str,
 }
 
 /// A component.
@@ -72,7 +75,7 @@ pub struct ComponentReport {
     pub boxes: u64,
     /// Itself and its images under permutations of the axes.
     pub copies: u64,
-    /// Whether the best conditioned centre is in it, or in an image of it.
+    /// Whether the best conditioned point is in it, or in an image of it.
     pub best_conditioned: bool,
 }
 
@@ -189,18 +192,18 @@ fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
         copies: component.copies,
         best_conditioned: component.best_conditioned,
     };
-    let mut at = found.centre;
+    let mut at = found.best_conditioned_at;
     if let Workspace::Box { min, max } = &claim.workspace {
-        for (k, u) in found.centre.iter().enumerate() {
-            let end = |x: &Exact| approximate(x).unwrap_or(f64::NAN);
-            at[k] = end(&min[k]) + (end(&max[k]) - end(&min[k])) * u;
-        }
+        let end = |x: &Exact| approximate(x).unwrap_or(f64::NAN);
+        let (least, most) = (min.each_ref().map(end), max.each_ref().map(end));
+        at = found.point(least, std::array::from_fn(|k| most[k] - least[k]));
     }
     ComponentsReport {
         count: found.all.iter().map(|component| component.copies).sum(),
         largest: found.all.iter().take(SHOWN).map(described).collect(),
         best_conditioning: found.conditioning,
         best_conditioned_at: at,
+        what_is_there: found.what_is_there(),
     }
 }
 
@@ -223,8 +226,9 @@ fn components_text(components: &ComponentsReport) -> String {
         if component.best_conditioned {
             let least = significant(components.best_conditioning, 4);
             out += &format!(
-                "              has the best conditioned point, ({x}, {y}, {z}):\n              \
-                 sigma_max/sigma_min = {least}\n"
+                "              has the {}, ({x}, {y}, {z}):\n              \
+                 sigma_max/sigma_min = {least}\n",
+                components.what_is_there
             );
         }
     }

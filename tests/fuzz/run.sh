@@ -32,7 +32,7 @@ fuzz() {
   local target=$1 log=$work/$1.log
   mkdir -p "$work/found/$target"
   if ! "$work/build/$host/release/$target" "$work/corpus/$target" -max_total_time="$seconds" \
-    -timeout=5 -rss_limit_mb=400 -max_len="$(most_bytes "$target")" \
+    -timeout=20 -rss_limit_mb=400 -max_len="$(most_bytes "$target")" \
     -seed="${ORTHOCERT_FUZZ_SEED:-0}" -print_final_stats=1 \
     -artifact_prefix="$work/found/$target/" >"$log" 2>&1; then
     tail -40 "$log" >&2

@@ -78,7 +78,7 @@ impl<'a> PavingPage<'a> {
         let components = components.filter(|found| !found.all.is_empty());
         let mark = components.map(|found| Mark {
             name: "best conditioned".to_owned(),
-            at: std::array::from_fn(|k| least[k] + found.centre[k] * width[k]),
+            at: found.point(least, width),
         });
         let marks: Vec<Mark> = mark.into_iter().collect();
         // Images are of parts of boxes: their tree may be deeper than the paving.

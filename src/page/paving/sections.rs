@@ -109,7 +109,7 @@ impl PavingPage<'_> {
              part, x to the right and y up. White: outer, no point meets the requirements.{} {}</figcaption>\
              </figure>{SLICE_LEGEND}</section>\n",
             self.picture("slices"),
-            if self.marks.is_empty() { "" } else { " Dot: the best conditioned centre of a box, near its plane." },
+            if self.marks.is_empty() { "" } else { " Dot: the best conditioned point found, near its plane." },
             Self::stops(self.depths[2])
         )
     }
@@ -134,11 +134,10 @@ impl PavingPage<'_> {
         for component in found.all.iter().take(SHOWN) {
             let share = component.share as f64 * (-f64::from(SHARE_BITS)).exp2();
             let contains = if component.best_conditioned {
-                let [x, y, z] = [0, 1, 2]
-                    .map(|k| significant(self.ends[0][k] + found.centre[k] * self.ends[1][k], 3));
+                let [x, y, z] = found.point(self.ends[0], self.ends[1]).map(|x| significant(x, 3));
                 format!(
-                    "the best conditioned centre of a box, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at \
-                     ({x}, {y}, {z})",
+                    "the {}, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at ({x}, {y}, {z})",
+                    found.what_is_there(),
                     significant(found.conditioning, 4)
                 )
             } else {

@@ -177,7 +177,7 @@ const startRegion = (data) => {
   const describe = (x, y) => {
     const leaf = leafAt(x, y);
     if (!leaf) {
-      const ring = marks.length > 0 ? " The dashed ring is the best conditioned centre of a box." : "";
+      const ring = marks.length > 0 ? " The dashed ring is the best conditioned point found." : "";
       readout.textContent = `Point at a box to read it.${ring}`;
       return;
     }
