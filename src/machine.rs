@@ -65,7 +65,10 @@ fn discharge(
     let about_centre = || expansion.as_ref().map_err(|&out| Failure::from(out));
     match obligation {
         Obligation::SigmaMin => {
-            let about_centre = about_centre().and_then(|expansion| lower_step(model, expansion));
+            let about_centre = about_centre().and_then(|expansion| {
+                lower_step(model, expansion)
+                    .or_else(|failure| entrywise_step(model, expansion).ok_or(failure))
+            });
             about_centre.or_else(|failure| corner_step(model, cell).ok_or(failure))
         }
         Obligation::SigmaMax if model.is_cube => Ok(Step::Cube),
@@ -102,6 +105,21 @@ fn lower_step(model: &Model<Interval>, expansion: &Expansion<Interval>) -> Resul
         }
     }
     Err(failure)
+}
+
+/// Evidence with which the entrywise rule holds, where it is worth looking for: where `M` at the
+/// centre is as wide, for the machines' tolerances, as what the cell adds. Else splitting does more.
+fn entrywise_step(model: &Model<Interval>, expansion: &Expansion<Interval>) -> Option<Step> {
+    let width = |entry: &Interval| entry.sup() - entry.inf();
+    let machines: f64 = expansion.matrix.iter().flatten().map(width).sum();
+    let cell: f64 = expansion.slopes.iter().flatten().flatten().map(Interval::mag).sum();
+    if machines < cell {
+        return None;
+    }
+    // Eight bits lose a few millionths of the bound, and fit the checker's machine words.
+    let short = |rotation: &rule::Rotation| rotation.q.iter().all(|x| x.abs() <= 1 << 8);
+    let rotation = rotation::candidates(&centre_of(&expansion.matrix)).into_iter().rfind(short)?;
+    rule::entrywise(model, expansion, &rotation).is_ok().then_some(Step::Entrywise(rotation))
 }
 
 fn corner_step(model: &Model<Interval>, cell: &Cell) -> Option<Step> {

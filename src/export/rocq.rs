@@ -64,7 +64,7 @@ impl fmt::Display for ExportError {
             ExportError::Rule(name) => {
                 write!(
                     f,
-                    "the proof uses the rule \"{name}\", which machines do not need; {and_only}"
+                    "the proof uses the rule \"{name}\", which the formal checker lacks; {and_only}"
                 )
             }
             ExportError::NotATree => {

@@ -263,7 +263,7 @@ impl<'a> Page<'a> {
 /// The obligation that a rule discharges, by its position; -1 for all.
 fn discharged(rule: &str) -> i64 {
     let name = match rule {
-        "lower" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
+        "lower" | "entrywise" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
         "upper" | "cube" => "sigma_max",
         "range" => "joint_range",
         "speed" => "joint_speed",

@@ -26,7 +26,7 @@ const fn style(name: &'static str, colour: &'static str, pattern: usize) -> Rule
 }
 
 /// Every rule; a letter of a tree's code is a position here.
-pub const RULES: [RuleStyle; 14] = [
+pub const RULES: [RuleStyle; 15] = [
     style("lower", "#8ecae6", 0),
     style("corner", "#f4a340", 1),
     style("upper", "#74c69d", 2),
@@ -41,6 +41,7 @@ pub const RULES: [RuleStyle; 14] = [
     style("blow_up", "#8ecae6", 0),
     style("edge", "#f4a340", 1),
     style("mirror", "#d3a4c8", 3),
+    style("entrywise", "#6fa8dc", 1),
 ];
 
 /// Lines of the patterns, on squares of eight units.

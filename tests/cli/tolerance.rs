@@ -84,6 +84,21 @@ fn the_worst_machine_is_found() {
 }
 
 #[test]
+fn wide_tolerances_of_a_turned_machine_are_certified() {
+    let folder = Folder::with(&["linear-delta-linuxcnc-box.toml"]);
+    let arguments = ["--on", "leg_length", "--gap", "1e-2", "--format", "json", "-o", "."];
+    let all = [&["tolerance", "linear-delta-linuxcnc-box.toml"], &arguments[..]].concat();
+    let value: Value = serde_json::from_str(&folder.run(&all).exits(0).stdout).unwrap();
+    let row = &value["tolerances"][0];
+    // The vertex rule alone ends near 3.04, where the widths of three entries meet in each of W M.
+    assert!(end(&row["certified"]) > 8.0, "{row}");
+    let certificate = "tolerance-leg_length-certified.cert.json";
+    folder.run(&["check", certificate]).exits(0).says(&["ACCEPTED"]);
+    folder.run(&["show", certificate]).exits(0).says(&["entrywise"]);
+    folder.run(&["export", "rocq", certificate]).exits(2).complains(&["entrywise"]);
+}
+
+#[test]
 fn a_row_s_time_is_kept_and_stated() {
     let folder = Folder::with(&[DESIGN]);
     let arguments = ["tolerance", DESIGN, "--on", "anchor", "--each"];

@@ -153,6 +153,8 @@ pub struct Node {
 pub enum Step {
     /// Vertex rule for the lower bound.
     Lower(#[serde(deserialize_with = "strict::object")] Rotation),
+    /// The same for wide tolerances, with the ends of each entry of `M`.
+    Entrywise(#[serde(deserialize_with = "strict::object")] Rotation),
     /// Vertex rule about a tight corner of the paper's cube.
     Corner(TightCorner),
     /// Vertex rule for the upper bound.

@@ -69,6 +69,7 @@ fn check_step<S: Enclosure>(
     };
     match step {
         Step::Lower(rotation) => rule::lower(model, about_centre()?, rotation),
+        Step::Entrywise(rotation) => rule::entrywise(model, about_centre()?, rotation),
         Step::Upper => rule::upper(model, about_centre()?),
         Step::Range => rule::range(model, cell, about_centre()?),
         Step::Cube => rule::cube(model),

@@ -26,6 +26,7 @@ impl Step {
     pub fn rule(&self) -> (&'static str, Option<Obligation>) {
         let (name, obligation) = match self {
             Step::Lower(_) => ("lower", Obligation::SigmaMin),
+            Step::Entrywise(_) => ("entrywise", Obligation::SigmaMin),
             Step::Corner(_) => ("corner", Obligation::SigmaMin),
             Step::Upper => ("upper", Obligation::SigmaMax),
             Step::Cube => ("cube", Obligation::SigmaMax),

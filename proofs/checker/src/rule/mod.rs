@@ -42,7 +42,7 @@ pub use conditioning::{conditioning, Mu, MU_BITS};
 pub use joints::{range, speed};
 pub use margin::{leg_angle, parallel_margin, serial_margin};
 pub use outside::outside;
-pub use vertex::{corner, cube, lower, upper, Rotation, TightCorner, MAX_QUATERNION};
+pub use vertex::{corner, cube, entrywise, lower, upper, Rotation, TightCorner, MAX_QUATERNION};
 pub use violated::{shrunk, stretched, violated};
 
 /// What is to be shown of a cell.

@@ -7,7 +7,7 @@ use crate::definite::is_positive_definite;
 use crate::enclosure::{Enclosure, Scalar};
 use crate::expansion::{Expansion, ExpansionPoint};
 use crate::hull::{Hull, Vertex};
-use crate::linear::{product, Matrix, Symmetric, Vector};
+use crate::linear::{add, product, Matrix, Symmetric, Vector};
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
@@ -104,6 +104,59 @@ pub fn lower<S: Enclosure>(
     let at_centre = twice_rotated(&w, &expansion.matrix).minus_identity(&kappa);
     let slopes = from_fn(|k| twice_rotated(&w, &expansion.slopes[k]));
     all_positive_definite(expansion.hull.vertices(), &at_centre, &slopes)
+}
+
+/// **Entrywise rule, lower bound.** The vertex rule for wide tolerances. Let `[A_v]`, with centre `C`
+/// and radius `R`, enclose `A(v)` at the vertex `v` for every machine, entry by entry. If
+/// `sym(W X_ab) - kappa I` is positive definite for `X_ab = C - D_a R D_b` and all `a`, `b` in
+/// `{-1, 1}^3`, at every vertex, then `sigma_min(M(P)) > kappa` on the cell. `D_a = diag(a)`.
+///
+/// *Proof.* Fix a machine, `P` and a vertex. For `x != 0` let `y = W^T x`, and let `a`, `b` be the
+/// signs of the components of `y`, `x` (1 for zero), so that `|y_i| = a_i y_i`, `|x_j| = b_j x_j`:
+///
+/// ```text
+/// x^T W A(v) x = sum_ij y_i A(v)_ij x_j >= sum_ij y_i C_ij x_j - |y_i| R_ij |x_j|
+///              = y^T (C - D_a R D_b) x = x^T sym(W X_ab) x > kappa |x|^2
+/// ```
+///
+/// So `sym(W A(v)) - kappa I` is positive definite at every vertex, and [`lower`]'s proof goes on. ∎
+///
+/// Entry `(i, j)` of `X_ab` is the lower end of that of `[A_v]` where `a_i b_j = 1` and the upper one
+/// elsewhere; `(a, b)` and `(-a, -b)` give the same, so `b_1 = 1` is enough. [`lower`] encloses
+/// `W A(v)` instead, where the widths of three entries of `[A_v]` meet in each.
+pub fn entrywise<S: Enclosure>(
+    model: &Model<S>,
+    expansion: &Expansion<S>,
+    rotation: &Rotation,
+) -> Result<(), Failure> {
+    let (w, norm) = rotation.numerators().ok_or(Failure::BadRotation)?;
+    let kappa = model.bounds.kappa.mul(&model.bounds.kappa.integer_like(2 * norm));
+    let fails = |vertex: &Vertex| {
+        let a = expansion.matrix_at(vertex);
+        // What either end of entry (i, j) adds to entry (k, j) of |q|^2 W X.
+        let part = |i: usize, j: usize| {
+            a[i][j].ends().map(|end| from_fn(|k| end.integer_like(w[k][i]).mul(&end)))
+        };
+        let parts: [[[Vector<S>; 2]; 3]; 3] = from_fn(|i| from_fn(|j| part(i, j)));
+        (0..32).any(|signs| {
+            let [x, y, z]: [Vector<S>; 3] = from_fn(|j| {
+                let [x, y, z] = from_fn(|i| &parts[i][j][upper_end(signs, i, j)]);
+                add(&add(x, y), z)
+            });
+            let product = from_fn(|k| [x[k].clone(), y[k].clone(), z[k].clone()]);
+            !is_positive_definite(&Symmetric::twice_part_of(&product).minus_identity(&kappa))
+        })
+    };
+    match expansion.hull.vertices().find(fails) {
+        Some(Vertex { number, .. }) => Err(Failure::NotDefinite { vertex: number }),
+        None => Ok(()),
+    }
+}
+
+/// 1 where `a_i b_j = -1`, of the signs in five bits: of `a_1`, `a_2`, `a_3`, `b_2`, `b_3`.
+fn upper_end(signs: usize, i: usize, j: usize) -> usize {
+    let negative = |bit: usize| signs >> bit & 1;
+    negative(i) ^ if j == 0 { 0 } else { negative(2 + j) }
 }
 
 fn all_positive_definite<S: Enclosure>(

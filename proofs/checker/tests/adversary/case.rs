@@ -264,6 +264,7 @@ pub fn discharged(
     let with = |holds: &dyn Fn(&Expansion<Fixed>) -> bool| expansion.as_ref().is_ok_and(holds);
     let any = |holds: &dyn Fn(&Rotation) -> bool| rotations.iter().any(holds);
     verdicts.insert("lower", with(&|e| any(&|r| rule::lower(model, e, r).is_ok())));
+    verdicts.insert("entrywise", with(&|e| any(&|r| rule::entrywise(model, e, r).is_ok())));
     verdicts.insert("upper", with(&|e| rule::upper(model, e).is_ok()));
     verdicts.insert("range", with(&|e| rule::range(model, cell, e).is_ok()));
     verdicts.insert("speed", with(&|e| rule::speed(model, e).is_ok()));

@@ -66,7 +66,7 @@ fn the_rules_hold_on_small_cells_where_there_is_room() {
         }
     }
     assert_eq!(counts.remove("outside").map(|[_, accepted]| accepted), Some(0));
-    assert_eq!(counts.len(), 8);
+    assert_eq!(counts.len(), 9);
     for (rule, [refused, accepted]) in counts {
         assert!(accepted > 19 * refused, "{rule}: refused {refused}, accepted {accepted}");
     }
@@ -203,7 +203,7 @@ fn orthoglide(psi_max: f64, side: f64, offset: f64) -> ([Leg; 3], [f64; 2]) {
 #[test]
 fn the_cube_meets_further_requirements_exactly_where_its_sliders_do() {
     let mut random = Random::new(11);
-    let transmission = ["lower", "upper", "outside"];
+    let transmission = ["lower", "entrywise", "upper", "outside"];
     for round in 0..60 {
         let psi_max = random.between(1.1, 8.0);
         let side = random.between(0.5, 300.0);

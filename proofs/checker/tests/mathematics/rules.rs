@@ -86,6 +86,68 @@ fn lower_on_the_orthoglide() {
 }
 
 #[test]
+fn entrywise_rejects_the_evidence_that_lower_rejects() {
+    let claim = orthoglide("1", "-1/4", "1/4");
+    let centre = cell([3, 3, 3], 3);
+    let model = model_with_slack(&claim, &centre, 0.01);
+    let expansion = centred(&model, &centre);
+    let entrywise = |q, sign| rule::entrywise(&model, &expansion, &rotation(q, sign));
+    let (plus, minus, most) = (Sign::Plus, Sign::Minus, MAX_QUATERNION);
+    assert_eq!(entrywise([1, 0, 0, 0], plus), Ok(()));
+    assert_eq!(entrywise([most, 1, -1, 1], plus), Ok(()));
+    for (q, sign) in [
+        ([1, 0, 0, 1], plus),
+        ([0, 1, 0, 0], plus),
+        ([1, 1, 1, 1], plus),
+        ([1, 0, 0, 0], minus),
+        ([most; 4], minus),
+    ] {
+        assert!(is_definite_failure(entrywise(q, sign)), "{q:?}");
+    }
+    for q in [[0; 4], [most + 1, 0, 0, 0], [1, 0, -most - 1, 0], [i64::MIN, 0, 0, 0]] {
+        assert_eq!(entrywise(q, plus), Err(Failure::BadRotation), "{q:?}");
+    }
+}
+
+/// With `W = D_s`, `W A = 40 I - 3 b b^T` and radius `r`, `X_ab` of `a = s b` has the least eigenvalue
+/// `40 - 9 - 3 r`, and all others have more than 5 for `r = 11`: each of the 32 patterns is needed.
+#[test]
+fn each_pattern_of_ends_matters() {
+    let mut model = Model::new(&orthoglide("1", "-1/4", "1/4"), BITS).unwrap();
+    model.bounds.kappa = Fixed::integer(0, BITS);
+    let zero = || [0; 3].map(|_| [0; 3].map(|_| Fixed::integer(0, BITS)));
+    let sign = |negative: bool| if negative { -1 } else { 1 };
+    for pattern in 0..32 {
+        let bit = |n: i32| sign(pattern >> n & 1 == 1);
+        let (s, b) = ([bit(0), bit(1), bit(2)], [1, bit(3), bit(4)]);
+        let proper = s[0] * s[1] * s[2];
+        // A half turn about the axis that keeps its sign.
+        let q = match s.map(|x| x * proper) {
+            [1, 1, 1] => [1, 0, 0, 0],
+            [1, ..] => [0, 1, 0, 0],
+            [_, 1, _] => [0, 0, 1, 0],
+            _ => [0, 0, 0, 1],
+        };
+        let w = rotation(q, if proper > 0 { Sign::Plus } else { Sign::Minus });
+        let within = |radius: i64| {
+            let entry = |i: usize, j: usize| {
+                let centre = s[i] * (if i == j { 40 } else { 0 } - 3 * b[i] * b[j]);
+                Fixed::integer(centre - radius, BITS).hull(&Fixed::integer(centre + radius, BITS))
+            };
+            let expansion = Expansion {
+                matrix: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
+                slopes: [zero(), zero(), zero()],
+                rho: [None, None, None],
+                hull: Hull::CELL,
+            };
+            rule::entrywise(&model, &expansion, &w)
+        };
+        assert_eq!(within(10), Ok(()), "{s:?} {b:?}");
+        assert!(is_definite_failure(within(11)), "{s:?} {b:?}");
+    }
+}
+
+#[test]
 fn lower_bounds_beyond_the_truth_are_rejected_and_short_of_it_accepted() {
     let deep = 30;
     let tiny = cell([1 << (deep - 1); 3], deep);

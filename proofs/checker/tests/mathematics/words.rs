@@ -138,6 +138,7 @@ fn what_a_rule_accepts_in_words_it_accepts_in_big_integers() {
             let v = std::array::from_fn(|_| random.within(-127, 127));
             for (here, there) in [
                 (rule::lower(&word, &a, &rotation), rule::lower(&fixed, &b, &rotation)),
+                (rule::entrywise(&word, &a, &rotation), rule::entrywise(&fixed, &b, &rotation)),
                 (rule::upper(&word, &a), rule::upper(&fixed, &b)),
                 (rule::shrunk(&word, &a, &v), rule::shrunk(&fixed, &b, &v)),
                 (rule::stretched(&word, &a, &v), rule::stretched(&fixed, &b, &v)),

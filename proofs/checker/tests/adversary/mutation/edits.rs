@@ -223,6 +223,7 @@ pub fn steps() -> Vec<Value> {
     all.extend(["Q1", "Q2"].map(|corner| json!({ "corner": corner })));
     all.extend(["Q1", "Q2"].map(|corner| json!({ "edge": corner })));
     all.extend(["+", "-"].map(|sign| json!({ "lower": rotation(sign) })));
+    all.extend(["+", "-"].map(|sign| json!({ "entrywise": rotation(sign) })));
     for mu in [[1i64 << 39, 0, 0, 0], [1 << 36, 0, 0, 0], [0, 0, 0, 0], [i64::MAX, 0, 0, 0]] {
         all.push(json!({"conditioning": {"rotation": rotation("+"), "mu": mu}}));
     }
