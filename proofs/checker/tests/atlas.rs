@@ -4,7 +4,9 @@ use num_rational::BigRational;
 use orthocert_checker::atlas::{instance, range, AtlasError, Ends, Side};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Node, Proof, Tree, Verdict};
-use orthocert_checker::claim::{AtlasClaim, Claim, ClaimError, Mechanism, Quantity, Workspace};
+use orthocert_checker::claim::{
+    AtlasClaim, Claim, ClaimError, Leg, Mechanism, Quantity, Workspace,
+};
 use orthocert_checker::number::Exact;
 use orthocert_checker::witness::WitnessError;
 use orthocert_checker::{check, check_part, read, statement, Rejected};
@@ -349,4 +351,29 @@ fn a_number_with_no_stricter_side_may_not_vary() {
         [("side", (number("1/4"), number("1/2"))), ("psi_max", (number("2"), number("3")))];
     let varies = AtlasError::Varies("side".into());
     assert_eq!(instance(design, &values, Side::Strictest), Err(varies));
+}
+
+#[test]
+fn a_quantity_takes_every_value_between_its_ends_in_either_order() {
+    let mut certificate = good();
+    let design = &mut parts(&mut certificate).0.design;
+    let mut length = |min: &str, max: &str| {
+        let Mechanism::Translational(legs) = &mut design.mechanism else { panic!("legs") };
+        let Leg::Slider { length, .. } = &mut legs[0] else { panic!("a slider") };
+        *length = Quantity { min: number(min), max: number(max) };
+        let values =
+            [("side", (number("1/10"), number("9/10"))), ("psi_max", (number("2"), number("3")))];
+        let claim = instance(design, &values, Side::Loosest)?;
+        let Mechanism::Translational(legs) = claim.mechanism else { panic!("legs") };
+        let Leg::Slider { length, .. } = &legs[0] else { panic!("a slider") };
+        Ok::<_, AtlasError>([length.min.to_string(), length.max.to_string()])
+    };
+    assert_eq!(length("1-side", "1+side").unwrap(), ["1/10", "19/10"]);
+    // From the greater to the lesser, everywhere: were the ends taken in their order, no machine
+    // would be meant, and anything could be said of it.
+    assert_eq!(length("1+side", "1+side*side").unwrap(), ["101/100", "19/10"]);
+    assert_eq!(length("1+side", "1").unwrap(), ["1", "19/10"]);
+    assert_eq!(length("1+side", "1+side").unwrap(), ["11/10", "19/10"]);
+    // Numbers stay as they are: the claim is then not well formed.
+    assert_eq!(length("2", "1").unwrap(), ["2", "1"]);
 }

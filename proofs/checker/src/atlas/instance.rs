@@ -3,7 +3,7 @@
 
 use super::role::Role;
 use super::AtlasError;
-use crate::claim::MachineClaim;
+use crate::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use crate::number::{Exact, NumberErrorKind};
 use std::cmp::Ordering;
 
@@ -21,17 +21,18 @@ pub enum Side {
 
 /// The claim of a cell on one side; `values` are the ranges of the parameters there.
 ///
-/// **Lemma.** For parameters `theta`, let `C(theta)` be the design's claim with the numbers that
-/// its expressions have there, each of which is in its range over the cell ([`range`]).
-/// *Strictest*: if this claim is true, so is `C(theta)` for every `theta` of the cell. *Proof.*
-/// Every parameter of a machine of `C(theta)` is in the interval that it has here, from the lower
-/// end of its least to the upper end of its greatest value; so every such machine is one of this
-/// claim's. A number that strengthens the claim has its greatest value here, one that weakens it
-/// its least: the workspace here contains that of `C(theta)`, and every bound here implies that of
-/// `C(theta)`. ∎ *Loosest*: the machines are the same, the other numbers have their opposite ends:
-/// the workspace here is within that of `C(theta)`, and what violates a bound here violates that
-/// of `C(theta)`. So if **every** machine of this claim violates it at one point of its workspace,
-/// `C(theta)` is false for every `theta` of the cell. ∎
+/// **Lemma.** For parameters `theta`, let `C(theta)` be the design's claim with the numbers that its
+/// expressions have there, each of which is in its range over the cell ([`range`]); a parameter of
+/// its machines takes every value between the two numbers that its ends have, whichever is the
+/// lesser. *Strictest*: if this claim is true, so is `C(theta)` for every `theta` of the cell.
+/// *Proof.* Every parameter of a machine of `C(theta)` is in the interval that it has here, the hull
+/// of the ranges of its ends; so every such machine, and there is one, is one of this claim's. A
+/// number that strengthens the claim has its greatest value here, one that weakens it its least: the
+/// workspace here contains that of `C(theta)`, and every bound here implies that of `C(theta)`. ∎
+/// *Loosest*: the machines are the same, the other numbers have their opposite ends: the workspace
+/// here is within that of `C(theta)`, and what violates a bound here violates that of `C(theta)`. So
+/// if **every** machine of this claim violates it at one point of its workspace, `C(theta)` is false
+/// for every `theta` of the cell, as it has a machine. ∎
 ///
 /// # Errors
 /// If a range cannot be told, a name is unknown, or a number that is neither varies.
@@ -40,8 +41,8 @@ pub fn instance(
     values: &[(&str, Ends)],
     side: Side,
 ) -> Result<MachineClaim, AtlasError> {
-    design.try_map(&mut |x, role| {
-        if !x.is_open() {
+    let mut claim = design.try_map(&mut |x, role| {
+        if !x.is_open() || matches!(role, Role::Least | Role::Greatest) {
             return Ok(x.clone());
         }
         let (least, greatest) = range(x, values)?;
@@ -50,14 +51,33 @@ pub fn instance(
             Side::Loosest => (Role::Weakens, Role::Strengthens),
         };
         match role {
-            Role::Least => Ok(least),
-            Role::Greatest => Ok(greatest),
             _ if role == upper => Ok(greatest),
             _ if role == lower => Ok(least),
             _ if least == greatest => Ok(least),
             _ => Err(AtlasError::Varies(x.to_string())),
         }
-    })
+    })?;
+    if let Mechanism::Translational(legs) = &mut claim.mechanism {
+        for quantity in legs.iter_mut().flat_map(Leg::parameters_mut) {
+            *quantity = hull(quantity, values)?;
+        }
+    }
+    Ok(claim)
+}
+
+/// The hull of the ranges of both ends, where one is open.
+fn hull(quantity: &Quantity, values: &[(&str, Ends)]) -> Result<Quantity, AtlasError> {
+    if !quantity.min.is_open() && !quantity.max.is_open() {
+        return Ok(quantity.clone());
+    }
+    let (a, b) = range(&quantity.min, values)?;
+    if quantity.is_exact() {
+        return Ok(Quantity { min: a, max: b });
+    }
+    let (c, d) = range(&quantity.max, values)?;
+    let (min, max) =
+        (chosen(Some(a), &c, Ordering::Less)?, chosen(Some(b), &d, Ordering::Greater)?);
+    Ok(Quantity { min, max })
 }
 
 /// The range of an expression: every value that it has for parameters in their ranges is between
