@@ -8,7 +8,7 @@ use orthocert_checker::claim::{
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{
     check, is_mirrored, is_paving, is_symmetric, six_ordered, Extent, Header, Item, Judge, Kind,
-    Reader, Rejected, Symmetry, FORMAT, SHARE_BITS,
+    Reader, Rejected, Symmetry, FORMAT, MAX_LINE, SHARE_BITS,
 };
 use orthocert_checker::rule::Rotation;
 
@@ -383,4 +383,20 @@ fn a_sample_is_drawn_by_its_seed_and_finds_what_is_wrong() {
     let half = whole.checked / 2;
     let found = (0..20).filter(|seed| sampled(&bytes, half, *seed).is_err()).count();
     assert!((4..=16).contains(&found), "{found} of 20");
+}
+
+#[test]
+fn nothing_hides_behind_a_line_of_the_greatest_length() {
+    let header = header(true);
+    let whole = written(&header, &paving(&header).1);
+    // The last line as long as a line may be, by blanks.
+    let start = whole.len() - 1 - whole.iter().rev().skip(1).position(|&b| b == b'\n').unwrap();
+    let mut padded = whole[..whole.len() - 1].to_vec();
+    padded.resize(start + MAX_LINE - 1, b' ');
+    padded.push(b'\n');
+    assert!(checked(&padded).is_ok());
+    padded.push(b'\n');
+    assert!(reason(&padded).contains("does not end the file"), "{}", reason(&padded));
+    padded.extend(b"{\"inner\":0}\n");
+    assert!(reason(&padded).contains("does not end the file"), "{}", reason(&padded));
 }

@@ -165,8 +165,9 @@ impl<R: BufRead> Reader<R> {
         }
         let summary = self.summary();
         let mut bytes = Vec::new();
-        self.input.take(MAX_LINE as u64).read_to_end(&mut bytes)?;
-        if bytes.pop() != Some(b'\n') {
+        // One byte more than there may be, lest anything hide behind it.
+        self.input.take(MAX_LINE as u64 + 1).read_to_end(&mut bytes)?;
+        if bytes.len() > MAX_LINE || bytes.pop() != Some(b'\n') {
             return Err(Rejected::Summary("it does not end the file".to_owned()));
         }
         let found: Summary = line(&bytes).map_err(Rejected::Summary)?;
