@@ -86,7 +86,10 @@ impl Decider {
         let spectrum = Spectrum::of(&expansion.matrix);
         match self.failing(cell, &expansion, &spectrum) {
             Ok(Some(violation)) => return closed(Kind::Outer(violation)),
-            Ok(None) => return self.open(cell, Vec::new(), &self.weights(&expansion, &spectrum)),
+            Ok(None) => {
+                let weights = self.weights(&expansion, &spectrum, inherited);
+                return self.open(cell, Vec::new(), &weights);
+            }
             Err(HoldsAtCentre) => {}
         }
         let open = self.judge.obligations().iter().filter(|&&o| inherited & bit(o) == 0);
@@ -99,7 +102,8 @@ impl Decider {
         if steps.len() == wanted {
             return Decision { steps, fate: Fate::Closed(Kind::Inner) };
         }
-        self.open(cell, steps, &self.weights(&expansion, &spectrum))
+        let done = steps.iter().filter_map(|step| step.rule().1).fold(inherited, |d, o| d | bit(o));
+        self.open(cell, steps, &self.weights(&expansion, &spectrum, done))
     }
 
     fn open(&self, cell: &Cell, steps: Vec<Step>, weights: &[f64; 3]) -> Decision {
@@ -286,13 +290,21 @@ impl Decider {
     }
 
     /// By how much each axis of the cell moves what is next to its bound: the squared length of
-    /// `M v` for the singular vector in question.
-    fn weights(&self, expansion: &Expansion<Rough>, spectrum: &Spectrum) -> [f64; 3] {
+    /// `M v` for the singular vector in question. Where there are other requirements: by how much it
+    /// moves `M`, and the joint coordinates, which a translation along a guide moves alone; each
+    /// where something that depends on it is not `done`.
+    fn weights(&self, expansion: &Expansion<Rough>, spectrum: &Spectrum, done: u32) -> [f64; 3] {
         if !self.plain {
-            return expansion
-                .slopes
-                .each_ref()
-                .map(|slope| slope.iter().flatten().map(Rough::mag).sum());
+            let open = |o: &&Obligation| done & bit(**o) == 0;
+            let all = || self.judge.obligations().iter().filter(open);
+            let joints = all().any(|&o| o == Obligation::JointRange);
+            let of_m = all().any(|&o| o != Obligation::JointRange);
+            return std::array::from_fn(|k| {
+                let rho = expansion.rho.iter().flatten().map(|(_, along)| along[k].mag());
+                let slopes = expansion.slopes[k].iter().flatten().map(Rough::mag);
+                let part = |is_open: bool, sum: f64| if is_open { sum } else { 0.0 };
+                part(joints, rho.sum()) + part(of_m, slopes.sum())
+            });
         }
         let (kappa, k) = (self.rough.bounds.kappa.mid(), self.rough.bounds.k.map(|k| k.mid()));
         let margin_below = (spectrum.least / (kappa * kappa)).ln().abs();

@@ -221,3 +221,15 @@ fn boxes_that_are_none_are_refused() {
     }
     assert_eq!(folder.names(), ["d.toml"]);
 }
+
+#[test]
+fn joints_that_move_alone_along_an_axis_are_told_apart_on_it() {
+    // On vertical guides M does not depend on z; the joint coordinates do.
+    let folder = Folder::new();
+    let design = folder.run(&["init", "--kind", "linear-delta"]).exits(0).stdout;
+    assert!(design.contains("joint_range"), "{design}");
+    folder.write("d.toml", design);
+    let range =
+        ["--box", "-150,150,-150,150,0,300", "--volume-gap", "0.3", "--max-boxes", "100000"];
+    folder.run(&[&["pave", "d.toml"][..], &range].concat()).exits(0).says(&["inner"]);
+}
