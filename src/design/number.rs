@@ -4,7 +4,7 @@
 //! digit from the text, never by way of a floating-point number. TOML's underscores between digits
 //! have no meaning; hexadecimal, octal and binary integers are converted exactly. A string is an
 //! expression ([`Exact::parse`]), or two with `±` or `+/-` between them: nominal value and
-//! tolerance.
+//! tolerance. `+-` is refused where a tolerance may stand: it would be a difference.
 
 use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
@@ -23,6 +23,8 @@ const QUANTITY: &str =
     r#"a number or a tolerance: 310.25, "1/3", "310.25 ± 0.02", { min = 310.2, max = 310.3 }"#;
 const FINITE: &str = "a finite number";
 const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
+const NEITHER_SUM_NOR_TOLERANCE: &str =
+    r#""310.25 ± 0.02" or "310.25 +/- 0.02" for a tolerance, "310.25 - 0.02" for a difference"#;
 const NO_TOLERANCE: &str =
     "one exact number: a machine's parameters may carry a tolerance, workspace and requirements not";
 
@@ -53,6 +55,9 @@ pub(super) fn quantity(value: &Value<'_>) -> Result<Quantity, DesignError> {
             let (min, max) = (exact(&least)?, exact(&greatest)?);
             ordered((&least, &min), (&greatest, &max))?;
             Ok(Quantity { min, max })
+        }
+        DeValue::String(text) if text.contains("+-") => {
+            Err(value.error(Defect::Tolerance, value.found(), NEITHER_SUM_NOR_TOLERANCE))
         }
         DeValue::String(text) => match parts_of_tolerance(text) {
             Some(parts) => around(value, text, parts),
