@@ -16,6 +16,7 @@ const DESIGNS: [&str; 5] = [
 const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("verify", &["verify", "orthoglide-312.toml"], 0),
     ("verify", &["verify", "orthoglide-310.toml"], 1),
+    ("verify", &["verify"], 0),
     ("verify", &["verify", "orthoglide-tie.toml", "--max-boxes", "50"], 3),
     ("verify", &["verify", "orthoglide-joint-range.toml"], 0),
     ("verify", &["verify", "rotary-delta-angle-refuted.toml"], 1),
@@ -37,6 +38,10 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
         0,
     ),
     ("run_shard", &["run-shard", "job/shard-0001.json"], 0),
+    ("submit", &["submit", "job", "--engine", "slurm", "--scripts-only", "-o", "later.paving"], 0),
+    ("pave", &["pave", "region.toml", "--precision", "1000", "-o", "coarse.paving"], 0),
+    ("postulate", &["postulate", "--all", "--timeout", "0", "-o", "none.json"], 3),
+    ("largest_cube", &["largest-cube", "region.toml", "--side", "100"], 0),
     ("pave", &["merge", "job", "-o", "merged.paving"], 0),
     ("atlas", &["atlas", "map.toml"], 0),
     ("report_paving", &["report", "region.paving"], 0),
