@@ -67,6 +67,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
+    if let Some(output) = output {
+        input::apart(output, &[path.to_owned()])?;
+    }
     let bytes = input::certificate(path)?;
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
@@ -90,6 +93,7 @@ fn mesh(
     file: fn(&Surface) -> Result<Vec<u8>, SurfaceError>,
 ) -> Result<Status, Failure> {
     let paving = opened(path)?;
+    input::apart(output, &[path.to_owned()])?;
     output::probe(output)?;
     let found = Reader::new(paving)
         .map_err(SurfaceError::from)

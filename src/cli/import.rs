@@ -42,6 +42,13 @@ struct Target {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let (files, target) = match &arguments.controller {
+        Controller::Klipper { file, target } => (std::slice::from_ref(file), target),
+        Controller::Linuxcnc { files, target } => (&files[..], target),
+    };
+    if let Some(output) = &target.output {
+        input::apart(output, files)?;
+    }
     let (imported, target) = match &arguments.controller {
         Controller::Klipper { file, target } => (klipper(&input::text(file)?, &name(file)), target),
         Controller::Linuxcnc { files, target } => {

@@ -4,9 +4,9 @@ use super::Failure;
 use orthocert::design::Design;
 use orthocert_checker::certificate::MAX_BYTES;
 use orthocert_checker::number::Exact;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Most digits of a literal on the command line, as in design files.
 const MAX_DIGITS: usize = 1000;
@@ -62,4 +62,16 @@ pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
              as 2, 1.5, 3/2 or sqrt(2)"
         ))
     })
+}
+
+/// Refuses an output that is one of the files that are read: it would be lost.
+pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    let Ok(found) = fs::canonicalize(output) else { return Ok(()) };
+    let is_read = |input: &PathBuf| fs::canonicalize(input).is_ok_and(|input| input == found);
+    if inputs.iter().any(is_read) {
+        let path = output.display();
+        let refused = format!("--output: {path} is a file that is read; accepted: another path");
+        return Err(Failure::Input(refused));
+    }
+    Ok(())
 }

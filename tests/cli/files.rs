@@ -103,3 +103,23 @@ fn a_full_disk_exits_4_and_a_device_stays_a_device() {
     assert!(!fs::metadata("/dev/null").unwrap().is_file());
     assert!(folder.names().is_empty());
 }
+
+#[test]
+fn what_is_read_is_not_overwritten() {
+    let folder = Folder::with(&["orthoglide-312.toml"]);
+    folder.run(&["verify", "orthoglide-312.toml", "-o", "c.json"]).exits(0);
+    folder.run(&["pave", "orthoglide-312.toml", "--precision", "90", "-o", "p"]).exits(0);
+    folder.write("k.cfg", "[printer]\nkinematics: delta\n");
+    for command in [
+        &["import", "klipper", "k.cfg", "-o", "./k.cfg"][..],
+        &["import", "linuxcnc", "other.ini", "k.cfg", "-o", "k.cfg"],
+        &["export", "rocq", "c.json", "-o", "c.json"],
+        &["export", "stl", "p", "-o", "p"],
+        &["export", "vtk", "./p", "-o", "p"],
+    ] {
+        let read = command.last().unwrap();
+        let before = folder.read(read);
+        folder.run(command).exits(2).complains(&["--output", "is read", "another path"]);
+        assert!(folder.read(read) == before, "{command:?}");
+    }
+}
