@@ -55,6 +55,10 @@ pub struct Bracket {
 /// Shares of the gap that are left between the place found and either bound, tried in turn. The
 /// later ones are for tolerances, and for regions in which the place is not unique.
 const SHARES: [f64; 7] = [0.3, 0.45, 5.0, 50.0, 500.0, 2e4, 1e5];
+/// The greatest share with which both bounds are as near as the gap.
+const ENOUGH: f64 = 0.5;
+/// Shares tried between one that is too small and one that is not: a factor of ten becomes 1.15.
+const NEARER: usize = 4;
 /// Boxes after which a side is given up for a looser one: what closes at all closes in some thousand.
 const BOXES: usize = 50_000;
 
@@ -76,23 +80,45 @@ pub fn largest_cube(
         return Ok(Bracket::default());
     };
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
-    let mut bracket = Bracket::default();
-    for share in SHARES {
+    let inside = nearest(|share| {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
-        let Some(side) = side.filter(|side| side.sign() == Some(1)) else { break };
-        bracket.inside = certified(claim, &side, &place.centre, gap, budget, control)?;
-        if bracket.inside.is_some() {
-            break;
+        match side.filter(|side| side.sign() == Some(1)) {
+            Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
+            None => Ok(None),
         }
-    }
+    })?;
+    let too_large = nearest(|share| {
+        let Some(side) = decimal(place.side * (1.0 + share * gap), place.side * gap) else {
+            return Ok(None);
+        };
+        let excluded = exclude(claim, &side, budget, control)?;
+        Ok(excluded.map(|certificate| TooLarge { side, certificate }))
+    })?;
+    Ok(Bracket { inside, too_large })
+}
+
+/// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
+/// none of those that are enough, from there towards the last for which nothing was found.
+fn nearest<T>(
+    mut found: impl FnMut(f64) -> Result<Option<T>, NoAnswer>,
+) -> Result<Option<T>, NoAnswer> {
+    let mut least = 0.0;
     for share in SHARES {
-        let Some(side) = decimal(place.side * (1.0 + share * gap), place.side * gap) else { break };
-        if let Some(certificate) = exclude(claim, &side, budget, control)? {
-            bracket.too_large = Some(TooLarge { side, certificate });
-            break;
+        let Some(mut best) = found(share)? else {
+            least = share;
+            continue;
+        };
+        let mut most = share;
+        for _ in 0..if share > ENOUGH { NEARER } else { 0 } {
+            let between = (least * most).sqrt();
+            match found(between)? {
+                Some(better) => (best, most) = (better, between),
+                None => least = between,
+            }
         }
+        return Ok(Some(best));
     }
-    Ok(bracket)
+    Ok(None)
 }
 
 /// Whether a cube of this side fits with its centre in the workspace of `claim`: at most one of the
@@ -162,4 +188,26 @@ fn decimal(x: f64, width: f64) -> Option<Exact> {
     let grid = BigRational::from_integer(BigInt::from(10)).pow(places);
     let nearest = (BigRational::from_f64(x)? * &grid).round() / grid;
     Some(Exact::Rational(nearest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_share_that_works_is_come_near_to() {
+        for least in [0.2, 0.3, 0.4, 0.6, 7.3, 49.0, 300.0, 9e4] {
+            let mut tries = 0;
+            let found = nearest(|share| {
+                tries += 1;
+                Ok((share >= least).then_some(share))
+            });
+            let found = found.unwrap().unwrap();
+            let enough = if least <= ENOUGH { ENOUGH } else { 1.3 * least };
+            assert!((least..=enough).contains(&found), "{least}: {found}");
+            assert!(tries <= SHARES.len() + NEARER);
+        }
+        assert_eq!(nearest(|_| Ok(None::<f64>)).unwrap(), None);
+        assert!(nearest(|_| Err::<Option<f64>, _>(NoAnswer::Cancelled)).is_err());
+    }
 }
