@@ -56,6 +56,9 @@ struct Row {
     /// The relative width that was reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     relative: Option<String>,
+    /// Whether it is wider than what was asked for.
+    #[serde(skip)]
+    wide: bool,
     /// Why there is no enclosure.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_enclosed: Option<String>,
@@ -85,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         } else {
             effort.run(|control| enclose(claim, extreme, &relative, budget, control))
         };
-        rows.push(row(extreme, found, arguments)?);
+        rows.push(row(extreme, found, &relative, arguments)?);
     }
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
@@ -122,6 +125,7 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
         max: value,
         point: None,
         relative: Some("0".into()),
+        wide: false,
         not_enclosed: None,
         certificates: Vec::new(),
     };
@@ -137,6 +141,7 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
 fn row(
     extreme: Extreme,
     found: Result<Enclosed, NotEnclosed>,
+    relative: &BigRational,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
     let mut row = Row {
@@ -146,6 +151,7 @@ fn row(
         max: None,
         point: None,
         relative: None,
+        wide: false,
         not_enclosed: None,
         certificates: Vec::new(),
     };
@@ -160,6 +166,7 @@ fn row(
                 }
             }
             row.point = found.refuted.as_deref().and_then(witness_point);
+            row.wide = found.width > *relative;
             row.relative = Some(rounded(&found.width, 2, Toward::Above));
             let (min, max) = if extreme.is_greatest() {
                 (found.inner, found.outer)
@@ -221,12 +228,16 @@ fn text(rows: &[Row], started: Instant) -> String {
             (Some(min), Some(max), _) => {
                 let (min, max) = (shown(min, Toward::Below), shown(max, Toward::Above));
                 let width = row.relative.as_deref().unwrap_or_default();
-                let _ = writeln!(out, "{min:<17} {max:<17} {width:>7}");
+                let mark = if row.wide { " *" } else { "" };
+                let _ = writeln!(out, "{min:<17} {max:<17} {width:>7}{mark}");
             }
             (_, _, reason) => {
                 let _ = writeln!(out, "{}", reason.as_deref().unwrap_or("not enclosed"));
             }
         }
+    }
+    if rows.iter().any(|row| row.wide) {
+        out += "\n  * wider than asked for: no narrower proof was found\n";
     }
     let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
     out
