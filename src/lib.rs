@@ -34,7 +34,7 @@
 //! | [`sample`]       | looks around: approximate values at single points and machines        |
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
-//! | [`size`]         | the smallest machine for a cube of a given side                       |
+//! | [`size`]         | the smallest machine for an axis-aligned cube of a given side         |
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 

@@ -1,4 +1,4 @@
-//! The smallest machine for a cube of a given side.
+//! The smallest machine for a cube of a given side, with its edges along the axes.
 //!
 //! The unknown is the legs' length of an Orthoglide, or else the scale of the whole machine. The
 //! admitted requirements do not depend on the unit of length, so `M(P)` of the machine of scale `s`
@@ -6,7 +6,8 @@
 //! scale `s` what one of side `a/s` with its centre at `c` does for scale 1. The latter are nested.
 //! So for one `c` there is one threshold: certified for a scale means possible for every greater
 //! one, and refuted for a scale means impossible, *for this placement*, for every smaller one.
-//! [`Family::excluded`] shows the latter for every placement at once.
+//! [`Family::excluded`] shows the latter for every placement at once of a cube with its edges along
+//! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
 use crate::decimal::approximate;
 use crate::frontier::{
@@ -30,7 +31,7 @@ const SHARE: f64 = 0.4;
 const PLACEMENT: f64 = 1e-4;
 /// Sizes tried, relative to the one found.
 const SPREAD: f64 = 100.0;
-/// How far below the size found every placement is excluded first, and what this is divided by
+/// How far below the size found every axis-aligned placement is excluded first, and what this is divided by
 /// while that succeeds.
 const EXCLUDED: (f64, f64) = (0.1, 10.0);
 
@@ -43,10 +44,11 @@ pub enum Unknown {
     Scale,
 }
 
-/// Which placements of the cube it is proved about a size that they are impossible for it.
+/// Which placements of the cube, with its edges along the axes, it is proved about a size that they
+/// are impossible for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Every one.
+    /// Every axis-aligned one.
     Everywhere,
     /// Those with the centre in the workspace's bounding box, which is scaled with the machine.
     Workspace,

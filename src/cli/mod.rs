@@ -82,7 +82,7 @@ enum Command {
     Report(report::Arguments),
     /// Print the seed paper's claims, and what is proved of each.
     Paper(paper::Arguments),
-    /// Enclose the side of the largest cube in which all requirements hold.
+    /// Enclose the side of the largest axis-aligned cube in which all requirements hold.
     LargestCube(largest_cube::Arguments),
     /// Pave a box: where all requirements hold, where some fails, and the volume between.
     Pave(pave::Arguments),
@@ -100,7 +100,7 @@ enum Command {
     Merge(merge::Arguments),
     /// Enclose the widest tolerances with which a design is still certified.
     Tolerance(tolerance::Arguments),
-    /// Enclose the smallest machine for a cube of a given side.
+    /// Enclose the smallest machine for a cube of a given side, its edges along the axes.
     Size(size::Arguments),
     /// Make a design file of a motion controller's configuration.
     Import(import::Arguments),

@@ -16,7 +16,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Boxes after which a size counts as not certified; of centres, as not refuted for every placement.
+/// Boxes after which a size counts as not certified; of centres, as not refuted for every
+/// axis-aligned placement.
 const BOXES: u64 = 20_000;
 /// Significant digits of a size.
 const DIGITS: u32 = 15;
@@ -27,14 +28,15 @@ pub struct Arguments {
     /// The design file; without it, the prototype of the paper
     #[arg(value_name = "DESIGN.toml")]
     design: Option<PathBuf>,
-    /// Side of the cube that is to lie where every requirement holds
+    /// Side of the cube, its edges along the axes, that is to lie where every requirement holds
     #[arg(long, value_name = "SIDE", allow_hyphen_values = true)]
     cube: String,
     /// Relative distance of the certified and the refuted size to stop at
     #[arg(long, value_name = "WIDTH", default_value = "1e-6", allow_hyphen_values = true)]
     gap: String,
     /// Write the certificates of all ends into this folder, which exists: size-certified,
-    /// size-refuted (for the cube's place) and size-excluded (for every place)
+    /// size-refuted (for the cube's place) and size-excluded (for every place of a cube with its
+    /// edges along the axes; nothing is claimed of turned cubes)
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -51,7 +53,7 @@ struct Answer {
     certified: Option<Exact>,
     /// The greatest that was refuted.
     refuted: Option<Exact>,
-    /// For which placements of the cube.
+    /// For which placements of the cube, with its edges along the axes.
     refuted_for: &'static str,
     /// `certified/refuted - 1`, rounded up.
     gap: Option<String>,
@@ -149,8 +151,8 @@ pub fn shown(x: &Exact, digits: u32, toward: Toward) -> String {
 
 fn scope(scope: Scope) -> &'static str {
     match scope {
-        Scope::Everywhere => "every placement",
-        Scope::Workspace => "every centre in the workspace, scaled",
+        Scope::Everywhere => "every axis-aligned placement",
+        Scope::Workspace => "every axis-aligned placement centred in the workspace, scaled",
     }
 }
 
@@ -226,7 +228,9 @@ fn text(answer: &Answer, started: Instant) -> String {
         }
     };
     let cube = exact(&answer.cube);
-    let mut out = format!("The smallest machine for a cube of side {cube},\nby {what}.\n\n");
+    let mut out = format!(
+        "The smallest machine for a cube of side {cube} with its edges along the axes,\nby {what}.\n\n"
+    );
     let row = |out: &mut String, label: &str, value: &str, note: &str| {
         let line = format!("  {label:<22} {value:<20} {note}");
         let _ = writeln!(out, "{}", line.trim_end());
@@ -262,7 +266,8 @@ fn text(answer: &Answer, started: Instant) -> String {
         }
     }
     out += "\n  The centre moves in proportion to the size. What is certified is for every greater\n  \
-              size too, what is refuted or excluded for every smaller one.\n";
+              size too, what is refuted or excluded for every smaller one. Nothing is claimed of turned\n  \
+              cubes.\n";
     out += match (answer.excluded_for, &answer.excluded) {
         (Some(all), Some(_)) if answer.refuted_for == all => "",
         (Some(_), Some(_)) => {

@@ -30,7 +30,7 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
             assert!(low < closed_form && closed_form < high, "{low} {high}");
             assert!(high / low - 1.0 <= gap * 1.000_001, "{low} {high}");
             assert_eq!(value["unknown"], "leg_length");
-            assert_eq!(value["refuted_for"], "every placement");
+            assert_eq!(value["refuted_for"], "every axis-aligned placement");
             assert_eq!(value["excluded"], value["refuted"]);
             assert_eq!(value["gap_reached"], true);
             // The centre of the largest cube for legs of length 1.
@@ -77,9 +77,15 @@ fn a_small_budget_leaves_a_looser_exclusion() {
     assert_eq!(value["refuted_for"], "this placement");
     let (refuted, excluded) = (number(&value["refuted"]), number(&value["excluded"]));
     assert!(excluded < refuted, "{excluded} {refuted}");
-    assert_eq!(value["excluded_for"], "every placement");
+    assert_eq!(value["excluded_for"], "every axis-aligned placement");
     let run = folder.run(&["size", "--cube", "200", "--max-boxes", "2000"]).exits(0);
-    run.says(&["leg length, excluded", "for every placement", "the exclusion says what is proved"]);
+    run.says(&[
+        "leg length, excluded",
+        "for every axis-aligned placement",
+        "the exclusion says what is proved",
+        "a cube of side 200 with its edges along the axes",
+        "Nothing is claimed of turned",
+    ]);
 }
 
 #[test]
@@ -89,7 +95,10 @@ fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
         let arguments = ["linear-delta-linuxcnc-box.toml", "--cube", side, "--gap", "1e-3"];
         let value = sized(&folder, &arguments);
         assert_eq!(value["unknown"], "scale");
-        assert_eq!(value["refuted_for"], "every centre in the workspace, scaled");
+        assert_eq!(
+            value["refuted_for"],
+            "every axis-aligned placement centred in the workspace, scaled"
+        );
         (number(&value["refuted"]), number(&value["certified"]))
     };
     let ((low, high), (twice_low, twice_high)) = (scale("100"), scale("200"));
