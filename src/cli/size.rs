@@ -262,7 +262,7 @@ fn text(answer: &Answer, started: Instant) -> String {
     if let Some(centre) = &answer.centre {
         let _ = writeln!(out, "  cube's centre, certified");
         for (axis, x) in ["x", "y", "z"].iter().zip(centre) {
-            let _ = writeln!(out, "    {axis} = {}", shown(x, DIGITS, Toward::Below));
+            let _ = writeln!(out, "    {axis} = {}", exact(x));
         }
     }
     out += "\n  The centre moves in proportion to the size. What is certified is for every greater\n  \

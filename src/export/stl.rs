@@ -5,7 +5,7 @@
 
 use crate::paving::{Surface, SurfaceError};
 
-/// Bytes of the header, which readers ignore.
+/// Bytes of the header, which readers ignore and people may read.
 const HEADER: usize = 80;
 /// Bytes of a triangle: normal, three corners, and a number that is zero.
 const TRIANGLE: usize = 50;
@@ -19,8 +19,13 @@ pub fn stl(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
     let count = 2 * surface.quads.len() + surface.triangles.len();
     let mut bytes = Vec::with_capacity(HEADER + 4 + TRIANGLE * count);
     // Not beginning with "solid", by which readers know the textual form.
-    bytes
-        .extend(format!("{:HEADER$}", "binary STL by orthocert: surface of an inner part").bytes());
+    bytes.extend(
+        format!(
+            "{:HEADER$}",
+            "binary STL by orthocert: inner part of a paving, evidence of boxes not checked"
+        )
+        .bytes(),
+    );
     let count = u32::try_from(count).map_err(|_| SurfaceError::TooFine)?;
     bytes.extend(count.to_le_bytes());
     for corners in surface.in_triangles() {

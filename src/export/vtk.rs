@@ -22,6 +22,8 @@ pub fn vtu(surface: &Surface) -> Result<Vec<u8>, SurfaceError> {
     let Surface { quads, triangles, .. } = surface;
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n\
+         <!-- orthocert: the inner part of a paving; the evidence of its boxes is not checked by the \
+         export, but by `orthocert check` -->\n\
          <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt64\">\n<UnstructuredGrid>\n\
          <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",

@@ -1,6 +1,7 @@
 //! `size`: both ends against the closed form, scales, and what is refused.
 
 use crate::support::Folder;
+use orthocert_checker::number::Exact;
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {
@@ -52,6 +53,23 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
         assert_eq!(number(&machine["workspace"]["box"]["max"][k]), length);
     }
     assert!(length < closed_form);
+}
+
+#[test]
+fn the_centre_shown_is_the_one_that_is_certified() {
+    let folder = Folder::new();
+    let run = folder.run(&["size", "--cube", "200", "--gap", "1e-9", "-o", "."]).exits(0);
+    let certificate: Value =
+        serde_json::from_slice(&folder.read("size-certified.cert.json")).unwrap();
+    let workspace = &certificate["claim"]["machine"]["workspace"]["box"];
+    let exact = |x: &Value| Exact::parse(x.as_str().unwrap(), 1000).unwrap();
+    for (k, axis) in ["x", "y", "z"].iter().enumerate() {
+        let line =
+            run.stdout.lines().find_map(|line| line.trim().strip_prefix(axis)?.strip_prefix(" = "));
+        let shown = Exact::parse(line.unwrap(), 1000).unwrap();
+        let sum = exact(&workspace["min"][k]).plus(exact(&workspace["max"][k])).unwrap();
+        assert_eq!(shown.times(Exact::parse("2", 1000).unwrap()).unwrap(), sum, "{axis}");
+    }
 }
 
 #[test]

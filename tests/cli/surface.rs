@@ -32,6 +32,9 @@ fn the_surface_is_written_in_both_formats_with_the_same_corners() {
     assert!((faces..2 * faces).contains(&triangles));
     assert_eq!(bytes.len(), 84 + 50 * triangles);
     assert!(!bytes.starts_with(b"solid"));
+    // Either file says that its boxes are taken on trust.
+    assert!(text.contains("evidence of its boxes is not checked"));
+    assert!(String::from_utf8_lossy(&bytes[..80]).contains("evidence of boxes not checked"));
 }
 
 #[test]
