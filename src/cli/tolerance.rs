@@ -203,9 +203,18 @@ fn nodes_or_status(
             return Ok(Ok(tree.nodes.len()));
         }
     }
-    let (word, status) = match refuted {
-        Some(_) => ("refuted", Status::Decided(Verdict::Refuted)),
-        None => ("undecided", Status::Undecided),
+    let (word, status, known) = match refuted {
+        Some(_) => (
+            "refuted",
+            Status::Decided(Verdict::Refuted),
+            "There is no tolerance with which it could be certified.",
+        ),
+        None => (
+            "undecided",
+            Status::Undecided,
+            "Nothing is known of tolerances: the nominal design is undecided within the budget;\n\
+             raise --max-boxes or --timeout.",
+        ),
     };
     match effort.format {
         Format::Json => print::json(&serde_json::json!({
@@ -214,8 +223,7 @@ fn nodes_or_status(
         }))?,
         Format::Text => {
             let mut out = format!(
-                "{}  the design without tolerances on the parameters named.\n\
-                 There is no tolerance with which it could be certified.\n",
+                "{}  the design without tolerances on the parameters named.\n{known}\n",
                 word.to_uppercase()
             );
             if let Some(found) = counterexample {

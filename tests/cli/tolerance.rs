@@ -118,11 +118,26 @@ fn a_row_s_time_is_kept_and_stated() {
 fn a_design_that_is_not_certified_has_no_tolerance() {
     let folder = Folder::with(&["orthoglide-310.toml"]);
     let run = folder.run(&["tolerance", "orthoglide-310.toml"]).exits(1);
-    run.says(&["REFUTED", "no tolerance"]);
+    run.says(&["REFUTED", "no tolerance with which it could be certified"]);
     let arguments = ["tolerance", "orthoglide-310.toml", "--format", "json"];
     let value: Value = serde_json::from_str(&folder.run(&arguments).exits(1).stdout).unwrap();
     assert_eq!(value["nominal"], "refuted");
     assert_eq!(value["tolerances"], serde_json::json!([]));
+}
+
+#[test]
+fn of_a_design_that_is_undecided_nothing_is_claimed() {
+    let folder = Folder::with(&[DESIGN]);
+    let arguments = ["tolerance", DESIGN, "--on", "leg_length", "--max-boxes", "1"];
+    let run = folder.run(&arguments).exits(3);
+    let run = run.says(&["UNDECIDED", "undecided within the budget", "raise --max-boxes"]);
+    assert!(!run.stdout.contains("no tolerance"), "{}", run.stdout);
+    let json = folder.run(&[&arguments[..], &["--format", "json"]].concat()).exits(3);
+    let value: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(
+        (&value["nominal"], &value["tolerances"]),
+        (&"undecided".into(), &Value::Array(vec![]))
+    );
 }
 
 #[test]
