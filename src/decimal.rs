@@ -182,6 +182,16 @@ pub fn significant(value: f64, digits: u32) -> String {
     format!("{}e{exponent}", trimmed(mantissa))
 }
 
+/// A share in per cent, of at most so many significant digits, without trailing zeros: what is proved
+/// of a part is rounded down, what is open up, so that no more is shown than is proved.
+pub fn percent(share: &BigRational, digits: u32, toward: Toward) -> String {
+    let text = rounded(&scaled(share, 2), digits, toward);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{}e{exponent} %", trimmed(mantissa)),
+        None => format!("{} %", trimmed(&text)),
+    }
+}
+
 fn trimmed(decimal: &str) -> &str {
     if decimal.contains('.') {
         decimal.trim_end_matches('0').trim_end_matches('.')
@@ -274,6 +284,22 @@ mod tests {
             ("7e400", "~7.00000000e400"),
         ] {
             assert_eq!(readable(&Exact::parse(text, 1000).unwrap()), shown);
+        }
+    }
+
+    #[test]
+    fn no_share_is_shown_that_is_more_than_proved() {
+        for (text, below, above) in [
+            ("65533/65536", "99.99 %", "100 %"),
+            ("3/65536", "0.004577 %", "0.004578 %"),
+            ("9/16", "56.25 %", "56.25 %"),
+            ("1", "100 %", "100 %"),
+            ("0", "0 %", "0 %"),
+            ("1/1000000000", "1e-7 %", "1e-7 %"),
+            ("1/3000000000", "3.333e-8 %", "3.334e-8 %"),
+        ] {
+            assert_eq!(percent(&exact(text), 4, Toward::Below), below, "{text}");
+            assert_eq!(percent(&exact(text), 4, Toward::Above), above, "{text}");
         }
     }
 

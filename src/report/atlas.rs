@@ -3,8 +3,9 @@
 use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::atlas::Standing;
-use crate::decimal::{boxes, counted, exact, grouped, significant};
-use num_traits::ToPrimitive;
+use crate::decimal::{boxes, counted, exact, grouped, percent, significant, Toward};
+use num_rational::BigRational;
+use num_traits::{One, Signed};
 use orthocert_checker::claim::AtlasParameter;
 use orthocert_checker::number::Exact;
 use serde::Serialize;
@@ -87,11 +88,13 @@ impl BestDesign {
         };
         let ends = (bound.value.as_rational(), self.value.as_rational());
         let gap = match ends {
-            (Some(bound), Some(value)) => (bound / value).to_f64().map_or(f64::NAN, |x| x - 1.0),
-            _ => f64::NAN,
+            (Some(bound), Some(value)) if value.is_positive() => {
+                let gap = bound / value - BigRational::one();
+                format!(" (gap {})", percent(&gap, 2, Toward::Above))
+            }
+            _ => String::new(),
         };
-        let gap = significant(100.0 * gap, 2);
-        format!("; no design of the box has {} (gap {gap} %)", exact(&bound.value))
+        format!("; no design of the box has {}{gap}", exact(&bound.value))
     }
 }
 
@@ -108,14 +111,13 @@ pub struct MarkedDesign {
 
 impl Part {
     /// The share in per cent.
-    fn percent(&self) -> String {
-        let share = self.share.as_rational().and_then(|x| x.to_f64()).unwrap_or(0.0);
-        format!("{} %", significant(100.0 * share, 4))
+    fn percent(&self, toward: Toward) -> String {
+        self.share.as_rational().map_or_else(String::new, |share| percent(share, 4, toward))
     }
 
-    fn text(&self) -> String {
+    fn text(&self, toward: Toward) -> String {
         let cells = counted(self.cells, "cell", "cells");
-        format!("{} of the box ({}) in {cells}", self.percent(), self.share)
+        format!("{} of the box ({}) in {cells}", self.percent(toward), self.share)
     }
 }
 
@@ -123,9 +125,9 @@ impl AtlasReport {
     /// The first line.
     pub fn headline(&self) -> String {
         let name = self.title.as_deref().unwrap_or(&self.atlas);
-        let decided =
-            format!("{} certified, {} refuted", self.certified.percent(), self.refuted.percent());
-        format!("ATLAS  {name}: {decided}")
+        let proved = |part: &Part| part.percent(Toward::Below);
+        let (certified, refuted) = (proved(&self.certified), proved(&self.refuted));
+        format!("ATLAS  {name}: {certified} certified, {refuted} refuted")
     }
 
     /// A design's parameters.
@@ -137,9 +139,9 @@ impl AtlasReport {
     /// What the map says, in rows of a name and a text, without what depends on the run.
     pub fn facts(&self) -> Vec<(String, String)> {
         let mut facts = vec![
-            ("certified".to_owned(), self.certified.text()),
-            ("refuted".to_owned(), self.refuted.text()),
-            ("undecided".to_owned(), self.undecided.text()),
+            ("certified".to_owned(), self.certified.text(Toward::Below)),
+            ("refuted".to_owned(), self.refuted.text(Toward::Below)),
+            ("undecided".to_owned(), self.undecided.text(Toward::Above)),
         ];
         if let Some(best) = &self.best {
             let (value, place) = (exact(&best.value), self.place(&best.at));
@@ -186,5 +188,20 @@ impl AtlasReport {
         }
         let _ = writeln!(out, "  {:13} {} s", "time", significant(self.seconds, 3));
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_all_is_not_called_all() {
+        let part = |share: &str| Part { cells: 2, share: Exact::parse(share, 1000).unwrap() };
+        let most = part("65533/65536");
+        assert_eq!(most.percent(Toward::Below), "99.99 %");
+        assert_eq!(most.text(Toward::Below), "99.99 % of the box (65533/65536) in 2 cells");
+        assert_eq!(part("3/65536").percent(Toward::Above), "0.004578 %");
+        assert_eq!(part("1").percent(Toward::Below), "100 %");
     }
 }

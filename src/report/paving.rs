@@ -1,9 +1,9 @@
 //! What a paving holds, for people and for scripts.
 
-use crate::decimal::{approximate, grouped, rounded, significant, Toward};
+use crate::decimal::{approximate, grouped, percent, rounded, significant, Toward};
 use crate::paving::{box_volume, Component, Components, Paved};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::Zero;
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
@@ -69,7 +69,7 @@ pub struct ComponentsReport {
 /// A component.
 #[derive(Clone, Debug, Serialize)]
 pub struct ComponentReport {
-    /// Its share of the box's volume, with its images.
+    /// Its share of the box's volume, with its images, rounded down.
     pub share: f64,
     /// How many.
     pub boxes: u64,
@@ -139,8 +139,12 @@ impl PavingReport {
             return String::new();
         };
         let unit = if self.inner.volume.is_some() { "" } else { " of the box" };
-        let gap =
-            self.gap.map_or("none".to_owned(), |gap| format!("{} %", significant(100.0 * gap, 3)));
+        // Of shares and of volumes the quotient is the same.
+        let gap = match self.gap {
+            Some(_) if open.is_zero() => "0 %".to_owned(),
+            Some(_) => percent(&(&open / &inner), 3, Toward::Above),
+            None => "none".to_owned(),
+        };
         let first = format!(
             "volume: between {}{unit} and {}{unit}, gap {gap}\n",
             rounded(&inner, DIGITS, Toward::Below),
@@ -149,18 +153,18 @@ impl PavingReport {
         if quiet {
             return first;
         }
-        let row = |name: &str, part: &Part, what: &str| {
-            let share = part.share.as_rational().and_then(BigRational::to_f64).unwrap_or(f64::NAN);
+        let row = |name: &str, part: &Part, toward: Toward, what: &str| {
+            let share = part.share.as_rational().map(|share| percent(share, 6, toward));
             format!(
-                "  {name:<9} {:>13} boxes {:>9} % of the box   {what}\n",
+                "  {name:<9} {:>13} boxes {:>11} of the box   {what}\n",
                 grouped(part.boxes),
-                significant(100.0 * share, 6)
+                share.unwrap_or_default()
             )
         };
         let mut out = first + "\n";
-        out += &row("inner", &self.inner, "all requirements hold at every point");
-        out += &row("outer", &self.outer, "some requirement fails at every point");
-        out += &row("boundary", &self.boundary, "undecided");
+        out += &row("inner", &self.inner, Toward::Below, "all requirements hold at every point");
+        out += &row("outer", &self.outer, Toward::Below, "some requirement fails at every point");
+        out += &row("boundary", &self.boundary, Toward::Above, "undecided");
         if self.mirrored > 0 {
             out += "\n  The machine looks the same from permuted axes: only points with x <= y <= z are\n  \
                 paved, and the shares count all images.\n";
@@ -185,9 +189,8 @@ impl PavingReport {
 }
 
 fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
-    let unit = (-f64::from(SHARE_BITS)).exp2();
     let described = |component: &Component| ComponentReport {
-        share: component.share as f64 * unit,
+        share: rounded_down(component.share),
         boxes: component.boxes,
         copies: component.copies,
         best_conditioned: component.best_conditioned,
@@ -207,6 +210,22 @@ fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
     }
 }
 
+/// A share in units of `2^-SHARE_BITS`, rounded down to a double. All bits but the 53 leading ones are
+/// dropped, which makes it no greater; what is left is a double exactly, as is its product with a power
+/// of two.
+fn rounded_down(share: u128) -> f64 {
+    let dropped = (u128::BITS - share.leading_zeros()).saturating_sub(f64::MANTISSA_DIGITS);
+    ((share >> dropped) << dropped) as f64 * (-f64::from(SHARE_BITS)).exp2()
+}
+
+impl ComponentReport {
+    /// Its share in per cent, rounded down.
+    fn percent(&self) -> String {
+        BigRational::from_float(self.share)
+            .map_or_else(String::new, |share| percent(&share, 6, Toward::Below))
+    }
+}
+
 fn components_text(components: &ComponentsReport) -> String {
     let [x, y, z] = components.best_conditioned_at.map(|x| significant(x, 3));
     let mut out = format!(
@@ -219,8 +238,8 @@ fn components_text(components: &ComponentsReport) -> String {
             n => format!(" together with {} images", n - 1),
         };
         out += &format!(
-            "    {:>9} % of the box{copies}, {} boxes\n",
-            significant(100.0 * component.share, 6),
+            "    {:>11} of the box{copies}, {} boxes\n",
+            component.percent(),
             grouped(component.boxes)
         );
         if component.best_conditioned {
@@ -233,4 +252,19 @@ fn components_text(components: &ComponentsReport) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doubles_of_shares_are_not_above_them() {
+        let whole = 1u128 << SHARE_BITS;
+        assert_eq!(rounded_down(whole), 1.0);
+        assert_eq!(rounded_down(0), 0.0);
+        // The nearest double is 1.
+        assert!(rounded_down(whole - 1) < 1.0);
+        assert_eq!(rounded_down(1), (-f64::from(SHARE_BITS)).exp2());
+    }
 }

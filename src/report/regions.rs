@@ -14,7 +14,7 @@ const CELLS: usize = 1 << GRID;
 pub struct Region {
     /// How many boxes.
     pub boxes: usize,
-    /// Their share of the workspace's bounding box.
+    /// Their share of the workspace's bounding box, rounded up.
     pub share: f64,
     /// Least parts `u` of the workspace along every axis.
     pub min: [f64; 3],
@@ -35,6 +35,20 @@ pub fn share(cell: &Cell) -> f64 {
     (-f64::from(halvings)).exp2()
 }
 
+/// The least double, or the next, that is at least `a + b`, of shares.
+///
+/// **Lemma.** With `s` the double nearest to `a + b`, `a >= b >= 0`, the double `b - (s - a)` is exactly
+/// `a + b - s` (Dekker's Fast2Sum): where it is not positive `s` is at least the sum. Else the sum is
+/// less than the double after `s`, which is nearer than it. ∎
+pub fn sum_above(a: f64, b: f64) -> f64 {
+    let (a, b) = (a.max(b), a.min(b));
+    let sum = a + b;
+    if b - (sum - a) > 0.0 {
+        return sum.next_up();
+    }
+    sum
+}
+
 /// The regions of a set of boxes, greatest share first.
 pub fn regions(open: &[OpenBox]) -> Vec<Region> {
     let mut grid = Grid::new();
@@ -51,7 +65,7 @@ pub fn regions(open: &[OpenBox]) -> Vec<Region> {
         let empty = Region { boxes: 0, share: 0.0, min, max };
         let region = found.entry(grid.root(at([x, y, z]))).or_insert(empty);
         region.boxes += 1;
-        region.share += share(&item.cell);
+        region.share = sum_above(region.share, share(&item.cell));
         for k in 0..3 {
             region.min[k] = region.min[k].min(min[k]);
             region.max[k] = region.max[k].max(max[k]);
@@ -138,6 +152,17 @@ impl Grid {
 
 #[cfg(test)]
 mod tests {
+    use super::sum_above;
+
+    #[test]
+    fn sums_of_shares_are_not_below_them() {
+        let (large, small) = (0.125, (-80f64).exp2());
+        assert_eq!(large + small, large);
+        assert!(sum_above(large, small) > large && sum_above(small, large) > large);
+        assert_eq!(sum_above(0.125, 0.25), 0.375);
+        assert_eq!(sum_above(0.0, small), small);
+    }
+
     use super::*;
     use orthocert_checker::cell::Edge;
 

@@ -1,7 +1,7 @@
 //! What remains of an undecided claim: how much, where, why, and what would help.
 
 use super::place::{point_text, Frame};
-use super::regions::{ends, regions, share, Region};
+use super::regions::{ends, regions, share, sum_above, Region};
 use super::worst::{bound, obligation};
 use crate::decimal::{boxes, exact, significant};
 use crate::sample::{Place, Quality, Sampler};
@@ -30,7 +30,7 @@ pub struct Remains {
     pub boxes: usize,
     /// Their volume, in cubes of the design's unit.
     pub volume: f64,
-    /// Their share of the workspace.
+    /// Their share of the workspace, rounded up.
     pub share: f64,
     /// Boxes that are neighbours, merged; the largest ones.
     pub regions: Vec<OpenRegion>,
@@ -47,7 +47,7 @@ pub struct Remains {
 pub struct OpenRegion {
     /// How many.
     pub boxes: usize,
-    /// Their share of the workspace.
+    /// Their share of the workspace, rounded up.
     pub share: f64,
     /// The least coordinates of their hull, in the design's unit.
     pub min: [f64; 3],
@@ -77,7 +77,7 @@ pub struct OpenRequirement {
     pub requirement: String,
     /// Boxes on which it is open.
     pub boxes: usize,
-    /// Their share of the workspace.
+    /// Their share of the workspace, rounded up.
     pub share: f64,
     /// Why the rules did not close them, and how many; most frequent first.
     pub reasons: Vec<(String, usize)>,
@@ -119,7 +119,7 @@ impl Remaining<'_> {
     /// The report.
     pub fn report(&self, undecided: &Undecided) -> Remains {
         let open = &undecided.open;
-        let total: f64 = open.iter().map(|item| share(&item.cell)).sum();
+        let total: f64 = open.iter().map(|item| share(&item.cell)).fold(0.0, sum_above);
         let all = regions(open);
         Remains {
             reason: reason(undecided, self.boxes),
@@ -188,7 +188,7 @@ impl Remaining<'_> {
                 };
                 *reasons.entry(reason).or_default() += 1;
                 boxes += 1;
-                open_share += share(&item.cell);
+                open_share = sum_above(open_share, share(&item.cell));
             }
             let mut reasons: Vec<_> = reasons.into_iter().collect();
             reasons.sort_by_key(|(_, count)| std::cmp::Reverse(*count));

@@ -5,7 +5,8 @@ use super::{
     CertificateFile, Counterexample, EarlierFile, Margin, Outcome, PostulateReport, Remains,
     Report, Row, Size,
 };
-use crate::decimal::{boxes, counted, exact, grouped, significant};
+use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
+use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
 
@@ -337,9 +338,10 @@ fn earlier_file(out: &mut String, earlier: &EarlierFile) {
     labelled(out, "", says);
 }
 
-/// A share as a percentage.
+/// An undecided share as a percentage, rounded up.
 fn percent(share: f64) -> String {
-    format!("{} %", significant(100.0 * share, 3))
+    BigRational::from_float(share)
+        .map_or_else(String::new, |share| decimal::percent(&share, 3, Toward::Above))
 }
 
 /// A duration in the unit in which it is readable.

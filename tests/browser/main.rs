@@ -277,6 +277,7 @@ fn the_region_of_a_paving_is_turned_and_cut() {
     browser.key("Enter");
     let text = browser.text("#region-readout");
     assert!(text.starts_with("Inner") && numbers(&text).len() == 6, "{text}");
+    the_read_out_is_in_the_box(&mut browser);
     let start = std::time::Instant::now();
     for _ in 0..10 {
         browser.key("ArrowRight");
@@ -294,6 +295,26 @@ fn the_region_of_a_paving_is_turned_and_cut() {
     let drawn = "[...document.querySelectorAll('svg.figure.region, svg.figure.slices')]\
         .filter((s) => s.clientWidth > 0).length";
     assert_eq!(browser.evaluate(drawn).as_u64(), Some(2));
+}
+
+/// Of parts of the edge from -7/10 to 7/10, in 1024: the ends that are read out are the nearest decimals
+/// of seven places that are in the part.
+fn the_read_out_is_in_the_box(browser: &mut Browser) {
+    let ends = "JSON.parse(document.getElementById('data').textContent).ends[1]";
+    let all = browser.evaluate(&format!(
+        "Array.from({{ length: 1024 }}, (_, k) => within({ends}, [k / 1024, (k + 1) / 1024], 7))"
+    ));
+    for k in 0..1024_i128 {
+        let shown = |end: usize| {
+            let text = all[k as usize][end].as_str().unwrap();
+            (text.parse::<f64>().unwrap() * 1e7).round() as i128
+        };
+        // The ends in units of 10^-7 / 1024.
+        let [low, high] = [k, k + 1].map(|k| (14 * k - 7 * 1024) * 1_000_000);
+        let (from, to) = (1024 * shown(0), 1024 * shown(1));
+        assert!(low <= from && from < low + 1024, "{k}: {from} {low}");
+        assert!(high - 1024 < to && to <= high, "{k}: {to} {high}");
+    }
 }
 
 /// Without scripts the static parts are there; on paper it has few pages.

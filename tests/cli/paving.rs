@@ -1,7 +1,9 @@
 //! `pave`, and `check` of pavings.
 
 use crate::support::Folder;
+use orthocert_checker::number::Exact;
 use serde_json::Value;
+use std::cmp::Ordering;
 
 /// The Orthoglide with legs of length one, over a box that reaches beyond its region.
 pub const DESIGN: &str = r#"
@@ -35,6 +37,46 @@ fn a_box_is_paved_and_the_paving_is_accepted() {
     let sampled = folder.run(&["check", "d.paving", "--sample", "50", "--seed", "7"]).exits(0);
     sampled.says(&["The evidence of 50 of the", "If that of the others holds"]);
     assert_eq!(folder.names(), ["d.paving", "d.toml"]);
+}
+
+/// The number before ` %` that follows a word, in hundredths.
+fn percent_after(text: &str, word: &str) -> Exact {
+    let (_, rest) = text.split_once(word).unwrap();
+    let (number, _) = rest.split_once(" %").unwrap();
+    let number = number.rsplit([' ', '>']).next().unwrap();
+    let hundredth = Exact::parse("1/100", 1000).unwrap();
+    Exact::parse(number, 1000).unwrap().times(hundredth).unwrap()
+}
+
+#[test]
+fn no_share_is_shown_that_is_more_than_certified() {
+    let folder = folder();
+    let mut rounded = 0;
+    for edge in ["0.1", "0.05", "0.03"] {
+        let arguments = ["pave", "d.toml", "--precision", edge];
+        let text = folder.run(&arguments).exits(0).stdout;
+        let json = folder.run(&[&arguments[..], &["--format", "json"]].concat()).exits(0);
+        folder.run(&["report", "d.paving"]).exits(0);
+        let page = String::from_utf8(folder.read("d.report.html")).unwrap();
+        let overview = &page[page.find("what is proved of them").unwrap()..];
+        let components = &page[page.find("Connected components</h2>").unwrap()..];
+        let answer: Value = serde_json::from_str(&json.stdout).unwrap();
+        for (part, row, name, order) in [
+            ("inner", "\n  inner ", "<td>inner</td>", Ordering::Less),
+            ("outer", "\n  outer ", "<td>outer</td>", Ordering::Less),
+            ("boundary", "\n  boundary ", "<td>undecided</td>", Ordering::Greater),
+            ("inner", "shared faces; ", "images, itself included", Ordering::Less),
+        ] {
+            let share = Exact::parse(answer[part]["share"].as_str().unwrap(), 1000).unwrap();
+            let page = if name.starts_with('<') { overview } else { components };
+            for shown in [percent_after(&text, row), percent_after(page, name)] {
+                let found = shown.compare(&share).unwrap();
+                assert!(found == order || found == Ordering::Equal, "{part} {shown} {share}");
+                rounded += usize::from(found == order);
+            }
+        }
+    }
+    assert!(rounded > 12, "{rounded} of 24 are rounded");
 }
 
 #[test]

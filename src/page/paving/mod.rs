@@ -14,7 +14,7 @@ mod sections;
 use super::isomap::Mark;
 use super::nominal::{Nominal, Point};
 use super::{contents, drawing, escape, filled, stem, words, File, Picture, FRAME, SCRIPT};
-use crate::decimal::{approximate, rounded, significant, Toward};
+use crate::decimal::{approximate, percent, rounded, Toward};
 use crate::digest::policy_source;
 use crate::paving::{box_volume, Components, Tree};
 use escape::html;
@@ -33,6 +33,8 @@ const MOST_IN_VIEW: usize = 40_000;
 const MOST_IN_PICTURE: usize = 6_000;
 /// Most bytes of the slices.
 const MOST_OF_SLICES: usize = 1_500_000;
+/// Fractional bits of the ends of a box that are not rational.
+const END_BITS: u32 = 256;
 /// Digits of volumes.
 const DIGITS: u32 = 9;
 
@@ -139,7 +141,9 @@ impl<'a> PavingPage<'a> {
         let sections = self.sections();
         let [least, width] = self.ends;
         let region = Region { tree: &self.tree, least, width };
-        let data = json!({ "trees": [], "marks": [], "region": region.data(&self.marks) });
+        let data = json!({
+            "trees": [], "marks": [], "region": region.data(&self.marks), "ends": self.exact_ends(),
+        });
         let [low, high] = self.volume();
         let headline = format!("\u{2713} CERTIFIED: volume between {low} and {high}");
         let meaning =
@@ -185,8 +189,32 @@ impl<'a> PavingPage<'a> {
         [low + unit, high + unit]
     }
 
+    /// The ends of the box along every axis, for read-outs of its parts: the least and the greatest as
+    /// `[p, q, r, s]`, for `p/q` and `r/s`, twice: neither above its end, then neither below it.
+    ///
+    /// **Lemma.** Where the part `0 <= u <= 1` of an edge ends, `(1 - u) a + u b` with `a` and `b` the
+    /// ends, is not below what the former give, and not above what the latter give. *Proof.* Both
+    /// weights are not negative. ∎
+    fn exact_ends(&self) -> Option<Vec<[[String; 4]; 2]>> {
+        let Workspace::Box { min, max } = &self.claim.workspace else {
+            return None;
+        };
+        let enclosed = |x: &Exact| match x.as_rational() {
+            Some(x) => Some([x.clone(), x.clone()]),
+            None => x.enclose(0, END_BITS).map(|x| [x.inf(), x.sup()]),
+        };
+        let ends = |k: usize| {
+            let (least, most) = (enclosed(&min[k])?, enclosed(&max[k])?);
+            Some([0, 1].map(|side| {
+                let (a, b) = (&least[side], &most[side]);
+                [a.numer(), a.denom(), b.numer(), b.denom()].map(ToString::to_string)
+            }))
+        };
+        (0..3).map(ends).collect()
+    }
+
     /// A share of the box, in percent.
-    fn percent(share: &Exact) -> String {
-        approximate(share).map_or(String::new(), |x| format!("{} %", significant(100.0 * x, 6)))
+    fn percent(share: &Exact, toward: Toward) -> String {
+        share.as_rational().map_or_else(String::new, |share| percent(share, 6, toward))
     }
 }

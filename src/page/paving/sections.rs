@@ -2,7 +2,8 @@
 
 use super::super::{recheck, words};
 use super::{html, PavingPage};
-use crate::decimal::{grouped, significant};
+use crate::decimal::{grouped, percent, significant, Toward};
+use num_rational::BigRational;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
 use orthocert_checker::statement;
 use std::fmt::Write;
@@ -34,7 +35,7 @@ impl PavingPage<'_> {
         let gap = match (inner, boundary) {
             (_, 0) => "0".to_owned(),
             (0, _) => "none: no box is inner".to_owned(),
-            _ => format!("{} %", significant(100.0 * boundary as f64 / inner as f64, 3)),
+            _ => percent(&BigRational::new(boundary.into(), inner.into()), 3, Toward::Above),
         };
         let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
         for (name, value) in [
@@ -51,21 +52,26 @@ impl PavingPage<'_> {
             "</dl><div class=\"table\"><table><thead><tr><th>boxes</th><th class=\"number\">number</th>\
              <th class=\"number\">share of the box</th><th>what is proved of them</th></tr></thead><tbody>",
         );
-        for (name, boxes, share, what) in [
+        for (name, boxes, (share, toward), what) in [
             (
                 "inner",
                 summary.inner,
-                &summary.inner_share,
+                (&summary.inner_share, Toward::Below),
                 "all requirements hold at every point, for every machine of the claim",
             ),
-            ("outer", summary.outer, &outer, "at every point some requirement fails"),
-            ("undecided", summary.boundary, &summary.boundary_share, "nothing"),
+            (
+                "outer",
+                summary.outer,
+                (&outer, Toward::Below),
+                "at every point some requirement fails",
+            ),
+            ("undecided", summary.boundary, (&summary.boundary_share, Toward::Above), "nothing"),
         ] {
             let _ = write!(
                 out,
                 "<tr><td>{name}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{what}</td></tr>",
                 grouped(boxes),
-                Self::percent(share)
+                Self::percent(share, toward)
             );
         }
         out.push_str("</tbody></table></div>");
@@ -132,7 +138,7 @@ impl PavingPage<'_> {
              paved</th><th class=\"number\">images, itself included</th><th>contains</th></tr></thead><tbody>",
         );
         for component in found.all.iter().take(SHOWN) {
-            let share = component.share as f64 * (-f64::from(SHARE_BITS)).exp2();
+            let share = Self::percent(&Shares::fraction(component.share), Toward::Below);
             let contains = if component.best_conditioned {
                 let [x, y, z] = found.point(self.ends[0], self.ends[1]).map(|x| significant(x, 3));
                 format!(
@@ -145,9 +151,8 @@ impl PavingPage<'_> {
             };
             let _ = write!(
                 out,
-                "<tr><td class=\"number\">{} %</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
+                "<tr><td class=\"number\">{share}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
                  <td>{contains}</td></tr>",
-                significant(100.0 * share, 6),
                 grouped(component.boxes),
                 component.copies
             );

@@ -34,6 +34,29 @@ const isCovered = (node, leaf, axis, upward) => {
   return (!into[0] || isCovered(node.lower, leaf, axis, upward)) && (!into[1] || isCovered(node.upper, leaf, axis, upward));
 };
 
+// The decimals of so many places next to both ends of a part [low, high] of an edge, in the part.
+// `ends` has the edge's ends as fractions p/q and r/s: not above them, then not below them. So the
+// least end is rounded up from what is not below it, the greatest down from what is not above it. A
+// fraction is rounded exactly; the parts of a tree are multiples of 2^-HALVINGS, or are rounded so, too.
+const HALVINGS = 60;
+const within = (ends, [low, high], places) => {
+  const rounded = (fractions, u, upward) => {
+    const [p, q, r, s] = fractions.map(BigInt);
+    const whole = 1n << BigInt(HALVINGS);
+    const part = BigInt((upward ? Math.ceil : Math.floor)(u * 2 ** HALVINGS));
+    const top = (p * s * (whole - part) + r * q * part) * 10n ** BigInt(places);
+    const bottom = q * s * whole;
+    const below = top / bottom - (top % bottom < 0n ? 1n : 0n);
+    return upward && below * bottom !== top ? below + 1n : below;
+  };
+  const text = (n) => {
+    const digits = String(n < 0n ? -n : n).padStart(places + 1, "0");
+    const decimal = `${digits.slice(0, -places)}.${digits.slice(-places)}`;
+    return (n < 0n ? "-" : "") + decimal.replace(/\.?0+$/, "");
+  };
+  return [text(rounded(ends[1], low, true)), text(rounded(ends[0], high, false))];
+};
+
 const startRegion = (data) => {
   const canvas = document.getElementById("region-space");
   if (!canvas || !canvas.getContext) {
@@ -181,8 +204,13 @@ const startRegion = (data) => {
       readout.textContent = `Point at a box to read it.${ring}`;
       return;
     }
+    // What is read is in the box: seven digits, or a thousandth of its edge where that is finer.
     const edges = axes.map((name, k) => {
-      const [a, b] = [leaf.low, leaf.high].map((u) => shown(least[k] + u[k] * width[k], 7));
+      const [low, high] = [leaf.low[k], leaf.high[k]];
+      const size = Math.max(Math.abs(least[k]), Math.abs(least[k] + width[k]));
+      const unit = Math.min(size * 1e-6, (high - low) * width[k] * 1e-3);
+      const places = Math.max(1, Math.ceil(-Math.log10(unit)));
+      const [a, b] = within(data.ends[k], [low, high], places);
       return `${name} from ${a} to ${b}`;
     });
     const what = leaf.kind === "#" ? "Inner, all requirements hold" : "Undecided";
