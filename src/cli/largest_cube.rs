@@ -112,12 +112,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
-    match &design.claim {
-        Claim::Machine(claim) if matches!(claim.workspace, Workspace::Box { .. }) => Ok(claim),
-        _ => Err(Failure::Input(
-            "the workspace is not a box; accepted: [workspace] with min and max".to_owned(),
-        )),
-    }
+    let Claim::Machine(claim) = &design.claim else { return Err(Failure::Defect) };
+    let found = match claim.workspace {
+        Workspace::Box { .. } => return Ok(claim),
+        Workspace::Cylinder { .. } => "cylinder",
+        Workspace::Cube { .. } => "cube",
+    };
+    Err(Failure::Input(format!(
+        "[workspace]: found a {found}; accepted: a box, min and max, in which the centres are"
+    )))
 }
 
 fn stored(certificate: &Certificate, target: &std::path::Path) -> Result<CertificateFile, Failure> {

@@ -173,12 +173,15 @@ impl Arguments {
 
 /// Demands a box as the workspace.
 fn is_a_box(claim: &MachineClaim) -> Result<(), Failure> {
-    if matches!(claim.workspace, Workspace::Box { .. }) {
-        return Ok(());
-    }
-    let refused = "the workspace is not a box; accepted: [workspace] with min and max, or --box \
-                   X0,X1,Y0,Y1,Z0,Z1";
-    Err(Failure::Input(refused.to_owned()))
+    let found = match claim.workspace {
+        Workspace::Box { .. } => return Ok(()),
+        Workspace::Cylinder { .. } => "cylinder",
+        Workspace::Cube { .. } => "cube",
+    };
+    Err(Failure::Input(format!(
+        "[workspace]: found a {found}; accepted: a box, min and max, or --box X0,X1,Y0,Y1,Z0,Z1, the \
+         box that is searched"
+    )))
 }
 
 fn positive(option: &str, text: &str) -> Result<Exact, Failure> {

@@ -5,7 +5,7 @@ use clap::ArgGroup;
 use orthocert::output;
 use orthocert::postulate::prove;
 use orthocert::report::{text, PostulateReport};
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax, Quantity};
+use orthocert_checker::claim::{Claim, ClaimError, PostulateClaim, PsiMax, Quantity};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { effort, output: target, .. } = arguments;
     let budget = effort.budget(started)?;
     let claim = PostulateClaim { psi_max: arguments.psi_max()? };
-    claim.validate().map_err(Failure::input)?;
+    claim.validate().map_err(|error| arguments.refused(&error))?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
     let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
@@ -67,6 +67,18 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 impl Arguments {
+    fn refused(&self, error: &ClaimError) -> Failure {
+        let (flag, text, accepted) = match (&self.psi, &self.psi_range) {
+            (Some(psi), _) => ("--psi", psi.as_str(), "a number greater than 1"),
+            (None, range) => {
+                let text = range.as_deref().unwrap_or_default();
+                ("--psi-range", text, "two numbers greater than 1, the lesser first")
+            }
+        };
+        let text: String = text.chars().take(60).collect();
+        Failure::Input(format!("{flag}: found \"{text}\": {error}; accepted: {accepted}"))
+    }
+
     fn psi_max(&self) -> Result<PsiMax, Failure> {
         let range = match (&self.psi, &self.psi_range) {
             (Some(psi), _) => Quantity::exactly(input::number("--psi", psi)?),

@@ -332,7 +332,11 @@ fn text(rows: &[Row], each: Option<&str>, started: Instant) -> String {
         out += "\n  * The time was up: with more of it the ends may be nearer to each other.\n";
     }
     if let Some(each) = each {
-        let each: String = each.chars().take(20).collect();
+        // Without a unit, seconds.
+        let mut each: String = each.trim().chars().take(20).collect();
+        if each.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
+            each.push('s');
+        }
         let _ = writeln!(out, "\n  Each row had at most {each} of time.");
     }
     if rows.iter().any(|row| row.measure == Measure::Component) {

@@ -158,7 +158,12 @@ fn closed_by(by: [Option<u8>; Obligation::ALL.len()], own: &[u8]) -> String {
             .filter(|(_, by)| *by == Some(*rule))
             .map(|(obligation, _)| obligation.to_string())
             .collect();
-        format!("{} ({})", RULES[usize::from(*rule)].name, shown.join(", "))
+        let name = RULES[usize::from(*rule)].name;
+        if shown.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{name} ({})", shown.join(", "))
+        }
     };
     own.iter().map(of_rule).collect::<Vec<_>>().join(", ")
 }

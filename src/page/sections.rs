@@ -49,7 +49,11 @@ impl Page<'_> {
                 facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
             }
             Proof::Tree(_) | Proof::Faces(_) => {
-                facts.push(("boxes that cover the workspace", grouped(size.leaves as u64)));
+                let cover = match self.certificate.claim {
+                    Claim::NoCube(_) => "boxes that cover the centres",
+                    _ => "boxes that cover the workspace",
+                };
+                facts.push((cover, grouped(size.leaves as u64)));
                 facts.push(("boxes in all", grouped(size.nodes as u64)));
                 facts.push(("halvings, at most", size.depth.to_string()));
             }
@@ -137,6 +141,11 @@ impl Page<'_> {
         let mut out = "<section id=\"proof\"><h2>The proof</h2>".to_owned();
         if refuted {
             out.push_str("<p>A refutation needs one point and no subdivision; here it is in the workspace.</p>");
+        } else if let Claim::NoCube(_) = self.certificate.claim {
+            out.push_str(
+                "<p>The box of the centres is halved until, for every box, one point of the cube is shown to \
+                 violate a requirement whatever centre of the box the cube has.</p>",
+            );
         } else {
             out.push_str(
                 "<p>The workspace is halved until every requirement can be shown on every box by one of the \
@@ -149,7 +158,10 @@ impl Page<'_> {
                 out,
                 "<figure class=\"static\">{}<figcaption>{}</figcaption></figure>",
                 picture.inline(),
-                html(&caption(tree))
+                html(&match self.certificate.claim {
+                    Claim::NoCube(_) => tree.name.clone(),
+                    _ => caption(tree),
+                })
             );
         }
         if !refuted {

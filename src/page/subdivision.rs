@@ -26,7 +26,7 @@ const fn style(name: &'static str, colour: &'static str, pattern: usize) -> Rule
 }
 
 /// Every rule; a letter of a tree's code is a position here.
-pub const RULES: [RuleStyle; 15] = [
+pub const RULES: [RuleStyle; 16] = [
     style("lower", "#8ecae6", 0),
     style("corner", "#f4a340", 1),
     style("upper", "#74c69d", 2),
@@ -42,6 +42,7 @@ pub const RULES: [RuleStyle; 15] = [
     style("edge", "#f4a340", 1),
     style("mirror", "#d3a4c8", 3),
     style("entrywise", "#6fa8dc", 1),
+    style("violated", "#e5989b", 2),
 ];
 
 /// Lines of the patterns, on squares of eight units.

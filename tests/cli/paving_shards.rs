@@ -268,7 +268,7 @@ fn bad_usage_is_refused() {
         (flags("map.toml", &["--pave", "--precision", "0.1"]), "--pave: found an atlas"),
         (
             flags("orthoglide-prototype.toml", &["--pave", "--precision", "1"]),
-            "the workspace is not a box",
+            "[workspace]: found a",
         ),
     ] {
         folder.run(&arguments).exits(2).complains(&[complaint]);

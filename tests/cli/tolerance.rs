@@ -103,7 +103,7 @@ fn a_row_s_time_is_kept_and_stated() {
     let folder = Folder::with(&[DESIGN]);
     let arguments = ["tolerance", DESIGN, "--on", "anchor", "--each"];
     let text = folder.run(&[&arguments[..], &["0"]].concat()).exits(3);
-    text.says(&["*", "Each row had at most 0 of time"]);
+    text.says(&["*", "Each row had at most 0s of time"]);
     let ample = [&arguments[..], &["5min", "--gap", "0.5", "--format", "json"]].concat();
     let value: Value = serde_json::from_str(&folder.run(&ample).exits(0).stdout).unwrap();
     assert_eq!(
