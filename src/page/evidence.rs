@@ -140,7 +140,7 @@ pub fn hardest(trees: &[Subdivision]) -> String {
         let _ =
             write!(out, "<td>{}{}</td></tr>", html(&name), html(&closed_by(leaf.by, &leaf.own)));
     }
-    out.push_str("</tbody></table></div>");
+    out.push_str("</tbody></table></div><p class=\"note\">The ends of the boxes are rounded.</p>");
     out.push_str(&histogram(&counts));
     out
 }

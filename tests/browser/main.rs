@@ -183,6 +183,7 @@ fn the_view_in_space_turns_and_is_cut() {
     browser.settle();
     let told = browser.text("#space-readout");
     assert!(told.contains("sigma_min by") && told.contains("sigma_max by cube"), "{told}");
+    assert!(told.contains("; ends rounded."), "{told}");
     browser.pointer("mousePressed", (x, y), true);
     browser.pointer("mouseMoved", (x + 60.0, y + 20.0), true);
     browser.pointer("mouseReleased", (x + 60.0, y + 20.0), false);

@@ -303,7 +303,7 @@ const startSpace = (data) => {
       .map((name, o) => [name, leaves().by[n * i + o]])
       .filter(([, rule]) => rule >= 0)
       .map(([name, rule]) => `${name} by ${data.rules[rule].name}`);
-    readout.textContent = `Box: ${edges.join(", ")}; depth ${leaves().depth[i]}; ends to seven digits. ${rules.join(", ")}.`;
+    readout.textContent = `Box: ${edges.join(", ")}; depth ${leaves().depth[i]}; ends rounded. ${rules.join(", ")}.`;
   };
 
   const chooseTree = (t) => {
