@@ -1,10 +1,11 @@
 //! Files that appear whole or not at all.
 
 use std::fmt;
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::TempPath;
 
 /// Held while a temporary file exists: who wants to end the process takes it first.
 static WRITING: Mutex<()> = Mutex::new(());
@@ -19,6 +20,10 @@ pub enum OutputError {
     ReadOnly(PathBuf),
     /// The folder of the target does not exist, or is not a folder.
     NoFolder(PathBuf),
+    /// What is there is a link, or no regular file.
+    NotAFile(PathBuf),
+    /// Another run is writing the file.
+    Busy(PathBuf),
     /// The operating system's reason.
     Io(PathBuf, io::Error),
 }
@@ -38,6 +43,14 @@ impl fmt::Display for OutputError {
                 path.display(),
                 folder_of(path).display()
             ),
+            OutputError::NotAFile(path) => write!(
+                f,
+                "{}: cannot be written: it is a symbolic link, or no regular file",
+                path.display()
+            ),
+            OutputError::Busy(path) => {
+                write!(f, "{}: cannot be written: another run is writing it", path.display())
+            }
             OutputError::Io(path, error) => {
                 write!(f, "{}: cannot be written: {error}", path.display())
             }
@@ -109,46 +122,158 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 
 fn replace(target: &Path, bytes: &[u8], keep: Option<fs::Permissions>) -> io::Result<()> {
     let _writing = hold();
-    let folder = folder_of(target);
-    #[cfg(target_os = "linux")]
-    if let Some(complete) = nameless(folder, bytes, keep.as_ref())? {
-        return complete.persist(target).map_err(|error| error.error);
-    }
-    let mut temporary = builder().tempfile_in(folder)?;
-    temporary.write_all(bytes)?;
+    let complete = Pending::beside(target)?;
+    complete.file().write_all(bytes)?;
     if let Some(permissions) = keep {
-        fs::set_permissions(temporary.path(), permissions)?;
+        complete.file().set_permissions(permissions)?;
     }
-    temporary.as_file().sync_all()?;
-    // The folder itself need not be flushed: whenever its entry arrives, the file is complete.
-    temporary.persist(target).map_err(|error| error.error)?;
-    Ok(())
+    complete.file().sync_all()?;
+    complete.persist(target)
 }
 
-/// Writes a file that has no name until it is complete, so that not even a process that is killed
-/// leaves a part of it; `None` where the file system has no such files.
-#[cfg(target_os = "linux")]
-fn nameless(
-    folder: &Path,
-    bytes: &[u8],
-    keep: Option<&fs::Permissions>,
-) -> io::Result<Option<tempfile::TempPath>> {
-    use rustix::fs::{linkat, open, AtFlags, Mode, OFlags, CWD};
-    use std::os::fd::AsRawFd;
-    let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
-    let Ok(file) = open(folder, flags, Mode::from_raw_mode(0o666)) else {
-        return Ok(None);
-    };
-    let mut file = fs::File::from(file);
-    file.write_all(bytes)?;
-    if let Some(permissions) = keep {
-        file.set_permissions(permissions.clone())?;
+/// A file that nobody else has, to be completed and then put in a path's place; dropped before, it
+/// leaves nothing.
+#[derive(Debug)]
+pub struct Pending {
+    file: File,
+    /// Its name; `None` where a file may have none, so that not even a process that is killed
+    /// leaves a part of it.
+    named: Option<TempPath>,
+}
+
+impl Pending {
+    /// An empty file in the folder of `target`.
+    ///
+    /// # Errors
+    /// If there can be none.
+    pub fn beside(target: &Path) -> io::Result<Self> {
+        #[cfg(target_os = "linux")]
+        if let Some(file) = nameless(folder_of(target)) {
+            return Ok(Pending { file, named: None });
+        }
+        let (file, named) = builder().tempfile_in(folder_of(target))?.into_parts();
+        Ok(Pending { file, named: Some(named) })
     }
-    file.sync_all()?;
-    let itself = format!("/proc/self/fd/{}", file.as_raw_fd());
-    let named = builder()
-        .make_in(folder, |path| Ok(linkat(CWD, &itself, CWD, path, AtFlags::SYMLINK_FOLLOW)?));
-    Ok(named.ok().map(tempfile::NamedTempFile::into_temp_path))
+
+    /// The file, to be written and read.
+    pub fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Puts the file, which is complete and on the disk, in the place of `target`.
+    ///
+    /// # Errors
+    /// If that fails; then `target` holds what it held before.
+    pub fn persist(self, target: &Path) -> io::Result<()> {
+        let named = match self.named {
+            Some(named) => named,
+            None => named(&self.file, folder_of(target))?,
+        };
+        // The folder itself need not be flushed: whenever its entry arrives, the file is complete.
+        named.persist(target).map_err(|error| error.error)
+    }
+}
+
+/// A file without a name; `None` where the file system has no such files.
+#[cfg(target_os = "linux")]
+fn nameless(folder: &Path) -> Option<File> {
+    use rustix::fs::{open, Mode, OFlags};
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    open(folder, flags, Mode::from_raw_mode(0o666)).ok().map(File::from)
+}
+
+/// Gives a file without a name one; where that cannot be, a copy of it.
+fn named(file: &File, folder: &Path) -> io::Result<TempPath> {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::fs::{linkat, AtFlags, CWD};
+        use std::os::fd::AsRawFd;
+        let itself = format!("/proc/self/fd/{}", file.as_raw_fd());
+        let link = |path: &Path| Ok(linkat(CWD, &itself, CWD, path, AtFlags::SYMLINK_FOLLOW)?);
+        if let Ok(named) = builder().make_in(folder, link) {
+            return Ok(named.into_temp_path());
+        }
+    }
+    let mut copy = builder().tempfile_in(folder)?;
+    let mut from = file;
+    from.rewind()?;
+    io::copy(&mut from, &mut copy)?;
+    copy.as_file().set_permissions(file.metadata()?.permissions())?;
+    copy.as_file().sync_all()?;
+    Ok(copy.into_temp_path())
+}
+
+/// Demands that a file of this program's own is at `path`, or nothing: such files are written in
+/// place, and a link would lead to somebody's else.
+///
+/// # Errors
+/// [`OutputError::NotAFile`].
+pub fn own(path: &Path) -> Result<(), OutputError> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !found.is_file() => Err(OutputError::NotAFile(path.to_owned())),
+        _ => Ok(()),
+    }
+}
+
+/// Opens a file of this program's own as [`own`] demands it, with these options, which do not
+/// truncate.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn open_own(path: &Path, options: &mut OpenOptions) -> Result<File, OutputError> {
+    own(path)?;
+    // What came there since is not followed, nor waited for.
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags((OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed());
+    }
+    let io = |error| OutputError::Io(path.to_owned(), error);
+    let file = options.open(path).map_err(io)?;
+    match file.metadata().map_err(io)?.is_file() {
+        true => Ok(file),
+        false => Err(OutputError::NotAFile(path.to_owned())),
+    }
+}
+
+/// Opens a file of this program's own to read and write it, and locks it until it is closed: what
+/// it holds is not touched before nobody else writes it.
+///
+/// # Errors
+/// [`OutputError`]; [`OutputError::Busy`] where another run has it.
+pub fn open_locked(path: &Path, create: bool) -> Result<File, OutputError> {
+    loop {
+        let mut options = OpenOptions::new();
+        let file = open_own(path, options.read(true).write(true).create(create).truncate(false))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(OutputError::Busy(path.to_owned())),
+            Err(TryLockError::Error(error)) => {
+                return Err(OutputError::Io(path.to_owned(), error));
+            }
+        }
+        // Between, whoever had it may have put it elsewhere: that is then theirs.
+        if is_at(&file, path).map_err(|error| OutputError::Io(path.to_owned(), error))? {
+            return Ok(file);
+        }
+    }
+}
+
+/// Whether `path` still names this file.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let this = file.metadata()?;
+    Ok(fs::symlink_metadata(path)
+        .is_ok_and(|found| (found.dev(), found.ino()) == (this.dev(), this.ino())))
+}
+
+/// Whether `path` still names a file; another one only where the other run's last step fell between
+/// two calls of this one.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> io::Result<bool> {
+    Ok(fs::symlink_metadata(path).is_ok_and(|found| found.is_file()))
 }
 
 fn builder() -> tempfile::Builder<'static, 'static> {
@@ -210,6 +335,38 @@ mod tests {
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[test]
+    fn a_file_is_locked_once_and_what_it_holds_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.part");
+        assert!(matches!(open_locked(&path, false), Err(OutputError::Io(..))));
+        let first = open_locked(&path, true).unwrap();
+        (&first).write_all(b"first").unwrap();
+        assert!(matches!(open_locked(&path, true), Err(OutputError::Busy(_))));
+        // Who has it puts it elsewhere: what comes next is another file.
+        fs::rename(&path, folder.path().join("a")).unwrap();
+        let second = open_locked(&path, true).unwrap();
+        assert!(is_at(&second, &path).unwrap() && !is_at(&first, &path).unwrap());
+        drop(second);
+        fs::write(&path, "left").unwrap();
+        open_locked(&path, false).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"left");
+    }
+
+    #[test]
+    fn what_is_pending_is_nowhere_until_it_is_persisted() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        let [one, two] = [0, 1].map(|_| Pending::beside(&path).unwrap());
+        one.file().write_all(b"one").unwrap();
+        two.file().write_all(b"two").unwrap();
+        assert!(!path.exists());
+        drop(two);
+        one.persist(&path).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        assert_eq!(names(folder.path()), ["a"]);
     }
 
     #[cfg(target_os = "linux")]

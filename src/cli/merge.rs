@@ -4,7 +4,7 @@ use super::effort::Work;
 use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
 use orthocert::decimal::counted;
 use orthocert::output;
-use orthocert::paving::{merging, PaveError};
+use orthocert::paving::PaveError;
 use orthocert::report::paving::PavingReport;
 use orthocert::report::{text, Report};
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
@@ -94,7 +94,6 @@ fn paved(
 ) -> Result<Status, Failure> {
     let target = pave::regular(&arguments.output)?;
     output::probe(&target)?;
-    output::probe(&merging(&target))?;
     let paved =
         tree.write(&task, &target, interrupt::cancelled()).map_err(|error| match error {
             PaveError::Cancelled => Failure::Interrupted,

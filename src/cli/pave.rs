@@ -30,7 +30,8 @@ pub const MEMORY: u64 = 1024;
 The box is [workspace] min and max of the design, or --box. The region is the set of its points at which all
 requirements hold, for every machine of the tolerance. Without --precision and --volume-gap the gap
 that is aimed at is 0.05. An interrupted run leaves PAVING.part, which --resume takes up again: the
-paving is the same, byte for byte. So it is for every number of threads.")]
+paving is the same, byte for byte. So it is for every number of threads. While a run writes
+PAVING.part, another one is refused.")]
 pub struct Arguments {
     /// The design; its workspace is the box that is searched, without --box
     #[arg(value_name = "DESIGN.toml")]

@@ -31,7 +31,7 @@ mod tree;
 
 pub use components::{components, Component, Components};
 pub use decide::{Decider, Decision, Fate};
-pub use parts::{merging, Parts, TreeWriter};
+pub use parts::{Parts, TreeWriter};
 pub use pass::{pave, unfinished, PaveError, Paved, Resume, DEEPEST};
 pub use search_box::{in_box, SearchBoxError};
 pub use surface::{

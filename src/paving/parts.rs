@@ -1,17 +1,18 @@
 //! A paving in parts that are made anywhere: the top of its tree, the subtrees below, and all of
 //! them in one file.
 
-use super::pass::{finish, first_line, suffixed, WINDOW};
+use super::pass::{finish, first_line, WINDOW};
 use super::tree::{Cancelled, Grower, Root, Segment, Tally};
 use super::{header, Decider, PaveError, Paved};
+use crate::output::{self, Pending};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{Header, Reader};
+use orthocert_checker::paving::{Header, Reader, Shares, Summary};
 use orthocert_checker::rule::Obligation;
 use rayon::prelude::*;
-use std::fs::{self, File};
-use std::io::{self, BufReader, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Seek, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Least depth of the subtrees that are left to be grown: of a region's boxes about one in
@@ -108,37 +109,25 @@ impl Parts {
         cancel: &AtomicBool,
         tree: impl FnOnce(&mut TreeWriter<'_>) -> Result<(), PaveError>,
     ) -> Result<Paved, PaveError> {
-        let part = merging(path);
-        let written = || {
-            let io = |error| PaveError::Io(part.clone(), error);
-            let file = BufWriter::new(File::create(&part).map_err(io)?);
-            let mut out = TreeWriter { file, path: &part };
-            out.write(&first_line(&self.header).map_err(io)?)?;
-            tree(&mut out)?;
-            out.file.flush().map_err(io)?;
-            let mut paved = finish(&part, 0)?;
-            paved.boxes = checked(&part, cancel)?;
-            fs::rename(&part, path).map_err(|error| PaveError::Io(path.to_owned(), error))?;
-            Ok(paved)
-        };
-        let paved = written();
-        if paved.is_err() {
-            // Where that fails, it is in nobody's way.
-            let _ = fs::remove_file(&part);
-        }
-        paved
+        let io = |error| PaveError::Io(path.to_owned(), error);
+        let pending = Pending::beside(path).map_err(io)?;
+        let file = pending.file();
+        let mut out = TreeWriter { file: BufWriter::new(file), path };
+        out.write(&first_line(&self.header).map_err(io)?)?;
+        tree(&mut out)?;
+        out.file.flush().map_err(io)?;
+        drop(out);
+        let bytes = finish(file, path, 0)?.bytes;
+        let (boxes, summary, shares) = checked(file, path, cancel)?;
+        let _writing = output::hold();
+        pending.persist(path).map_err(io)?;
+        Ok(Paved { header: self.header.clone(), summary, shares, boxes, bytes })
     }
-}
-
-/// The file of a paving that is being put together: another than that of one that can be taken up
-/// again.
-pub fn merging(path: &Path) -> PathBuf {
-    suffixed(path, ".merging")
 }
 
 /// A paving that is being written.
 pub struct TreeWriter<'a> {
-    file: BufWriter<File>,
+    file: BufWriter<&'a File>,
     path: &'a Path,
 }
 
@@ -153,11 +142,14 @@ impl TreeWriter<'_> {
 }
 
 /// Has every node of a paving accepted by the checker, many side by side, then its summary; returns
-/// how many there are.
-fn checked(path: &Path, cancel: &AtomicBool) -> Result<u64, PaveError> {
-    let open = || File::open(path).map(BufReader::new);
-    let file = open().map_err(|error: io::Error| PaveError::Io(path.to_owned(), error))?;
-    let mut reader = Reader::new(file).map_err(PaveError::Defect)?;
+/// how many there are, and what the summary says.
+fn checked(
+    mut file: &File,
+    path: &Path,
+    cancel: &AtomicBool,
+) -> Result<(u64, Summary, Shares), PaveError> {
+    file.rewind().map_err(|error| PaveError::Io(path.to_owned(), error))?;
+    let mut reader = Reader::new(BufReader::new(file)).map_err(PaveError::Defect)?;
     let judge = reader.judge().map_err(PaveError::Defect)?;
     loop {
         let mut batch = Vec::with_capacity(BATCH);
@@ -177,6 +169,6 @@ fn checked(path: &Path, cancel: &AtomicBool) -> Result<u64, PaveError> {
         first.unwrap_or(Ok(())).map_err(PaveError::Defect)?;
     }
     let nodes = reader.nodes();
-    reader.finish().map_err(PaveError::Defect)?;
-    Ok(nodes)
+    let (summary, shares) = reader.finish().map_err(PaveError::Defect)?;
+    Ok((nodes, summary, shares))
 }

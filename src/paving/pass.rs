@@ -2,12 +2,13 @@
 
 use super::tree::{Cancelled, Grower, Grown, Root, Segment, Tally};
 use super::{header, plan, Decider, Goal};
+use crate::output::{self, OutputError};
 use crate::search::{Control, Progress};
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
 use std::fmt;
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -28,6 +29,8 @@ pub enum PaveError {
     Claim(Rejected),
     /// There is nothing to take up again, or it is of another paving.
     Resume(PathBuf, String),
+    /// The unfinished file cannot be had.
+    Output(OutputError),
     /// A file cannot be written or read.
     Io(PathBuf, io::Error),
     /// The checker does not accept what was written.
@@ -42,6 +45,7 @@ impl fmt::Display for PaveError {
             PaveError::Resume(path, reason) => {
                 write!(f, "{}: cannot be taken up again: {reason}", path.display())
             }
+            PaveError::Output(error) => write!(f, "{error}"),
             PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
             PaveError::Defect(reason) => {
                 write!(f, "the checker does not accept the paving: {reason}")
@@ -84,17 +88,14 @@ pub struct Paved {
 
 /// The unfinished file of a paving.
 pub fn unfinished(path: &Path) -> PathBuf {
-    suffixed(path, ".part")
-}
-
-pub(super) fn suffixed(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(suffix);
+    name.push(".part");
     path.with_file_name(name)
 }
 
 /// Paves the claim's box and writes the paving to `path`, which holds what it held before until the
-/// paving is complete.
+/// paving is complete. From when its unfinished file is opened until it has taken its place, no other
+/// run can have that file.
 ///
 /// # Errors
 /// [`PaveError`].
@@ -107,14 +108,22 @@ pub fn pave(
 ) -> Result<Paved, PaveError> {
     let part = unfinished(path);
     let decider = Decider::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
-    let mut depth = match (resume, goal.depth) {
-        (Resume::Yes, _) => earlier_depth(claim, &part)?,
-        (Resume::No, _) => planned(&decider, claim, goal, control)?,
+    let mut held = match resume {
+        Resume::Yes => Some(taken_up(&part)?),
+        Resume::No => None,
+    };
+    let mut depth = match &held {
+        Some(file) => earlier_depth(claim, file, &part)?,
+        None => planned(&decider, claim, goal, control)?,
     };
     loop {
         let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
-        pass.run(resume, control)?;
-        let paved = finish(&part, pass.boxes)?;
+        let file = match held {
+            Some(ref file) => file,
+            None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
+        };
+        pass.run(file, resume, control)?;
+        let paved = finish(file, &part, pass.boxes)?;
         let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
         let wanted = goal.gap.filter(|_| goal.depth.is_none());
         // The plan is an estimate: where it fell short, the next depth is taken.
@@ -130,10 +139,17 @@ pub fn pave(
     }
 }
 
+/// The unfinished file, which has to be there.
+fn taken_up(part: &Path) -> Result<File, PaveError> {
+    output::open_locked(part, false).map_err(|error| match error {
+        OutputError::Io(path, error) => PaveError::Resume(path, error.to_string()),
+        other => PaveError::Output(other),
+    })
+}
+
 /// The depth in the first line of an unfinished paving of the same claim.
-fn earlier_depth(claim: &MachineClaim, part: &Path) -> Result<u32, PaveError> {
+fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, PaveError> {
     let fails = |reason: String| PaveError::Resume(part.to_owned(), reason);
-    let file = File::open(part).map_err(|error| fails(error.to_string()))?;
     let found = orthocert_checker::paving::header(&mut BufReader::new(file))
         .map_err(|reason| fails(reason.to_string()))?;
     if found == header(claim, found.depth) {
@@ -159,7 +175,7 @@ fn planned(
 }
 
 /// Writes segments so that they stay.
-fn written(file: &mut File, segments: &[Grown]) -> io::Result<()> {
+fn written(mut file: &File, segments: &[Grown]) -> io::Result<()> {
     segments.iter().try_for_each(|(bytes, _)| file.write_all(bytes))?;
     file.sync_data()
 }
@@ -195,21 +211,26 @@ impl<'a> Pass<'a> {
         first_line(&self.header).map_err(|e| self.io(e))
     }
 
-    fn run(&mut self, resume: Resume, control: &mut Control<'_>) -> Result<(), PaveError> {
-        let (mut file, mut done) = match resume {
+    fn run(
+        &mut self,
+        mut file: &File,
+        resume: Resume,
+        control: &mut Control<'_>,
+    ) -> Result<(), PaveError> {
+        let mut done = match resume {
             Resume::No => {
-                let mut file = File::create(&self.part).map_err(|e| self.io(e))?;
+                file.set_len(0).and_then(|()| file.rewind()).map_err(|e| self.io(e))?;
                 file.write_all(&self.first_line()?).map_err(|e| self.io(e))?;
-                (file, 0)
+                0
             }
-            Resume::Yes => self.take_up()?,
+            Resume::Yes => self.take_up(file)?,
         };
         // What is grown waits for the disk while the next is grown.
         let mut grown: Vec<Grown> = Vec::new();
         while done < self.segments.len() || !grown.is_empty() {
             let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
             let (written, next) = std::thread::scope(|scope| {
-                let writer = scope.spawn(|| written(&mut file, &grown));
+                let writer = scope.spawn(|| written(file, &grown));
                 let next = self.grower.grow_all(window);
                 (writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), next)
             });
@@ -224,12 +245,12 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Opens the unfinished file after the last segment that it holds whole. Every node that is
-    /// kept is checked again.
-    fn take_up(&self) -> Result<(File, usize), PaveError> {
+    /// Ends the unfinished file after the last segment that it holds whole; returns how many it
+    /// does. Every node that is kept is checked again.
+    fn take_up(&self, mut file: &File) -> Result<usize, PaveError> {
         let fails = |reason: String| PaveError::Resume(self.part.clone(), reason);
         let open = |e: io::Error| fails(e.to_string());
-        let file = File::open(&self.part).map_err(open)?;
+        file.rewind().map_err(open)?;
         let mut input = Counting { input: BufReader::new(file), count: 0 };
         let mut first = vec![0; self.first_line()?.len()];
         input.read_exact(&mut first).map_err(open)?;
@@ -243,9 +264,8 @@ impl<'a> Pass<'a> {
             }
             (whole, kept) = (input.count, kept + 1);
         }
-        let mut file = OpenOptions::new().write(true).open(&self.part).map_err(open)?;
         file.set_len(whole).and_then(|()| file.seek(SeekFrom::End(0))).map_err(open)?;
-        Ok((file, kept))
+        Ok(kept)
     }
 
     /// Reads a segment, whose evidence has to hold.
@@ -283,20 +303,17 @@ pub(super) fn first_line(header: &Header) -> io::Result<Vec<u8>> {
 }
 
 /// Appends the summary to a tree, as the checker's reader finds it. `boxes` were tried for it.
-pub(super) fn finish(part: &Path, boxes: u64) -> Result<Paved, PaveError> {
-    let io = |error: io::Error| PaveError::Io(part.to_owned(), error);
-    let file = File::open(part).map_err(io)?;
+pub(super) fn finish(mut file: &File, path: &Path, boxes: u64) -> Result<Paved, PaveError> {
+    let io = |error: io::Error| PaveError::Io(path.to_owned(), error);
+    file.rewind().map_err(io)?;
     let mut reader = Reader::new(BufReader::new(file)).map_err(PaveError::Defect)?;
     while reader.next().map_err(PaveError::Defect)?.is_some() {}
     let text = serde_json::to_string(&reader.summary()).map_err(|e| io(e.into()))?;
-    let file = OpenOptions::new().append(true).open(part).map_err(io)?;
-    let mut file = BufWriter::new(file);
-    file.write_all(text.as_bytes())
-        .and_then(|()| file.write_all(b"\n"))
-        .and_then(|()| file.flush())
-        .and_then(|()| file.get_ref().sync_all())
+    file.seek(SeekFrom::End(0))
+        .and_then(|_| file.write_all((text + "\n").as_bytes()))
+        .and_then(|()| file.sync_all())
         .map_err(io)?;
-    let bytes = file.get_ref().metadata().map_err(io)?.len();
+    let bytes = file.metadata().map_err(io)?.len();
     let (shares, summary) = (reader.shares(), reader.summary());
     Ok(Paved { header: reader.header().clone(), summary, shares, boxes, bytes })
 }

@@ -83,6 +83,35 @@ fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
 }
 
 #[test]
+fn a_paving_that_another_run_is_writing_is_left_alone() {
+    const SIGSTOP: u32 = 19;
+    const SIGCONT: u32 = 18;
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    let pave = ["pave", "d.toml", "--volume-gap", "0.05", "--threads", "1"];
+    let mut command = folder.command(&pave);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let part = folder.path("d.paving.part");
+    let length = || fs::metadata(&part).map_or(0, |file| file.len());
+    while length() < 10_000 {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it was stopped");
+        sleep(Duration::from_millis(1));
+    }
+    send(&child, SIGSTOP);
+    let before = length();
+    for more in [&[][..], &["--resume"]] {
+        let run = folder.run(&[&pave[..], more].concat()).exits(4);
+        run.complains(&["d.paving.part", "another run is writing it"]);
+    }
+    assert_eq!(length(), before);
+    assert_eq!(folder.names(), ["d.paving.part", "d.toml"]);
+    send(&child, SIGCONT);
+    Run::from(child.wait_with_output().unwrap()).exits(0);
+    folder.run(&["check", "d.paving"]).exits(0).says(&["ACCEPTED"]);
+    assert_eq!(folder.names(), ["d.paving", "d.toml"]);
+}
+
+#[test]
 fn a_command_that_waits_for_its_input_can_be_interrupted() {
     let folder = Folder::new();
     let pipe = folder.path("pipe");

@@ -6,6 +6,7 @@ use orthocert::digest;
 use orthocert_checker::paving::{Item, Kind};
 use serde_json::{json, Value};
 use std::fs;
+use std::process::Stdio;
 
 const PRECISION: &str = "0.02";
 
@@ -80,6 +81,23 @@ fn the_answer_of_a_merge_has_the_facts_of_the_paving() {
     for fact in ["gap", "inner", "outer", "boundary", "components", "depth", "boxes", "reached"] {
         assert_eq!(one[fact], merged[fact], "{fact}");
     }
+}
+
+#[test]
+fn merges_at_the_same_time_do_not_disturb_each_other() {
+    let folder = done(2);
+    // What an earlier merge may have left, or somebody put there.
+    folder.write("merged.merging", "of somebody else");
+    let merge = || folder.command(&["merge", "job", "-o", "merged", "--threads", "1"]);
+    let started: Vec<_> = (0..4)
+        .map(|_| merge().stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap())
+        .collect();
+    for child in started {
+        Run::from(child.wait_with_output().unwrap()).exits(0).says(&["volume: between"]);
+    }
+    assert!(folder.read("merged") == folder.read("one"));
+    assert!(folder.read("merged.merging") == b"of somebody else");
+    assert_eq!(folder.names(), ["d.toml", "job", "merged", "merged.merging", "one"]);
 }
 
 #[test]
