@@ -10,7 +10,7 @@ use super::run::RunError;
 use super::split::SplitError;
 use super::task::Pave;
 use crate::digest::{from_hexadecimal, hexadecimal};
-use crate::output::OutputError;
+use crate::output::{self, OutputError};
 use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::rule::Obligation;
@@ -59,7 +59,7 @@ pub(super) fn grown(
 ) -> Result<Nodes, RunError> {
     let io = |error| RunError::Output(OutputError::Io(path.to_owned(), error));
     let parts = Parts::new(&task.claim, task.depth).map_err(|e| RunError::Claim(e.to_string()))?;
-    let mut file = opened(path).map_err(io)?;
+    let mut file = opened(path)?;
     file.seek(SeekFrom::Start(at)).map_err(io)?;
     let (mut sum, mut bytes) = (Sha256::new(), 0);
     parts.grow(parts.root(cell, open), cancel, |stretch| {
@@ -72,8 +72,8 @@ pub(super) fn grown(
 }
 
 /// The file, as it is if it is there.
-fn opened(path: &Path) -> io::Result<File> {
-    OpenOptions::new().write(true).create(true).truncate(false).open(path)
+fn opened(path: &Path) -> Result<File, OutputError> {
+    output::open_own(path, OpenOptions::new().write(true).create(true).truncate(false))
 }
 
 /// Forgets of what is done, in order, all from the first cell on whose nodes are not in the file.
@@ -92,12 +92,9 @@ pub(super) fn keep_written(path: &Path, done: &mut [Option<Part>]) {
 
 /// Ends the file there.
 pub(super) fn close(path: &Path, end: u64) -> Result<(), OutputError> {
-    let written = || {
-        let file = opened(path)?;
-        file.set_len(end)?;
-        file.sync_all()
-    };
-    written().map_err(|error| OutputError::Io(path.to_owned(), error))
+    let file = opened(path)?;
+    let ended = file.set_len(end).and_then(|()| file.sync_all());
+    ended.map_err(|error| OutputError::Io(path.to_owned(), error))
 }
 
 /// Why the file is not that of these parts.
@@ -218,8 +215,41 @@ impl Held {
             Held::InFile { path, at, bytes } => (path, *at, *bytes),
         };
         let unread = |error| PaveError::Io(path.clone(), error);
-        let mut file = File::open(path).map_err(unread)?;
+        let mut file = regular(path).map_err(unread)?;
         file.seek(SeekFrom::Start(at)).map_err(unread)?;
         hand_on(&mut file, bytes, unread, |chunk| out.write(chunk))
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use orthocert_checker::claim::Claim;
+    use std::process::Command;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    #[test]
+    fn a_pipe_in_the_place_of_nodes_is_not_waited_for() {
+        let text = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
+                    min = [0, 0, 0]\nmax = [1, 1, 1]\n[requirements]\ntransmission = { max = 2 }\n";
+        let Claim::Machine(claim) = Design::parse(text, "d.toml").unwrap().claim else {
+            unreachable!("a design is about a machine")
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("result-0001.nodes");
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let (done, ended) = mpsc::channel();
+        let target = folder.path().join("merged");
+        std::thread::spawn(move || {
+            let task = Pave { title: None, claim, depth: 3 };
+            let held = Held::InFile { path: pipe, at: 0, bytes: 1 };
+            let merged = Stretches(vec![held]).write(&task, &target, &AtomicBool::new(false));
+            done.send(merged.map_err(|error| error.to_string()).err())
+        });
+        let error = ended.recv_timeout(Duration::from_secs(20)).unwrap().unwrap();
+        assert!(error.ends_with("result-0001.nodes: no regular file"), "{error}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

@@ -118,6 +118,8 @@ pub fn run(
     let nodes = nodes_file(path, shard);
     let in_nodes = matches!(shard.task, Task::Pave(_));
     output::probe(&target)?;
+    // Before the work: a link among them would lead to a file of somebody else.
+    [&target, &progress, &nodes].into_iter().try_for_each(|path| output::own(path))?;
     if target.exists() {
         match read_result(&target) {
             Ok(result) if result.job != shard.job => return Err(RunError::OtherJob(target)),
@@ -231,12 +233,9 @@ fn append(progress: &Path, answers: &str, cell: usize, part: &Part) -> Result<()
     let line = Line { answers, cell, sha256: sha256(&text(&part)), part };
     // A line feed first: it ends what a killed run may have left of a line.
     let line = format!("\n{}\n", text(&line));
-    let written = || {
-        let mut file = OpenOptions::new().create(true).append(true).open(progress)?;
-        file.write_all(line.as_bytes())?;
-        file.sync_data()
-    };
-    written().map_err(|error| OutputError::Io(progress.to_owned(), error))
+    let mut file = output::open_own(progress, OpenOptions::new().create(true).append(true))?;
+    let written = file.write_all(line.as_bytes()).and_then(|()| file.sync_data());
+    written.map_err(|error| OutputError::Io(progress.to_owned(), error))
 }
 
 /// Removes what is of no more use; where that fails, it is in nobody's way.

@@ -135,6 +135,31 @@ fn a_paving_is_taken_up_from_wherever_it_ends() {
     assert!(folder.read("d.paving") == whole, "spoiled");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_place_of_the_unfinished_paving_is_refused() {
+    let folder = folder();
+    let pave = ["pave", "d.toml", "--volume-gap", "0.3"];
+    folder.run(&pave).exits(0);
+    let whole = folder.read("d.paving");
+    folder.write("victim", &whole[..whole.len() / 2]);
+    let part = folder.path("d.paving.part");
+    let refused = |more: &[&str]| {
+        let run = folder.run(&[&pave[..], more].concat()).exits(4);
+        run.complains(&["d.paving.part", "a symbolic link, or no regular file"]);
+    };
+    std::os::unix::fs::symlink("victim", &part).unwrap();
+    refused(&[]);
+    refused(&["--resume"]);
+    assert!(folder.read("victim") == whole[..whole.len() / 2]);
+    std::fs::remove_file(&part).unwrap();
+    // Nor is a pipe waited for.
+    assert!(std::process::Command::new("mkfifo").arg(&part).status().unwrap().success());
+    refused(&[]);
+    refused(&["--resume"]);
+    assert!(folder.read("d.paving") == whole);
+}
+
 #[test]
 fn there_has_to_be_something_to_take_up() {
     let folder = folder();

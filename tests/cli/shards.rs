@@ -125,10 +125,27 @@ fn a_stopped_shard_goes_on_where_it_was() {
 #[test]
 fn a_full_disk_is_exit_4_and_the_rest_is_kept() {
     let folder = split("2");
-    std::os::unix::fs::symlink("/dev/full", folder.path("job/result-0001.part")).unwrap();
-    run(&folder, 1).exits(4).complains(&["result-0001.part", "No space left"]);
+    let full = folder.run_on_a_full_disk(&["run-shard", "job/shard-0001.json"]).exits(4);
+    full.complains(&["result-0001.part", "too large"]);
     assert!(!folder.path("job/result-0001.json").exists());
-    fs::remove_file(folder.path("job/result-0001.part")).unwrap();
+    run(&folder, 1).exits(0);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_the_place_of_a_shards_files_are_refused() {
+    let folder = split("2");
+    folder.write("victim", "of somebody else");
+    for name in ["result-0001.part", "result-0001.json", "result-0001.nodes"] {
+        let path = folder.path(&format!("job/{name}"));
+        for to in ["../victim", "../absent"] {
+            std::os::unix::fs::symlink(to, &path).unwrap();
+            run(&folder, 1).exits(4).complains(&[name, "a symbolic link, or no regular file"]);
+            fs::remove_file(&path).unwrap();
+        }
+    }
+    assert!(folder.read("victim") == b"of somebody else");
+    assert!(!folder.path("absent").exists());
     run(&folder, 1).exits(0);
 }
 

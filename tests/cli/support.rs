@@ -69,6 +69,15 @@ impl Folder {
     pub fn run(&self, arguments: &[&str]) -> Run {
         self.command(arguments).output().unwrap().into()
     }
+
+    /// Runs the binary where no file can have another byte, as on a full disk.
+    #[cfg(target_os = "linux")]
+    pub fn run_on_a_full_disk(&self, arguments: &[&str]) -> Run {
+        let shell = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
+        let mut command = Command::new("sh");
+        command.args(["-c", shell, env!("CARGO_BIN_EXE_orthocert")]).args(arguments);
+        command.current_dir(self.0.path()).output().unwrap().into()
+    }
 }
 
 impl From<Output> for Run {
