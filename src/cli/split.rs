@@ -64,6 +64,10 @@ struct Answer {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let task = arguments.task()?;
+    task.legible().map_err(|why| {
+        let job = arguments.job.display();
+        Failure::Input(format!("{job}: found {why}; accepted: texts of one line"))
+    })?;
     let folder = &arguments.out;
     empty(folder)?;
     arguments.work.start_threads()?;

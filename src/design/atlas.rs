@@ -248,7 +248,7 @@ fn parameters(value: &Value<'_>) -> Result<(Vec<AtlasParameter>, Vec<String>), D
 fn label(value: &Value<'_>) -> Result<String, DesignError> {
     let accepted = "a text in quotes, of one line and at most 80 characters";
     let text = value.text(accepted)?;
-    if text.chars().count() > MAX_LABEL || text.chars().any(char::is_control) {
+    if text.chars().count() > MAX_LABEL || !super::is_line(text) {
         return Err(value.error(Defect::OutOfDomain, value.found(), accepted));
     }
     Ok(text.to_owned())

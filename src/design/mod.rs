@@ -66,6 +66,11 @@ pub struct Design {
     pub sources: Sources,
 }
 
+/// Whether a text is one line, without characters that control a terminal.
+pub fn is_line(text: &str) -> bool {
+    !text.chars().any(char::is_control)
+}
+
 impl Design {
     /// Reads the text of a design file; `file_name` is for messages only.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, DesignError> {

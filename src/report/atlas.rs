@@ -3,6 +3,7 @@
 use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::atlas::Standing;
+use crate::batch::summary::printable;
 use crate::decimal::{boxes, counted, exact, grouped, percent, significant, Toward};
 use num_rational::BigRational;
 use num_traits::{One, Signed};
@@ -124,6 +125,7 @@ impl Part {
 impl AtlasReport {
     /// The first line.
     pub fn headline(&self) -> String {
+        use crate::batch::summary::printable;
         let name = self.title.as_deref().unwrap_or(&self.atlas);
         let proved = |part: &Part| part.percent(Toward::Below);
         let (certified, refuted) = (proved(&self.certified), proved(&self.refuted));

@@ -2,6 +2,7 @@
 
 use super::task::Task;
 use crate::atlas::Top;
+use crate::batch::summary::printable;
 use crate::digest;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::{AtlasCell, Node};
@@ -232,7 +233,7 @@ impl fmt::Display for FileError {
                 write!(f, "{}: cannot be read: {error}", path.display())
             }
             FileError::Malformed(path, kind, why) => {
-                write!(f, "{}: found {why}; accepted: {kind}", path.display())
+                write!(f, "{}: found {}; accepted: {kind}", path.display(), printable(why))
             }
             FileError::Altered(path) => write!(
                 f,

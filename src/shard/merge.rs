@@ -7,6 +7,7 @@ use super::name::{name_of, Name, JOB_FILE};
 use super::paving::{self, Stretches};
 use super::task::Task;
 use crate::atlas::{assemble, Top};
+use crate::batch::summary::printable;
 use orthocert_checker::certificate::{AtlasCell, Node};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -70,7 +71,7 @@ impl fmt::Display for MergeError {
             MergeError::Job(error) => error.fmt(f),
             MergeError::Folder(reason) => f.write_str(reason),
             MergeError::Bad(problems) => {
-                let first: Vec<&str> = problems.iter().take(NAMED).map(String::as_str).collect();
+                let first: Vec<_> = problems.iter().take(NAMED).map(|why| printable(why)).collect();
                 write!(f, "nothing was merged: {}", first.join("; "))?;
                 more(f, problems.len())
             }

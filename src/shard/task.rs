@@ -1,7 +1,7 @@
 //! What is to be done in shards.
 
 use super::file::{sha256, text};
-use crate::design::{AtlasDesign, MAX_RESOLUTION};
+use crate::design::{is_line, AtlasDesign, MAX_RESOLUTION};
 use crate::paving::{Parts, DEEPEST};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::claim::MachineClaim;
@@ -52,8 +52,32 @@ impl Task {
         sha256(&text(self))
     }
 
-    /// Demands settings that a task may have.
+    /// The texts that a file gives and reports repeat.
+    fn texts(&self) -> Vec<&String> {
+        match self {
+            Task::Atlas(design) => {
+                let marks = design.marks.iter().map(|mark| &mark.label);
+                design.title.iter().chain(&design.labels).chain(marks).collect()
+            }
+            Task::Verify(task) => task.title.iter().collect(),
+            Task::Pave(task) => task.title.iter().collect(),
+        }
+    }
+
+    /// Demands that these texts are lines.
+    ///
+    /// # Errors
+    /// What there is instead.
+    pub fn legible(&self) -> Result<(), String> {
+        if self.texts().into_iter().all(|text| is_line(text)) {
+            return Ok(());
+        }
+        Err("a title or label with line breaks or control characters".to_owned())
+    }
+
+    /// Demands texts and settings that a task may have.
     pub(super) fn validate(&self) -> Result<(), String> {
+        self.legible()?;
         let design = match self {
             Task::Atlas(design) => design,
             Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),

@@ -2,7 +2,7 @@
 
 use crate::atlas::{coarse, widest};
 use crate::support::Folder;
-use orthocert::shard::sha256;
+use orthocert::shard::{sha256, Task};
 use std::fs;
 
 /// A folder with the map of one machine in `one`, and shards of the same job in `job`.
@@ -230,6 +230,96 @@ fn a_forged_result_is_not_accepted() {
     folder.write("job/result-0001.json", result.to_string());
     let run = folder.run(&["merge", "job", "-o", "merged"]).exits(4);
     run.complains(&["the map was not accepted", "is not discharged"]);
+}
+
+/// A title that would rub out a verdict and write another one.
+const DISGUISE: &str = "a\u{1b}[2J\u{1b}[H\nCERTIFIED  all of it";
+
+fn has_no_control_characters(run: &crate::support::Run) {
+    for text in [&run.stdout, &run.stderr] {
+        assert!(!text.chars().any(|c| c.is_control() && c != '\n'), "{text:?}");
+    }
+}
+
+/// Writes a job's or shard's file with that title or label in it, and the sum that goes with it.
+fn disguise(folder: &Folder, name: &str, place: &[&str]) {
+    let mut file: serde_json::Value = serde_json::from_slice(&folder.read(name)).unwrap();
+    let (last, above) = place.split_last().unwrap();
+    let found = above.iter().fold(&mut file["task"], |value, key| &mut value[*key]);
+    match last.parse::<usize>() {
+        Ok(index) => found[index] = DISGUISE.into(),
+        Err(_) => found[*last] = DISGUISE.into(),
+    }
+    let task: Task = serde_json::from_value(file["task"].clone()).unwrap();
+    file["job"] = task.identity().into();
+    folder.write(name, file.to_string());
+}
+
+#[test]
+fn a_job_whose_texts_control_the_terminal_is_refused() {
+    let found = "found a title or label with line breaks or control characters";
+    let design = "orthoglide-tolerance.toml";
+    let split = |place: &[&str]| {
+        let folder = if place[0] == "atlas" { coarse() } else { Folder::with(&[design]) };
+        folder.write("d.toml", crate::paving::DESIGN);
+        let what: &[&str] = match place[0] {
+            "atlas" => &["map.toml"],
+            "verify" => &[design, "--max-boxes", "1"],
+            _ => &["d.toml", "--pave", "--precision", "0.5"],
+        };
+        let rest = ["--shards", "1", "--out", "job"];
+        folder.run(&[&["split"], what, &rest].concat()).exits(0);
+        folder
+    };
+    for place in [
+        &["atlas", "title"][..],
+        &["atlas", "labels", "0"],
+        &["pave", "title"],
+        &["verify", "title"],
+    ] {
+        let folder = split(place);
+        disguise(&folder, "job/job.json", place);
+        disguise(&folder, "job/shard-0001.json", place);
+        let merge = folder.run(&["merge", "job", "-o", "merged"]).exits(2);
+        for run in [merge, run(&folder, 1).exits(2)] {
+            has_no_control_characters(&run);
+            run.complains(&[found]);
+        }
+    }
+}
+
+#[test]
+fn a_title_that_controls_the_terminal_makes_no_job() {
+    let folder = coarse();
+    let text = String::from_utf8(folder.read("map.toml")).unwrap();
+    let rest: Vec<_> = text.lines().filter(|line| !line.starts_with("title")).collect();
+    folder.write("bad.toml", format!("title = \"a\\u001b[2J\"\n{}", rest.join("\n")));
+    let bad = folder.run(&["split", "bad.toml", "--shards", "1", "--out", "job"]).exits(2);
+    bad.complains(&["bad.toml: found a title or label", "texts of one line"]);
+    assert!(!folder.path("job").exists());
+    // A map of it is made; its report is lines.
+    let run = folder.run(&["atlas", "bad.toml", "-o", "bad"]).exits(0).says(&["ATLAS  a [2J:"]);
+    has_no_control_characters(&run);
+}
+
+#[test]
+fn names_in_a_jobs_files_and_folder_cannot_control_the_terminal() {
+    let folder = done(1);
+    let mut job: serde_json::Value = serde_json::from_slice(&folder.read("job/job.json")).unwrap();
+    let whole = job.to_string();
+    job[DISGUISE] = 1.into();
+    folder.write("job/job.json", job.to_string());
+    let run = folder.run(&["merge", "job", "-o", "merged"]).exits(2);
+    has_no_control_characters(&run);
+    run.complains(&["job.json: found unknown field"]);
+    folder.write("job/job.json", whole);
+    #[cfg(unix)]
+    {
+        folder.write("job/a\u{1b}[2J", "");
+        let run = folder.run(&["merge", "job", "-o", "merged"]).exits(2);
+        has_no_control_characters(&run);
+        run.complains(&["a [2J is a foreign file"]);
+    }
 }
 
 #[test]
