@@ -84,6 +84,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let target = arguments.target()?;
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
+    let part = unfinished(&target);
+    if !arguments.resume && fs::metadata(&part).is_ok_and(|found| found.len() > 0) {
+        let part = part.display();
+        print::diagnostic(&format!(
+            "{part}, which another run left, is not taken up: --resume would"
+        ));
+    }
     effort::start_threads(arguments.threads)?;
     let mut bar = Bar::new(arguments.quiet);
     let mut progress = |now| bar.show(now);

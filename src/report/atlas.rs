@@ -125,8 +125,7 @@ impl Part {
 impl AtlasReport {
     /// The first line.
     pub fn headline(&self) -> String {
-        use crate::batch::summary::printable;
-        let name = self.title.as_deref().unwrap_or(&self.atlas);
+        let name = printable(self.title.as_deref().unwrap_or(&self.atlas));
         let proved = |part: &Part| part.percent(Toward::Below);
         let (certified, refuted) = (proved(&self.certified), proved(&self.refuted));
         format!("ATLAS  {name}: {certified} certified, {refuted} refuted")
