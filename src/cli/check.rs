@@ -1,5 +1,6 @@
 //! `orthocert check`.
 
+use super::pave::searched;
 use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::report::Size;
@@ -23,6 +24,14 @@ pub struct Arguments {
     /// Demand that the certificate is about this design's claim
     #[arg(long, value_name = "DESIGN.toml")]
     design: Option<PathBuf>,
+    /// Of a paving: the box that it was searched in, in the place of the design's workspace
+    #[arg(
+        long = "box",
+        value_name = "X0,X1,Y0,Y1,Z0,Z1",
+        requires = "design",
+        allow_hyphen_values = true
+    )]
+    search_box: Option<String>,
     /// With a folder: where the designs are [default: in the same folder]
     #[arg(long, value_name = "FOLDER", conflicts_with = "design")]
     designs: Option<PathBuf>,
@@ -76,8 +85,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     if paving::is_paving(&bytes) {
         return check_paving(arguments, design.as_ref());
     }
-    if arguments.sample.is_some() {
-        return Err(Failure::Input("--sample: found a certificate; accepted: a paving".to_owned()));
+    for (flag, is_given) in
+        [("--sample", arguments.sample.is_some()), ("--box", arguments.search_box.is_some())]
+    {
+        if is_given {
+            let refused = format!("{flag}: found a certificate; accepted: a paving");
+            return Err(Failure::Input(refused));
+        }
     }
     match examine(&bytes, design.as_ref()) {
         Ok((certificate, accepted)) => {
@@ -107,9 +121,15 @@ fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status
     };
     let open = || File::open(&arguments.certificate).map(BufReader::new);
     let accepted = paving::check(open, extent).map_err(|reason| reason.to_string());
-    let accepted = accepted.and_then(|accepted| match design {
-        Some(design) if accepted.header.claim != design.claim => {
-            Err(another_claim(&accepted.header.claim, &design.claim))
+    let wanted = match design.map(|design| &design.claim) {
+        Some(Claim::Machine(claim)) => {
+            Some(Claim::Machine(searched(claim, arguments.search_box.as_deref())?))
+        }
+        other => other.cloned(),
+    };
+    let accepted = accepted.and_then(|accepted| match &wanted {
+        Some(claim) if accepted.header.claim != *claim => {
+            Err(another_claim(&accepted.header.claim, claim))
         }
         _ => Ok(accepted),
     });

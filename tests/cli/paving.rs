@@ -269,6 +269,11 @@ fn a_cylinder_is_searched_in_a_box() {
     folder.run(&["pave", design]).exits(2).complains(&["--box"]);
     let run = folder.run(&["pave", design, "--box", "-60,60,-60,60,0,50", "--precision", "15"]);
     run.exits(0).says(&["inner"]);
+    let check = ["check", "linear-delta-klipper-cylinder.paving", "--design", design];
+    folder.run(&check).exits(5).complains(&["another claim", "cylinder"]);
+    let of = |range| folder.run(&[&check[..], &["--box", range]].concat());
+    of("-60,60,-60,60,0,50").exits(0).says(&["ACCEPTED"]);
+    of("-60,60,-60,60,0,51").exits(5).complains(&["another claim"]);
     folder.run(&["check", "linear-delta-klipper-cylinder.paving"]).exits(0);
 }
 

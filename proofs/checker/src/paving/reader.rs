@@ -167,7 +167,8 @@ impl<R: BufRead> Reader<R> {
         let mut bytes = Vec::new();
         // One byte more than there may be, lest anything hide behind it.
         self.input.take(MAX_LINE as u64 + 1).read_to_end(&mut bytes)?;
-        if bytes.len() > MAX_LINE || bytes.pop() != Some(b'\n') {
+        let one_line = bytes.pop() == Some(b'\n') && !bytes.contains(&b'\n');
+        if bytes.len() >= MAX_LINE || !one_line {
             return Err(Rejected::Summary("it does not end the file".to_owned()));
         }
         let found: Summary = line(&bytes).map_err(Rejected::Summary)?;
