@@ -113,7 +113,15 @@ pub fn pave(
         Resume::No => None,
     };
     let mut depth = match &held {
-        Some(file) => earlier_depth(claim, file, &part)?,
+        Some(file) => {
+            let depth = earlier_depth(claim, file, &part)?;
+            if goal.depth.is_some_and(|asked| depth > asked) {
+                let reason =
+                    "it was begun with a smaller --precision; accepted: the same".to_owned();
+                return Err(PaveError::Resume(part, reason));
+            }
+            depth
+        }
         None => planned(&decider, claim, goal, control)?,
     };
     loop {

@@ -169,6 +169,10 @@ fn there_has_to_be_something_to_take_up() {
     folder.write("d.paving.part", folder.read("d.paving"));
     folder.write("d.toml", DESIGN.replace("max = 2 }", "max = 3 }"));
     folder.run(&resume).exits(2).complains(&["another design's paving"]);
+    folder.write("d.toml", DESIGN);
+    let coarser = [&resume[..], &["--precision", "0.5"]].concat();
+    folder.run(&coarser).exits(2).complains(&["smaller --precision"]);
+    folder.run(&resume).exits(0);
 }
 
 #[test]
