@@ -1,4 +1,4 @@
-//! SHA-256, in the notations that people and browsers compare.
+//! SHA-256, in the notations that people and browsers compare: hexadecimal and base64.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -33,22 +33,24 @@ pub fn from_hexadecimal(text: &str) -> Option<Vec<u8>> {
 
 /// The source of a content security policy that admits an inline text by its SHA-256.
 pub fn policy_source(text: &str) -> String {
-    format!("'sha256-{}'", base64(&Sha256::digest(text.as_bytes())))
+    let mut digest = String::new();
+    push_base64(&Sha256::digest(text.as_bytes()), &mut digest);
+    format!("'sha256-{digest}'")
 }
 
-/// RFC 4648, section 4, with padding.
-fn base64(bytes: &[u8]) -> String {
+/// Appends the base64 of the bytes: RFC 4648, section 4, with padding.
+pub fn push_base64(bytes: &[u8], text: &mut String) {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    text.reserve(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
         let byte = |i: usize| u32::from(group.get(i).copied().unwrap_or(0));
         let bits = (byte(0) << 16) | (byte(1) << 8) | byte(2);
         for i in 0..4 {
+            // `group.len()` bytes are `group.len() + 1` digits, the rest is padding.
             let sextet = (bits >> (18 - 6 * i)) & 63;
-            out.push(if i <= group.len() { char::from(ALPHABET[sextet as usize]) } else { '=' });
+            text.push(if i <= group.len() { char::from(ALPHABET[sextet as usize]) } else { '=' });
         }
     }
-    out
 }
 
 #[cfg(test)]
@@ -73,7 +75,12 @@ mod tests {
             ("fooba", "Zm9vYmE="),
             ("foobar", "Zm9vYmFy"),
         ] {
-            assert_eq!(base64(text.as_bytes()), encoded);
+            let mut found = String::new();
+            push_base64(text.as_bytes(), &mut found);
+            assert_eq!(found, encoded);
         }
+        let mut found = String::new();
+        push_base64(&[0xfb, 0xff, 0xbf], &mut found);
+        assert_eq!(found, "+/+/");
     }
 }

@@ -6,6 +6,7 @@
 //! | cells    | quadrilaterals (VTK type 9), then triangles (5), counterclockwise seen from without |
 //! | `beyond` | what a face separates the inner part from: 0 outer boxes, 1 boxes some of which are undecided, 2 what is outside the box that is paved |
 
+use crate::digest::push_base64;
 use crate::paving::{Beyond, Surface, SurfaceError};
 
 /// VTK's number for quadrilaterals.
@@ -62,46 +63,6 @@ fn array(text: &mut String, attributes: &str, bytes: impl Iterator<Item = u8>) {
     text.push_str(&format!("<DataArray {attributes} format=\"binary\">\n"));
     let mut all = (bytes.len() as u64).to_le_bytes().to_vec();
     all.extend(bytes);
-    base64(&all, text);
+    push_base64(&all, text);
     text.push_str("\n</DataArray>\n");
-}
-
-/// Appends the base64 of the bytes (RFC 4648, section 4).
-fn base64(bytes: &[u8], text: &mut String) {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    text.reserve(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(group.get(i).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for digit in 0..4 {
-            // `group.len()` bytes are `group.len() + 1` digits, the rest is padding.
-            let value = bits >> (18 - 6 * digit) & 63;
-            text.push(if digit <= group.len() { DIGITS[value as usize] as char } else { '=' });
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::base64;
-
-    #[test]
-    fn base64_is_that_of_the_standard() {
-        for (bytes, expected) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("fooba", "Zm9vYmE="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            let mut text = String::new();
-            base64(bytes.as_bytes(), &mut text);
-            assert_eq!(text, expected);
-        }
-        let mut text = String::new();
-        base64(&[0xfb, 0xff, 0xbf], &mut text);
-        assert_eq!(text, "+/+/");
-    }
 }
