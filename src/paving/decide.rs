@@ -47,8 +47,14 @@ pub enum Fate {
 /// The claim seems to hold at the centre.
 struct HoldsAtCentre;
 
-fn bit(obligation: Obligation) -> u32 {
+/// The place of an obligation in sets of them, such as what a cell inherits.
+pub(super) fn bit(obligation: Obligation) -> u32 {
     1 << obligation as u8
+}
+
+/// What is discharged once these steps are added.
+pub(super) fn discharged(before: u32, steps: &[Step]) -> u32 {
+    steps.iter().filter_map(|step| step.rule().1).fold(before, |done, o| done | bit(o))
 }
 
 impl Decider {
@@ -102,8 +108,8 @@ impl Decider {
         if steps.len() == wanted {
             return Decision { steps, fate: Fate::Closed(Kind::Inner) };
         }
-        let done = steps.iter().filter_map(|step| step.rule().1).fold(inherited, |d, o| d | bit(o));
-        self.open(cell, steps, &self.weights(&expansion, &spectrum, done))
+        let weights = self.weights(&expansion, &spectrum, discharged(inherited, &steps));
+        self.open(cell, steps, &weights)
     }
 
     fn open(&self, cell: &Cell, steps: Vec<Step>, weights: &[f64; 3]) -> Decision {

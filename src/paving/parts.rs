@@ -1,6 +1,7 @@
 //! A paving in parts that are made anywhere: the top of its tree, the subtrees below, and all of
 //! them in one file.
 
+use super::decide::bit;
 use super::pass::{finish, first_line, WINDOW};
 use super::tree::{Cancelled, Grower, Root, Segment, Tally};
 use super::{header, Decider, PaveError, Paved};
@@ -66,14 +67,14 @@ impl Parts {
 
     /// What is not discharged above a subtree.
     pub fn open(&self, root: &Root) -> Vec<Obligation> {
-        let open = |o: &Obligation| root.inherited & (1 << *o as u8) == 0;
+        let open = |o: &Obligation| root.inherited & bit(*o) == 0;
         self.decider.judge().obligations().iter().copied().filter(open).collect()
     }
 
     /// The root of a subtree above which all but `open` is discharged.
     pub fn root(&self, cell: Cell, open: &[Obligation]) -> Root {
         let done = self.decider.judge().obligations().iter().filter(|o| !open.contains(o));
-        let inherited = done.fold(0, |done, o| done | 1 << *o as u8);
+        let inherited = done.fold(0, |done, o| done | bit(*o));
         Root { cell, inherited, depth: cell.edges.iter().map(|edge| edge.level).sum() }
     }
 

@@ -1,5 +1,6 @@
 //! Writes a paving, subtree by subtree, to a file that can be taken up again.
 
+use super::decide::discharged;
 use super::tree::{Cancelled, Grower, Grown, Root, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::output::{self, OutputError};
@@ -289,9 +290,7 @@ impl<'a> Pass<'a> {
         let mut waiting = vec![root];
         while let Some(Root { cell, inherited, depth }) = waiting.pop() {
             let item = Item::read(input, 0)?;
-            let done = item.steps.iter().fold(inherited, |done, step| {
-                done | step.rule().1.map_or(0, |obligation| 1 << obligation as u8)
-            });
+            let done = discharged(inherited, &item.steps);
             if let Kind::Split(axis) = item.kind {
                 let halves = cell.halves(axis).filter(|_| depth < self.header.depth);
                 let (lower, upper) = halves.ok_or(Rejected::TooDeep(0))?;

@@ -1,6 +1,6 @@
 //! The tree of a paving: written depth first, cut into subtrees for the threads.
 
-use super::decide::{Decider, Fate};
+use super::decide::{discharged, Decider, Fate};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::paving::{six_ordered, Item, Kind, SHARE_BITS};
 use rayon::prelude::*;
@@ -173,9 +173,7 @@ impl Grower<'_> {
             Kind::Outer(_) | Kind::Mirrored => {}
         }
         let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
-        let inherited = steps.iter().fold(root.inherited, |done, step| {
-            done | step.rule().1.map_or(0, |obligation| 1 << obligation as u8)
-        });
+        let inherited = discharged(root.inherited, &steps);
         // Every step and violation that a decision makes has a code.
         let written = Item { steps, kind }.write(out);
         debug_assert!(written.is_some());
