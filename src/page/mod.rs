@@ -41,7 +41,7 @@ use crate::report::{worst_found, Row};
 use escape::html;
 use isomap::{Mark, Scale};
 use nominal::Nominal;
-use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::rule::Obligation;
 use orthocert_checker::Accepted;
@@ -165,10 +165,7 @@ impl<'a> Page<'a> {
 
     /// The HTML file.
     pub fn html(&self) -> String {
-        let style = format!("{}{}", include_str!("page.css"), include_str!("figure.css"));
         let verdict = self.accepted.verdict;
-        let sections = self.sections();
-        let provenance = &self.certificate.provenance;
         let headline = match verdict {
             Verdict::Certified => "\u{2713} CERTIFIED",
             Verdict::Refuted => "\u{2717} REFUTED",
@@ -194,29 +191,18 @@ impl<'a> Page<'a> {
                 "A requirement fails. The exact checker accepted the counterexample."
             }
         };
-        filled(
-            FRAME,
-            &[
-                ("script-policy", &policy_source(SCRIPT)),
-                ("style-policy", &policy_source(&style)),
-                ("style", &style),
-                ("script", SCRIPT),
-                ("title", &html(&self.title)),
-                ("subject", &html(&words::subject(&self.certificate.claim))),
-                ("verdict", &verdict.to_string()),
-                ("headline", headline),
-                ("meaning", meaning),
-                ("contents", &contents(&sections)),
-                (
-                    "sections",
-                    &sections.iter().map(|(_, _, text)| text.as_str()).collect::<String>(),
-                ),
-                ("version", env!("CARGO_PKG_VERSION")),
-                ("kind", "certificate"),
-                ("written-by", &html(&format!("{} {}", provenance.tool, provenance.version))),
-                ("data", &escape::data(&self.data().to_string())),
-            ],
-        )
+        Framed {
+            kind: "certificate",
+            title: &self.title,
+            subject: &words::subject(&self.certificate.claim),
+            verdict: &verdict.to_string(),
+            headline,
+            meaning,
+            sections: &self.sections(),
+            provenance: &self.certificate.provenance,
+            data: &self.data(),
+        }
+        .html()
     }
 
     /// What the script works on.
@@ -271,6 +257,52 @@ fn discharged(rule: &str) -> i64 {
     };
     let found = Obligation::ALL.iter().position(|o| o.to_string() == name);
     found.and_then(|i| i64::try_from(i).ok()).unwrap_or(-1)
+}
+
+/// What stands in the frame of a page.
+struct Framed<'a> {
+    /// What the page is about: a certificate or a paving.
+    kind: &'static str,
+    title: &'a str,
+    subject: &'a str,
+    verdict: &'a str,
+    headline: &'a str,
+    /// What the headline means; no text from outside.
+    meaning: &'a str,
+    /// Identifiers, names in the table of contents, and HTML.
+    sections: &'a [(&'static str, &'static str, String)],
+    provenance: &'a Provenance,
+    /// What the script works on.
+    data: &'a Value,
+}
+
+impl Framed<'_> {
+    /// The HTML file.
+    fn html(&self) -> String {
+        let style = format!("{}{}", include_str!("page.css"), include_str!("figure.css"));
+        let sections: String = self.sections.iter().map(|(_, _, text)| text.as_str()).collect();
+        let Provenance { tool, version } = self.provenance;
+        filled(
+            FRAME,
+            &[
+                ("script-policy", &policy_source(SCRIPT)),
+                ("style-policy", &policy_source(&style)),
+                ("style", &style),
+                ("script", SCRIPT),
+                ("title", &html(self.title)),
+                ("subject", &html(self.subject)),
+                ("verdict", self.verdict),
+                ("headline", &html(self.headline)),
+                ("meaning", self.meaning),
+                ("contents", &contents(self.sections)),
+                ("sections", &sections),
+                ("version", env!("CARGO_PKG_VERSION")),
+                ("kind", self.kind),
+                ("written-by", &html(&format!("{tool} {version}"))),
+                ("data", &escape::data(&self.data.to_string())),
+            ],
+        )
+    }
 }
 
 fn contents(sections: &[(&str, &str, String)]) -> String {

@@ -13,11 +13,9 @@ mod sections;
 
 use super::isomap::Mark;
 use super::nominal::{Nominal, Point};
-use super::{contents, drawing, escape, filled, stem, words, File, Picture, FRAME, SCRIPT};
+use super::{drawing, stem, words, File, Framed, Picture};
 use crate::decimal::{approximate, percent, rounded, Toward};
-use crate::digest::policy_source;
 use crate::paving::{box_volume, Components, Tree};
-use escape::html;
 use num_rational::BigRational;
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
@@ -136,9 +134,6 @@ impl<'a> PavingPage<'a> {
 
     /// The HTML file.
     pub fn html(&self) -> String {
-        let style = format!("{}{}", include_str!("../page.css"), include_str!("../figure.css"));
-        let provenance = &self.accepted.header.provenance;
-        let sections = self.sections();
         let [least, width] = self.ends;
         let region = Region { tree: &self.tree, least, width };
         let data = json!({
@@ -149,29 +144,18 @@ impl<'a> PavingPage<'a> {
         let meaning =
             "Every inner box lies in the region where all requirements hold, and no outer box \
             meets it. The exact checker accepted the evidence of every box.";
-        filled(
-            FRAME,
-            &[
-                ("script-policy", &policy_source(SCRIPT)),
-                ("style-policy", &policy_source(&style)),
-                ("style", &style),
-                ("script", SCRIPT),
-                ("title", &html(&self.title)),
-                ("subject", &html(&words::region(self.claim))),
-                ("verdict", "certified"),
-                ("headline", &html(&headline)),
-                ("meaning", meaning),
-                ("contents", &contents(&sections)),
-                (
-                    "sections",
-                    &sections.iter().map(|section| section.2.as_str()).collect::<String>(),
-                ),
-                ("version", env!("CARGO_PKG_VERSION")),
-                ("kind", "paving"),
-                ("written-by", &html(&format!("{} {}", provenance.tool, provenance.version))),
-                ("data", &escape::data(&data.to_string())),
-            ],
-        )
+        Framed {
+            kind: "paving",
+            title: &self.title,
+            subject: &words::region(self.claim),
+            verdict: "certified",
+            headline: &headline,
+            meaning,
+            sections: &self.sections(),
+            provenance: &self.accepted.header.provenance,
+            data: &data,
+        }
+        .html()
     }
 
     /// The certified bounds of the region's volume, rounded outwards; as shares of the box where its

@@ -1,7 +1,8 @@
 //! The sections of a paving's page, in their order.
 
+use super::super::escape::html;
 use super::super::{recheck, words};
-use super::{html, PavingPage};
+use super::PavingPage;
 use crate::decimal::{grouped, percent, significant, Toward};
 use num_rational::BigRational;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
