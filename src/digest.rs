@@ -2,10 +2,50 @@
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
+use std::io::{self, Read};
 
 /// The SHA-256 of `bytes`, in hexadecimal, as `sha256sum` prints it.
 pub fn sha256(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))
+}
+
+/// What is read from an input, summed up on the way: what is said of the bytes is said of those with
+/// this sum.
+#[derive(Debug)]
+pub struct Summed<R> {
+    input: R,
+    sum: Sha256,
+    bytes: u64,
+}
+
+impl<R: Read> Summed<R> {
+    /// Nothing was read yet.
+    pub fn new(input: R) -> Self {
+        Summed { input, sum: Sha256::new(), bytes: 0 }
+    }
+
+    /// The sum of what was read, and how many bytes that are.
+    pub fn so_far(&self) -> (Sha256, u64) {
+        (self.sum.clone(), self.bytes)
+    }
+
+    /// Reads the rest; returns the SHA-256 of all, in hexadecimal, and how many bytes there are.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn finish(mut self) -> io::Result<(String, u64)> {
+        io::copy(&mut self, &mut io::sink())?;
+        Ok((hexadecimal(&self.sum.finalize()), self.bytes))
+    }
+}
+
+impl<R: Read> Read for Summed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.input.read(buffer)?;
+        self.sum.update(&buffer[..read]);
+        self.bytes += read as u64;
+        Ok(read)
+    }
 }
 
 /// Bytes in lower-case hexadecimal.
@@ -56,6 +96,14 @@ pub fn push_base64(bytes: &[u8], text: &mut String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_read_is_summed_up_too() {
+        let mut input = Summed::new(&b"abc"[..]);
+        let mut first = [0];
+        input.read_exact(&mut first).unwrap();
+        assert_eq!((first, input.finish().unwrap()), (*b"a", (sha256(b"abc"), 3)));
+    }
 
     #[test]
     fn digests_are_those_of_the_standards() {

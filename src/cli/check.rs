@@ -1,8 +1,10 @@
 //! `orthocert check`.
 
+use super::input::Begun;
 use super::pave::searched;
-use super::{audit, input, print, Failure, Format, Status};
+use super::{audit, print, Failure, Format, Status};
 use orthocert::design::Design;
+use orthocert::digest::Summed;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
@@ -10,9 +12,11 @@ use orthocert_checker::paving::{self, Extent, Header, Summary};
 use orthocert_checker::{check, read, statement, Accepted};
 use serde::Serialize;
 use serde_json::Value;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
+
+/// Most boxes of a sample, which are kept in memory.
+const MAX_SAMPLE: u64 = 1_000_000;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -38,12 +42,13 @@ pub struct Arguments {
     /// With a folder: certificates at a time [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
     jobs: Option<u64>,
-    /// Of a paving, check the evidence of so many inner and outer boxes only, drawn at random
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    /// Of a paving, evaluate the evidence of so many inner and outer boxes only, drawn at random;
+    /// the others have to have evidence
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_SAMPLE))]
     sample: Option<u64>,
-    /// The seed of the draw
-    #[arg(long, value_name = "S", requires = "sample", default_value_t = 0)]
-    seed: u64,
+    /// The seed of the draw, to repeat one [default: from the system's randomness, and printed]
+    #[arg(long, value_name = "S", requires = "sample")]
+    seed: Option<u64>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -81,10 +86,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     // The design first: what is wrong with it is no defect of the certificate.
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;
-    let bytes = input::certificate(&arguments.certificate)?;
-    if paving::is_paving(&bytes) {
-        return check_paving(arguments, design.as_ref());
+    let begun = Begun::new(&arguments.certificate)?;
+    if paving::is_paving(&begun.start) {
+        return check_paving(arguments, begun, design.as_ref());
     }
+    let bytes = begun.start;
     for (flag, is_given) in
         [("--sample", arguments.sample.is_some()), ("--box", arguments.search_box.is_some())]
     {
@@ -107,20 +113,33 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 struct PavingAnswer<'a> {
     accepted: bool,
     statement: &'a str,
-    /// Inner and outer boxes whose evidence was checked.
+    /// Inner and outer boxes whose evidence was evaluated.
     checked: u64,
+    /// The seed by which they were drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seed: Option<String>,
+    /// The SHA-256 of the bytes that were checked.
+    sha256: &'a str,
     #[serde(flatten)]
     summary: &'a Summary,
     header: &'a Header,
 }
 
-fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status, Failure> {
-    let extent = match arguments.sample {
-        Some(size) => Extent::Sample { size, seed: arguments.seed },
+fn check_paving(
+    arguments: &Arguments,
+    begun: Begun,
+    design: Option<&Design>,
+) -> Result<Status, Failure> {
+    let seed = match (arguments.sample, arguments.seed) {
+        (Some(_), None) => Some(random()?),
+        (_, seed) => seed,
+    };
+    let extent = match arguments.sample.zip(seed) {
+        Some((size, seed)) => Extent::Sample { size, seed },
         None => Extent::All,
     };
-    let open = || File::open(&arguments.certificate).map(BufReader::new);
-    let accepted = paving::check(open, extent).map_err(|reason| reason.to_string());
+    let mut input = BufReader::new(Summed::new(begun.whole()));
+    let accepted = paving::check(&mut input, extent).map_err(|reason| reason.to_string());
     let wanted = match design.map(|design| &design.claim) {
         Some(Claim::Machine(claim)) => {
             Some(Claim::Machine(searched(claim, arguments.search_box.as_deref())?))
@@ -136,23 +155,43 @@ fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status
     match accepted {
         Ok(accepted) => {
             let statement = statement::paving(&accepted).unwrap_or_default();
+            // An accepted paving was read to its end.
+            let (sha256, _) = input.into_inner().finish().map_err(|error| {
+                Failure::Input(format!("{}: {error}", arguments.certificate.display()))
+            })?;
             match arguments.format {
                 Format::Text => {
-                    let answer = format!("ACCEPTED: paving\n{statement}");
+                    let mut answer = format!("ACCEPTED: paving\n{statement}");
+                    if let Some(seed) = seed {
+                        answer += &format!("Drawn with --seed {seed}.\n");
+                    }
+                    answer += &format!("sha256 {sha256}\n");
                     print::answer(&statement::wrapped(&answer))?;
                 }
                 Format::Json => print::json(&PavingAnswer {
                     accepted: true,
                     statement: &statement,
                     checked: accepted.checked,
+                    seed: seed.map(|seed| seed.to_string()),
+                    sha256: &sha256,
                     summary: &accepted.summary,
                     header: &accepted.header,
                 })?,
             }
             Ok(Status::Done)
         }
-        Err(reason) => reject(arguments, &reason),
+        Err(reason) => {
+            let drawn = seed.map(|seed| format!(" (drawn with --seed {seed})"));
+            reject(arguments, &(reason + &drawn.unwrap_or_default()))
+        }
     }
+}
+
+/// A seed that whoever made the paving did not know.
+fn random() -> Result<u64, Failure> {
+    getrandom::u64().map_err(|error| {
+        Failure::Output(format!("--sample: the system has no randomness: {error}; --seed gives it"))
+    })
 }
 
 fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {

@@ -3,6 +3,7 @@
 use super::{input, interrupt, print, Failure, Status};
 use clap::Subcommand;
 use orthocert::decimal::grouped;
+use orthocert::digest::Summed;
 use orthocert::paving::{surface, Surface, SurfaceError};
 use orthocert::{export, output};
 use orthocert_checker::paving::{is_paving, Reader};
@@ -92,10 +93,10 @@ fn mesh(
     output: &Path,
     file: fn(&Surface) -> Result<Vec<u8>, SurfaceError>,
 ) -> Result<Status, Failure> {
-    let paving = opened(path)?;
+    let mut paving = opened(path)?;
     input::apart(output, &[path.to_owned()])?;
     output::probe(output)?;
-    let found = Reader::new(paving)
+    let found = Reader::new(&mut paving)
         .map_err(SurfaceError::from)
         .and_then(|reader| surface(reader, interrupt::cancelled()))
         .and_then(|surface| Ok((file(&surface)?, surface)));
@@ -110,25 +111,32 @@ fn mesh(
             return Err(Failure::Input(format!("{}: not exported: {error}", path.display())))
         }
     };
+    let (sha256, _) = paving
+        .into_inner()
+        .finish()
+        .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
     output::write(output, &bytes)?;
     print::answer(&format!(
-        "{}: {} faces, {} corners\n",
+        "{}: {} faces, {} corners\nof {}, not checked, sha256 {sha256}\n",
         output.display(),
         grouped(surface.faces() as u64),
-        grouped(surface.points.len() as u64)
+        grouped(surface.points.len() as u64),
+        path.display(),
     ))?;
     Ok(Status::Done)
 }
 
 /// A file that begins like a paving.
-fn opened(path: &Path) -> Result<BufReader<File>, Failure> {
+fn opened(path: &Path) -> Result<BufReader<Summed<File>>, Failure> {
     let unreadable =
         |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a paving"));
     }
-    let mut reader =
-        File::open(path).map(BufReader::new).map_err(|e| unreadable(&e.to_string()))?;
+    let mut reader = File::open(path)
+        .map(Summed::new)
+        .map(BufReader::new)
+        .map_err(|e| unreadable(&e.to_string()))?;
     let start = reader.fill_buf().map_err(|error| unreadable(&error.to_string()))?;
     if is_paving(start) {
         Ok(reader)

@@ -5,7 +5,7 @@ use orthocert::design::Design;
 use orthocert_checker::certificate::MAX_BYTES;
 use orthocert_checker::number::Exact;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Most digits of a literal on the command line, as in design files.
@@ -31,6 +31,36 @@ pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     let read = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
     read.map_err(|error| unreadable(error.to_string()))?;
     Ok(bytes)
+}
+
+/// A file of which the beginning was read, as much as a certificate may have and a byte more; what
+/// follows is read from the same file, whatever its name stands for by then.
+pub struct Begun {
+    /// The beginning.
+    pub start: Vec<u8>,
+    rest: File,
+}
+
+impl Begun {
+    /// Reads the beginning.
+    pub fn new(path: &Path) -> Result<Self, Failure> {
+        let unreadable = |reason: &dyn std::fmt::Display| {
+            Failure::Input(format!("{}: cannot be read: {reason}", path.display()))
+        };
+        if path.is_dir() {
+            return Err(unreadable(&"it is a folder; accepted: a certificate or a paving"));
+        }
+        let mut start = Vec::new();
+        let mut rest = File::open(path).map_err(|error| unreadable(&error))?;
+        let read = rest.by_ref().take(MAX_BYTES as u64 + 1).read_to_end(&mut start);
+        read.map_err(|error| unreadable(&error))?;
+        Ok(Begun { start, rest })
+    }
+
+    /// All of it, from the beginning.
+    pub fn whole(self) -> impl Read {
+        io::Cursor::new(self.start).chain(self.rest)
+    }
 }
 
 /// Largest configuration file that is imported, in bytes.
@@ -74,4 +104,13 @@ pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
         return Err(Failure::Input(refused));
     }
     Ok(())
+}
+
+/// Refuses a folder of certificates in which one might take the place of the design.
+pub fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
+    let is_certificate = design.to_string_lossy().ends_with(".cert.json");
+    match design.file_name().filter(|_| is_certificate) {
+        Some(name) => apart(&folder.join(name), &[design.to_owned()]),
+        None => Ok(()),
+    }
 }

@@ -1,6 +1,7 @@
 //! `orthocert report`.
 
-use super::{input, interrupt, print, Failure, Format, Status};
+use super::input::{self, Begun};
+use super::{interrupt, print, Failure, Format, Status};
 use orthocert::decimal::grouped;
 use orthocert::digest::sha256;
 use orthocert::page::paving::{PavingPage, DEPTH};
@@ -13,6 +14,7 @@ use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
 use orthocert_checker::{check, read};
 use serde::Serialize;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Its flags.
@@ -78,18 +80,19 @@ struct Written {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let path = &arguments.certificate;
-    let bytes = input::certificate(path)?;
+    let begun = Begun::new(path)?;
     let target = arguments.target()?;
     output::probe(&target)?;
     let fonts = arguments.png.as_ref().map(|_| Fonts::find(arguments.font.as_deref()));
     let fonts = fonts.transpose().map_err(Failure::input)?;
-    if is_paving(&bytes) {
-        // Longer than a certificate may be, perhaps.
-        let bytes = fs::read(path).map_err(|error| {
+    if is_paving(&begun.start) {
+        let mut bytes = Vec::new();
+        begun.whole().read_to_end(&mut bytes).map_err(|error| {
             Failure::Input(format!("{}: cannot be read: {error}", path.display()))
         })?;
         return of_paving(arguments, &bytes, &target, fonts.as_ref());
     }
+    let bytes = begun.start;
     let checked = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     let (accepted, certificate) = match checked {
         Ok(checked) => checked,
@@ -158,7 +161,7 @@ fn of_paving(
 
 /// What the exact checker says of a paving, its tree, and the components of its inner part.
 fn examined(bytes: &[u8]) -> Result<(Accepted, Tree, Option<Components>), SurfaceError> {
-    let accepted = paving::check(|| Ok(bytes), Extent::All)?;
+    let accepted = paving::check(bytes, Extent::All)?;
     let (header, tree) =
         Tree::read(Reader::new(bytes)?, Detail::Depth(DEPTH), interrupt::cancelled())?;
     let components = match Decider::new(&header) {
@@ -201,6 +204,7 @@ impl Arguments {
     ) -> Result<Vec<Written>, Failure> {
         let mut files = Vec::new();
         let mut write = |path: &Path, bytes: &[u8]| -> Result<(), Failure> {
+            input::apart(path, std::slice::from_ref(&self.certificate))?;
             output::write(path, bytes)?;
             files.push(Written { path: path.display().to_string(), bytes: bytes.len() });
             Ok(())

@@ -114,7 +114,7 @@ fn written(header: &Header, items: &[Item]) -> Vec<u8> {
 }
 
 fn checked(bytes: &[u8]) -> Result<orthocert_checker::paving::Accepted, Rejected> {
-    check(|| Ok(bytes), Extent::All)
+    check(bytes, Extent::All)
 }
 
 /// The reason for which these bytes are rejected.
@@ -370,7 +370,7 @@ fn headers_that_are_none_are_rejected() {
 fn a_sample_is_drawn_by_its_seed_and_finds_what_is_wrong() {
     let plain = header(false);
     let (bytes, mut items) = paving(&plain);
-    let sampled = |bytes: &[u8], size, seed| check(|| Ok(bytes), Extent::Sample { size, seed });
+    let sampled = |bytes: &[u8], size, seed| check(bytes, Extent::Sample { size, seed });
     let whole = checked(&bytes).unwrap();
     let few = sampled(&bytes, 10, 1).unwrap();
     assert_eq!((few.checked, &few.summary), (10, &whole.summary));
@@ -383,6 +383,47 @@ fn a_sample_is_drawn_by_its_seed_and_finds_what_is_wrong() {
     let half = whole.checked / 2;
     let found = (0..20).filter(|seed| sampled(&bytes, half, *seed).is_err()).count();
     assert!((4..=16).contains(&found), "{found} of 20");
+}
+
+#[test]
+fn every_subset_of_a_size_is_drawn() {
+    let header = header(true);
+    let bytes = paving(&header).0;
+    let cells = checked(&bytes).unwrap().checked;
+    for size in [1, 2, cells - 1, cells, cells + 1] {
+        let accepted = check(bytes.as_slice(), Extent::Sample { size, seed: 3 }).unwrap();
+        assert_eq!(accepted.checked, size.min(cells));
+    }
+}
+
+#[test]
+fn cells_that_are_not_drawn_claim_what_they_have_to() {
+    let plain = header(false);
+    let items = paving(&plain).1;
+    let position = |wanted: fn(&Kind) -> bool| items.iter().position(|i| wanted(&i.kind)).unwrap();
+    let inner = position(|kind| *kind == Kind::Inner);
+    let outer = position(|kind| matches!(kind, Kind::Outer(_)));
+    let with = |at: usize, steps: &[Step], kind: Kind| {
+        let mut items = items.clone();
+        items[at] = Item { steps: steps.to_vec(), kind };
+        written(&plain, &items)
+    };
+    let (lower, upper) = (Step::Lower(Rotation::IDENTITY), Step::Upper);
+    let leg = LegNumber { leg: 1 };
+    for (bytes, why) in [
+        (with(inner, &[], Kind::Inner), "is not discharged"),
+        (with(inner, std::slice::from_ref(&lower), Kind::Inner), "is not discharged"),
+        (with(inner, &[lower, upper, Step::Range], Kind::Inner), "\"range\" does not apply"),
+        (with(outer, &[], Kind::Inner), "is not discharged"),
+        (with(outer, &[], Kind::Outer(Violation::JointRange(leg))), "is not outer"),
+        (with(outer, &[], Kind::Outer(Violation::ParallelMargin)), "is not outer"),
+    ] {
+        for seed in 0..20 {
+            let sampled = check(bytes.as_slice(), Extent::Sample { size: 1, seed });
+            let reason = sampled.expect_err("rejected").to_string();
+            assert!(reason.contains(why), "{reason}");
+        }
+    }
 }
 
 #[test]

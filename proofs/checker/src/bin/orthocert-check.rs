@@ -7,7 +7,7 @@ use orthocert_checker::certificate::{Verdict, MAX_BYTES};
 use orthocert_checker::paving::{self, Extent};
 use orthocert_checker::{check, read, statement};
 use std::fs::File;
-use std::io::{BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
@@ -31,13 +31,20 @@ fn main() -> ExitCode {
     }
     let mut bytes = Vec::new();
     let limit = MAX_BYTES as u64 + 1;
-    let file = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
-    if let Err(error) = file {
-        eprintln!("orthocert-check: {}: {error}", path.display());
-        return ExitCode::from(2);
-    }
+    let file = File::open(path).and_then(|mut file| {
+        Read::by_ref(&mut file).take(limit).read_to_end(&mut bytes)?;
+        Ok(file)
+    });
+    let rest = match file {
+        Ok(rest) => rest,
+        Err(error) => {
+            eprintln!("orthocert-check: {}: {error}", path.display());
+            return ExitCode::from(2);
+        }
+    };
     if paving::is_paving(&bytes) {
-        return check_paving(path);
+        // What was read is not read again: the file may be a pipe, or another one by now.
+        return check_paving(bytes.as_slice().chain(BufReader::new(rest)));
     }
     let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     match accepted {
@@ -56,8 +63,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn check_paving(path: &std::ffi::OsStr) -> ExitCode {
-    match paving::check(|| File::open(path).map(BufReader::new), Extent::All) {
+fn check_paving(input: impl BufRead) -> ExitCode {
+    match paving::check(input, Extent::All) {
         Ok(accepted) => {
             let words = statement::paving(&accepted).unwrap_or_default();
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)

@@ -1,6 +1,6 @@
 //! What is shown of a cell, in exact arithmetic.
 
-use super::code::{Item, Kind};
+use super::code::Kind;
 use super::reader::Visited;
 use super::{symmetry, Header, Rejected};
 use crate::cell::Cell;
@@ -50,23 +50,38 @@ impl Judge {
         self.evaluator.violation(cell, violation)
     }
 
-    /// Checks the evidence of a node.
-    pub fn check(&self, visited: &Visited) -> Result<(), Rejected> {
-        let Visited { cell, inherited, item, node, .. } = visited;
-        let steps = |item: &Item| {
-            let not_applied = |(rule, failure)| Rejected::Step(*node, rule, failure);
-            self.steps(cell, &item.steps).map_err(not_applied)
-        };
+    /// Checks a node without evaluating its evidence: an inner one has steps on its path for every
+    /// obligation and for nothing else, an outer one names a bound that the claim has.
+    pub fn claims(&self, visited: &Visited) -> Result<(), Rejected> {
+        let Visited { inherited, item, node, .. } = visited;
         match &item.kind {
-            Kind::Split(_) => steps(item),
             Kind::Inner => {
-                steps(item)?;
+                let wanted = self.obligations.iter().fold(0, |wanted, &o| wanted | bit(o));
+                let idle = item.steps.iter().find(|step| discharges(step) & !wanted != 0);
+                if let Some(step) = idle {
+                    return Err(Rejected::Step(*node, step.rule().0, Failure::NoSuchBound));
+                }
                 let done = inherited | discharged(&item.steps);
                 match self.obligations.iter().find(|&&o| done & bit(o) == 0) {
                     Some(&open) => Err(Rejected::Open(*node, open)),
                     None => Ok(()),
                 }
             }
+            Kind::Outer(violation) if !self.evaluator.has_bound(violation) => {
+                Err(Rejected::Outer(*node, Failure::NoSuchBound))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks a node: what it claims, and its evidence.
+    pub fn check(&self, visited: &Visited) -> Result<(), Rejected> {
+        let Visited { cell, item, node, .. } = visited;
+        self.claims(visited)?;
+        match &item.kind {
+            Kind::Split(_) | Kind::Inner => self
+                .steps(cell, &item.steps)
+                .map_err(|(rule, failure)| Rejected::Step(*node, rule, failure)),
             Kind::Outer(violation) => {
                 self.violation(cell, violation).map_err(|failure| Rejected::Outer(*node, failure))
             }

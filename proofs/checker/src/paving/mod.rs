@@ -244,17 +244,19 @@ pub fn is_paving(bytes: &[u8]) -> bool {
     start.windows(name.len()).any(|window| window == name)
 }
 
-/// Which cells' evidence is checked.
+/// Which cells' evidence is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// That of every node.
     All,
     /// That of every split node, and of this many inner and outer cells drawn without
-    /// replacement: any set of that size is as likely as another for a random seed.
+    /// replacement: any set of that size is as likely as another for a random seed. They are kept in
+    /// memory until the last node is read.
     Sample {
         /// How many; all if there are fewer.
         size: u64,
-        /// The seed of the draw.
+        /// The seed of the draw. Whoever knows it before the file is made can forge what is not
+        /// drawn.
         seed: u64,
     },
 }
@@ -268,68 +270,69 @@ pub struct Accepted {
     pub summary: Summary,
     /// The shares of the volume.
     pub shares: Shares,
-    /// Inner and outer cells whose evidence was checked.
+    /// Inner and outer cells whose evidence was evaluated.
     pub checked: u64,
 }
 
-/// Checks a paving, which `open` opens: once for [`Extent::All`], twice for a sample. The shape of
-/// the tree, the symmetry and the summary are always checked whole.
-pub fn check<R: BufRead>(
-    open: impl Fn() -> io::Result<R>,
-    extent: Extent,
-) -> Result<Accepted, Rejected> {
-    let mut draw = match extent {
-        Extent::All => Draw::everything(),
-        Extent::Sample { size, seed } => {
-            let mut reader = Reader::new(open()?)?;
-            while reader.next()?.is_some() {}
-            let (summary, _) = reader.finish()?;
-            Draw::new(size, summary.inner.saturating_add(summary.outer), seed)
-        }
-    };
-    let mut reader = Reader::new(open()?)?;
+/// Checks a paving, in one pass over its bytes. The shape of the tree, what every node claims, the
+/// symmetry and the summary are always checked whole.
+pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected> {
+    let mut reader = Reader::new(input)?;
     let judge = reader.judge()?;
+    let mut sample = match extent {
+        Extent::All => None,
+        Extent::Sample { size, seed } => Some(Sample::new(size, seed)),
+    };
     let mut checked = 0;
     while let Some(visited) = reader.next()? {
         let decided = matches!(visited.item.kind, Kind::Inner | Kind::Outer(_));
-        if decided && !draw.next() {
-            continue;
+        match &mut sample {
+            Some(sample) if decided => {
+                judge.claims(&visited)?;
+                sample.offer(visited);
+            }
+            _ => {
+                judge.check(&visited)?;
+                checked += u64::from(decided);
+            }
         }
-        judge.check(&visited)?;
-        checked += u64::from(decided);
     }
     let header = reader.header().clone();
     let (summary, shares) = reader.finish()?;
+    for visited in sample.map(|sample| sample.drawn).unwrap_or_default() {
+        judge.check(&visited)?;
+        checked += 1;
+    }
     Ok(Accepted { header, summary, shares, checked })
 }
 
-/// Draws `wanted` of `left` things, one after the other: each is taken with the probability
-/// `wanted / left` of what then remain (Knuth, TAOCP 3.4.2, algorithm S), by SplitMix64.
-struct Draw {
-    wanted: u64,
-    left: u64,
+/// Draws `size` of however many cells are offered: the one after `seen` others takes the place of one
+/// of the drawn with the probability `size / (seen + 1)` (Knuth, TAOCP 3.4.2, algorithm R, with all in
+/// memory), by SplitMix64.
+struct Sample {
+    drawn: Vec<Visited>,
+    size: u64,
+    seen: u64,
     state: u64,
 }
 
-impl Draw {
-    fn new(size: u64, left: u64, seed: u64) -> Self {
-        Draw { wanted: size.min(left), left, state: seed }
+impl Sample {
+    fn new(size: u64, seed: u64) -> Self {
+        Sample { drawn: Vec::new(), size, seen: 0, state: seed }
     }
 
-    fn everything() -> Self {
-        Draw { wanted: u64::MAX, left: u64::MAX, state: 0 }
-    }
-
-    fn next(&mut self) -> bool {
-        if self.wanted == self.left {
-            return true;
+    fn offer(&mut self, visited: Visited) {
+        self.seen += 1;
+        if self.seen <= self.size {
+            self.drawn.push(visited);
+            return;
         }
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let taken = (z ^ (z >> 31)) % self.left.max(1) < self.wanted;
-        self.left = self.left.saturating_sub(1);
-        self.wanted = self.wanted.saturating_sub(u64::from(taken));
-        taken
+        let place = usize::try_from((z ^ (z >> 31)) % self.seen).ok();
+        if let Some(replaced) = place.and_then(|place| self.drawn.get_mut(place)) {
+            *replaced = visited;
+        }
     }
 }
