@@ -16,6 +16,7 @@
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`extremes`]     | encloses how small and how large each quantity gets                   |
+//! | [`folder`]       | folders that appear whole or not at all                               |
 //! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
 //! | [`interval`]     | floating-point intervals and approximations for the search            |
@@ -49,6 +50,7 @@ pub mod dimensions;
 pub mod engine;
 pub mod export;
 pub mod extremes;
+pub mod folder;
 pub mod frontier;
 pub mod import;
 pub mod interval;

@@ -6,6 +6,7 @@
 # |----------|---------------------------------------------------------------------------|
 # | kill     | kill -9 at random moments of a verification, over an earlier certificate  |
 # | batch    | kill -9 at random moments of a batch that writes certificates and reports |
+# | atlas    | kill -9 at random moments of a map that takes the place of another one    |
 # | disk     | a full disk: a small tmpfs where one can be mounted, else /dev/full        |
 # | readonly | a read-only disk, folder and file                                         |
 # | race     | two batches that write the same files                                     |
@@ -104,6 +105,29 @@ exits 1 "${batch[@]}" --out out "${reports[@]}"
 for file in reference/*; do cmp "$file" "out/$(basename "$file")"; done
 left=$(find out one -name '.orthocert-*.part' | wc -l)
 echo "batch: $rounds rounds, $killed killed in time, nothing lost; $left hidden parts left behind"
+
+# Two maps take each other's place: at every moment the folder holds one of them, whole.
+killed=0 first=0 second=0
+for which in 1 2; do
+  sed -e 's/resolution = 8/resolution = 3/' -e "s/max = 4, label/max = $((which + 3)), label/" \
+    "$designs/../atlases/orthoglide.toml" >"map$which.toml"
+  exits 0 "$orthocert" atlas "map$which.toml" -o "map$which" --quiet
+done
+if cmp -s map1/SHA256SUMS map2/SHA256SUMS; then fail "the two maps are one"; fi
+for ((i = 0; i < 3 * rounds; i++)); do
+  kill_within 400 "$orthocert" atlas "map$((i % 2 + 1)).toml" -o map --quiet
+  [ -d map ] || continue
+  if diff -r map map1 >/dev/null; then first=$((first + 1)); else
+    diff -r map map2 || fail "a map is neither the one nor the other"
+    second=$((second + 1))
+  fi
+done
+exits 0 "$orthocert" atlas map1.toml -o map --quiet
+diff -r map map1
+left=$(find . -maxdepth 1 -name '.orthocert-*.part' | wc -l)
+rm -rf .orthocert-*.part
+echo "atlas: $((3 * rounds)) rounds, $killed killed in time, found $first and $second times whole;" \
+  "$left hidden folders left behind"
 
 mkdir disk
 if mount -t tmpfs -o size=96k tmpfs disk 2>/dev/null; then

@@ -5,8 +5,10 @@ use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use orthocert::atlas::{self, Bound, Growing, Point, Standing, Stopped, Widest};
 use orthocert::design::{AtlasDesign, Objective};
+use orthocert::digest::sha256;
+use orthocert::folder::{self, FolderError, SUMS};
 use orthocert::frontier::NoAnswer;
-use orthocert::output::{self, OutputError};
+use orthocert::output::OutputError;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
 use orthocert::search::{Budget, Control, Progress};
@@ -27,6 +29,8 @@ const BEST: &str = "best.cert.json";
 const BOUND: &str = "bound.cert.json";
 const PICTURE: &str = "map.svg";
 const PAGE: &str = "index.html";
+/// All that such a folder may have.
+const NAMES: [&str; 5] = [CERTIFICATE, BEST, BOUND, PICTURE, PAGE];
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -34,7 +38,8 @@ pub struct Arguments {
     /// The atlas: a design file with [parameters] and [atlas]
     #[arg(value_name = "ATLAS.toml")]
     atlas: PathBuf,
-    /// The folder of the map, made if it is not there [default: NAME.atlas beside NAME.toml]
+    /// The folder of the map: a new one, or one with an earlier map and nothing else, which is replaced
+    /// [default: NAME.atlas beside NAME.toml]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -49,18 +54,54 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Some(folder) => folder.clone(),
         None => arguments.atlas.with_extension("atlas"),
     };
-    made(&folder)?;
+    probe(&folder)?;
     arguments.work.start_threads()?;
     let cells = map(&design, arguments.work.quiet)?;
     let name = arguments.atlas.display().to_string();
-    let report = publish(&design, name, cells, &folder, started)?;
+    let report =
+        publish(&design, name, cells, &folder, started).map_err(|failure| match failure {
+            // Of its own making: no certificate was given.
+            Failure::Rejected(reason) => Failure::Output(reason),
+            failure => failure,
+        })?;
     answer(&report, &arguments.work)
+}
+
+/// Finds out, before the work, whether the map can be written there.
+pub fn probe(folder: &Path) -> Result<(), Failure> {
+    Ok(folder::probe(folder, &NAMES)?)
+}
+
+impl From<FolderError> for Failure {
+    fn from(error: FolderError) -> Self {
+        match error {
+            FolderError::Foreign(..) | FolderError::Nameless(_) => {
+                Failure::Input(format!("--output: {error}"))
+            }
+            error => Failure::Output(error.to_string()),
+        }
+    }
 }
 
 /// The folder, made if it is not there.
 pub fn made(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder)
         .map_err(|error| Failure::from(OutputError::Io(folder.to_owned(), error)))
+}
+
+/// The files of a map, which are written together.
+struct Files<'a> {
+    folder: &'a Path,
+    all: Vec<(&'static str, String)>,
+}
+
+impl Files<'_> {
+    fn add(&mut self, name: &'static str, text: String) -> CertificateFile {
+        let path = self.folder.join(name).display().to_string();
+        let (bytes, sha256) = (text.len(), sha256(text.as_bytes()));
+        self.all.push((name, text));
+        CertificateFile { path, bytes, sha256 }
+    }
 }
 
 /// All cells of a design's map.
@@ -86,25 +127,23 @@ pub fn publish(
     folder: &Path,
     started: Instant,
 ) -> Result<AtlasReport, Failure> {
-    let rejected = |reason| Failure::Output(format!("the map was not accepted: {reason}"));
+    let rejected = |reason| Failure::Rejected(format!("the map was not accepted: {reason}"));
     let (certificate, accepted) = atlas::certify(design, cells.clone()).map_err(rejected)?;
     let Claim::Atlas(claim) = &certificate.claim else {
         return Err(Failure::Defect);
     };
     let text = certify::as_written(&certificate).map_err(rejected)?;
+    let mut files = Files { folder, all: Vec::new() };
     let best = match &design.objective {
-        Some(Objective::Maximise(x)) => best_value(design, (x, Ordering::Greater), &cells, folder)?,
-        Some(Objective::Minimise(x)) => best_value(design, (x, Ordering::Less), &cells, folder)?,
-        Some(Objective::WidestMargin) => widest_margin(design, &cells, folder)?,
+        Some(Objective::Maximise(x)) => {
+            best_value(design, (x, Ordering::Greater), &cells, &mut files)?
+        }
+        Some(Objective::Minimise(x)) => {
+            best_value(design, (x, Ordering::Less), &cells, &mut files)?
+        }
+        Some(Objective::WidestMargin) => widest_margin(design, &cells, &mut files)?,
         None => None,
     };
-    // What an earlier map left there is about other designs.
-    if best.as_ref().is_none_or(|best| best.certificate.is_none()) {
-        let _ = fs::remove_file(folder.join(BEST));
-    }
-    if best.as_ref().is_none_or(|best| best.bound.is_none()) {
-        let _ = fs::remove_file(folder.join(BOUND));
-    }
     let marks = design.marks.iter().map(|mark| MarkedDesign {
         label: mark.label.clone(),
         at: mark.at.clone(),
@@ -121,18 +160,17 @@ pub fn publish(
         nodes: nodes(&accepted),
         best,
         marks: marks.collect(),
-        certificate: CertificateFile { path: String::new(), bytes: 0, sha256: String::new() },
-        files: vec![file(PICTURE), file(PAGE)],
+        certificate: files.add(CERTIFICATE, text),
+        files: vec![file(PICTURE), file(PAGE), file(SUMS)],
         seconds: 0.0,
     };
     let contours = atlas::contours(design, &cells);
     let svg = atlas::picture(design, &cells, &contours, &points(&report));
-    output::write(&folder.join(PICTURE), svg.as_bytes())?;
     let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
     let title = design.title.as_deref().unwrap_or("Atlas");
     let page = atlas::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
-    output::write(&folder.join(PAGE), page.as_bytes())?;
-    report.certificate = certify::store(&folder.join(CERTIFICATE), &text)?;
+    files.all.extend([(PICTURE, svg), (PAGE, page)]);
+    folder::write(folder, &NAMES, &files.all)?;
     report.seconds = started.elapsed().as_secs_f64();
     Ok(report)
 }
@@ -181,7 +219,7 @@ fn best_value(
     design: &AtlasDesign,
     (expression, better): (&Exact, Ordering),
     cells: &[AtlasCell],
-    folder: &Path,
+    files: &mut Files<'_>,
 ) -> Result<Option<BestDesign>, Failure> {
     let Some(best) = atlas::best(design, expression, better, cells) else {
         return Ok(None);
@@ -192,10 +230,8 @@ fn best_value(
     let budget = Budget { max_boxes: 10 * design.boxes, deadline: None };
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut |_| {} };
     let mut found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
-    let certificate = match certify::decide(&mut found.answer)? {
-        Some(decision) => Some(certify::store(&folder.join(BEST), &decision.text)?),
-        None => None,
-    };
+    let decided = certify::decide(&mut found.answer)?;
+    let certificate = decided.map(|decision| files.add(BEST, decision.text));
     Ok(Some(BestDesign {
         at: best.at,
         sense: if better == Ordering::Greater { "maximise" } else { "minimise" },
@@ -210,7 +246,7 @@ fn best_value(
 fn widest_margin(
     design: &AtlasDesign,
     cells: &[AtlasCell],
-    folder: &Path,
+    files: &mut Files<'_>,
 ) -> Result<Option<BestDesign>, Failure> {
     let found =
         atlas::widest(design, cells, interrupt::cancelled()).map_err(|none| match none {
@@ -220,10 +256,10 @@ fn widest_margin(
     let Some(Widest { at, margin, certificate, bound }) = found else {
         return Ok(None);
     };
-    let stored = |name: &str, certificate: &Certificate| {
+    let mut stored = |name: &'static str, certificate: &Certificate| {
         let text = certify::as_written(certificate)
             .map_err(|reason| Failure::Output(format!("{name} was not accepted: {reason}")))?;
-        certify::store(&folder.join(name), &text)
+        Ok::<_, Failure>(files.add(name, text))
     };
     let certificate = Some(stored(BEST, &certificate)?);
     let bound = match bound {

@@ -2,16 +2,17 @@
 
 use super::effort::Work;
 use super::{atlas, certify, interrupt, pave, print, Failure, Format, Status};
+use orthocert::batch::plan::identity;
 use orthocert::decimal::counted;
 use orthocert::output;
 use orthocert::paving::PaveError;
 use orthocert::report::paving::PavingReport;
 use orthocert::report::{text, Report};
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
-use orthocert::verify::concluded;
-use orthocert_checker::certificate::Node;
+use orthocert::verify::{concluded, Answer, Undecided};
+use orthocert_checker::certificate::{Node, MAX_NODES};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Its flags.
@@ -28,17 +29,43 @@ pub struct Arguments {
     work: Work,
 }
 
+/// The answer for scripts where the results prove nothing.
+#[derive(Serialize)]
+struct Refused<'a> {
+    accepted: bool,
+    reason: &'a str,
+}
+
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    match merged(arguments) {
+        Err(Failure::Rejected(reason)) => {
+            let reason = format!("nothing was merged: {reason}");
+            match arguments.work.format {
+                Format::Json => print::json(&Refused { accepted: false, reason: &reason })?,
+                Format::Text => {
+                    let folder = arguments.folder.display();
+                    print::diagnostic(&format!("{folder}: REJECTED: {reason}"));
+                }
+            }
+            Ok(Status::Rejected)
+        }
+        other => other,
+    }
+}
+
+fn merged(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
+    apart(&arguments.folder, &arguments.output)?;
     arguments.work.start_threads()?;
     let merged = shard::merge(&arguments.folder).map_err(|error| match error {
         MergeError::Missing(_) => Failure::Output(error.to_string()),
+        MergeError::NotATree => Failure::Rejected(error.to_string()),
         error => Failure::Input(format!("{}: {error}", arguments.folder.display())),
     })?;
     match (merged.task, merged.whole) {
         (Task::Atlas(design), Whole::Cells(cells)) => {
-            atlas::made(&arguments.output)?;
+            atlas::probe(&arguments.output)?;
             let name = arguments.folder.display().to_string();
             let report = atlas::publish(&design, name, cells, &arguments.output, started)?;
             atlas::answer(&report, &arguments.work)
@@ -48,8 +75,20 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         }
         (Task::Verify(_), Whole::Tree { open, .. }) => undecided(arguments, open),
         (Task::Pave(task), Whole::Paving(tree)) => paved(arguments, *task, &tree, started),
-        _ => Err(Failure::Input(MergeError::NotATree.to_string())),
+        _ => Err(Failure::Rejected(MergeError::NotATree.to_string())),
     }
+}
+
+/// Refuses a result in the job's own folder, where it would be a foreign file.
+pub fn apart(folder: &Path, output: &Path) -> Result<(), Failure> {
+    let (folder, result) = (identity(folder), identity(output));
+    if result == folder || result.parent() == Some(folder.as_path()) {
+        let path = output.display();
+        return Err(Failure::Input(format!(
+            "--output: {path} is in the folder of the shards; accepted: a path outside it"
+        )));
+    }
+    Ok(())
 }
 
 /// The certificate that `verify` would have written, and its report.
@@ -61,7 +100,13 @@ fn proved(
     started: Instant,
 ) -> Result<Status, Failure> {
     output::probe(&arguments.output)?;
+    let too_many = nodes.len() > MAX_NODES;
     let mut found = concluded(&task.claim, nodes, boxes).map_err(Failure::input)?;
+    if let (Answer::Undecided(Undecided { objection: Some(reason), .. }), false) =
+        (&found.answer, too_many)
+    {
+        return Err(Failure::Rejected(format!("the proof was not accepted: {reason}")));
+    }
     let decision = certify::decide(&mut found.answer)?;
     let mut report = Report::new(&task.claim, &found, started.elapsed()).ok_or_else(|| {
         Failure::Input("the design's numbers exceed what can be reported".to_owned())
@@ -97,10 +142,11 @@ fn paved(
     let paved =
         tree.write(&task, &target, interrupt::cancelled()).map_err(|error| match error {
             PaveError::Cancelled => Failure::Interrupted,
+            PaveError::Defect(_) | PaveError::Coarse(_) => Failure::Rejected(error.to_string()),
             error => Failure::Output(error.to_string()),
         })?;
     let elapsed = started.elapsed();
-    let found = pave::connected(&target, pave::MEMORY)?;
+    let found = pave::connected(&target, &paved.sha256, pave::MEMORY)?;
     let mut report = PavingReport::new(&task.claim, &paved, found.as_ref(), &target);
     report.design = arguments.folder.display().to_string();
     report.title = task.title;

@@ -165,6 +165,8 @@ pub enum Failure {
     Output(String),
     /// A signal asked to end: exit 4.
     Interrupted,
+    /// What was to be accepted proves nothing: exit 5.
+    Rejected(String),
     /// Something could not be written, as was said already: exit 4.
     Reported,
     /// This program is wrong: exit 4.
@@ -184,13 +186,19 @@ impl Failure {
             Failure::Reported => {}
             _ => print::diagnostic(self.message()),
         }
-        ExitCode::from(if matches!(self, Failure::Input(_)) { 2 } else { 4 })
+        ExitCode::from(match self {
+            Failure::Input(_) => 2,
+            Failure::Rejected(_) => 5,
+            _ => 4,
+        })
     }
 
     /// Why, in a sentence.
     fn message(&self) -> &str {
         match self {
-            Failure::Input(message) | Failure::Output(message) => message,
+            Failure::Input(message) | Failure::Output(message) | Failure::Rejected(message) => {
+                message
+            }
             Failure::Interrupted => "interrupted",
             Failure::Reported => "could not finish",
             Failure::Defect => {

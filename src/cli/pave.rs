@@ -1,8 +1,10 @@
 //! `orthocert pave`.
 
 use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
+use orthocert::batch::plan::identity;
 use orthocert::design::Design;
-use orthocert::output;
+use orthocert::digest::Summed;
+use orthocert::output::{self, OutputError};
 use orthocert::paving::{
     components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal, PaveError,
     Resume, DEEPEST,
@@ -11,9 +13,9 @@ use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::paving::Reader;
-use std::fs::{self, File};
-use std::io::BufReader;
+use orthocert_checker::paving::{Reader, Rejected};
+use std::fs::{self, OpenOptions};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -31,7 +33,7 @@ The box is [workspace] min and max of the design, or --box. The region is the se
 requirements hold, for every machine of the tolerance. Without --precision and --volume-gap the gap
 that is aimed at is 0.05. An interrupted run leaves PAVING.part, which --resume takes up again: the
 paving is the same, byte for byte. So it is for every number of threads. While a run writes
-PAVING.part, another one is refused.")]
+PAVING.part, another one is refused; nothing is said of bytes that another program put there.")]
 pub struct Arguments {
     /// The design; its workspace is the box that is searched, without --box
     #[arg(value_name = "DESIGN.toml")]
@@ -85,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
-    if !arguments.resume && fs::metadata(&part).is_ok_and(|found| found.len() > 0) {
+    if !arguments.resume && is_left(&part)? {
         let part = part.display();
         print::diagnostic(&format!(
             "{part}, which another run left, is not taken up: --resume would"
@@ -100,12 +102,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     bar.clear();
     let paved = paved.map_err(|error| failure(error, &target))?;
     let elapsed = started.elapsed();
-    let found = connected(&target, arguments.memory)?;
+    let found = connected(&target, &paved.sha256, arguments.memory)?;
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
     report.design = arguments.design.display().to_string();
     report.title = design.title;
     report.reached = match (goal.depth, goal.gap) {
-        (Some(depth), _) => paved.header.depth >= depth,
+        (Some(depth), _) => paved.reaches(depth),
         (None, Some(gap)) => report.gap.is_some_and(|found| found <= gap),
         (None, None) => true,
     };
@@ -167,16 +169,40 @@ impl Arguments {
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })
     }
 
-    /// Where the paving goes, which is not the design. Links are followed, for the finished paving
-    /// takes the file's place.
+    /// Where the paving goes, which is not the design, nor is its unfinished file. Links are followed,
+    /// for the finished paving takes the file's place.
     fn target(&self) -> Result<PathBuf, Failure> {
         let target = self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"));
         let target = regular(&target)?;
-        match fs::canonicalize(&self.design) {
-            Ok(design) if target == design => Err(refused(&target, "the design itself")),
-            _ => Ok(target),
+        let design = identity(&self.design);
+        if identity(&target) == design {
+            return Err(refused(&target, "the design itself"));
         }
+        if identity(&unfinished(&target)) == design {
+            return Err(refused(&target, "what the design would be the unfinished file of"));
+        }
+        Ok(target)
     }
+}
+
+/// Whether an earlier run left an unfinished paving there; anything else stays.
+fn is_left(part: &Path) -> Result<bool, Failure> {
+    const START: &[u8] = b"{\"format\":\"orthocert-paving/";
+    if fs::symlink_metadata(part).is_err() {
+        return Ok(false);
+    }
+    let mut start = Vec::new();
+    let read = output::open_own(part, OpenOptions::new().read(true))?
+        .take(START.len() as u64)
+        .read_to_end(&mut start);
+    read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
+    if START.starts_with(&start) {
+        return Ok(!start.is_empty());
+    }
+    let part = part.display();
+    Err(Failure::Input(format!(
+        "--output: {part} is in the way, which is no unfinished paving; accepted: another path"
+    )))
 }
 
 /// Demands a box as the workspace.
@@ -225,13 +251,23 @@ fn refused(path: &Path, what: &str) -> Failure {
     Failure::Input(format!("--output: {path} is {what}; accepted: another path"))
 }
 
-/// The components of a paving, if so many megabytes are enough for their table.
-pub fn connected(path: &Path, memory: u64) -> Result<Option<Components>, Failure> {
+/// The components of the paving with this SHA-256, if so many megabytes are enough for their table.
+/// Where the file is another by now, nothing is said of it.
+pub fn connected(path: &Path, sha256: &str, memory: u64) -> Result<Option<Components>, Failure> {
     let fails =
         |reason: &dyn std::fmt::Display| Failure::Output(format!("{}: {reason}", path.display()));
-    let file = File::open(path).map_err(|error| fails(&error))?;
-    let mut reader = Reader::new(BufReader::new(file)).map_err(|error| fails(&error))?;
-    let decider = Decider::new(reader.header()).map_err(|error| fails(&error))?;
-    let found = components(&mut reader, &decider, memory.saturating_mul(1 << 20));
+    let file = output::open_own(path, OpenOptions::new().read(true))?;
+    let mut input = BufReader::new(Summed::new(file));
+    let found = found_in(&mut input, memory.saturating_mul(1 << 20));
+    let (sum, _) = input.into_inner().finish().map_err(|error| fails(&error))?;
+    if sum != sha256 {
+        return Err(Failure::Output(PaveError::Changed(path.to_owned()).to_string()));
+    }
     Ok(found.map_err(|error| fails(&error))?.filter(|found| !found.all.is_empty()))
+}
+
+fn found_in(input: impl BufRead, memory: u64) -> Result<Option<Components>, Rejected> {
+    let mut reader = Reader::new(input)?;
+    let decider = Decider::new(reader.header())?;
+    components(&mut reader, &decider, memory)
 }

@@ -3,6 +3,7 @@
 use super::effort::Work;
 use super::{interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
+use orthocert::batch::plan::identity;
 use orthocert::search::Progress;
 use orthocert::shard::{self, Ran, RunError};
 use serde::Serialize;
@@ -36,6 +37,13 @@ struct Answer {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let (shard, answers) = shard::read_shard(&arguments.file).map_err(Failure::input)?;
+    let file = identity(&arguments.file);
+    if shard::written(&arguments.file, &shard).iter().any(|written| identity(written) == file) {
+        let path = arguments.file.display();
+        return Err(Failure::Input(format!(
+            "{path}: is named as what is found of it is; accepted: the name that orthocert split gave"
+        )));
+    }
     arguments.work.start_threads()?;
     let mut bar = Bar::new(arguments.work.quiet);
     let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });

@@ -83,6 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("size.cert.json"))?;
+        arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
     }
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;

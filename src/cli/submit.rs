@@ -1,6 +1,6 @@
 //! `orthocert submit`.
 
-use super::{atlas, print, Failure, Format, Status};
+use super::{atlas, merge, print, Failure, Format, Status};
 use clap::ValueEnum;
 use orthocert::engine::{self, Submission};
 use orthocert::output;
@@ -60,6 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         let message = "options after -- are for sbatch; with --engine hyperqueue there are none";
         return Err(Failure::Input(message.to_owned()));
     }
+    merge::apart(&arguments.folder, &arguments.output)?;
     let job = read_job(&arguments.folder.join(JOB_FILE)).map_err(Failure::input)?;
     let submission = Submission {
         program: std::env::current_exe()

@@ -1,7 +1,7 @@
 //! `orthocert tolerance`.
 
 use super::size::{explain, file, gap, gap_text, shown};
-use super::{effort, print, Failure, Format, Status};
+use super::{effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, Toward};
@@ -96,6 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let kinds = named(&arguments.on, claim)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;
+        input::apart_in(folder, &arguments.design)?;
     }
     let each = arguments.each.as_deref().map(|text| effort::time("--each", text)).transpose()?;
     let budget = effort.budget(started)?;

@@ -2,15 +2,17 @@
 //! them in one file.
 
 use super::decide::bit;
-use super::pass::{finish, first_line, WINDOW};
+use super::pass::{finish, first_line, refused, WINDOW};
 use super::tree::{Cancelled, Grower, Root, Segment, Tally};
 use super::{header, Decider, PaveError, Paved};
+use crate::digest::Summed;
 use crate::output::{self, Pending};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{Header, Reader, Shares, Summary};
+use orthocert_checker::paving::{Header, Reader};
 use orthocert_checker::rule::Obligation;
 use rayon::prelude::*;
+use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Seek, Write};
 use std::path::Path;
@@ -113,16 +115,20 @@ impl Parts {
         let io = |error| PaveError::Io(path.to_owned(), error);
         let pending = Pending::beside(path).map_err(io)?;
         let file = pending.file();
-        let mut out = TreeWriter { file: BufWriter::new(file), path };
+        let mut out = TreeWriter { file: BufWriter::new(file), path, sum: Sha256::new() };
         out.write(&first_line(&self.header).map_err(io)?)?;
         tree(&mut out)?;
         out.file.flush().map_err(io)?;
+        let sum = out.sum.clone();
         drop(out);
-        let bytes = finish(file, path, 0)?.bytes;
-        let (boxes, summary, shares) = checked(file, path, cancel)?;
+        let mut paved = finish(file, path, sum, 0)?;
+        if let Some(coarsest) = paved.coarsest.filter(|_| !paved.reaches(self.header.depth)) {
+            return Err(PaveError::Coarse(coarsest));
+        }
+        paved.boxes = checked(file, path, &paved.sha256, cancel)?;
         let _writing = output::hold();
         pending.persist(path).map_err(io)?;
-        Ok(Paved { header: self.header.clone(), summary, shares, boxes, bytes })
+        Ok(paved)
     }
 }
 
@@ -130,6 +136,7 @@ impl Parts {
 pub struct TreeWriter<'a> {
     file: BufWriter<&'a File>,
     path: &'a Path,
+    sum: Sha256,
 }
 
 impl TreeWriter<'_> {
@@ -138,24 +145,29 @@ impl TreeWriter<'_> {
     /// # Errors
     /// If they cannot be written.
     pub fn write(&mut self, nodes: &[u8]) -> Result<(), PaveError> {
+        self.sum.update(nodes);
         self.file.write_all(nodes).map_err(|error| PaveError::Io(self.path.to_owned(), error))
     }
 }
 
-/// Has every node of a paving accepted by the checker, many side by side, then its summary; returns
-/// how many there are, and what the summary says.
+/// Has every node of a paving that has this SHA-256 accepted by the checker, many side by side, then
+/// its summary; returns how many there are.
 fn checked(
     mut file: &File,
     path: &Path,
+    sha256: &str,
     cancel: &AtomicBool,
-) -> Result<(u64, Summary, Shares), PaveError> {
-    file.rewind().map_err(|error| PaveError::Io(path.to_owned(), error))?;
-    let mut reader = Reader::new(BufReader::new(file)).map_err(PaveError::Defect)?;
-    let judge = reader.judge().map_err(PaveError::Defect)?;
+) -> Result<u64, PaveError> {
+    let io = |error| PaveError::Io(path.to_owned(), error);
+    let defect = |reason| refused(path, reason);
+    file.rewind().map_err(io)?;
+    let mut input = BufReader::new(Summed::new(file));
+    let mut reader = Reader::new(&mut input).map_err(defect)?;
+    let judge = reader.judge().map_err(defect)?;
     loop {
         let mut batch = Vec::with_capacity(BATCH);
         while batch.len() < BATCH {
-            match reader.next().map_err(PaveError::Defect)? {
+            match reader.next().map_err(defect)? {
                 Some(visited) => batch.push(visited),
                 None => break,
             }
@@ -167,9 +179,12 @@ fn checked(
             return Err(PaveError::Cancelled);
         }
         let first = batch.par_iter().map(|visited| judge.check(visited)).find_first(Result::is_err);
-        first.unwrap_or(Ok(())).map_err(PaveError::Defect)?;
+        first.unwrap_or(Ok(())).map_err(defect)?;
     }
     let nodes = reader.nodes();
-    let (summary, shares) = reader.finish().map_err(PaveError::Defect)?;
-    Ok((nodes, summary, shares))
+    reader.finish().map_err(defect)?;
+    match input.into_inner().finish().map_err(io)?.0 == sha256 {
+        true => Ok(nodes),
+        false => Err(PaveError::Changed(path.to_owned())),
+    }
 }

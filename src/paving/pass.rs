@@ -3,10 +3,14 @@
 use super::decide::discharged;
 use super::tree::{Cancelled, Grower, Grown, Root, Segment, Tally};
 use super::{header, plan, Decider, Goal};
+use crate::digest::{hexadecimal, Summed};
 use crate::output::{self, OutputError};
 use crate::search::{Control, Progress};
 use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
+use orthocert_checker::paving::{
+    Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited, MAX_AXIS_LEVEL,
+};
+use sha2::{Digest, Sha256};
 use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -36,6 +40,10 @@ pub enum PaveError {
     Io(PathBuf, io::Error),
     /// The checker does not accept what was written.
     Defect(Rejected),
+    /// What was written is not what is there.
+    Changed(PathBuf),
+    /// A box is left undecided at this depth, above that of the paving.
+    Coarse(u32),
 }
 
 impl fmt::Display for PaveError {
@@ -50,6 +58,14 @@ impl fmt::Display for PaveError {
             PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
             PaveError::Defect(reason) => {
                 write!(f, "the checker does not accept the paving: {reason}")
+            }
+            PaveError::Changed(path) => write!(
+                f,
+                "{}: was changed by another program while it was written; nothing is said of it",
+                path.display()
+            ),
+            PaveError::Coarse(depth) => {
+                write!(f, "a box is left undecided after {depth} splits, fewer than were asked for")
             }
         }
     }
@@ -81,10 +97,21 @@ pub struct Paved {
     pub summary: Summary,
     /// The shares of the volume.
     pub shares: Shares,
+    /// Splits above the largest undecided box; `None` where nothing is undecided.
+    pub coarsest: Option<u32>,
     /// Boxes tried by this run.
     pub boxes: u64,
     /// Bytes of the file.
     pub bytes: u64,
+    /// Their SHA-256: of what was confirmed, whatever the file holds by now.
+    pub sha256: String,
+}
+
+impl Paved {
+    /// Whether every undecided box has so many splits above it.
+    pub fn reaches(&self, depth: u32) -> bool {
+        self.coarsest.is_none_or(|coarsest| coarsest >= depth)
+    }
 }
 
 /// The unfinished file of a paving.
@@ -96,7 +123,8 @@ pub fn unfinished(path: &Path) -> PathBuf {
 
 /// Paves the claim's box and writes the paving to `path`, which holds what it held before until the
 /// paving is complete. From when its unfinished file is opened until it has taken its place, no other
-/// run can have that file.
+/// run can have that file; what another program writes to it is noticed, for nothing is said of bytes
+/// but those that this run has confirmed.
 ///
 /// # Errors
 /// [`PaveError`].
@@ -132,7 +160,7 @@ pub fn pave(
             None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
         };
         pass.run(file, resume, control)?;
-        let paved = finish(file, &part, pass.boxes)?;
+        let paved = finish(file, &part, pass.sum, pass.boxes)?;
         let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
         let wanted = goal.gap.filter(|_| goal.depth.is_none());
         // The plan is an estimate: where it fell short, the next depth is taken.
@@ -196,6 +224,8 @@ struct Pass<'a> {
     part: PathBuf,
     segments: Vec<Segment>,
     boxes: u64,
+    /// Of all bytes that were confirmed.
+    sum: Sha256,
 }
 
 impl<'a> Pass<'a> {
@@ -209,7 +239,8 @@ impl<'a> Pass<'a> {
         let grower = Grower { decider, symmetric, depth: header.depth, cancel };
         let mut above = Tally::up_to(header.depth);
         let segments = grower.segments(Root::WHOLE, COARSE.min(header.depth), &mut above)?;
-        Ok(Pass { grower, header, part: part.to_owned(), segments, boxes: above.boxes })
+        let (part, sum) = (part.to_owned(), Sha256::new());
+        Ok(Pass { grower, header, part, segments, boxes: above.boxes, sum })
     }
 
     fn io(&self, error: io::Error) -> PaveError {
@@ -229,7 +260,9 @@ impl<'a> Pass<'a> {
         let mut done = match resume {
             Resume::No => {
                 file.set_len(0).and_then(|()| file.rewind()).map_err(|e| self.io(e))?;
-                file.write_all(&self.first_line()?).map_err(|e| self.io(e))?;
+                let first = self.first_line()?;
+                file.write_all(&first).map_err(|e| self.io(e))?;
+                self.sum.update(&first);
                 0
             }
             Resume::Yes => self.take_up(file)?,
@@ -245,6 +278,7 @@ impl<'a> Pass<'a> {
             });
             written.map_err(|e| self.io(e))?;
             grown = next?;
+            grown.iter().for_each(|(bytes, _)| self.sum.update(bytes));
             done += window.len();
             self.boxes += grown.iter().map(|(_, boxes)| boxes).sum::<u64>();
             let closed = done as f64 / self.segments.len() as f64;
@@ -256,28 +290,30 @@ impl<'a> Pass<'a> {
 
     /// Ends the unfinished file after the last segment that it holds whole; returns how many it
     /// does. Every node that is kept is checked again.
-    fn take_up(&self, mut file: &File) -> Result<usize, PaveError> {
+    fn take_up(&mut self, mut file: &File) -> Result<usize, PaveError> {
         let fails = |reason: String| PaveError::Resume(self.part.clone(), reason);
         let open = |e: io::Error| fails(e.to_string());
         file.rewind().map_err(open)?;
-        let mut input = Counting { input: BufReader::new(file), count: 0 };
-        let mut first = vec![0; self.first_line()?.len()];
+        let mut input = Summed::new(BufReader::new(file));
+        let wanted = self.first_line()?;
+        let mut first = vec![0; wanted.len()];
         input.read_exact(&mut first).map_err(open)?;
-        if first != self.first_line()? {
+        if first != wanted {
             return Err(fails("its first line is another".to_owned()));
         }
-        let (mut whole, mut kept) = (input.count, 0);
+        let ((mut sum, mut whole), mut kept) = (input.so_far(), 0);
         for segment in &self.segments {
             if self.follows(segment, &mut input).is_err() {
                 break;
             }
-            (whole, kept) = (input.count, kept + 1);
+            ((sum, whole), kept) = (input.so_far(), kept + 1);
         }
+        self.sum = sum;
         file.set_len(whole).and_then(|()| file.seek(SeekFrom::End(0))).map_err(open)?;
         Ok(kept)
     }
 
-    /// Reads a segment, whose evidence has to hold.
+    /// Reads a segment, whose evidence has to hold and whose undecided boxes have the depth.
     fn follows(&self, segment: &Segment, input: &mut impl Read) -> Result<(), Rejected> {
         let root = match segment {
             Segment::Known(bytes) => {
@@ -291,8 +327,17 @@ impl<'a> Pass<'a> {
         while let Some(Root { cell, inherited, depth }) = waiting.pop() {
             let item = Item::read(input, 0)?;
             let done = discharged(inherited, &item.steps);
+            let has_steps = matches!(item.kind, Kind::Split(_) | Kind::Inner);
+            let new = if has_steps { (done & !inherited).count_ones() as usize } else { 0 };
+            if item.steps.len() != new {
+                return Err(Rejected::IdleSteps(0));
+            }
+            if item.kind == Kind::Boundary && depth < self.header.depth {
+                return Err(Rejected::Truncated(0));
+            }
             if let Kind::Split(axis) = item.kind {
-                let halves = cell.halves(axis).filter(|_| depth < self.header.depth);
+                let shallow = cell.edges[axis.index()].level < MAX_AXIS_LEVEL;
+                let halves = cell.halves(axis).filter(|_| shallow && depth < self.header.depth);
                 let (lower, upper) = halves.ok_or(Rejected::TooDeep(0))?;
                 let half = |cell| Root { cell, inherited: done, depth: depth + 1 };
                 waiting.extend([half(upper), half(lower)]);
@@ -309,32 +354,50 @@ pub(super) fn first_line(header: &Header) -> io::Result<Vec<u8>> {
     Ok((serde_json::to_string(header)? + "\n").into_bytes())
 }
 
-/// Appends the summary to a tree, as the checker's reader finds it. `boxes` were tried for it.
-pub(super) fn finish(mut file: &File, path: &Path, boxes: u64) -> Result<Paved, PaveError> {
+/// Appends the summary to a tree, as the checker's reader finds it. The tree's bytes were confirmed
+/// one by one and have the sum `confirmed`; `boxes` were tried for it.
+pub(super) fn finish(
+    mut file: &File,
+    path: &Path,
+    mut confirmed: Sha256,
+    boxes: u64,
+) -> Result<Paved, PaveError> {
     let io = |error: io::Error| PaveError::Io(path.to_owned(), error);
     file.rewind().map_err(io)?;
-    let mut reader = Reader::new(BufReader::new(file)).map_err(PaveError::Defect)?;
-    while reader.next().map_err(PaveError::Defect)?.is_some() {}
-    let text = serde_json::to_string(&reader.summary()).map_err(|e| io(e.into()))?;
+    let mut input = BufReader::new(Summed::new(file));
+    let found = read_back(&mut input);
+    let (sum, bytes) = input.into_inner().finish().map_err(io)?;
+    if sum != hexadecimal(&confirmed.clone().finalize()) {
+        return Err(PaveError::Changed(path.to_owned()));
+    }
+    let paved = found.map_err(|reason| refused(path, reason))?;
+    let text = serde_json::to_string(&paved.summary).map_err(|e| io(e.into()))? + "\n";
     file.seek(SeekFrom::End(0))
-        .and_then(|_| file.write_all((text + "\n").as_bytes()))
+        .and_then(|_| file.write_all(text.as_bytes()))
         .and_then(|()| file.sync_all())
         .map_err(io)?;
-    let bytes = file.metadata().map_err(io)?.len();
-    let (shares, summary) = (reader.shares(), reader.summary());
-    Ok(Paved { header: reader.header().clone(), summary, shares, boxes, bytes })
+    confirmed.update(&text);
+    let (bytes, sha256) = (bytes + text.len() as u64, hexadecimal(&confirmed.finalize()));
+    Ok(Paved { boxes, bytes, sha256, ..paved })
 }
 
-/// Counts the bytes that are read.
-struct Counting<R> {
-    input: R,
-    count: u64,
+/// What a tree without its summary holds.
+fn read_back(input: impl BufRead) -> Result<Paved, Rejected> {
+    let mut reader = Reader::new(input)?;
+    let mut coarsest: Option<u32> = None;
+    while let Some(visited) = reader.next()? {
+        if visited.item.kind == Kind::Boundary {
+            coarsest = Some(coarsest.map_or(visited.depth, |least| least.min(visited.depth)));
+        }
+    }
+    let (header, summary, shares) = (reader.header().clone(), reader.summary(), reader.shares());
+    Ok(Paved { header, summary, shares, coarsest, boxes: 0, bytes: 0, sha256: String::new() })
 }
 
-impl<R: BufRead> Read for Counting<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let read = self.input.read(buffer)?;
-        self.count += read as u64;
-        Ok(read)
+/// What is wrong with a file's content, or with reading it.
+pub(super) fn refused(path: &Path, reason: Rejected) -> PaveError {
+    match reason {
+        Rejected::Io(error) => PaveError::Io(path.to_owned(), error),
+        reason => PaveError::Defect(reason),
     }
 }

@@ -27,6 +27,8 @@ pub struct PavingReport {
     pub paving: String,
     /// Its length.
     pub bytes: u64,
+    /// Its SHA-256, of the bytes that were confirmed.
+    pub sha256: String,
     /// The volume of the undecided boxes over that of the inner ones; none without inner boxes.
     pub gap: Option<f64>,
     /// Whether the precision or gap that was asked for is reached.
@@ -118,6 +120,7 @@ impl PavingReport {
             design: String::new(),
             paving: target.display().to_string(),
             bytes: paved.bytes,
+            sha256: paved.sha256.clone(),
             gap,
             reached: true,
             inner: part(summary.inner, summary.inner_share.clone()),
@@ -177,10 +180,11 @@ impl PavingReport {
         }
         let rate = self.boxes as f64 / self.seconds;
         out + &format!(
-        "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  {} boxes in {} s, {} \
-         boxes/s\n",
+        "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  sha256 {}\n  {} boxes in \
+         {} s, {} boxes/s\n",
         self.paving,
         grouped(self.bytes),
+        self.sha256,
         grouped(self.boxes),
         significant(self.seconds, 3),
         grouped(rate as u64),

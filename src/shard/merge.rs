@@ -85,9 +85,7 @@ impl fmt::Display for MergeError {
                 more(f, shards.len())?;
                 write!(f, "; orthocert run-shard makes them")
             }
-            MergeError::NotATree => {
-                write!(f, "nothing was merged: the parts do not make one tree of cells")
-            }
+            MergeError::NotATree => write!(f, "the parts do not make one tree of cells"),
         }
     }
 }
@@ -249,8 +247,9 @@ fn tree(top: Vec<Node>, waiting: &[usize], boxes: usize, parts: Vec<Part>) -> Op
         match parts.next()? {
             Part::Tree { nodes: below, open: left, boxes: tried } => {
                 nodes.extend(below);
-                open += left;
-                boxes += tried;
+                // Numbers of a file: any.
+                open = usize::saturating_add(open, left);
+                boxes = usize::saturating_add(boxes, tried);
             }
             Part::Cells(_) | Part::Nodes(_) => return None,
         }

@@ -24,6 +24,6 @@ pub use file::{
 pub use merge::{merge, MergeError, Merged, Whole};
 pub use name::{name_of, Name, JOB_FILE};
 pub use paving::Stretches;
-pub use run::{progress_file, result_file, run, Ran, RunError};
+pub use run::{result_file, run, written, Ran, RunError};
 pub use split::{split, SplitError};
 pub use task::{Pave, Task, Verify};

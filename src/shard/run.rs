@@ -88,13 +88,18 @@ impl From<Cancelled> for RunError {
     }
 }
 
+/// The files that a run of the shard in the file `path` writes.
+pub fn written(path: &Path, shard: &Shard) -> [PathBuf; 3] {
+    [result_file(path, shard), progress_file(path, shard), nodes_file(path, shard)]
+}
+
 /// Where the result of the shard in the file `path` goes.
 pub fn result_file(path: &Path, shard: &Shard) -> PathBuf {
     path.with_file_name(name_of(Name::Result(shard.shard)))
 }
 
 /// Where a run of the shard in the file `path` keeps what is done.
-pub fn progress_file(path: &Path, shard: &Shard) -> PathBuf {
+fn progress_file(path: &Path, shard: &Shard) -> PathBuf {
     path.with_file_name(name_of(Name::Progress(shard.shard)))
 }
 
@@ -114,8 +119,7 @@ pub fn run(
     cancel: &AtomicBool,
     done: &mut dyn FnMut(usize, f64),
 ) -> Result<Ran, RunError> {
-    let (target, progress) = (result_file(path, shard), progress_file(path, shard));
-    let nodes = nodes_file(path, shard);
+    let [target, progress, nodes] = written(path, shard);
     let in_nodes = matches!(shard.task, Task::Pave(_));
     output::probe(&target)?;
     // Before the work: a link among them would lead to a file of somebody else.

@@ -14,6 +14,15 @@ pub fn coarse() -> Folder {
     folder
 }
 
+/// The names in the folder of the map, sorted.
+fn names(folder: &Folder) -> Vec<String> {
+    let entries = fs::read_dir(folder.path("map.atlas")).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
 fn json(run: &Run) -> Value {
     serde_json::from_str(&run.stdout).unwrap()
 }
@@ -26,8 +35,8 @@ fn a_map_is_written_with_everything_and_accepted() {
     assert_eq!((share("certified"), share("refuted")), ("9/16".into(), "21/64".into()));
     assert_eq!(report["marks"][0]["verdict"], "undecided");
     assert_eq!(report["best"]["sense"], "maximise");
-    let names: Vec<_> = fs::read_dir(folder.path("map.atlas")).unwrap().collect();
-    assert_eq!(names.len(), 4);
+    let written = ["SHA256SUMS", "atlas.cert.json", "best.cert.json", "index.html", "map.svg"];
+    assert_eq!(names(&folder), written);
     folder.run(&["check", "map.atlas/atlas.cert.json"]).exits(0).says(&[
         "ACCEPTED: certified",
         "6/5 <= psi_max <= 4",
@@ -205,6 +214,68 @@ fn names_are_refused_in_ordinary_designs() {
                   min = [0,0,0]\nmax = [1,1,1]\n[requirements]\ntransmission = { max = 2 }\n";
     folder.write("a.toml", design);
     folder.run(&["verify", "a.toml"]).exits(2).complains(&["leg_length", "found \"side\""]);
+}
+
+#[test]
+fn a_map_takes_the_place_of_a_map_only() {
+    let folder = coarse();
+    let refused = |name: &str| {
+        let run = folder.run(&["atlas", "map.toml"]).exits(2);
+        run.complains(&["map.atlas", &format!("found {name} in it"), "accepted: a new folder"]);
+    };
+    // A design of a name that is one of a map's, and nothing else.
+    fs::create_dir(folder.path("map.atlas")).unwrap();
+    folder.write("map.atlas/best.cert.json", "a design");
+    refused("best.cert.json");
+    assert_eq!(names(&folder), ["best.cert.json"]);
+    assert_eq!(folder.read("map.atlas/best.cert.json"), b"a design");
+    fs::remove_file(folder.path("map.atlas/best.cert.json")).unwrap();
+    // Empty; with an earlier map.
+    folder.run(&["atlas", "map.toml"]).exits(0);
+    let before = fs::read(folder.path("map.atlas/map.svg")).unwrap();
+    folder.run(&["atlas", "map.toml"]).exits(0);
+    assert_eq!(folder.names(), ["map.atlas", "map.toml"]);
+    // With something else; with something that was changed, or is not what it was.
+    folder.write("map.atlas/notes.txt", "");
+    refused("notes.txt");
+    fs::remove_file(folder.path("map.atlas/notes.txt")).unwrap();
+    folder.write("map.atlas/index.html", "annotated");
+    refused("index.html");
+    fs::remove_file(folder.path("map.atlas/index.html")).unwrap();
+    fs::create_dir(folder.path("map.atlas/index.html")).unwrap();
+    refused("index.html");
+    assert_eq!(folder.read("map.atlas/map.svg"), before);
+    assert_eq!(folder.names(), ["map.atlas", "map.toml"]);
+    // What was taken away is not missed.
+    fs::remove_dir(folder.path("map.atlas/index.html")).unwrap();
+    folder.run(&["atlas", "map.toml"]).exits(0);
+    assert_eq!(names(&folder).len(), 5);
+    folder.run(&["atlas", "map.toml", "-o", "."]).exits(2).complains(&["the name of a folder"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_place_of_a_map_is_refused() {
+    let folder = coarse();
+    fs::create_dir(folder.path("elsewhere")).unwrap();
+    std::os::unix::fs::symlink("elsewhere", folder.path("map.atlas")).unwrap();
+    folder.run(&["atlas", "map.toml"]).exits(4).complains(&["map.atlas", "a symbolic link"]);
+    assert_eq!(fs::read_dir(folder.path("elsewhere")).unwrap().count(), 0);
+}
+
+#[test]
+fn the_sums_of_a_map_are_those_of_its_files() {
+    let folder = coarse();
+    folder.run(&["atlas", "map.toml"]).exits(0);
+    let sums = String::from_utf8(folder.read("map.atlas/SHA256SUMS")).unwrap();
+    let mut listed = vec!["SHA256SUMS".to_owned()];
+    for line in sums.lines() {
+        let (sum, name) = line.split_once("  ").unwrap();
+        assert_eq!(sum, orthocert::digest::sha256(&folder.read(&format!("map.atlas/{name}"))));
+        listed.push(name.to_owned());
+    }
+    listed.sort();
+    assert_eq!(listed, names(&folder));
 }
 
 #[test]

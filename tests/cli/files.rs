@@ -123,3 +123,19 @@ fn what_is_read_is_not_overwritten() {
         assert!(folder.read(read) == before, "{command:?}");
     }
 }
+
+#[test]
+fn a_design_in_a_folder_of_certificates_is_not_overwritten() {
+    let folder = Folder::with(&["orthoglide-312.toml"]);
+    let design = folder.read("orthoglide-312.toml");
+    for (command, name) in [
+        (&["size", "--cube", "200"][..], "size-certified.cert.json"),
+        (&["tolerance"], "nominal.cert.json"),
+        (&["bounds"], "psi-least-outer.cert.json"),
+    ] {
+        folder.write(name, &design);
+        let run = folder.run(&[command, &[name, "-o", "."]].concat()).exits(2);
+        run.complains(&["--output", name, "is a file that is read"]);
+        assert!(folder.read(name) == design, "{name}");
+    }
+}

@@ -2,7 +2,9 @@
 #![cfg(target_os = "linux")]
 
 use crate::support::{Folder, Run, LONG};
+use orthocert_checker::paving::{Item, Kind};
 use std::fs::{self, File};
+use std::io::Write;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
@@ -109,6 +111,72 @@ fn a_paving_that_another_run_is_writing_is_left_alone() {
     Run::from(child.wait_with_output().unwrap()).exits(0);
     folder.run(&["check", "d.paving"]).exits(0).says(&["ACCEPTED"]);
     assert_eq!(folder.names(), ["d.paving", "d.toml"]);
+}
+
+/// Stops a run of `pave` once it has written something, and lets it go on after `meddle`.
+fn meddled(folder: &Folder, meddle: impl FnOnce()) -> Run {
+    const SIGSTOP: u32 = 19;
+    const SIGCONT: u32 = 18;
+    let pave = ["pave", "d.toml", "--precision", "0.012", "--threads", "1"];
+    let mut command = folder.command(&pave);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let part = folder.path("d.paving.part");
+    while fs::metadata(&part).map_or(0, |file| file.len()) < 10_000 {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it was stopped");
+        sleep(Duration::from_millis(1));
+    }
+    send(&child, SIGSTOP);
+    meddle();
+    send(&child, SIGCONT);
+    Run::from(child.wait_with_output().unwrap())
+}
+
+#[test]
+fn nothing_is_said_of_what_another_program_wrote_into_a_paving() {
+    let forged = |bytes: &[u8]| {
+        // An undecided box becomes an inner one: the certified volume grows.
+        let start = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        let mut rest = &bytes[start..];
+        loop {
+            let at = bytes.len() - rest.len();
+            if Item::read(&mut rest, 0).unwrap().kind == Kind::Boundary {
+                return [&bytes[..at], &[3], &bytes[at + 1..]].concat();
+            }
+        }
+    };
+    type Forge<'a> = &'a dyn Fn(&[u8]) -> Vec<u8>;
+    // Longer than the paving becomes: what the run still writes does not reach the end.
+    let longer = |bytes: &[u8]| [bytes, &[4; 1 << 20]].concat();
+    let other_header = |bytes: &[u8]| {
+        let end = bytes.iter().position(|byte| *byte == b'\n').unwrap();
+        let text = String::from_utf8_lossy(&bytes[..end]);
+        let other = text.replace("\"precision\":36", "\"precision\":40");
+        [other.as_bytes(), &bytes[end..]].concat()
+    };
+    for forge in [&forged as Forge<'_>, &longer, &other_header] {
+        let folder = Folder::new();
+        folder.write("d.toml", crate::paving::DESIGN);
+        folder.write("d.paving", "earlier");
+        let part = folder.path("d.paving.part");
+        let run = meddled(&folder, || {
+            let before = fs::read(&part).unwrap();
+            let bytes = forge(&before);
+            assert!(bytes != before);
+            File::options().write(true).open(&part).unwrap().write_all(&bytes).unwrap();
+        });
+        run.exits(4).complains(&["was changed by another program", "nothing is said of it"]);
+        assert_eq!(folder.read("d.paving"), b"earlier");
+    }
+}
+
+#[test]
+fn nothing_is_said_of_a_file_in_the_place_of_a_paving() {
+    let folder = Folder::new();
+    folder.write("d.toml", crate::paving::DESIGN);
+    folder.run(&["pave", "d.toml", "--precision", "0.2", "-o", "other"]).exits(0);
+    let part = folder.path("d.paving.part");
+    let run = meddled(&folder, || fs::rename(folder.path("other"), &part).unwrap());
+    run.exits(4).complains(&["was changed by another program"]);
 }
 
 #[test]

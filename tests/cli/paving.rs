@@ -1,9 +1,13 @@
 //! `pave`, and `check` of pavings.
 
-use crate::support::Folder;
+use crate::support::{Folder, Run};
+use orthocert_checker::certificate::{LegNumber, Violation};
 use orthocert_checker::number::Exact;
+use orthocert_checker::paving::{Item, Kind, Reader};
 use serde_json::Value;
 use std::cmp::Ordering;
+use std::io::Write;
+use std::process::Stdio;
 
 /// The Orthoglide with legs of length one, over a box that reaches beyond its region.
 pub const DESIGN: &str = r#"
@@ -133,6 +137,153 @@ fn a_paving_is_taken_up_from_wherever_it_ends() {
     folder.write("d.paving.part", &spoiled);
     folder.run(&[&pave[..], &["--resume"]].concat()).exits(0);
     assert!(folder.read("d.paving") == whole, "spoiled");
+}
+
+/// A paving's first line, and its nodes, each with its depth.
+fn nodes(bytes: &[u8]) -> (Vec<u8>, Vec<(u32, Item)>) {
+    let mut reader = Reader::new(bytes).unwrap();
+    let mut nodes = Vec::new();
+    while let Some(visited) = reader.next().unwrap() {
+        nodes.push((visited.depth, visited.item));
+    }
+    let end = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+    (bytes[..end].to_vec(), nodes)
+}
+
+/// The file with these nodes, and the summary that they have.
+fn written(first: &[u8], nodes: &[Item]) -> Vec<u8> {
+    let mut bytes = first.to_vec();
+    nodes.iter().for_each(|item| item.write(&mut bytes).unwrap());
+    let mut reader = Reader::new(bytes.as_slice()).unwrap();
+    while reader.next().unwrap().is_some() {}
+    let summary = serde_json::to_vec(&reader.summary()).unwrap();
+    [&bytes[..], &summary, b"\n"].concat()
+}
+
+#[test]
+fn what_is_taken_up_is_as_fine_as_what_is_grown() {
+    let folder = folder();
+    let pave = ["pave", "d.toml", "--precision", "0.015"];
+    folder.run(&pave).exits(0);
+    let whole = folder.read("d.paving");
+    let (mut cut, nodes) = nodes(&whole);
+    // The subtrees that are taken up begin after 18 splits: none is there, all is undecided.
+    for (depth, item) in nodes.iter().filter(|(depth, _)| *depth <= 18) {
+        match item.kind {
+            Kind::Split(_) if *depth == 18 => cut.push(4),
+            _ => item.write(&mut cut).unwrap(),
+        }
+    }
+    folder.write("d.paving.part", &cut);
+    folder.run(&[&pave[..], &["--resume"]].concat()).exits(0);
+    assert!(folder.read("d.paving") == whole);
+}
+
+#[test]
+fn a_design_or_a_strangers_file_is_no_unfinished_paving() {
+    let folder = Folder::new();
+    folder.write("q.part", DESIGN);
+    folder.run(&["pave", "q.part", "-o", "q"]).exits(2).complains(&["--output", "the design"]);
+    folder.run(&["pave", "q.part", "-o", "./q"]).exits(2);
+    folder.write("d.toml", DESIGN);
+    folder.write("d.paving.part", "a letter");
+    let run = folder.run(&["pave", "d.toml"]).exits(2);
+    run.complains(&["d.paving.part", "no unfinished paving", "another path"]);
+    assert_eq!(folder.read("q.part"), DESIGN.as_bytes());
+    assert_eq!(folder.read("d.paving.part"), b"a letter");
+    assert_eq!(folder.names(), ["d.paving.part", "d.toml", "q.part"]);
+}
+
+#[test]
+fn a_sample_is_drawn_by_a_seed_that_nobody_knew() {
+    let folder = folder();
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.3"]).exits(0);
+    let answer = |more: &[&str]| -> Value {
+        let check = [&["check", "d.paving", "--format", "json", "--sample", "5"][..], more];
+        serde_json::from_str(&folder.run(&check.concat()).exits(0).stdout).unwrap()
+    };
+    let seeds = [answer(&[]), answer(&[])].map(|answer| answer["seed"].clone());
+    assert_ne!(seeds[0], seeds[1]);
+    let again = answer(&["--seed", seeds[0].as_str().unwrap()]);
+    assert_eq!(again["seed"], seeds[0]);
+    folder.run(&["check", "d.paving", "--sample", "5"]).exits(0).says(&["Drawn with --seed "]);
+    let whole: Value =
+        serde_json::from_str(&folder.run(&["check", "d.paving", "--format", "json"]).stdout)
+            .unwrap();
+    assert!(whole.get("seed").is_none());
+    assert_eq!(whole["sha256"], orthocert::digest::sha256(&folder.read("d.paving")));
+    // Where something is false, which draw found it is said.
+    let (first, nodes) = nodes(&folder.read("d.paving"));
+    let forged: Vec<Item> = nodes
+        .into_iter()
+        .map(|(_, item)| match item.kind {
+            Kind::Outer(_) => {
+                let reach = Violation::Reach(LegNumber { leg: 1 });
+                Item { steps: Vec::new(), kind: Kind::Outer(reach) }
+            }
+            _ => item,
+        })
+        .collect();
+    folder.write("forged", written(&first, &forged));
+    let run = folder.run(&["check", "forged", "--sample", "50"]).exits(5);
+    run.complains(&["is not outer", "drawn with --seed "]);
+    folder.run(&["check", "d.paving", "--sample", "1000001"]).exits(2).complains(&["--sample"]);
+}
+
+#[test]
+fn boxes_that_are_not_drawn_have_evidence_all_the_same() {
+    let folder = folder();
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.3"]).exits(0);
+    let (first, nodes) = nodes(&folder.read("d.paving"));
+    let bare = |kind| Item { steps: Vec::new(), kind };
+    let forged = |forge: &dyn Fn(&Item) -> Item| {
+        let items: Vec<Item> = nodes.iter().map(|(_, item)| forge(item)).collect();
+        folder.write("forged", written(&first, &items));
+    };
+    forged(&|item| match item.kind {
+        Kind::Inner => bare(Kind::Inner),
+        _ => item.clone(),
+    });
+    for seed in ["0", "1", "2"] {
+        let run = folder.run(&["check", "forged", "--sample", "1", "--seed", seed]).exits(5);
+        run.complains(&["is inner, but", "is not discharged"]);
+    }
+    forged(&|item| match item.kind {
+        Kind::Outer(_) => bare(Kind::Outer(Violation::ParallelMargin)),
+        _ => item.clone(),
+    });
+    folder.run(&["check", "forged", "--sample", "1"]).exits(5).complains(&["is not outer"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_paving_through_a_pipe_is_read_once() {
+    let folder = folder();
+    folder.run(&["pave", "d.toml", "--volume-gap", "0.05"]).exits(0);
+    let bytes = folder.read("d.paving");
+    // More than a pipe holds.
+    assert!(bytes.len() > 1 << 16);
+    let piped = |arguments: &[&str], bytes: &[u8]| {
+        let (reader, mut writer) = std::io::pipe().unwrap();
+        let mut command = folder.command(arguments);
+        command.stdin(reader).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().unwrap();
+        drop(command);
+        // A reader that has had enough is no matter.
+        let _ = writer.write_all(bytes);
+        drop(writer);
+        Run::from(child.wait_with_output().unwrap())
+    };
+    let sum = orthocert::digest::sha256(&bytes);
+    piped(&["check", "/dev/stdin"], &bytes).exits(0).says(&["ACCEPTED: paving", &sum]);
+    let sampled = ["check", "/dev/stdin", "--sample", "9"];
+    piped(&sampled, &bytes).exits(0).says(&["The evidence of 9 of the"]);
+    let report = ["report", "/dev/stdin", "-o", "r.html", "--format", "json"];
+    piped(&report, &bytes).exits(0).says(&[&sum]);
+    piped(&["export", "stl", "/dev/stdin", "-o", "r.stl"], &bytes).exits(0).says(&[&sum]);
+    for cut in [bytes.len() / 2, bytes.len() - 1] {
+        piped(&["check", "/dev/stdin"], &bytes[..cut]).exits(5).complains(&["REJECTED"]);
+    }
 }
 
 #[cfg(unix)]

@@ -243,12 +243,44 @@ fn a_forged_result_is_not_accepted() {
         (node(Kind::Inner), "is inner, but"),
         (node(Kind::Mirrored), "is left out by symmetry, but"),
         // More nodes, or fewer, than a tree has.
-        ([boundary.clone(), boundary].concat(), "does not accept the paving"),
+        ([boundary.clone(), boundary.clone()].concat(), "a box is left undecided after"),
         (Vec::new(), "does not accept the paving"),
+        // True, but not what was asked for.
+        (boundary, "a box is left undecided after"),
     ] {
         let folder = done(1);
         forge(&folder, 1, &forged);
-        refused(&folder, 4, &["the checker does not accept the paving", words]);
+        refused(&folder, 5, &["REJECTED: nothing was merged", words]);
+        let json = folder.run(&["merge", "job", "-o", "merged", "--format", "json"]).exits(5);
+        let answer: Value = serde_json::from_str(&json.stdout).unwrap();
+        assert_eq!(answer["accepted"], false);
+        assert!(answer["reason"].as_str().unwrap().contains(words), "{answer}");
+    }
+}
+
+#[test]
+fn a_merge_leaves_the_folder_of_the_shards_alone() {
+    let folder = done(1);
+    let before = fs::read(folder.path("job/shard-0001.json")).unwrap();
+    for output in ["job/shard-0001.json", "job/job.json", "./job/new", "job"] {
+        let run = folder.run(&["merge", "job", "-o", output]).exits(2);
+        run.complains(&["--output", "in the folder of the shards"]);
+        let submit = ["submit", "job", "--engine", "slurm", "--scripts-only", "-o", output];
+        folder.run(&submit).exits(2).complains(&["in the folder of the shards"]);
+    }
+    assert!(fs::read(folder.path("job/shard-0001.json")).unwrap() == before);
+    merge(&folder).exits(0);
+}
+
+#[test]
+fn a_shard_in_the_place_of_its_own_files_is_refused() {
+    let folder = split_of(DESIGN, "1");
+    let shard = folder.read("job/shard-0001.json");
+    for name in ["result-0001.json", "result-0001.part", "result-0001.nodes"] {
+        folder.write(name, &shard);
+        folder.run(&["run-shard", name]).exits(2).complains(&[name, "accepted: the name"]);
+        assert!(folder.read(name) == shard);
+        fs::remove_file(folder.path(name)).unwrap();
     }
 }
 
@@ -293,10 +325,8 @@ fn bad_usage_is_refused() {
     }
     split(&folder, "1");
     run(&folder, 1).exits(0);
-    for (output, complaint) in [("/dev/null", "not a regular file"), ("job", "not a regular file")]
-    {
-        folder.run(&["merge", "job", "-o", output]).exits(2).complains(&[complaint]);
-    }
+    let device = folder.run(&["merge", "job", "-o", "/dev/null"]).exits(2);
+    device.complains(&["not a regular file"]);
 }
 
 #[test]

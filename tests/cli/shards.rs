@@ -2,7 +2,8 @@
 
 use crate::atlas::{coarse, widest};
 use crate::support::Folder;
-use orthocert::shard::{sha256, Task};
+use orthocert::shard::{read_shard, sha256, Part, ShardResult, Task};
+use orthocert_checker::certificate::Node;
 use std::fs;
 
 /// A folder with the map of one machine in `one`, and shards of the same job in `job`.
@@ -228,8 +229,37 @@ fn a_forged_result_is_not_accepted() {
     ));
     result["sha256"] = sum.into();
     folder.write("job/result-0001.json", result.to_string());
-    let run = folder.run(&["merge", "job", "-o", "merged"]).exits(4);
-    run.complains(&["the map was not accepted", "is not discharged"]);
+    let run = folder.run(&["merge", "job", "-o", "merged"]).exits(5);
+    run.complains(&["REJECTED", "the map was not accepted", "is not discharged"]);
+    assert!(!folder.path("merged").exists());
+}
+
+#[test]
+fn a_forged_proof_is_not_accepted() {
+    let name = "linear-delta-klipper-cylinder.toml";
+    let folder = Folder::with(&[name]);
+    folder.run(&["split", name, "--shards", "2", "--out", "job"]).exits(0);
+    let forge = |part: &dyn Fn() -> Part| {
+        for shard in 1..=2 {
+            let path = folder.path(&format!("job/shard-{shard:04}.json"));
+            let (shard, answers) = read_shard(&path).unwrap();
+            let parts = shard.cells.iter().map(|_| part()).collect();
+            let result = serde_json::to_string(&ShardResult::new(&shard, answers, parts)).unwrap();
+            fs::write(path.with_file_name(format!("result-{:04}.json", shard.shard)), result)
+                .unwrap();
+        }
+        folder.run(&["merge", "job", "-o", "merged.json"])
+    };
+    let tree =
+        |nodes: usize, open, boxes| Part::Tree { nodes: vec![Node::default(); nodes], open, boxes };
+    forge(&|| tree(1, 0, 1)).exits(5).complains(&["REJECTED", "the proof was not accepted"]);
+    for nodes in [0, 2] {
+        forge(&|| tree(nodes, 0, usize::MAX)).exits(5).complains(&["REJECTED"]);
+    }
+    forge(&|| Part::Cells(Vec::new())).exits(5).complains(&["do not make one tree"]);
+    // Two of them would be none again.
+    forge(&|| tree(1, 1 << (usize::BITS - 1), 1)).exits(3).says(&["UNDECIDED"]);
+    assert!(!folder.path("merged.json").exists());
 }
 
 /// A title that would rub out a verdict and write another one.
@@ -345,7 +375,8 @@ fn bad_usage_is_refused() {
         .complains(&["a shard that orthocert split wrote"]);
     folder.run(&["run-shard", "job/job.json"]).exits(2).complains(&["accepted: a shard"]);
     folder.run(&["run-shard", "absent.json"]).exits(2).complains(&["cannot be read"]);
-    folder.run(&["merge", ".", "-o", "merged"]).exits(2).complains(&["job.json"]);
+    fs::create_dir(folder.path("empty")).unwrap();
+    folder.run(&["merge", "empty", "-o", "merged"]).exits(2).complains(&["job.json"]);
 }
 
 #[test]
