@@ -42,7 +42,7 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
     (
         "string-for-the-certificate",
         Syntax,
-        r#"invalid type: string "orthocert/1", expected an object"#,
+        r#"invalid type: string "orthocert/2", expected an object"#,
     ),
     ("text-after-the-end", Syntax, "trailing characters"),
     ("trailing-comma", Syntax, "trailing comma"),
@@ -167,28 +167,28 @@ pub const TABLE: [(&str, Kind, &str); 265] = [
     (
         "foreign-format",
         Format,
-        r#"format "vipr 1.1" is not known; this checker reads "orthocert/1""#,
+        r#"format "vipr 1.1" is not known; this checker reads "orthocert/2""#,
     ),
     ("format-as-a-number", Syntax, "invalid type: integer `1`, expected a string"),
     (
         "format-in-capitals",
         Format,
-        r#"format "Orthocert/1" is not known; this checker reads "orthocert/1""#,
+        r#"format "Orthocert/1" is not known; this checker reads "orthocert/2""#,
     ),
     (
         "format-with-a-blank",
         Format,
-        r#"format "orthocert/1 " is not known; this checker reads "orthocert/1""#,
+        r#"format "orthocert/2 " is not known; this checker reads "orthocert/2""#,
     ),
     (
         "later-format-of-another-shape",
         Format,
-        r#"format "orthocert/2" is not known; this checker reads "orthocert/1""#,
+        r#"format "orthocert/3" is not known; this checker reads "orthocert/2""#,
     ),
     (
         "later-format",
         Format,
-        r#"format "orthocert/2" is not known; this checker reads "orthocert/1""#,
+        r#"format "orthocert/3" is not known; this checker reads "orthocert/2""#,
     ),
     ("unknown-axis", Syntax, "unknown variant `w`"),
     (
