@@ -170,9 +170,19 @@ impl Extreme {
             Extreme::Conditioning => "sigma_max/sigma_min".into(),
             Extreme::SerialMargin => "|eta_i|/L_i".into(),
             Extreme::ParallelMargin => "|det A|/(L1 L2 L3)".into(),
-            Extreme::LegAngle => "leg angle (deg)".into(),
+            Extreme::LegAngle => "leg angle".into(),
             Extreme::JointSpeed => "joint/tool speed".into(),
             Extreme::LeastRho(leg) | Extreme::GreatestRho(leg) => format!("rho_{}", leg + 1),
+        }
+    }
+
+    /// The unit of its bounds, where it has one.
+    pub fn unit(self, claim: &MachineClaim) -> Option<&'static str> {
+        let angular = claim.mechanism.is_angular();
+        match self {
+            // Of a joint's speed by the tool's.
+            Extreme::JointSpeed => angular.then_some("deg/length"),
+            _ => self.qualities().first()?.unit(angular),
         }
     }
 
@@ -392,6 +402,8 @@ struct Unit {
     length: f64,
     /// Of `1/M`: one, or a length where joint coordinates are angles.
     inverse_row: f64,
+    /// Of joint coordinates: one, or degrees in a radian.
+    angle: f64,
 }
 
 impl Unit {
@@ -405,8 +417,11 @@ impl Unit {
             }
             _ => return None,
         };
-        let inverse_row = if claim.mechanism.is_angular() { length } else { 1.0 };
-        Some(Unit { length, inverse_row })
+        let (inverse_row, angle) = match claim.mechanism.is_angular() {
+            true => (length, 1f64.to_degrees()),
+            false => (1.0, 1.0),
+        };
+        Some(Unit { length, inverse_row, angle })
     }
 }
 
@@ -443,7 +458,7 @@ fn value(
     Some(match extreme {
         Extreme::LeastRho(_) | Extreme::GreatestRho(_) => value * unit.length,
         Extreme::LeastPsi | Extreme::GreatestPsi => value * unit.inverse_row,
-        Extreme::JointSpeed => value / unit.inverse_row,
+        Extreme::JointSpeed => value / unit.inverse_row * unit.angle,
         _ => value,
     })
 }

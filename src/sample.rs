@@ -48,6 +48,33 @@ pub enum Quality {
     JointSpeed(usize),
 }
 
+impl Quality {
+    /// The unit of its values in reports, where it has one; `angular` where joints are angles.
+    pub fn unit(self, angular: bool) -> Option<&'static str> {
+        match self {
+            Quality::GreatestPsi | Quality::LeastPsi => angular.then_some("length/rad"),
+            Quality::LeastRho(_) | Quality::GreatestRho(_) => {
+                Some(if angular { "deg" } else { "length" })
+            }
+            Quality::LegAngle(_) => Some("deg"),
+            Quality::JointSpeed(_) => Some(if angular { "deg/time" } else { "length/time" }),
+            Quality::Clearance
+            | Quality::Determinant
+            | Quality::Conditioning
+            | Quality::SerialMargin(_)
+            | Quality::ParallelMargin => None,
+        }
+    }
+}
+
+/// A quantity's name with its unit in a table, where the unit has an angle in it.
+pub fn with_unit(name: &str, unit: Option<&str>) -> String {
+    match unit.filter(|unit| !unit.starts_with("length") || unit.ends_with("rad")) {
+        Some(unit) => format!("{name}, {unit}"),
+        None => name.to_owned(),
+    }
+}
+
 /// What is found at a place.
 #[derive(Clone, Debug)]
 pub struct Values {

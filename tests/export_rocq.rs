@@ -12,7 +12,7 @@ fn certificate(workspace: &str, requirements: &str, nodes: &str) -> String {
     };
     let legs = [r#"["1","0","0"]"#, r#"["0","1","0"]"#, r#"["0","0","1"]"#].map(leg).join(",");
     format!(
-        r#"{{"format":"orthocert/1","claim":{{"machine":{{"mechanism":{{"translational":[{legs}]}},"workspace":{workspace},"requirements":{requirements}}}}},"verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#
+        r#"{{"format":"orthocert/2","claim":{{"machine":{{"mechanism":{{"translational":[{legs}]}},"workspace":{workspace},"requirements":{requirements}}}}},"verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#
     )
 }
 
@@ -65,7 +65,7 @@ fn postulate(psi_max: &str, parts: &[(&str, &str, &str)]) -> String {
         })
         .collect();
     format!(
-        r#"{{"format":"orthocert/1","claim":{{"postulate":{{"psi_max":{psi_max}}}}},"verdict":"certified","proof":{{"faces":{{"precision":64,"parts":[{}]}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#,
+        r#"{{"format":"orthocert/2","claim":{{"postulate":{{"psi_max":{psi_max}}}}},"verdict":"certified","proof":{{"faces":{{"precision":64,"parts":[{}]}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#,
         parts.join(",")
     )
 }
@@ -130,7 +130,7 @@ fn trees_that_the_range_of_the_postulate_does_not_need_are_refused() {
 
 #[test]
 fn one_psi_max_by_a_tree_over_the_cube_is_refused_with_the_command_for_a_range() {
-    let text = r#"{"format":"orthocert/1","claim":{"postulate":{"psi_max":"2"}},"verdict":"certified","proof":{"tree":{"precision":64,"nodes":[{"by":["blow_up"]}]}},"provenance":{"tool":"orthocert","version":"0.1.0"}}"#;
+    let text = r#"{"format":"orthocert/2","claim":{"postulate":{"psi_max":"2"}},"verdict":"certified","proof":{"tree":{"precision":64,"nodes":[{"by":["blow_up"]}]}},"provenance":{"tool":"orthocert","version":"0.1.0"}}"#;
     let refused = exported(text).expect_err("refused");
     assert_eq!(refused, ExportError::OneCube);
     assert!(refused.to_string().contains("orthocert postulate --psi-range A..B"));

@@ -81,7 +81,7 @@ pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
         return Vec::new();
     };
     let cube = matches!(claim.workspace, Workspace::Cube { .. });
-    let demanded = demanded(&claim.requirements, cube);
+    let demanded = demanded(&claim.requirements, cube, claim.mechanism.is_angular());
     let demanded = demanded.into_iter().map(|(rule, key, demands)| Requirement {
         rule,
         demands,
@@ -96,7 +96,11 @@ pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
 }
 
 /// Rule, key of the design and bounds of everything that is demanded.
-fn demanded(all: &Requirements, cube: bool) -> Vec<(&'static str, &'static str, String)> {
+fn demanded(
+    all: &Requirements,
+    cube: bool,
+    angular: bool,
+) -> Vec<(&'static str, &'static str, String)> {
     let mut found = vec![(SINGULARITY, "requirements", "no singularity".to_owned())];
     let mut add = |rule, key, demands| found.push((rule, key, demands));
     if let Some(Range { min, max }) = &all.transmission {
@@ -113,7 +117,8 @@ fn demanded(all: &Requirements, cube: bool) -> Vec<(&'static str, &'static str, 
             between(range.min.as_ref().map(readable), &name, range.max.as_ref())
         };
         let legs: Vec<String> = ranges.iter().enumerate().map(leg).collect();
-        add("joint-range", "requirements.joint_range", legs.join(", "));
+        let degrees = if angular { ", in degrees" } else { "" };
+        add("joint-range", "requirements.joint_range", legs.join(", ") + degrees);
     }
     let at_most = |name: &str, max: &Exact| format!("{name} <= {}", readable(max));
     let at_least = |name: &str, min: &Exact| format!("{name} >= {}", readable(min));
@@ -134,7 +139,8 @@ fn demanded(all: &Requirements, cube: bool) -> Vec<(&'static str, &'static str, 
         add("leg-angle", "requirements.leg_angle", demands);
     }
     if let Some(speed) = &all.joint_speed {
-        let demands = at_most("joint speed", &speed.max);
+        let unit = if angular { "joint speed in degrees per time" } else { "joint speed" };
+        let demands = at_most(unit, &speed.max);
         add("joint-speed", "requirements.joint_speed", demands);
     }
     found

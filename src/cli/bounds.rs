@@ -7,6 +7,7 @@ use orthocert::decimal::{rounded, Toward};
 use orthocert::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert::output;
 use orthocert::report::CertificateFile;
+use orthocert::sample::with_unit;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
@@ -17,6 +18,9 @@ use std::time::Instant;
 
 /// Significant digits beyond those that the width leaves certain.
 const GUARD_DIGITS: u32 = 2;
+
+/// Width of the column of quantities: "joint/tool speed, deg/length".
+const WIDEST: usize = 28;
 
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
 /// few hundred; the condition number of the rotary Delta takes 40,000.
@@ -42,6 +46,9 @@ pub struct Arguments {
 #[derive(Serialize)]
 struct Row {
     quantity: String,
+    /// Its unit, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'static str>,
     /// "least" or "greatest".
     end: &'static str,
     /// Below the extreme, or equal.
@@ -89,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         } else {
             effort.run(|control| enclose(claim, extreme, &relative, budget, control))
         };
-        rows.push(row(extreme, found, &relative, arguments)?);
+        rows.push(row((extreme, claim), found, &relative, arguments)?);
     }
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
@@ -121,6 +128,7 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
     };
     let exactly = |end, value: Option<Exact>| Row {
         quantity: "psi".into(),
+        unit: None,
         end,
         min: value.clone(),
         max: value,
@@ -140,13 +148,14 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
 }
 
 fn row(
-    extreme: Extreme,
+    (extreme, claim): (Extreme, &MachineClaim),
     found: Result<Enclosed, NotEnclosed>,
     relative: &BigRational,
     arguments: &Arguments,
 ) -> Result<Row, Failure> {
     let mut row = Row {
         quantity: extreme.quantity(),
+        unit: extreme.unit(claim),
         end: if extreme.is_greatest() { "greatest" } else { "least" },
         min: None,
         max: None,
@@ -220,11 +229,12 @@ fn text(rows: &[Row], started: Instant) -> String {
         .to_owned();
     let _ = writeln!(
         out,
-        "  {:<19} {:<8} {:<17} {:<17} {:>7}",
+        "  {:<WIDEST$} {:<8} {:<17} {:<17} {:>7}",
         "quantity", "extreme", "from", "to", "width"
     );
     for row in rows {
-        let _ = write!(out, "  {:<19} {:<8} ", row.quantity, row.end);
+        let quantity = with_unit(&row.quantity, row.unit);
+        let _ = write!(out, "  {quantity:<WIDEST$} {:<8} ", row.end);
         match (&row.min, &row.max, &row.not_enclosed) {
             (Some(min), Some(max), _) => {
                 let (min, max) = (shown(min, Toward::Below), shown(max, Toward::Above));

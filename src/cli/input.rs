@@ -1,7 +1,7 @@
 //! Reading what commands are given: designs, certificates and numbers.
 
 use super::Failure;
-use orthocert::design::Design;
+use orthocert::design::{may_be_tolerance, Design};
 use orthocert_checker::certificate::MAX_BYTES;
 use orthocert_checker::number::Exact;
 use std::fs::{self, File};
@@ -85,6 +85,13 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 
 /// The exact number that an option's value is.
 pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
+    if may_be_tolerance(text) {
+        let text: String = text.chars().take(60).collect();
+        return Err(Failure::Input(format!(
+            "{option}: found \"{text}\", which may be read as a tolerance; accepted: one number such as \
+             2, 1.5, 3/2 or sqrt(2), in a sum blanks on both sides of a sign or on neither"
+        )));
+    }
     Exact::parse(text, MAX_DIGITS).map_err(|error| {
         let text: String = text.chars().take(60).collect();
         Failure::Input(format!(

@@ -101,7 +101,7 @@ fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
     Extreme::bounded(claim)
         .into_iter()
         .filter_map(|extreme| enclosed(extreme).ok())
-        .map(|found| Margin::of(&found))
+        .map(|found| Margin::of(&found, claim))
         .collect()
 }
 

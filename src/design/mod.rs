@@ -26,6 +26,7 @@ mod drive;
 mod error;
 mod independence;
 mod mechanism;
+mod notation;
 mod number;
 mod requirements;
 mod sources;
@@ -37,6 +38,7 @@ mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
 pub use error::{Defect, DesignError, Position, ReadError};
+pub use notation::may_be_tolerance;
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 

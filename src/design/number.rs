@@ -4,10 +4,11 @@
 //! digit from the text, never by way of a floating-point number. TOML's underscores between digits
 //! have no meaning; hexadecimal, octal and binary integers are converted exactly. A string is an
 //! expression ([`Exact::parse`]), or two with `±` or `+/-` between them: nominal value and
-//! tolerance. `+-` is refused where a tolerance may stand: it would be a difference.
+//! tolerance. What may be read as either is refused ([`notation`](super::notation)).
 
 use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
+use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
 use orthocert_checker::atlas::{range, AtlasError, Ends};
 use orthocert_checker::claim::Quantity;
@@ -23,8 +24,7 @@ const QUANTITY: &str =
     r#"a number or a tolerance: 310.25, "1/3", "310.25 ± 0.02", { min = 310.2, max = 310.3 }"#;
 const FINITE: &str = "a finite number";
 const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
-const NEITHER_SUM_NOR_TOLERANCE: &str =
-    r#""310.25 ± 0.02" or "310.25 +/- 0.02" for a tolerance, "310.25 - 0.02" for a difference"#;
+const NEITHER_SUM_NOR_TOLERANCE: &str = r#""310.25 ± 0.02" for a tolerance, { min = 310.23, max = 310.3 } for unequal deviations, or, as arithmetic, blanks on both sides of a sign or on neither, and parentheses: "310.25 + 0.02", "310 + (5 - 2)", "310 ± (1/50)""#;
 const NO_TOLERANCE: &str =
     "one exact number: a machine's parameters may carry a tolerance, workspace and requirements not";
 
@@ -56,11 +56,9 @@ pub(super) fn quantity(value: &Value<'_>) -> Result<Quantity, DesignError> {
             ordered((&least, &min), (&greatest, &max))?;
             Ok(Quantity { min, max })
         }
-        DeValue::String(text) if text.contains("+-") => {
-            Err(value.error(Defect::Tolerance, value.found(), NEITHER_SUM_NOR_TOLERANCE))
-        }
         DeValue::String(text) => match parts_of_tolerance(text) {
-            Some(parts) => around(value, text, parts),
+            Some(parts) if is_plain_tolerance(&parts) => around(value, text, parts),
+            Some(_) => Err(ambiguous(value)),
             None => scalar(value, QUANTITY).map(Quantity::exactly),
         },
         _ => scalar(value, QUANTITY).map(Quantity::exactly),
@@ -108,9 +106,15 @@ fn scalar(value: &Value<'_>, accepted: &str) -> Result<Exact, DesignError> {
     match value.inner {
         DeValue::Integer(integer) => whole(value, integer),
         DeValue::Float(float) => decimal(value, float),
+        DeValue::String(text) if may_be_tolerance(text) => Err(ambiguous(value)),
         DeValue::String(text) => writable(value, expression(value, text, (0, text), accepted)?),
         _ => Err(value.wrong_type(accepted)),
     }
+}
+
+fn ambiguous(value: &Value<'_>) -> DesignError {
+    let found = format!("{}, which may be read as a tolerance or as arithmetic", value.found());
+    value.error(Defect::Tolerance, found, NEITHER_SUM_NOR_TOLERANCE)
 }
 
 /// The number that `part`, at this offset of the value's `text`, denotes.
@@ -189,13 +193,6 @@ fn whole(value: &Value<'_>, integer: &DeInteger<'_>) -> Result<Exact, DesignErro
     writable(value, number)
 }
 
-/// The nominal value and the tolerance's text, each with its byte offset in `text`.
-fn parts_of_tolerance(text: &str) -> Option<[(usize, &str); 2]> {
-    let sign = ["±", "+/-"].into_iter().filter_map(|sign| Some((text.find(sign)?, sign.len())));
-    let (at, length) = sign.min()?;
-    Some([(0, text.get(..at)?), (at + length, text.get(at + length..)?)])
-}
-
 /// `nominal ± tolerance`.
 fn around(
     value: &Value<'_>,
@@ -235,9 +232,10 @@ fn writable(value: &Value<'_>, number: Exact) -> Result<Exact, DesignError> {
 
 /// The error that `text`, the value's content, is no number, with the caret where it ceases to be.
 fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &str) -> DesignError {
-    use NumberErrorKind::{ExponentTooLarge, TooLarge, TooManyDigits};
+    use NumberErrorKind::{ExponentTooLarge, TooLarge, TooManyDigits, TooManyRoots};
     let accepted = match error.kind {
         TooManyDigits(_) | ExponentTooLarge | TooLarge => WITHIN_LIMITS,
+        TooManyRoots => "a number of at most 16 square roots",
         _ => accepted,
     };
     let before = text.get(..error.at).unwrap_or(text);

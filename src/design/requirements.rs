@@ -233,13 +233,17 @@ fn leg_angle(
     Ok(())
 }
 
-/// No tool velocity of magnitude `tool` demands a joint speed beyond `max`.
+/// No tool velocity of magnitude `tool` demands a joint speed beyond `max`, of arms in degrees per
+/// unit of time.
 fn joint_speed(
     value: &Value<'_>,
-    _: &Mechanism,
+    mechanism: &Mechanism,
     requirements: &mut Requirements,
 ) -> Result<(), DesignError> {
-    let accepted = "{ tool = 1200, max = 2000 }: the tool's speed and the joints' limit";
+    let accepted = match mechanism.is_angular() {
+        true => "{ tool = 100, max = 1000 }: the tool's speed and the arms' limit, degrees per unit of time",
+        false => "{ tool = 1200, max = 2000 }: the tool's speed and the joints' limit, lengths per unit of time",
+    };
     let table = value.table(accepted)?;
     table.only(&["tool", "max"])?;
     let speed = |key: &str| {

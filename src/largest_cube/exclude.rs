@@ -85,7 +85,7 @@ fn centres(claim: &NoCubeClaim) -> Result<Centres, NoAnswer> {
     let mut points = Vec::with_capacity(offsets.len());
     for offset in offsets {
         let too_large = || refused("its numbers exceed what can be reported".to_owned());
-        let moved = claim.moved(&offset).ok_or_else(too_large)?;
+        let moved = moved(claim, &offset).ok_or_else(too_large)?;
         let decider = Decider::new(&header(&moved, 0)).map_err(|e| refused(e.to_string()))?;
         points.push((offset, decider));
     }
@@ -95,4 +95,18 @@ fn centres(claim: &NoCubeClaim) -> Result<Centres, NoAnswer> {
     };
     let width = [edge(0), edge(1), edge(2)].map(|edge| edge.unwrap_or(1.0));
     Ok(Centres { points, width })
+}
+
+/// The claim about the points `C + offset side / (2 OFFSET_PARTS)`, `C` in the box of centres.
+fn moved(claim: &NoCubeClaim, offset: &[i64; 3]) -> Option<MachineClaim> {
+    let Workspace::Box { mut min, mut max } = claim.machine.workspace.clone() else {
+        return None;
+    };
+    let part = claim.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok()?;
+    for (k, &n) in offset.iter().enumerate() {
+        let by = part.clone().times(Exact::integer(n)).ok()?;
+        min[k] = min[k].clone().plus(by.clone()).ok()?;
+        max[k] = max[k].clone().plus(by).ok()?;
+    }
+    Some(MachineClaim { workspace: Workspace::Box { min, max }, ..claim.machine.clone() })
 }

@@ -194,20 +194,21 @@ fn asserted(claim: &Claim) -> Vec<String> {
                     out
                 }
             };
-            out.extend(required(&claim.requirements));
+            out.extend(required(&claim.requirements, claim.mechanism.is_angular()));
             out
         }
     }
 }
 
 /// The requirements but for those on the transmission factors.
-fn required(requirements: &Requirements) -> Vec<String> {
+fn required(requirements: &Requirements, angular: bool) -> Vec<String> {
     let mut out = Vec::new();
     if let Some(ranges) = &requirements.joint_range {
         let each = (1..)
             .zip(ranges)
             .map(|(i, range)| within(range, &format!("\u{3c1}<sub>{i}</sub>(<var>P</var>)")));
-        out.push(each.collect::<Vec<_>>().join(", "));
+        let degrees = if angular { ", in degrees" } else { "" };
+        out.push(each.collect::<Vec<_>>().join(", ") + degrees);
     }
     let at_most = |what: &str, x: &Exact| format!("{what} \u{2264} {}", number(x));
     let at_least = |what: &str, x: &Exact| format!("{what} \u{2265} {}", number(x));
@@ -231,8 +232,11 @@ fn required(requirements: &Requirements) -> Vec<String> {
         out.push(at_most("angle between leg <var>i</var> and its guide, in degrees", &bound.max));
     }
     if let Some(bound) = &requirements.joint_speed {
-        let speed = format!("|row<sub>i</sub> of <var>M</var>| \u{b7} {}", number(&bound.tool));
-        out.push(at_most(&speed, &bound.max));
+        let degrees = if angular { " \u{b7} 180/\u{3c0}" } else { "" };
+        let tool = number(&bound.tool);
+        let speed = format!("|row<sub>i</sub> of <var>M</var>| \u{b7} {tool}{degrees}");
+        let unit = if angular { ", in degrees per unit of time" } else { "" };
+        out.push(at_most(&speed, &bound.max) + unit);
     }
     out
 }

@@ -232,16 +232,19 @@ impl At<'_> {
         Some(determinant(&[unit(0)?, unit(1)?, unit(2)?]))
     }
 
-    /// `|row_i of M| tool`.
+    /// `|row_i of M| tool`; of arms in degrees per time.
     fn joint_speed(&self, leg: usize) -> Option<Fixed> {
         let row = self.model.legs.get(leg)?.at(&self.model.origin[leg])?.row;
         let norm = norm_squared(&row).sqrt()?;
+        let bits = norm.bits();
         let norm = match self.model.unit_exponent {
-            Some(scale) if self.claim.mechanism.is_angular() => norm.rescale(scale, norm.bits()),
+            Some(scale) if self.claim.mechanism.is_angular() => {
+                norm.rescale(scale, bits).mul(&Fixed::integer(180, bits)).div(&pi(bits))?
+            }
             _ => norm,
         };
         let tool = &self.claim.requirements.joint_speed.as_ref()?.tool;
-        Some(norm.mul(&tool.enclose(0, norm.bits())?))
+        Some(norm.mul(&tool.enclose(0, bits)?))
     }
 }
 

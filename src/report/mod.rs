@@ -94,6 +94,9 @@ pub struct Report {
 pub struct Margin {
     /// The quantity.
     pub quantity: String,
+    /// Its unit, where it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
     /// `<=` or `>=`.
     pub relation: &'static str,
     /// The certified bound.
@@ -102,9 +105,10 @@ pub struct Margin {
 
 impl Margin {
     /// The certified end of an enclosure.
-    pub fn of(found: &Enclosed) -> Self {
+    pub fn of(found: &Enclosed, claim: &MachineClaim) -> Self {
         let relation = if found.extreme.is_greatest() { "<=" } else { ">=" };
-        Margin { quantity: found.extreme.quantity(), relation, bound: found.outer.clone() }
+        let (quantity, unit) = (found.extreme.quantity(), found.extreme.unit(claim));
+        Margin { quantity, unit, relation, bound: found.outer.clone() }
     }
 }
 

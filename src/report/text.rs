@@ -6,6 +6,7 @@ use super::{
     Report, Row, Size,
 };
 use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
+use crate::sample::with_unit;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
@@ -120,7 +121,9 @@ pub fn report(report: &Report, style: Style) -> String {
     out.push('\n');
     table(&mut out, &report.requirements);
     if !report.margins.is_empty() {
-        let margin = |m: &Margin| format!("{} {} {}", m.quantity, m.relation, exact(&m.bound));
+        let margin = |m: &Margin| {
+            format!("{} {} {}", with_unit(&m.quantity, m.unit), m.relation, exact(&m.bound))
+        };
         let margins: Vec<String> = report.margins.iter().map(margin).collect();
         labelled(&mut out, "certified", &margins.join(", "));
     }

@@ -2,7 +2,7 @@
 
 use super::place::{machine_at, Frame, FreeParameter};
 use crate::decimal::{approximate, readable};
-use crate::sample::{Quality, Reached, Sampler, Values};
+use crate::sample::{with_unit, Quality, Reached, Sampler, Values};
 use crate::verify::Worst;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Range, Workspace};
 use orthocert_checker::number::Exact;
@@ -17,6 +17,9 @@ const NOISE: f64 = 1e-12;
 pub struct Row {
     /// The requirement's name.
     pub requirement: String,
+    /// The unit of the bound and of the value, where they have one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
     /// The bound, for people.
     #[serde(skip)]
     pub bound_text: String,
@@ -38,8 +41,10 @@ pub fn rows(claim: &MachineClaim, sampler: &Sampler, frame: &Frame, worst: &[Wor
     let row = |found: &Worst| {
         let values = sampler.at(&found.place);
         let Bound { requirement, relation, number } = bound(claim, found.quality)?;
+        let unit = found.quality.unit(claim.mechanism.is_angular());
         Some(Row {
             requirement,
+            unit,
             bound_text: format!("{relation} {}", readable(&number)),
             bound: format!("{relation} {number}"),
             worst_found: value(claim, found.quality, &values, frame),
@@ -67,17 +72,16 @@ pub fn bound(claim: &MachineClaim, quality: Quality) -> Option<Bound> {
     let demands = &claim.requirements;
     let transmission = demands.transmission.as_ref();
     let joint_range = |leg: usize| -> Option<&Range> { demands.joint_range.as_ref()?.get(leg) };
-    let degrees = if claim.mechanism.is_angular() { ", deg" } else { "" };
     let (requirement, relation, number) = match quality {
         Quality::Clearance => (clearance_name(claim).to_owned(), ">", Exact::integer(0)),
         Quality::Determinant => ("least |det M|".to_owned(), ">", Exact::integer(0)),
         Quality::GreatestPsi => ("greatest psi".to_owned(), "<=", transmission?.max.clone()?),
         Quality::LeastPsi => ("least psi".to_owned(), ">=", psi_min(claim)?),
         Quality::LeastRho(leg) => {
-            (format!("least rho_{}{degrees}", leg + 1), ">=", joint_range(leg)?.min.clone()?)
+            (format!("least rho_{}", leg + 1), ">=", joint_range(leg)?.min.clone()?)
         }
         Quality::GreatestRho(leg) => {
-            (format!("greatest rho_{}{degrees}", leg + 1), "<=", joint_range(leg)?.max.clone()?)
+            (format!("greatest rho_{}", leg + 1), "<=", joint_range(leg)?.max.clone()?)
         }
         Quality::Conditioning => {
             ("condition number".to_owned(), "<=", demands.conditioning.as_ref()?.max.clone())
@@ -91,13 +95,14 @@ pub fn bound(claim: &MachineClaim, quality: Quality) -> Option<Bound> {
         }
         Quality::LegAngle(leg) => {
             let max = demands.leg_angle.as_ref()?.max.clone();
-            (format!("leg angle {}, deg", leg + 1), "<=", max)
+            (format!("leg angle {}", leg + 1), "<=", max)
         }
         Quality::JointSpeed(leg) => {
             let max = demands.joint_speed.as_ref()?.max.clone();
             (format!("joint speed {}", leg + 1), "<=", max)
         }
     };
+    let requirement = with_unit(&requirement, quality.unit(claim.mechanism.is_angular()));
     Some(Bound { requirement, relation, number })
 }
 
@@ -149,7 +154,8 @@ fn value(claim: &MachineClaim, quality: Quality, values: &Values, frame: &Frame)
         Quality::LegAngle(leg) => cosine[leg]?.min(1.0).acos().to_degrees(),
         Quality::JointSpeed(leg) => {
             let tool = approximate(&claim.requirements.joint_speed.as_ref()?.tool)?;
-            matrix.row(leg).norm() / length * tool
+            let angle = if claim.mechanism.is_angular() { 1f64.to_degrees() } else { 1.0 };
+            matrix.row(leg).norm() / length * angle * tool
         }
     })
 }

@@ -133,3 +133,23 @@ fn arguments_that_are_no_text_are_paths_or_refused() {
     let output = folder.command(&["verify", "--timeout"]).arg(odd).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
 }
+
+#[test]
+fn flags_take_no_tolerances_and_nothing_that_may_be_one() {
+    let folder = Folder::new();
+    folder.write("good.toml", DESIGN);
+    for value in ["2 ± 0.1", "2 +/- 0.1", "2 +0.1", "2 +0.1 -0.1", "2+0.1/-0.1", "2 +- 0.1"] {
+        for flags in [
+            &["postulate", "--psi"][..],
+            &["design", "--cube", "200", "--psi-max"],
+            &["design", "--psi-max", "2", "--cube"],
+            &["largest-cube", "good.toml", "--side"],
+            &["bounds", "good.toml", "--relative"],
+            &["size", "good.toml", "--cube"],
+        ] {
+            let flags: Vec<&str> = flags.iter().copied().chain([value]).collect();
+            folder.run(&flags).exits(2).complains(&["may be read as a tolerance"]);
+        }
+    }
+    assert_eq!(folder.names(), ["good.toml"]);
+}

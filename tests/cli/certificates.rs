@@ -42,7 +42,7 @@ fn what_proves_nothing_is_rejected() {
         ("empty", String::new()),
         ("not-json", "certified".to_owned()),
         ("truncated", half.to_owned()),
-        ("other-version", good.replace("orthocert/1", "orthocert/2")),
+        ("other-version", good.replace("orthocert/2", "orthocert/3")),
         ("other-claim", good.replace("\"length\":\"312\"", "\"length\":\"310\"")),
         ("unknown-key", good.replace("\"verdict\"", "\"extra\":1,\"verdict\"")),
         ("other-verdict", good.replace("\"certified\"", "\"refuted\"")),

@@ -57,7 +57,7 @@ fn alternatives(value: &Value) -> Vec<Value> {
         }
         Value::String(text) => {
             let words = ["x", "y", "z", "Q1", "Q2", "upper", "cube", "range", "+", "-"];
-            let words = words.iter().chain(&["certified", "refuted", "orthocert/1", "0", "1"]);
+            let words = words.iter().chain(&["certified", "refuted", "orthocert/2", "0", "1"]);
             all.extend(words.map(|word| json!(word)));
             if let Ok(number) = orthocert_checker::number::Exact::parse(text, 1000) {
                 for change in ["+1", "-1", "+1/1000000", "-1/1000000", "*2", "/2", "*(-1)"] {

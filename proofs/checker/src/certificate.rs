@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The format that this version reads and writes.
-pub const FORMAT: &str = "orthocert/1";
+pub const FORMAT: &str = "orthocert/2";
 /// Largest certificate, in bytes: with the next three, a bound on memory and time.
 pub const MAX_BYTES: usize = 16 << 20;
 /// Most nodes of a tree.
@@ -94,7 +94,7 @@ pub enum AtlasCell {
     /// Every design of the cell meets every requirement: a tree for all of them.
     Certified(#[serde(deserialize_with = "strict::object")] Tree),
     /// No design of the cell meets every requirement: one witness for all of them.
-    Refuted(#[serde(deserialize_with = "strict::object")] Box<Witness>),
+    Refuted(#[serde(deserialize_with = "strict::of_every_machine")] Box<Witness>),
     /// Nothing.
     Undecided,
 }
@@ -200,7 +200,7 @@ pub struct ConditioningEvidence {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Violated {
-    /// The point, see [`crate::claim::NoCubeClaim::moved`].
+    /// The point, in parts of half the side, of which there are [`crate::claim::OFFSET_PARTS`].
     pub at: [i64; 3],
     /// What fails there.
     pub violates: Violation,
@@ -212,7 +212,8 @@ pub struct Violated {
 pub struct Witness {
     /// Fractional bits of the arithmetic in which the violation is to be evaluated.
     pub precision: u32,
-    /// `P`, in the claim's unit of length.
+    /// `P`, rational, in the claim's unit of length.
+    #[serde(deserialize_with = "strict::point")]
     pub point: [Exact; 3],
     /// The machine: the claim's legs without tolerance. Present exactly if the claim has any.
     #[serde(
@@ -283,7 +284,8 @@ pub struct LegNumber {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SecondPoint {
-    /// In the claim's unit of length.
+    /// Rational, in the claim's unit of length.
+    #[serde(deserialize_with = "strict::point")]
     pub other: [Exact; 3],
 }
 

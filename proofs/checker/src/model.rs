@@ -9,7 +9,7 @@ use crate::fixed::Fixed;
 use crate::kinematics::{Leg, Slider};
 use crate::linear::Vector;
 use crate::number::{Exact, NumberErrorKind};
-use crate::trig::cos_sin;
+use crate::trig::{cos_sin, pi};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::array::from_fn;
@@ -52,7 +52,8 @@ pub struct Bounds<S> {
     pub parallel_margin: Option<S>,
     /// The square of the cosine of the greatest angle between leg and guide.
     pub leg_angle: Option<S>,
-    /// Greatest `|row_i of M|`.
+    /// Greatest `|row_i of M|`, `V`. For arms it is an enclosure of `(max/tool) (pi/180)`, as `M`
+    /// counts radians: a proof compares with its lower end, a violation with its upper one.
     pub joint_speed: Option<S>,
 }
 
@@ -496,7 +497,12 @@ fn bounds(claim: &MachineClaim, units: &Units) -> Result<Bounds<Fixed>, ClaimErr
     let joint_speed = match &requirements.joint_speed {
         Some(speed) => {
             let ratio = quotient(&speed.max, &speed.tool, "joint_speed")?;
-            Some(rate(&ratio, "joint_speed")?)
+            Some(if angular {
+                let half_turns = quotient(&ratio, &Exact::integer(180), "joint_speed")?;
+                rate(&half_turns, "joint_speed")?.mul(&pi(units.bits))
+            } else {
+                rate(&ratio, "joint_speed")?
+            })
         }
         None => None,
     };

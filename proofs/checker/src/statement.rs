@@ -217,12 +217,11 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     } = &claim.requirements;
     writeln!(out, "  every leg reaches P without a serial singularity;")?;
     writeln!(out, "  P is not a parallel singularity;")?;
-    // Motors turn arms: M is in radians per length, joint coordinates are angles.
+    // Motors turn arms: M is in radians per length, joint coordinates and speeds are in degrees.
     let angular = claim.mechanism.is_angular();
-    let (per_radian, degrees, radians) = if angular {
-        (" (length per radian)", " (degrees, up to whole turns)", ", in radians")
-    } else {
-        ("", "", "")
+    let (per_radian, degrees) = match angular {
+        true => (" (length per radian)", " (degrees, up to whole turns)"),
+        false => ("", ""),
     };
     if let Some(range) = transmission {
         if let (Workspace::Cube { .. }, Some(max)) = (&claim.workspace, &range.max) {
@@ -255,9 +254,13 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
         writeln!(out, "  every leg is within {} degrees of its guide;", bound.max)?;
     }
     if let Some(bound) = joint_speed {
+        let (in_degrees, what) = match angular {
+            true => (" * 180/pi", "joint speed in degrees per unit of time"),
+            false => ("", "tool and joint speed"),
+        };
         writeln!(
             out,
-            "  |row_i of M| * {} <= {} for every leg (tool and joint speed{radians});",
+            "  |row_i of M| * {}{in_degrees} <= {} for every leg ({what});",
             bound.tool, bound.max
         )?;
     }

@@ -1,7 +1,8 @@
 //! Reading nothing but the format: derived readers also take an array of the fields' values, in
 //! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::{MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
+use crate::certificate::{Witness, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
+use crate::number::Exact;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -176,6 +177,26 @@ where
 {
     let three: [Strict<T>; 3] = Deserialize::deserialize(deserializer)?;
     Ok(three.map(|Strict(item)| item))
+}
+
+/// Reads a point: rational numbers, so that what proofs add to a claim's numbers has no roots.
+pub(crate) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Exact; 3], D::Error> {
+    let point: [Exact; 3] = Deserialize::deserialize(deserializer)?;
+    match point.iter().all(|x| x.as_rational().is_some()) {
+        true => Ok(point),
+        false => Err(D::Error::custom("a point is not three rational numbers")),
+    }
+}
+
+/// Reads the witness of an atlas's cell, which is about every machine.
+pub(crate) fn of_every_machine<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Box<Witness>, D::Error> {
+    let witness: Box<Witness> = object(deserializer)?;
+    match &witness.machine {
+        None => Ok(witness),
+        Some(_) => Err(D::Error::custom("the witness of an atlas's cell has a machine")),
+    }
 }
 
 /// Reads an optional object.

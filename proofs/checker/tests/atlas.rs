@@ -214,6 +214,20 @@ fn claims_that_are_not_well_formed_are_rejected() {
         c.design.workspace = Workspace::Box { min: point(), max: point() };
     });
     assert_eq!(unused, Unused("side".into()));
+    // More than is evaluated in every cell.
+    let radius = |text: &str| {
+        let radius = number(text);
+        rejected(|claim, _| {
+            let z = [number("0"), number("1")];
+            let center = [number("0"), number("0")];
+            claim.design.workspace = Workspace::Cylinder { center, radius, z };
+        })
+    };
+    for text in [vec!["side"; 7].join("*"), format!("side+1/{}", "7".repeat(99))] {
+        let reason = radius(&text);
+        assert!(matches!(reason, Rejected::AtlasClaim(AtlasError::TooLong(_))), "{reason}");
+    }
+    assert!(matches!(radius(&["side"; 6].join("*")), Rejected::Cell { .. }));
     let cube = claim(|c| {
         c.design.workspace = Workspace::Cube { side: number("side") };
         c.design.mechanism = Mechanism::Orthoglide { offset: number("0") };

@@ -1,8 +1,10 @@
 //! Drives and the rules about their joints: against direct geometry, over random boxes, and by
 //! tables of what is accepted and rejected.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Axis, Cell};
+use orthocert_checker::certificate::{LegNumber, Violation};
 use orthocert_checker::claim::{
     self, AtLeast, AtMost, JointSpeed, MachineClaim, Mechanism, Quantity, Range, Requirements,
     WorkingMode, Workspace,
@@ -388,7 +390,7 @@ fn outside_holds_exactly_off_the_open_cylinder() {
 
 /// A rotary machine whose first arm stands at the angle 0 at the origin; the workspace is the
 /// origin.
-fn at_angle_zero(min: f64, max: f64) -> Model<Fixed> {
+fn at_angle_zero(requirements: Requirements) -> Model<Fixed> {
     let arm = |axis: V, reference: V, w: V| claim::Leg::Arm {
         axis: quantities(axis),
         reference: quantities(reference),
@@ -403,11 +405,6 @@ fn at_angle_zero(min: f64, max: f64) -> Model<Fixed> {
         arm([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 4.0]),
         arm([0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [4.0, 3.0, 3.0]),
     ];
-    let range = Range { min: Some(exact(min)), max: Some(exact(max)) };
-    let requirements = Requirements {
-        joint_range: Some([range.clone(), range.clone(), range]),
-        ..Requirements::default()
-    };
     let (least, greatest) = ([-1e-3; 3].map(exact), [1e-3; 3].map(exact));
     let workspace = Workspace::Box { min: least, max: greatest };
     let mechanism = Mechanism::Translational(legs);
@@ -434,9 +431,40 @@ fn ranges_of_angles() {
         (-361.0 + 1.5, -180.5, false),
         (300.0, 360.0, false),
     ] {
-        let model = at_angle_zero(min, max);
+        let range = Range { min: Some(exact(min)), max: Some(exact(max)) };
+        let joint_range = Some([range.clone(), range.clone(), range]);
+        let model = at_angle_zero(Requirements { joint_range, ..Requirements::default() });
         let expansion = Expansion::new(&model, &Cell::ROOT, ExpansionPoint::Centre).unwrap();
         let found = rule::range(&model, &Cell::ROOT, &expansion);
         assert_eq!(found.is_ok(), holds, "[{min}, {max}]: {found:?}");
     }
+}
+
+/// At the origin, a leg `(0, 4, 3)` of length 5 is driven by an elbow 3 from the axis: it turns by
+/// 5/12 radians, 23.87 degrees, per length.
+#[test]
+fn speeds_of_arms_are_in_degrees() {
+    let model = |max: f64| {
+        let joint_speed = Some(JointSpeed { tool: exact(100.0), max: exact(max) });
+        at_angle_zero(Requirements { joint_speed, ..Requirements::default() })
+    };
+    let degrees = (500.0f64 / 12.0).to_degrees();
+    for (max, certified, refuted) in [
+        (1.01 * degrees, true, false),
+        (0.99 * degrees, false, true),
+        (1.01 * 500.0 / 12.0, false, true),
+    ] {
+        let model = model(max);
+        let expansion = Expansion::new(&model, &Cell::ROOT, ExpansionPoint::Centre).unwrap();
+        assert_eq!(rule::speed(&model, &expansion).is_ok(), certified, "{max}");
+        let violation = Violation::JointSpeed(LegNumber { leg: 1 });
+        assert_eq!(rule::violated(&model, &Cell::ROOT, &violation).is_ok(), refuted, "{max}");
+    }
+    // The bound is enclosed: (max/tool) (pi/180), per 2^2 lengths.
+    let bound = model(18_000.0).bounds.joint_speed.unwrap();
+    let number =
+        |text: &str| Exact::parse(text, 100).unwrap().as_rational().unwrap() * BigInt::from(4);
+    assert!(bound.inf() < number("3.14159265358979323846264338327950289"));
+    assert!(bound.sup() > number("3.14159265358979323846264338327950288"));
+    assert!(bound.hi() - bound.lo() < BigInt::from(100));
 }

@@ -1,15 +1,13 @@
 //! Files made to exhaust the checker or to mislead whoever reads its output.
 
-use num_bigint::BigInt;
 use orthocert_checker::certificate::{MAX_BYTES, MAX_NODES};
-use orthocert_checker::number::Exact;
+use orthocert_checker::number::{Exact, NumberErrorKind, MAX_ROOTS};
 use orthocert_checker::{check, read, Rejected};
-use std::time::Instant;
 
 /// The prototype's claim with this JSON text as its nodes.
 fn prototype(nodes: &str) -> String {
     format!(
-        r#"{{"format":"orthocert/1",
+        r#"{{"format":"orthocert/2",
 "claim":{{"machine":{{"mechanism":{{"orthoglide":{{"offset":"0"}}}},
 "workspace":{{"cube":{{"side":"200"}}}},"requirements":{{"transmission":{{"max":"2"}}}}}}}},
 "verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},
@@ -37,14 +35,14 @@ fn a_message_cannot_write_to_the_terminal() {
     let message = syntax(&text);
     assert!(message.contains("ACCEPTED"), "{message}");
     assert!(!message.chars().any(|c| c.is_control() || c == '\u{202e}'), "{message:?}");
-    let text = prototype("[]").replace("orthocert/1", r"\u001b[2K");
+    let text = prototype("[]").replace("orthocert/2", r"\u001b[2K");
     assert!(!rejection(&text).to_string().contains('\u{1b}'));
 }
 
 #[test]
 fn messages_are_short() {
     let long = "é".repeat(1 << 20);
-    for place in ["\"proof\"", "orthocert/1", "\"verdict\"", "\"certified\"", "\"200\""] {
+    for place in ["\"proof\"", "orthocert/2", "\"verdict\"", "\"certified\"", "\"200\""] {
         let text = prototype("[]").replace(place, &place.replace(|c| c != '"', &long));
         assert!(rejection(&text).to_string().len() < 1000, "{place}");
     }
@@ -105,10 +103,10 @@ fn a_name_is_a_string() {
 
 #[test]
 fn another_version_is_named_whatever_its_shape() {
-    let text = r#"{"format":"orthocert/2","something":[1.5,null,{"else":true}]}"#;
-    assert_eq!(rejection(text), Rejected::Format("orthocert/2".into()));
-    syntax(r#"{"format":"orthocert/1","something":[]}"#);
-    syntax(r#"{"format":"orthocert/2","format":"orthocert/1"}"#);
+    let text = r#"{"format":"orthocert/3","something":[1.5,null,{"else":true}]}"#;
+    assert_eq!(rejection(text), Rejected::Format("orthocert/3".into()));
+    syntax(r#"{"format":"orthocert/2","something":[]}"#);
+    syntax(r#"{"format":"orthocert/3","format":"orthocert/2"}"#);
 }
 
 #[test]
@@ -137,30 +135,46 @@ fn the_size_limit_is_exact() {
     assert_eq!(read(padded(MAX_BYTES + 1).as_bytes()), Err(Rejected::TooLarge(MAX_BYTES + 1)));
 }
 
-/// Divisors within divisors, the sign of each of which only the last precisions tell: reading does
-/// not begin anew at every depth. (It once did, and a claim of 200 kB took a minute to read.)
+/// The work that a number asks for is bounded by the limits on its text: what goes beyond them is
+/// refused before it is worked on.
 #[test]
-fn deep_divisors_are_read_in_the_time_of_one_sign_test_or_a_few() {
-    let ten = BigInt::from(10).pow(1000);
-    let root = (2u32 * &ten * &ten).sqrt();
-    let mut text = format!("(sqrt(2)-{root}/{ten})");
-    for _ in 0..58 {
-        text = format!("1/({text}*sqrt(3)*sqrt(5)*sqrt(7))");
+fn numbers_that_ask_for_much_work_are_refused() {
+    let roots = |n: usize| format!("{}2{}", "sqrt(".repeat(n), ")".repeat(n));
+    let kind = |text: &str| Exact::parse(text, 1000).map_err(|error| error.kind);
+    assert!(kind(&roots(MAX_ROOTS)).is_ok());
+    assert_eq!(kind(&roots(MAX_ROOTS + 1)), Err(NumberErrorKind::TooManyRoots));
+    let many = vec![roots(4); 5].join("+");
+    assert_eq!(kind(&many), Err(NumberErrorKind::TooManyRoots));
+    // Fractions of a long denominator: every sum is as long as it.
+    let sum = |n: usize| format!("1e-1000*1e-1000{}", "+1/3".repeat(n));
+    assert!(kind(&sum(1)).is_ok());
+    assert_eq!(kind(&sum(3)), Err(NumberErrorKind::TooLarge));
+    assert!(kind(&format!("{}e-1000", "7".repeat(1000))).is_ok());
+    // What no precision tried tells from zero has no sign.
+    let small = |n: u32| format!("sqrt(2)*1e-{n}");
+    assert_eq!(kind(&small(600)).map(|x| x.sign()), Ok(Some(1)));
+    assert_eq!(kind(&small(700)).map(|x| x.sign()), Ok(None));
+}
+
+#[test]
+fn signs_of_signs_are_no_tree() {
+    for (written, text) in
+        [("--sqrt(2)", "sqrt(2)"), ("-(-(-sqrt(2)))", "-sqrt(2)"), ("1--sqrt(2)", "1--sqrt(2)")]
+    {
+        assert_eq!(Exact::parse(written, 1000).map(|x| x.to_string()), Ok(text.to_owned()));
     }
-    let least = |work: &dyn Fn()| {
-        let times = (0..3).map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed()
-        });
-        times.min().unwrap()
-    };
-    let number = Exact::parse(&text, 2000).unwrap();
-    assert_eq!(number.sign(), Some(1));
-    let sign = least(&|| assert!(number.sign().is_some()));
-    let reading = least(&|| assert!(Exact::parse(&text, 2000).is_ok()));
-    // Anew at every depth, it is 20 times as long.
-    assert!(reading < 6 * sign, "{reading:?} to read, {sign:?} for the sign");
+    let text = prototype("[]").replace("\"200\"", "\"--sqrt(2)\"");
+    assert!(syntax(&text).contains("canonical form"));
+}
+
+/// A file has irrational numbers in its claim and in one machine alone, however long it is.
+#[test]
+fn points_are_rational() {
+    let good = include_str!("../../certificates/orthoglide-310.cert.json");
+    let (before, rest) = good.split_once("\"point\":[\"").expect("a point");
+    let (_, after) = rest.split_once('"').expect("a number");
+    let irrational = format!("{before}\"point\":[\"sqrt(2)\"{after}");
+    assert!(syntax(&irrational).contains("a point is not three rational numbers"));
 }
 
 /// Resident memory of a check of the most wasteful files that are read at all.

@@ -127,7 +127,7 @@ fn with_and_without_symmetry_the_same_volume_is_found() {
     let deep = |symmetric| Header { depth: 12, ..header(symmetric) };
     let (plain, _) = paving(&deep(false));
     let (mirrored, _) = paving(&deep(true));
-    assert!(is_paving(&plain) && !is_paving(b"{\n\"format\":\"orthocert/1\""));
+    assert!(is_paving(&plain) && !is_paving(b"{\n\"format\":\"orthocert/2\""));
     let (plain, mirrored) = (checked(&plain).unwrap(), checked(&mirrored).unwrap());
     assert!(plain.summary.inner > 20 && plain.summary.outer > 20, "{:?}", plain.summary);
     assert!(mirrored.summary.mirrored > 0);
@@ -350,7 +350,7 @@ fn headers_that_are_none_are_rejected() {
         reason(&bytes)
     };
     for (found, expected) in [
-        (with(|h| h.format = "orthocert-paving/2".into()), "is not known"),
+        (with(|h| h.format = "orthocert-paving/3".into()), "is not known"),
         (with(|h| h.precision = 31), "is not within"),
         (with(|h| h.precision = 1025), "is not within"),
         (with(|h| h.depth = 121), "more than 120"),
@@ -361,7 +361,7 @@ fn headers_that_are_none_are_rejected() {
     ] {
         assert!(found.contains(expected), "{found}");
     }
-    for text in ["", "\n", "{}\n", "[]\n", "null\n", "{\"format\":\"orthocert-paving/1\"}\n"] {
+    for text in ["", "\n", "{}\n", "[]\n", "null\n", "{\"format\":\"orthocert-paving/2\"}\n"] {
         assert!(matches!(checked(text.as_bytes()), Err(Rejected::Header(_))), "{text:?}");
     }
 }

@@ -22,7 +22,7 @@ fn slider(claim: &MachineClaim, leg: usize) -> Slider {
     }
 }
 
-fn length(written: &str) -> Quantity {
+pub(super) fn length(written: &str) -> Quantity {
     let claim = read(&with(BOX, &[(4, &format!("leg_length = {written}"))]));
     slider(&claim, 0).length
 }
@@ -75,7 +75,7 @@ fn tolerances_have_three_spellings() {
         "\"310.25±0.02\"",
         "\"310.25 +/- 0.02\"",
         "\"310.25+/-0.02\"",
-        "\"1241/4 ± 1/50\"",
+        "\"1241/4 ± (1/50)\"",
         "{ min = 310.23, max = \"310.27\" }",
     ] {
         assert_eq!(length(written), expected, "{written}");

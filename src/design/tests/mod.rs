@@ -3,6 +3,7 @@
 mod accepted;
 mod files;
 mod machines;
+mod notation;
 mod refused;
 mod refused_numbers;
 

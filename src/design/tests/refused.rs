@@ -74,7 +74,7 @@ fn keys_that_are_unknown_or_missing() {
         row!("no bound of a joint", BOX, [(12, "joint_range = [{ min = 0 }, {}, { max = 2 }]")], 12,
             "requirements.joint_range[2].max", MissingKey, "no such key", "min, max or both"),
         row!("a plus and a minus", BOX, [(4, "leg_length = \"310.25 +- 0.02\"")], 4,
-            "mechanism.leg_length", Tolerance, "+- 0.02", "\"310.25 +/- 0.02\" for a tolerance"),
+            "mechanism.leg_length", Tolerance, "+- 0.02", "\"310.25 ± 0.02\" for a tolerance"),
         row!("half a tolerance", BOX, [(4, "leg_length = { min = 310 }")], 4,
             "mechanism.leg_length.max", MissingKey, "no such key", "a number"),
         row!("no drive", LEGS, [(11, "")], 10, "mechanism.legs[2].drive", MissingKey,

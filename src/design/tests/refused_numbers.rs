@@ -36,7 +36,7 @@ fn what_is_not_a_number() {
         row!("exponent past all integers", CUBE, [(6, "cube = \"1e99999999999999999999\"")], 6,
             "workspace.cube", NotANumber, "exponent beyond ±1000", "exponents within ±1,000"),
         row!("value too long", CUBE, [(6, "cube = \"1e1000*1e1000*1e1000\"")], 6, "workspace.cube",
-            NotANumber, "too long to be written", "at most 1,000 digits"),
+            NotANumber, "number too large", "at most 1,000 digits"),
         row!("value far too long", CUBE,
             [(6, "cube = \"1e1000*1e1000*1e1000*1e1000*1e1000*1e1000*1e1000*1e1000*1e1000*1e1000\"")],
             6, "workspace.cube", NotANumber, "number too large", "at most 1,000 digits"),

@@ -25,6 +25,13 @@ use std::fmt;
 
 /// Most parameters of an atlas.
 pub const MAX_PARAMETERS: usize = 3;
+/// Most names of one number of its design.
+pub const MAX_NAMES: usize = 6;
+/// Most names of all its numbers together, a quantity being two: they are evaluated in every cell.
+pub const MAX_ALL_NAMES: usize = 128;
+/// Most bits of a numerator or denominator of the end of a parameter's range, and of a rational
+/// number beside a name.
+pub const MAX_BITS: u64 = 128;
 
 /// Why an atlas's claim, or that of one of its cells, is not well formed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +49,9 @@ pub enum AtlasError {
     Unknown(String),
     /// A number that may not depend on parameters.
     Varies(String),
+    /// A number with too many names, or with rational numbers that are too long; or too many names
+    /// in all.
+    TooLong(String),
     /// The paper's cube, which has no numbers of its own to vary.
     Cube,
     /// The order of two numbers is not decided.
@@ -75,6 +85,11 @@ impl fmt::Display for AtlasError {
             AtlasError::Varies(number) => {
                 write!(f, "{number} varies, but is a number that may not depend on parameters")
             }
+            AtlasError::TooLong(number) => write!(
+                f,
+                "{number} is beyond what is evaluated in every cell: {MAX_NAMES} names in a number, \
+                 {MAX_ALL_NAMES} in all, beside them numbers of {MAX_BITS} bits"
+            ),
             AtlasError::Cube => {
                 write!(
                     f,
@@ -110,8 +125,7 @@ impl AtlasClaim {
             if taken || !is_name(name) {
                 return Err(AtlasError::BadName(name.clone()));
             }
-            let rational = min.as_rational().is_some() && max.as_rational().is_some();
-            if !rational || min.compare(max) != Some(Ordering::Less) {
+            if !is_short(min) || !is_short(max) || min.compare(max) != Some(Ordering::Less) {
                 return Err(AtlasError::BadRange(name.clone()));
             }
         }
@@ -120,8 +134,14 @@ impl AtlasClaim {
         }
         let mut names = Vec::new();
         self.design.try_map(&mut |x, _| {
-            names_of(x, &mut names);
-            Ok::<_, AtlasError>(x.clone())
+            let before = names.len();
+            let short = names_of(x, &mut names);
+            let count = names.len() - before;
+            let bounded = short && count <= MAX_NAMES && names.len() <= MAX_ALL_NAMES;
+            if count > 0 && !bounded {
+                return Err(AtlasError::TooLong(x.to_string()));
+            }
+            Ok(x.clone())
         })?;
         if let Some(unknown) = names.iter().find(|name| self.position(name).is_none()) {
             return Err(AtlasError::Unknown(unknown.clone()));
@@ -169,15 +189,22 @@ fn is_name(name: &str) -> bool {
     name.len() <= MAX_NAME && parsed == Ok(Exact::Name(name.into()))
 }
 
-/// Adds the names of an expression to `names`.
-fn names_of(x: &Exact, names: &mut Vec<String>) {
+/// Whether `x` is a rational number of at most [`MAX_BITS`].
+fn is_short(x: &Exact) -> bool {
+    x.as_rational().is_some_and(|x| x.numer().bits().max(x.denom().bits()) <= MAX_BITS)
+}
+
+/// Adds the names of an expression to `names`; whether its rational numbers are short.
+fn names_of(x: &Exact, names: &mut Vec<String>) -> bool {
     match x {
-        Exact::Rational(_) => {}
-        Exact::Name(name) => names.push(name.to_string()),
+        Exact::Rational(_) => is_short(x),
+        Exact::Name(name) => {
+            names.push(name.to_string());
+            true
+        }
         Exact::Neg(x) | Exact::Sqrt(x) => names_of(x, names),
         Exact::Add(x, y) | Exact::Sub(x, y) | Exact::Mul(x, y) | Exact::Div(x, y) => {
-            names_of(x, names);
-            names_of(y, names);
+            names_of(x, names) & names_of(y, names)
         }
     }
 }

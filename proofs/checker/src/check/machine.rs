@@ -5,13 +5,14 @@ use super::walk::{admit_precision, discharges, Walk};
 use super::{obligations, Rejected, TreeSize};
 use crate::cell::Axis;
 use crate::certificate::{Step, Tree, Violated};
-use crate::claim::{MachineClaim, NoCubeClaim};
-use crate::enclosure::Enclosure;
+use crate::claim::{ClaimError, MachineClaim, NoCubeClaim, OFFSET_PARTS};
+use crate::enclosure::{Enclosure, Scalar};
 use crate::fixed::Fixed;
 use crate::model::Model;
+use crate::number::Exact;
 use crate::rule::{self, Failure, Obligation};
 use crate::word::{Word, MAX_BITS};
-use std::collections::BTreeMap;
+use std::array::from_fn;
 
 /// Checks that a tree proves a machine claim.
 pub(crate) fn check_tree(
@@ -39,9 +40,10 @@ pub(crate) fn check_tree(
 ///
 /// **Lemma.** Then no cube of that side with its centre in the box lies in the region where the
 /// claim of `machine` holds, for any machine described. *Proof.* A centre `C` lies in a leaf, which
-/// or an ancestor of which has a step with the offset `o`. The cell of the claim moved by `o` is that
-/// cell moved by `o`: it contains `C + o`, a point of the cube, and by [`rule::violated`] the claim
-/// fails at each of its points for every machine. ∎
+/// or an ancestor of which has a step with the offset `o`. Every `w_i` has `P` as a summand, so the
+/// model with `o` added to them is that of the workspace moved by `o`. Its cell contains `C + o`, a
+/// point of the cube, and by [`rule::violated`] the claim fails at each of its points for every
+/// machine. ∎
 pub(super) fn check_no_cube(
     claim: &NoCubeClaim,
     tree: &Tree,
@@ -49,7 +51,11 @@ pub(super) fn check_no_cube(
 ) -> Result<(), Rejected> {
     admit_precision(tree.precision)?;
     claim.validate()?;
-    let mut moved: BTreeMap<[i64; 3], Model<Fixed>> = BTreeMap::new();
+    let model = Model::new(&claim.machine, tree.precision)?;
+    let too_small = || ClaimError::Precision("side".to_owned());
+    let part = claim.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok();
+    let part = part.and_then(|x| x.enclose(model.unit_exponent?, tree.precision));
+    let part = part.ok_or_else(too_small)?;
     let obligations = [Obligation::SigmaMin];
     let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
     walk.run(size, |cell, node, index, size| {
@@ -61,12 +67,12 @@ pub(super) fn check_no_cube(
                 return Err(failed(Failure::OtherKind));
             };
             let Violated { at, violates } = evidence.as_ref();
-            if !moved.contains_key(at) {
-                let claim = claim.moved(at).ok_or(failed(Failure::NotOfTheCube))?;
-                moved.insert(*at, Model::new(&claim, tree.precision)?);
+            if !at.iter().all(|n| (-OFFSET_PARTS..=OFFSET_PARTS).contains(n)) {
+                return Err(failed(Failure::NotOfTheCube));
             }
-            let model = moved.get(at).ok_or(failed(Failure::NotOfTheCube))?;
-            rule::violated(model, cell, violates).map_err(failed)?;
+            let offset = from_fn(|k| Fixed::integer(at[k], tree.precision).mul(&part));
+            let moved = Model { origin: model.leg_vectors(&offset), ..model.clone() };
+            rule::violated(&moved, cell, violates).map_err(failed)?;
             discharged |= discharges(step);
             *size.steps.entry(rule).or_default() += 1;
         }

@@ -48,29 +48,8 @@ pub struct NoCubeClaim {
     pub side: Exact,
 }
 
-/// The parts that half a cube's side is divided in, for [`NoCubeClaim::moved`].
+/// The parts that half a cube's side is divided in, for the points of [`crate::certificate::Violated`].
 pub const OFFSET_PARTS: i64 = 8;
-
-impl NoCubeClaim {
-    /// The claim about the points `C + offset side / (2 OFFSET_PARTS)`, `C` in the box of centres;
-    /// `None` if that is not a point of the cube, or beyond what numbers may be.
-    pub fn moved(&self, offset: &[i64; 3]) -> Option<MachineClaim> {
-        let Workspace::Box { min, max } = &self.machine.workspace else {
-            return None;
-        };
-        if !offset.iter().all(|n| (-OFFSET_PARTS..=OFFSET_PARTS).contains(n)) {
-            return None;
-        }
-        let part = self.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok()?;
-        let (mut min, mut max) = (min.clone(), max.clone());
-        for (k, &n) in offset.iter().enumerate() {
-            let by = part.clone().times(Exact::integer(n)).ok()?;
-            min[k] = min[k].clone().plus(by.clone()).ok()?;
-            max[k] = max[k].clone().plus(by).ok()?;
-        }
-        Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine.clone() })
-    }
-}
 
 /// "Of the box of parameters, the cells that the proof names certified, which fill the share
 /// `certified` of it, hold only designs that meet every requirement; the cells that it names
@@ -255,13 +234,14 @@ pub struct AtLeast {
     pub min: Exact,
 }
 
-/// `|row_i of M| tool <= max`, for every leg.
+/// `|row_i of M| tool <= max`, for every leg; of arms, whose `M` counts radians,
+/// `|row_i of M| tool 180/pi <= max`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointSpeed {
     /// Magnitude of the tool's velocity, length per time.
     pub tool: Exact,
-    /// Greatest joint speed, length per time (for arms: radians per time).
+    /// Greatest joint speed, length per time (for arms: degrees per time).
     pub max: Exact,
 }
 

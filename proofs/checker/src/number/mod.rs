@@ -14,10 +14,15 @@
 //! ([`crate::atlas`]).
 //!
 //! Rational parts are folded, so `0.5 + 1/3` is the rational `5/6`; square roots of squares are
-//! rational. What remains is a tree whose value is enclosed to any precision by [`Exact::enclose`].
+//! rational; `-(-x)` is `x`. What remains is a tree whose value is enclosed by [`Exact::enclose`].
 //! [`Exact`]'s text form is canonical: it parses back to the same tree, and a certificate must use
 //! it. Every divisor is proved non-zero and every radicand non-negative when a tree is built.
+//!
+//! The work that a text asks for is bounded by construction: folding makes at most [`MAX_FOLDED`]
+//! binary digits, roots are at most [`MAX_ROOTS`], each operand is enclosed at most once at each of
+//! three precisions, and clones share its enclosures.
 
+mod operand;
 mod read;
 
 use crate::enclosure::Scalar;
@@ -25,6 +30,8 @@ use crate::fixed::Fixed;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::fmt;
+
+pub use operand::Operand;
 
 /// Most bytes of one number's text.
 pub const MAX_TEXT: usize = 8192;
@@ -39,28 +46,33 @@ pub const MAX_DIGITS: usize = 2100;
 pub const MAX_NAME: usize = 32;
 /// Largest exponent of ten of a literal, either way.
 pub const MAX_EXPONENT: i64 = 1000;
-/// Most bits of a numerator or denominator of a folded rational.
-const MAX_RATIONAL_BITS: u64 = 1 << 15;
-/// Precisions tried, in fractional bits, before a sign is given up as undecidable.
-const SIGN_PRECISIONS: [u32; 4] = [128, 512, 2048, 8192];
+/// Most square roots of one number's text.
+pub const MAX_ROOTS: usize = 16;
+/// Most bits of a numerator or denominator of a folded rational: 2,466 digits.
+const MAX_RATIONAL_BITS: u64 = 1 << 13;
+/// Most bits of all numerators and denominators together that reading one text makes.
+pub const MAX_FOLDED: u64 = 1 << 15;
+/// Fractional bits in which irrational numbers are enclosed: those tried before a sign is given up
+/// as undecidable.
+const PRECISIONS: [u32; 3] = [128, 512, 2048];
 
 /// An exact real number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Exact {
     /// A rational number in lowest terms.
     Rational(BigRational),
-    /// `-x`, `x` not rational.
-    Neg(Box<Exact>),
+    /// `-x`, `x` neither rational nor of this form.
+    Neg(Operand),
     /// `x + y`, not both rational.
-    Add(Box<Exact>, Box<Exact>),
+    Add(Operand, Operand),
     /// `x - y`, not both rational.
-    Sub(Box<Exact>, Box<Exact>),
+    Sub(Operand, Operand),
     /// `x y`, not both rational.
-    Mul(Box<Exact>, Box<Exact>),
+    Mul(Operand, Operand),
     /// `x / y`, not both rational, `y != 0`.
-    Div(Box<Exact>, Box<Exact>),
+    Div(Operand, Operand),
     /// `sqrt(x)`, `x >= 0` and not the square of a rational number.
-    Sqrt(Box<Exact>),
+    Sqrt(Operand),
     /// A parameter of an atlas.
     Name(Box<str>),
 }
@@ -88,6 +100,8 @@ pub enum NumberErrorKind {
     ExponentTooLarge,
     /// The text, its nesting or a folded value is too large.
     TooLarge,
+    /// More square roots than [`MAX_ROOTS`].
+    TooManyRoots,
     /// A divisor that is zero, or not provably different from zero.
     DivisorMayBeZero,
     /// The square root of a number that is negative, or not provably non-negative.
@@ -107,6 +121,9 @@ impl fmt::Display for NumberError {
                 write!(f, "exponent beyond ±{MAX_EXPONENT} at character {column}")
             }
             NumberErrorKind::TooLarge => write!(f, "number too large at character {column}"),
+            NumberErrorKind::TooManyRoots => {
+                write!(f, "more than {MAX_ROOTS} square roots at character {column}")
+            }
             NumberErrorKind::DivisorMayBeZero => {
                 write!(f, "division by something that is or may be zero at character {column}")
             }
@@ -158,35 +175,37 @@ impl Exact {
         match self {
             Exact::Rational(_) => false,
             Exact::Name(_) => true,
-            Exact::Neg(x) | Exact::Sqrt(x) => x.is_open(),
+            Exact::Neg(x) | Exact::Sqrt(x) => x.has_name(),
             Exact::Add(x, y) | Exact::Sub(x, y) | Exact::Mul(x, y) | Exact::Div(x, y) => {
-                x.is_open() || y.is_open()
+                x.has_name() || y.has_name()
             }
         }
     }
 
     /// An enclosure of `self / 2^scale` with `bits` fractional bits; the tightest one for
-    /// rationals. `None` where the precision does not suffice to divide or take a root, and for
-    /// what is open.
+    /// rationals. `None` where 2,048 bits do not suffice to divide or take a root, or for what is
+    /// asked for, and for what is open.
     pub fn enclose(&self, scale: i64, bits: u32) -> Option<Fixed> {
         if let Exact::Rational(x) = self {
             return Some(Fixed::rational(x, scale, bits));
         }
         // 64 guard bits; a negative scale (small numbers) asks for as many bits more.
         let extra = u32::try_from((-scale).max(0)).ok()?;
-        let working = bits.checked_add(extra)?.checked_add(64)?;
-        Some(self.enclose_at(working)?.rescale(scale, bits))
+        let needed = bits.checked_add(extra)?.checked_add(64)?;
+        let level = PRECISIONS.iter().position(|&bits| bits >= needed)?;
+        Some(self.enclosure(level)?.rescale(scale, bits))
     }
 
-    fn enclose_at(&self, bits: u32) -> Option<Fixed> {
+    /// An enclosure with `PRECISIONS[level]` fractional bits.
+    fn enclosure(&self, level: usize) -> Option<Fixed> {
         match self {
-            Exact::Rational(x) => Some(Fixed::rational(x, 0, bits)),
-            Exact::Neg(x) => Some(x.enclose_at(bits)?.neg()),
-            Exact::Add(x, y) => Some(x.enclose_at(bits)?.add(&y.enclose_at(bits)?)),
-            Exact::Sub(x, y) => Some(x.enclose_at(bits)?.sub(&y.enclose_at(bits)?)),
-            Exact::Mul(x, y) => Some(x.enclose_at(bits)?.mul(&y.enclose_at(bits)?)),
-            Exact::Div(x, y) => x.enclose_at(bits)?.div(&y.enclose_at(bits)?),
-            Exact::Sqrt(x) => x.enclose_at(bits)?.sqrt(),
+            Exact::Rational(x) => Some(Fixed::rational(x, 0, *PRECISIONS.get(level)?)),
+            Exact::Neg(x) => Some(x.enclosure(level)?.neg()),
+            Exact::Add(x, y) => Some(x.enclosure(level)?.add(y.enclosure(level)?)),
+            Exact::Sub(x, y) => Some(x.enclosure(level)?.sub(y.enclosure(level)?)),
+            Exact::Mul(x, y) => Some(x.enclosure(level)?.mul(y.enclosure(level)?)),
+            Exact::Div(x, y) => x.enclosure(level)?.div(y.enclosure(level)?),
+            Exact::Sqrt(x) => x.enclosure(level)?.sqrt(),
             Exact::Name(_) => None,
         }
     }
@@ -203,7 +222,7 @@ impl Exact {
                 -1
             });
         }
-        SIGN_PRECISIONS.iter().find_map(|&bits| sign_of_all(&self.enclose_at(bits)?))
+        (0..PRECISIONS.len()).find_map(|level| sign_of_all(&self.enclosure(level)?))
     }
 
     /// The order of two numbers, or `None` where no precision tried decides it. Equality is
@@ -211,6 +230,10 @@ impl Exact {
     pub fn compare(&self, other: &Exact) -> Option<std::cmp::Ordering> {
         if self == other {
             return Some(std::cmp::Ordering::Equal);
+        }
+        if let (Exact::Rational(x), Exact::Rational(y)) = (self, other) {
+            // Denominators are positive.
+            return Some((x.numer() * y.denom()).cmp(&(y.numer() * x.denom())));
         }
         let difference = self.clone().minus(other.clone()).ok()?;
         difference.sign().map(|sign| sign.cmp(&0))
@@ -220,7 +243,8 @@ impl Exact {
     pub fn negated(self) -> Self {
         match self {
             Exact::Rational(x) => Exact::Rational(-x),
-            x => Exact::Neg(Box::new(x)),
+            Exact::Neg(x) => Exact::clone(&x),
+            x => Exact::Neg(Operand::new(x)),
         }
     }
 
@@ -241,13 +265,7 @@ impl Exact {
 
     /// `self / other`; refused unless `other` is open or provably not zero.
     pub fn over(self, other: Exact) -> Result<Self, NumberErrorKind> {
-        let sign = other.sign();
-        self.over_with_sign(other, sign)
-    }
-
-    /// `self / other`, for an `other` of this sign; an open one has none.
-    fn over_with_sign(self, other: Exact, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
-        match sign {
+        match other.sign() {
             None if other.is_open() => fold(self, other, |x, y| x / y, Exact::Div),
             None | Some(0) => Err(NumberErrorKind::DivisorMayBeZero),
             Some(_) => fold(self, other, |x, y| x / y, Exact::Div),
@@ -256,13 +274,7 @@ impl Exact {
 
     /// `sqrt(self)`; refused unless `self` is open or provably not negative.
     pub fn root(self) -> Result<Self, NumberErrorKind> {
-        let sign = self.sign();
-        self.root_with_sign(sign)
-    }
-
-    /// `sqrt(self)`, for a `self` of this sign; an open one has none.
-    fn root_with_sign(self, sign: Option<i32>) -> Result<Self, NumberErrorKind> {
-        match sign {
+        match self.sign() {
             None if self.is_open() => {}
             None | Some(-1) => return Err(NumberErrorKind::RadicandMayBeNegative),
             Some(_) => {}
@@ -274,7 +286,7 @@ impl Exact {
                 return Ok(Exact::Rational(BigRational::new(p, q)));
             }
         }
-        Ok(Exact::Sqrt(Box::new(self)))
+        Ok(Exact::Sqrt(Operand::new(self)))
     }
 
     /// How tightly the printed form binds: 1 sum, 2 product or fraction, 3 sign, 4 atom.
@@ -305,7 +317,7 @@ fn fold(
     x: Exact,
     y: Exact,
     rational: impl Fn(&BigRational, &BigRational) -> BigRational,
-    tree: impl Fn(Box<Exact>, Box<Exact>) -> Exact,
+    tree: impl Fn(Operand, Operand) -> Exact,
 ) -> Result<Exact, NumberErrorKind> {
     match (x, y) {
         (Exact::Rational(x), Exact::Rational(y)) => {
@@ -315,7 +327,7 @@ fn fold(
             }
             Ok(Exact::Rational(value))
         }
-        (x, y) => Ok(tree(Box::new(x), Box::new(y))),
+        (x, y) => Ok(tree(Operand::new(x), Operand::new(y))),
     }
 }
 
@@ -331,7 +343,7 @@ impl fmt::Display for Exact {
         }
         let (x, sign, y, left, right) = match self {
             Exact::Rational(x) => return write!(f, "{x}"),
-            Exact::Sqrt(x) => return write!(f, "sqrt({x})"),
+            Exact::Sqrt(x) => return write!(f, "sqrt({})", **x),
             Exact::Name(name) => return f.write_str(name),
             Exact::Neg(x) => {
                 f.write_str("-")?;

@@ -1,102 +1,33 @@
 //! Reads expressions: the grammar of [`number`](super).
 
 use super::{
-    sign_of_all, Exact, NumberError, NumberErrorKind, MAX_EXPONENT, MAX_LITERALS, MAX_NAME,
-    MAX_NESTING, MAX_TEXT, SIGN_PRECISIONS,
+    Exact, NumberError, NumberErrorKind, MAX_EXPONENT, MAX_FOLDED, MAX_LITERALS, MAX_NAME,
+    MAX_NESTING, MAX_ROOTS, MAX_TEXT,
 };
-use crate::enclosure::Scalar;
-use crate::fixed::Fixed;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use std::cell::OnceCell;
 
 /// Reads an expression; literals have at most `max_digits` digits, names are numbers where they may be.
 pub(super) fn expression(text: &str, max_digits: usize, names: bool) -> Result<Exact, NumberError> {
     if text.len() > MAX_TEXT {
         return Err(NumberError { at: MAX_TEXT, kind: NumberErrorKind::TooLarge });
     }
-    let text_bytes = text.as_bytes();
-    let mut parser = Parser { text: text_bytes, at: 0, depth: 0, literals: 0, max_digits, names };
+    let mut parser = Parser {
+        text: text.as_bytes(),
+        at: 0,
+        depth: 0,
+        literals: 0,
+        roots: 0,
+        folded: 0,
+        max_digits,
+        names,
+    };
     let value = parser.sum()?;
     parser.skip_blank();
     if parser.at < text.len() {
         return Err(parser.error(NumberErrorKind::TrailingText));
     }
-    Ok(value.value)
-}
-
-/// A number while it is read, with its enclosures at the precisions of the sign test. Each is
-/// computed once, from those of the operands, so that divisors within divisors and roots within
-/// roots take time in proportion to the text, not to its square. The outcome of every test is that
-/// of [`Exact::sign`], which encloses by the same operations in the same order.
-struct Traced {
-    value: Exact,
-    /// What `value` is made of; nothing for a rational number.
-    operands: Vec<Traced>,
-    enclosures: [OnceCell<Option<Fixed>>; SIGN_PRECISIONS.len()],
-}
-
-impl Traced {
-    fn new(value: Exact, operands: Vec<Traced>) -> Self {
-        Traced { value, operands, enclosures: Default::default() }
-    }
-
-    /// The enclosure at `SIGN_PRECISIONS[level]`, as by [`Exact::enclose_at`].
-    fn enclosure(&self, level: usize) -> Option<&Fixed> {
-        let computed = self.enclosures.get(level)?;
-        computed.get_or_init(|| self.enclose(level)).as_ref()
-    }
-
-    fn enclose(&self, level: usize) -> Option<Fixed> {
-        let operand = |i: usize| self.operands.get(i)?.enclosure(level);
-        match &self.value {
-            Exact::Rational(x) => Some(Fixed::rational(x, 0, *SIGN_PRECISIONS.get(level)?)),
-            Exact::Neg(_) => Some(operand(0)?.neg()),
-            Exact::Add(..) => Some(operand(0)?.add(operand(1)?)),
-            Exact::Sub(..) => Some(operand(0)?.sub(operand(1)?)),
-            Exact::Mul(..) => Some(operand(0)?.mul(operand(1)?)),
-            Exact::Div(..) => operand(0)?.div(operand(1)?),
-            Exact::Sqrt(_) => operand(0)?.sqrt(),
-            Exact::Name(_) => None,
-        }
-    }
-
-    /// As [`Exact::sign`].
-    fn sign(&self) -> Option<i32> {
-        if let Exact::Rational(_) = self.value {
-            return self.value.sign();
-        }
-        (0..SIGN_PRECISIONS.len()).find_map(|level| sign_of_all(self.enclosure(level)?))
-    }
-
-    fn negated(self) -> Self {
-        Traced::new(self.value.clone().negated(), vec![self])
-    }
-
-    fn plus(self, other: Traced) -> Result<Self, NumberErrorKind> {
-        let value = self.value.clone().plus(other.value.clone())?;
-        Ok(Traced::new(value, vec![self, other]))
-    }
-
-    fn minus(self, other: Traced) -> Result<Self, NumberErrorKind> {
-        let value = self.value.clone().minus(other.value.clone())?;
-        Ok(Traced::new(value, vec![self, other]))
-    }
-
-    fn times(self, other: Traced) -> Result<Self, NumberErrorKind> {
-        let value = self.value.clone().times(other.value.clone())?;
-        Ok(Traced::new(value, vec![self, other]))
-    }
-
-    fn over(self, other: Traced) -> Result<Self, NumberErrorKind> {
-        let value = self.value.clone().over_with_sign(other.value.clone(), other.sign())?;
-        Ok(Traced::new(value, vec![self, other]))
-    }
-
-    fn root(self) -> Result<Self, NumberErrorKind> {
-        let value = self.value.clone().root_with_sign(self.sign())?;
-        Ok(Traced::new(value, vec![self]))
-    }
+    Ok(value)
 }
 
 struct Parser<'a> {
@@ -104,6 +35,9 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     literals: usize,
+    roots: usize,
+    /// Bits of the rational numbers made so far.
+    folded: u64,
     max_digits: usize,
     /// Whether names are numbers.
     names: bool,
@@ -127,15 +61,23 @@ impl Parser<'_> {
         found
     }
 
+    /// A number that was made here, and is counted.
     fn combine(
-        &self,
+        &mut self,
         at: usize,
-        result: Result<Traced, NumberErrorKind>,
-    ) -> Result<Traced, NumberError> {
-        result.map_err(|kind| NumberError { at, kind })
+        result: Result<Exact, NumberErrorKind>,
+    ) -> Result<Exact, NumberError> {
+        let value = result.map_err(|kind| NumberError { at, kind })?;
+        if let Some(x) = value.as_rational() {
+            self.folded += x.numer().bits() + x.denom().bits();
+        }
+        if self.folded > MAX_FOLDED {
+            return Err(NumberError { at, kind: NumberErrorKind::TooLarge });
+        }
+        Ok(value)
     }
 
-    fn sum(&mut self) -> Result<Traced, NumberError> {
+    fn sum(&mut self) -> Result<Exact, NumberError> {
         let mut value = self.product()?;
         loop {
             let at = self.at;
@@ -151,7 +93,7 @@ impl Parser<'_> {
         }
     }
 
-    fn product(&mut self) -> Result<Traced, NumberError> {
+    fn product(&mut self) -> Result<Exact, NumberError> {
         let mut value = self.unary()?;
         loop {
             if self.eat(b'*') {
@@ -169,7 +111,7 @@ impl Parser<'_> {
         }
     }
 
-    fn unary(&mut self) -> Result<Traced, NumberError> {
+    fn unary(&mut self) -> Result<Exact, NumberError> {
         self.depth += 1;
         if self.depth > MAX_NESTING {
             return Err(self.error(NumberErrorKind::TooLarge));
@@ -179,7 +121,7 @@ impl Parser<'_> {
         value
     }
 
-    fn unary_within_depth(&mut self) -> Result<Traced, NumberError> {
+    fn unary_within_depth(&mut self) -> Result<Exact, NumberError> {
         if self.eat(b'-') {
             return Ok(self.unary()?.negated());
         }
@@ -189,10 +131,14 @@ impl Parser<'_> {
         }
         let word = self.word();
         if self.names && word > 0 && self.text.get(self.at..self.at + word) != Some(b"sqrt") {
-            return Ok(Traced::new(self.name(word)?, Vec::new()));
+            return Ok(self.name(word)?);
         }
         if self.text.get(self.at..).is_some_and(|rest| rest.starts_with(b"sqrt")) {
             self.at += 4;
+            self.roots += 1;
+            if self.roots > MAX_ROOTS {
+                return Err(self.error(NumberErrorKind::TooManyRoots));
+            }
             if !self.eat(b'(') {
                 return Err(self.error(NumberErrorKind::Expected("\"(\" after sqrt")));
             }
@@ -201,7 +147,9 @@ impl Parser<'_> {
             let radicand = self.closed(radicand)?;
             return self.combine(at, radicand.root());
         }
-        Ok(Traced::new(self.literal()?, Vec::new()))
+        let at = self.at;
+        let literal = self.literal();
+        literal.and_then(|value| self.combine(at, Ok(value)))
     }
 
     /// The number of bytes of the name or `sqrt` that begins here; 0 if none does.
@@ -225,7 +173,7 @@ impl Parser<'_> {
         Ok(Exact::Name(name))
     }
 
-    fn closed(&mut self, value: Traced) -> Result<Traced, NumberError> {
+    fn closed(&mut self, value: Exact) -> Result<Exact, NumberError> {
         if self.eat(b')') {
             Ok(value)
         } else {

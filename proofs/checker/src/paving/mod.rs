@@ -34,7 +34,7 @@ pub use reader::{header, Reader, Visited};
 pub use symmetry::{is_mirrored, is_symmetric, six_ordered};
 
 /// The format that this version reads and writes.
-pub const FORMAT: &str = "orthocert-paving/1";
+pub const FORMAT: &str = "orthocert-paving/2";
 /// Most bytes of the header's and of the last line.
 pub const MAX_LINE: usize = 1 << 20;
 /// Deepest bisection of one axis: three of them are [`SHARE_BITS`].

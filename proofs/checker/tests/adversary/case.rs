@@ -80,6 +80,7 @@ impl Case {
         let guided = self.legs.iter().all(|leg| matches!(leg, Leg::Slider { .. }));
         let angle = least_cosine.filter(|_| guided).map(|c| c.acos().to_degrees() * (1.0 + slack));
         let speed = self.states.iter().map(|s| dot(s.row, s.row).sqrt()).fold(0.0, f64::max);
+        let speed = if angular { speed.to_degrees() } else { speed };
         Requirements {
             transmission: Some(Range {
                 min: Some(exact((1.0 - slack) / self.sigma[2])),

@@ -286,6 +286,15 @@ impl Place {
         self.beyond(side, min, det, 1.0)
     }
 
+    /// The bound on the norm of a row: of arms, whose speeds are in degrees, in radians.
+    fn rate(&self, speed: &claim::JointSpeed) -> f64 {
+        let rate = approximate(&speed.max) / approximate(&speed.tool);
+        match self.legs.iter().any(|leg| matches!(leg, Leg::Arm { .. })) {
+            true => rate.to_radians(),
+            false => rate,
+        }
+    }
+
     fn too_fast(&self, side: Side, leg: usize, rate: f64) -> bool {
         let row = self.states[leg].row;
         self.beyond(side, dot(row, row).sqrt(), rate, rate)
@@ -363,7 +372,7 @@ impl Place {
             (
                 "joint_speed",
                 joint_speed.as_ref().is_some_and(|speed| {
-                    let rate = approximate(&speed.max) / approximate(&speed.tool);
+                    let rate = self.rate(speed);
                     any_leg(&|i| self.too_fast(fails, i, rate))
                 }),
             ),
@@ -408,7 +417,7 @@ impl Place {
                 self.cosine_below(holds, leg.leg - 1, approximate(&angle.max).to_radians().cos())
             }),
             Violation::JointSpeed(leg) => needed.joint_speed.as_ref().is_none_or(|speed| {
-                let rate = approximate(&speed.max) / approximate(&speed.tool);
+                let rate = self.rate(speed);
                 self.too_fast(holds, leg.leg - 1, rate)
             }),
             // Two points are needed.

@@ -8,7 +8,7 @@ use orthocert_checker::statement::statement;
 use std::array::from_fn;
 
 #[test]
-fn machines_with_arms_are_described_in_radians_and_degrees() {
+fn machines_with_arms_are_described_in_degrees() {
     let mut claim = tiny_arms();
     let range = |min, max| Range { min: Some(Exact::integer(min)), max: Some(Exact::integer(max)) };
     claim.requirements.transmission = Some(range(1, 2));
@@ -19,7 +19,7 @@ fn machines_with_arms_are_described_in_radians_and_degrees() {
     for line in [
         "  1 <= psi_i(P) <= 2 (length per radian) for i = 1, 2, 3;",
         "  -30 <= rho_2(P) <= 60 (degrees, up to whole turns);",
-        "  |row_i of M| * 5 <= 7 for every leg (tool and joint speed, in radians);",
+        "  |row_i of M| * 5 * 180/pi <= 7 for every leg (joint speed in degrees per unit of time);",
     ] {
         assert!(text.lines().any(|l| l == line), "{line}\n{text}");
     }
