@@ -6,7 +6,7 @@ use crate::cli::progress::Bar;
 use orthocert::atlas::{self, Bound, Growing, Point, Standing, Stopped, Widest};
 use orthocert::design::{AtlasDesign, Objective};
 use orthocert::frontier::NoAnswer;
-use orthocert::output::{self, OutputError};
+use orthocert::output;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
 use orthocert::search::{Budget, Control, Progress};
@@ -52,15 +52,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     made(&folder)?;
     arguments.work.start_threads()?;
     let cells = map(&design, arguments.work.quiet)?;
-    let name = arguments.atlas.display().to_string();
+    let name = arguments.atlas.to_string_lossy().into_owned();
     let report = publish(&design, name, cells, &folder, started)?;
     answer(&report, &arguments.work)
 }
 
 /// The folder, made if it is not there.
 pub fn made(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder)
-        .map_err(|error| Failure::from(OutputError::Io(folder.to_owned(), error)))
+    Ok(output::folder(folder, folder).map(drop)?)
 }
 
 /// All cells of a design's map.
@@ -110,7 +109,7 @@ pub fn publish(
         at: mark.at.clone(),
         verdict: atlas::verdict_at(design, mark, &cells),
     });
-    let file = |name: &str| folder.join(name).display().to_string();
+    let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let mut report = AtlasReport {
         title: design.title.clone(),
         atlas: name,
@@ -127,12 +126,12 @@ pub fn publish(
     };
     let contours = atlas::contours(design, &cells);
     let svg = atlas::picture(design, &cells, &contours, &points(&report));
-    output::write(&folder.join(PICTURE), svg.as_bytes())?;
+    output::write_below(folder, &folder.join(PICTURE), svg.as_bytes())?;
     let words = statement::statement(&certificate.claim, accepted.verdict).unwrap_or_default();
     let title = design.title.as_deref().unwrap_or("Atlas");
     let page = atlas::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
-    output::write(&folder.join(PAGE), page.as_bytes())?;
-    report.certificate = certify::store(&folder.join(CERTIFICATE), &text)?;
+    output::write_below(folder, &folder.join(PAGE), page.as_bytes())?;
+    report.certificate = certify::store(Some(folder), &folder.join(CERTIFICATE), &text)?;
     report.seconds = started.elapsed().as_secs_f64();
     Ok(report)
 }
@@ -193,7 +192,7 @@ fn best_value(
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut |_| {} };
     let mut found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
     let certificate = match certify::decide(&mut found.answer)? {
-        Some(decision) => Some(certify::store(&folder.join(BEST), &decision.text)?),
+        Some(decision) => Some(certify::store(Some(folder), &folder.join(BEST), &decision.text)?),
         None => None,
     };
     Ok(Some(BestDesign {
@@ -223,7 +222,7 @@ fn widest_margin(
     let stored = |name: &str, certificate: &Certificate| {
         let text = certify::as_written(certificate)
             .map_err(|reason| Failure::Output(format!("{name} was not accepted: {reason}")))?;
-        certify::store(&folder.join(name), &text)
+        certify::store(Some(folder), &folder.join(name), &text)
     };
     let certificate = Some(stored(BEST, &certificate)?);
     let bound = match bound {

@@ -7,11 +7,10 @@ use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::paving::{self, Extent, Header, Summary};
-use orthocert_checker::{check, read, statement, Accepted};
+use orthocert_checker::shown::Named;
+use orthocert_checker::{check, file, read, statement, Accepted};
 use serde::Serialize;
 use serde_json::Value;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::PathBuf;
 
 /// Its flags.
@@ -73,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         return folder(arguments);
     }
     if arguments.designs.is_some() || arguments.jobs.is_some() {
-        let path = arguments.certificate.display();
+        let path = arguments.certificate.shown();
         return Err(Failure::Input(format!(
             "--designs, --jobs: {path} is no folder; accepted: with a folder of certificates"
         )));
@@ -119,7 +118,7 @@ fn check_paving(arguments: &Arguments, design: Option<&Design>) -> Result<Status
         Some(size) => Extent::Sample { size, seed: arguments.seed },
         None => Extent::All,
     };
-    let open = || File::open(&arguments.certificate).map(BufReader::new);
+    let open = || file::reader(&arguments.certificate);
     let accepted = paving::check(open, extent).map_err(|reason| reason.to_string());
     let wanted = match design.map(|design| &design.claim) {
         Some(Claim::Machine(claim)) => {
@@ -159,7 +158,7 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
     match arguments.format {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.display()))
+            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.shown()))
         }
     }
     Ok(Status::Rejected)
@@ -175,7 +174,7 @@ fn folder(arguments: &Arguments) -> Result<Status, Failure> {
     if let Some(design) = design {
         return Err(Failure::Input(format!(
             "--design: found {} with a folder of certificates; accepted: --designs FOLDER",
-            design.display()
+            design.shown()
         )));
     }
     let designs = designs.as_ref().unwrap_or(certificate);

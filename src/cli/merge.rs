@@ -10,6 +10,7 @@ use orthocert::report::{text, Report};
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use orthocert::verify::concluded;
 use orthocert_checker::certificate::Node;
+use orthocert_checker::shown::Named;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -34,12 +35,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     arguments.work.start_threads()?;
     let merged = shard::merge(&arguments.folder).map_err(|error| match error {
         MergeError::Missing(_) => Failure::Output(error.to_string()),
-        error => Failure::Input(format!("{}: {error}", arguments.folder.display())),
+        error => Failure::Input(format!("{}: {error}", arguments.folder.shown())),
     })?;
     match (merged.task, merged.whole) {
         (Task::Atlas(design), Whole::Cells(cells)) => {
             atlas::made(&arguments.output)?;
-            let name = arguments.folder.display().to_string();
+            let name = arguments.folder.to_string_lossy().into_owned();
             let report = atlas::publish(&design, name, cells, &arguments.output, started)?;
             atlas::answer(&report, &arguments.work)
         }
@@ -69,7 +70,7 @@ fn proved(
     report.title.clone_from(&task.title);
     let status = match decision {
         Some(decision) => {
-            report.certificate = Some(certify::store(&arguments.output, &decision.text)?);
+            report.certificate = Some(certify::store(None, &arguments.output, &decision.text)?);
             Status::Decided(decision.verdict)
         }
         None => Status::Undecided,
@@ -102,7 +103,7 @@ fn paved(
     let elapsed = started.elapsed();
     let found = pave::connected(&target, pave::MEMORY)?;
     let mut report = PavingReport::new(&task.claim, &paved, found.as_ref(), &target);
-    report.design = arguments.folder.display().to_string();
+    report.design = arguments.folder.to_string_lossy().into_owned();
     report.title = task.title;
     report.seconds = elapsed.as_secs_f64();
     pave::answer(&report, arguments.work.format, arguments.work.quiet)

@@ -10,10 +10,11 @@ use orthocert::paving::{
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::file;
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::Reader;
-use std::fs::{self, File};
-use std::io::BufReader;
+use orthocert_checker::shown::Named;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -86,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
     if !arguments.resume && fs::metadata(&part).is_ok_and(|found| found.len() > 0) {
-        let part = part.display();
+        let part = part.shown();
         print::diagnostic(&format!(
             "{part}, which another run left, is not taken up: --resume would"
         ));
@@ -102,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let elapsed = started.elapsed();
     let found = connected(&target, arguments.memory)?;
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
-    report.design = arguments.design.display().to_string();
+    report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;
     report.reached = match (goal.depth, goal.gap) {
         (Some(depth), _) => paved.header.depth >= depth,
@@ -127,7 +128,7 @@ fn failure(error: PaveError, target: &Path) -> Failure {
         PaveError::Cancelled => {
             let part = unfinished(target);
             if part.exists() {
-                let part = part.display();
+                let part = part.shown();
                 print::diagnostic(&format!("{part} holds what is done; --resume takes it up"));
             }
             Failure::Interrupted
@@ -167,8 +168,7 @@ impl Arguments {
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })
     }
 
-    /// Where the paving goes, which is not the design. Links are followed, for the finished paving
-    /// takes the file's place.
+    /// Where the paving goes, which is not the design.
     fn target(&self) -> Result<PathBuf, Failure> {
         let target = self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"));
         let target = regular(&target)?;
@@ -211,26 +211,30 @@ pub fn depth(claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
     })
 }
 
-/// A path that is free, or that of a regular file, with links followed.
+/// A path that is free, or that of a regular file.
 pub fn regular(path: &Path) -> Result<PathBuf, Failure> {
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => Err(refused(path, "not a regular file")),
-        Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())),
+        Ok(_) => {
+            // A link is refused, or followed, for the finished paving takes the file's place.
+            output::probe(path)?;
+            Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()))
+        }
         Err(_) => Ok(path.to_owned()),
     }
 }
 
 fn refused(path: &Path, what: &str) -> Failure {
-    let path = path.display();
+    let path = path.shown();
     Failure::Input(format!("--output: {path} is {what}; accepted: another path"))
 }
 
 /// The components of a paving, if so many megabytes are enough for their table.
 pub fn connected(path: &Path, memory: u64) -> Result<Option<Components>, Failure> {
     let fails =
-        |reason: &dyn std::fmt::Display| Failure::Output(format!("{}: {reason}", path.display()));
-    let file = File::open(path).map_err(|error| fails(&error))?;
-    let mut reader = Reader::new(BufReader::new(file)).map_err(|error| fails(&error))?;
+        |reason: &dyn std::fmt::Display| Failure::Output(format!("{}: {reason}", path.shown()));
+    let input = file::reader(path).map_err(|error| fails(&error))?;
+    let mut reader = Reader::new(input).map_err(|error| fails(&error))?;
     let decider = Decider::new(reader.header()).map_err(|error| fails(&error))?;
     let found = components(&mut reader, &decider, memory.saturating_mul(1 << 20));
     Ok(found.map_err(|error| fails(&error))?.filter(|found| !found.all.is_empty()))

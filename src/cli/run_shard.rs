@@ -5,6 +5,7 @@ use super::{interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use orthocert::search::Progress;
 use orthocert::shard::{self, Ran, RunError};
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -52,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Ran::Done { resumed } => resumed,
     };
     let answer = Answer {
-        result: shard::result_file(&arguments.file, &shard).display().to_string(),
+        result: shard::result_file(&arguments.file, &shard).to_string_lossy().into_owned(),
         shard: shard.shard,
         of: shard.of,
         cells: shard.cells.len(),
@@ -75,5 +76,5 @@ fn text(answer: &Answer) -> String {
         (false, 0) => format!("done, {cells} cells"),
         (false, _) => format!("done, {cells} cells, {resumed} of them by earlier runs"),
     };
-    format!("SHARD  {shard} of {of} {how}: {result}\n")
+    format!("SHARD  {shard} of {of} {how}: {}\n", Shown(result))
 }

@@ -7,6 +7,7 @@ use crate::output::{self, OutputError};
 use crate::search::{Control, Progress};
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
+use orthocert_checker::shown::Named;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -44,10 +45,10 @@ impl fmt::Display for PaveError {
             PaveError::Cancelled => write!(f, "interrupted"),
             PaveError::Claim(reason) => write!(f, "{reason}"),
             PaveError::Resume(path, reason) => {
-                write!(f, "{}: cannot be taken up again: {reason}", path.display())
+                write!(f, "{}: cannot be taken up again: {reason}", path.shown())
             }
             PaveError::Output(error) => write!(f, "{error}"),
-            PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
+            PaveError::Io(path, error) => write!(f, "{}: {error}", path.shown()),
             PaveError::Defect(reason) => {
                 write!(f, "the checker does not accept the paving: {reason}")
             }

@@ -7,6 +7,7 @@ use num_traits::Zero;
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::path::Path;
 
@@ -116,7 +117,7 @@ impl PavingReport {
         PavingReport {
             title: None,
             design: String::new(),
-            paving: target.display().to_string(),
+            paving: target.to_string_lossy().into_owned(),
             bytes: paved.bytes,
             gap,
             reached: true,
@@ -179,7 +180,7 @@ impl PavingReport {
         out + &format!(
         "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  {} boxes in {} s, {} \
          boxes/s\n",
-        self.paving,
+        Shown(&self.paving),
         grouped(self.bytes),
         grouped(self.boxes),
         significant(self.seconds, 3),

@@ -2,12 +2,15 @@
 //! paving, 1 for an accepted refutation, 5 for a file that proves nothing, 2 for bad usage.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 use orthocert_checker::certificate::{Verdict, MAX_BYTES};
 use orthocert_checker::paving::{self, Extent};
-use orthocert_checker::{check, read, statement};
-use std::fs::File;
-use std::io::{BufReader, Read, Write};
+use orthocert_checker::shown::{lines, Shown};
+use orthocert_checker::{check, file, read, statement};
+use std::fmt::Display;
+use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
@@ -29,13 +32,14 @@ fn main() -> ExitCode {
         Some(option) if option.starts_with('-') && option != "-" => return usage(),
         _ => {}
     }
-    let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
-    let file = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
-    if let Err(error) = file {
-        eprintln!("orthocert-check: {}: {error}", path.display());
-        return ExitCode::from(2);
-    }
+    let path = Path::new(path);
+    let bytes = match file::read(path, MAX_BYTES as u64) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            complain(&format_args!("orthocert-check: {}: {error}", path.to_string_lossy()));
+            return ExitCode::from(2);
+        }
+    };
     if paving::is_paving(&bytes) {
         return check_paving(path);
     }
@@ -50,33 +54,40 @@ fn main() -> ExitCode {
             print(&format!("ACCEPTED: {}\n{}", accepted.verdict, words.unwrap_or_default()), code)
         }
         Err(reason) => {
-            eprintln!("REJECTED: {reason}");
+            complain(&format_args!("REJECTED: {reason}"));
             ExitCode::from(5)
         }
     }
 }
 
-fn check_paving(path: &std::ffi::OsStr) -> ExitCode {
-    match paving::check(|| File::open(path).map(BufReader::new), Extent::All) {
+fn check_paving(path: &Path) -> ExitCode {
+    match paving::check(|| file::reader(path), Extent::All) {
         Ok(accepted) => {
             let words = statement::paving(&accepted).unwrap_or_default();
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
         }
         Err(reason) => {
-            eprintln!("REJECTED: {reason}");
+            complain(&format_args!("REJECTED: {reason}"));
             ExitCode::from(5)
         }
     }
 }
 
+/// A sentence on standard error, on one line.
+fn complain(sentence: &dyn Display) {
+    let sentence = lines(&Shown(sentence).to_string(), &[]);
+    let _ = writeln!(std::io::stderr().lock(), "{sentence}");
+}
+
 fn usage() -> ExitCode {
-    eprintln!("{USAGE}");
+    let _ = writeln!(std::io::stderr().lock(), "{USAGE}");
     ExitCode::from(2)
 }
 
 /// Prints `text`; a closed or full output is an I/O failure, not a verdict.
 fn print(text: &str, code: ExitCode) -> ExitCode {
-    match writeln!(std::io::stdout().lock(), "{}", statement::wrapped(text).trim_end()) {
+    let text = lines(statement::wrapped(text).trim_end(), &[]);
+    match writeln!(std::io::stdout().lock(), "{text}") {
         Ok(()) => code,
         Err(_) => ExitCode::from(4),
     }
