@@ -4,9 +4,9 @@
 //! such a folder may have, with the bytes that were written. What somebody else put into it, or
 //! changed in it, stays: the folder is then not replaced.
 
-use crate::batch::summary::printable;
 use crate::digest::{sha256, Summed};
 use crate::output::{self, folder_of, OutputError};
+use orthocert_checker::shown::{Named, Shown};
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
@@ -37,22 +37,22 @@ impl fmt::Display for FolderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FolderError::Nameless(path) => {
-                write!(f, "{}: found no name; accepted: the name of a folder", path.display())
+                write!(f, "{}: found no name; accepted: the name of a folder", path.shown())
             }
             FolderError::NotAFolder(path) => write!(
                 f,
                 "{}: cannot be written: it is a symbolic link, or no folder",
-                path.display()
+                path.shown()
             ),
             FolderError::Foreign(path, name) => write!(
                 f,
                 "{}: found {name} in it, which is not what an earlier run left there; accepted: a new \
                  folder, an empty one, or one with what an earlier run left and nothing else",
-                path.display(),
-                name = printable(name)
+                path.shown(),
+                name = Shown(name)
             ),
             FolderError::Io(path, error) => {
-                write!(f, "{}: cannot be written: {error}", path.display())
+                write!(f, "{}: cannot be written: {error}", path.shown())
             }
         }
     }

@@ -14,6 +14,7 @@
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
+//! | [`escape`]       | text in XML, Markdown and JSON: it stays text                         |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`extremes`]     | encloses how small and how large each quantity gets                   |
 //! | [`folder`]       | folders that appear whole or not at all                               |
@@ -39,6 +40,8 @@
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
+
 pub mod adverse;
 pub mod atlas;
 pub mod attestation;
@@ -48,6 +51,7 @@ pub mod design;
 pub mod digest;
 pub mod dimensions;
 pub mod engine;
+pub mod escape;
 pub mod export;
 pub mod extremes;
 pub mod folder;

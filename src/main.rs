@@ -1,5 +1,7 @@
 //! `orthocert`: the command line.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
+
 mod cli;
 
 use clap::Parser;
@@ -15,7 +17,7 @@ fn main() -> ExitCode {
 fn run() -> ExitCode {
     let arguments = match cli::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(message) => return cli::usage(&message),
+        Err(message) => return cli::usage(message),
     };
     match cli::run(&arguments) {
         Ok(status) => status.into(),

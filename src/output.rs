@@ -1,14 +1,23 @@
-//! Files that appear whole or not at all.
+//! Files that appear whole or not at all, where they are meant to.
+//!
+//! A folder is named by who runs the program, the files in it may be strangers': a link in the place
+//! of a file, or of a folder below the one that was named, would lead to somebody else's. Links are
+//! refused, unless [`follow_links`] was called.
 
+use orthocert_checker::file::is_stream;
+use orthocert_checker::shown::Named;
 use std::fmt;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::TempPath;
 
 /// Held while a temporary file exists: who wants to end the process takes it first.
 static WRITING: Mutex<()> = Mutex::new(());
+/// Whether links are followed: a decision of who runs the program, for all of it.
+static FOLLOW: AtomicBool = AtomicBool::new(false);
 
 /// Why a file could not be written; the target is as it was before.
 #[derive(Debug)]
@@ -32,28 +41,44 @@ impl fmt::Display for OutputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             OutputError::IsFolder(path) => {
-                write!(f, "{}: cannot be written: it is a folder", path.display())
+                write!(f, "{}: cannot be written: it is a folder", path.shown())
             }
             OutputError::ReadOnly(path) => {
-                write!(f, "{}: cannot be written: the file is read-only", path.display())
+                write!(f, "{}: cannot be written: the file is read-only", path.shown())
             }
             OutputError::NoFolder(path) => write!(
                 f,
                 "{}: cannot be written: there is no folder {}",
-                path.display(),
-                folder_of(path).display()
+                path.shown(),
+                folder_of(path).shown()
             ),
             OutputError::NotAFile(path) => write!(
                 f,
-                "{}: cannot be written: it is a symbolic link, or no regular file",
-                path.display()
+                "{}: cannot be written: it is a symbolic link, or no regular file; --follow-links \
+                 follows links",
+                path.shown()
             ),
             OutputError::Busy(path) => {
-                write!(f, "{}: cannot be written: another run is writing it", path.display())
+                write!(f, "{}: cannot be written: another run is writing it", path.shown())
             }
             OutputError::Io(path, error) => {
-                write!(f, "{}: cannot be written: {error}", path.display())
+                write!(f, "{}: cannot be written: {error}", path.shown())
             }
+        }
+    }
+}
+
+impl OutputError {
+    /// The same of another path.
+    fn of(self, path: &Path) -> Self {
+        let path = path.to_owned();
+        match self {
+            OutputError::IsFolder(_) => OutputError::IsFolder(path),
+            OutputError::ReadOnly(_) => OutputError::ReadOnly(path),
+            OutputError::NoFolder(_) => OutputError::NoFolder(path),
+            OutputError::NotAFile(_) => OutputError::NotAFile(path),
+            OutputError::Busy(_) => OutputError::Busy(path),
+            OutputError::Io(_, error) => OutputError::Io(path, error),
         }
     }
 }
@@ -80,16 +105,37 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// Has links followed from now on where files are written.
+pub fn follow_links() {
+    FOLLOW.store(true, Ordering::Relaxed);
+}
+
+/// Whether links are followed where files are written.
+pub fn follows_links() -> bool {
+    FOLLOW.load(Ordering::Relaxed)
+}
+
+/// What is at a path: of a link, what it leads to only where links are followed.
+fn look(path: &Path) -> io::Result<Metadata> {
+    match follows_links() {
+        true => fs::metadata(path),
+        // A separator at the end of the path of a link would have it followed.
+        false => fs::symlink_metadata(path.components().collect::<PathBuf>()),
+    }
+}
+
 /// Finds out, before the work, whether [`write()`] has a chance.
 ///
 /// # Errors
 /// As [`write()`], without touching the file system.
 pub fn probe(path: &Path) -> Result<(), OutputError> {
-    match fs::metadata(path) {
+    if is_stream(path) {
+        return Ok(());
+    }
+    match look(path) {
         Ok(found) if found.is_dir() => Err(OutputError::IsFolder(path.to_owned())),
-        Ok(found) if found.is_file() && found.permissions().readonly() => {
-            Err(OutputError::ReadOnly(path.to_owned()))
-        }
+        Ok(found) if !found.is_file() => Err(OutputError::NotAFile(path.to_owned())),
+        Ok(found) if found.permissions().readonly() => Err(OutputError::ReadOnly(path.to_owned())),
         Ok(_) => Ok(()),
         Err(_) if path.file_name().is_none() => Err(OutputError::IsFolder(path.to_owned())),
         Err(_) if !folder_of(path).is_dir() => Err(OutputError::NoFolder(path.to_owned())),
@@ -98,26 +144,132 @@ pub fn probe(path: &Path) -> Result<(), OutputError> {
 }
 
 /// Writes `bytes` to `path` so that at every moment the path holds either all of them or what it
-/// held before: a temporary file in the same folder, flushed to the disk, takes the path's place.
-/// Links are followed, an existing file keeps its permissions, and what is not a regular file (a
-/// device, a pipe) is written to as it is.
+/// held before: a temporary file in the same folder, flushed to the disk, takes the path's place. An
+/// existing file keeps its permissions. What the system names as a stream ([`is_stream`]) is written
+/// to as it is.
 ///
 /// # Errors
 /// [`OutputError`]; then the path holds what it held before and no temporary file remains.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     probe(path)?;
     let fail = |error| OutputError::Io(path.to_owned(), error);
-    match fs::metadata(path) {
-        Ok(found) if !found.is_file() => {
-            let mut file = OpenOptions::new().write(true).open(path).map_err(fail)?;
-            file.write_all(bytes).and_then(|()| file.flush()).map_err(fail)
-        }
+    if is_stream(path) {
+        let mut file = OpenOptions::new().write(true).open(path).map_err(fail)?;
+        return file.write_all(bytes).and_then(|()| file.flush()).map_err(fail);
+    }
+    match look(path) {
         Ok(found) => {
-            let target = fs::canonicalize(path).map_err(fail)?;
+            // Where links are followed, the file that they lead to is replaced.
+            let target = match follows_links() {
+                true => fs::canonicalize(path).map_err(fail)?,
+                false => path.to_owned(),
+            };
             replace(&target, bytes, Some(found.permissions())).map_err(fail)
         }
         Err(_) => replace(path, bytes, None).map_err(fail),
     }
+}
+
+/// As [`write()`], below a folder: neither that nor any on the way from it to the file may be a link;
+/// those that are not there are made.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_below(root: &Path, path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let folder = folder(root, folder_of(path))?;
+    let name = path.file_name().ok_or_else(|| OutputError::IsFolder(path.to_owned()))?;
+    // What goes wrong is told of the path as it was named.
+    write(&folder.path().join(name), bytes).map_err(|error| error.of(path))
+}
+
+/// The folder at `path`, which is `root` or below it: neither is a link, nor is any between; those
+/// that are not there are made.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn folder(root: &Path, path: &Path) -> Result<Folder, OutputError> {
+    let io = |error| OutputError::Io(path.to_owned(), error);
+    let below = path.strip_prefix(root).map_err(|_| io(no_folder()))?;
+    // Of the names on the way to the root, and of the links there, whoever named it knows.
+    let root: PathBuf = root.components().collect();
+    let root = if root.as_os_str().is_empty() { Path::new(".") } else { &root };
+    fs::create_dir_all(folder_of(root)).map_err(io)?;
+    let mut folder = Folder::enter(root.to_owned()).map_err(io)?;
+    for part in below.components() {
+        folder = Folder::enter(folder.path().join(part)).map_err(io)?;
+    }
+    Ok(folder)
+}
+
+/// A folder that stays the same one, whatever becomes of its path.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    #[cfg(target_os = "linux")]
+    _handle: std::os::fd::OwnedFd,
+}
+
+impl Folder {
+    /// The folder at a path, which is made if nothing is there.
+    fn enter(path: PathBuf) -> io::Result<Self> {
+        match fs::create_dir(&path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists && !path.is_dir() => {
+                Err(error)
+            }
+            _ => Self::open(path),
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    fn open(path: PathBuf) -> io::Result<Self> {
+        use rustix::fs::{open, Mode, OFlags};
+        use std::os::fd::AsRawFd;
+        let mut flags = OFlags::PATH | OFlags::DIRECTORY | OFlags::CLOEXEC;
+        if !follows_links() {
+            flags |= OFlags::NOFOLLOW;
+        }
+        let handle = open(&path, flags, Mode::empty()).map_err(|error| match error {
+            rustix::io::Errno::NOTDIR | rustix::io::Errno::LOOP => no_folder(),
+            error => error.into(),
+        })?;
+        let held = PathBuf::from(format!("/proc/self/fd/{}", handle.as_raw_fd()));
+        let path = if held.is_dir() { held } else { path };
+        Ok(Folder { path, _handle: handle })
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn open(path: PathBuf) -> io::Result<Self> {
+        if look(&path)?.is_dir() {
+            Ok(Folder { path })
+        } else {
+            Err(no_folder())
+        }
+    }
+
+    /// Demands that nothing in it is a link, for the sake of programs that follow links; `path` is for
+    /// messages only.
+    ///
+    /// # Errors
+    /// [`OutputError::NotAFile`].
+    pub fn has_no_links(&self, path: &Path) -> Result<(), OutputError> {
+        let io = |error| OutputError::Io(path.to_owned(), error);
+        for entry in fs::read_dir(&self.path).map_err(io)? {
+            let entry = entry.map_err(io)?;
+            if entry.file_type().map_err(io)?.is_symlink() && !follows_links() {
+                return Err(OutputError::NotAFile(path.join(entry.file_name())));
+            }
+        }
+        Ok(())
+    }
+
+    /// A path that leads to it; messages are to name another.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+fn no_folder() -> io::Error {
+    io::Error::other("no folder, or a symbolic link to one; --follow-links follows links")
 }
 
 fn replace(target: &Path, bytes: &[u8], keep: Option<fs::Permissions>) -> io::Result<()> {
@@ -209,7 +361,7 @@ fn named(file: &File, folder: &Path) -> io::Result<TempPath> {
 /// # Errors
 /// [`OutputError::NotAFile`].
 pub fn own(path: &Path) -> Result<(), OutputError> {
-    match fs::symlink_metadata(path) {
+    match look(path) {
         Ok(found) if !found.is_file() => Err(OutputError::NotAFile(path.to_owned())),
         _ => Ok(()),
     }
@@ -227,7 +379,9 @@ pub fn open_own(path: &Path, options: &mut OpenOptions) -> Result<File, OutputEr
     {
         use rustix::fs::OFlags;
         use std::os::unix::fs::OpenOptionsExt;
-        options.custom_flags((OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed());
+        let follow = follows_links();
+        let nofollow = if follow { OFlags::empty() } else { OFlags::NOFOLLOW };
+        options.custom_flags((nofollow | OFlags::NONBLOCK).bits().cast_signed());
     }
     let io = |error| OutputError::Io(path.to_owned(), error);
     let file = options.open(path).map_err(io)?;
@@ -265,15 +419,14 @@ pub fn open_locked(path: &Path, create: bool) -> Result<File, OutputError> {
 fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;
     let this = file.metadata()?;
-    Ok(fs::symlink_metadata(path)
-        .is_ok_and(|found| (found.dev(), found.ino()) == (this.dev(), this.ino())))
+    Ok(look(path).is_ok_and(|found| (found.dev(), found.ino()) == (this.dev(), this.ino())))
 }
 
 /// Whether `path` still names a file; another one only where the other run's last step fell between
 /// two calls of this one.
 #[cfg(not(unix))]
 fn is_at(_: &File, path: &Path) -> io::Result<bool> {
-    Ok(fs::symlink_metadata(path).is_ok_and(|found| found.is_file()))
+    Ok(look(path).is_ok_and(|found| found.is_file()))
 }
 
 fn builder() -> tempfile::Builder<'static, 'static> {
@@ -324,17 +477,38 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_are_followed_and_permissions_kept() {
+    fn links_are_refused_and_permissions_kept() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let (file, link) = (folder.path().join("file"), folder.path().join("link"));
         fs::write(&file, "old").unwrap();
         fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
-        write(&link, b"new").unwrap();
-        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(matches!(write(&link, b"new"), Err(OutputError::NotAFile(_))));
+        assert_eq!(fs::read(&file).unwrap(), b"old");
+        write(&file, b"new").unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_written_through_a_link_below_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let (root, other) = (folder.path().join("out"), folder.path().join("other"));
+        fs::create_dir(&other).unwrap();
+        write_below(&root, &root.join("a/b/c.json"), b"x").unwrap();
+        assert_eq!(fs::read(root.join("a/b/c.json")).unwrap(), b"x");
+        std::os::unix::fs::symlink(&other, root.join("a/link")).unwrap();
+        std::os::unix::fs::symlink(&other, folder.path().join("root")).unwrap();
+        for (root, file) in
+            [("out", "out/a/link/c.json"), ("root", "root/c.json"), ("root/", "root/c.json")]
+        {
+            let path = folder.path().join(file);
+            let error = write_below(&folder.path().join(root), &path, b"x").unwrap_err();
+            assert!(error.to_string().contains(&*folder_of(&path).to_string_lossy()), "{error}");
+        }
+        assert!(names(&other).is_empty());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The map as a page: one HTML file that needs nothing else.
 
-use crate::page::escape::html;
+use crate::escape::xml;
 use std::fmt::Write;
 
 const STYLE: &str = "body { font: 16px/1.45 sans-serif; max-width: 60em; margin: 2em auto; \
@@ -21,22 +21,21 @@ pub fn page(
     facts: &[(String, String)],
     statement: &str,
 ) -> String {
-    let title = html(title);
+    let title = xml(title);
     let lines = if has_lines { LINES } else { "" };
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
          <style>{STYLE}</style>\n<h1>{title}</h1>\n{svg}{lines}<table>\n"
     );
     for (name, value) in facts {
-        let (name, value) = (html(name), html(value));
+        let (name, value) = (xml(name), xml(value));
         let _ = writeln!(out, "<tr><th>{name}</th><td>{value}</td></tr>");
     }
-    let _ =
-        writeln!(out, "</table>\n<h2>What is proved</h2>\n<pre>{}</pre>", escaped_lines(statement));
+    let _ = writeln!(
+        out,
+        "</table>\n<h2>What is proved</h2>\n<pre>{}</pre>",
+        xml(statement.trim_end())
+    );
     out.push_str("</html>\n");
     out
-}
-
-fn escaped_lines(text: &str) -> String {
-    text.lines().map(html).collect::<Vec<_>>().join("\n")
 }

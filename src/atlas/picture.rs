@@ -6,7 +6,7 @@
 
 use super::contours::Contour;
 use crate::design::AtlasDesign;
-use crate::page::escape::html;
+use crate::escape::xml;
 use crate::page::svg::path_data;
 use num_traits::ToPrimitive;
 use orthocert_checker::atlas::walk;
@@ -99,7 +99,7 @@ pub fn picture(
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
          width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{}</title>\n{STYLE}",
-        html(design.title.as_deref().unwrap_or("Atlas"))
+        xml(design.title.as_deref().unwrap_or("Atlas"))
     );
     for panel in 0..panels {
         let plane = (panels > 1).then(|| (2 * panel + 1, 2 * PLANES));
@@ -114,7 +114,7 @@ pub fn picture(
         }
         if let (Some((part, of)), Some(span)) = (plane, spans.get(2)) {
             let at = span.min + (span.max - span.min) * f64::from(part) / f64::from(of);
-            let label = html(design.labels.get(2).map_or("", String::as_str));
+            let label = xml(design.labels.get(2).map_or("", String::as_str));
             let _ = writeln!(svg, "<text x=\"0\" y=\"-12\">{label} = {}</text>", short(at));
         }
         if plane.is_none() {
@@ -237,7 +237,7 @@ fn draw_axes(svg: &mut String, design: &AtlasDesign, spans: &[Span], high: f64) 
             short(tick)
         );
     }
-    let label = |i: usize| html(design.labels.get(i).map_or("", String::as_str));
+    let label = |i: usize| xml(design.labels.get(i).map_or("", String::as_str));
     let _ = writeln!(
         svg,
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
@@ -325,7 +325,7 @@ fn draw_points(svg: &mut String, spans: &[Span], points: &[Point], high: f64) {
             short(y),
             short(x + 9.0 * way),
             short(y),
-            html(&point.label)
+            xml(&point.label)
         );
     }
 }
@@ -371,6 +371,6 @@ mod tests {
 
     #[test]
     fn text_cannot_break_the_picture() {
-        assert_eq!(html("a<b & \"c\"\u{7}"), "a&lt;b &amp; &quot;c&quot; ");
+        assert_eq!(xml("a<b & \"c\"\u{7}"), "a&lt;b &amp; &quot;c&quot;\\u{7}");
     }
 }

@@ -1,8 +1,8 @@
 //! Messages that GitHub shows beside the lines of a design (workflow commands).
 
 use super::requirement::Standing;
-use super::summary::printable;
 use super::{Batch, Ending, Entry};
+use orthocert_checker::shown::Shown;
 
 /// One line for everything that is not certified: an error for a refutation, bad input or trouble,
 /// a warning for an undecided design. `locate` gives a design's path from the repository's root.
@@ -23,9 +23,9 @@ fn annotation(entry: &Entry, file: &str) -> String {
     format!("::{level} file={},line={line},title={title}::{}\n", property(file), data(&text))
 }
 
-/// The text of a message: on one line, without control characters.
+/// The text of a message, on one line.
 fn data(text: &str) -> String {
-    printable(text).replace('%', "%25")
+    Shown(text).to_string().replace('%', "%25").replace("##[", "##\\u{5b}")
 }
 
 /// The value of a property, which `:` and `,` would end.

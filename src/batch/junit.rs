@@ -5,6 +5,8 @@
 //! schemas of Maven Surefire and of Jenkins' xUnit plugin have in common, in their order.
 
 use super::{Batch, Ending, Entry};
+use crate::escape::{attribute, xml};
+use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -45,7 +47,7 @@ fn case(out: &mut String, entry: &Entry) {
     );
     let message = attribute(&entry.remark());
     let kind = entry.verdict.word().replace(' ', "-");
-    let body = content(&explanation(entry));
+    let body = xml(&explanation(entry));
     let _ = match entry.verdict {
         Ending::Certified => Ok(()),
         Ending::Refuted => {
@@ -54,7 +56,7 @@ fn case(out: &mut String, entry: &Entry) {
         Ending::NotRun => writeln!(out, "    <skipped message=\"{message}\"/>"),
         _ => writeln!(out, "    <error message=\"{message}\" type=\"{kind}\">{body}</error>"),
     };
-    let _ = writeln!(out, "    <system-out>{}</system-out>", content(&facts(entry)));
+    let _ = writeln!(out, "    <system-out>{}</system-out>", xml(&facts(entry)));
     out.push_str("  </testcase>\n");
 }
 
@@ -75,39 +77,14 @@ fn explanation(entry: &Entry) -> String {
 fn facts(entry: &Entry) -> String {
     let mut text = String::new();
     if let Some(title) = &entry.title {
-        let _ = writeln!(text, "{title}");
+        let _ = writeln!(text, "{}", Shown(title));
     }
     for requirement in &entry.requirements {
         let _ = writeln!(text, "{}: {}", requirement.rule, requirement.demands);
     }
     if let Some(file) = &entry.certificate {
         let how = if entry.cached { "re-checked" } else { "written" };
-        let _ = writeln!(text, "certificate {} ({how}), sha256 {}", file.path, file.sha256);
+        let _ = writeln!(text, "certificate {} ({how}), sha256 {}", Shown(&file.path), file.sha256);
     }
     text
-}
-
-/// `text` as the content of an element; characters that XML 1.0 does not have are replaced.
-fn content(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            // A reader turns it into a line feed where it is not escaped.
-            '\r' => out.push_str("&#13;"),
-            '\n' | '\t' => out.push(c),
-            '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
-            c if c < ' ' => out.push(char::REPLACEMENT_CHARACTER),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-/// The same for the value of an attribute, in which a reader turns white space into blanks.
-fn attribute(text: &str) -> String {
-    content(text).replace('\n', "&#10;").replace('\t', "&#9;")
 }

@@ -25,6 +25,7 @@ mod tests;
 
 use crate::report::{CertificateFile, Counterexample};
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::shown::Shown;
 use requirement::Requirement;
 use serde::Serialize;
 
@@ -161,13 +162,14 @@ impl Entry {
         }
     }
 
-    /// What there is to say beyond the verdict, in one sentence; empty where that is all.
+    /// What there is to say beyond the verdict, in one sentence fit to be shown; empty where that is
+    /// all.
     pub fn remark(&self) -> String {
         if let Some(found) = &self.counterexample {
-            return format!("{}; demanded: {}", found.value, found.violated);
+            return Shown(format!("{}; demanded: {}", found.value, found.violated)).to_string();
         }
         let first = self.message.as_deref().unwrap_or_default().lines().next();
-        first.unwrap_or_default().to_owned()
+        Shown(first.unwrap_or_default()).to_string()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The designs that files and folders stand for, and where their certificates go.
 
-use crate::output::folder_of;
+use crate::output::{folder_of, follows_links};
+use orthocert_checker::shown::Named;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs;
@@ -14,6 +15,8 @@ pub struct Planned {
     pub design: PathBuf,
     /// Its certificate.
     pub certificate: PathBuf,
+    /// The folder below which the certificate has to stay; none beside a design named by itself.
+    pub below: Option<PathBuf>,
 }
 
 /// Why there is no plan; nothing was touched.
@@ -25,7 +28,7 @@ pub enum PlanError {
     /// A folder that cannot be read.
     Unreadable(PathBuf, io::Error),
     /// Two designs with the same certificate path.
-    Clash(Planned, Planned),
+    Clash(Box<(Planned, Planned)>),
     /// A design whose certificate would be written over a design.
     OverDesign(Planned),
 }
@@ -37,24 +40,24 @@ impl fmt::Display for PlanError {
                 f,
                 "{}: found a folder without designs; accepted: a folder with *.toml files, at any \
                  depth (what is hidden is skipped)",
-                folder.display()
+                folder.shown()
             ),
             PlanError::Unreadable(folder, error) => {
-                write!(f, "{}: cannot be read: {error}; accepted: a folder", folder.display())
+                write!(f, "{}: cannot be read: {error}; accepted: a folder", folder.shown())
             }
-            PlanError::Clash(one, other) => write!(
+            PlanError::Clash(pair) => write!(
                 f,
                 "found {} and {}, which both have the certificate {}; accepted: designs of \
                  different names, or their common folder as the argument",
-                one.design.display(),
-                other.design.display(),
-                one.certificate.display()
+                pair.0.design.shown(),
+                pair.1.design.shown(),
+                pair.0.certificate.shown()
             ),
             PlanError::OverDesign(planned) => write!(
                 f,
                 "{}: its certificate {} is a design of this batch; accepted: another name",
-                planned.design.display(),
-                planned.certificate.display()
+                planned.design.shown(),
+                planned.certificate.shown()
             ),
         }
     }
@@ -89,6 +92,7 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
         if found.is_empty() {
             return Err(PlanError::NoDesigns(argument.clone()));
         }
+        let folder = argument.is_dir().then_some(argument.as_path());
         for design in found {
             // A link is a design of its own, with a certificate of its own.
             if !named.insert(in_folder(&design).unwrap_or_else(|| design.clone())) {
@@ -100,17 +104,20 @@ pub fn plan(arguments: &[PathBuf], out: Option<&Path>) -> Result<Vec<Planned>, P
                 Some(out) => out.join(kept(argument, &beside)),
                 None => beside,
             };
-            planned.push(Planned { design, certificate });
+            let below = out.or(folder).map(Path::to_owned);
+            planned.push(Planned { design, certificate, below });
         }
     }
     let mut targets: BTreeMap<PathBuf, &Planned> = BTreeMap::new();
     for one in &planned {
-        let target = identity(&one.certificate);
-        if known.contains(&target) {
+        // One link of a stranger's does not stop them all: it will be refused by itself.
+        let unfollowed = || in_folder(&one.certificate).filter(|_| !follows_links());
+        let target = unfollowed().unwrap_or_else(|| identity(&one.certificate));
+        if known.contains(&target) || named.contains(&target) {
             return Err(PlanError::OverDesign(one.clone()));
         }
         if let Some(other) = targets.insert(target, one) {
-            return Err(PlanError::Clash(other.clone(), one.clone()));
+            return Err(PlanError::Clash(Box::new((other.clone(), one.clone()))));
         }
     }
     Ok(planned)
@@ -247,10 +254,9 @@ mod tests {
         let planned = plan(&[folder.path().to_owned()], None).unwrap();
         let names: Vec<_> = planned.iter().filter_map(|one| one.certificate.file_name()).collect();
         assert_eq!(names, ["alias.cert.json", "x.cert.json"]);
-        // A certificate that is a link to a design would be written over the design.
+        // A certificate that is a link, be it to a design, is not written through, and stops no other.
         link("alias.toml", "a/x.cert.json");
-        let refused = plan(&[folder.path().to_owned()], None);
-        assert!(matches!(refused, Err(PlanError::OverDesign(_))));
+        assert_eq!(plan(&[folder.path().to_owned()], None).unwrap(), planned);
     }
 
     #[test]

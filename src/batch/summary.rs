@@ -2,9 +2,11 @@
 
 use super::{counts, Batch, Ending, Entry};
 use crate::decimal::counted;
+use crate::escape;
 use crate::report::text::{duration, Style};
 use crate::report::Outcome;
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 
 /// Columns of the verdict.
@@ -16,24 +18,25 @@ const DESIGN: usize = 48;
 pub fn line(entry: &Entry, style: Style) -> String {
     let remark = match entry.remark() {
         text if text.is_empty() => String::new(),
-        text => format!(": {}", printable(&text)),
+        text => format!(": {text}"),
     };
     let how = if entry.cached { "re-checked, " } else { "" };
     let time = duration(entry.seconds);
     let verdict = verdict(entry.verdict, style);
-    format!("{verdict}  {} ({how}{time}){remark}", printable(&entry.design))
+    format!("{verdict}  {} ({how}{time}){remark}", Shown(&entry.design))
 }
 
 /// The table of all designs, in the order of the plan, and the counts.
 pub fn table(batch: &Batch, style: Style) -> String {
     let mut out = String::new();
-    let names: Vec<String> = batch.designs.iter().map(|entry| printable(&entry.design)).collect();
+    let names: Vec<String> =
+        batch.designs.iter().map(|entry| Shown(&entry.design).to_string()).collect();
     let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).min(DESIGN);
     for (entry, name) in batch.designs.iter().zip(&names) {
         let _ = write!(out, "{}  {name:longest$}  ", verdict(entry.verdict, style));
         let remark = match entry.remark() {
             _ if entry.cached && entry.counterexample.is_none() => "re-checked".to_owned(),
-            text => printable(&text),
+            text => text,
         };
         let _ = writeln!(out, "{:>8}  {remark}", duration(entry.seconds));
     }
@@ -68,10 +71,10 @@ pub fn markdown(batch: &Batch) -> String {
         let _ = writeln!(
             out,
             "| {} | {}{how} | {} | {} | {} |",
-            escaped(&entry.design),
+            escape::markdown(&entry.design),
             marked(entry.verdict),
-            escaped(entry.title.as_deref().unwrap_or_default()),
-            escaped(&entry.remark()),
+            escape::markdown(entry.title.as_deref().unwrap_or_default()),
+            escape::markdown(&entry.remark()),
             duration(entry.seconds)
         );
     }
@@ -98,24 +101,4 @@ fn verdict(ending: Ending, style: Style) -> String {
         None => ending.word().to_uppercase(),
     };
     format!("{word}{}", " ".repeat(VERDICT.saturating_sub(ending.word().len())))
-}
-
-/// `text` on one line, without control characters.
-pub fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
-/// `text` as Markdown shows it literally, in a cell of a table.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in printable(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '#' | '~' | '!' => out.extend(['\\', c]),
-            c => out.push(c),
-        }
-    }
-    out
 }

@@ -8,7 +8,7 @@ use orthocert::design::{AtlasDesign, Objective};
 use orthocert::digest::sha256;
 use orthocert::folder::{self, FolderError, SUMS};
 use orthocert::frontier::NoAnswer;
-use orthocert::output::OutputError;
+use orthocert::output;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
 use orthocert::search::{Budget, Control, Progress};
@@ -19,7 +19,6 @@ use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use orthocert_checker::{statement, Accepted};
 use std::cmp::Ordering;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -57,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     probe(&folder)?;
     arguments.work.start_threads()?;
     let cells = map(&design, arguments.work.quiet)?;
-    let name = arguments.atlas.display().to_string();
+    let name = arguments.atlas.to_string_lossy().into_owned();
     let report =
         publish(&design, name, cells, &folder, started).map_err(|failure| match failure {
             // Of its own making: no certificate was given.
@@ -85,8 +84,7 @@ impl From<FolderError> for Failure {
 
 /// The folder, made if it is not there.
 pub fn made(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder)
-        .map_err(|error| Failure::from(OutputError::Io(folder.to_owned(), error)))
+    Ok(output::folder(folder, folder).map(drop)?)
 }
 
 /// The files of a map, which are written together.
@@ -97,7 +95,7 @@ struct Files<'a> {
 
 impl Files<'_> {
     fn add(&mut self, name: &'static str, text: String) -> CertificateFile {
-        let path = self.folder.join(name).display().to_string();
+        let path = self.folder.join(name).to_string_lossy().into_owned();
         let (bytes, sha256) = (text.len(), sha256(text.as_bytes()));
         self.all.push((name, text));
         CertificateFile { path, bytes, sha256 }
@@ -149,7 +147,7 @@ pub fn publish(
         at: mark.at.clone(),
         verdict: atlas::verdict_at(design, mark, &cells),
     });
-    let file = |name: &str| folder.join(name).display().to_string();
+    let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let mut report = AtlasReport {
         title: design.title.clone(),
         atlas: name,

@@ -5,7 +5,8 @@ use super::{input, print, Failure, Status};
 use orthocert::attestation::{statement, Evidence};
 use orthocert::batch::plan::identity;
 use orthocert::design::Design;
-use orthocert::output;
+use orthocert::{escape, output};
+use orthocert_checker::shown::Named;
 use std::path::{Path, PathBuf};
 
 /// Its flags.
@@ -30,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         if [path, design_path].iter().any(|input| identity(input) == identity(output)) {
             return Err(Failure::Input(format!(
                 "--output: {} is what the statement is about; accepted: another path",
-                output.display()
+                output.shown()
             )));
         }
     }
@@ -41,7 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let (certificate, accepted) = match examine(&certificate_bytes, Some(&design)) {
         Ok(examined) => examined,
         Err(reason) => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", path.display()));
+            print::diagnostic(&format!("{}: REJECTED: {reason}", path.shown()));
             return Ok(Status::Rejected);
         }
     };
@@ -55,8 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     match output {
         None => print::json(&statement)?,
         Some(output) => {
-            let text = serde_json::to_string_pretty(&statement).map_err(|_| Failure::Defect)?;
-            output::write(output, (text + "\n").as_bytes())?;
+            let text = escape::json(&statement).map_err(|_| Failure::Defect)?;
+            output::write(output, text.as_bytes())?;
         }
     }
     Ok(Status::Decided(accepted.verdict))

@@ -4,11 +4,11 @@ use super::check::examine;
 use super::{batch, input, interrupt, print, Failure, Format, Status};
 use orthocert::batch::pair::{pairs, Pair};
 use orthocert::batch::run::{run as run_jobs, Outcome};
-use orthocert::batch::summary::printable;
 use orthocert::batch::{counts, worst, Ending};
 use orthocert::decimal::counted;
 use orthocert::design::Design;
 use orthocert::digest::sha256;
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
@@ -83,8 +83,9 @@ fn is_accepted(ending: Ending) -> bool {
 
 /// Checks one pair.
 fn audit(pair: &Pair) -> Row {
-    let name =
-        |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| path.display().to_string());
+    let name = |path: &Option<std::path::PathBuf>| {
+        path.as_ref().map(|path| path.to_string_lossy().into_owned())
+    };
     let (certificate, design) = (name(&pair.certificate), name(&pair.design));
     let mut row =
         Row { certificate, design, verdict: Ending::Rejected, reason: None, sha256: None };
@@ -116,14 +117,14 @@ fn text(rows: &[Row]) -> String {
     let mut out = String::new();
     for row in rows {
         let name = row.certificate.as_ref().or(row.design.as_ref());
-        let name = printable(name.map_or("", String::as_str));
+        let name = Shown(name.map_or("", String::as_str));
         let verdict = match row.verdict {
             Ending::Certified => "ACCEPTED: certified".to_owned(),
             Ending::Refuted => "ACCEPTED: refuted".to_owned(),
             other => other.word().to_uppercase(),
         };
         let reason = row.reason.as_deref().and_then(|reason| reason.lines().next());
-        let reason = reason.map(|reason| format!(": {}", printable(reason))).unwrap_or_default();
+        let reason = reason.map(|reason| format!(": {}", Shown(reason))).unwrap_or_default();
         let _ = writeln!(out, "{verdict:<19}  {name}{reason}");
     }
     let pairs = counted(rows.len(), "certificate or design", "certificates and designs");

@@ -6,13 +6,13 @@ use orthocert::batch::requirement::{broken, requirements, Known};
 use orthocert::batch::run::{run as run_jobs, Outcome};
 use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
 use orthocert::design::{Design, ReadError};
-use orthocert::output;
 use orthocert::report::Report;
 use orthocert::search::{Budget, Control};
 use orthocert::verify::verify;
+use orthocert::{escape, output};
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::shown::Named;
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
@@ -63,7 +63,7 @@ impl Flags {
         for (option, path) in self.reports() {
             output::probe(path)?;
             if !taken.insert(identity(path)) {
-                let path = path.display();
+                let path = path.shown();
                 return Err(Failure::Input(format!(
                     "{option}: {path} is a design, a certificate or another report of this run; \
                      accepted: a path of its own"
@@ -97,10 +97,9 @@ pub fn run(
     effort.start_threads()?;
     interrupt::grant(LAST_WORDS);
     let jobs: Arc<[Planned]> = planned.into();
-    let folders = flags.out.is_some();
     let work = {
         let budget = effort.clone();
-        move |one: &Planned| prove(one, folders, reprove, &budget)
+        move |one: &Planned| prove(one, reprove, &budget)
     };
     let tell = |index: usize, outcome: &Outcome<Entry>| {
         let Some(entry) = jobs.get(index).map(|one| entry(one, outcome)) else { return };
@@ -138,8 +137,8 @@ fn report(batch: &Batch, flags: &Flags, effort: &Effort) -> Result<(), Failure> 
         keep(write(path, &junit(batch)));
     }
     if let Some(path) = &flags.sarif {
-        let log = serde_json::to_string_pretty(&sarif(batch, github::locate));
-        keep(log.map_err(|_| Failure::Defect).and_then(|log| write(path, &(log + "\n"))));
+        let log = escape::json(&sarif(batch, github::locate));
+        keep(log.map_err(|_| Failure::Defect).and_then(|log| write(path, &log)));
     }
     if let Some(path) = &flags.summary {
         keep(write(path, &summary::markdown(batch)));
@@ -154,14 +153,13 @@ fn report(batch: &Batch, flags: &Flags, effort: &Effort) -> Result<(), Failure> 
 }
 
 /// Proves one design; whatever goes wrong with it is told of it alone.
-fn prove(one: &Planned, folders: bool, reprove: bool, effort: &Effort) -> Entry {
+fn prove(one: &Planned, reprove: bool, effort: &Effort) -> Entry {
     let started = Instant::now();
-    let mut entry = attempt(one, folders, reprove, effort, started).unwrap_or_else(
-        |(ending, line, message)| {
-            let name = one.design.display().to_string();
+    let mut entry =
+        attempt(one, reprove, effort, started).unwrap_or_else(|(ending, line, message)| {
+            let name = one.design.to_string_lossy().into_owned();
             Entry { line, ..Entry::without_verdict(name, ending, message) }
-        },
-    );
+        });
     entry.seconds = started.elapsed().as_secs_f64();
     entry
 }
@@ -171,7 +169,6 @@ type Wrong = (Ending, Option<usize>, String);
 
 fn attempt(
     one: &Planned,
-    folders: bool,
     reprove: bool,
     effort: &Effort,
     started: Instant,
@@ -188,16 +185,13 @@ fn attempt(
         Failure::Input(message) => (Ending::BadInput, None, message),
         failure => (Ending::NotFinished, None, failure.message().to_owned()),
     };
-    if folders {
-        let folder = output::folder_of(&one.certificate);
-        fs::create_dir_all(folder).map_err(|error| {
-            let message = format!("{}: cannot be made: {error}", folder.display());
-            (Ending::NotFinished, None, message)
-        })?;
+    if let Some(folder) = &one.below {
+        output::folder(folder, output::folder_of(&one.certificate))
+            .map_err(|error| wrong(error.into()))?;
     }
     let file = Some(one.design.as_path());
-    let task =
-        Task { design: &design, file, target: &one.certificate, reprove, table: false, started };
+    let (target, below) = (&*one.certificate, one.below.as_deref());
+    let task = Task { design: &design, file, target, below, reprove, table: false, started };
     let budget: Budget = effort.budget(started).map_err(wrong)?;
     let search = |claim: &_| {
         let mut silent = |_| {};
@@ -251,7 +245,7 @@ fn undecided(report: &Report) -> String {
 
 /// The entry of a job, also of one that did not end.
 fn entry(one: &Planned, outcome: &Outcome<Entry>) -> Entry {
-    let name = one.design.display().to_string();
+    let name = one.design.to_string_lossy().into_owned();
     let without =
         |ending, message: &str| Entry::without_verdict(name.clone(), ending, message.to_owned());
     match outcome {

@@ -172,7 +172,7 @@ fn row(
                 for (certificate, side) in inner.chain([(&found.certified, "outer")]) {
                     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
                     let path = folder.join(format!("{}-{side}.cert.json", file_stem(extreme)));
-                    row.certificates.push(certify::store(&path, &text)?);
+                    row.certificates.push(certify::store(Some(folder), &path, &text)?);
                 }
             }
             row.point = found.refuted.as_deref().and_then(witness_point);

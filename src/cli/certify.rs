@@ -44,11 +44,14 @@ pub fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
     }
 }
 
-/// Writes a certificate, whole or not at all.
-pub fn store(path: &Path, text: &str) -> Result<CertificateFile, Failure> {
-    output::write(path, text.as_bytes())?;
+/// Writes a certificate, whole or not at all; where it is one of a folder's, below that folder.
+pub fn store(folder: Option<&Path>, path: &Path, text: &str) -> Result<CertificateFile, Failure> {
+    match folder {
+        Some(folder) => output::write_below(folder, path, text.as_bytes())?,
+        None => output::write(path, text.as_bytes())?,
+    }
     let sha256 = digest::sha256(text.as_bytes());
-    Ok(CertificateFile { path: path.display().to_string(), bytes: text.len(), sha256 })
+    Ok(CertificateFile { path: path.to_string_lossy().into_owned(), bytes: text.len(), sha256 })
 }
 
 /// What stands where a certificate of `claim` would have been written.
@@ -58,5 +61,5 @@ pub fn earlier(path: &Path, claim: &Claim) -> Option<EarlierFile> {
     }
     let certificate = input::certificate(path).ok().and_then(|bytes| read(&bytes).ok());
     let same_claim = certificate.is_some_and(|certificate| certificate.claim == *claim);
-    Some(EarlierFile { path: path.display().to_string(), same_claim })
+    Some(EarlierFile { path: path.to_string_lossy().into_owned(), same_claim })
 }

@@ -9,6 +9,7 @@ use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::paving::{self, Extent, Header, Summary};
+use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read, statement, Accepted};
 use serde::Serialize;
 use serde_json::Value;
@@ -78,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         return folder(arguments);
     }
     if arguments.designs.is_some() || arguments.jobs.is_some() {
-        let path = arguments.certificate.display();
+        let path = arguments.certificate.shown();
         return Err(Failure::Input(format!(
             "--designs, --jobs: {path} is no folder; accepted: with a folder of certificates"
         )));
@@ -157,7 +158,7 @@ fn check_paving(
             let statement = statement::paving(&accepted).unwrap_or_default();
             // An accepted paving was read to its end.
             let (sha256, _) = input.into_inner().finish().map_err(|error| {
-                Failure::Input(format!("{}: {error}", arguments.certificate.display()))
+                Failure::Input(format!("{}: {error}", arguments.certificate.shown()))
             })?;
             match arguments.format {
                 Format::Text => {
@@ -198,7 +199,7 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
     match arguments.format {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.display()))
+            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.shown()))
         }
     }
     Ok(Status::Rejected)
@@ -214,7 +215,7 @@ fn folder(arguments: &Arguments) -> Result<Status, Failure> {
     if let Some(design) = design {
         return Err(Failure::Input(format!(
             "--design: found {} with a folder of certificates; accepted: --designs FOLDER",
-            design.display()
+            design.shown()
         )));
     }
     let designs = designs.as_ref().unwrap_or(certificate);

@@ -16,6 +16,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut command = super::Arguments::command();
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "orthocert", &mut script);
-    print::answer(&String::from_utf8_lossy(&script))?;
+    print::document(&String::from_utf8_lossy(&script))?;
     Ok(Status::Done)
 }

@@ -7,9 +7,10 @@ use orthocert::digest::Summed;
 use orthocert::paving::{surface, Surface, SurfaceError};
 use orthocert::{export, output};
 use orthocert_checker::paving::{is_paving, Reader};
-use orthocert_checker::read;
+use orthocert_checker::shown::Named;
+use orthocert_checker::{file, read};
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Take};
 use std::path::{Path, PathBuf};
 
 /// Its flags.
@@ -75,12 +76,12 @@ fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", path.display()));
+            print::diagnostic(&format!("{}: REJECTED: {reason}", path.shown()));
             return Ok(Status::Rejected);
         }
     };
     let text = export::rocq::rocq(&certificate)
-        .map_err(|error| Failure::Input(format!("{}: not exported: {error}", path.display())))?;
+        .map_err(|error| Failure::Input(format!("{}: not exported: {error}", path.shown())))?;
     match output {
         Some(file) => output::write(file, text.as_bytes())?,
         None => print::answer(&text)?,
@@ -104,39 +105,39 @@ fn mesh(
         Ok(found) => found,
         Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
         Err(error @ SurfaceError::Rejected(_)) => {
-            print::diagnostic(&format!("{}: {error}", path.display()));
+            print::diagnostic(&format!("{}: {error}", path.shown()));
             return Ok(Status::Rejected);
         }
         Err(error) => {
-            return Err(Failure::Input(format!("{}: not exported: {error}", path.display())))
+            return Err(Failure::Input(format!("{}: not exported: {error}", path.shown())))
         }
     };
     let (sha256, _) = paving
         .into_inner()
         .finish()
-        .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
+        .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
     output::write(output, &bytes)?;
     print::answer(&format!(
         "{}: {} faces, {} corners\nof {}, not checked, sha256 {sha256}\n",
-        output.display(),
+        output.shown(),
         grouped(surface.faces() as u64),
         grouped(surface.points.len() as u64),
-        path.display(),
+        path.shown(),
     ))?;
     Ok(Status::Done)
 }
 
 /// A file that begins like a paving.
-fn opened(path: &Path) -> Result<BufReader<Summed<File>>, Failure> {
+fn opened(path: &Path) -> Result<BufReader<Summed<BufReader<Take<File>>>>, Failure> {
     let unreadable =
-        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
+        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a paving"));
     }
-    let mut reader = File::open(path)
+    let mut reader = file::reader(path)
         .map(Summed::new)
         .map(BufReader::new)
-        .map_err(|e| unreadable(&e.to_string()))?;
+        .map_err(|error| unreadable(&error.to_string()))?;
     let start = reader.fill_buf().map_err(|error| unreadable(&error.to_string()))?;
     if is_paving(start) {
         Ok(reader)

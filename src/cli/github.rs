@@ -3,6 +3,7 @@
 use super::{print, Failure};
 use orthocert::batch::annotations::annotations;
 use orthocert::batch::{summary, Batch};
+use orthocert::output::{self, OutputError};
 use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -30,26 +31,19 @@ pub fn locate(design: &str) -> String {
     below_root().unwrap_or_else(|| design.to_owned())
 }
 
-/// Prints the annotations and appends to the step's summary. The runner reads annotations from
-/// standard error too, where they leave the answer alone.
+/// Prints the annotations and appends to the step's summary.
 pub fn tell(batch: &Batch) -> Result<(), Failure> {
     if !is_here() {
         return Ok(());
     }
-    for line in annotations(batch, locate).lines() {
-        print::line(line);
-    }
+    print::commands(&annotations(batch, locate));
     let Some(path) = path("GITHUB_STEP_SUMMARY") else {
         return Ok(());
     };
     let text = summary::markdown(batch);
-    let appended = OpenOptions::new()
-        .append(true)
-        .create(true)
-        .open(&path)
-        .and_then(|mut file| file.write_all(text.as_bytes()));
-    appended.map_err(|error| {
-        let path = path.display();
-        Failure::Output(format!("GITHUB_STEP_SUMMARY: {path} cannot be written: {error}"))
-    })
+    let file = output::open_own(&path, OpenOptions::new().append(true).create(true));
+    let appended = file.and_then(|mut file| {
+        file.write_all(text.as_bytes()).map_err(|error| OutputError::Io(path, error))
+    });
+    appended.map_err(|error| Failure::Output(format!("GITHUB_STEP_SUMMARY: {error}")))
 }

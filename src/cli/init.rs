@@ -20,6 +20,6 @@ fn kinds() -> PossibleValuesParser {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let text = template(&arguments.kind)
         .ok_or_else(|| Failure::Input(format!("--kind: there is no kind {}", arguments.kind)))?;
-    print::answer(text)?;
+    print::document(text)?;
     Ok(Status::Done)
 }

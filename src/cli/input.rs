@@ -3,9 +3,11 @@
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
 use orthocert_checker::certificate::MAX_BYTES;
+use orthocert_checker::file;
 use orthocert_checker::number::Exact;
+use orthocert_checker::shown::Named;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
 
 /// Most digits of a literal on the command line, as in design files.
@@ -22,15 +24,11 @@ pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     let unreadable =
-        |reason: String| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
+        |reason: String| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a certificate (a JSON file)".to_owned()));
     }
-    let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
-    let read = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
-    read.map_err(|error| unreadable(error.to_string()))?;
-    Ok(bytes)
+    file::read(path, MAX_BYTES as u64).map_err(|error| unreadable(error.to_string()))
 }
 
 /// A file of which the beginning was read, as much as a certificate may have and a byte more; what
@@ -38,20 +36,20 @@ pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
 pub struct Begun {
     /// The beginning.
     pub start: Vec<u8>,
-    rest: File,
+    rest: BufReader<Take<File>>,
 }
 
 impl Begun {
     /// Reads the beginning.
     pub fn new(path: &Path) -> Result<Self, Failure> {
         let unreadable = |reason: &dyn std::fmt::Display| {
-            Failure::Input(format!("{}: cannot be read: {reason}", path.display()))
+            Failure::Input(format!("{}: cannot be read: {reason}", path.shown()))
         };
         if path.is_dir() {
             return Err(unreadable(&"it is a folder; accepted: a certificate or a paving"));
         }
         let mut start = Vec::new();
-        let mut rest = File::open(path).map_err(|error| unreadable(&error))?;
+        let mut rest = file::reader(path).map_err(|error| unreadable(&error))?;
         let read = rest.by_ref().take(MAX_BYTES as u64 + 1).read_to_end(&mut start);
         read.map_err(|error| unreadable(&error))?;
         Ok(Begun { start, rest })
@@ -69,14 +67,11 @@ const MAX_CONFIGURATION: u64 = 1 << 20;
 /// The text of a configuration file.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let fails =
-        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
+        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
     if path.is_dir() {
         return Err(fails("it is a folder; accepted: a configuration file"));
     }
-    let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_CONFIGURATION + 1).read_to_end(&mut bytes))
-        .map_err(|error| fails(&error.to_string()))?;
+    let bytes = file::read(path, MAX_CONFIGURATION).map_err(|error| fails(&error.to_string()))?;
     if bytes.len() as u64 > MAX_CONFIGURATION {
         return Err(fails("more than 1 MiB"));
     }
@@ -106,7 +101,7 @@ pub fn apart(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     let Ok(found) = fs::canonicalize(output) else { return Ok(()) };
     let is_read = |input: &PathBuf| fs::canonicalize(input).is_ok_and(|input| input == found);
     if inputs.iter().any(is_read) {
-        let path = output.display();
+        let path = output.shown();
         let refused = format!("--output: {path} is a file that is read; accepted: another path");
         return Err(Failure::Input(refused));
     }

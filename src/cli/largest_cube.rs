@@ -10,9 +10,10 @@ use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Its flags.
@@ -86,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let too_large = bracket.too_large.as_ref().map(|too_large| &too_large.certificate);
     for (certificate, target) in [inside, too_large].into_iter().zip(&targets) {
         if let Some(certificate) = certificate {
-            certificates.push(stored(certificate, target)?);
+            certificates.push(stored(certificate, arguments.output.as_deref(), target)?);
         }
     }
     let answer = Answer {
@@ -123,11 +124,15 @@ fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
     )))
 }
 
-fn stored(certificate: &Certificate, target: &std::path::Path) -> Result<CertificateFile, Failure> {
+fn stored(
+    certificate: &Certificate,
+    folder: Option<&Path>,
+    target: &Path,
+) -> Result<CertificateFile, Failure> {
     let text = certificate
         .to_text()
         .map_err(|error| Failure::Output(format!("the certificate cannot be written: {error}")))?;
-    certify::store(target, &text)
+    certify::store(folder, target, &text)
 }
 
 /// `(max - min) / min`, where both are there.
@@ -186,7 +191,7 @@ fn text(answer: &Answer, quiet: bool) -> String {
         let _ = write!(out, "\n  gap {}", significant(gap, 3));
     }
     for certificate in &answer.certificates {
-        let _ = write!(out, "\n  {} ({} bytes)", certificate.path, certificate.bytes);
+        let _ = write!(out, "\n  {} ({} bytes)", Shown(&certificate.path), certificate.bytes);
     }
     let _ = writeln!(out, "\n  {} s", significant(answer.seconds, 3));
     out

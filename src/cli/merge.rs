@@ -11,6 +11,7 @@ use orthocert::report::{text, Report};
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use orthocert::verify::{concluded, Answer, Undecided};
 use orthocert_checker::certificate::{Node, MAX_NODES};
+use orthocert_checker::shown::Named;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -44,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             match arguments.work.format {
                 Format::Json => print::json(&Refused { accepted: false, reason: &reason })?,
                 Format::Text => {
-                    let folder = arguments.folder.display();
+                    let folder = arguments.folder.shown();
                     print::diagnostic(&format!("{folder}: REJECTED: {reason}"));
                 }
             }
@@ -61,12 +62,12 @@ fn merged(arguments: &Arguments) -> Result<Status, Failure> {
     let merged = shard::merge(&arguments.folder).map_err(|error| match error {
         MergeError::Missing(_) => Failure::Output(error.to_string()),
         MergeError::NotATree => Failure::Rejected(error.to_string()),
-        error => Failure::Input(format!("{}: {error}", arguments.folder.display())),
+        error => Failure::Input(format!("{}: {error}", arguments.folder.shown())),
     })?;
     match (merged.task, merged.whole) {
         (Task::Atlas(design), Whole::Cells(cells)) => {
             atlas::probe(&arguments.output)?;
-            let name = arguments.folder.display().to_string();
+            let name = arguments.folder.to_string_lossy().into_owned();
             let report = atlas::publish(&design, name, cells, &arguments.output, started)?;
             atlas::answer(&report, &arguments.work)
         }
@@ -83,7 +84,7 @@ fn merged(arguments: &Arguments) -> Result<Status, Failure> {
 pub fn apart(folder: &Path, output: &Path) -> Result<(), Failure> {
     let (folder, result) = (identity(folder), identity(output));
     if result == folder || result.parent() == Some(folder.as_path()) {
-        let path = output.display();
+        let path = output.shown();
         return Err(Failure::Input(format!(
             "--output: {path} is in the folder of the shards; accepted: a path outside it"
         )));
@@ -114,7 +115,7 @@ fn proved(
     report.title.clone_from(&task.title);
     let status = match decision {
         Some(decision) => {
-            report.certificate = Some(certify::store(&arguments.output, &decision.text)?);
+            report.certificate = Some(certify::store(None, &arguments.output, &decision.text)?);
             Status::Decided(decision.verdict)
         }
         None => Status::Undecided,
@@ -148,7 +149,7 @@ fn paved(
     let elapsed = started.elapsed();
     let found = pave::connected(&target, &paved.sha256, pave::MEMORY)?;
     let mut report = PavingReport::new(&task.claim, &paved, found.as_ref(), &target);
-    report.design = arguments.folder.display().to_string();
+    report.design = arguments.folder.to_string_lossy().into_owned();
     report.title = task.title;
     report.seconds = elapsed.as_secs_f64();
     pave::answer(&report, arguments.work.format, arguments.work.quiet)

@@ -35,9 +35,11 @@ mod submit;
 mod tolerance;
 mod verify;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
-use orthocert::output::OutputError;
+use orthocert::output::{self, OutputError};
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::shown::Shown;
 use std::fmt;
 use std::process::ExitCode;
 
@@ -59,6 +61,9 @@ Exit codes, the same for every command:
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Where files are written, follow symbolic links, which are refused without it
+    #[arg(long, global = true)]
+    follow_links: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -214,17 +219,46 @@ impl From<OutputError> for Failure {
     }
 }
 
-/// Prints what the parser of the command line has to say: help, the version, or an error.
-pub fn usage(message: &clap::Error) -> ExitCode {
-    match message.print() {
-        Ok(()) => ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2)),
-        Err(_) => ExitCode::from(4),
+/// Prints what the parser of the command line has to say: help, the version, or an error, which
+/// quotes arguments.
+pub fn usage(mut message: clap::Error) -> ExitCode {
+    if !message.use_stderr() {
+        return message.print().map_or(ExitCode::from(4), |()| ExitCode::SUCCESS);
+    }
+    let quoted: Vec<(ContextKind, ContextValue)> = message
+        .context()
+        .filter(|(kind, _)| *kind != ContextKind::Usage)
+        .map(|(kind, value)| (kind, on_one_line(value)))
+        .collect();
+    for (kind, value) in quoted {
+        message.insert(kind, value);
+    }
+    print::line(message.render().to_string().trim_end());
+    ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
+}
+
+/// What an error of the parser tells of an argument, each on one line.
+fn on_one_line(value: &ContextValue) -> ContextValue {
+    let shown = |text: &dyn fmt::Display| Shown(text).to_string();
+    match value {
+        ContextValue::String(text) => ContextValue::String(shown(text)),
+        ContextValue::Strings(texts) => {
+            ContextValue::Strings(texts.iter().map(|text| shown(text)).collect())
+        }
+        ContextValue::StyledStr(text) => ContextValue::StyledStr(shown(text).into()),
+        ContextValue::StyledStrs(texts) => {
+            ContextValue::StyledStrs(texts.iter().map(|text| shown(text).into()).collect())
+        }
+        other => other.clone(),
     }
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::listen();
+    if arguments.follow_links {
+        output::follow_links();
+    }
     match &arguments.command {
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),

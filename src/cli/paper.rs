@@ -91,7 +91,7 @@ fn row(finding: &Finding, arguments: &Arguments) -> Result<Row, Failure> {
                 if let Some(folder) = &arguments.output {
                     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
                     let path = folder.join(format!("{name}.cert.json"));
-                    row.files.push(certify::store(&path, &text)?);
+                    row.files.push(certify::store(Some(folder), &path, &text)?);
                 }
             }
         }

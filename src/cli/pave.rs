@@ -14,6 +14,7 @@ use orthocert::search::Control;
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Reader, Rejected};
+use orthocert_checker::shown::Named;
 use std::fs::{self, OpenOptions};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -88,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
     if !arguments.resume && is_left(&part)? {
-        let part = part.display();
+        let part = part.shown();
         print::diagnostic(&format!(
             "{part}, which another run left, is not taken up: --resume would"
         ));
@@ -104,7 +105,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let elapsed = started.elapsed();
     let found = connected(&target, &paved.sha256, arguments.memory)?;
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
-    report.design = arguments.design.display().to_string();
+    report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;
     report.reached = match (goal.depth, goal.gap) {
         (Some(depth), _) => paved.reaches(depth),
@@ -129,7 +130,7 @@ fn failure(error: PaveError, target: &Path) -> Failure {
         PaveError::Cancelled => {
             let part = unfinished(target);
             if part.exists() {
-                let part = part.display();
+                let part = part.shown();
                 print::diagnostic(&format!("{part} holds what is done; --resume takes it up"));
             }
             Failure::Interrupted
@@ -169,8 +170,7 @@ impl Arguments {
         Ok(Goal { depth, gap, max_boxes: self.max_boxes })
     }
 
-    /// Where the paving goes, which is not the design, nor is its unfinished file. Links are followed,
-    /// for the finished paving takes the file's place.
+    /// Where the paving goes, which is not the design, nor is its unfinished file.
     fn target(&self) -> Result<PathBuf, Failure> {
         let target = self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"));
         let target = regular(&target)?;
@@ -199,7 +199,7 @@ fn is_left(part: &Path) -> Result<bool, Failure> {
     if START.starts_with(&start) {
         return Ok(!start.is_empty());
     }
-    let part = part.display();
+    let part = part.shown();
     Err(Failure::Input(format!(
         "--output: {part} is in the way, which is no unfinished paving; accepted: another path"
     )))
@@ -237,17 +237,21 @@ pub fn depth(claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
     })
 }
 
-/// A path that is free, or that of a regular file, with links followed.
+/// A path that is free, or that of a regular file.
 pub fn regular(path: &Path) -> Result<PathBuf, Failure> {
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => Err(refused(path, "not a regular file")),
-        Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())),
+        Ok(_) => {
+            // A link is refused, or followed, for the finished paving takes the file's place.
+            output::probe(path)?;
+            Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()))
+        }
         Err(_) => Ok(path.to_owned()),
     }
 }
 
 fn refused(path: &Path, what: &str) -> Failure {
-    let path = path.display();
+    let path = path.shown();
     Failure::Input(format!("--output: {path} is {what}; accepted: another path"))
 }
 
@@ -255,7 +259,7 @@ fn refused(path: &Path, what: &str) -> Failure {
 /// Where the file is another by now, nothing is said of it.
 pub fn connected(path: &Path, sha256: &str, memory: u64) -> Result<Option<Components>, Failure> {
     let fails =
-        |reason: &dyn std::fmt::Display| Failure::Output(format!("{}: {reason}", path.display()));
+        |reason: &dyn std::fmt::Display| Failure::Output(format!("{}: {reason}", path.shown()));
     let file = output::open_own(path, OpenOptions::new().read(true))?;
     let mut input = BufReader::new(Summed::new(file));
     let found = found_in(&mut input, memory.saturating_mul(1 << 20));

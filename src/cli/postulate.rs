@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         PostulateReport::new(&claim, &found, started.elapsed()).ok_or(Failure::Interrupted)?;
     let status = match (decision, target) {
         (Some(decision), Some(target)) => {
-            report.certificate = Some(certify::store(target, &decision.text)?);
+            report.certificate = Some(certify::store(None, target, &decision.text)?);
             Status::Decided(decision.verdict)
         }
         (Some(decision), None) => Status::Decided(decision.verdict),

@@ -1,33 +1,64 @@
-//! Standard output and standard error.
+//! Standard output and standard error: every byte that this program prints passes through here.
 
 use super::Failure;
+use orthocert::escape;
 use orthocert::report::text::Style;
+use orthocert_checker::shown::lines;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 
 /// Prints a command's answer; a closed or full standard output is a failure, never a panic.
 pub fn answer(text: &str) -> Result<(), Failure> {
+    document(&lines(text, marks(style())))
+}
+
+/// Prints a command's answer as one JSON object.
+pub fn json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = escape::json(value)
+        .map_err(|error| Failure::Output(format!("the answer cannot be written: {error}")))?;
+    document(&text)
+}
+
+/// Prints a text of this program's own as it is.
+pub fn document(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())
         .and_then(|()| out.flush())
         .map_err(|error| Failure::Output(format!("standard output cannot be written: {error}")))
 }
 
-/// Prints a command's answer as one JSON object.
-pub fn json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| Failure::Output(format!("the answer cannot be written: {error}")))?;
-    answer(&(text + "\n"))
-}
-
-/// A sentence on standard error; where even that is closed, there is nobody to tell.
+/// A sentence on standard error, perhaps with indented lines after it: what it quotes begins no line
+/// of its own. Where even that is closed, there is nobody to tell.
 pub fn diagnostic(message: &str) {
-    let _ = writeln!(io::stderr().lock(), "orthocert: {message}");
+    let mut text = "orthocert: ".to_owned();
+    for (number, part) in message.split('\n').enumerate() {
+        text.push_str(match number {
+            0 => "",
+            _ if part.starts_with("  ") => "\n",
+            _ => "\\n",
+        });
+        text.push_str(part);
+    }
+    line(&text);
 }
 
-/// A line about work under way, on standard error as it is.
+/// Lines about work under way, on standard error.
 pub fn line(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", lines(text, marks(error_style())));
+}
+
+/// Commands to the runner of GitHub, which it reads from standard error too, where they leave the
+/// answer alone.
+pub fn commands(text: &str) {
+    let _ = write!(io::stderr().lock(), "{text}");
+}
+
+/// What sets words off.
+fn marks(style: Style) -> &'static [&'static str] {
+    match style {
+        Style::Plain => &[],
+        Style::Colour => &Style::MARKS,
+    }
 }
 
 /// Colour on a terminal, unless `NO_COLOR` is set or the terminal has none.

@@ -8,6 +8,8 @@ use orthocert::output;
 use orthocert::report::{CertificateFile, Report};
 use orthocert::verify::{sampled, Answer, Verification};
 use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
+use orthocert_checker::file::is_stream;
+use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read};
 use std::path::Path;
 use std::time::Instant;
@@ -20,6 +22,8 @@ pub struct Task<'a> {
     pub file: Option<&'a Path>,
     /// Where its certificate goes, or is.
     pub target: &'a Path,
+    /// The folder below which it has to stay, where the certificates of several go.
+    pub below: Option<&'a Path>,
     /// Whether a certificate that is there is to be left out of account.
     pub reprove: bool,
     /// Whether worst values are to be sampled also where nothing is searched for.
@@ -54,7 +58,7 @@ impl Task<'_> {
                 let mut found = search(claim).map_err(Failure::input)?;
                 match certify::decide(&mut found.answer)? {
                     Some(decision) => {
-                        let file = certify::store(self.target, &decision.text)?;
+                        let file = certify::store(self.below, self.target, &decision.text)?;
                         (found, Status::Decided(decision.verdict), Some((file, false)))
                     }
                     None => (found, Status::Undecided, None),
@@ -65,7 +69,7 @@ impl Task<'_> {
             Failure::Input("the design's numbers exceed what can be reported".to_owned())
         })?;
         report.title.clone_from(&self.design.title);
-        report.design = self.file.map(|path| path.display().to_string());
+        report.design = self.file.map(|path| path.to_string_lossy().into_owned());
         match file {
             Some((file, cached)) => {
                 report.certificate = Some(file);
@@ -79,12 +83,14 @@ impl Task<'_> {
     /// The verification that the certificate at the target amounts to: if it is of this very claim,
     /// and if the exact checker accepts it now.
     fn recall(&self, claim: &MachineClaim) -> Result<Option<Recalled>, Failure> {
-        // Devices and pipes hold no earlier certificate.
-        if !self.target.is_file() {
+        // Streams hold no earlier certificate, and folders will be refused.
+        if is_stream(self.target) || !self.target.exists() || self.target.is_dir() {
             return Ok(None);
         }
-        let Ok(bytes) = input::certificate(self.target) else {
-            return Ok(None);
+        let bytes = match input::certificate(self.target) {
+            Ok(bytes) => bytes,
+            Err(_) if self.target.is_file() => return Ok(None),
+            Err(failure) => return Err(failure),
         };
         let Some(certificate) = read(&bytes).ok().filter(|read| read.claim == self.design.claim)
         else {
@@ -93,7 +99,7 @@ impl Task<'_> {
         let accepted = match check(&certificate) {
             Ok(accepted) => accepted,
             Err(reason) => {
-                let path = self.target.display();
+                let path = self.target.shown();
                 print::diagnostic(&format!(
                     "{path}: the certificate that is there is not accepted ({reason}); the design \
                      is proved anew"
@@ -104,7 +110,7 @@ impl Task<'_> {
         let worst = if self.table { sampled(claim).map_err(Failure::input)? } else { Vec::new() };
         let answer = Answer::Decided { certificate: Box::new(certificate), accepted };
         let file = CertificateFile {
-            path: self.target.display().to_string(),
+            path: self.target.to_string_lossy().into_owned(),
             bytes: bytes.len(),
             sha256: sha256(&bytes),
         };

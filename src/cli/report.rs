@@ -11,6 +11,7 @@ use orthocert::{output, page};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
+use orthocert_checker::shown::{Named, Shown};
 use orthocert_checker::{check, read};
 use serde::Serialize;
 use std::fs;
@@ -46,6 +47,9 @@ pub struct Arguments {
 
 /// Megabytes for the table of a paving's components, which is left out beyond.
 const MEMORY: u64 = 1024;
+
+/// Largest paving that is reported on, in bytes.
+const MAX_PAVING: u64 = 1 << 30;
 
 /// The answer for scripts.
 #[derive(Serialize)]
@@ -87,9 +91,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let fonts = fonts.transpose().map_err(Failure::input)?;
     if is_paving(&begun.start) {
         let mut bytes = Vec::new();
-        begun.whole().read_to_end(&mut bytes).map_err(|error| {
-            Failure::Input(format!("{}: cannot be read: {error}", path.display()))
+        begun.whole().take(MAX_PAVING + 1).read_to_end(&mut bytes).map_err(|error| {
+            Failure::Input(format!("{}: cannot be read: {error}", path.shown()))
         })?;
+        if bytes.len() as u64 > MAX_PAVING {
+            let path = path.shown();
+            return Err(Failure::Input(format!("{path}: cannot be reported on: more than 1 GiB")));
+        }
         return of_paving(arguments, &bytes, &target, fonts.as_ref());
     }
     let bytes = begun.start;
@@ -119,7 +127,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 fn listed(verdict: &str, files: &[Written]) -> String {
     let mut text = format!("ACCEPTED: {verdict}\n");
     for Written { path, bytes } in files {
-        text.push_str(&format!("  {path} ({} bytes)\n", grouped(*bytes as u64)));
+        text.push_str(&format!("  {} ({} bytes)\n", Shown(path), grouped(*bytes as u64)));
     }
     text
 }
@@ -175,23 +183,16 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
     match arguments.format {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
-            let path = arguments.certificate.display();
+            let path = arguments.certificate.shown();
             print::diagnostic(&format!("{path}: REJECTED: {reason}; no report is written"));
         }
     }
     Ok(Status::Rejected)
 }
 
-/// Makes a folder, if it is not there.
-fn make(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::Output(format!("{}: cannot be made a folder: {error}", folder.display()))
-    })
-}
-
 impl Arguments {
-    fn shown(&self) -> std::path::Display<'_> {
-        self.certificate.display()
+    fn shown(&self) -> Shown<std::ffi::os_str::Display<'_>> {
+        self.certificate.shown()
     }
 
     /// Writes the page, and the figures that are asked for.
@@ -203,24 +204,26 @@ impl Arguments {
         fonts: Option<&Fonts>,
     ) -> Result<Vec<Written>, Failure> {
         let mut files = Vec::new();
-        let mut write = |path: &Path, bytes: &[u8]| -> Result<(), Failure> {
+        let mut write = |folder: Option<&Path>, path: &Path, bytes: &[u8]| -> Result<(), Failure> {
             input::apart(path, std::slice::from_ref(&self.certificate))?;
-            output::write(path, bytes)?;
-            files.push(Written { path: path.display().to_string(), bytes: bytes.len() });
+            match folder {
+                Some(folder) => output::write_below(folder, path, bytes)?,
+                None => output::write(path, bytes)?,
+            }
+            files.push(Written { path: path.to_string_lossy().into_owned(), bytes: bytes.len() });
             Ok(())
         };
-        write(target, html.as_bytes())?;
+        write(None, target, html.as_bytes())?;
         if let Some(folder) = &self.svg {
-            make(folder)?;
             for picture in pictures {
-                write(&folder.join(format!("{}.svg", picture.name)), picture.file().as_bytes())?;
+                let path = folder.join(format!("{}.svg", picture.name));
+                write(Some(folder), &path, picture.file().as_bytes())?;
             }
         }
         if let (Some(folder), Some(fonts)) = (&self.png, fonts) {
-            make(folder)?;
             for picture in pictures {
                 let png = page::raster::png(picture, fonts).map_err(Failure::Output)?;
-                write(&folder.join(format!("{}.png", picture.name)), &png)?;
+                write(Some(folder), &folder.join(format!("{}.png", picture.name)), &png)?;
             }
         }
         Ok(files)
@@ -237,7 +240,7 @@ impl Arguments {
             _ => false,
         };
         if same {
-            let path = target.display();
+            let path = target.shown();
             let message = format!(
                 "--output: {path} is the very file to be reported on; accepted: another path"
             );

@@ -6,6 +6,8 @@ use crate::cli::progress::Bar;
 use orthocert::batch::plan::identity;
 use orthocert::search::Progress;
 use orthocert::shard::{self, Ran, RunError};
+use orthocert_checker::shown::Named;
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -39,7 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let (shard, answers) = shard::read_shard(&arguments.file).map_err(Failure::input)?;
     let file = identity(&arguments.file);
     if shard::written(&arguments.file, &shard).iter().any(|written| identity(written) == file) {
-        let path = arguments.file.display();
+        let path = arguments.file.shown();
         return Err(Failure::Input(format!(
             "{path}: is named as what is found of it is; accepted: the name that orthocert split gave"
         )));
@@ -60,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Ran::Done { resumed } => resumed,
     };
     let answer = Answer {
-        result: shard::result_file(&arguments.file, &shard).display().to_string(),
+        result: shard::result_file(&arguments.file, &shard).to_string_lossy().into_owned(),
         shard: shard.shard,
         of: shard.of,
         cells: shard.cells.len(),
@@ -83,5 +85,5 @@ fn text(answer: &Answer) -> String {
         (false, 0) => format!("done, {cells} cells"),
         (false, _) => format!("done, {cells} cells, {resumed} of them by earlier runs"),
     };
-    format!("SHARD  {shard} of {of} {how}: {result}\n")
+    format!("SHARD  {shard} of {of} {how}: {}\n", Shown(result))
 }

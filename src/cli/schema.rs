@@ -11,6 +11,6 @@ pub struct Arguments {}
 
 /// Runs it.
 pub fn run(_: &Arguments) -> Result<Status, Failure> {
-    print::answer(SCHEMA)?;
+    print::document(SCHEMA)?;
     Ok(Status::Done)
 }

@@ -7,6 +7,7 @@ use orthocert_checker::certificate::{
     Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
 };
 use orthocert_checker::claim::Claim;
+use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -111,7 +112,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
-            let path = arguments.certificate.display();
+            let path = arguments.certificate.shown();
             print::diagnostic(&format!("{path}: REJECTED: {reason}"));
             return Ok(Status::Rejected);
         }

@@ -130,10 +130,14 @@ pub fn explain(error: NoAnswer) -> Failure {
     }
 }
 
-/// Writes a certificate into a file.
-pub fn file(path: &Path, certificate: &Certificate) -> Result<CertificateFile, Failure> {
+/// Writes a certificate into a file of a folder.
+pub fn file(
+    folder: &Path,
+    name: &str,
+    certificate: &Certificate,
+) -> Result<CertificateFile, Failure> {
     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
-    certify::store(path, &text)
+    certify::store(Some(folder), &folder.join(name), &text)
 }
 
 /// A relative width, two digits, rounded up.
@@ -215,9 +219,7 @@ fn stored(
     ];
     let there = ends.into_iter().filter_map(|(name, end)| Some((name, &end?.1)));
     there
-        .map(|(name, certificate)| {
-            file(&folder.join(format!("size-{name}.cert.json")), certificate)
-        })
+        .map(|(name, certificate)| file(folder, &format!("size-{name}.cert.json"), certificate))
         .collect()
 }
 

@@ -10,6 +10,7 @@ use orthocert::search::Progress;
 use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
 use orthocert_checker::certificate::MAX_NODES;
 use orthocert_checker::claim::Claim;
+use orthocert_checker::shown::{Named, Shown};
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +66,7 @@ struct Answer {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let task = arguments.task()?;
     task.legible().map_err(|why| {
-        let job = arguments.job.display();
+        let job = arguments.job.shown();
         Failure::Input(format!("{job}: found {why}; accepted: texts of one line"))
     })?;
     let folder = &arguments.out;
@@ -78,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     bar.clear();
     let (job, texts) = split.map_err(|error| match error {
         SplitError::Interrupted => Failure::Interrupted,
-        error => Failure::Input(format!("{}: {error}", arguments.job.display())),
+        error => Failure::Input(format!("{}: {error}", arguments.job.shown())),
     })?;
     for (i, text) in texts.iter().enumerate() {
         output::write(&folder.join(name_of(Name::Shard(i + 1))), text.as_bytes())?;
@@ -87,8 +88,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let text = serde_json::to_string(&job).map_err(|error| Failure::Output(error.to_string()))?;
     output::write(&folder.join(JOB_FILE), (text + "\n").as_bytes())?;
     let cells = job.top.waiting();
-    let answer =
-        Answer { job: job.job, folder: folder.display().to_string(), shards: count, cells };
+    let answer = Answer {
+        job: job.job,
+        folder: folder.to_string_lossy().into_owned(),
+        shards: count,
+        cells,
+    };
     match arguments.work.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text_of(&answer))?,
@@ -126,7 +131,7 @@ fn text_of(answer: &Answer) -> String {
         answer.job,
         counted(answer.shards, "shard", "shards"),
         grouped(answer.cells as u64) + " cells",
-        answer.folder
+        Shown(&answer.folder)
     )
 }
 
@@ -134,12 +139,12 @@ fn text_of(answer: &Answer) -> String {
 fn empty(folder: &Path) -> Result<(), Failure> {
     atlas::made(folder)?;
     let unlisted =
-        |error| Failure::Output(format!("{}: cannot be listed: {error}", folder.display()));
+        |error| Failure::Output(format!("{}: cannot be listed: {error}", folder.shown()));
     match fs::read_dir(folder).map_err(unlisted)?.next() {
         None => Ok(()),
         Some(_) => Err(Failure::Input(format!(
             "--out: {} has files in it; accepted: a new folder, or an empty one",
-            folder.display()
+            folder.shown()
         ))),
     }
 }

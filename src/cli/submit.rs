@@ -1,10 +1,11 @@
 //! `orthocert submit`.
 
-use super::{atlas, merge, print, Failure, Format, Status};
+use super::{merge, print, Failure, Format, Status};
 use clap::ValueEnum;
 use orthocert::engine::{self, Submission};
 use orthocert::output;
 use orthocert::shard::{read_job, JOB_FILE};
+use orthocert_checker::shown::{is_unseen, Named, Shown};
 use serde::Serialize;
 use std::path::{self, Path, PathBuf};
 
@@ -63,8 +64,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     merge::apart(&arguments.folder, &arguments.output)?;
     let job = read_job(&arguments.folder.join(JOB_FILE)).map_err(Failure::input)?;
     let submission = Submission {
-        program: std::env::current_exe()
-            .map_err(|error| Failure::Output(format!("this program has no path: {error}")))?,
+        program: absolute(
+            &std::env::current_exe()
+                .map_err(|error| Failure::Output(format!("this program has no path: {error}")))?,
+        )?,
         folder: absolute(&arguments.folder)?,
         result: absolute(&arguments.output)?,
         job: job.job.clone(),
@@ -72,9 +75,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         options: arguments.options.clone(),
     };
     let folder = engine::folder(&submission.folder);
-    atlas::made(&folder)?;
+    // The engine's own logs go there too, and it would follow links.
+    output::folder(&submission.folder, &folder)?.has_no_links(&folder)?;
     for (name, text) in engine.scripts(&submission) {
-        output::write(&folder.join(name), text.as_bytes())?;
+        output::write_below(&submission.folder, &folder.join(name), text.as_bytes())?;
     }
     let submitted = match arguments.scripts_only {
         true => None,
@@ -85,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let answer = Answer {
         job: job.job,
         shards: submission.shards,
-        scripts: folder.display().to_string(),
+        scripts: folder.to_string_lossy().into_owned(),
         engine_job: submitted.as_ref().map(|submitted| submitted.shards.clone()),
         engine_merge: submitted.map(|submitted| submitted.merge),
     };
@@ -98,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn text(answer: &Answer) -> String {
     let Answer { job, shards, scripts, .. } = answer;
+    let scripts = Shown(scripts);
     match (&answer.engine_job, &answer.engine_merge) {
         (Some(array), Some(merge)) => format!(
             "SUBMITTED  {shards} shards of job {job:.12} as {array}, the merge as {merge}\n\
@@ -107,15 +112,17 @@ fn text(answer: &Answer) -> String {
     }
 }
 
-/// The path as every machine is to know it. A path with a line feed is in no script.
+/// The path as every machine is to know it. What is not seen is in no script, nor what would end the
+/// quotes of Slurm's options.
 fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     let absolute = path::absolute(path)
-        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.shown())))?;
     match absolute.to_str() {
-        Some(text) if !text.contains(['\n', '\r']) => Ok(absolute),
+        Some(text) if !text.contains(|c| is_unseen(c) || c == '"' || c == '\\') => Ok(absolute),
         _ => Err(Failure::Input(format!(
-            "{}: accepted: a path in UTF-8 without line feeds",
-            path.display()
+            "{}: accepted: a path in UTF-8 without quotation marks, backslashes, control characters and \
+             marks of direction",
+            path.shown()
         ))),
     }
 }

@@ -263,8 +263,8 @@ fn row(
     if let Some(folder) = &arguments.output {
         for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
             if let Some((_, certificate)) = end {
-                let path = folder.join(format!("tolerance-{stem}-{side}.cert.json"));
-                certificates.push(file(&path, certificate)?);
+                let name = format!("tolerance-{stem}-{side}.cert.json");
+                certificates.push(file(folder, &name, certificate)?);
             }
         }
     }

@@ -8,6 +8,7 @@ use orthocert::report::{text, Margin, Report};
 use orthocert::search::Budget;
 use orthocert::verify::verify;
 use orthocert_checker::claim::Claim;
+use orthocert_checker::shown::Named;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -67,6 +68,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         design: &design,
         file: path.map(PathBuf::as_path),
         target: &target,
+        below: None,
         reprove: *reprove,
         table: !effort.quiet || effort.format == Format::Json,
         started,
@@ -113,7 +115,7 @@ fn target(output: Option<&Path>, design: Option<&Path>) -> Result<PathBuf, Failu
         (None, None) => PathBuf::from(PROTOTYPE),
     };
     if design.is_some_and(|design| identity(design) == identity(&target)) {
-        let path = target.display();
+        let path = target.shown();
         let message = format!("--output: {path} is the design itself; accepted: another path");
         return Err(Failure::Input(message));
     }

@@ -92,7 +92,7 @@ impl AtlasDesign {
     /// If the file cannot be read or is not one.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let bytes = Design::bytes(path)?;
-        Ok(AtlasDesign::parse(text_of(&bytes, path)?, &path.display().to_string())?)
+        Ok(AtlasDesign::parse(text_of(&bytes, path)?, &path.to_string_lossy())?)
     }
 
     /// Reads the text of an atlas file; `file` is for messages only. The design is read at the

@@ -1,6 +1,7 @@
 //! What a design file is refused for: one message that names file, line, key, what was found there
 //! and what is accepted.
 
+use orthocert_checker::shown::{is_unseen, Named, Shown};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -106,11 +107,11 @@ impl DesignError {
 impl fmt::Display for DesignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Report { file, position, key, found, accepted, excerpt, .. } = &*self.report;
-        write!(f, "{file}:{position}: ")?;
+        write!(f, "{}:{position}: ", Shown(file))?;
         if !key.is_empty() {
-            write!(f, "{key}: ")?;
+            write!(f, "{}: ", Shown(key))?;
         }
-        writeln!(f, "found {found}; accepted: {accepted}")?;
+        writeln!(f, "found {}; accepted: {accepted}", Shown(found))?;
         let line = position.line.to_string();
         let gutter = " ".repeat(line.len());
         writeln!(f, "  {line} | {}", excerpt.line)?;
@@ -171,7 +172,7 @@ impl Excerpt {
             .chars()
             .skip(skipped)
             .take(SHOWN)
-            .map(|c| if c.is_control() { ' ' } else { c })
+            .map(|c| if is_unseen(c) { ' ' } else { c })
             .collect();
         let caret = column - skipped;
         let room = line.chars().count().saturating_sub(caret);
@@ -213,22 +214,22 @@ impl fmt::Display for ReadError {
         let design = "a design file (TOML text in UTF-8)";
         match self {
             ReadError::Directory(path) => {
-                write!(f, "{}: found a directory; accepted: {design}", path.display())
+                write!(f, "{}: found a directory; accepted: {design}", path.shown())
             }
             ReadError::Unreadable(path, error) => {
-                write!(f, "{}: cannot be read: {error}; accepted: {design}", path.display())
+                write!(f, "{}: cannot be read: {error}; accepted: {design}", path.shown())
             }
             ReadError::TooLarge(path) => write!(
                 f,
                 "{}: found more than {} bytes; accepted: {design} of at most that size",
-                path.display(),
+                path.shown(),
                 super::MAX_FILE
             ),
             ReadError::NotUtf8(path, line) => {
                 write!(
                     f,
                     "{}:{line}: found bytes that are not UTF-8; accepted: {design}",
-                    path.display()
+                    path.shown()
                 )
             }
             ReadError::Design(error) => error.fmt(f),

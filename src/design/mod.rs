@@ -47,10 +47,9 @@ use document::{Document, Names, Table};
 use mechanism::Setting;
 use orthocert_checker::claim::{Claim, ClaimError};
 use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::file;
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -98,9 +97,7 @@ impl Design {
         if path.is_dir() {
             return Err(ReadError::Directory(path.to_owned()));
         }
-        let mut bytes = Vec::new();
-        let file = File::open(path).map_err(unreadable)?;
-        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        let bytes = file::read(path, MAX_FILE).map_err(unreadable)?;
         if bytes.len() as u64 > MAX_FILE {
             return Err(ReadError::TooLarge(path.to_owned()));
         }
@@ -109,7 +106,7 @@ impl Design {
 
     /// Reads the bytes of a design file; `path` is for messages only.
     pub fn of(bytes: &[u8], path: &Path) -> Result<Self, ReadError> {
-        Ok(Design::parse(text_of(bytes, path)?, &path.display().to_string())?)
+        Ok(Design::parse(text_of(bytes, path)?, &path.to_string_lossy())?)
     }
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.

@@ -10,7 +10,9 @@ const HELP: &str = "the script needs Python 3 with the package hyperqueue (pip i
 
 pub(super) fn scripts(submission: &Submission) -> Vec<Script> {
     let engine = folder(&submission.folder);
-    let text = |path: &Path| serde_json::to_string(&path.display().to_string()).unwrap_or_default();
+    let text = |path: &Path| {
+        serde_json::to_string(&path.to_string_lossy().into_owned()).unwrap_or_default()
+    };
     let script = format!(
         "# Submits the shards of orthocert job {job} to HyperQueue, and prints the job's number. The\n\
          # server is the one whose folder HQ_SERVER_DIR names, or the default one. It can be submitted\n\

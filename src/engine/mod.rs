@@ -136,7 +136,7 @@ pub fn folder(job: &Path) -> PathBuf {
 
 /// A path as a word of a shell.
 fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+    format!("'{}'", path.to_string_lossy().into_owned().replace('\'', "'\\''"))
 }
 
 /// Runs a command to its end; what it printed if it succeeded.

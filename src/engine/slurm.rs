@@ -12,7 +12,7 @@ pub(super) fn scripts(submission: &Submission) -> Vec<Script> {
     let (job, shards) = (&submission.job, submission.shards);
     let engine = folder(&submission.folder);
     // A percent sign begins a pattern in Slurm's file names.
-    let logs = engine.display().to_string().replace('%', "%%");
+    let logs = engine.to_string_lossy().into_owned().replace('%', "%%");
     let array = format!(
         "#!/bin/bash\n\
          # The shards of orthocert job {job}: a task of this array for each. It can be submitted\n\

@@ -5,6 +5,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use orthocert_checker::number::Exact;
+use orthocert_checker::shown::Shown;
 use orthocert_checker::trig::cos_sin;
 
 /// A decimal number, as text that a design reads exactly.
@@ -181,7 +182,7 @@ pub(super) fn design(
 /// Appends a comment, in lines of at most 100 characters.
 fn comment(text: &mut String, sentence: &str) {
     let mut line = String::from("#");
-    let one_line = sentence.replace(|c: char| c.is_control(), " ");
+    let one_line = Shown(sentence).to_string();
     for word in one_line.split(' ').filter(|word| !word.is_empty()) {
         if line.chars().count() + 1 + word.chars().count() > 100 {
             text.push_str(&line);

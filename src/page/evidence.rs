@@ -1,8 +1,8 @@
 //! What the proof, or the refutation, consists of, in tables.
 
-use super::escape::html;
 use super::subdivision::{parts, Subdivision, RULES};
 use crate::decimal::{approximate, counted, exact, grouped, significant};
+use crate::escape::xml;
 use crate::report::{Counterexample, Row};
 use orthocert_checker::number::Exact;
 use orthocert_checker::rule::Obligation;
@@ -27,8 +27,8 @@ pub fn margins(rows: &[Row]) -> String {
             out,
             "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"{class}\">{found}{}</td>\
              <td class=\"number\">{}</td><td>({x}, {y}, {z}){}</td></tr>",
-            html(&row.requirement),
-            html(&row.bound_text),
+            xml(&row.requirement),
+            xml(&row.bound_text),
             if row.seems_violated { " (violated)" } else { "" },
             margin(row),
             machine(row)
@@ -67,24 +67,24 @@ fn machine(row: &Row) -> String {
         .iter()
         .map(|p| format!("leg {} {} {}", p.leg, p.parameter, significant(p.value, 7)))
         .collect();
-    format!("<details><summary>machine</summary>{}</details>", html(&settings.join(", ")))
+    format!("<details><summary>machine</summary>{}</details>", xml(&settings.join(", ")))
 }
 
 /// The counterexample of a refutation.
 pub fn counterexample(found: &Counterexample) -> String {
     let point = |p: &[Exact; 3]| {
         let [x, y, z] = [exact(&p[0]), exact(&p[1]), exact(&p[2])];
-        html(&format!("({x}, {y}, {z})"))
+        xml(&format!("({x}, {y}, {z})"))
     };
     let mut rows = vec![
-        ("violated".to_owned(), html(&found.violated)),
-        ("value there".to_owned(), html(&found.value)),
+        ("violated".to_owned(), xml(&found.violated)),
+        ("value there".to_owned(), xml(&found.value)),
         ("at P".to_owned(), point(&found.point)),
     ];
     rows.extend(found.other_point.iter().map(|p| ("and at P'".to_owned(), point(p))));
     for setting in &found.machine {
-        let name = html(&format!("leg {} {}", setting.leg, setting.parameter));
-        rows.push((name, html(&exact(&setting.value))));
+        let name = xml(&format!("leg {} {}", setting.leg, setting.parameter));
+        rows.push((name, xml(&exact(&setting.value))));
     }
     for [x, y, z] in &found.directions {
         rows.push(("moving along".to_owned(), format!("({x}, {y}, {z})")));
@@ -137,8 +137,7 @@ pub fn hardest(trees: &[Subdivision]) -> String {
             let _ = write!(out, "<td class=\"place\">{low} \u{2026} {high}</td>");
         }
         let name = if trees.len() > 1 { format!("{}: ", tree.name) } else { String::new() };
-        let _ =
-            write!(out, "<td>{}{}</td></tr>", html(&name), html(&closed_by(leaf.by, &leaf.own)));
+        let _ = write!(out, "<td>{}{}</td></tr>", xml(&name), xml(&closed_by(leaf.by, &leaf.own)));
     }
     out.push_str("</tbody></table></div><p class=\"note\">The ends of the boxes are rounded.</p>");
     out.push_str(&histogram(&counts));

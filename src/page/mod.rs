@@ -16,14 +16,12 @@
 //! | `svg`           | views of space and parts of figures                            |
 //! | [`raster`]      | figures as PNG                                                 |
 //! | [`paving`]      | the page of a paving                                           |
-//! | `escape`        | the only ways in which text gets into a page                   |
 //!
 //! `page.html`, `page.css`, `figure.css` and `script/` are the page's frame, its style, and what it
 //! does in a browser. The script computes the factors again, from the nominal machine's numbers.
 
 pub(crate) mod contour;
 mod drawing;
-pub(crate) mod escape;
 mod evidence;
 mod isomap;
 mod nominal;
@@ -37,8 +35,8 @@ pub(crate) mod svg;
 mod words;
 
 use crate::digest::policy_source;
+use crate::escape::{self, xml};
 use crate::report::{worst_found, Row};
-use escape::html;
 use isomap::{Mark, Scale};
 use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
@@ -289,16 +287,16 @@ impl Framed<'_> {
                 ("style-policy", &policy_source(&style)),
                 ("style", &style),
                 ("script", SCRIPT),
-                ("title", &html(self.title)),
-                ("subject", &html(self.subject)),
+                ("title", &xml(self.title)),
+                ("subject", &xml(self.subject)),
                 ("verdict", self.verdict),
-                ("headline", &html(self.headline)),
+                ("headline", &xml(self.headline)),
                 ("meaning", self.meaning),
                 ("contents", &contents(self.sections)),
                 ("sections", &sections),
                 ("version", env!("CARGO_PKG_VERSION")),
                 ("kind", self.kind),
-                ("written-by", &html(&format!("{tool} {version}"))),
+                ("written-by", &xml(&format!("{tool} {version}"))),
                 ("data", &escape::data(&self.data.to_string())),
             ],
         )

@@ -1,6 +1,8 @@
 //! Figures as PNG: drawn without a browser, their text as outlines of a font of the system.
 
 use super::svg::Picture;
+use orthocert_checker::file;
+use orthocert_checker::shown::Named;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use std::fmt;
@@ -42,6 +44,9 @@ pub struct Fonts {
     bold: Vec<u8>,
 }
 
+/// Most bytes of a font.
+const MAX_FONT: u64 = 64 << 20;
+
 /// Why there is no font.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -56,7 +61,7 @@ impl fmt::Display for FontError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FontError::NotAFont(path) => {
-                write!(f, "--font: {} is not a TrueType or OpenType font", path.display())
+                write!(f, "--font: {} is not a TrueType or OpenType font", path.shown())
             }
             FontError::NoneFound => write!(
                 f,
@@ -76,7 +81,7 @@ impl Fonts {
     /// [`FontError`].
     pub fn find(asked: Option<&Path>) -> Result<Self, FontError> {
         let readable = |path: &Path| {
-            let bytes = std::fs::read(path).ok()?;
+            let bytes = file::read(path, MAX_FONT).ok()?;
             Face::parse(&bytes, 0).is_ok().then_some(bytes)
         };
         if let Some(path) = asked {
@@ -154,7 +159,7 @@ fn outlined(svg: &str, faces: &[Face<'_>; 2]) -> String {
     out.replace("<style>", "<style>\n.figure .outlined { fill: #1b2330; }\n")
 }
 
-/// The text that [`super::escape::html`] has escaped.
+/// The text that [`crate::escape::xml`] has escaped.
 fn plain(text: &str) -> String {
     let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
     text.replace("&#39;", "'").replace("&amp;", "&")

@@ -1,8 +1,8 @@
 //! How a reader repeats the check, and the digests of what is repeated.
 
-use super::escape::{html, shell};
 use crate::decimal::grouped;
 use crate::digest::sha256;
+use crate::escape::{shell, xml};
 use std::fmt::Write;
 
 /// The command, in the folder `proofs/checker`, whose answer is [`checker_sha256`].
@@ -37,6 +37,7 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/definite.rs",
     "src/enclosure.rs",
     "src/expansion.rs",
+    "src/file.rs",
     "src/fixed.rs",
     "src/hull.rs",
     "src/kinematics/arm.rs",
@@ -62,6 +63,7 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/rule/outside.rs",
     "src/rule/vertex.rs",
     "src/rule/violated.rs",
+    "src/shown.rs",
     "src/statement.rs",
     "src/strict.rs",
     "src/trig.rs",
@@ -92,7 +94,7 @@ pub fn of_paving(file_name: &str, paving: &[u8], version: &str) -> String {
 }
 
 fn of(kind: &str, codes: &str, file_name: &str, certificate: &[u8], version: &str) -> String {
-    let file = html(&shell(file_name));
+    let file = xml(&shell(file_name));
     let (digest, checker) = (sha256(certificate), checker_sha256());
     let bytes = grouped(certificate.len() as u64);
     format!(
@@ -111,8 +113,8 @@ fn of(kind: &str, codes: &str, file_name: &str, certificate: &[u8], version: &st
          <p>or, where orthocert is installed, <code>orthocert check {file}</code>. {codes} It prints the claim in words: \
          compare it with the one above. The theorems and the format are in <code>proofs/README.md</code> and \
          <code>proofs/FORMAT.md</code>.</p></section>\n",
-        command = html(CHECKER_COMMAND),
-        version = html(version),
+        command = xml(CHECKER_COMMAND),
+        version = xml(version),
     )
 }
 

@@ -1,11 +1,11 @@
 //! The sections of a page, in their order.
 
-use super::escape::html;
 use super::isomap::Scale;
 use super::nominal::{self, Numbers};
 use super::subdivision::{Subdivision, PATTERNS, RULES};
 use super::{evidence, recheck, words, Page, Picture};
 use crate::decimal::{grouped, significant};
+use crate::escape::xml;
 use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, NoCubeClaim};
@@ -70,7 +70,7 @@ impl Page<'_> {
         let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
         for (name, value) in facts {
             let class = if name == "certificate" { " class=\"wide\"" } else { "" };
-            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", html(&value));
+            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", xml(&value));
         }
         out + "</dl></section>\n"
     }
@@ -158,7 +158,7 @@ impl Page<'_> {
                 out,
                 "<figure class=\"static\">{}<figcaption>{}</figcaption></figure>",
                 picture.inline(),
-                html(&match self.certificate.claim {
+                xml(&match self.certificate.claim {
                     Claim::NoCube(_) => tree.name.clone(),
                     _ => caption(tree),
                 })

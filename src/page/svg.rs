@@ -3,8 +3,8 @@
 //! Figures are styled by classes (`figure.css`), so that a page can show them light or dark and a
 //! file of its own can carry its style.
 
-use super::escape::html;
 use super::nominal::{dot, Point};
+use crate::escape::xml;
 use std::fmt::Write;
 
 /// The style of all figures.
@@ -121,7 +121,7 @@ impl Picture {
     }
 
     fn body(&self) -> String {
-        format!("<title>{}</title>{}", html(&self.title), self.content)
+        format!("<title>{}</title>{}", xml(&self.title), self.content)
     }
 }
 
@@ -160,7 +160,7 @@ impl Elements {
 
     /// Text at a point; `class` tells its anchor.
     pub fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
-        let text = html(text);
+        let text = xml(text);
         let _ = write!(self.0, "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>");
     }
 }

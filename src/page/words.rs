@@ -1,8 +1,8 @@
 //! A claim in words, formulas and tables.
 
-use super::escape::html;
 use super::nominal::Nominal;
 use crate::decimal::{approximate, readable, significant};
+use crate::escape::xml;
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
@@ -95,7 +95,7 @@ pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
         "<section id=\"claim\"><h2>What is {}</h2>\
          <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>",
         if verdict == Verdict::Certified { "proved" } else { "refuted" },
-        html(statement.trim_end())
+        xml(statement.trim_end())
     );
     out.push_str(&formulas(claim, &asserted(claim)));
     out + "</section>\n"
@@ -113,7 +113,7 @@ pub fn region_section(claim: &Claim, statement: &str) -> String {
         "<section id=\"claim\"><h2>What is proved</h2>\
          <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
          {}</section>\n",
-        html(statement.trim_end()),
+        xml(statement.trim_end()),
         formulas(claim, &asserted)
     )
 }
@@ -155,7 +155,7 @@ fn asserted(claim: &Claim) -> Vec<String> {
         }),
         Claim::Atlas(claim) => {
             let range = |p: &AtlasParameter| {
-                format!("{} \u{2264} {} \u{2264} {}", number(&p.min), html(&p.name), number(&p.max))
+                format!("{} \u{2264} {} \u{2264} {}", number(&p.min), xml(&p.name), number(&p.max))
             };
             let ranges: Vec<String> = claim.parameters.iter().map(range).collect();
             let share = |share| format!("the share {} of the box", number(share));
@@ -249,7 +249,7 @@ fn within(Range { min, max }: &Range, what: &str) -> String {
 
 /// A number in full where that is short; the statement above has all of it.
 fn number(x: &Exact) -> String {
-    html(&readable(x))
+    xml(&readable(x))
 }
 
 /// Definitions, as markup.
@@ -351,10 +351,10 @@ fn of_legs(legs: &[Leg; 3]) -> String {
                    <th>leg 2</th><th>leg 3</th></tr></thead><tbody>"
         .to_owned();
     for name in names {
-        let _ = write!(out, "<tr><td>{}</td>", html(name));
+        let _ = write!(out, "<tr><td>{}</td>", xml(name));
         for leg in &named {
             let quantity = leg.iter().find(|(other, _)| other == name).map(|(_, q)| value(q));
-            let _ = write!(out, "<td>{}</td>", html(&quantity.unwrap_or_default()));
+            let _ = write!(out, "<td>{}</td>", xml(&quantity.unwrap_or_default()));
         }
         out.push_str("</tr>");
     }

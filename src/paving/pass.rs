@@ -10,6 +10,7 @@ use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{
     Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited, MAX_AXIS_LEVEL,
 };
+use orthocert_checker::shown::Named;
 use sha2::{Digest, Sha256};
 use std::fmt;
 use std::fs::File;
@@ -52,17 +53,17 @@ impl fmt::Display for PaveError {
             PaveError::Cancelled => write!(f, "interrupted"),
             PaveError::Claim(reason) => write!(f, "{reason}"),
             PaveError::Resume(path, reason) => {
-                write!(f, "{}: cannot be taken up again: {reason}", path.display())
+                write!(f, "{}: cannot be taken up again: {reason}", path.shown())
             }
             PaveError::Output(error) => write!(f, "{error}"),
-            PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
+            PaveError::Io(path, error) => write!(f, "{}: {error}", path.shown()),
             PaveError::Defect(reason) => {
                 write!(f, "the checker does not accept the paving: {reason}")
             }
             PaveError::Changed(path) => write!(
                 f,
                 "{}: was changed by another program while it was written; nothing is said of it",
-                path.display()
+                path.shown()
             ),
             PaveError::Coarse(depth) => {
                 write!(f, "a box is left undecided after {depth} splits, fewer than were asked for")

@@ -3,12 +3,12 @@
 use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::atlas::Standing;
-use crate::batch::summary::printable;
 use crate::decimal::{boxes, counted, exact, grouped, percent, significant, Toward};
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 use orthocert_checker::claim::AtlasParameter;
 use orthocert_checker::number::Exact;
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -125,7 +125,7 @@ impl Part {
 impl AtlasReport {
     /// The first line.
     pub fn headline(&self) -> String {
-        let name = printable(self.title.as_deref().unwrap_or(&self.atlas));
+        let name = Shown(self.title.as_deref().unwrap_or(&self.atlas));
         let proved = |part: &Part| part.percent(Toward::Below);
         let (certified, refuted) = (proved(&self.certified), proved(&self.refuted));
         format!("ATLAS  {name}: {certified} certified, {refuted} refuted")

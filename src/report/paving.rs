@@ -7,6 +7,7 @@ use num_traits::Zero;
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
+use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::path::Path;
 
@@ -118,7 +119,7 @@ impl PavingReport {
         PavingReport {
             title: None,
             design: String::new(),
-            paving: target.display().to_string(),
+            paving: target.to_string_lossy().into_owned(),
             bytes: paved.bytes,
             sha256: paved.sha256.clone(),
             gap,
@@ -182,7 +183,7 @@ impl PavingReport {
         out + &format!(
         "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  sha256 {}\n  {} boxes in \
          {} s, {} boxes/s\n",
-        self.paving,
+        Shown(&self.paving),
         grouped(self.bytes),
         self.sha256,
         grouped(self.boxes),

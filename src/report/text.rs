@@ -9,6 +9,7 @@ use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::sample::with_unit;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
+use orthocert_checker::shown::Shown;
 use std::fmt::Write;
 
 /// Columns of a line.
@@ -30,6 +31,9 @@ pub enum Style {
 }
 
 impl Style {
+    /// What the words are set off with.
+    pub const MARKS: [&str; 4] = ["\x1b[1;31m", "\x1b[1;32m", "\x1b[1;33m", "\x1b[0m"];
+
     /// The word of a verdict.
     pub fn verdict(self, outcome: Outcome) -> String {
         let (word, colour) = match outcome {
@@ -53,8 +57,8 @@ pub fn headline(report: &Report, style: Style) -> String {
 /// A verdict and what it is about, on one line.
 fn verdict_line(verdict: Outcome, subject: &str, style: Style) -> String {
     let room = WIDTH - "UNDECIDED  ".len();
-    let printable = subject.chars().map(|c| if c.is_control() { ' ' } else { c });
-    format!("{}  {}", style.verdict(verdict), printable.take(room).collect::<String>())
+    let subject: String = Shown(subject).to_string().chars().take(room).collect();
+    format!("{}  {subject}", style.verdict(verdict))
 }
 
 /// The first line of a report about the postulate.
@@ -371,7 +375,7 @@ pub fn labelled(out: &mut String, label: &str, text: &str) {
 
 /// A label and a text beside it as it is, such as a path.
 pub fn verbatim(out: &mut String, label: &str, text: &str) {
-    let _ = writeln!(out, "  {label:LABEL$} {text}");
+    let _ = writeln!(out, "  {label:LABEL$} {}", Shown(text));
 }
 
 /// Appends `text` in lines of at most [`WIDTH`] columns, each indented; a longer word stands alone.

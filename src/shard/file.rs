@@ -2,21 +2,21 @@
 
 use super::task::Task;
 use crate::atlas::Top;
-use crate::batch::summary::printable;
 use crate::digest;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::file;
 use orthocert_checker::rule::Obligation;
+use orthocert_checker::shown::{Named, Shown};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Most shards of a job.
 pub const MAX_SHARDS: u64 = 10_000;
 /// Most bytes of one of these files.
-const MAX_FILE: u64 = 1 << 30;
+pub(super) const MAX_FILE: u64 = 1 << 30;
 
 const JOB: &str = "orthocert-job/1";
 const SHARD: &str = "orthocert-shard/1";
@@ -230,15 +230,15 @@ impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FileError::Unreadable(path, error) => {
-                write!(f, "{}: cannot be read: {error}", path.display())
+                write!(f, "{}: cannot be read: {error}", path.shown())
             }
             FileError::Malformed(path, kind, why) => {
-                write!(f, "{}: found {}; accepted: {kind}", path.display(), printable(why))
+                write!(f, "{}: found {}; accepted: {kind}", path.shown(), Shown(why))
             }
             FileError::Altered(path) => write!(
                 f,
                 "{}: was altered: its task is not the one that its \"job\" identifies",
-                path.display()
+                path.shown()
             ),
         }
     }
@@ -261,14 +261,11 @@ pub(super) fn read_text(path: &Path) -> Result<String, FileError> {
     let unreadable = |error| FileError::Unreadable(path.to_owned(), error);
     let malformed =
         |why: &str| FileError::Malformed(path.to_owned(), "a file of a job", why.to_owned());
-    let found = fs::metadata(path).map_err(unreadable)?;
-    if !found.is_file() {
-        return Err(malformed("no regular file"));
-    }
-    if found.len() > MAX_FILE {
+    let bytes = file::read(path, MAX_FILE).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_FILE {
         return Err(malformed("more than 1 GiB"));
     }
-    String::from_utf8(fs::read(path).map_err(unreadable)?).map_err(|_| malformed("no UTF-8 text"))
+    String::from_utf8(bytes).map_err(|_| malformed("no UTF-8 text"))
 }
 
 fn parse<T: DeserializeOwned>(path: &Path, text: &str, kind: &'static str) -> Result<T, FileError> {

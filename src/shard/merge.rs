@@ -7,8 +7,8 @@ use super::name::{name_of, Name, JOB_FILE};
 use super::paving::{self, Stretches};
 use super::task::Task;
 use crate::atlas::{assemble, Top};
-use crate::batch::summary::printable;
 use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::shown::{Named, Shown};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -71,7 +71,8 @@ impl fmt::Display for MergeError {
             MergeError::Job(error) => error.fmt(f),
             MergeError::Folder(reason) => f.write_str(reason),
             MergeError::Bad(problems) => {
-                let first: Vec<_> = problems.iter().take(NAMED).map(|why| printable(why)).collect();
+                let first: Vec<_> =
+                    problems.iter().take(NAMED).map(|why| Shown(why).to_string()).collect();
                 write!(f, "nothing was merged: {}", first.join("; "))?;
                 more(f, problems.len())
             }
@@ -152,12 +153,12 @@ fn listed(
     problems: &mut Vec<String>,
 ) -> Result<Vec<(String, Option<Name>)>, MergeError> {
     let unlisted =
-        |error| MergeError::Folder(format!("{}: cannot be listed: {error}", folder.display()));
+        |error| MergeError::Folder(format!("{}: cannot be listed: {error}", folder.shown()));
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(unlisted)? {
         match entry.map_err(unlisted)?.file_name().into_string() {
             Ok(name) => names.push((name.clone(), Name::parse(&name))),
-            Err(name) => problems.push(format!("{} is a foreign file", name.display())),
+            Err(name) => problems.push(format!("{} is a foreign file", name.shown())),
         }
     }
     names.sort_by(|a, b| a.0.cmp(&b.0));

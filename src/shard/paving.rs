@@ -13,9 +13,10 @@ use crate::digest::{from_hexadecimal, hexadecimal};
 use crate::output::{self, OutputError};
 use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use orthocert_checker::cell::Cell;
+use orthocert_checker::file;
 use orthocert_checker::rule::Obligation;
 use sha2::{Digest, Sha256};
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -78,7 +79,7 @@ fn opened(path: &Path) -> Result<File, OutputError> {
 
 /// Forgets of what is done, in order, all from the first cell on whose nodes are not in the file.
 pub(super) fn keep_written(path: &Path, done: &mut [Option<Part>]) {
-    let mut written = regular(path).ok();
+    let mut written = file::open(path).ok();
     for part in done {
         let is_there = match (&mut written, &part) {
             (Some(file), Some(Part::Nodes(nodes))) => follow(file, nodes),
@@ -99,7 +100,7 @@ pub(super) fn close(path: &Path, end: u64) -> Result<(), OutputError> {
 
 /// Why the file is not that of these parts.
 pub(super) fn objection(path: &Path, parts: &[Part]) -> Option<String> {
-    let mut file = match regular(path) {
+    let mut file = match file::open(path) {
         Ok(file) => file,
         Err(error) => return Some(format!("cannot be read: {error}")),
     };
@@ -107,15 +108,6 @@ pub(super) fn objection(path: &Path, parts: &[Part]) -> Option<String> {
     let whole = file.metadata().is_ok_and(|found| found.len() == bytes)
         && parts.iter().all(|part| matches!(part, Part::Nodes(nodes) if follow(&mut file, nodes)));
     (!whole).then(|| "was altered: its content does not have its SHA-256".to_owned())
-}
-
-/// The file, if it is one: a pipe may never begin, a device never end.
-fn regular(path: &Path) -> io::Result<File> {
-    if fs::metadata(path)?.is_file() {
-        File::open(path)
-    } else {
-        Err(io::Error::other("no regular file"))
-    }
 }
 
 /// Whether a file goes on with this stretch.
@@ -215,7 +207,7 @@ impl Held {
             Held::InFile { path, at, bytes } => (path, *at, *bytes),
         };
         let unread = |error| PaveError::Io(path.clone(), error);
-        let mut file = regular(path).map_err(unread)?;
+        let mut file = file::open(path).map_err(unread)?;
         file.seek(SeekFrom::Start(at)).map_err(unread)?;
         hand_on(&mut file, bytes, unread, |chunk| out.write(chunk))
     }

@@ -4,7 +4,7 @@
 //! A run that is stopped, by whatever, loses the cell that it was at. What it left half-written, or
 //! two runs of one shard at the same time wrote into each other, has no right sum and is done again.
 
-use super::file::{read_result, sha256, text, FileError, Part, Shard, ShardResult};
+use super::file::{read_result, sha256, text, FileError, Part, Shard, ShardResult, MAX_FILE};
 use super::name::{name_of, Name};
 use super::paving;
 use super::task::Task;
@@ -14,6 +14,8 @@ use crate::paving::Cancelled;
 use crate::search::{Budget, Control, Stop};
 use crate::verify;
 use orthocert_checker::certificate::AtlasCell;
+use orthocert_checker::file;
+use orthocert_checker::shown::Named;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::fs::{self, OpenOptions};
@@ -66,7 +68,7 @@ impl fmt::Display for RunError {
             RunError::File(error) => error.fmt(f),
             RunError::Output(error) => error.fmt(f),
             RunError::OtherJob(path) => {
-                write!(f, "{}: is the result of a shard of another job", path.display())
+                write!(f, "{}: is the result of a shard of another job", path.shown())
             }
             RunError::Claim(why) => f.write_str(why),
             RunError::Interrupted => write!(f, "interrupted"),
@@ -217,9 +219,7 @@ fn grown(
 /// What earlier runs have done.
 fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Part>> {
     let mut parts = vec![None; shard.cells.len()];
-    // Nothing is read of what is no file of ours: a device may never end.
-    let regular = fs::metadata(progress).is_ok_and(|found| found.is_file());
-    let written = if regular { fs::read(progress).unwrap_or_default() } else { Vec::new() };
+    let written = file::read(progress, MAX_FILE).unwrap_or_default();
     for line in written.split(|byte| *byte == b'\n') {
         let Ok(line) = serde_json::from_slice::<Line>(line) else {
             continue;

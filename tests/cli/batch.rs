@@ -199,7 +199,7 @@ fn reports_are_valid_and_say_the_same() {
     assert_eq!(of("singularity", "pass"), ["designs/sub/a.toml"]);
     assert_eq!(of("bad-input", "fail"), ["designs/broken.toml", "missing.toml"]);
     let markdown = String::from_utf8(folder.read("s.md")).unwrap();
-    assert!(markdown.contains("| designs/b.toml | **refuted** |"), "{markdown}");
+    assert!(markdown.contains("| `designs/b.toml` | **refuted** |"), "{markdown}");
 }
 
 fn place(result: &Value) -> &Value {
@@ -249,12 +249,11 @@ fn hostile_titles_and_names_break_no_report() {
     let suite = junit::read(&String::from_utf8(folder.read("j.xml")).unwrap());
     junit::valid(&suite);
     let told = &suite.children[0].child("system-out").unwrap().text;
-    assert!(told.contains("</system-out> & <b>\u{fffd}\u{fffd}[31m|` ]]>"), "{told}");
+    assert!(told.contains("</system-out> & <b>\\u{1}\\u{1b}[31m|` ]]>"), "{told}");
     sarif_is_valid(&serde_json::from_slice(&folder.read("s.sarif")).unwrap());
     let markdown = String::from_utf8(folder.read("s.md")).unwrap();
-    let row = markdown.lines().find(|line| line.starts_with("| a ")).unwrap();
+    let row = markdown.lines().find(|line| line.starts_with("| ``a ")).unwrap();
     assert_eq!(row.replace("\\|", "").matches('|').count(), 6, "{row}");
-    assert!(!row.contains("<b>"));
 }
 
 #[test]

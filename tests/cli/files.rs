@@ -83,12 +83,15 @@ fn a_certificate_has_the_permissions_of_any_new_file() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_is_followed() {
+fn a_link_is_refused_or_followed() {
     let folder = Folder::new();
     fs::create_dir(folder.path("real")).unwrap();
     folder.write("real/a.json", "old");
     std::os::unix::fs::symlink("real/a.json", folder.path("link.json")).unwrap();
-    folder.run(&["verify", "-o", "link.json"]).exits(0);
+    let refused = folder.run(&["verify", "-o", "link.json"]).exits(4);
+    refused.complains(&["link.json", "a symbolic link", "--follow-links"]);
+    assert!(folder.read("real/a.json") == b"old");
+    folder.run(&["verify", "-o", "link.json", "--follow-links"]).exits(0);
     assert!(fs::symlink_metadata(folder.path("link.json")).unwrap().is_symlink());
     folder.run(&["check", "real/a.json"]).exits(0);
 }

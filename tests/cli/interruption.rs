@@ -182,11 +182,15 @@ fn nothing_is_said_of_a_file_in_the_place_of_a_paving() {
 #[test]
 fn a_command_that_waits_for_its_input_can_be_interrupted() {
     let folder = Folder::new();
-    let pipe = folder.path("pipe");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    for arguments in [["check", "pipe"], ["show", "pipe"], ["verify", "pipe"]] {
+    for arguments in [["check", "/dev/stdin"], ["show", "/dev/stdin"], ["verify", "/dev/stdin"]] {
         let mut command = folder.command(&arguments);
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let _open = child.stdin.take();
         wait_until_caught(&mut child, 2);
         send(&child, 2);
         Run::from(child.wait_with_output().unwrap()).exits(4).complains(&["interrupted"]);

@@ -24,6 +24,7 @@
 //! | `json`         | `--format json`: the same facts                                   |
 //! | `answers`      | `--format json` is as its schema says                             |
 //! | `tolerance`    | `tolerance`: both ends, together, refused                         |
+//! | `hostile`      | checkouts and names of strangers                                  |
 //! | `size`         | `size`: against the closed form, scaled, refused                  |
 
 mod junit;
@@ -38,6 +39,7 @@ mod cache;
 mod calculator;
 mod certificates;
 mod files;
+mod hostile;
 mod interruption;
 mod json;
 mod largest_cube;

@@ -58,7 +58,7 @@ fn what_cannot_be_read_or_written_is_said() {
     folder.run(&["report", &file, "-o", "."]).exits(4).complains(&["is a folder"]);
     folder.write("plain", "");
     let run = folder.run(&["report", &file, "--svg", "plain"]).exits(4);
-    run.complains(&["plain: cannot be made a folder"]);
+    run.complains(&["plain: cannot be written: no folder"]);
     let run = folder.run(&["report", &file, "--png", "png", "--font", "plain"]).exits(2);
     run.complains(&["--font: plain is not a TrueType or OpenType font"]);
     folder.run(&["report", &file, "--font", "plain"]).exits(2);

@@ -27,8 +27,11 @@
 //! | [`paving`]      | pavings of a search box: inner, outer and boundary cells               |
 //! | [`word`]        | fixed-point intervals over machine words, as [`fixed`] but faster      |
 //! | [`statement`]   | the claim in words                                                     |
+//! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible |
+//! | [`shown`]       | names and texts of strangers, as a terminal may be given them          |
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 pub mod atlas;
 pub mod cell;
@@ -38,6 +41,7 @@ pub mod claim;
 pub mod definite;
 pub mod enclosure;
 pub mod expansion;
+pub mod file;
 pub mod fixed;
 pub mod hull;
 pub mod kinematics;
@@ -47,6 +51,7 @@ pub mod number;
 pub mod paving;
 pub mod postulate;
 pub mod rule;
+pub mod shown;
 pub mod statement;
 mod strict;
 pub mod trig;

@@ -230,3 +230,36 @@ fn memory_is_bounded() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_waited_for_and_names_stay_on_their_line() {
+    use std::process::{Command, Stdio};
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("no-files");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let name = |name: &str| folder.join(format!("::error::\n\u{1b}[2J\u{202e}##[x]{name}"));
+    assert!(Command::new("mkfifo").arg(name("pipe")).status().unwrap().success());
+    std::os::unix::fs::symlink("/dev/zero", name("device")).unwrap();
+    std::fs::File::create(name("endless")).unwrap().set_len(1 << 40).unwrap();
+    for (file, code) in [("pipe", 2), ("device", 2), ("absent", 2), ("endless", 5)] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_orthocert-check"));
+        let piped = command.arg(name(file)).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().unwrap();
+        let started = Instant::now();
+        while child.try_wait().unwrap().is_none() {
+            if started.elapsed().as_secs() > 60 {
+                child.kill().unwrap();
+                panic!("{file} is waited for");
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{file}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(said.lines().count(), 1, "{said:?}");
+        assert!(!said.trim_end().chars().any(orthocert_checker::shown::is_unseen), "{said:?}");
+        assert!(!said.contains("##[") && output.stdout.is_empty(), "{said:?}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -1,9 +1,9 @@
 //! The sections of a paving's page, in their order.
 
-use super::super::escape::html;
 use super::super::{recheck, words};
 use super::PavingPage;
 use crate::decimal::{grouped, percent, significant, Toward};
+use crate::escape::xml;
 use num_rational::BigRational;
 use orthocert_checker::paving::{Shares, SHARE_BITS};
 use orthocert_checker::statement;
@@ -47,7 +47,7 @@ impl PavingPage<'_> {
             ("paving", self.file.name.to_owned()),
         ] {
             let class = if name == "paving" { " class=\"wide\"" } else { "" };
-            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", html(&value));
+            let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", xml(&value));
         }
         out.push_str(
             "</dl><div class=\"table\"><table><thead><tr><th>boxes</th><th class=\"number\">number</th>\

@@ -2,12 +2,15 @@
 //! paving, 1 for an accepted refutation, 5 for a file that proves nothing, 2 for bad usage.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 use orthocert_checker::certificate::{Verdict, MAX_BYTES};
 use orthocert_checker::paving::{self, Extent};
-use orthocert_checker::{check, read, statement};
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Write};
+use orthocert_checker::shown::{lines, Shown};
+use orthocert_checker::{check, file, read, statement};
+use std::fmt::Display;
+use std::io::{BufRead, Read, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
@@ -29,16 +32,17 @@ fn main() -> ExitCode {
         Some(option) if option.starts_with('-') && option != "-" => return usage(),
         _ => {}
     }
+    let path = Path::new(path);
     let mut bytes = Vec::new();
     let limit = MAX_BYTES as u64 + 1;
-    let file = File::open(path).and_then(|mut file| {
+    let file = file::reader(path).and_then(|mut file| {
         Read::by_ref(&mut file).take(limit).read_to_end(&mut bytes)?;
         Ok(file)
     });
     let rest = match file {
         Ok(rest) => rest,
         Err(error) => {
-            eprintln!("orthocert-check: {}: {error}", path.display());
+            complain(&format_args!("orthocert-check: {}: {error}", path.to_string_lossy()));
             return ExitCode::from(2);
         }
     };
@@ -57,7 +61,7 @@ fn main() -> ExitCode {
             print(&format!("ACCEPTED: {}\n{}", accepted.verdict, words.unwrap_or_default()), code)
         }
         Err(reason) => {
-            eprintln!("REJECTED: {reason}");
+            complain(&format_args!("REJECTED: {reason}"));
             ExitCode::from(5)
         }
     }
@@ -70,20 +74,27 @@ fn check_paving(input: impl BufRead) -> ExitCode {
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
         }
         Err(reason) => {
-            eprintln!("REJECTED: {reason}");
+            complain(&format_args!("REJECTED: {reason}"));
             ExitCode::from(5)
         }
     }
 }
 
+/// A sentence on standard error, on one line.
+fn complain(sentence: &dyn Display) {
+    let sentence = lines(&Shown(sentence).to_string(), &[]);
+    let _ = writeln!(std::io::stderr().lock(), "{sentence}");
+}
+
 fn usage() -> ExitCode {
-    eprintln!("{USAGE}");
+    let _ = writeln!(std::io::stderr().lock(), "{USAGE}");
     ExitCode::from(2)
 }
 
 /// Prints `text`; a closed or full output is an I/O failure, not a verdict.
 fn print(text: &str, code: ExitCode) -> ExitCode {
-    match writeln!(std::io::stdout().lock(), "{}", statement::wrapped(text).trim_end()) {
+    let text = lines(statement::wrapped(text).trim_end(), &[]);
+    match writeln!(std::io::stdout().lock(), "{text}") {
         Ok(()) => code,
         Err(_) => ExitCode::from(4),
     }

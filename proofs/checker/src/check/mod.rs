@@ -18,6 +18,7 @@ use crate::certificate::{Certificate, Proof, Verdict, FORMAT, MAX_BYTES};
 use crate::claim::Claim;
 use crate::model::Model;
 use crate::rule::Obligation;
+use crate::shown::Shown;
 use crate::strict::{self, Strict};
 use crate::{atlas, witness};
 use serde::Deserialize;
@@ -93,11 +94,8 @@ fn syntax(message: &dyn fmt::Display) -> Rejected {
 
 /// The beginning of a text that may quote the file, fit for a terminal.
 pub(crate) fn quoted(text: &str) -> String {
-    let escaped = text.chars().flat_map(|c| {
-        let plain = matches!(c, '"' | '\'' | '\\').then_some(c);
-        plain.into_iter().chain(c.escape_debug().filter(move |_| plain.is_none()))
-    });
-    escaped.take(MAX_MESSAGE).collect()
+    let start: String = text.chars().take(MAX_MESSAGE).collect();
+    Shown(start).to_string().chars().take(MAX_MESSAGE).collect()
 }
 
 /// Checks a certificate: recomputes everything that its proof uses from its claim.
