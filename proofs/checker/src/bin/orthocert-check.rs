@@ -48,7 +48,7 @@ fn main() -> ExitCode {
     };
     if paving::is_paving(&bytes) {
         // What was read is not read again: the file may be a pipe, or another one by now.
-        return check_paving(bytes.as_slice().chain(BufReader::new(rest)));
+        return check_paving(bytes.as_slice().chain(rest));
     }
     let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     match accepted {
