@@ -246,7 +246,7 @@ fn what_is_no_file_is_not_waited_for_and_names_stay_on_their_line() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_orthocert-check"));
         let piped = command.arg(name(file)).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = piped.spawn().unwrap();
-        let started = Instant::now();
+        let started = std::time::Instant::now();
         while child.try_wait().unwrap().is_none() {
             if started.elapsed().as_secs() > 60 {
                 child.kill().unwrap();
