@@ -33,26 +33,6 @@ pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Largest configuration file that is imported, in bytes.
-const MAX_CONFIGURATION: u64 = 1 << 20;
-
-/// The text of a configuration file.
-pub fn text(path: &Path) -> Result<String, Failure> {
-    let fails =
-        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.display()));
-    if path.is_dir() {
-        return Err(fails("it is a folder; accepted: a configuration file"));
-    }
-    let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_CONFIGURATION + 1).read_to_end(&mut bytes))
-        .map_err(|error| fails(&error.to_string()))?;
-    if bytes.len() as u64 > MAX_CONFIGURATION {
-        return Err(fails("more than 1 MiB"));
-    }
-    String::from_utf8(bytes).map_err(|_| fails("it is not UTF-8"))
-}
-
 /// The exact number that an option's value is.
 pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
     Exact::parse(text, MAX_DIGITS).map_err(|error| {
