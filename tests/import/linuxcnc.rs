@@ -167,12 +167,15 @@ fn the_restated_kinematics_is_the_firmwares() {
     assert_eq!(lines, 120);
 }
 
+/// The files, their kinematics, and a box: x, y and z, least and greatest.
+type Row = (&'static [&'static str], Box<dyn Firmware>, [&'static str; 6]);
+
 /// The configurations of ORIGIN.md, each in its own form, with what the files say, and a box within
 /// their workspace that holds no singularity.
 #[test]
 fn real_configurations_are_the_firmwares_machines() {
     let linear = |r, l| Box::new(Linear { r, l });
-    let shipped: [(&[&str], Box<dyn Firmware>, [&str; 6]); 6] = [
+    let shipped: [Row; 6] = [
         (&["ldelta.ini"], linear(130.25, 269.0), ["-95", "95", "-95", "95", "-5", "35"]),
         (&["ldelta_demo.ini"], linear(130.25, 269.0), ["0", "20", "-95", "0", "-5", "-5"]),
         (
