@@ -110,9 +110,18 @@ impl<'a> Reading<'a> {
     pub fn text(&mut self, path: &Path) -> Result<String, ImportError> {
         let unreadable = |reason| ImportError::Unreadable { file: self.shown(path), reason };
         let text = self.files.read(path, self.left).map_err(unreadable)?;
-        self.left = self.left.saturating_sub(LEAST_BYTES.max(text.len() as u64));
+        self.spend(path, LEAST_BYTES.max(text.len() as u64))?;
         self.read.push(path.to_owned());
         Ok(text.replace("\r\n", "\n"))
+    }
+
+    fn spend(&mut self, path: &Path, bytes: u64) -> Result<(), ImportError> {
+        let left = self.left.checked_sub(bytes);
+        self.left = left.ok_or_else(|| ImportError::Unreadable {
+            file: self.shown(path),
+            reason: "more than 1 MiB, or too many files, with what it includes".to_owned(),
+        })?;
+        Ok(())
     }
 
     /// Whether there is such a file.
@@ -122,7 +131,7 @@ impl<'a> Reading<'a> {
 
     /// The files that match `pattern` in its last or an earlier component, sorted; `*`, `?` and
     /// `[...]` are as in a shell, and match no leading dot.
-    pub fn matching(&self, pattern: &Path) -> Vec<PathBuf> {
+    pub fn matching(&mut self, pattern: &Path) -> Result<Vec<PathBuf>, ImportError> {
         let mut found = vec![PathBuf::new()];
         for component in pattern.components() {
             let text = component.as_os_str().to_string_lossy();
@@ -131,21 +140,22 @@ impl<'a> Reading<'a> {
                 continue;
             }
             let glob: Vec<char> = text.chars().collect();
-            let below = |path: PathBuf| {
-                let names = self.files.names(&path).into_iter();
-                let names = names.filter(|name| text.starts_with('.') || !name.starts_with('.'));
-                let glob = &glob;
-                let names = names.filter(move |name| {
-                    let name: Vec<char> = name.chars().collect();
-                    matches(glob, &name)
-                });
-                names.map(|name| path.join(name)).collect::<Vec<_>>()
-            };
-            found = found.into_iter().flat_map(below).take(1000).collect();
+            let mut below = Vec::new();
+            for path in found {
+                for name in self.files.names(&path) {
+                    self.spend(pattern, 1)?;
+                    let chars: Vec<char> = name.chars().collect();
+                    if (text.starts_with('.') || !name.starts_with('.')) && matches(&glob, &chars) {
+                        below.push(path.join(name));
+                    }
+                }
+                self.spend(pattern, LEAST_BYTES)?;
+            }
+            found = below;
         }
         found.retain(|path| self.files.exists(path));
         found.sort();
-        found
+        Ok(found)
     }
 }
 

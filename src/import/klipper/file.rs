@@ -120,7 +120,7 @@ fn with_includes(
         section_by_section(settings, &file, &std::mem::take(&mut buffer))?;
         let pattern = path.parent().unwrap_or(Path::new("")).join(included.trim());
         let found = match is_pattern(&pattern.to_string_lossy()) {
-            true => reading.matching(&pattern),
+            true => reading.matching(&pattern)?,
             false => vec![pattern],
         };
         for included in found {
