@@ -2,9 +2,9 @@
 
 use super::{input, print, Failure, Status};
 use clap::Subcommand;
-use orthocert::import::{klipper, linuxcnc, Imported};
+use orthocert::import::{klipper, linuxcnc, Disk, Importer};
 use orthocert::output;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -15,26 +15,21 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Controller {
-    /// A linear or rotary Delta of Klipper's printer.cfg
-    Klipper {
-        /// The configuration file
-        #[arg(value_name = "FILE")]
-        file: PathBuf,
-        #[command(flatten)]
-        target: Target,
-    },
-    /// A linear or rotary Delta of LinuxCNC: its .ini and .hal files, of which later ones override
-    Linuxcnc {
-        /// The configuration files
-        #[arg(value_name = "FILE", required = true)]
-        files: Vec<PathBuf>,
-        #[command(flatten)]
-        target: Target,
-    },
+    /// A linear or rotary Delta of Klipper: its printer.cfg, with what that includes
+    Klipper(Configuration),
+    /// A linear or rotary Delta or a tripod of LinuxCNC: its .ini, with the HAL files that it names,
+    /// then those of them that are elsewhere; or HAL files alone, in order
+    Linuxcnc(Configuration),
 }
 
 #[derive(Debug, clap::Args)]
-struct Target {
+struct Configuration {
+    /// The configuration files
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// A setting that is not understood and, as you know, does not change the geometry; repeatable
+    #[arg(long, value_name = "KEY")]
+    ignore: Vec<String>,
     /// Where the design file is written; without it, on standard output
     #[arg(short, long, value_name = "DESIGN.toml")]
     output: Option<PathBuf>,
@@ -42,35 +37,27 @@ struct Target {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    let (files, target) = match &arguments.controller {
-        Controller::Klipper { file, target } => (std::slice::from_ref(file), target),
-        Controller::Linuxcnc { files, target } => (&files[..], target),
+    let (importer, configuration): (Importer, _) = match &arguments.controller {
+        Controller::Klipper(configuration) => (klipper, configuration),
+        Controller::Linuxcnc(configuration) => (linuxcnc, configuration),
     };
-    if let Some(output) = &target.output {
+    let Configuration { files, ignore, output } = configuration;
+    if let Some(output) = output {
         input::apart(output, files)?;
     }
-    let (imported, target) = match &arguments.controller {
-        Controller::Klipper { file, target } => (klipper(&input::text(file)?, &name(file)), target),
-        Controller::Linuxcnc { files, target } => {
-            let texts: Vec<String> =
-                files.iter().map(|file| input::text(file)).collect::<Result<_, _>>()?;
-            let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-            let names: Vec<String> = files.iter().map(|file| name(file)).collect();
-            (linuxcnc(&texts, &names.join(", ")), target)
-        }
-    };
-    let imported: Imported = imported.map_err(Failure::input)?;
+    let imported = importer(&Disk, files, ignore).map_err(Failure::input)?;
+    if let Some(output) = output {
+        input::apart(output, &imported.files)?;
+    }
+    imported.used.iter().for_each(|used| print::diagnostic(&format!("used: {used}")));
+    imported.defaults.iter().for_each(|taken| print::diagnostic(&format!("default: {taken}")));
+    imported.ignored.iter().for_each(|setting| print::diagnostic(&format!("ignored: {setting}")));
     for sentence in &imported.not_carried_over {
         print::diagnostic(&format!("not carried over: {sentence}"));
     }
-    match &target.output {
+    match output {
         Some(path) => output::write(path, imported.design.as_bytes())?,
         None => print::answer(&imported.design)?,
     }
     Ok(Status::Done)
-}
-
-/// A file's name, without its folders.
-fn name(file: &Path) -> String {
-    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -61,23 +61,6 @@ impl Begun {
     }
 }
 
-/// Largest configuration file that is imported, in bytes.
-const MAX_CONFIGURATION: u64 = 1 << 20;
-
-/// The text of a configuration file.
-pub fn text(path: &Path) -> Result<String, Failure> {
-    let fails =
-        |reason: &str| Failure::Input(format!("{}: cannot be read: {reason}", path.shown()));
-    if path.is_dir() {
-        return Err(fails("it is a folder; accepted: a configuration file"));
-    }
-    let bytes = file::read(path, MAX_CONFIGURATION).map_err(|error| fails(&error.to_string()))?;
-    if bytes.len() as u64 > MAX_CONFIGURATION {
-        return Err(fails("more than 1 MiB"));
-    }
-    String::from_utf8(bytes).map_err(|_| fails("it is not UTF-8"))
-}
-
 /// The exact number that an option's value is.
 pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
     if may_be_tolerance(text) {

@@ -1,5 +1,7 @@
 //! Design files, written: numbers as the configuration has them, coordinates of angles, tables.
 
+use super::error::printable;
+use super::Imported;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -7,6 +9,7 @@ use num_traits::{ToPrimitive, Zero};
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use orthocert_checker::trig::cos_sin;
+use std::cmp::Ordering;
 
 /// A decimal number, as text that a design reads exactly.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +28,7 @@ const PLACES: u32 = 18;
 const BITS: u32 = 96;
 
 impl Number {
-    /// The number that a controller reads: a decimal, perhaps `.5`, `5.` or `+5`.
+    /// The number that a controller reads: a decimal, perhaps `.5`, `5.` or `+5`; no expression.
     pub fn parse(text: &str) -> Option<Number> {
         let text = text.trim();
         let (sign, digits) = match text.strip_prefix('-') {
@@ -33,21 +36,33 @@ impl Number {
             None => ("", text.strip_prefix('+').unwrap_or(text)),
         };
         let (mantissa, exponent) = match digits.find(['e', 'E']) {
-            Some(at) => digits.split_at(at),
-            None => (digits, ""),
+            Some(at) => (&digits[..at], Some(&digits[at + 1..])),
+            None => (digits, None),
         };
         let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let are_digits = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+        let power = exponent.map(|text| text.strip_prefix(['-', '+']).unwrap_or(text));
         if (whole.is_empty() && part.is_empty())
-            || !digits.starts_with(['.', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
+            || !are_digits(whole)
+            || !are_digits(part)
+            || power.is_some_and(|power| power.is_empty() || !are_digits(power))
         {
             return None;
         }
+        // TOML has no leading zeros.
+        let whole = whole.trim_start_matches('0');
         let whole = if whole.is_empty() { "0" } else { whole };
         let point = if part.is_empty() { "" } else { "." };
+        let exponent = exponent.map(|text| format!("e{text}")).unwrap_or_default();
         let text = format!("{sign}{whole}{point}{part}{exponent}");
         let value = Exact::parse(&text, MAX_DIGITS).ok()?;
         value.as_rational()?;
         Some(Number { text, value })
+    }
+
+    /// A whole number.
+    pub fn whole(n: i64) -> Number {
+        Number { text: n.to_string(), value: Exact::integer(n) }
     }
 
     /// Whether the number is greater than zero.
@@ -71,9 +86,10 @@ pub(super) fn polar(degrees: &Number, radius: Option<&Number>) -> Option<[String
     Some(components.map(|component| value(&component, radius)))
 }
 
-/// `(sin, -cos)`, likewise: horizontal axes for which arms count upwards.
-pub(super) fn axis(degrees: &Number) -> Option<[String; 2]> {
-    let right = degrees.value.clone().minus(Exact::integer(90)).ok()?;
+/// `(sin, -cos)`, likewise: horizontal axes for which arms count upwards; negated, downwards.
+fn axis(degrees: &Number, downwards: bool) -> Option<[String; 2]> {
+    let quarter = Exact::integer(if downwards { 270 } else { 90 });
+    let right = degrees.value.clone().minus(quarter).ok()?;
     let components = components(&right)?;
     Some(components.map(|component| value(&component, None)))
 }
@@ -142,39 +158,142 @@ pub(super) fn quoted(text: &str) -> String {
     format!("\"{text}\"")
 }
 
-/// The least of some numbers written as expressions; the first of those that cannot be told apart.
+/// The least of some numbers written as expressions, and its value; the first of those that cannot
+/// be told apart. `None` if one of them is no number.
 pub(super) fn least(expressions: &[String]) -> Option<(String, Exact)> {
-    let mut parsed = expressions
-        .iter()
-        .filter_map(|text| Exact::parse(text, MAX_DIGITS).ok().map(|value| (text.clone(), value)));
-    let first = parsed.next()?;
-    Some(parsed.fold(first, |best, next| match next.1.compare(&best.1) {
-        Some(std::cmp::Ordering::Less) => next,
-        _ => best,
-    }))
+    outermost(expressions, Ordering::Less)
 }
 
-/// A design file with these parts. Notes become comments; `name` is of the configuration.
-pub(super) fn design(
-    name: &str,
-    machine: &str,
-    legs: &[String; 3],
-    workspace: &str,
-    requirements: &str,
-    notes: &[String],
-) -> String {
+/// The greatest, likewise.
+pub(super) fn greatest(expressions: &[String]) -> Option<(String, Exact)> {
+    outermost(expressions, Ordering::Greater)
+}
+
+fn outermost(expressions: &[String], order: Ordering) -> Option<(String, Exact)> {
+    let parse = |text: &String| Some((text.clone(), Exact::parse(text, MAX_DIGITS).ok()?));
+    let parsed = expressions.iter().map(parse).collect::<Option<Vec<_>>>()?;
+    parsed.into_iter().reduce(|best, next| match next.1.compare(&best.1) {
+        Some(found) if found == order => next,
+        _ => best,
+    })
+}
+
+/// Whether the number that `a` is, as an expression, is provably less than `b`.
+pub(super) fn less(a: &str, b: &str) -> bool {
+    let [a, b] = [a, b].map(|text| Exact::parse(text, MAX_DIGITS).ok());
+    a.zip(b).and_then(|(a, b)| a.compare(&b)) == Some(Ordering::Less)
+}
+
+/// What an importer makes of a configuration.
+pub(super) struct Machine {
+    /// What it is, for the title.
+    pub title: &'static str,
+    /// The legs' tables, in the order of the firmware's joints.
+    pub legs: [String; 3],
+    /// The lines of `[workspace]`.
+    pub workspace: String,
+    /// Those of `[requirements]`.
+    pub requirements: String,
+}
+
+/// A rod on a vertical guide whose foot is at `(x, y)`, values of a design; the carriage is above
+/// the platform and `rho` its height, less `base`.
+pub(super) fn slider(label: &str, [x, y]: &[String; 2], base: &str, length: &str) -> String {
+    format!(
+        "[[mechanism.legs]]                 # {label}\ndrive = \"slider\"\ndirection = [0, 0, 1]\n\
+         anchor = [{x}, {y}, {base}]\nlength = {length}\nmode = \"-\"\n"
+    )
+}
+
+/// An arm of a rotary Delta: all but its angle as values of a design.
+pub(super) struct Arm<'a> {
+    /// A comment.
+    pub label: &'a str,
+    /// Where it stands, in degrees about z.
+    pub degrees: &'a Number,
+    /// Distance of its axis from z, greater than 0.
+    pub radius: &'a Number,
+    /// Height of its axis.
+    pub height: &'a str,
+    /// Length of the arm.
+    pub upper: &'a str,
+    /// Length of the rod.
+    pub lower: &'a str,
+    /// Distance of the rod's lower end from the controlled point; `None` is 0.
+    pub foot: Option<&'a Number>,
+    /// Whether angles count downwards from the horizontal, not upwards.
+    pub downwards: bool,
+}
+
+impl Arm<'_> {
+    /// Its leg, with the elbow outside and the platform below; `None` beyond a turn.
+    pub fn leg(&self) -> Option<String> {
+        let [x, y] = polar(self.degrees, Some(self.radius))?;
+        let [e_x, e_y] = polar(self.degrees, None)?;
+        let [k_x, k_y] = axis(self.degrees, self.downwards)?;
+        let foot = match self.foot {
+            Some(foot) => {
+                let [d_x, d_y] = polar(self.degrees, Some(foot))?;
+                format!("platform = [{d_x}, {d_y}, 0]\n")
+            }
+            None => String::new(),
+        };
+        let mode = if self.downwards { "+" } else { "-" };
+        Some(format!(
+            "[[mechanism.legs]]                 # {}\ndrive = \"arm\"\nanchor = [{x}, {y}, {}]\n\
+             axis = [{k_x}, {k_y}, 0]\nreference = [{e_x}, {e_y}, 0]\narm = {}\nlength = {}\n\
+             {foot}mode = \"{mode}\"\n",
+            self.label, self.height, self.upper, self.lower
+        ))
+    }
+}
+
+/// An extensible leg from `(x, y, 0)`; `rho` is its length.
+pub(super) fn strut(label: &str, x: &str, y: &str) -> String {
+    format!(
+        "[[mechanism.legs]]                 # {label}\ndrive = \"strut\"\nanchor = [{x}, {y}, 0]\n"
+    )
+}
+
+/// Bounds on the factors of sliders and struts, to be changed.
+pub(super) const FACTORS: &str = "transmission = { min = \"1/4\", max = 4 }\n";
+
+/// The same of arms of length `arm`.
+pub(super) fn factors_per_radian(arm: &Number) -> String {
+    let arm = &arm.text;
+    format!("transmission = {{ min = \"{arm}/4\", max = \"{arm}*4\" }} # length per radian\n")
+}
+
+/// A cylinder about z; `radius` and the heights are expressions.
+pub(super) fn cylinder(radius: &str, [low, high]: [&str; 2]) -> String {
+    let [radius, low, high] = [radius, low, high].map(quoted);
+    format!("cylinder = {{ center = [0, 0], radius = {radius}, z = [{low}, {high}] }}\n")
+}
+
+/// The design file, with all that is to be said of the import as comments; `name` is of the
+/// configuration.
+pub(super) fn document(name: &str, machine: &Machine, imported: &Imported) -> String {
     let mut text = String::new();
-    comment(&mut text, &format!("{machine}, imported from {name}."));
-    if !notes.is_empty() {
-        comment(&mut text, "Not in the configuration, or not expressible here:");
-    }
-    for note in notes {
-        comment(&mut text, &format!("- {note}"));
-    }
-    let [first, second, third] = legs;
+    let title = machine.title;
+    comment(&mut text, &format!("{title}, imported from {}.", printable(name)));
+    let mut list = |heading: &str, items: Vec<String>| {
+        if !items.is_empty() {
+            comment(&mut text, heading);
+        }
+        items.iter().for_each(|item| comment(&mut text, &format!("- {item}")));
+    };
+    list("Read:", imported.used.iter().map(ToString::to_string).collect());
+    list("The firmware's defaults:", imported.defaults.iter().map(ToString::to_string).collect());
+    list(
+        "Not understood, and ignored:",
+        imported.ignored.iter().map(ToString::to_string).collect(),
+    );
+    list("Not in the configuration, or not expressible here:", imported.not_carried_over.clone());
+    let [first, second, third] = &machine.legs;
     text.push_str(&format!(
-        "\ntitle = \"{machine}\"\n\n[mechanism]\nkind = \"translational\"\n\n\
-         {first}\n{second}\n{third}\n[workspace]\n{workspace}\n[requirements]\n{requirements}"
+        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"translational\"\n\n\
+         {first}\n{second}\n{third}\n[workspace]\n{}\n[requirements]\n{}",
+        machine.workspace, machine.requirements
     ));
     text
 }
