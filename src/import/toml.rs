@@ -48,10 +48,7 @@ impl Number {
         {
             return None;
         }
-        let whole = match whole.trim_start_matches('0') {
-            "" => "0",
-            whole => whole,
-        };
+        let whole = if whole.is_empty() { "0" } else { whole };
         let point = if part.is_empty() { "" } else { "." };
         let exponent = exponent.map(|text| format!("e{text}")).unwrap_or_default();
         let text = format!("{sign}{whole}{point}{part}{exponent}");

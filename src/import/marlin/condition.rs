@@ -83,7 +83,11 @@ fn resolve<'a>(
             continue;
         }
         let body = macros.get(name).map(|found| &found.body);
-        if let (Some([names, after]), None | Some(Body::Function)) = (arguments(rest), body) {
+        let called = match body {
+            None | Some(Body::Function) => arguments(macros, rest)?,
+            _ => None,
+        };
+        if let Some([names, after]) = called {
             items.push(Item::Value(Value::of(function(macros, name, names, at))));
             rest = after;
             continue;
@@ -115,20 +119,24 @@ fn resolve<'a>(
 }
 
 /// What is between the parentheses that open at the start of `tokens`, and what follows them.
-fn arguments(tokens: &[Token]) -> Option<[&[Token]; 2]> {
+fn arguments<'a>(
+    macros: &Macros,
+    tokens: &'a [Token],
+) -> Result<Option<[&'a [Token]; 2]>, Problem> {
     let mut depth = 0usize;
     for (at, token) in tokens.iter().enumerate() {
+        macros.count()?;
         match token {
             Token::Sign("(") => depth += 1,
-            _ if depth == 0 => return None,
+            _ if depth == 0 => return Ok(None),
             Token::Sign(")") => depth -= 1,
             _ => {}
         }
         if depth == 0 {
-            return Some([&tokens[1..at], &tokens[at + 1..]]);
+            return Ok(Some([&tokens[1..at], &tokens[at + 1..]]));
         }
     }
-    None
+    Ok(None)
 }
 
 /// Marlin's core/macros.h.

@@ -302,7 +302,9 @@ impl Header<'_> {
         // What motion.h calls fslop.
         let slack = Number::parse("0.0001").ok_or_else(|| self.bad(new))?;
         let mut radius = sum(&printable, &slack).ok_or_else(|| self.bad(new))?;
-        if let Some(greatest) = self.number("DELTA_MAX_RADIUS", "the same radius")? {
+        if let Some(greatest) =
+            self.number("DELTA_MAX_RADIUS", "the radius, if it is the lesser")?
+        {
             if greatest.value.compare(&printable.value) == Some(Ordering::Less) {
                 radius = greatest;
             }
@@ -386,7 +388,7 @@ impl Header<'_> {
             .zip(&adjusted)
             .filter_map(|(tower, adjusted)| {
                 let (rod, height, adjusted) = (&tower.rod.text, &high.text, &adjusted.text);
-                about(&format!("{height}+({adjusted})+{}-{rod}", tower.centred()))?.parse().ok()
+                about(&format!("{height}-({adjusted})+{}-{rod}", tower.centred()))?.parse().ok()
             })
             .collect();
         let clear = clear.into_iter().fold(f64::INFINITY, f64::min);

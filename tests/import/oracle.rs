@@ -1,0 +1,260 @@
+//! Imported designs against the firmwares' own kinematics, restated from their sources.
+//!
+//! At random points of the imported workspace the joint coordinates of the design are those of the
+//! firmware, and the extremes of `rho` and `psi` over it, found from the firmware's kinematics alone,
+//! lie inside `bounds` and no farther in than 1e-4.
+
+use crate::support::legs;
+use nalgebra::Matrix3;
+use num_rational::BigRational;
+use orthocert::extremes::{enclose, is_singular, Extreme, NotEnclosed};
+use orthocert::sample::{Place, Sampler};
+use orthocert::search::{Budget, Control};
+use orthocert_checker::claim::{MachineClaim, Workspace};
+use orthocert_checker::model::Model;
+use orthocert_checker::number::Exact;
+use std::sync::atomic::AtomicBool;
+
+/// A firmware's kinematics; joint coordinates of arms are degrees.
+pub trait Firmware {
+    /// The joint coordinates at a point; `None` out of reach.
+    fn joints(&self, point: [f64; 3]) -> Option<[f64; 3]>;
+
+    /// The point of joint coordinates.
+    fn point(&self, joints: [f64; 3]) -> Option<[f64; 3]>;
+
+    /// Whether the firmware moves there.
+    fn allows(&self, _point: [f64; 3]) -> bool {
+        true
+    }
+}
+
+/// Numbers in [0, 1), always the same.
+pub struct Random(pub u64);
+
+impl Random {
+    /// The next one.
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Three of them.
+    pub fn three(&mut self) -> [f64; 3] {
+        [self.next(), self.next(), self.next()]
+    }
+}
+
+fn float(x: &Exact) -> f64 {
+    let x = x.enclose(60, 200).expect("a number");
+    // With a scale of 60 the number is its fixed-point value times 2^60.
+    let text = |n: &num_bigint::BigInt| n.to_string().parse::<f64>().expect("a float");
+    (text(x.lo()) + text(x.hi())) / 2.0 * 2f64.powi(60 - 200)
+}
+
+/// A claim's workspace as a map from the unit cube.
+pub struct Region {
+    low: [f64; 3],
+    high: [f64; 3],
+    round: bool,
+}
+
+impl Region {
+    /// Of a claim.
+    pub fn of(claim: &MachineClaim) -> Region {
+        match &claim.workspace {
+            Workspace::Box { min, max } => Region {
+                low: min.each_ref().map(float),
+                high: max.each_ref().map(float),
+                round: false,
+            },
+            Workspace::Cylinder { center, radius, z } => {
+                let (c, r) = (center.each_ref().map(float), float(radius));
+                Region {
+                    low: [c[0] - r, c[1] - r, float(&z[0])],
+                    high: [c[0] + r, c[1] + r, float(&z[1])],
+                    round: true,
+                }
+            }
+            Workspace::Cube { .. } => panic!("a cube"),
+        }
+    }
+
+    /// The point of coordinates in [0, 1]; those outside a circle are drawn to it.
+    pub fn at(&self, u: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let mut u = u.map(|u| u.clamp(0.0, 1.0));
+        if self.round {
+            let [x, y] = [2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0];
+            let out = x.hypot(y).max(1.0);
+            (u[0], u[1]) = ((x / out + 1.0) / 2.0, (y / out + 1.0) / 2.0);
+        }
+        (u, std::array::from_fn(|k| self.low[k] + (self.high[k] - self.low[k]) * u[k]))
+    }
+
+    /// The radius and the heights of a cylinder.
+    pub fn cylinder(&self) -> (f64, [f64; 2]) {
+        assert!(self.round);
+        ((self.high[0] - self.low[0]) / 2.0, [self.low[2], self.high[2]])
+    }
+}
+
+/// Compares the design's joint coordinates with the firmware's at `points` random points, and the
+/// firmware's forward kinematics with its inverse; returns how many were within reach.
+pub fn same_joints(
+    name: &str,
+    claim: &MachineClaim,
+    firmware: &dyn Firmware,
+    points: usize,
+) -> usize {
+    let region = Region::of(claim);
+    let model = Model::new(claim, 192).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let sampler = Sampler::new(claim, &model).expect("a sampler");
+    let unit = match legs(claim)[0].is_angular() {
+        true => 1.0,
+        false => (model.unit_exponent.expect("a unit") as f64).exp2(),
+    };
+    let size = (0..3).map(|k| region.high[k].abs().max(region.low[k].abs())).fold(1.0, f64::max);
+    let mut random = Random(1);
+    let mut reached = 0;
+    for _ in 0..points {
+        let (u, point) = region.at(random.three());
+        let values = sampler.at(&Place { u, t: vec![0.5; sampler.parameters()] });
+        let ours = values.reached.map(|reached| reached.rho.map(|rho| rho * unit));
+        let theirs = firmware.joints(point);
+        let (Some(ours), Some(theirs)) = (ours, theirs) else {
+            assert!(ours.is_none() == theirs.is_none(), "{name} {point:?} {ours:?} {theirs:?}");
+            continue;
+        };
+        for (a, b) in ours.iter().zip(theirs) {
+            assert!(
+                (a - b).abs() < 1e-8 * size.max(b.abs()),
+                "{name} {point:?} {ours:?} {theirs:?}"
+            );
+        }
+        let back = firmware.point(theirs).unwrap_or_else(|| panic!("{name} {point:?}"));
+        let off = (0..3).map(|k| (back[k] - point[k]).abs()).fold(0.0, f64::max);
+        // Near a parallel singularity a firmware's forward kinematics loses digits.
+        assert!(off < 1e-4 * size, "{name} {point:?} {back:?}");
+        reached += 1;
+    }
+    reached
+}
+
+/// What an extreme of the firmware's is, at a point; larger is worse. `None` out of reach.
+fn quantity(firmware: &dyn Firmware, extreme: Extreme, point: [f64; 3], h: f64) -> Option<f64> {
+    let joints = firmware.joints(point)?;
+    match extreme {
+        Extreme::LeastRho(leg) => return Some(-joints[leg]),
+        Extreme::GreatestRho(leg) => return Some(joints[leg]),
+        _ => {}
+    }
+    let mut m = Matrix3::zeros();
+    for k in 0..3 {
+        let moved = |by: f64| {
+            let mut p = point;
+            p[k] += by;
+            firmware.joints(p)
+        };
+        let [a, b, c, d] = [moved(-2.0 * h)?, moved(-h)?, moved(h)?, moved(2.0 * h)?];
+        for i in 0..3 {
+            m[(i, k)] = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * h);
+        }
+    }
+    let sigma = m.singular_values();
+    match extreme {
+        Extreme::GreatestPsi => Some(1.0 / sigma.min()),
+        _ => Some(-1.0 / sigma.max()),
+    }
+}
+
+/// The extreme over the region, by a grid and a pattern search from its best places.
+fn worst(region: &Region, firmware: &dyn Firmware, extreme: Extreme, h: f64) -> Option<f64> {
+    let value = |u: [f64; 3]| quantity(firmware, extreme, region.at(u).1, h);
+    let mut places = Vec::new();
+    for i in 0..=16 {
+        for j in 0..=16 {
+            for k in [0.0, 0.5, 1.0] {
+                let u = region.at([i as f64 / 16.0, j as f64 / 16.0, k]).0;
+                places.push((value(u)?, u));
+            }
+        }
+    }
+    places.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut best = f64::NEG_INFINITY;
+    for &(mut found, mut u) in places.iter().take(6) {
+        let mut step = 1.0 / 16.0;
+        while step > 1e-8 {
+            let mut better = None;
+            for d in 0..26 {
+                let d = if d < 13 { d } else { d + 1 };
+                let to = [d / 9, d / 3 % 3, d % 3].map(|d| (d as f64 - 1.0) * step);
+                let (to, _) = region.at(std::array::from_fn(|k| u[k] + to[k]));
+                let now = value(to)?;
+                if now > found {
+                    (found, better) = (now, Some(to));
+                }
+            }
+            match better {
+                Some(to) => u = to,
+                None => step /= 2.0,
+            }
+        }
+        best = best.max(found);
+    }
+    Some(best)
+}
+
+/// What is known of a design's extremes.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Extremes {
+    /// All are as the firmware's.
+    Agree,
+    /// Refuted: a singularity or a point out of reach inside.
+    Singular,
+    /// Not enclosed within the budget.
+    Undecided,
+}
+
+/// Holds that the extremes that the firmware's kinematics has over the imported workspace are
+/// inside `bounds`, and the bounds at most 1e-4 outside them.
+pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) -> Extremes {
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let budget = Budget { max_boxes: 20_000, deadline: None };
+    match is_singular(claim, budget, &mut control) {
+        Ok(false) => {}
+        Ok(true) => return Extremes::Singular,
+        Err(error) => panic!("{name}: {error}"),
+    }
+    let region = Region::of(claim);
+    let span = (0..3).map(|k| region.high[k] - region.low[k]).fold(0.0, f64::max);
+    let angular = legs(claim)[0].is_angular();
+    let width = BigRational::new(1.into(), 100_000.into());
+    let all = Extreme::of(claim).into_iter().filter(|extreme| {
+        use Extreme::*;
+        matches!(extreme, LeastPsi | GreatestPsi | LeastRho(_) | GreatestRho(_))
+    });
+    for extreme in all {
+        let enclosed = match enclose(claim, extreme, &width, budget, &mut control) {
+            Ok(enclosed) => enclosed,
+            Err(NotEnclosed::Singular) => return Extremes::Singular,
+            Err(_) => return Extremes::Undecided,
+        };
+        let sampled = worst(&region, firmware, extreme, span * 1e-4);
+        let Some(sampled) = sampled else { return Extremes::Undecided };
+        let sign = if extreme.is_greatest() { 1.0 } else { -1.0 };
+        // Per radian, where the firmware has degrees.
+        let per = match extreme {
+            Extreme::LeastPsi | Extreme::GreatestPsi if angular => 1f64.to_degrees(),
+            _ => 1.0,
+        };
+        let (sampled, outer) = (sign * sampled * per, float(&enclosed.outer));
+        let room = sign * (outer - sampled);
+        let scale = outer.abs().max(1e-300);
+        assert!(
+            room > -1e-7 * scale && room < 1e-4 * scale,
+            "{name}: {extreme:?}: sampled {sampled}, bound {outer}"
+        );
+    }
+    Extremes::Agree
+}
