@@ -140,6 +140,16 @@ pub fn same_joints(
     reached
 }
 
+/// Holds that a restated kinematics computes what the compiled firmware computed: joint coordinates
+/// at a point, and the point of those.
+pub fn same_as_compiled(name: &str, firmware: &dyn Firmware, [point, joints, back]: [[f64; 3]; 3]) {
+    let found = firmware.joints(point).unwrap_or_else(|| panic!("{name}"));
+    let again = firmware.point(joints).unwrap_or_else(|| panic!("{name}"));
+    for (a, b) in found.iter().chain(&again).zip(joints.iter().chain(&back)) {
+        assert!((a - b).abs() < 1e-9 * b.abs().max(100.0), "{name} {found:?} {again:?}");
+    }
+}
+
 /// What an extreme of the firmware's is, at a point; larger is worse. `None` out of reach.
 fn quantity(firmware: &dyn Firmware, extreme: Extreme, point: [f64; 3], h: f64) -> Option<f64> {
     let joints = firmware.joints(point)?;
@@ -183,19 +193,21 @@ fn worst(region: &Region, firmware: &dyn Firmware, extreme: Extreme, h: f64) -> 
     let mut best = f64::NEG_INFINITY;
     for &(mut found, mut u) in places.iter().take(6) {
         let mut step = 1.0 / 16.0;
-        while step > 1e-8 {
+        for _ in 0..400 {
             let mut better = None;
             for d in 0..26 {
                 let d = if d < 13 { d } else { d + 1 };
                 let to = [d / 9, d / 3 % 3, d % 3].map(|d| (d as f64 - 1.0) * step);
                 let (to, _) = region.at(std::array::from_fn(|k| u[k] + to[k]));
                 let now = value(to)?;
-                if now > found {
+                // Differences of rounding are no progress.
+                if now > found + 1e-11 * found.abs() {
                     (found, better) = (now, Some(to));
                 }
             }
             match better {
                 Some(to) => u = to,
+                None if step < 1e-8 => break,
                 None => step /= 2.0,
             }
         }
@@ -229,14 +241,17 @@ pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) 
     let region = Region::of(claim);
     let span = (0..3).map(|k| region.high[k] - region.low[k]).fold(0.0, f64::max);
     let angular = legs(claim)[0].is_angular();
-    let width = BigRational::new(1.into(), 100_000.into());
+    let width = BigRational::new(5.into(), 100_000.into());
     let all = Extreme::of(claim).into_iter().filter(|extreme| {
         use Extreme::*;
         matches!(extreme, LeastPsi | GreatestPsi | LeastRho(_) | GreatestRho(_))
     });
     for extreme in all {
         let enclosed = match enclose(claim, extreme, &width, budget, &mut control) {
-            Ok(enclosed) => enclosed,
+            Ok(enclosed) if enclosed.width <= &width * BigRational::from_integer(2.into()) => {
+                enclosed
+            }
+            Ok(_) => return Extremes::Undecided,
             Err(NotEnclosed::Singular) => return Extremes::Singular,
             Err(_) => return Extremes::Undecided,
         };
@@ -250,7 +265,11 @@ pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) 
         };
         let (sampled, outer) = (sign * sampled * per, float(&enclosed.outer));
         let room = sign * (outer - sampled);
-        let scale = outer.abs().max(1e-300);
+        // Joint coordinates may be zero: then a share of the workspace's size.
+        let scale = match extreme {
+            Extreme::LeastRho(_) | Extreme::GreatestRho(_) => outer.abs().max(span),
+            _ => outer.abs(),
+        };
         assert!(
             room > -1e-7 * scale && room < 1e-4 * scale,
             "{name}: {extreme:?}: sampled {sampled}, bound {outer}"
