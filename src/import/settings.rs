@@ -14,7 +14,7 @@ pub(super) struct Settings {
     /// The first file, for messages about what is nowhere.
     file: String,
     found: BTreeMap<String, Setting>,
-    /// Statements that are not settings, in order: always left over unless they cannot matter.
+    /// Statements that set no single key and may matter, in order.
     statements: Vec<Setting>,
     read: BTreeSet<String>,
     used: Vec<Used>,
@@ -41,12 +41,7 @@ impl Settings {
         self.found.insert(setting.key.clone(), setting);
     }
 
-    /// Takes a key back, as a later line of the configuration does.
-    pub fn unset(&mut self, key: &str) {
-        self.found.remove(key);
-    }
-
-    /// A statement that sets no single key and is not understood.
+    /// A statement that is not understood and may matter, whatever else has its key.
     pub fn not_understood(&mut self, statement: Setting) {
         self.statements.push(statement);
     }
@@ -163,8 +158,8 @@ impl Settings {
         reading: Reading<'_>,
     ) -> Result<Imported, ImportError> {
         let unread = self.found.into_values().filter(|s| !self.read.contains(&s.key));
-        let mut left: Vec<Setting> =
-            unread.chain(self.statements).filter(|setting| !harmless(setting)).collect();
+        let unread = unread.filter(|setting| !harmless(setting));
+        let mut left: Vec<Setting> = unread.chain(self.statements).collect();
         left.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
         let (ignored, refused): (Vec<Setting>, Vec<Setting>) =
             left.into_iter().partition(|setting| ignore.contains(&setting.key));

@@ -48,6 +48,8 @@ impl Number {
         {
             return None;
         }
+        // TOML has no leading zeros.
+        let whole = whole.trim_start_matches('0');
         let whole = if whole.is_empty() { "0" } else { whole };
         let point = if part.is_empty() { "" } else { "." };
         let exponent = exponent.map(|text| format!("e{text}")).unwrap_or_default();
@@ -55,6 +57,11 @@ impl Number {
         let value = Exact::parse(&text, MAX_DIGITS).ok()?;
         value.as_rational()?;
         Some(Number { text, value })
+    }
+
+    /// A whole number.
+    pub fn whole(n: i64) -> Number {
+        Number { text: n.to_string(), value: Exact::integer(n) }
     }
 
     /// Whether the number is greater than zero.

@@ -18,6 +18,7 @@
 //! | `atlas`        | `atlas`: maps, and what is refused                                |
 //! | `bad_input`    | every class of bad usage and bad input                            |
 //! | `files`        | certificates appear whole or not at all                           |
+//! | `import`       | `import`: what is told, what is refused                           |
 //! | `shards`       | `split`, `run-shard`, `merge`, `submit`                           |
 //! | `paving_shards` | the same of pavings                                              |
 //! | `interruption` | signals, closed and full outputs                                  |
@@ -38,6 +39,7 @@ mod cache;
 mod calculator;
 mod certificates;
 mod files;
+mod import;
 mod interruption;
 mod json;
 mod largest_cube;

@@ -2,6 +2,8 @@
 //! they are the firmware's machines.
 
 mod configurations;
+mod klipper;
+mod linuxcnc;
 mod marlin;
 mod oracle;
 mod reprap;
