@@ -2,7 +2,7 @@
 
 use super::{input, print, Failure, Status};
 use clap::Subcommand;
-use orthocert::import::{klipper, linuxcnc, Disk, Importer};
+use orthocert::import::{klipper, linuxcnc, marlin, reprap, smoothieware, Disk, Importer};
 use orthocert::output;
 use std::path::PathBuf;
 
@@ -20,6 +20,14 @@ enum Controller {
     /// A linear or rotary Delta or a tripod of LinuxCNC: its .ini, with the HAL files that it names,
     /// then those of them that are elsewhere; or HAL files alone, in order
     Linuxcnc(Configuration),
+    /// A linear Delta of Marlin 2: its Configuration.h, and further headers in order
+    Marlin(Configuration),
+    /// A linear or rotary Delta of RepRapFirmware: its config.g; config-override.g and macros that it
+    /// calls are read beside it, or given as well
+    Reprap(Configuration),
+    /// A linear or rotary Delta of Smoothieware: its config; what it includes and config-override are
+    /// read beside it, or given as well
+    Smoothieware(Configuration),
 }
 
 #[derive(Debug, clap::Args)]
@@ -40,6 +48,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let (importer, configuration): (Importer, _) = match &arguments.controller {
         Controller::Klipper(configuration) => (klipper, configuration),
         Controller::Linuxcnc(configuration) => (linuxcnc, configuration),
+        Controller::Marlin(configuration) => (marlin, configuration),
+        Controller::Reprap(configuration) => (reprap, configuration),
+        Controller::Smoothieware(configuration) => (smoothieware, configuration),
     };
     let Configuration { files, ignore, output } = configuration;
     if let Some(output) = output {

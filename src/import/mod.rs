@@ -13,15 +13,23 @@
 
 mod error;
 mod files;
+mod gcode;
 mod klipper;
 mod linuxcnc;
+mod marlin;
+mod reprap;
 mod settings;
+mod smoothieware;
 mod toml;
+mod towers;
 
 pub use error::ImportError;
 pub use files::{Disk, Files};
 pub use klipper::klipper;
 pub use linuxcnc::linuxcnc;
+pub use marlin::marlin;
+pub use reprap::reprap;
+pub use smoothieware::smoothieware;
 
 use std::fmt;
 use std::path::PathBuf;

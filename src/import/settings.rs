@@ -41,6 +41,11 @@ impl Settings {
         self.found.insert(setting.key.clone(), setting);
     }
 
+    /// Takes a key back, as a later line of the configuration does.
+    pub fn unset(&mut self, key: &str) {
+        self.found.remove(key);
+    }
+
     /// A statement that is not understood and may matter, whatever else has its key.
     pub fn not_understood(&mut self, statement: Setting) {
         self.statements.push(statement);

@@ -136,8 +136,8 @@ fn value(component: &Component, radius: Option<&Number>) -> String {
         (Component::Exactly("0"), _) => "0".to_owned(),
         (Component::Exactly(x @ ("1" | "-1")), None) => (*x).to_owned(),
         (Component::Exactly(x), None) => quoted(x),
-        (Component::Exactly("1"), Some(r)) => r.text.clone(),
-        (Component::Exactly("-1"), Some(r)) => format!("-{}", r.text),
+        (Component::Exactly("1"), Some(r)) => quoted(&r.text),
+        (Component::Exactly("-1"), Some(r)) => quoted(&format!("-{}", r.text)),
         (Component::Exactly(x), Some(r)) => {
             let (sign, rest) = x.strip_prefix('-').map_or(("", *x), |rest| ("-", rest));
             let product = match rest.strip_prefix("1/") {

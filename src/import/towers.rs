@@ -1,0 +1,109 @@
+//! Linear Deltas with three vertical towers, as most firmwares have them: tower `i` stands at
+//! `radius_i (cos angle_i, sin angle_i)`, and its carriage is `sqrt(rod_i^2 - distance_i^2)` above
+//! the platform.
+
+use super::toml::{least, polar, quoted, slider, Number};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+use orthocert_checker::number::Exact;
+use std::cmp::Ordering;
+
+/// A tower, its carriage and its rods.
+pub(super) struct Tower {
+    /// What the firmware calls it.
+    pub label: &'static str,
+    /// Where it stands, in degrees about z.
+    pub degrees: Number,
+    /// How far from z, less the platform's own radius.
+    pub radius: Number,
+    /// Length of its rods.
+    pub rod: Number,
+}
+
+/// What a firmware calls its towers, and where they stand but for corrections.
+pub(super) const TOWERS: [(&str, &str); 3] =
+    [("front left", "210"), ("front right", "330"), ("back", "90")];
+
+impl Tower {
+    /// The leg's table; `None` if a length is not positive or an angle is beyond a turn.
+    pub fn leg(&self) -> Option<String> {
+        let foot = polar(&self.degrees, Some(&self.radius).filter(|r| r.is_positive()))?;
+        let rod = Some(&self.rod).filter(|rod| rod.is_positive())?;
+        let label = format!("{}, at {} degrees", self.label, self.degrees.text);
+        self.radius.is_positive().then(|| slider(&label, &foot, "0", &quoted(&rod.text)))
+    }
+
+    /// The carriage's height above a platform that is over the centre, as an expression.
+    pub fn centred(&self) -> String {
+        let (rod, radius) = (&self.rod.text, &self.radius.text);
+        format!("sqrt({rod}*{rod}-{radius}*{radius})")
+    }
+}
+
+/// `a + b`, exactly.
+pub(super) fn sum(a: &Number, b: &Number) -> Option<Number> {
+    written(&(a.value.as_rational()? + b.value.as_rational()?))
+}
+
+/// `a - b`, exactly.
+pub(super) fn difference(a: &Number, b: &Number) -> Option<Number> {
+    written(&(a.value.as_rational()? - b.value.as_rational()?))
+}
+
+/// The lesser of two; the first of those that cannot be told apart.
+pub(super) fn lesser(a: Number, b: Number) -> Number {
+    match b.value.compare(&a.value) {
+        Some(Ordering::Less) => b,
+        _ => a,
+    }
+}
+
+/// A rational number as a design writes it: as a decimal if it is one.
+pub(super) fn written(value: &BigRational) -> Option<Number> {
+    const MOST_PLACES: usize = 100;
+    let ten = BigRational::from_integer(BigInt::from(10));
+    let (mut scaled, mut places) = (value.clone(), 0);
+    while !scaled.is_integer() && places < MOST_PLACES {
+        scaled *= &ten;
+        places += 1;
+    }
+    let text = match scaled.is_integer() {
+        true => {
+            let digits = scaled.to_integer().abs().to_string();
+            let digits = format!("{digits:0>width$}", width = places + 1);
+            let (whole, part) = digits.split_at(digits.len() - places);
+            let sign = if value.is_negative() { "-" } else { "" };
+            let point = if places == 0 { "" } else { "." };
+            format!("{sign}{whole}{point}{part}")
+        }
+        false => format!("({value})"),
+    };
+    let value = Exact::parse(&text, 1000).ok()?;
+    Some(Number { text, value })
+}
+
+/// The greatest height of a cylinder of `radius` in which no carriage is above its top, as an
+/// expression; over the disc a carriage is highest where the platform is nearest to its tower.
+pub(super) fn highest(towers: &[Tower], tops: &[String], radius: &Number) -> Option<String> {
+    let height = |(tower, top): (&Tower, &String)| {
+        let (rod, far) = (&tower.rod.text, &tower.radius.text);
+        match radius.value.compare(&tower.radius.value)? {
+            Ordering::Less => {
+                let near = format!("({far}-({}))", radius.text);
+                Some(format!("{top}-sqrt({rod}*{rod}-{near}*{near})"))
+            }
+            _ => Some(format!("{top}-{rod}")),
+        }
+    };
+    let heights: Option<Vec<String>> = towers.iter().zip(tops).map(height).collect();
+    least(&heights?).map(|(height, _)| height)
+}
+
+/// The number nearest to an expression, for a comment.
+pub(super) fn about(expression: &str) -> Option<String> {
+    let value = Exact::parse(expression, 1000).ok()?;
+    let enclosed = value.enclose(0, 64)?;
+    let value = BigRational::new(enclosed.lo().clone(), BigInt::from(1) << 64u32).to_f64()?;
+    Some(format!("{value:.3}"))
+}
