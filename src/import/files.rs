@@ -1,9 +1,10 @@
 //! Reading configurations: bounded in bytes and in number, whatever they include.
 
 use super::ImportError;
+use orthocert_checker::file;
+use orthocert_checker::shown::Named;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Where configurations are read from.
@@ -27,14 +28,8 @@ pub struct Disk;
 
 impl Files for Disk {
     fn read(&self, path: &Path, most: u64) -> Result<String, String> {
-        let found = fs::metadata(path).map_err(|error| error.to_string())?;
-        if !found.is_file() {
-            let kind = if found.is_dir() { "a folder" } else { "no regular file" };
-            return Err(format!("it is {kind}; accepted: a configuration file"));
-        }
-        let mut bytes = Vec::new();
-        let file = File::open(path).map_err(|error| error.to_string())?;
-        file.take(most + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+        let bytes = file::read(path, most)
+            .map_err(|error| format!("{error}; accepted: a configuration file"))?;
         if bytes.len() as u64 > most {
             return Err("more than 1 MiB, with what it includes".to_owned());
         }
@@ -103,7 +98,7 @@ impl<'a> Reading<'a> {
 
     /// A path as it is named: relative to the folder of the first file, if it is below it.
     pub fn shown(&self, path: &Path) -> String {
-        path.strip_prefix(&self.folder).unwrap_or(path).display().to_string()
+        path.strip_prefix(&self.folder).unwrap_or(path).shown().to_string()
     }
 
     /// The text of a file, with `\r\n` as `\n`.

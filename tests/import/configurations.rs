@@ -66,7 +66,7 @@ pub fn compare(
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     let claim = claim(&imported);
     compared.points += same_joints(name, &claim, firmware, 100);
-    if compared.configurations % every() == 0 {
+    if compared.configurations.is_multiple_of(every()) {
         match same_extremes(name, &claim, firmware) {
             Extremes::Agree => compared.extremes[0] += 1,
             Extremes::Singular => compared.extremes[1] += 1,

@@ -223,7 +223,7 @@ fn claims_that_are_not_well_formed_are_rejected() {
             claim.design.workspace = Workspace::Cylinder { center, radius, z };
         })
     };
-    for text in [vec!["side"; 7].join("*"), format!("side+1/{}", "7".repeat(99))] {
+    for text in [["side"; 7].join("*"), format!("side+1/{}", "7".repeat(99))] {
         let reason = radius(&text);
         assert!(matches!(reason, Rejected::AtlasClaim(AtlasError::TooLong(_))), "{reason}");
     }

@@ -69,10 +69,8 @@ fn transfer(
     let file = reading.shown(path);
     let text = reading.text(path)?;
     for (at, line) in text.lines().enumerate() {
-        let read = match line.len() > LINE {
-            true => &line[..line.floor_char_boundary(LINE)],
-            false => line,
-        };
+        let end = line.char_indices().map(|(at, c)| at + c.len_utf8());
+        let read = &line[..end.take_while(|&end| end <= LINE).last().unwrap_or(0)];
         let Some((key, value)) = setting(read) else { continue };
         let whole = read.len() == line.len() || !read.ends_with(value);
         let found = Setting {

@@ -131,7 +131,7 @@ impl Parser<'_> {
         }
         let word = self.word();
         if self.names && word > 0 && self.text.get(self.at..self.at + word) != Some(b"sqrt") {
-            return Ok(self.name(word)?);
+            return self.name(word);
         }
         if self.text.get(self.at..).is_some_and(|rest| rest.starts_with(b"sqrt")) {
             self.at += 4;
