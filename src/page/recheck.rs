@@ -49,6 +49,7 @@ const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "src/linear.rs",
     "src/model.rs",
     "src/number/mod.rs",
+    "src/number/operand.rs",
     "src/number/read.rs",
     "src/paving/code.rs",
     "src/paving/judge.rs",

@@ -30,7 +30,7 @@ fn both_ends_are_what_verify_says_of_them() {
     folder.run(&["check", "tolerance-leg_length-refuted.cert.json"]).exits(1);
     let design = String::from_utf8(folder.read(DESIGN)).unwrap();
     for (name, t, code) in [("in.toml", &row["certified"], 0), ("out.toml", &row["refuted"], 1)] {
-        let length = format!("leg_length = \"312 ± {}\"", t.as_str().unwrap());
+        let length = format!("leg_length = \"312 ± ({})\"", t.as_str().unwrap());
         folder.write(name, design.replace("leg_length = 312", &length));
         let stem = name.trim_end_matches(".toml");
         folder.run(&["verify", name]).exits(code);

@@ -54,7 +54,7 @@ const MAX_RATIONAL_BITS: u64 = 1 << 13;
 pub const MAX_FOLDED: u64 = 1 << 15;
 /// Fractional bits in which irrational numbers are enclosed: those tried before a sign is given up
 /// as undecidable.
-const PRECISIONS: [u32; 3] = [128, 512, 2048];
+const PRECISIONS: [u32; 4] = [128, 512, 2048, 8192];
 
 /// An exact real number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -183,7 +183,7 @@ impl Exact {
     }
 
     /// An enclosure of `self / 2^scale` with `bits` fractional bits; the tightest one for
-    /// rationals. `None` where 2,048 bits do not suffice to divide or take a root, or for what is
+    /// rationals. `None` where 8,192 bits do not suffice to divide or take a root, or for what is
     /// asked for, and for what is open.
     pub fn enclose(&self, scale: i64, bits: u32) -> Option<Fixed> {
         if let Exact::Rational(x) = self {
