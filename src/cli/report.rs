@@ -3,10 +3,10 @@
 use super::{input, interrupt, print, Failure, Format, Status};
 use orthocert::decimal::grouped;
 use orthocert::digest::sha256;
+use orthocert::output;
 use orthocert::page::paving::{PavingPage, DEPTH};
-use orthocert::page::{raster::Fonts, File, Page, Picture};
+use orthocert::page::{File, Page, Picture};
 use orthocert::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
-use orthocert::{output, page};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
@@ -30,13 +30,6 @@ pub struct Arguments {
     /// Also write every figure as an SVG file into this folder, which is made if it is not there
     #[arg(long, value_name = "FOLDER")]
     svg: Option<PathBuf>,
-    /// Also write every figure as a PNG file into this folder, which is made if it is not there
-    #[arg(long, value_name = "FOLDER")]
-    png: Option<PathBuf>,
-    /// The font for PNG files [default: DejaVu Sans, Liberation Sans, Noto Sans or Arial, where the
-    /// system has one]
-    #[arg(long, value_name = "FILE.ttf", requires = "png")]
-    font: Option<PathBuf>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -81,14 +74,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let bytes = input::certificate(path)?;
     let target = arguments.target()?;
     output::probe(&target)?;
-    let fonts = arguments.png.as_ref().map(|_| Fonts::find(arguments.font.as_deref()));
-    let fonts = fonts.transpose().map_err(Failure::input)?;
     if is_paving(&bytes) {
         // Longer than a certificate may be, perhaps.
         let bytes = fs::read(path).map_err(|error| {
             Failure::Input(format!("{}: cannot be read: {error}", path.display()))
         })?;
-        return of_paving(arguments, &bytes, &target, fonts.as_ref());
+        return of_paving(arguments, &bytes, &target);
     }
     let checked = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     let (accepted, certificate) = match checked {
@@ -99,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let file = File { name: &name, bytes: &bytes };
     let page = Page::new(&certificate, &accepted, file, arguments.title.as_deref());
     let pictures: Vec<&Picture> = page.pictures().collect();
-    let files = arguments.write(&target, &page.html(), &pictures, fonts.as_ref())?;
+    let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;
     match arguments.format {
         Format::Json => print::json(&Answer::Written {
@@ -121,12 +112,7 @@ fn listed(verdict: &str, files: &[Written]) -> String {
     text
 }
 
-fn of_paving(
-    arguments: &Arguments,
-    bytes: &[u8],
-    target: &Path,
-    fonts: Option<&Fonts>,
-) -> Result<Status, Failure> {
+fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Status, Failure> {
     let (accepted, tree, components) = match examined(bytes) {
         Ok(examined) => examined,
         Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
@@ -142,7 +128,7 @@ fn of_paving(
         Failure::Input(format!("{path}: the box's ends are beyond what floating point can show"))
     })?;
     let pictures: Vec<&Picture> = page.pictures().collect();
-    let files = arguments.write(target, &page.html(), &pictures, fonts)?;
+    let files = arguments.write(target, &page.html(), &pictures)?;
     match arguments.format {
         Format::Json => print::json(&Answer::Paving {
             accepted: true,
@@ -197,7 +183,6 @@ impl Arguments {
         target: &Path,
         html: &str,
         pictures: &[&Picture],
-        fonts: Option<&Fonts>,
     ) -> Result<Vec<Written>, Failure> {
         let mut files = Vec::new();
         let mut write = |path: &Path, bytes: &[u8]| -> Result<(), Failure> {
@@ -210,13 +195,6 @@ impl Arguments {
             make(folder)?;
             for picture in pictures {
                 write(&folder.join(format!("{}.svg", picture.name)), picture.file().as_bytes())?;
-            }
-        }
-        if let (Some(folder), Some(fonts)) = (&self.png, fonts) {
-            make(folder)?;
-            for picture in pictures {
-                let png = page::raster::png(picture, fonts).map_err(Failure::Output)?;
-                write(&folder.join(format!("{}.png", picture.name)), &png)?;
             }
         }
         Ok(files)

@@ -14,7 +14,6 @@
 //! | `evidence`      | margins, the counterexample, where the proof worked hardest    |
 //! | `recheck`       | how to check again, and the digests                            |
 //! | `svg`           | views of space and parts of figures                            |
-//! | [`raster`]      | figures as PNG                                                 |
 //! | [`paving`]      | the page of a paving                                           |
 //! | `escape`        | the only ways in which text gets into a page                   |
 //!
@@ -28,7 +27,6 @@ mod evidence;
 mod isomap;
 mod nominal;
 pub mod paving;
-pub mod raster;
 mod recheck;
 mod scene;
 mod sections;
