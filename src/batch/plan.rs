@@ -2,7 +2,6 @@
 
 use crate::output::folder_of;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -17,56 +16,31 @@ pub struct Planned {
 }
 
 /// Why there is no plan; nothing was touched.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// A folder without designs.
+    #[error(
+        "{0}: found a folder without designs; accepted: a folder with *.toml files, at any depth \
+         (what is hidden is skipped)"
+    )]
     NoDesigns(PathBuf),
     /// A folder that cannot be read.
-    Unreadable(PathBuf, io::Error),
+    #[error("{0}: cannot be read: {1}; accepted: a folder")]
+    Unreadable(PathBuf, #[source] io::Error),
     /// Two designs with the same certificate path.
+    #[error(
+        "found {} and {}, which both have the certificate {}; accepted: designs of different names, \
+         or their common folder as the argument",
+        .0.design.display(), .1.design.display(), .0.certificate.display()
+    )]
     Clash(Planned, Planned),
     /// A design whose certificate would be written over a design.
+    #[error(
+        "{}: its certificate {} is a design of this batch; accepted: another name",
+        .0.design.display(), .0.certificate.display()
+    )]
     OverDesign(Planned),
-}
-
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PlanError::NoDesigns(folder) => write!(
-                f,
-                "{}: found a folder without designs; accepted: a folder with *.toml files, at any \
-                 depth (what is hidden is skipped)",
-                folder.display()
-            ),
-            PlanError::Unreadable(folder, error) => {
-                write!(f, "{}: cannot be read: {error}; accepted: a folder", folder.display())
-            }
-            PlanError::Clash(one, other) => write!(
-                f,
-                "found {} and {}, which both have the certificate {}; accepted: designs of \
-                 different names, or their common folder as the argument",
-                one.design.display(),
-                other.design.display(),
-                one.certificate.display()
-            ),
-            PlanError::OverDesign(planned) => write!(
-                f,
-                "{}: its certificate {} is a design of this batch; accepted: another name",
-                planned.design.display(),
-                planned.certificate.display()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for PlanError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            PlanError::Unreadable(_, error) => Some(error),
-            _ => None,
-        }
-    }
 }
 
 /// The designs of `arguments`, each once, in the order of the arguments and sorted within each

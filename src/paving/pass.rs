@@ -7,7 +7,6 @@ use crate::output::{self, OutputError};
 use crate::search::{Control, Progress};
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited};
-use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -21,41 +20,28 @@ pub(super) const WINDOW: usize = 128;
 pub const DEEPEST: u32 = 90;
 
 /// Why there is no paving.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PaveError {
     /// It was cancelled; what is written can be taken up again.
+    #[error("interrupted")]
     Cancelled,
     /// The claim cannot be paved.
+    #[error("{0}")]
     Claim(Rejected),
     /// There is nothing to take up again, or it is of another paving.
+    #[error("{0}: cannot be taken up again: {1}")]
     Resume(PathBuf, String),
     /// The unfinished file cannot be had.
+    #[error(transparent)]
     Output(OutputError),
     /// A file cannot be written or read.
+    #[error("{0}: {1}")]
     Io(PathBuf, io::Error),
     /// The checker does not accept what was written.
+    #[error("the checker does not accept the paving: {0}")]
     Defect(Rejected),
 }
-
-impl fmt::Display for PaveError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PaveError::Cancelled => write!(f, "interrupted"),
-            PaveError::Claim(reason) => write!(f, "{reason}"),
-            PaveError::Resume(path, reason) => {
-                write!(f, "{}: cannot be taken up again: {reason}", path.display())
-            }
-            PaveError::Output(error) => write!(f, "{error}"),
-            PaveError::Io(path, error) => write!(f, "{}: {error}", path.display()),
-            PaveError::Defect(reason) => {
-                write!(f, "the checker does not accept the paving: {reason}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for PaveError {}
 
 impl From<Cancelled> for PaveError {
     fn from(_: Cancelled) -> Self {

@@ -9,7 +9,6 @@ use orthocert_checker::certificate::{AtlasCell, Node};
 use orthocert_checker::rule::Obligation;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -215,36 +214,19 @@ impl ShardResult {
 }
 
 /// Why a file is of no use.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
     /// The operating system's reason.
+    #[error("{0}: cannot be read: {1}")]
     Unreadable(PathBuf, std::io::Error),
     /// Not a file of the kind, or not of this version; why.
+    #[error("{0}: found {why}; accepted: {1}", why = printable(.2))]
     Malformed(PathBuf, &'static str, String),
     /// What the file calls its job is not its task's identity.
+    #[error("{0}: was altered: its task is not the one that its \"job\" identifies")]
     Altered(PathBuf),
 }
-
-impl fmt::Display for FileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FileError::Unreadable(path, error) => {
-                write!(f, "{}: cannot be read: {error}", path.display())
-            }
-            FileError::Malformed(path, kind, why) => {
-                write!(f, "{}: found {}; accepted: {kind}", path.display(), printable(why))
-            }
-            FileError::Altered(path) => write!(
-                f,
-                "{}: was altered: its task is not the one that its \"job\" identifies",
-                path.display()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for FileError {}
 
 /// The lower-case hexadecimal SHA-256 of a text.
 pub fn sha256(text: &str) -> String {
