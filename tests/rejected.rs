@@ -2,8 +2,7 @@
 //! to their reasons: a text that is not of the format's shape fails the schema too, but for what no
 //! schema can say.
 
-mod schema;
-
+use crate::schema;
 use orthocert_checker::{read, Rejected};
 use std::fs;
 use std::path::Path;

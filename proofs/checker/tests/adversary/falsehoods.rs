@@ -2,9 +2,9 @@
 //! any cell that contains the point, whatever the evidence; and a witness refutes them. Claims that
 //! hold there with room to spare: the rules do, on small cells, and no witness is accepted.
 
-use crate::case::{cells_around, discharged, with_tolerances, workspace, Case};
-use crate::random::Random;
-use crate::truth::{self, determinant, exact, Leg, V};
+use super::case::{cells_around, discharged, with_tolerances, workspace, Case};
+use super::random::Random;
+use super::truth::{self, determinant, exact, Leg, V};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{LegNumber, SecondPoint, Violation, Witness};
 use orthocert_checker::claim::{AtLeast, MachineClaim, Mechanism, Range, Requirements, Workspace};
