@@ -227,9 +227,11 @@ fn the_cube_meets_further_requirements_exactly_where_its_sliders_do() {
             let model = Model::new(&claim, 128).expect("enclosed");
             let (rotations, mus) = (case.rotations(&mut random), case.mus(&mut random));
             let cells = cells_around(&mut random, p, [q1; 3], [q2; 3], 60);
-            for (depth, cell) in cells.into_iter().enumerate() {
+            // What is true shows on the smallest cell, what is false on none.
+            let passed_over = if slack < 0.0 { 0 } else { cells.len() - 1 };
+            for cell in cells.into_iter().skip(passed_over) {
                 for (rule, holds) in discharged(&model, &cell, &rotations, &mus) {
-                    if !transmission.contains(&rule) && (slack < 0.0 || depth == 60) {
+                    if !transmission.contains(&rule) {
                         assert_eq!(holds, slack > 0.0, "round {round}: {rule} at {cell}");
                     }
                 }
