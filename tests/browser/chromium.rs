@@ -277,7 +277,8 @@ fn pixels(png: &[u8]) -> String {
         "(async () => {{ \
          const bytes = Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0)); \
          const map = await createImageBitmap(new Blob([bytes], {{ type: 'image/png' }})); \
-         const context = new OffscreenCanvas(map.width, map.height).getContext('2d'); \
+         const canvas = new OffscreenCanvas(map.width, map.height); \
+         const context = canvas.getContext('2d', {{ willReadFrequently: true }}); \
          context.drawImage(map, 0, 0); \
          const {{ data }} = context.getImageData(0, 0, map.width, map.height); \
          return new Uint32Array(data.buffer); }})()"
