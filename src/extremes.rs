@@ -77,36 +77,21 @@ pub struct Enclosed {
 }
 
 /// Why an extreme is not enclosed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotEnclosed {
     /// Some machine has a singularity, or a point out of reach, in the workspace.
+    #[error("none: a singularity, or out of reach, inside")]
     Singular,
     /// Neither a proof nor a refutation was found within the budget.
+    #[error("not enclosed within the budget")]
     Undecided,
     /// It was cancelled.
+    #[error("cancelled")]
     Cancelled,
     /// The claim is not well formed.
-    Claim(ClaimError),
-}
-
-impl std::fmt::Display for NotEnclosed {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NotEnclosed::Singular => f.write_str("none: a singularity, or out of reach, inside"),
-            NotEnclosed::Undecided => f.write_str("not enclosed within the budget"),
-            NotEnclosed::Cancelled => f.write_str("cancelled"),
-            NotEnclosed::Claim(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for NotEnclosed {}
-
-impl From<ClaimError> for NotEnclosed {
-    fn from(error: ClaimError) -> Self {
-        NotEnclosed::Claim(error)
-    }
+    #[error(transparent)]
+    Claim(#[from] ClaimError),
 }
 
 impl Extreme {

@@ -19,7 +19,6 @@ use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
-use std::fmt;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -49,25 +48,16 @@ impl Bracket {
 }
 
 /// Why there is no answer at all.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoAnswer {
     /// It was cancelled.
+    #[error("cancelled")]
     Cancelled,
     /// The question does not fit the claim: a sentence that says what was found.
+    #[error("{0}")]
     Claim(String),
 }
-
-impl fmt::Display for NoAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoAnswer::Cancelled => write!(f, "cancelled"),
-            NoAnswer::Claim(found) => write!(f, "{found}"),
-        }
-    }
-}
-
-impl std::error::Error for NoAnswer {}
 
 impl From<ClaimError> for NoAnswer {
     fn from(error: ClaimError) -> Self {

@@ -3,11 +3,10 @@
 //! After a change that is meant to change them:
 //!
 //! ```text
-//! ORTHOCERT_BLESS=1 cargo test --release --test certificates
+//! ORTHOCERT_BLESS=1 cargo test --release --test integration certificates
 //! ```
 
-mod schema;
-
+use crate::schema;
 use orthocert::atlas::{assemble, certify, grow, Growing};
 use orthocert::design::{AtlasDesign, Design};
 use orthocert::largest_cube::exclude;

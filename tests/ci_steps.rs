@@ -1,6 +1,5 @@
 //! What is offered to continuous integration runs as it is written: the shell steps of `action.yml`,
 //! the entries of `.pre-commit-hooks.yaml`, and the README's GitLab job and signing commands.
-#![cfg(unix)]
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,8 +1,7 @@
 //! The gallery: every design of tests/designs and every template gives the verdict that its first
 //! lines state, with a certificate that the checker accepts when it is read back.
 
-mod schema;
-
+use crate::schema;
 use orthocert::design::{Design, TEMPLATES};
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::verify::{verify, Answer, Verification};

@@ -1,6 +1,6 @@
 //! How many leaves near-tight bounds take: bounds 1 %, 0.1 % and 0.01 % beyond the true extremes of
 //! `psi_i`, found by dense sampling and local search. Prints the table of benches/runs:
-//! `cargo test --release --test leaves -- --nocapture`.
+//! `cargo test --release --test integration leaves -- --nocapture`.
 
 use orthocert::design::Design;
 use orthocert::sample::{Place, Sampler};

@@ -2,11 +2,12 @@
 //! to their reasons: a text that is not of the format's shape fails the schema too, but for what no
 //! schema can say.
 
-mod schema;
+#[path = "../proofs/checker/tests/rejected/broken.rs"]
+mod broken;
 
+use crate::schema;
+use broken::Broken;
 use orthocert_checker::{read, Rejected};
-use std::fs;
-use std::path::Path;
 
 /// Beginnings of the names of files of the right shape that are refused when they are read.
 const BEYOND_A_SCHEMA: [&str; 12] = [
@@ -30,12 +31,8 @@ const BEYOND_A_SCHEMA: [&str; 12] = [
 
 #[test]
 fn what_is_not_of_the_shape_fails_the_schema_or_is_beyond_it() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/rejected");
     let (mut failing, mut beyond) = (0, 0);
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        let bytes = fs::read(&path).unwrap();
+    for Broken { name, bytes, .. } in broken::all() {
         let Ok(value) = serde_json::from_slice(&bytes) else { continue };
         if !matches!(read(&bytes), Err(Rejected::Syntax(_) | Rejected::Format(_))) {
             continue;

@@ -7,29 +7,20 @@ use orthocert_checker::certificate::{AtlasCell, MAX_BYTES, MAX_CELLS, MAX_NODES}
 use orthocert_checker::claim::AtlasClaim;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why a tree was not grown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stopped {
     /// It was cancelled.
+    #[error("interrupted")]
     Cancelled,
     /// Its cells would not fit into a certificate.
+    #[error(
+        "the map has more cells or longer proofs than a certificate holds ({MAX_CELLS} cells, \
+         {MAX_NODES} boxes, {MAX_BYTES} bytes); accepted: a lower atlas.resolution"
+    )]
     TooLarge,
-}
-
-impl fmt::Display for Stopped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Stopped::Cancelled => write!(f, "interrupted"),
-            Stopped::TooLarge => write!(
-                f,
-                "the map has more cells or longer proofs than a certificate holds ({MAX_CELLS} \
-                 cells, {MAX_NODES} boxes, {MAX_BYTES} bytes); accepted: a lower atlas.resolution"
-            ),
-        }
-    }
 }
 
 /// What a certificate has room for.

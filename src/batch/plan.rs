@@ -3,7 +3,6 @@
 use crate::output::{folder_of, follows_links};
 use orthocert_checker::shown::Named;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -20,56 +19,32 @@ pub struct Planned {
 }
 
 /// Why there is no plan; nothing was touched.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// A folder without designs.
+    #[error(
+        "{}: found a folder without designs; accepted: a folder with *.toml files, at any depth \
+         (what is hidden is skipped)",
+        .0.shown()
+    )]
     NoDesigns(PathBuf),
     /// A folder that cannot be read.
-    Unreadable(PathBuf, io::Error),
+    #[error("{path}: cannot be read: {1}; accepted: a folder", path = .0.shown())]
+    Unreadable(PathBuf, #[source] io::Error),
     /// Two designs with the same certificate path.
+    #[error(
+        "found {} and {}, which both have the certificate {}; accepted: designs of different names, \
+         or their common folder as the argument",
+        .0.0.design.shown(), .0.1.design.shown(), .0.0.certificate.shown()
+    )]
     Clash(Box<(Planned, Planned)>),
     /// A design whose certificate would be written over a design.
+    #[error(
+        "{}: its certificate {} is a design of this batch; accepted: another name",
+        .0.design.shown(), .0.certificate.shown()
+    )]
     OverDesign(Planned),
-}
-
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PlanError::NoDesigns(folder) => write!(
-                f,
-                "{}: found a folder without designs; accepted: a folder with *.toml files, at any \
-                 depth (what is hidden is skipped)",
-                folder.shown()
-            ),
-            PlanError::Unreadable(folder, error) => {
-                write!(f, "{}: cannot be read: {error}; accepted: a folder", folder.shown())
-            }
-            PlanError::Clash(pair) => write!(
-                f,
-                "found {} and {}, which both have the certificate {}; accepted: designs of \
-                 different names, or their common folder as the argument",
-                pair.0.design.shown(),
-                pair.1.design.shown(),
-                pair.0.certificate.shown()
-            ),
-            PlanError::OverDesign(planned) => write!(
-                f,
-                "{}: its certificate {} is a design of this batch; accepted: another name",
-                planned.design.shown(),
-                planned.certificate.shown()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for PlanError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            PlanError::Unreadable(_, error) => Some(error),
-            _ => None,
-        }
-    }
 }
 
 /// The designs of `arguments`, each once, in the order of the arguments and sorted within each

@@ -4,10 +4,10 @@ use super::input::{self, Begun};
 use super::{interrupt, print, Failure, Format, Status};
 use orthocert::decimal::grouped;
 use orthocert::digest::sha256;
+use orthocert::output;
 use orthocert::page::paving::{PavingPage, DEPTH};
-use orthocert::page::{raster::Fonts, File, Page, Picture};
+use orthocert::page::{File, Page, Picture};
 use orthocert::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
-use orthocert::{output, page};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
@@ -33,13 +33,6 @@ pub struct Arguments {
     /// Also write every figure as an SVG file into this folder, which is made if it is not there
     #[arg(long, value_name = "FOLDER")]
     svg: Option<PathBuf>,
-    /// Also write every figure as a PNG file into this folder, which is made if it is not there
-    #[arg(long, value_name = "FOLDER")]
-    png: Option<PathBuf>,
-    /// The font for PNG files [default: DejaVu Sans, Liberation Sans, Noto Sans or Arial, where the
-    /// system has one]
-    #[arg(long, value_name = "FILE.ttf", requires = "png")]
-    font: Option<PathBuf>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -87,8 +80,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let begun = Begun::new(path)?;
     let target = arguments.target()?;
     output::probe(&target)?;
-    let fonts = arguments.png.as_ref().map(|_| Fonts::find(arguments.font.as_deref()));
-    let fonts = fonts.transpose().map_err(Failure::input)?;
     if is_paving(&begun.start) {
         let mut bytes = Vec::new();
         begun.whole().take(MAX_PAVING + 1).read_to_end(&mut bytes).map_err(|error| {
@@ -98,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             let path = path.shown();
             return Err(Failure::Input(format!("{path}: cannot be reported on: more than 1 GiB")));
         }
-        return of_paving(arguments, &bytes, &target, fonts.as_ref());
+        return of_paving(arguments, &bytes, &target);
     }
     let bytes = begun.start;
     let checked = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
@@ -110,7 +101,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let file = File { name: &name, bytes: &bytes };
     let page = Page::new(&certificate, &accepted, file, arguments.title.as_deref());
     let pictures: Vec<&Picture> = page.pictures().collect();
-    let files = arguments.write(&target, &page.html(), &pictures, fonts.as_ref())?;
+    let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;
     match arguments.format {
         Format::Json => print::json(&Answer::Written {
@@ -132,12 +123,7 @@ fn listed(verdict: &str, files: &[Written]) -> String {
     text
 }
 
-fn of_paving(
-    arguments: &Arguments,
-    bytes: &[u8],
-    target: &Path,
-    fonts: Option<&Fonts>,
-) -> Result<Status, Failure> {
+fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Status, Failure> {
     let (accepted, tree, components) = match examined(bytes) {
         Ok(examined) => examined,
         Err(SurfaceError::Cancelled) => return Err(Failure::Interrupted),
@@ -153,7 +139,7 @@ fn of_paving(
         Failure::Input(format!("{path}: the box's ends are beyond what floating point can show"))
     })?;
     let pictures: Vec<&Picture> = page.pictures().collect();
-    let files = arguments.write(target, &page.html(), &pictures, fonts)?;
+    let files = arguments.write(target, &page.html(), &pictures)?;
     match arguments.format {
         Format::Json => print::json(&Answer::Paving {
             accepted: true,
@@ -201,7 +187,6 @@ impl Arguments {
         target: &Path,
         html: &str,
         pictures: &[&Picture],
-        fonts: Option<&Fonts>,
     ) -> Result<Vec<Written>, Failure> {
         let mut files = Vec::new();
         let mut write = |folder: Option<&Path>, path: &Path, bytes: &[u8]| -> Result<(), Failure> {
@@ -218,12 +203,6 @@ impl Arguments {
             for picture in pictures {
                 let path = folder.join(format!("{}.svg", picture.name));
                 write(Some(folder), &path, picture.file().as_bytes())?;
-            }
-        }
-        if let (Some(folder), Some(fonts)) = (&self.png, fonts) {
-            for picture in pictures {
-                let png = page::raster::png(picture, fonts).map_err(Failure::Output)?;
-                write(Some(folder), &folder.join(format!("{}.png", picture.name)), &png)?;
             }
         }
         Ok(files)

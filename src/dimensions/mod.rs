@@ -16,7 +16,6 @@ use orthocert_checker::fixed::Fixed;
 use orthocert_checker::model::CubeConstants;
 use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
-use std::fmt;
 
 /// Fractional bits tried, fewest first.
 const PRECISIONS: [u32; 7] = [256, 512, 1024, 2048, 4096, 8192, 16384];
@@ -49,34 +48,19 @@ pub struct Dimension {
 }
 
 /// Why there is no machine, or none that can be enclosed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DimensionError {
     /// `psi_max` is not provably greater than 1.
+    #[error("psi_max is not (provably) greater than 1; accepted: a number greater than 1")]
     PsiMaxNotAboveOne,
     /// The side of the cube is not provably positive.
+    #[error("the side of the cube is not (provably) positive; accepted: a number greater than 0")]
     CubeNotPositive,
     /// The numbers are too large, or too close to a limit, to be enclosed.
+    #[error("the numbers are too large, or too close to their limits, to be enclosed")]
     Precision,
 }
-
-impl fmt::Display for DimensionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            DimensionError::PsiMaxNotAboveOne => {
-                "psi_max is not (provably) greater than 1; accepted: a number greater than 1"
-            }
-            DimensionError::CubeNotPositive => {
-                "the side of the cube is not (provably) positive; accepted: a number greater than 0"
-            }
-            DimensionError::Precision => {
-                "the numbers are too large, or too close to their limits, to be enclosed"
-            }
-        })
-    }
-}
-
-impl std::error::Error for DimensionError {}
 
 impl From<ClaimError> for DimensionError {
     fn from(_: ClaimError) -> Self {

@@ -6,7 +6,6 @@
 mod hyperqueue;
 mod slurm;
 
-use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -47,10 +46,11 @@ pub enum Engine {
 }
 
 /// Why nothing was submitted.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EngineError {
     /// The command is not there.
+    #[error("nothing was submitted: {command} is not installed here; {help}")]
     NotInstalled {
         /// What was looked for.
         command: &'static str,
@@ -58,28 +58,12 @@ pub enum EngineError {
         help: &'static str,
     },
     /// The command could not be started.
+    #[error("nothing was submitted: {0} cannot be started: {1}")]
     Start(&'static str, io::Error),
     /// The engine does not answer, or refused; its last words.
+    #[error("nothing was submitted: {0} says: {1}")]
     Refused(&'static str, String),
 }
-
-impl fmt::Display for EngineError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            EngineError::NotInstalled { command, help } => {
-                write!(f, "nothing was submitted: {command} is not installed here; {help}")
-            }
-            EngineError::Start(command, error) => {
-                write!(f, "nothing was submitted: {command} cannot be started: {error}")
-            }
-            EngineError::Refused(command, words) => {
-                write!(f, "nothing was submitted: {command} says: {words}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for EngineError {}
 
 /// A script of an engine: its name in the folder `engine`, and its text.
 pub type Script = (&'static str, String);

@@ -13,68 +13,47 @@ use orthocert_checker::claim::{
     Claim, Leg, MachineClaim, Mechanism, Quantity, Requirements, Sign, Workspace,
 };
 use orthocert_checker::number::Exact;
-use std::fmt::{self, Write};
+use std::fmt::Write;
 use std::slice::Iter;
 
 mod postulate;
 
+/// What is exported.
+const ONLY: &str = "only certified claims about slider legs, a box and transmission are exported";
+
 /// Why a certificate is not exported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// It refutes.
+    #[error("the certificate refutes its claim; {ONLY}")]
     Refutes,
     /// It proves the postulate by a tree over the cube of one `psi_max`.
+    #[error(
+        "it proves the Q1/Q2 postulate for one psi_max alone; certificates for a range or for all \
+         psi_max are exported, which contain it: orthocert postulate --psi-range A..B with A less \
+         than B, or --all"
+    )]
     OneCube,
     /// It is about cubes that do not fit.
+    #[error("the claim is that no cube fits; {ONLY}")]
     NoCube,
     /// Not all legs are of fixed length on linear guides.
+    #[error("a leg is not of fixed length on a linear guide; {ONLY}")]
     NotSliders,
     /// The workspace is not a box.
+    #[error("the workspace is not a box; {ONLY}")]
     NotABox,
     /// There are requirements other than those on transmission, or none on transmission.
+    #[error("the claim asks for something else than bounds on transmission; {ONLY}")]
     NotTransmission,
     /// The tree uses this rule.
+    #[error("the proof uses the rule \"{0}\", which the formal checker lacks; {ONLY}")]
     Rule(&'static str),
     /// The nodes are not those of one tree over x, y and z, or of the trees of the faces.
+    #[error("the nodes are not those of the trees that the claim needs")]
     NotATree,
 }
-
-impl fmt::Display for ExportError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let and_only =
-            "only certified claims about slider legs, a box and transmission are exported";
-        match self {
-            ExportError::Refutes => write!(f, "the certificate refutes its claim; {and_only}"),
-            ExportError::OneCube => write!(
-                f,
-                "it proves the Q1/Q2 postulate for one psi_max alone; certificates for a range or \
-                 for all psi_max are exported, which contain it: orthocert postulate --psi-range \
-                 A..B with A less than B, or --all"
-            ),
-            ExportError::NoCube => write!(f, "the claim is that no cube fits; {and_only}"),
-            ExportError::NotSliders => {
-                write!(f, "a leg is not of fixed length on a linear guide; {and_only}")
-            }
-            ExportError::NotABox => write!(f, "the workspace is not a box; {and_only}"),
-            ExportError::NotTransmission => write!(
-                f,
-                "the claim asks for something else than bounds on transmission; {and_only}"
-            ),
-            ExportError::Rule(name) => {
-                write!(
-                    f,
-                    "the proof uses the rule \"{name}\", which the formal checker lacks; {and_only}"
-                )
-            }
-            ExportError::NotATree => {
-                write!(f, "the nodes are not those of the trees that the claim needs")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ExportError {}
 
 /// The text of a Rocq file that states the certificate's claim and proves it by the certificate.
 /// Whether the proof is right, Rocq decides.

@@ -6,8 +6,8 @@
 //! | cells    | quadrilaterals (VTK type 9), then triangles (5), counterclockwise seen from without |
 //! | `beyond` | what a face separates the inner part from: 0 outer boxes, 1 boxes some of which are undecided, 2 what is outside the box that is paved |
 
-use crate::digest::push_base64;
 use crate::paving::{Beyond, Surface, SurfaceError};
+use data_encoding::BASE64;
 
 /// VTK's number for quadrilaterals.
 const QUAD: u8 = 9;
@@ -63,6 +63,6 @@ fn array(text: &mut String, attributes: &str, bytes: impl Iterator<Item = u8>) {
     text.push_str(&format!("<DataArray {attributes} format=\"binary\">\n"));
     let mut all = (bytes.len() as u64).to_le_bytes().to_vec();
     all.extend(bytes);
-    push_base64(&all, text);
+    BASE64.encode_append(&all, text);
     text.push_str("\n</DataArray>\n");
 }

@@ -14,7 +14,6 @@
 //! | `evidence`      | margins, the counterexample, where the proof worked hardest    |
 //! | `recheck`       | how to check again, and the digests                            |
 //! | `svg`           | views of space and parts of figures                            |
-//! | [`raster`]      | figures as PNG                                                 |
 //! | [`paving`]      | the page of a paving                                           |
 //!
 //! `page.html`, `page.css`, `figure.css` and `script/` are the page's frame, its style, and what it
@@ -26,7 +25,6 @@ mod evidence;
 mod isomap;
 mod nominal;
 pub mod paving;
-pub mod raster;
 mod recheck;
 mod scene;
 mod sections;

@@ -67,21 +67,14 @@ pub struct Finding {
 }
 
 /// Why a finding could not be established in this run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{id}: {reason}")]
 pub struct NotEstablished {
     /// The finding.
     pub id: &'static str,
     /// What failed.
     pub reason: String,
 }
-
-impl std::fmt::Display for NotEstablished {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: {}", self.id, self.reason)
-    }
-}
-
-impl std::error::Error for NotEstablished {}
 
 /// Every finding, in the order of the paper.
 ///

@@ -12,7 +12,6 @@ use orthocert_checker::paving::{
 };
 use orthocert_checker::shown::Named;
 use sha2::{Digest, Sha256};
-use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -26,53 +25,37 @@ pub(super) const WINDOW: usize = 128;
 pub const DEEPEST: u32 = 90;
 
 /// Why there is no paving.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PaveError {
     /// It was cancelled; what is written can be taken up again.
+    #[error("interrupted")]
     Cancelled,
     /// The claim cannot be paved.
+    #[error("{0}")]
     Claim(Rejected),
     /// There is nothing to take up again, or it is of another paving.
+    #[error("{path}: cannot be taken up again: {1}", path = .0.shown())]
     Resume(PathBuf, String),
     /// The unfinished file cannot be had.
+    #[error(transparent)]
     Output(OutputError),
     /// A file cannot be written or read.
+    #[error("{path}: {1}", path = .0.shown())]
     Io(PathBuf, io::Error),
     /// The checker does not accept what was written.
+    #[error("the checker does not accept the paving: {0}")]
     Defect(Rejected),
     /// What was written is not what is there.
+    #[error(
+        "{}: was changed by another program while it was written; nothing is said of it",
+        .0.shown()
+    )]
     Changed(PathBuf),
     /// A box is left undecided at this depth, above that of the paving.
+    #[error("a box is left undecided after {0} splits, fewer than were asked for")]
     Coarse(u32),
 }
-
-impl fmt::Display for PaveError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PaveError::Cancelled => write!(f, "interrupted"),
-            PaveError::Claim(reason) => write!(f, "{reason}"),
-            PaveError::Resume(path, reason) => {
-                write!(f, "{}: cannot be taken up again: {reason}", path.shown())
-            }
-            PaveError::Output(error) => write!(f, "{error}"),
-            PaveError::Io(path, error) => write!(f, "{}: {error}", path.shown()),
-            PaveError::Defect(reason) => {
-                write!(f, "the checker does not accept the paving: {reason}")
-            }
-            PaveError::Changed(path) => write!(
-                f,
-                "{}: was changed by another program while it was written; nothing is said of it",
-                path.shown()
-            ),
-            PaveError::Coarse(depth) => {
-                write!(f, "a box is left undecided after {depth} splits, fewer than were asked for")
-            }
-        }
-    }
-}
-
-impl std::error::Error for PaveError {}
 
 impl From<Cancelled> for PaveError {
     fn from(_: Cancelled) -> Self {

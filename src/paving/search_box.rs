@@ -7,33 +7,18 @@ use orthocert_checker::model::CubeConstants;
 use orthocert_checker::number::{Exact, NumberErrorKind};
 use std::array::from_fn;
 use std::cmp::Ordering;
-use std::fmt;
 
 /// Why a claim has no such box.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SearchBoxError {
     /// On this axis the lower end is not provably less than the upper one.
-    Empty(usize),
+    #[error("along {0} the first number is not less than the second")]
+    Empty(&'static str),
     /// The machine's numbers cannot be made explicit.
+    #[error("the machine of the cube cannot be written out: {0}")]
     Machine(ClaimError),
 }
-
-impl fmt::Display for SearchBoxError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SearchBoxError::Empty(axis) => {
-                let name = ["x", "y", "z"].get(*axis).unwrap_or(&"an axis");
-                write!(f, "along {name} the first number is not less than the second")
-            }
-            SearchBoxError::Machine(error) => {
-                write!(f, "the machine of the cube cannot be written out: {error}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for SearchBoxError {}
 
 /// The same machine and requirements, over the box `[min, max]`.
 ///
@@ -51,7 +36,7 @@ pub fn in_box(
     max: [Exact; 3],
 ) -> Result<MachineClaim, SearchBoxError> {
     let less = |k: &usize| min[*k].compare(&max[*k]) == Some(Ordering::Less);
-    if let Some(axis) = (0..3).find(|k| !less(k)) {
+    if let Some((_, axis)) = (0..3).zip(["x", "y", "z"]).find(|(k, _)| !less(k)) {
         return Err(SearchBoxError::Empty(axis));
     }
     let mut claim = match (&claim.mechanism, &claim.workspace) {

@@ -17,7 +17,6 @@ mod wall;
 use orthocert_checker::claim::Workspace;
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Header, Reader, Rejected};
-use std::fmt;
 use std::io::BufRead;
 use std::sync::atomic::AtomicBool;
 
@@ -59,50 +58,31 @@ pub struct Surface {
 }
 
 /// Why there is no surface.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
     /// The paving is malformed.
-    Rejected(Rejected),
+    #[error("REJECTED: {0}")]
+    Rejected(#[from] Rejected),
     /// No cell is inner.
+    #[error("no box is inner: there is no surface")]
     Empty,
     /// There would be too many rectangles, or nodes.
+    #[error(
+        "the surface is too fine; accepted: at most {} rectangles, of at most {} boxes that are split",
+        wall::MOST_WALLS, tree::MOST_NODES
+    )]
     TooFine,
     /// The box's ends are beyond floating point, or corners would coincide there.
+    #[error(
+        "corners that differ would have the same coordinates; accepted: coordinates that the file's \
+         numbers tell apart"
+    )]
     TooClose,
     /// The work was cancelled.
+    #[error("cancelled")]
     Cancelled,
 }
-
-impl From<Rejected> for SurfaceError {
-    fn from(reason: Rejected) -> Self {
-        SurfaceError::Rejected(reason)
-    }
-}
-
-impl fmt::Display for SurfaceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SurfaceError::Rejected(reason) => write!(f, "REJECTED: {reason}"),
-            SurfaceError::Empty => write!(f, "no box is inner: there is no surface"),
-            SurfaceError::TooFine => write!(
-                f,
-                "the surface is too fine; accepted: at most {} rectangles, of at most {} boxes \
-                 that are split",
-                wall::MOST_WALLS,
-                tree::MOST_NODES
-            ),
-            SurfaceError::TooClose => write!(
-                f,
-                "corners that differ would have the same coordinates; accepted: coordinates that \
-                 the file's numbers tell apart"
-            ),
-            SurfaceError::Cancelled => write!(f, "cancelled"),
-        }
-    }
-}
-
-impl std::error::Error for SurfaceError {}
 
 /// Reads a paving to its end and finds the surface of its inner part.
 ///

@@ -10,7 +10,6 @@ use orthocert_checker::rule::Obligation;
 use orthocert_checker::shown::{Named, Shown};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// Most shards of a job.
@@ -215,36 +214,19 @@ impl ShardResult {
 }
 
 /// Why a file is of no use.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
     /// The operating system's reason.
+    #[error("{path}: cannot be read: {1}", path = .0.shown())]
     Unreadable(PathBuf, std::io::Error),
     /// Not a file of the kind, or not of this version; why.
+    #[error("{path}: found {why}; accepted: {1}", path = .0.shown(), why = Shown(.2))]
     Malformed(PathBuf, &'static str, String),
     /// What the file calls its job is not its task's identity.
+    #[error("{}: was altered: its task is not the one that its \"job\" identifies", .0.shown())]
     Altered(PathBuf),
 }
-
-impl fmt::Display for FileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FileError::Unreadable(path, error) => {
-                write!(f, "{}: cannot be read: {error}", path.shown())
-            }
-            FileError::Malformed(path, kind, why) => {
-                write!(f, "{}: found {}; accepted: {kind}", path.shown(), Shown(why))
-            }
-            FileError::Altered(path) => write!(
-                f,
-                "{}: was altered: its task is not the one that its \"job\" identifies",
-                path.shown()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for FileError {}
 
 /// The lower-case hexadecimal SHA-256 of a text.
 pub fn sha256(text: &str) -> String {

@@ -9,9 +9,9 @@ use super::name::{name_of, Name};
 use super::run::RunError;
 use super::split::SplitError;
 use super::task::Pave;
-use crate::digest::{from_hexadecimal, hexadecimal};
 use crate::output::{self, OutputError};
 use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
+use data_encoding::HEXLOWER;
 use orthocert_checker::cell::Cell;
 use orthocert_checker::file;
 use orthocert_checker::rule::Obligation;
@@ -39,7 +39,7 @@ pub(super) fn top(
     let mut top = Vec::new();
     for segment in segments {
         top.push(match segment {
-            Segment::Known(bytes) => Stretch::Nodes(hexadecimal(&bytes)),
+            Segment::Known(bytes) => Stretch::Nodes(HEXLOWER.encode(&bytes)),
             Segment::Subtree(root) => {
                 // No axis of a paving is split more often than files can tell.
                 places.extend(Place::of(&root.cell, parts.open(&root)));
@@ -69,7 +69,7 @@ pub(super) fn grown(
         file.write_all(stretch).map_err(io)
     })?;
     file.sync_data().map_err(io)?;
-    Ok(Nodes { bytes, sha256: hexadecimal(&sum.finalize()) })
+    Ok(Nodes { bytes, sha256: HEXLOWER.encode(&sum.finalize()) })
 }
 
 /// The file, as it is if it is there.
@@ -122,7 +122,7 @@ fn follow(file: &mut File, nodes: &Nodes) -> bool {
             Ok(())
         },
     );
-    read.is_ok() && hexadecimal(&sum.finalize()) == nodes.sha256
+    read.is_ok() && HEXLOWER.encode(&sum.finalize()) == nodes.sha256
 }
 
 /// Reads so many bytes and hands them on; what cannot be read, or is not there, `unread` explains.
@@ -174,7 +174,7 @@ impl Stretches {
             Some(held)
         };
         let held = top.iter().map(|stretch| match stretch {
-            Stretch::Nodes(text) => from_hexadecimal(text).map(Held::InHand),
+            Stretch::Nodes(text) => HEXLOWER.decode(text.as_bytes()).ok().map(Held::InHand),
             Stretch::Waiting => next(),
         });
         let held = held.collect::<Option<_>>()?;

@@ -17,7 +17,6 @@ use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
 use orthocert_checker::shown::Named;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -47,41 +46,24 @@ pub enum Ran {
 }
 
 /// Why a shard was not finished.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
     /// A file could not be read.
+    #[error(transparent)]
     File(FileError),
     /// A file could not be written: what is done stays.
-    Output(OutputError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
     /// The place of the result holds that of another job.
+    #[error("{}: is the result of a shard of another job", .0.shown())]
     OtherJob(PathBuf),
     /// The claim has no model, or what is found is too large.
+    #[error("{0}")]
     Claim(String),
     /// It was cancelled.
+    #[error("interrupted")]
     Interrupted,
-}
-
-impl fmt::Display for RunError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            RunError::File(error) => error.fmt(f),
-            RunError::Output(error) => error.fmt(f),
-            RunError::OtherJob(path) => {
-                write!(f, "{}: is the result of a shard of another job", path.shown())
-            }
-            RunError::Claim(why) => f.write_str(why),
-            RunError::Interrupted => write!(f, "interrupted"),
-        }
-    }
-}
-
-impl std::error::Error for RunError {}
-
-impl From<OutputError> for RunError {
-    fn from(error: OutputError) -> Self {
-        RunError::Output(error)
-    }
 }
 
 impl From<Cancelled> for RunError {

@@ -9,7 +9,6 @@ use crate::search::{Control, Stop};
 use crate::verify;
 use orthocert_checker::cell::Cell;
 use orthocert_checker::claim::ClaimError;
-use std::fmt;
 use std::sync::atomic::AtomicBool;
 
 /// Cells that a shard has at least, where the tree has as many: dealt out in turn, so that costly
@@ -17,44 +16,31 @@ use std::sync::atomic::AtomicBool;
 const CELLS_A_SHARD: usize = 4;
 
 /// Why there is nothing to be dealt out.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SplitError {
     /// It was cancelled.
+    #[error("interrupted")]
     Interrupted,
     /// The claim is not well formed.
+    #[error(transparent)]
     Claim(ClaimError),
     /// The design is refuted by a single point.
+    #[error(
+        "the design is refuted by a single point, so that there is nothing to be shared out; \
+         orthocert verify writes the certificate"
+    )]
     Refuted,
     /// The map would not fit into a certificate.
+    #[error("{}", Stopped::TooLarge)]
     TooLarge,
     /// The design's box cannot be paved.
+    #[error("{0}")]
     Paving(String),
     /// A box near the top cannot be closed by splitting it.
+    #[error("a box near the top of the tree cannot be closed; orthocert verify says why")]
     Hopeless,
 }
-
-impl fmt::Display for SplitError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SplitError::Interrupted => write!(f, "interrupted"),
-            SplitError::Claim(error) => error.fmt(f),
-            SplitError::Refuted => write!(
-                f,
-                "the design is refuted by a single point, so that there is nothing to be shared \
-                 out; orthocert verify writes the certificate"
-            ),
-            SplitError::Paving(reason) => f.write_str(reason),
-            SplitError::TooLarge => Stopped::TooLarge.fmt(f),
-            SplitError::Hopeless => write!(
-                f,
-                "a box near the top of the tree cannot be closed; orthocert verify says why"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for SplitError {}
 
 /// The job and the texts of its shards, in order.
 ///

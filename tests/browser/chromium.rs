@@ -1,5 +1,6 @@
 //! Headless Chromium, driven by its DevTools protocol over a pair of pipes.
 
+use data_encoding::BASE64;
 use serde_json::{json, Value};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Write};
@@ -206,13 +207,29 @@ impl Browser {
     /// The whole page as a PNG file.
     pub fn screenshot(&mut self) -> Vec<u8> {
         let params = json!({ "format": "png", "captureBeyondViewport": true });
-        decoded(self.call("Page.captureScreenshot", params)["data"].as_str().unwrap())
+        bytes(&self.call("Page.captureScreenshot", params)["data"])
+    }
+
+    /// How many colours a picture has, of 4096.
+    pub fn shades(&mut self, png: &[u8]) -> u64 {
+        let pixels = pixels(png);
+        let coarse = "new Set(pixels.map((c) => c & 0xf0f0f0)).size";
+        let found = self.evaluate(&format!("{pixels}.then((pixels) => {coarse})"));
+        found.as_u64().unwrap()
+    }
+
+    /// The part of two pictures' pixels that differ.
+    pub fn differ(&mut self, one: &[u8], other: &[u8]) -> f64 {
+        let (one, other) = (pixels(one), pixels(other));
+        let part = "one.filter((c, i) => c !== other[i]).length / one.length";
+        let both = format!("Promise.all([{one}, {other}])");
+        self.evaluate(&format!("{both}.then(([one, other]) => {part})")).as_f64().unwrap()
     }
 
     /// The page as it is printed on A4.
     pub fn pdf(&mut self) -> Vec<u8> {
         let params = json!({ "preferCSSPageSize": true, "printBackground": true });
-        decoded(self.call("Page.printToPDF", params)["data"].as_str().unwrap())
+        bytes(&self.call("Page.printToPDF", params)["data"])
     }
 
     /// What the console and the log say since the page was opened, and what was asked of a network.
@@ -248,24 +265,22 @@ impl Drop for Browser {
     }
 }
 
-/// Base64, as the protocol carries files.
-fn decoded(text: &str) -> Vec<u8> {
-    let (mut out, mut bits, mut have) = (Vec::with_capacity(text.len() * 3 / 4), 0u32, 0);
-    for c in text.bytes() {
-        let sextet = match c {
-            b'A'..=b'Z' => c - b'A',
-            b'a'..=b'z' => c - b'a' + 26,
-            b'0'..=b'9' => c - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => continue,
-        };
-        bits = bits << 6 | u32::from(sextet);
-        have += 6;
-        if have >= 8 {
-            have -= 8;
-            out.push((bits >> have & 255) as u8);
-        }
-    }
-    out
+/// A file, as the protocol carries it.
+fn bytes(data: &Value) -> Vec<u8> {
+    BASE64.decode(data.as_str().unwrap().as_bytes()).unwrap()
+}
+
+/// An expression for the pixels of a PNG file.
+fn pixels(png: &[u8]) -> String {
+    let text = BASE64.encode(png);
+    format!(
+        "(async () => {{ \
+         const bytes = Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0)); \
+         const map = await createImageBitmap(new Blob([bytes], {{ type: 'image/png' }})); \
+         const canvas = new OffscreenCanvas(map.width, map.height); \
+         const context = canvas.getContext('2d', {{ willReadFrequently: true }}); \
+         context.drawImage(map, 0, 0); \
+         const {{ data }} = context.getImageData(0, 0, map.width, map.height); \
+         return new Uint32Array(data.buffer); }})()"
+    )
 }

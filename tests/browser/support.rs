@@ -4,9 +4,7 @@ use orthocert::design::Design;
 use orthocert::sample::{Place, Quality, Sampler};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
-use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -134,22 +132,4 @@ pub fn kept(name: &str, kind: &str, bytes: &[u8]) {
     fs::create_dir_all(&folder).unwrap();
     let file = if kind == "pdf" { format!("{name}.pdf") } else { format!("{name}.{kind}.png") };
     fs::write(folder.join(file), bytes).unwrap();
-}
-
-fn pixels(png: &[u8]) -> Pixmap {
-    Pixmap::decode_png(png).unwrap()
-}
-
-/// How many colours a picture has, of 4096.
-pub fn shades(png: &[u8]) -> usize {
-    let coarse = |c: &[u8]| (c[0] >> 4, c[1] >> 4, c[2] >> 4);
-    pixels(png).data().chunks(4).map(coarse).collect::<BTreeSet<_>>().len()
-}
-
-/// The part of two pictures' pixels that differ.
-pub fn differ(one: &[u8], other: &[u8]) -> f64 {
-    let (one, other) = (pixels(one), pixels(other));
-    let pairs = one.data().chunks(4).zip(other.data().chunks(4));
-    let different = pairs.filter(|(a, b)| a != b).count();
-    different as f64 / (one.data().len() / 4) as f64
 }

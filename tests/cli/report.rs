@@ -59,9 +59,6 @@ fn what_cannot_be_read_or_written_is_said() {
     folder.write("plain", "");
     let run = folder.run(&["report", &file, "--svg", "plain"]).exits(4);
     run.complains(&["plain: cannot be written: no folder"]);
-    let run = folder.run(&["report", &file, "--png", "png", "--font", "plain"]).exits(2);
-    run.complains(&["--font: plain is not a TrueType or OpenType font"]);
-    folder.run(&["report", &file, "--font", "plain"]).exits(2);
 }
 
 #[test]
@@ -82,21 +79,6 @@ fn figures_are_written_as_svg() {
         let svg = String::from_utf8(folder.read(&path)).unwrap();
         assert!(svg.starts_with("<?xml") && svg.contains("<title>"), "{path}");
     }
-}
-
-/// A system without a known font is told what to do; one with a font gets pictures.
-#[test]
-fn figures_are_written_as_png_where_there_is_a_font() {
-    let folder = Folder::new();
-    let file = committed(&folder, "orthoglide-prototype");
-    let run = folder.run(&["report", &file, "--png", "png"]);
-    if run.code == Some(2) {
-        run.complains(&["--png: the text needs a font", "--font FILE.ttf", "--svg"]);
-        return;
-    }
-    run.exits(0).says(&["png/psi-3.png"]);
-    let png = folder.read("png/psi-3.png");
-    assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000);
 }
 
 /// The volume of the inner leaves of a page's tree, in parts of the box.

@@ -8,9 +8,9 @@
 //!
 //! Bounds a relative 1e-6 either side of the truth must give the right verdict.
 
-use crate::machines::{exact, orthoglide};
-use crate::random::Random;
-use crate::{verdict, verified};
+use super::machines::{exact, orthoglide};
+use super::random::Random;
+use super::{verdict, verified};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{MachineClaim, Range};
 use orthocert_checker::number::Exact;

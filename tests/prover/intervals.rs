@@ -1,7 +1,7 @@
 //! Intervals of doubles: the oracle's values and exact values inside every enclosure.
 
-use crate::machines::{self, random_cell, random_lambda, reference, within_cell, REFERENCE_BITS};
-use crate::random::Random;
+use super::machines::{self, random_cell, random_lambda, reference, within_cell, REFERENCE_BITS};
+use super::random::Random;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert::interval::Interval;

@@ -1,8 +1,8 @@
 //! Altered certificates: each is rejected, or what it says is still true.
 
-use crate::machines::{self, REFERENCE_BITS};
-use crate::random::Random;
-use crate::verified;
+use super::machines::{self, REFERENCE_BITS};
+use super::random::Random;
+use super::verified;
 use num_rational::BigRational;
 use orthocert::verify::Answer;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};

@@ -1,6 +1,6 @@
 //! The search: the same tree for every number of threads, nothing lost, budgets kept.
 
-use crate::machines::{cube, linear_delta, orthoglide, skew_guides};
+use super::machines::{cube, linear_delta, orthoglide, skew_guides};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert::interval::Interval;
@@ -22,7 +22,7 @@ fn searched(claim: &MachineClaim, max_boxes: usize) -> Outcome {
 }
 
 fn with_bounds(mut claim: MachineClaim, min: &str, max: &str) -> MachineClaim {
-    let exact = crate::machines::exact;
+    let exact = super::machines::exact;
     let range = Range { min: Some(exact(min)), max: Some(exact(max)) };
     claim.requirements.transmission = Some(range);
     claim
@@ -33,7 +33,7 @@ fn claims() -> Vec<(&'static str, MachineClaim)> {
     let mut narrow = linear_delta();
     if let orthocert_checker::claim::Workspace::Box { min, max } = &mut narrow.workspace {
         for k in 0..2 {
-            (min[k], max[k]) = (crate::machines::exact("-60"), crate::machines::exact("60"));
+            (min[k], max[k]) = (super::machines::exact("-60"), super::machines::exact("60"));
         }
     }
     vec![

@@ -1,7 +1,7 @@
 //! Verdicts: of the designs in `tests/designs`, and of the paper's cube for every `psi_max`.
 
-use crate::machines::cube;
-use crate::{verdict, verified};
+use super::machines::cube;
+use super::{verdict, verified};
 use orthocert::design::Design;
 use orthocert::verify::Answer;
 use orthocert_checker::certificate::Verdict;

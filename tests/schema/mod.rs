@@ -20,7 +20,6 @@ pub fn objection(value: &Value) -> Option<String> {
 }
 
 /// The schema holds for the text of a certificate.
-#[allow(dead_code, reason = "not every test that includes this module has such a text")]
 pub fn holds(text: &str, name: &str) {
     let value = serde_json::from_str(text).unwrap_or_else(|error| panic!("{name}: {error}"));
     if let Some(objection) = objection(&value) {

@@ -1,8 +1,8 @@
 //! Random machines with what is true of them at a point, claims that hold or fail there by a given
 //! margin, and evidence that might prove them.
 
-use crate::random::Random;
-use crate::truth::{self, determinant, dot, exact, scale, Leg, State, V};
+use super::random::Random;
+use super::truth::{self, determinant, dot, exact, scale, Leg, State, V};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Axis, Cell};

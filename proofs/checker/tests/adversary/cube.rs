@@ -1,8 +1,8 @@
 //! The paper's cube and the postulate: bounds are met with equality at `Q_1` and `Q_2`, where no
 //! strict rule may hold; and where a rule holds, so does what it says.
 
-use crate::random::Random;
-use crate::truth::{dot, singular, V};
+use super::random::Random;
+use super::truth::{dot, singular, V};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Axis, Cell, Edge};

@@ -2,9 +2,9 @@
 //! any cell that contains the point, whatever the evidence; and a witness refutes them. Claims that
 //! hold there with room to spare: the rules do, on small cells, and no witness is accepted.
 
-use crate::case::{cells_around, discharged, with_tolerances, workspace, Case};
-use crate::random::Random;
-use crate::truth::{self, determinant, exact, Leg, V};
+use super::case::{cells_around, discharged, with_tolerances, workspace, Case};
+use super::random::Random;
+use super::truth::{self, determinant, exact, Leg, V};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::certificate::{LegNumber, SecondPoint, Violation, Witness};
 use orthocert_checker::claim::{AtLeast, MachineClaim, Mechanism, Range, Requirements, Workspace};
@@ -227,9 +227,11 @@ fn the_cube_meets_further_requirements_exactly_where_its_sliders_do() {
             let model = Model::new(&claim, 128).expect("enclosed");
             let (rotations, mus) = (case.rotations(&mut random), case.mus(&mut random));
             let cells = cells_around(&mut random, p, [q1; 3], [q2; 3], 60);
-            for (depth, cell) in cells.into_iter().enumerate() {
+            // What is true shows on the smallest cell, what is false on none.
+            let passed_over = if slack < 0.0 { 0 } else { cells.len() - 1 };
+            for cell in cells.into_iter().skip(passed_over) {
                 for (rule, holds) in discharged(&model, &cell, &rotations, &mus) {
-                    if !transmission.contains(&rule) && (slack < 0.0 || depth == 60) {
+                    if !transmission.contains(&rule) {
                         assert_eq!(holds, slack > 0.0, "round {round}: {rule} at {cell}");
                     }
                 }

@@ -1,8 +1,8 @@
 //! The slope identities, to far more digits than any single case could meet by accident, and
 //! kinematics against geometry.
 
-use crate::random::Random;
-use crate::truth::{self, exact, V};
+use super::random::Random;
+use super::truth::{self, exact, V};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::claim::{MachineClaim, Mechanism, Requirements, Workspace};

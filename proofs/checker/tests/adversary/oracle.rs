@@ -1,8 +1,8 @@
 //! What an accepted certificate says, looked at in floating point at a few points and machines:
 //! whether something there contradicts it by more than rounding can explain.
 
-use crate::random::Random;
-use crate::truth::{determinant, dot, scale, singular, Leg, State, V};
+use super::random::Random;
+use super::truth::{determinant, dot, scale, singular, Leg, State, V};
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Violation, Witness};
 use orthocert_checker::claim::{

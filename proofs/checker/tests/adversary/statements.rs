@@ -1,6 +1,6 @@
 //! The words of a claim leave no unit open.
 
-use crate::witnesses::tiny_arms;
+use super::witnesses::tiny_arms;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{Claim, JointSpeed, Range};
 use orthocert_checker::number::Exact;

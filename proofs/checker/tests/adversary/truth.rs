@@ -2,7 +2,7 @@
 //! are found by solving for them, and rows of `M` by differentiating the leg's constant length.
 //! None of the checker's formulas is used.
 
-use crate::random::Random;
+use super::random::Random;
 use num_rational::BigRational;
 use orthocert_checker::claim::{self, Quantity, Sign};
 use orthocert_checker::number::Exact;

@@ -1,11 +1,11 @@
 //! Whatever a rule accepts is true: on random cells, with bounds near the cell's true extremes,
 //! every accepted bound is held against exact values at the cell's worst points.
 
-use crate::approximate::{polar_rotation, Approximate};
-use crate::machines::{
+use super::approximate::{polar_rotation, Approximate};
+use super::machines::{
     self, cube, random_cell, random_lambda, reference, within_cell, REFERENCE_BITS,
 };
-use crate::random::Random;
+use super::random::Random;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_checker::cell::{Cell, Edge};

@@ -1,7 +1,7 @@
 //! Fixed-point intervals against exact rationals: containment, exactness where it is promised,
 //! and no more than one unit in the last place of rounding.
 
-use crate::random::Random;
+use super::random::Random;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

@@ -1,6 +1,6 @@
 //! Definiteness of interval matrices against brute force over their members.
 
-use crate::random::Random;
+use super::random::Random;
 use orthocert_checker::definite::is_positive_definite;
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::linear::Symmetric;

@@ -1,6 +1,6 @@
 //! Machines that the tests are about, and their exact values at single points.
 
-use crate::random::Random;
+use super::random::Random;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::claim::{

@@ -1,7 +1,7 @@
 //! Exact numbers: random expressions, their values and their canonical texts.
 
-use crate::approximate::double;
-use crate::random::Random;
+use super::approximate::double;
+use super::random::Random;
 use num_bigint::BigInt;
 use orthocert_checker::number::Exact;
 use std::cmp::Ordering;

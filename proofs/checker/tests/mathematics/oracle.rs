@@ -1,6 +1,6 @@
 //! Against values that another program computed: `oracle/make.py`, by mpmath, to 40 digits.
 
-use crate::machines::{exact, states, REFERENCE_BITS};
+use super::machines::{exact, states, REFERENCE_BITS};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;

@@ -1,7 +1,7 @@
 //! The paper's cube: what a claim about it says is what the paper's Steps 1 to 3 construct.
 
-use crate::machines::{self, cube, exact, reference, REFERENCE_BITS};
-use crate::random::Random;
+use super::machines::{self, cube, exact, reference, REFERENCE_BITS};
+use super::random::Random;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Quantity, Sign, Workspace};

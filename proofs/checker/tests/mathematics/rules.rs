@@ -1,7 +1,7 @@
 //! Each rule's table: what it accepts, and what it rejects, named after the defect.
 
-use crate::approximate::{polar_rotation, Approximate};
-use crate::machines::{cube, linear_delta, orthoglide};
+use super::approximate::{polar_rotation, Approximate};
+use super::machines::{cube, linear_delta, orthoglide};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_checker::cell::{Cell, Edge};
@@ -371,7 +371,7 @@ fn boxes_out_of_reach_have_no_expansion() {
     let orthocert_checker::claim::Workspace::Box { max, .. } = &mut claim.workspace else {
         panic!("not a box")
     };
-    max[2] = crate::machines::exact("4/5");
+    max[2] = super::machines::exact("4/5");
     let model = Model::new(&claim, BITS).unwrap();
     let about = |cell| Expansion::new(&model, &cell, ExpansionPoint::Centre).map(|_| ());
     assert_eq!(about(cell([0, 3, 3], 2)), Err(OutOfReach { leg: 0 }));

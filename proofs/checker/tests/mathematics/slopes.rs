@@ -1,7 +1,7 @@
 //! The slope identities: expansions over random cells contain the machine's exact values.
 
-use crate::machines::{self, random_cell, random_lambda, reference, within_cell, REFERENCE_BITS};
-use crate::random::Random;
+use super::machines::{self, random_cell, random_lambda, reference, within_cell, REFERENCE_BITS};
+use super::random::Random;
 use num_rational::BigRational;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::enclosure::Scalar;

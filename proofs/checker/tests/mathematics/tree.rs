@@ -1,6 +1,6 @@
 //! The walk over a tree: every obligation on every path, and nothing else.
 
-use crate::machines::{cube, exact, orthoglide};
+use super::machines::{cube, exact, orthoglide};
 use orthocert_checker::cell::{Axis, MAX_LEVEL};
 use orthocert_checker::certificate::{
     Certificate, Node, Proof, Provenance, Step, Tree, Verdict, FORMAT, MAX_STEPS,

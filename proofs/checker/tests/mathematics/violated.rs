@@ -1,10 +1,10 @@
 //! The rule for violations over a cell: what it accepts, what it rejects, and that it is right.
 
-use crate::approximate::{Approximate, Approximation};
-use crate::machines::{
+use super::approximate::{Approximate, Approximation};
+use super::machines::{
     all, exact, linear_delta, orthoglide, random_cell, random_lambda, reference, within_cell,
 };
-use crate::random::Random;
+use super::random::Random;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::{Direction, LegNumber, SecondPoint, TwoDirections, Violation};
 use orthocert_checker::claim::{
@@ -264,7 +264,7 @@ fn the_row_of_a_leg_is_as_long_as_its_formula_says() {
             let cell = random_cell(&mut random, 4);
             let u = within_cell(&cell, &random_lambda(&mut random));
             let Some(states) = reference(&claim, &u) else { continue };
-            let point = crate::machines::point(&claim, &u);
+            let point = super::machines::point(&claim, &u);
             let exactly = Model::at_point(&claim, None, &point, 256).unwrap();
             for (i, state) in states.iter().enumerate() {
                 let inverse = exactly.legs[i].inverse_row_squared(&exactly.origin[i]);
@@ -273,8 +273,8 @@ fn the_row_of_a_leg_is_as_long_as_its_formula_says() {
                 else {
                     continue;
                 };
-                let product = crate::approximate::double(&norm_squared(&state.row))
-                    * crate::approximate::double(&inverse);
+                let product = super::approximate::double(&norm_squared(&state.row))
+                    * super::approximate::double(&inverse);
                 assert!((product - 1.0).abs() < 1e-9, "{name}: leg {i}: {product}");
             }
         }
@@ -301,10 +301,10 @@ fn the_row_of_an_arm_is_as_long_as_its_formula_says() {
     {
         let model = Model::at_point(&claim, None, &point.map(exact), 128).unwrap();
         let inverse = model.legs[0].inverse_row_squared(&model.origin[0]).unwrap();
-        let inverse = crate::approximate::double(&inverse);
+        let inverse = super::approximate::double(&inverse);
         match model.legs[0].at(&model.origin[0]) {
             Some(state) => {
-                let product = crate::approximate::double(&norm_squared(&state.row)) * inverse;
+                let product = super::approximate::double(&norm_squared(&state.row)) * inverse;
                 assert!((product - 1.0).abs() < 1e-9, "{point:?}: {product}");
                 seen += 1;
             }

@@ -1,7 +1,7 @@
 //! Machine words against big integers: the same intervals, or none.
 
-use crate::machines::{all, random_cell};
-use crate::random::Random;
+use super::machines::{all, random_cell};
+use super::random::Random;
 use num_bigint::BigInt;
 use orthocert_checker::enclosure::{Bound, Enclosure, Scalar};
 use orthocert_checker::expansion::{Expansion, ExpansionPoint};

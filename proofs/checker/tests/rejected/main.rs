@@ -1,74 +1,68 @@
-//! Broken certificates, one file a defect, in `tests/rejected` of the repository: each is rejected
-//! for its own defect, by the library and by the binary.
+//! Broken certificates, those of `tests/rejected`: each is rejected for its own defect, by the
+//! library and by the binary.
 
-mod table;
+mod broken;
 
+use broken::{all, Broken};
 use orthocert_checker::{check, read, Rejected};
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
-use table::{Kind, TABLE};
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/rejected")
-}
-
-fn path(name: &str) -> PathBuf {
-    folder().join(format!("{name}.json"))
-}
-
-fn rejection(name: &str) -> Rejected {
-    let bytes = fs::read(path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-    match read(&bytes).and_then(|certificate| check(&certificate)) {
-        Ok(accepted) => panic!("{name}: {accepted:?}"),
+fn rejection(broken: &Broken) -> Rejected {
+    match read(&broken.bytes).and_then(|certificate| check(&certificate)) {
+        Ok(accepted) => panic!("{}: {accepted:?}", broken.name),
         Err(reason) => reason,
     }
 }
 
-fn kind(reason: &Rejected) -> Kind {
+/// Not a text of the format; another format or version; a claim that is not well formed; a kind of
+/// proof that does not go with it; a step that does not discharge its obligation; a leaf that leaves
+/// one open; a witness that does not refute; a limit or the shape of a tree.
+fn kind(reason: &Rejected) -> &'static str {
     match reason {
-        Rejected::Syntax(_) => Kind::Syntax,
-        Rejected::Format(_) => Kind::Format,
-        Rejected::Claim(_) => Kind::Claim,
-        Rejected::VerdictMismatch | Rejected::OneCubeOnly | Rejected::Parts => Kind::Proof,
-        Rejected::Step { .. } => Kind::Step,
-        Rejected::Open { .. } => Kind::Open,
-        Rejected::Witness(_) => Kind::Witness,
-        _ => Kind::Tree,
+        Rejected::Syntax(_) => "Syntax",
+        Rejected::Format(_) => "Format",
+        Rejected::Claim(_) => "Claim",
+        Rejected::VerdictMismatch | Rejected::OneCubeOnly | Rejected::Parts => "Proof",
+        Rejected::Step { .. } => "Step",
+        Rejected::Open { .. } => "Open",
+        Rejected::Witness(_) => "Witness",
+        _ => "Tree",
     }
 }
 
 #[test]
-fn every_file_is_rejected_for_its_defect() {
-    for (name, expected, fragment) in TABLE {
-        let reason = rejection(name);
+fn every_one_is_rejected_for_its_defect() {
+    let all = all();
+    for broken in &all {
+        let Broken { name, kind: expected, words: fragment, .. } = broken;
+        let reason = rejection(broken);
         let words = reason.to_string();
-        assert_eq!(kind(&reason), expected, "{name}: {words}");
+        assert_eq!(kind(&reason), *expected, "{name}: {words}");
         assert!(words.contains(fragment), "{name}: {words}");
     }
+    let names: BTreeSet<_> = all.iter().map(|broken| broken.name).collect();
+    assert_eq!(names.len(), all.len(), "two have the same name");
 }
 
-#[test]
-fn every_file_has_its_row() {
-    let files: BTreeSet<_> =
-        fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let rows: BTreeSet<_> = TABLE.iter().map(|(name, ..)| path(name)).collect();
-    assert_eq!(files, rows);
-    assert_eq!(TABLE.len(), rows.len(), "a file has two rows");
-}
-
+/// The files stay in the target folder: fuzzing starts from them.
 #[test]
 fn the_binary_exits_with_5() {
-    for (name, ..) in TABLE {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rejected");
+    std::fs::create_dir_all(&folder).unwrap();
+    for broken in all() {
+        let path = folder.join(broken.name).with_extension("json");
+        std::fs::write(&path, &broken.bytes).unwrap();
         let output =
-            Command::new(env!("CARGO_BIN_EXE_orthocert-check")).arg(path(name)).output().unwrap();
-        assert_eq!(output.status.code(), Some(5), "{name}");
-        assert!(output.stdout.is_empty(), "{name}");
+            Command::new(env!("CARGO_BIN_EXE_orthocert-check")).arg(path).output().unwrap();
+        assert_eq!(output.status.code(), Some(5), "{}", broken.name);
+        assert!(output.stdout.is_empty(), "{}", broken.name);
         assert_eq!(
             String::from_utf8(output.stderr).unwrap().trim_end(),
-            format!("REJECTED: {}", rejection(name)),
-            "{name}"
+            format!("REJECTED: {}", rejection(&broken)),
+            "{}",
+            broken.name
         );
     }
 }

@@ -7,8 +7,8 @@
 pub mod edits;
 mod weaker;
 
-use crate::oracle::{opinion, Opinion};
-use crate::random::Random;
+use super::oracle::{opinion, Opinion};
+use super::random::Random;
 use edits::{edits, paths, texts, Kind};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::{Claim, Leg, Mechanism};
@@ -251,7 +251,7 @@ fn mutants_of_certificates_are_rejected_or_true() {
     judge_all(|bytes| if bytes <= 1000 { 1 } else { 3 + 2 * (bytes / 300) });
 }
 
-/// `cargo test --release -p orthocert-checker --test adversary -- --ignored --nocapture`
+/// `cargo test --release -p orthocert-checker --test integration -- --ignored --nocapture`
 #[test]
 #[ignore = "takes many minutes"]
 fn every_mutant_of_every_certificate_is_rejected_or_true() {
