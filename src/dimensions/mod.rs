@@ -18,7 +18,7 @@ use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 
 /// Fractional bits tried, fewest first.
-const PRECISIONS: [u32; 7] = [256, 512, 1024, 2048, 4096, 8192, 16384];
+const PRECISIONS: [u32; 6] = [256, 512, 1024, 2048, 4096, 8000];
 /// Bits by which every enclosure is finer than the digits that are shown of it.
 const GUARD_BITS: u64 = 8;
 

@@ -88,7 +88,6 @@ fn no_command_waits_for_what_is_no_file() {
             &["attest", "c.json", "--design", trap],
             &["show", trap],
             &["report", trap],
-            &["report", "c.json", "--png", "png", "--font", trap],
             &["bounds", trap],
             &["pave", trap],
             &["atlas", trap, "-o", "map"],
