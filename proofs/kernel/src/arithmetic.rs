@@ -44,6 +44,8 @@ pub trait Enclosure: Arithmetic {
         centre: &Self::Number,
         slopes: &[Self::Number],
     ) -> Option<Self::Number>;
+    /// The least and the greatest number in `a`.
+    fn ends(&self, a: &Self::Number) -> [Self::Number; 2];
     /// Whether every number in `a` is greater than zero.
     fn is_positive(&self, a: &Self::Number) -> bool;
     /// Whether no number in `a` is less than zero.

@@ -337,6 +337,10 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         (lo <= hi).then_some(Interval { lo, hi })
     }
 
+    fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {
+        [Interval::point(a.lo.clone()), Interval::point(a.hi.clone())]
+    }
+
     fn is_positive(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() > 0
     }

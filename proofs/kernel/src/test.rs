@@ -128,8 +128,9 @@ fn added<E: Enclosure>(
     row: &Row<E::Number>,
     (y, places): (&[i64], u32),
 ) -> Option<Triangle<E::Number>> {
+    let [_, greatest] = e.ends(&row.d);
     let residual =
-        |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, &row.d)?);
+        |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, &greatest)?);
     let z: Vec<E::Number> = row.a.iter().zip(y).map(residual).collect::<Option<_>>()?;
     let half = |i: usize, j: usize| e.dyadic(*y.get(i)?, places + 1, z.get(j)?);
     for (i, entries) in t.iter_mut().enumerate() {
@@ -156,7 +157,8 @@ pub fn sigma_max<E: Enclosure>(
         // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
         let rest = rows.iter().fold(rest, |rest, row| {
             let mut bordered = vec![row.a.clone()];
-            bordered[0].insert(0, row.d.clone());
+            let [least, _] = e.ends(&row.d);
+            bordered[0].insert(0, least);
             bordered.extend(rest?);
             eliminated(e, bordered)
         });

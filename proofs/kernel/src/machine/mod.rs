@@ -13,6 +13,8 @@ pub struct Leg {
     pub row: Row<Formula>,
     /// The joint coordinate.
     pub rho: Joint,
+    /// r
+    pub r: Option<Vector>,
 }
 
 /// A joint coordinate.
@@ -47,36 +49,39 @@ pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) 
     let eta = signed(tape, m, root);
     let axial = tape.scaled(eta, n);
     let a = tape.plus(&r, &axial).to_vec();
-    Leg { row: Row { a, d }, rho: Joint::Length(tape.sub(along, eta)) }
+    Leg { row: Row { a, d }, rho: Joint::Length(tape.sub(along, eta)), r: Some(r) }
 }
 
 /// An extensible leg: `A = w`, `D = |w|^2`, `rho = |w|`. *Velocity.* `w . P' = |w| rho'`.
 pub fn strut(tape: &mut Tape, w: &Vector) -> Leg {
     let d = tape.norm_squared(w);
-    Leg { row: Row { a: w.to_vec(), d }, rho: Joint::Length(tape.sqrt(d)) }
+    Leg { row: Row { a: w.to_vec(), d }, rho: Joint::Length(tape.sqrt(d)), r: None }
 }
 
 /// A leg that holds the platform in a plane moved along its normal `n`: `A = n`, `D = 1`,
 /// `rho = n . w`.
 pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Leg {
     let d = tape.integer(1);
-    Leg { row: Row { a: n.to_vec(), d }, rho: Joint::Length(tape.dot(n, w)) }
+    Leg { row: Row { a: n.to_vec(), d }, rho: Joint::Length(tape.dot(n, w)), r: None }
 }
 
 /// A leg of length `L` on an arm of length `r` that turns about the unit axis `k`; `e` is the arm's
 /// direction at angle 0, a unit vector orthogonal to `k`, and `f = k x e`.
 ///
 /// ```text
-/// h = (w . e) e + (w . f) f      N = |h|^2      g = (|w|^2 + r^2 - L^2)/(2r)
-/// D = (L^2 - (k . w)^2) - (g - r)^2             eta = m r sqrt(D)
-/// cos theta = (g (w . e) + m sqrt(D) (w . f))/N
-/// sin theta = (g (w . f) - m sqrt(D) (w . e))/N
-/// A = w - r (cos theta e + sin theta f)
+/// alpha = w . e    beta = w . f    kappa = k . w    N = alpha^2 + beta^2    c = kappa^2 + r^2 - L^2
+/// D = (L^2 - kappa^2) - (g - r)^2,  g = (N + c)/(2r)                eta = m r sqrt(D)
+/// p = (1 - c/N)/2    q = r sqrt(D/N^2),  D/N^2 = 1/N - (1 + c/N)^2/(4 r^2)
+/// A = (p alpha - m q beta) e + (p beta + m q alpha) f + kappa k
+/// r cos theta = alpha - A . e       r sin theta = beta - A . f
 /// ```
 ///
-/// *Closure.* With `u = cos theta e + sin theta f`: `D = N - g^2`, so `|u| = 1`, and `u . w = g` gives
-/// `|A|^2 = |w|^2 + r^2 - 2 r g = L^2`. *Velocity.* `A . (P' - r theta' k x u) = 0`, and
-/// `A . (k x u) = w . (cos theta f - sin theta e) = m sqrt(D)`, so that `A . P' = eta theta'`.
+/// *Closure.* `|A|^2 = (p^2 + q^2) N + kappa^2`. With `s = c/N`:
+/// `p^2 + q^2 = (1 - s)^2/4 + r^2/N - (1 + s)^2/4 = r^2/N - s`, so that `|A|^2 = r^2 - c + kappa^2 = L^2`;
+/// and `(1 - p)^2 + q^2 = (1 + s)^2/4 + q^2 = r^2/N`: the elbow is at the distance `r` from the axis.
+/// *Velocity.* `A . P' = theta' A . (r k x u)` with `u = cos theta e + sin theta f`, and
+/// `r A . (k x u) = (A . f)(alpha - A . e) - (A . e)(beta - A . f) = alpha (A . f) - beta (A . e) = m q N
+/// = m r sqrt(D)`. Here `g` appears in one quotient only, `c/N`.
 pub fn arm(
     tape: &mut Tape,
     w: &Vector,
@@ -85,31 +90,36 @@ pub fn arm(
     m: i64,
 ) -> Leg {
     let f = tape.cross(k, e);
-    let (alpha, beta, along) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
-    let (square_e, square_f, square_k) = (tape.sqr(alpha), tape.sqr(beta), tape.sqr(along));
-    let n = tape.add(square_e, square_f);
-    let (r_squared, reach) = (tape.sqr(r), tape.sqr(length));
-    let w_squared = tape.add(n, square_k);
-    let (excess, two) = (tape.sub(r_squared, reach), tape.integer(2));
-    let (numerator, divisor) = (tape.add(w_squared, excess), tape.mul(two, r));
-    let g = tape.div(numerator, divisor);
-    let (across, shift) = (tape.sub(reach, square_k), tape.sub(g, r));
+    let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
+    let [alpha2, beta2, kappa2, r2, length2] =
+        [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
+    let n = tape.add(alpha2, beta2);
+    let excess = tape.sub(r2, length2);
+    let c = tape.add(kappa2, excess);
+    let [one, two] = [1, 2].map(|n| tape.integer(n));
+    let two_r = tape.mul(two, r);
+    let over = tape.add(n, c);
+    let g = tape.div(over, two_r);
+    let (across, shift) = (tape.sub(length2, kappa2), tape.sub(g, r));
     let shift = tape.sqr(shift);
     let d = tape.sub(across, shift);
+    let inverse = tape.div(one, n);
+    let s = tape.mul(c, inverse);
+    let less = tape.sub(one, s);
+    let p = tape.div(less, two);
     let root = tape.sqrt(d);
-    let root = signed(tape, m, root);
-    let mut component = |p: Formula, q: Formula, add: bool| {
-        let (p, q) = (tape.mul(g, p), tape.mul(root, q));
-        let sum = if add { tape.add(p, q) } else { tape.sub(p, q) };
-        tape.div(sum, n)
-    };
-    let (cos, sin) = (component(alpha, beta, true), component(beta, alpha, false));
-    let (along_e, along_f) = (tape.scaled(cos, e), tape.scaled(sin, &f));
-    let u = tape.plus(&along_e, &along_f);
-    let elbow = tape.scaled(r, &u);
-    let a = tape.minus(w, &elbow).to_vec();
-    let d = tape.mul(r_squared, d);
-    Leg { row: Row { a, d }, rho: Joint::Angle { cos, sin } }
+    let root = tape.mul(r, root);
+    let q = tape.mul(root, inverse);
+    let q = signed(tape, m, q);
+    let (p_alpha, q_beta) = (tape.mul(p, alpha), tape.mul(q, beta));
+    let (p_beta, q_alpha) = (tape.mul(p, beta), tape.mul(q, alpha));
+    let (a_e, a_f) = (tape.sub(p_alpha, q_beta), tape.add(p_beta, q_alpha));
+    let [x, y, z] = [(a_e, e), (a_f, &f), (kappa, k)].map(|(a, axis)| tape.scaled(a, axis));
+    let in_plane = tape.plus(&x, &y);
+    let a = tape.plus(&in_plane, &z).to_vec();
+    let (cos, sin) = (tape.sub(alpha, a_e), tape.sub(beta, a_f));
+    let (cos, sin) = (tape.div(cos, r), tape.div(sin, r));
+    Leg { row: Row { a, d: tape.mul(r2, d) }, rho: Joint::Angle { cos, sin }, r: None }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {

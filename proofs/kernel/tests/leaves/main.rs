@@ -39,6 +39,7 @@ fn case(legs: &[([f64; 3], Drive)], low: [f64; 3], high: [f64; 3], unit: f64) ->
     let mut parameters = Vec::new();
     let p: Vector = std::array::from_fn(|k| tape.coordinate(k));
     let mut built: Vec<Leg> = Vec::new();
+    let mut guides: Vec<Option<(Vector, i64)>> = Vec::new();
     for (a, drive) in legs {
         let mut number = |tape: &mut Tape, x: f64| {
             parameters.push(x);
@@ -62,12 +63,14 @@ fn case(legs: &[([f64; 3], Drive)], low: [f64; 3], high: [f64; 3], unit: f64) ->
                     tape.normalised(&n)
                 };
                 let length = vector(&mut tape, &[*length, 0.0, 0.0], unit)[0];
+                guides.push(Some((n, *m)));
                 slider(&mut tape, &w, &n, length, *m)
             }
-            Drive::Strut => strut(&mut tape, &w),
+            Drive::Strut => { guides.push(None); strut(&mut tape, &w) }
             Drive::Arm { k, e, r, length, m } => {
                 let (k, e) = (vector(&mut tape, k, 1.0), vector(&mut tape, e, 1.0));
                 let [r, length, _] = vector(&mut tape, &[*r, *length, 0.0], unit);
+                guides.push(None);
                 arm(&mut tape, &w, [&k, &e], [r, length], *m)
             }
         });
@@ -75,11 +78,22 @@ fn case(legs: &[([f64; 3], Drive)], low: [f64; 3], high: [f64; 3], unit: f64) ->
     let rows = built.iter().map(|leg| leg.row.clone()).collect();
     let second = built
         .iter()
-        .map(|leg| {
-            let Joint::Length(_) = leg.rho else { return None };
+        .zip(&guides)
+        .map(|(leg, n)| {
+            let (Joint::Length(_), Some((n, m))) = (leg.rho, n) else { return None };
             let root = tape.sqrt(leg.row.d);
+            let root = if *m < 0 { tape.neg(root) } else { root };
             let one = tape.integer(1);
-            Some(Row { a: leg.row.a.iter().map(|&a| tape.div(a, root)).collect(), d: one })
+            let row = leg.row.a.iter().zip(n).map(|(&a, &n)| {
+                let axial = tape.mul(root, n);
+                let _ = a;
+                let _ = axial;
+                n
+            });
+            let ns: Vec<Formula> = row.collect();
+            let r = leg.r.expect("r");
+            let a = ns.iter().zip(&r).map(|(&n, &r)| { let q = tape.div(r, root); tape.add(n, q) }).collect();
+            Some(Row { a, d: one })
         })
         .collect();
     let scale = |v: [f64; 3]| v.map(|x| x / unit).to_vec();
@@ -230,7 +244,7 @@ impl Prover<'_> {
             self.case.rows.iter().fold(0.0, |sum, row| {
                 let d = values.of(row.d).map_or(1.0, |d| d.at_centre.0.max(1e-9));
                 let a: f64 = row.a.iter().map(|&a| of(a)).sum();
-                sum + a / d.sqrt() + of(row.d) / (2.0 * d)
+                sum + a / d.sqrt() + std::env::var("FAC").ok().and_then(|x| x.parse::<f64>().ok()).unwrap_or(1.0) * of(row.d) / (2.0 * d)
             })
         };
         let weights: Vec<f64> = (0..cell.len()).map(weight).collect();
@@ -259,7 +273,8 @@ impl Prover<'_> {
                 .map(|(&lo, &hi)| Interval { lo: near(lo).lo, hi: near(hi).hi })
                 .collect(),
         );
-        let mut waiting = vec![(root, [true, true])];
+        let wanted = match std::env::var("ONLY").as_deref() { Ok("lower") => [true, false], Ok("upper") => [false, true], _ => [true, true] };
+        let mut waiting = vec![(root, wanted)];
         let (mut leaves, mut tried) = (0, 0);
         while let Some((cell, wanted)) = waiting.pop() {
             tried += 1;
@@ -391,4 +406,46 @@ fn leaves() {
     }
     let _ = (from_rho as fn(_, fn(&mut Case) -> Vec<Formula>) -> _, joints as fn(&mut Case) -> _);
     let _ = (Rough.halve(&(0.0, 0.0)), BigInt::from(0));
+}
+#[test]
+fn compare() {
+    let case = rotary();
+    let lo = [-3.0, -3.0, -14.0].map(|x: f64| x / 16.0);
+    let hi = [-1.5, -1.5, -12.0].map(|x: f64| x / 16.0);
+    let slopes = Slopes { arithmetic: &Rough, m: 3 };
+    let values = case.tape.run(&slopes, |op| match op {
+        Op::Coordinate(k) => {
+            let (c, h) = ((lo[k] + hi[k]) / 2.0, (hi[k] - lo[k]) / 2.0);
+            slopes.coordinate(k, [(c, c), (lo[k], hi[k]), (h, h)])
+        }
+        Op::Parameter(j) => slopes.constant((case.parameters[j], case.parameters[j])),
+        _ => None,
+    });
+    for row in &case.rows {
+        for f in row.a.iter() {
+            let s = values.of(*f).unwrap();
+            println!("A {:.5} {:.5} {:.5} {:?}", s.at_centre.0 * 16.0, s.range.0 * 16.0, s.range.1 * 16.0, s.slopes[..3].iter().map(|s| (s.0 * 16.0, s.1 * 16.0)).collect::<Vec<_>>());
+        }
+        let s = values.of(row.d).unwrap();
+        let u = 256.0 / 100.0 * 256.0;
+        println!("D {:.5} {:.5} {:.5} {:?}", s.at_centre.0 * u, s.range.0 * u, s.range.1 * u, s.slopes[..3].iter().map(|s| (s.0 * u, s.1 * u)).collect::<Vec<_>>());
+    }
+}
+#[test]
+fn cells() {
+    let case = rotary();
+    let [least, greatest] = case.extremes();
+    let prover = Prover { case: &case, kappa: least / 1.01, k: greatest / 0.99 };
+    println!("X {} {}", prover.kappa, prover.k);
+    for (lo, hi) in [
+        ([-3.0, -3.0, -14.0], [-1.5, -1.5, -12.0]),
+        ([-3.0, -3.0, -14.0], [-2.25, -2.25, -13.0]),
+        ([-0.75, -0.75, -14.0], [0.0, 0.0, -13.0]),
+        ([0.0, 0.0, -11.0], [0.75, 0.75, -10.0]),
+        ([0.0, 0.0, -10.5], [0.4, 0.4, -10.0]),
+    ] {
+        let cell: Vec<Pair> = (0..3).map(|k| (lo[k] / 16.0, hi[k] / 16.0)).collect();
+        let (low, high, weights) = prover.attempt(&cell, [true, true]);
+        println!("X {} {high} {weights:?}", low.is_some());
+    }
 }
