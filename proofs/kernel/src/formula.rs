@@ -39,6 +39,11 @@ pub enum Op {
     Sqrt(Formula),
 }
 
+/// Sums and products of integers up to this are integers of a tape.
+fn is_small(n: i64) -> bool {
+    n.unsigned_abs() < 1 << 15
+}
+
 /// A vector of formulas.
 pub type Vector = [Formula; 3];
 
@@ -99,9 +104,10 @@ impl Tape {
 
     /// `a + b`.
     pub fn add(&mut self, a: Formula, b: Formula) -> Formula {
-        match (self.is(a, 0), self.is(b, 0)) {
-            (true, _) => b,
-            (_, true) => a,
+        match (self.op(a), self.op(b)) {
+            (Op::Integer(0), _) => b,
+            (_, Op::Integer(0)) => a,
+            (Op::Integer(n), Op::Integer(m)) if is_small(n) && is_small(m) => self.integer(n + m),
             _ => self.push(Op::Add(a, b)),
         }
     }
@@ -118,7 +124,7 @@ impl Tape {
     /// `-a`.
     pub fn neg(&mut self, a: Formula) -> Formula {
         match self.op(a) {
-            Op::Integer(0) => a,
+            Op::Integer(n) if is_small(n) => self.integer(-n),
             Op::Neg(b) => b,
             _ => self.push(Op::Neg(a)),
         }
@@ -145,7 +151,7 @@ impl Tape {
     /// `a^2`.
     pub fn sqr(&mut self, a: Formula) -> Formula {
         match self.op(a) {
-            Op::Integer(0 | 1) => a,
+            Op::Integer(n) if is_small(n) => self.integer(n * n),
             _ => self.push(Op::Sqr(a)),
         }
     }
@@ -239,6 +245,21 @@ impl Tape {
             values.push(value);
         }
         Values(values)
+    }
+
+    /// The entries that depend on no coordinate.
+    pub fn constants(&self) -> Vec<Formula> {
+        let mut constant: Vec<bool> = Vec::with_capacity(self.ops.len());
+        for op in &self.ops {
+            let is = |f: Formula| constant.get(f.0).is_some_and(|&is| is);
+            constant.push(match *op {
+                Op::Coordinate(_) => false,
+                Op::Parameter(_) | Op::Integer(_) => true,
+                Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => is(a) && is(b),
+                Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => is(a),
+            });
+        }
+        (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
     }
 
     /// The partial derivatives of `f` by the coordinates `0..m`.

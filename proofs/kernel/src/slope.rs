@@ -43,13 +43,21 @@ pub struct Slope<N> {
 }
 
 /// The arithmetic of slopes in `m` coordinates.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Slopes<'a, E> {
     /// What their parts are computed in.
     pub arithmetic: &'a E,
     /// The coordinates.
     pub m: usize,
 }
+
+impl<E> Clone for Slopes<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Slopes<'_, E> {}
 
 impl<E: Enclosure> Slopes<'_, E> {
     /// A number that is the same on the whole cell.

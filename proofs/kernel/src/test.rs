@@ -18,6 +18,7 @@ use crate::cell::Vertex;
 use crate::definite::{eliminated, is_positive_definite, Triangle};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
+use serde::{Deserialize, Serialize};
 
 /// `A_i` and `D_i`.
 #[derive(Clone, Debug)]
@@ -29,7 +30,8 @@ pub struct Row<F> {
 }
 
 /// `Y = y / 2^places`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Multiplier {
     /// Row by row: as many as the machine has, each with one entry a coordinate.
     pub y: Vec<Vec<i64>>,
@@ -46,12 +48,35 @@ pub struct Over<'a, E: Enclosure> {
     pub slopes: Slopes<'a, E>,
     /// Their values.
     pub values: &'a Values<Slope<E::Number>>,
+    /// A formula that is not negative at the cell's points in the workspace, where one is used: what is
+    /// shown at the vertices is then shown less its value there (the S-procedure).
+    ///
+    /// **Lemma.** If `f_v - t_v` is positive (definite: `F_v - t_v I`) at the vertices, `f` is positive
+    /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
+    /// combination of these, and `t(x) >= 0`. ∎
+    pub inside: Option<Slope<E::Number>>,
 }
 
+/// What a bound is at a vertex.
+pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
+
 impl<E: Enclosure> Over<'_, E> {
+    /// The value of a formula over the cell.
+    pub fn of(&self, formula: Formula) -> Option<&Slope<E::Number>> {
+        self.values.of(formula)
+    }
+
+    /// `x - t_v`.
+    fn less_inside(&self, x: E::Number, vertex: Vertex) -> Option<E::Number> {
+        match &self.inside {
+            None => Some(x),
+            Some(t) => self.slopes.arithmetic.sub(&x, &vertex.value(&self.slopes, t)?),
+        }
+    }
+
     /// The rows at a vertex.
     fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Row<E::Number>>> {
-        let value = |f: &Formula| vertex.value(&self.slopes, self.values.of(*f)?);
+        let value = |f: &Formula| vertex.value(&self.slopes, self.of(*f)?);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
             Some(Row { a, d: value(&row.d)? })
@@ -61,25 +86,28 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// Whether every `D_i` is positive on the cell.
     fn is_regular(&self, rows: &[Row<Formula>]) -> bool {
-        rows.iter().all(|row| {
-            let d = self.values.of(row.d);
-            d.is_some_and(|d| self.slopes.arithmetic.is_positive(&d.range))
-        })
+        let positive = |d: &Slope<E::Number>| self.slopes.arithmetic.is_positive(&d.range);
+        rows.iter().all(|row| self.of(row.d).is_some_and(positive))
     }
 
     fn at_vertices(
         &self,
         rows: &[Row<Formula>],
-        holds: impl Fn(Vec<Row<E::Number>>) -> bool,
+        holds: impl Fn(Vertex, Vec<Row<E::Number>>) -> bool,
     ) -> bool {
-        self.is_regular(rows)
-            && Vertex::all(self.slopes.m).all(|v| self.rows(rows, v).is_some_and(&holds))
+        let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
+        self.is_regular(rows) && Vertex::all(self.slopes.m).all(holds)
     }
 }
 
 /// **A sign.** `f >= 0` on the cell if its range is not negative anywhere.
-pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
-    over.values.of(f).is_some_and(|f| over.slopes.arithmetic.is_nonnegative(&f.range))
+pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: &Slope<E::Number>) -> bool {
+    let e = over.slopes.arithmetic;
+    if over.inside.is_none() {
+        return e.is_nonnegative(&f.range);
+    }
+    let holds = |v: Vertex| over.less_inside(v.value(&over.slopes, f)?, v);
+    Vertex::all(over.slopes.m).all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
 }
 
 /// **Least singular value.** If `T = Y^T A + A^T Y - Y^T D Y - kappa^2 I` is positive definite at the
@@ -93,24 +121,28 @@ pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
 /// ```
 ///
 /// and so `|M v|^2 >= kappa^2 |v|^2 + v^T T v`. ∎ It needs `D_i > 0`: without that, a leg of length
-/// zero with `Y_i = 0` would pass where `n > m`. `M^T M - kappa^2 I` at the vertices would be
+/// zero with `Y_i = 0` would pass where `n > m`. `T` decreases with `D`, which is taken at its upper
+/// end. `M^T M - kappa^2 I` at the vertices would be
 /// unsound: `sigma_min >= kappa` is not convex (`diag(t, 1, 1)`, `t` in `[-1, 1]`).
+///
+/// `kappa_squared` may differ from vertex to vertex: what is shown is then of its convex combination.
 pub fn sigma_min<E: Enclosure>(
     over: &Over<'_, E>,
     rows: &[Row<Formula>],
-    kappa_squared: &E::Number,
+    kappa_squared: AtVertex<'_, E::Number>,
     evidence: &Multiplier,
 ) -> bool {
     let (e, m, y) = (over.slopes.arithmetic, over.slopes.m, &evidence.y);
     let shape = y.len() == rows.len() && y.iter().all(|y| y.len() == m);
-    let places = evidence.places < MOST_PLACES;
+    let matrix = |v: Vertex, rows: &[Row<E::Number>]| {
+        let diagonal = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
+        let terms = rows.iter().zip(y);
+        terms.fold(scalar(e, m, &diagonal), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+    };
     shape
-        && places
-        && over.at_vertices(rows, |rows| {
-            let start = e.neg(kappa_squared).and_then(|diagonal| scalar(e, m, &diagonal));
-            let terms = rows.iter().zip(y);
-            let sum = terms.fold(start, |t, (row, y)| added(e, t?, row, (y, evidence.places)));
-            sum.is_some_and(|t| is_positive_definite(e, t))
+        && evidence.places < MOST_PLACES
+        && over.at_vertices(rows, |v, rows| {
+            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
         })
 }
 
@@ -145,20 +177,21 @@ fn added<E: Enclosure>(
 /// `sigma_max(M) < k` on the cell.
 ///
 /// *Proof.* The matrix is affine in `(A, D)`, so it is positive definite at `x`, and with it its Schur
-/// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first.
+/// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first, each at its lower
+/// end: the complement increases with them.
 pub fn sigma_max<E: Enclosure>(
     over: &Over<'_, E>,
     rows: &[Row<Formula>],
-    k_squared: &E::Number,
+    k_squared: AtVertex<'_, E::Number>,
 ) -> bool {
     let e = over.slopes.arithmetic;
-    over.at_vertices(rows, |rows| {
-        let rest = scalar(e, over.slopes.m, k_squared);
+    over.at_vertices(rows, |v, rows| {
+        let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
+        let start = bound.and_then(|bound| scalar(e, over.slopes.m, &bound));
         // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        let rest = rows.iter().fold(rest, |rest, row| {
-            let mut bordered = vec![row.a.clone()];
+        let rest = rows.iter().fold(start, |rest, row| {
             let [least, _] = e.ends(&row.d);
-            bordered[0].insert(0, least);
+            let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
             bordered.extend(rest?);
             eliminated(e, bordered)
         });

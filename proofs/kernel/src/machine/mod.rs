@@ -8,13 +8,15 @@ use crate::test::Row;
 
 /// A leg's formulas.
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct Built {
     /// `A_i` in the velocity of the platform's joint, and `D_i = B_i^2`.
     pub row: Row<Formula>,
+    /// `A_i / B_i`: the row of `M` itself.
+    pub divided: Vec<Formula>,
     /// The joint coordinate.
     pub rho: Joint,
-    /// r
-    pub r: Option<Vector>,
+    /// `eta_i^2`, the square of the leg's component along the motion of its driven end.
+    pub eta: Formula,
 }
 
 /// A joint coordinate.
@@ -39,7 +41,7 @@ pub enum Joint {
 ///
 /// *Closure.* `A` is the leg: `|A|^2 = |r|^2 + D = L^2`, and its base end `w - A = rho n` is on the
 /// guide. *Velocity.* `A . (P' - rho' n) = 0`, and `A . n = eta`.
-pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Leg {
+pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Built {
     let along = tape.dot(n, w);
     let axial = tape.scaled(along, n);
     let r = tape.minus(w, &axial);
@@ -49,20 +51,26 @@ pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) 
     let eta = signed(tape, m, root);
     let axial = tape.scaled(eta, n);
     let a = tape.plus(&r, &axial).to_vec();
-    Leg { row: Row { a, d }, rho: Joint::Length(tape.sub(along, eta)), r: Some(r) }
+    // (r + eta n)/eta, with the guide's part left whole.
+    let across = r.map(|r| tape.div(r, eta));
+    let divided = tape.plus(n, &across).to_vec();
+    Built { row: Row { a, d }, divided, rho: Joint::Length(tape.sub(along, eta)), eta: d }
 }
 
 /// An extensible leg: `A = w`, `D = |w|^2`, `rho = |w|`. *Velocity.* `w . P' = |w| rho'`.
-pub fn strut(tape: &mut Tape, w: &Vector) -> Leg {
+pub fn strut(tape: &mut Tape, w: &Vector) -> Built {
     let d = tape.norm_squared(w);
-    Leg { row: Row { a: w.to_vec(), d }, rho: Joint::Length(tape.sqrt(d)), r: None }
+    let length = tape.sqrt(d);
+    let divided = w.map(|w| tape.div(w, length)).to_vec();
+    Built { row: Row { a: w.to_vec(), d }, divided, rho: Joint::Length(length), eta: d }
 }
 
 /// A leg that holds the platform in a plane moved along its normal `n`: `A = n`, `D = 1`,
 /// `rho = n . w`.
-pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Leg {
+pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Built {
     let d = tape.integer(1);
-    Leg { row: Row { a: n.to_vec(), d }, rho: Joint::Length(tape.dot(n, w)), r: None }
+    let rho = Joint::Length(tape.dot(n, w));
+    Built { row: Row { a: n.to_vec(), d }, divided: n.to_vec(), rho, eta: d }
 }
 
 /// A leg of length `L` on an arm of length `r` that turns about the unit axis `k`; `e` is the arm's
@@ -88,11 +96,10 @@ pub fn arm(
     [k, e]: [&Vector; 2],
     [r, length]: [Formula; 2],
     m: i64,
-) -> Leg {
+) -> Built {
     let f = tape.cross(k, e);
     let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
-    let [alpha2, beta2, kappa2, r2, length2] =
-        [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
+    let [alpha2, beta2, kappa2, r2, length2] = [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
     let n = tape.add(alpha2, beta2);
     let excess = tape.sub(r2, length2);
     let c = tape.add(kappa2, excess);
@@ -109,8 +116,8 @@ pub fn arm(
     let p = tape.div(less, two);
     let root = tape.sqrt(d);
     let root = tape.mul(r, root);
+    let root = signed(tape, m, root);
     let q = tape.mul(root, inverse);
-    let q = signed(tape, m, q);
     let (p_alpha, q_beta) = (tape.mul(p, alpha), tape.mul(q, beta));
     let (p_beta, q_alpha) = (tape.mul(p, beta), tape.mul(q, alpha));
     let (a_e, a_f) = (tape.sub(p_alpha, q_beta), tape.add(p_beta, q_alpha));
@@ -119,7 +126,9 @@ pub fn arm(
     let a = tape.plus(&in_plane, &z).to_vec();
     let (cos, sin) = (tape.sub(alpha, a_e), tape.sub(beta, a_f));
     let (cos, sin) = (tape.div(cos, r), tape.div(sin, r));
-    Leg { row: Row { a, d: tape.mul(r2, d) }, rho: Joint::Angle { cos, sin }, r: None }
+    let divided = a.iter().map(|&a| tape.div(a, root)).collect();
+    let row = Row { a, d: tape.mul(r2, d) };
+    Built { row, divided, rho: Joint::Angle { cos, sin }, eta: d }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
