@@ -98,6 +98,55 @@ pub enum Leg {
     },
 }
 
+/// What a quantity of a leg is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Component of a vector whose length does not matter.
+    Direction,
+    /// Coordinate of a point.
+    Place,
+    /// A positive length.
+    Length,
+}
+
+impl Quantity {
+    /// The least and the greatest value.
+    pub fn ends(&self) -> [&Expression; 2] {
+        match self {
+            Quantity::Exactly(x) => [x, x],
+            Quantity::Between { min, max } => [min, max],
+        }
+    }
+}
+
+impl Leg {
+    /// The vectors and lengths of a leg, by their keys.
+    pub fn quantities(&self) -> Vec<(&'static str, Kind, &[Quantity])> {
+        use Kind::{Direction, Length, Place};
+        let one = std::slice::from_ref;
+        match self {
+            Leg::Slider { direction, anchor, platform, length, .. } => vec![
+                ("direction", Direction, direction),
+                ("anchor", Place, anchor),
+                ("platform", Place, platform),
+                ("length", Length, one(length)),
+            ],
+            Leg::Strut { anchor, platform } => {
+                vec![("anchor", Place, anchor), ("platform", Place, platform)]
+            }
+            Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => vec![
+                ("axis", Direction, axis),
+                ("reference", Direction, reference),
+                ("anchor", Place, anchor),
+                ("platform", Place, platform),
+                ("arm", Length, one(arm)),
+                ("length", Length, one(length)),
+            ],
+            Leg::Planar { direction } => vec![("direction", Direction, direction)],
+        }
+    }
+}
+
 /// A sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sign {

@@ -1,13 +1,14 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
-use crate::claim::{Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity, Workspace};
+use crate::claim::{
+    Formulas, JointFormula, Kind, Leg, MachineClaim, Mechanism, Quantity, Workspace,
+};
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{Formula, Op, Tape};
+use crate::formula::{Formula, Op, Tape, Vector};
 use crate::machine;
 use crate::number::{Expression, Operator};
 use crate::quantity::{self, Obligation};
-use crate::test::Row;
 use crate::trig::{cos_sin, pi};
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -124,25 +125,6 @@ impl Input {
     }
 }
 
-/// A leg, or joint, of a problem.
-#[derive(Clone, Debug)]
-pub struct ProblemLeg {
-    /// `A_i`, `D_i`.
-    pub row: Row<Formula>,
-    /// The same divided: `A_i/b_i`, 1.
-    pub divided: Row<Formula>,
-    /// `rho_i`; none where the claim gives a row alone.
-    pub rho: Option<machine::Joint>,
-    /// `eta_i^2` and `L_i`, of legs of fixed length.
-    pub oblique: Option<(Formula, Formula)>,
-    /// The length of the vector `A_i`.
-    pub length: Option<Formula>,
-    /// Whether `rho_i` is an angle.
-    pub is_angular: bool,
-    /// Whether the leg is on a linear guide.
-    pub on_guide: bool,
-}
-
 /// A claim, compiled.
 #[derive(Clone, Debug)]
 pub struct Problem {
@@ -151,7 +133,7 @@ pub struct Problem {
     /// What parameter `j` of the tape is.
     pub inputs: Vec<Input>,
     /// The legs.
-    pub legs: Vec<ProblemLeg>,
+    pub legs: Vec<machine::Leg>,
     /// What is to be shown at every point.
     pub obligations: Vec<Obligation>,
     /// The workspace's least and greatest coordinates, divided by `2^scale`.
@@ -202,31 +184,31 @@ impl Builder {
         self.quantity(place, &Quantity::Exactly(number.clone()), scale)
     }
 
-    fn length(&mut self, place: &str, quantity: &Quantity) -> Formula {
-        self.quantity(place, quantity, self.scale)
-    }
-
-    fn vector(&mut self, place: &str, vector: &[Quantity; 3], scale: i64) -> [Formula; 3] {
-        std::array::from_fn(|k| self.quantity(&format!("{place}.{k}"), &vector[k], scale))
-    }
-
-    /// A unit vector along `vector`, brought to the order of one first.
-    fn direction(
-        &mut self,
-        place: &str,
-        vector: &[Quantity; 3],
-    ) -> Result<[Formula; 3], ClaimError> {
-        let ends = vector.iter().flat_map(ends);
-        let scale = magnitude(ends).ok_or_else(|| number_error(place, "a direction"))?;
-        Ok(self.vector(place, vector, scale))
-    }
-}
-
-/// The least and the greatest value of a quantity.
-fn ends(quantity: &Quantity) -> [&Expression; 2] {
-    match quantity {
-        Quantity::Exactly(x) => [x, x],
-        Quantity::Between { min, max } => [min, max],
+    /// The formulas of a leg's quantities: of directions brought to the order of one, of lengths
+    /// divided by `2^scale`.
+    fn quantities(&mut self, number: usize, leg: &Leg) -> Result<Vec<Vec<Formula>>, ClaimError> {
+        let formulas = |(key, kind, quantities): (&str, Kind, &[Quantity])| {
+            let place = format!("leg {}: {key}", number + 1);
+            for quantity in quantities {
+                let [min, max] = quantity.ends();
+                ordered(&place, min, max, matches!(quantity, Quantity::Between { .. }))?;
+                if kind == Kind::Length {
+                    positive(&place, min)?;
+                }
+            }
+            let scale = match kind {
+                Kind::Direction => magnitude(quantities.iter().flat_map(Quantity::ends))
+                    .ok_or_else(|| number_error(&place, "a direction"))?,
+                Kind::Place | Kind::Length => self.scale,
+            };
+            let formula = |(k, quantity): (usize, &Quantity)| {
+                let place =
+                    if quantities.len() == 1 { place.clone() } else { format!("{place}.{k}") };
+                self.quantity(&place, quantity, scale)
+            };
+            Ok(quantities.iter().enumerate().map(formula).collect())
+        };
+        leg.quantities().into_iter().map(formulas).collect()
     }
 }
 
@@ -529,150 +511,64 @@ impl Cube {
     }
 }
 
-/// Every value of a quantity is greater than zero, its ends are in order.
-fn positive_quantity(place: &str, quantity: &Quantity) -> Result<(), ClaimError> {
-    well_ordered(place, quantity)?;
-    positive(place, ends(quantity)[0])
-}
-
-fn well_ordered(place: &str, quantity: &Quantity) -> Result<(), ClaimError> {
-    let [min, max] = ends(quantity);
-    ordered(place, min, max, matches!(quantity, Quantity::Between { .. }))
-}
-
-/// Legs that do not turn the platform.
-fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<ProblemLeg>, ClaimError> {
-    let mut lengths = Vec::new();
-    let mut places = Vec::new();
-    for leg in legs {
-        match leg {
-            Leg::Slider { anchor, platform, length, .. } => {
-                lengths.extend(ends(length));
-                places.extend(anchor.iter().chain(platform).flat_map(ends));
-            }
-            Leg::Arm { anchor, platform, arm, length, .. } => {
-                lengths.extend(ends(length));
-                lengths.extend(ends(arm));
-                places.extend(anchor.iter().chain(platform).flat_map(ends));
-            }
-            Leg::Strut { anchor, platform } => {
-                places.extend(anchor.iter().chain(platform).flat_map(ends));
-            }
-            Leg::Planar { .. } => {}
-        }
-    }
-    let of = if lengths.is_empty() { places } else { lengths };
-    let scale = magnitude(of.into_iter()).ok_or_else(|| number_error("mechanism", "numbers"))?;
-    builder.scale = scale + 1;
-    legs.iter().enumerate().map(|(i, leg)| built_leg(builder, i, leg)).collect()
-}
-
-fn built_leg(builder: &mut Builder, i: usize, leg: &Leg) -> Result<ProblemLeg, ClaimError> {
-    let place = |what: &str| format!("leg {}: {what}", i + 1);
-    let scale = builder.scale;
-    let w = |builder: &mut Builder, anchor: &[Quantity; 3], platform: &[Quantity; 3]| {
-        for (name, vector) in [("anchor", anchor), ("platform", platform)] {
-            for quantity in vector {
-                well_ordered(&place(name), quantity)?;
-            }
-        }
-        let p = std::array::from_fn(|k| builder.tape.coordinate(k));
-        let anchor = builder.vector(&place("anchor"), anchor, scale);
-        let platform = builder.vector(&place("platform"), platform, scale);
-        let from = builder.tape.plus(&p, &platform);
-        Ok::<_, ClaimError>(builder.tape.minus(&from, &anchor))
+/// Legs that do not turn the platform. The unit of length is that of the greatest length, or, where
+/// no leg has one, coordinate.
+fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<machine::Leg>, ClaimError> {
+    let of_kind = |wanted: Kind| {
+        let quantities = legs.iter().flat_map(Leg::quantities);
+        let wanted = quantities.filter(move |(_, kind, _)| *kind == wanted);
+        magnitude(wanted.flat_map(|(_, _, quantities)| quantities.iter().flat_map(Quantity::ends)))
     };
-    let direction = |builder: &mut Builder, name: &str, vector: &[Quantity; 3]| {
-        for quantity in vector {
-            well_ordered(&place(name), quantity)?;
-        }
-        builder.direction(&place(name), vector)
+    let has_length = legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
+    let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
+    builder.scale = scale.ok_or_else(|| number_error("mechanism", "numbers"))? + 1;
+    legs.iter().enumerate().map(|(number, leg)| built_leg(builder, number, leg)).collect()
+}
+
+fn built_leg(builder: &mut Builder, number: usize, leg: &Leg) -> Result<machine::Leg, ClaimError> {
+    let formulas = builder.quantities(number, leg)?;
+    let tape = &mut builder.tape;
+    let p: Vector = std::array::from_fn(|k| tape.coordinate(k));
+    let vector = |formulas: &[Formula]| -> Option<Vector> { formulas.try_into().ok() };
+    let from_base = |tape: &mut Tape, anchor: &[Formula], platform: &[Formula]| {
+        let joint = tape.plus(&p, &vector(platform)?);
+        Some(tape.minus(&joint, &vector(anchor)?))
     };
-    let one = builder.tape.integer(1);
-    Ok(match leg {
-        Leg::Slider { direction: along, anchor, platform, length, mode } => {
-            positive_quantity(&place("length"), length)?;
-            let w = w(builder, anchor, platform)?;
-            let n = direction(builder, "direction", along)?;
-            let n = builder.tape.normalised(&n);
-            let length = builder.length(&place("length"), length);
-            let machine::Built { row, rho, eta, divided } =
-                machine::slider(&mut builder.tape, &w, &n, length, mode.as_integer());
-            let square = builder.tape.sqr(length);
-            let _ = eta;
-            let oblique = Some((row.d, square));
-            ProblemLeg {
-                row,
-                divided: Row { a: divided, d: one },
-                rho: Some(rho),
-                oblique,
-                length: Some(length),
-                is_angular: false,
-                on_guide: true,
-            }
+    let mut build = || match (leg, formulas.as_slice()) {
+        (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) => {
+            let w = from_base(tape, anchor, platform)?;
+            let n = tape.normalised(&vector(direction)?);
+            Some(machine::slider(tape, &w, &n, *length.first()?, mode.as_integer()))
         }
-        Leg::Strut { anchor, platform } => {
-            let w = w(builder, anchor, platform)?;
-            let built = machine::strut(&mut builder.tape, &w);
-            let machine::Joint::Length(length) = built.rho else {
-                return Err(shape_error(&place("drive"), "a strut"));
-            };
-            ProblemLeg {
-                row: built.row,
-                divided: Row { a: built.divided, d: one },
-                rho: Some(built.rho),
-                oblique: None,
-                length: Some(length),
-                is_angular: false,
-                on_guide: false,
-            }
+        (Leg::Strut { .. }, [anchor, platform]) => {
+            let w = from_base(tape, anchor, platform)?;
+            Some(machine::strut(tape, &w))
         }
-        Leg::Arm { axis, reference, anchor, platform, arm, length, mode } => {
-            positive_quantity(&place("length"), length)?;
-            positive_quantity(&place("arm"), arm)?;
-            let w = w(builder, anchor, platform)?;
-            let k = direction(builder, "axis", axis)?;
-            let k = builder.tape.normalised(&k);
-            let e = direction(builder, "reference", reference)?;
-            let along = builder.tape.dot(&k, &e);
-            let along = builder.tape.scaled(along, &k);
-            let e = builder.tape.minus(&e, &along);
-            let e = builder.tape.normalised(&e);
-            let arm = builder.length(&place("arm"), arm);
-            let length = builder.length(&place("length"), length);
-            let built =
-                machine::arm(&mut builder.tape, &w, [&k, &e], [arm, length], mode.as_integer());
-            let square = builder.tape.sqr(length);
-            ProblemLeg {
-                row: built.row,
-                divided: Row { a: built.divided, d: one },
-                rho: Some(built.rho),
-                oblique: Some((built.eta, square)),
-                length: Some(length),
-                is_angular: true,
-                on_guide: false,
-            }
+        (Leg::Arm { mode, .. }, [axis, reference, anchor, platform, arm, length]) => {
+            let w = from_base(tape, anchor, platform)?;
+            let k = tape.normalised(&vector(axis)?);
+            let reference = vector(reference)?;
+            let along = tape.dot(&k, &reference);
+            let along = tape.scaled(along, &k);
+            let across = tape.minus(&reference, &along);
+            let e = tape.normalised(&across);
+            let lengths = [*arm.first()?, *length.first()?];
+            Some(machine::arm(tape, &w, [&k, &e], lengths, mode.as_integer()))
         }
-        Leg::Planar { direction: along } => {
-            let n = direction(builder, "direction", along)?;
-            let n = builder.tape.normalised(&n);
-            let p = std::array::from_fn(|k| builder.tape.coordinate(k));
-            let built = machine::planar(&mut builder.tape, &p, &n);
-            ProblemLeg {
-                row: built.row,
-                divided: Row { a: built.divided, d: one },
-                rho: Some(built.rho),
-                oblique: None,
-                length: Some(one),
-                is_angular: false,
-                on_guide: false,
-            }
+        (Leg::Planar { .. }, [direction]) => {
+            let n = tape.normalised(&vector(direction)?);
+            Some(machine::planar(tape, &p, &n))
         }
-    })
+        _ => None,
+    };
+    build().ok_or_else(|| shape_error("mechanism.legs", "legs with their quantities"))
 }
 
 /// The joints of a mechanism that its user gives.
-fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<ProblemLeg>, ClaimError> {
+fn by_formulas(
+    builder: &mut Builder,
+    formulas: &Formulas,
+) -> Result<Vec<machine::Leg>, ClaimError> {
     let mut names: HashMap<&str, Formula> = HashMap::new();
     let m = formulas.coordinates.len();
     if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
@@ -687,7 +583,8 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
         define(&mut names, name.as_str(), coordinate)?;
     }
     for (name, quantity) in &formulas.parameters {
-        well_ordered(name, quantity)?;
+        let [min, max] = quantity.ends();
+        ordered(name, min, max, matches!(quantity, Quantity::Between { .. }))?;
         let parameter = builder.quantity(name, quantity, 0);
         define(&mut names, name.as_str(), parameter)?;
     }
@@ -695,40 +592,19 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
         let formula = compiled(builder, &names, expression)?;
         define(&mut names, name.as_str(), formula)?;
     }
-    let mut joint = |joint: &JointFormula| {
-        let one = builder.tape.integer(1);
-        let (row, rho) = match joint {
-            JointFormula::Rho(rho) => {
-                let rho = compiled(builder, &names, rho)?;
-                let row = machine::row_of(&mut builder.tape, rho, m);
-                (row, Some(machine::Joint::Length(rho)))
-            }
-            JointFormula::Row(row) => {
-                if row.len() != m {
-                    return Err(shape_error("joints", "rows with an entry a coordinate"));
-                }
-                let a = row.iter().map(|x| compiled(builder, &names, x));
-                (Row { a: a.collect::<Result<_, _>>()?, d: one }, None)
-            }
-        };
-        let divided = if row.d == one {
-            row.clone()
-        } else {
-            let root = builder.tape.sqrt(row.d);
-            let a = row.a.iter().map(|&a| builder.tape.div(a, root)).collect();
-            Row { a, d: one }
-        };
-        Ok(ProblemLeg {
-            row,
-            divided,
-            rho,
-            oblique: None,
-            length: None,
-            is_angular: false,
-            on_guide: false,
-        })
+    let joint = |joint: &JointFormula| match joint {
+        JointFormula::Rho(rho) => {
+            let rho = compiled(builder, &names, rho)?;
+            Ok(machine::joint(&mut builder.tape, rho, m))
+        }
+        JointFormula::Row(row) if row.len() == m => {
+            let a = row.iter().map(|x| compiled(builder, &names, x));
+            let a = a.collect::<Result<_, _>>()?;
+            Ok(machine::row(&mut builder.tape, a))
+        }
+        JointFormula::Row(_) => Err(shape_error("joints", "rows with an entry a coordinate")),
     };
-    formulas.joints.iter().map(&mut joint).collect()
+    formulas.joints.iter().map(joint).collect()
 }
 
 /// An expression as a formula.

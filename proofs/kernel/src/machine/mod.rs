@@ -6,17 +6,27 @@
 use crate::formula::{Formula, Tape, Vector};
 use crate::test::Row;
 
-/// A leg's formulas.
+/// A leg's, or joint's, formulas.
 #[derive(Clone, Debug)]
-pub struct Built {
+pub struct Leg {
     /// `A_i` in the velocity of the platform's joint, and `D_i = B_i^2`.
     pub row: Row<Formula>,
-    /// `A_i / B_i`: the row of `M` itself.
-    pub divided: Vec<Formula>,
-    /// The joint coordinate.
-    pub rho: Joint,
-    /// `eta_i^2`, the square of the leg's component along the motion of its driven end.
-    pub eta: Formula,
+    /// The same divided by `B_i`: the row of `M`, and 1.
+    pub divided: Row<Formula>,
+    /// The joint coordinate; none where a claim gives the row alone.
+    pub rho: Option<Joint>,
+    /// The length of the vector `A_i`, where it is that of a leg.
+    pub length: Option<Formula>,
+    /// `eta_i^2`, of legs of fixed length: `eta_i` is the leg's component along the motion of its
+    /// driven end.
+    pub eta_squared: Option<Formula>,
+}
+
+impl Leg {
+    /// Whether the joint coordinate is an angle: `M` is then in radians per length.
+    pub fn is_angular(&self) -> bool {
+        matches!(self.rho, Some(Joint::Angle { .. }))
+    }
 }
 
 /// A joint coordinate.
@@ -41,7 +51,7 @@ pub enum Joint {
 ///
 /// *Closure.* `A` is the leg: `|A|^2 = |r|^2 + D = L^2`, and its base end `w - A = rho n` is on the
 /// guide. *Velocity.* `A . (P' - rho' n) = 0`, and `A . n = eta`.
-pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Built {
+pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Leg {
     let along = tape.dot(n, w);
     let axial = tape.scaled(along, n);
     let r = tape.minus(w, &axial);
@@ -54,23 +64,24 @@ pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) 
     // (r + eta n)/eta, with the guide's part left whole.
     let across = r.map(|r| tape.div(r, eta));
     let divided = tape.plus(n, &across).to_vec();
-    Built { row: Row { a, d }, divided, rho: Joint::Length(tape.sub(along, eta)), eta: d }
+    let rho = Joint::Length(tape.sub(along, eta));
+    leg(tape, Row { a, d }, divided, rho, (Some(length), Some(d)))
 }
 
 /// An extensible leg: `A = w`, `D = |w|^2`, `rho = |w|`. *Velocity.* `w . P' = |w| rho'`.
-pub fn strut(tape: &mut Tape, w: &Vector) -> Built {
+pub fn strut(tape: &mut Tape, w: &Vector) -> Leg {
     let d = tape.norm_squared(w);
     let length = tape.sqrt(d);
     let divided = w.map(|w| tape.div(w, length)).to_vec();
-    Built { row: Row { a: w.to_vec(), d }, divided, rho: Joint::Length(length), eta: d }
+    leg(tape, Row { a: w.to_vec(), d }, divided, Joint::Length(length), (Some(length), None))
 }
 
 /// A leg that holds the platform in a plane moved along its normal `n`: `A = n`, `D = 1`,
 /// `rho = n . w`.
-pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Built {
+pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Leg {
     let d = tape.integer(1);
     let rho = Joint::Length(tape.dot(n, w));
-    Built { row: Row { a: n.to_vec(), d }, divided: n.to_vec(), rho, eta: d }
+    leg(tape, Row { a: n.to_vec(), d }, n.to_vec(), rho, (Some(d), None))
 }
 
 /// A leg of length `L` on an arm of length `r` that turns about the unit axis `k`; `e` is the arm's
@@ -96,7 +107,7 @@ pub fn arm(
     [k, e]: [&Vector; 2],
     [r, length]: [Formula; 2],
     m: i64,
-) -> Built {
+) -> Leg {
     let f = tape.cross(k, e);
     let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
     let [alpha2, beta2, kappa2, r2, length2] = [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
@@ -128,7 +139,18 @@ pub fn arm(
     let (cos, sin) = (tape.div(cos, r), tape.div(sin, r));
     let divided = a.iter().map(|&a| tape.div(a, root)).collect();
     let row = Row { a, d: tape.mul(r2, d) };
-    Built { row, divided, rho: Joint::Angle { cos, sin }, eta: d }
+    leg(tape, row, divided, Joint::Angle { cos, sin }, (Some(length), Some(d)))
+}
+
+fn leg(
+    tape: &mut Tape,
+    row: Row<Formula>,
+    divided: Vec<Formula>,
+    rho: Joint,
+    (length, eta_squared): (Option<Formula>, Option<Formula>),
+) -> Leg {
+    let divided = Row { a: divided, d: tape.integer(1) };
+    Leg { row, divided, rho: Some(rho), length, eta_squared }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
@@ -139,9 +161,18 @@ fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
     }
 }
 
-/// A row from the joint coordinate alone: with `rho' = N/E` over the coordinates, `A = N`, `D = E^2`.
-pub fn row_of(tape: &mut Tape, rho: Formula, m: usize) -> Row<Formula> {
+/// A joint by its coordinate alone: with `rho' = N/E` over the `m` coordinates, `A = N`, `D = E^2`.
+pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
     let gradient = tape.gradient(rho, m);
     let d = tape.square_without_roots(gradient.denominator);
-    Row { a: gradient.numerators, d }
+    let root = gradient.denominator;
+    let divided = gradient.numerators.iter().map(|&a| tape.div(a, root)).collect();
+    let row = Row { a: gradient.numerators, d };
+    leg(tape, row, divided, Joint::Length(rho), (None, None))
+}
+
+/// A joint by its row of `M` alone.
+pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
+    let row = Row { a, d: tape.integer(1) };
+    Leg { divided: row.clone(), row, rho: None, length: None, eta_squared: None }
 }

@@ -1,8 +1,9 @@
 //! The condition number `sigma_max(M)/sigma_min(M)`.
 
 use super::{Context, Quantity, Test};
+use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{ordered, ClaimError, ProblemLeg};
+use crate::problem::{ordered, ClaimError};
 
 pub(super) const CONDITIONING: Quantity = Quantity {
     key: "conditioning",
@@ -12,7 +13,7 @@ pub(super) const CONDITIONING: Quantity = Quantity {
     tests,
 };
 
-fn tests(context: &mut Context<'_>, _: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.greatest()?.clone();
     ordered(context.place, &Expression::integer(1), &bound, true)?;
     let c = context.number(&bound, 0);

@@ -2,9 +2,9 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
-use crate::machine::Joint;
+use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
-use crate::problem::{binary, ordered, ClaimError, ProblemLeg, Value};
+use crate::problem::{binary, ordered, ClaimError, Value};
 
 pub(super) const JOINT_RANGE: Quantity = Quantity {
     key: "joint_range",
@@ -18,7 +18,7 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
 /// 180 degrees wide, up to whole turns, if and only if `sin(theta - min) >= 0` and
 /// `sin(max - theta) >= 0`: these are two half-planes through the axis, whose intersection is the
 /// sector from `min` to `max`.
-fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let rho = leg.and_then(|leg| leg.rho);
     Ok(match (rho, &context.requirement.bound) {
         (Some(Joint::Length(rho)), Bound::Min(min)) => {

@@ -1,8 +1,9 @@
 //! The joint speed that a platform speed asks for: `|row_i of M| tool`.
 
 use super::{Context, Quantity, Test};
+use crate::machine::Leg;
 use crate::number::Operator;
-use crate::problem::{binary, positive, ClaimError, ProblemLeg, Value};
+use crate::problem::{binary, positive, ClaimError, Value};
 
 pub(super) const JOINT_SPEED: Quantity = Quantity {
     key: "joint_speed",
@@ -13,7 +14,7 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
 };
 
 /// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
-fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let max = context.greatest()?.clone();
     let Some(tool) = context.requirement.tool.clone() else {
         return context.refused("with the platform's speed");
@@ -22,7 +23,7 @@ fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test
     positive(context.place, &tool)?;
     let ratio = binary(Operator::Div, &max, &tool);
     let Some(leg) = leg else { return context.refused("of a leg") };
-    let k = if leg.is_angular {
+    let k = if leg.is_angular() {
         let scale = -context.builder.scale;
         context.builder.input(context.place, Value::Radians(ratio), scale)
     } else {

@@ -2,8 +2,9 @@
 
 use super::serial_margin::at_least_of_length;
 use super::{Context, Quantity, Test};
+use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{ordered, positive, ClaimError, ProblemLeg, Value};
+use crate::problem::{ordered, positive, ClaimError, Value};
 
 pub(super) const LEG_ANGLE: Quantity = Quantity {
     key: "leg_angle",
@@ -14,11 +15,11 @@ pub(super) const LEG_ANGLE: Quantity = Quantity {
 };
 
 /// `|eta_i|/L_i >= cos(b)`, for `0 < b <= 90`.
-fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.greatest()?.clone();
     positive(context.place, &bound)?;
     ordered(context.place, &bound, &Expression::integer(90), false)?;
-    if leg.is_some_and(|leg| !leg.on_guide) {
+    if leg.is_some_and(Leg::is_angular) {
         return context.refused("of sliders");
     }
     let cos = context.input(Value::Cosine(bound));

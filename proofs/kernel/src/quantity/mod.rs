@@ -12,8 +12,9 @@ mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
 use crate::formula::{Formula, Tape};
+use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{shape_error, Builder, ClaimError, Problem, ProblemLeg, Value};
+use crate::problem::{shape_error, Builder, ClaimError, Problem, Value};
 
 /// A quantity.
 pub struct Quantity {
@@ -26,7 +27,7 @@ pub struct Quantity {
     /// Whether every leg has one.
     pub of_legs: bool,
     /// What a bound on it comes to; of a leg, for the leg given.
-    tests: fn(&mut Context<'_>, Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError>,
+    tests: fn(&mut Context<'_>, Option<&Leg>) -> Result<Vec<Test>, ClaimError>,
 }
 
 /// All of them, in the order of reports.
@@ -69,7 +70,7 @@ pub struct Obligation {
 /// What a quantity builds its tests with.
 pub(crate) struct Context<'a> {
     builder: &'a mut Builder,
-    legs: &'a [ProblemLeg],
+    legs: &'a [Leg],
     requirement: &'a Requirement,
     place: &'a str,
 }
@@ -91,7 +92,7 @@ impl Context<'_> {
 
     /// Whether joint coordinates are angles: `M` is then in radians per length.
     fn is_angular(&self) -> bool {
-        self.legs.iter().any(|leg| leg.is_angular)
+        self.legs.iter().any(|leg| leg.is_angular())
     }
 
     fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {
@@ -129,7 +130,7 @@ pub(crate) fn obligations(
     problem: &Problem,
 ) -> Result<Vec<Obligation>, ClaimError> {
     let legs = &problem.legs;
-    if legs.iter().any(|leg| leg.is_angular) && !legs.iter().all(|leg| leg.is_angular) {
+    if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
         return Err(shape_error("mechanism.legs", "arms alone, or none: psi has no unit else"));
     }
     let zero = builder.tape.integer(0);

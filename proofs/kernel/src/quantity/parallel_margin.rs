@@ -2,7 +2,8 @@
 
 use super::{Context, Quantity, Test};
 use crate::formula::{Formula, Tape};
-use crate::problem::{positive, ClaimError, ProblemLeg};
+use crate::machine::Leg;
+use crate::problem::{positive, ClaimError};
 
 pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     key: "parallel_margin",
@@ -13,7 +14,7 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
 };
 
 /// `|det A| >= b L_1 .. L_n`, for `b > 0` and as many legs as coordinates.
-fn tests(context: &mut Context<'_>, _: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.least()?.clone();
     positive(context.place, &bound)?;
     let mut least = context.number(&bound, 0);

@@ -1,7 +1,8 @@
 //! How far a leg is from a serial singularity: `|eta_i|/L_i`.
 
 use super::{Context, Quantity, Test};
-use crate::problem::{positive, ClaimError, ProblemLeg};
+use crate::machine::Leg;
+use crate::problem::{positive, ClaimError};
 
 pub(super) const SERIAL_MARGIN: Quantity = Quantity {
     key: "serial_margin",
@@ -12,7 +13,7 @@ pub(super) const SERIAL_MARGIN: Quantity = Quantity {
 };
 
 /// `eta_i^2 - b^2 L_i^2 >= 0`, for `b > 0`.
-fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.least()?.clone();
     positive(context.place, &bound)?;
     let bound = context.number(&bound, 0);
@@ -22,13 +23,14 @@ fn tests(context: &mut Context<'_>, leg: Option<&ProblemLeg>) -> Result<Vec<Test
 /// `eta_i^2 - c^2 L_i^2 >= 0`.
 pub(super) fn at_least_of_length(
     context: &mut Context<'_>,
-    leg: Option<&ProblemLeg>,
+    leg: Option<&Leg>,
     c: crate::formula::Formula,
 ) -> Result<Vec<Test>, ClaimError> {
-    let Some((eta_squared, length_squared)) = leg.and_then(|leg| leg.oblique) else {
+    let Some((eta_squared, length)) = leg.and_then(|leg| leg.eta_squared.zip(leg.length)) else {
         return context.refused("of legs of fixed length");
     };
     let tape = context.tape();
+    let length_squared = tape.sqr(length);
     let square = tape.sqr(c);
     let least = tape.mul(square, length_squared);
     Ok(vec![Test::AtLeast(tape.sub(eta_squared, least))])

@@ -2,8 +2,9 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
+use crate::machine::Leg;
 use crate::number::{Expression, Operator};
-use crate::problem::{binary, positive, ClaimError, ProblemLeg};
+use crate::problem::{binary, positive, ClaimError};
 
 pub(super) const TRANSMISSION: Quantity = Quantity {
     key: "transmission",
@@ -14,7 +15,7 @@ pub(super) const TRANSMISSION: Quantity = Quantity {
 };
 
 /// `psi_i <= b` for all `i` is `sigma_min(M) >= 1/b`; `psi_i >= b` is `sigma_max(M) <= 1/b`.
-fn tests(context: &mut Context<'_>, _: Option<&ProblemLeg>) -> Result<Vec<Test>, ClaimError> {
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = match &context.requirement.bound {
         Bound::Min(bound) | Bound::Max(bound) => bound,
         Bound::Within(_) => return context.refused("a least or a greatest value"),

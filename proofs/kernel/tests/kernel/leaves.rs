@@ -71,7 +71,7 @@ fn leaves() {
         let problem = Problem::new(&claim).expect("a claim");
         let [least, greatest] = Prover::new(&problem).extremes();
         // Of arms, M is an angle per length.
-        let scale = if problem.legs[0].is_angular { (problem.scale as f64).exp2() } else { 1.0 };
+        let scale = if problem.legs[0].is_angular() { (problem.scale as f64).exp2() } else { 1.0 };
         for part in [1e-2, 1e-3, 1e-4] {
             let bound = |x: f64| {
                 Expression::try_from(format!("{:.9}", x).trim_end_matches('0').to_owned())

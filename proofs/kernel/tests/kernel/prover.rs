@@ -32,8 +32,6 @@ pub struct Prover<'a> {
     root: Cell<i64>,
 }
 
-type Found = Result<Evidence, f64>;
-
 impl<'a> Prover<'a> {
     pub fn new(problem: &'a Problem) -> Self {
         let parameters = problem.parameters::<BigInt>(96, &[]).expect("parameters");
@@ -346,6 +344,3 @@ pub fn certify(claim: &MachineClaim, most: usize) -> Option<Certificate> {
         provenance: Provenance { tool: "test".to_owned(), version: "0".to_owned() },
     })
 }
-
-#[allow(dead_code)]
-type Unused = Found;
