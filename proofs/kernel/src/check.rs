@@ -228,15 +228,15 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                     })
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
-                sigma_min(over, &self.rows, &constant(kappa), y)
+                self.is_defined(over) && sigma_min(over, &self.rows, &constant(kappa), y)
             }
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
-                sigma_min(over, &self.divided, &constant(kappa), y)
+                self.is_defined(over) && sigma_min(over, &self.divided, &constant(kappa), y)
             }
             (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
             (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, &self.rows, &constant(k)),
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
-            (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_kappa.is_some(),
+            (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, c, (y, mu))
             }
@@ -253,6 +253,11 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             _ => false,
         }
+    }
+
+    /// Whether a user's formulas are defined on all of the cell, used or not.
+    fn is_defined(&self, over: &Over<'_, E>) -> bool {
+        self.problem.partial.iter().all(|&f| over.of(f).is_some())
     }
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:

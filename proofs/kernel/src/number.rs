@@ -30,6 +30,8 @@ pub const MOST_DEPTH: usize = 64;
 pub const MOST_OPERATIONS: usize = 512;
 /// Most bits of a number on the way.
 pub const MOST_BITS: u64 = 1 << 15;
+/// Most bits of a fraction that is compared exactly: its gcd costs their square.
+pub const MOST_EXACT: u64 = 1 << 12;
 /// Greatest exponent.
 pub const MOST_POWER: u32 = 64;
 /// Most bytes of a name.
@@ -400,14 +402,14 @@ impl Expression {
             Expression::Power(base, n) => {
                 let base = base.rational()?;
                 let bits = base.numer().bits().max(base.denom().bits());
-                if bits * u64::from(*n) > MOST_BITS {
+                if bits * u64::from(*n) > MOST_EXACT {
                     return None;
                 }
                 num_traits::pow(base, *n as usize)
             }
             Expression::Name(_) | Expression::Sqrt(_) => return None,
         };
-        (value.numer().bits().max(value.denom().bits()) <= MOST_BITS).then_some(value)
+        (value.numer().bits().max(value.denom().bits()) <= MOST_EXACT).then_some(value)
     }
 
     /// Calls `visit` with every name in the expression.

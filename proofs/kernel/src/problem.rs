@@ -162,6 +162,10 @@ pub struct Problem {
     pub inside: Option<Inside>,
     /// `kappa = 1/psi_max`, of the paper's cube.
     pub cube_kappa: Option<Formula>,
+    /// Whether the least psi asked for is at most `kappa`, as on all of the paper's cube.
+    pub cube_has_least: bool,
+    /// Quotients and roots of a user's formulas: defined where the claim is true.
+    pub partial: Vec<Formula>,
 }
 
 /// The workspace's own inequality.
@@ -178,6 +182,7 @@ pub(crate) struct Builder {
     pub tape: Tape,
     pub inputs: Vec<Input>,
     pub scale: i64,
+    pub partial: Vec<Formula>,
 }
 
 impl Builder {
@@ -312,7 +317,7 @@ impl Problem {
             (Some(cube), _) => [&cube.q1, &cube.q2].map(|q| vec![q.clone(); 3]),
             (None, workspace) => corners(workspace)?,
         };
-        let mut builder = Builder { tape: Tape::default(), inputs: Vec::new(), scale: 0 };
+        let mut builder = Builder { tape: Tape::default(), inputs: Vec::new(), scale: 0, partial: Vec::new() };
         let legs = match (&cube, &claim.mechanism) {
             (Some(cube), _) => built(&mut builder, &cube.legs)?,
             (_, Mechanism::Translational(legs)) => built(&mut builder, legs)?,
@@ -336,6 +341,10 @@ impl Problem {
             corners,
             scale: builder.scale,
             inside,
+            cube_has_least: cube.as_ref().zip(quantity::psi_min(claim)).is_some_and(
+                |(cube, least)| ordered("transmission", least, &cube.kappa, false).is_ok(),
+            ),
+            partial: std::mem::take(&mut builder.partial),
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
@@ -542,6 +551,9 @@ fn well_ordered(place: &str, quantity: &Quantity) -> Result<(), ClaimError> {
 
 /// Legs that do not turn the platform.
 fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<ProblemLeg>, ClaimError> {
+    if legs.len() > MOST_LEGS {
+        return Err(shape_error("legs", "twelve at most"));
+    }
     let mut lengths = Vec::new();
     let mut places = Vec::new();
     for leg in legs {
@@ -678,6 +690,9 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
     if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
         return Err(shape_error("coordinates", "one to six names"));
     }
+    if formulas.joints.len() > MOST_LEGS {
+        return Err(shape_error("joints", "twelve at most"));
+    }
     let define = |names: &mut HashMap<_, _>, name, formula| match names.insert(name, formula) {
         None => Ok(()),
         Some(_) => Err(shape_error("mechanism", "given names that differ")),
@@ -693,6 +708,7 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
     }
     for (name, expression) in &formulas.definitions {
         let formula = compiled(builder, &names, expression)?;
+        few(builder)?;
         define(&mut names, name.as_str(), formula)?;
     }
     let mut joint = |joint: &JointFormula| {
@@ -701,6 +717,7 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
             JointFormula::Rho(rho) => {
                 let rho = compiled(builder, &names, rho)?;
                 let row = machine::row_of(&mut builder.tape, rho, m);
+                few(builder)?;
                 (row, Some(machine::Joint::Length(rho)))
             }
             JointFormula::Row(row) => {
@@ -731,6 +748,16 @@ fn by_formulas(builder: &mut Builder, formulas: &Formulas) -> Result<Vec<Problem
     formulas.joints.iter().map(&mut joint).collect()
 }
 
+/// Most entries of a tape that a user's formulas come to.
+const MOST_FORMULAS: usize = 1 << 17;
+
+fn few(builder: &Builder) -> Result<(), ClaimError> {
+    if builder.tape.ops().len() > MOST_FORMULAS {
+        return Err(shape_error("mechanism", "of fewer operations"));
+    }
+    Ok(())
+}
+
 /// An expression as a formula.
 fn compiled(
     builder: &mut Builder,
@@ -752,7 +779,11 @@ fn compiled(
                 Operator::Add => builder.tape.add(left, right),
                 Operator::Sub => builder.tape.sub(left, right),
                 Operator::Mul => builder.tape.mul(left, right),
-                Operator::Div => builder.tape.div(left, right),
+                Operator::Div => {
+                    let quotient = builder.tape.div(left, right);
+                    builder.partial.push(quotient);
+                    quotient
+                }
             }
         }
         Expression::Power(base, n) => {
@@ -767,7 +798,9 @@ fn compiled(
         }
         Expression::Sqrt(inner) => {
             let inner = compiled(builder, names, inner)?;
-            builder.tape.sqrt(inner)
+            let root = builder.tape.sqrt(inner);
+            builder.partial.push(root);
+            root
         }
     })
 }

@@ -1,0 +1,9 @@
+//! Attacks.
+mod dos;
+mod mutate;
+mod last;
+mod prover;
+mod rough;
+mod known;
+mod fuzz;
+mod machines;
