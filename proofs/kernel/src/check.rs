@@ -19,6 +19,9 @@ use std::fmt;
 
 /// Most nodes of a tree.
 pub const MOST_NODES: usize = 500_000;
+/// Most evaluations of a formula, each counted once for every 64 bits of the precision: a bound on
+/// time, whatever the file.
+pub const MOST_WORK: usize = 1 << 28;
 
 /// Why a certificate is not accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +34,8 @@ pub enum Rejected {
     Precision(u32),
     /// The tree has too many nodes, too few, or cannot be split as it says.
     Shape(usize),
+    /// The tree has more nodes, or asks for more work, than is admissible.
+    Work,
     /// A step does not show what it says.
     Step {
         /// The node, counted from zero.
@@ -63,6 +68,7 @@ impl fmt::Display for Rejected {
             Rejected::Verdict => write!(f, "verdict and proof do not go together"),
             Rejected::Precision(bits) => write!(f, "a precision of {bits} bits is not admissible"),
             Rejected::Shape(node) => write!(f, "node {node}: the tree is not complete there"),
+            Rejected::Work => write!(f, "the proof is longer than is admissible"),
             Rejected::Step { node, obligation } => {
                 write!(f, "node {node}: obligation {obligation} is not certainly met on the cell")
             }
@@ -110,12 +116,14 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
 /// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward.
 fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
     let bits = tree.precision;
+    let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();
+    let each = problem.tape.ops().len() * (1 + bits as usize / 64);
+    if tree.nodes.len() > MOST_NODES || steps.saturating_mul(each) > MOST_WORK {
+        return Err(Rejected::Work);
+    }
     let arithmetic = Fixed::<Z>::new(bits);
     let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
     let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits));
-    if tree.nodes.len() > MOST_NODES {
-        return Err(Rejected::Shape(MOST_NODES));
-    }
     let root = problem.root(bits).map_err(Rejected::Claim)?;
     let mut waiting = vec![(root.clone(), vec![true; problem.obligations.len()])];
     for (at, node) in tree.nodes.iter().enumerate() {
@@ -228,15 +236,15 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                     })
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
-                sigma_min(over, &self.rows, &constant(kappa), y)
+                self.is_defined(over) && sigma_min(over, &self.rows, &constant(kappa), y)
             }
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
-                sigma_min(over, &self.divided, &constant(kappa), y)
+                self.is_defined(over) && sigma_min(over, &self.divided, &constant(kappa), y)
             }
             (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
             (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, &self.rows, &constant(k)),
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
-            (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_kappa.is_some(),
+            (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, c, (y, mu))
             }
@@ -253,6 +261,11 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             _ => false,
         }
+    }
+
+    /// Whether a user's formulas are defined on all of the cell, used or not.
+    fn is_defined(&self, over: &Over<'_, E>) -> bool {
+        self.problem.partial.iter().all(|&f| over.of(f).is_some())
     }
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:

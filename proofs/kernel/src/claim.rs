@@ -51,6 +51,7 @@ pub enum Quantity {
 pub type Vector = [Quantity; 3];
 
 /// A leg; see [`crate::machine`].
+#[allow(clippy::large_enum_variant, reason = "a few for each claim")]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "drive", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Leg {

@@ -42,6 +42,13 @@ pub trait Integer: Clone + Ord {
     fn sign(&self) -> i8;
 }
 
+/// Most bits of an end: more than any claim needs.
+const MOST_BITS: u64 = 1 << 17;
+
+fn moderate(x: BigInt) -> Option<BigInt> {
+    (x.bits() <= MOST_BITS).then_some(x)
+}
+
 impl Integer for BigInt {
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())
@@ -52,7 +59,7 @@ impl Integer for BigInt {
     }
 
     fn plus(&self, other: &Self) -> Option<Self> {
-        Some(self + other)
+        moderate(self + other)
     }
 
     fn negated(&self) -> Option<Self> {
@@ -60,16 +67,16 @@ impl Integer for BigInt {
     }
 
     fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
-        Some((self * n) >> places)
+        moderate((self * n) >> places)
     }
 
     fn product(&self, other: &Self, bits: u32) -> Option<Self> {
         // A right shift of a BigInt rounds towards minus infinity.
-        Some((self * other) >> bits)
+        moderate((self * other) >> bits)
     }
 
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
-        divisor.is_positive().then(|| (self * other).div_floor(divisor))
+        divisor.is_positive().then(|| (self * other).div_floor(divisor)).and_then(moderate)
     }
 
     fn inverse(&self, bits: u32) -> Option<Self> {

@@ -39,6 +39,18 @@ pub enum Op {
     Sqrt(Formula),
 }
 
+impl Op {
+    /// The entries it is made of.
+    fn parts(self) -> impl Iterator<Item = Formula> {
+        let [a, b] = match self {
+            Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => [None, None],
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => [Some(a), Some(b)],
+            Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => [Some(a), None],
+        };
+        a.into_iter().chain(b)
+    }
+}
+
 /// Sums and products of integers up to this are integers of a tape.
 fn is_small(n: i64) -> bool {
     n.unsigned_abs() < 1 << 15
@@ -262,6 +274,18 @@ impl Tape {
         (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
     }
 
+    /// Of each entry up to `f`, whether `f` is made of it.
+    fn parts(&self, f: Formula) -> Vec<bool> {
+        let mut needed = vec![false; f.0 + 1];
+        needed[f.0] = true;
+        for at in (0..=f.0).rev() {
+            if needed[at] {
+                self.ops[at].parts().for_each(|part| needed[part.0] = true);
+            }
+        }
+        needed
+    }
+
     /// The partial derivatives of `f` by the coordinates `0..m`.
     ///
     /// With `f' = N/E` and `g' = K/F`:
@@ -274,9 +298,12 @@ impl Tape {
     /// where the cross factors are left out if `E = F`.
     pub fn gradient(&mut self, f: Formula, m: usize) -> Gradient {
         let (zero, one) = (self.integer(0), self.integer(1));
+        let needed = self.parts(f);
+        let unneeded = Gradient { numerators: Vec::new(), denominator: one };
         let mut known: Vec<Gradient> = Vec::with_capacity(f.0 + 1);
-        for at in 0..=f.0 {
+        for (at, needed) in needed.into_iter().enumerate() {
             let gradient = match self.ops[at] {
+                _ if !needed => unneeded.clone(),
                 Op::Coordinate(k) => {
                     let mut numerators = vec![zero; m];
                     if let Some(own) = numerators.get_mut(k) {

@@ -18,7 +18,7 @@ use crate::fixed::{Fixed, Interval};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -30,6 +30,8 @@ pub const MOST_DEPTH: usize = 64;
 pub const MOST_OPERATIONS: usize = 512;
 /// Most bits of a number on the way.
 pub const MOST_BITS: u64 = 1 << 15;
+/// Most bits of a fraction that is compared exactly: its gcd costs their square.
+pub const MOST_EXACT: u64 = 1 << 12;
 /// Greatest exponent.
 pub const MOST_POWER: u32 = 64;
 /// Most bytes of a name.
@@ -318,6 +320,11 @@ impl Expression {
         }
     }
 
+    /// Whether a text is a name.
+    pub fn is_name(text: &str) -> bool {
+        matches!(Expression::try_from(text.to_owned()), Ok(Expression::Name(_)))
+    }
+
     fn strength(&self) -> u8 {
         match self {
             Expression::Binary(operator, _, _) => operator.strength(),
@@ -364,6 +371,9 @@ impl Expression {
             }
             Expression::Sqrt(inner) => {
                 let radicand = of(inner)?;
+                if inner.rational().is_some_and(|x| x.is_negative()) {
+                    return None;
+                }
                 if arithmetic.is_positive(&radicand) {
                     return arithmetic.sqrt(&radicand);
                 }
@@ -400,14 +410,14 @@ impl Expression {
             Expression::Power(base, n) => {
                 let base = base.rational()?;
                 let bits = base.numer().bits().max(base.denom().bits());
-                if bits * u64::from(*n) > MOST_BITS {
+                if bits * u64::from(*n) > MOST_EXACT {
                     return None;
                 }
                 num_traits::pow(base, *n as usize)
             }
             Expression::Name(_) | Expression::Sqrt(_) => return None,
         };
-        (value.numer().bits().max(value.denom().bits()) <= MOST_BITS).then_some(value)
+        (value.numer().bits().max(value.denom().bits()) <= MOST_EXACT).then_some(value)
     }
 
     /// Calls `visit` with every name in the expression.

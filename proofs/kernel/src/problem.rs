@@ -144,6 +144,10 @@ pub struct Problem {
     pub inside: Option<Inside>,
     /// `kappa = 1/psi_max`, of the paper's cube.
     pub cube_kappa: Option<Formula>,
+    /// Whether the least psi asked for is at most `kappa`, as on all of the paper's cube.
+    pub cube_has_least: bool,
+    /// Quotients and roots of a user's formulas: defined where the claim is true.
+    pub partial: Vec<Formula>,
 }
 
 /// The workspace's own inequality.
@@ -160,6 +164,7 @@ pub(crate) struct Builder {
     pub tape: Tape,
     pub inputs: Vec<Input>,
     pub scale: i64,
+    pub partial: Vec<Formula>,
 }
 
 impl Builder {
@@ -294,7 +299,8 @@ impl Problem {
             (Some(cube), _) => [&cube.q1, &cube.q2].map(|q| vec![q.clone(); 3]),
             (None, workspace) => corners(workspace)?,
         };
-        let mut builder = Builder { tape: Tape::default(), inputs: Vec::new(), scale: 0 };
+        let mut builder =
+            Builder { tape: Tape::default(), inputs: Vec::new(), scale: 0, partial: Vec::new() };
         let legs = match (&cube, &claim.mechanism) {
             (Some(cube), _) => built(&mut builder, &cube.legs)?,
             (_, Mechanism::Translational(legs)) => built(&mut builder, legs)?,
@@ -318,6 +324,10 @@ impl Problem {
             corners,
             scale: builder.scale,
             inside,
+            cube_has_least: cube.as_ref().zip(quantity::psi_min(claim)).is_some_and(
+                |(cube, least)| ordered("transmission", least, &cube.kappa, false).is_ok(),
+            ),
+            partial: std::mem::take(&mut builder.partial),
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
@@ -514,6 +524,9 @@ impl Cube {
 /// Legs that do not turn the platform. The unit of length is that of the greatest length, or, where
 /// no leg has one, coordinate.
 fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<machine::Leg>, ClaimError> {
+    if legs.len() > MOST_LEGS {
+        return Err(shape_error("mechanism.legs", "twelve legs at most"));
+    }
     let of_kind = |wanted: Kind| {
         let quantities = legs.iter().flat_map(Leg::quantities);
         let wanted = quantities.filter(move |(_, kind, _)| *kind == wanted);
@@ -574,10 +587,18 @@ fn by_formulas(
     if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
         return Err(shape_error("coordinates", "one to six names"));
     }
+    if formulas.joints.len() > MOST_LEGS {
+        return Err(shape_error("joints", "twelve at most"));
+    }
     let define = |names: &mut HashMap<_, _>, name, formula| match names.insert(name, formula) {
         None => Ok(()),
         Some(_) => Err(shape_error("mechanism", "given names that differ")),
     };
+    let named = formulas.parameters.iter().map(|(name, _)| name);
+    let named = named.chain(formulas.definitions.iter().map(|(name, _)| name));
+    if !named.chain(&formulas.coordinates).all(|name| Expression::is_name(name)) {
+        return Err(shape_error("mechanism", "named by letters, digits and _, a letter first"));
+    }
     for (k, name) in formulas.coordinates.iter().enumerate() {
         let coordinate = builder.tape.coordinate(k);
         define(&mut names, name.as_str(), coordinate)?;
@@ -590,12 +611,14 @@ fn by_formulas(
     }
     for (name, expression) in &formulas.definitions {
         let formula = compiled(builder, &names, expression)?;
+        few(builder)?;
         define(&mut names, name.as_str(), formula)?;
     }
     let joint = |joint: &JointFormula| match joint {
         JointFormula::Rho(rho) => {
             let rho = compiled(builder, &names, rho)?;
-            Ok(machine::joint(&mut builder.tape, rho, m))
+            let joint = machine::joint(&mut builder.tape, rho, m);
+            few(builder).map(|()| joint)
         }
         JointFormula::Row(row) if row.len() == m => {
             let a = row.iter().map(|x| compiled(builder, &names, x));
@@ -605,6 +628,16 @@ fn by_formulas(
         JointFormula::Row(_) => Err(shape_error("joints", "rows with an entry a coordinate")),
     };
     formulas.joints.iter().map(joint).collect()
+}
+
+/// Most entries of a tape that a user's formulas come to.
+const MOST_FORMULAS: usize = 1 << 17;
+
+fn few(builder: &Builder) -> Result<(), ClaimError> {
+    if builder.tape.ops().len() > MOST_FORMULAS {
+        return Err(shape_error("mechanism", "of fewer operations"));
+    }
+    Ok(())
 }
 
 /// An expression as a formula.
@@ -628,7 +661,11 @@ fn compiled(
                 Operator::Add => builder.tape.add(left, right),
                 Operator::Sub => builder.tape.sub(left, right),
                 Operator::Mul => builder.tape.mul(left, right),
-                Operator::Div => builder.tape.div(left, right),
+                Operator::Div => {
+                    let quotient = builder.tape.div(left, right);
+                    builder.partial.push(quotient);
+                    quotient
+                }
             }
         }
         Expression::Power(base, n) => {
@@ -643,7 +680,9 @@ fn compiled(
         }
         Expression::Sqrt(inner) => {
             let inner = compiled(builder, names, inner)?;
-            builder.tape.sqrt(inner)
+            let root = builder.tape.sqrt(inner);
+            builder.partial.push(root);
+            root
         }
     })
 }

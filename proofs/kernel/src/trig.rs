@@ -30,7 +30,7 @@ fn atan_inverse(n: u32, bits: u32) -> Interval<BigInt> {
     let mut terms = 0u32;
     while power.is_positive() {
         let term = &power / (2 * terms + 1);
-        sum = if terms % 2 == 0 { sum + term } else { sum - term };
+        sum = if terms.is_multiple_of(2) { sum + term } else { sum - term };
         power /= n * n;
         terms += 1;
     }

@@ -139,15 +139,19 @@ impl<'a> At<'a> {
         x.is_some_and(|x| self.arithmetic.is_positive(&x))
     }
 
-    /// A formula of the claim is certainly not defined: a radicand is not positive.
+    /// A formula of the claim is certainly not defined: a radicand is not positive, or a divisor zero.
     fn is_undefined(&self) -> bool {
-        let radicand = |op: &Op| match op {
-            Op::Sqrt(radicand) => self.values.of(*radicand),
-            _ => None,
-        };
-        let not_positive =
-            |x: &Number| self.arithmetic.neg(x).is_some_and(|x| self.arithmetic.is_nonnegative(&x));
-        self.problem.tape.ops().iter().filter_map(radicand).any(not_positive)
+        let e = &self.arithmetic;
+        let at_most_zero =
+            |x: &Number| e.neg(x).is_some_and(|negative| e.is_nonnegative(&negative));
+        self.problem.tape.ops().iter().any(|op| match op {
+            Op::Sqrt(radicand) => self.values.of(*radicand).is_some_and(at_most_zero),
+            Op::Div(_, divisor) => self
+                .values
+                .of(*divisor)
+                .is_some_and(|divisor| at_most_zero(divisor) && e.is_nonnegative(divisor)),
+            _ => false,
+        })
     }
 
     /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
@@ -221,7 +225,8 @@ impl<'a> At<'a> {
     /// **Lemma.** If `det M` of one machine has opposite signs at two points of a convex workspace, as
     /// all are here, the claim is false. *Proof.* If every formula is defined, and every leg reaches
     /// without a serial singularity, on the segment between them, `det M` is continuous there and
-    /// vanishes somewhere: a parallel singularity. Otherwise some point has no such leg. ∎
+    /// vanishes somewhere: a parallel singularity. Otherwise some point has no such leg. ∎ (A divisor of
+    /// the rows that changes its sign is zero somewhere, and a formula of the claim not defined there.)
     fn opposite(&self, other: &Self) -> bool {
         let signs = |at: &Self| {
             let det = at.determinant();

@@ -30,7 +30,7 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
             vec![Test::AtLeast(context.tape().sub(max, rho))]
         }
         (Some(Joint::Angle { cos, sin }), Bound::Within([min, max])) => {
-            ordered(context.place, min, max, false)?;
+            ordered(context.place, min, max, true)?;
             let half_turn = binary(Operator::Add, min, &Expression::integer(180));
             ordered(context.place, max, &half_turn, true)?;
             let mut end = |x: &Expression| {

@@ -122,6 +122,14 @@ pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
     })
 }
 
+/// The least psi that a claim asks for.
+pub(crate) fn psi_min(claim: &MachineClaim) -> Option<&Expression> {
+    claim.require.iter().find_map(|requirement| match &requirement.bound {
+        Bound::Min(bound) if requirement.quantity == transmission::TRANSMISSION.key => Some(bound),
+        _ => None,
+    })
+}
+
 /// The obligations of a claim: freedom from singularities first, then requirement by requirement and
 /// leg by leg. Every requirement is of a quantity of the table, and none is there twice.
 pub(crate) fn obligations(
@@ -145,6 +153,9 @@ pub(crate) fn obligations(
         };
         if claim.require[..number].iter().any(same) {
             return Err(shape_error(&place, "there once"));
+        }
+        if requirement.tool.is_some() && requirement.quantity != joint_speed::JOINT_SPEED.key {
+            return Err(shape_error(&place, "without the platform's speed"));
         }
         let Some(quantity) = TABLE.iter().find(|q| q.key == requirement.quantity) else {
             return Err(shape_error(&place, "one of the table of quantities"));

@@ -256,3 +256,93 @@ fn the_workspace_at_the_vertices_in_place_of_its_tangent() {
     assert_eq!(inside.gradient.len(), 3);
     assert!(!parameters.is_empty());
 }
+
+/// A claim of one coordinate in [0, 1] with these definitions and this joint.
+fn one(definitions: &str, joint: &str) -> String {
+    format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[],"definitions":[{definitions}],"joints":[{joint}]}}}},"workspace":{{"box":{{"min":["0"],"max":["1"]}}}},"require":[]}}"#
+    )
+}
+
+#[test]
+fn formulas_that_are_not_defined_although_their_derivatives_are() {
+    assert!(certify(&claim(&one("", r#"{"rho":"x+sqrt(x+1)"}"#)), 50).is_some());
+    for (defect, definitions, joint) in [
+        ("root of what does not vary", "", r#"{"rho":"x+sqrt(x-x-1)"}"#),
+        ("quotient of what does not vary", "", r#"{"rho":"x+1/(x-x)"}"#),
+        ("two negative radicands", "", r#"{"rho":"sqrt(x-10)/sqrt(x-x-1)"}"#),
+        ("nothing times a root", "", r#"{"rho":"x+0*sqrt(x-5)"}"#),
+        ("nothing times a root, in a row", "", r#"{"row":["1+0*sqrt(x-5)"]}"#),
+        ("nothing times a quotient, in a row", "", r#"{"row":["1+0*(1/(x-1/2))"]}"#),
+        ("a definition that is not used", r#"["u","sqrt(x-5)"]"#, r#"{"rho":"x"}"#),
+    ] {
+        let machine = claim(&one(definitions, joint));
+        let proved = Problem::new(&machine).is_ok() && certify(&machine, 200).is_some();
+        assert!(!proved, "{defect}");
+    }
+}
+
+#[test]
+fn names_and_numbers_that_mean_something_else() {
+    let good = one("", r#"{"rho":"x"}"#);
+    for name in ["", "sqrt", "1", "x y", "\u{0445}", "-x"] {
+        let text = good.replace(r#"["x"]"#, &format!(r#"["{name}"]"#));
+        let text = text.replace(r#""rho":"x""#, r#""row":["1"]"#);
+        assert!(Problem::new(&claim(&text)).is_err(), "{name}");
+    }
+    let parameter =
+        |x: &str| good.replace(r#""parameters":[]"#, &format!(r#""parameters":[["q","{x}"]]"#));
+    Problem::new(&claim(&parameter("1"))).expect("well formed");
+    let tiny = format!("sqrt(-0.{}1)", "0".repeat(700));
+    assert!(Problem::new(&claim(&parameter(&tiny))).is_err());
+    let tool = r#"{"quantity":"transmission","tool":"1","end":"max","bound":"2"}"#;
+    let text = good.replace(r#""require":[]"#, &format!(r#""require":[{tool}]"#));
+    assert!(Problem::new(&claim(&text)).is_err());
+}
+
+#[test]
+fn the_cubes_upper_bound_is_no_more_than_the_papers() {
+    let text = |least: &str| {
+        format!(
+            r#"{{"mechanism":{{"orthoglide":{{"offset":"0"}}}},"workspace":{{"cube":{{"side":"200"}}}},"require":[{},{}]}}"#,
+            psi("min", least),
+            psi("max", "2")
+        )
+    };
+    let mut certificate = certified(&text("1/2"));
+    for least in ["100", "1.9", "0.500001"] {
+        let orthocert_kernel::certificate::Claim::Machine(machine) = &mut certificate.claim;
+        *machine = claim(&text(least));
+        assert!(check(&certificate).is_err(), "{least}");
+    }
+}
+
+#[test]
+fn small_claims_are_small_work() {
+    // A power of powers; six joints of six coordinates; more work than is admissible.
+    let power = one("", r#"{"rho":"x+((((3+x)^64)^64)^64)^64"}"#);
+    let proposed = certify(&claim(&power), 20).expect("doubles see no end");
+    assert!(check(&proposed).is_err(), "ends of more bits than any claim needs");
+    let names: Vec<String> = (0..6).map(|k| format!("\"x{k}\"")).collect();
+    let joint = |i: usize| {
+        let square = |k: usize| format!("(x{k}-{i}-{k})^2");
+        let sum: Vec<String> = (0..6).map(square).collect();
+        format!(r#"{{"rho":"sqrt({})"}}"#, sum.join("+"))
+    };
+    let joints: Vec<String> = (0..6).map(joint).collect();
+    let corner = |x: &str| vec![format!("\"{x}\""); 6].join(",");
+    let text = format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":[{}],"parameters":[],"definitions":[],"joints":[{}]}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}},"require":[]}}"#,
+        names.join(","),
+        joints.join(","),
+        corner("0"),
+        corner("1")
+    );
+    let problem = Problem::new(&claim(&text)).expect("a claim");
+    assert!(problem.tape.ops().len() < 400, "{}", problem.tape.ops().len());
+    let mut long = certified(&delta(&psi("max", "2")));
+    let step = tree(&mut long).nodes.iter().find(|n| !n.by.is_empty()).expect("a step").clone();
+    tree(&mut long).precision = 1024;
+    tree(&mut long).nodes = vec![step; 490_000];
+    assert_eq!(check(&long), Err(Rejected::Work));
+}
