@@ -1,0 +1,53 @@
+//! What a formula is evaluated in.
+//!
+//! An operation gives `None` where it is undefined (a divisor that may be zero, a radicand that may
+//! be negative or zero) or beyond the numbers at hand. What depends on it is then undefined too, and
+//! no test holds of it.
+
+/// Numbers, or sets of numbers, with the operations of formulas.
+pub trait Arithmetic {
+    /// A number, or an enclosure of one.
+    type Number: Clone;
+    /// The integer `n`.
+    fn integer(&self, n: i64) -> Option<Self::Number>;
+    /// `a + b`.
+    fn add(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    /// `a - b`.
+    fn sub(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    /// `-a`.
+    fn neg(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// `a b`.
+    fn mul(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    /// `a / b`.
+    fn div(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    /// `a^2`.
+    fn sqr(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// `sqrt(a)`, for `a > 0` only: at zero a root has no slope.
+    fn sqrt(&self, a: &Self::Number) -> Option<Self::Number>;
+}
+
+/// Intervals: what an operation gives contains the result for all numbers in its operands.
+pub trait Enclosure: Arithmetic {
+    /// `1 / a`.
+    fn recip(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// `a / 2`.
+    fn halve(&self, a: &Self::Number) -> Option<Self::Number>;
+    /// `n a / 2^places`.
+    fn dyadic(&self, n: i64, places: u32, a: &Self::Number) -> Option<Self::Number>;
+    /// `a b / c`, for `c > 0`.
+    fn ratio(&self, a: &Self::Number, b: &Self::Number, c: &Self::Number) -> Option<Self::Number>;
+    /// The part of `range` no further from `centre` than the greatest absolute values of `slopes`
+    /// together; `None` if there is none.
+    fn within(
+        &self,
+        range: &Self::Number,
+        centre: &Self::Number,
+        slopes: &[Self::Number],
+    ) -> Option<Self::Number>;
+    /// The least and the greatest number in `a`.
+    fn ends(&self, a: &Self::Number) -> [Self::Number; 2];
+    /// Whether every number in `a` is greater than zero.
+    fn is_positive(&self, a: &Self::Number) -> bool;
+    /// Whether no number in `a` is less than zero.
+    fn is_nonnegative(&self, a: &Self::Number) -> bool;
+}

@@ -1,0 +1,119 @@
+//! Boxes of the bisection tree, and the points between which a formula's values on them lie.
+
+use crate::arithmetic::Enclosure;
+use crate::fixed::{Integer, Interval};
+use crate::formula::{Op, Tape, Values};
+use crate::slope::{Slope, Slopes};
+
+/// A box: for each coordinate a range with ends in multiples of `2^-bits`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell<Z>(pub Vec<Interval<Z>>);
+
+impl<Z: Integer> Cell<Z> {
+    /// Both halves along coordinate `k`, at `floor((lo + hi)/2)`: together they are the cell, whatever
+    /// is rounded. `None` if there is no such coordinate, or nothing to halve.
+    pub fn halves(&self, k: usize) -> Option<[Self; 2]> {
+        let Interval { lo, hi } = self.0.get(k)?;
+        let middle = lo.plus(hi)?.half();
+        if middle == *lo {
+            return None;
+        }
+        let with = |lo: &Z, hi: &Z| {
+            let mut half = self.clone();
+            half.0[k] = Interval { lo: lo.clone(), hi: hi.clone() };
+            half
+        };
+        Some([with(lo, &middle), with(&middle, hi)])
+    }
+
+    /// Whether it touches the least, and the greatest corner of another.
+    pub fn touches(&self, root: &Self) -> [bool; 2] {
+        let all = |same: fn(&Interval<Z>, &Interval<Z>) -> bool| {
+            self.0.iter().zip(&root.0).all(|(own, root)| same(own, root))
+        };
+        [all(|own, root| own.lo == root.lo), all(|own, root| own.hi == root.hi)]
+    }
+
+    /// For each coordinate its centre, range and half-width.
+    ///
+    /// Coordinate `k` is `c_k + lambda_k h_k` with `c_k = floor((lo + hi)/2)`, `h_k = hi - c_k`, so
+    /// that `lambda_k` in `[-1, 1]` gives all of the range, as `c_k - h_k <= lo`.
+    pub fn edges(&self) -> Option<Vec<[Interval<Z>; 3]>> {
+        let edge = |range: &Interval<Z>| {
+            let centre = range.lo.plus(&range.hi)?.half();
+            let half = range.hi.plus(&centre.negated()?)?;
+            Some([Interval::point(centre), range.clone(), Interval::point(half)])
+        };
+        self.0.iter().map(edge).collect()
+    }
+}
+
+/// The values of a tape's entries over a cell, of which `edges` has, for each coordinate, the
+/// expansion point, the range, and what `lambda_k` is multiplied by.
+pub fn evaluate<E: Enclosure>(
+    tape: &Tape,
+    parameters: &[E::Number],
+    slopes: Slopes<'_, E>,
+    edges: &[[E::Number; 3]],
+) -> Values<Slope<E::Number>> {
+    tape.run(&slopes, |op| match op {
+        Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
+        Op::Parameter(j) => slopes.constant(parameters.get(j)?.clone()),
+        _ => None,
+    })
+}
+
+/// A vertex of a cell: bit `k` is set where `lambda_k = 1`, else `lambda_k = -1`.
+///
+/// **Lemma (vertices).** Fix a point `x` of the cell and the parameters. There are weights
+/// `w_v >= 0`, `sum_v w_v = 1`, the same for all formulas, with `f(x) = sum_v w_v f_v`, where
+/// `f_v = f(c) + sum_k v_k S_k` and the `S_k` are those of `f` at `x`. *Proof.* `lambda` is a convex
+/// combination of the vertices of `[-1, 1]^m`, and for fixed `x` what is summed is affine in it. ∎
+///
+/// About a corner, `lambda` is in `[0, 1]^m`, and the vertices are [`Vertex::value_about_corner`].
+///
+/// So where a set of matrices is convex, and holds the matrices of all `f_v` in their enclosures
+/// [`Vertex::value`], it holds that of `f(x)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vertex(u32);
+
+impl Vertex {
+    /// The vertices of a cell with `m` coordinates.
+    pub fn all(m: usize) -> impl Iterator<Item = Vertex> {
+        (0..1u32 << m).map(Vertex)
+    }
+
+    /// Encloses `f_v`.
+    pub fn value<E: Enclosure>(
+        self,
+        slopes: &Slopes<'_, E>,
+        slope: &Slope<E::Number>,
+    ) -> Option<E::Number> {
+        let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
+        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| {
+            if self.0 >> k & 1 == 1 {
+                slopes.arithmetic.add(&sum, term)
+            } else {
+                slopes.arithmetic.sub(&sum, term)
+            }
+        })
+    }
+
+    /// Encloses `f_v` where `lambda_k` is 1 or 0.
+    pub fn value_about_corner<E: Enclosure>(
+        self,
+        slopes: &Slopes<'_, E>,
+        slope: &Slope<E::Number>,
+    ) -> Option<E::Number> {
+        let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
+        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match self.0 >> k & 1 {
+            1 => slopes.arithmetic.add(&sum, term),
+            _ => Some(sum),
+        })
+    }
+
+    /// Whether bit `k` is set.
+    pub fn has(self, k: usize) -> bool {
+        self.0 >> k & 1 == 1
+    }
+}

@@ -1,0 +1,214 @@
+//! Certificates: a claim, a verdict, a proof, as canonical text.
+
+use crate::claim::MachineClaim;
+use crate::number::Expression;
+use crate::test::Multiplier;
+use serde::{Deserialize, Serialize};
+
+/// The format that is read and written.
+pub const FORMAT: &str = "orthocert/2";
+/// Most bytes of a certificate.
+pub const MOST_BYTES: usize = 16 << 20;
+/// Least and greatest precision.
+pub const PRECISIONS: std::ops::RangeInclusive<u32> = 32..=1024;
+
+/// A certificate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// [`FORMAT`].
+    pub format: String,
+    /// What is claimed.
+    pub claim: Claim,
+    /// Whether it is true.
+    pub verdict: Verdict,
+    /// Why.
+    pub proof: Proof,
+    /// Who wrote this. Never trusted, never needed.
+    pub provenance: Provenance,
+}
+
+/// What a certificate is about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// A machine over a workspace.
+    Machine(MachineClaim),
+}
+
+/// What a certificate says of its claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It is a theorem.
+    Certified,
+    /// It is false.
+    Refuted,
+}
+
+/// The argument.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Proof {
+    /// For "certified".
+    Tree(Tree),
+    /// For "refuted".
+    Witness(Witness),
+}
+
+/// A bisection tree in preorder: a node, then its lower half, then its upper half.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tree {
+    /// Fractional bits of the arithmetic.
+    pub precision: u32,
+    /// The nodes.
+    pub nodes: Vec<Node>,
+}
+
+/// A node.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Node {
+    /// What is shown of all of its cell.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by: Vec<Step>,
+    /// The coordinate along which it is halved, counted from zero; none of a leaf.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub split: Option<usize>,
+}
+
+/// An obligation, by its number, and the evidence with which it is discharged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step(pub usize, pub Evidence);
+
+/// Evidence.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Evidence {
+    /// None is needed.
+    Test,
+    /// None is needed; the rows are divided.
+    Divided,
+    /// For a least singular value.
+    Lower(Multiplier),
+    /// The same, with divided rows.
+    LowerDivided(Multiplier),
+    /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
+    Conditioning(Multiplier, Vec<i64>),
+    /// For a quantity whose absolute value is bounded from below: its sign is negative.
+    Negative,
+    /// The upper bound on the paper's cube.
+    Cube,
+    /// The lower bound about a tight corner of it.
+    Corner(Corner),
+    /// No point of the workspace is in the cell: every obligation at once.
+    Outside,
+    /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
+    Inside(Box<Evidence>, i64, u32),
+}
+
+/// A corner of the paper's cube.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Corner {
+    /// `(q_1, q_1, q_1)`.
+    Q1,
+    /// `(q_2, q_2, q_2)`.
+    Q2,
+}
+
+/// A machine and a point at which an obligation fails.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// Fractional bits of the arithmetic.
+    pub precision: u32,
+    /// The point.
+    pub point: Vec<Expression>,
+    /// Values of the quantities that are intervals, in the order of the claim.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub machine: Vec<Expression>,
+    /// What fails.
+    pub fails: Failure,
+}
+
+/// How a claim fails at a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Failure {
+    /// A leg does not reach the point, or is serially singular there: a formula of the claim is not
+    /// defined.
+    Reach,
+    /// The obligation of this number; of singular values, with directions.
+    Obligation(usize, Vec<Vec<i64>>),
+    /// `det M` has the opposite sign at this point.
+    Singular(Vec<Expression>),
+}
+
+/// Who wrote a certificate.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// A program.
+    pub tool: String,
+    /// Its version.
+    pub version: String,
+}
+
+/// Why a text is no certificate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unreadable {
+    /// Longer than [`MOST_BYTES`].
+    TooLong(usize),
+    /// Not of the shape of a certificate.
+    Malformed(String),
+    /// Of another format.
+    Format(String),
+    /// Its certificate prints another text.
+    NotCanonical {
+        /// The first byte that differs.
+        at: usize,
+    },
+}
+
+impl Certificate {
+    /// The text of a certificate: JSON without blanks, keys in their order, a line feed after it.
+    ///
+    /// # Errors
+    /// Never for what [`Certificate::read`] gave.
+    pub fn to_text(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string(self).map(|text| text + "\n")
+    }
+
+    /// The certificate with this text.
+    ///
+    /// Whatever a JSON reader lets pass (a key twice, in another order, or of no meaning; a number
+    /// written otherwise; blanks) is refused, since the certificate that is checked prints otherwise.
+    ///
+    /// # Errors
+    /// If it is not what the certificate prints.
+    pub fn read(text: &str) -> Result<Self, Unreadable> {
+        #[derive(Deserialize)]
+        struct Format {
+            format: String,
+        }
+        if text.len() > MOST_BYTES {
+            return Err(Unreadable::TooLong(text.len()));
+        }
+        let malformed = |e: serde_json::Error| Unreadable::Malformed(e.to_string());
+        let Format { format } = serde_json::from_str(text).map_err(malformed)?;
+        if format != FORMAT {
+            return Err(Unreadable::Format(format));
+        }
+        let certificate: Certificate = serde_json::from_str(text).map_err(malformed)?;
+        let printed = certificate.to_text().map_err(malformed)?;
+        let differs = printed.bytes().zip(text.bytes()).position(|(a, b)| a != b);
+        match differs {
+            None if printed.len() == text.len() => Ok(certificate),
+            _ => {
+                let at = differs.unwrap_or(printed.len().min(text.len()));
+                Err(Unreadable::NotCanonical { at })
+            }
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Positive definiteness of symmetric interval matrices.
+
+use crate::arithmetic::Enclosure;
+
+/// The upper triangle of a symmetric matrix: row `i` holds the entries `(i, i)`, `(i, i + 1)`, ...
+pub type Triangle<N> = Vec<Vec<N>>;
+
+/// Whether every symmetric matrix with entries in `matrix` is certainly positive definite: if the
+/// interval matrix is, or else if each of its sign vertices is, by [`eliminates`].
+///
+/// **Lemma (sign vertices).** For `z` in `{-1, 1}^m` let `T_z` have the lower end of entry `(i, j)`
+/// where `z_i = z_j`, and the upper end elsewhere. If all `T_z` are positive definite, so is every
+/// symmetric `X` in `matrix`. *Proof.* For `v != 0` let `z_i = -1` where `v_i < 0`, else 1. Then
+/// `v_i X_ij v_j >= v_i (T_z)_ij v_j` for each `i`, `j`, so `v^T X v >= v^T T_z v > 0`. ∎ (Hertz.
+/// `z` and `-z` give the same.)
+pub fn is_positive_definite<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Number>) -> bool {
+    let Some(signs) = matrix.len().checked_sub(1) else { return true };
+    let vertex = |z: u32| {
+        let negative = |i: usize| i > 0 && z >> (i - 1) & 1 == 1;
+        let row = |(i, row): (usize, &Vec<E::Number>)| {
+            let entry = |(x, j): (&E::Number, usize)| {
+                let [lo, hi] = arithmetic.ends(x);
+                if negative(i) == negative(j) {
+                    lo
+                } else {
+                    hi
+                }
+            };
+            row.iter().zip(i..).map(entry).collect()
+        };
+        matrix.iter().enumerate().map(row).collect()
+    };
+    eliminates(arithmetic, matrix.clone())
+        || (0..1u32 << signs).all(|z| eliminates(arithmetic, vertex(z)))
+}
+
+/// Whether elimination shows every symmetric matrix with entries in `matrix` positive definite.
+///
+/// **Lemma.** A symmetric matrix `[[a, b^T], [b, C]]` is positive definite if and only if `a > 0` and
+/// its Schur complement `C - b b^T/a` is. *Proof.* `a t^2 + 2 t b.w + w^T C w
+/// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
+/// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
+/// is undefined, the answer is no.
+fn eliminates<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Number>) -> bool {
+    let mut rest = matrix;
+    while !rest.is_empty() {
+        match eliminated(arithmetic, rest) {
+            Some(next) => rest = next,
+            None => return false,
+        }
+    }
+    true
+}
+
+/// The Schur complement of the first entry; `None` unless that is certainly positive.
+pub(crate) fn eliminated<E: Enclosure>(
+    arithmetic: &E,
+    matrix: Triangle<E::Number>,
+) -> Option<Triangle<E::Number>> {
+    let mut rows = matrix.into_iter();
+    let first = rows.next()?;
+    let (a, b) = first.split_first()?;
+    if !arithmetic.is_positive(a) {
+        return None;
+    }
+    let row = |(j, row): (usize, Vec<E::Number>)| {
+        let from = b.get(j)?;
+        let entry =
+            |(c, b): (&E::Number, &E::Number)| arithmetic.sub(c, &arithmetic.ratio(from, b, a)?);
+        row.iter().zip(&b[j..]).map(entry).collect()
+    };
+    rows.enumerate().map(row).collect()
+}

@@ -1,0 +1,358 @@
+//! Intervals with ends in multiples of `2^-bits`: the arithmetic that a proof rests on.
+//!
+//! Addition and subtraction are exact; products, quotients and roots round outward to the next
+//! multiple of `2^-bits`. Two inequalities carry every rounding, for integers `n`, `d > 0`, `k >= 0`:
+//!
+//! ```text
+//! floor(n/d) <= n/d <= ceil(n/d)                 ceil(x) = -floor(-x)
+//! r = isqrt(n)  =>  r^2 <= n < (r + 1)^2
+//! ```
+//!
+//! The ends are integers of any size, or machine words. Words give what the others give or, where a
+//! number does not fit, nothing: an evaluation in words that succeeds is the evaluation.
+
+use crate::arithmetic::{Arithmetic, Enclosure};
+use num_bigint::BigInt;
+use num_integer::Integer as _;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// Ends of intervals; `None` where a result does not fit.
+pub trait Integer: Clone + Ord {
+    /// This integer.
+    fn of(n: &BigInt) -> Option<Self>;
+    /// `n 2^bits`.
+    fn scaled(n: i64, bits: u32) -> Option<Self>;
+    /// `self + other`.
+    fn plus(&self, other: &Self) -> Option<Self>;
+    /// `-self`.
+    fn negated(&self) -> Option<Self>;
+    /// `floor(n self / 2^places)`.
+    fn dyadic(&self, n: i64, places: u32) -> Option<Self>;
+    /// `floor(self other / 2^bits)`.
+    fn product(&self, other: &Self, bits: u32) -> Option<Self>;
+    /// `floor(self other / divisor)`, for `divisor > 0`.
+    fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self>;
+    /// `floor(2^(2 bits) / self)`, for `self != 0`.
+    fn inverse(&self, bits: u32) -> Option<Self>;
+    /// `floor(sqrt(self 2^bits))` and whether that is the root exactly, for `self >= 0`.
+    fn root(&self, bits: u32) -> Option<(Self, bool)>;
+    /// `floor(self / 2)`.
+    fn half(&self) -> Self;
+    /// `-1`, `0` or `1`.
+    fn sign(&self) -> i8;
+}
+
+/// Most bits of an end: more than any claim needs.
+const MOST_BITS: u64 = 1 << 17;
+
+fn moderate(x: BigInt) -> Option<BigInt> {
+    (x.bits() <= MOST_BITS).then_some(x)
+}
+
+impl Integer for BigInt {
+    fn of(n: &BigInt) -> Option<Self> {
+        Some(n.clone())
+    }
+
+    fn scaled(n: i64, bits: u32) -> Option<Self> {
+        Some(BigInt::from(n) << bits)
+    }
+
+    fn plus(&self, other: &Self) -> Option<Self> {
+        moderate(self + other)
+    }
+
+    fn negated(&self) -> Option<Self> {
+        Some(-self)
+    }
+
+    fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
+        moderate((self * n) >> places)
+    }
+
+    fn product(&self, other: &Self, bits: u32) -> Option<Self> {
+        // A right shift of a BigInt rounds towards minus infinity.
+        moderate((self * other) >> bits)
+    }
+
+    fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
+        divisor.is_positive().then(|| (self * other).div_floor(divisor)).and_then(moderate)
+    }
+
+    fn inverse(&self, bits: u32) -> Option<Self> {
+        let one = BigInt::one() << (2 * u64::from(bits));
+        (!self.is_zero()).then(|| one.div_floor(self))
+    }
+
+    fn root(&self, bits: u32) -> Option<(Self, bool)> {
+        if self.is_negative() {
+            return None;
+        }
+        let n = self << bits;
+        let root = n.sqrt();
+        let exact = &root * &root == n;
+        Some((root, exact))
+    }
+
+    fn half(&self) -> Self {
+        self >> 1
+    }
+
+    fn sign(&self) -> i8 {
+        match self.sign() {
+            num_bigint::Sign::Minus => -1,
+            num_bigint::Sign::NoSign => 0,
+            num_bigint::Sign::Plus => 1,
+        }
+    }
+}
+
+/// Products of two words have 127 bits at most and fit into `i128`.
+impl Integer for i64 {
+    fn of(n: &BigInt) -> Option<Self> {
+        n.to_i64()
+    }
+
+    fn scaled(n: i64, bits: u32) -> Option<Self> {
+        let factor = 1i64.checked_shl(bits).filter(|&factor| factor > 0)?;
+        n.checked_mul(factor)
+    }
+
+    fn plus(&self, other: &Self) -> Option<Self> {
+        self.checked_add(*other)
+    }
+
+    fn negated(&self) -> Option<Self> {
+        self.checked_neg()
+    }
+
+    fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
+        self.product(&n, places)
+    }
+
+    fn product(&self, other: &Self, bits: u32) -> Option<Self> {
+        ((i128::from(*self) * i128::from(*other)) >> bits.min(127)).try_into().ok()
+    }
+
+    fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
+        if *divisor <= 0 {
+            return None;
+        }
+        // Euclid's quotient by a positive divisor is the floor.
+        let product = i128::from(*self) * i128::from(*other);
+        product.div_euclid(i128::from(*divisor)).try_into().ok()
+    }
+
+    fn inverse(&self, bits: u32) -> Option<Self> {
+        let one = 1i128.checked_shl(2 * bits).filter(|&one| one > 0)?;
+        let quotient = one.checked_div_euclid(i128::from(*self))?;
+        // For a negative divisor Euclid's quotient is the ceiling.
+        let floor = quotient - i128::from(*self < 0 && one % i128::from(*self) != 0);
+        floor.try_into().ok()
+    }
+
+    fn root(&self, bits: u32) -> Option<(Self, bool)> {
+        let n = u128::try_from(*self).ok()?;
+        let n = n.checked_mul(1u128.checked_shl(bits)?)?;
+        let root = n.isqrt();
+        Some((root.try_into().ok()?, root * root == n))
+    }
+
+    fn half(&self) -> Self {
+        self >> 1
+    }
+
+    fn sign(&self) -> i8 {
+        self.signum() as i8
+    }
+}
+
+/// `[lo, hi] / 2^bits`, with `lo <= hi`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interval<Z> {
+    /// Lower end.
+    pub lo: Z,
+    /// Upper end.
+    pub hi: Z,
+}
+
+impl<Z: Clone> Interval<Z> {
+    /// The interval of one number.
+    pub fn point(x: Z) -> Self {
+        Interval { lo: x.clone(), hi: x }
+    }
+}
+
+/// The arithmetic with this many fractional bits, on ends of type `Z`.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<Z> {
+    bits: u32,
+    ends: std::marker::PhantomData<Z>,
+}
+
+impl<Z: Integer> Fixed<Z> {
+    /// The arithmetic with `bits` fractional bits.
+    pub fn new(bits: u32) -> Self {
+        Fixed { bits, ends: std::marker::PhantomData }
+    }
+
+    /// The fractional bits.
+    pub fn bits(&self) -> u32 {
+        self.bits
+    }
+
+    /// `floor(a b)`.
+    fn down(&self, a: &Z, b: &Z) -> Option<Z> {
+        a.product(b, self.bits)
+    }
+
+    /// `ceil(a b) = -floor(-a b)`.
+    fn up(&self, a: &Z, b: &Z) -> Option<Z> {
+        a.negated()?.product(b, self.bits)?.negated()
+    }
+}
+
+/// The least value that `down` and the greatest that `up` takes at the ends between which all
+/// products of numbers in `a` and `b` lie; both increase with the product.
+///
+/// | `a` \ `b` | `b >= 0`           | `b <= 0`           | mixed                                |
+/// |-----------|--------------------|--------------------|--------------------------------------|
+/// | `a >= 0`  | `[lo lo', hi hi']` | `[hi lo', lo hi']` | `[hi lo', hi hi']`                   |
+/// | `a <= 0`  | `[lo hi', hi lo']` | `[hi hi', lo lo']` | `[lo hi', lo lo']`                   |
+/// | mixed     | `[lo hi', hi hi']` | `[hi lo', lo lo']` | least of `lo hi'`, `hi lo'`, greatest of `lo lo'`, `hi hi'` |
+fn over_ends<Z: Integer>(
+    a: &Interval<Z>,
+    b: &Interval<Z>,
+    down: impl Fn(&Z, &Z) -> Option<Z>,
+    up: impl Fn(&Z, &Z) -> Option<Z>,
+) -> Option<Interval<Z>> {
+    let ((lo, hi), (lo_b, hi_b)) = ((&a.lo, &a.hi), (&b.lo, &b.hi));
+    // Of either factor, the end that the lower and the upper product take.
+    let (below, above) = match ((lo.sign(), hi.sign()), (lo_b.sign(), hi_b.sign())) {
+        ((0.., _), (0.., _)) => ((lo, lo_b), (hi, hi_b)),
+        ((0.., _), (_, ..=0)) => ((hi, lo_b), (lo, hi_b)),
+        ((0.., _), _) => ((hi, lo_b), (hi, hi_b)),
+        ((_, ..=0), (0.., _)) => ((lo, hi_b), (hi, lo_b)),
+        ((_, ..=0), (_, ..=0)) => ((hi, hi_b), (lo, lo_b)),
+        ((_, ..=0), _) => ((lo, hi_b), (lo, lo_b)),
+        (_, (0.., _)) => ((lo, hi_b), (hi, hi_b)),
+        (_, (_, ..=0)) => ((hi, lo_b), (lo, lo_b)),
+        _ => {
+            let least = down(lo, hi_b)?.min(down(hi, lo_b)?);
+            return Some(Interval { lo: least, hi: up(lo, lo_b)?.max(up(hi, hi_b)?) });
+        }
+    };
+    Some(Interval { lo: down(below.0, below.1)?, hi: up(above.0, above.1)? })
+}
+
+/// The greatest absolute value in an interval.
+fn magnitude<Z: Integer>(a: &Interval<Z>) -> Option<Z> {
+    Some(a.hi.clone().max(a.lo.negated()?))
+}
+
+impl<Z: Integer> Arithmetic for Fixed<Z> {
+    type Number = Interval<Z>;
+
+    fn integer(&self, n: i64) -> Option<Interval<Z>> {
+        Some(Interval::point(Z::scaled(n, self.bits)?))
+    }
+
+    fn add(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
+        Some(Interval { lo: a.lo.plus(&b.lo)?, hi: a.hi.plus(&b.hi)? })
+    }
+
+    fn sub(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
+        self.add(a, &self.neg(b)?)
+    }
+
+    fn neg(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
+        Some(Interval { lo: a.hi.negated()?, hi: a.lo.negated()? })
+    }
+
+    fn mul(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
+        over_ends(a, b, |x, y| self.down(x, y), |x, y| self.up(x, y))
+    }
+
+    fn div(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
+        self.mul(a, &self.recip(b)?)
+    }
+
+    fn sqr(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
+        let zero = Z::scaled(0, 0)?;
+        let (least, greatest) = match (a.lo.sign(), a.hi.sign()) {
+            (0.., _) => (a.lo.clone(), a.hi.clone()),
+            (_, ..=0) => (a.hi.negated()?, a.lo.negated()?),
+            _ => (zero, magnitude(a)?),
+        };
+        Some(Interval { lo: self.down(&least, &least)?, hi: self.up(&greatest, &greatest)? })
+    }
+
+    /// `sqrt(x/2^bits) 2^bits = sqrt(x 2^bits)`, which is at most `isqrt + 1` where `isqrt` is not it.
+    fn sqrt(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
+        if a.lo.sign() <= 0 {
+            return None;
+        }
+        let (lo, _) = a.lo.root(self.bits)?;
+        let (root, exact) = a.hi.root(self.bits)?;
+        let hi = if exact { root } else { root.plus(&Z::scaled(1, 0)?)? };
+        Some(Interval { lo, hi })
+    }
+}
+
+impl<Z: Integer> Enclosure for Fixed<Z> {
+    /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero.
+    fn recip(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
+        if a.lo.sign() <= 0 && a.hi.sign() >= 0 {
+            return None;
+        }
+        let hi = a.lo.negated()?.inverse(self.bits)?.negated()?;
+        Some(Interval { lo: a.hi.inverse(self.bits)?, hi })
+    }
+
+    fn halve(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
+        Some(Interval { lo: a.lo.half(), hi: a.hi.negated()?.half().negated()? })
+    }
+
+    /// A product divided by `[c, d]`: a lower end by `d` where it is not negative, else by `c`; an
+    /// upper one the other way round.
+    fn ratio(&self, a: &Interval<Z>, b: &Interval<Z>, c: &Interval<Z>) -> Option<Interval<Z>> {
+        let negative = |x: &Z, y: &Z| x.sign() * y.sign() < 0;
+        let down = |x: &Z, y: &Z| x.ratio(y, if negative(x, y) { &c.lo } else { &c.hi });
+        let up = |x: &Z, y: &Z| {
+            let divisor = if negative(x, y) { &c.hi } else { &c.lo };
+            x.negated()?.ratio(y, divisor)?.negated()
+        };
+        over_ends(a, b, down, up)
+    }
+
+    fn dyadic(&self, n: i64, places: u32, a: &Interval<Z>) -> Option<Interval<Z>> {
+        let (lo, hi) = if n >= 0 { (&a.lo, &a.hi) } else { (&a.hi, &a.lo) };
+        let hi = hi.negated()?.dyadic(n, places)?.negated()?;
+        Some(Interval { lo: lo.dyadic(n, places)?, hi })
+    }
+
+    fn within(
+        &self,
+        range: &Interval<Z>,
+        centre: &Interval<Z>,
+        slopes: &[Interval<Z>],
+    ) -> Option<Interval<Z>> {
+        let zero = Z::scaled(0, 0)?;
+        let reach = slopes.iter().try_fold(zero, |sum, slope| sum.plus(&magnitude(slope)?))?;
+        let lo = range.lo.clone().max(centre.lo.plus(&reach.negated()?)?);
+        let hi = range.hi.clone().min(centre.hi.plus(&reach)?);
+        (lo <= hi).then_some(Interval { lo, hi })
+    }
+
+    fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {
+        [Interval::point(a.lo.clone()), Interval::point(a.hi.clone())]
+    }
+
+    fn is_positive(&self, a: &Interval<Z>) -> bool {
+        a.lo.sign() > 0
+    }
+
+    fn is_nonnegative(&self, a: &Interval<Z>) -> bool {
+        a.lo.sign() >= 0
+    }
+}

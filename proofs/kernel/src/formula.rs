@@ -1,0 +1,382 @@
+//! Formulas: operations on earlier entries of a tape.
+//!
+//! A formula is *defined* at given coordinates and parameters if no divisor is zero and no radicand
+//! zero or negative on the way. Equal subformulas are one entry, whoever builds them.
+//!
+//! **Derivatives.** [`Tape::gradient`] gives the partial derivatives of a formula as a fraction with
+//! one denominator for all of them, so that a row of the inverse Jacobian comes as `A_i` and
+//! `D_i = E^2` without a division (see [`crate::test`]).
+
+use crate::arithmetic::Arithmetic;
+use std::collections::HashMap;
+
+/// An entry of a [`Tape`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Formula(usize);
+
+/// What an entry is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// Coordinate of the workspace, counted from zero.
+    Coordinate(usize),
+    /// Parameter of the claim, counted from zero.
+    Parameter(usize),
+    /// An integer.
+    Integer(i64),
+    /// `a + b`.
+    Add(Formula, Formula),
+    /// `a - b`.
+    Sub(Formula, Formula),
+    /// `-a`.
+    Neg(Formula),
+    /// `a b`.
+    Mul(Formula, Formula),
+    /// `a / b`.
+    Div(Formula, Formula),
+    /// `a^2`.
+    Sqr(Formula),
+    /// `sqrt(a)`.
+    Sqrt(Formula),
+}
+
+impl Op {
+    /// The entries it is made of.
+    fn parts(self) -> impl Iterator<Item = Formula> {
+        let [a, b] = match self {
+            Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => [None, None],
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => [Some(a), Some(b)],
+            Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => [Some(a), None],
+        };
+        a.into_iter().chain(b)
+    }
+}
+
+/// Sums and products of integers up to this are integers of a tape.
+fn is_small(n: i64) -> bool {
+    n.unsigned_abs() < 1 << 15
+}
+
+/// A vector of formulas.
+pub type Vector = [Formula; 3];
+
+/// Formulas that share their parts.
+#[derive(Clone, Debug, Default)]
+pub struct Tape {
+    ops: Vec<Op>,
+    known: HashMap<Op, Formula>,
+}
+
+/// Partial derivatives by the coordinates, `numerators[k] / denominator`.
+#[derive(Clone, Debug)]
+pub struct Gradient {
+    /// One for every coordinate.
+    pub numerators: Vec<Formula>,
+    /// A product of divisors and roots of the formula: not zero where it is defined.
+    pub denominator: Formula,
+}
+
+impl Tape {
+    /// The operations, each on earlier ones.
+    pub fn ops(&self) -> &[Op] {
+        &self.ops
+    }
+
+    /// The operation of an entry.
+    fn op(&self, formula: Formula) -> Op {
+        self.ops[formula.0]
+    }
+
+    fn push(&mut self, op: Op) -> Formula {
+        let next = Formula(self.ops.len());
+        let formula = *self.known.entry(op).or_insert(next);
+        if formula == next {
+            self.ops.push(op);
+        }
+        formula
+    }
+
+    /// Coordinate `k`.
+    pub fn coordinate(&mut self, k: usize) -> Formula {
+        self.push(Op::Coordinate(k))
+    }
+
+    /// Parameter `j`.
+    pub fn parameter(&mut self, j: usize) -> Formula {
+        self.push(Op::Parameter(j))
+    }
+
+    /// The integer `n`.
+    pub fn integer(&mut self, n: i64) -> Formula {
+        self.push(Op::Integer(n))
+    }
+
+    fn is(&self, formula: Formula, n: i64) -> bool {
+        self.op(formula) == Op::Integer(n)
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: Formula, b: Formula) -> Formula {
+        match (self.op(a), self.op(b)) {
+            (Op::Integer(0), _) => b,
+            (_, Op::Integer(0)) => a,
+            (Op::Integer(n), Op::Integer(m)) if is_small(n) && is_small(m) => self.integer(n + m),
+            _ => self.push(Op::Add(a, b)),
+        }
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: Formula, b: Formula) -> Formula {
+        match (self.is(a, 0), self.is(b, 0)) {
+            (_, true) => a,
+            (true, _) => self.neg(b),
+            _ => self.push(Op::Sub(a, b)),
+        }
+    }
+
+    /// `-a`.
+    pub fn neg(&mut self, a: Formula) -> Formula {
+        match self.op(a) {
+            Op::Integer(n) if is_small(n) => self.integer(-n),
+            Op::Neg(b) => b,
+            _ => self.push(Op::Neg(a)),
+        }
+    }
+
+    /// `a b`.
+    pub fn mul(&mut self, a: Formula, b: Formula) -> Formula {
+        match (self.op(a), self.op(b)) {
+            (Op::Integer(0), _) | (_, Op::Integer(1)) => a,
+            (_, Op::Integer(0)) | (Op::Integer(1), _) => b,
+            _ if a == b => self.sqr(a),
+            _ => self.push(Op::Mul(a, b)),
+        }
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: Formula, b: Formula) -> Formula {
+        if self.is(b, 1) {
+            return a;
+        }
+        self.push(Op::Div(a, b))
+    }
+
+    /// `a^2`.
+    pub fn sqr(&mut self, a: Formula) -> Formula {
+        match self.op(a) {
+            Op::Integer(n) if is_small(n) => self.integer(n * n),
+            _ => self.push(Op::Sqr(a)),
+        }
+    }
+
+    /// `a^2` without the roots that are factors of `a`: the same number where `a` is defined, and
+    /// with better slopes.
+    pub fn square_without_roots(&mut self, a: Formula) -> Formula {
+        match self.op(a) {
+            Op::Sqrt(radicand) => radicand,
+            Op::Neg(a) => self.square_without_roots(a),
+            Op::Mul(a, b) => {
+                let (a, b) = (self.square_without_roots(a), self.square_without_roots(b));
+                self.mul(a, b)
+            }
+            _ => self.sqr(a),
+        }
+    }
+
+    /// `sqrt(a)`.
+    pub fn sqrt(&mut self, a: Formula) -> Formula {
+        if self.is(a, 1) {
+            return a;
+        }
+        self.push(Op::Sqrt(a))
+    }
+
+    /// `u + v`.
+    pub fn plus(&mut self, u: &Vector, v: &Vector) -> Vector {
+        std::array::from_fn(|k| self.add(u[k], v[k]))
+    }
+
+    /// `u - v`.
+    pub fn minus(&mut self, u: &Vector, v: &Vector) -> Vector {
+        std::array::from_fn(|k| self.sub(u[k], v[k]))
+    }
+
+    /// `a u`.
+    pub fn scaled(&mut self, a: Formula, u: &Vector) -> Vector {
+        u.map(|u| self.mul(a, u))
+    }
+
+    /// `u . v`.
+    pub fn dot(&mut self, u: &Vector, v: &Vector) -> Formula {
+        let [x, y, z] = std::array::from_fn(|k| self.mul(u[k], v[k]));
+        let sum = self.add(x, y);
+        self.add(sum, z)
+    }
+
+    /// `|u|^2`.
+    pub fn norm_squared(&mut self, u: &Vector) -> Formula {
+        self.dot(u, u)
+    }
+
+    /// `u x v`.
+    pub fn cross(&mut self, u: &Vector, v: &Vector) -> Vector {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (a, b) = (self.mul(u[j], v[k]), self.mul(u[k], v[j]));
+            self.sub(a, b)
+        })
+    }
+
+    /// `u / |u|`.
+    pub fn normalised(&mut self, u: &Vector) -> Vector {
+        let square = self.norm_squared(u);
+        let length = self.sqrt(square);
+        u.map(|u| self.div(u, length))
+    }
+
+    /// The values of all entries; of an entry that is undefined, or depends on one, `None`.
+    pub fn run<A: Arithmetic>(
+        &self,
+        arithmetic: &A,
+        input: impl Fn(Op) -> Option<A::Number>,
+    ) -> Values<A::Number> {
+        let mut values: Vec<Option<A::Number>> = Vec::with_capacity(self.ops.len());
+        for &op in &self.ops {
+            let at = |f: Formula| values.get(f.0).and_then(Option::as_ref);
+            let both = |a, b| Some((at(a)?, at(b)?));
+            let value = match op {
+                Op::Coordinate(_) | Op::Parameter(_) => input(op),
+                Op::Integer(n) => arithmetic.integer(n),
+                Op::Add(a, b) => both(a, b).and_then(|(a, b)| arithmetic.add(a, b)),
+                Op::Sub(a, b) => both(a, b).and_then(|(a, b)| arithmetic.sub(a, b)),
+                Op::Neg(a) => at(a).and_then(|a| arithmetic.neg(a)),
+                Op::Mul(a, b) => both(a, b).and_then(|(a, b)| arithmetic.mul(a, b)),
+                Op::Div(a, b) => both(a, b).and_then(|(a, b)| arithmetic.div(a, b)),
+                Op::Sqr(a) => at(a).and_then(|a| arithmetic.sqr(a)),
+                Op::Sqrt(a) => at(a).and_then(|a| arithmetic.sqrt(a)),
+            };
+            values.push(value);
+        }
+        Values(values)
+    }
+
+    /// The entries that depend on no coordinate.
+    pub fn constants(&self) -> Vec<Formula> {
+        let mut constant: Vec<bool> = Vec::with_capacity(self.ops.len());
+        for op in &self.ops {
+            let is = |f: Formula| constant.get(f.0).is_some_and(|&is| is);
+            constant.push(match *op {
+                Op::Coordinate(_) => false,
+                Op::Parameter(_) | Op::Integer(_) => true,
+                Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => is(a) && is(b),
+                Op::Neg(a) | Op::Sqr(a) | Op::Sqrt(a) => is(a),
+            });
+        }
+        (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
+    }
+
+    /// Of each entry up to `f`, whether `f` is made of it.
+    fn parts(&self, f: Formula) -> Vec<bool> {
+        let mut needed = vec![false; f.0 + 1];
+        needed[f.0] = true;
+        for at in (0..=f.0).rev() {
+            if needed[at] {
+                self.ops[at].parts().for_each(|part| needed[part.0] = true);
+            }
+        }
+        needed
+    }
+
+    /// The partial derivatives of `f` by the coordinates `0..m`.
+    ///
+    /// With `f' = N/E` and `g' = K/F`:
+    ///
+    /// ```text
+    /// (f +- g)' = (N F +- K E)/(E F)        (f g)' = (g N F + f K E)/(E F)       (f^2)' = 2 f N/E
+    /// (f/g)'    = (N F - (f/g) K E)/(E F g)                       (sqrt f)' = N/(2 E sqrt f)
+    /// ```
+    ///
+    /// where the cross factors are left out if `E = F`.
+    pub fn gradient(&mut self, f: Formula, m: usize) -> Gradient {
+        let (zero, one) = (self.integer(0), self.integer(1));
+        let needed = self.parts(f);
+        let unneeded = Gradient { numerators: Vec::new(), denominator: one };
+        let mut known: Vec<Gradient> = Vec::with_capacity(f.0 + 1);
+        for (at, needed) in needed.into_iter().enumerate() {
+            let gradient = match self.ops[at] {
+                _ if !needed => unneeded.clone(),
+                Op::Coordinate(k) => {
+                    let mut numerators = vec![zero; m];
+                    if let Some(own) = numerators.get_mut(k) {
+                        *own = one;
+                    }
+                    Gradient { numerators, denominator: one }
+                }
+                Op::Parameter(_) | Op::Integer(_) => {
+                    Gradient { numerators: vec![zero; m], denominator: one }
+                }
+                Op::Add(a, b) => self.combined((&known[a.0], one), (&known[b.0], one)),
+                Op::Sub(a, b) => {
+                    let minus = self.integer(-1);
+                    self.combined((&known[a.0], one), (&known[b.0], minus))
+                }
+                Op::Neg(a) => {
+                    let Gradient { numerators, denominator } = &known[a.0];
+                    let numerators = numerators.iter().map(|&n| self.neg(n)).collect();
+                    Gradient { numerators, denominator: *denominator }
+                }
+                Op::Mul(a, b) => self.combined((&known[a.0], b), (&known[b.0], a)),
+                Op::Div(a, b) => {
+                    let quotient = self.neg(Formula(at));
+                    let mut whole = self.combined((&known[a.0], one), (&known[b.0], quotient));
+                    if !whole.numerators.iter().all(|&n| n == zero) {
+                        whole.denominator = self.mul(whole.denominator, b);
+                    }
+                    whole
+                }
+                Op::Sqr(a) => {
+                    let two = self.integer(2);
+                    let factor = self.mul(two, a);
+                    let Gradient { numerators, denominator } = &known[a.0];
+                    let numerators = numerators.iter().map(|&n| self.mul(factor, n)).collect();
+                    Gradient { numerators, denominator: *denominator }
+                }
+                Op::Sqrt(a) => {
+                    let Gradient { numerators, denominator } = known[a.0].clone();
+                    if numerators.iter().all(|&n| n == zero) {
+                        Gradient { numerators, denominator: one }
+                    } else {
+                        let two = self.integer(2);
+                        let factor = self.mul(two, Formula(at));
+                        Gradient { numerators, denominator: self.mul(denominator, factor) }
+                    }
+                }
+            };
+            known.push(gradient);
+        }
+        known.swap_remove(f.0)
+    }
+
+    /// `p f' + q g'`.
+    fn combined(&mut self, (f, p): (&Gradient, Formula), (g, q): (&Gradient, Formula)) -> Gradient {
+        let (e, d) = (f.denominator, g.denominator);
+        let (across_f, across_g, denominator) =
+            if e == d { (p, q, e) } else { (self.mul(p, d), self.mul(q, e), self.mul(e, d)) };
+        let sum = |(&n, &k): (&Formula, &Formula)| {
+            let (n, k) = (self.mul(across_f, n), self.mul(across_g, k));
+            self.add(n, k)
+        };
+        let numerators = f.numerators.iter().zip(&g.numerators).map(sum).collect();
+        Gradient { numerators, denominator }
+    }
+}
+
+/// The values of a tape's entries.
+#[derive(Clone, Debug)]
+pub struct Values<N>(Vec<Option<N>>);
+
+impl<N> Values<N> {
+    /// The value of a formula of the tape; `None` where it is undefined.
+    pub fn of(&self, formula: Formula) -> Option<&N> {
+        self.0.get(formula.0).and_then(Option::as_ref)
+    }
+}

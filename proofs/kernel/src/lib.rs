@@ -1,0 +1,39 @@
+//! Machines and quantities as formulas, proofs as tests on their enclosures.
+//!
+//! | module         | holds                                                            |
+//! |----------------|------------------------------------------------------------------|
+//! | [`arithmetic`] | what a formula is evaluated in                                   |
+//! | [`fixed`]      | intervals with ends in multiples of `2^-bits`                    |
+//! | [`formula`]    | formulas, shared on a tape; derivatives                          |
+//! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
+//! | [`cell`]       | boxes of the bisection tree, their vertices                      |
+//! | [`definite`]   | positive definiteness of interval matrices                       |
+//! | [`test`]       | the tests: a formula's sign, `sigma_min`, `sigma_max`, `solve`   |
+//! | [`machine`]    | drives and motions: the formulas of `A x' = B rho'`              |
+//! | [`number`]     | numbers of a claim, exactly                                      |
+//! | [`trig`]       | cosines and sines of degrees                                     |
+//! | [`claim`]      | the theorem: mechanism, workspace, requirements                  |
+//! | [`quantity`]   | the table of quantities that a claim may bound                   |
+//! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
+//! | [`certificate`]| claim, verdict and proof as canonical text                       |
+//! | [`check`](mod@check) | what a certificate has to be to be accepted                |
+//! | [`witness`]    | refutations                                                      |
+
+#![forbid(unsafe_code)]
+
+pub mod arithmetic;
+pub mod cell;
+pub mod certificate;
+pub mod check;
+pub mod claim;
+pub mod definite;
+pub mod fixed;
+pub mod formula;
+pub mod machine;
+pub mod number;
+pub mod problem;
+pub mod quantity;
+pub mod slope;
+pub mod test;
+pub mod trig;
+pub mod witness;

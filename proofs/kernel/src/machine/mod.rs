@@ -1,0 +1,178 @@
+//! Drives and motions: the formulas of `A x' = B rho'`, leg by leg.
+//!
+//! A drive meets the platform through `w = P + d - a` alone, from the base end `a` of the leg to its
+//! platform end `P + d`. Signs of working modes are constants: `m = 1` or `-1`.
+
+use crate::formula::{Formula, Tape, Vector};
+use crate::test::Row;
+
+/// A leg's, or joint's, formulas.
+#[derive(Clone, Debug)]
+pub struct Leg {
+    /// `A_i` in the velocity of the platform's joint, and `D_i = B_i^2`.
+    pub row: Row<Formula>,
+    /// The same divided by `B_i`: the row of `M`, and 1.
+    pub divided: Row<Formula>,
+    /// The joint coordinate; none where a claim gives the row alone.
+    pub rho: Option<Joint>,
+    /// The length of the vector `A_i`, where it is that of a leg.
+    pub length: Option<Formula>,
+    /// `eta_i^2`, of legs of fixed length: `eta_i` is the leg's component along the motion of its
+    /// driven end.
+    pub eta_squared: Option<Formula>,
+}
+
+impl Leg {
+    /// Whether the joint coordinate is an angle: `M` is then in radians per length.
+    pub fn is_angular(&self) -> bool {
+        matches!(self.rho, Some(Joint::Angle { .. }))
+    }
+}
+
+/// A joint coordinate.
+#[derive(Clone, Copy, Debug)]
+pub enum Joint {
+    /// A length.
+    Length(Formula),
+    /// An angle, by its cosine and sine.
+    Angle {
+        /// The cosine.
+        cos: Formula,
+        /// The sine.
+        sin: Formula,
+    },
+}
+
+/// A fixed-length leg on a linear guide of unit direction `n`.
+///
+/// ```text
+/// r = w - (n . w) n     D = L^2 - |r|^2     eta = m sqrt(D)     A = r + eta n     rho = n . w - eta
+/// ```
+///
+/// *Closure.* `A` is the leg: `|A|^2 = |r|^2 + D = L^2`, and its base end `w - A = rho n` is on the
+/// guide. *Velocity.* `A . (P' - rho' n) = 0`, and `A . n = eta`.
+pub fn slider(tape: &mut Tape, w: &Vector, n: &Vector, length: Formula, m: i64) -> Leg {
+    let along = tape.dot(n, w);
+    let axial = tape.scaled(along, n);
+    let r = tape.minus(w, &axial);
+    let (reach, off) = (tape.sqr(length), tape.norm_squared(&r));
+    let d = tape.sub(reach, off);
+    let root = tape.sqrt(d);
+    let eta = signed(tape, m, root);
+    let axial = tape.scaled(eta, n);
+    let a = tape.plus(&r, &axial).to_vec();
+    // (r + eta n)/eta, with the guide's part left whole.
+    let across = r.map(|r| tape.div(r, eta));
+    let divided = tape.plus(n, &across).to_vec();
+    let rho = Joint::Length(tape.sub(along, eta));
+    leg(tape, Row { a, d }, divided, rho, (Some(length), Some(d)))
+}
+
+/// An extensible leg: `A = w`, `D = |w|^2`, `rho = |w|`. *Velocity.* `w . P' = |w| rho'`.
+pub fn strut(tape: &mut Tape, w: &Vector) -> Leg {
+    let d = tape.norm_squared(w);
+    let length = tape.sqrt(d);
+    let divided = w.map(|w| tape.div(w, length)).to_vec();
+    leg(tape, Row { a: w.to_vec(), d }, divided, Joint::Length(length), (Some(length), None))
+}
+
+/// A leg that holds the platform in a plane moved along its normal `n`: `A = n`, `D = 1`,
+/// `rho = n . w`.
+pub fn planar(tape: &mut Tape, w: &Vector, n: &Vector) -> Leg {
+    let d = tape.integer(1);
+    let rho = Joint::Length(tape.dot(n, w));
+    leg(tape, Row { a: n.to_vec(), d }, n.to_vec(), rho, (Some(d), None))
+}
+
+/// A leg of length `L` on an arm of length `r` that turns about the unit axis `k`; `e` is the arm's
+/// direction at angle 0, a unit vector orthogonal to `k`, and `f = k x e`.
+///
+/// ```text
+/// alpha = w . e    beta = w . f    kappa = k . w    N = alpha^2 + beta^2    c = kappa^2 + r^2 - L^2
+/// D = (L^2 - kappa^2) - (g - r)^2,  g = (N + c)/(2r)                eta = m r sqrt(D)
+/// p = (1 - c/N)/2    q = r sqrt(D/N^2),  D/N^2 = 1/N - (1 + c/N)^2/(4 r^2)
+/// A = (p alpha - m q beta) e + (p beta + m q alpha) f + kappa k
+/// r cos theta = alpha - A . e       r sin theta = beta - A . f
+/// ```
+///
+/// *Closure.* `|A|^2 = (p^2 + q^2) N + kappa^2`. With `s = c/N`:
+/// `p^2 + q^2 = (1 - s)^2/4 + r^2/N - (1 + s)^2/4 = r^2/N - s`, so that `|A|^2 = r^2 - c + kappa^2 = L^2`;
+/// and `(1 - p)^2 + q^2 = (1 + s)^2/4 + q^2 = r^2/N`: the elbow is at the distance `r` from the axis.
+/// *Velocity.* `A . P' = theta' A . (r k x u)` with `u = cos theta e + sin theta f`, and
+/// `r A . (k x u) = (A . f)(alpha - A . e) - (A . e)(beta - A . f) = alpha (A . f) - beta (A . e) = m q N
+/// = m r sqrt(D)`. Here `g` appears in one quotient only, `c/N`.
+pub fn arm(
+    tape: &mut Tape,
+    w: &Vector,
+    [k, e]: [&Vector; 2],
+    [r, length]: [Formula; 2],
+    m: i64,
+) -> Leg {
+    let f = tape.cross(k, e);
+    let (alpha, beta, kappa) = (tape.dot(w, e), tape.dot(w, &f), tape.dot(k, w));
+    let [alpha2, beta2, kappa2, r2, length2] = [alpha, beta, kappa, r, length].map(|x| tape.sqr(x));
+    let n = tape.add(alpha2, beta2);
+    let excess = tape.sub(r2, length2);
+    let c = tape.add(kappa2, excess);
+    let [one, two] = [1, 2].map(|n| tape.integer(n));
+    let two_r = tape.mul(two, r);
+    let over = tape.add(n, c);
+    let g = tape.div(over, two_r);
+    let (across, shift) = (tape.sub(length2, kappa2), tape.sub(g, r));
+    let shift = tape.sqr(shift);
+    let d = tape.sub(across, shift);
+    let inverse = tape.div(one, n);
+    let s = tape.mul(c, inverse);
+    let less = tape.sub(one, s);
+    let p = tape.div(less, two);
+    let root = tape.sqrt(d);
+    let root = tape.mul(r, root);
+    let root = signed(tape, m, root);
+    let q = tape.mul(root, inverse);
+    let (p_alpha, q_beta) = (tape.mul(p, alpha), tape.mul(q, beta));
+    let (p_beta, q_alpha) = (tape.mul(p, beta), tape.mul(q, alpha));
+    let (a_e, a_f) = (tape.sub(p_alpha, q_beta), tape.add(p_beta, q_alpha));
+    let [x, y, z] = [(a_e, e), (a_f, &f), (kappa, k)].map(|(a, axis)| tape.scaled(a, axis));
+    let in_plane = tape.plus(&x, &y);
+    let a = tape.plus(&in_plane, &z).to_vec();
+    let (cos, sin) = (tape.sub(alpha, a_e), tape.sub(beta, a_f));
+    let (cos, sin) = (tape.div(cos, r), tape.div(sin, r));
+    let divided = a.iter().map(|&a| tape.div(a, root)).collect();
+    let row = Row { a, d: tape.mul(r2, d) };
+    leg(tape, row, divided, Joint::Angle { cos, sin }, (Some(length), Some(d)))
+}
+
+fn leg(
+    tape: &mut Tape,
+    row: Row<Formula>,
+    divided: Vec<Formula>,
+    rho: Joint,
+    (length, eta_squared): (Option<Formula>, Option<Formula>),
+) -> Leg {
+    let divided = Row { a: divided, d: tape.integer(1) };
+    Leg { row, divided, rho: Some(rho), length, eta_squared }
+}
+
+fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
+    if m < 0 {
+        tape.neg(formula)
+    } else {
+        formula
+    }
+}
+
+/// A joint by its coordinate alone: with `rho' = N/E` over the `m` coordinates, `A = N`, `D = E^2`.
+pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
+    let gradient = tape.gradient(rho, m);
+    let d = tape.square_without_roots(gradient.denominator);
+    let root = gradient.denominator;
+    let divided = gradient.numerators.iter().map(|&a| tape.div(a, root)).collect();
+    let row = Row { a: gradient.numerators, d };
+    leg(tape, row, divided, Joint::Length(rho), (None, None))
+}
+
+/// A joint by its row of `M` alone.
+pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
+    let row = Row { a, d: tape.integer(1) };
+    Leg { divided: row.clone(), row, rho: None, length: None, eta_squared: None }
+}

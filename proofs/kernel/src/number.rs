@@ -1,0 +1,437 @@
+//! Numbers of a claim: expressions that denote one real number exactly.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = factor { ("*" | "/") factor }
+//! factor  = "-" factor | power
+//! power   = atom [ "^" digits ]
+//! atom    = digits [ "." digits ] | name | "sqrt" "(" sum ")" | "(" sum ")"
+//! name    = letter { letter | digit | "_" }
+//! ```
+//!
+//! with the usual meaning, operators of one level from left to right. Each expression has one text:
+//! no blanks, no parentheses that are not needed, no zeros that are not needed in a literal. A text
+//! that is not what its expression prints is refused.
+
+use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::fixed::{Fixed, Interval};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Most bytes of an expression.
+pub const MOST_BYTES: usize = 8192;
+/// Most operations, literals and names that are open at once while it is read.
+pub const MOST_DEPTH: usize = 64;
+/// Most operations.
+pub const MOST_OPERATIONS: usize = 512;
+/// Most bits of a number on the way.
+pub const MOST_BITS: u64 = 1 << 15;
+/// Most bits of a fraction that is compared exactly: its gcd costs their square.
+pub const MOST_EXACT: u64 = 1 << 12;
+/// Greatest exponent.
+pub const MOST_POWER: u32 = 64;
+/// Most bytes of a name.
+pub const MOST_NAME: usize = 32;
+
+/// An expression.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub enum Expression {
+    /// `digits / 10^places`; `digits` is no multiple of ten where `places > 0`.
+    Literal {
+        /// The digits.
+        digits: BigInt,
+        /// How many of them are decimals.
+        places: u32,
+    },
+    /// What the context says.
+    Name(String),
+    /// `-a`.
+    Neg(Box<Expression>),
+    /// `a + b`, `a - b`, `a b`, `a / b`.
+    Binary(Operator, Box<Expression>, Box<Expression>),
+    /// `a^n`, `n >= 2`.
+    Power(Box<Expression>, u32),
+    /// `sqrt(a)`.
+    Sqrt(Box<Expression>),
+}
+
+/// An operation on two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`
+    Div,
+}
+
+impl Operator {
+    const ALL: [(Operator, u8); 4] = [
+        (Operator::Add, b'+'),
+        (Operator::Sub, b'-'),
+        (Operator::Mul, b'*'),
+        (Operator::Div, b'/'),
+    ];
+
+    fn strength(self) -> u8 {
+        match self {
+            Operator::Add | Operator::Sub => 1,
+            Operator::Mul | Operator::Div => 2,
+        }
+    }
+
+    fn symbol(self) -> char {
+        match self {
+            Operator::Add => '+',
+            Operator::Sub => '-',
+            Operator::Mul => '*',
+            Operator::Div => '/',
+        }
+    }
+}
+
+/// Why a text is no number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NumberError {
+    /// The byte at which it goes wrong.
+    pub at: usize,
+    /// What was expected there.
+    pub expected: &'static str,
+}
+
+impl fmt::Display for NumberError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at byte {} of a number: expected {}", self.at, self.expected)
+    }
+}
+
+impl std::error::Error for NumberError {}
+
+/// The text being read.
+struct Reader<'a> {
+    text: &'a [u8],
+    at: usize,
+    depth: usize,
+    operations: usize,
+}
+
+type Read = Result<Expression, NumberError>;
+
+impl Reader<'_> {
+    fn error<T>(&self, expected: &'static str) -> Result<T, NumberError> {
+        Err(NumberError { at: self.at, expected })
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    fn take(&mut self, byte: u8) -> bool {
+        let found = self.peek() == Some(byte);
+        self.at += usize::from(found);
+        found
+    }
+
+    /// The bytes from here on that `are` so.
+    fn span(&mut self, are: impl Fn(&u8) -> bool) -> &[u8] {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let length = rest.iter().take_while(|byte| are(byte)).count();
+        self.at += length;
+        &rest[..length]
+    }
+
+    /// Operators of this strength, from left to right.
+    fn chain(&mut self, strength: u8) -> Read {
+        if strength > 2 {
+            return self.factor();
+        }
+        let mut left = self.chain(strength + 1)?;
+        loop {
+            let here = |&(operator, byte): &(Operator, u8)| {
+                operator.strength() == strength && self.peek() == Some(byte)
+            };
+            let Some((operator, _)) = Operator::ALL.into_iter().find(|o| here(o)) else {
+                return Ok(left);
+            };
+            self.at += 1;
+            self.operations += 1;
+            if self.operations > MOST_OPERATIONS {
+                return self.error("fewer operations");
+            }
+            let right = self.chain(strength + 1)?;
+            left = Expression::Binary(operator, Box::new(left), Box::new(right));
+        }
+    }
+
+    fn deeper(&mut self, read: impl Fn(&mut Self) -> Read) -> Read {
+        if self.depth == MOST_DEPTH {
+            return self.error("fewer nested parentheses, roots and signs");
+        }
+        self.depth += 1;
+        let inner = read(self);
+        self.depth -= 1;
+        inner
+    }
+
+    fn factor(&mut self) -> Read {
+        if self.take(b'-') {
+            return Ok(Expression::Neg(Box::new(self.deeper(Self::factor)?)));
+        }
+        let atom = self.atom()?;
+        if !self.take(b'^') {
+            return Ok(atom);
+        }
+        let digits = std::str::from_utf8(self.span(u8::is_ascii_digit)).unwrap_or_default();
+        match digits.parse::<u32>() {
+            Ok(n) if (2..=MOST_POWER).contains(&n) => Ok(Expression::Power(Box::new(atom), n)),
+            _ => self.error("an exponent from 2 to 64"),
+        }
+    }
+
+    fn atom(&mut self) -> Read {
+        match self.peek() {
+            Some(b'(') => self.parenthesised(),
+            Some(byte) if byte.is_ascii_digit() => self.literal(),
+            Some(byte) if byte.is_ascii_alphabetic() => {
+                let name = self.span(|b| b.is_ascii_alphanumeric() || *b == b'_').to_vec();
+                let name = String::from_utf8(name).unwrap_or_default();
+                match name.as_str() {
+                    "sqrt" => Ok(Expression::Sqrt(Box::new(self.parenthesised()?))),
+                    _ if name.len() <= MOST_NAME => Ok(Expression::Name(name)),
+                    _ => self.error("a shorter name"),
+                }
+            }
+            _ => self.error("a number, a name, sqrt(...) or (...)"),
+        }
+    }
+
+    fn parenthesised(&mut self) -> Read {
+        if !self.take(b'(') {
+            return self.error("(");
+        }
+        let inner = self.deeper(|reader| reader.chain(1))?;
+        if self.take(b')') {
+            Ok(inner)
+        } else {
+            self.error(")")
+        }
+    }
+
+    fn literal(&mut self) -> Read {
+        let mut digits = self.span(u8::is_ascii_digit).to_vec();
+        let mut places = 0;
+        if self.take(b'.') {
+            let decimals = self.span(u8::is_ascii_digit);
+            places = decimals.len() as u32;
+            digits.extend_from_slice(decimals);
+        }
+        match BigInt::parse_bytes(&digits, 10) {
+            Some(digits) => Ok(Expression::Literal { digits, places }),
+            None => self.error("digits"),
+        }
+    }
+}
+
+impl TryFrom<String> for Expression {
+    type Error = NumberError;
+
+    /// The expression that prints this very text.
+    fn try_from(text: String) -> Read {
+        let mut reader = Reader { text: text.as_bytes(), at: 0, depth: 0, operations: 0 };
+        if text.len() > MOST_BYTES {
+            return reader.error("at most 8192 bytes");
+        }
+        let expression = reader.chain(1)?;
+        if reader.at < text.len() {
+            return reader.error("an operator");
+        }
+        if expression.to_string() != text {
+            return reader.error("the canonical text of the same number");
+        }
+        Ok(expression)
+    }
+}
+
+impl From<Expression> for String {
+    fn from(expression: Expression) -> String {
+        expression.to_string()
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// `inner`, in parentheses unless its strength is enough.
+        fn part(f: &mut fmt::Formatter<'_>, inner: &Expression, enough: u8) -> fmt::Result {
+            if inner.strength() >= enough {
+                write!(f, "{inner}")
+            } else {
+                write!(f, "({inner})")
+            }
+        }
+        match self {
+            Expression::Literal { digits, places: 0 } => write!(f, "{digits}"),
+            Expression::Literal { digits, places } => {
+                let (whole, decimals) = digits.div_rem(&BigInt::from(10).pow(*places));
+                let text = format!("{decimals:0>width$}", width = *places as usize);
+                let text = text.trim_end_matches('0');
+                let point = if text.is_empty() { "" } else { "." };
+                write!(f, "{whole}{point}{text}")
+            }
+            Expression::Name(name) => f.write_str(name),
+            Expression::Neg(inner) => {
+                f.write_str("-")?;
+                part(f, inner, 3)
+            }
+            Expression::Binary(operator, left, right) => {
+                part(f, left, operator.strength())?;
+                write!(f, "{}", operator.symbol())?;
+                part(f, right, operator.strength() + 1)
+            }
+            Expression::Power(base, n) => {
+                part(f, base, 5)?;
+                write!(f, "^{n}")
+            }
+            Expression::Sqrt(inner) => write!(f, "sqrt({inner})"),
+        }
+    }
+}
+
+/// Whether the ends of an interval have few digits.
+fn is_moderate(x: &Interval<BigInt>) -> bool {
+    x.lo.bits().max(x.hi.bits()) <= MOST_BITS
+}
+
+impl Expression {
+    /// The integer `n`.
+    pub fn integer(n: i64) -> Self {
+        let literal = Expression::Literal { digits: n.unsigned_abs().into(), places: 0 };
+        if n < 0 {
+            Expression::Neg(Box::new(literal))
+        } else {
+            literal
+        }
+    }
+
+    /// Whether a text is a name.
+    pub fn is_name(text: &str) -> bool {
+        matches!(Expression::try_from(text.to_owned()), Ok(Expression::Name(_)))
+    }
+
+    fn strength(&self) -> u8 {
+        match self {
+            Expression::Binary(operator, _, _) => operator.strength(),
+            Expression::Neg(_) => 3,
+            Expression::Power(_, _) => 4,
+            Expression::Literal { .. } | Expression::Name(_) | Expression::Sqrt(_) => 5,
+        }
+    }
+
+    /// Encloses the number, with `name` for the names in it; `None` where an operation is undefined.
+    /// A root of an interval that reaches below zero is that of its part from zero on, provided that
+    /// is not empty: a number of a claim may be zero.
+    pub fn enclose(
+        &self,
+        arithmetic: &Fixed<BigInt>,
+        name: &impl Fn(&str) -> Option<Interval<BigInt>>,
+    ) -> Option<Interval<BigInt>> {
+        let of = |inner: &Expression| inner.enclose(arithmetic, name).filter(is_moderate);
+        match self {
+            Expression::Literal { digits, places } => {
+                let ten = BigInt::from(10).pow(*places);
+                let (lo, rest) = (digits << arithmetic.bits()).div_mod_floor(&ten);
+                let hi = if rest.is_zero() { lo.clone() } else { &lo + 1 };
+                Some(Interval { lo, hi })
+            }
+            Expression::Name(inner) => name(inner),
+            Expression::Neg(inner) => arithmetic.neg(&of(inner)?),
+            Expression::Binary(operator, left, right) => {
+                let (left, right) = (of(left)?, of(right)?);
+                match operator {
+                    Operator::Add => arithmetic.add(&left, &right),
+                    Operator::Sub => arithmetic.sub(&left, &right),
+                    Operator::Mul => arithmetic.mul(&left, &right),
+                    Operator::Div => arithmetic.div(&left, &right),
+                }
+            }
+            Expression::Power(base, n) => {
+                let base = of(base)?;
+                let mut power = base.clone();
+                for _ in 1..*n {
+                    power = arithmetic.mul(&power, &base).filter(is_moderate)?;
+                }
+                Some(power)
+            }
+            Expression::Sqrt(inner) => {
+                let radicand = of(inner)?;
+                if inner.rational().is_some_and(|x| x.is_negative()) {
+                    return None;
+                }
+                if arithmetic.is_positive(&radicand) {
+                    return arithmetic.sqrt(&radicand);
+                }
+                let zero = BigInt::zero();
+                match radicand.hi.cmp(&zero) {
+                    std::cmp::Ordering::Less => None,
+                    std::cmp::Ordering::Equal => Some(Interval::point(zero)),
+                    std::cmp::Ordering::Greater => {
+                        let whole = arithmetic.sqrt(&Interval::point(radicand.hi))?;
+                        Some(Interval { lo: zero, hi: whole.hi })
+                    }
+                }
+            }
+        }
+    }
+
+    /// The number, if it is rational by its shape, and of moderate size.
+    pub fn rational(&self) -> Option<BigRational> {
+        let value = match self {
+            Expression::Literal { digits, places } => {
+                BigRational::new(digits.clone(), BigInt::from(10).pow(*places))
+            }
+            Expression::Neg(inner) => -inner.rational()?,
+            Expression::Binary(operator, left, right) => {
+                let (left, right) = (left.rational()?, right.rational()?);
+                match operator {
+                    Operator::Add => left + right,
+                    Operator::Sub => left - right,
+                    Operator::Mul => left * right,
+                    Operator::Div if right.is_zero() => return None,
+                    Operator::Div => left / right,
+                }
+            }
+            Expression::Power(base, n) => {
+                let base = base.rational()?;
+                let bits = base.numer().bits().max(base.denom().bits());
+                if bits * u64::from(*n) > MOST_EXACT {
+                    return None;
+                }
+                num_traits::pow(base, *n as usize)
+            }
+            Expression::Name(_) | Expression::Sqrt(_) => return None,
+        };
+        (value.numer().bits().max(value.denom().bits()) <= MOST_EXACT).then_some(value)
+    }
+
+    /// Calls `visit` with every name in the expression.
+    pub fn names<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+        match self {
+            Expression::Literal { .. } => {}
+            Expression::Name(name) => visit(name),
+            Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
+                inner.names(visit);
+            }
+            Expression::Binary(_, left, right) => {
+                left.names(visit);
+                right.names(visit);
+            }
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! The condition number `sigma_max(M)/sigma_min(M)`.
+
+use super::{Context, Quantity, Test};
+use crate::machine::Leg;
+use crate::number::Expression;
+use crate::problem::{ordered, ClaimError};
+
+pub(super) const CONDITIONING: Quantity = Quantity {
+    key: "conditioning",
+    symbol: "sigma_max/sigma_min",
+    words: "condition number",
+    of_legs: false,
+    tests,
+};
+
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.greatest()?.clone();
+    ordered(context.place, &Expression::integer(1), &bound, true)?;
+    let c = context.number(&bound, 0);
+    Ok(vec![Test::Conditioning(context.tape().sqr(c))])
+}

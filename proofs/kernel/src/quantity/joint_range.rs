@@ -1,0 +1,54 @@
+//! Joint coordinates `rho_i`.
+
+use super::{Context, Quantity, Test};
+use crate::claim::Bound;
+use crate::machine::{Joint, Leg};
+use crate::number::{Expression, Operator};
+use crate::problem::{binary, ordered, ClaimError, Value};
+
+pub(super) const JOINT_RANGE: Quantity = Quantity {
+    key: "joint_range",
+    symbol: "rho_i",
+    words: "joint coordinates",
+    of_legs: true,
+    tests,
+};
+
+/// A length has `rho - min >= 0` or `max - rho >= 0`. An angle `theta` is in `[min, max]`, less than
+/// 180 degrees wide, up to whole turns, if and only if `sin(theta - min) >= 0` and
+/// `sin(max - theta) >= 0`: these are two half-planes through the axis, whose intersection is the
+/// sector from `min` to `max`.
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let rho = leg.and_then(|leg| leg.rho);
+    Ok(match (rho, &context.requirement.bound) {
+        (Some(Joint::Length(rho)), Bound::Min(min)) => {
+            let min = context.number(min, 1);
+            vec![Test::AtLeast(context.tape().sub(rho, min))]
+        }
+        (Some(Joint::Length(rho)), Bound::Max(max)) => {
+            let max = context.number(max, 1);
+            vec![Test::AtLeast(context.tape().sub(max, rho))]
+        }
+        (Some(Joint::Angle { cos, sin }), Bound::Within([min, max])) => {
+            ordered(context.place, min, max, true)?;
+            let half_turn = binary(Operator::Add, min, &Expression::integer(180));
+            ordered(context.place, max, &half_turn, true)?;
+            let mut end = |x: &Expression| {
+                let cos = context.input(Value::Cosine(x.clone()));
+                (cos, context.input(Value::Sine(x.clone())))
+            };
+            let ((cos_min, sin_min), (cos_max, sin_max)) = (end(min), end(max));
+            let tape = context.tape();
+            let mut turned = |a, b, c, d| {
+                let (p, q) = (tape.mul(a, b), tape.mul(c, d));
+                Test::AtLeast(tape.sub(p, q))
+            };
+            vec![turned(sin, cos_min, cos, sin_min), turned(sin_max, cos, cos_max, sin)]
+        }
+        (Some(Joint::Length(_)), Bound::Within(_)) => {
+            return context.refused("one end of a length");
+        }
+        (Some(Joint::Angle { .. }), _) => return context.refused("both ends of an angle"),
+        (None, _) => return context.refused("of a joint whose coordinate the claim gives"),
+    })
+}

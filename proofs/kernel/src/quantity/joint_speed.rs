@@ -1,0 +1,38 @@
+//! The joint speed that a platform speed asks for: `|row_i of M| tool`.
+
+use super::{Context, Quantity, Test};
+use crate::machine::Leg;
+use crate::number::Operator;
+use crate::problem::{binary, positive, ClaimError, Value};
+
+pub(super) const JOINT_SPEED: Quantity = Quantity {
+    key: "joint_speed",
+    symbol: "|row_i of M| tool",
+    words: "joint speed; of arms, degrees per time",
+    of_legs: true,
+    tests,
+};
+
+/// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let max = context.greatest()?.clone();
+    let Some(tool) = context.requirement.tool.clone() else {
+        return context.refused("with the platform's speed");
+    };
+    positive(context.place, &max)?;
+    positive(context.place, &tool)?;
+    let ratio = binary(Operator::Div, &max, &tool);
+    let Some(leg) = leg else { return context.refused("of a leg") };
+    let k = if leg.is_angular() {
+        let scale = -context.builder.scale;
+        context.builder.input(context.place, Value::Radians(ratio), scale)
+    } else {
+        context.number(&ratio, 0)
+    };
+    let tape = context.tape();
+    let square = tape.sqr(k);
+    let greatest = tape.mul(square, leg.row.d);
+    let squares: Vec<_> = leg.row.a.iter().map(|&a| tape.sqr(a)).collect();
+    let rest = squares.into_iter().fold(greatest, |rest, a| tape.sub(rest, a));
+    Ok(vec![Test::AtLeast(rest)])
+}

@@ -1,0 +1,27 @@
+//! The angle between leg and guide.
+
+use super::serial_margin::at_least_of_length;
+use super::{Context, Quantity, Test};
+use crate::machine::Leg;
+use crate::number::Expression;
+use crate::problem::{ordered, positive, ClaimError, Value};
+
+pub(super) const LEG_ANGLE: Quantity = Quantity {
+    key: "leg_angle",
+    symbol: "angle(leg_i, n_i)",
+    words: "angle between leg and guide, degrees",
+    of_legs: true,
+    tests,
+};
+
+/// `|eta_i|/L_i >= cos(b)`, for `0 < b <= 90`.
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.greatest()?.clone();
+    positive(context.place, &bound)?;
+    ordered(context.place, &bound, &Expression::integer(90), false)?;
+    if leg.is_some_and(Leg::is_angular) {
+        return context.refused("of sliders");
+    }
+    let cos = context.input(Value::Cosine(bound));
+    at_least_of_length(context, leg, cos)
+}

@@ -1,0 +1,185 @@
+//! The table of quantities that a claim may bound: everything that goes through them goes through it.
+//!
+//! A quantity is a file: its key, its words, and the tests that a bound on it comes to.
+
+mod conditioning;
+mod joint_range;
+mod joint_speed;
+mod leg_angle;
+mod parallel_margin;
+mod serial_margin;
+mod transmission;
+
+use crate::claim::{Bound, MachineClaim, Requirement};
+use crate::formula::{Formula, Tape};
+use crate::machine::Leg;
+use crate::number::Expression;
+use crate::problem::{shape_error, Builder, ClaimError, Problem, Value};
+
+/// A quantity.
+pub struct Quantity {
+    /// In claims and designs.
+    pub key: &'static str,
+    /// In formulas.
+    pub symbol: &'static str,
+    /// In sentences.
+    pub words: &'static str,
+    /// Whether every leg has one.
+    pub of_legs: bool,
+    /// What a bound on it comes to; of a leg, for the leg given.
+    tests: fn(&mut Context<'_>, Option<&Leg>) -> Result<Vec<Test>, ClaimError>,
+}
+
+/// All of them, in the order of reports.
+pub const TABLE: [&Quantity; 7] = [
+    &transmission::TRANSMISSION,
+    &joint_range::JOINT_RANGE,
+    &conditioning::CONDITIONING,
+    &serial_margin::SERIAL_MARGIN,
+    &parallel_margin::PARALLEL_MARGIN,
+    &leg_angle::LEG_ANGLE,
+    &joint_speed::JOINT_SPEED,
+];
+
+/// A test that has to be passed on every cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Test {
+    /// `sigma_min(M) >= kappa`, all `D_i > 0`; of `kappa^2`. `kappa = 0`: `sigma_min(M) > 0`.
+    SigmaMin(Formula),
+    /// `sigma_max(M) <= k`; of `k^2`.
+    SigmaMax(Formula),
+    /// `sigma_max(M) <= c sigma_min(M)`; of `c^2`.
+    Conditioning(Formula),
+    /// `f >= 0`.
+    AtLeast(Formula),
+    /// `f >= b` everywhere, or `f <= -b` everywhere.
+    Beyond(Formula, Formula),
+}
+
+/// What is to be shown at every point of the workspace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Obligation {
+    /// The requirement, counted from zero; none of freedom from singularities.
+    pub requirement: Option<usize>,
+    /// The leg, counted from zero.
+    pub leg: Option<usize>,
+    /// The test.
+    pub test: Test,
+}
+
+/// What a quantity builds its tests with.
+pub(crate) struct Context<'a> {
+    builder: &'a mut Builder,
+    legs: &'a [Leg],
+    requirement: &'a Requirement,
+    place: &'a str,
+}
+
+impl Context<'_> {
+    fn tape(&mut self) -> &mut Tape {
+        &mut self.builder.tape
+    }
+
+    /// A number of the requirement, divided by `2^(units scale)`: `units` of length.
+    fn number(&mut self, x: &Expression, units: i64) -> Formula {
+        let scale = units * self.builder.scale;
+        self.builder.number(self.place, x, scale)
+    }
+
+    fn input(&mut self, value: Value) -> Formula {
+        self.builder.input(self.place, value, 0)
+    }
+
+    /// Whether joint coordinates are angles: `M` is then in radians per length.
+    fn is_angular(&self) -> bool {
+        self.legs.iter().any(|leg| leg.is_angular())
+    }
+
+    fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {
+        Err(shape_error(self.place, expected))
+    }
+
+    fn least(&self) -> Result<&Expression, ClaimError> {
+        match &self.requirement.bound {
+            Bound::Min(bound) => Ok(bound),
+            _ => self.refused("a least value"),
+        }
+    }
+
+    fn greatest(&self) -> Result<&Expression, ClaimError> {
+        match &self.requirement.bound {
+            Bound::Max(bound) => Ok(bound),
+            _ => self.refused("a greatest value"),
+        }
+    }
+}
+
+/// The greatest psi that a claim asks for.
+pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
+    claim.require.iter().find_map(|requirement| match &requirement.bound {
+        Bound::Max(bound) if requirement.quantity == transmission::TRANSMISSION.key => Some(bound),
+        _ => None,
+    })
+}
+
+/// The least psi that a claim asks for.
+pub(crate) fn psi_min(claim: &MachineClaim) -> Option<&Expression> {
+    claim.require.iter().find_map(|requirement| match &requirement.bound {
+        Bound::Min(bound) if requirement.quantity == transmission::TRANSMISSION.key => Some(bound),
+        _ => None,
+    })
+}
+
+/// The obligations of a claim: freedom from singularities first, then requirement by requirement and
+/// leg by leg. Every requirement is of a quantity of the table, and none is there twice.
+pub(crate) fn obligations(
+    builder: &mut Builder,
+    claim: &MachineClaim,
+    problem: &Problem,
+) -> Result<Vec<Obligation>, ClaimError> {
+    let legs = &problem.legs;
+    if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
+        return Err(shape_error("mechanism.legs", "arms alone, or none: psi has no unit else"));
+    }
+    let zero = builder.tape.integer(0);
+    let mut all = vec![Obligation { requirement: None, leg: None, test: Test::SigmaMin(zero) }];
+    for (number, requirement) in claim.require.iter().enumerate() {
+        let place = format!("requirement {}: {}", number + 1, requirement.quantity);
+        let same = |other: &Requirement| {
+            other.quantity == requirement.quantity
+                && other.leg == requirement.leg
+                && std::mem::discriminant(&other.bound)
+                    == std::mem::discriminant(&requirement.bound)
+        };
+        if claim.require[..number].iter().any(same) {
+            return Err(shape_error(&place, "there once"));
+        }
+        if requirement.tool.is_some() && requirement.quantity != joint_speed::JOINT_SPEED.key {
+            return Err(shape_error(&place, "without the platform's speed"));
+        }
+        let Some(quantity) = TABLE.iter().find(|q| q.key == requirement.quantity) else {
+            return Err(shape_error(&place, "one of the table of quantities"));
+        };
+        let one = requirement.leg.map(|leg| leg.wrapping_sub(1));
+        if one.is_some_and(|leg| !quantity.of_legs || leg >= legs.len()) {
+            return Err(shape_error(&place, "of a leg that there is"));
+        }
+        let which: Vec<Option<usize>> = match (quantity.of_legs, one) {
+            (false, _) => vec![None],
+            (true, Some(leg)) => vec![Some(leg)],
+            (true, None) => (0..legs.len()).map(Some).collect(),
+        };
+        for leg in which {
+            let mut context = Context { builder, legs, requirement, place: &place };
+            for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
+                all.push(Obligation { requirement: Some(number), leg, test });
+            }
+        }
+    }
+    // A bound on psi from above is freedom from singularities, and more.
+    if let Some(at) = all.iter().skip(1).position(|o| matches!(o.test, Test::SigmaMin(_))) {
+        let stronger = all.remove(at + 1);
+        all[0] = stronger;
+    }
+    Ok(all)
+}

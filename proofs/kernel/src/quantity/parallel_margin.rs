@@ -1,0 +1,49 @@
+//! How far a machine is from a parallel singularity: `|det U|`, rows of `U` the unit leg vectors.
+
+use super::{Context, Quantity, Test};
+use crate::formula::{Formula, Tape};
+use crate::machine::Leg;
+use crate::problem::{positive, ClaimError};
+
+pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
+    key: "parallel_margin",
+    symbol: "|det A|/(L_1 L_2 L_3)",
+    words: "distance from parallel singularities",
+    of_legs: false,
+    tests,
+};
+
+/// `|det A| >= b L_1 .. L_n`, for `b > 0` and as many legs as coordinates.
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.least()?.clone();
+    positive(context.place, &bound)?;
+    let mut least = context.number(&bound, 0);
+    let mut rows = Vec::new();
+    for leg in context.legs {
+        let Some(length) = leg.length.filter(|_| leg.row.a.len() == context.legs.len()) else {
+            return context.refused("of legs with a length, as many as coordinates");
+        };
+        least = context.builder.tape.mul(least, length);
+        rows.push(leg.row.a.clone());
+    }
+    let det = determinant(context.tape(), &rows);
+    Ok(vec![Test::Beyond(det, least)])
+}
+
+/// By the first row: `sum_j (-1)^j a_0j det(the rows below without column j)`.
+fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
+    let Some((first, below)) = rows.split_first() else { return tape.integer(1) };
+    let mut sum = tape.integer(0);
+    for (j, &a) in first.iter().enumerate() {
+        let without = |row: &Vec<Formula>| {
+            let mut row = row.clone();
+            row.remove(j);
+            row
+        };
+        let minor: Vec<Vec<Formula>> = below.iter().map(without).collect();
+        let minor = determinant(tape, &minor);
+        let term = tape.mul(a, minor);
+        sum = if j % 2 == 0 { tape.add(sum, term) } else { tape.sub(sum, term) };
+    }
+    sum
+}

@@ -1,0 +1,37 @@
+//! How far a leg is from a serial singularity: `|eta_i|/L_i`.
+
+use super::{Context, Quantity, Test};
+use crate::machine::Leg;
+use crate::problem::{positive, ClaimError};
+
+pub(super) const SERIAL_MARGIN: Quantity = Quantity {
+    key: "serial_margin",
+    symbol: "|eta_i|/L_i",
+    words: "distance from serial singularities",
+    of_legs: true,
+    tests,
+};
+
+/// `eta_i^2 - b^2 L_i^2 >= 0`, for `b > 0`.
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.least()?.clone();
+    positive(context.place, &bound)?;
+    let bound = context.number(&bound, 0);
+    at_least_of_length(context, leg, bound)
+}
+
+/// `eta_i^2 - c^2 L_i^2 >= 0`.
+pub(super) fn at_least_of_length(
+    context: &mut Context<'_>,
+    leg: Option<&Leg>,
+    c: crate::formula::Formula,
+) -> Result<Vec<Test>, ClaimError> {
+    let Some((eta_squared, length)) = leg.and_then(|leg| leg.eta_squared.zip(leg.length)) else {
+        return context.refused("of legs of fixed length");
+    };
+    let tape = context.tape();
+    let length_squared = tape.sqr(length);
+    let square = tape.sqr(c);
+    let least = tape.mul(square, length_squared);
+    Ok(vec![Test::AtLeast(tape.sub(eta_squared, least))])
+}

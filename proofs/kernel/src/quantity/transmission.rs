@@ -1,0 +1,34 @@
+//! Velocity transmission factors, `psi_i = 1/xi_i`, `xi_i` the singular values of `M`.
+
+use super::{Context, Quantity, Test};
+use crate::claim::Bound;
+use crate::machine::Leg;
+use crate::number::{Expression, Operator};
+use crate::problem::{binary, positive, ClaimError};
+
+pub(super) const TRANSMISSION: Quantity = Quantity {
+    key: "transmission",
+    symbol: "psi_i",
+    words: "velocity transmission factors",
+    of_legs: false,
+    tests,
+};
+
+/// `psi_i <= b` for all `i` is `sigma_min(M) >= 1/b`; `psi_i >= b` is `sigma_max(M) <= 1/b`.
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = match &context.requirement.bound {
+        Bound::Min(bound) | Bound::Max(bound) => bound,
+        Bound::Within(_) => return context.refused("a least or a greatest value"),
+    };
+    positive(context.place, bound)?;
+    let one = Expression::integer(1);
+    let inverse = binary(Operator::Div, &one, bound);
+    // M is an angle per length for arms.
+    let units = if context.is_angular() { -1 } else { 0 };
+    let sigma = context.number(&inverse, units);
+    let square = context.tape().sqr(sigma);
+    Ok(vec![match &context.requirement.bound {
+        Bound::Min(_) => Test::SigmaMax(square),
+        _ => Test::SigmaMin(square),
+    }])
+}

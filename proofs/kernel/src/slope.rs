@@ -1,0 +1,165 @@
+//! A formula over a cell: its value at the centre, its range, its slopes.
+//!
+//! A point of the cell is `x = c + sum_k lambda_k h_k e_k` with `lambda_k` in `[-1, 1]`. For fixed
+//! parameters a [`Slope`] of a formula `f` says that there are `S_1 .. S_m` in [`Slope::slopes`] with
+//!
+//! ```text
+//! f(x) = f(c) + sum_k S_k lambda_k        f(c) in `at_centre`        f(x) in `range`
+//! ```
+//!
+//! The `S_k` depend on `x`. Each operation rests on one identity, for the `S` of its operands:
+//!
+//! ```text
+//! f +- g    S_f +- S_g                             f^2       (f_X + f_c) S_f
+//! f g       ((g_X + g_c) S_f + (f_X + f_c) S_g)/2  sqrt(f)   S_f/(sqrt f_X + sqrt f_c)
+//! f / g     (S_f - (f_c/g_c) S_g)/g_X
+//! ```
+//!
+//! *Proof.* With `d = f(x) - f(c)`, `e = g(x) - g(c)`, `f_X = f(x)`, `f_c = f(c)`: the product's change
+//! is `f_X g_X - f_c g_c = ((g_X + g_c) d + (f_X + f_c) e)/2`; a square is one; of the root,
+//! `d = (sqrt f_X - sqrt f_c)(sqrt f_X + sqrt f_c)`; of the quotient,
+//! `f_X/g_X - f_c/g_c = (f_X - (f_c/g_c) g_X)/g_X = (d - (f_c/g_c) e)/g_X`. ∎
+//!
+//! *Ranges* that are found in two ways may be intersected: every range is cut to what the slopes
+//! reach. *Slopes* from two identities may not: the `S_k` of one point differ between them.
+//! `uv - cd = (u - c) v + (v - d) c = (u - c) d + (v - d) u` has the slopes `(v, c)` and `(d, u)`,
+//! and on `u, v` in `[1, 3]`, `c = d = 2`, cutting each to what both allow gives `(2, 2)`, which would
+//! make the product affine.
+
+use crate::arithmetic::{Arithmetic, Enclosure};
+
+/// Most coordinates of a workspace.
+pub const MOST_COORDINATES: usize = 6;
+
+/// A formula over a cell.
+#[derive(Clone, Debug)]
+pub struct Slope<N> {
+    /// Encloses its value at the centre.
+    pub at_centre: N,
+    /// Encloses its values on the cell.
+    pub range: N,
+    /// One a coordinate, times the cell's half-width.
+    pub slopes: [N; MOST_COORDINATES],
+}
+
+/// The arithmetic of slopes in `m` coordinates.
+#[derive(Debug)]
+pub struct Slopes<'a, E> {
+    /// What their parts are computed in.
+    pub arithmetic: &'a E,
+    /// The coordinates.
+    pub m: usize,
+}
+
+impl<E> Clone for Slopes<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Slopes<'_, E> {}
+
+impl<E: Enclosure> Slopes<'_, E> {
+    /// A number that is the same on the whole cell.
+    pub fn constant(&self, number: E::Number) -> Option<Slope<E::Number>> {
+        let zero = self.arithmetic.integer(0)?;
+        let slopes = std::array::from_fn(|_| zero.clone());
+        Some(Slope { at_centre: number.clone(), range: number, slopes })
+    }
+
+    /// Coordinate `k`, given its centre, range and half-width.
+    pub fn coordinate(
+        &self,
+        k: usize,
+        [centre, range, half]: [E::Number; 3],
+    ) -> Option<Slope<E::Number>> {
+        let mut slope = self.constant(centre)?;
+        slope.range = range;
+        *slope.slopes.get_mut(k)? = half;
+        Some(slope)
+    }
+
+    /// The slope with these parts, its range cut to what the slopes reach.
+    fn cut(
+        &self,
+        at_centre: E::Number,
+        range: &E::Number,
+        slopes: [E::Number; MOST_COORDINATES],
+    ) -> Option<Slope<E::Number>> {
+        let range = self.arithmetic.within(range, &at_centre, &slopes[..self.m])?;
+        Some(Slope { at_centre, range, slopes })
+    }
+
+    /// `change` applied to the slopes of the coordinates there are.
+    fn each(
+        &self,
+        mut slopes: [E::Number; MOST_COORDINATES],
+        change: impl Fn(usize, &E::Number) -> Option<E::Number>,
+    ) -> Option<[E::Number; MOST_COORDINATES]> {
+        for (k, slope) in slopes.iter_mut().enumerate().take(self.m) {
+            *slope = change(k, slope)?;
+        }
+        Some(slopes)
+    }
+}
+
+impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
+    type Number = Slope<E::Number>;
+
+    fn integer(&self, n: i64) -> Option<Self::Number> {
+        self.constant(self.arithmetic.integer(n)?)
+    }
+
+    fn add(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let slopes = self.each(f.slopes.clone(), |k, s| e.add(s, &g.slopes[k]))?;
+        self.cut(e.add(&f.at_centre, &g.at_centre)?, &e.add(&f.range, &g.range)?, slopes)
+    }
+
+    fn sub(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let slopes = self.each(f.slopes.clone(), |k, s| e.sub(s, &g.slopes[k]))?;
+        self.cut(e.sub(&f.at_centre, &g.at_centre)?, &e.sub(&f.range, &g.range)?, slopes)
+    }
+
+    fn neg(&self, f: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let slopes = self.each(f.slopes.clone(), |_, s| e.neg(s))?;
+        Some(Slope { at_centre: e.neg(&f.at_centre)?, range: e.neg(&f.range)?, slopes })
+    }
+
+    fn mul(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let p = e.add(&g.range, &g.at_centre)?;
+        let q = e.add(&f.range, &f.at_centre)?;
+        let slopes = self.each(f.slopes.clone(), |k, s| {
+            e.halve(&e.add(&e.mul(&p, s)?, &e.mul(&q, &g.slopes[k])?)?)
+        })?;
+        self.cut(e.mul(&f.at_centre, &g.at_centre)?, &e.mul(&f.range, &g.range)?, slopes)
+    }
+
+    fn div(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let (at_centre, over) = (e.recip(&g.at_centre)?, e.recip(&g.range)?);
+        let quotient = e.mul(&f.at_centre, &at_centre)?;
+        let slopes = self.each(f.slopes.clone(), |k, s| {
+            e.mul(&over, &e.sub(s, &e.mul(&quotient, &g.slopes[k])?)?)
+        })?;
+        self.cut(quotient, &e.mul(&f.range, &over)?, slopes)
+    }
+
+    fn sqr(&self, f: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let sum = e.add(&f.range, &f.at_centre)?;
+        let slopes = self.each(f.slopes.clone(), |_, s| e.mul(&sum, s))?;
+        self.cut(e.sqr(&f.at_centre)?, &e.sqr(&f.range)?, slopes)
+    }
+
+    fn sqrt(&self, f: &Self::Number) -> Option<Self::Number> {
+        let e = self.arithmetic;
+        let (at_centre, range) = (e.sqrt(&f.at_centre)?, e.sqrt(&f.range)?);
+        let by = e.recip(&e.add(&range, &at_centre)?)?;
+        let slopes = self.each(f.slopes.clone(), |_, s| e.mul(&by, s))?;
+        self.cut(at_centre, &range, slopes)
+    }
+}

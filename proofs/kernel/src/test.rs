@@ -1,0 +1,200 @@
+//! The tests: what is shown of formulas over a cell, for every machine of the tolerance.
+//!
+//! A machine is given by the paper's own matrices, `A x' = B rho'`: `n` rows `A_i` of `m` formulas,
+//! and `D_i = B_i^2`, so that `M = B^-1 A` has `|M v|^2 = sum_i (A_i . v)^2/D_i`. Both are simple
+//! where `M` is not: neither divides. Where a test is passed, all `D_i > 0` on the cell.
+//!
+//! | test | shows | evidence |
+//! |---|---|---|
+//! | [`at_least`] | `f >= 0` | |
+//! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
+//! | [`sigma_max`] | `sigma_max(M) <= k` | |
+//!
+//! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
+//! statements about one machine, and hold for each whose formulas are in the enclosures.
+
+use crate::arithmetic::Enclosure;
+use crate::cell::Vertex;
+use crate::definite::{eliminated, is_positive_definite, Triangle};
+use crate::formula::{Formula, Values};
+use crate::slope::{Slope, Slopes};
+use serde::{Deserialize, Serialize};
+
+/// `A_i` and `D_i`.
+#[derive(Clone, Debug)]
+pub struct Row<F> {
+    /// The row of `A`.
+    pub a: Vec<F>,
+    /// The square of the entry of `B`.
+    pub d: F,
+}
+
+/// `Y = y / 2^places`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Multiplier {
+    /// Row by row: as many as the machine has, each with one entry a coordinate.
+    pub y: Vec<Vec<i64>>,
+    /// Binary places.
+    pub places: u32,
+}
+
+/// Binary places are fewer than this.
+pub const MOST_PLACES: u32 = 64;
+
+/// A cell's formulas.
+pub struct Over<'a, E: Enclosure> {
+    /// The arithmetic of their slopes.
+    pub slopes: Slopes<'a, E>,
+    /// Their values.
+    pub values: &'a Values<Slope<E::Number>>,
+    /// A formula that is not negative at the cell's points in the workspace, where one is used: what is
+    /// shown at the vertices is then shown less its value there (the S-procedure).
+    ///
+    /// **Lemma.** If `f_v - t_v` is positive (definite: `F_v - t_v I`) at the vertices, `f` is positive
+    /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
+    /// combination of these, and `t(x) >= 0`. ∎
+    pub inside: Option<Slope<E::Number>>,
+}
+
+/// What a bound is at a vertex.
+pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
+
+impl<E: Enclosure> Over<'_, E> {
+    /// The value of a formula over the cell.
+    pub fn of(&self, formula: Formula) -> Option<&Slope<E::Number>> {
+        self.values.of(formula)
+    }
+
+    /// `x - t_v`.
+    fn less_inside(&self, x: E::Number, vertex: Vertex) -> Option<E::Number> {
+        match &self.inside {
+            None => Some(x),
+            Some(t) => self.slopes.arithmetic.sub(&x, &vertex.value(&self.slopes, t)?),
+        }
+    }
+
+    /// The rows at a vertex.
+    fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Row<E::Number>>> {
+        let value = |f: &Formula| vertex.value(&self.slopes, self.of(*f)?);
+        let row = |row: &Row<Formula>| {
+            let a = row.a.iter().map(value).collect::<Option<_>>()?;
+            Some(Row { a, d: value(&row.d)? })
+        };
+        rows.iter().map(row).collect()
+    }
+
+    /// Whether every `D_i` is positive on the cell.
+    fn is_regular(&self, rows: &[Row<Formula>]) -> bool {
+        let positive = |d: &Slope<E::Number>| self.slopes.arithmetic.is_positive(&d.range);
+        rows.iter().all(|row| self.of(row.d).is_some_and(positive))
+    }
+
+    fn at_vertices(
+        &self,
+        rows: &[Row<Formula>],
+        holds: impl Fn(Vertex, Vec<Row<E::Number>>) -> bool,
+    ) -> bool {
+        let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
+        self.is_regular(rows) && Vertex::all(self.slopes.m).all(holds)
+    }
+}
+
+/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere.
+pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: &Slope<E::Number>) -> bool {
+    let e = over.slopes.arithmetic;
+    if over.inside.is_none() {
+        return e.is_nonnegative(&f.range);
+    }
+    let holds = |v: Vertex| over.less_inside(v.value(&over.slopes, f)?, v);
+    Vertex::all(over.slopes.m).all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
+}
+
+/// **Least singular value.** If `T = Y^T A + A^T Y - Y^T D Y - kappa^2 I` is positive definite at the
+/// vertices, for any one matrix `Y`, then `sigma_min(M) > kappa` on the cell.
+///
+/// *Proof.* `T` is affine in `(A, D)`, so it is positive definite at `x`. For every `v`, with
+/// `t_i = A_i . v` and `s_i = Y_i . v`,
+///
+/// ```text
+/// 0 <= sum_i (t_i - D_i s_i)^2/D_i = |M v|^2 - v^T (Y^T A + A^T Y - Y^T D Y) v
+/// ```
+///
+/// and so `|M v|^2 >= kappa^2 |v|^2 + v^T T v`. ∎ It needs `D_i > 0`: without that, a leg of length
+/// zero with `Y_i = 0` would pass where `n > m`. `T` decreases with `D`, which is taken at its upper
+/// end. `M^T M - kappa^2 I` at the vertices would be
+/// unsound: `sigma_min >= kappa` is not convex (`diag(t, 1, 1)`, `t` in `[-1, 1]`).
+///
+/// `kappa_squared` may differ from vertex to vertex: what is shown is then of its convex combination.
+pub fn sigma_min<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    kappa_squared: AtVertex<'_, E::Number>,
+    evidence: &Multiplier,
+) -> bool {
+    let (e, m, y) = (over.slopes.arithmetic, over.slopes.m, &evidence.y);
+    let shape = y.len() == rows.len() && y.iter().all(|y| y.len() == m);
+    let matrix = |v: Vertex, rows: &[Row<E::Number>]| {
+        let diagonal = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
+        let terms = rows.iter().zip(y);
+        terms.fold(scalar(e, m, &diagonal), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+    };
+    shape
+        && evidence.places < MOST_PLACES
+        && over.at_vertices(rows, |v, rows| {
+            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
+        })
+}
+
+/// `c I`.
+fn scalar<E: Enclosure>(e: &E, m: usize, c: &E::Number) -> Option<Triangle<E::Number>> {
+    let zero = e.integer(0)?;
+    let entry = |i: usize, j: usize| if i == j { c.clone() } else { zero.clone() };
+    Some((0..m).map(|i| (i..m).map(|j| entry(i, j)).collect()).collect())
+}
+
+/// `t + Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i`, as `t + (Y_i^T z + z^T Y_i)/2`, `z = 2 A_i - D_i Y_i`.
+fn added<E: Enclosure>(
+    e: &E,
+    mut t: Triangle<E::Number>,
+    row: &Row<E::Number>,
+    (y, places): (&[i64], u32),
+) -> Option<Triangle<E::Number>> {
+    let [_, greatest] = e.ends(&row.d);
+    let residual =
+        |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, &greatest)?);
+    let z: Vec<E::Number> = row.a.iter().zip(y).map(residual).collect::<Option<_>>()?;
+    let half = |i: usize, j: usize| e.dyadic(*y.get(i)?, places + 1, z.get(j)?);
+    for (i, entries) in t.iter_mut().enumerate() {
+        for (entry, j) in entries.iter_mut().zip(i..) {
+            *entry = e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?)?;
+        }
+    }
+    Some(t)
+}
+
+/// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
+/// `sigma_max(M) < k` on the cell.
+///
+/// *Proof.* The matrix is affine in `(A, D)`, so it is positive definite at `x`, and with it its Schur
+/// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first, each at its lower
+/// end: the complement increases with them.
+pub fn sigma_max<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    k_squared: AtVertex<'_, E::Number>,
+) -> bool {
+    let e = over.slopes.arithmetic;
+    over.at_vertices(rows, |v, rows| {
+        let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
+        let start = bound.and_then(|bound| scalar(e, over.slopes.m, &bound));
+        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+        let rest = rows.iter().fold(start, |rest, row| {
+            let [least, _] = e.ends(&row.d);
+            let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
+            bordered.extend(rest?);
+            eliminated(e, bordered)
+        });
+        rest.is_some_and(|rest| is_positive_definite(e, rest))
+    })
+}

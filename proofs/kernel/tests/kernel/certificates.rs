@@ -1,0 +1,103 @@
+//! Claims, proved, printed, read and checked.
+
+use crate::prover::certify;
+use orthocert_kernel::certificate::Certificate;
+use orthocert_kernel::check::check;
+use orthocert_kernel::claim::MachineClaim;
+
+pub fn claim(text: &str) -> MachineClaim {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+/// Proves, prints, reads back and checks.
+fn accepted(text: &str) -> Certificate {
+    let certificate = certify(&claim(text), 20_000).expect("a proof");
+    let text = certificate.to_text().expect("a text");
+    let read = Certificate::read(&text).expect("canonical");
+    assert_eq!(read, certificate);
+    check(&read).unwrap_or_else(|e| panic!("{e}: {text}"));
+    read
+}
+
+#[test]
+fn the_prototype() {
+    accepted(
+        r#"{"mechanism":{"orthoglide":{"offset":"0"}},"workspace":{"cube":{"side":"200"}},
+        "require":[{"quantity":"transmission","end":"min","bound":"1/2"},
+        {"quantity":"transmission","end":"max","bound":"2"}]}"#,
+    );
+}
+
+#[test]
+fn an_orthoglide_by_its_inverse_kinematics() {
+    accepted(
+        r#"{"mechanism":{"formulas":{"coordinates":["x","y","z"],
+        "parameters":[["l","310.7"]],"definitions":[],
+        "joints":[{"rho":"x-sqrt(l^2-y^2-z^2)"},{"rho":"y-sqrt(l^2-x^2-z^2)"},{"rho":"z-sqrt(l^2-x^2-y^2)"}]}},
+        "workspace":{"box":{"min":["-72","-72","-72"],"max":["125","125","125"]}},
+        "require":[{"quantity":"transmission","end":"min","bound":"0.5"},
+        {"quantity":"transmission","end":"max","bound":"2"}]}"#,
+    );
+}
+
+/// A claim over a linear Delta with these requirements.
+fn delta(require: &str) -> String {
+    let leg = |anchor: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":["0","0","1"],"anchor":[{anchor}],"platform":["0","0","0"],"length":{{"min":"332.95","max":"333.05"}},"mode":"-"}}"#
+        )
+    };
+    let legs = [
+        leg(r#""-174.75*sqrt(3)/2","-174.75/2","0""#),
+        leg(r#""174.75*sqrt(3)/2","-174.75/2","0""#),
+        leg(r#""0","174.75","0""#),
+    ];
+    format!(
+        r#"{{"mechanism":{{"translational":[{}]}},"workspace":{{"cylinder":{{"center":["0","0"],"radius":"60","z":["0","1"]}}}},"require":[{require}]}}"#,
+        legs.join(",")
+    )
+}
+
+#[test]
+fn every_quantity_of_a_toleranced_linear_delta() {
+    accepted(&delta(
+        r#"{"quantity":"transmission","end":"max","bound":"1.45"},
+        {"quantity":"joint_range","end":"min","bound":"200"},
+        {"quantity":"joint_range","leg":2,"end":"max","bound":"330"},
+        {"quantity":"conditioning","end":"max","bound":"2.8"},
+        {"quantity":"serial_margin","end":"min","bound":"0.6"},
+        {"quantity":"parallel_margin","end":"min","bound":"0.2"},
+        {"quantity":"leg_angle","end":"max","bound":"50"},
+        {"quantity":"joint_speed","tool":"100","end":"max","bound":"160"}"#,
+    ));
+}
+
+#[test]
+fn a_rotary_delta_with_the_range_of_its_arms() {
+    let leg = |axis: &str, e: &str, a: &str| {
+        format!(
+            r#"{{"drive":"arm","axis":[{axis}],"reference":[{e}],"anchor":[{a}],"platform":["0","0","0"],"arm":"10","length":"14","mode":"+"}}"#
+        )
+    };
+    let legs = [
+        leg(r#""1","0","0""#, r#""0","1","0""#, r#""0","4","0""#),
+        leg(r#""-1/2","sqrt(3)/2","0""#, r#""-sqrt(3)/2","-1/2","0""#, r#""-2*sqrt(3)","-2","0""#),
+        leg(r#""-1/2","-sqrt(3)/2","0""#, r#""sqrt(3)/2","-1/2","0""#, r#""2*sqrt(3)","-2","0""#),
+    ];
+    let text = |range: &str| {
+        format!(
+            r#"{{"mechanism":{{"translational":[{}]}},"workspace":{{"box":{{"min":["-1","-1","-12"],"max":["1","1","-11"]}}}},"require":[{{"quantity":"joint_range","end":"within","bound":{range}}},{{"quantity":"joint_speed","tool":"1","end":"max","bound":"20"}}]}}"#,
+            legs.join(",")
+        )
+    };
+    accepted(&text(r#"["100","250"]"#));
+    assert!(certify(&claim(&text(r#"["0","90"]"#)), 300).is_none());
+}
+
+#[test]
+fn a_five_bar_by_its_inverse_kinematics() {
+    // Prismatic five-bar: two sliders on the x axis, rods of 200.
+    accepted(
+        r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#,
+    );
+}

@@ -1,0 +1,11 @@
+//! The kernel: arithmetic and lemmas on random and adverse inputs, claims proved and refuted by a small
+//! search in doubles, and what has to be rejected.
+
+mod arithmetic;
+mod certificates;
+mod leaves;
+mod prover;
+mod rejected;
+mod rough;
+mod slopes;
+mod witnesses;
