@@ -43,25 +43,73 @@ fn recalc_delta_settings(radius: f64, rod: f64, trims: [[f64; 3]; 3]) -> Towers 
     Towers { at, rod2: rods.map(|trim| (rod + trim) * (rod + trim)), forward: forward_kinematics }
 }
 
+/// A header with these figures, in one of three spellings: every number in its place; the radius as the
+/// difference of offsets; the rod by the alternatives of a model.
+fn header(n: &[f64], free: bool, spelling: usize) -> String {
+    let vector = |what: usize| format!("{{ {}, {}, {} }}", n[5 + what], n[8 + what], n[11 + what]);
+    let radius = match spelling {
+        1 => format!(
+            "#define DELTA_SMOOTH_ROD_OFFSET {}\n#define DELTA_EFFECTOR_OFFSET 12.5 // mm\n\
+             #define DELTA_CARRIAGE_OFFSET 20\n#define DELTA_RADIUS (DELTA_SMOOTH_ROD_OFFSET \\\n \
+             -(DELTA_EFFECTOR_OFFSET)-(DELTA_CARRIAGE_OFFSET))",
+            n[0] + 32.5
+        ),
+        _ => format!("#define DELTA_RADIUS {}", n[0]),
+    };
+    let rod = match spelling {
+        2 => format!(
+            "#if MODEL > 1 || ENABLED(LONG_RODS)\n#define DELTA_DIAGONAL_ROD 1.0\n#elif MODEL == 1\n\
+             #define DELTA_DIAGONAL_ROD {}\n#else\n#define DELTA_DIAGONAL_ROD 2.0\n#endif",
+            n[1]
+        ),
+        _ => format!("#define DELTA_DIAGONAL_ROD {}", n[1]),
+    };
+    let endstops = match free {
+        true => "//#define MIN_SOFTWARE_ENDSTOPS\n//#define MAX_SOFTWARE_ENDSTOPS",
+        false => "#define MIN_SOFTWARE_ENDSTOPS\n#define MAX_SOFTWARE_ENDSTOPS",
+    };
+    format!(
+        "#define MODEL 1\n//#define LONG_RODS\n#define DELTA\n#if ENABLED(DELTA)\n\
+         #define PRINTABLE_RADIUS {print}\n#define DELTA_MAX_RADIUS {print}\n{rod}\n\
+         #define DELTA_HEIGHT {height}\n#define DELTA_ENDSTOP_ADJ {{ 0.0, 0.0, 0.0 }}\n{radius}\n\
+         #define DELTA_TOWER_ANGLE_TRIM {angles}\n#define DELTA_RADIUS_TRIM_TOWER {radii}\n\
+         #define DELTA_DIAGONAL_ROD_TRIM_TOWER {rods}\n#endif\n\
+         #define X_MIN_POS -(PRINTABLE_RADIUS)\n#define X_MAX_POS PRINTABLE_RADIUS\n\
+         #define Y_MIN_POS -(PRINTABLE_RADIUS)\n#define Y_MAX_POS PRINTABLE_RADIUS\n\
+         #define Z_MIN_POS {low}\n#define MANUAL_Z_HOME_POS DELTA_HEIGHT\n\
+         #define Z_MAX_POS MANUAL_Z_HOME_POS\n{endstops}\n\
+         #if ENABLED(MIN_SOFTWARE_ENDSTOPS)\n#define MIN_SOFTWARE_ENDSTOP_Z\n#endif\n\
+         #if ENABLED(MAX_SOFTWARE_ENDSTOPS)\n#define MAX_SOFTWARE_ENDSTOP_Z\n#endif\n",
+        print = n[2],
+        height = n[3],
+        low = n[4],
+        angles = vector(0),
+        radii = vector(1),
+        rods = vector(2),
+    )
+}
+
 #[test]
 fn configurations_are_marlins() {
     let mut compared = Compared::default();
-    for line in file("marlin/figures.txt").lines().filter(|line| !line.starts_with('#')) {
-        let mut words = line.split_whitespace();
-        let name = words.next().unwrap();
+    let text = file("marlin.txt");
+    let lines: Vec<&str> = text.lines().collect();
+    let sections =
+        lines.windows(2).filter_map(|pair| Some((pair[0].strip_prefix("== ")?, pair[1])));
+    for (at, (origin, figures)) in sections.enumerate() {
+        let free = figures.ends_with(" free");
+        let words = figures.trim_end_matches(" free").split_whitespace();
         let n: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
         let trims = [0, 1, 2].map(|what| [n[5 + what], n[8 + what], n[11 + what]]);
         let firmware = recalc_delta_settings(n[0], n[1], trims);
-        let text = file(&format!("marlin/{name}.h"));
-        let files = vec![("Configuration.h", text)];
-        let figures = Figures { origin: name, ignore: Vec::new(), files };
+        let files = vec![("Configuration.h", header(&n, free, at % 3))];
+        let figures = Figures { origin, ignore: Vec::new(), files };
         let region = compare(marlin, &figures, &firmware, &mut compared);
         // src/module/motion.cpp, apply_motion_limits and position_is_reachable.
         let (radius, [low, high]) = region.cylinder();
-        let limited = name != "mks-sbase";
-        let expected = if limited { n[2] } else { n[2] + 0.0001 };
-        assert!((radius - expected).abs() < 1e-9, "{name}: {radius}");
-        assert!((low - n[4]).abs() + (high - n[3]).abs() < 1e-9, "{name}: {low} {high}");
+        let expected = if free { n[2] + 0.0001 } else { n[2] };
+        assert!((radius - expected).abs() < 1e-9, "{origin}: {radius}");
+        assert!((low - n[4]).abs() + (high - n[3]).abs() < 1e-9, "{origin}: {low} {high}");
     }
     println!("{compared:?}");
     assert!(compared.configurations >= 30);
