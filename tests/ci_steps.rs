@@ -1,5 +1,5 @@
 //! What is offered to continuous integration runs as it is written: the shell steps of `action.yml`,
-//! the entries of `.pre-commit-hooks.yaml`, and the README's GitLab job and signing commands.
+//! the entries of `.pre-commit-hooks.yaml`, and the guide's GitLab job and signing commands.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -223,16 +223,16 @@ fn pre_commit_entries_run() {
     }
 }
 
-/// The lines of the README's fenced block that has `mark` in it.
+/// The lines of the guide's fenced block that has `mark` in it.
 fn block(mark: &str) -> String {
-    let text = fs::read_to_string(source("README.md")).unwrap();
+    let text = fs::read_to_string(source("GUIDE.md")).unwrap();
     let mut blocks = text.split("```").skip(1).step_by(2);
     let block = blocks.find(|block| block.contains(mark)).unwrap_or_else(|| panic!("no {mark}"));
     block.split_once('\n').unwrap().1.to_owned()
 }
 
 #[test]
-fn the_gitlab_job_of_the_readme_runs() {
+fn the_gitlab_job_of_the_guide_runs() {
     let job = block("stage: test");
     let lines = job.lines().filter_map(|line| line.strip_prefix("    - "));
     let script: Vec<&str> = lines.take_while(|line| !line.contains(": ")).collect();
@@ -260,7 +260,7 @@ fn the_gitlab_job_of_the_readme_runs() {
 }
 
 #[test]
-fn the_signing_commands_of_the_readme_run() {
+fn the_signing_commands_of_the_guide_run() {
     if Command::new("ssh-keygen").arg("-?").output().is_err() {
         println!("ssh-keygen is not installed: the commands are not run");
         return;
