@@ -6,7 +6,7 @@ use crate::arithmetic::Enclosure;
 pub type Triangle<N> = Vec<Vec<N>>;
 
 /// Whether every symmetric matrix with entries in `matrix` is certainly positive definite: if the
-/// interval matrix is, or else if each of its sign vertices is, by [`eliminates`].
+/// interval matrix is, or else if each of its sign vertices is, by elimination.
 ///
 /// **Lemma (sign vertices).** For `z` in `{-1, 1}^m` let `T_z` have the lower end of entry `(i, j)`
 /// where `z_i = z_j`, and the upper end elsewhere. If all `T_z` are positive definite, so is every
