@@ -14,6 +14,7 @@
 //! | [`trig`]       | cosines and sines of degrees                                     |
 //! | [`claim`]      | the theorem: mechanism, workspace, requirements                  |
 //! | [`quantity`]   | the table of quantities that a claim may bound                   |
+//! | [`input`]      | a claim's numbers, enclosed                                      |
 //! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
@@ -26,9 +27,12 @@ pub mod cell;
 pub mod certificate;
 pub mod check;
 pub mod claim;
+mod compile;
+mod cube;
 pub mod definite;
 pub mod fixed;
 pub mod formula;
+pub mod input;
 pub mod machine;
 pub mod number;
 pub mod problem;

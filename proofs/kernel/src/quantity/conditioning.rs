@@ -1,9 +1,9 @@
 //! The condition number `sigma_max(M)/sigma_min(M)`.
 
 use super::{Context, Quantity, Test};
+use crate::input::{ordered, ClaimError};
 use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{ordered, ClaimError};
 
 pub(super) const CONDITIONING: Quantity = Quantity {
     key: "conditioning",

@@ -2,9 +2,9 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
+use crate::input::{binary, ordered, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
-use crate::problem::{binary, ordered, ClaimError, Value};
 
 pub(super) const JOINT_RANGE: Quantity = Quantity {
     key: "joint_range",

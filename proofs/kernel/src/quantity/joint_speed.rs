@@ -1,9 +1,9 @@
 //! The joint speed that a platform speed asks for: `|row_i of M| tool`.
 
 use super::{Context, Quantity, Test};
+use crate::input::{binary, positive, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Operator;
-use crate::problem::{binary, positive, ClaimError, Value};
 
 pub(super) const JOINT_SPEED: Quantity = Quantity {
     key: "joint_speed",

@@ -2,9 +2,9 @@
 
 use super::serial_margin::at_least_of_length;
 use super::{Context, Quantity, Test};
+use crate::input::{ordered, positive, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{ordered, positive, ClaimError, Value};
 
 pub(super) const LEG_ANGLE: Quantity = Quantity {
     key: "leg_angle",

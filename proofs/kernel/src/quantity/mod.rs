@@ -11,10 +11,12 @@ mod serial_margin;
 mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
+use crate::compile::Builder;
 use crate::formula::{Formula, Tape};
+use crate::input::{shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
-use crate::problem::{shape_error, Builder, ClaimError, Problem, Value};
+use crate::problem::Problem;
 
 /// A quantity.
 pub struct Quantity {

@@ -2,8 +2,8 @@
 
 use super::{Context, Quantity, Test};
 use crate::formula::{Formula, Tape};
+use crate::input::{positive, ClaimError};
 use crate::machine::Leg;
-use crate::problem::{positive, ClaimError};
 
 pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     key: "parallel_margin",

@@ -1,8 +1,8 @@
 //! How far a leg is from a serial singularity: `|eta_i|/L_i`.
 
 use super::{Context, Quantity, Test};
+use crate::input::{positive, ClaimError};
 use crate::machine::Leg;
-use crate::problem::{positive, ClaimError};
 
 pub(super) const SERIAL_MARGIN: Quantity = Quantity {
     key: "serial_margin",

@@ -2,9 +2,9 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
+use crate::input::{binary, positive, ClaimError};
 use crate::machine::Leg;
 use crate::number::{Expression, Operator};
-use crate::problem::{binary, positive, ClaimError};
 
 pub(super) const TRANSMISSION: Quantity = Quantity {
     key: "transmission",

@@ -1,0 +1,247 @@
+//! Mechanisms as formulas: legs by their drives, and joints that users give.
+
+use crate::claim::{Formulas, JointFormula, Kind, Leg, Quantity};
+use crate::formula::{Formula, Tape, Vector};
+use crate::input::{
+    magnitude, number_error, ordered, positive, shape_error, ClaimError, Input, Value,
+};
+use crate::machine;
+use crate::number::{Expression, Operator};
+use std::collections::HashMap;
+
+/// Most legs or joints.
+pub const MOST_LEGS: usize = 12;
+
+/// What a claim is compiled with.
+pub(crate) struct Builder {
+    pub tape: Tape,
+    pub inputs: Vec<Input>,
+    pub scale: i64,
+    pub partial: Vec<Formula>,
+}
+
+impl Builder {
+    /// A quantity of the claim, divided by `2^scale`. Small integers are no inputs.
+    pub fn quantity(&mut self, place: &str, quantity: &Quantity, scale: i64) -> Formula {
+        if let Quantity::Exactly(x) = quantity {
+            if let Some(n) = small(x).filter(|&n| scale == 0 || n == 0) {
+                return self.tape.integer(n);
+            }
+        }
+        self.input(place, Value::Quantity(quantity.clone()), scale)
+    }
+
+    /// Some other input.
+    pub fn input(&mut self, place: &str, value: Value, scale: i64) -> Formula {
+        self.inputs.push(Input { place: place.to_owned(), value, scale });
+        self.tape.parameter(self.inputs.len() - 1)
+    }
+
+    /// A number of the claim, divided by `2^scale`.
+    pub fn number(&mut self, place: &str, number: &Expression, scale: i64) -> Formula {
+        self.quantity(place, &Quantity::Exactly(number.clone()), scale)
+    }
+
+    /// The formulas of a leg's quantities: of directions brought to the order of one, of lengths
+    /// divided by `2^scale`.
+    fn quantities(&mut self, number: usize, leg: &Leg) -> Result<Vec<Vec<Formula>>, ClaimError> {
+        let formulas = |(key, kind, quantities): (&str, Kind, &[Quantity])| {
+            let place = format!("leg {}: {key}", number + 1);
+            for quantity in quantities {
+                let [min, max] = quantity.ends();
+                ordered(&place, min, max, matches!(quantity, Quantity::Between { .. }))?;
+                if kind == Kind::Length {
+                    positive(&place, min)?;
+                }
+            }
+            let scale = match kind {
+                Kind::Direction => magnitude(quantities.iter().flat_map(Quantity::ends))
+                    .ok_or_else(|| number_error(&place, "a direction"))?,
+                Kind::Place | Kind::Length => self.scale,
+            };
+            let formula = |(k, quantity): (usize, &Quantity)| {
+                let place =
+                    if quantities.len() == 1 { place.clone() } else { format!("{place}.{k}") };
+                self.quantity(&place, quantity, scale)
+            };
+            Ok(quantities.iter().enumerate().map(formula).collect())
+        };
+        leg.quantities().into_iter().map(formulas).collect()
+    }
+}
+
+fn small(x: &Expression) -> Option<i64> {
+    match x {
+        Expression::Literal { digits, places: 0 } => {
+            i64::try_from(digits).ok().filter(|n| n.abs() < 1 << 15)
+        }
+        Expression::Neg(x) => small(x).map(|n| -n),
+        _ => None,
+    }
+}
+
+/// Legs that do not turn the platform. The unit of length is that of the greatest length, or, where
+/// no leg has one, coordinate.
+pub(crate) fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<machine::Leg>, ClaimError> {
+    if legs.len() > MOST_LEGS {
+        return Err(shape_error("mechanism.legs", "twelve legs at most"));
+    }
+    let of_kind = |wanted: Kind| {
+        let quantities = legs.iter().flat_map(Leg::quantities);
+        let wanted = quantities.filter(move |(_, kind, _)| *kind == wanted);
+        magnitude(wanted.flat_map(|(_, _, quantities)| quantities.iter().flat_map(Quantity::ends)))
+    };
+    let has_length = legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
+    let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
+    builder.scale = scale.ok_or_else(|| number_error("mechanism", "numbers"))? + 1;
+    legs.iter().enumerate().map(|(number, leg)| built_leg(builder, number, leg)).collect()
+}
+
+fn built_leg(builder: &mut Builder, number: usize, leg: &Leg) -> Result<machine::Leg, ClaimError> {
+    let formulas = builder.quantities(number, leg)?;
+    let tape = &mut builder.tape;
+    let p: Vector = std::array::from_fn(|k| tape.coordinate(k));
+    let vector = |formulas: &[Formula]| -> Option<Vector> { formulas.try_into().ok() };
+    let from_base = |tape: &mut Tape, anchor: &[Formula], platform: &[Formula]| {
+        let joint = tape.plus(&p, &vector(platform)?);
+        Some(tape.minus(&joint, &vector(anchor)?))
+    };
+    let mut build = || match (leg, formulas.as_slice()) {
+        (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) => {
+            let w = from_base(tape, anchor, platform)?;
+            let n = tape.normalised(&vector(direction)?);
+            Some(machine::slider(tape, &w, &n, *length.first()?, mode.as_integer()))
+        }
+        (Leg::Strut { .. }, [anchor, platform]) => {
+            let w = from_base(tape, anchor, platform)?;
+            Some(machine::strut(tape, &w))
+        }
+        (Leg::Arm { mode, .. }, [axis, reference, anchor, platform, arm, length]) => {
+            let w = from_base(tape, anchor, platform)?;
+            let k = tape.normalised(&vector(axis)?);
+            let reference = vector(reference)?;
+            let along = tape.dot(&k, &reference);
+            let along = tape.scaled(along, &k);
+            let across = tape.minus(&reference, &along);
+            let e = tape.normalised(&across);
+            let lengths = [*arm.first()?, *length.first()?];
+            Some(machine::arm(tape, &w, [&k, &e], lengths, mode.as_integer()))
+        }
+        (Leg::Planar { .. }, [direction]) => {
+            let n = tape.normalised(&vector(direction)?);
+            Some(machine::planar(tape, &p, &n))
+        }
+        _ => None,
+    };
+    build().ok_or_else(|| shape_error("mechanism.legs", "legs with their quantities"))
+}
+
+/// The joints of a mechanism that its user gives.
+pub(crate) fn by_formulas(
+    builder: &mut Builder,
+    formulas: &Formulas,
+) -> Result<Vec<machine::Leg>, ClaimError> {
+    let mut names: HashMap<&str, Formula> = HashMap::new();
+    let m = formulas.coordinates.len();
+    if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
+        return Err(shape_error("coordinates", "one to six names"));
+    }
+    if formulas.joints.len() > MOST_LEGS {
+        return Err(shape_error("joints", "twelve at most"));
+    }
+    let define = |names: &mut HashMap<_, _>, name, formula| match names.insert(name, formula) {
+        None => Ok(()),
+        Some(_) => Err(shape_error("mechanism", "given names that differ")),
+    };
+    let named = formulas.parameters.iter().map(|(name, _)| name);
+    let named = named.chain(formulas.definitions.iter().map(|(name, _)| name));
+    if !named.chain(&formulas.coordinates).all(|name| Expression::is_name(name)) {
+        return Err(shape_error("mechanism", "named by letters, digits and _, a letter first"));
+    }
+    for (k, name) in formulas.coordinates.iter().enumerate() {
+        let coordinate = builder.tape.coordinate(k);
+        define(&mut names, name.as_str(), coordinate)?;
+    }
+    for (name, quantity) in &formulas.parameters {
+        let [min, max] = quantity.ends();
+        ordered(name, min, max, matches!(quantity, Quantity::Between { .. }))?;
+        let parameter = builder.quantity(name, quantity, 0);
+        define(&mut names, name.as_str(), parameter)?;
+    }
+    for (name, expression) in &formulas.definitions {
+        let formula = compiled(builder, &names, expression)?;
+        few(builder)?;
+        define(&mut names, name.as_str(), formula)?;
+    }
+    let joint = |joint: &JointFormula| match joint {
+        JointFormula::Rho(rho) => {
+            let rho = compiled(builder, &names, rho)?;
+            let joint = machine::joint(&mut builder.tape, rho, m);
+            few(builder).map(|()| joint)
+        }
+        JointFormula::Row(row) if row.len() == m => {
+            let a = row.iter().map(|x| compiled(builder, &names, x));
+            let a = a.collect::<Result<_, _>>()?;
+            Ok(machine::row(&mut builder.tape, a))
+        }
+        JointFormula::Row(_) => Err(shape_error("joints", "rows with an entry a coordinate")),
+    };
+    formulas.joints.iter().map(joint).collect()
+}
+
+/// Most entries of a tape that a user's formulas come to.
+const MOST_FORMULAS: usize = 1 << 17;
+
+fn few(builder: &Builder) -> Result<(), ClaimError> {
+    if builder.tape.ops().len() > MOST_FORMULAS {
+        return Err(shape_error("mechanism", "of fewer operations"));
+    }
+    Ok(())
+}
+
+/// An expression as a formula.
+fn compiled(
+    builder: &mut Builder,
+    names: &HashMap<&str, Formula>,
+    expression: &Expression,
+) -> Result<Formula, ClaimError> {
+    Ok(match expression {
+        Expression::Literal { .. } => builder.number("a formula's number", expression, 0),
+        Expression::Name(name) => {
+            *names.get(name.as_str()).ok_or_else(|| shape_error(name, "a name given before"))?
+        }
+        Expression::Neg(inner) => {
+            let inner = compiled(builder, names, inner)?;
+            builder.tape.neg(inner)
+        }
+        Expression::Binary(operator, left, right) => {
+            let (left, right) = (compiled(builder, names, left)?, compiled(builder, names, right)?);
+            match operator {
+                Operator::Add => builder.tape.add(left, right),
+                Operator::Sub => builder.tape.sub(left, right),
+                Operator::Mul => builder.tape.mul(left, right),
+                Operator::Div => {
+                    let quotient = builder.tape.div(left, right);
+                    builder.partial.push(quotient);
+                    quotient
+                }
+            }
+        }
+        Expression::Power(base, n) => {
+            let base = compiled(builder, names, base)?;
+            let square = builder.tape.sqr(base);
+            let even = (1..n / 2).fold(square, |power, _| builder.tape.mul(power, square));
+            if n % 2 == 0 {
+                even
+            } else {
+                builder.tape.mul(even, base)
+            }
+        }
+        Expression::Sqrt(inner) => {
+            let inner = compiled(builder, names, inner)?;
+            let root = builder.tape.sqrt(inner);
+            builder.partial.push(root);
+            root
+        }
+    })
+}

@@ -1,0 +1,173 @@
+//! Numbers that formulas depend on, enclosed; what a claim's numbers have to be.
+
+use crate::arithmetic::Arithmetic as _;
+use crate::claim::Quantity;
+use crate::fixed::{Fixed, Integer, Interval};
+use crate::number::{Expression, Operator};
+use crate::trig::{cos_sin, pi};
+use num_bigint::BigInt;
+use num_traits::Signed;
+use std::fmt;
+
+/// Bits in which a claim is held to be well formed.
+pub(crate) const SIGN_BITS: u32 = 512;
+
+/// Why a claim is not well formed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ClaimError {
+    /// A number that cannot be enclosed, or not certainly of the sign it has to have.
+    Number {
+        /// Where it stands.
+        place: String,
+        /// What it has to be.
+        expected: &'static str,
+    },
+    /// Something that does not go together.
+    Shape {
+        /// Where.
+        place: String,
+        /// What is accepted there.
+        expected: &'static str,
+    },
+}
+
+impl fmt::Display for ClaimError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (ClaimError::Number { place, expected } | ClaimError::Shape { place, expected }) = self;
+        write!(f, "{place}: has to be {expected}")
+    }
+}
+
+impl std::error::Error for ClaimError {}
+
+pub(crate) fn number_error(place: &str, expected: &'static str) -> ClaimError {
+    ClaimError::Number { place: place.to_owned(), expected }
+}
+
+pub(crate) fn shape_error(place: &str, expected: &'static str) -> ClaimError {
+    ClaimError::Shape { place: place.to_owned(), expected }
+}
+
+/// A number that formulas depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// Where it stands in the claim.
+    pub place: String,
+    /// Its value, or what is made of it.
+    pub value: Value,
+    /// Formulas have it divided by `2^scale`.
+    pub scale: i64,
+}
+
+/// What an input is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A quantity of the claim.
+    Quantity(Quantity),
+    /// The cosine of an angle in degrees.
+    Cosine(Expression),
+    /// The sine of an angle in degrees.
+    Sine(Expression),
+    /// An angle in degrees, in radians.
+    Radians(Expression),
+}
+
+/// Numbers of a claim have no names in them.
+fn nameless(_: &str) -> Option<Interval<BigInt>> {
+    None
+}
+
+/// Encloses a number with `bits` fractional bits, after division by `2^scale`.
+///
+/// It is evaluated with enough bits for 64 to be left after the division, which rounds outward.
+pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
+    let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
+    let working = bits.checked_add(guard)?;
+    let x = number.enclose(&Fixed::new(working), &nameless)?;
+    // x / 2^working / 2^scale 2^bits = x / 2^(guard + scale), with guard + scale >= 64.
+    let places = i64::from(guard) + scale;
+    Some(Interval { lo: x.lo >> places, hi: -(-x.hi >> places) })
+}
+
+impl Input {
+    /// Encloses it with `bits` fractional bits. `machine` replaces an interval.
+    pub fn enclose(&self, bits: u32, machine: Option<&Expression>) -> Option<Interval<BigInt>> {
+        let angle = |degrees: &Expression| {
+            cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), bits)
+        };
+        match &self.value {
+            Value::Quantity(Quantity::Exactly(x)) => enclosed(x, self.scale, bits),
+            Value::Quantity(Quantity::Between { min, max }) => {
+                if let Some(x) = machine {
+                    return enclosed(x, self.scale, bits);
+                }
+                let (min, max) =
+                    (enclosed(min, self.scale, bits)?, enclosed(max, self.scale, bits)?);
+                Some(Interval { lo: min.lo, hi: max.hi })
+            }
+            Value::Cosine(degrees) => angle(degrees).map(|[cos, _]| cos),
+            Value::Sine(degrees) => angle(degrees).map(|[_, sin]| sin),
+            Value::Radians(degrees) => {
+                let fixed = Fixed::<BigInt>::new(bits);
+                let x = enclosed(degrees, self.scale, bits)?;
+                fixed.div(&fixed.mul(&x, &pi(bits)?)?, &fixed.integer(180)?)
+            }
+        }
+    }
+}
+
+/// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A
+/// choice of unit, with no effect on what is true.
+pub(crate) fn magnitude<'a>(numbers: impl Iterator<Item = &'a Expression>) -> Option<i64> {
+    let mut greatest = None;
+    for x in numbers {
+        let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
+        let bits = x.lo.abs().max(x.hi.abs()).bits();
+        if bits > 0 {
+            greatest = greatest.max(Some(i64::try_from(bits).ok()? - 1 - i64::from(SIGN_BITS)));
+        }
+    }
+    Some(greatest.unwrap_or(0))
+}
+
+/// Whether a number is certainly greater than zero, or not less.
+pub(crate) fn sign(x: &Expression) -> Option<[bool; 2]> {
+    if let Some(x) = x.rational() {
+        return Some([x.is_positive(), !x.is_negative()]);
+    }
+    let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
+    Some([x.lo.is_positive(), !x.lo.is_negative()])
+}
+
+/// `a - b` and the like.
+pub(crate) fn binary(operator: Operator, a: &Expression, b: &Expression) -> Expression {
+    Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()))
+}
+
+/// `x > 0`, or an error.
+pub(crate) fn positive(place: &str, x: &Expression) -> Result<(), ClaimError> {
+    match sign(x) {
+        Some([true, _]) => Ok(()),
+        _ => Err(number_error(place, "greater than zero")),
+    }
+}
+
+/// `min <= max`, or, where `strictly`, `min < max`; or an error.
+pub(crate) fn ordered(
+    place: &str,
+    min: &Expression,
+    max: &Expression,
+    strictly: bool,
+) -> Result<(), ClaimError> {
+    let [more, not_less] =
+        sign(&binary(Operator::Sub, max, min)).ok_or_else(|| number_error(place, "a number"))?;
+    if more || (!strictly && (not_less || min == max)) {
+        Ok(())
+    } else {
+        Err(number_error(place, "a range whose end is not before its beginning"))
+    }
+}
+
+pub(crate) fn narrowed<Z: Integer>(x: &Interval<BigInt>) -> Option<Interval<Z>> {
+    Some(Interval { lo: Z::of(&x.lo)?, hi: Z::of(&x.hi)? })
+}
