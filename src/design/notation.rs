@@ -9,6 +9,9 @@
 //! | `+` before `-`                                          | `333 +- 0.05`                         |
 //! | `/` before a sign                                       | `333+0.05/-0.02`, `333 (+0.05/-0.02)` |
 //! | nothing but three numbers, one added and one subtracted | `333+0.05-0.02`                       |
+//! | a number, a sign and a quotient of small decimals       | `333+0.05/0.02`, `333 - 0/0.02`       |
+//! | a number, a sign, and a sign or a lone parenthesis      | `333--0.02`, `333+(0.05)-(0.02)`      |
+//! | a quotient of two decimals, near each other             | `332.98/333.02`                       |
 //! | a tolerance with a sign or `/` outside of parentheses   | `333 ±0.05/0.02`, `333 ± 0.05 - 0.02` |
 
 /// The nominal value and the tolerance's text, each with its byte offset in `text`.
@@ -39,7 +42,48 @@ fn is_ambiguous(text: &str) -> bool {
         }
         _ => false,
     };
-    deviations || (0..tokens.len()).any(ambiguous)
+    deviations || is_deviation(&tokens) || (0..tokens.len()).any(ambiguous)
+}
+
+/// Whether tokens are a nominal value with deviations in signs, quotients and lone parentheses.
+fn is_deviation(tokens: &[(usize, &str)]) -> bool {
+    let number = |token: &str| token.starts_with(|c: char| c.is_ascii_digit());
+    let bare: Vec<&str> = tokens
+        .iter()
+        .map(|(_, token)| *token)
+        .filter(|token| !matches!(*token, "(" | ")"))
+        .collect();
+    let parenthesised = bare.len() < tokens.len();
+    match bare.as_slice() {
+        [a, "+" | "-", b, "/", c] if number(a) && number(b) && number(c) && !parenthesised => {
+            // 100+1/3 and 100+12.5/2 are sums.
+            [b, c].iter().all(|x| (x.contains('.') || **x == "0") && is_small(x, a))
+        }
+        [a, "+" | "-", "+" | "-", b] => number(a) && number(b) && is_small(b, a),
+        [a, "+" | "-", b, "+" | "-", c] => {
+            number(a) && number(b) && number(c) && (*b == "0" || lone(tokens))
+        }
+        [a, "/", b] => a.contains('.') && b.contains('.') && near(a, b),
+        _ => false,
+    }
+}
+
+/// Whether some parentheses hold one number alone.
+fn lone(tokens: &[(usize, &str)]) -> bool {
+    tokens.windows(3).any(|three| (three[0].1, three[2].1) == ("(", ")"))
+}
+
+/// Whether a deviation is at most a twentieth of the nominal value.
+fn is_small(deviation: &str, nominal: &str) -> bool {
+    matches!((deviation.parse::<f64>(), nominal.parse::<f64>()), (Ok(d), Ok(n)) if d <= 0.05 * n)
+}
+
+/// Whether two decimals differ by less than a hundredth of themselves: a range, rather than a ratio.
+fn near(a: &str, b: &str) -> bool {
+    match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() < 0.01 * a.abs() && a != b,
+        _ => false,
+    }
 }
 
 /// Whether a text may be meant as a tolerance, whatever the grammar makes of it.

@@ -59,7 +59,9 @@ pub(super) fn lines(text: &str) -> Vec<Line> {
 fn read(number: usize, line: &str) -> Option<Line> {
     let line = without_comment(line);
     let body = line.trim_start_matches([' ', '\t']);
-    let indent = line.len() - body.len();
+    // A tab goes on to the next multiple of four (src/GCodes/GCodeBuffer/StringParser.cpp, `Put`).
+    let blanks = line[..line.len() - body.len()].chars();
+    let indent = blanks.fold(0, |at, c| if c == '\t' { (at + 4) & !3 } else { at + 1 });
     let body = body.trim();
     let end = body.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(body.len());
     let content = match end {

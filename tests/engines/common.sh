@@ -54,13 +54,16 @@ running() {
 
 # Kills one of those every so often, until told to stop: mishaps FOLDER
 kill_workers() {
-  local pids
+  local pid shard
+  touch "$scratch/killed"
   while sleep 0.4; do
-    pids=$(running "$1")
-    # The first of them.
-    if [ -n "$pids" ] && kill -KILL "${pids%%[[:space:]]*}" 2>/dev/null; then
-      echo "${pids%%[[:space:]]*}" >>"$scratch/killed"
-    fi
+    for pid in $(running "$1"); do
+      shard=$(tr '\0' '\n' <"/proc/$pid/cmdline" 2>/dev/null | grep "^$1/shard-") || continue
+      # The first whose shard was killed less than twice: a task gives up after three attempts.
+      [ "$(grep -cxF "$shard" "$scratch/killed")" -lt 2 ] || continue
+      if kill -KILL "$pid" 2>/dev/null; then echo "$shard" >>"$scratch/killed"; fi
+      break
+    done
   done
 }
 

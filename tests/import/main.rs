@@ -9,3 +9,4 @@ mod oracle;
 mod reprap;
 mod smoothieware;
 mod support;
+mod traps;

@@ -20,7 +20,8 @@ const LINE: &str = "a section, a setting or a comment, settings inside a section
 /// set nowhere else counts) among it.
 pub(super) fn read(reading: &mut Reading<'_>, path: &Path) -> Result<Settings, ImportError> {
     let file = reading.shown(path);
-    let text = reading.text(path)?;
+    // Python's text mode: a carriage return ends a line.
+    let text = reading.text(path)?.replace('\r', "\n");
     let mut settings = Settings::new(file.clone());
     let (body, saved) = split(&text);
     let mut inside = BTreeSet::new();
@@ -124,7 +125,7 @@ fn with_includes(
             false => vec![pattern],
         };
         for included in found {
-            let text = reading.text(&included)?;
+            let text = reading.text(&included)?.replace('\r', "\n");
             let lines: Vec<Line> =
                 text.split('\n').enumerate().map(|(i, line)| (i + 1, line.to_owned())).collect();
             with_includes(reading, settings, &included, &lines, inside)?;

@@ -239,6 +239,10 @@ impl Hal {
                 if module.ends_with("kins") || MODULES.contains(module) {
                     self.modules.push(setting("loadrt", module));
                 }
+                // The modules take no other names for their pins.
+                if MODULES.contains(module) && arguments.iter().any(|word| word.contains('=')) {
+                    self.not_understood.push(setting("loadrt", &arguments.join(" ")));
+                }
             }
             ("loadusr", _) => {
                 let program = program(arguments);
@@ -268,7 +272,7 @@ impl Hal {
 
     /// `setp`; the firmware refuses it of a linked pin.
     fn setp(&mut self, pin: &str, setting: Setting) -> Option<()> {
-        if self.links.contains_key(pin) {
+        if self.links.contains_key(pin) || is_no_pin(pin) {
             return None;
         }
         if is_geometry(pin) {
@@ -279,6 +283,9 @@ impl Hal {
 
     /// `hal_link`: the first pin of a signal gives it its own value.
     fn link(&mut self, pin: &str, name: &str, setting: Setting) -> Option<()> {
+        if is_no_pin(pin) {
+            return None;
+        }
         let signal = self.signals.entry(name.to_owned()).or_default();
         if let Some((linked, _)) = self.links.get(pin) {
             return (linked == name).then_some(());
@@ -302,6 +309,25 @@ impl Hal {
         self.links.insert(pin.to_owned(), (name.to_owned(), setting));
         Some(())
     }
+}
+
+/// The pins of the modules, as `hal_pin_new_real` names them.
+const PINS: [&str; 9] = [
+    "lineardeltakins.L",
+    "lineardeltakins.R",
+    "rotarydeltakins.platformradius",
+    "rotarydeltakins.thighlength",
+    "rotarydeltakins.shinlength",
+    "rotarydeltakins.footradius",
+    "tripodkins.Bx",
+    "tripodkins.Cx",
+    "tripodkins.Cy",
+];
+
+/// Whether a name is one of a kinematics module's without being a pin of it, or is quoted: the firmware
+/// refuses it.
+fn is_no_pin(name: &str) -> bool {
+    name.contains(['\'', '"']) || (is_geometry(name) && !PINS.contains(&name))
 }
 
 /// Most levels of `source`.

@@ -138,12 +138,18 @@ impl Macros {
         self.options.extend(text.lines().filter_map(option));
         let mut open: Vec<(usize, Branch)> = Vec::new();
         for line in lines(text) {
+            // Another spelling of `#`.
+            if line.text.trim_start().starts_with("%:") {
+                return Err(line.number);
+            }
             let Some(directive) = line.text.trim_start().strip_prefix('#') else { continue };
             let directive = directive.trim();
             let end = directive.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(directive.len());
             let (name, rest) = directive.split_at(end);
             let at = Place { file, line: line.number };
             match name {
+                // Of C23 and C++23; not in Marlin's language.
+                "elifdef" | "elifndef" => return Err(line.number),
                 "if" | "ifdef" | "ifndef" | "elif" | "else" | "endif" => {
                     self.conditional(name, rest, at, &mut open).ok_or(line.number)?;
                 }

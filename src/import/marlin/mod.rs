@@ -100,7 +100,8 @@ pub fn marlin(
     let mut macros = Macros::default();
     for path in paths {
         let file = reading.shown(path);
-        let text = reading.text(path)?;
+        // A carriage return ends a line for the compiler.
+        let text = reading.text(path)?.replace('\r', "\n");
         let expected = "directives of the C preprocessor, every #if with its #endif";
         macros.read(&text, &file).map_err(|line| ImportError::Syntax { file, line, expected })?;
     }
@@ -174,7 +175,8 @@ impl Header<'_> {
         for (file, line, header) in &self.macros.included {
             let known = ["boards.h", "macros.h", "thermistornames.h"];
             let (file, key) = (file.clone(), "#include".to_owned());
-            if !known.iter().any(|known| header.trim_matches(['"', '<', '>']).ends_with(known)) {
+            let path = header.trim_matches(['"', '<', '>']);
+            if !known.contains(&path.rsplit('/').next().unwrap_or_default()) {
                 let value = header.clone();
                 self.settings.not_understood(Setting { file, line: *line, key, value });
             }

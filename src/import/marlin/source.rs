@@ -9,6 +9,11 @@ pub(super) struct Line {
     pub text: String,
 }
 
+/// Whether nothing but blanks is before the end of the line.
+fn ends_the_line(mut rest: impl Iterator<Item = char>) -> bool {
+    rest.find(|c| !matches!(c, ' ' | '\t' | '\u{b}' | '\u{c}')) == Some('\n')
+}
+
 /// The logical lines of `text` that are not blank.
 pub(super) fn lines(text: &str) -> Vec<Line> {
     let mut lines = Vec::new();
@@ -17,8 +22,9 @@ pub(super) fn lines(text: &str) -> Vec<Line> {
     let mut chars = text.strip_prefix('\u{feff}').unwrap_or(text).chars().peekable();
     let mut inside = Inside::Code;
     while let Some(c) = chars.next() {
-        if c == '\\' && chars.peek() == Some(&'\n') {
-            chars.next();
+        if c == '\\' && ends_the_line(chars.clone()) {
+            // The compiler joins the lines with blanks between, too.
+            let _ = chars.by_ref().find(|&c| c == '\n');
             now += 1;
             continue;
         }

@@ -6,6 +6,7 @@ use crate::import::gcode::{lines, Command, Content};
 use crate::import::settings::Settings;
 use crate::import::toml::Number;
 use crate::import::{ImportError, Setting};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The firmware reads so many bytes of a line.
@@ -43,7 +44,9 @@ pub(super) fn read(
         let file = reading.shown(&path);
         for line in lines(&reading.text(&path)?) {
             let Content::Commands(commands) = line.content else { continue };
-            for command in commands {
+            // The firmware's letters are capitals (src/modules/communication/GcodeDispatch.cpp).
+            let capital = |command: &Command| command.text.starts_with(char::is_uppercase);
+            for command in commands.into_iter().filter(capital) {
                 overridden.push(Overridden { command, file: file.clone(), line: line.number });
             }
         }
@@ -228,7 +231,9 @@ pub(super) fn override_rotary(settings: &mut Settings, overridden: &[Overridden]
 
 impl Overridden {
     fn apply(&self, settings: &mut Settings, keys: &[(char, &str)]) {
-        for (letter, value) in self.command.words() {
+        // The firmware walks its arguments by letter (src/modules/communication/utils/Gcode.cpp).
+        let words: BTreeMap<char, &str> = self.command.words().collect();
+        for (letter, value) in words {
             let key = keys.iter().find(|(known, _)| *known == letter).map(|(_, key)| *key);
             let named = format!("{} {letter}", self.command.name);
             let (file, line, value) = (self.file.clone(), self.line, value.to_owned());
