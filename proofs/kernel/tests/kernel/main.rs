@@ -4,6 +4,7 @@
 mod arithmetic;
 mod certificates;
 mod leaves;
+mod machines;
 mod prover;
 mod rejected;
 mod rough;
