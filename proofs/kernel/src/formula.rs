@@ -82,7 +82,7 @@ impl Tape {
     }
 
     /// The operation of an entry.
-    fn op(&self, formula: Formula) -> Op {
+    pub fn op(&self, formula: Formula) -> Op {
         self.ops[formula.0]
     }
 

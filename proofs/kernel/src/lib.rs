@@ -19,6 +19,7 @@
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
 //! | [`witness`]    | refutations                                                      |
+//! | [`statement`]  | a claim in words, and its formulas                               |
 
 #![forbid(unsafe_code)]
 
@@ -38,6 +39,7 @@ pub mod number;
 pub mod problem;
 pub mod quantity;
 pub mod slope;
+pub mod statement;
 pub mod test;
 pub mod trig;
 pub mod witness;

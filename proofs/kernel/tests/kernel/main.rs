@@ -9,4 +9,5 @@ mod prover;
 mod rejected;
 mod rough;
 mod slopes;
+mod statements;
 mod witnesses;

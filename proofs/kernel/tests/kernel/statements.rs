@@ -1,0 +1,98 @@
+//! What certificates say in words.
+
+use crate::certificates::claim;
+use crate::prover::certify;
+use orthocert_kernel::certificate::{
+    Certificate, Claim, Failure, Proof, Provenance, Verdict, Witness, FORMAT,
+};
+use orthocert_kernel::check::check;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::statement::{formulas, statement};
+
+const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#;
+
+fn says(text: &str, sentences: &[&str]) {
+    for sentence in sentences {
+        assert!(text.contains(sentence), "{sentence}\n{text}");
+    }
+}
+
+#[test]
+fn of_a_users_mechanism() {
+    let certificate = certify(&claim(FIVE_BAR), 500).expect("a proof");
+    check(&certificate).expect("accepted");
+    says(
+        &statement(&certificate).expect("words"),
+        &[
+            "It is proved:",
+            "  l in [199.95, 200.05]",
+            "  s = sqrt(l^2-y^2)",
+            "  rho_2 = x+s",
+            "from (-50, 80) to (50, 160)",
+            "every formula is defined",
+            "psi_i <= 3 (velocity transmission factors)",
+        ],
+    );
+}
+
+#[test]
+fn of_a_refutation_with_its_machine() {
+    let leg = |n: &str, length: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":[{n}],"anchor":["0","0","0"],"platform":["0","0","0"],"length":{length},"mode":"+"}}"#
+        )
+    };
+    let legs = [
+        leg(r#""1","0","0""#, r#"{"min":"310","max":"311"}"#),
+        leg(r#""0","1","0""#, "\"310\""),
+        leg(r#""0","0","1""#, "\"310\""),
+    ]
+    .join(",");
+    let text = format!(
+        r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-72","-72","-72"],"max":["125","125","125"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"1.96"}}]}}"#
+    );
+    let number = |text: &str| Expression::try_from(text.to_owned()).expect("a number");
+    let certificate = Certificate {
+        format: FORMAT.to_owned(),
+        claim: Claim::Machine(claim(&text)),
+        verdict: Verdict::Refuted,
+        proof: Proof::Witness(Witness {
+            precision: 96,
+            point: ["125", "125", "125"].map(number).to_vec(),
+            machine: vec![number("310")],
+            fails: Failure::Obligation(0, vec![vec![1, -1, 0]]),
+        }),
+        provenance: Provenance { tool: "test".to_owned(), version: "0".to_owned() },
+    };
+    check(&certificate).expect("accepted");
+    says(
+        &statement(&certificate).expect("words"),
+        &[
+            "the following is FALSE",
+            "leg 1: slider, direction (1, 0, 0), anchor (0, 0, 0), platform (0, 0, 0), length in [310, 311], eta > 0",
+            "independently of all others, directions",
+            "with rho' = M P'",
+            "It fails at (125, 125, 125)",
+            "of the machine with leg 1: length = 310",
+            "where transmission is violated",
+        ],
+    );
+}
+
+#[test]
+fn formulas_are_those_of_the_claim() {
+    let problem = Problem::new(&claim(FIVE_BAR)).expect("a claim");
+    let text = formulas(&problem).expect("words");
+    says(&text, &["p0 = l", "t0 = p0^2", "sqrt(", "A_11 = ", "D_2 = ", "rho_1 = "]);
+    // Every name is given before it is used.
+    let defined = text.lines().filter(|line| line.starts_with('t'));
+    for (known, line) in defined.enumerate() {
+        let (name, is) = line.split_once(" = ").expect("a definition");
+        assert_eq!(name, format!("t{known}"));
+        let words = is.split(|c: char| !c.is_alphanumeric());
+        for used in words.filter_map(|w| w.strip_prefix('t')?.parse::<usize>().ok()) {
+            assert!(used < known, "{line}");
+        }
+    }
+}
