@@ -1,9 +1,9 @@
 //! `kinematics: delta`, after klippy/kinematics/delta.py and klippy/stepper.py.
 
 use super::file::key;
-use super::{angles, lowest, of_steppers, PRINTER, STEPPERS};
+use super::{angles, of_steppers, volume, PRINTER, STEPPERS};
 use crate::import::settings::Settings;
-use crate::import::toml::{cylinder, least, less, polar, slider, Machine, Number, FACTORS};
+use crate::import::toml::{least, less, polar, slider, Machine, Number, FACTORS};
 use crate::import::ImportError;
 
 const SOURCE: &str = "klippy/kinematics/delta.py";
@@ -76,14 +76,7 @@ fn workspace(
     let mut heights = vec![full_up_to];
     heights.extend(ends.iter().map(|end| end.text.clone()));
     let (high, _) = least(&heights).ok_or_else(|| settings.refused(nothing))?;
-    let low = lowest(settings, SOURCE)?.text;
-    if !less(&low, &high) {
-        return Err(settings.refused(format!(
-            "at minimum_z_position, {low}, the firmware has narrowed its volume already; accepted: \
-             endstops that leave a cylinder of the full radius, {full}"
-        )));
-    }
-    Ok(cylinder(&full, [&low, &high]))
+    volume(settings, SOURCE, &full, &high)
 }
 
 /// `position_endstop` of each stepper; the first one's where another has none.

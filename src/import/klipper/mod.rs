@@ -13,7 +13,7 @@ mod rotary;
 
 use super::files::Reading;
 use super::settings::Settings;
-use super::toml::Number;
+use super::toml::{cylinder, less, Number};
 use super::{Files, ImportError, Imported, Setting};
 use file::key;
 use std::path::PathBuf;
@@ -127,8 +127,21 @@ fn angles(
     Ok([angle(0)?, angle(1)?, angle(2)?])
 }
 
-/// `minimum_z_position`, and that the firmware's volume is not empty above it.
-fn lowest(settings: &mut Settings, source: &'static str) -> Result<Number, ImportError> {
+/// The firmware's volume of the full radius: from `minimum_z_position` to `high`, and not empty.
+fn volume(
+    settings: &mut Settings,
+    source: &'static str,
+    full: &str,
+    high: &str,
+) -> Result<String, ImportError> {
     let became = "the lowest height of the workspace";
-    settings.number_or(&key(PRINTER, "minimum_z_position"), became, ("0", source))
+    let low = key(PRINTER, "minimum_z_position");
+    let low = settings.number_or(&low, became, ("0", source))?.text;
+    if !less(&low, high) {
+        return Err(settings.refused(format!(
+            "at minimum_z_position, {low}, the firmware has narrowed its volume already; accepted: \
+             endstops that leave a cylinder of the full radius, {full}"
+        )));
+    }
+    Ok(cylinder(full, [&low, high]))
 }

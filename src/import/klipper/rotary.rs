@@ -2,9 +2,9 @@
 //! klippy/chelper/kin_rotary_delta.c.
 
 use super::file::key;
-use super::{angles, lowest, of_steppers, PRINTER, STEPPERS};
+use super::{angles, of_steppers, volume, PRINTER, STEPPERS};
 use crate::import::settings::Settings;
-use crate::import::toml::{cylinder, factors_per_radian, greatest, least, less};
+use crate::import::toml::{factors_per_radian, greatest, least, less};
 use crate::import::toml::{Arm, Machine, Number};
 use crate::import::ImportError;
 
@@ -79,14 +79,7 @@ fn workspace(
     // Above the cone's foot the radius is the distance below the top.
     let (high, _) =
         greatest(&[cone, format!("{top}-({full})")]).ok_or_else(|| settings.refused(nothing))?;
-    let low = lowest(settings, SOURCE)?.text;
-    if !less(&low, &high) {
-        return Err(settings.refused(format!(
-            "at minimum_z_position, {low}, the firmware has narrowed its volume already; accepted: \
-             endstops that leave a cylinder of the full radius, {full}"
-        )));
-    }
-    Ok(cylinder(&full, [&low, &high]))
+    volume(settings, SOURCE, &full, &high)
 }
 
 /// The height of an elbow with the platform on the axis at the endstop's height: the outer one of
