@@ -91,7 +91,7 @@ impl Vertex {
     ) -> Option<E::Number> {
         let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
         terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| {
-            if self.0 >> k & 1 == 1 {
+            if self.has(k) {
                 slopes.arithmetic.add(&sum, term)
             } else {
                 slopes.arithmetic.sub(&sum, term)
@@ -106,9 +106,9 @@ impl Vertex {
         slope: &Slope<E::Number>,
     ) -> Option<E::Number> {
         let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
-        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match self.0 >> k & 1 {
-            1 => slopes.arithmetic.add(&sum, term),
-            _ => Some(sum),
+        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match self.has(k) {
+            true => slopes.arithmetic.add(&sum, term),
+            false => Some(sum),
         })
     }
 
