@@ -2,6 +2,7 @@
 
 use crate::number::Expression;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel
 /// singularities and meets every requirement."
@@ -12,6 +13,12 @@ pub struct MachineClaim {
     pub mechanism: Mechanism,
     /// The points that the claim is about.
     pub workspace: Workspace,
+    /// How the platform is turned there; of platforms that turn, and only of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
+    /// What must not collide.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<Body>,
     /// What holds at each of them.
     pub require: Vec<Requirement>,
 }
@@ -28,8 +35,26 @@ pub enum Mechanism {
         /// Platform offset `e`.
         offset: Expression,
     },
+    /// Legs in the plane, whose platform is a point, or turns in the plane.
+    Planar(Turning),
+    /// Legs that move a platform in space and turn it.
+    Spatial(Turning),
+    /// Legs that turn a platform about the origin.
+    Spherical(Turning),
     /// A mechanism by its inverse kinematics.
     Formulas(Formulas),
+}
+
+/// Legs of a platform that may turn.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turning {
+    /// The legs.
+    pub legs: Vec<Leg>,
+    /// `l > 0`: `M` maps the velocity of `P` and `l` times the angular velocity to the joint rates. Of
+    /// platforms that turn, and only of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub characteristic_length: Option<Expression>,
 }
 
 /// A number, or every number of an interval, independently of all other quantities.
@@ -47,8 +72,8 @@ pub enum Quantity {
     },
 }
 
-/// A vector of quantities.
-pub type Vector = [Quantity; 3];
+/// A vector of quantities: of three, in the plane of two.
+pub type Vector = Vec<Quantity>;
 
 /// A leg; see [`crate::machine`].
 #[allow(clippy::large_enum_variant, reason = "a few for each claim")]
@@ -74,10 +99,14 @@ pub enum Leg {
         anchor: Vector,
         /// `d`.
         platform: Vector,
+        /// Of the universal joint in the base, the axis that is fixed to it; where the leg is to
+        /// keep the platform from turning.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        base_axis: Option<Vector>,
     },
     /// Of fixed length, on an arm that turns.
     Arm {
-        /// Of the motor; not zero.
+        /// Of the motor; not zero. Empty in the plane, where motors turn about `+z`.
         axis: Vector,
         /// Direction of the arm at angle 0; its part orthogonal to the axis is not zero.
         reference: Vector,
@@ -132,8 +161,11 @@ impl Leg {
                 ("platform", Place, platform),
                 ("length", Length, one(length)),
             ],
-            Leg::Strut { anchor, platform } => {
-                vec![("anchor", Place, anchor), ("platform", Place, platform)]
+            Leg::Strut { anchor, platform, base_axis } => {
+                let mut all: Vec<(&'static str, Kind, &[Quantity])> =
+                    vec![("anchor", Place, anchor), ("platform", Place, platform)];
+                all.extend(base_axis.as_ref().map(|axis| ("base_axis", Direction, &axis[..])));
+                all
             }
             Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => vec![
                 ("axis", Direction, axis),
@@ -220,6 +252,66 @@ pub enum Workspace {
     },
 }
 
+/// A set of orientations of the platform. Angles are in degrees.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Orientation {
+    /// In space: every rotation by at most this, about any axis.
+    Angle(Expression),
+    /// In space, by tilt and torsion angles: the platform's z axis tilted by up to `tilt` in any
+    /// direction, with a torsion of up to `torsion` either way.
+    Tilt {
+        /// Less than 180.
+        tilt: Expression,
+        /// Less than 180.
+        torsion: Expression,
+    },
+    /// In space, `R = R_z(yaw) R_y(pitch) R_x(roll)`, from the one to the other.
+    RollPitchYaw {
+        /// About x.
+        roll: [Expression; 2],
+        /// About y.
+        pitch: [Expression; 2],
+        /// About z.
+        yaw: [Expression; 2],
+    },
+    /// In the plane, from the one to the other.
+    Range([Expression; 2]),
+}
+
+/// A body: every point within `radius` of a segment.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "on", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Body {
+    /// Along a leg, which begins `trim_1` from the base joint and ends `trim_2` before the platform's.
+    Leg {
+        /// Counted from one.
+        leg: usize,
+        /// Positive.
+        radius: Expression,
+        /// Not negative.
+        trim: [Expression; 2],
+    },
+    /// Fixed to the base.
+    Base {
+        /// One end of the segment.
+        from: [Expression; 3],
+        /// The other; may be the same.
+        to: [Expression; 3],
+        /// Positive.
+        radius: Expression,
+    },
+    /// Fixed to the platform, in its frame.
+    Platform {
+        /// One end of the segment.
+        from: [Expression; 3],
+        /// The other; may be the same.
+        to: [Expression; 3],
+        /// Positive.
+        radius: Expression,
+    },
+}
+
 /// A bound on a quantity; see [`crate::quantity`] for the table of those.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Requirement {
@@ -228,9 +320,9 @@ pub struct Requirement {
     /// Of this leg alone, counted from one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leg: Option<usize>,
-    /// For a platform speed up to this.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tool: Option<Expression>,
+    /// What the quantity is for, by name: a platform's speed, a joint's error.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub given: BTreeMap<String, Vec<Expression>>,
     /// Which end is bounded, and by what.
     #[serde(flatten)]
     pub bound: Bound,
@@ -246,4 +338,6 @@ pub enum Bound {
     Max(Expression),
     /// An angle, in degrees and up to whole turns.
     Within([Expression; 2]),
+    /// Not a number: it holds.
+    Holds,
 }

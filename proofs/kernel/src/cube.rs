@@ -50,9 +50,8 @@ impl Cube {
         let base = binary(Sub, &binary(Sub, &q1, offset), &length);
         let zero = Expression::integer(0);
         let along = |i: usize, x: &Expression| {
-            std::array::from_fn(|k| {
-                Quantity::Exactly(if i == k { x.clone() } else { zero.clone() })
-            })
+            let entry = |k| Quantity::Exactly(if i == k { x.clone() } else { zero.clone() });
+            (0..3).map(entry).collect()
         };
         let leg = |i: usize| Leg::Slider {
             direction: along(i, &one),

@@ -65,6 +65,9 @@ impl Problem {
             }
             _ => None,
         };
+        if claim.orientation.is_some() || !claim.bodies.is_empty() {
+            return Err(shape_error("workspace", "without orientations and bodies"));
+        }
         let corners = match (&cube, &claim.workspace) {
             (Some(cube), _) => [&cube.q1, &cube.q2].map(|q| vec![q.clone(); 3]),
             (None, workspace) => corners(workspace)?,
@@ -76,6 +79,9 @@ impl Problem {
             (_, Mechanism::Translational(legs)) => built(&mut builder, legs)?,
             (_, Mechanism::Formulas(formulas)) => by_formulas(&mut builder, formulas)?,
             (None, Mechanism::Orthoglide { .. }) => Vec::new(),
+            (_, Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_)) => {
+                return Err(shape_error("mechanism", "of a kind whose motion is known"));
+            }
         };
         let m = match &claim.mechanism {
             Mechanism::Formulas(formulas) => formulas.coordinates.len(),

@@ -2,7 +2,7 @@
 
 use crate::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
 use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
-use crate::claim::{Requirement, Workspace};
+use crate::claim::{Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
 use crate::problem::Problem;
@@ -58,6 +58,9 @@ fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
             writeln!(out, "otherwise, q1 = -L t1/sqrt(1 + 2 t1^2), q2 = L t2/sqrt(1 + 2 t2^2)),")
         }
         Mechanism::Translational(all) => legs(out, all),
+        Mechanism::Planar(Turning { legs: all, .. })
+        | Mechanism::Spatial(Turning { legs: all, .. })
+        | Mechanism::Spherical(Turning { legs: all, .. }) => legs(out, all),
         Mechanism::Formulas(formulas) => inverse_kinematics(out, formulas),
     }
 }
@@ -136,7 +139,7 @@ fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
 fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     writeln!(out, "every formula is defined, every leg reaches without a serial singularity,")?;
     writeln!(out, "there is no parallel singularity (M has full column rank), and")?;
-    for Requirement { quantity, leg, tool, bound } in &claim.require {
+    for Requirement { quantity, leg, given, bound } in &claim.require {
         let known = TABLE.iter().find(|known| known.key == quantity);
         let symbol = known.map_or(quantity.as_str(), |known| known.symbol);
         let words = known.map_or("", |known| known.words);
@@ -144,10 +147,11 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
         match bound {
             Bound::Min(bound) => write!(out, ">= {bound}")?,
             Bound::Max(bound) => write!(out, "<= {bound}")?,
+            Bound::Holds => write!(out, "holds")?,
             Bound::Within([min, max]) => write!(out, "from {min} to {max}, up to whole turns")?,
         }
-        if let Some(tool) = tool {
-            write!(out, ", tool = {tool}")?;
+        for (name, numbers) in given {
+            write!(out, ", {name} = {}", list(numbers))?;
         }
         match leg {
             Some(leg) => writeln!(out, ", leg {leg} ({words});")?,

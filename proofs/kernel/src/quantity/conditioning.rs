@@ -10,6 +10,7 @@ pub(super) const CONDITIONING: Quantity = Quantity {
     symbol: "sigma_max/sigma_min",
     words: "condition number",
     of_legs: false,
+    given: &[],
     tests,
 };
 

@@ -11,6 +11,7 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
     symbol: "rho_i",
     words: "joint coordinates",
     of_legs: true,
+    given: &[],
     tests,
 };
 
@@ -45,7 +46,7 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
             };
             vec![turned(sin, cos_min, cos, sin_min), turned(sin_max, cos, cos_max, sin)]
         }
-        (Some(Joint::Length(_)), Bound::Within(_)) => {
+        (Some(Joint::Length(_)), Bound::Within(_) | Bound::Holds) => {
             return context.refused("one end of a length");
         }
         (Some(Joint::Angle { .. }), _) => return context.refused("both ends of an angle"),

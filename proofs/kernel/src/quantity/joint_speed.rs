@@ -10,15 +10,14 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
     symbol: "|row_i of M| tool",
     words: "joint speed; of arms, degrees per time",
     of_legs: true,
+    given: &["tool"],
     tests,
 };
 
 /// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let max = context.greatest()?.clone();
-    let Some(tool) = context.requirement.tool.clone() else {
-        return context.refused("with the platform's speed");
-    };
+    let tool = context.given("tool")?.clone();
     positive(context.place, &max)?;
     positive(context.place, &tool)?;
     let ratio = binary(Operator::Div, &max, &tool);

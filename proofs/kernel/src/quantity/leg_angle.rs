@@ -11,6 +11,7 @@ pub(super) const LEG_ANGLE: Quantity = Quantity {
     symbol: "angle(leg_i, n_i)",
     words: "angle between leg and guide, degrees",
     of_legs: true,
+    given: &[],
     tests,
 };
 

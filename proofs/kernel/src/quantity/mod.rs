@@ -28,6 +28,8 @@ pub struct Quantity {
     pub words: &'static str,
     /// Whether every leg has one.
     pub of_legs: bool,
+    /// The names of what it is for; a requirement gives all of them, and no others.
+    pub given: &'static [&'static str],
     /// What a bound on it comes to; of a leg, for the leg given.
     tests: fn(&mut Context<'_>, Option<&Leg>) -> Result<Vec<Test>, ClaimError>,
 }
@@ -97,6 +99,22 @@ impl Context<'_> {
         self.legs.iter().any(|leg| leg.is_angular())
     }
 
+    /// All numbers that the requirement gives by this name.
+    fn all_given(&self, name: &str) -> Result<&[Expression], ClaimError> {
+        match self.requirement.given.get(name) {
+            Some(numbers) => Ok(numbers),
+            None => self.refused("given what it is for"),
+        }
+    }
+
+    /// The number that the requirement gives by this name.
+    fn given(&self, name: &str) -> Result<&Expression, ClaimError> {
+        match self.all_given(name)? {
+            [number] => Ok(number),
+            _ => self.refused("given one number"),
+        }
+    }
+
     fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {
         Err(shape_error(self.place, expected))
     }
@@ -156,12 +174,12 @@ pub(crate) fn obligations(
         if claim.require[..number].iter().any(same) {
             return Err(shape_error(&place, "there once"));
         }
-        if requirement.tool.is_some() && requirement.quantity != joint_speed::JOINT_SPEED.key {
-            return Err(shape_error(&place, "without the platform's speed"));
-        }
         let Some(quantity) = TABLE.iter().find(|q| q.key == requirement.quantity) else {
             return Err(shape_error(&place, "one of the table of quantities"));
         };
+        if !requirement.given.keys().map(String::as_str).eq(quantity.given.iter().copied()) {
+            return Err(shape_error(&place, "given what it is for, and nothing else"));
+        }
         let one = requirement.leg.map(|leg| leg.wrapping_sub(1));
         if one.is_some_and(|leg| !quantity.of_legs || leg >= legs.len()) {
             return Err(shape_error(&place, "of a leg that there is"));

@@ -10,6 +10,7 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     symbol: "|det A|/(L_1 L_2 L_3)",
     words: "distance from parallel singularities",
     of_legs: false,
+    given: &[],
     tests,
 };
 

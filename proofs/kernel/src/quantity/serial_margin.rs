@@ -9,6 +9,7 @@ pub(super) const SERIAL_MARGIN: Quantity = Quantity {
     symbol: "|eta_i|/L_i",
     words: "distance from serial singularities",
     of_legs: true,
+    given: &[],
     tests,
 };
 

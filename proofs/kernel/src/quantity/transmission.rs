@@ -11,6 +11,7 @@ pub(super) const TRANSMISSION: Quantity = Quantity {
     symbol: "psi_i",
     words: "velocity transmission factors",
     of_legs: false,
+    given: &[],
     tests,
 };
 
@@ -18,7 +19,7 @@ pub(super) const TRANSMISSION: Quantity = Quantity {
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = match &context.requirement.bound {
         Bound::Min(bound) | Bound::Max(bound) => bound,
-        Bound::Within(_) => return context.refused("a least or a greatest value"),
+        Bound::Within(_) | Bound::Holds => return context.refused("a least or a greatest value"),
     };
     positive(context.place, bound)?;
     let one = Expression::integer(1);

@@ -68,7 +68,7 @@ fn every_quantity_of_a_toleranced_linear_delta() {
         {"quantity":"serial_margin","end":"min","bound":"0.6"},
         {"quantity":"parallel_margin","end":"min","bound":"0.2"},
         {"quantity":"leg_angle","end":"max","bound":"50"},
-        {"quantity":"joint_speed","tool":"100","end":"max","bound":"160"}"#,
+        {"quantity":"joint_speed","given":{"tool":["100"]},"end":"max","bound":"160"}"#,
     ));
 }
 
@@ -86,7 +86,7 @@ fn a_rotary_delta_with_the_range_of_its_arms() {
     ];
     let text = |range: &str| {
         format!(
-            r#"{{"mechanism":{{"translational":[{}]}},"workspace":{{"box":{{"min":["-1","-1","-12"],"max":["1","1","-11"]}}}},"require":[{{"quantity":"joint_range","end":"within","bound":{range}}},{{"quantity":"joint_speed","tool":"1","end":"max","bound":"20"}}]}}"#,
+            r#"{{"mechanism":{{"translational":[{}]}},"workspace":{{"box":{{"min":["-1","-1","-12"],"max":["1","1","-11"]}}}},"require":[{{"quantity":"joint_range","end":"within","bound":{range}}},{{"quantity":"joint_speed","given":{{"tool":["1"]}},"end":"max","bound":"20"}}]}}"#,
             legs.join(",")
         )
     };

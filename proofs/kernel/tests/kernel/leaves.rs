@@ -80,7 +80,7 @@ fn leaves() {
             let require = |bound: Bound| Requirement {
                 quantity: "transmission".to_owned(),
                 leg: None,
-                tool: None,
+                given: Default::default(),
                 bound,
             };
             let mut claim = claim.clone();

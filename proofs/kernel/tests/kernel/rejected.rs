@@ -295,7 +295,7 @@ fn names_and_numbers_that_mean_something_else() {
     Problem::new(&claim(&parameter("1"))).expect("well formed");
     let tiny = format!("sqrt(-0.{}1)", "0".repeat(700));
     assert!(Problem::new(&claim(&parameter(&tiny))).is_err());
-    let tool = r#"{"quantity":"transmission","tool":"1","end":"max","bound":"2"}"#;
+    let tool = r#"{"quantity":"transmission","given":{"tool":["1"]},"end":"max","bound":"2"}"#;
     let text = good.replace(r#""require":[]"#, &format!(r#""require":[{tool}]"#));
     assert!(Problem::new(&claim(&text)).is_err());
 }
