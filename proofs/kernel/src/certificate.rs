@@ -94,6 +94,8 @@ pub enum Evidence {
     Lower(Multiplier),
     /// The same, with divided rows.
     LowerDivided(Multiplier),
+    /// For full rank alone.
+    Rank(Multiplier),
     /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
     Conditioning(Multiplier, Vec<i64>),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.
@@ -106,6 +108,10 @@ pub enum Evidence {
     Outside,
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
     Inside(Box<Evidence>, i64, u32),
+    /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.
+    Turned(Box<Evidence>, i64, u32),
+    /// The evidence, at control points.
+    Control(Box<Evidence>),
 }
 
 /// A corner of the paper's cube.

@@ -5,15 +5,15 @@ use crate::cell::{evaluate, Vertex};
 use crate::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
+use crate::control::Control;
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer};
-use crate::formula::Formula;
-use crate::formula::Values;
+use crate::formula::{Formula, Op, Values};
 use crate::input::ClaimError;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::{at_least, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
+use crate::test::{at_least, full_rank, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
 use crate::witness::{self, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
@@ -117,14 +117,15 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
 /// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward.
 fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
     let bits = tree.precision;
-    let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();
-    let each = problem.tape.ops().len() * (1 + bits as usize / 64);
-    if tree.nodes.len() > MOST_NODES || steps.saturating_mul(each) > MOST_WORK {
-        return Err(Rejected::Work);
-    }
     let arithmetic = Fixed::<Z>::new(bits);
     let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
     let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits));
+    let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();
+    let steps = steps.saturating_mul(problem.tape.ops().len());
+    let work = steps.saturating_add(checker.work_at_controls(tree));
+    if tree.nodes.len() > MOST_NODES || work.saturating_mul(1 + bits as usize / 64) > MOST_WORK {
+        return Err(Rejected::Work);
+    }
     let root = problem.root(bits).map_err(Rejected::Claim)?;
     let mut waiting = vec![(root.clone(), vec![true; problem.obligations.len()])];
     for (at, node) in tree.nodes.iter().enumerate() {
@@ -151,13 +152,14 @@ fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected
 
 /// Checks steps; in another arithmetic than [`Fixed`], proposes them.
 pub struct Checker<'a, E: Enclosure> {
-    problem: &'a Problem,
-    arithmetic: &'a E,
-    parameters: Vec<E::Number>,
+    pub(crate) problem: &'a Problem,
+    pub(crate) arithmetic: &'a E,
+    pub(crate) parameters: Vec<E::Number>,
     /// `q_1` and `q_2` of the paper's cube.
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
     divided: Vec<Row<Formula>>,
+    pub(crate) controls: Vec<(Test, Control)>,
 }
 
 /// Where a step is made.
@@ -178,7 +180,8 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Self {
         let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
-        Checker { problem, arithmetic, parameters, tight, rows, divided }
+        let controls = problem.controls();
+        Checker { problem, arithmetic, parameters, tight, rows, divided, controls }
     }
 
     /// The formulas over a cell.
@@ -227,14 +230,21 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> bool {
         let constant = |f: Formula| move |_| over.of(f).map(|f| f.range.clone());
         match (test, evidence) {
+            (test, Evidence::Control(evidence)) => self.shows_at_controls(place, test, evidence),
+            (test, Evidence::Turned(evidence, multiple, places)) => {
+                use Evidence::{Control, Corner, Turned};
+                let plain = !matches!(**evidence, Turned(..) | Control(_) | Corner(_));
+                let turned = self.turned(over, (*multiple, *places));
+                plain && self.shows_less(over, place, test, evidence, turned)
+            }
             (test, Evidence::Inside(evidence, multiple, places)) => {
-                let plain = !matches!(**evidence, Evidence::Inside(..) | Evidence::Corner(_));
+                use Evidence::{Control, Corner, Inside, Turned};
+                let plain = !matches!(**evidence, Inside(..) | Turned(..) | Control(_) | Corner(_));
                 let inside = self.tangent(over, place, (*multiple, *places));
-                plain
-                    && inside.is_some_and(|inside| {
-                        let over = Over { inside: Some(inside), ..*over };
-                        self.shows(&over, place, test, evidence)
-                    })
+                plain && self.shows_less(over, place, test, evidence, inside)
+            }
+            (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
+                self.is_zero(kappa) && self.is_defined(over) && full_rank(over, &self.rows, y)
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
                 self.is_defined(over) && sigma_min(over, &self.rows, &constant(kappa), y)
@@ -262,6 +272,33 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             _ => false,
         }
+    }
+
+    /// Whether the evidence shows a test less a formula that is not negative in the workspace.
+    fn shows_less(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: Test,
+        evidence: &Evidence,
+        less: Option<Slope<E::Number>>,
+    ) -> bool {
+        let sum = || {
+            let mut sum = less?;
+            let Some(other) = &over.inside else { return Some(sum) };
+            sum.at_centre = self.arithmetic.add(&sum.at_centre, &other.at_centre)?;
+            for (own, other) in sum.slopes.iter_mut().zip(&other.slopes) {
+                *own = self.arithmetic.add(own, other)?;
+            }
+            Some(sum)
+        };
+        sum().is_some_and(|sum| {
+            self.shows(&Over { inside: Some(sum), ..*over }, place, test, evidence)
+        })
+    }
+
+    pub(crate) fn is_zero(&self, formula: Formula) -> bool {
+        self.problem.tape.op(formula) == Op::Integer(0)
     }
 
     /// Whether a user's formulas are defined on all of the cell, used or not.
@@ -305,22 +342,44 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         place: &Place<'_, E::Number>,
         (multiple, places): (i64, u32),
     ) -> Option<Slope<E::Number>> {
-        if multiple < 0 || places >= MOST_PLACES {
-            return None;
-        }
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
         let e = self.arithmetic;
         let mut tangent = over.slopes.constant(over.of(*g)?.at_centre.clone())?;
         for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(place.edges)
         {
-            *slope = e.dyadic(multiple, places, &e.mul(&over.of(f)?.at_centre, half)?)?;
+            *slope = e.mul(&over.of(f)?.at_centre, half)?;
         }
-        tangent.at_centre = e.dyadic(multiple, places, &tangent.at_centre)?;
-        Some(tangent)
+        self.multiple(tangent, (multiple, places))
     }
 
-    /// Whether the cell has no point of the workspace: the tangent is negative at all vertices.
+    /// `mu g` for the orientations' own inequality `g >= 0`, by the slopes of `g`: its values at the
+    /// vertices are then weighted to `g(x)` itself, and `g` need not be concave.
+    fn turned(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Slope<E::Number>> {
+        self.multiple(over.of(self.problem.turned?)?.clone(), mu)
+    }
+
+    /// `mu f`, for a dyadic number `mu >= 0`; what it is at vertices.
+    fn multiple(
+        &self,
+        mut f: Slope<E::Number>,
+        (multiple, places): (i64, u32),
+    ) -> Option<Slope<E::Number>> {
+        if multiple < 0 || places >= MOST_PLACES {
+            return None;
+        }
+        for part in f.slopes.iter_mut().chain([&mut f.at_centre, &mut f.range]) {
+            *part = self.arithmetic.dyadic(multiple, places, part)?;
+        }
+        Some(f)
+    }
+
+    /// Whether the cell has no point of the workspace: the tangent is negative at all vertices, or the
+    /// orientations' own inequality nowhere holds.
     pub fn is_outside(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>) -> bool {
+        let turned = self.problem.turned.and_then(|g| self.arithmetic.neg(&over.of(g)?.range));
+        if turned.is_some_and(|less| self.arithmetic.is_positive(&less)) {
+            return true;
+        }
         self.tangent(over, place, (1, 0)).is_some_and(|tangent| {
             Vertex::all(over.slopes.m).all(|v| {
                 let t = v.value(&over.slopes, &tangent).and_then(|t| self.arithmetic.neg(&t));

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 /// An entry of a [`Tape`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Formula(usize);
+pub struct Formula(pub(crate) usize);
 
 /// What an entry is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -274,11 +274,11 @@ impl Tape {
         (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
     }
 
-    /// Of each entry up to `f`, whether `f` is made of it.
-    fn parts(&self, f: Formula) -> Vec<bool> {
-        let mut needed = vec![false; f.0 + 1];
-        needed[f.0] = true;
-        for at in (0..=f.0).rev() {
+    /// Of each entry, whether one of these is made of it.
+    pub(crate) fn parts(&self, of: &[Formula]) -> Vec<bool> {
+        let mut needed = vec![false; of.iter().map(|f| f.0 + 1).max().unwrap_or(0)];
+        of.iter().for_each(|f| needed[f.0] = true);
+        for at in (0..needed.len()).rev() {
             if needed[at] {
                 self.ops[at].parts().for_each(|part| needed[part.0] = true);
             }
@@ -298,7 +298,7 @@ impl Tape {
     /// where the cross factors are left out if `E = F`.
     pub fn gradient(&mut self, f: Formula, m: usize) -> Gradient {
         let (zero, one) = (self.integer(0), self.integer(1));
-        let needed = self.parts(f);
+        let needed = self.parts(&[f]);
         let unneeded = Gradient { numerators: Vec::new(), denominator: one };
         let mut known: Vec<Gradient> = Vec::with_capacity(f.0 + 1);
         for (at, needed) in needed.into_iter().enumerate() {

@@ -1,12 +1,12 @@
 //! Numbers that formulas depend on, enclosed; what a claim's numbers have to be.
 
-use crate::arithmetic::Arithmetic as _;
+use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::{Expression, Operator};
 use crate::trig::{cos_sin, pi};
 use num_bigint::BigInt;
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use std::fmt;
 
 /// Bits in which a claim is held to be well formed.
@@ -70,6 +70,10 @@ pub enum Value {
     Sine(Expression),
     /// An angle in degrees, in radians.
     Radians(Expression),
+    /// The tangent of half an angle in degrees, between -180 and 180.
+    HalfTangent(Expression),
+    /// `t sqrt(1 + s^2)`, `t` and `s` the tangents of half of these.
+    TiltReach(Expression, Expression),
 }
 
 /// Numbers of a claim have no names in them.
@@ -112,8 +116,27 @@ impl Input {
                 let x = enclosed(degrees, self.scale, bits)?;
                 fixed.div(&fixed.mul(&x, &pi(bits)?)?, &fixed.integer(180)?)
             }
+            Value::HalfTangent(degrees) => half_tangent(degrees, bits),
+            Value::TiltReach(tilt, torsion) => {
+                let fixed = Fixed::<BigInt>::new(bits);
+                let [t, s] = [half_tangent(tilt, bits)?, half_tangent(torsion, bits)?];
+                let square = fixed.add(&fixed.integer(1)?, &fixed.sqr(&s)?)?;
+                fixed.mul(&t, &fixed.sqrt(&square)?)
+            }
         }
     }
+}
+
+/// `tan(x/2) = sin x/(1 + cos x)`, which of 0 is exactly 0; with 64 guard bits.
+fn half_tangent(degrees: &Expression, bits: u32) -> Option<Interval<BigInt>> {
+    if degrees.rational().is_some_and(|x| x.is_zero()) {
+        return Some(Interval::point(BigInt::from(0)));
+    }
+    let working = bits.checked_add(64)?;
+    let fixed = Fixed::<BigInt>::new(working);
+    let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
+    let t = fixed.mul(&sin, &fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?)?;
+    Some(Interval { lo: t.lo >> 64u32, hi: -(-t.hi >> 64u32) })
 }
 
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A

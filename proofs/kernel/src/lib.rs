@@ -7,6 +7,7 @@
 //! | [`formula`]    | formulas, shared on a tape; derivatives                          |
 //! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
 //! | [`cell`]       | boxes of the bisection tree, their vertices                      |
+//! | [`control`]    | polynomials at the control points of a cell                       |
 //! | [`definite`]   | positive definiteness of interval matrices                       |
 //! | [`test`](mod@test) | the tests: a formula's sign, `sigma_min`, `sigma_max`      |
 //! | [`machine`]    | drives and motions: the formulas of `A x' = B rho'`              |
@@ -29,6 +30,8 @@ pub mod certificate;
 pub mod check;
 pub mod claim;
 mod compile;
+pub mod control;
+mod controlled;
 mod cube;
 pub mod definite;
 pub mod fixed;
@@ -36,6 +39,7 @@ pub mod formula;
 pub mod input;
 pub mod machine;
 pub mod number;
+mod orientation;
 pub mod problem;
 pub mod quantity;
 pub mod slope;

@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | [`at_least`] | `f >= 0` | |
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
+//! | [`full_rank`] | `sigma_min(M) > 0` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
 //!
 //! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
@@ -132,18 +133,53 @@ pub fn sigma_min<E: Enclosure>(
     kappa_squared: AtVertex<'_, E::Number>,
     evidence: &Multiplier,
 ) -> bool {
-    let (e, m, y) = (over.slopes.arithmetic, over.slopes.m, &evidence.y);
+    let (e, m) = (over.slopes.arithmetic, over.slopes.m);
+    over.at_vertices(rows, |v, rows| {
+        let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
+        rest.is_some_and(|rest| is_lower(e, m, &rows, &rest, evidence))
+    })
+}
+
+/// **Full rank.** If `T = Y^T A + A^T Y` is positive definite at the vertices, and all `D_i > 0`, then
+/// `sigma_min(M) > 0` on the cell. *Proof.* `T` is affine in `A`, so it is positive definite at `x`, and
+/// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`sigma_min`] for
+/// `kappa = 0` with `D = 0` in `T`, and as good: what `T` loses to `D` there, a small multiple of `Y`
+/// makes as small as is wanted.
+pub fn full_rank<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    evidence: &Multiplier,
+) -> bool {
+    let (e, m) = (over.slopes.arithmetic, over.slopes.m);
+    over.at_vertices(rows, |v, rows| {
+        let rest = e.integer(0).and_then(|zero| over.less_inside(zero, v));
+        let rows = without_d(e, rows);
+        rest.zip(rows).is_some_and(|(rest, rows)| is_lower(e, m, &rows, &rest, evidence))
+    })
+}
+
+/// The rows with zero for `D_i`.
+pub(crate) fn without_d<E: Enclosure>(
+    e: &E,
+    rows: Vec<Row<E::Number>>,
+) -> Option<Vec<Row<E::Number>>> {
+    rows.into_iter().map(|row| Some(Row { d: e.integer(0)?, ..row })).collect()
+}
+
+/// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite.
+pub(crate) fn is_lower<E: Enclosure>(
+    e: &E,
+    m: usize,
+    rows: &[Row<E::Number>],
+    rest: &E::Number,
+    Multiplier { y, places }: &Multiplier,
+) -> bool {
     let shape = y.len() == rows.len() && y.iter().all(|y| y.len() == m);
-    let matrix = |v: Vertex, rows: &[Row<E::Number>]| {
-        let diagonal = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
+    let matrix = || {
         let terms = rows.iter().zip(y);
-        terms.fold(scalar(e, m, &diagonal), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+        terms.fold(scalar(e, m, rest), |t, (row, y)| added(e, t?, row, (y, *places)))
     };
-    shape
-        && evidence.places < MOST_PLACES
-        && over.at_vertices(rows, |v, rows| {
-            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
-        })
+    shape && *places < MOST_PLACES && matrix().is_some_and(|t| is_positive_definite(e, t))
 }
 
 /// `c I`.
@@ -187,14 +223,23 @@ pub fn sigma_max<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
-        let start = bound.and_then(|bound| scalar(e, over.slopes.m, &bound));
-        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        let rest = rows.iter().fold(start, |rest, row| {
-            let [least, _] = e.ends(&row.d);
-            let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
-            bordered.extend(rest?);
-            eliminated(e, bordered)
-        });
-        rest.is_some_and(|rest| is_positive_definite(e, rest))
+        bound.is_some_and(|bound| is_upper(e, over.slopes.m, &rows, &bound))
     })
+}
+
+/// Whether `[[D, A], [A^T, bound I]]` is positive definite.
+pub(crate) fn is_upper<E: Enclosure>(
+    e: &E,
+    m: usize,
+    rows: &[Row<E::Number>],
+    bound: &E::Number,
+) -> bool {
+    // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+    let rest = rows.iter().fold(scalar(e, m, bound), |rest, row| {
+        let [least, _] = e.ends(&row.d);
+        let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
+        bordered.extend(rest?);
+        eliminated(e, bordered)
+    });
+    rest.is_some_and(|rest| is_positive_definite(e, rest))
 }

@@ -97,10 +97,11 @@ pub fn check(
     }
 }
 
-/// Whether a point is certainly in a workspace whose box has these corners.
+/// Whether a point is certainly in a workspace whose box has these corners. What is said of its
+/// orientation is decided with its formulas.
 fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> bool {
     let [min, max] = &problem.corners;
-    let in_box = point.len() == min.len()
+    let in_box = point.len() == problem.dimension()
         && point.iter().zip(min).zip(max).all(|((x, min), max)| {
             ordered("", min, x, false).and_then(|()| ordered("", x, max, false)).is_ok()
         });
@@ -133,7 +134,23 @@ impl<'a> At<'a> {
             Op::Parameter(j) => parameters.get(j).cloned(),
             _ => None,
         });
-        Ok(At { problem, arithmetic, values })
+        let at = At { problem, arithmetic, values };
+        if at.is_turned(&point[problem.corners[0].len()..]) {
+            Ok(at)
+        } else {
+            Err(WitnessError::Outside)
+        }
+    }
+
+    /// Whether coordinates of orientation are certainly those of one of the claim.
+    fn is_turned(&self, c: &[Number]) -> bool {
+        let bits = self.arithmetic.bits();
+        let in_box = c.iter().zip(&self.problem.orientation).all(|(c, [min, max])| {
+            let ends = min.enclose(bits, None).zip(max.enclose(bits, None));
+            ends.is_some_and(|(min, max)| min.hi <= c.lo && c.hi <= max.lo)
+        });
+        let g = self.problem.turned.map(|g| self.values.of(g));
+        in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
     }
 
     fn is_positive(&self, x: Option<Number>) -> bool {
@@ -223,11 +240,15 @@ impl<'a> At<'a> {
         (rows.len() == self.problem.dimension()).then(|| determinant(&self.arithmetic, &rows))?
     }
 
-    /// **Lemma.** If `det M` of one machine has opposite signs at two points of a convex workspace, as
-    /// all are here, the claim is false. *Proof.* If every formula is defined, and every leg reaches
-    /// without a serial singularity, on the segment between them, `det M` is continuous there and
+    /// **Lemma.** If `det M` of one machine has opposite signs at two points of a path-connected
+    /// workspace, as all are here, the claim is false. *Proof.* If every formula is defined, and every
+    /// leg reaches without a serial singularity, on a path between them, `det M` is continuous there and
     /// vanishes somewhere: a parallel singularity. Otherwise some point has no such leg. ∎ (A divisor of
     /// the rows that changes its sign is zero somewhere, and a formula of the claim not defined there.)
+    ///
+    /// Boxes, cylinders, and `|c| <= t` are convex, and products of convex sets are. The orientations
+    /// `c_1^2 + c_2^2 <= t^2 (1 + c_3^2)`, `|c_3| <= s` are not, but connected: those with one `c_3` are a
+    /// disc, in which a segment leads to `(0, 0, c_3)`, and these are a segment of the set.
     fn opposite(&self, other: &Self) -> bool {
         let signs = |at: &Self| {
             let det = at.determinant();

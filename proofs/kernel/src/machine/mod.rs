@@ -1,7 +1,10 @@
 //! Drives and motions: the formulas of `A x' = B rho'`, leg by leg.
 //!
-//! A drive meets the platform through `w = P + d - a` alone, from the base end `a` of the leg to its
-//! platform end `P + d`. Signs of working modes are constants: `m = 1` or `-1`.
+//! A drive meets the platform through `w = P + R d - a` alone, from the base end `a` of the leg to its
+//! platform end `P + R d`, where `R = I` unless the platform turns. Signs of working modes are
+//! constants: `m = 1` or `-1`.
+
+pub(crate) mod motion;
 
 use crate::formula::{Formula, Tape, Vector};
 use crate::test::Row;
@@ -9,10 +12,12 @@ use crate::test::Row;
 /// A leg's, or joint's, formulas.
 #[derive(Clone, Debug)]
 pub struct Leg {
-    /// `A_i` in the velocity of the platform's joint, and `D_i = B_i^2`.
+    /// `A_i` in the platform's velocity or twist, and `D_i = B_i^2`.
     pub row: Row<Formula>,
     /// The same divided by `B_i`: the row of `M`, and 1.
     pub divided: Row<Formula>,
+    /// `w A_i` and `w D_i` as polynomials, `w` the problem's weight; of struts of platforms that turn.
+    pub scaled: Option<Row<Formula>>,
     /// The joint coordinate; none where a claim gives the row alone.
     pub rho: Option<Joint>,
     /// The length of the vector `A_i`, where it is that of a leg.
@@ -150,7 +155,7 @@ fn leg(
     (length, eta_squared): (Option<Formula>, Option<Formula>),
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
-    Leg { row, divided, rho: Some(rho), length, eta_squared }
+    Leg { row, divided, scaled: None, rho: Some(rho), length, eta_squared }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
@@ -174,5 +179,5 @@ pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
 /// A joint by its row of `M` alone.
 pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
     let row = Row { a, d: tape.integer(1) };
-    Leg { divided: row.clone(), row, rho: None, length: None, eta_squared: None }
+    Leg { divided: row.clone(), row, scaled: None, rho: None, length: None, eta_squared: None }
 }

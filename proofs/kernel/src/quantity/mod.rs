@@ -75,6 +75,7 @@ pub struct Obligation {
 pub(crate) struct Context<'a> {
     builder: &'a mut Builder,
     legs: &'a [Leg],
+    weight: Option<Formula>,
     requirement: &'a Requirement,
     place: &'a str,
 }
@@ -190,7 +191,8 @@ pub(crate) fn obligations(
             (true, None) => (0..legs.len()).map(Some).collect(),
         };
         for leg in which {
-            let mut context = Context { builder, legs, requirement, place: &place };
+            let weight = problem.weight;
+            let mut context = Context { builder, legs, weight, requirement, place: &place };
             for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
                 all.push(Obligation { requirement: Some(number), leg, test });
             }
