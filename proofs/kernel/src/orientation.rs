@@ -36,10 +36,12 @@ pub(crate) fn chart(
     first: usize,
     in_plane: bool,
 ) -> Result<Chart, ClaimError> {
-    let c: Vector = std::array::from_fn(|k| builder.tape.coordinate(first + k));
     if matches!(orientation, Orientation::Range(_)) != in_plane {
         return Err(shape_error(PLACE, "a range in the plane, and only there"));
     }
+    let few = if in_plane { 1 } else { 3 };
+    let c: Vec<Formula> = (first..first + few).map(|k| builder.tape.coordinate(k)).collect();
+    let c: Vector = std::array::from_fn(|k| c[k % few]);
     match orientation {
         Orientation::Angle(angle) => {
             less_than_half_a_turn(angle)?;

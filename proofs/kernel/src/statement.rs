@@ -1,8 +1,8 @@
 //! A claim in words: what an accepted certificate establishes, and the formulas that it is about.
 
 use crate::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
-use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
-use crate::claim::{Requirement, Turning, Workspace};
+use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation};
+use crate::claim::{Quantity, Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
 use crate::problem::Problem;
@@ -22,6 +22,7 @@ pub fn statement(certificate: &Certificate) -> Result<String, fmt::Error> {
     }
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
+    orientation(&mut out, claim)?;
     requirements(&mut out, claim)?;
     if let Proof::Witness(witness) = &certificate.proof {
         counterexample(&mut out, claim, witness)?;
@@ -57,16 +58,79 @@ fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
             )?;
             writeln!(out, "otherwise, q1 = -L t1/sqrt(1 + 2 t1^2), q2 = L t2/sqrt(1 + 2 t2^2)),")
         }
-        Mechanism::Translational(all) => legs(out, all),
-        Mechanism::Planar(Turning { legs: all, .. })
-        | Mechanism::Spatial(Turning { legs: all, .. })
-        | Mechanism::Spherical(Turning { legs: all, .. }) => legs(out, all),
+        Mechanism::Translational(all) => {
+            legs(out, all, "P + platform - anchor")?;
+            writeln!(out, "with rho' = M P' (the inverse Jacobian),")
+        }
+        Mechanism::Planar(turning) => turned(out, turning, "the plane, P = (x, y)", "P"),
+        Mechanism::Spatial(turning) => turned(out, turning, "space, P = (x, y, z)", "P"),
+        Mechanism::Spherical(turning) => {
+            turned(out, turning, "space about the fixed point P = 0", "")
+        }
         Mechanism::Formulas(formulas) => inverse_kinematics(out, formulas),
     }
 }
 
-fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
-    writeln!(out, "For every machine with {} legs, w_i = P + platform - anchor:", legs.len())?;
+/// A platform that may turn: `moves` is its point, if that moves.
+fn turned(out: &mut String, turning: &Turning, place: &str, moves: &str) -> fmt::Result {
+    let Some(length) = &turning.characteristic_length else {
+        writeln!(out, "In {place}:")?;
+        legs(out, &turning.legs, "P + platform - anchor")?;
+        return writeln!(out, "with rho' = M P' (the inverse Jacobian),");
+    };
+    writeln!(out, "In {place}, R the rotation of the platform:")?;
+    legs(out, &turning.legs, "P + R platform - anchor")?;
+    let twist = if moves.is_empty() { "ell omega" } else { "(P', ell omega)" };
+    writeln!(
+        out,
+        "with rho' = M {twist} (the inverse Jacobian), omega the angular velocity of the"
+    )?;
+    writeln!(out, "platform in radians and ell = {length},")
+}
+
+/// The set of orientations, in words and in the coordinates of the formulas.
+fn orientation(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    match &claim.orientation {
+        None => Ok(()),
+        Some(Orientation::Angle(angle)) => {
+            writeln!(out, "for every rotation R by at most {angle} degrees about any axis (with")?;
+            writeln!(out, "c = tan(theta/2) axis, |c| <= tan({angle}/2)),")
+        }
+        Some(Orientation::Tilt { tilt, torsion }) => {
+            writeln!(
+                out,
+                "for every R = R_z(a) R_y(b) R_z(s - a), of any a, a tilt b up to {tilt} and a"
+            )?;
+            writeln!(
+                out,
+                "torsion s from -({torsion}) to {torsion} degrees (with c = tan(theta/2) axis,"
+            )?;
+            writeln!(
+                out,
+                "c_1^2 + c_2^2 <= tan({tilt}/2)^2 (1 + c_3^2), |c_3| <= tan({torsion}/2)),"
+            )
+        }
+        Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => {
+            writeln!(
+                out,
+                "for every R = R_z(yaw) R_y(pitch) R_x(roll), in degrees: roll from {} to {},",
+                roll[0], roll[1]
+            )?;
+            writeln!(
+                out,
+                "pitch from {} to {}, yaw from {} to {} (half-angle tangents of these),",
+                pitch[0], pitch[1], yaw[0], yaw[1]
+            )
+        }
+        Some(Orientation::Range([min, max])) => {
+            writeln!(out, "for every rotation R from {min} to {max} degrees, counterclockwise (its half-angle")?;
+            writeln!(out, "tangent),")
+        }
+    }
+}
+
+fn legs(out: &mut String, legs: &[Leg], w: &str) -> fmt::Result {
+    writeln!(out, "For every machine with {} legs, w_i = {w}:", legs.len())?;
     for (i, leg) in legs.iter().enumerate() {
         let (drive, mode) = match leg {
             Leg::Slider { mode, .. } => ("slider", Some(*mode)),
@@ -77,6 +141,7 @@ fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
         write!(out, "  leg {}: {drive}", i + 1)?;
         for (key, _, quantities) in leg.quantities() {
             match quantities {
+                [] => {}
                 [one] => write!(out, ", {key} {one}")?,
                 several => write!(out, ", {key} ({})", list(several))?,
             }
@@ -92,11 +157,7 @@ fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
         out,
         "and axes stand for the unit vectors along them, rho_i is the joint coordinate,"
     )?;
-    writeln!(
-        out,
-        "eta_i the leg's component along the motion of its driven end, and M the matrix"
-    )?;
-    writeln!(out, "with rho' = M P' (the inverse Jacobian),")
+    writeln!(out, "eta_i the leg's component along the motion of its driven end, and M the matrix")
 }
 
 fn inverse_kinematics(out: &mut String, formulas: &Formulas) -> fmt::Result {
@@ -123,6 +184,7 @@ fn inverse_kinematics(out: &mut String, formulas: &Formulas) -> fmt::Result {
 
 fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     match &claim.workspace {
+        Workspace::Box { min, .. } if min.is_empty() => Ok(()),
         Workspace::Box { min, max } => {
             writeln!(out, "at every point of the box from ({}) to ({}),", list(min), list(max))
         }
@@ -192,15 +254,25 @@ fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> 
 pub fn formulas(problem: &Problem) -> Result<String, fmt::Error> {
     let mut out = String::new();
     writeln!(out, "Lengths are divided by 2^{}.", problem.scale)?;
+    let (first, m) = (problem.corners[0].len(), problem.dimension());
+    if first < m {
+        writeln!(out, "Half-angle tangents: x{first} to x{}.", m - 1)?;
+    }
     for (j, input) in problem.inputs.iter().enumerate() {
         writeln!(out, "p{j} = {}", input.place)?;
     }
     let mut printer = Printer { tape: &problem.tape, out: &mut out, named: Vec::new() };
+    if let Some(weight) = problem.weight {
+        printer.line("w", weight)?;
+    }
     for (i, leg) in problem.legs.iter().enumerate() {
-        for (k, &a) in leg.row.a.iter().enumerate() {
-            printer.line(&format!("A_{}{}", i + 1, k + 1), a)?;
+        let scaled = leg.scaled.as_ref().map(|row| ("w ", row));
+        for (w, row) in [("", &leg.row)].into_iter().chain(scaled) {
+            for (k, &a) in row.a.iter().enumerate() {
+                printer.line(&format!("{w}A_{}{}", i + 1, k + 1), a)?;
+            }
+            printer.line(&format!("{w}D_{}", i + 1), row.d)?;
         }
-        printer.line(&format!("D_{}", i + 1), leg.row.d)?;
         match leg.rho {
             Some(Joint::Length(rho)) => printer.line(&format!("rho_{}", i + 1), rho)?,
             Some(Joint::Angle { cos, sin }) => {
@@ -209,6 +281,9 @@ pub fn formulas(problem: &Problem) -> Result<String, fmt::Error> {
             }
             None => {}
         }
+    }
+    if let Some(g) = problem.turned {
+        printer.line("orientations, where not negative: g", g)?;
     }
     Ok(out)
 }

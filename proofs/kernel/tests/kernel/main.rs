@@ -3,8 +3,10 @@
 
 mod arithmetic;
 mod certificates;
+mod controls;
 mod leaves;
 mod machines;
+mod motions;
 mod prover;
 mod rejected;
 mod rough;

@@ -12,6 +12,7 @@ use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
@@ -24,6 +25,21 @@ pub fn double(x: &Interval<BigInt>, bits: u32) -> Pair {
     let end = |x: &BigInt| x.to_f64().expect("finite") * (-f64::from(bits)).exp2();
     (end(&x.lo), end(&x.hi))
 }
+
+fn middle(x: Pair) -> f64 {
+    (x.0 + x.1) / 2.0
+}
+
+/// Which rows.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Plain,
+    Divided,
+    Scaled,
+}
+
+/// The formulas at a point.
+type Point<'p> = &'p dyn Fn(Formula) -> Option<f64>;
 
 /// A problem in doubles.
 pub struct Prover<'a> {
@@ -41,28 +57,15 @@ impl<'a> Prover<'a> {
         Prover { problem, checker: Checker::new(problem, &Rough, parameters, tight), root }
     }
 
-    /// `A_i` and `D_i` at a vertex, in the middle.
-    fn rows(
-        &self,
-        over: &Over<'_, Rough>,
-        divided: bool,
-        v: Option<Vertex>,
-    ) -> Option<(DMatrix<f64>, Vec<f64>)> {
-        let rows: Vec<&Row<Formula>> = self
-            .problem
-            .legs
-            .iter()
-            .map(|leg| if divided { &leg.divided } else { &leg.row })
-            .collect();
-        let at = |f: Formula| {
-            let slope = over.of(f)?;
-            let x = match v {
-                Some(v) => v.value(&over.slopes, slope)?,
-                None => slope.at_centre,
-            };
-            Some((x.0 + x.1) / 2.0)
+    /// `A_i` and `D_i`, in the middle.
+    fn rows(&self, form: Form, at: Point<'_>) -> Option<(DMatrix<f64>, Vec<f64>)> {
+        let row = |leg: &'a Leg| match form {
+            Form::Plain => Some(&leg.row),
+            Form::Divided => Some(&leg.divided),
+            Form::Scaled => leg.scaled.as_ref(),
         };
-        let mut a = DMatrix::zeros(rows.len(), over.slopes.m);
+        let rows: Vec<&Row<Formula>> = self.problem.legs.iter().map(row).collect::<Option<_>>()?;
+        let mut a = DMatrix::zeros(rows.len(), self.problem.dimension());
         let mut d = Vec::new();
         for (i, row) in rows.iter().enumerate() {
             d.push(at(row.d)?);
@@ -73,8 +76,11 @@ impl<'a> Prover<'a> {
         d.iter().all(|&d| d > 0.0).then_some((a, d))
     }
 
-    fn starts(&self, over: &Over<'_, Rough>, divided: bool, kappa: f64) -> Vec<Multiplier> {
-        let Some((a, d)) = self.rows(over, divided, None) else { return Vec::new() };
+    fn starts(&self, over: &Over<'_, Rough>, form: Form, kappa: f64) -> Vec<Multiplier> {
+        let centre = |f: Formula| over.of(f).map(|f| middle(f.at_centre));
+        let Some((a, d)) = self.rows(form, &centre) else { return Vec::new() };
+        let weight = self.problem.weight.filter(|_| form == Form::Scaled).and_then(centre);
+        let kappa = kappa * weight.unwrap_or(1.0).sqrt();
         let mut m = a;
         for (i, d) in d.iter().enumerate() {
             m.row_mut(i).scale_mut(1.0 / d.sqrt());
@@ -93,37 +99,41 @@ impl<'a> Prover<'a> {
         vec![with(&|_| kappa), with(&|s| s.min(1.3 * kappa)), with(&|s| s)]
     }
 
-    /// The least eigenvalue, or value, of what a test wants positive, at a vertex.
-    fn margin(
-        &self,
-        over: &Over<'_, Rough>,
-        test: Test,
-        evidence: &Evidence,
-        v: Vertex,
-    ) -> Option<f64> {
+    /// The least eigenvalue, or value, of what a test wants positive, at a vertex or control point.
+    fn margin(&self, test: Test, evidence: &Evidence, form: Form, at: Point<'_>) -> Option<f64> {
         let least = |t: DMatrix<f64>| SymmetricEigen::new(t).eigenvalues.min();
-        let m = over.slopes.m;
-        let number = |f: Formula| over.of(f).map(|f| f.at_centre.0);
+        let m = self.problem.dimension();
+        let weight = self.problem.weight.filter(|_| form == Form::Scaled);
+        let weight = weight.map_or(Some(1.0), at)?;
+        let form = match evidence {
+            Evidence::LowerDivided(_) | Evidence::Divided => Form::Divided,
+            _ => form,
+        };
         Some(match (test, evidence) {
+            (Test::SigmaMin(_), Evidence::Rank(y)) => {
+                let (a, _) = self.rows(form, at)?;
+                let scale = (-f64::from(y.places)).exp2();
+                let t = DMatrix::from_fn(m, a.nrows(), |k, i| y.y[i][k] as f64 * scale) * a;
+                least(&t + t.transpose())
+            }
             (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
-                let (a, d) =
-                    self.rows(over, matches!(evidence, Evidence::LowerDivided(_)), Some(v))?;
+                let (a, d) = self.rows(form, at)?;
                 let scale = (-f64::from(y.places)).exp2();
                 let y = DMatrix::from_fn(a.nrows(), m, |i, k| y.y[i][k] as f64 * scale);
                 let d = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(d));
                 let t = y.transpose() * &a;
-                let unit = DMatrix::identity(m, m) * number(kappa)?;
+                let unit = DMatrix::identity(m, m) * at(kappa)? * weight;
                 least(&t + t.transpose() - y.transpose() * d * &y - unit)
             }
             (Test::SigmaMax(k), _) => {
-                let (a, d) = self.rows(over, *evidence == Evidence::Divided, Some(v))?;
+                let (a, d) = self.rows(form, at)?;
                 let mut m2 = a.clone();
                 for (i, d) in d.iter().enumerate() {
                     m2.row_mut(i).scale_mut(1.0 / d);
                 }
-                least(DMatrix::identity(m, m) * number(k)? - a.transpose() * m2)
+                least(DMatrix::identity(m, m) * at(k)? * weight - a.transpose() * m2)
             }
-            (Test::AtLeast(f), _) => v.value(&over.slopes, over.of(f)?)?.0,
+            (Test::AtLeast(f), _) => at(f)?,
             _ => return None,
         })
     }
@@ -139,15 +149,58 @@ impl<'a> Prover<'a> {
         if self.checker.shows(over, place, test, &evidence) {
             return Some(evidence);
         }
-        let inside = self.problem.inside.as_ref()?;
-        let (mut low, mut high) = (0f64, f64::MAX);
-        for v in Vertex::all(over.slopes.m) {
-            let margin = self.margin(over, test, &evidence, v)?;
-            let mut t = over.of(inside.g)?.at_centre.0;
-            for (k, (&f, [_, _, half])) in inside.gradient.iter().zip(place.edges).enumerate() {
-                let by = over.of(f)?.at_centre.0 * half.0;
-                t += if v.has(k) { by } else { -by };
+        // Margins, and the inequality's values, point by point.
+        let mut points = Vec::new();
+        let evidence: Box<dyn Fn(i64) -> Evidence> = if let Evidence::Control(own) = evidence {
+            let turned = self.problem.turned;
+            let g = turned.or(self.problem.inside.as_ref().map(|inside| inside.g))?;
+            let found = self.checker.at_controls(place, test, |at| {
+                let number = |f: Formula| at.of(f).map(|&x| middle(x));
+                let margin = self.margin(test, &own, Form::Scaled, &number);
+                points.extend(margin.zip(number(g)));
+                margin.is_some()
+            });
+            if !found {
+                return None;
             }
+            Box::new(move |multiple| {
+                let own = own.clone();
+                Evidence::Control(Box::new(match turned {
+                    Some(_) => Evidence::Turned(own, multiple, 16),
+                    None => Evidence::Inside(own, multiple, 16),
+                }))
+            })
+        } else {
+            for v in Vertex::all(over.slopes.m) {
+                let number =
+                    |f: Formula| over.of(f).and_then(|f| v.value(&over.slopes, f)).map(middle);
+                let margin = self.margin(test, &evidence, Form::Plain, &number)?;
+                let g = match (self.problem.turned, &self.problem.inside) {
+                    (Some(g), _) => v.value(&over.slopes, over.of(g)?)?.1,
+                    (None, Some(inside)) => {
+                        let mut t = over.of(inside.g)?.at_centre.0;
+                        let gradient = inside.gradient.iter().zip(place.edges);
+                        for (k, (&f, [_, _, half])) in gradient.enumerate() {
+                            let by = over.of(f)?.at_centre.0 * half.0;
+                            t += if v.has(k) { by } else { -by };
+                        }
+                        t
+                    }
+                    (None, None) => return None,
+                };
+                points.push((margin, g));
+            }
+            let turns = self.problem.turned.is_some();
+            Box::new(move |multiple| {
+                let own = Box::new(evidence.clone());
+                match turns {
+                    true => Evidence::Turned(own, multiple, 16),
+                    false => Evidence::Inside(own, multiple, 16),
+                }
+            })
+        };
+        let (mut low, mut high) = (0f64, f64::MAX);
+        for (margin, t) in points {
             if t > 0.0 {
                 high = high.min(margin / t);
             } else {
@@ -158,8 +211,7 @@ impl<'a> Prover<'a> {
             return None;
         }
         let multiple = if high > 1e6 { low * 2.0 + 1e-3 } else { (low + high) / 2.0 };
-        let evidence =
-            Evidence::Inside(Box::new(evidence), (multiple * 65536.0).round() as i64, 16);
+        let evidence = evidence((multiple * 65536.0).round() as i64);
         self.checker.shows(over, place, test, &evidence).then_some(evidence)
     }
 
@@ -171,12 +223,40 @@ impl<'a> Prover<'a> {
     ) -> Option<Evidence> {
         let number = |f: Formula| over.of(f).map_or(0.0, |f| f.at_centre.0);
         let mut tried: Vec<Evidence> = Vec::new();
+        if self.problem.legs.iter().all(|leg| leg.scaled.is_some()) {
+            let own: Vec<Evidence> = match test {
+                Test::SigmaMin(kappa) if number(kappa) == 0.0 => {
+                    let starts = self.starts(over, Form::Scaled, 0.0);
+                    starts.into_iter().map(Evidence::Rank).collect()
+                }
+                Test::SigmaMin(kappa) => {
+                    let starts = self.starts(over, Form::Scaled, number(kappa).sqrt());
+                    starts.into_iter().map(Evidence::Lower).collect()
+                }
+                Test::SigmaMax(_) | Test::AtLeast(_) => vec![Evidence::Test],
+                Test::Conditioning(c) => {
+                    let centre = |f: Formula| over.of(f).map(|f| middle(f.at_centre));
+                    let (mut m, d) = self.rows(Form::Plain, &centre)?;
+                    for (i, d) in d.iter().enumerate() {
+                        m.row_mut(i).scale_mut(1.0 / d.sqrt());
+                    }
+                    let s = m.singular_values();
+                    let mu = ((s.min() + s.max() / number(c).sqrt()) / 2.0).powi(2);
+                    let starts = self.starts(over, Form::Scaled, mu.sqrt());
+                    let mu = (mu * f64::from(PLACES).exp2()) as i64;
+                    starts.into_iter().map(|y| Evidence::Conditioning(y, vec![mu])).collect()
+                }
+                Test::Beyond(..) => Vec::new(),
+            };
+            tried.extend(own.into_iter().map(|own| Evidence::Control(Box::new(own))));
+        }
         match test {
             Test::SigmaMin(kappa) => {
                 let kappa = number(kappa).sqrt();
-                tried.extend(self.starts(over, false, kappa).into_iter().map(Evidence::Lower));
-                tried
-                    .extend(self.starts(over, true, kappa).into_iter().map(Evidence::LowerDivided));
+                let [plain, divided] =
+                    [Form::Plain, Form::Divided].map(|form| self.starts(over, form, kappa));
+                tried.extend(plain.into_iter().map(Evidence::Lower));
+                tried.extend(divided.into_iter().map(Evidence::LowerDivided));
                 if self.problem.cube_kappa.is_some() {
                     tried.extend([Corner::Q1, Corner::Q2].map(Evidence::Corner));
                 }
@@ -185,8 +265,8 @@ impl<'a> Prover<'a> {
             Test::AtLeast(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
             Test::Conditioning(c) => {
-                let (a, d) = self.rows(over, false, None)?;
-                let mut m = a;
+                let centre = |f: Formula| over.of(f).map(|f| middle(f.at_centre));
+                let (mut m, d) = self.rows(Form::Plain, &centre)?;
                 for (i, d) in d.iter().enumerate() {
                     m.row_mut(i).scale_mut(1.0 / d.sqrt());
                 }
@@ -194,7 +274,7 @@ impl<'a> Prover<'a> {
                 let mu = ((s.min() + s.max() / number(c).sqrt()) / 2.0).powi(2);
                 let mut terms = vec![0; over.slopes.m + 1];
                 terms[0] = (mu * f64::from(PLACES).exp2()) as i64;
-                let starts = self.starts(over, false, mu.sqrt());
+                let starts = self.starts(over, Form::Plain, mu.sqrt());
                 tried.extend(starts.into_iter().map(|y| Evidence::Conditioning(y, terms.clone())));
             }
         }
@@ -218,7 +298,8 @@ impl<'a> Prover<'a> {
             let values = self.checker.evaluate(&edges);
             let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
             let over = Over { slopes, values: &values, inside: None };
-            if self.problem.inside.is_some() && self.checker.is_outside(&over, &place) {
+            let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
+            if cut && self.checker.is_outside(&over, &place) {
                 nodes.push(Node { by: vec![Step(0, Evidence::Outside)], split: None });
                 continue;
             }
