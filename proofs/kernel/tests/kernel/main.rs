@@ -10,6 +10,8 @@ mod motions;
 mod prover;
 mod rejected;
 mod rough;
+mod sampled;
 mod slopes;
 mod statements;
+mod turning;
 mod witnesses;

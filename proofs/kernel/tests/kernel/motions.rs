@@ -104,7 +104,7 @@ fn texts(x: &[f64]) -> String {
 }
 
 /// Nine decimals at most.
-fn decimal(x: f64) -> String {
+pub fn decimal(x: f64) -> String {
     let text = format!("{x:.9}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }.to_owned()

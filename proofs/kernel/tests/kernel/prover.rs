@@ -11,7 +11,7 @@ use orthocert_kernel::certificate::{
 use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
@@ -45,16 +45,18 @@ type Point<'p> = &'p dyn Fn(Formula) -> Option<f64>;
 pub struct Prover<'a> {
     pub problem: &'a Problem,
     checker: Checker<'a, Rough>,
+    parameters: Vec<Pair>,
     root: Cell<i64>,
 }
 
 impl<'a> Prover<'a> {
     pub fn new(problem: &'a Problem) -> Self {
         let parameters = problem.parameters::<BigInt>(96, &[]).expect("parameters");
-        let parameters = parameters.iter().map(|x| double(x, 96)).collect();
+        let parameters: Vec<Pair> = parameters.iter().map(|x| double(x, 96)).collect();
         let tight = problem.tight::<BigInt>(96).map(|q| q.map(|q| double(&q, 96)));
         let root = problem.root(BITS).expect("root");
-        Prover { problem, checker: Checker::new(problem, &Rough, parameters, tight), root }
+        let checker = Checker::new(problem, &Rough, parameters.clone(), tight);
+        Prover { problem, checker, parameters, root }
     }
 
     /// `A_i` and `D_i`, in the middle.
@@ -342,14 +344,32 @@ impl<'a> Prover<'a> {
         })
     }
 
+    /// The box of the problem.
+    pub fn ranges(&self) -> Vec<(f64, f64)> {
+        let scale = (-f64::from(BITS)).exp2();
+        self.root.0.iter().map(|x| (x.lo as f64 * scale, x.hi as f64 * scale)).collect()
+    }
+
+    /// Whether a point of the box is in the workspace.
+    pub fn is_inside(&self, x: &[f64]) -> bool {
+        let values = self.values(x);
+        let own = self.problem.inside.as_ref().map(|inside| inside.g);
+        let own = own.into_iter().chain(self.problem.turned);
+        own.into_iter().all(|g| values.of(g).is_some_and(|g| g.0 >= -1e-12))
+    }
+
+    /// The formulas at a point in the unit of the problem.
+    pub fn values(&self, x: &[f64]) -> Values<Pair> {
+        self.problem.tape.run(&Rough, |op| match op {
+            Op::Coordinate(k) => Some((x[k], x[k])),
+            Op::Parameter(j) => Some(self.parameters[j]),
+            _ => None,
+        })
+    }
+
     /// `M` at a point in the unit of the problem.
     pub fn matrix(&self, x: &[f64]) -> Option<DMatrix<f64>> {
-        let parameters = self.problem.parameters::<BigInt>(96, &[]).expect("parameters");
-        let values = self.problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some((x[k], x[k])),
-            Op::Parameter(j) => Some(double(&parameters[j], 96)),
-            _ => None,
-        });
+        let values = self.values(x);
         let mut m = DMatrix::zeros(self.problem.legs.len(), x.len());
         for (i, leg) in self.problem.legs.iter().enumerate() {
             for (k, a) in leg.divided.a.iter().enumerate() {
