@@ -13,5 +13,6 @@ mod rough;
 mod sampled;
 mod slopes;
 mod statements;
+mod turned;
 mod turning;
 mod witnesses;

@@ -9,18 +9,18 @@ use orthocert_kernel::check::check;
 use orthocert_kernel::problem::Problem;
 
 /// A point of a circle.
-fn on_circle(radius: f64, degrees: f64) -> String {
+pub fn on_circle(radius: f64, degrees: f64) -> String {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let of = |x: f64| decimal((x * radius * 1e6).round() / 1e6);
     format!(r#""{}","{}""#, of(cos), of(sin))
 }
 
-fn strut(anchor: &str, platform: &str) -> String {
+pub fn strut(anchor: &str, platform: &str) -> String {
     format!(r#"{{"drive":"strut","anchor":[{anchor}],"platform":[{platform}]}}"#)
 }
 
 /// Base radius 1, platform radius 1/2, pairs of joints 20 degrees apart.
-fn hexapod_legs() -> Vec<String> {
+pub fn hexapod_legs() -> Vec<String> {
     let leg = |i: usize| {
         let (pair, side) = ((i / 2) as f64 * 120.0, if i.is_multiple_of(2) { -1.0 } else { 1.0 });
         let base = on_circle(1.0, pair + side * 10.0);
@@ -31,7 +31,7 @@ fn hexapod_legs() -> Vec<String> {
     (0..6).map(leg).collect()
 }
 
-fn spatial(legs: &[String], orientation: &str, require: &str) -> String {
+pub fn spatial(legs: &[String], orientation: &str, require: &str) -> String {
     format!(
         r#"{{"mechanism":{{"spatial":{{"legs":[{}],"characteristic_length":"1"}}}},"workspace":{{"box":{{"min":["-0.2","-0.2","0.8"],"max":["0.2","0.2","1.2"]}}}},"orientation":{orientation},"require":[{require}]}}"#,
         legs.join(",")
@@ -39,7 +39,7 @@ fn spatial(legs: &[String], orientation: &str, require: &str) -> String {
 }
 
 /// `psi <= 1/sigma` for the least, or `psi >= 1/sigma` for the greatest singular value.
-fn psi(end: &str, sigma: f64) -> String {
+pub fn psi(end: &str, sigma: f64) -> String {
     let bound = decimal((1e6 / sigma).round() / 1e6);
     format!(r#"{{"quantity":"transmission","end":"{end}","bound":"{bound}"}}"#)
 }
@@ -65,7 +65,7 @@ fn least(text: &str) -> f64 {
     least
 }
 
-const FIFTEEN: &str =
+pub const FIFTEEN: &str =
     r#"{"roll_pitch_yaw":{"roll":["-15","15"],"pitch":["-15","15"],"yaw":["-15","15"]}}"#;
 
 #[test]
@@ -108,7 +108,7 @@ fn workspaces_with_singularities_are_not_proved() {
         (&hexapod_legs(), yaw),
         (&hexapod_legs(), r#"{"tilt":{"tilt":"5","torsion":"95"}}"#),
     ] {
-        assert!(certify(&claim(&spatial(legs, orientation, "")), 40).is_none(), "{orientation}");
+        assert!(certify(&claim(&spatial(legs, orientation, "")), 9).is_none(), "{orientation}");
     }
 }
 
@@ -188,12 +188,11 @@ fn what_control_points_show_holds_at_sampled_poses() {
                 }
                 let s = prover.matrix(&x).expect("a pose").singular_values();
                 let holds =
-                    if which == 0 { s.min() >= bound - 1e-4 } else { s.max() <= bound + 1e-4 };
+                    if which == 0 { s.min() >= bound - 1e-5 } else { s.max() <= bound + 1e-5 };
                 assert!(holds, "{end} {bound}: {} {}", s.min(), s.max());
             }
         }
     }
-    println!("{passed:?}");
     assert!(passed[0] > 15 && passed[1] > 15, "{passed:?}");
 }
 
@@ -205,9 +204,8 @@ fn quantities_of_a_hexapod() {
         {"quantity":"joint_range","leg":2,"end":"max","bound":"1.7"},
         {"quantity":"conditioning","end":"max","bound":"12"},
         {"quantity":"joint_speed","given":{"tool":["1"]},"end":"max","bound":"2"}"#;
-    let (found, outside, certificate) =
+    let (found, _, certificate) =
         leaves(&spatial(&hexapod_legs(), r#"{"angle":"10"}"#, require), 200);
-    println!("{found} + {outside}");
     let Proof::Tree(tree) = &certificate.proof else { panic!("a tree") };
     let mut steps = tree.nodes.iter().flat_map(|node| &node.by);
     assert!(steps.any(|Step(_, evidence)| matches!(evidence, Evidence::Control(_))));
@@ -237,7 +235,7 @@ fn tolerances_and_a_seventh_strut() {
     assert!(leaves(&text(&legs), 20).0 <= 3);
 }
 
-fn planar(legs: &[String], workspace: [&str; 2], turned: &str, require: &str) -> String {
+pub fn planar(legs: &[String], workspace: [&str; 2], turned: &str, require: &str) -> String {
     let (ell, orientation) = match turned {
         "" => ("", String::new()),
         range => (
@@ -253,7 +251,7 @@ fn planar(legs: &[String], workspace: [&str; 2], turned: &str, require: &str) ->
     )
 }
 
-fn arm(anchor: &str, platform: &str, mode: &str) -> String {
+pub fn arm(anchor: &str, platform: &str, mode: &str) -> String {
     format!(
         r#"{{"drive":"arm","axis":[],"reference":["1","0"],"anchor":[{anchor}],"platform":[{platform}],"arm":"0.8","length":"0.9","mode":"{mode}"}}"#
     )
@@ -277,17 +275,17 @@ fn machines_in_the_plane() {
         .to_vec();
     let small = [r#""-0.1","-0.1""#, r#""0.1","0.1""#];
     let found = leaves(&planar(&arms, small, r#""-10","10""#, ""), 400).0;
-    println!("3-RRR {found}");
+    assert!(found <= 8, "{found}");
     let five_bar =
         [arm(r#""-0.4","0""#, r#""0","0""#, "+"), arm(r#""0.4","0""#, r#""0","0""#, "-")];
     let require = r#"{"quantity":"transmission","end":"max","bound":"2"},
         {"quantity":"parallel_margin","end":"min","bound":"0.2"}"#;
     let high = [r#""-0.2","1""#, r#""0.2","1.2""#];
     let found = leaves(&planar(&five_bar, high, "", require), 400).0;
-    println!("five-bar {found}");
+    assert!(found <= 4, "{found}");
 }
 
-fn spherical(orientation: &str, require: &str) -> String {
+pub fn spherical(orientation: &str, require: &str) -> String {
     let leg = |at: f64| {
         let (base, platform) = (on_circle(1.0, at), on_circle(0.8, at + 100.0));
         strut(&format!(r#"{base},"-0.5""#), &format!(r#"{platform},"0.4""#))
@@ -304,7 +302,6 @@ fn machines_about_a_point() {
         let sigma = least(&spherical(orientation, ""));
         assert_eq!(leaves(&spherical(orientation, ""), 10).0, 1);
         let found = leaves(&spherical(orientation, &psi("max", 0.95 * sigma)), 60).0;
-        println!("spherical {found}");
         assert!(found <= most, "{found}");
     }
 }
@@ -323,5 +320,5 @@ fn sliders_that_turn_a_platform() {
     let legs: Vec<String> = (0..6).map(leg).collect();
     let text = spatial(&legs, r#"{"angle":"3"}"#, "").replace("0.2\"", "0.05\"");
     let found = leaves(&text.replace("\"0.8\"", "\"0.95\"").replace("\"1.2\"]", "\"1.05\"]"), 400);
-    println!("sliders {} + {}", found.0, found.1);
+    assert_eq!(found.0, 1);
 }
