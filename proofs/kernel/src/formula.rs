@@ -168,6 +168,15 @@ impl Tape {
         }
     }
 
+    /// `(a - b)^2`, expanded.
+    pub fn expanded(&mut self, a: Formula, b: Formula) -> Formula {
+        let two = self.integer(2);
+        let (square, twice, other) = (self.sqr(a), self.mul(two, b), self.sqr(b));
+        let mixed = self.mul(twice, a);
+        let less = self.sub(square, mixed);
+        self.add(less, other)
+    }
+
     /// `a^2` without the roots that are factors of `a`: the same number where `a` is defined, and
     /// with better slopes.
     pub fn square_without_roots(&mut self, a: Formula) -> Formula {

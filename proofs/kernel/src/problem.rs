@@ -242,8 +242,13 @@ fn inside(builder: &mut Builder, workspace: &Workspace) -> Option<Inside> {
     for (k, center) in center.iter().enumerate() {
         let center = builder.number("workspace.center", center, scale);
         let x = builder.tape.coordinate(k);
-        let off = builder.tape.sub(x, center);
-        let off = builder.tape.sqr(off);
+        // Control points want squares of coordinates alone.
+        let off = if builder.turns {
+            builder.tape.expanded(x, center)
+        } else {
+            let off = builder.tape.sub(x, center);
+            builder.tape.sqr(off)
+        };
         g = builder.tape.sub(g, off);
     }
     let gradient = builder.tape.gradient(g, 3).numerators;

@@ -130,10 +130,7 @@ impl Motion {
         // |P - a|^2 + |b|^2, in squares of coordinates alone.
         let mut square = tape.norm_squared(b);
         for (&p, &a) in self.position.iter().zip(a) {
-            let (own, twice, constant) = (tape.sqr(p), tape.mul(two, a), tape.sqr(a));
-            let mixed = tape.mul(twice, p);
-            let part = tape.sub(own, mixed);
-            let part = tape.add(part, constant);
+            let part = tape.expanded(p, a);
             square = tape.add(square, part);
         }
         let (own, mixed) = (tape.mul(turn.weight, square), tape.dot(&n, from_base));

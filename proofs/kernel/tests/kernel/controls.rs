@@ -71,7 +71,7 @@ fn values_lie_between_those_of_control_points_with_the_same_weights() {
         // Any combination of the formulas lies between its values at the control points.
         let factors: Vec<i64> = of_form.iter().map(|_| random.below(7) as i64 - 3).collect();
         let mut range: Option<[BigInt; 2]> = None;
-        let done = control.all(&fixed, &[parameter.clone()], &edges, |at| {
+        let done = control.all(&fixed, std::slice::from_ref(&parameter), &edges, |at| {
             let mut sum = [BigInt::from(0), BigInt::from(0)];
             for (&f, &factor) in of_form.iter().zip(&factors) {
                 let x = at.of(f).expect("defined");

@@ -121,7 +121,7 @@ fn thousandths(random: &mut Random, from: i64, to: i64) -> f64 {
 fn what_control_points_show_holds_at_sampled_poses() {
     let mut random = Random(31);
     let mut passed = [0; 2];
-    for round in 0..60 {
+    for round in 0..36 {
         let mut point = |radius: i64, height: i64| {
             let at = thousandths(&mut random, 0, 360_000);
             let height = thousandths(&mut random, -height, height);
@@ -193,7 +193,7 @@ fn what_control_points_show_holds_at_sampled_poses() {
             }
         }
     }
-    assert!(passed[0] > 15 && passed[1] > 15, "{passed:?}");
+    assert!(passed[0] > 12 && passed[1] > 12, "{passed:?}");
 }
 
 #[test]
@@ -321,4 +321,20 @@ fn sliders_that_turn_a_platform() {
     let text = spatial(&legs, r#"{"angle":"3"}"#, "").replace("0.2\"", "0.05\"");
     let found = leaves(&text.replace("\"0.8\"", "\"0.95\"").replace("\"1.2\"]", "\"1.05\"]"), 400);
     assert_eq!(found.0, 1);
+}
+
+#[test]
+fn a_hexapod_over_a_cylinder() {
+    let round = r#"{"cylinder":{"center":["0.01","-0.02"],"radius":"0.25","z":["0.8","1.2"]}}"#;
+    let text = spatial(&hexapod_legs(), FIFTEEN, &psi("max", 0.25));
+    let square = r#"{"box":{"min":["-0.2","-0.2","0.8"],"max":["0.2","0.2","1.2"]}}"#;
+    let (found, _, certificate) = leaves(&text.replace(square, round), 40);
+    let Proof::Tree(tree) = &certificate.proof else { panic!("a tree") };
+    let mut steps = tree.nodes.iter().flat_map(|node| &node.by);
+    let inside = |evidence: &Evidence| match evidence {
+        Evidence::Control(evidence) => matches!(**evidence, Evidence::Inside(..)),
+        _ => false,
+    };
+    assert!(steps.any(|Step(_, evidence)| inside(evidence)));
+    assert!(found <= 20, "{found}");
 }
