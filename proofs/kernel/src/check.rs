@@ -5,7 +5,7 @@ use crate::cell::{evaluate, Vertex};
 use crate::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
-use crate::control::Control;
+use crate::control::{Control, Controls};
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer};
 use crate::formula::{Formula, Op, Values};
@@ -13,7 +13,9 @@ use crate::input::ClaimError;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::{at_least, full_rank, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
+use crate::test::{
+    at_least, at_least_there, full_rank, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES,
+};
 use crate::witness::{self, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
@@ -152,14 +154,17 @@ fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected
 
 /// Checks steps; in another arithmetic than [`Fixed`], proposes them.
 pub struct Checker<'a, E: Enclosure> {
-    pub(crate) problem: &'a Problem,
-    pub(crate) arithmetic: &'a E,
-    pub(crate) parameters: Vec<E::Number>,
+    problem: &'a Problem,
+    arithmetic: &'a E,
+    parameters: Vec<E::Number>,
     /// `q_1` and `q_2` of the paper's cube.
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
     divided: Vec<Row<Formula>>,
-    pub(crate) controls: Vec<(Test, Control)>,
+    /// Of platforms that turn, if all legs have them.
+    scaled: Vec<Row<Formula>>,
+    /// One for each obligation of platforms that turn.
+    controls: Vec<(Test, Control)>,
 }
 
 /// Where a step is made.
@@ -180,8 +185,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Self {
         let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
-        let controls = problem.controls();
-        Checker { problem, arithmetic, parameters, tight, rows, divided, controls }
+        let scaled = problem.scaled();
+        let controls = problem.controls(&scaled);
+        Checker { problem, arithmetic, parameters, tight, rows, divided, scaled, controls }
     }
 
     /// The formulas over a cell.
@@ -198,7 +204,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Result<(), Rejected> {
         let values = self.evaluate(place.edges);
         let slopes = Slopes { arithmetic: self.arithmetic, m: place.edges.len() };
-        let over = Over { slopes, values: &values, inside: None };
+        let over = Over { slopes, values: &values, controls: None, inside: None };
         for Step(obligation, evidence) in &node.by {
             let (node, obligation) = (at, *obligation);
             if *evidence == Evidence::Outside {
@@ -229,8 +235,17 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         evidence: &Evidence,
     ) -> bool {
         let constant = |f: Formula| move |_| over.of(f).map(|f| f.range.clone());
+        let scaled = |f: Formula| move |v| self.scaled(over, over.of(f)?.range.clone(), v);
+        let rows = if over.controls.is_some() { &self.scaled } else { &self.rows };
         match (test, evidence) {
-            (test, Evidence::Control(evidence)) => self.shows_at_controls(place, test, evidence),
+            (test, Evidence::Control(evidence)) => {
+                over.controls.is_none()
+                    && over.inside.is_none()
+                    && self.controls(place, test).is_some_and(|controls| {
+                        let over = Over { controls: Some(&controls), inside: None, ..*over };
+                        self.shows(&over, place, test, evidence)
+                    })
+            }
             (test, Evidence::Turned(evidence, multiple, places)) => {
                 use Evidence::{Control, Corner, Turned};
                 let plain = !matches!(**evidence, Turned(..) | Control(_) | Corner(_));
@@ -240,25 +255,31 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (test, Evidence::Inside(evidence, multiple, places)) => {
                 use Evidence::{Control, Corner, Inside, Turned};
                 let plain = !matches!(**evidence, Inside(..) | Turned(..) | Control(_) | Corner(_));
-                let inside = self.tangent(over, place, (*multiple, *places));
+                let inside = self.inside(over, place, (*multiple, *places));
                 plain && self.shows_less(over, place, test, evidence, inside)
             }
             (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
-                self.is_zero(kappa) && self.is_defined(over) && full_rank(over, &self.rows, y)
+                let zero = self.problem.tape.op(kappa) == Op::Integer(0);
+                zero && self.is_defined(over) && full_rank(over, rows, y)
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
-                self.is_defined(over) && sigma_min(over, &self.rows, &constant(kappa), y)
+                self.is_defined(over) && sigma_min(over, rows, &scaled(kappa), y)
             }
+            (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, rows, &scaled(k)),
+            (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
+                self.conditioning(over, rows, c, (y, mu))
+            }
+            (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
+                at_least_there(over, f)
+            }
+            // What follows knows of vertices alone.
+            _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
                 self.is_defined(over) && sigma_min(over, &self.divided, &constant(kappa), y)
             }
             (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
-            (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, &self.rows, &constant(k)),
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
-            (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                self.conditioning(over, c, (y, mu))
-            }
             (Test::AtLeast(f), Evidence::Test) => over.of(f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
                 let rest = || {
@@ -281,24 +302,23 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         place: &Place<'_, E::Number>,
         test: Test,
         evidence: &Evidence,
-        less: Option<Slope<E::Number>>,
+        less: Option<Vec<E::Number>>,
     ) -> bool {
-        let sum = || {
-            let mut sum = less?;
-            let Some(other) = &over.inside else { return Some(sum) };
-            sum.at_centre = self.arithmetic.add(&sum.at_centre, &other.at_centre)?;
-            for (own, other) in sum.slopes.iter_mut().zip(&other.slopes) {
-                *own = self.arithmetic.add(own, other)?;
-            }
-            Some(sum)
-        };
-        sum().is_some_and(|sum| {
+        let sum = less.and_then(|less| match &over.inside {
+            None => Some(less),
+            Some(other) => less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect(),
+        });
+        sum.is_some_and(|sum| {
             self.shows(&Over { inside: Some(sum), ..*over }, place, test, evidence)
         })
     }
 
-    pub(crate) fn is_zero(&self, formula: Formula) -> bool {
-        self.problem.tape.op(formula) == Op::Integer(0)
+    /// A bound on squares, of the scaled rows times their weight.
+    fn scaled(&self, over: &Over<'_, E>, bound: E::Number, v: Vertex) -> Option<E::Number> {
+        match over.controls {
+            None => Some(bound),
+            Some(_) => self.arithmetic.mul(&bound, &over.at(self.problem.weight?, v)?),
+        }
     }
 
     /// Whether a user's formulas are defined on all of the cell, used or not.
@@ -308,14 +328,16 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:
     /// `sigma_min^2 >= mu`, `sigma_max^2 <= c^2 mu` for the same convex combination `mu` of the `mu_v`.
+    /// At control points `mu_0` alone: they have no `v`, and `mu` times the weight has not their form.
     fn conditioning(
         &self,
         over: &Over<'_, E>,
+        rows: &[Row<Formula>],
         c_squared: Formula,
         (y, mu): (&Multiplier, &[i64]),
     ) -> bool {
-        let Some((first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == over.slopes.m)
-        else {
+        let terms = if over.controls.is_some() { 0 } else { over.slopes.m };
+        let Some((first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
             return false;
         };
         let mu = |v: Vertex| {
@@ -325,10 +347,11 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             });
             self.arithmetic.dyadic(n.filter(|&n| n > 0)?, y.places, &self.arithmetic.integer(1)?)
         };
-        let greatest = |v| self.arithmetic.mul(&over.of(c_squared)?.range, &mu(v)?);
+        let least = |v| self.scaled(over, mu(v)?, v);
+        let greatest = |v| self.arithmetic.mul(&over.of(c_squared)?.range, &least(v)?);
         y.places < MOST_PLACES
-            && sigma_min(over, &self.rows, &mu, y)
-            && sigma_max(over, &self.rows, &greatest)
+            && sigma_min(over, rows, &least, y)
+            && sigma_max(over, rows, &greatest)
     }
 
     /// `mu t` for the tangent `t` of the workspace's own inequality at the cell's centre.
@@ -342,35 +365,74 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         place: &Place<'_, E::Number>,
         (multiple, places): (i64, u32),
     ) -> Option<Slope<E::Number>> {
+        if multiple < 0 || places >= MOST_PLACES {
+            return None;
+        }
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
         let e = self.arithmetic;
         let mut tangent = over.slopes.constant(over.of(*g)?.at_centre.clone())?;
         for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(place.edges)
         {
-            *slope = e.mul(&over.of(f)?.at_centre, half)?;
+            *slope = e.dyadic(multiple, places, &e.mul(&over.of(f)?.at_centre, half)?)?;
         }
-        self.multiple(tangent, (multiple, places))
+        tangent.at_centre = e.dyadic(multiple, places, &tangent.at_centre)?;
+        Some(tangent)
     }
 
-    /// `mu g` for the orientations' own inequality `g >= 0`, by the slopes of `g`: its values at the
-    /// vertices are then weighted to `g(x)` itself, and `g` need not be concave.
-    fn turned(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Slope<E::Number>> {
-        self.multiple(over.of(self.problem.turned?)?.clone(), mu)
-    }
-
-    /// `mu f`, for a dyadic number `mu >= 0`; what it is at vertices.
-    fn multiple(
+    /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
+    fn inside(
         &self,
-        mut f: Slope<E::Number>,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        mu: (i64, u32),
+    ) -> Option<Vec<E::Number>> {
+        if over.controls.is_some() {
+            return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
+        }
+        let tangent = self.tangent(over, place, mu)?;
+        over.vertices().map(|v| v.value(&over.slopes, &tangent)).collect()
+    }
+
+    /// `mu g` for the orientations' own inequality `g >= 0`. Its values at the vertices are those of its
+    /// slopes, not of `g` itself: their weighted sum is `g(x)`, and `g` need not be concave.
+    fn turned(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Vec<E::Number>> {
+        self.multiples(over, self.problem.turned?, mu)
+    }
+
+    /// `mu f`, for a dyadic number `mu >= 0`, at the vertices or control points.
+    fn multiples(
+        &self,
+        over: &Over<'_, E>,
+        f: Formula,
         (multiple, places): (i64, u32),
-    ) -> Option<Slope<E::Number>> {
+    ) -> Option<Vec<E::Number>> {
         if multiple < 0 || places >= MOST_PLACES {
             return None;
         }
-        for part in f.slopes.iter_mut().chain([&mut f.at_centre, &mut f.range]) {
-            *part = self.arithmetic.dyadic(multiple, places, part)?;
-        }
-        Some(f)
+        let at = |v| self.arithmetic.dyadic(multiple, places, &over.at(f, v)?);
+        over.vertices().map(at).collect()
+    }
+
+    /// The formulas of a test at control points, where it has such.
+    pub fn controls(
+        &self,
+        place: &Place<'_, E::Number>,
+        test: Test,
+    ) -> Option<Controls<E::Number>> {
+        let (_, control) = self.controls.iter().find(|(own, _)| *own == test)?;
+        control.values(self.arithmetic, &self.parameters, place.edges)
+    }
+
+    /// Evaluations of formulas that a tree asks for at control points.
+    fn work_at_controls(&self, tree: &Tree) -> usize {
+        let steps = tree.nodes.iter().flat_map(|node| &node.by);
+        let work = |Step(obligation, evidence): &Step| match evidence {
+            Evidence::Control(_) => {
+                self.controls.get(*obligation).map_or(0, |(_, control)| control.work())
+            }
+            _ => 0,
+        };
+        steps.map(work).fold(0, usize::saturating_add)
     }
 
     /// Whether the cell has no point of the workspace: the tangent is negative at all vertices, or the

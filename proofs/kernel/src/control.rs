@@ -28,7 +28,7 @@
 //! nothing is lost to slopes.
 
 use crate::arithmetic::Enclosure;
-use crate::formula::{Formula, Op, Tape, Values};
+use crate::formula::{Formula, Op, Tape};
 use crate::slope::MOST_COORDINATES;
 use std::collections::HashMap;
 
@@ -76,53 +76,55 @@ impl Control {
         points.saturating_mul(self.tape.ops().len())
     }
 
-    /// Whether something holds at all control points; `edges` has, for each coordinate, the cell's
-    /// centre, range and half-width.
-    pub fn all<E: Enclosure>(
+    /// Values at all control points; `edges` has, for each coordinate, the cell's centre, range and
+    /// half-width.
+    pub fn values<E: Enclosure>(
         &self,
         e: &E,
         parameters: &[E::Number],
         edges: &[[E::Number; 3]],
-        mut holds: impl FnMut(&At<'_, E::Number>) -> bool,
-    ) -> bool {
+    ) -> Option<Controls<E::Number>> {
         let nodes = |(range, &degree): (&[E::Number; 3], &u8)| nodes(e, &range[1], degree);
-        let nodes = edges.iter().zip(&self.degrees).map(nodes).collect::<Option<Vec<_>>>();
-        let Some(nodes) = nodes.filter(|nodes| nodes.len() == self.m) else { return false };
+        let nodes = edges.iter().zip(&self.degrees).map(nodes).collect::<Option<Vec<_>>>()?;
         let points: usize = nodes.iter().map(Vec::len).product();
-        (0..points).all(|point| {
-            let mut rest = point;
-            let mut own = Vec::with_capacity(2 * self.m);
+        let mut values: HashMap<Formula, Vec<Option<E::Number>>> = HashMap::new();
+        for point in 0..points {
+            let (mut rest, mut own) = (point, Vec::with_capacity(nodes.len()));
             for nodes in &nodes {
-                own.push(&nodes[rest % nodes.len()]);
+                own.push(nodes.get(rest % nodes.len())?);
                 rest /= nodes.len();
             }
-            let values = self.tape.run(e, |op| match op {
-                Op::Coordinate(k) if k < self.m => Some(own[k][0].clone()),
-                Op::Coordinate(k) => Some(own.get(k - self.m)?[1].clone()),
+            let at = self.tape.run(e, |op| match op {
+                Op::Coordinate(k) if k < self.m => own.get(k).map(|[lin, _]| lin.clone()),
+                Op::Coordinate(k) => own.get(k - self.m).map(|[_, square]| square.clone()),
                 Op::Parameter(j) => parameters.get(j).cloned(),
                 _ => None,
             });
-            holds(&At { images: &self.images, values })
-        })
+            for (&f, (image, _)) in &self.images {
+                values.entry(f).or_default().push(at.of(*image).cloned());
+            }
+        }
+        Some(Controls { points, values })
     }
 }
 
-/// The formulas at a control point.
-pub struct At<'a, N> {
-    images: &'a HashMap<Formula, (Formula, Degrees)>,
-    values: Values<N>,
+/// Formulas at the control points of a cell.
+#[derive(Clone, Debug)]
+pub struct Controls<N> {
+    points: usize,
+    values: HashMap<Formula, Vec<Option<N>>>,
 }
 
-impl<N> At<'_, N> {
-    /// Encloses `f_j`; `None` where the formula has not the form.
-    pub fn of(&self, formula: Formula) -> Option<&N> {
-        self.values.of(self.images.get(&formula)?.0)
+impl<N> Controls<N> {
+    /// How many points there are.
+    #[allow(clippy::len_without_is_empty, reason = "there is one at least")]
+    pub fn len(&self) -> usize {
+        self.points
     }
 
-    /// Encloses a formula that depends on no coordinate: a product with one still has the form.
-    pub fn constant(&self, formula: Formula) -> Option<&N> {
-        self.images.get(&formula).filter(|(_, degrees)| *degrees == CONSTANT)?;
-        self.of(formula)
+    /// Encloses `f_j`; `None` where it is not defined, or the formula has not the form.
+    pub fn at(&self, formula: Formula, j: usize) -> Option<&N> {
+        self.values.get(&formula)?.get(j)?.as_ref()
     }
 }
 

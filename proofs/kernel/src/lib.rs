@@ -31,7 +31,6 @@ pub mod check;
 pub mod claim;
 mod compile;
 pub mod control;
-mod controlled;
 mod cube;
 pub mod definite;
 pub mod fixed;

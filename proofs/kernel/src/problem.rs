@@ -3,6 +3,7 @@
 use crate::cell::Cell;
 use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_LEGS};
+use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Op, Tape};
@@ -12,7 +13,8 @@ use crate::input::{
 };
 use crate::machine;
 use crate::number::{Expression, Operator};
-use crate::quantity::{self, Obligation};
+use crate::quantity::{self, Obligation, Test};
+use crate::test::Row;
 use num_bigint::BigInt;
 
 /// A claim, compiled.
@@ -197,6 +199,31 @@ impl Problem {
         self.cube_kappa?;
         let of = |corner: &[Expression]| narrowed(&enclosed(corner.first()?, self.scale, bits)?);
         Some([of(&self.corners[0])?, of(&self.corners[1])?])
+    }
+
+    /// The scaled rows; none unless all legs have them.
+    pub(crate) fn scaled(&self) -> Vec<Row<Formula>> {
+        let rows = self.legs.iter().map(|leg| leg.scaled.clone());
+        rows.collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// Of each obligation of a platform that turns, the formulas that it needs at control points.
+    pub(crate) fn controls(&self, rows: &[Row<Formula>]) -> Vec<(Test, Control)> {
+        let Some(weight) = self.weight else { return Vec::new() };
+        let own = |Obligation { test, .. }: &Obligation| {
+            let mut wanted: Vec<Formula> = match *test {
+                Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+                    let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
+                    all.copied().chain([weight]).collect()
+                }
+                Test::AtLeast(f) => vec![f],
+                Test::Beyond(..) => Vec::new(),
+            };
+            wanted.extend(self.turned);
+            wanted.extend(self.inside.as_ref().map(|inside| inside.g));
+            (*test, Control::new(&self.tape, self.dimension(), &wanted))
+        };
+        self.obligations.iter().map(own).collect()
     }
 
     /// A point of the workspace in the problem's unit, and coordinates of orientation.

@@ -11,11 +11,13 @@
 //! | [`full_rank`] | `sigma_min(M) > 0` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
 //!
-//! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
-//! statements about one machine, and hold for each whose formulas are in the enclosures.
+//! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]), or, of polynomials,
+//! its control points ([`crate::control`]); they are statements about one machine, and hold for each whose
+//! formulas are in the enclosures.
 
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
+use crate::control::Controls;
 use crate::definite::{eliminated, is_positive_definite, Triangle};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
@@ -49,13 +51,16 @@ pub struct Over<'a, E: Enclosure> {
     pub slopes: Slopes<'a, E>,
     /// Their values.
     pub values: &'a Values<Slope<E::Number>>,
-    /// A formula that is not negative at the cell's points in the workspace, where one is used: what is
-    /// shown at the vertices is then shown less its value there (the S-procedure).
+    /// The formulas at control points, where these are used in place of vertices.
+    pub controls: Option<&'a Controls<E::Number>>,
+    /// The values at the vertices of a formula that is not negative at the cell's points in the
+    /// workspace, where one is used: what is shown at the vertices is then shown less these (the
+    /// S-procedure).
     ///
     /// **Lemma.** If `f_v - t_v` is positive (definite: `F_v - t_v I`) at the vertices, `f` is positive
     /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
     /// combination of these, and `t(x) >= 0`. ∎
-    pub inside: Option<Slope<E::Number>>,
+    pub inside: Option<Vec<E::Number>>,
 }
 
 /// What a bound is at a vertex.
@@ -67,17 +72,30 @@ impl<E: Enclosure> Over<'_, E> {
         self.values.of(formula)
     }
 
+    /// The vertices, or control points.
+    pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
+        Vertex::first(self.controls.map_or(1 << self.slopes.m, Controls::len))
+    }
+
+    /// The value of a formula at a vertex, or control point.
+    pub fn at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
+        match self.controls {
+            None => vertex.value(&self.slopes, self.of(formula)?),
+            Some(controls) => controls.at(formula, vertex.index()).cloned(),
+        }
+    }
+
     /// `x - t_v`.
     fn less_inside(&self, x: E::Number, vertex: Vertex) -> Option<E::Number> {
         match &self.inside {
             None => Some(x),
-            Some(t) => self.slopes.arithmetic.sub(&x, &vertex.value(&self.slopes, t)?),
+            Some(t) => self.slopes.arithmetic.sub(&x, t.get(vertex.index())?),
         }
     }
 
     /// The rows at a vertex.
     fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Row<E::Number>>> {
-        let value = |f: &Formula| vertex.value(&self.slopes, self.of(*f)?);
+        let value = |f: &Formula| self.at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
             Some(Row { a, d: value(&row.d)? })
@@ -87,8 +105,11 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// Whether every `D_i` is positive on the cell.
     fn is_regular(&self, rows: &[Row<Formula>]) -> bool {
-        let positive = |d: &Slope<E::Number>| self.slopes.arithmetic.is_positive(&d.range);
-        rows.iter().all(|row| self.of(row.d).is_some_and(positive))
+        let positive = |d: &E::Number| self.slopes.arithmetic.is_positive(d);
+        rows.iter().all(|row| match self.controls {
+            None => self.of(row.d).is_some_and(|d| positive(&d.range)),
+            Some(_) => self.vertices().all(|v| self.at(row.d, v).is_some_and(|d| positive(&d))),
+        })
     }
 
     fn at_vertices(
@@ -97,13 +118,24 @@ impl<E: Enclosure> Over<'_, E> {
         holds: impl Fn(Vertex, Vec<Row<E::Number>>) -> bool,
     ) -> bool {
         let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
-        self.is_regular(rows) && Vertex::all(self.slopes.m).all(holds)
+        // No rows at all would have no singular value beyond any bound.
+        !rows.is_empty() && self.is_regular(rows) && self.vertices().all(holds)
     }
 }
 
-/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere.
+/// `f >= 0` on the cell if it is not negative at its vertices, or control points.
+pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
+    let holds = |v: Vertex| over.less_inside(over.at(f, v)?, v);
+    over.vertices().all(|v| holds(v).is_some_and(|x| over.slopes.arithmetic.is_nonnegative(&x)))
+}
+
+/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere. Not at control points, of which
+/// a slope knows nothing.
 pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: &Slope<E::Number>) -> bool {
     let e = over.slopes.arithmetic;
+    if over.controls.is_some() {
+        return false;
+    }
     if over.inside.is_none() {
         return e.is_nonnegative(&f.range);
     }
@@ -133,10 +165,10 @@ pub fn sigma_min<E: Enclosure>(
     kappa_squared: AtVertex<'_, E::Number>,
     evidence: &Multiplier,
 ) -> bool {
-    let (e, m) = (over.slopes.arithmetic, over.slopes.m);
+    let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
-        rest.is_some_and(|rest| is_lower(e, m, &rows, &rest, evidence))
+        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
     })
 }
 
@@ -150,26 +182,18 @@ pub fn full_rank<E: Enclosure>(
     rows: &[Row<Formula>],
     evidence: &Multiplier,
 ) -> bool {
-    let (e, m) = (over.slopes.arithmetic, over.slopes.m);
+    let Some(zero) = over.slopes.arithmetic.integer(0) else { return false };
     over.at_vertices(rows, |v, rows| {
-        let rest = e.integer(0).and_then(|zero| over.less_inside(zero, v));
-        let rows = without_d(e, rows);
-        rest.zip(rows).is_some_and(|(rest, rows)| is_lower(e, m, &rows, &rest, evidence))
+        let without_d = |row| Row { d: zero.clone(), ..row };
+        let rows: Vec<_> = rows.into_iter().map(without_d).collect();
+        let rest = over.less_inside(zero.clone(), v);
+        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
     })
 }
 
-/// The rows with zero for `D_i`.
-pub(crate) fn without_d<E: Enclosure>(
-    e: &E,
-    rows: Vec<Row<E::Number>>,
-) -> Option<Vec<Row<E::Number>>> {
-    rows.into_iter().map(|row| Some(Row { d: e.integer(0)?, ..row })).collect()
-}
-
 /// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite.
-pub(crate) fn is_lower<E: Enclosure>(
-    e: &E,
-    m: usize,
+fn is_lower<E: Enclosure>(
+    &Slopes { arithmetic: e, m }: &Slopes<'_, E>,
     rows: &[Row<E::Number>],
     rest: &E::Number,
     Multiplier { y, places }: &Multiplier,
@@ -223,23 +247,14 @@ pub fn sigma_max<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
-        bound.is_some_and(|bound| is_upper(e, over.slopes.m, &rows, &bound))
+        let start = bound.and_then(|bound| scalar(e, over.slopes.m, &bound));
+        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+        let rest = rows.iter().fold(start, |rest, row| {
+            let [least, _] = e.ends(&row.d);
+            let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
+            bordered.extend(rest?);
+            eliminated(e, bordered)
+        });
+        rest.is_some_and(|rest| is_positive_definite(e, rest))
     })
-}
-
-/// Whether `[[D, A], [A^T, bound I]]` is positive definite.
-pub(crate) fn is_upper<E: Enclosure>(
-    e: &E,
-    m: usize,
-    rows: &[Row<E::Number>],
-    bound: &E::Number,
-) -> bool {
-    // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-    let rest = rows.iter().fold(scalar(e, m, bound), |rest, row| {
-        let [least, _] = e.ends(&row.d);
-        let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
-        bordered.extend(rest?);
-        eliminated(e, bordered)
-    });
-    rest.is_some_and(|rest| is_positive_definite(e, rest))
 }

@@ -71,10 +71,12 @@ fn values_lie_between_those_of_control_points_with_the_same_weights() {
         // Any combination of the formulas lies between its values at the control points.
         let factors: Vec<i64> = of_form.iter().map(|_| random.below(7) as i64 - 3).collect();
         let mut range: Option<[BigInt; 2]> = None;
-        let done = control.all(&fixed, std::slice::from_ref(&parameter), &edges, |at| {
+        let controls = control.values(&fixed, std::slice::from_ref(&parameter), &edges);
+        let controls = controls.expect("values");
+        for j in 0..controls.len() {
             let mut sum = [BigInt::from(0), BigInt::from(0)];
             for (&f, &factor) in of_form.iter().zip(&factors) {
-                let x = at.of(f).expect("defined");
+                let x = controls.at(f, j).expect("defined");
                 let (lo, hi) = if factor < 0 { (&x.hi, &x.lo) } else { (&x.lo, &x.hi) };
                 sum = [&sum[0] + lo * factor, &sum[1] + hi * factor];
             }
@@ -82,9 +84,7 @@ fn values_lie_between_those_of_control_points_with_the_same_weights() {
                 None => sum,
                 Some([lo, hi]) => [lo.min(sum[0].clone()), hi.max(sum[1].clone())],
             });
-            true
-        });
-        assert!(done);
+        }
         let [lo, hi] = range.expect("a point").map(|x| x << 60);
         for _ in 0..12 {
             let x: Vec<BigInt> =
@@ -164,11 +164,8 @@ fn the_middle_of_a_square_is_not_on_the_parabola() {
     let one = 1i64 << BITS;
     let cell = Cell(vec![Interval { lo: 0, hi: one }]);
     let control = Control::new(&tape, 1, &[f]);
-    let mut values = Vec::new();
-    control.all(&fixed, &[], &cell.edges().expect("edges"), |at| {
-        values.push(at.of(f).expect("defined").clone());
-        true
-    });
-    assert_eq!(values.len(), 3);
+    let controls = control.values(&fixed, &[], &cell.edges().expect("edges")).expect("values");
+    assert_eq!(controls.len(), 3);
+    let values = [0, 1, 2].map(|j| controls.at(f, j).expect("defined"));
     assert!(values[0].lo > 0 && values[1].hi < 0 && values[2].lo > 0, "{values:?}");
 }

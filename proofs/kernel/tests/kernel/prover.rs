@@ -4,7 +4,7 @@ use crate::rough::{Pair, Rough};
 use nalgebra::{DMatrix, SymmetricEigen};
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
-use orthocert_kernel::cell::{Cell, Vertex};
+use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Provenance, Step, Tree, Verdict, FORMAT,
 };
@@ -152,55 +152,29 @@ impl<'a> Prover<'a> {
             return Some(evidence);
         }
         // Margins, and the inequality's values, point by point.
+        let form = if over.controls.is_some() { Form::Scaled } else { Form::Plain };
         let mut points = Vec::new();
-        let evidence: Box<dyn Fn(i64) -> Evidence> = if let Evidence::Control(own) = evidence {
-            let turned = self.problem.turned;
-            let g = turned.or(self.problem.inside.as_ref().map(|inside| inside.g))?;
-            let found = self.checker.at_controls(place, test, |at| {
-                let number = |f: Formula| at.of(f).map(|&x| middle(x));
-                let margin = self.margin(test, &own, Form::Scaled, &number);
-                points.extend(margin.zip(number(g)));
-                margin.is_some()
-            });
-            if !found {
-                return None;
-            }
-            Box::new(move |multiple| {
-                let own = own.clone();
-                Evidence::Control(Box::new(match turned {
-                    Some(_) => Evidence::Turned(own, multiple, 16),
-                    None => Evidence::Inside(own, multiple, 16),
-                }))
-            })
-        } else {
-            for v in Vertex::all(over.slopes.m) {
-                let number =
-                    |f: Formula| over.of(f).and_then(|f| v.value(&over.slopes, f)).map(middle);
-                let margin = self.margin(test, &evidence, Form::Plain, &number)?;
-                let g = match (self.problem.turned, &self.problem.inside) {
-                    (Some(g), _) => v.value(&over.slopes, over.of(g)?)?.1,
-                    (None, Some(inside)) => {
-                        let mut t = over.of(inside.g)?.at_centre.0;
-                        let gradient = inside.gradient.iter().zip(place.edges);
-                        for (k, (&f, [_, _, half])) in gradient.enumerate() {
-                            let by = over.of(f)?.at_centre.0 * half.0;
-                            t += if v.has(k) { by } else { -by };
-                        }
-                        t
+        for v in over.vertices() {
+            // Bounds are not among the formulas at control points.
+            let bound = |f: Formula| over.of(f).map(|f| f.range);
+            let number = |f: Formula| over.at(f, v).or_else(|| bound(f)).map(middle);
+            let margin = self.margin(test, &evidence, form, &number)?;
+            let g = match (self.problem.turned, &self.problem.inside) {
+                (Some(g), _) => over.at(g, v)?.1,
+                (None, Some(inside)) if over.controls.is_some() => over.at(inside.g, v)?.1,
+                (None, Some(inside)) => {
+                    let mut t = over.of(inside.g)?.at_centre.0;
+                    let gradient = inside.gradient.iter().zip(place.edges);
+                    for (k, (&f, [_, _, half])) in gradient.enumerate() {
+                        let by = over.of(f)?.at_centre.0 * half.0;
+                        t += if v.has(k) { by } else { -by };
                     }
-                    (None, None) => return None,
-                };
-                points.push((margin, g));
-            }
-            let turns = self.problem.turned.is_some();
-            Box::new(move |multiple| {
-                let own = Box::new(evidence.clone());
-                match turns {
-                    true => Evidence::Turned(own, multiple, 16),
-                    false => Evidence::Inside(own, multiple, 16),
+                    t
                 }
-            })
-        };
+                (None, None) => return None,
+            };
+            points.push((margin, g));
+        }
         let (mut low, mut high) = (0f64, f64::MAX);
         for (margin, t) in points {
             if t > 0.0 {
@@ -213,7 +187,11 @@ impl<'a> Prover<'a> {
             return None;
         }
         let multiple = if high > 1e6 { low * 2.0 + 1e-3 } else { (low + high) / 2.0 };
-        let evidence = evidence((multiple * 65536.0).round() as i64);
+        let multiple = (multiple * 65536.0).round() as i64;
+        let evidence = match self.problem.turned {
+            Some(_) => Evidence::Turned(Box::new(evidence), multiple, 16),
+            None => Evidence::Inside(Box::new(evidence), multiple, 16),
+        };
         self.checker.shows(over, place, test, &evidence).then_some(evidence)
     }
 
@@ -250,7 +228,12 @@ impl<'a> Prover<'a> {
                 }
                 Test::Beyond(..) => Vec::new(),
             };
-            tried.extend(own.into_iter().map(|own| Evidence::Control(Box::new(own))));
+            let controls = self.checker.controls(place, test)?;
+            let over = Over { controls: Some(&controls), inside: None, ..*over };
+            let found = own.into_iter().find_map(|own| self.shown(&over, place, test, own));
+            if let Some(found) = found {
+                return Some(Evidence::Control(Box::new(found)));
+            }
         }
         match test {
             Test::SigmaMin(kappa) => {
@@ -299,7 +282,7 @@ impl<'a> Prover<'a> {
             let place = Place { edges: &edges, touches: cell.touches(&self.root) };
             let values = self.checker.evaluate(&edges);
             let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
-            let over = Over { slopes, values: &values, inside: None };
+            let over = Over { slopes, values: &values, controls: None, inside: None };
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
             if cut && self.checker.is_outside(&over, &place) {
                 nodes.push(Node { by: vec![Step(0, Evidence::Outside)], split: None });

@@ -232,6 +232,26 @@ fn evidence_that_shows_less_than_it_says() {
     let mut certificate = bounded.clone();
     certificate.claim = Claim::Machine(claim(&text(FIFTEEN, &psi("max", 0.29))));
     assert!(check(&certificate).is_err());
+    // Sliders have no rows at control points: no bound holds of none.
+    let sliders: Vec<String> = crate::turning::slider_legs();
+    let near = |x: &str| x.replace("0.2\"", "0.05\"").replace("\"0.8\"", "\"0.95\"");
+    let require = [psi("min", 9.0), psi("max", 0.01)].join(",");
+    let slopes = proved(
+        &near(&text(r#"{"angle":"1"}"#, &require))
+            .replace(&hexapod_legs().join(","), &sliders.join(",")),
+    );
+    assert!(with(&slopes, |evidence| evidence));
+    let to_control = |which: fn(&Evidence) -> bool| {
+        with(&slopes, |evidence| if which(&evidence) { control(evidence) } else { evidence })
+    };
+    assert!(to_control(|_| false));
+    assert!(!to_control(|evidence| matches!(evidence, Evidence::Test)));
+    assert!(!to_control(|evidence| matches!(evidence, Evidence::Lower(_))));
+    let none = |evidence: Evidence| match evidence {
+        Evidence::Lower(y) => control(Evidence::Lower(Multiplier { y: vec![], ..y })),
+        other => other,
+    };
+    assert!(!with(&slopes, none));
     // Control points are of platforms that turn.
     let square = [r#""-0.1","-0.1""#, r#""0.1","0.1""#];
     let struts = [strut(r#""1","0""#, r#""0","0""#), strut(r#""0","1""#, r#""0","0""#)];

@@ -306,21 +306,25 @@ fn machines_about_a_point() {
     }
 }
 
-#[test]
-fn sliders_that_turn_a_platform() {
-    // Vertical guides: slopes in six coordinates.
+/// Vertical guides.
+pub fn slider_legs() -> Vec<String> {
     let leg = |i: usize| {
         let (pair, side) = ((i / 2) as f64 * 120.0, if i.is_multiple_of(2) { -1.0 } else { 1.0 });
-        let (base, platform) =
-            (on_circle(1.0, pair + side * 12.0), on_circle(0.4, pair + side * 50.0));
+        let base = on_circle(1.0, pair + side * 12.0);
+        let platform = on_circle(0.4, pair + side * 50.0);
         format!(
             r#"{{"drive":"slider","direction":["0","0","1"],"anchor":[{base},"0"],"platform":[{platform},"0"],"length":"1.2","mode":"-"}}"#
         )
     };
-    let legs: Vec<String> = (0..6).map(leg).collect();
-    let text = spatial(&legs, r#"{"angle":"3"}"#, "").replace("0.2\"", "0.05\"");
-    let found = leaves(&text.replace("\"0.8\"", "\"0.95\"").replace("\"1.2\"]", "\"1.05\"]"), 400);
-    assert_eq!(found.0, 1);
+    (0..6).map(leg).collect()
+}
+
+#[test]
+fn sliders_that_turn_a_platform() {
+    // Slopes in six coordinates.
+    let text = spatial(&slider_legs(), r#"{"angle":"3"}"#, "").replace("0.2\"", "0.05\"");
+    let text = text.replace("\"0.8\"", "\"0.95\"").replace("\"1.2\"]", "\"1.05\"]");
+    assert_eq!(leaves(&text, 400).0, 1);
 }
 
 #[test]
