@@ -9,6 +9,7 @@ use num_bigint::BigInt;
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
 
 type V = [f64; 3];
 type R = [V; 3];
@@ -221,9 +222,13 @@ fn rows_are_derivatives_in_the_twist() {
         let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
         let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
         let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+        let require = match which {
+            0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"}"#,
+            _ => "",
+        };
         let corner = |x: &str| vec![format!("\"{x}\""); motion.velocity.len()].join(",");
         let claim = claim(&format!(
-            r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[]}}"#,
+            r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{require}]}}"#,
             motion.mechanism,
             text.join(","),
             corner("-1"),
@@ -248,7 +253,7 @@ fn rows_are_derivatives_in_the_twist() {
         });
         let of = |f: Formula| values.of(f).map(|x| x.0);
         let r = rotation(motion.orientation, &c);
-        for (own, (_, [a, b], drive)) in problem.legs.iter().zip(&legs) {
+        for (i, (own, (_, [a, b], drive))) in problem.legs.iter().zip(&legs).enumerate() {
             let rho = |p: V, r: &R| {
                 let b = times(r, *b);
                 drive.rho([0, 1, 2].map(|k| p[k] + b[k] - a[k]))
@@ -270,9 +275,9 @@ fn rows_are_derivatives_in_the_twist() {
                 let [(p, r), (q, s)] = [move_by(h), move_by(-h)];
                 Some((rho(p, &r)? - rho(q, &s)?) / (2.0 * h))
             };
-            let mut expected = Vec::new();
+            let mut changes = Vec::new();
             for &k in motion.velocity {
-                expected.push(change(&|h| {
+                changes.push(change(&|h| {
                     let mut p = p;
                     p[k] += h;
                     (p, r)
@@ -280,9 +285,9 @@ fn rows_are_derivatives_in_the_twist() {
             }
             for &k in motion.spin {
                 // Of a twist whose second part is ell omega.
-                expected.push(change(&|h| (p, product(&about(AXES[k], h / 1.5), &r))));
+                changes.push(change(&|h| (p, product(&about(AXES[k], h / 1.5), &r))));
             }
-            for (found, expected) in row.iter().zip(&expected) {
+            for (found, expected) in row.iter().zip(&changes) {
                 let Some(expected) = expected else { continue };
                 assert!(
                     expected.abs() > 1e5
@@ -301,6 +306,10 @@ fn rows_are_derivatives_in_the_twist() {
                     assert!((of(f).expect("w A") - w * of(a).expect("A")).abs() < 1e-9);
                 }
                 assert!((of(scaled.d).expect("w D") - w * d).abs() < 1e-9);
+                // Of the strokes: w (rho^2 - min^2), in the problem's unit.
+                let Test::AtLeast(f) = problem.obligations[1 + i].test else { panic!("a sign") };
+                let most = w * (expected.powi(2) - 0.25) / unit.powi(2);
+                assert!((of(f).expect("a stroke") - most).abs() < 1e-6, "{most}");
             }
             assert_eq!(own.scaled.is_some(), which == 0 && !motion.spin.is_empty());
             reached += 1;

@@ -240,6 +240,9 @@ impl<'a> Prover<'a> {
                 let kappa = number(kappa).sqrt();
                 let [plain, divided] =
                     [Form::Plain, Form::Divided].map(|form| self.starts(over, form, kappa));
+                if kappa == 0.0 {
+                    tried.extend(plain.iter().cloned().map(Evidence::Rank));
+                }
                 tried.extend(plain.into_iter().map(Evidence::Lower));
                 tried.extend(divided.into_iter().map(Evidence::LowerDivided));
                 if self.problem.cube_kappa.is_some() {

@@ -1,16 +1,18 @@
 //! What a certificate has to be to be accepted.
 
+mod corner;
+mod inside;
+
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::cell::{evaluate, Vertex};
 use crate::certificate::{
-    Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
+    Certificate, Claim, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
 use crate::control::{Control, Controls};
-use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer};
 use crate::formula::{Formula, Op, Values};
 use crate::input::ClaimError;
-use crate::problem::{Inside, Problem};
+use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use crate::test::{
@@ -295,24 +297,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         }
     }
 
-    /// Whether the evidence shows a test less a formula that is not negative in the workspace.
-    fn shows_less(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        test: Test,
-        evidence: &Evidence,
-        less: Option<Vec<E::Number>>,
-    ) -> bool {
-        let sum = less.and_then(|less| match &over.inside {
-            None => Some(less),
-            Some(other) => less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect(),
-        });
-        sum.is_some_and(|sum| {
-            self.shows(&Over { inside: Some(sum), ..*over }, place, test, evidence)
-        })
-    }
-
     /// A bound on squares, of the scaled rows times their weight.
     fn scaled(&self, over: &Over<'_, E>, bound: E::Number, v: Vertex) -> Option<E::Number> {
         match over.controls {
@@ -354,65 +338,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             && sigma_max(over, rows, &greatest)
     }
 
-    /// `mu t` for the tangent `t` of the workspace's own inequality at the cell's centre.
-    ///
-    /// **Lemma.** `g` is concave, so `g <= t`, and `t >= 0` at the cell's points in the workspace.
-    /// (Taking `g` at the vertices instead of `t` would be unsound: a convex combination of these is
-    /// below `g`. `f = -0.1` "holds" then on `|x| <= 0.7` in the cell `[-1, 1]` with `g = 1/2 - x^2`.)
-    fn tangent(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        (multiple, places): (i64, u32),
-    ) -> Option<Slope<E::Number>> {
-        if multiple < 0 || places >= MOST_PLACES {
-            return None;
-        }
-        let Inside { g, gradient } = self.problem.inside.as_ref()?;
-        let e = self.arithmetic;
-        let mut tangent = over.slopes.constant(over.of(*g)?.at_centre.clone())?;
-        for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(place.edges)
-        {
-            *slope = e.dyadic(multiple, places, &e.mul(&over.of(f)?.at_centre, half)?)?;
-        }
-        tangent.at_centre = e.dyadic(multiple, places, &tangent.at_centre)?;
-        Some(tangent)
-    }
-
-    /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
-    fn inside(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        mu: (i64, u32),
-    ) -> Option<Vec<E::Number>> {
-        if over.controls.is_some() {
-            return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
-        }
-        let tangent = self.tangent(over, place, mu)?;
-        over.vertices().map(|v| v.value(&over.slopes, &tangent)).collect()
-    }
-
-    /// `mu g` for the orientations' own inequality `g >= 0`. Its values at the vertices are those of its
-    /// slopes, not of `g` itself: their weighted sum is `g(x)`, and `g` need not be concave.
-    fn turned(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Vec<E::Number>> {
-        self.multiples(over, self.problem.turned?, mu)
-    }
-
-    /// `mu f`, for a dyadic number `mu >= 0`, at the vertices or control points.
-    fn multiples(
-        &self,
-        over: &Over<'_, E>,
-        f: Formula,
-        (multiple, places): (i64, u32),
-    ) -> Option<Vec<E::Number>> {
-        if multiple < 0 || places >= MOST_PLACES {
-            return None;
-        }
-        let at = |v| self.arithmetic.dyadic(multiple, places, &over.at(f, v)?);
-        over.vertices().map(at).collect()
-    }
-
     /// The formulas of a test at control points, where it has such.
     pub fn controls(
         &self,
@@ -433,77 +358,5 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             _ => 0,
         };
         steps.map(work).fold(0, usize::saturating_add)
-    }
-
-    /// Whether the cell has no point of the workspace: the tangent is negative at all vertices, or the
-    /// orientations' own inequality nowhere holds.
-    pub fn is_outside(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>) -> bool {
-        let turned = self.problem.turned.and_then(|g| self.arithmetic.neg(&over.of(g)?.range));
-        if turned.is_some_and(|less| self.arithmetic.is_positive(&less)) {
-            return true;
-        }
-        self.tangent(over, place, (1, 0)).is_some_and(|tangent| {
-            Vertex::all(over.slopes.m).all(|v| {
-                let t = v.value(&over.slopes, &tangent).and_then(|t| self.arithmetic.neg(&t));
-                t.is_some_and(|t| self.arithmetic.is_positive(&t))
-            })
-        })
-    }
-
-    /// **Tight corner.** The cell touches the corner `Q` of the paper's cube. With `x = Q + lambda H`,
-    /// `lambda` in `[0, 1]^3`: if `sym(M_v) - kappa I` is positive definite at the vertices `v` other
-    /// than `Q`, then `sigma_min(M) >= kappa` at the cell's points in the cube.
-    ///
-    /// *Proof.* At `Q` itself, with `m = M_12(Q)` and `V = [(1,1,1), (1,-1,0), (1,1,-2)]` as columns,
-    ///
-    /// ```text
-    /// T(Q) = sym(M(Q)) - kappa I = (1 - m - kappa) I + m 11^T
-    /// V^T T(Q) V = diag(3 (1 + 2m - kappa), 2 (1 - m - kappa), 6 (1 - m - kappa))
-    /// Q_1, m = -(1 - kappa)/2:   1 + 2m - kappa = 0            1 - m - kappa = 3 (1 - kappa)/2
-    /// Q_2, m = t_2, kappa <= 1/2: 1 + 2m - kappa = 3 (1-kappa)  1 - m - kappa = 0
-    ///      kappa >= 1/2:         1 + 2m - kappa = 1/kappa - kappa
-    ///                            1 - m - kappa = (1 - kappa)(2 kappa - 1)/(2 kappa)
-    /// ```
-    ///
-    /// none of them negative for `0 < kappa < 1`, which the claim's well-formedness says. A convex
-    /// combination of `T(Q)` with positive definite matrices is positive semidefinite, and for a unit
-    /// vector `v`, `kappa <= v . M v <= |M v|`. ∎ The true corner is an enclosure here, one unit wide;
-    /// a cell that does not reach it has no point in the cube.
-    fn corner(&self, place: &Place<'_, E::Number>, corner: Corner) -> Option<()> {
-        let e = self.arithmetic;
-        let (kappa, [q1, q2]) = (self.problem.cube_kappa?, self.tight.as_ref()?);
-        let (touches, q) = match corner {
-            Corner::Q1 => (place.touches[0], q1),
-            Corner::Q2 => (place.touches[1], q2),
-        };
-        let edge = |[_, range, _]: &[E::Number; 3]| {
-            let [low, high] = e.ends(range);
-            let end = if corner == Corner::Q1 { high } else { low };
-            Some([q.clone(), range.clone(), e.sub(&end, q)?])
-        };
-        let edges: Vec<_> = place.edges.iter().map(edge).collect::<Option<_>>()?;
-        if !touches {
-            return None;
-        }
-        let slopes = Slopes { arithmetic: e, m: edges.len() };
-        let values = self.evaluate(&edges);
-        let kappa = &values.of(kappa)?.range;
-        let definite = |v: Vertex| {
-            let entry = |i: usize, j: usize| {
-                let at = |i: usize, j: usize| {
-                    let f = *self.divided.get(i)?.a.get(j)?;
-                    v.value_about_corner(&slopes, values.of(f)?)
-                };
-                let sum = e.add(&at(i, j)?, &at(j, i)?)?;
-                if i == j {
-                    e.sub(&sum, &e.add(kappa, kappa)?)
-                } else {
-                    Some(sum)
-                }
-            };
-            let row = |i: usize| (i..3).map(|j| entry(i, j)).collect();
-            (0..3).map(row).collect::<Option<_>>().is_some_and(|t| is_positive_definite(e, t))
-        };
-        Vertex::all(3).skip(1).all(definite).then_some(())
     }
 }
