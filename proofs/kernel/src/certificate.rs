@@ -110,7 +110,8 @@ pub enum Evidence {
     Inside(Box<Evidence>, i64, u32),
     /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.
     Turned(Box<Evidence>, i64, u32),
-    /// The evidence, at control points.
+    /// The evidence, at control points ([`crate::control`]) in place of vertices, with the scaled rows of
+    /// platforms that turn.
     Control(Box<Evidence>),
 }
 
@@ -129,7 +130,7 @@ pub enum Corner {
 pub struct Witness {
     /// Fractional bits of the arithmetic.
     pub precision: u32,
-    /// The point.
+    /// The point; of platforms that turn, with the half-angle tangents of [`crate::statement`] after it.
     pub point: Vec<Expression>,
     /// Values of the quantities that are intervals, in the order of the claim.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

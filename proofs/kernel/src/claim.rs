@@ -86,7 +86,7 @@ pub enum Leg {
         direction: Vector,
         /// `a`: the point of the guide where `rho = 0`.
         anchor: Vector,
-        /// `d`: the platform's joint, from `P`.
+        /// `d`: the platform's joint, from `P`; of platforms that turn, in their own frame.
         platform: Vector,
         /// `L > 0`.
         length: Quantity,
@@ -256,7 +256,7 @@ pub enum Workspace {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Orientation {
-    /// In space: every rotation by at most this, about any axis.
+    /// In space: every rotation by at most this, less than 180, about any axis.
     Angle(Expression),
     /// In space, by tilt and torsion angles: the platform's z axis tilted by up to `tilt` in any
     /// direction, with a torsion of up to `torsion` either way.
@@ -266,7 +266,7 @@ pub enum Orientation {
         /// Less than 180.
         torsion: Expression,
     },
-    /// In space, `R = R_z(yaw) R_y(pitch) R_x(roll)`, from the one to the other.
+    /// In space, `R = R_z(yaw) R_y(pitch) R_x(roll)`, from the one to the other, between -180 and 180.
     RollPitchYaw {
         /// About x.
         roll: [Expression; 2],
@@ -275,7 +275,7 @@ pub enum Orientation {
         /// About z.
         yaw: [Expression; 2],
     },
-    /// In the plane, from the one to the other.
+    /// In the plane, from the one to the other, between -180 and 180.
     Range([Expression; 2]),
 }
 

@@ -5,6 +5,7 @@ use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, 
 use crate::claim::{Quantity, Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::TABLE;
 use std::fmt::{self, Display, Write};
@@ -90,43 +91,32 @@ fn turned(out: &mut String, turning: &Turning, place: &str, moves: &str) -> fmt:
 
 /// The set of orientations, in words and in the coordinates of the formulas.
 fn orientation(out: &mut String, claim: &MachineClaim) -> fmt::Result {
-    match &claim.orientation {
-        None => Ok(()),
-        Some(Orientation::Angle(angle)) => {
-            writeln!(out, "for every rotation R by at most {angle} degrees about any axis (with")?;
-            writeln!(out, "c = tan(theta/2) axis, |c| <= tan({angle}/2)),")
-        }
-        Some(Orientation::Tilt { tilt, torsion }) => {
-            writeln!(
-                out,
-                "for every R = R_z(a) R_y(b) R_z(s - a), of any a, a tilt b up to {tilt} and a"
-            )?;
-            writeln!(
-                out,
-                "torsion s from -({torsion}) to {torsion} degrees (with c = tan(theta/2) axis,"
-            )?;
-            writeln!(
-                out,
-                "c_1^2 + c_2^2 <= tan({tilt}/2)^2 (1 + c_3^2), |c_3| <= tan({torsion}/2)),"
-            )
-        }
-        Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => {
-            writeln!(
-                out,
-                "for every R = R_z(yaw) R_y(pitch) R_x(roll), in degrees: roll from {} to {},",
-                roll[0], roll[1]
-            )?;
-            writeln!(
-                out,
-                "pitch from {} to {}, yaw from {} to {} (half-angle tangents of these),",
-                pitch[0], pitch[1], yaw[0], yaw[1]
-            )
-        }
-        Some(Orientation::Range([min, max])) => {
-            writeln!(out, "for every rotation R from {min} to {max} degrees, counterclockwise (its half-angle")?;
-            writeln!(out, "tangent),")
-        }
-    }
+    let range = |[min, max]: &[Expression; 2]| format!("from {min} to {max}");
+    let words = match &claim.orientation {
+        None => return Ok(()),
+        Some(Orientation::Angle(angle)) => format!(
+            "rotation R by at most {angle} degrees about any axis (with the coordinates
+c = tan(theta/2) axis, |c| <= tan({angle}/2)),"
+        ),
+        Some(Orientation::Tilt { tilt, torsion }) => format!(
+            "R = R_z(a) R_y(b) R_z(s - a), of any a, a tilt b up to {tilt} and a torsion s
+from -({torsion}) to {torsion} degrees (with the coordinates c = tan(theta/2) axis,
+c_1^2 + c_2^2 <= tan({tilt}/2)^2 (1 + c_3^2), |c_3| <= tan({torsion}/2)),"
+        ),
+        Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => format!(
+            "R = R_z(yaw) R_y(pitch) R_x(roll), roll {}, pitch {},
+yaw {} degrees (coordinates: tangents of half of these),",
+            range(roll),
+            range(pitch),
+            range(yaw)
+        ),
+        Some(Orientation::Range(angle)) => format!(
+            "rotation R {} degrees, counterclockwise
+(coordinate: the tangent of half of it),",
+            range(angle)
+        ),
+    };
+    writeln!(out, "for every {words}")
 }
 
 fn legs(out: &mut String, legs: &[Leg], w: &str) -> fmt::Result {
@@ -225,6 +215,9 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
 
 fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> fmt::Result {
     writeln!(out, "It fails at ({})", list(&witness.point))?;
+    if claim.orientation.is_some() {
+        writeln!(out, "  (the point, then half-angle tangents)")?;
+    }
     if let (Ok(problem), false) = (Problem::new(claim), witness.machine.is_empty()) {
         for ((place, _, _), value) in problem.tolerances().zip(&witness.machine) {
             writeln!(out, "  of the machine with {place} = {value}")?;

@@ -344,6 +344,20 @@ impl<'a> Prover<'a> {
         own.into_iter().all(|g| values.of(g).is_some_and(|g| g.0 >= -1e-12))
     }
 
+    /// Whether a cell is found to have no point of the workspace.
+    pub fn drops(&self, cell: &[[f64; 2]]) -> bool {
+        let edge = |&[low, high]: &[f64; 2]| {
+            let (centre, half) = ((low + high) / 2.0, (high - low) / 2.0);
+            [(centre, centre), (low, high), (half, half)]
+        };
+        let edges: Vec<[Pair; 3]> = cell.iter().map(edge).collect();
+        let place = Place { edges: &edges, touches: [false; 2] };
+        let values = self.checker.evaluate(&edges);
+        let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+        let over = Over { slopes, values: &values, controls: None, inside: None };
+        self.checker.is_outside(&over, &place)
+    }
+
     /// The formulas at a point in the unit of the problem.
     pub fn values(&self, x: &[f64]) -> Values<Pair> {
         self.problem.tape.run(&Rough, |op| match op {

@@ -1,7 +1,8 @@
 //! Of machines that turn their platforms: refutations, what is refused, and what is said of them.
 
+use crate::arithmetic::Random;
 use crate::certificates::claim;
-use crate::prover::certify;
+use crate::prover::{certify, Prover};
 use crate::turning::{hexapod_legs, planar, psi, spatial, spherical, strut, FIFTEEN};
 use orthocert_kernel::certificate::{Certificate, Claim, Evidence, Failure, Proof, Step, Witness};
 use orthocert_kernel::check::check;
@@ -261,6 +262,37 @@ fn evidence_that_shows_less_than_it_says() {
 }
 
 #[test]
+fn cells_outside_a_set_of_orientations() {
+    let mut random = Random(41);
+    let mut outside = 0;
+    for set in [r#"{"angle":"60"}"#, r#"{"tilt":{"tilt":"40","torsion":"90"}}"#, FIFTEEN] {
+        let problem = Problem::new(&claim(&spherical(set, ""))).expect("a claim");
+        let prover = Prover::new(&problem);
+        let ranges = prover.ranges();
+        for _ in 0..400 {
+            let cell: Vec<[f64; 2]> = ranges
+                .iter()
+                .map(|(low, high)| {
+                    let width = (high - low) / (1 << random.below(5)) as f64;
+                    let start = low + (high - low - width) * random.below(33) as f64 / 32.0;
+                    [start, start + width]
+                })
+                .collect();
+            if !prover.drops(&cell) {
+                continue;
+            }
+            outside += 1;
+            for _ in 0..40 {
+                let at = |[low, high]: &[f64; 2]| low + (high - low) * random.below(9) as f64 / 8.0;
+                let c: Vec<f64> = cell.iter().map(at).collect();
+                assert!(!prover.is_inside(&c), "{set} {c:?}");
+            }
+        }
+    }
+    assert!(outside > 100, "{outside}");
+}
+
+#[test]
 fn what_is_said_of_machines_that_turn() {
     let says = |text: &str, words: &[&str]| {
         for words in words {
@@ -280,17 +312,17 @@ fn what_is_said_of_machines_that_turn() {
             "rho' = M (P', ell omega)",
             "ell = 1,",
             "at every point of the box from (-0.2, -0.2, 0.8) to (0.2, 0.2, 1.2),",
-            "every rotation R by at most 15 degrees about any axis",
+            "for every rotation R by at most 15 degrees about any axis",
         ],
     );
     let tilt = spatial(&hexapod_legs(), r#"{"tilt":{"tilt":"5","torsion":"9"}}"#, "");
     says(
         &said(&tilt),
-        &["a tilt b up to 5", "torsion s from -(9) to 9 degrees", "tan(5/2)^2 (1 + c_3^2)"],
+        &["a tilt b up to 5", "a torsion s\nfrom -(9) to 9 degrees", "tan(5/2)^2 (1 + c_3^2)"],
     );
     says(
         &said(&spatial(&hexapod_legs(), FIFTEEN, "")),
-        &["R = R_z(yaw) R_y(pitch) R_x(roll)", "yaw from -15 to 15"],
+        &["R = R_z(yaw) R_y(pitch) R_x(roll)", "yaw from -15 to 15 degrees"],
     );
     says(
         &said(&spherical(r#"{"angle":"20"}"#, "")),
