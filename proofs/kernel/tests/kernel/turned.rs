@@ -274,7 +274,9 @@ fn cells_outside_a_set_of_orientations() {
                 .iter()
                 .map(|(low, high)| {
                     let width = (high - low) / (1 << random.below(5)) as f64;
-                    let start = low + (high - low - width) * random.below(33) as f64 / 32.0;
+                    // Two times of three at an end of the box.
+                    let at = [0, 32, random.below(33)][random.below(3) as usize];
+                    let start = low + (high - low - width) * at as f64 / 32.0;
                     [start, start + width]
                 })
                 .collect();
@@ -289,7 +291,7 @@ fn cells_outside_a_set_of_orientations() {
             }
         }
     }
-    assert!(outside > 100, "{outside}");
+    assert!(outside > 60, "{outside}");
 }
 
 #[test]
