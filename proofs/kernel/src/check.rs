@@ -209,7 +209,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 Some(is_open) if *is_open => *is_open = false,
                 _ => return Err(Rejected::Repeated { node, obligation }),
             }
-            let test = self.problem.obligations[obligation].test;
+            let test = &self.problem.obligations[obligation].test;
             if !self.shows(&over, place, test, evidence) {
                 return Err(Rejected::Step { node, obligation });
             }
@@ -222,10 +222,13 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         &self,
         over: &Over<'_, E>,
         place: &Place<'_, E::Number>,
-        test: Test,
+        test: &Test,
         evidence: &Evidence,
     ) -> bool {
-        let constant = |f: Formula| move |_| over.of(f).map(|f| f.range.clone());
+        let constant = |f: &Formula| {
+            let f = *f;
+            move |_| over.of(f).map(|f| f.range.clone())
+        };
         match (test, evidence) {
             (test, Evidence::Inside(evidence, multiple, places)) => {
                 let plain = !matches!(**evidence, Evidence::Inside(..) | Evidence::Corner(_));
@@ -247,12 +250,15 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                self.conditioning(over, c, (y, mu))
+                self.conditioning(over, *c, (y, mu))
             }
-            (Test::AtLeast(f), Evidence::Test) => over.of(f).is_some_and(|f| at_least(over, f)),
+            (Test::Least(rows, kappa), Evidence::Lower(y)) => {
+                sigma_min(over, rows, &constant(kappa), y)
+            }
+            (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
                 let rest = || {
-                    let (f, b) = (over.of(f)?, over.of(b)?);
+                    let (f, b) = (over.of(*f)?, over.of(*b)?);
                     match evidence {
                         Evidence::Negative => over.slopes.neg(&over.slopes.add(f, b)?),
                         _ => over.slopes.sub(f, b),

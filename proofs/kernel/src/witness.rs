@@ -9,6 +9,7 @@ use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::test::Row;
 use num_bigint::BigInt;
 use std::fmt;
 
@@ -82,8 +83,9 @@ pub fn check(
     let violated = match &witness.fails {
         Failure::Reach => at.is_undefined(),
         Failure::Obligation(number, directions) => {
-            let test = problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?.test;
-            at.fails(test, directions)?
+            let obligation =
+                problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?;
+            at.fails(&obligation.test, directions)?
         }
         Failure::Singular(other) => {
             let other = At::new(problem, workspace, witness, other)?;
@@ -156,7 +158,11 @@ impl<'a> At<'a> {
     }
 
     /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
-    fn stretched(&self, v: &[i64]) -> Option<[Number; 2]> {
+    fn stretched<'b>(
+        &self,
+        mut rows: impl Iterator<Item = &'b Row<Formula>>,
+        v: &[i64],
+    ) -> Option<[Number; 2]> {
         let e = &self.arithmetic;
         if v.len() != self.problem.dimension() || v.iter().all(|&v| v == 0) {
             return None;
@@ -164,31 +170,32 @@ impl<'a> At<'a> {
         let v: Vec<Number> = v.iter().map(|&v| e.integer(v)).collect::<Option<_>>()?;
         let zero = e.integer(0)?;
         let length = v.iter().try_fold(zero.clone(), |sum, v| e.add(&sum, &e.sqr(v)?))?;
-        let image = self.problem.legs.iter().try_fold(zero.clone(), |sum, leg| {
-            let product = leg.row.a.iter().zip(&v).try_fold(zero.clone(), |sum, (&a, v)| {
+        let image = rows.try_fold(zero.clone(), |sum, row| {
+            let product = row.a.iter().zip(&v).try_fold(zero.clone(), |sum, (&a, v)| {
                 e.add(&sum, &e.mul(self.values.of(a)?, v)?)
             })?;
-            let d = self.values.of(leg.row.d).filter(|d| e.is_positive(d))?;
+            let d = self.values.of(row.d).filter(|d| e.is_positive(d))?;
             e.add(&sum, &e.div(&e.sqr(&product)?, d)?)
         })?;
         Some([length, image])
     }
 
-    fn fails(&self, test: Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
+    fn fails(&self, test: &Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
         let e = &self.arithmetic;
-        let of = |f: Formula| self.values.of(f);
+        let of = |f: &Formula| self.values.of(*f);
+        let stretched = |v: &[i64]| self.stretched(self.problem.legs.iter().map(|leg| &leg.row), v);
         let positive = match (test, directions) {
             // |M v|^2 < kappa^2 |v|^2.
             (Test::SigmaMin(kappa), [v]) => {
                 let rest = || {
-                    let [length, image] = self.stretched(v)?;
+                    let [length, image] = stretched(v)?;
                     e.sub(&e.mul(of(kappa)?, &length)?, &image)
                 };
                 self.is_positive(rest())
             }
             (Test::SigmaMax(k), [v]) => {
                 let rest = || {
-                    let [length, image] = self.stretched(v)?;
+                    let [length, image] = stretched(v)?;
                     e.sub(&image, &e.mul(of(k)?, &length)?)
                 };
                 self.is_positive(rest())
@@ -196,10 +203,16 @@ impl<'a> At<'a> {
             // |M u|^2 |v|^2 > c^2 |M v|^2 |u|^2.
             (Test::Conditioning(c), [u, v]) => {
                 let rest = || {
-                    let ([length, image], [other, small]) =
-                        (self.stretched(u)?, self.stretched(v)?);
+                    let ([length, image], [other, small]) = (stretched(u)?, stretched(v)?);
                     let least = e.mul(of(c)?, &e.mul(&small, &length)?)?;
                     e.sub(&e.mul(&image, &other)?, &least)
+                };
+                self.is_positive(rest())
+            }
+            (Test::Least(rows, kappa), [v]) => {
+                let rest = || {
+                    let [length, image] = self.stretched(rows.iter(), v)?;
+                    e.sub(&e.mul(of(kappa)?, &length)?, &image)
                 };
                 self.is_positive(rest())
             }

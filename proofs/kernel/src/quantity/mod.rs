@@ -8,6 +8,7 @@ mod joint_speed;
 mod leg_angle;
 mod parallel_margin;
 mod serial_margin;
+mod stiffness;
 mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
@@ -17,6 +18,7 @@ use crate::input::{shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
+use crate::test::Row;
 
 /// A quantity.
 pub struct Quantity {
@@ -35,7 +37,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 7] = [
+pub const TABLE: [&Quantity; 8] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -43,10 +45,11 @@ pub const TABLE: [&Quantity; 7] = [
     &parallel_margin::PARALLEL_MARGIN,
     &leg_angle::LEG_ANGLE,
     &joint_speed::JOINT_SPEED,
+    &stiffness::STIFFNESS,
 ];
 
 /// A test that has to be passed on every cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Test {
     /// `sigma_min(M) >= kappa`, all `D_i > 0`; of `kappa^2`. `kappa = 0`: `sigma_min(M) > 0`.
     SigmaMin(Formula),
@@ -58,10 +61,12 @@ pub enum Test {
     AtLeast(Formula),
     /// `f >= b` everywhere, or `f <= -b` everywhere.
     Beyond(Formula, Formula),
+    /// `sigma_min >= kappa` of other rows than the machine's; of `kappa^2`.
+    Least(Vec<Row<Formula>>, Formula),
 }
 
 /// What is to be shown at every point of the workspace.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Obligation {
     /// The requirement, counted from zero; none of freedom from singularities.
     pub requirement: Option<usize>,
@@ -74,6 +79,7 @@ pub struct Obligation {
 /// What a quantity builds its tests with.
 pub(crate) struct Context<'a> {
     builder: &'a mut Builder,
+    claim: &'a MachineClaim,
     legs: &'a [Leg],
     requirement: &'a Requirement,
     place: &'a str,
@@ -112,6 +118,14 @@ impl Context<'_> {
         match self.all_given(name)? {
             [number] => Ok(number),
             _ => self.refused("given one number"),
+        }
+    }
+
+    /// Refuses platforms that turn, where the quantity is another one for them.
+    fn without_rotation(&self) -> Result<(), ClaimError> {
+        match self.claim.orientation {
+            None => Ok(()),
+            Some(_) => self.refused("of platforms that do not turn"),
         }
     }
 
@@ -190,7 +204,7 @@ pub(crate) fn obligations(
             (true, None) => (0..legs.len()).map(Some).collect(),
         };
         for leg in which {
-            let mut context = Context { builder, legs, requirement, place: &place };
+            let mut context = Context { builder, claim, legs, requirement, place: &place };
             for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
                 all.push(Obligation { requirement: Some(number), leg, test });
             }

@@ -12,6 +12,7 @@ use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
@@ -45,15 +46,9 @@ impl<'a> Prover<'a> {
     fn rows(
         &self,
         over: &Over<'_, Rough>,
-        divided: bool,
+        rows: &[Row<Formula>],
         v: Option<Vertex>,
     ) -> Option<(DMatrix<f64>, Vec<f64>)> {
-        let rows: Vec<&Row<Formula>> = self
-            .problem
-            .legs
-            .iter()
-            .map(|leg| if divided { &leg.divided } else { &leg.row })
-            .collect();
         let at = |f: Formula| {
             let slope = over.of(f)?;
             let x = match v {
@@ -73,8 +68,14 @@ impl<'a> Prover<'a> {
         d.iter().all(|&d| d > 0.0).then_some((a, d))
     }
 
-    fn starts(&self, over: &Over<'_, Rough>, divided: bool, kappa: f64) -> Vec<Multiplier> {
-        let Some((a, d)) = self.rows(over, divided, None) else { return Vec::new() };
+    /// The machine's rows.
+    fn legs(&self, divided: bool) -> Vec<Row<Formula>> {
+        let row = |leg: &Leg| if divided { leg.divided.clone() } else { leg.row.clone() };
+        self.problem.legs.iter().map(row).collect()
+    }
+
+    fn starts(&self, over: &Over<'_, Rough>, rows: &[Row<Formula>], kappa: f64) -> Vec<Multiplier> {
+        let Some((a, d)) = self.rows(over, rows, None) else { return Vec::new() };
         let mut m = a;
         for (i, d) in d.iter().enumerate() {
             m.row_mut(i).scale_mut(1.0 / d.sqrt());
@@ -97,17 +98,23 @@ impl<'a> Prover<'a> {
     fn margin(
         &self,
         over: &Over<'_, Rough>,
-        test: Test,
+        test: &Test,
         evidence: &Evidence,
         v: Vertex,
     ) -> Option<f64> {
         let least = |t: DMatrix<f64>| SymmetricEigen::new(t).eigenvalues.min();
         let m = over.slopes.m;
-        let number = |f: Formula| over.of(f).map(|f| f.at_centre.0);
+        let number = |f: &Formula| over.of(*f).map(|f| f.at_centre.0);
         Some(match (test, evidence) {
-            (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
-                let (a, d) =
-                    self.rows(over, matches!(evidence, Evidence::LowerDivided(_)), Some(v))?;
+            (
+                Test::SigmaMin(kappa) | Test::Least(_, kappa),
+                Evidence::Lower(y) | Evidence::LowerDivided(y),
+            ) => {
+                let divided = matches!(evidence, Evidence::LowerDivided(_));
+                let (a, d) = match test {
+                    Test::Least(rows, _) => self.rows(over, rows, Some(v))?,
+                    _ => self.rows(over, &self.legs(divided), Some(v))?,
+                };
                 let scale = (-f64::from(y.places)).exp2();
                 let y = DMatrix::from_fn(a.nrows(), m, |i, k| y.y[i][k] as f64 * scale);
                 let d = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(d));
@@ -116,14 +123,15 @@ impl<'a> Prover<'a> {
                 least(&t + t.transpose() - y.transpose() * d * &y - unit)
             }
             (Test::SigmaMax(k), _) => {
-                let (a, d) = self.rows(over, *evidence == Evidence::Divided, Some(v))?;
+                let (a, d) =
+                    self.rows(over, &self.legs(*evidence == Evidence::Divided), Some(v))?;
                 let mut m2 = a.clone();
                 for (i, d) in d.iter().enumerate() {
                     m2.row_mut(i).scale_mut(1.0 / d);
                 }
                 least(DMatrix::identity(m, m) * number(k)? - a.transpose() * m2)
             }
-            (Test::AtLeast(f), _) => v.value(&over.slopes, over.of(f)?)?.0,
+            (Test::AtLeast(f), _) => v.value(&over.slopes, over.of(*f)?)?.0,
             _ => return None,
         })
     }
@@ -133,7 +141,7 @@ impl<'a> Prover<'a> {
         &self,
         over: &Over<'_, Rough>,
         place: &Place<'_, Pair>,
-        test: Test,
+        test: &Test,
         evidence: Evidence,
     ) -> Option<Evidence> {
         if self.checker.shows(over, place, test, &evidence) {
@@ -167,16 +175,18 @@ impl<'a> Prover<'a> {
         &self,
         over: &Over<'_, Rough>,
         place: &Place<'_, Pair>,
-        test: Test,
+        test: &Test,
     ) -> Option<Evidence> {
-        let number = |f: Formula| over.of(f).map_or(0.0, |f| f.at_centre.0);
+        let number = |f: &Formula| over.of(*f).map_or(0.0, |f| f.at_centre.0);
+        let (legs, divided) = (self.legs(false), self.legs(true));
         let mut tried: Vec<Evidence> = Vec::new();
         match test {
             Test::SigmaMin(kappa) => {
                 let kappa = number(kappa).sqrt();
-                tried.extend(self.starts(over, false, kappa).into_iter().map(Evidence::Lower));
-                tried
-                    .extend(self.starts(over, true, kappa).into_iter().map(Evidence::LowerDivided));
+                tried.extend(self.starts(over, &legs, kappa).into_iter().map(Evidence::Lower));
+                tried.extend(
+                    self.starts(over, &divided, kappa).into_iter().map(Evidence::LowerDivided),
+                );
                 if self.problem.cube_kappa.is_some() {
                     tried.extend([Corner::Q1, Corner::Q2].map(Evidence::Corner));
                 }
@@ -184,8 +194,12 @@ impl<'a> Prover<'a> {
             Test::SigmaMax(_) => tried.extend([Evidence::Cube, Evidence::Test, Evidence::Divided]),
             Test::AtLeast(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
+            Test::Least(rows, kappa) => {
+                let starts = self.starts(over, rows, number(kappa).sqrt());
+                tried.extend(starts.into_iter().map(Evidence::Lower));
+            }
             Test::Conditioning(c) => {
-                let (a, d) = self.rows(over, false, None)?;
+                let (a, d) = self.rows(over, &legs, None)?;
                 let mut m = a;
                 for (i, d) in d.iter().enumerate() {
                     m.row_mut(i).scale_mut(1.0 / d.sqrt());
@@ -194,7 +208,7 @@ impl<'a> Prover<'a> {
                 let mu = ((s.min() + s.max() / number(c).sqrt()) / 2.0).powi(2);
                 let mut terms = vec![0; over.slopes.m + 1];
                 terms[0] = (mu * f64::from(PLACES).exp2()) as i64;
-                let starts = self.starts(over, false, mu.sqrt());
+                let starts = self.starts(over, &legs, mu.sqrt());
                 tried.extend(starts.into_iter().map(|y| Evidence::Conditioning(y, terms.clone())));
             }
         }
@@ -225,7 +239,7 @@ impl<'a> Prover<'a> {
             let mut node = Node::default();
             let mut left = Vec::new();
             for &obligation in &open {
-                let test = self.problem.obligations[obligation].test;
+                let test = &self.problem.obligations[obligation].test;
                 match self.find(&over, &place, test) {
                     Some(evidence) => node.by.push(Step(obligation, evidence)),
                     None => left.push(obligation),
@@ -278,8 +292,15 @@ impl<'a> Prover<'a> {
         Some(m)
     }
 
-    /// `sigma_min` and `sigma_max` over the workspace: a grid, then steps that shrink.
+    /// `sigma_min` and `sigma_max` over the workspace.
     pub fn extremes(&self) -> [f64; 2] {
+        let singular = |x: &[f64]| self.matrix(x).expect("within reach").singular_values();
+        [-self.greatest(|x| -singular(x).min()).0, self.greatest(|x| singular(x).max()).0]
+    }
+
+    /// The greatest value of a function over the workspace, and where it is: a grid, then steps that
+    /// shrink.
+    pub fn greatest(&self, value: impl Fn(&[f64]) -> f64) -> (f64, Vec<f64>) {
         let scale = (-f64::from(BITS)).exp2();
         let low: Vec<f64> = self.root.0.iter().map(|i| i.lo as f64 * scale).collect();
         let high: Vec<f64> = self.root.0.iter().map(|i| i.hi as f64 * scale).collect();
@@ -295,40 +316,34 @@ impl<'a> Prover<'a> {
             }
             (0..m).map(|k| low[k] + t[k] * (high[k] - low[k])).collect()
         };
-        let at = |t: &[f64]| {
-            let s = self.matrix(&place(t)).expect("within reach").singular_values();
-            [s.min(), -s.max()]
-        };
+        let at = |t: &[f64]| -value(&place(t));
         const N: usize = 13;
         let points: Vec<Vec<f64>> = (0..N.pow(m as u32))
             .map(|i| (0..m).map(|k| (i / N.pow(k as u32) % N) as f64 / (N - 1) as f64).collect())
             .collect();
-        [0, 1].map(|which| {
-            let mut starts: Vec<(f64, &Vec<f64>)> =
-                points.iter().map(|x| (at(x)[which], x)).collect();
-            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let refined = starts.iter().take(4).map(|(value, x)| {
-                let (mut best, mut x, mut step) = (*value, (*x).clone(), 0.1);
-                while step > 1e-9 {
-                    let mut moved = false;
-                    for k in 0..m {
-                        for sign in [-1.0, 1.0] {
-                            let mut y = x.clone();
-                            y[k] = (y[k] + sign * step).clamp(0.0, 1.0);
-                            let value = at(&y)[which];
-                            if value < best {
-                                (best, x, moved) = (value, y, true);
-                            }
+        let mut starts: Vec<(f64, &Vec<f64>)> = points.iter().map(|x| (at(x), x)).collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let refined = starts.iter().take(4).map(|(value, x)| {
+            let (mut best, mut x, mut step) = (*value, (*x).clone(), 0.1);
+            while step > 1e-9 {
+                let mut moved = false;
+                for k in 0..m {
+                    for sign in [-1.0, 1.0] {
+                        let mut y = x.clone();
+                        y[k] = (y[k] + sign * step).clamp(0.0, 1.0);
+                        let value = at(&y);
+                        if value < best {
+                            (best, x, moved) = (value, y, true);
                         }
                     }
-                    if !moved {
-                        step /= 2.0;
-                    }
                 }
-                best
-            });
-            refined.fold(f64::MAX, f64::min).abs()
-        })
+                if !moved {
+                    step /= 2.0;
+                }
+            }
+            (-best, place(&x))
+        });
+        refined.max_by(|a, b| a.0.total_cmp(&b.0)).expect("points")
     }
 }
 
@@ -336,11 +351,16 @@ impl<'a> Prover<'a> {
 pub fn certify(claim: &MachineClaim, most: usize) -> Option<Certificate> {
     let problem = Problem::new(claim).expect("a claim");
     let tree = Prover::new(&problem).tree(most)?;
-    Some(Certificate {
+    Some(certificate(claim, Verdict::Certified, Proof::Tree(tree)))
+}
+
+/// A certificate of the claim.
+pub fn certificate(claim: &MachineClaim, verdict: Verdict, proof: Proof) -> Certificate {
+    Certificate {
         format: FORMAT.to_owned(),
         claim: Claim::Machine(claim.clone()),
-        verdict: Verdict::Certified,
-        proof: Proof::Tree(tree),
+        verdict,
+        proof,
         provenance: Provenance { tool: "test".to_owned(), version: "0".to_owned() },
-    })
+    }
 }
