@@ -62,6 +62,9 @@ pub enum Proof {
 pub struct Tree {
     /// Fractional bits of the arithmetic.
     pub precision: u32,
+    /// The one `Y` of all steps by [`Evidence::Chords`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chords: Option<Multiplier>,
     /// The nodes.
     pub nodes: Vec<Node>,
 }
@@ -94,6 +97,8 @@ pub enum Evidence {
     Lower(Multiplier),
     /// The same, with divided rows.
     LowerDivided(Multiplier),
+    /// For a machine that is one to one: the tree's own `Y`.
+    Chords,
     /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
     Conditioning(Multiplier, Vec<i64>),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.

@@ -13,7 +13,8 @@ use crate::input::ClaimError;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::{at_least, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
+use crate::test::curvature::curvature;
+use crate::test::{at_least, one_to_one, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
 use crate::witness::{self, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
@@ -124,7 +125,8 @@ fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected
     }
     let arithmetic = Fixed::<Z>::new(bits);
     let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
-    let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits));
+    let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits))
+        .with_chords(tree.chords.clone());
     let root = problem.root(bits).map_err(Rejected::Claim)?;
     let mut waiting = vec![(root.clone(), vec![true; problem.obligations.len()])];
     for (at, node) in tree.nodes.iter().enumerate() {
@@ -158,6 +160,7 @@ pub struct Checker<'a, E: Enclosure> {
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
     divided: Vec<Row<Formula>>,
+    chords: Option<Multiplier>,
 }
 
 /// Where a step is made.
@@ -178,7 +181,13 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Self {
         let rows = problem.legs.iter().map(|leg| leg.row.clone()).collect();
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
-        Checker { problem, arithmetic, parameters, tight, rows, divided }
+        Checker { problem, arithmetic, parameters, tight, rows, divided, chords: None }
+    }
+
+    /// With the one `Y` of a tree.
+    #[must_use]
+    pub fn with_chords(self, chords: Option<Multiplier>) -> Self {
+        Checker { chords, ..self }
     }
 
     /// The formulas over a cell.
@@ -255,6 +264,10 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 sigma_min(over, rows, &constant(kappa), y)
             }
+            (Test::OneToOne(rows), Evidence::Chords) => {
+                self.chords.as_ref().is_some_and(|y| one_to_one(over, rows, y))
+            }
+            (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
                 let rest = || {

@@ -192,7 +192,7 @@ pub(crate) fn by_formulas(
 /// Most entries of a tape that a user's formulas come to.
 const MOST_FORMULAS: usize = 1 << 17;
 
-fn few(builder: &Builder) -> Result<(), ClaimError> {
+pub(crate) fn few(builder: &Builder) -> Result<(), ClaimError> {
     if builder.tape.ops().len() > MOST_FORMULAS {
         return Err(shape_error("mechanism", "of fewer operations"));
     }

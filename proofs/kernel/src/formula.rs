@@ -56,6 +56,11 @@ fn is_small(n: i64) -> bool {
     n.unsigned_abs() < 1 << 15
 }
 
+/// The first `m` coordinates.
+pub fn coordinates(m: usize) -> Vec<Op> {
+    (0..m).map(Op::Coordinate).collect()
+}
+
 /// A vector of formulas.
 pub type Vector = [Formula; 3];
 
@@ -66,10 +71,10 @@ pub struct Tape {
     known: HashMap<Op, Formula>,
 }
 
-/// Partial derivatives by the coordinates, `numerators[k] / denominator`.
+/// Partial derivatives, `numerators[k] / denominator`.
 #[derive(Clone, Debug)]
 pub struct Gradient {
-    /// One for every coordinate.
+    /// One for each input by which it is derived.
     pub numerators: Vec<Formula>,
     /// A product of divisors and roots of the formula: not zero where it is defined.
     pub denominator: Formula,
@@ -286,7 +291,7 @@ impl Tape {
         needed
     }
 
-    /// The partial derivatives of `f` by the coordinates `0..m`.
+    /// The partial derivatives of `f` by coordinates and parameters.
     ///
     /// With `f' = N/E` and `g' = K/F`:
     ///
@@ -296,7 +301,7 @@ impl Tape {
     /// ```
     ///
     /// where the cross factors are left out if `E = F`.
-    pub fn gradient(&mut self, f: Formula, m: usize) -> Gradient {
+    pub fn gradient(&mut self, f: Formula, by: &[Op]) -> Gradient {
         let (zero, one) = (self.integer(0), self.integer(1));
         let needed = self.parts(f);
         let unneeded = Gradient { numerators: Vec::new(), denominator: one };
@@ -304,15 +309,9 @@ impl Tape {
         for (at, needed) in needed.into_iter().enumerate() {
             let gradient = match self.ops[at] {
                 _ if !needed => unneeded.clone(),
-                Op::Coordinate(k) => {
-                    let mut numerators = vec![zero; m];
-                    if let Some(own) = numerators.get_mut(k) {
-                        *own = one;
-                    }
-                    Gradient { numerators, denominator: one }
-                }
-                Op::Parameter(_) | Op::Integer(_) => {
-                    Gradient { numerators: vec![zero; m], denominator: one }
+                own @ (Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_)) => {
+                    let entry = |&by: &Op| if by == own { one } else { zero };
+                    Gradient { numerators: by.iter().map(entry).collect(), denominator: one }
                 }
                 Op::Add(a, b) => self.combined((&known[a.0], one), (&known[b.0], one)),
                 Op::Sub(a, b) => {

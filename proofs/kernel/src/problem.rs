@@ -5,7 +5,7 @@ use crate::claim::{MachineClaim, Mechanism, Quantity, Workspace};
 use crate::compile::{built, by_formulas, Builder, MOST_LEGS};
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{Formula, Op, Tape};
+use crate::formula::{coordinates, Formula, Op, Tape};
 use crate::input::{
     binary, enclosed, narrowed, number_error, ordered, positive, shape_error, ClaimError, Input,
     Value, SIGN_BITS,
@@ -230,6 +230,6 @@ fn inside(builder: &mut Builder, workspace: &Workspace) -> Option<Inside> {
         let off = builder.tape.sqr(off);
         g = builder.tape.sub(g, off);
     }
-    let gradient = builder.tape.gradient(g, 3).numerators;
+    let gradient = builder.tape.gradient(g, &coordinates(3)).numerators;
     Some(Inside { g, gradient })
 }

@@ -143,12 +143,12 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
         let known = TABLE.iter().find(|known| known.key == quantity);
         let symbol = known.map_or(quantity.as_str(), |known| known.symbol);
         let words = known.map_or("", |known| known.words);
-        write!(out, "  {symbol} ")?;
+        write!(out, "  {symbol}")?;
         match bound {
-            Bound::Min(bound) => write!(out, ">= {bound}")?,
-            Bound::Max(bound) => write!(out, "<= {bound}")?,
-            Bound::Holds => write!(out, "holds")?,
-            Bound::Within([min, max]) => write!(out, "from {min} to {max}, up to whole turns")?,
+            Bound::Min(bound) => write!(out, " >= {bound}")?,
+            Bound::Max(bound) => write!(out, " <= {bound}")?,
+            Bound::Holds => {}
+            Bound::Within([min, max]) => write!(out, " from {min} to {max}, up to whole turns")?,
         }
         for (name, numbers) in given {
             write!(out, ", {name} = {}", list(numbers))?;

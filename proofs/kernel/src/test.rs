@@ -9,9 +9,13 @@
 //! | [`at_least`] | `f >= 0` | |
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
+//! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
+//! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
 //! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
 //! statements about one machine, and hold for each whose formulas are in the enclosures.
+
+pub mod curvature;
 
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
@@ -37,6 +41,14 @@ pub struct Multiplier {
     pub y: Vec<Vec<i64>>,
     /// Binary places.
     pub places: u32,
+}
+
+impl Multiplier {
+    /// Whether it has `n` rows of `m` entries, over admissible places.
+    fn is_of(&self, n: usize, m: usize) -> bool {
+        let shape = self.y.len() == n && self.y.iter().all(|y| y.len() == m);
+        shape && self.places < MOST_PLACES
+    }
 }
 
 /// Binary places are fewer than this.
@@ -132,18 +144,47 @@ pub fn sigma_min<E: Enclosure>(
     kappa_squared: AtVertex<'_, E::Number>,
     evidence: &Multiplier,
 ) -> bool {
-    let (e, m, y) = (over.slopes.arithmetic, over.slopes.m, &evidence.y);
-    let shape = y.len() == rows.len() && y.iter().all(|y| y.len() == m);
+    let e = over.slopes.arithmetic;
     let matrix = |v: Vertex, rows: &[Row<E::Number>]| {
         let diagonal = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
-        let terms = rows.iter().zip(y);
-        terms.fold(scalar(e, m, &diagonal), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+        combined(e, scalar(e, over.slopes.m, &diagonal)?, rows, evidence)
     };
-    shape
-        && evidence.places < MOST_PLACES
+    evidence.is_of(rows.len(), over.slopes.m)
         && over.at_vertices(rows, |v, rows| {
             matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
         })
+}
+
+/// **One to one.** If for one matrix `Y` the matrix `Y^T A + A^T Y` is positive definite at the
+/// vertices of each cell of a tree, it is so at every point of the workspace; what follows from that is
+/// said where the rows are chosen ([`crate::quantity`]). *Proof.* It is affine in `A`. ∎ All
+/// `D_i > 0`, as in the other tests.
+pub fn one_to_one<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    evidence: &Multiplier,
+) -> bool {
+    let e = over.slopes.arithmetic;
+    let matrix = |v: Vertex, mut rows: Vec<Row<E::Number>>| {
+        let zero = e.integer(0)?;
+        rows.iter_mut().for_each(|row| row.d = zero.clone());
+        let diagonal = over.less_inside(zero, v)?;
+        combined(e, scalar(e, over.slopes.m, &diagonal)?, &rows, evidence)
+    };
+    evidence.is_of(rows.len(), over.slopes.m)
+        && over.at_vertices(rows, |v, rows| {
+            matrix(v, rows).is_some_and(|t| is_positive_definite(e, t))
+        })
+}
+
+/// `t + Y^T A + A^T Y - Y^T D Y`.
+fn combined<E: Enclosure>(
+    e: &E,
+    t: Triangle<E::Number>,
+    rows: &[Row<E::Number>],
+    Multiplier { y, places }: &Multiplier,
+) -> Option<Triangle<E::Number>> {
+    rows.iter().zip(y).try_fold(t, |t, (row, y)| added(e, t, row, (y, *places)))
 }
 
 /// `c I`.

@@ -9,6 +9,7 @@ use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::test::curvature::Curvature;
 use crate::test::Row;
 use num_bigint::BigInt;
 use std::fmt;
@@ -164,10 +165,7 @@ impl<'a> At<'a> {
         v: &[i64],
     ) -> Option<[Number; 2]> {
         let e = &self.arithmetic;
-        if v.len() != self.problem.dimension() || v.iter().all(|&v| v == 0) {
-            return None;
-        }
-        let v: Vec<Number> = v.iter().map(|&v| e.integer(v)).collect::<Option<_>>()?;
+        let v = self.direction(v, self.problem.dimension())?;
         let zero = e.integer(0)?;
         let length = v.iter().try_fold(zero.clone(), |sum, v| e.add(&sum, &e.sqr(v)?))?;
         let image = rows.try_fold(zero.clone(), |sum, row| {
@@ -216,6 +214,7 @@ impl<'a> At<'a> {
                 };
                 self.is_positive(rest())
             }
+            (Test::Curvature(test), [v]) => self.is_positive(self.curved(test, v)),
             (Test::AtLeast(f), []) => self.is_positive(of(f).and_then(|f| e.neg(f))),
             (Test::Beyond(f, b), []) => {
                 let both = || Some((of(f)?, of(b)?));
@@ -225,6 +224,35 @@ impl<'a> At<'a> {
             _ => return Err(WitnessError::NoSuchObligation),
         };
         Ok(positive)
+    }
+
+    /// `2 (a |row| |v|^2 + b |v^T H v| - |v|^2)`: positive only if `a |row| + b |H| > 1`.
+    fn curved(&self, test: &Curvature, v: &[i64]) -> Option<Number> {
+        let e = &self.arithmetic;
+        let of = |f: &Formula| self.values.of(*f);
+        let v = self.direction(v, test.row.len())?;
+        let (zero, two) = (e.integer(0)?, e.integer(2)?);
+        let square = |sum: Number, f: &Formula| e.add(&sum, &e.sqr(of(f)?)?);
+        let row = e.sqrt(&test.row.iter().try_fold(zero.clone(), square)?)?;
+        let length = v.iter().try_fold(zero.clone(), |sum, v| e.add(&sum, &e.sqr(v)?))?;
+        // Of 2 v^T H v, an entry above the diagonal counts twice.
+        let mut twice = zero;
+        for (i, entries) in test.twice.iter().enumerate() {
+            for (j, f) in (i..).zip(entries) {
+                let product = e.mul(of(f)?, &e.mul(v.get(i)?, v.get(j)?)?)?;
+                let product = if i == j { product } else { e.mul(&two, &product)? };
+                twice = e.add(&twice, &product)?;
+            }
+        }
+        let twice = if e.is_positive(&twice) { twice } else { e.neg(&twice)? };
+        let rest = e.sub(&e.mul(of(&test.a)?, &row)?, &e.integer(1)?)?;
+        e.add(&e.mul(&two, &e.mul(&rest, &length)?)?, &e.mul(of(&test.b)?, &twice)?)
+    }
+
+    /// A direction of so many entries, not all zero.
+    fn direction(&self, v: &[i64], m: usize) -> Option<Vec<Number>> {
+        let is = v.len() == m && v.iter().any(|&v| v != 0);
+        is.then(|| v.iter().map(|&v| self.arithmetic.integer(v)).collect())?
     }
 
     /// `det M`, of as many rows as coordinates.

@@ -3,7 +3,7 @@
 //! A drive meets the platform through `w = P + d - a` alone, from the base end `a` of the leg to its
 //! platform end `P + d`. Signs of working modes are constants: `m = 1` or `-1`.
 
-use crate::formula::{Formula, Tape, Vector};
+use crate::formula::{coordinates, Formula, Tape, Vector};
 use crate::test::Row;
 
 /// A leg's, or joint's, formulas.
@@ -163,7 +163,7 @@ fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
 
 /// A joint by its coordinate alone: with `rho' = N/E` over the `m` coordinates, `A = N`, `D = E^2`.
 pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
-    let gradient = tape.gradient(rho, m);
+    let gradient = tape.gradient(rho, &coordinates(m));
     let d = tape.square_without_roots(gradient.denominator);
     let root = gradient.denominator;
     let divided = gradient.numerators.iter().map(|&a| tape.div(a, root)).collect();

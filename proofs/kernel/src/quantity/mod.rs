@@ -3,21 +3,24 @@
 //! A quantity is a file: its key, its words, and the tests that a bound on it comes to.
 
 mod conditioning;
+mod joint_acceleration;
 mod joint_range;
 mod joint_speed;
 mod leg_angle;
+mod one_to_one;
 mod parallel_margin;
 mod serial_margin;
 mod stiffness;
 mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
-use crate::compile::Builder;
-use crate::formula::{Formula, Tape};
+use crate::compile::{few, Builder};
+use crate::formula::{Formula, Op, Tape};
 use crate::input::{shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
+use crate::test::curvature::Curvature;
 use crate::test::Row;
 
 /// A quantity.
@@ -37,7 +40,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 8] = [
+pub const TABLE: [&Quantity; 10] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -46,6 +49,8 @@ pub const TABLE: [&Quantity; 8] = [
     &leg_angle::LEG_ANGLE,
     &joint_speed::JOINT_SPEED,
     &stiffness::STIFFNESS,
+    &joint_acceleration::JOINT_ACCELERATION,
+    &one_to_one::ONE_TO_ONE,
 ];
 
 /// A test that has to be passed on every cell.
@@ -63,6 +68,10 @@ pub enum Test {
     Beyond(Formula, Formula),
     /// `sigma_min >= kappa` of other rows than the machine's; of `kappa^2`.
     Least(Vec<Row<Formula>>, Formula),
+    /// `sym(Y^T A) > 0` at every point, for one `Y`.
+    OneToOne(Vec<Row<Formula>>),
+    /// `a |row| + b |H| <= 1`.
+    Curvature(Curvature),
 }
 
 /// What is to be shown at every point of the workspace.
@@ -94,6 +103,16 @@ impl Context<'_> {
     fn number(&mut self, x: &Expression, units: i64) -> Formula {
         let scale = units * self.builder.scale;
         self.builder.number(self.place, x, scale)
+    }
+
+    /// The partial derivatives of a formula; refused where they come to too many operations.
+    fn derivatives(&mut self, f: Formula, by: &[Op]) -> Result<Vec<Formula>, ClaimError> {
+        few(self.builder)?;
+        let tape = self.tape();
+        let gradient = tape.gradient(f, by);
+        let zero = tape.integer(0);
+        let each = |&n: &Formula| if n == zero { n } else { tape.div(n, gradient.denominator) };
+        Ok(gradient.numerators.iter().map(each).collect())
     }
 
     fn input(&mut self, value: Value) -> Formula {

@@ -11,7 +11,7 @@ use orthocert_kernel::certificate::{
 use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
@@ -30,16 +30,22 @@ pub fn double(x: &Interval<BigInt>, bits: u32) -> Pair {
 pub struct Prover<'a> {
     pub problem: &'a Problem,
     checker: Checker<'a, Rough>,
+    parameters: Vec<Pair>,
     root: Cell<i64>,
+    chords: Option<Multiplier>,
 }
 
 impl<'a> Prover<'a> {
     pub fn new(problem: &'a Problem) -> Self {
         let parameters = problem.parameters::<BigInt>(96, &[]).expect("parameters");
-        let parameters = parameters.iter().map(|x| double(x, 96)).collect();
+        let parameters: Vec<Pair> = parameters.iter().map(|x| double(x, 96)).collect();
         let tight = problem.tight::<BigInt>(96).map(|q| q.map(|q| double(&q, 96)));
         let root = problem.root(BITS).expect("root");
-        Prover { problem, checker: Checker::new(problem, &Rough, parameters, tight), root }
+        let checker = Checker::new(problem, &Rough, parameters.clone(), tight);
+        let mut prover = Prover { problem, checker, parameters, root, chords: None };
+        prover.chords = prover.common();
+        prover.checker = prover.checker.with_chords(prover.chords.clone());
+        prover
     }
 
     /// `A_i` and `D_i` at a vertex, in the middle.
@@ -66,6 +72,59 @@ impl<'a> Prover<'a> {
             }
         }
         d.iter().all(|&d| d > 0.0).then_some((a, d))
+    }
+
+    /// One `Y` for all of the workspace, by steps along the least eigenvector of `sym(Y^T A)` over a
+    /// grid.
+    fn common(&self) -> Option<Multiplier> {
+        let rows = self.problem.obligations.iter().find_map(|o| match &o.test {
+            Test::OneToOne(rows) => Some(rows),
+            _ => None,
+        })?;
+        let m = self.problem.dimension();
+        let matrix = |x: &[f64]| {
+            let values = self.values(x);
+            let mut a = DMatrix::zeros(rows.len(), m);
+            for (i, row) in rows.iter().enumerate() {
+                for (k, &f) in row.a.iter().enumerate() {
+                    a[(i, k)] = values.of(f)?.0;
+                }
+            }
+            Some(a)
+        };
+        let at: Vec<DMatrix<f64>> = self.grid(5).iter().filter_map(|x| matrix(x)).collect();
+        let mean = at.iter().fold(DMatrix::zeros(rows.len(), m), |sum, a| sum + a);
+        let mut y = mean.pseudo_inverse(1e-9).ok()?.transpose().normalize();
+        let (mut best, mut value) = (y.clone(), f64::MIN);
+        for step in 1..600 {
+            let eigen = |a: &DMatrix<f64>| {
+                let t = y.transpose() * a;
+                SymmetricEigen::new(&t + t.transpose())
+            };
+            let all = at.iter().map(|a| (eigen(a).eigenvalues.min(), a));
+            let (_, a) = all.min_by(|p, q| p.0.total_cmp(&q.0))?;
+            let e = eigen(a);
+            if e.eigenvalues.min() > value {
+                (best, value) = (y.clone(), e.eigenvalues.min());
+            }
+            let v = e.eigenvectors.column(e.eigenvalues.imin());
+            y += (a * v * v.transpose()).normalize() * (0.3 / f64::from(step));
+            y = y.normalize();
+        }
+        let row = |i: usize| best.row(i).iter().map(|y| (y * 16384.0).round() as i64).collect();
+        Some(Multiplier { y: (0..rows.len()).map(row).collect(), places: 14 })
+    }
+
+    /// Points of the workspace's box, so many along each coordinate.
+    pub fn grid(&self, n: usize) -> Vec<Vec<f64>> {
+        let scale = (-f64::from(BITS)).exp2();
+        let ends = |range: &Interval<i64>| (range.lo as f64 * scale, range.hi as f64 * scale);
+        let ends: Vec<Pair> = self.root.0.iter().map(ends).collect();
+        let at = |i: usize| {
+            let part = |k: usize| (i / n.pow(k as u32) % n) as f64 / (n - 1) as f64;
+            ends.iter().enumerate().map(|(k, e)| e.0 + part(k) * (e.1 - e.0)).collect()
+        };
+        (0..n.pow(ends.len() as u32)).map(at).collect()
     }
 
     /// The machine's rows.
@@ -144,7 +203,8 @@ impl<'a> Prover<'a> {
         test: &Test,
         evidence: Evidence,
     ) -> Option<Evidence> {
-        if self.checker.shows(over, place, test, &evidence) {
+        let checker = &self.checker;
+        if checker.shows(over, place, test, &evidence) {
             return Some(evidence);
         }
         let inside = self.problem.inside.as_ref()?;
@@ -192,7 +252,8 @@ impl<'a> Prover<'a> {
                 }
             }
             Test::SigmaMax(_) => tried.extend([Evidence::Cube, Evidence::Test, Evidence::Divided]),
-            Test::AtLeast(_) => tried.push(Evidence::Test),
+            Test::OneToOne(_) => tried.push(Evidence::Chords),
+            Test::AtLeast(_) | Test::Curvature(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => {
                 let starts = self.starts(over, rows, number(kappa).sqrt());
@@ -260,7 +321,7 @@ impl<'a> Prover<'a> {
             }
             nodes.push(node);
         }
-        Some(Tree { precision: BITS, nodes })
+        Some(Tree { precision: BITS, chords: self.chords.clone(), nodes })
     }
 
     /// How much the rows vary along a coordinate.
@@ -275,14 +336,18 @@ impl<'a> Prover<'a> {
         })
     }
 
+    /// The formulas at a point in the unit of the problem.
+    pub fn values(&self, x: &[f64]) -> Values<Pair> {
+        self.problem.tape.run(&Rough, |op| match op {
+            Op::Coordinate(k) => Some((x[k], x[k])),
+            Op::Parameter(j) => Some(self.parameters[j]),
+            _ => None,
+        })
+    }
+
     /// `M` at a point in the unit of the problem.
     pub fn matrix(&self, x: &[f64]) -> Option<DMatrix<f64>> {
-        let parameters = self.problem.parameters::<BigInt>(96, &[]).expect("parameters");
-        let values = self.problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some((x[k], x[k])),
-            Op::Parameter(j) => Some(double(&parameters[j], 96)),
-            _ => None,
-        });
+        let values = self.values(x);
         let mut m = DMatrix::zeros(self.problem.legs.len(), x.len());
         for (i, leg) in self.problem.legs.iter().enumerate() {
             for (k, a) in leg.divided.a.iter().enumerate() {

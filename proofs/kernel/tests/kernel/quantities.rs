@@ -1,6 +1,7 @@
 //! Quantities against sampling: a bound one per cent beyond the worst that is found is proved, one per
 //! cent short of it refuted, and what proves the one proves nothing of the other.
 
+use crate::certificates::claim;
 use crate::leaves::{linear_delta, orthoglide, rotary, struts};
 use crate::prover::{certificate, certify, Prover};
 use orthocert_kernel::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
@@ -134,9 +135,151 @@ fn stiffness() {
         asked.is_decided(&machine, -worst * unit, most, |_| {
             (at.clone(), Failure::Obligation(1, vec![rounded(direction.iter().copied())]))
         });
-        let claim = |given| Asked { given, ..asked.clone() }.of(&machine, 0.01);
+        let asked = |given| Asked { given, ..asked.clone() }.of(&machine, 0.01);
         for given in [&[("joint", &k[..2])][..], &[("joint", &[0.0])], &[("force", &k)]] {
-            assert!(Problem::new(&claim(given)).is_err(), "{given:?}");
+            assert!(Problem::new(&asked(given)).is_err(), "{given:?}");
         }
     }
+}
+
+/// A user's own machine: two sliders along x on either side, in the plane.
+const TWO_SLIDERS: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[],"definitions":[["s","sqrt(200^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[]}"#;
+
+#[test]
+fn joint_acceleration() {
+    use nalgebra::DMatrix;
+    const A: f64 = 9_000.0;
+    const V: f64 = 1_300.0;
+    let given: &[(&str, &[f64])] = &[("acceleration", &[A]), ("speed", &[V])];
+    let pi = std::f64::consts::PI;
+    for (machine, leg, angular, most) in [
+        (linear_delta(SLAB), 1, false, 10),
+        (orthoglide(), 2, false, 10),
+        (struts(), 3, false, 10),
+        (rotary(), 1, true, 200),
+        (claim(TWO_SLIDERS), 1, false, 30),
+        (claim(TWO_SLIDERS), 2, false, 30),
+    ] {
+        let (v, a) = if angular { (10.0, 40.0) } else { (V, A) };
+        let own: &[(&str, &[f64])] = &[("acceleration", &[a]), ("speed", &[v])];
+        let given = if angular { own } else { given };
+        let end = End::Max;
+        let asked = Asked { quantity: "joint_acceleration", leg: Some(leg), given, end };
+        let problem = Problem::new(&asked.of(&machine, 1.0)).expect("a claim");
+        let prover = Prover::new(&problem);
+        let unit = (problem.scale as f64).exp2();
+        let m = problem.dimension();
+        let row = |x: &[f64]| prover.matrix(x).expect("within reach").row(leg - 1).into_owned();
+        // Second derivatives as differences of rows, in the problem's unit.
+        let hessian = |x: &[f64]| {
+            DMatrix::from_fn(m, m, |j, k| {
+                let at = |h: f64| {
+                    let mut x = x.to_vec();
+                    x[k] += h;
+                    row(&x)[j]
+                };
+                (at(1e-5 * unit.recip().max(1.0)) - at(-1e-5 * unit.recip().max(1.0)))
+                    / (2e-5 * unit.recip().max(1.0))
+            })
+        };
+        let (first, second) =
+            if angular { (180.0 / pi / unit, 180.0 / pi / unit / unit) } else { (1.0, 1.0 / unit) };
+        let value = |x: &[f64]| {
+            let h = hessian(x);
+            let h = nalgebra::SymmetricEigen::new((&h + h.transpose()) / 2.0);
+            row(x).norm() * a * first + h.eigenvalues.amax() * v * v * second
+        };
+        let (worst, at) = prover.greatest(value);
+        let h = hessian(&at);
+        let h = nalgebra::SymmetricEigen::new((&h + h.transpose()) / 2.0);
+        let direction = h.eigenvectors.column(h.eigenvalues.iamax()).into_owned();
+        asked.is_decided(&machine, worst, most, |problem| {
+            let test = &problem.obligations[1].test;
+            let general = matches!(test, orthocert_kernel::quantity::Test::Curvature(_));
+            let v = general.then(|| rounded(direction.iter().copied()));
+            (at.clone(), Failure::Obligation(1, v.into_iter().collect()))
+        });
+    }
+    let asked = |given| {
+        let claim = Asked { quantity: "joint_acceleration", leg: None, given, end: End::Max };
+        Problem::new(&claim.of(&orthoglide(), 1e6))
+    };
+    asked(given).expect("well formed");
+    asked(&[("acceleration", &[0.0]), ("speed", &[1.0])]).expect("no acceleration");
+    for given in [
+        &[("acceleration", &[-1.0][..]), ("speed", &[1.0])][..],
+        &[("speed", &[1.0])],
+        &[("acceleration", &[1.0, 2.0]), ("speed", &[1.0])],
+    ] {
+        assert!(asked(given).is_err(), "{given:?}");
+    }
+}
+
+fn one_to_one(machine: &MachineClaim) -> MachineClaim {
+    let mut claim = machine.clone();
+    claim.require = vec![Requirement {
+        quantity: "one_to_one".to_owned(),
+        leg: None,
+        given: BTreeMap::new(),
+        bound: Bound::Holds,
+    }];
+    claim
+}
+
+/// The cube of a complex number, nowhere singular but at 0: of 1 + i sqrt(3) and 1 - i sqrt(3) it is
+/// the same, -8.
+fn cube(x: &str, y: &str) -> MachineClaim {
+    claim(&format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":["x","y"],"parameters":[],"definitions":[],"joints":[{{"rho":"x^3-3*x*y^2"}},{{"rho":"3*x^2*y-y^3"}}]}}}},"workspace":{{"box":{{"min":["{x}","-{y}"],"max":["2","{y}"]}}}},"require":[]}}"#
+    ))
+}
+
+#[test]
+fn one_to_one_by_one_matrix() {
+    for (name, machine, most) in [
+        ("linear Delta", linear_delta(SLAB), 2),
+        ("Orthoglide", orthoglide(), 6),
+        ("struts", struts(), 2),
+        ("rotary Delta", rotary(), 40),
+        ("two sliders", claim(TWO_SLIDERS), 4),
+        ("a cube", cube("1", "1/2"), 8),
+    ] {
+        let proof = certify(&one_to_one(&machine), 20 * most).expect(name);
+        check(&proof).expect(name);
+        let Proof::Tree(tree) = &proof.proof else { panic!("a tree") };
+        let with = tree.nodes.iter().filter(|node| {
+            node.by.iter().any(|step| step.1 == orthocert_kernel::certificate::Evidence::Chords)
+        });
+        let leaves = with.count();
+        println!("{name}: {leaves} leaves");
+        assert!(leaves <= most, "{name}: {leaves} leaves");
+        for change in [
+            (|tree| tree.chords = None) as fn(&mut orthocert_kernel::certificate::Tree),
+            |tree| tree.chords.as_mut().expect("Y").y.iter_mut().flatten().for_each(|y| *y = -*y),
+            |tree| tree.chords.as_mut().expect("Y").y.iter_mut().flatten().for_each(|y| *y = 0),
+            |tree| drop(tree.chords.as_mut().expect("Y").y.pop()),
+            |tree| tree.chords.as_mut().expect("Y").places = 64,
+        ] {
+            let mut changed = proof.clone();
+            let Proof::Tree(tree) = &mut changed.proof else { panic!("a tree") };
+            change(tree);
+            check(&changed).expect_err(name);
+        }
+    }
+}
+
+#[test]
+fn one_to_one_is_not_shown_by_a_matrix_for_each_cell() {
+    // Nowhere singular, so that every small cell has a Y; but not one to one.
+    let machine = cube("1/2", "2");
+    let mut nonsingular = machine.clone();
+    nonsingular.require.clear();
+    check(&certify(&nonsingular, 400).expect("nowhere singular")).expect("accepted");
+    assert!(certify(&one_to_one(&machine), 2_000).is_none());
+    // Rows alone say nothing of an angle's turns; a bound is none.
+    let rows = TWO_SLIDERS.replace(r#"{"rho":"x-s"}"#, r#"{"row":["1","y/s"]}"#);
+    assert!(Problem::new(&one_to_one(&claim(&rows))).is_err());
+    let mut bounded = one_to_one(&machine);
+    bounded.require[0].bound = Bound::Max(number(1.0));
+    assert!(Problem::new(&bounded).is_err());
 }
