@@ -27,6 +27,12 @@ impl Leg {
     pub fn is_angular(&self) -> bool {
         matches!(self.rho, Some(Joint::Angle { .. }))
     }
+
+    /// The length of the leg itself, of which `A_i` is the vector; none of planes, whose normal has the
+    /// length 1 and is `D_i` at once.
+    pub fn rod(&self) -> Option<Formula> {
+        self.length.filter(|&length| length != self.row.d)
+    }
 }
 
 /// A joint coordinate.

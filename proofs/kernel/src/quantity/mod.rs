@@ -2,6 +2,7 @@
 //!
 //! A quantity is a file: its key, its words, and the tests that a bound on it comes to.
 
+mod base_joint;
 mod conditioning;
 mod joint_acceleration;
 mod joint_range;
@@ -9,6 +10,7 @@ mod joint_speed;
 mod leg_angle;
 mod one_to_one;
 mod parallel_margin;
+mod platform_joint;
 mod serial_margin;
 mod stiffness;
 mod transmission;
@@ -16,7 +18,7 @@ mod transmission;
 use crate::claim::{Bound, MachineClaim, Requirement};
 use crate::compile::{few, Builder};
 use crate::formula::{Formula, Op, Tape};
-use crate::input::{shape_error, ClaimError, Value};
+use crate::input::{magnitude, number_error, shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
@@ -40,7 +42,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 10] = [
+pub const TABLE: [&Quantity; 12] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -51,6 +53,8 @@ pub const TABLE: [&Quantity; 10] = [
     &stiffness::STIFFNESS,
     &joint_acceleration::JOINT_ACCELERATION,
     &one_to_one::ONE_TO_ONE,
+    &base_joint::BASE_JOINT,
+    &platform_joint::PLATFORM_JOINT,
 ];
 
 /// A test that has to be passed on every cell.
@@ -103,6 +107,13 @@ impl Context<'_> {
     fn number(&mut self, x: &Expression, units: i64) -> Formula {
         let scale = units * self.builder.scale;
         self.builder.number(self.place, x, scale)
+    }
+
+    /// A direction, brought to the order of one.
+    fn direction(&mut self, numbers: &[Expression]) -> Result<Vec<Formula>, ClaimError> {
+        let scale = magnitude(numbers.iter());
+        let scale = scale.ok_or_else(|| number_error(self.place, "a direction"))?;
+        Ok(numbers.iter().map(|x| self.builder.number(self.place, x, scale)).collect())
     }
 
     /// The partial derivatives of a formula; refused where they come to too many operations.

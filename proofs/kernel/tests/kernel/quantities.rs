@@ -283,3 +283,54 @@ fn one_to_one_is_not_shown_by_a_matrix_for_each_cell() {
     bounded.require[0].bound = Bound::Max(number(1.0));
     assert!(Problem::new(&bounded).is_err());
 }
+
+#[test]
+fn angles_at_joints() {
+    let axis = [1.0, -2.0, 3.0];
+    let given: &[(&str, &[f64])] = &[("axis", &axis)];
+    for (quantity, machine, leg, most) in [
+        ("base_joint", linear_delta(SLAB), 1, 20),
+        ("platform_joint", orthoglide(), 2, 40),
+        ("base_joint", struts(), 3, 20),
+        ("platform_joint", rotary(), 2, 200),
+    ] {
+        let asked = Asked { quantity, leg: Some(leg), given, end: End::Max };
+        let problem = Problem::new(&asked.of(&machine, 90.0)).expect("a claim");
+        let prover = Prover::new(&problem);
+        // The row of A is the leg's vector.
+        let angle = |x: &[f64]| {
+            let values = prover.values(x);
+            let a = problem.legs[leg - 1].row.a.iter().map(|&f| values.of(f).expect("defined").0);
+            let a = nalgebra::Vector3::from_iterator(a);
+            let axis = nalgebra::Vector3::from_row_slice(&axis);
+            (a.dot(&axis) / a.norm() / axis.norm()).acos().to_degrees()
+        };
+        let (worst, at) = prover.greatest(angle);
+        asked.is_decided(&machine, worst, most, |_| (at.clone(), Failure::Obligation(1, vec![])));
+        fn with(
+            given: &[(&str, &[f64])],
+            max: f64,
+            asked: &Asked,
+            of: &MachineClaim,
+        ) -> MachineClaim {
+            let Asked { quantity, leg, end, .. } = *asked;
+            Asked { quantity, leg, given, end }.of(of, max)
+        }
+        let asked = |axis: &[f64], max| with(&[("axis", axis)], max, &asked, &machine);
+        for (axis, max) in
+            [(&[0.0, 0.0, 0.0][..], 45.0), (&[0.0, 1.0], 45.0), (&axis, 0.0), (&axis, 181.0)]
+        {
+            assert!(Problem::new(&asked(axis, max)).is_err(), "{axis:?} {max}");
+        }
+        // A leg that points the other way has the same squares.
+        let other = angle(&at) - 180.0;
+        let opposite = axis.map(|x| -x);
+        let flipped = asked(&opposite, other.abs() * 0.99);
+        assert!(certify(&flipped, 40).is_none());
+    }
+    let plane = r#"{"drive":"planar","direction":["0","0","1"]}"#;
+    let machine =
+        crate::leaves::machine(&[plane.to_owned(), plane.to_owned(), plane.to_owned()], SLAB);
+    let asked = Asked { quantity: "base_joint", leg: Some(1), given, end: End::Max };
+    assert!(Problem::new(&asked.of(&machine, 90.0)).is_err(), "a plane has no leg");
+}
