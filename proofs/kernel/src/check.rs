@@ -14,6 +14,7 @@ use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use crate::test::curvature::curvature;
+use crate::test::solve::solve;
 use crate::test::{at_least, one_to_one, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
 use crate::witness::{self, WitnessError};
 use num_bigint::BigInt;
@@ -267,6 +268,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::OneToOne(rows), Evidence::Chords) => {
                 self.chords.as_ref().is_some_and(|y| one_to_one(over, rows, y))
             }
+            (Test::Solve(test), Evidence::Lower(y)) => solve(over, test, y),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {

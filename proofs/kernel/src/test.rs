@@ -9,6 +9,7 @@
 //! | [`at_least`] | `f >= 0` | |
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
+//! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
 //! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
@@ -16,6 +17,7 @@
 //! statements about one machine, and hold for each whose formulas are in the enclosures.
 
 pub mod curvature;
+pub mod solve;
 
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;

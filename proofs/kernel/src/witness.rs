@@ -10,6 +10,7 @@ use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::test::curvature::Curvature;
+use crate::test::solve::Solve;
 use crate::test::Row;
 use num_bigint::BigInt;
 use std::fmt;
@@ -214,6 +215,7 @@ impl<'a> At<'a> {
                 };
                 self.is_positive(rest())
             }
+            (Test::Solve(test), [v]) => self.is_positive(self.unsolved(test, v)),
             (Test::Curvature(test), [v]) => self.is_positive(self.curved(test, v)),
             (Test::AtLeast(f), []) => self.is_positive(of(f).and_then(|f| e.neg(f))),
             (Test::Beyond(f, b), []) => {
@@ -247,6 +249,24 @@ impl<'a> At<'a> {
         let twice = if e.is_positive(&twice) { twice } else { e.neg(&twice)? };
         let rest = e.sub(&e.mul(of(&test.a)?, &row)?, &e.integer(1)?)?;
         e.add(&e.mul(&two, &e.mul(&rest, &length)?)?, &e.mul(of(&test.b)?, &twice)?)
+    }
+
+    /// `(v . b)^2 - c^2 |A^T v|^2`: positive only if no `z` with `A z = b` has `|z| <= c`, as then
+    /// `v . b = (A^T v) . z <= |A^T v| c`.
+    fn unsolved(&self, test: &Solve, v: &[i64]) -> Option<Number> {
+        let e = &self.arithmetic;
+        let v = self.direction(v, test.b.len())?;
+        let zero = e.integer(0)?;
+        let along = |of: &dyn Fn(usize) -> Option<Formula>| {
+            v.iter().enumerate().try_fold(zero.clone(), |sum, (i, v)| {
+                e.add(&sum, &e.mul(self.values.of(of(i)?)?, v)?)
+            })
+        };
+        let rest = e.sqr(&along(&|i| test.b.get(i).copied())?)?;
+        let image = (0..self.problem.dimension()).try_fold(zero.clone(), |sum, k| {
+            e.add(&sum, &e.sqr(&along(&|i| test.a.get(i)?.get(k).copied())?)?)
+        });
+        e.sub(&rest, &e.mul(self.values.of(test.square)?, &image?)?)
     }
 
     /// A direction of so many entries, not all zero.

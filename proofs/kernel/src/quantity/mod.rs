@@ -5,6 +5,7 @@
 mod base_joint;
 mod conditioning;
 mod joint_acceleration;
+mod joint_force;
 mod joint_range;
 mod joint_speed;
 mod leg_angle;
@@ -23,6 +24,7 @@ use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::test::curvature::Curvature;
+use crate::test::solve::Solve;
 use crate::test::Row;
 
 /// A quantity.
@@ -42,7 +44,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 12] = [
+pub const TABLE: [&Quantity; 13] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -52,6 +54,7 @@ pub const TABLE: [&Quantity; 12] = [
     &joint_speed::JOINT_SPEED,
     &stiffness::STIFFNESS,
     &joint_acceleration::JOINT_ACCELERATION,
+    &joint_force::JOINT_FORCE,
     &one_to_one::ONE_TO_ONE,
     &base_joint::BASE_JOINT,
     &platform_joint::PLATFORM_JOINT,
@@ -74,6 +77,8 @@ pub enum Test {
     Least(Vec<Row<Formula>>, Formula),
     /// `sym(Y^T A) > 0` at every point, for one `Y`.
     OneToOne(Vec<Row<Formula>>),
+    /// `|A^-1 b| <= c`.
+    Solve(Solve),
     /// `a |row| + b |H| <= 1`.
     Curvature(Curvature),
 }
@@ -157,6 +162,14 @@ impl Context<'_> {
             None => Ok(()),
             Some(_) => self.refused("of platforms that do not turn"),
         }
+    }
+
+    /// Refuses more joints than coordinates.
+    fn not_redundant(&self) -> Result<(), ClaimError> {
+        if self.legs.iter().any(|leg| leg.row.a.len() != self.legs.len()) {
+            return self.refused("of as many joints as coordinates");
+        }
+        Ok(())
     }
 
     fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {

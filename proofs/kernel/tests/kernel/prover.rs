@@ -16,6 +16,7 @@ use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Row};
 
 pub const BITS: u32 = 52;
@@ -113,6 +114,28 @@ impl<'a> Prover<'a> {
         }
         let row = |i: usize| best.row(i).iter().map(|y| (y * 16384.0).round() as i64).collect();
         Some(Multiplier { y: (0..rows.len()).map(row).collect(), places: 14 })
+    }
+
+    /// `Y` for a solution `z` of `A z = b`: `A` at the centre, then between it and `b z^T/c^2`, which
+    /// loses nothing along `b`.
+    fn solutions(&self, over: &Over<'_, Rough>, test: &Solve) -> Vec<Multiplier> {
+        let middle = |f: &Formula| over.of(*f).map(|f| (f.at_centre.0 + f.at_centre.1) / 2.0);
+        let n = test.b.len();
+        let all: Option<Vec<f64>> = test.a.iter().flatten().map(middle).collect();
+        let b: Option<Vec<f64>> = test.b.iter().map(middle).collect();
+        let (Some(a), Some(b), Some(square)) = (all, b, middle(&test.square)) else {
+            return Vec::new();
+        };
+        let a = DMatrix::from_row_slice(n, n, &a);
+        let b = nalgebra::DVector::from_vec(b);
+        let Some(z) = a.clone().lu().solve(&b) else { return Vec::new() };
+        let own = &b * z.transpose() / square;
+        let with = |part: f64| {
+            let y = (&a * (1.0 - part) + &own * part) * f64::from(PLACES).exp2();
+            let row = |i| y.row(i).iter().map(|y: &f64| y.round() as i64).collect();
+            Multiplier { y: (0..n).map(row).collect(), places: PLACES }
+        };
+        [0.0, 0.3, 0.6].map(with).to_vec()
     }
 
     /// Points of the workspace's box, so many along each coordinate.
@@ -252,6 +275,9 @@ impl<'a> Prover<'a> {
                 }
             }
             Test::SigmaMax(_) => tried.extend([Evidence::Cube, Evidence::Test, Evidence::Divided]),
+            Test::Solve(solve) => {
+                tried.extend(self.solutions(over, solve).into_iter().map(Evidence::Lower));
+            }
             Test::OneToOne(_) => tried.push(Evidence::Chords),
             Test::AtLeast(_) | Test::Curvature(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),

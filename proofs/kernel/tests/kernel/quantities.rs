@@ -334,3 +334,39 @@ fn angles_at_joints() {
     let asked = Asked { quantity: "base_joint", leg: Some(1), given, end: End::Max };
     assert!(Problem::new(&asked.of(&machine, 90.0)).is_err(), "a plane has no leg");
 }
+
+#[test]
+fn joint_force() {
+    let given: &[(&str, &[f64])] = &[("tool", &[100.0])];
+    for (machine, leg, angular, most) in [
+        (linear_delta(SLAB), 1, false, 20),
+        (orthoglide(), 2, false, 40),
+        (struts(), 3, false, 20),
+        (rotary(), 1, true, 900),
+        (claim(TWO_SLIDERS), 1, false, 30),
+    ] {
+        let asked = Asked { quantity: "joint_force", leg: Some(leg), given, end: End::Max };
+        let problem = Problem::new(&asked.of(&machine, 1e3)).expect("a claim");
+        let prover = Prover::new(&problem);
+        let unit = if angular { (problem.scale as f64).exp2() } else { 1.0 };
+        let inverse = |x: &[f64]| prover.matrix(x).and_then(|m| m.try_inverse()).expect("regular");
+        let (worst, at) = prover.greatest(|x| inverse(x).column(leg - 1).norm());
+        // A^T v along z, so that v = A^-T z.
+        let (values, n) = (prover.values(&at), problem.legs.len());
+        let a = nalgebra::DMatrix::from_fn(n, n, |i, k| {
+            values.of(problem.legs[i].row.a[k]).expect("defined").0
+        });
+        let z = inverse(&at).column(leg - 1).into_owned();
+        let v = a.transpose().lu().solve(&z).expect("regular").normalize();
+        asked.is_decided(&machine, worst * unit * 100.0, most, |_| {
+            (at.clone(), Failure::Obligation(1, vec![rounded(v.iter().copied())]))
+        });
+    }
+    let mut redundant = linear_delta(SLAB);
+    if let orthocert_kernel::claim::Mechanism::Translational(legs) = &mut redundant.mechanism {
+        legs.push(legs[0].clone());
+    }
+    let asked = Asked { quantity: "joint_force", leg: None, given, end: End::Max };
+    Problem::new(&asked.of(&linear_delta(SLAB), 1e3)).expect("well formed");
+    assert!(Problem::new(&asked.of(&redundant, 1e3)).is_err(), "forces are not determined");
+}
