@@ -44,6 +44,8 @@ pub trait Enclosure: Arithmetic {
         centre: &Self::Number,
         slopes: &[Self::Number],
     ) -> Option<Self::Number>;
+    /// Every number from one of `a` to one of `b`.
+    fn hull(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
     /// The least and the greatest number in `a`.
     fn ends(&self, a: &Self::Number) -> [Self::Number; 2];
     /// Whether every number in `a` is greater than zero.

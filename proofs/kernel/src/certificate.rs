@@ -101,6 +101,8 @@ pub enum Evidence {
     Chords,
     /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
     Conditioning(Multiplier, Vec<i64>),
+    /// For accuracy: `Y`, and `kappa` over the same `2^places`.
+    Accuracy(Multiplier, i64),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.
     Negative,
     /// The upper bound on the paper's cube.

@@ -13,6 +13,7 @@ use crate::input::ClaimError;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
+use crate::test::accuracy::{accuracy, inflated, Accuracy};
 use crate::test::curvature::curvature;
 use crate::test::solve::solve;
 use crate::test::{at_least, one_to_one, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
@@ -22,8 +23,8 @@ use std::fmt;
 
 /// Most nodes of a tree.
 pub const MOST_NODES: usize = 500_000;
-/// Most evaluations of a formula, each counted once for every 64 bits of the precision: a bound on
-/// time, whatever the file.
+/// Most work of all steps, each counted once for every 64 bits of the precision: a bound on time,
+/// whatever the file.
 pub const MOST_WORK: usize = 1 << 28;
 
 /// Why a certificate is not accepted.
@@ -120,7 +121,7 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
 fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
     let bits = tree.precision;
     let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();
-    let each = problem.tape.ops().len() * (1 + bits as usize / 64);
+    let each = problem.work() * (1 + bits as usize / 64);
     if tree.nodes.len() > MOST_NODES || steps.saturating_mul(each) > MOST_WORK {
         return Err(Rejected::Work);
     }
@@ -269,6 +270,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 self.chords.as_ref().is_some_and(|y| one_to_one(over, rows, y))
             }
             (Test::Solve(test), Evidence::Lower(y)) => solve(over, test, y),
+            (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
+                self.accuracy(over, place, test, (y, *kappa)).unwrap_or(false)
+            }
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
@@ -283,6 +287,20 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             _ => false,
         }
+    }
+
+    /// The test of accuracy, with the formulas over the inflated cell.
+    fn accuracy(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Accuracy,
+        evidence: (&Multiplier, i64),
+    ) -> Option<bool> {
+        let d = &over.of(test.distance)?.range;
+        let values = self.evaluate(&inflated(self.arithmetic, place.edges, d)?);
+        let far = Over { slopes: over.slopes, values: &values, inside: None };
+        Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
     }
 
     /// Whether a user's formulas are defined on all of the cell, used or not.

@@ -344,6 +344,10 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         (lo <= hi).then_some(Interval { lo, hi })
     }
 
+    fn hull(&self, a: &Interval<Z>, b: &Interval<Z>) -> Interval<Z> {
+        Interval { lo: a.lo.clone().min(b.lo.clone()), hi: a.hi.clone().max(b.hi.clone()) }
+    }
+
     fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {
         [Interval::point(a.lo.clone()), Interval::point(a.hi.clone())]
     }

@@ -125,6 +125,15 @@ impl Problem {
         defined.then_some(()).ok_or_else(|| number_error("mechanism", "defined for every machine"))
     }
 
+    /// The work of a step: the tape's entries, and what a test does for all signs, vertices and signs of
+    /// the joint errors.
+    pub(crate) fn work(&self) -> usize {
+        let errors = self.obligations.iter().any(|o| matches!(o.test, quantity::Test::Accuracy(_)));
+        let signs = if errors { 1 << (3 * self.dimension()) } else { 0 };
+        // Formulas are evaluated a second time over the inflated cell.
+        self.tape.ops().len() * if errors { 2 } else { 1 } + signs
+    }
+
     /// The coordinates.
     pub fn dimension(&self) -> usize {
         self.corners[0].len()

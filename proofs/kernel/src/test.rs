@@ -10,12 +10,14 @@
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
 //! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
+//! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
 //! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
 //! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
 //! statements about one machine, and hold for each whose formulas are in the enclosures.
 
+pub mod accuracy;
 pub mod curvature;
 pub mod solve;
 

@@ -1,17 +1,21 @@
 //! Refutations: one machine, one point, one obligation that fails there.
 
 use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::cell::evaluate;
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
 use crate::formula::{Formula, Op, Values};
 use crate::input::{binary, ordered, sign, ClaimError};
+use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::slope::Slopes;
+use crate::test::accuracy::{inflated, spread, Accuracy};
 use crate::test::curvature::Curvature;
 use crate::test::solve::Solve;
-use crate::test::Row;
+use crate::test::{Over, Row};
 use num_bigint::BigInt;
 use std::fmt;
 
@@ -51,9 +55,25 @@ impl fmt::Display for WitnessError {
 type Number = Interval<BigInt>;
 
 /// A machine's formulas at a point.
+fn values_at(
+    problem: &Problem,
+    arithmetic: &Fixed<BigInt>,
+    point: &[Number],
+    parameters: &[Number],
+) -> Values<Number> {
+    problem.tape.run(arithmetic, |op| match op {
+        Op::Coordinate(k) => point.get(k).cloned(),
+        Op::Parameter(j) => parameters.get(j).cloned(),
+        _ => None,
+    })
+}
+
+/// A machine's formulas at a point, and what they are of.
 struct At<'a> {
     problem: &'a Problem,
     arithmetic: Fixed<BigInt>,
+    point: Vec<Number>,
+    parameters: Vec<Number>,
     values: Values<Number>,
 }
 
@@ -132,12 +152,8 @@ impl<'a> At<'a> {
         let parameters: Vec<Number> =
             problem.parameters(bits, &witness.machine).map_err(WitnessError::Claim)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
-        let values = problem.tape.run(&arithmetic, |op| match op {
-            Op::Coordinate(k) => point.get(k).cloned(),
-            Op::Parameter(j) => parameters.get(j).cloned(),
-            _ => None,
-        });
-        Ok(At { problem, arithmetic, values })
+        let values = values_at(problem, &arithmetic, &point, &parameters);
+        Ok(At { problem, arithmetic, point, parameters, values })
     }
 
     fn is_positive(&self, x: Option<Number>) -> bool {
@@ -216,6 +232,7 @@ impl<'a> At<'a> {
                 self.is_positive(rest())
             }
             (Test::Solve(test), [v]) => self.is_positive(self.unsolved(test, v)),
+            (Test::Accuracy(test), [v]) => self.is_positive(self.far(test, v)),
             (Test::Curvature(test), [v]) => self.is_positive(self.curved(test, v)),
             (Test::AtLeast(f), []) => self.is_positive(of(f).and_then(|f| e.neg(f))),
             (Test::Beyond(f, b), []) => {
@@ -267,6 +284,86 @@ impl<'a> At<'a> {
             e.add(&sum, &e.sqr(&along(&|i| test.a.get(i)?.get(k).copied())?)?)
         });
         e.sub(&rest, &e.mul(self.values.of(test.square)?, &image?)?)
+    }
+
+    /// `v . b/d - |M^T v| - (d Gamma/2) |v|` for the worst joint errors, at most.
+    ///
+    /// **Lemma.** If it is positive, the machine has no position within `d` with the joint coordinates
+    /// that these errors give. *Proof.* For one, `b = f(P + u) - f(P)` with `|u| <= d` (see
+    /// [`accuracy`](crate::test::accuracy::accuracy)), so `v . b <= |M^T v| d + |v| Gamma d^2/2`. Of
+    /// `b_i = delta_i + eps_i` the error may be `e_i` with the sign of `v_i`. ∎ A position beyond `d` would
+    /// show nothing: there may be another one within.
+    fn far(&self, test: &Accuracy, v: &[i64]) -> Option<Number> {
+        let e = &self.arithmetic;
+        let direction = self.direction(v, test.joints.len())?;
+        let d = self.values.of(test.distance)?;
+        let zero = e.integer(0)?;
+        let mut rest = zero.clone();
+        for ((v, delta), (error, _)) in direction.iter().zip(self.off_nominal()?).zip(&test.joints)
+        {
+            let size = if e.is_nonnegative(v) { v.clone() } else { e.neg(v)? };
+            rest = e.add(&rest, &e.mul(v, &e.div(&delta, d)?)?)?;
+            rest = e.add(&rest, &e.mul(&size, self.values.of(*error)?)?)?;
+        }
+        let edges: Vec<_> =
+            self.point.iter().map(|x| [x.clone(), x.clone(), zero.clone()]).collect();
+        let slopes = Slopes { arithmetic: e, m: edges.len() };
+        let edges = inflated(e, &edges, d)?;
+        let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
+        let far = Over { slopes, values: &values, inside: None };
+        let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
+        let spread = e.halve(&spread(&far, &test.rows).filter(|_| defined)?)?;
+        let norm = |square: Option<Number>| {
+            let [_, square] = e.ends(&square?);
+            if e.is_positive(&square) {
+                e.sqrt(&square)
+            } else {
+                Some(square)
+            }
+        };
+        let add_square = |sum: Number, x: &Number| e.add(&sum, &e.sqr(x)?);
+        let length = norm(direction.iter().try_fold(zero.clone(), add_square))?;
+        let image = norm((0..self.point.len()).try_fold(zero.clone(), |sum, k| {
+            let mut terms = direction.iter().zip(&test.rows);
+            let entry = terms.try_fold(zero.clone(), |sum, (v, row)| {
+                e.add(&sum, &e.mul(v, self.values.of(*row.get(k)?)?)?)
+            });
+            add_square(sum, &entry?)
+        }))?;
+        e.sub(&rest, &e.add(&image, &e.mul(&spread, &length)?)?)
+    }
+
+    /// `rho_i` of the machine in the middle of the tolerance, less `rho_i`, at this point. Of angles,
+    /// which count their turns: if for all machines of the tolerance the cosine of the difference is
+    /// positive, it is within a quarter of a turn on the way from one to the other, and between its sine
+    /// and its tangent.
+    fn off_nominal(&self) -> Option<Vec<Number>> {
+        let (e, problem) = (&self.arithmetic, self.problem);
+        let middle = |(_, min, max): (&str, &Expression, &Expression)| {
+            binary(Operator::Div, &binary(Operator::Add, min, max), &Expression::integer(2))
+        };
+        let middle: Vec<Expression> = problem.tolerances().map(middle).collect();
+        let with = |machine: &[Expression]| {
+            let parameters = problem.parameters(e.bits(), machine).ok()?;
+            Some(values_at(problem, e, &self.point, &parameters))
+        };
+        let (nominal, all) = (with(&middle)?, with(&[])?);
+        let off = |leg: &Leg| match leg.rho? {
+            Joint::Length(rho) => e.sub(nominal.of(rho)?, self.values.of(rho)?),
+            Joint::Angle { cos, sin } => {
+                let turned = |other: &Values<Number>| {
+                    let (c, s) = (nominal.of(cos)?, nominal.of(sin)?);
+                    let (c2, s2) = (other.of(cos)?, other.of(sin)?);
+                    let along = e.add(&e.mul(c, c2)?, &e.mul(s, s2)?)?;
+                    let across = e.sub(&e.mul(s, c2)?, &e.mul(c, s2)?)?;
+                    Some((along, across)).filter(|(along, _)| e.is_positive(along))
+                };
+                turned(&all)?;
+                let (cos, sin) = turned(&self.values)?;
+                Some(e.hull(&sin, &e.div(&sin, &cos)?))
+            }
+        };
+        problem.legs.iter().map(off).collect()
     }
 
     /// A direction of so many entries, not all zero.

@@ -2,6 +2,7 @@
 //!
 //! A quantity is a file: its key, its words, and the tests that a bound on it comes to.
 
+mod accuracy;
 mod base_joint;
 mod conditioning;
 mod joint_acceleration;
@@ -23,6 +24,7 @@ use crate::input::{magnitude, number_error, shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
+use crate::test::accuracy::Accuracy;
 use crate::test::curvature::Curvature;
 use crate::test::solve::Solve;
 use crate::test::Row;
@@ -44,7 +46,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 13] = [
+pub const TABLE: [&Quantity; 14] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -55,6 +57,7 @@ pub const TABLE: [&Quantity; 13] = [
     &stiffness::STIFFNESS,
     &joint_acceleration::JOINT_ACCELERATION,
     &joint_force::JOINT_FORCE,
+    &accuracy::ACCURACY,
     &one_to_one::ONE_TO_ONE,
     &base_joint::BASE_JOINT,
     &platform_joint::PLATFORM_JOINT,
@@ -79,6 +82,8 @@ pub enum Test {
     OneToOne(Vec<Row<Formula>>),
     /// `|A^-1 b| <= c`.
     Solve(Solve),
+    /// One position within `d`.
+    Accuracy(Accuracy),
     /// `a |row| + b |H| <= 1`.
     Curvature(Curvature),
 }

@@ -43,7 +43,7 @@ pub fn solve<E: Enclosure>(over: &Over<'_, E>, test: &Solve, evidence: &Multipli
 
 /// `A Y^T + Y A^T - Y Y^T`, less the workspace's own inequality, at a vertex: as `(Y Z^T + Z Y^T)/2`,
 /// `Z = 2 A - Y`.
-fn below_square<E: Enclosure>(
+pub(super) fn below_square<E: Enclosure>(
     over: &Over<'_, E>,
     a: &[Vec<Formula>],
     vertex: Vertex,
@@ -72,7 +72,7 @@ fn below_square<E: Enclosure>(
 }
 
 /// `[[T, b], [b^T, c]]`.
-fn bordered<N: Clone>(mut t: Triangle<N>, b: &[N], c: N) -> Triangle<N> {
+pub(super) fn bordered<N: Clone>(mut t: Triangle<N>, b: &[N], c: N) -> Triangle<N> {
     t.iter_mut().zip(b).for_each(|(row, b)| row.push(b.clone()));
     t.push(vec![c]);
     t

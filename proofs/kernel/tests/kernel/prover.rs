@@ -278,6 +278,19 @@ impl<'a> Prover<'a> {
             Test::Solve(solve) => {
                 tried.extend(self.solutions(over, solve).into_iter().map(Evidence::Lower));
             }
+            Test::Accuracy(accuracy) => {
+                let middle =
+                    |f: &Formula| over.of(*f).map(|f| (f.at_centre.0 + f.at_centre.1) / 2.0);
+                let all: Option<Vec<f64>> = accuracy.rows.iter().flatten().map(middle).collect();
+                let n = accuracy.rows.len();
+                let m = DMatrix::from_row_slice(n, n, &all?);
+                let scale = f64::from(PLACES).exp2();
+                let row = |i| m.row(i).iter().map(|x: &f64| (x * scale).round() as i64).collect();
+                let y = Multiplier { y: (0..n).map(row).collect(), places: PLACES };
+                let kappa = m.singular_values().min() * scale;
+                let with = |part: f64| Evidence::Accuracy(y.clone(), (kappa * part) as i64);
+                tried.extend([0.95, 0.8, 0.5].map(with));
+            }
             Test::OneToOne(_) => tried.push(Evidence::Chords),
             Test::AtLeast(_) | Test::Curvature(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),

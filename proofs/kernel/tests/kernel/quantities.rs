@@ -63,8 +63,29 @@ impl Asked<'_> {
         most: usize,
         fails: impl Fn(&Problem) -> (Vec<f64>, Failure),
     ) {
-        let by = if self.end == End::Max { 0.01 } else { -0.01 };
-        let true_claim = self.of(machine, worst * (1.0 + by));
+        self.is_proved(machine, worst, most);
+        let problem = Problem::new(&self.of(machine, worst)).expect("well formed");
+        let (point, fails) = fails(&problem);
+        self.is_refuted(machine, worst, &point, &[], &fails);
+    }
+
+    /// Proves the bound one per cent beyond the worst; the proof proves nothing of the bound one per
+    /// cent short of it.
+    pub fn is_proved(&self, machine: &MachineClaim, worst: f64, most: usize) -> MachineClaim {
+        self.is_proved_within(0.01, machine, worst, most)
+    }
+
+    /// The same, so much beyond the worst.
+    pub fn is_proved_within(
+        &self,
+        part: f64,
+        machine: &MachineClaim,
+        worst: f64,
+        most: usize,
+    ) -> MachineClaim {
+        let sign = if self.end == End::Max { 1.0 } else { -1.0 };
+        let by = 0.01 * sign;
+        let true_claim = self.of(machine, worst * (1.0 + part * sign));
         let proof = certify(&true_claim, 4 * most).expect("a proof");
         check(&proof).expect("accepted");
         let Proof::Tree(tree) = &proof.proof else { panic!("a tree") };
@@ -73,10 +94,25 @@ impl Asked<'_> {
         assert!(leaves <= most, "{}: {leaves} leaves", self.quantity);
         let false_claim = self.of(machine, worst * (1.0 - by));
         assert!(check(&about(&proof, &false_claim)).is_err(), "{}: false", self.quantity);
+        true_claim
+    }
+
+    /// Refutes the bound one per cent short of the worst; the witness shows nothing of the bound one
+    /// per cent beyond it.
+    pub fn is_refuted(
+        &self,
+        machine: &MachineClaim,
+        worst: f64,
+        point: &[f64],
+        values: &[Expression],
+        fails: &Failure,
+    ) {
+        let by = if self.end == End::Max { 0.01 } else { -0.01 };
+        let false_claim = self.of(machine, worst * (1.0 - by));
         let problem = Problem::new(&false_claim).expect("well formed");
-        let (point, fails) = fails(&problem);
-        let witness = refutation(&problem, &false_claim, &point, &fails);
+        let witness = refutation(&problem, &false_claim, point, values, fails);
         check(&witness).expect("refuted");
+        let true_claim = self.of(machine, worst * (1.0 + by));
         check(&about(&witness, &true_claim)).expect_err("a refutation of what is true");
     }
 }
@@ -91,6 +127,7 @@ pub fn refutation(
     problem: &Problem,
     claim: &MachineClaim,
     point: &[f64],
+    values: &[Expression],
     fails: &Failure,
 ) -> Certificate {
     let unit = (problem.scale as f64).exp2();
@@ -100,8 +137,7 @@ pub fn refutation(
         number((middle + (x - middle) * (1.0 - 1e-7)) * unit)
     };
     let point = point.iter().zip(&root.0).map(inward).collect();
-    let machine = problem.tolerances().map(|(_, min, _)| min.clone()).collect();
-    let witness = Witness { precision: 128, point, machine, fails: fails.clone() };
+    let witness = Witness { precision: 128, point, machine: values.to_vec(), fails: fails.clone() };
     certificate(claim, Verdict::Refuted, Proof::Witness(witness))
 }
 
@@ -369,4 +405,189 @@ fn joint_force() {
     let asked = Asked { quantity: "joint_force", leg: None, given, end: End::Max };
     Problem::new(&asked.of(&linear_delta(SLAB), 1e3)).expect("well formed");
     assert!(Problem::new(&asked.of(&redundant, 1e3)).is_err(), "forces are not determined");
+}
+
+/// The machine with a tolerance of so much either way on each length and, but for arms, on each
+/// coordinate of the anchors.
+fn toleranced(machine: &MachineClaim, half: f64) -> MachineClaim {
+    use orthocert_kernel::claim::{Leg, Mechanism, Quantity};
+    use orthocert_kernel::number::Operator;
+    let wide = |x: &mut Quantity| {
+        let Quantity::Exactly(middle) = x.clone() else { return };
+        let end = |operator| {
+            Expression::Binary(operator, Box::new(middle.clone()), Box::new(number(half)))
+        };
+        *x = Quantity::Between { min: end(Operator::Sub), max: end(Operator::Add) };
+    };
+    let mut machine = machine.clone();
+    if let Mechanism::Translational(legs) = &mut machine.mechanism {
+        for leg in legs {
+            match leg {
+                Leg::Slider { anchor, length, .. } => {
+                    wide(length);
+                    anchor.iter_mut().for_each(wide);
+                }
+                Leg::Strut { anchor, .. } => anchor.iter_mut().for_each(wide),
+                Leg::Arm { arm, length, .. } => {
+                    wide(arm);
+                    wide(length);
+                }
+                Leg::Planar { .. } => {}
+            }
+        }
+    }
+    // As read from a certificate: canonical.
+    let text = serde_json::to_string(&machine).expect("a text");
+    claim(&text)
+}
+
+/// Small differences of joint coordinates, of which angles are up to whole turns.
+fn turned(difference: nalgebra::DVector<f64>) -> nalgebra::DVector<f64> {
+    let turn = std::f64::consts::TAU;
+    difference.map(|x| if x.abs() > 3.0 { x - turn * (x / turn).round() } else { x })
+}
+
+/// A machine of the tolerance, in doubles, by its values.
+struct Built<'a> {
+    problem: &'a Problem,
+    parameters: Vec<crate::rough::Pair>,
+}
+
+impl<'a> Built<'a> {
+    fn new(problem: &'a Problem, values: &[Expression]) -> Self {
+        let parameters = problem.parameters::<num_bigint::BigInt>(96, values).expect("a machine");
+        let middle = |x| {
+            let (lo, hi): (f64, f64) = crate::prover::double(x, 96);
+            ((lo + hi) / 2.0, (lo + hi) / 2.0)
+        };
+        Built { problem, parameters: parameters.iter().map(middle).collect() }
+    }
+
+    fn at(&self, x: &[f64]) -> (nalgebra::DVector<f64>, nalgebra::DMatrix<f64>) {
+        use orthocert_kernel::formula::Op;
+        use orthocert_kernel::machine::Joint;
+        let values = self.problem.tape.run(&crate::rough::Rough, |op| match op {
+            Op::Coordinate(k) => Some((x[k], x[k])),
+            Op::Parameter(j) => Some(self.parameters[j]),
+            _ => None,
+        });
+        let of = |f| values.of(f).expect("within reach").0;
+        let n = x.len();
+        let rho = |i: usize| match self.problem.legs[i].rho.expect("a joint") {
+            Joint::Length(rho) => of(rho),
+            Joint::Angle { cos, sin } => of(sin).atan2(of(cos)),
+        };
+        let entry = |i: usize, k: usize| of(self.problem.legs[i].divided.a[k]);
+        (nalgebra::DVector::from_fn(n, |i, _| rho(i)), nalgebra::DMatrix::from_fn(n, n, entry))
+    }
+
+    /// Where the machine is with these joint coordinates, by Newton's method from `x`.
+    fn position(&self, x: &[f64], rho: &nalgebra::DVector<f64>) -> Vec<f64> {
+        let mut y = x.to_vec();
+        for _ in 0..30 {
+            let (own, m) = self.at(&y);
+            let step = m.lu().solve(&turned(rho - own)).expect("regular");
+            y.iter_mut().zip(step.iter()).for_each(|(y, s)| *y += s);
+        }
+        y
+    }
+}
+
+#[test]
+fn accuracy() {
+    use crate::arithmetic::Random;
+    use nalgebra::DVector;
+    use orthocert_kernel::quantity::Test;
+    for (name, machine, half, error, angular, most) in [
+        ("linear Delta", linear_delta(SLAB), 0.02, 0.01, false, 70),
+        ("Orthoglide", orthoglide(), 0.02, 0.01, false, 60),
+        ("struts", struts(), 0.02, 0.0, false, 130),
+        ("rotary Delta", rotary(), 0.0005, 0.01, true, 3_000),
+        ("two sliders", claim(TWO_SLIDERS), 0.0, 0.01, false, 60),
+    ] {
+        let machine = if half > 0.0 { toleranced(&machine, half) } else { machine };
+        let given: &[(&str, &[f64])] = &[("joint_error", &[error])];
+        let asked = Asked { quantity: "accuracy", leg: None, given, end: End::Max };
+        let problem = Problem::new(&asked.of(&machine, 1.0)).expect("a claim");
+        let unit = (problem.scale as f64).exp2();
+        let n = problem.dimension();
+        let middle: Vec<Expression> = problem
+            .tolerances()
+            .map(|(_, min, max)| {
+                use orthocert_kernel::number::Operator;
+                let sum =
+                    Expression::Binary(Operator::Add, Box::new(min.clone()), Box::new(max.clone()));
+                Expression::Binary(Operator::Div, Box::new(sum), Box::new(Expression::integer(2)))
+            })
+            .collect();
+        let nominal = Built::new(&problem, &middle);
+        let error = if angular { error.to_radians() } else { error / unit };
+        // Sensitivities as differences over the machine's values.
+        let ends: Vec<[Expression; 2]> =
+            problem.tolerances().map(|(_, min, max)| [min.clone(), max.clone()]).collect();
+        let single: Vec<[Built; 2]> = (0..ends.len())
+            .map(|j| {
+                [0, 1].map(|end| {
+                    let mut values = middle.clone();
+                    values[j] = ends[j][end].clone();
+                    Built::new(&problem, &values)
+                })
+            })
+            .collect();
+        let changes = |x: &[f64]| -> Vec<DVector<f64>> {
+            single.iter().map(|[low, high]| turned(high.at(x).0 - low.at(x).0) / 2.0).collect()
+        };
+        let first_order = |x: &[f64]| {
+            let (changes, m) = (changes(x), nominal.at(x).1.lu());
+            let beta = |i: usize| error + changes.iter().map(|c| c[i].abs()).sum::<f64>();
+            let all = (0..1u32 << (n - 1)).map(|signs| {
+                let s = |i: usize| if signs >> i & 1 == 1 { -1.0 } else { 1.0 };
+                let b = DVector::from_fn(n, |i, _| s(i) * beta(i));
+                (m.solve(&b).expect("regular").norm(), DVector::from_fn(n, |i, _| s(i)))
+            });
+            all.max_by(|a, b| a.0.total_cmp(&b.0)).expect("signs")
+        };
+        let prover = Prover::new(&problem);
+        let (_, at) = prover.greatest(|x| first_order(x).0);
+        // The worst machine there, and the one with all signs the other way.
+        let (_, signs) = first_order(&at);
+        let own = changes(&at);
+        let found = [1.0, -1.0].map(|sign: f64| {
+            let values: Vec<Expression> = own
+                .iter()
+                .zip(&ends)
+                .map(|(change, end)| {
+                    let i = change.iamax();
+                    end[usize::from(sign * signs[i] * change[i] < 0.0)].clone()
+                })
+                .collect();
+            let built = Built::new(&problem, &values);
+            let rho = nominal.at(&at).0 + signs.clone() * sign * error;
+            let there = built.position(&at, &rho);
+            let u = DVector::from_fn(n, |k, _| there[k] - at[k]);
+            let y = built.at(&at).1.transpose().lu().solve(&u).expect("regular").normalize();
+            (u.norm() * unit, values, rounded(y.iter().copied()))
+        });
+        let (worst, values, y) =
+            found.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).expect("both");
+        println!("{name}: worst {worst}");
+        asked.is_refuted(&machine, worst, &at, &values, &Failure::Obligation(1, vec![y]));
+        let part = if angular { 0.05 } else { 0.01 };
+        let proved = asked.is_proved_within(part, &machine, worst, most);
+        // Machines, points and errors at random are within what is proved.
+        let Bound::Max(bound) = &proved.require[0].bound else { panic!("a bound") };
+        let bound: f64 = bound.to_string().parse().expect("a decimal");
+        let mut random = Random(11);
+        let points = prover.grid(4);
+        for _ in 0..60 {
+            let values: Vec<Expression> =
+                ends.iter().map(|end| end[random.below(2) as usize].clone()).collect();
+            let x = &points[random.below(points.len() as u64) as usize];
+            let eps = DVector::from_fn(n, |_, _| error * (random.below(201) as f64 / 100.0 - 1.0));
+            let there = Built::new(&problem, &values).position(x, &(nominal.at(x).0 + eps));
+            let off: f64 = there.iter().zip(x).map(|(y, x)| (y - x).powi(2)).sum();
+            assert!(off.sqrt() * unit <= bound, "{name}");
+        }
+        assert!(matches!(problem.obligations[1].test, Test::Accuracy(_)));
+    }
 }
