@@ -112,7 +112,8 @@ fn magnitude<E: Enclosure>(e: &E, x: &E::Number) -> Option<E::Number> {
 ///    fixed point, and its fixed points are what is looked for. ∎
 ///
 /// With the range of `rho_i(P, theta_0) - rho_i(P, theta)` over the cell in place of that of the
-/// derivative it would be as wide as the cell. With `Gamma` taken on the cell alone, or on the part of
+/// derivative it would be as wide as the cell. With the rows of `A` and derivatives multiplied by `B_i`
+/// it would be unsound: these are of the machine `theta'`, the row is of `theta`. With `Gamma` taken on the cell alone, or on the part of
 /// the inflated cell in the workspace, it would be unsound: `P + u` may leave either.
 pub fn accuracy<E: Enclosure>(
     over: &Over<'_, E>,

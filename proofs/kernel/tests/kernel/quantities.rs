@@ -591,3 +591,62 @@ fn accuracy() {
         assert!(matches!(problem.obligations[1].test, Test::Accuracy(_)));
     }
 }
+
+#[test]
+fn accuracy_is_existence_and_uniqueness() {
+    use orthocert_kernel::certificate::{Evidence, Step};
+    // x^2 within 0.001 of what it is at x >= 0.1: one solution within 0.00514 of x, and another
+    // within 0.2052.
+    let square = claim(
+        r#"{"mechanism":{"formulas":{"coordinates":["x"],"parameters":[],"definitions":[],"joints":[{"rho":"x^2"}]}},"workspace":{"box":{"min":["0.1"],"max":["1"]}},"require":[]}"#,
+    );
+    let asked = |given, bound| {
+        Asked { quantity: "accuracy", leg: None, given, end: End::Max }.of(&square, bound)
+    };
+    let small: &[(&str, &[f64])] = &[("joint_error", &[0.001])];
+    let proof = certify(&asked(small, 0.006), 200).expect("a proof");
+    check(&proof).expect("accepted");
+    for (defect, bound) in [("none within", 0.00512), ("two within", 0.21), ("out of reach", 3.0)] {
+        assert!(certify(&asked(small, bound), 400).is_none(), "{defect}");
+        assert!(check(&about(&proof, &asked(small, bound))).is_err(), "{defect}");
+    }
+    for (defect, change) in [
+        (
+            "Y of zero",
+            (|y, _| y.y[0][0] = 0) as fn(&mut orthocert_kernel::test::Multiplier, &mut i64),
+        ),
+        ("Y without rows", |y, _| y.y.clear()),
+        ("Y with an entry too many", |y, _| y.y[0].push(0)),
+        ("too many places", |y, _| y.places = 64),
+        ("kappa of zero", |_, kappa| *kappa = 0),
+        ("kappa less than zero", |_, kappa| *kappa = -*kappa),
+        ("kappa twice", |_, kappa| *kappa *= 2),
+        ("kappa too small for Banach", |_, kappa| *kappa = 1),
+    ] {
+        let mut changed = proof.clone();
+        let Proof::Tree(tree) = &mut changed.proof else { panic!("a tree") };
+        for Step(_, evidence) in tree.nodes.iter_mut().flat_map(|node| &mut node.by) {
+            if let Evidence::Accuracy(y, kappa) = evidence {
+                change(y, kappa);
+            }
+        }
+        assert!(check(&changed).is_err(), "{defect}");
+    }
+    // What is claimed of more joints than coordinates, or of none that are known.
+    for (defect, given, bound) in [
+        ("bound of zero", small, 0.0),
+        ("error less than zero", &[("joint_error", &[-0.1][..])][..], 0.1),
+        ("two errors", &[("joint_error", &[0.1, 0.1])], 0.1),
+        ("no error", &[], 0.1),
+    ] {
+        assert!(Problem::new(&asked(given, bound)).is_err(), "{defect}");
+    }
+    let asked = Asked { quantity: "accuracy", leg: None, given: small, end: End::Max };
+    let mut redundant = linear_delta(SLAB);
+    if let orthocert_kernel::claim::Mechanism::Translational(legs) = &mut redundant.mechanism {
+        legs.push(legs[0].clone());
+    }
+    assert!(Problem::new(&asked.of(&redundant, 1.0)).is_err(), "a joint too many");
+    let rows = TWO_SLIDERS.replace(r#"{"rho":"x-s"}"#, r#"{"row":["1","y/s"]}"#);
+    assert!(Problem::new(&asked.of(&claim(&rows), 1.0)).is_err(), "a joint by its row");
+}
