@@ -93,7 +93,7 @@ pub enum Evidence {
     Test,
     /// None is needed; the rows are divided.
     Divided,
-    /// For a least singular value.
+    /// For a least singular value, or a solution.
     Lower(Multiplier),
     /// The same, with divided rows.
     LowerDivided(Multiplier),
@@ -103,6 +103,8 @@ pub enum Evidence {
     Conditioning(Multiplier, Vec<i64>),
     /// For accuracy: `Y`, and `kappa` over the same `2^places`.
     Accuracy(Multiplier, i64),
+    /// For two bodies: an affine direction, three rows of `g_0, g_1, .., g_m`.
+    Direction(Multiplier),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.
     Negative,
     /// The upper bound on the paper's cube.

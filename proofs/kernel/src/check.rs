@@ -14,6 +14,7 @@ use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use crate::test::accuracy::{accuracy, inflated, Accuracy};
+use crate::test::apart::apart;
 use crate::test::curvature::curvature;
 use crate::test::solve::solve;
 use crate::test::{at_least, one_to_one, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
@@ -273,6 +274,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
                 self.accuracy(over, place, test, (y, *kappa)).unwrap_or(false)
             }
+            (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {

@@ -102,22 +102,31 @@ fn built_leg(builder: &mut Builder, number: usize, leg: &Leg) -> Result<machine:
     let tape = &mut builder.tape;
     let p: Vector = std::array::from_fn(|k| tape.coordinate(k));
     let vector = |formulas: &[Formula]| -> Option<Vector> { formulas.try_into().ok() };
-    let from_base = |tape: &mut Tape, anchor: &[Formula], platform: &[Formula]| {
-        let joint = tape.plus(&p, &vector(platform)?);
-        Some(tape.minus(&joint, &vector(anchor)?))
+    let ends = |tape: &mut Tape, anchor: &[Formula], platform: &[Formula]| {
+        let tip = tape.plus(&p, &vector(platform)?);
+        Some((tape.minus(&tip, &vector(anchor)?), tip))
     };
     let mut build = || match (leg, formulas.as_slice()) {
         (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) => {
-            let w = from_base(tape, anchor, platform)?;
+            let (w, tip) = ends(tape, anchor, platform)?;
             let n = tape.normalised(&vector(direction)?);
-            Some(machine::slider(tape, &w, &n, *length.first()?, mode.as_integer()))
+            let leg = machine::slider(tape, &w, &n, *length.first()?, mode.as_integer());
+            Some(machine::Leg { tip: Some(tip), ..leg })
         }
-        (Leg::Strut { .. }, [anchor, platform]) => {
-            let w = from_base(tape, anchor, platform)?;
-            Some(machine::strut(tape, &w))
+        (Leg::Strut { .. }, [anchor, platform, base_axis @ ..]) => {
+            let (w, tip) = ends(tape, anchor, platform)?;
+            let leg = machine::strut(tape, &w);
+            let couple = match base_axis.first() {
+                Some(axis) => {
+                    let k = tape.normalised(&vector(axis)?);
+                    Some(machine::couple(tape, &w, &k))
+                }
+                None => None,
+            };
+            Some(machine::Leg { tip: Some(tip), couple, ..leg })
         }
         (Leg::Arm { mode, .. }, [axis, reference, anchor, platform, arm, length]) => {
-            let w = from_base(tape, anchor, platform)?;
+            let (w, tip) = ends(tape, anchor, platform)?;
             let k = tape.normalised(&vector(axis)?);
             let reference = vector(reference)?;
             let along = tape.dot(&k, &reference);
@@ -125,7 +134,8 @@ fn built_leg(builder: &mut Builder, number: usize, leg: &Leg) -> Result<machine:
             let across = tape.minus(&reference, &along);
             let e = tape.normalised(&across);
             let lengths = [*arm.first()?, *length.first()?];
-            Some(machine::arm(tape, &w, [&k, &e], lengths, mode.as_integer()))
+            let leg = machine::arm(tape, &w, [&k, &e], lengths, mode.as_integer());
+            Some(machine::Leg { tip: Some(tip), ..leg })
         }
         (Leg::Planar { .. }, [direction]) => {
             let n = tape.normalised(&vector(direction)?);

@@ -65,8 +65,8 @@ impl Problem {
             }
             _ => None,
         };
-        if claim.orientation.is_some() || !claim.bodies.is_empty() {
-            return Err(shape_error("workspace", "without orientations and bodies"));
+        if claim.orientation.is_some() {
+            return Err(shape_error("workspace", "without orientations"));
         }
         let corners = match (&cube, &claim.workspace) {
             (Some(cube), _) => [&cube.q1, &cube.q2].map(|q| vec![q.clone(); 3]),

@@ -11,6 +11,7 @@
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
 //! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
 //! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
+//! | [`apart`](apart::apart) | segments farther apart than `R` | an affine direction |
 //! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
@@ -18,6 +19,7 @@
 //! statements about one machine, and hold for each whose formulas are in the enclosures.
 
 pub mod accuracy;
+pub mod apart;
 pub mod curvature;
 pub mod solve;
 

@@ -5,7 +5,7 @@ use crate::cell::evaluate;
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Formula, Op, Values};
+use crate::formula::{Formula, Op, Values, Vector};
 use crate::input::{binary, ordered, sign, ClaimError};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
@@ -13,6 +13,7 @@ use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::Slopes;
 use crate::test::accuracy::{inflated, spread, Accuracy};
+use crate::test::apart::Apart;
 use crate::test::curvature::Curvature;
 use crate::test::solve::Solve;
 use crate::test::{Over, Row};
@@ -233,6 +234,7 @@ impl<'a> At<'a> {
             }
             (Test::Solve(test), [v]) => self.is_positive(self.unsolved(test, v)),
             (Test::Accuracy(test), [v]) => self.is_positive(self.far(test, v)),
+            (Test::Apart(test), [weights]) => self.is_positive(self.nearer(test, weights)),
             (Test::Curvature(test), [v]) => self.is_positive(self.curved(test, v)),
             (Test::AtLeast(f), []) => self.is_positive(of(f).and_then(|f| e.neg(f))),
             (Test::Beyond(f, b), []) => {
@@ -364,6 +366,29 @@ impl<'a> At<'a> {
             }
         };
         problem.legs.iter().map(off).collect()
+    }
+
+    /// `n^2 R^2 - |n (p - q)|^2` for the points `p = p_1 + (s/n)(p_2 - p_1)` and
+    /// `q = q_1 + (t/n)(q_2 - q_1)` of the segments, of weights `s, t, n`.
+    fn nearer(&self, test: &Apart, weights: &[i64]) -> Option<Number> {
+        let e = &self.arithmetic;
+        let [s, t, n] = *weights else { return None };
+        let between = |part: &i64| (0..=n).contains(part);
+        if n <= 0 || ![s, t].iter().all(between) {
+            return None;
+        }
+        let [n_less_s, n_less_t, s, t, n] = [n - s, n - t, s, t, n].map(|n| e.integer(n));
+        let (s, t, n, n_less_s, n_less_t) = (s?, t?, n?, n_less_s?, n_less_t?);
+        let [first, second] = &test.ends;
+        let square = (0..3).try_fold(e.integer(0)?, |sum, k| {
+            let at = |ends: &[Vector; 2], [p, q]: [&Number; 2]| {
+                let [one, other] = [self.values.of(ends[0][k])?, self.values.of(ends[1][k])?];
+                e.add(&e.mul(p, one)?, &e.mul(q, other)?)
+            };
+            let difference = e.sub(&at(first, [&n_less_s, &s])?, &at(second, [&n_less_t, &t])?)?;
+            e.add(&sum, &e.sqr(&difference)?)
+        });
+        e.sub(&e.sqr(&e.mul(&n, self.values.of(test.distance)?)?)?, &square?)
     }
 
     /// A direction of so many entries, not all zero.

@@ -20,6 +20,11 @@ pub struct Leg {
     /// `eta_i^2`, of legs of fixed length: `eta_i` is the leg's component along the motion of its
     /// driven end.
     pub eta_squared: Option<Formula>,
+    /// The platform end `P + d`, of a leg with two ends.
+    pub tip: Option<Vector>,
+    /// The couple that the leg constrains, not normalised, and the square of its length; where one is
+    /// claimed.
+    pub couple: Option<Row<Formula>>,
 }
 
 impl Leg {
@@ -156,7 +161,20 @@ fn leg(
     (length, eta_squared): (Option<Formula>, Option<Formula>),
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
-    Leg { row, divided, rho: Some(rho), length, eta_squared }
+    Leg { row, divided, rho: Some(rho), length, eta_squared, tip: None, couple: None }
+}
+
+/// The couple that a strut with universal joints constrains whose axis in the base, and on the platform,
+/// is along the unit vector `k`: `c = w - (k . w) k`, and `|c|^2`.
+///
+/// The other two axes are parallel to each other and orthogonal to `k` and to the leg, so along `k x w`.
+/// A couple that does no work in rotations about `k` and `k x w` is along
+/// `(k x w) x k = w - (k . w) k`.
+pub fn couple(tape: &mut Tape, w: &Vector, k: &Vector) -> Row<Formula> {
+    let along = tape.dot(k, w);
+    let along = tape.scaled(along, k);
+    let c = tape.minus(w, &along);
+    Row { d: tape.norm_squared(&c), a: c.to_vec() }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
@@ -180,5 +198,6 @@ pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
 /// A joint by its row of `M` alone.
 pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
     let row = Row { a, d: tape.integer(1) };
-    Leg { divided: row.clone(), row, rho: None, length: None, eta_squared: None }
+    let divided = row.clone();
+    Leg { row, divided, rho: None, length: None, eta_squared: None, tip: None, couple: None }
 }

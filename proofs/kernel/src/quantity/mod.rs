@@ -4,7 +4,9 @@
 
 mod accuracy;
 mod base_joint;
+mod clearance;
 mod conditioning;
+mod constraint_margin;
 mod joint_acceleration;
 mod joint_force;
 mod joint_range;
@@ -25,6 +27,7 @@ use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::test::accuracy::Accuracy;
+use crate::test::apart::Apart;
 use crate::test::curvature::Curvature;
 use crate::test::solve::Solve;
 use crate::test::Row;
@@ -46,7 +49,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 14] = [
+pub const TABLE: [&Quantity; 16] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -58,6 +61,8 @@ pub const TABLE: [&Quantity; 14] = [
     &joint_acceleration::JOINT_ACCELERATION,
     &joint_force::JOINT_FORCE,
     &accuracy::ACCURACY,
+    &clearance::CLEARANCE,
+    &constraint_margin::CONSTRAINT_MARGIN,
     &one_to_one::ONE_TO_ONE,
     &base_joint::BASE_JOINT,
     &platform_joint::PLATFORM_JOINT,
@@ -84,6 +89,8 @@ pub enum Test {
     Solve(Solve),
     /// One position within `d`.
     Accuracy(Accuracy),
+    /// Two segments keep their distance.
+    Apart(Apart),
     /// `a |row| + b |H| <= 1`.
     Curvature(Curvature),
 }
@@ -222,6 +229,10 @@ pub(crate) fn obligations(
     let legs = &problem.legs;
     if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
         return Err(shape_error("mechanism.legs", "arms alone, or none: psi has no unit else"));
+    }
+    let kept = |requirement: &Requirement| requirement.quantity == clearance::CLEARANCE.key;
+    if !claim.bodies.is_empty() && !claim.require.iter().any(kept) {
+        return Err(shape_error("bodies", "there where a clearance is asked for"));
     }
     let zero = builder.tape.integer(0);
     let mut all = vec![Obligation { requirement: None, leg: None, test: Test::SigmaMin(zero) }];

@@ -1,8 +1,11 @@
 //! The kernel: arithmetic and lemmas on random and adverse inputs, claims proved and refuted by a small
 //! search in doubles, and what has to be rejected.
 
+mod accuracies;
 mod arithmetic;
 mod certificates;
+mod clearances;
+mod directions;
 mod leaves;
 mod machines;
 mod prover;

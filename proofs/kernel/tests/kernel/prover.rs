@@ -20,7 +20,7 @@ use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Row};
 
 pub const BITS: u32 = 52;
-const PLACES: u32 = 14;
+pub const PLACES: u32 = 14;
 
 pub fn double(x: &Interval<BigInt>, bits: u32) -> Pair {
     let end = |x: &BigInt| x.to_f64().expect("finite") * (-f64::from(bits)).exp2();
@@ -291,6 +291,9 @@ impl<'a> Prover<'a> {
                 let with = |part: f64| Evidence::Accuracy(y.clone(), (kappa * part) as i64);
                 tried.extend([0.95, 0.8, 0.5].map(with));
             }
+            Test::Apart(apart) => tried.extend(
+                crate::directions::directions(over, apart).into_iter().map(Evidence::Direction),
+            ),
             Test::OneToOne(_) => tried.push(Evidence::Chords),
             Test::AtLeast(_) | Test::Curvature(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
