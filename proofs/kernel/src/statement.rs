@@ -1,12 +1,13 @@
 //! A claim in words: what an accepted certificate establishes, and the formulas that it is about.
 
 use crate::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
-use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
+use crate::claim::{Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
 use crate::claim::{Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
 use crate::problem::Problem;
-use crate::quantity::TABLE;
+use crate::quantity::{Obligation, Test, TABLE};
+use crate::test::apart::Apart;
 use std::fmt::{self, Display, Write};
 
 /// The theorem that an accepted certificate establishes.
@@ -22,6 +23,7 @@ pub fn statement(certificate: &Certificate) -> Result<String, fmt::Error> {
     }
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
+    bodies(&mut out, claim)?;
     requirements(&mut out, claim)?;
     if let Proof::Witness(witness) = &certificate.proof {
         counterexample(&mut out, claim, witness)?;
@@ -136,6 +138,28 @@ fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     }
 }
 
+fn bodies(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    for (i, body) in claim.bodies.iter().enumerate() {
+        write!(out, "  body {}: all within ", i + 1)?;
+        match body {
+            Body::Leg { leg, radius, trim: [first, last] } => writeln!(
+                out,
+                "{radius} of leg {leg}, from {first} after its base end to {last} before its platform end"
+            )?,
+            Body::Base { from, to, radius } => {
+                writeln!(out, "{radius} of the segment from ({}) to ({})", list(from), list(to))?;
+            }
+            Body::Platform { from, to, radius } => writeln!(
+                out,
+                "{radius} of the segment from P + ({}) to P + ({})",
+                list(from),
+                list(to)
+            )?,
+        }
+    }
+    Ok(())
+}
+
 fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     writeln!(out, "every formula is defined, every leg reaches without a serial singularity,")?;
     writeln!(out, "there is no parallel singularity (M has full column rank), and")?;
@@ -172,11 +196,20 @@ fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> 
         Failure::Reach => writeln!(out, "where a leg does not reach, or is serially singular."),
         Failure::Obligation(number, _) => {
             let problem = Problem::new(claim).ok();
-            let requirement = problem
-                .and_then(|problem| problem.obligations.get(*number)?.requirement)
-                .and_then(|number| claim.require.get(number));
-            let of = requirement.map_or("freedom from singularities", |r| r.quantity.as_str());
-            writeln!(out, "where {of} is violated.")
+            let obligation = problem.as_ref().and_then(|p| p.obligations.get(*number));
+            let requirement = obligation
+                .and_then(|obligation| claim.require.get(obligation.requirement?))
+                .map_or("freedom from singularities", |r| r.quantity.as_str());
+            match obligation {
+                Some(Obligation { test: Test::Apart(Apart { bodies: [i, j], .. }), .. }) => {
+                    write!(out, "where of body {i} and body {j} {requirement}")?;
+                }
+                Some(Obligation { leg: Some(leg), .. }) => {
+                    write!(out, "where of leg {} {requirement}", leg + 1)?;
+                }
+                _ => write!(out, "where {requirement}")?,
+            }
+            writeln!(out, " is violated.")
         }
         Failure::Singular(other) => {
             writeln!(out, "and at ({}), where det M has the other sign.", list(other))

@@ -53,10 +53,12 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     let all: Vec<Capsule<'_>> = all.collect::<Result<_, _>>()?;
     let mut tests = Vec::new();
     for (i, one) in all.iter().enumerate() {
-        for other in all[..i].iter().filter(|other| other.fixed_to != one.fixed_to) {
+        let others = all.iter().enumerate().take(i);
+        for (j, other) in others.filter(|(_, other)| other.fixed_to != one.fixed_to) {
             let radii = binary(Operator::Add, one.radius, other.radius);
             let distance = context.number(&binary(Operator::Add, &radii, &gap), 1);
-            tests.push(Test::Apart(Apart { ends: [one.ends, other.ends], distance }));
+            let (bodies, ends) = ([i + 1, j + 1], [one.ends, other.ends]);
+            tests.push(Test::Apart(Apart { bodies, ends, distance }));
         }
     }
     if tests.is_empty() {

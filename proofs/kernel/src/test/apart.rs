@@ -9,6 +9,8 @@ use crate::slope::Slope;
 /// Two segments farther from each other than `distance > 0`.
 #[derive(Clone, Debug)]
 pub struct Apart {
+    /// Which bodies they are of, counted from one.
+    pub bodies: [usize; 2],
     /// Their ends.
     pub ends: [[Vector; 2]; 2],
     /// `R`.
