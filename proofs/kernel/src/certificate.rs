@@ -150,6 +150,17 @@ pub enum Failure {
     Reach,
     /// The obligation of this number; of singular values, with directions.
     Obligation(usize, Vec<Vec<i64>>),
+    /// Some point of a box elsewhere in the workspace has the same joint coordinates.
+    Same {
+        /// The obligation that there is none.
+        obligation: usize,
+        /// Least coordinates of the box.
+        least: Vec<Expression>,
+        /// Greatest coordinates.
+        greatest: Vec<Expression>,
+        /// About the inverse of `M` there.
+        inverse: Multiplier,
+    },
     /// `det M` has the opposite sign at this point.
     Singular(Vec<Expression>),
 }

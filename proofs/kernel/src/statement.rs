@@ -211,6 +211,13 @@ fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> 
             }
             writeln!(out, " is violated.")
         }
+        Failure::Same { least, greatest, .. } => {
+            let (least, greatest) = (list(least), list(greatest));
+            writeln!(
+                out,
+                "and some point from ({least}) to ({greatest}) has the same joint coordinates."
+            )
+        }
         Failure::Singular(other) => {
             writeln!(out, "and at ({}), where det M has the other sign.", list(other))
         }

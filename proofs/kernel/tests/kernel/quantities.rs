@@ -9,6 +9,7 @@ use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::test::Multiplier;
 use std::collections::BTreeMap;
 
 pub const SLAB: &str = r#"{"box":{"min":["-60","-60","0"],"max":["60","60","1"]}}"#;
@@ -450,4 +451,61 @@ fn constraint_margin() {
     let along = legs[2].replace(r#""1","0","1/4""#, r#""-5","-340","225""#);
     let singular = crate::leaves::machine(&[legs[0].clone(), legs[1].clone(), along], space);
     assert!(certify(&asked.of(&singular, 0.001), 400).is_none());
+}
+
+#[test]
+fn two_points_with_the_same_joint_coordinates() {
+    let strut = |a: &str| format!(r#"{{"drive":"strut","anchor":[{a}],"platform":["0","0","0"]}}"#);
+    let legs = [r#""-300","-180","0""#, r#""310","-170","0""#, r#""5","340","0""#].map(strut);
+    let space = r#"{"box":{"min":["-60","-60","-50"],"max":["60","60","50"]}}"#;
+    let mirrored = one_to_one(&crate::leaves::machine(&legs, space));
+    let root = 3f64.sqrt();
+    for (name, claim, point, other, half) in [
+        ("a cube", one_to_one(&cube("1/2", "2")), vec![1.0, root], vec![1.0, -root], 1e-3),
+        ("struts", mirrored, vec![3.0, -5.0, 40.0], vec![3.0, -5.0, -40.0], 0.5),
+    ] {
+        let problem = Problem::new(&claim).expect("well formed");
+        let unit = (problem.scale as f64).exp2();
+        let scaled = |x: &[f64]| x.iter().map(|x| x / unit).collect::<Vec<_>>();
+        let m = Prover::new(&problem).matrix(&scaled(&other)).expect("defined");
+        let inverse = m.try_inverse().expect("regular");
+        let row = |i: usize| rounded(inverse.row(i).iter().copied());
+        let y = Multiplier { y: (0..other.len()).map(row).collect(), places: 20 };
+        let moved = |by: f64| other.iter().map(|x| number(x + by)).collect::<Vec<_>>();
+        let good = (1, moved(-half), moved(half), y);
+        let refuted = |(obligation, least, greatest, inverse)| {
+            let fails = Failure::Same { obligation, least, greatest, inverse };
+            let point = point.iter().map(|&x| number(x)).collect();
+            let witness = Witness { precision: 96, point, machine: vec![], fails };
+            check(&certificate(&claim, Verdict::Refuted, Proof::Witness(witness))).is_ok()
+        };
+        assert!(refuted(good.clone()), "{name}");
+        let (_, least, greatest, y) = good.clone();
+        let with = |y| (1, least.clone(), greatest.clone(), y);
+        let places = |places| with(Multiplier { places, ..y.clone() });
+        let rows = |y| with(Multiplier { y, places: 20 });
+        let mut wide = y.y.clone();
+        wide[0].push(0);
+        let outside = moved(100.0);
+        let own: Vec<Expression> = point.iter().map(|x| number(x - half)).collect();
+        let about: Vec<Expression> = point.iter().map(|x| number(x + half)).collect();
+        for (defect, proposed) in [
+            ("another obligation", (0, least.clone(), greatest.clone(), y.clone())),
+            ("no obligation", (2, least.clone(), greatest.clone(), y.clone())),
+            ("a box about the point", (1, own, about, y.clone())),
+            ("a box beside the solution", (1, moved(half / 2.0), moved(half * 2.0), y.clone())),
+            ("a box of one point", (1, least.clone(), least.clone(), y.clone())),
+            ("ends that cross", (1, greatest.clone(), least.clone(), y.clone())),
+            ("beyond the workspace", (1, least.clone(), outside, y.clone())),
+            ("a coordinate too few", (1, least[1..].to_vec(), greatest[1..].to_vec(), y.clone())),
+            ("Y of zero", rows(y.y.iter().map(|row| vec![0; row.len()]).collect())),
+            ("Y negated", rows(y.y.iter().map(|r| r.iter().map(|y| -y).collect()).collect())),
+            ("Y of four times", places(18)),
+            ("too many places", places(64)),
+            ("Y with a row too few", rows(y.y[1..].to_vec())),
+            ("Y with an entry too many", rows(wide)),
+        ] {
+            assert!(!refuted(proposed), "{name}: {defect}");
+        }
+    }
 }
