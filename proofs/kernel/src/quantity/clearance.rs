@@ -46,8 +46,10 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     let gap = context.least()?.clone();
     ordered(context.place, &Expression::integer(0), &gap, false)?;
     let bodies = &context.claim.bodies;
-    if matches!(context.claim.mechanism, Mechanism::Formulas(_)) || bodies.len() > MOST_BODIES {
-        return context.refused("of legs, and of 24 bodies at most");
+    let legs = &context.claim.mechanism;
+    let legs = matches!(legs, Mechanism::Translational(_) | Mechanism::Orthoglide { .. });
+    if !legs || bodies.len() > MOST_BODIES {
+        return context.refused("of legs in space, and of 24 bodies at most");
     }
     let all = bodies.iter().map(|body| capsule(context, body));
     let all: Vec<Capsule<'_>> = all.collect::<Result<_, _>>()?;

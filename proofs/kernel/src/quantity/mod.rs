@@ -135,9 +135,9 @@ impl Context<'_> {
 
     /// The partial derivatives of a formula; refused where they come to too many operations.
     fn derivatives(&mut self, f: Formula, by: &[Op]) -> Result<Vec<Formula>, ClaimError> {
+        let gradient = self.tape().gradient(f, by);
         few(self.builder)?;
         let tape = self.tape();
-        let gradient = tape.gradient(f, by);
         let zero = tape.integer(0);
         let each = |&n: &Formula| if n == zero { n } else { tape.div(n, gradient.denominator) };
         Ok(gradient.numerators.iter().map(each).collect())

@@ -6,6 +6,7 @@ mod arithmetic;
 mod certificates;
 mod clearances;
 mod directions;
+mod false_claims;
 mod leaves;
 mod machines;
 mod prover;

@@ -30,10 +30,10 @@ pub fn double(x: &Interval<BigInt>, bits: u32) -> Pair {
 /// A problem in doubles.
 pub struct Prover<'a> {
     pub problem: &'a Problem,
-    checker: Checker<'a, Rough>,
+    pub checker: Checker<'a, Rough>,
     parameters: Vec<Pair>,
     root: Cell<i64>,
-    chords: Option<Multiplier>,
+    pub chords: Option<Multiplier>,
 }
 
 impl<'a> Prover<'a> {
@@ -260,6 +260,12 @@ impl<'a> Prover<'a> {
         place: &Place<'_, Pair>,
         test: &Test,
     ) -> Option<Evidence> {
+        let proposals = self.proposals(over, test).unwrap_or_default();
+        proposals.into_iter().find_map(|evidence| self.shown(over, place, test, evidence))
+    }
+
+    /// What may show a test on a cell.
+    pub fn proposals(&self, over: &Over<'_, Rough>, test: &Test) -> Option<Vec<Evidence>> {
         let number = |f: &Formula| over.of(*f).map_or(0.0, |f| f.at_centre.0);
         let (legs, divided) = (self.legs(false), self.legs(true));
         let mut tried: Vec<Evidence> = Vec::new();
@@ -315,7 +321,7 @@ impl<'a> Prover<'a> {
                 tried.extend(starts.into_iter().map(|y| Evidence::Conditioning(y, terms.clone())));
             }
         }
-        tried.into_iter().find_map(|evidence| self.shown(over, place, test, evidence))
+        Some(tried)
     }
 
     /// A tree, if one of at most so many boxes is found.

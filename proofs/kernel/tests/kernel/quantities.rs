@@ -2,6 +2,7 @@
 //! cent short of it refuted, and what proves the one proves nothing of the other.
 
 use crate::certificates::claim;
+use crate::false_claims::never_shown;
 use crate::leaves::{linear_delta, orthoglide, rotary, struts};
 use crate::prover::{certificate, certify, Prover};
 use orthocert_kernel::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
@@ -111,6 +112,9 @@ impl Asked<'_> {
         let by = if self.end == End::Max { 0.01 } else { -0.01 };
         let false_claim = self.of(machine, worst * (1.0 - by));
         let problem = Problem::new(&false_claim).expect("well formed");
+        let Failure::Obligation(obligation, _) = fails else { panic!("an obligation") };
+        let tried = never_shown(&problem, point, *obligation, 5);
+        assert!(tried > 100, "{}: {tried}", self.quantity);
         let witness = refutation(&problem, &false_claim, point, values, fails);
         check(&witness).expect("refuted");
         let true_claim = self.of(machine, worst * (1.0 + by));
