@@ -67,7 +67,11 @@ pub fn never_shown(problem: &Problem, at: &[f64], obligation: usize, seed: u64) 
         let slopes = Slopes { arithmetic: &fixed, m: edges.len() };
         let over = Over { slopes, values: &values, inside: None };
         for evidence in &proposals {
-            let near: Vec<_> = (0..5).map(|_| changed(evidence, &mut random)).collect();
+            let mut near: Vec<_> = (0..5).map(|_| changed(evidence, &mut random)).collect();
+            if problem.inside.is_some() {
+                let multiple = 1 << random.below(20);
+                near.push(Evidence::Inside(Box::new(evidence.clone()), multiple, 12));
+            }
             for evidence in std::iter::once(evidence).chain(&near) {
                 assert!(!exact.shows(&over, &place, test, evidence), "{evidence:?} {cell:?}");
                 tried += 1;

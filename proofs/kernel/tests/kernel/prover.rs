@@ -231,6 +231,14 @@ impl<'a> Prover<'a> {
             return Some(evidence);
         }
         let inside = self.problem.inside.as_ref()?;
+        if !matches!(
+            test,
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Least(..) | Test::AtLeast(_)
+        ) {
+            let with = |k: i64| Evidence::Inside(Box::new(evidence.clone()), 1 << k, 12);
+            let mut all = (0..16).map(with);
+            return all.find(|evidence| checker.shows(over, place, test, evidence));
+        }
         let (mut low, mut high) = (0f64, f64::MAX);
         for v in Vertex::all(over.slopes.m) {
             let margin = self.margin(over, test, &evidence, v)?;

@@ -513,3 +513,66 @@ fn two_points_with_the_same_joint_coordinates() {
         }
     }
 }
+
+#[test]
+fn in_a_cylinder() {
+    let machine = linear_delta(r#"{"cylinder":{"center":["0","0"],"radius":"80","z":["0","1"]}}"#);
+    let asked = |quantity, given| Asked { quantity, leg: None, given, end: End::Max };
+    let force: &[(&str, &[f64])] = &[("tool", &[1.0])];
+    let error: &[(&str, &[f64])] = &[("joint_error", &[0.01])];
+    let problem = Problem::new(&asked("joint_force", force).of(&machine, 2.0)).expect("a claim");
+    let prover = Prover::new(&problem);
+    let inverse = |x: &[f64]| prover.matrix(x).and_then(|m| m.try_inverse()).expect("regular");
+    let columns = |x: &[f64]| {
+        let norm = |k: usize| (inverse(x).column(k).norm(), k);
+        (0..3).map(norm).max_by(|a, b| a.0.total_cmp(&b.0)).expect("columns")
+    };
+    let (worst, at) = prover.greatest(|x| columns(x).0);
+    asked("joint_force", force).is_proved(&machine, worst, 60);
+    let claim = asked("joint_force", force).of(&machine, worst * 0.99);
+    let problem = Problem::new(&claim).expect("a claim");
+    assert!(never_shown(&problem, &at, 1 + columns(&at).1, 3) > 100);
+    // Joint errors alone: to first order |M^-1 s| for signs s.
+    let signs = [[1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0], [-1.0, 1.0, 1.0]];
+    let off = |x: &[f64]| {
+        let inverse = inverse(x);
+        let norm = |s: &[f64; 3]| (&inverse * nalgebra::DVector::from_row_slice(s)).norm();
+        signs.iter().map(norm).fold(0.0, f64::max)
+    };
+    let (worst, at) = prover.greatest(off);
+    asked("accuracy", error).is_proved(&machine, worst * 0.01, 90);
+    let claim = asked("accuracy", error).of(&machine, worst * 0.0099);
+    let problem = Problem::new(&claim).expect("a claim");
+    assert!(never_shown(&problem, &at, 1, 3) > 100);
+}
+
+#[test]
+fn planes_and_more_legs_than_coordinates() {
+    let plane = |n: [&str; 3]| format!(r#"{{"drive":"planar","direction":{n:?}}}"#);
+    let legs = [plane(["1", "0", "0"]), plane(["0", "1", "0"]), plane(["3/5", "0", "4/5"])];
+    let planes = crate::leaves::machine(&legs, SLAB);
+    let given: &[(&str, &[f64])] = &[("acceleration", &[10.0]), ("speed", &[100.0])];
+    let asked = Asked { quantity: "joint_acceleration", leg: None, given, end: End::Max };
+    // Rows are unit vectors and do not vary.
+    check(&certify(&asked.of(&planes, 10.01), 4).expect("a proof")).expect("accepted");
+    assert!(certify(&asked.of(&planes, 9.99), 40).is_none());
+    check(&certify(&one_to_one(&planes), 4).expect("a proof")).expect("accepted");
+    let mut four = linear_delta(SLAB);
+    if let orthocert_kernel::claim::Mechanism::Translational(legs) = &mut four.mechanism {
+        legs.push(legs[0].clone());
+    }
+    check(&certify(&one_to_one(&four), 20).expect("a proof")).expect("accepted");
+    let given: &[(&str, &[f64])] = &[("joint", &[1.0, 1.0, 1.0, 1e-9])];
+    let asked = |given| Asked { quantity: "stiffness", leg: None, given, end: End::Min };
+    let alone = asked(&[("joint", &[1.0])]);
+    // A fourth leg that is soft adds nothing; one as stiff as the others does.
+    let problem = Problem::new(&alone.of(&linear_delta(SLAB), 0.1)).expect("a claim");
+    let prover = Prover::new(&problem);
+    let singular = |x: &[f64]| prover.matrix(x).expect("within reach").singular_values().min();
+    let (least, _) = prover.greatest(|x| -singular(x).powi(2));
+    let bound = -least * 1.01;
+    assert!(certify(&alone.of(&linear_delta(SLAB), bound), 400).is_none());
+    assert!(certify(&asked(given).of(&four, bound), 400).is_none());
+    check(&certify(&asked(given).of(&four, -least * 0.98), 400).expect("a proof"))
+        .expect("accepted");
+}
