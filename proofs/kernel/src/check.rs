@@ -118,7 +118,8 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
 /// **Lemma (tree).** If every step shows its obligation on its node's cell, and on the path to each
 /// leaf every obligation is discharged, each holds at every point of the root's cell that is in the
 /// workspace. *Proof.* The halves of a cell cover it, so the leaves cover the root; what is shown of
-/// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward.
+/// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward. Steps by
+/// [`Evidence::Chords`] have one matrix, the tree's: what they show of two points is of both with it.
 fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
     let bits = tree.precision;
     let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();

@@ -8,7 +8,7 @@
 //! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
 //! | [`cell`]       | boxes of the bisection tree, their vertices                      |
 //! | [`definite`]   | positive definiteness of interval matrices                       |
-//! | [`test`](mod@test) | the tests: a formula's sign, `sigma_min`, `sigma_max`      |
+//! | [`test`](mod@test) | the tests: signs, singular values, solutions, distances     |
 //! | [`machine`]    | drives and motions: the formulas of `A x' = B rho'`              |
 //! | [`number`]     | numbers of a claim, exactly                                      |
 //! | [`trig`]       | cosines and sines of degrees                                     |

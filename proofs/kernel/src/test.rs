@@ -2,7 +2,8 @@
 //!
 //! A machine is given by the paper's own matrices, `A x' = B rho'`: `n` rows `A_i` of `m` formulas,
 //! and `D_i = B_i^2`, so that `M = B^-1 A` has `|M v|^2 = sum_i (A_i . v)^2/D_i`. Both are simple
-//! where `M` is not: neither divides. Where a test is passed, all `D_i > 0` on the cell.
+//! where `M` is not: neither divides. Where a test of singular values is passed, all `D_i > 0` on the
+//! cell.
 //!
 //! | test | shows | evidence |
 //! |---|---|---|
@@ -15,7 +16,7 @@
 //! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
-//! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
+//! All are affine or concave in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
 //! statements about one machine, and hold for each whose formulas are in the enclosures.
 
 pub mod accuracy;

@@ -11,7 +11,8 @@ use crate::test::apart::Apart;
 pub(super) const CLEARANCE: Quantity = Quantity {
     key: "clearance",
     symbol: "the distance of any two of the bodies that are not fixed to each other",
-    words: "bodies on one leg, and bodies on the base or on the platform, are fixed to each other",
+    words:
+        "fixed to each other are two bodies on one leg, two on the base, and two on the platform",
     of_legs: false,
     given: &[],
     tests,

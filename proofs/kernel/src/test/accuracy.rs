@@ -51,7 +51,7 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, rows: &[Vec<Formula>]) -> Option<
     let zero = e.integer(0)?;
     let mut square = zero.clone();
     for row in rows {
-        let entry = |f: &Formula| far.of(*f)?.slopes[..m].iter().map(|s| magnitude(e, s)).collect();
+        let entry = |f: &Formula| far.of(*f)?.slopes[..m].iter().map(|s| e.magnitude(s)).collect();
         let entries: Vec<Vec<E::Number>> = row.iter().map(entry).collect::<Option<_>>()?;
         let sum = |sum: E::Number, x: &E::Number| e.add(&sum, x);
         let mut greatest = [zero.clone(), zero.clone()];
@@ -64,18 +64,7 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, rows: &[Vec<Formula>]) -> Option<
         }
         square = e.add(&square, &e.mul(&greatest[0], &greatest[1])?)?;
     }
-    let [_, square] = e.ends(&square);
-    if e.is_positive(&square) {
-        e.ends(&e.sqrt(&square)?).into_iter().nth(1)
-    } else {
-        Some(square)
-    }
-}
-
-/// The greatest absolute value in `x`.
-fn magnitude<E: Enclosure>(e: &E, x: &E::Number) -> Option<E::Number> {
-    let [_, greatest] = e.ends(&e.hull(x, &e.neg(x)?));
-    Some(greatest)
+    e.greatest_root(&square)
 }
 
 /// **Accuracy.** Let `Y` and `kappa > 0` be given, `far` the [`inflated`] cell, on which every formula is
@@ -111,10 +100,10 @@ fn magnitude<E: Enclosure>(e: &E, x: &E::Number) -> Option<E::Number> {
 ///    <= psi Gamma d |u - u'|`, where `psi Gamma d < g/kappa < 1`. By Banach's theorem `F` has exactly one
 ///    fixed point, and its fixed points are what is looked for. ∎
 ///
-/// With the range of `rho_i(P, theta_0) - rho_i(P, theta)` over the cell in place of that of the
-/// derivative it would be as wide as the cell. With the rows of `A` and derivatives multiplied by `B_i`
-/// it would be unsound: these are of the machine `theta'`, the row is of `theta`. With `Gamma` taken on the cell alone, or on the part of
-/// the inflated cell in the workspace, it would be unsound: `P + u` may leave either.
+/// The range of `rho_i(P, theta_0) - rho_i(P, theta)` over the cell, in place of that of the derivative,
+/// would be as wide as the cell. With the rows of `A`, and derivatives multiplied by `B_i`, it would be
+/// unsound: these are of the machine `theta'`, the row is of `theta`. So it would be with `Gamma` taken
+/// on the cell alone, or on the part of the inflated cell in the workspace: `P + u` may leave either.
 pub fn accuracy<E: Enclosure>(
     over: &Over<'_, E>,
     far: &Over<'_, E>,
@@ -156,7 +145,7 @@ fn at_vertex<E: Enclosure>(
     let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
         let start = over.of(*error)?.range.clone();
         let sum = all.iter().try_fold(start, |sum, [half, by]| {
-            let by = magnitude(e, &v.value(&over.slopes, over.of(*by)?)?)?;
+            let by = e.magnitude(&v.value(&over.slopes, over.of(*by)?)?)?;
             e.add(&sum, &e.mul(&over.of(*half)?.range, &by)?)
         })?;
         e.ends(&sum).into_iter().nth(1)

@@ -30,9 +30,8 @@ pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multipli
     let e = over.slopes.arithmetic;
     let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
         let add = |sum, g| e.add(&sum, &e.sqr(&v.value(&over.slopes, g)?)?);
-        let [_, square] = e.ends(&g.iter().try_fold(e.integer(0)?, add)?);
-        let norm = if e.is_positive(&square) { e.sqrt(&square)? } else { square };
-        e.mul(&over.of(test.distance)?.range, &norm)
+        let square = g.iter().try_fold(e.integer(0)?, add)?;
+        e.mul(&over.of(test.distance)?.range, &e.greatest_root(&square)?)
     };
     let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
         let mut terms = g.iter().zip(p).zip(q);

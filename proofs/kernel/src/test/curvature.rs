@@ -33,9 +33,7 @@ pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
     let matrices = |v: Vertex| -> Option<[Triangle<E::Number>; 2]> {
         let square = |sum, f| e.add(&sum, &e.sqr(&at(v, f)?)?);
         let square = test.row.iter().try_fold(e.integer(0)?, square)?;
-        // The upper end alone matters, and is positive where a root is to be taken.
-        let [_, square] = e.ends(&square);
-        let row = if e.is_positive(&square) { e.sqrt(&square)? } else { square };
+        let row = e.greatest_root(&square)?;
         let rest = e.sub(&e.integer(1)?, &e.mul(&over.of(test.a)?.range, &row)?)?;
         let start = scalar(e, test.row.len(), &over.less_inside(rest, v)?)?;
         let b = e.halve(&over.of(test.b)?.range)?;

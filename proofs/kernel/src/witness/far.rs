@@ -36,14 +36,7 @@ impl At<'_> {
         let far = Over { slopes, values: &values, inside: None };
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
         let spread = e.halve(&spread(&far, &test.rows).filter(|_| defined)?)?;
-        let norm = |v: &[Number]| {
-            let [_, square] = e.ends(&self.square(v)?);
-            if e.is_positive(&square) {
-                e.sqrt(&square)
-            } else {
-                Some(square)
-            }
-        };
+        let norm = |v: &[Number]| e.greatest_root(&self.square(v)?);
         let image = norm(&self.transposed(&test.rows, &v)?)?;
         e.sub(&rest, &e.add(&image, &e.mul(&spread, &norm(&v)?)?)?)
     }

@@ -88,7 +88,6 @@ impl At<'_> {
             }
         };
         let f: Vec<Slope<Number>> = self.problem.legs.iter().map(off).collect::<Option<_>>()?;
-        let size = |x: Number| -> Option<Number> { Some(e.hull(&x, &e.neg(&x)?)) };
         let zero = e.integer(0)?;
         let holds = |(j, y): (usize, &Vec<i64>)| {
             let sum = |of: &dyn Fn(&Slope<Number>) -> Number, start: &Number| {
@@ -97,10 +96,10 @@ impl At<'_> {
                 })
             };
             let half = &edges.get(j)?[2];
-            let mut reach = size(sum(&|f| f.at_centre.clone(), &zero)?)?;
+            let mut reach = e.magnitude(&sum(&|f| f.at_centre.clone(), &zero)?)?;
             for k in 0..m {
                 let start = if j == k { half } else { &zero };
-                reach = e.add(&reach, &size(sum(&|f| f.slopes[k].clone(), start)?)?)?;
+                reach = e.add(&reach, &e.magnitude(&sum(&|f| f.slopes[k].clone(), start)?)?)?;
             }
             Some(e.is_positive(&e.sub(half, &reach)?))
         };
