@@ -247,3 +247,41 @@ fn accuracy_is_existence_and_uniqueness() {
     let rows = TWO_SLIDERS.replace(r#"{"rho":"x-s"}"#, r#"{"row":["1","y/s"]}"#);
     assert!(Problem::new(&asked.of(&claim(&rows), 1.0)).is_err(), "a joint by its row");
 }
+
+#[test]
+fn the_spread_of_rows_about_a_cell() {
+    use orthocert_kernel::slope::Slopes;
+    use orthocert_kernel::test::accuracy::{inflated, spread};
+    use orthocert_kernel::test::Over;
+    let mut random = Random(21);
+    for machine in [linear_delta(SLAB), struts(), rotary(), claim(TWO_SLIDERS)] {
+        let problem = Problem::new(&machine).expect("a claim");
+        let prover = Prover::new(&problem);
+        let rows: Vec<_> = problem.legs.iter().map(|leg| leg.divided.a.clone()).collect();
+        let points = prover.grid(3);
+        for part in [0.02, 0.005] {
+            let centre = &points[points.len() / 2 + random.below(2) as usize];
+            let (half, d) = (part / 4.0, part);
+            let edge = |&c: &f64| [(c, c), (c - half, c + half), (half, half)];
+            let edges: Vec<[Pair; 3]> = centre.iter().map(edge).collect();
+            let edges = inflated(&Rough, &edges, &(d, d)).expect("edges");
+            let values = prover.checker.evaluate(&edges);
+            let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+            let far = Over { slopes, values: &values, inside: None };
+            let bound = spread(&far, &rows).expect("defined").1 / d;
+            let mut greatest = 0f64;
+            for _ in 0..400 {
+                let mut near = |half: f64| half * (random.below(2_001) as f64 / 1_000.0 - 1.0);
+                let p: Vec<f64> = centre.iter().map(|c| c + near(half)).collect();
+                let u: Vec<f64> = centre.iter().map(|_| near(d)).collect();
+                let q: Vec<f64> = p.iter().zip(&u).map(|(p, u)| p + u).collect();
+                let change =
+                    prover.matrix(&q).expect("defined") - prover.matrix(&p).expect("defined");
+                let size = u.iter().map(|u| u * u).sum::<f64>().sqrt();
+                greatest = greatest.max(change.singular_values().max() / size);
+            }
+            assert!(greatest <= bound, "{greatest} {bound}");
+            assert!(bound < 2.5 * greatest, "{greatest} {bound}");
+        }
+    }
+}
