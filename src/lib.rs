@@ -37,6 +37,7 @@
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
 //! | [`size`]         | the smallest machine for an axis-aligned cube of a given side         |
+//! | [`solver`]       | decides claims of the kernel: every kind of mechanism                 |
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
 
@@ -74,5 +75,6 @@ pub mod sample;
 pub mod search;
 pub mod shard;
 pub mod size;
+pub mod solver;
 pub mod tolerance;
 pub mod verify;

@@ -12,6 +12,7 @@ use orthocert::design::{AtlasDesign, Design};
 use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
+use orthocert::solver;
 use orthocert::verify::{verify, Answer};
 use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
@@ -88,6 +89,10 @@ fn decided(claim: &Claim) -> Certificate {
             let NoCubeClaim { machine, side } = claim;
             return *exclude(machine, side, budget, &mut control).unwrap().unwrap();
         }
+        Claim::Kernel(claim) => match solver::verify(claim, budget, &mut control).unwrap().answer {
+            solver::Answer::Decided { certificate, .. } => return *certificate,
+            other => panic!("{other:?}"),
+        },
         Claim::Atlas(_) => panic!("an atlas is not decided"),
     };
     match answer {

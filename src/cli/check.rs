@@ -236,7 +236,7 @@ pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Ac
 
 fn accept(format: Format, certificate: &Certificate, accepted: &Accepted) -> Result<(), Failure> {
     let verdict = accepted.verdict;
-    let statement = statement::statement(&certificate.claim, verdict).unwrap_or_default();
+    let statement = statement::established(certificate).unwrap_or_default();
     match format {
         Format::Text => {
             print::answer(&statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}")))

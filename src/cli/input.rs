@@ -3,6 +3,7 @@
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
 use orthocert_checker::certificate::MAX_BYTES;
+use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Named;
@@ -18,6 +19,19 @@ pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
     match path {
         Some(path) => Design::read(path).map_err(Failure::input),
         None => Ok(Design::prototype()),
+    }
+}
+
+/// The claim of a design that a command for machines with three translating legs can take.
+pub fn three_legged(design: &Design) -> Result<&MachineClaim, Failure> {
+    match &design.claim {
+        Claim::Machine(claim) => Ok(claim),
+        _ => Err(Failure::Input(
+            "mechanism: found another machine than one of three legs that do not turn its platform; \
+             accepted by this command: kind \"orthoglide\", or \"translational\" with three legs \
+             (verify, check, show, bounds and limit take every kind)"
+                .to_owned(),
+        )),
     }
 }
 

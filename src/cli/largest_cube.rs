@@ -8,7 +8,7 @@ use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
@@ -113,7 +113,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
-    let Claim::Machine(claim) = &design.claim else { return Err(Failure::Defect) };
+    let claim = input::three_legged(design)?;
     let found = match claim.workspace {
         Workspace::Box { .. } => return Ok(claim),
         Workspace::Cylinder { .. } => "cylinder",

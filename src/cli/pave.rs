@@ -11,7 +11,7 @@ use orthocert::paving::{
 };
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
-use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::paving::{Reader, Rejected};
 use orthocert_checker::shown::Named;
@@ -79,9 +79,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(Failure::Input("a design is about a machine".to_owned()));
-    };
+    let claim = input::three_legged(&design)?;
     let claim = &searched(claim, arguments.search_box.as_deref())?;
     let goal = arguments.goal(claim)?;
     let target = arguments.target()?;

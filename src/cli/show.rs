@@ -7,8 +7,11 @@ use orthocert_checker::certificate::{
     Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
 };
 use orthocert_checker::claim::Claim;
+use orthocert_checker::kernel::size_of;
 use orthocert_checker::shown::Named;
-use orthocert_checker::{read, statement};
+use orthocert_checker::{read, statement, TreeSize};
+use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::statement::counterexample;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -33,9 +36,17 @@ struct Shown<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tree: Option<Shape>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    witness: Option<&'a Witness>,
+    witness: Option<WitnessShown<'a>>,
     provenance: &'a Provenance,
     claim: &'a Claim,
+}
+
+/// A counterexample, as written.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum WitnessShown<'a> {
+    OfRules(&'a Witness),
+    OfKernel(&'a kernel::Witness),
 }
 
 /// The shape of a proof, as written.
@@ -57,7 +68,13 @@ impl Shape {
             Proof::Faces(faces) => {
                 (faces.precision, faces.parts.iter().map(|part| &part.nodes[..]).collect())
             }
-            Proof::Witness(_) => return None,
+            Proof::Kernel(kernel::Proof::Tree(tree)) => {
+                let TreeSize { nodes, leaves, depth, steps } = size_of(tree);
+                let rules = steps.into_iter().collect();
+                let precision = tree.precision;
+                return Some(Shape { precision, trees: 1, nodes, leaves, depth, rules });
+            }
+            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => return None,
             Proof::Atlas(atlas) => return Some(Shape::of_atlas(atlas)),
         };
         let mut shape = Shape {
@@ -126,7 +143,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn shown(certificate: &Certificate, bytes: usize) -> Shown<'_> {
     let witness = match &certificate.proof {
-        Proof::Witness(witness) => Some(&**witness),
+        Proof::Witness(witness) => Some(WitnessShown::OfRules(witness)),
+        Proof::Kernel(kernel::Proof::Witness(witness)) => Some(WitnessShown::OfKernel(witness)),
         _ => None,
     };
     Shown {
@@ -175,6 +193,12 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
         let violated = violated(&witness.violates);
         let text = format!("a counterexample at P = ({x}, {y}, {z}): {violated}");
         labelled(&mut out, "proof", &text);
+    }
+    if let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
+        (&certificate.claim, &certificate.proof)
+    {
+        let text = counterexample(claim, witness).unwrap_or_default();
+        labelled(&mut out, "proof", text.trim_end());
     }
     labelled(&mut out, "size", &format!("{} bytes", grouped(bytes as u64)));
     labelled(&mut out, "written by", &format!("{tool} {version}"));

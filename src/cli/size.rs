@@ -9,7 +9,6 @@ use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert::size::{is_side, Family, Scope, Unknown};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use serde::Serialize;
 use std::fmt::Write;
@@ -78,9 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let width = gap(&arguments.gap, 1e-9, 0.1)?;
     let side = side(&arguments.cube)?;
     let design = input::design(arguments.design.as_deref())?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(Failure::Defect);
-    };
+    let claim = input::three_legged(&design)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("size.cert.json"))?;
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;

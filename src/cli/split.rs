@@ -9,7 +9,6 @@ use orthocert::output;
 use orthocert::search::Progress;
 use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
 use orthocert_checker::certificate::MAX_NODES;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::{Named, Shown};
 use serde::Serialize;
 use std::fs;
@@ -112,9 +111,7 @@ impl Arguments {
             return Ok(Task::Atlas(Box::new(design)));
         }
         let design = Design::read(&self.job).map_err(Failure::input)?;
-        let Claim::Machine(claim) = design.claim else {
-            return Err(Failure::Input("a design is about a machine".to_owned()));
-        };
+        let claim = super::input::three_legged(&design)?.clone();
         if let Some(precision) = &self.precision {
             let claim = pave::searched(&claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;

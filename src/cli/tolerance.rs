@@ -90,9 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-6, 0.5)?;
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(Failure::Defect);
-    };
+    let claim = input::three_legged(&design)?;
     let kinds = named(&arguments.on, claim)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;

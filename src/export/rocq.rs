@@ -47,6 +47,9 @@ pub enum ExportError {
     /// There are requirements other than those on transmission, or none on transmission.
     #[error("the claim asks for something else than bounds on transmission; {ONLY}")]
     NotTransmission,
+    /// It is a claim of the kernel.
+    #[error("the machine has no formal checker yet; {ONLY}")]
+    Kernel,
     /// The tree uses this rule.
     #[error("the proof uses the rule \"{0}\", which the formal checker lacks; {ONLY}")]
     Rule(&'static str),
@@ -72,6 +75,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
         (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
         (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
         (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
+        (Claim::Kernel(_), _) => return Err(ExportError::Kernel),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);

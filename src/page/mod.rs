@@ -106,11 +106,13 @@ impl<'a> Page<'a> {
             Claim::Machine(claim) => Some(claim.clone()),
             Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
-            Claim::Atlas(_) => None,
+            Claim::Atlas(_) | Claim::Kernel(_) => None,
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => {
+                Vec::new()
+            }
         };
         let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, certificate, &rows);
@@ -167,7 +169,7 @@ impl<'a> Page<'a> {
             Verdict::Refuted => "\u{2717} REFUTED",
         };
         let meaning = match (&self.certificate.claim, verdict) {
-            (Claim::Machine(_), Verdict::Certified) => {
+            (Claim::Machine(_) | Claim::Kernel(_), Verdict::Certified) => {
                 "Every requirement holds, at every point of the workspace and for every machine that \
                  the claim describes. The exact checker accepted the proof."
             }

@@ -10,6 +10,7 @@ use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, NoCubeClaim};
 use orthocert_checker::rule::Obligation;
+use orthocert_kernel::certificate as kernel;
 use std::fmt::Write;
 
 impl Page<'_> {
@@ -44,11 +45,13 @@ impl Page<'_> {
         let size = &self.accepted.size;
         let mut facts = Vec::new();
         match &self.certificate.proof {
-            Proof::Witness(_) => facts.push(("proof", "one counterexample".to_owned())),
+            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => {
+                facts.push(("proof", "one counterexample".to_owned()));
+            }
             Proof::Atlas(atlas) => {
                 facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
             }
-            Proof::Tree(_) | Proof::Faces(_) => {
+            Proof::Tree(_) | Proof::Faces(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
                 let cover = match self.certificate.claim {
                     Claim::NoCube(_) => "boxes that cover the centres",
                     _ => "boxes that cover the workspace",
@@ -62,6 +65,8 @@ impl Page<'_> {
             Proof::Tree(tree) => Some(tree.precision),
             Proof::Faces(faces) => Some(faces.precision),
             Proof::Witness(witness) => Some(witness.precision),
+            Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
+            Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
             // Each cell has its own.
             Proof::Atlas(_) => None,
         };
@@ -108,7 +113,7 @@ impl Page<'_> {
                     out.push_str(&words::parameters(&claim, machine));
                 }
             }
-            Claim::Atlas(_) => {}
+            Claim::Atlas(_) | Claim::Kernel(_) => {}
         }
         out + "</section>\n"
     }

@@ -11,6 +11,7 @@ use orthocert_checker::claim::{
 };
 use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
+use orthocert_kernel::claim as kernel;
 use std::fmt::Write;
 
 /// Digits of numbers that are computed for people.
@@ -40,12 +41,25 @@ pub fn subject(claim: &Claim) -> String {
             machine(&claim.machine)
         ),
         Claim::Machine(claim) => format!("{} over {}", machine(claim), workspace(claim)),
+        Claim::Kernel(claim) => kind(&claim.mechanism).to_owned(),
     }
 }
 
 /// What a paving is about, on a line.
 pub fn region(claim: &MachineClaim) -> String {
     format!("Where the requirements hold: {}, in {}", machine(claim), workspace(claim))
+}
+
+/// What kind of mechanism it is.
+fn kind(mechanism: &kernel::Mechanism) -> &'static str {
+    match mechanism {
+        kernel::Mechanism::Translational(_) => "A translational parallel machine",
+        kernel::Mechanism::Orthoglide { .. } => "The Orthoglide of the paper's Steps 1 to 3",
+        kernel::Mechanism::Planar(_) => "A planar parallel machine",
+        kernel::Mechanism::Spatial(_) => "A parallel machine with six degrees of freedom",
+        kernel::Mechanism::Spherical(_) => "A spherical parallel machine",
+        kernel::Mechanism::Formulas(_) => "A mechanism given by its inverse kinematics",
+    }
 }
 
 fn machine(claim: &MachineClaim) -> String {
@@ -176,6 +190,7 @@ fn asserted(claim: &Claim) -> Vec<String> {
             out.extend(everywhere.into_iter().skip(1));
             out
         }
+        Claim::Kernel(_) => Vec::new(),
         Claim::Machine(claim) => {
             let psi = claim.requirements.transmission.as_ref();
             let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {

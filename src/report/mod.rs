@@ -25,6 +25,7 @@ use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
+use orthocert_kernel::certificate as kernel;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -133,7 +134,10 @@ impl Size {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
             Proof::Faces(faces) => faces.precision,
-            Proof::Witness(_) | Proof::Atlas(_) => return None,
+            Proof::Kernel(kernel::Proof::Tree(tree)) => tree.precision,
+            Proof::Witness(_) | Proof::Atlas(_) | Proof::Kernel(kernel::Proof::Witness(_)) => {
+                return None;
+            }
         };
         let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
         let TreeSize { leaves, nodes, depth, .. } = *size;

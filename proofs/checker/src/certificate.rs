@@ -2,6 +2,7 @@
 
 use crate::cell::Axis;
 use crate::claim::{Claim, Leg};
+use crate::kernel;
 use crate::number::Exact;
 use crate::postulate::{Face, Half};
 use crate::rule::{Mu, Rotation, TightCorner};
@@ -74,6 +75,9 @@ pub enum Proof {
     Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
     /// A bisection tree of a box of parameters, for an atlas.
     Atlas(#[serde(deserialize_with = "strict::object")] Atlas),
+    /// A tree or a witness of the kernel; read and written as the kernel does.
+    #[serde(skip_deserializing, untagged)]
+    Kernel(orthocert_kernel::certificate::Proof),
 }
 
 /// A bisection tree of the parameters in preorder.
@@ -313,6 +317,7 @@ impl Certificate {
             Ok(lines?.join(",\n"))
         };
         let proof = match &self.proof {
+            Proof::Kernel(proof) => return kernel::text(self, proof),
             Proof::Atlas(Atlas { cells }) => {
                 let cells: Result<Vec<String>, _> =
                     cells.iter().map(serde_json::to_string).collect();

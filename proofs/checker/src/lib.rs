@@ -13,6 +13,7 @@
 //! | [`fixed`]       | fixed-point intervals over big integers                                |
 //! | [`enclosure`]   | the arithmetic that formulas are written in                            |
 //! | [`linear`]      | vectors and 3x3 matrices                                               |
+//! | [`kernel`]      | certificates of the kernel, which are about any mechanism              |
 //! | [`kinematics`]  | legs: row of `M = J^-1`, joint coordinate, slopes                      |
 //! | [`model`]       | a claim's numbers, enclosed                                            |
 //! | [`cell`]        | boxes of the bisection tree                                            |
@@ -44,6 +45,7 @@ pub mod expansion;
 pub mod file;
 pub mod fixed;
 pub mod hull;
+pub mod kernel;
 pub mod kinematics;
 pub mod linear;
 pub mod model;

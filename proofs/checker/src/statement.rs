@@ -1,10 +1,11 @@
 //! A claim in words: what an accepted certificate establishes.
 
-use crate::certificate::Verdict;
+use crate::certificate::{Certificate, Proof, Verdict};
 use crate::claim::{
     AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim,
     PsiMax, Quantity, Range, Requirements, Sign, Workspace,
 };
+use crate::kernel;
 use crate::paving::{self, Shares};
 use std::fmt::{self, Write};
 
@@ -26,8 +27,25 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
         Claim::Postulate(claim) => postulate(&mut out, claim)?,
         Claim::NoCube(claim) => no_cube(&mut out, claim)?,
         Claim::Atlas(claim) => atlas(&mut out, claim)?,
+        Claim::Kernel(claim) => return kernel::statement(claim, verdict),
     }
     Ok(out)
+}
+
+/// What a certificate establishes once it is accepted: its claim, proved or refuted, and, where the
+/// witness says so, how it fails.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn established(certificate: &Certificate) -> Result<String, fmt::Error> {
+    let words = statement(&certificate.claim, certificate.verdict)?;
+    match (&certificate.claim, &certificate.proof) {
+        (
+            Claim::Kernel(claim),
+            Proof::Kernel(orthocert_kernel::certificate::Proof::Witness(witness)),
+        ) => Ok(words + &orthocert_kernel::statement::counterexample(claim, witness)?),
+        _ => Ok(words),
+    }
 }
 
 /// Most characters of a line, where commas outside parentheses allow it.

@@ -108,6 +108,24 @@ pub enum Evidence {
     Inside(Box<Evidence>, i64, u32),
 }
 
+impl Evidence {
+    /// The rule's name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Evidence::Test => "test",
+            Evidence::Divided => "divided",
+            Evidence::Lower(_) => "lower",
+            Evidence::LowerDivided(_) => "lower_divided",
+            Evidence::Conditioning(..) => "conditioning",
+            Evidence::Negative => "negative",
+            Evidence::Cube => "cube",
+            Evidence::Corner(_) => "corner",
+            Evidence::Outside => "outside",
+            Evidence::Inside(..) => "inside",
+        }
+    }
+}
+
 /// A corner of the paper's cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Corner {
@@ -145,7 +163,10 @@ pub enum Failure {
     Singular(Vec<Expression>),
 }
 
-/// Who wrote a certificate.
+/// Most bytes of a name or version in [`Provenance`].
+pub const MOST_LABEL: usize = 64;
+
+/// Who wrote a certificate, in printable ASCII.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
@@ -201,6 +222,13 @@ impl Certificate {
             return Err(Unreadable::Format(format));
         }
         let certificate: Certificate = serde_json::from_str(text).map_err(malformed)?;
+        let is_label = |text: &str| {
+            text.len() <= MOST_LABEL && text.bytes().all(|b| b == b' ' || b.is_ascii_graphic())
+        };
+        let Provenance { tool, version } = &certificate.provenance;
+        if !is_label(tool) || !is_label(version) {
+            return Err(Unreadable::Malformed("provenance: a name of printable ASCII".to_owned()));
+        }
         let printed = certificate.to_text().map_err(malformed)?;
         let differs = printed.bytes().zip(text.bytes()).position(|(a, b)| a != b);
         match differs {

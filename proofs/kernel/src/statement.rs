@@ -1,6 +1,6 @@
 //! A claim in words: what an accepted certificate establishes, and the formulas that it is about.
 
-use crate::certificate::{Certificate, Claim, Failure, Proof, Verdict, Witness};
+use crate::certificate::{Failure, Verdict, Witness};
 use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
 use crate::claim::{Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
@@ -13,19 +13,15 @@ use std::fmt::{self, Display, Write};
 ///
 /// # Errors
 /// Only if the formatter fails.
-pub fn statement(certificate: &Certificate) -> Result<String, fmt::Error> {
+pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::Error> {
     let mut out = String::new();
-    let Claim::Machine(claim) = &certificate.claim;
-    match certificate.verdict {
+    match verdict {
         Verdict::Certified => writeln!(out, "It is proved:")?,
         Verdict::Refuted => writeln!(out, "It is proved that the following is FALSE:")?,
     }
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
     requirements(&mut out, claim)?;
-    if let Proof::Witness(witness) = &certificate.proof {
-        counterexample(&mut out, claim, witness)?;
-    }
     Ok(out)
 }
 
@@ -161,7 +157,12 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     writeln!(out, "psi_i are the inverses of the singular values of M.")
 }
 
-fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> fmt::Result {
+/// Where, for which machine and in what a refuted claim fails.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String, fmt::Error> {
+    let mut out = String::new();
     writeln!(out, "It fails at ({})", list(&witness.point))?;
     if let (Ok(problem), false) = (Problem::new(claim), witness.machine.is_empty()) {
         for ((place, _, _), value) in problem.tolerances().zip(&witness.machine) {
@@ -169,19 +170,20 @@ fn counterexample(out: &mut String, claim: &MachineClaim, witness: &Witness) -> 
         }
     }
     match &witness.fails {
-        Failure::Reach => writeln!(out, "where a leg does not reach, or is serially singular."),
+        Failure::Reach => writeln!(out, "where a leg does not reach, or is serially singular.")?,
         Failure::Obligation(number, _) => {
             let problem = Problem::new(claim).ok();
             let requirement = problem
                 .and_then(|problem| problem.obligations.get(*number)?.requirement)
                 .and_then(|number| claim.require.get(number));
             let of = requirement.map_or("freedom from singularities", |r| r.quantity.as_str());
-            writeln!(out, "where {of} is violated.")
+            writeln!(out, "where {of} is violated.")?;
         }
         Failure::Singular(other) => {
-            writeln!(out, "and at ({}), where det M has the other sign.", list(other))
+            writeln!(out, "and at ({}), where det M has the other sign.", list(other))?;
         }
     }
+    Ok(out)
 }
 
 /// The formulas of a problem: inputs `p`, coordinates `x`, and, leg by leg, `A`, `D` and `rho`, with

@@ -53,7 +53,7 @@ fn main() -> ExitCode {
     let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
     match accepted {
         Ok((accepted, certificate)) => {
-            let words = statement::statement(&certificate.claim, accepted.verdict);
+            let words = statement::established(&certificate);
             let code = match accepted.verdict {
                 Verdict::Certified => ExitCode::SUCCESS,
                 Verdict::Refuted => ExitCode::from(1),

@@ -20,7 +20,7 @@ use crate::model::Model;
 use crate::rule::Obligation;
 use crate::shown::Shown;
 use crate::strict::{self, Strict};
-use crate::{atlas, witness};
+use crate::{atlas, kernel, witness};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -63,6 +63,9 @@ pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
         return Err(Rejected::TooLarge(bytes.len()));
     }
     let text = std::str::from_utf8(bytes).map_err(|e| syntax(&e))?;
+    if kernel::is_meant(text) {
+        return kernel::read(text);
+    }
     let certificate = strictly(text).map_err(|reason| match serde_json::from_str(text) {
         // A later version may have any shape.
         Ok(Header { format }) if format != FORMAT => Rejected::Format(quoted(&format)),
@@ -88,7 +91,7 @@ fn strictly(text: &str) -> Result<Certificate, Rejected> {
     Ok(certificate)
 }
 
-fn syntax(message: &dyn fmt::Display) -> Rejected {
+pub(crate) fn syntax(message: &dyn fmt::Display) -> Rejected {
     Rejected::Syntax(quoted(&message.to_string()))
 }
 
@@ -131,6 +134,9 @@ pub fn check_part(
         }
         (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
             atlas::check(claim, map, |number| number % of == part, &mut size)?;
+        }
+        (Claim::Kernel(claim), Proof::Kernel(proof), verdict) => {
+            kernel::check(claim, verdict, proof, &mut size)?;
         }
         _ => return Err(Rejected::VerdictMismatch),
     }

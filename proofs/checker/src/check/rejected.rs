@@ -61,6 +61,8 @@ pub enum Rejected {
     TooManyNodes(usize),
     /// The shares that an atlas claims are not those of its cells.
     Shares,
+    /// The kernel does not accept it.
+    Kernel(orthocert_kernel::check::Rejected),
     /// What an atlas says of a cell is not proved.
     Cell {
         /// The cell, counted from zero in preorder.
@@ -87,6 +89,7 @@ impl fmt::Display for Rejected {
                 write!(f, "format {found:?} is not known; this checker reads {FORMAT:?}")
             }
             Rejected::Claim(error) => write!(f, "the claim is not well formed: {error}"),
+            Rejected::Kernel(reason) => write!(f, "{reason}"),
             Rejected::VerdictMismatch => write!(
                 f,
                 "the verdict does not go with the proof: a tree certifies, a witness refutes"

@@ -34,6 +34,9 @@ pub enum Claim {
     NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
     /// Every machine of a box of parameters, in part.
     Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
+    /// Any mechanism, in the kernel's vocabulary; read and written as the kernel does.
+    #[serde(skip_deserializing, rename = "machine")]
+    Kernel(orthocert_kernel::claim::MachineClaim),
 }
 
 /// "For every machine described and every point `C` of the box, the closed cube of this side with

@@ -8,9 +8,18 @@ use orthocert_kernel::certificate::{
 use orthocert_kernel::check::check;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::statement::{formulas, statement};
+use orthocert_kernel::statement::{counterexample, formulas, statement};
 
 const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#;
+
+fn words(certificate: &Certificate) -> String {
+    let Claim::Machine(claim) = &certificate.claim;
+    let words = statement(claim, certificate.verdict).expect("words");
+    match &certificate.proof {
+        Proof::Tree(_) => words,
+        Proof::Witness(witness) => words + &counterexample(claim, witness).expect("words"),
+    }
+}
 
 fn says(text: &str, sentences: &[&str]) {
     for sentence in sentences {
@@ -23,7 +32,7 @@ fn of_a_users_mechanism() {
     let certificate = certify(&claim(FIVE_BAR), 500).expect("a proof");
     check(&certificate).expect("accepted");
     says(
-        &statement(&certificate).expect("words"),
+        &words(&certificate),
         &[
             "It is proved:",
             "  l in [199.95, 200.05]",
@@ -67,7 +76,7 @@ fn of_a_refutation_with_its_machine() {
     };
     check(&certificate).expect("accepted");
     says(
-        &statement(&certificate).expect("words"),
+        &words(&certificate),
         &[
             "the following is FALSE",
             "leg 1: slider, direction (1, 0, 0), anchor (0, 0, 0), platform (0, 0, 0), length in [310, 311], eta > 0",

@@ -1,0 +1,127 @@
+//! Certificates of the kernel, beside those of the rules: read, written and checked by it.
+
+use crate::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
+use crate::check::{syntax, Rejected, TreeSize};
+use crate::claim::Claim;
+use orthocert_kernel::certificate::{self as kernel, Tree, Unreadable};
+use orthocert_kernel::claim::MachineClaim;
+use serde::de::IgnoredAny;
+use serde::Deserialize;
+use std::fmt;
+
+/// Whether a text is meant as a certificate of the kernel: its claim has a list of requirements.
+pub(crate) fn is_meant(text: &str) -> bool {
+    #[derive(Deserialize)]
+    struct Header {
+        #[serde(rename = "claim")]
+        _claim: About,
+    }
+    #[derive(Deserialize)]
+    struct About {
+        #[serde(rename = "machine")]
+        _machine: Listed,
+    }
+    #[derive(Deserialize)]
+    struct Listed {
+        #[serde(rename = "require")]
+        _require: IgnoredAny,
+    }
+    serde_json::from_str::<Header>(text).is_ok_and(|_| true)
+}
+
+/// Reads a certificate of the kernel.
+pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
+    let certificate = kernel::Certificate::read(text).map_err(|unreadable| match unreadable {
+        Unreadable::TooLong(bytes) => Rejected::TooLarge(bytes),
+        Unreadable::Format(format) => Rejected::Format(crate::check::quoted(&format)),
+        Unreadable::Malformed(message) => syntax(&message),
+        Unreadable::NotCanonical { at } => {
+            syntax(&format_args!("the same certificate is written otherwise, from byte {at} on"))
+        }
+    })?;
+    let kernel::Certificate {
+        claim: kernel::Claim::Machine(claim),
+        verdict,
+        proof,
+        provenance,
+        ..
+    } = certificate;
+    Ok(Certificate {
+        format: FORMAT.to_owned(),
+        claim: Claim::Kernel(claim),
+        verdict: match verdict {
+            kernel::Verdict::Certified => Verdict::Certified,
+            kernel::Verdict::Refuted => Verdict::Refuted,
+        },
+        proof: Proof::Kernel(proof),
+        provenance: Provenance { tool: provenance.tool, version: provenance.version },
+    })
+}
+
+fn verdict_of(verdict: Verdict) -> kernel::Verdict {
+    match verdict {
+        Verdict::Certified => kernel::Verdict::Certified,
+        Verdict::Refuted => kernel::Verdict::Refuted,
+    }
+}
+
+fn whole(claim: &MachineClaim, verdict: Verdict, proof: &kernel::Proof) -> kernel::Certificate {
+    kernel::Certificate {
+        format: FORMAT.to_owned(),
+        claim: kernel::Claim::Machine(claim.clone()),
+        verdict: verdict_of(verdict),
+        proof: proof.clone(),
+        provenance: kernel::Provenance { tool: String::new(), version: String::new() },
+    }
+}
+
+/// The text of a certificate of the kernel.
+pub(crate) fn text(
+    certificate: &Certificate,
+    proof: &kernel::Proof,
+) -> Result<String, serde_json::Error> {
+    let Claim::Kernel(claim) = &certificate.claim else {
+        return Err(serde::ser::Error::custom("the kernel's proof of another claim"));
+    };
+    let Provenance { tool, version } = &certificate.provenance;
+    let provenance = kernel::Provenance { tool: tool.clone(), version: version.clone() };
+    let whole = whole(claim, certificate.verdict, proof);
+    kernel::Certificate { provenance, ..whole }.to_text()
+}
+
+/// Accepts a proof, or says why not.
+pub(crate) fn check(
+    claim: &MachineClaim,
+    verdict: Verdict,
+    proof: &kernel::Proof,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    orthocert_kernel::check::check(&whole(claim, verdict, proof)).map_err(Rejected::Kernel)?;
+    if let kernel::Proof::Tree(tree) = proof {
+        *size = size_of(tree);
+    }
+    Ok(())
+}
+
+/// The size and shape of a tree.
+pub fn size_of(tree: &Tree) -> TreeSize {
+    let mut size = TreeSize { nodes: tree.nodes.len(), ..TreeSize::default() };
+    let mut waiting = vec![0];
+    for node in &tree.nodes {
+        let depth = waiting.pop().unwrap_or(0);
+        size.depth = size.depth.max(depth);
+        match node.split {
+            Some(_) => waiting.extend([depth + 1, depth + 1]),
+            None => size.leaves += 1,
+        }
+        for step in &node.by {
+            *size.steps.entry(step.1.name()).or_default() += 1;
+        }
+    }
+    size
+}
+
+/// The claim in words.
+pub(crate) fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::Error> {
+    orthocert_kernel::statement::statement(claim, verdict_of(verdict))
+}
