@@ -14,9 +14,11 @@
 
 mod doubles;
 mod evidence;
+pub mod extremes;
 mod refute;
 pub mod sample;
 pub mod search;
+pub mod value;
 
 use crate::search::{Budget, Control, Stop};
 use crate::verify::certificate;

@@ -12,13 +12,15 @@ use orthocert_kernel::input::{ClaimError, Value};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 
-/// Most coordinates of a grid with three points along each; beyond, its corners, the middles of its
+/// Points of a grid along each coordinate, by their number; beyond, its corners, the middles of its
 /// faces and its centre.
-const MOST_OF_GRID: usize = 4;
+const GRID: [usize; 4] = [17, 9, 5, 3];
 /// Halvings of the first, coarse descent.
 const COARSE: i32 = 9;
 /// Starts of coarse descents.
-const STARTS: usize = 2;
+const STARTS: usize = 3;
+/// What starts differ by, at least, in some coordinate.
+const APART: f64 = 0.3;
 /// Added to margins where something is not defined: worse than wherever all is.
 const UNDEFINED: f64 = 1e3;
 
@@ -29,6 +31,22 @@ pub struct Place {
     pub u: Vec<f64>,
     /// Of the tolerances, in the claim's order.
     pub t: Vec<f64>,
+}
+
+impl Place {
+    fn part(&mut self, axis: usize) -> &mut f64 {
+        let m = self.u.len();
+        if axis < m {
+            &mut self.u[axis]
+        } else {
+            &mut self.t[axis - m]
+        }
+    }
+}
+
+/// The greatest difference of coordinates.
+fn distance(one: &Place, other: &Place) -> f64 {
+    one.u.iter().zip(&other.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// What is looked for at its worst.
@@ -258,10 +276,10 @@ impl<'a> Sampler<'a> {
         let m = self.box_.len();
         let centre = self.centre();
         let with = |u: Vec<f64>| Place { u, ..centre.clone() };
-        if m <= MOST_OF_GRID {
-            let digit = |i: usize, k: usize| (i / 3usize.pow(k as u32) % 3) as f64 / 2.0;
-            let all = 0..3usize.pow(m as u32);
-            return all.map(|i| with((0..m).map(|k| digit(i, k)).collect())).collect();
+        if let Some(&points) = m.checked_sub(1).and_then(|m| GRID.get(m)) {
+            let digit = |i: usize, k: u32| (i / points.pow(k) % points) as f64 / (points - 1) as f64;
+            let all = 0..points.pow(m as u32);
+            return all.map(|i| with((0..m as u32).map(|k| digit(i, k)).collect())).collect();
         }
         let corners = (0..1usize << m).map(|i| (0..m).map(|k| (i >> k & 1) as f64).collect());
         let faces = (0..2 * m).map(|i| {
@@ -290,15 +308,15 @@ impl<'a> Sampler<'a> {
         worst
     }
 
-    /// Takes a place if it is worse than the worst known.
-    fn consider(&self, worst: &mut Worst, axis: usize, part: f64) -> bool {
+    /// Takes the place at these parts if it is worse than the worst known.
+    fn considered(&self, worst: &mut Worst, parts: &[(usize, f64)]) -> bool {
         let mut place = worst.place.clone();
-        let m = place.u.len();
-        let slot = if axis < m { &mut place.u[axis] } else { &mut place.t[axis - m] };
-        if *slot == part {
+        for &(axis, part) in parts {
+            *place.part(axis) = part.clamp(0.0, 1.0);
+        }
+        if place == worst.place {
             return false;
         }
-        *slot = part;
         let margin = self.margin(worst.quality, &self.at(&place));
         let worse = margin < worst.margin;
         if worse {
@@ -307,13 +325,20 @@ impl<'a> Sampler<'a> {
         worse
     }
 
+    fn stepped(&self, worst: &mut Worst, steps: &[(usize, f64)]) -> bool {
+        let parts: Vec<(usize, f64)> =
+            steps.iter().map(|&(axis, step)| (axis, *worst.place.part(axis) + step)).collect();
+        self.considered(worst, &parts)
+    }
+
     fn to_ends(&self, worst: &mut Worst) -> bool {
         let m = self.box_.len();
         let axes = m..m + self.free.len();
         let ends = axes.flat_map(|axis| [(axis, 0.0), (axis, 1.0)]);
-        ends.fold(false, |moved, (axis, end)| self.consider(worst, axis, end) || moved)
+        ends.fold(false, |moved, (axis, end)| self.considered(worst, &[(axis, end)]) || moved)
     }
 
+    /// Steps along the axes, and, where all of them are up, along the diagonals of pairs.
     fn compass(
         &self,
         worst: &mut Worst,
@@ -326,11 +351,13 @@ impl<'a> Sampler<'a> {
             for _ in 0..4 {
                 let mut moved = false;
                 for axis in axes.clone() {
-                    let m = worst.place.u.len();
                     for signed in [step, -step] {
-                        let place = &worst.place;
-                        let part = if axis < m { place.u[axis] } else { place.t[axis - m] };
-                        moved |= self.consider(worst, axis, (part + signed).clamp(0.0, 1.0));
+                        moved |= self.stepped(worst, &[(axis, signed)]);
+                    }
+                }
+                for (i, j) in axes.clone().flat_map(|i| (axes.start..i).map(move |j| (i, j))) {
+                    for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                        moved = moved || self.stepped(worst, &[(i, a * step), (j, b * step)]);
                     }
                 }
                 if !moved {
@@ -347,9 +374,14 @@ impl<'a> Sampler<'a> {
             let mut starts: Vec<(f64, &Place)> =
                 grid.iter().map(|(values, p)| (self.margin(quality, values), p)).collect();
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let coarse = starts.iter().take(STARTS).map(|(_, p)| self.descend(quality, p, COARSE));
-            let best = coarse.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
-            let mut worst = best;
+            let mut apart: Vec<&Place> = Vec::new();
+            for (_, start) in starts {
+                if apart.len() < STARTS && apart.iter().all(|other| distance(other, start) > APART) {
+                    apart.push(start);
+                }
+            }
+            let coarse = apart.into_iter().map(|start| self.descend(quality, start, COARSE));
+            let mut worst = coarse.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
             self.compass(&mut worst, 0..self.box_.len(), COARSE + 1..=finest);
             Some(worst)
         };

@@ -1,0 +1,180 @@
+//! Quantities at a place, in the claim's own unit; what bounds on them are called.
+
+use super::refute::{approximate, number};
+use super::sample::{Place, Quality, Sampler};
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
+use orthocert_kernel::machine::Joint;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+
+/// Steps of the search for a bound that is tight.
+const STEPS: usize = 60;
+/// Relative accuracy of such a bound.
+const ACCURACY: f64 = 1e-13;
+
+/// A bound on a quantity of one leg, or of the machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bounded {
+    /// The requirement.
+    pub requirement: Requirement,
+    /// Of this leg, counted from zero.
+    pub leg: Option<usize>,
+}
+
+/// The unit of a quantity, where it has one; `angular` where joint coordinates are angles.
+pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
+    match quantity {
+        "transmission" => angular.then_some("length/rad"),
+        "joint_range" => Some(if angular { "deg" } else { "length" }),
+        "joint_speed" => Some(if angular { "deg/time" } else { "length/time" }),
+        "leg_angle" => Some("deg"),
+        _ => None,
+    }
+}
+
+/// The names of the coordinates of a claim's workspace.
+pub fn coordinates(claim: &MachineClaim) -> Vec<String> {
+    let m = match (&claim.mechanism, &claim.workspace) {
+        (Mechanism::Formulas(formulas), _) => return formulas.coordinates.clone(),
+        (_, Workspace::Box { min, .. }) => min.len(),
+        (_, Workspace::Cylinder { .. } | Workspace::Cube { .. }) => 3,
+    };
+    ["x", "y", "z"].into_iter().take(m).map(str::to_owned).collect()
+}
+
+impl Bounded {
+    /// What an obligation bounds; none of freedom from singularities.
+    pub fn of(claim: &MachineClaim, problem: &Problem, obligation: usize) -> Option<Self> {
+        let obligation = problem.obligations.get(obligation)?;
+        let requirement = claim.require.get(obligation.requirement?)?.clone();
+        Some(Bounded { requirement, leg: obligation.leg })
+    }
+
+    /// Its name: `greatest psi`, `least rho_2`, `joint speed 1`.
+    pub fn name(&self) -> String {
+        let Requirement { quantity, bound, .. } = &self.requirement;
+        let end = match bound {
+            Bound::Min(_) => "least ",
+            Bound::Max(_) => "greatest ",
+            Bound::Within(_) | Bound::Holds => "",
+        };
+        let number = self.leg.map(|leg| leg + 1);
+        match (quantity.as_str(), number) {
+            ("transmission", _) => format!("{end}psi"),
+            ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
+            ("conditioning", _) => "condition number".to_owned(),
+            (_, Some(leg)) => format!("{} {leg}", quantity.replace('_', " ")),
+            (_, None) => quantity.replace('_', " "),
+        }
+    }
+
+    /// `<=`, `>=` or `in`, and the other side; none of what is no number.
+    pub fn relation(&self) -> Option<(&'static str, Vec<&Expression>)> {
+        match &self.requirement.bound {
+            Bound::Min(bound) => Some((">=", vec![bound])),
+            Bound::Max(bound) => Some(("<=", vec![bound])),
+            Bound::Within([min, max]) => Some(("in", vec![min, max])),
+            Bound::Holds => None,
+        }
+    }
+
+    /// The same with another bound, on this leg alone; a range has none.
+    fn with(&self, x: f64) -> Option<Requirement> {
+        let bound = number(&BigRational::from_f64(x)?)?;
+        let bound = match &self.requirement.bound {
+            Bound::Min(_) => Bound::Min(bound),
+            Bound::Max(_) => Bound::Max(bound),
+            Bound::Within(_) | Bound::Holds => return None,
+        };
+        let leg = self.leg.map(|leg| leg + 1);
+        Some(Requirement { bound, leg, ..self.requirement.clone() })
+    }
+
+    /// The value at a place: psi, condition number and joint coordinates by their definition, all
+    /// others as the bound that is met with equality there.
+    pub fn value(
+        &self,
+        claim: &MachineClaim,
+        problem: &Problem,
+        sampler: &Sampler<'_>,
+        place: &Place,
+    ) -> Option<f64> {
+        let values = sampler.at(place);
+        let leg = self.leg.and_then(|leg| problem.legs.get(leg));
+        let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
+        match (self.requirement.quantity.as_str(), &self.requirement.bound) {
+            ("transmission", bound) => {
+                let [least, greatest] = sampler.xi(&values)?;
+                let unit = if angular { sampler.unit() } else { 1.0 };
+                Some(unit / if matches!(bound, Bound::Min(_)) { greatest } else { least })
+            }
+            ("conditioning", _) => sampler.xi(&values).map(|[least, greatest]| greatest / least),
+            ("joint_range", _) => match leg?.rho? {
+                Joint::Length(rho) => Some(values.of(rho)? * sampler.unit()),
+                Joint::Angle { cos, sin } => {
+                    Some(values.of(sin)?.atan2(*values.of(cos)?).to_degrees())
+                }
+            },
+            _ => {
+                sampler.matrix(&values)?;
+                self.tight(claim, place)
+            }
+        }
+    }
+
+    /// How far a bound is from being violated at a place; `None` where it is none.
+    fn margin_with(&self, claim: &MachineClaim, place: &Place, x: f64) -> Option<f64> {
+        let mut claim = claim.clone();
+        let defining = claim.require.iter().find(|own| own.quantity == "transmission").cloned();
+        claim.require = vec![self.with(x)?];
+        if let Workspace::Cube { .. } = claim.workspace {
+            claim.require.extend(defining);
+        }
+        let problem = Problem::new(&claim).ok()?;
+        let sampler = Sampler::new(&claim, &problem).ok()?;
+        let values = sampler.at(place);
+        let numbers = 0..problem.obligations.len();
+        let own = numbers.filter(|&at| problem.obligations[at].requirement == Some(0));
+        own.map(|at| sampler.margin(Quality::Obligation(at), &values)).reduce(f64::min)
+    }
+
+    /// The bound `x > 0` whose margin changes its sign: between a bound that holds and one that does
+    /// not, halved and interpolated.
+    fn tight(&self, claim: &MachineClaim, place: &Place) -> Option<f64> {
+        let (_, sides) = self.relation()?;
+        let start = approximate(sides.first()?)?;
+        let margin = |x: f64| self.margin_with(claim, place, x);
+        let first = margin(start)?;
+        // Whether a greater bound holds rather than a less.
+        let rising = matches!(self.requirement.bound, Bound::Max(_));
+        let outward = if rising == (first < 0.0) { 2.0 } else { 0.5 };
+        let (mut a, mut at_a) = (start, first);
+        let (mut b, mut at_b) = (start, first);
+        for _ in 0..STEPS {
+            if at_a * at_b < 0.0 {
+                break;
+            }
+            (a, at_a) = (b, at_b);
+            b *= outward;
+            // What is not admissible is beyond.
+            at_b = margin(b).unwrap_or(-first.signum() * f64::INFINITY);
+        }
+        for step in 0..STEPS {
+            if (b - a).abs() <= ACCURACY * a.abs().max(b.abs()) || at_a == 0.0 {
+                break;
+            }
+            let secant = a - at_a * (b - a) / (at_b - at_a);
+            let usable = step % 3 != 2 && at_b.is_finite() && secant != a && secant != b;
+            let c = if usable { secant } else { 0.5 * (a + b) };
+            let at_c = margin(c).unwrap_or(-at_a.signum() * f64::INFINITY);
+            if at_c * at_a > 0.0 {
+                (a, at_a) = (c, at_c);
+            } else {
+                (b, at_b) = (c, at_c);
+            }
+        }
+        Some(if at_b.abs() < at_a.abs() { b } else { a })
+    }
+}
