@@ -9,6 +9,7 @@
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
+//! | [`decide`]       | decides a claim by the rules, or by the kernel                        |
 //! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
 //! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
@@ -47,6 +48,7 @@ pub mod adverse;
 pub mod atlas;
 pub mod attestation;
 pub mod batch;
+pub mod decide;
 pub mod decimal;
 pub mod design;
 pub mod digest;

@@ -3,7 +3,7 @@
 use super::subdivision::{parts, Subdivision, RULES};
 use crate::decimal::{approximate, counted, exact, grouped, significant};
 use crate::escape::xml;
-use crate::report::{Counterexample, Row};
+use crate::report::{point_text, Counterexample, Row};
 use orthocert_checker::number::Exact;
 use orthocert_checker::rule::Obligation;
 use std::fmt::Write;
@@ -20,13 +20,13 @@ pub fn margins(rows: &[Row]) -> String {
          <th class=\"number\">worst found</th><th class=\"number\">margin</th><th>at P = (x, y, z)</th></tr></thead><tbody>"
         .to_owned();
     for row in rows {
-        let [x, y, z] = row.at.map(|x| significant(x, 6));
+        let at = point_text(&row.at, 6);
         let found = row.worst_found.map_or("out of reach".to_owned(), |x| significant(x, 9));
         let class = if row.seems_violated { "number bad" } else { "number" };
         let _ = write!(
             out,
             "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"{class}\">{found}{}</td>\
-             <td class=\"number\">{}</td><td>({x}, {y}, {z}){}</td></tr>",
+             <td class=\"number\">{}</td><td>{at}{}</td></tr>",
             xml(&row.requirement),
             xml(&row.bound_text),
             if row.seems_violated { " (violated)" } else { "" },
@@ -65,16 +65,19 @@ fn machine(row: &Row) -> String {
     let settings: Vec<String> = row
         .machine
         .iter()
-        .map(|p| format!("leg {} {} {}", p.leg, p.parameter, significant(p.value, 7)))
+        .map(|p| {
+            let leg = p.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+            format!("{leg}{} {}", p.parameter, significant(p.value, 7))
+        })
         .collect();
     format!("<details><summary>machine</summary>{}</details>", xml(&settings.join(", ")))
 }
 
 /// The counterexample of a refutation.
 pub fn counterexample(found: &Counterexample) -> String {
-    let point = |p: &[Exact; 3]| {
-        let [x, y, z] = [exact(&p[0]), exact(&p[1]), exact(&p[2])];
-        xml(&format!("({x}, {y}, {z})"))
+    let point = |p: &Vec<Exact>| {
+        let all: Vec<String> = p.iter().map(exact).collect();
+        xml(&format!("({})", all.join(", ")))
     };
     let mut rows = vec![
         ("violated".to_owned(), xml(&found.violated)),
@@ -83,11 +86,13 @@ pub fn counterexample(found: &Counterexample) -> String {
     ];
     rows.extend(found.other_point.iter().map(|p| ("and at P'".to_owned(), point(p))));
     for setting in &found.machine {
-        let name = xml(&format!("leg {} {}", setting.leg, setting.parameter));
+        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+        let name = xml(&format!("{leg}{}", setting.parameter));
         rows.push((name, xml(&exact(&setting.value))));
     }
-    for [x, y, z] in &found.directions {
-        rows.push(("moving along".to_owned(), format!("({x}, {y}, {z})")));
+    for direction in &found.directions {
+        let all: Vec<String> = direction.iter().map(i64::to_string).collect();
+        rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
     }
     let mut out = "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
          which a requirement provably fails. Coordinates are exact; digits of the value are certified.</p>\

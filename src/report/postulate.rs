@@ -45,7 +45,7 @@ impl PostulateReport {
                 (Outcome::Decided(accepted.verdict), size, None)
             }
             Answer::Undecided(undecided) => {
-                (Outcome::Undecided, None, Some(reason(undecided, found.boxes)))
+                (Outcome::Undecided, None, Some(reason(undecided.objection.as_ref(), undecided.stop, found.boxes)))
             }
         };
         Some(PostulateReport {

@@ -393,7 +393,7 @@ fn certify(
     let place = sampler.centre();
     let unknown = |quality| Worst { quality, place: place.clone(), margin: f64::MAX };
     let mut worst: Vec<Worst> = own.map(unknown).collect();
-    look_into(&sampler, &prover, &found.open, OPEN_CENTRES, &mut worst);
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     worst.retain(|found| found.margin < 0.0);
     worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
     for Worst { quality, place, .. } in worst {

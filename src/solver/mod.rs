@@ -30,8 +30,10 @@ use orthocert_kernel::certificate::{self as kernel, Node, Tree, Witness};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::Problem;
-use sample::{Place, Sampler, Worst};
+use sample::{Sampler, Worst};
 use search::{search, Open};
+
+pub use refute::number;
 
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
 pub const FINEST: i32 = 26;
@@ -106,7 +108,7 @@ pub fn verify(
         let answer = accepted(claim, &prover, found.nodes);
         return Ok(Verification { answer, worst, boxes });
     }
-    look_into(&sampler, &prover, &found.open, OPEN_CENTRES, &mut worst);
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     let answer = match refute::refutation(claim, &problem, &sampler, &worst) {
         Some(witness) => refuted(claim, witness),
         None => {
@@ -163,19 +165,13 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
 /// Improves the worst values from the centres of at most so many of the open boxes.
 fn look_into(
     sampler: &Sampler<'_>,
-    prover: &Prover<'_>,
     open: &[Open],
     centres: usize,
     worst: &mut [Worst],
 ) {
     let stride = open.len().div_ceil(centres).max(1);
     for item in open.iter().step_by(stride) {
-        let part = |(&(lo, hi), &(least, greatest)): (&(f64, f64), &(f64, f64))| {
-            let width = greatest - least;
-            if width > 0.0 { ((0.5 * (lo + hi) - least) / width).clamp(0.0, 1.0) } else { 0.5 }
-        };
-        let u = item.cell.iter().zip(&prover.root).map(part).collect();
-        let start = Place { u, t: sampler.centre().t };
+        let start = sampler.place_in(&item.cell);
         for known in worst.iter_mut() {
             let found = sampler.descend(known.quality, &start, FINEST);
             if found.margin < known.margin {

@@ -2,13 +2,15 @@
 //!
 //! Nothing here is a proof: it gives candidates for refutations and the worst values of reports.
 
-use super::doubles::{pair, Pair, Single};
+use super::doubles::{middle, pair, Pair, Single};
 use super::evidence::BITS;
+use super::refute::approximate;
 use nalgebra::DMatrix;
 use num_bigint::BigInt;
 use orthocert_kernel::claim::{MachineClaim, Quantity, Workspace};
 use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::{ClaimError, Value};
+use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 
@@ -163,6 +165,42 @@ impl<'a> Sampler<'a> {
     /// The problem's unit of length in the claim's.
     pub fn unit(&self) -> f64 {
         (self.problem.scale as f64).exp2()
+    }
+
+    /// The ends of the workspace's box in the claim's unit.
+    pub fn ends(&self) -> [Vec<f64>; 2] {
+        let unit = self.unit();
+        let end = |part: f64| {
+            self.box_.iter().map(|(least, width)| (least + part * width) * unit).collect()
+        };
+        [end(0.0), end(1.0)]
+    }
+
+    /// The centre of a box in the problem's unit, with the middle machine.
+    pub fn place_in(&self, cell: &[Pair]) -> Place {
+        let centre: Vec<f64> = cell.iter().map(middle).collect();
+        Place { u: self.parts_of(&centre), t: self.centre().t }
+    }
+
+    fn parts_of(&self, point: &[f64]) -> Vec<f64> {
+        let part = |(x, &(least, width)): (&f64, &(f64, f64))| {
+            if width > 0.0 { ((x - least) / width).clamp(0.0, 1.0) } else { 0.5 }
+        };
+        point.iter().zip(&self.box_).map(part).collect()
+    }
+
+    /// The place of a witness.
+    pub fn place_of(&self, point: &[Expression], machine: &[Expression]) -> Option<Place> {
+        let unit = self.unit();
+        let point = point.iter().map(|x| Some(approximate(x)? / unit));
+        let u = self.parts_of(&point.collect::<Option<Vec<_>>>()?);
+        let part = |(&j, x): (&usize, &Expression)| {
+            let (lo, hi) = self.parameters[j];
+            let x = approximate(x)? / (self.problem.inputs[j].scale as f64).exp2();
+            Some(((x - lo) / (hi - lo)).clamp(0.0, 1.0))
+        };
+        let t = self.free.iter().zip(machine).map(part).collect::<Option<_>>()?;
+        Some(Place { u, t })
     }
 
     /// The values of all formulas at a place.
