@@ -47,7 +47,8 @@ pub static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
         };
         rule(&quantity.key.replace('_', "-"), &says)
     };
-    let singularity = "Every leg reaches every point of the workspace, without a serial or a parallel \
+    let singularity =
+        "Every leg reaches every point of the workspace, without a serial or a parallel \
                        singularity.";
     let mut all = vec![rule(SINGULARITY, singularity)];
     all.extend(TABLE.iter().map(of));
@@ -104,7 +105,10 @@ pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
         Claim::Machine(claim) => {
             let cube = matches!(claim.workspace, Workspace::Cube { .. });
             let of_machine = demanded(&claim.requirements, cube, claim.mechanism.is_angular());
-            of_machine.into_iter().map(|(rule, key, demands)| (rule, key.to_owned(), demands)).collect()
+            of_machine
+                .into_iter()
+                .map(|(rule, key, demands)| (rule, key.to_owned(), demands))
+                .collect()
         }
         Claim::Kernel(claim) => demanded_of_kernel(claim),
         Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),

@@ -33,9 +33,7 @@ pub fn sarif(batch: &Batch, locate: impl Fn(&str) -> String) -> Value {
             })
         })
         .collect();
-    let rule = |rule: &Rule| {
-        json!({ "id": rule.id, "shortDescription": { "text": rule.says }, "helpUri": HELP })
-    };
+    let rule = |rule: &Rule| json!({ "id": rule.id, "shortDescription": { "text": rule.says }, "helpUri": HELP });
     let rules: Vec<Value> = RULES.iter().map(rule).collect();
     json!({
         "$schema": SCHEMA,

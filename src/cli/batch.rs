@@ -210,9 +210,7 @@ fn known(design: &Design, report: Report, status: Status) -> Entry {
     };
     let known = match (status, &report.counterexample) {
         (Status::Decided(Verdict::Certified), _) => Known::Certified,
-        (Status::Decided(Verdict::Refuted), Some(found)) => {
-            Known::Refuted(found.rule)
-        }
+        (Status::Decided(Verdict::Refuted), Some(found)) => Known::Refuted(found.rule),
         _ => Known::Nothing,
     };
     let requirements = requirements(design, known);

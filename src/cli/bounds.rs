@@ -233,7 +233,11 @@ impl Row {
     }
 
     /// Between a refuted bound and a certified one.
-    fn enclosed(&mut self, (width, inner, outer): (BigRational, Exact, Exact), asked: &BigRational) {
+    fn enclosed(
+        &mut self,
+        (width, inner, outer): (BigRational, Exact, Exact),
+        asked: &BigRational,
+    ) {
         self.wide = width > *asked;
         self.relative = Some(rounded(&width, 2, Toward::Above));
         let (min, max) = if self.end == "greatest" { (inner, outer) } else { (outer, inner) };

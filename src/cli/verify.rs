@@ -9,8 +9,8 @@ use orthocert::report::{text, Margin, Report};
 use orthocert::search::{Budget, Control};
 use orthocert::solver;
 use orthocert_checker::claim::Claim;
-use orthocert_kernel::problem::Problem;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::problem::Problem;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

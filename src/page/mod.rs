@@ -34,7 +34,7 @@ mod words;
 
 use crate::digest::policy_source;
 use crate::escape::{self, xml};
-use crate::report::{worst_found, Row};
+use crate::report::{worst_found, worst_found_of_kernel, Row};
 use isomap::{Mark, Scale};
 use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
@@ -110,9 +110,8 @@ impl<'a> Page<'a> {
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => {
-                Vec::new()
-            }
+            Claim::Kernel(claim) => worst_found_of_kernel(claim).unwrap_or_default(),
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
         };
         let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, certificate, &rows);

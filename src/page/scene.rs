@@ -19,7 +19,9 @@ pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[Row]) -> f64 
     let z = match &certificate.proof {
         Proof::Witness(witness) => approximate(&witness.point[2]),
         _ if machine.is_cube => Some(least),
-        _ => rows.iter().find(|row| row.requirement == "greatest psi")
+        _ => rows
+            .iter()
+            .find(|row| row.requirement == "greatest psi")
             .and_then(|row| row.at.get(2).copied()),
     };
     match z {

@@ -71,7 +71,10 @@ impl<'a> Facts<'a> {
     }
 
     /// Name, unit, relation and other side of what is demanded.
-    fn demanded(&self, quality: Quality) -> (String, Option<&'static str>, &'static str, Vec<Expression>) {
+    fn demanded(
+        &self,
+        quality: Quality,
+    ) -> (String, Option<&'static str>, &'static str, Vec<Expression>) {
         let Some(bounded) = self.bounded(quality) else {
             let name = match quality {
                 Quality::Reach => "least radicand",
@@ -236,9 +239,7 @@ impl<'a> Facts<'a> {
         }
         *bound = x;
         let problem = Problem::new(&claim);
-        problem.is_ok_and(|problem| {
-            witness::check(&problem, &claim.workspace, witness).is_ok()
-        })
+        problem.is_ok_and(|problem| witness::check(&problem, &claim.workspace, witness).is_ok())
     }
 
     /// What an undecided claim leaves open.
@@ -288,7 +289,8 @@ impl<'a> Facts<'a> {
             let boxes = || undecided.open.iter().filter(|item| item.obligations.contains(&number));
             let count = boxes().count();
             let quality = Quality::Obligation(number);
-            let rule = self.bounded(quality).map_or("singularity".to_owned(), |b| b.requirement.quantity);
+            let rule =
+                self.bounded(quality).map_or("singularity".to_owned(), |b| b.requirement.quantity);
             let reason = match undecided.stop {
                 Stop::Exhausted | Stop::Hopeless => "the test does not hold",
                 Stop::Boxes | Stop::Time | Stop::Cancelled => "not shown within the budget",
@@ -373,7 +375,8 @@ fn regions(open: &[Open]) -> Vec<Region> {
             let mut both = item.cell.iter().zip(&other.cell);
             both.all(|(a, b)| a.0 <= b.1 && b.0 <= a.1)
         };
-        let (near, far) = members.into_iter().partition(|region: &Vec<&Open>| region.iter().any(touch));
+        let (near, far) =
+            members.into_iter().partition(|region: &Vec<&Open>| region.iter().any(touch));
         let near: Vec<Vec<&Open>> = near;
         members = far;
         members.push(near.into_iter().flatten().chain([item]).collect());

@@ -12,8 +12,8 @@ mod remains;
 pub mod text;
 mod worst;
 
-pub use kernel::{exactly, shown};
 pub use counterexample::{Counterexample, Setting};
+pub use kernel::{exactly, shown};
 pub use place::{named_parameters, point_text, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
@@ -23,6 +23,7 @@ use crate::extremes::Enclosed;
 use crate::sample::Sampler;
 use crate::solver;
 use crate::verify::{worst_values, Answer, Verification, FINEST};
+use num_rational::BigRational;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
@@ -31,7 +32,6 @@ use orthocert_checker::TreeSize;
 use orthocert_kernel::certificate as of_kernel;
 use orthocert_kernel::claim::MachineClaim as KernelClaim;
 use orthocert_kernel::problem::Problem;
-use num_rational::BigRational;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -114,7 +114,11 @@ pub struct Margin {
 
 impl Margin {
     /// The certified end of an enclosure of the kernel's quantities.
-    pub fn of_kernel(extreme: &solver::extremes::Extreme, bound: BigRational, angular: bool) -> Self {
+    pub fn of_kernel(
+        extreme: &solver::extremes::Extreme,
+        bound: BigRational,
+        angular: bool,
+    ) -> Self {
         let relation = if extreme.is_greatest() { "<=" } else { ">=" };
         let (quantity, unit) = (extreme.quantity(), extreme.unit(angular));
         Margin { quantity, unit, relation, bound: Exact::Rational(bound) }

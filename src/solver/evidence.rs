@@ -22,8 +22,10 @@ pub const BITS: u32 = 96;
 const FINE: i32 = 15;
 /// Bits tried for a shorter one.
 const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
-/// Where singular values are cut off for a start between `kappa U` and `M`, in `kappa`.
-const CLIPPED: f64 = 1.3;
+/// Where singular values are cut off for starts between `kappa U` and `M`, in `kappa`.
+const CLIPPED: [f64; 3] = [1.3, 1.1, 2.0];
+/// Parts of the interval of multiples from which a short one is taken.
+const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
 /// Halvings from a box to the one about its centre that tells whether it is hopeless.
 const FINER: i32 = 20;
 /// What a relative change of `D` counts beside one of `A`, when a coordinate is chosen.
@@ -54,7 +56,8 @@ impl<'a> Prover<'a> {
     /// The greatest absolute value of a formula on the whole workspace, where it has one.
     pub fn greatest(&self) -> f64 {
         let values = self.checker.evaluate(&edges(&self.root));
-        let formulas = self.problem.legs.iter().flat_map(|leg| leg.row.a.iter().chain([&leg.row.d]));
+        let formulas =
+            self.problem.legs.iter().flat_map(|leg| leg.row.a.iter().chain([&leg.row.d]));
         let of = |&f: &Formula| values.of(f).map_or(1.0, |slope| magnitude(&slope.range));
         let coordinates = self.root.iter().map(magnitude);
         formulas.map(of).chain(coordinates).fold(1.0, f64::max)
@@ -196,9 +199,11 @@ impl Over<'_> {
         if self.shows(test, &evidence) {
             return Some(evidence);
         }
-        let (multiple, places) = self.multiple(test, &evidence)?;
-        let evidence = Evidence::Inside(Box::new(evidence), multiple, places);
-        self.shows(test, &evidence).then_some(evidence)
+        let all = self.multiples(test, &evidence)?.into_iter().map(|(multiple, places)| {
+            Evidence::Inside(Box::new(evidence.clone()), multiple, places)
+        });
+        let mut all = all.filter(|evidence| self.shows(test, evidence));
+        all.next()
     }
 
     fn lower(&self, test: Test, kappa_squared: Formula) -> Option<Evidence> {
@@ -220,7 +225,7 @@ impl Over<'_> {
     }
 
     /// Matrices `Y` to begin with: `kappa B^-1 U`, `B^-1 M`, where the minorant touches `M^T M`, and
-    /// one between them; `U` is the polar factor of `M`.
+    /// some between them; `U` is the polar factor of `M`.
     fn starts(&self, divided: bool, kappa: f64) -> Vec<DMatrix<f64>> {
         let Some(rows) = self.rows(divided, None) else { return Vec::new() };
         let svd = rows.m().svd(true, true);
@@ -234,15 +239,12 @@ impl Over<'_> {
             }
             y
         };
-        vec![with(&|_| kappa), with(&|xi| xi.min(CLIPPED * kappa)), with(&|xi| xi)]
+        let clipped = CLIPPED.into_iter().map(|part| with(&|xi| xi.min(part * kappa)));
+        [with(&|_| kappa)].into_iter().chain(clipped).chain([with(&|xi| xi)]).collect()
     }
 
     /// Of the evidence with so many bits, the shortest with which the test holds.
-    fn shortest(
-        &self,
-        test: Test,
-        with: impl Fn(i32) -> Option<Evidence>,
-    ) -> Option<Evidence> {
+    fn shortest(&self, test: Test, with: impl Fn(i32) -> Option<Evidence>) -> Option<Evidence> {
         let found = self.shown(test, with(FINE)?)?;
         let shorter = SHORT.into_iter().find_map(|bits| {
             let evidence = match &found {
@@ -281,9 +283,9 @@ impl Over<'_> {
         })
     }
 
-    /// A short multiple of the workspace's own inequality, `multiple / 2^places`, that leaves what the
+    /// Short multiples of the workspace's own inequality, `multiple / 2^places`, that leave what the
     /// test wants positive at each vertex so, less that of the tangent there.
-    fn multiple(&self, test: Test, evidence: &Evidence) -> Option<(i64, u32)> {
+    fn multiples(&self, test: Test, evidence: &Evidence) -> Option<Vec<(i64, u32)>> {
         let inside = self.problem().inside.as_ref()?;
         let g = self.centre(inside.g)?;
         let steps: Vec<f64> = inside
@@ -304,8 +306,8 @@ impl Over<'_> {
             }
         }
         let high = if high.is_finite() { high } else { 4.0 * low + 1.0 };
-        let (low, high) = (0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high);
-        (low < high).then(|| between(low, high))?
+        let part = |[a, b]: [f64; 2]| between(low + a * (high - low), low + b * (high - low));
+        (low < high).then(|| MULTIPLES.into_iter().filter_map(part).collect())
     }
 
     /// The least eigenvalue, or value, of what a test wants positive, at a vertex.
@@ -405,7 +407,11 @@ impl Over<'_> {
     fn rows(&self, divided: bool, toward: Option<Toward>) -> Option<Rows> {
         let legs = &self.problem().legs;
         let row = |i: usize| -> &Row<Formula> {
-            if divided { &legs[i].divided } else { &legs[i].row }
+            if divided {
+                &legs[i].divided
+            } else {
+                &legs[i].row
+            }
         };
         let at = |f: Formula| {
             let slope = self.formulas.of(f)?;

@@ -25,6 +25,8 @@ use std::collections::BTreeMap;
 const FINEST: i32 = 30;
 /// Open boxes from whose centres a better inner end is looked for.
 const OPEN_CENTRES: usize = 8;
+/// Boxes after which a width is given up for a looser one.
+const MOST_BOXES: usize = 20_000;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 
@@ -102,11 +104,17 @@ impl Extreme {
                 "joint_range" => (0..legs).map(Some).collect(),
                 _ => vec![None],
             };
-            for (leg, end) in each.iter().flat_map(|&leg| [(leg, Bound::Min as fn(_) -> _), (leg, Bound::Max)]) {
+            for (leg, end) in
+                each.iter().flat_map(|&leg| [(leg, Bound::Min as fn(_) -> _), (leg, Bound::Max)])
+            {
                 let bound = end(Expression::integer(2));
                 let number = leg.map(|leg| leg + 1);
-                let requirement =
-                    Requirement { quantity: quantity.key.to_owned(), leg: number, given: given.clone(), bound };
+                let requirement = Requirement {
+                    quantity: quantity.key.to_owned(),
+                    leg: number,
+                    given: given.clone(),
+                    bound,
+                };
                 all.push(Extreme { bounded: Bounded { requirement, leg } });
             }
         }
@@ -188,9 +196,8 @@ impl Extreme {
 
 /// What defines the paper's cube.
 fn defining(claim: &MachineClaim) -> Option<Requirement> {
-    let is_it = |own: &&Requirement| {
-        own.quantity == "transmission" && matches!(own.bound, Bound::Max(_))
-    };
+    let is_it =
+        |own: &&Requirement| own.quantity == "transmission" && matches!(own.bound, Bound::Max(_));
     let cube = matches!(claim.workspace, Workspace::Cube { .. });
     claim.require.iter().find(is_it).filter(|_| cube).cloned()
 }
@@ -226,6 +233,7 @@ pub fn enclose(
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+    let budget = Budget { max_boxes: budget.max_boxes.min(MOST_BOXES), ..budget };
     let mut known = Found::worst(&probe, extreme)?;
     let mut width = relative.clone();
     while width <= loosest() {
@@ -239,7 +247,9 @@ pub fn enclose(
                     let inner_claim = extreme.claim(claim, &inner);
                     let well_formed = inner_claim.filter(|claim| Problem::new(claim).is_ok());
                     let refuted = match well_formed {
-                        Some(claim) => Some(refute(&claim, &known.place).ok_or(NotEnclosed::Undecided)?),
+                        Some(claim) => {
+                            Some(refute(&claim, &known.place).ok_or(NotEnclosed::Undecided)?)
+                        }
                         None => None,
                     };
                     return Ok(Enclosed { width, inner, outer, refuted, certified, boxes });
@@ -277,7 +287,9 @@ impl Found {
             let mut found: Option<(f64, Place)> = None;
             for Worst { quality, place, .. } in sampler.worst_values(FINEST) {
                 let Quality::Obligation(number) = quality else { continue };
-                let Some(bounded) = extreme.of_obligation(&claim, &problem, number) else { continue };
+                let Some(bounded) = extreme.of_obligation(&claim, &problem, number) else {
+                    continue;
+                };
                 let value = bounded.value(&claim, &problem, &sampler, &place);
                 let value = value.ok_or(NotEnclosed::Singular)?;
                 if found.as_ref().is_none_or(|(known, _)| extreme.is_beyond(value, *known)) {
@@ -286,7 +298,8 @@ impl Found {
             }
             let (value, place) = found.ok_or(NotEnclosed::Undecided)?;
             let better = best.as_ref().is_none_or(|best| {
-                extreme.is_beyond(value, best.value) && (value - best.value).abs() > 1e-12 * value.abs()
+                extreme.is_beyond(value, best.value)
+                    && (value - best.value).abs() > 1e-12 * value.abs()
             });
             if !better {
                 break;
@@ -321,11 +334,21 @@ impl Extreme {
     }
 
     fn is_beyond(&self, value: f64, other: f64) -> bool {
-        if self.is_greatest() { value > other } else { value < other }
+        if self.is_greatest() {
+            value > other
+        } else {
+            value < other
+        }
     }
 
     /// The greatest size of a joint coordinate, which may be zero at its extreme; of others, zero.
-    fn size(&self, claim: &MachineClaim, problem: &Problem, sampler: &Sampler<'_>, value: f64) -> f64 {
+    fn size(
+        &self,
+        claim: &MachineClaim,
+        problem: &Problem,
+        sampler: &Sampler<'_>,
+        value: f64,
+    ) -> f64 {
         if self.bounded.requirement.quantity != "joint_range" {
             return 0.0;
         }
@@ -399,7 +422,8 @@ fn certify(
     for Worst { quality, place, .. } in worst {
         let Quality::Obligation(number) = quality else { continue };
         let Some(bounded) = Bounded::of(claim, &problem, number) else { continue };
-        let value = bounded.value(claim, &problem, &sampler, &place).ok_or(NotEnclosed::Singular)?;
+        let value =
+            bounded.value(claim, &problem, &sampler, &place).ok_or(NotEnclosed::Singular)?;
         if extreme.is_beyond(value, known.value) {
             (known.value, known.place) = (value, place);
             return Ok(Attempt::Worse);

@@ -163,12 +163,7 @@ fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
 }
 
 /// Improves the worst values from the centres of at most so many of the open boxes.
-fn look_into(
-    sampler: &Sampler<'_>,
-    open: &[Open],
-    centres: usize,
-    worst: &mut [Worst],
-) {
+fn look_into(sampler: &Sampler<'_>, open: &[Open], centres: usize, worst: &mut [Worst]) {
     let stride = open.len().div_ceil(centres).max(1);
     for item in open.iter().step_by(stride) {
         let start = sampler.place_in(&item.cell);

@@ -97,7 +97,8 @@ fn opposite(
     let mut others: Vec<(f64, Place)> =
         grid.map(|place| (sign * det(&place), place)).filter(|(det, _)| *det < 0.0).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let other = others.first().and_then(|(_, other)| point(claim, problem, sampler, &other.u, digits));
+    let other =
+        others.first().and_then(|(_, other)| point(claim, problem, sampler, &other.u, digits));
     other.map(Failure::Singular).into_iter().collect()
 }
 
@@ -188,8 +189,8 @@ fn between(
         return Some(min.clone());
     }
     let value = &least + &width * BigRational::from_f64(part)?;
-    let size = i32::try_from(width.numer().bits()).ok()?
-        - i32::try_from(width.denom().bits()).ok()?;
+    let size =
+        i32::try_from(width.numer().bits()).ok()? - i32::try_from(width.denom().bits()).ok()?;
     let places = digits - (f64::from(size) * std::f64::consts::LOG10_2).floor() as i32;
     let grid = BigRational::from_integer(10.into()).pow(places);
     let (floor, ceil) = ((&value * &grid).floor() / &grid, (&value * &grid).ceil() / &grid);
@@ -243,5 +244,9 @@ fn signed(x: &BigRational, positive: Expression) -> Expression {
 /// A double near a number of a claim.
 pub fn approximate(x: &Expression) -> Option<f64> {
     let (x, _) = enclosed(x)?;
-    if x.is_zero() { Some(0.0) } else { x.to_f64() }
+    if x.is_zero() {
+        Some(0.0)
+    } else {
+        x.to_f64()
+    }
 }

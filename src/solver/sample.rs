@@ -17,8 +17,8 @@ use orthocert_kernel::quantity::Test;
 /// Points of a grid along each coordinate, by their number; beyond, its corners, the middles of its
 /// faces and its centre.
 const GRID: [usize; 4] = [17, 9, 5, 3];
-/// Halvings of the first, coarse descent.
-const COARSE: i32 = 9;
+/// Halvings of the first, coarse descents.
+const COARSE: i32 = 7;
 /// Starts of coarse descents.
 const STARTS: usize = 3;
 /// What starts differ by, at least, in some coordinate.
@@ -100,9 +100,8 @@ impl<'a> Sampler<'a> {
             (lo, hi - lo)
         };
         let inputs = problem.inputs.iter().enumerate();
-        let free = inputs.filter(|(_, input)| {
-            matches!(input.value, Value::Quantity(Quantity::Between { .. }))
-        });
+        let free = inputs
+            .filter(|(_, input)| matches!(input.value, Value::Quantity(Quantity::Between { .. })));
         let constants: std::collections::HashSet<Formula> =
             problem.tape.constants().into_iter().collect();
         let radicand = |op: &Op| match *op {
@@ -157,7 +156,11 @@ impl<'a> Sampler<'a> {
         let unit = self.unit();
         let told = |(x, (_, width)): (f64, &(f64, f64))| {
             // What the search has not told from zero is zero.
-            if x.abs() < 1e-7 * width { 0.0 } else { x * unit }
+            if x.abs() < 1e-7 * width {
+                0.0
+            } else {
+                x * unit
+            }
         };
         self.point(u).into_iter().zip(&self.box_).map(told).collect()
     }
@@ -184,7 +187,11 @@ impl<'a> Sampler<'a> {
 
     fn parts_of(&self, point: &[f64]) -> Vec<f64> {
         let part = |(x, &(least, width)): (&f64, &(f64, f64))| {
-            if width > 0.0 { ((x - least) / width).clamp(0.0, 1.0) } else { 0.5 }
+            if width > 0.0 {
+                ((x - least) / width).clamp(0.0, 1.0)
+            } else {
+                0.5
+            }
         };
         point.iter().zip(&self.box_).map(part).collect()
     }
@@ -297,7 +304,11 @@ impl<'a> Sampler<'a> {
         Some(match test {
             Test::SigmaMin(kappa) => {
                 let ([xi, _], kappa) = (self.xi(values)?, root(kappa)?);
-                if kappa > 0.0 { xi / kappa - 1.0 } else { xi }
+                if kappa > 0.0 {
+                    xi / kappa - 1.0
+                } else {
+                    xi
+                }
             }
             Test::SigmaMax(k) => 1.0 - self.xi(values)?[1] / root(k)?,
             Test::Conditioning(c) => {
@@ -315,14 +326,14 @@ impl<'a> Sampler<'a> {
         let centre = self.centre();
         let with = |u: Vec<f64>| Place { u, ..centre.clone() };
         if let Some(&points) = m.checked_sub(1).and_then(|m| GRID.get(m)) {
-            let digit = |i: usize, k: u32| (i / points.pow(k) % points) as f64 / (points - 1) as f64;
+            let digit =
+                |i: usize, k: u32| (i / points.pow(k) % points) as f64 / (points - 1) as f64;
             let all = 0..points.pow(m as u32);
             return all.map(|i| with((0..m as u32).map(|k| digit(i, k)).collect())).collect();
         }
         let corners = (0..1usize << m).map(|i| (0..m).map(|k| (i >> k & 1) as f64).collect());
-        let faces = (0..2 * m).map(|i| {
-            (0..m).map(|k| if k == i / 2 { (i % 2) as f64 } else { 0.5 }).collect()
-        });
+        let faces = (0..2 * m)
+            .map(|i| (0..m).map(|k| if k == i / 2 { (i % 2) as f64 } else { 0.5 }).collect());
         corners.chain(faces).map(with).chain([centre.clone()]).collect()
     }
 
@@ -414,7 +425,8 @@ impl<'a> Sampler<'a> {
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut apart: Vec<&Place> = Vec::new();
             for (_, start) in starts {
-                if apart.len() < STARTS && apart.iter().all(|other| distance(other, start) > APART) {
+                if apart.len() < STARTS && apart.iter().all(|other| distance(other, start) > APART)
+                {
                     apart.push(start);
                 }
             }

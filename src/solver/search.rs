@@ -167,7 +167,8 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     tree[at].halves = Some([first, first + 1]);
     let middle = 0.5 * (cell[k].0 + cell[k].1);
     for edge in [(cell[k].0, middle), (middle, cell[k].1)] {
-        let mut half = Open { cell: cell.clone(), depth: depth + 1, obligations: obligations.clone() };
+        let mut half =
+            Open { cell: cell.clone(), depth: depth + 1, obligations: obligations.clone() };
         half.cell[k] = edge;
         let mut halvings = halvings.clone();
         halvings[k] += 1;

@@ -5,7 +5,8 @@ use super::sample::{Place, Quality, Sampler};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
-use orthocert_kernel::machine::Joint;
+use orthocert_kernel::formula::Values;
+use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 
@@ -92,8 +93,8 @@ impl Bounded {
         Some(Requirement { bound, leg, ..self.requirement.clone() })
     }
 
-    /// The value at a place: psi, condition number and joint coordinates by their definition, all
-    /// others as the bound that is met with equality there.
+    /// The value at a place: of the quantities of velocities by their definition, of all others as the
+    /// bound that is met with equality there.
     pub fn value(
         &self,
         claim: &MachineClaim,
@@ -103,7 +104,7 @@ impl Bounded {
     ) -> Option<f64> {
         let values = sampler.at(place);
         let leg = self.leg.and_then(|leg| problem.legs.get(leg));
-        let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
+        let angular = problem.legs.iter().any(Leg::is_angular);
         match (self.requirement.quantity.as_str(), &self.requirement.bound) {
             ("transmission", bound) => {
                 let [least, greatest] = sampler.xi(&values)?;
@@ -117,6 +118,15 @@ impl Bounded {
                     Some(values.of(sin)?.atan2(*values.of(cos)?).to_degrees())
                 }
             },
+            ("serial_margin", _) => cosine(leg?, &values),
+            ("leg_angle", _) => Some(cosine(leg?, &values)?.min(1.0).acos().to_degrees()),
+            ("joint_speed", _) => {
+                let tool = approximate(self.requirement.given.get("tool")?.first()?)?;
+                let unit = if angular { 1f64.to_degrees() / sampler.unit() } else { 1.0 };
+                let a = leg?.row.a.iter().map(|&a| values.of(a).map(|a| a * a));
+                let square: f64 = a.sum::<Option<f64>>()?;
+                Some((square / values.of(leg?.row.d)?).sqrt() * unit * tool)
+            }
             _ => {
                 sampler.matrix(&values)?;
                 self.tight(claim, place)
@@ -140,41 +150,55 @@ impl Bounded {
         own.map(|at| sampler.margin(Quality::Obligation(at), &values)).reduce(f64::min)
     }
 
-    /// The bound `x > 0` whose margin changes its sign: between a bound that holds and one that does
-    /// not, halved and interpolated.
-    fn tight(&self, claim: &MachineClaim, place: &Place) -> Option<f64> {
+    /// The bound `x > 0` whose margin is zero: by secants, or, where they do not arrive, by halving.
+    pub(super) fn tight(&self, claim: &MachineClaim, place: &Place) -> Option<f64> {
         let (_, sides) = self.relation()?;
         let start = approximate(sides.first()?)?;
         let margin = |x: f64| self.margin_with(claim, place, x);
+        self.by_secants(start, margin).or_else(|| self.by_halving(start, margin))
+    }
+
+    fn by_secants(&self, start: f64, margin: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+        let (mut a, mut at_a) = (start, margin(start)?);
+        let mut b = start * if at_a > 0.0 { 0.99 } else { 1.01 };
+        for _ in 0..STEPS {
+            let at_b = margin(b)?;
+            if at_b == 0.0 || (b - a).abs() <= ACCURACY * b.abs() {
+                return Some(b);
+            }
+            let next = b - at_b * (b - a) / (at_b - at_a);
+            (a, at_a, b) = (b, at_b, Some(next).filter(|next| *next > 0.0)?);
+        }
+        None
+    }
+
+    fn by_halving(&self, start: f64, margin: impl Fn(f64) -> Option<f64>) -> Option<f64> {
         let first = margin(start)?;
         // Whether a greater bound holds rather than a less.
         let rising = matches!(self.requirement.bound, Bound::Max(_));
         let outward = if rising == (first < 0.0) { 2.0 } else { 0.5 };
-        let (mut a, mut at_a) = (start, first);
-        let (mut b, mut at_b) = (start, first);
+        let holds = |x: f64| margin(x).map_or(first < 0.0, |margin| margin >= 0.0);
+        let (mut a, mut b) = (start, start);
         for _ in 0..STEPS {
-            if at_a * at_b < 0.0 {
+            if holds(b) != (first >= 0.0) {
                 break;
             }
-            (a, at_a) = (b, at_b);
-            b *= outward;
-            // What is not admissible is beyond.
-            at_b = margin(b).unwrap_or(-first.signum() * f64::INFINITY);
+            (a, b) = (b, b * outward);
         }
-        for step in 0..STEPS {
-            if (b - a).abs() <= ACCURACY * a.abs().max(b.abs()) || at_a == 0.0 {
-                break;
-            }
-            let secant = a - at_a * (b - a) / (at_b - at_a);
-            let usable = step % 3 != 2 && at_b.is_finite() && secant != a && secant != b;
-            let c = if usable { secant } else { 0.5 * (a + b) };
-            let at_c = margin(c).unwrap_or(-at_a.signum() * f64::INFINITY);
-            if at_c * at_a > 0.0 {
-                (a, at_a) = (c, at_c);
+        for _ in 0..STEPS {
+            let middle = 0.5 * (a + b);
+            if holds(middle) == (first >= 0.0) {
+                a = middle;
             } else {
-                (b, at_b) = (c, at_c);
+                b = middle;
             }
         }
-        Some(if at_b.abs() < at_a.abs() { b } else { a })
+        Some(a)
     }
+}
+
+/// `|eta_i|/L_i`.
+fn cosine(leg: &Leg, values: &Values<f64>) -> Option<f64> {
+    let (eta_squared, length) = (values.of(leg.eta_squared?)?, values.of(leg.length?)?);
+    Some(eta_squared.max(0.0).sqrt() / length)
 }

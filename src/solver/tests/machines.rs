@@ -9,9 +9,10 @@ pub fn claim(text: &str) -> MachineClaim {
     serde_json::from_str(text).expect("a claim")
 }
 
-pub fn number(x: f64) -> Expression {
+pub fn decimal(x: f64) -> Expression {
     let text = format!("{x:.9}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    let text =
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     Expression::try_from(text.to_owned()).expect("a number")
 }
 
@@ -23,8 +24,8 @@ pub fn require(quantity: &str, bound: Bound) -> Requirement {
 pub fn with_psi(claim: &MachineClaim, least: f64, greatest: f64) -> MachineClaim {
     let mut claim = claim.clone();
     claim.require = vec![
-        require("transmission", Bound::Min(number(least))),
-        require("transmission", Bound::Max(number(greatest))),
+        require("transmission", Bound::Min(decimal(least))),
+        require("transmission", Bound::Max(decimal(greatest))),
     ];
     claim
 }
@@ -73,8 +74,9 @@ pub fn struts() -> MachineClaim {
 
 /// Four struts over a square.
 pub fn four_struts() -> MachineClaim {
-    let leg =
-        |x: &str, y: &str| format!(r#"{{"drive":"strut","anchor":["{x}","{y}","0"],"platform":["0","0","0"]}}"#);
+    let leg = |x: &str, y: &str| {
+        format!(r#"{{"drive":"strut","anchor":["{x}","{y}","0"],"platform":["0","0","0"]}}"#)
+    };
     let legs = [leg("300", "300"), leg("-300", "300"), leg("-300", "-300"), leg("300", "-300")];
     machine(&legs, r#"{"box":{"min":["-100","-100","200"],"max":["100","100","350"]}}"#)
 }
@@ -94,11 +96,37 @@ pub fn rotary() -> MachineClaim {
 }
 
 /// Joints by their coordinates.
-pub fn formulas(coordinates: &[&str], definitions: &[(&str, &str)], rho: &[&str], workspace: &str) -> MachineClaim {
+pub fn formulas(
+    coordinates: &[&str],
+    definitions: &[(&str, &str)],
+    rho: &[&str],
+    workspace: &str,
+) -> MachineClaim {
     let definitions: Vec<_> = definitions.iter().map(|(a, b)| [a, b]).collect();
     let joints: Vec<String> = rho.iter().map(|rho| format!(r#"{{"rho":"{rho}"}}"#)).collect();
     claim(&format!(
         r#"{{"mechanism":{{"formulas":{{"coordinates":{coordinates:?},"parameters":[],"definitions":{definitions:?},"joints":[{}]}}}},"workspace":{workspace},"require":[]}}"#,
         joints.join(",")
     ))
+}
+
+pub fn orthoglide_by_formulas() -> MachineClaim {
+    let rho = ["x-sqrt(310.7^2-y^2-z^2)", "y-sqrt(310.7^2-x^2-z^2)", "z-sqrt(310.7^2-x^2-y^2)"];
+    formulas(&["x", "y", "z"], &[], &rho, CUBE)
+}
+
+pub fn linear_delta_by_formulas() -> MachineClaim {
+    let anchors = [("a", "174.75*sqrt(3)/2"), ("b", "174.75/2"), ("c", "174.75")];
+    let rho = [
+        "z+sqrt(333^2-(x+a)^2-(y+b)^2)",
+        "z+sqrt(333^2-(x-a)^2-(y+b)^2)",
+        "z+sqrt(333^2-x^2-(y-c)^2)",
+    ];
+    formulas(&["x", "y", "z"], &anchors, &rho, SLAB)
+}
+
+/// Legs of variable length from (-400, 0) and (400, 0).
+pub fn five_bar() -> MachineClaim {
+    let rho = ["sqrt((x+400)^2+y^2)", "sqrt((x-400)^2+y^2)"];
+    formulas(&["x", "y"], &[], &rho, r#"{"box":{"min":["-100","200"],"max":["100","400"]}}"#)
 }

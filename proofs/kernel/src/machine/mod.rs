@@ -162,11 +162,14 @@ fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
 }
 
 /// A joint by its coordinate alone: with `rho' = N/E` over the `m` coordinates, `A = N`, `D = E^2`.
+///
+/// Where `rho` is defined, `E` is not zero: a derivative `E/E` is 1.
 pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
     let gradient = tape.gradient(rho, m);
     let d = tape.square_without_roots(gradient.denominator);
     let root = gradient.denominator;
-    let divided = gradient.numerators.iter().map(|&a| tape.div(a, root)).collect();
+    let mut quotient = |a| if a == root { tape.integer(1) } else { tape.div(a, root) };
+    let divided = gradient.numerators.iter().map(|&a| quotient(a)).collect();
     let row = Row { a: gradient.numerators, d };
     leg(tape, row, divided, Joint::Length(rho), (None, None))
 }
