@@ -208,9 +208,8 @@ impl Over<'_> {
 
     fn lower(&self, test: Test, kappa_squared: Formula) -> Option<Evidence> {
         let kappa = self.centre(kappa_squared)?.sqrt();
-        let forms: [(bool, fn(Multiplier) -> Evidence); 2] =
-            [(false, Evidence::Lower), (true, Evidence::LowerDivided)];
-        for (divided, form) in forms {
+        for divided in [false, true] {
+            let form = if divided { Evidence::LowerDivided } else { Evidence::Lower };
             let found = self.starts(divided, kappa).into_iter().find_map(|y| {
                 self.shortest(test, |bits| Some(form(rounded(&y, bits + above(&y))?)))
             });

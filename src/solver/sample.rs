@@ -19,6 +19,8 @@ use orthocert_kernel::quantity::Test;
 const GRID: [usize; 4] = [17, 9, 5, 3];
 /// Halvings of the first, coarse descents.
 const COARSE: i32 = 7;
+/// Axes up to which descents go along diagonals at every step.
+const MOST_AXES: usize = 3;
 /// Starts of coarse descents.
 const STARTS: usize = 3;
 /// What starts differ by, at least, in some coordinate.
@@ -394,6 +396,10 @@ impl<'a> Sampler<'a> {
         axes: std::ops::Range<usize>,
         exponents: std::ops::RangeInclusive<i32>,
     ) {
+        // Their number is the square of the axes'.
+        let few = axes.len() <= MOST_AXES;
+        let of_points = axes.start < self.box_.len();
+        let diagonal = |exponent: i32| few || of_points && exponent <= COARSE;
         for exponent in exponents {
             let step = f64::from(-exponent).exp2();
             // A few rounds a step: the next, finer one takes over what is left.
@@ -404,7 +410,8 @@ impl<'a> Sampler<'a> {
                         moved |= self.stepped(worst, &[(axis, signed)]);
                     }
                 }
-                for (i, j) in axes.clone().flat_map(|i| (axes.start..i).map(move |j| (i, j))) {
+                let pairs = axes.clone().flat_map(|i| (axes.start..i).map(move |j| (i, j)));
+                for (i, j) in pairs.filter(|_| diagonal(exponent)) {
                     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
                         moved = moved || self.stepped(worst, &[(i, a * step), (j, b * step)]);
                     }
