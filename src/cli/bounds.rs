@@ -30,6 +30,8 @@ const WIDEST: usize = 28;
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
 /// few hundred; the condition number of the rotary Delta takes 40,000.
 const BOXES: u64 = 100_000;
+/// The same for claims of the kernel, whose boxes cost more and close more.
+const BOXES_OF_KERNEL: u64 = 20_000;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -89,7 +91,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
     }
     effort.start_threads()?;
-    let budget = effort.budget_or(BOXES, started)?;
+    let boxes = if matches!(design.claim, Claim::Kernel(_)) { BOXES_OF_KERNEL } else { BOXES };
+    let budget = effort.budget_or(boxes, started)?;
     let rows = match &design.claim {
         Claim::Machine(claim) => of_machine(claim, &relative, arguments, budget)?,
         Claim::Kernel(claim) => of_kernel(claim, &relative, arguments, budget)?,

@@ -107,7 +107,8 @@ impl<'a> Facts<'a> {
             Some(bounded) if bounded.requirement.bound == Bound::Holds => Some(found.margin),
             Some(bounded) => bounded.value(self.claim, self.problem, &self.sampler, &found.place),
             None => Some(match quality {
-                Quality::Reach => found.margin,
+                // A square of a length.
+                Quality::Reach => found.margin * self.sampler.unit().powi(2),
                 Quality::Determinant => found.margin.max(0.0) / unit.powi(lengths),
                 Quality::Obligation(_) => found.margin / unit,
             }),

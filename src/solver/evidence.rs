@@ -3,6 +3,7 @@
 //! A test of the kernel meets its proposals in [`Over::evidence`] alone.
 
 use super::doubles::{magnitude, middle, pair, Doubles, Pair};
+use super::multiplier::{above, between, exponent, matrix, rounded, Rows};
 use super::search::{Cell, Trial};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use num_bigint::BigInt;
@@ -14,7 +15,7 @@ use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
-use orthocert_kernel::test::{self, Multiplier, Row, MOST_PLACES};
+use orthocert_kernel::test::{self, Row};
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
 pub const BITS: u32 = 96;
@@ -22,8 +23,6 @@ pub const BITS: u32 = 96;
 const FINE: i32 = 15;
 /// Bits tried for a shorter one.
 const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
-/// Where singular values are cut off for starts between `kappa U` and `M`, in `kappa`.
-const CLIPPED: [f64; 3] = [1.3, 1.1, 2.0];
 /// Parts of the interval of multiples from which a short one is taken.
 const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
 /// Halvings from a box to the one about its centre that tells whether it is hopeless.
@@ -119,35 +118,6 @@ fn edges(cell: &Cell) -> Vec<[Pair; 3]> {
     cell.iter().map(edge).collect()
 }
 
-/// `A` and `D` of a machine at a point, or at a vertex.
-struct Rows {
-    a: DMatrix<f64>,
-    d: DVector<f64>,
-}
-
-impl Rows {
-    /// `M = D^(-1/2) A`.
-    fn m(&self) -> DMatrix<f64> {
-        let mut m = self.a.clone();
-        for (i, d) in self.d.iter().enumerate() {
-            m.row_mut(i).scale_mut(d.sqrt().recip());
-        }
-        m
-    }
-
-    /// `M^T M`.
-    fn square(&self) -> DMatrix<f64> {
-        let m = self.m();
-        m.transpose() * m
-    }
-
-    /// `Y^T A + A^T Y - Y^T D Y`.
-    fn minorant(&self, y: &DMatrix<f64>) -> DMatrix<f64> {
-        let t = y.transpose() * &self.a;
-        &t + t.transpose() - y.transpose() * DMatrix::from_diagonal(&self.d) * y
-    }
-}
-
 /// The formulas of a problem over a box.
 struct Over<'a> {
     prover: &'a Prover<'a>,
@@ -223,23 +193,10 @@ impl Over<'_> {
         self.first(test, corners.map(Evidence::Corner))
     }
 
-    /// Matrices `Y` to begin with: `kappa B^-1 U`, `B^-1 M`, where the minorant touches `M^T M`, and
-    /// some between them; `U` is the polar factor of `M`.
+    /// Matrices `Y` to begin with, of the rows at the centre ([`Rows::starts`]).
     fn starts(&self, divided: bool, kappa: f64) -> Vec<DMatrix<f64>> {
         let Some(rows) = self.rows(divided, None) else { return Vec::new() };
-        let svd = rows.m().svd(true, true);
-        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Vec::new() };
-        let xi = svd.singular_values;
-        let kappa = if kappa > 0.0 { kappa } else { 0.5 * xi.min() };
-        let with = |of: &dyn Fn(f64) -> f64| {
-            let mut y = &u * DMatrix::from_diagonal(&xi.map(of)) * &v_t;
-            for (i, d) in rows.d.iter().enumerate() {
-                y.row_mut(i).scale_mut(d.sqrt().recip());
-            }
-            y
-        };
-        let clipped = CLIPPED.into_iter().map(|part| with(&|xi| xi.min(part * kappa)));
-        [with(&|_| kappa)].into_iter().chain(clipped).chain([with(&|xi| xi)]).collect()
+        rows.starts(kappa)
     }
 
     /// Of the evidence with so many bits, the shortest with which the test holds.
@@ -453,50 +410,4 @@ fn scalars(test: Test) -> Option<Vec<Formula>> {
         Test::Beyond(f, b) => Some(vec![f, b]),
         Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => None,
     }
-}
-
-fn matrix(y: &Multiplier) -> DMatrix<f64> {
-    let scale = (-f64::from(y.places)).exp2();
-    let columns = y.y.first().map_or(0, Vec::len);
-    DMatrix::from_fn(y.y.len(), columns, |i, k| y.y[i][k] as f64 * scale)
-}
-
-/// `e` with `2^(e - 1) <= x < 2^e`.
-fn exponent(x: f64) -> i32 {
-    if x > 0.0 && x.is_finite() {
-        x.log2().floor() as i32 + 1
-    } else {
-        0
-    }
-}
-
-/// Places by which the greatest entry of a matrix is below one.
-fn above(y: &DMatrix<f64>) -> i32 {
-    -exponent(y.amax())
-}
-
-/// A matrix in integers over `2^places`; at least 0, and none where that is too many.
-fn rounded(y: &DMatrix<f64>, places: i32) -> Option<Multiplier> {
-    let places = u32::try_from(places.max(0)).ok().filter(|&places| places < MOST_PLACES)?;
-    let scale = f64::from(places).exp2();
-    let row = |i: usize| y.row(i).iter().map(|y| (y * scale).round() as i64).collect();
-    Some(reduced(Multiplier { y: (0..y.nrows()).map(row).collect(), places }))
-}
-
-/// Without the powers of two that all entries have in common.
-fn reduced(mut y: Multiplier) -> Multiplier {
-    while y.places > 0 && y.y.iter().flatten().all(|y| y % 2 == 0) {
-        y.y.iter_mut().flatten().for_each(|y| *y /= 2);
-        y.places -= 1;
-    }
-    y
-}
-
-/// The number `n / 2^places` of fewest places in an interval of positive numbers.
-fn between(low: f64, high: f64) -> Option<(i64, u32)> {
-    (0..MOST_PLACES).find_map(|places| {
-        let scale = f64::from(places).exp2();
-        let n = (low * scale).ceil();
-        (n <= high * scale && n < 2f64.powi(62)).then_some((n as i64, places))
-    })
 }

@@ -25,8 +25,6 @@ use std::collections::BTreeMap;
 const FINEST: i32 = 30;
 /// Open boxes from whose centres a better inner end is looked for.
 const OPEN_CENTRES: usize = 8;
-/// Boxes after which a width is given up for a looser one.
-const MOST_BOXES: usize = 20_000;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 
@@ -233,7 +231,6 @@ pub fn enclose(
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let budget = Budget { max_boxes: budget.max_boxes.min(MOST_BOXES), ..budget };
     let mut known = Found::worst(&probe, extreme)?;
     let mut width = relative.clone();
     while width <= loosest() {

@@ -4,6 +4,7 @@
 //! |------------|-----------------------------------------------------------------------------|
 //! | `doubles`  | what proposals are computed in                                              |
 //! | `evidence` | proposes evidence with which the kernel's tests hold on a box               |
+//! | `multiplier` | multipliers of the test on the least singular value, in few bits         |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines, worst ones by descent     |
 //! | `refute`   | a place where an obligation seems to fail as an exact witness               |
@@ -15,6 +16,7 @@
 mod doubles;
 mod evidence;
 pub mod extremes;
+mod multiplier;
 mod refute;
 pub mod sample;
 pub mod search;
