@@ -23,7 +23,7 @@ const NUMBER: &str = r#"a number: 310.25, "1/3", "174.75*sqrt(3)/2""#;
 const QUANTITY: &str =
     r#"a number or a tolerance: 310.25, "1/3", "310.25 ± 0.02", { min = 310.2, max = 310.3 }"#;
 const FINITE: &str = "a finite number";
-const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
+pub(super) const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
 const NEITHER_SUM_NOR_TOLERANCE: &str = r#""310.25 ± 0.02" for a tolerance, { min = 310.23, max = 310.3 } for unequal deviations, or, as arithmetic, blanks on both sides of a sign or on neither, and parentheses: "310.25 + 0.02", "310 + (5 - 2)", "310 ± (1/50)""#;
 const NO_TOLERANCE: &str =
     "one exact number: a machine's parameters may carry a tolerance, workspace and requirements not";
@@ -81,6 +81,18 @@ pub(super) fn ordered(
     let found = format!("{}, {relation} the lower end {}", greatest.found(), least.found());
     let accepted = "an upper end that is at least the lower one";
     Err(greatest.error(Defect::Reversed, found, accepted))
+}
+
+/// Demands that `number`, which `value` is, is provably not negative; `what` names it.
+pub(super) fn not_negative(
+    value: &Value<'_>,
+    number: &Exact,
+    what: &str,
+) -> Result<(), DesignError> {
+    if !value.document.demands() || matches!(number.sign(), Some(0 | 1)) {
+        return Ok(());
+    }
+    Err(value.error(Defect::OutOfDomain, value.found(), format!("{what}, 0 or greater")))
 }
 
 /// Demands that `number`, which `value` is or begins with, is provably positive; `what` names it.
@@ -241,16 +253,6 @@ fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &s
     let before = text.get(..error.at).unwrap_or(text);
     let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
     let found = format!("{} ({at_character})", value.found());
-    // Between its quotes, if any, the content stands in the file as it is, unless it has escapes or
-    // underscores.
-    let written = value.document.text.get(value.at.clone()).unwrap_or_default();
-    let between_quotes = written.get(1..written.len().saturating_sub(1));
-    let at = match (written == text, between_quotes == Some(text)) {
-        (false, false) => value.at.clone(),
-        (as_it_is, _) => {
-            let at = value.at.start + usize::from(!as_it_is) + before.len();
-            at..at + 1
-        }
-    };
+    let at = value.place(text, before.len()..before.len() + 1);
     value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
 }
