@@ -178,6 +178,7 @@ fn description(root: &Table<'_>) -> Result<Description, DesignError> {
     };
     let (machine, points, demands) =
         (table("mechanism")?, table("workspace")?, table("requirements")?);
+    workspace::some(&points)?;
     let setting = Setting {
         cube: points.find("cube"),
         joint_range: demands.find("joint_range"),

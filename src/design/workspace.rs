@@ -23,14 +23,27 @@ const ANY: &str = "min = [x, y, z] and max = [x, y, z], or cylinder, or cube (th
 const CYLINDER: &str = "{ center = [0, 0], radius = 85, z = [0, 200] }, its axis parallel to z";
 const SIDE: &str = "a length greater than 0: the cube's side";
 
+/// Demands that there is a workspace of some form, before the mechanism that it may decide is read.
+pub(super) fn some(table: &Table<'_>) -> Result<(), DesignError> {
+    let keys: Vec<&str> = forms().chain(["orientation"]).collect();
+    table.only(&keys)?;
+    match keys.iter().any(|key| table.find(key).is_some()) {
+        true => Ok(()),
+        false => Err(table.lacks("min", ANY)),
+    }
+}
+
+/// The keys of all forms.
+fn forms() -> impl Iterator<Item = &'static str> {
+    FORMS.iter().flat_map(|form| form.keys).copied()
+}
+
 /// Reads `[workspace]`, but for its orientations.
 pub(super) fn workspace(
     table: &Table<'_>,
     mechanism: &Mechanism,
 ) -> Result<Workspace, DesignError> {
-    let all: Vec<&str> = FORMS.iter().flat_map(|form| form.keys).copied().collect();
-    let keys: Vec<&str> = all.iter().copied().chain(["orientation"]).collect();
-    table.only(&keys)?;
+    let all: Vec<&str> = forms().collect();
     let first = |key: &&str| table.find(key);
     if let Mechanism::Legs { motion: Motion::Spherical, .. } = mechanism {
         if let Some(other) = all.iter().filter_map(first).min_by_key(|v| v.at.start) {
