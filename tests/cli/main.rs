@@ -5,6 +5,7 @@
 //! | [`support`]    | running the binary in a folder of its own                         |
 //! | [`junit`]      | reading and judging JUnit reports                                 |
 //! | `verdicts`     | every verdict of `verify`: exit code, report, certificate         |
+//! | `kinds`        | machines of every kind: refused, checked against their designs    |
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `batch`        | `verify` of many designs, and its reports                         |
 //! | `cache`        | certificates that are there are re-checked                        |
@@ -44,6 +45,7 @@ mod hostile;
 mod import;
 mod interruption;
 mod json;
+mod kinds;
 mod largest_cube;
 mod paving;
 mod paving_shards;
