@@ -1,5 +1,6 @@
-//! The gallery: every design of tests/designs and every template gives the verdict that its first
-//! lines state, with a certificate that the checker accepts when it is read back.
+//! The gallery: every design of tests/designs and every template of three legs that do not turn their
+//! platform gives the verdict that its first lines state, with a certificate that the checker accepts
+//! when it is read back.
 
 use crate::schema;
 use orthocert::design::{Design, TEMPLATES};
@@ -98,7 +99,8 @@ fn every_design_gives_its_stated_verdict() {
 
 #[test]
 fn every_template_is_certified() {
-    for (kind, text) in TEMPLATES {
+    let of_the_kernel = ["formulas", "planar", "spatial", "spherical"];
+    for (kind, text) in TEMPLATES.iter().filter(|(kind, _)| !of_the_kernel.contains(kind)) {
         let (found, told) = verdict(text, kind);
         assert_eq!(found, Some(Verdict::Certified), "{told}");
     }

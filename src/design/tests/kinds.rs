@@ -97,13 +97,17 @@ transmission = { max = 3 }
 
 /// The claim that a design is read into, in the form of certificates; what the kernel makes of it is
 /// left out.
-pub(super) fn kernel(text: &str) -> kernel::MachineClaim {
+pub(super) fn claim(text: &str) -> Claim {
     let tree = toml::de::DeTable::parse(text).unwrap();
     let document = document::Document { file: "test.toml", text, names: document::Names::None };
-    match crate::design::claim(&document.root(tree.get_ref())) {
-        Ok(Claim::Kernel(claim)) => claim,
-        Ok(other) => panic!("{other:?}\n{text}"),
-        Err(error) => panic!("{error}\n{text}"),
+    let claim = crate::design::claim(&document.root(tree.get_ref()));
+    claim.unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+pub(super) fn kernel(text: &str) -> kernel::MachineClaim {
+    match claim(text) {
+        Claim::Kernel(claim) => claim,
+        other => panic!("{other:?}\n{text}"),
     }
 }
 

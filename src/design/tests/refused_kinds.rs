@@ -241,7 +241,7 @@ fn maps_are_of_three_legs_that_do_not_turn() {
 fn no_text_of_any_kind_makes_the_reader_panic() {
     let replacements = ["", "\"", "[", "]", "}", "=", "\n", "-", "9", "±"];
     for design in [PLANAR, POINT, SPATIAL, SPHERICAL] {
-        for (at, c) in design.char_indices().step_by(2) {
+        for (at, c) in design.char_indices().step_by(4) {
             for new in replacements {
                 let text = format!("{}{new}{}", &design[..at], &design[at + c.len_utf8()..]);
                 if let Err(error) = Design::parse(&text, "test.toml") {
