@@ -53,6 +53,7 @@ pub(super) struct Leg {
 }
 
 /// A closed set of points; empty corners where no coordinate is one of a point.
+#[allow(clippy::large_enum_variant, reason = "one value for each design")]
 pub(super) enum Workspace {
     Box { min: Vec<Exact>, max: Vec<Exact> },
     Cylinder { center: [Exact; 2], radius: Exact, z: [Exact; 2] },

@@ -45,8 +45,8 @@ pub(super) fn ill_formed(root: &Table<'_>, error: &ClaimError) -> DesignError {
 /// A claim that the kernel refuses: the error about the table that it names.
 pub(super) fn refused(root: &Table<'_>, error: &Refused) -> DesignError {
     let (Refused::Number { place, expected } | Refused::Shape { place, expected }) = error;
-    let found = format!("a claim that is not well formed, at {place}");
-    let accepted = format!("what is {expected}");
+    let found = "a claim that is not well formed";
+    let accepted = format!("a design whose {place} is {expected}");
     match named(root, place) {
         Some(value) => value.error(Defect::Claim, found, accepted),
         None => {
@@ -56,7 +56,7 @@ pub(super) fn refused(root: &Table<'_>, error: &Refused) -> DesignError {
                 _ if place.starts_with("requirement") => "requirements",
                 _ => "mechanism",
             };
-            of_table(root, table, &found, accepted)
+            of_table(root, table, found, accepted)
         }
     }
 }
