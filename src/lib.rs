@@ -22,6 +22,7 @@
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
 //! | [`interval`]     | floating-point intervals and approximations for the search            |
 //! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
+//! | [`limit`]        | how far one number of a design can go                                 |
 //! | [`machine`]      | the machine's obligations and the rules that may discharge them       |
 //! | [`output`]       | files that appear whole or not at all                                 |
 //! | [`page`]         | a certificate as a page to read and to file, and its figures          |
@@ -60,6 +61,7 @@ pub mod frontier;
 pub mod import;
 pub mod interval;
 pub mod largest_cube;
+pub mod limit;
 pub mod machine;
 pub mod output;
 pub mod page;

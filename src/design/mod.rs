@@ -34,6 +34,7 @@ mod suggestion;
 mod template;
 #[cfg(test)]
 mod tests;
+mod variable;
 mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
@@ -41,6 +42,7 @@ pub use error::{Defect, DesignError, Position, ReadError};
 pub use notation::may_be_tolerance;
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
+pub use variable::Variable;
 
 use crate::verify::MODEL_PRECISION;
 use document::{Document, Names, Table};
@@ -129,7 +131,7 @@ impl Design {
 }
 
 /// The text of a file; `path` is for messages only.
-fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
+pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
     std::str::from_utf8(bytes).map_err(|error| {
         let valid = bytes.iter().take(error.valid_up_to());
         ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())

@@ -10,6 +10,7 @@ use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
 use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
+use super::variable::half_width;
 use orthocert_checker::atlas::{range, AtlasError, Ends};
 use orthocert_checker::claim::Quantity;
 use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
@@ -62,6 +63,28 @@ pub(super) fn quantity(value: &Value<'_>) -> Result<Quantity, DesignError> {
             None => scalar(value, QUANTITY).map(Quantity::exactly),
         },
         _ => scalar(value, QUANTITY).map(Quantity::exactly),
+    }
+}
+
+/// The middle of the number or the tolerance that `value` is, and the tolerance's own text.
+pub(super) fn centred(value: &Value<'_>) -> Result<(Exact, Option<String>), DesignError> {
+    let Quantity { min, max } = quantity(value)?;
+    match value.inner {
+        DeValue::String(text) => match parts_of_tolerance(text) {
+            Some([nominal, (_, tolerance)]) => {
+                let nominal = expression(value, text, nominal, QUANTITY)?;
+                Ok((nominal, Some(tolerance.trim().to_owned())))
+            }
+            None => Ok((min, None)),
+        },
+        DeValue::Table(_) => {
+            let halved = |x: Result<Exact, NumberErrorKind>| x?.over(Exact::integer(2));
+            let too_long = |_| value.error(Defect::NotANumber, value.found(), WITHIN_LIMITS);
+            let middle = halved(min.clone().plus(max.clone())).map_err(too_long)?;
+            let half = halved(max.minus(min)).map_err(too_long)?;
+            Ok((middle, Some(half_width(&half))))
+        }
+        _ => Ok((min, None)),
     }
 }
 

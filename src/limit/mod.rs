@@ -1,0 +1,436 @@
+//! How far one number of a family of claims can go: a certified value and a refuted one beside each
+//! other.
+//!
+//! A family has a claim for each value of a number, or none where the value is not admissible. Its
+//! verdict need not change once only, so nothing is claimed but that one value is certified and
+//! another refuted, each by its own certificate. From the number's own value the search goes outward
+//! in steps of a growing width until the verdict changes, then halves. Every value that is tried is
+//! a short decimal. What is undecided narrows nothing: it is kept between the two ends.
+//!
+//! | module   | holds                                                   |
+//! |----------|---------------------------------------------------------|
+//! | `design` | the family of a design file and one of its numbers      |
+//! | `place`  | the requirement that a refuted value violates, and where |
+
+mod design;
+mod place;
+#[cfg(test)]
+mod tests;
+
+pub use design::DesignFamily;
+pub use place::Place;
+
+use crate::decimal::shortest;
+use crate::frontier::NoAnswer;
+use num_rational::BigRational;
+use num_traits::Signed;
+use orthocert_checker::certificate::Verdict;
+use std::time::Instant;
+
+/// Steps outward: `size * GROWTH^k / FINEST`, up to `size * FINEST`.
+const STEPS: u32 = 11;
+const GROWTH: u32 = 4;
+const FINEST: i64 = 1024;
+
+/// Claims that depend on one number.
+pub trait Family {
+    /// A claim.
+    type Claim;
+    /// What shows a verdict.
+    type Proof: Clone;
+
+    /// The claim for a value, or, in a sentence, why there is none.
+    ///
+    /// # Errors
+    /// If the value is not admissible.
+    fn claim(&self, value: &BigRational) -> Result<Self::Claim, String>;
+
+    /// A claim's verdict, if one is found.
+    ///
+    /// # Errors
+    /// If it was cancelled.
+    fn decide(&mut self, claim: &Self::Claim) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
+}
+
+/// Away from the number's own value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// To greater values.
+    Up,
+    /// To smaller ones.
+    Down,
+}
+
+/// Which end of a range of certified values a limit is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// Refuted below, certified above.
+    Lower,
+    /// Certified below, refuted above.
+    Upper,
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// The number's own value, or one very near to it.
+    pub own: BigRational,
+    /// What changes are measured by; positive.
+    pub size: BigRational,
+    /// The relative distance of a certified and a refuted value to stop at.
+    pub gap: BigRational,
+    /// Where to look.
+    pub directions: Vec<Direction>,
+    /// The moment at which to stop.
+    pub deadline: Option<Instant>,
+}
+
+/// A value with a verdict.
+#[derive(Clone, Debug)]
+pub struct Decided<P> {
+    /// The value.
+    pub value: BigRational,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// What shows it.
+    pub proof: P,
+}
+
+/// A value for which there is no claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct End {
+    /// The value.
+    pub value: BigRational,
+    /// Why.
+    pub reason: String,
+}
+
+/// What was found in one direction.
+#[derive(Clone, Debug)]
+pub struct Limit<P> {
+    /// Where it was looked for; `None` of one about the number's own value, which is undecided.
+    pub direction: Option<Direction>,
+    /// Which end of the certified values it is, or would be.
+    pub side: Side,
+    /// The certified value nearest to the refuted one; the farthest, where none is refuted.
+    pub certified: Option<Decided<P>>,
+    /// The refuted value nearest to the certified one; the farthest, where none is certified.
+    pub refuted: Option<Decided<P>>,
+    /// The first and the last undecided value beyond the first of the two.
+    pub undecided: Option<[BigRational; 2]>,
+    /// Where the search ended for want of a claim.
+    pub end: Option<End>,
+    /// Whether the search ended for want of time.
+    pub out_of_time: bool,
+}
+
+impl Question {
+    /// The relative distance of two values: to the greater in size, or, if zero is one of them or
+    /// between them, to the size of the question.
+    pub fn distance(&self, a: &BigRational, b: &BigRational) -> BigRational {
+        let apart = (a - b).abs();
+        if (a * b).is_positive() {
+            apart / a.abs().max(b.abs())
+        } else {
+            apart / &self.size
+        }
+    }
+
+    /// The distance of a limit's two values, where both are there.
+    pub fn gap_of<P>(&self, limit: &Limit<P>) -> Option<BigRational> {
+        let (certified, refuted) = (limit.certified.as_ref()?, limit.refuted.as_ref()?);
+        Some(self.distance(&certified.value, &refuted.value))
+    }
+
+    /// Whether a limit is as near as was asked for.
+    pub fn is_reached<P>(&self, limit: &Limit<P>) -> bool {
+        self.gap_of(limit).is_some_and(|gap| gap <= self.gap)
+    }
+
+    /// Whether more effort might find a limit, or a nearer one.
+    pub fn is_open<P>(&self, limit: &Limit<P>) -> bool {
+        match self.gap_of(limit) {
+            Some(gap) => gap > self.gap,
+            None => limit.out_of_time || limit.undecided.is_some(),
+        }
+    }
+
+    /// The value of a step.
+    fn step(&self, direction: Direction, step: u32) -> BigRational {
+        let factor = BigRational::new(GROWTH.pow(step).into(), FINEST.into());
+        let offset = &self.size * factor;
+        let quarter = &offset / BigRational::from_integer(4.into());
+        let middle = match direction {
+            Direction::Up => &self.own + offset,
+            Direction::Down => &self.own - offset,
+        };
+        shortest(&(&middle - &quarter), &(&middle + &quarter))
+    }
+
+    fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    }
+}
+
+/// A short decimal well between two values.
+fn between(a: &BigRational, b: &BigRational) -> BigRational {
+    let quarter = (b - a) / BigRational::from_integer(4.into());
+    let (from, to) = (a + &quarter, b - &quarter);
+    if from < to {
+        shortest(&from, &to)
+    } else {
+        shortest(&to, &from)
+    }
+}
+
+/// Looks for the limits about the own value, whose verdict is known unless it is undecided.
+///
+/// # Errors
+/// If it was cancelled.
+pub fn limits<F: Family>(
+    question: &Question,
+    own: Option<(Verdict, F::Proof)>,
+    family: &mut F,
+) -> Result<Vec<Limit<F::Proof>>, NoAnswer> {
+    let mut search = Search { question, family };
+    let starts = match own {
+        Some((verdict, proof)) => {
+            let own = Decided { value: question.own.clone(), verdict, proof };
+            question.directions.iter().map(|d| (*d, Walk::from(own.clone()))).collect()
+        }
+        None => search.starts()?,
+    };
+    let mut found = Vec::new();
+    if let [(_, one), (_, other)] = &starts[..] {
+        if let (Some(one), Some(other)) = (&one.near, &other.near) {
+            if one.verdict != other.verdict {
+                let walk = Walk::about(one.clone(), other.clone(), &question.own);
+                found.push(search.narrowed(walk)?.limit(None, one.value < other.value));
+            }
+        }
+    }
+    // What is refuted beside an undecided value has its limit there.
+    let about = !found.is_empty();
+    for (direction, walk) in starts {
+        if !about || walk.is_certified() {
+            let walk = search.outward(direction, walk)?;
+            let walk = search.narrowed(walk)?;
+            found.push(walk.limit(Some(direction), direction == Direction::Up));
+        }
+    }
+    found.sort_by_key(|limit| limit.side);
+    Ok(found)
+}
+
+/// A search in one direction: what is known from the own value outward.
+struct Walk<P> {
+    /// The last value of one verdict, or of any.
+    near: Option<Decided<P>>,
+    /// Undecided values beyond it: the first and the last.
+    undecided: Option<[BigRational; 2]>,
+    /// A value of the other verdict, beyond those.
+    far: Option<Decided<P>>,
+    end: Option<End>,
+    out_of_time: bool,
+    /// The next step.
+    step: u32,
+}
+
+impl<P: Clone> Walk<P> {
+    fn new(near: Option<Decided<P>>) -> Self {
+        Walk { near, undecided: None, far: None, end: None, out_of_time: false, step: 0 }
+    }
+
+    fn from(near: Decided<P>) -> Self {
+        Walk::new(Some(near))
+    }
+
+    /// Between two verdicts, about an undecided value.
+    fn about(near: Decided<P>, far: Decided<P>, undecided: &BigRational) -> Self {
+        let undecided = Some([undecided.clone(), undecided.clone()]);
+        Walk { undecided, far: Some(far), ..Walk::from(near) }
+    }
+
+    fn is_certified(&self) -> bool {
+        self.near.as_ref().is_some_and(|near| near.verdict == Verdict::Certified)
+    }
+
+    /// Takes in what is known of a value beyond all others.
+    fn put(&mut self, value: BigRational, found: Option<(Verdict, P)>) {
+        let Some((verdict, proof)) = found else {
+            let first = self.undecided.take().map_or_else(|| value.clone(), |[first, _]| first);
+            self.undecided = Some([first, value]);
+            return;
+        };
+        let other = self.near.as_ref().is_some_and(|near| near.verdict != verdict);
+        let decided = Some(Decided { value, verdict, proof });
+        if other {
+            self.far = decided;
+        } else {
+            (self.near, self.undecided) = (decided, None);
+        }
+    }
+
+    /// Takes in what is known of a value between `near` and `far`, on this side of the undecided
+    /// ones.
+    fn put_between(&mut self, value: BigRational, part: Part, found: Option<(Verdict, P)>) {
+        let Some((verdict, proof)) = found else {
+            self.undecided = Some(match (self.undecided.take(), part) {
+                (None, _) => [value.clone(), value],
+                (Some([_, last]), Part::Near) => [value, last],
+                (Some([first, _]), Part::Far) => [first, value],
+            });
+            return;
+        };
+        let same = self.near.as_ref().is_some_and(|near| near.verdict == verdict);
+        // Undecided values that are not between the two any more do not matter.
+        if (same, part) == (true, Part::Far) || (same, part) == (false, Part::Near) {
+            self.undecided = None;
+        }
+        let decided = Some(Decided { value, verdict, proof });
+        if same {
+            self.near = decided;
+        } else {
+            self.far = decided;
+        }
+    }
+
+    /// What was found; `upward` says whether `far` is, or would be, above `near`.
+    fn limit(self, direction: Option<Direction>, upward: bool) -> Limit<P> {
+        let refuted_first = self.near.as_ref().is_some_and(|n| n.verdict == Verdict::Refuted);
+        let side = if upward != refuted_first { Side::Upper } else { Side::Lower };
+        let (certified, refuted) =
+            if refuted_first { (self.far, self.near) } else { (self.near, self.far) };
+        Limit {
+            direction,
+            side,
+            certified,
+            refuted,
+            undecided: self.undecided,
+            end: self.end,
+            out_of_time: self.out_of_time,
+        }
+    }
+}
+
+/// Where a value lies about the undecided ones.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Near,
+    Far,
+}
+
+struct Search<'a, F> {
+    question: &'a Question,
+    family: &'a mut F,
+}
+
+impl<F: Family> Search<'_, F> {
+    /// From an undecided own value: the first verdict in each direction.
+    fn starts(&mut self) -> Result<Vec<(Direction, Walk<F::Proof>)>, NoAnswer> {
+        let mut starts = Vec::new();
+        for direction in self.question.directions.clone() {
+            let own = &self.question.own;
+            let mut walk = Walk::new(None);
+            walk.undecided = Some([own.clone(), own.clone()]);
+            while walk.near.is_none() && self.stepped(direction, &mut walk)? {}
+            starts.push((direction, walk));
+        }
+        Ok(starts)
+    }
+
+    /// Steps until the verdict changes, or as far as steps go.
+    fn outward(
+        &mut self,
+        direction: Direction,
+        mut walk: Walk<F::Proof>,
+    ) -> Result<Walk<F::Proof>, NoAnswer> {
+        while walk.far.is_none() && self.stepped(direction, &mut walk)? {}
+        Ok(walk)
+    }
+
+    /// Takes the next step; whether there may be another.
+    fn stepped(
+        &mut self,
+        direction: Direction,
+        walk: &mut Walk<F::Proof>,
+    ) -> Result<bool, NoAnswer> {
+        if walk.step == STEPS || walk.end.is_some() {
+            return Ok(false);
+        }
+        if self.question.is_over() {
+            walk.out_of_time = true;
+            return Ok(false);
+        }
+        let value = self.question.step(direction, walk.step);
+        match self.family.claim(&value) {
+            Ok(claim) => walk.put(value, self.family.decide(&claim)?),
+            Err(reason) => {
+                let last = match walk.step.checked_sub(1) {
+                    Some(step) => self.question.step(direction, step),
+                    None => self.question.own.clone(),
+                };
+                let (inside, end) = self.end(last.clone(), End { value, reason });
+                walk.end = Some(end);
+                if inside != last {
+                    if let Ok(claim) = self.family.claim(&inside) {
+                        walk.put(inside, self.family.decide(&claim)?);
+                    }
+                }
+            }
+        }
+        walk.step += 1;
+        Ok(true)
+    }
+
+    /// The last value of a claim, and the first without one, as near as the gap.
+    fn end(&self, mut inside: BigRational, mut end: End) -> (BigRational, End) {
+        while self.question.distance(&inside, &end.value) > self.question.gap {
+            let value = between(&inside, &end.value);
+            match self.family.claim(&value) {
+                Ok(_) => inside = value,
+                Err(reason) => end = End { value, reason },
+            }
+        }
+        (inside, end)
+    }
+
+    /// Halves what is between two verdicts. Each half is at most 3/4 of what was halved, so that
+    /// this ends.
+    fn narrowed(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
+        while let Some((value, part)) = self.next(&walk) {
+            if self.question.is_over() {
+                walk.out_of_time = true;
+                break;
+            }
+            let found = match self.family.claim(&value) {
+                Ok(claim) => self.family.decide(&claim)?,
+                Err(_) => None,
+            };
+            walk.put_between(value, part, found);
+        }
+        Ok(walk)
+    }
+
+    /// The value to try next, unless the two ends, or each of them and what is undecided, are near
+    /// enough.
+    fn next(&self, walk: &Walk<F::Proof>) -> Option<(BigRational, Part)> {
+        let (near, far) = (&walk.near.as_ref()?.value, &walk.far.as_ref()?.value);
+        if self.question.distance(near, far) <= self.question.gap {
+            return None;
+        }
+        let Some([first, last]) = &walk.undecided else {
+            return Some((between(near, far), Part::Near));
+        };
+        let wide = |a: &BigRational, b: &BigRational| {
+            let distance = self.question.distance(a, b);
+            (distance > self.question.gap).then(|| (distance, between(a, b)))
+        };
+        match (wide(near, first), wide(last, far)) {
+            (Some((n, value)), Some((f, _))) if n >= f => Some((value, Part::Near)),
+            (Some((_, value)), None) => Some((value, Part::Near)),
+            (_, Some((_, value))) => Some((value, Part::Far)),
+            (None, None) => None,
+        }
+    }
+}
