@@ -1,7 +1,7 @@
 //! `orthocert limit`.
 
-use super::size::{explain, file, gap_text};
-use super::{effort::Effort, input, print, Failure, Format, Status};
+use super::size::{explain, gap_text};
+use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::decimal::{exact, grouped, significant};
 use orthocert::design::{text_of, Design, Variable};
@@ -9,16 +9,18 @@ use orthocert::limit::Side;
 use orthocert::limit::{limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question};
 use orthocert::output;
 use orthocert::report::{CertificateFile, Outcome};
-use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
+use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
-/// Boxes after which a value counts as undecided.
-const BOXES: u64 = 20_000;
+/// Boxes after which another value than the design's own counts as undecided: so many, or in so many
+/// times as many as the proof of that has.
+const BOXES: (usize, usize) = (20_000, 4);
 /// Fractional bits in which an irrational own value is compared with others.
 const OWN_BITS: u32 = 192;
 /// Columns of a line.
@@ -34,11 +36,12 @@ mechanism.legs.0.length, workspace.max.2, workspace.cylinder.radius, requirement
 mechanism.legs.*.length is the length that all legs have in common. Of a tolerance the middle is
 varied and the width kept.
 
-Values from a thousandth of the number's own to a thousand times it are tried, upward and downward
-(of zero, of the largest number beside it), and each limit is a certified value and a refuted one:
-upper where the refuted one is the greater, lower where it is the smaller. Nothing is claimed of
-values between, nor that all on one side are certified. The certificates are NAME.limit-upper-certified,
--upper-refuted, -lower-certified and -lower-refuted.cert.json, each with the number in its claim.
+From the design's own number the search goes upward and downward in steps of a thousandth to about a
+thousand times its size (of zero: of the largest number beside it) until the verdict changes, then
+halves. A limit is a certified value and a refuted one: an upper limit where the refuted one is the
+greater, a lower limit where it is the smaller. Nothing is claimed of other values, such as that all
+on one side are certified. NAME.limit-upper-certified.cert.json, -upper-refuted, -lower-certified and
+-lower-refuted are the certificates; another run replaces them.
 
 Exit code 0 if a certified and a refuted value no further apart than the gap were found, and, of a
 certified design, nothing is left undecided in any direction; else 3.")]
@@ -101,7 +104,7 @@ struct Row {
     /// The relative distance of the two, rounded up.
     gap: Option<String>,
     gap_reached: bool,
-    /// The first and the last undecided value, between the two or beyond the one there is.
+    /// The least and the greatest undecided value, between the two or beyond the one there is.
     undecided: Option<[Exact; 2]>,
     /// Where the design is not well formed any more.
     ends: Option<EndOfForm>,
@@ -130,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let gap = gap(&arguments.gap)?;
-    let budget = effort.budget_or(BOXES, started)?;
+    let budget = effort.budget(started)?;
     let bytes = Design::bytes(&arguments.design).map_err(Failure::input)?;
     let design = Design::of(&bytes, &arguments.design).map_err(Failure::input)?;
     let text = text_of(&bytes, &arguments.design).map_err(Failure::input)?;
@@ -157,6 +160,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         let mut family = DesignFamily { variable: &variable, budget, control };
         let own = family.decide(&design.claim)?;
         let verdict = own.as_ref().map(|(verdict, _)| *verdict);
+        let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
+        let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
+        family.budget.max_boxes = family.budget.max_boxes.min(enough);
         Ok((verdict, limits(&question, own, &mut family)?))
     });
     let (verdict, limits) = found.map_err(explain)?;
@@ -194,13 +200,9 @@ impl Arguments {
     fn target(&self, side: &str, verdict: &str) -> PathBuf {
         let mut file = self.design.file_stem().unwrap_or_default().to_owned();
         file.push(format!(".limit-{side}-{verdict}.cert.json"));
-        self.folder().join(file)
-    }
-
-    fn folder(&self) -> &Path {
         match &self.output {
-            Some(folder) => folder,
-            None => self.design.parent().unwrap_or(Path::new("")),
+            Some(folder) => folder.join(file),
+            None => self.design.with_file_name(file),
         }
     }
 }
@@ -223,6 +225,15 @@ fn near(own: &Exact) -> Result<BigRational, Failure> {
     })
 }
 
+/// The nodes of a proof.
+fn nodes(proof: &Proof) -> usize {
+    match proof {
+        Proof::Tree(tree) => tree.nodes.len(),
+        Proof::Kernel(kernel::Proof::Tree(tree)) => tree.nodes.len(),
+        _ => 0,
+    }
+}
+
 /// A limit, its certificates on the disk.
 fn row(
     arguments: &Arguments,
@@ -241,8 +252,8 @@ fn row(
     let stored = |end: &Option<Decided<Box<Certificate>>>| -> Result<Option<Value>, Failure> {
         let Some(end) = end else { return Ok(None) };
         let target = arguments.target(side, &end.verdict.to_string());
-        let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let certificate = file(arguments.folder(), &name, &end.proof)?;
+        let text = certify::as_written(&end.proof).map_err(|_| Failure::Defect)?;
+        let certificate = certify::store(arguments.output.as_deref(), &target, &text)?;
         Ok(Some(Value { value: number(&end.value), certificate }))
     };
     Ok(Row {
@@ -280,15 +291,15 @@ fn words(answer: &Answer, quiet: bool) -> String {
         line(&mut out, "own value", &format!("{own}{tolerance}, {verdict}"));
     }
     for row in &answer.limits {
+        let title = title(row);
         if quiet {
             let value = |end: &Option<Value>| {
                 end.as_ref().map_or_else(|| "none".to_owned(), |end| exact(&end.value))
             };
             let (certified, refuted) = (value(&row.certified), value(&row.refuted));
-            let side = row.side;
-            let _ = writeln!(out, "{side} limit: certified {certified}, refuted {refuted}");
+            let _ = writeln!(out, "{title}: certified {certified}, refuted {refuted}");
         } else {
-            let _ = writeln!(out, "\n{} limit", row.side);
+            let _ = writeln!(out, "\n{title}");
             limit(&mut out, row);
         }
     }
@@ -302,18 +313,35 @@ fn words(answer: &Answer, quiet: bool) -> String {
     out
 }
 
+/// What a limit is, or where none was found.
+fn title(row: &Row) -> String {
+    match (&row.gap, row.searched) {
+        (Some(_), _) => format!("{} limit", row.side),
+        (None, "up") => "upward".to_owned(),
+        (None, _) => "downward".to_owned(),
+    }
+}
+
 fn limit(out: &mut String, row: &Row) {
-    let beyond = if (row.side == "upper") == row.certified.is_some() { "above" } else { "below" };
+    let beyond = if row.searched == "up" { "above" } else { "below" };
     match (&row.certified, &row.refuted) {
         (Some(certified), Some(refuted)) => {
             line(out, "certified", &exact(&certified.value));
             line(out, "refuted", &exact(&refuted.value));
         }
         (Some(end), None) => {
-            line(out, "certified", &format!("{}; none refuted {beyond} it", exact(&end.value)));
+            line(
+                out,
+                "certified",
+                &format!("{}; no refuted value was found {beyond} it", exact(&end.value)),
+            );
         }
         (None, Some(end)) => {
-            line(out, "refuted", &format!("{}; none certified {beyond} it", exact(&end.value)));
+            line(
+                out,
+                "refuted",
+                &format!("{}; no certified value was found {beyond} it", exact(&end.value)),
+            );
         }
         (None, None) => line(out, "", "no value was decided"),
     }
@@ -324,8 +352,12 @@ fn limit(out: &mut String, row: &Row) {
     if let (Some(place), Some(_)) = (&row.limited_by, &row.gap) {
         self::place(out, place);
     }
-    if let Some([first, last]) = &row.undecided {
-        line(out, "undecided", &format!("{} to {}", exact(first), exact(last)));
+    match &row.undecided {
+        Some([one, other]) if one == other => line(out, "undecided", &exact(one)),
+        Some([one, other]) => {
+            line(out, "undecided", &format!("{} to {}", exact(one), exact(other)));
+        }
+        None => {}
     }
     if let Some(end) = &row.ends {
         line(out, "not a design", &format!("{}: {}", exact(&end.value), end.reason));

@@ -179,13 +179,15 @@ impl<'d> Walk<'_, 'd> {
         for (name, value) in self.root.entries() {
             numbers(&value, name, &mut all);
         }
-        // A key without the tables that it is in is meant as well as a misspelt one.
-        let end = format!(".{}", self.key);
-        let hint = match all.iter().find(|key| key.ends_with(&end)) {
+        // Without the tables that it is in, a key is meant as well as a misspelt one.
+        let key = from_zero(self.key);
+        let end = format!(".{key}");
+        let meant = |other: &&String| **other == key || other.ends_with(&end);
+        let hint = match all.iter().find(meant) {
             Some(key) => format!("; did you mean {key}?"),
             None => {
                 let names: Vec<&str> = all.iter().map(String::as_str).collect();
-                suggestion::hint(self.key, &names, |key| key.to_owned())
+                suggestion::hint(&key, &names, |key| key.to_owned())
             }
         };
         format!("the key of a number; there is {}{hint}", there.join(", "))
@@ -197,6 +199,20 @@ fn dotted(path: &str, name: &str) -> String {
         "" => name.to_owned(),
         _ => format!("{path}.{name}"),
     }
+}
+
+/// A key with `[i]`, as messages about designs count elements, from 1, written with `.i` from 0.
+fn from_zero(key: &str) -> String {
+    let mut parts = key.split('[');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (number, rest) = part.split_once(']').unwrap_or((part, ""));
+        match number.parse::<usize>().ok().and_then(|i| i.checked_sub(1)) {
+            Some(i) => text.push_str(&format!(".{i}{rest}")),
+            None => text.push_str(part),
+        }
+    }
+    text
 }
 
 /// The keys of an array's elements.

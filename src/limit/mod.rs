@@ -7,9 +7,9 @@
 //! in steps of a growing width until the verdict changes, then halves. Every value that is tried is
 //! a short decimal. What is undecided narrows nothing: it is kept between the two ends.
 //!
-//! | module   | holds                                                   |
-//! |----------|---------------------------------------------------------|
-//! | `design` | the family of a design file and one of its numbers      |
+//! | module   | holds                                                    |
+//! |----------|----------------------------------------------------------|
+//! | `design` | the family of a design file and one of its numbers       |
 //! | `place`  | the requirement that a refuted value violates, and where |
 
 mod design;
@@ -116,7 +116,7 @@ pub struct Limit<P> {
     pub certified: Option<Decided<P>>,
     /// The refuted value nearest to the certified one; the farthest, where none is certified.
     pub refuted: Option<Decided<P>>,
-    /// The first and the last undecided value beyond the first of the two.
+    /// The least and the greatest undecided value between the two, or beyond the one there is.
     pub undecided: Option<[BigRational; 2]>,
     /// Where the search ended for want of a claim.
     pub end: Option<End>,
@@ -306,7 +306,7 @@ impl<P: Clone> Walk<P> {
             side,
             certified,
             refuted,
-            undecided: self.undecided,
+            undecided: self.undecided.map(|[a, b]| if a < b { [a, b] } else { [b, a] }),
             end: self.end,
             out_of_time: self.out_of_time,
         }
@@ -422,9 +422,11 @@ impl<F: Family> Search<'_, F> {
         let Some([first, last]) = &walk.undecided else {
             return Some((between(near, far), Part::Near));
         };
+        // About a single undecided value the two ends are to come as near as the gap.
+        let half = &self.question.gap / BigRational::from_integer(2.into());
         let wide = |a: &BigRational, b: &BigRational| {
             let distance = self.question.distance(a, b);
-            (distance > self.question.gap).then(|| (distance, between(a, b)))
+            (distance > half).then(|| (distance, between(a, b)))
         };
         match (wide(near, first), wide(last, far)) {
             (Some((n, value)), Some((f, _))) if n >= f => Some((value, Part::Near)),

@@ -6,6 +6,7 @@ mod machines;
 mod notation;
 mod refused;
 mod refused_numbers;
+mod variable;
 
 use super::{Defect, Design, DesignError};
 use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
