@@ -110,7 +110,6 @@ struct Row {
     ends: Option<EndOfForm>,
     out_of_time: bool,
     /// Whether more effort might find a limit, or a nearer one.
-    #[serde(skip)]
     open: bool,
 }
 

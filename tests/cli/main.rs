@@ -13,6 +13,7 @@
 //! | `paving`       | `pave` and `check` of pavings                                     |
 //! | `surface`      | `export vtk` and `export stl`                                     |
 //! | `largest_cube` | `largest-cube`                                                    |
+//! | `limit`        | `limit`: every kind of key, ends, certificates, refused           |
 //! | `postulate`    | `postulate`                                                       |
 //! | `report`       | `report`: pages and figures                                       |
 //! | `atlas`        | `atlas`: maps, and what is refused                                |
@@ -45,6 +46,7 @@ mod import;
 mod interruption;
 mod json;
 mod largest_cube;
+mod limit;
 mod paving;
 mod paving_shards;
 mod postulate;
