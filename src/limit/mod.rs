@@ -196,26 +196,25 @@ pub fn limits<F: Family>(
     let starts = match own {
         Some((verdict, proof)) => {
             let own = Decided { value: question.own.clone(), verdict, proof };
-            question.directions.iter().map(|d| (*d, Walk::from(own.clone()))).collect()
+            let walk = |d: &Direction| Walk::new(Some(*d), Some(own.clone()));
+            question.directions.iter().map(walk).collect()
         }
         None => search.starts()?,
     };
     let mut found = Vec::new();
-    if let [(_, one), (_, other)] = &starts[..] {
-        if let (Some(one), Some(other)) = (&one.near, &other.near) {
-            if one.verdict != other.verdict {
-                let walk = Walk::about(one.clone(), other.clone(), &question.own);
-                found.push(search.narrowed(walk)?.limit(None, one.value < other.value));
-            }
+    if let [Some(one), Some(other)] = starts.iter().map(|s| s.near.as_ref()).collect::<Vec<_>>()[..]
+    {
+        if one.verdict != other.verdict {
+            let walk = Walk::about(one.clone(), other.clone(), &question.own);
+            found.push(search.narrowed(walk)?.limit());
         }
     }
     // What is refuted beside an undecided value has its limit there.
     let about = !found.is_empty();
-    for (direction, walk) in starts {
+    for walk in starts {
         if !about || walk.is_certified() {
-            let walk = search.outward(direction, walk)?;
-            let walk = search.narrowed(walk)?;
-            found.push(walk.limit(Some(direction), direction == Direction::Up));
+            let walk = search.outward(walk)?;
+            found.push(search.narrowed(walk)?.limit());
         }
     }
     found.sort_by_key(|limit| limit.side);
@@ -224,6 +223,8 @@ pub fn limits<F: Family>(
 
 /// A search in one direction: what is known from the own value outward.
 struct Walk<P> {
+    /// None about the own value.
+    direction: Option<Direction>,
     /// The last value of one verdict, or of any.
     near: Option<Decided<P>>,
     /// Undecided values beyond it: the first and the last.
@@ -237,18 +238,15 @@ struct Walk<P> {
 }
 
 impl<P: Clone> Walk<P> {
-    fn new(near: Option<Decided<P>>) -> Self {
-        Walk { near, undecided: None, far: None, end: None, out_of_time: false, step: 0 }
-    }
-
-    fn from(near: Decided<P>) -> Self {
-        Walk::new(Some(near))
+    fn new(direction: Option<Direction>, near: Option<Decided<P>>) -> Self {
+        let (undecided, far, end) = (None, None, None);
+        Walk { direction, near, undecided, far, end, out_of_time: false, step: 0 }
     }
 
     /// Between two verdicts, about an undecided value.
     fn about(near: Decided<P>, far: Decided<P>, undecided: &BigRational) -> Self {
         let undecided = Some([undecided.clone(), undecided.clone()]);
-        Walk { undecided, far: Some(far), ..Walk::from(near) }
+        Walk { undecided, far: Some(far), ..Walk::new(None, Some(near)) }
     }
 
     fn is_certified(&self) -> bool {
@@ -295,14 +293,20 @@ impl<P: Clone> Walk<P> {
         }
     }
 
-    /// What was found; `upward` says whether `far` is, or would be, above `near`.
-    fn limit(self, direction: Option<Direction>, upward: bool) -> Limit<P> {
+    /// What was found.
+    fn limit(self) -> Limit<P> {
+        let above = |(near, far): (&Decided<P>, &Decided<P>)| far.value > near.value;
+        // Whether `far` is, or would be, above `near`.
+        let upward = match self.direction {
+            Some(direction) => direction == Direction::Up,
+            None => self.near.as_ref().zip(self.far.as_ref()).is_some_and(above),
+        };
         let refuted_first = self.near.as_ref().is_some_and(|n| n.verdict == Verdict::Refuted);
         let side = if upward != refuted_first { Side::Upper } else { Side::Lower };
         let (certified, refuted) =
             if refuted_first { (self.far, self.near) } else { (self.near, self.far) };
         Limit {
-            direction,
+            direction: self.direction,
             side,
             certified,
             refuted,
@@ -327,34 +331,26 @@ struct Search<'a, F> {
 
 impl<F: Family> Search<'_, F> {
     /// From an undecided own value: the first verdict in each direction.
-    fn starts(&mut self) -> Result<Vec<(Direction, Walk<F::Proof>)>, NoAnswer> {
-        let mut starts = Vec::new();
-        for direction in self.question.directions.clone() {
-            let own = &self.question.own;
-            let mut walk = Walk::new(None);
-            walk.undecided = Some([own.clone(), own.clone()]);
-            while walk.near.is_none() && self.stepped(direction, &mut walk)? {}
-            starts.push((direction, walk));
-        }
-        Ok(starts)
+    fn starts(&mut self) -> Result<Vec<Walk<F::Proof>>, NoAnswer> {
+        let question = self.question;
+        let start = |direction: &Direction| {
+            let mut walk = Walk::new(Some(*direction), None);
+            walk.undecided = Some([question.own.clone(), question.own.clone()]);
+            while walk.near.is_none() && self.stepped(&mut walk)? {}
+            Ok(walk)
+        };
+        question.directions.iter().map(start).collect()
     }
 
     /// Steps until the verdict changes, or as far as steps go.
-    fn outward(
-        &mut self,
-        direction: Direction,
-        mut walk: Walk<F::Proof>,
-    ) -> Result<Walk<F::Proof>, NoAnswer> {
-        while walk.far.is_none() && self.stepped(direction, &mut walk)? {}
+    fn outward(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
+        while walk.far.is_none() && self.stepped(&mut walk)? {}
         Ok(walk)
     }
 
     /// Takes the next step; whether there may be another.
-    fn stepped(
-        &mut self,
-        direction: Direction,
-        walk: &mut Walk<F::Proof>,
-    ) -> Result<bool, NoAnswer> {
+    fn stepped(&mut self, walk: &mut Walk<F::Proof>) -> Result<bool, NoAnswer> {
+        let Some(direction) = walk.direction else { return Ok(false) };
         if walk.step == STEPS || walk.end.is_some() {
             return Ok(false);
         }

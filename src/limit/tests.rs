@@ -214,3 +214,71 @@ fn values_are_short_decimals_well_between() {
         assert!(number(1, 4) <= part && part <= number(3, 4), "{value}");
     }
 }
+
+#[test]
+fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
+    use crate::verify::certificate;
+    use orthocert_checker::certificate::Proof;
+    use orthocert_checker::claim::Claim;
+    use orthocert_kernel::certificate::{self as kernel, Failure};
+    use orthocert_kernel::number::Expression;
+
+    let leg = |direction: &str, length: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":[{direction}],"anchor":["0","0","0"],"platform":["0","0","0"],"length":{length},"mode":"+"}}"#
+        )
+    };
+    let legs = [
+        leg(r#""1","0","0""#, r#"{"min":"310","max":"311"}"#),
+        leg(r#""0","1","0""#, r#""310""#),
+        leg(r#""0","0","1""#, r#""310""#),
+    ]
+    .join(",");
+    let claim = format!(
+        r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-72","-72","-72"],"max":["125","125","125"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"1.96"}}]}}"#
+    );
+    let claim = Claim::Kernel(serde_json::from_str(&claim).unwrap());
+    let number = |text: &str| Expression::try_from(text.to_owned()).unwrap();
+    let place = |fails: Failure| {
+        let witness = kernel::Witness {
+            precision: 96,
+            point: ["125", "125", "125/2"].map(number).to_vec(),
+            machine: vec![number("310")],
+            fails,
+        };
+        let proof = Proof::Kernel(kernel::Proof::Witness(witness));
+        Place::of(&certificate(claim.clone(), Refuted, proof)).unwrap()
+    };
+    let found = place(Failure::Obligation(0, vec![vec![1, -1, 0]]));
+    assert!(found.violated.contains("transmission"), "{found:?}");
+    assert!(found.violated.ends_with("<= 1.96"), "{found:?}");
+    assert_eq!(found.point, ["125", "125", "125/2"]);
+    assert_eq!(
+        found.machine.into_iter().collect::<Vec<_>>(),
+        [("leg 1: length".into(), "310".into())]
+    );
+    let singular = place(Failure::Singular(["0", "0", "0"].map(number).to_vec()));
+    assert_eq!(singular.other_point, ["0", "0", "0"]);
+    assert_eq!(place(Failure::Reach).violated, "every leg reaches, without a serial singularity");
+    // What is certified, or no witness, has no place.
+    let tree = kernel::Tree { precision: 96, nodes: Vec::new() };
+    let proof = Proof::Kernel(kernel::Proof::Tree(tree));
+    assert_eq!(Place::of(&certificate(claim.clone(), Certified, proof)), None);
+}
+
+#[test]
+fn shortest_decimals_have_no_digit_too_many() {
+    for (min, max, text) in [
+        (number(1, 3), number(1, 2), "0.4"),
+        (number(95, 1), number(105, 1), "100"),
+        (number(99, 1), number(101, 1), "100"),
+        (number(-7, 1), number(1, 1), "0"),
+        (number(311, 1), number(312, 1), "311"),
+        (number(12_345, 1000), number(12_346, 1000), "12.345"),
+    ] {
+        let value = crate::decimal::shortest(&min, &max);
+        let found = crate::decimal::terminating(&value, 40).unwrap();
+        assert!(min <= value && value <= max, "{found}");
+        assert!(found.len() <= text.len(), "{found} {text}");
+    }
+}
