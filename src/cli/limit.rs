@@ -155,16 +155,17 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         },
         deadline: budget.deadline,
     };
-    let found = effort.run(|control| {
-        let mut family = DesignFamily { variable: &variable, budget, control };
-        let own = family.decide(&design.claim)?;
-        let verdict = own.as_ref().map(|(verdict, _)| *verdict);
-        let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
-        let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
-        family.budget.max_boxes = family.budget.max_boxes.min(enough);
-        Ok((verdict, limits(&question, own, &mut family)?))
-    });
-    let (verdict, limits) = found.map_err(explain)?;
+    let variable = &variable;
+    let own =
+        effort.run(|control| DesignFamily { variable, budget, control }.decide(&design.claim));
+    let own = own.map_err(explain)?;
+    let verdict = own.as_ref().map(|(verdict, _)| *verdict);
+    let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
+    let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
+    let budget = effort.budget_or(enough as u64, started)?;
+    let found = effort
+        .run(|control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
+    let limits = found.map_err(explain)?;
     let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
     let answer = Answer {
         title: design.title.clone(),
@@ -305,7 +306,8 @@ fn words(answer: &Answer, quiet: bool) -> String {
     if !quiet {
         out += "\n  Each value has its own certificate; nothing is claimed of other values.\n";
         if answer.limits.iter().any(|row| row.open) {
-            out += "  Where values are undecided, raise --max-boxes or --timeout.\n";
+            out += "  Where values are undecided, no proof was found, and no place that fails:\n  \
+                    a larger --max-boxes or --timeout may help.\n";
         }
         let _ = writeln!(out, "\n  {} s", significant(answer.seconds, 3));
     }

@@ -1,5 +1,6 @@
 //! The search, on families whose verdicts are known.
 
+use super::search::between;
 use super::*;
 use orthocert_checker::certificate::Verdict::{Certified, Refuted};
 

@@ -138,6 +138,29 @@ fn of_a_tolerance_the_middle_is_varied() {
 }
 
 #[test]
+fn a_gap_that_is_not_reached_leaves_the_nearest_ends() {
+    let design = "orthoglide-tolerance.toml";
+    let folder = Folder::with(&[design]);
+    let all = ["limit", design, "mechanism.leg_length", "--direction", "down"];
+    let run = folder.run(&all).exits(3);
+    let run = run.says(&["lower limit", "more than asked for", "undecided 310.", "may help"]);
+    assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
+    folder.run(&["check", "orthoglide-tolerance.limit-lower-certified.cert.json"]).exits(0);
+    folder.run(&["check", "orthoglide-tolerance.limit-lower-refuted.cert.json"]).exits(1);
+}
+
+#[test]
+fn a_quiet_answer_is_a_line_for_each_limit() {
+    let folder = Folder::with(&[BOX]);
+    let all = ["limit", BOX, "mechanism.leg_length", "--gap", "0.01", "-q"];
+    let text = folder.run(&all).exits(0).stdout;
+    let lines: Vec<&str> = text.lines().collect();
+    let [lower, upward] = &lines[..] else { panic!("{text}") };
+    assert!(lower.starts_with("lower limit: certified 31") && lower.contains(", refuted 3"));
+    assert!(upward.starts_with("upward: certified") && upward.ends_with(", refuted none"));
+}
+
+#[test]
 fn a_coordinate_that_is_zero_is_measured_by_those_beside_it() {
     let key = (DELTA, "mechanism.legs.0.anchor.0");
     let answer = limits(key, &["--gap", "1e-3"], 0, written("0", "anchor = [#, \"174.75\""));
@@ -182,7 +205,7 @@ fn without_a_budget_nothing_is_claimed() {
     let folder = Folder::with(&[BOX]);
     let run = folder.run(&["limit", BOX, "workspace.max.*", "--timeout", "0"]).exits(3);
     let text =
-        run.says(&["undecided", "no value was decided", "the time was up", "raise --max-boxes"]);
+        run.says(&["undecided", "no value was decided", "the time was up", "a larger --max-boxes"]);
     assert!(!text.stdout.contains("limit\n"), "{}", text.stdout);
     assert_eq!(folder.names(), [BOX]);
 }
