@@ -1,4 +1,18 @@
 //! The paper's cube: its corners and leg length, from `psi_max` and its side.
+//!
+//! ```text
+//! kappa = 1/psi_max    t_1 = (1 - kappa)/2    t_2 = 1 - kappa            for kappa <= 1/2
+//! q_1 = -L t_1/sqrt(1 + 2 t_1^2)                  = (1/kappa - 1)/2      for kappa >= 1/2
+//! q_2 =  L t_2/sqrt(1 + 2 t_2^2)              q_2 - q_1 = side
+//! ```
+//!
+//! **Lemma (upper bound).** `sigma_max(M) <= 1/kappa` at every point of the cube `[q_1, q_2]^3`. *Proof.*
+//! `M` has ones on its diagonal and `P_j/s_i` off it, `s_i^2 = L^2 - P_j^2 - P_k^2`. As `t_1 <= t_2` and
+//! `t/sqrt(1 + 2 t^2)` increases, `|P_j| <= q_2`, and `s_i^2 >= L^2 - 2 q_2^2 = q_2^2/t_2^2`. So
+//! `|M_ij| <= t_2` for `i != j`, and `|M|_2^2 <= |M|_1 |M|_inf <= (1 + 2 t_2)^2`. For `kappa >= 1/2` that
+//! is `1/kappa^2`; for `kappa <= 1/2`, `1 + 2 t_2 = 3 - 2 kappa <= 1/kappa`, since
+//! `1 - 3 kappa + 2 kappa^2 = (1 - kappa)(1 - 2 kappa) >= 0`. ∎ A claim with `psi_min <= kappa` asks for no
+//! more; one with a greater `psi_min` has to be shown otherwise.
 
 use crate::claim::{Leg, MachineClaim, Quantity, Sign};
 use crate::input::{binary, number_error, ordered, positive, shape_error, sign, ClaimError};

@@ -34,7 +34,8 @@ pub struct Problem {
     pub inside: Option<Inside>,
     /// `kappa = 1/psi_max`, of the paper's cube.
     pub cube_kappa: Option<Formula>,
-    /// Whether the least psi asked for is at most `kappa`, as on all of the paper's cube.
+    /// Whether the least psi asked for is at most `kappa`: shown on the paper's cube by its lemma
+    /// (upper bound), see `cube`.
     pub cube_has_least: bool,
     /// Quotients and roots of a user's formulas: defined where the claim is true.
     pub partial: Vec<Formula>,
