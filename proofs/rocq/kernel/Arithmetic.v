@@ -107,20 +107,20 @@ Lemma zero_sound : contains zero 0.
 Proof. unfold Fixed.contains, zero. cbn. lra. Qed.
 
 (** The ends of an interval as points. *)
-Definition least (a : fixed) : fixed := Fixed (lo a) (lo a).
-Definition greatest (a : fixed) : fixed := Fixed (hi a) (hi a).
+Definition lower_end (a : fixed) : fixed := Fixed (lo a) (lo a).
+Definition upper_end (a : fixed) : fixed := Fixed (hi a) (hi a).
 
 Lemma point_sound : forall n, contains (Fixed n n) (IZR n / unit).
 Proof. exact (Fixed.dyadic_sound bits). Qed.
 
-Lemma least_sound : forall a x, contains a x -> exists y, contains (least a) y /\ y <= x.
+Lemma lower_end_sound : forall a x, contains a x -> exists y, contains (lower_end a) y /\ y <= x.
 Proof.
   intros a x [l u]. exists (IZR (lo a) / unit). split; [apply point_sound |].
   pose proof (unit_R_pos bits). apply Rmult_le_reg_r with unit; [assumption |].
   unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
 Qed.
 
-Lemma greatest_sound : forall a x, contains a x -> exists y, contains (greatest a) y /\ x <= y.
+Lemma upper_end_sound : forall a x, contains a x -> exists y, contains (upper_end a) y /\ x <= y.
 Proof.
   intros a x [l u]. exists (IZR (hi a) / unit). split; [apply point_sound |].
   pose proof (unit_R_pos bits). apply Rmult_le_reg_r with unit; [assumption |].

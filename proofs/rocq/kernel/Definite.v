@@ -107,7 +107,7 @@ Qed.
 
 Fixpoint ends (b : bool) (z : list bool) (row : list fixed) : list fixed :=
   match z, row with
-  | c :: z', a :: row' => (if eqb b c then least a else greatest a) :: ends b z' row'
+  | c :: z', a :: row' => (if eqb b c then lower_end a else upper_end a) :: ends b z' row'
   | _, _ => []
   end.
 Fixpoint sign_vertex (z : list bool) (S : triangle) : triangle :=
@@ -117,10 +117,10 @@ Fixpoint sign_vertex (z : list bool) (S : triangle) : triangle :=
 Definition has_sign (b : bool) (t : R) : Prop := if b then t <= 0 else 0 <= t.
 
 Lemma end_sound : forall b c a x s t, contains a x -> has_sign b s -> has_sign c t ->
-  exists y, contains (if eqb b c then least a else greatest a) y /\ s * (y * t) <= s * (x * t).
+  exists y, contains (if eqb b c then lower_end a else upper_end a) y /\ s * (y * t) <= s * (x * t).
 Proof.
-  intros b c a x s t h hs ht. destruct (least_sound bits a x h) as [y [hy ly]].
-  destruct (greatest_sound bits a x h) as [z [hz lz]].
+  intros b c a x s t h hs ht. destruct (lower_end_sound bits a x h) as [y [hy ly]].
+  destruct (upper_end_sound bits a x h) as [z [hz lz]].
   assert (S : forall k, eqb b c = k -> if k then 0 <= s * t else s * t <= 0).
   { intros k e. destruct b, c; cbn in e; subst k; cbn in hs, ht; nra. }
   specialize (S _ eq_refl). destruct (eqb b c); [exists y | exists z]; split; try assumption; nra.

@@ -185,7 +185,7 @@ Qed.
 
 Fixpoint lower_triangle (Y : list (list Z)) (r : rows fixed) (start : triangle) : triangle :=
   match Y, r with
-  | y :: Y', (a, d) :: r' => lower_triangle Y' r' (triangle_add start (halves y (residual a (greatest d) y)))
+  | y :: Y', (a, d) :: r' => lower_triangle Y' r' (triangle_add start (halves y (residual a (upper_end d) y)))
   | _, _ => start
   end.
 
@@ -198,7 +198,7 @@ Lemma lower_triangle_sound : forall Y i r start S v, rows_rel contains i r -> tr
 Proof.
   induction Y as [| y Y IH]; intros i r start S v h hS; [exists S; split; [exact hS | cbn; lra] |].
   destruct h as [| [a d] [b e] i r [h1 h2] h]; [exists S; split; [exact hS | cbn; lra] |]. cbn [fst snd] in *.
-  cbn [lower_triangle]. destruct (greatest_sound bits d e h2) as [g [hg le]].
+  cbn [lower_triangle]. destruct (upper_end_sound bits d e h2) as [g [hg le]].
   destruct (IH i r _ _ v h (triangle_add_sound bits _ _ _ _ hS (halves_sound y _ _ (residual_sound a b _ g y h1 hg))))
     as [T [hT q]]. exists T. split; [exact hT |]. eapply Rle_trans; [exact q |]. cbn [lower_weights map form].
   rewrite quad_tcomb, quad_outer, dot_comb. fold (lower_weights Y v).
@@ -251,7 +251,7 @@ Qed.
 Fixpoint upper_triangle (r : rows fixed) (start : triangle) : option triangle :=
   match r with
   | [] => Some start
-  | (a, d) :: r' => match eliminated ((least d :: a) :: start) with Some t => upper_triangle r' t | None => None end
+  | (a, d) :: r' => match eliminated ((lower_end d :: a) :: start) with Some t => upper_triangle r' t | None => None end
   end.
 
 (** w^T D w + 2 w . A v *)
@@ -264,8 +264,8 @@ Proof.
   intros i r start S v T h. revert start S. induction h as [| [a d] [b e] i r [h1 h2] h IH]; intros start S hS u.
   - injection u as <-. exists S. split; [exact hS |]. intros [| t w]; cbn; lra.
   - cbn [upper_triangle] in u. cbn [fst snd] in h1, h2.
-    destruct (eliminated ((least d :: a) :: start)) as [t |] eqn:el; [| discriminate].
-    destruct (least_sound bits d e h2) as [g [hg le]].
+    destruct (eliminated ((lower_end d :: a) :: start)) as [t |] eqn:el; [| discriminate].
+    destruct (lower_end_sound bits d e h2) as [g [hg le]].
     destruct (eliminated_sound bits _ _ _ _ _ _ _ el hg h1 hS) as [g0 ht].
     destruct (IH _ _ ht u) as [U [hU q]]. exists U. split; [exact hU |]. rewrite quad_schur in q by lra.
     assert (0 <= / g * dot b v ^ 2) by (apply Rmult_le_pos; [apply Rlt_le, Rinv_0_lt_compat, g0 | apply pow2_ge_0]).
