@@ -7,6 +7,7 @@ mod leaves;
 mod machines;
 mod prover;
 mod rejected;
+mod rocq;
 mod rough;
 mod slopes;
 mod statements;
