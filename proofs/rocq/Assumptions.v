@@ -147,3 +147,5 @@ Check FourSliders.certified.
 Print Assumptions FourSliders.certified.
 Check StrutsAndPlane.certified.
 Print Assumptions StrutsAndPlane.certified.
+Check kernel.Check.check_all_open.
+Print Assumptions kernel.Check.check_all_open.

@@ -23,7 +23,8 @@ mod postulate;
 const ONLY: &str = "only certified claims about slider legs, a box and transmission are exported";
 
 /// What is exported of other machines.
-const KERNEL: &str = "of machines that are not three sliders, certified claims about sliders, struts and \
+const KERNEL: &str =
+    "of machines that are not three sliders, certified claims about sliders, struts and \
      planar legs that do not turn the platform, a box, transmission and ranges of joints that are \
      lengths are exported";
 

@@ -67,7 +67,9 @@ pub(super) fn kernel(claim: &MachineClaim, proof: &Proof) -> Result<String, Expo
         names.join("; "),
         requirements.join("; ")
     );
-    out.push_str("(** The proof: a bisection tree, and what shows the requirements on its boxes. *)\n");
+    out.push_str(
+        "(** The proof: a bisection tree, and what shows the requirements on its boxes. *)\n",
+    );
     out.push_str("Definition certificate : tree :=\n");
     let mut nodes = tree.nodes.iter();
     node(&mut out, &mut nodes, 1)?;
@@ -91,7 +93,8 @@ fn units(problem: &Problem, legs: usize) -> String {
 }
 
 fn theorem(out: &mut String, tree: &Tree, units: &str, stated: &[Stated]) {
-    let place = |at: usize| format!("{}or_introl eq_refl{}", "or_intror (".repeat(at), ")".repeat(at));
+    let place =
+        |at: usize| format!("{}or_introl eq_refl{}", "or_intror (".repeat(at), ")".repeat(at));
     let uses: Vec<String> = stated
         .iter()
         .enumerate()
@@ -115,7 +118,8 @@ fn theorem(out: &mut String, tree: &Tree, units: &str, stated: &[Stated]) {
         None => "exact regular".to_owned(),
         Some((last, [])) => last.clone(),
         Some((last, others)) => {
-            let split: String = others.iter().map(|other| format!("split; [{other} |]. ")).collect();
+            let split: String =
+                others.iter().map(|other| format!("split; [{other} |]. ")).collect();
             format!("{split}{last}")
         }
     };
@@ -148,9 +152,8 @@ fn stated(claim: &MachineClaim, obligation: &Obligation) -> Result<Stated, Expor
     let Requirement { quantity, bound, .. } =
         claim.require.get(requirement).ok_or(ExportError::NotATree)?;
     let leg = obligation.leg.unwrap_or(0);
-    let joint = |relation: String| {
-        Some(format!("(exists l, nth_error m {leg} = Some l /\\ {relation})"))
-    };
+    let joint =
+        |relation: String| Some(format!("(exists l, nth_error m {leg} = Some l /\\ {relation})"));
     let (requirement, sentence) = match (quantity.as_str(), bound) {
         ("transmission", Bound::Max(b)) => {
             let b = number(b);
@@ -267,13 +270,12 @@ fn step(Step(obligation, evidence): &Step) -> Result<String, ExportError> {
 }
 
 fn multiplier(y: &Multiplier) -> String {
-    let rows: Vec<String> = y
-        .y
-        .iter()
-        .map(|row| {
-            let row: Vec<String> = row.iter().map(|y| format!("({y})")).collect();
-            format!("[{}]", row.join("; "))
-        })
-        .collect();
+    let rows: Vec<String> =
+        y.y.iter()
+            .map(|row| {
+                let row: Vec<String> = row.iter().map(|y| format!("({y})")).collect();
+                format!("[{}]", row.join("; "))
+            })
+            .collect();
     format!("{} [{}]%Z", y.places, rows.join("; "))
 }

@@ -98,7 +98,8 @@ struct Draw(u64);
 
 impl Draw {
     fn below(&mut self, n: u64) -> i64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % n) as i64
     }
 
@@ -113,7 +114,8 @@ fn operations() -> [BigInt; 2] {
     let fixed = Fixed::<BigInt>::new(10);
     let (mut draw, mut digest) = (Draw(1), Digest(BigInt::from(0)));
     for _ in 0..200 {
-        let (a, b, c) = (draw.interval(-1500, 3000), draw.interval(-1500, 3000), draw.interval(1, 2000));
+        let (a, b, c) =
+            (draw.interval(-1500, 3000), draw.interval(-1500, 3000), draw.interval(1, 2000));
         digest.add_interval(fixed.mul(&a, &b).as_ref());
         digest.add_interval(fixed.sqr(&a).as_ref());
         digest.add_interval(fixed.recip(&a).as_ref());
