@@ -28,7 +28,7 @@ Fixpoint map_steps (f : list step -> list step) (t : tree) : tree :=
   match t with Leaf b => Leaf (f b) | Split b k l u => Split (f b) k (map_steps f l) (map_steps f u) end.
 Definition map_evidence (f : evidence -> evidence) : tree -> tree := map_steps (map (fun s => (fst s, f (snd s)))).
 
-(** Y of the other sign; half of Y; nothing of Y. *)
+(** Another Y. *)
 Definition with_Y (f : Z -> Z) (e : evidence) : evidence :=
   match e with ByLower p Y => ByLower p (map (map f) Y) | e => e end.
 Definition twice (steps : list step) : list step := steps ++ steps.

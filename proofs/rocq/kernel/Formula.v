@@ -80,19 +80,6 @@ Proof.
   apply Z.eqb_eq in h; congruence.
 Qed.
 
-Fixpoint all_same (l m : list formula) : bool :=
-  match l, m with
-  | [], [] => true
-  | e :: l', f :: m' => same e f && all_same l' m'
-  | _, _ => false
-  end.
-
-Lemma all_same_sound : forall l m, all_same l m = true -> l = m.
-Proof.
-  induction l as [| e l IH]; intros [| f m] h; try discriminate; [reflexivity |].
-  apply andb_true_iff in h as [h h']. apply same_sound in h. apply IH in h'. congruence.
-Qed.
-
 (** ** Building, as formula.rs does *)
 
 Definition integer_of (e : formula) : option Z := match e with F (Integer n) => Some n | _ => None end.

@@ -66,7 +66,8 @@ Qed.
 Definition holds (s : slope) (vc v : R) : Prop :=
   contains (at_c s) vc /\ contains (range s) v /\ spans (slopes s) (v - vc).
 
-(** The range, cut by what the slopes say. *)
+(** The range, cut by what the slopes say.  Both contain f(x), so that they meet;
+    slopes from two identities may not be cut so: they are of different S. *)
 Definition tight (c r : fixed) (s : list fixed) : slope :=
   Slope c (Fixed (Z.max (lo r) (lo c - reach s)) (Z.min (hi r) (hi c + reach s))) s.
 
