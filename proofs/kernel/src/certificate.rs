@@ -1,6 +1,6 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
-use crate::claim::MachineClaim;
+use crate::claim::{MachineClaim, RegionClaim};
 use crate::number::Expression;
 use crate::test::Multiplier;
 use serde::{Deserialize, Serialize};
@@ -34,6 +34,8 @@ pub struct Certificate {
 pub enum Claim {
     /// A machine over a workspace.
     Machine(MachineClaim),
+    /// Where in a box a claim holds.
+    Region(RegionClaim),
 }
 
 /// What a certificate says of its claim.
@@ -66,7 +68,8 @@ pub struct Tree {
     pub nodes: Vec<Node>,
 }
 
-/// A node.
+/// A node. A leaf on whose path every obligation is discharged *holds*; one that says how the claim
+/// fails *fails*; any other is *open*.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Node {
@@ -76,6 +79,9 @@ pub struct Node {
     /// The coordinate along which it is halved, counted from zero; none of a leaf.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub split: Option<usize>,
+    /// Of a leaf, how the claim fails at every point of its cell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fails: Option<Failure>,
 }
 
 /// An obligation, by its number, and the evidence with which it is discharged.

@@ -1,21 +1,25 @@
 //! What a certificate has to be to be accepted.
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
-use crate::cell::{evaluate, Vertex};
+use crate::cell::{evaluate, Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
+use crate::claim::RegionClaim;
 use crate::definite::is_positive_definite;
-use crate::fixed::{Fixed, Integer};
+use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::Formula;
 use crate::formula::Values;
-use crate::input::ClaimError;
+use crate::input::{shape_error, ClaimError};
+use crate::number::Expression;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use crate::test::{at_least, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES};
-use crate::witness::{self, WitnessError};
+use crate::witness::{self, fails_throughout, WitnessError};
 use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
 use std::fmt;
 
 /// Most nodes of a tree.
@@ -58,6 +62,10 @@ pub enum Rejected {
         /// The obligation.
         obligation: usize,
     },
+    /// A leaf on which the claim does not certainly fail as it says.
+    Holds(usize),
+    /// The leaves do not have the shares that are claimed.
+    Shares,
     /// The witness shows nothing.
     Witness(WitnessError),
 }
@@ -79,6 +87,10 @@ impl fmt::Display for Rejected {
             Rejected::Open { node, obligation } => {
                 write!(f, "node {node}: obligation {obligation} is not discharged")
             }
+            Rejected::Holds(node) => {
+                write!(f, "node {node}: it does not certainly fail throughout")
+            }
+            Rejected::Shares => write!(f, "the leaves do not have the shares that are claimed"),
             Rejected::Witness(e) => write!(f, "the witness shows nothing: {e}"),
         }
     }
@@ -91,33 +103,120 @@ impl std::error::Error for Rejected {}
 /// # Errors
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
-    let Claim::Machine(claim) = &certificate.claim;
+    let (Claim::Machine(claim) | Claim::Region(RegionClaim { machine: claim, .. })) =
+        &certificate.claim;
     let problem = Problem::new(claim).map_err(Rejected::Claim)?;
-    match (certificate.verdict, &certificate.proof) {
-        (Verdict::Certified, Proof::Tree(tree)) => {
-            if !PRECISIONS.contains(&tree.precision) {
-                return Err(Rejected::Precision(tree.precision));
-            }
-            // Words give what integers of any size give, or nothing.
-            if tree.precision < 60 && tree_holds::<i64>(&problem, tree).is_ok() {
-                return Ok(());
-            }
-            tree_holds::<BigInt>(&problem, tree)
-        }
-        (Verdict::Refuted, Proof::Witness(witness)) => {
+    match (&certificate.claim, certificate.verdict, &certificate.proof) {
+        (Claim::Machine(_), Verdict::Certified, Proof::Tree(tree)) => in_words_or_any_size(
+            tree.precision,
+            || tree_holds::<i64>(&problem, tree),
+            || tree_holds::<BigInt>(&problem, tree),
+        ),
+        (Claim::Region(region), Verdict::Certified, Proof::Tree(tree)) => in_words_or_any_size(
+            tree.precision,
+            || region_holds::<i64>(&problem, region, tree),
+            || region_holds::<BigInt>(&problem, region, tree),
+        ),
+        (Claim::Machine(claim), Verdict::Refuted, Proof::Witness(witness)) => {
             witness::check(&problem, &claim.workspace, witness).map_err(Rejected::Witness)
         }
         _ => Err(Rejected::Verdict),
     }
 }
 
+/// A proof in machine words, or, where these do not do, in integers of any size: words give what
+/// those give, or nothing.
+fn in_words_or_any_size(
+    bits: u32,
+    words: impl Fn() -> Result<(), Rejected>,
+    any_size: impl Fn() -> Result<(), Rejected>,
+) -> Result<(), Rejected> {
+    if !PRECISIONS.contains(&bits) {
+        return Err(Rejected::Precision(bits));
+    }
+    if bits < 60 && words().is_ok() {
+        return Ok(());
+    }
+    any_size()
+}
+
+/// What is shown of a leaf's cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Leaf {
+    /// The claim holds at each of its points.
+    Holds,
+    /// It fails at each of them.
+    Fails,
+    /// Neither: this obligation is not discharged.
+    Open(usize),
+}
+
+/// Every leaf of a tree holds: so does the claim, by the lemma of [`walk`].
+fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
+    walk::<Z>(problem, tree, |node, leaf, _| match leaf {
+        Leaf::Holds => Ok(()),
+        Leaf::Open(obligation) => Err(Rejected::Open { node, obligation }),
+        Leaf::Fails => Err(Rejected::Open { node, obligation: 0 }),
+    })
+}
+
+/// **Lemma (region).** Let the least and greatest corners of the root, by a unit each, be moved
+/// inward: what is left of the root is within the box, and the box within the root. So the share of
+/// the box in cells that hold is at least the volume of what is left of these over that of the root;
+/// so is the share of those that fail. *Proof.* Corners are rounded outward by less than a unit, and
+/// cells overlap in faces only. ∎
+fn region_holds<Z: Integer>(
+    problem: &Problem,
+    region: &RegionClaim,
+    tree: &Tree,
+) -> Result<(), Rejected> {
+    let root: Cell<BigInt> = problem.root(tree.precision).map_err(Rejected::Claim)?;
+    let whole = root.0.iter().map(|edge| &edge.hi - &edge.lo).product::<BigInt>();
+    let is_box = problem.inside.is_none() && problem.cube_kappa.is_none();
+    if !is_box || !whole.is_positive() {
+        return Err(Rejected::Claim(shape_error("workspace", "a box that has a volume")));
+    }
+    let mut found = [BigInt::zero(), BigInt::zero()];
+    walk::<Z>(problem, tree, |_, leaf, cell| {
+        let left = |(edge, root): (&Interval<Z>, &Interval<BigInt>)| {
+            let (lo, hi) = (edge.lo.to_big().max(&root.lo + 1), edge.hi.to_big().min(&root.hi - 1));
+            (hi - lo).max(BigInt::zero())
+        };
+        let which = match leaf {
+            Leaf::Holds => 0,
+            Leaf::Fails => 1,
+            Leaf::Open(_) => return Ok(()),
+        };
+        found[which] += cell.0.iter().zip(&root.0).map(left).product::<BigInt>();
+        Ok(())
+    })?;
+    let whole = BigRational::from(whole);
+    let reaches = |share: &Expression, found: BigInt| {
+        let share = share.rational().filter(|share| !share.is_negative());
+        share.is_some_and(|share| share * &whole <= BigRational::from(found))
+    };
+    let [inner, outer] = found;
+    if reaches(&region.inner, inner) && reaches(&region.outer, outer) {
+        Ok(())
+    } else {
+        Err(Rejected::Shares)
+    }
+}
+
+/// Walks a tree, and says of each leaf what is shown of its cell.
+///
 /// **Lemma (tree).** If every step shows its obligation on its node's cell, and on the path to each
 /// leaf every obligation is discharged, each holds at every point of the root's cell that is in the
 /// workspace. *Proof.* The halves of a cell cover it, so the leaves cover the root; what is shown of
 /// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward.
-fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
+fn walk<Z: Integer>(
+    problem: &Problem,
+    tree: &Tree,
+    mut at_leaf: impl FnMut(usize, Leaf, &Cell<Z>) -> Result<(), Rejected>,
+) -> Result<(), Rejected> {
     let bits = tree.precision;
-    let steps = tree.nodes.iter().filter(|node| !node.by.is_empty()).count();
+    let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
+    let steps = tree.nodes.iter().filter(is_evaluated).count();
     let each = problem.tape.ops().len() * (1 + bits as usize / 64);
     if tree.nodes.len() > MOST_NODES || steps.saturating_mul(each) > MOST_WORK {
         return Err(Rejected::Work);
@@ -134,12 +233,24 @@ fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected
             let place = Place { edges: &edges, touches: cell.touches(&root) };
             checker.discharge(&place, (at, node), &mut open)?;
         }
-        if let Some(k) = node.split {
-            let [lower, upper] = cell.halves(k).ok_or(Rejected::Shape(at))?;
-            waiting.push((upper, open.clone()));
-            waiting.push((lower, open));
-        } else if let Some(obligation) = open.iter().position(|&open| open) {
-            return Err(Rejected::Open { node: at, obligation });
+        let first_open = open.iter().position(|&open| open);
+        match (node.split, &node.fails, first_open) {
+            (Some(k), None, _) => {
+                let [lower, upper] = cell.halves(k).ok_or(Rejected::Shape(at))?;
+                waiting.push((upper, open.clone()));
+                waiting.push((lower, open));
+            }
+            (None, Some(failure), _) => {
+                let edges = cell.edges().ok_or(Rejected::Shape(at))?;
+                let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
+                if !fails_throughout(problem, slopes, checker.evaluate(&edges), failure) {
+                    return Err(Rejected::Holds(at));
+                }
+                at_leaf(at, Leaf::Fails, &cell)?;
+            }
+            (None, None, Some(obligation)) => at_leaf(at, Leaf::Open(obligation), &cell)?,
+            (None, None, None) => at_leaf(at, Leaf::Holds, &cell)?,
+            (Some(_), Some(_), _) => return Err(Rejected::Shape(at)),
         }
     }
     if waiting.is_empty() {

@@ -20,6 +20,8 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 pub trait Integer: Clone + Ord {
     /// This integer.
     fn of(n: &BigInt) -> Option<Self>;
+    /// As an integer of any size.
+    fn to_big(&self) -> BigInt;
     /// `n 2^bits`.
     fn scaled(n: i64, bits: u32) -> Option<Self>;
     /// `self + other`.
@@ -52,6 +54,10 @@ fn moderate(x: BigInt) -> Option<BigInt> {
 impl Integer for BigInt {
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())
+    }
+
+    fn to_big(&self) -> BigInt {
+        self.clone()
     }
 
     fn scaled(n: i64, bits: u32) -> Option<Self> {
@@ -111,6 +117,10 @@ impl Integer for BigInt {
 impl Integer for i64 {
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()
+    }
+
+    fn to_big(&self) -> BigInt {
+        BigInt::from(*self)
     }
 
     fn scaled(n: i64, bits: u32) -> Option<Self> {

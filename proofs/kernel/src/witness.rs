@@ -3,12 +3,13 @@
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
-use crate::fixed::{Fixed, Interval};
+use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Op, Values};
 use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::slope::{Slope, Slopes};
 use num_bigint::BigInt;
 use std::fmt;
 
@@ -47,11 +48,57 @@ impl fmt::Display for WitnessError {
 /// Numbers at a point.
 type Number = Interval<BigInt>;
 
-/// A machine's formulas at a point.
-struct At<'a> {
+/// Signs that are those of all numbers that are enclosed.
+trait Signs: Arithmetic {
+    fn is_positive(&self, x: &Self::Number) -> bool;
+    fn is_nonnegative(&self, x: &Self::Number) -> bool;
+}
+
+impl<Z: Integer> Signs for Fixed<Z> {
+    fn is_positive(&self, x: &Interval<Z>) -> bool {
+        Enclosure::is_positive(self, x)
+    }
+
+    fn is_nonnegative(&self, x: &Interval<Z>) -> bool {
+        Enclosure::is_nonnegative(self, x)
+    }
+}
+
+impl<E: Enclosure> Signs for Slopes<'_, E> {
+    fn is_positive(&self, x: &Slope<E::Number>) -> bool {
+        self.arithmetic.is_positive(&x.range)
+    }
+
+    fn is_nonnegative(&self, x: &Slope<E::Number>) -> bool {
+        self.arithmetic.is_nonnegative(&x.range)
+    }
+}
+
+/// A machine's formulas at a point, or over a cell.
+struct At<'a, A: Arithmetic> {
     problem: &'a Problem,
-    arithmetic: Fixed<BigInt>,
-    values: Values<Number>,
+    arithmetic: A,
+    values: Values<A::Number>,
+}
+
+/// Whether a claim fails in this way at every point of a cell, for every machine: the formulas are
+/// enclosed over the cell, and what is certain of an enclosure is true of all that it holds.
+pub(crate) fn fails_throughout<E: Enclosure>(
+    problem: &Problem,
+    slopes: Slopes<'_, E>,
+    values: Values<Slope<E::Number>>,
+    failure: &Failure,
+) -> bool {
+    let at = At { problem, arithmetic: slopes, values };
+    match failure {
+        Failure::Reach => at.is_undefined(),
+        Failure::Obligation(number, directions) => problem
+            .obligations
+            .get(*number)
+            .is_some_and(|obligation| at.fails(obligation.test, directions) == Ok(true)),
+        // Of two points.
+        Failure::Singular(_) => false,
+    }
 }
 
 /// Accepts a witness: at a point of the workspace, for a machine of the claim, an obligation fails.
@@ -113,7 +160,7 @@ fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> b
     in_box && matches!(sign(&rest), Some([_, true]))
 }
 
-impl<'a> At<'a> {
+impl<'a> At<'a, Fixed<BigInt>> {
     fn new(
         problem: &'a Problem,
         workspace: &Workspace,
@@ -135,8 +182,10 @@ impl<'a> At<'a> {
         });
         Ok(At { problem, arithmetic, values })
     }
+}
 
-    fn is_positive(&self, x: Option<Number>) -> bool {
+impl<A: Signs> At<'_, A> {
+    fn is_positive(&self, x: Option<A::Number>) -> bool {
         x.is_some_and(|x| self.arithmetic.is_positive(&x))
     }
 
@@ -144,7 +193,7 @@ impl<'a> At<'a> {
     fn is_undefined(&self) -> bool {
         let e = &self.arithmetic;
         let at_most_zero =
-            |x: &Number| e.neg(x).is_some_and(|negative| e.is_nonnegative(&negative));
+            |x: &A::Number| e.neg(x).is_some_and(|negative| e.is_nonnegative(&negative));
         self.problem.tape.ops().iter().any(|op| match op {
             Op::Sqrt(radicand) => self.values.of(*radicand).is_some_and(at_most_zero),
             Op::Div(_, divisor) => self
@@ -156,12 +205,12 @@ impl<'a> At<'a> {
     }
 
     /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
-    fn stretched(&self, v: &[i64]) -> Option<[Number; 2]> {
+    fn stretched(&self, v: &[i64]) -> Option<[A::Number; 2]> {
         let e = &self.arithmetic;
         if v.len() != self.problem.dimension() || v.iter().all(|&v| v == 0) {
             return None;
         }
-        let v: Vec<Number> = v.iter().map(|&v| e.integer(v)).collect::<Option<_>>()?;
+        let v: Vec<A::Number> = v.iter().map(|&v| e.integer(v)).collect::<Option<_>>()?;
         let zero = e.integer(0)?;
         let length = v.iter().try_fold(zero.clone(), |sum, v| e.add(&sum, &e.sqr(v)?))?;
         let image = self.problem.legs.iter().try_fold(zero.clone(), |sum, leg| {
@@ -215,10 +264,10 @@ impl<'a> At<'a> {
     }
 
     /// `det M`, of as many rows as coordinates.
-    fn determinant(&self) -> Option<Number> {
+    fn determinant(&self) -> Option<A::Number> {
         let legs = &self.problem.legs;
         let row = |a: &Vec<Formula>| a.iter().map(|&a| self.values.of(a).cloned()).collect();
-        let rows: Vec<Vec<Number>> =
+        let rows: Vec<Vec<A::Number>> =
             legs.iter().map(|leg| row(&leg.divided.a)).collect::<Option<_>>()?;
         (rows.len() == self.problem.dimension()).then(|| determinant(&self.arithmetic, &rows))?
     }
@@ -239,16 +288,16 @@ impl<'a> At<'a> {
 }
 
 /// By the first row.
-fn determinant(e: &Fixed<BigInt>, rows: &[Vec<Number>]) -> Option<Number> {
+fn determinant<A: Arithmetic>(e: &A, rows: &[Vec<A::Number>]) -> Option<A::Number> {
     let Some((first, below)) = rows.split_first() else { return e.integer(1) };
     let mut sum = e.integer(0)?;
     for (j, a) in first.iter().enumerate() {
-        let without = |row: &Vec<Number>| {
+        let without = |row: &Vec<A::Number>| {
             let mut row = row.clone();
             row.remove(j);
             row
         };
-        let minor: Vec<Vec<Number>> = below.iter().map(without).collect();
+        let minor: Vec<Vec<A::Number>> = below.iter().map(without).collect();
         let term = e.mul(a, &determinant(e, &minor)?)?;
         sum = if j % 2 == 0 { e.add(&sum, &term)? } else { e.sub(&sum, &term)? };
     }

@@ -6,6 +6,7 @@ mod certificates;
 mod leaves;
 mod machines;
 mod prover;
+mod regions;
 mod rejected;
 mod rough;
 mod slopes;

@@ -219,7 +219,7 @@ impl<'a> Prover<'a> {
             let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
             let over = Over { slopes, values: &values, inside: None };
             if self.problem.inside.is_some() && self.checker.is_outside(&over, &place) {
-                nodes.push(Node { by: vec![Step(0, Evidence::Outside)], split: None });
+                nodes.push(Node { by: vec![Step(0, Evidence::Outside)], ..Node::default() });
                 continue;
             }
             let mut node = Node::default();

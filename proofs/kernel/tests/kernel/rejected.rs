@@ -198,7 +198,9 @@ fn proofs_that_show_less_than_they_say() {
     // A bound that is false: psi reaches 1.3838.
     let mut false_claim = good.clone();
     let text = delta(&[psi("min", "0.516"), psi("max", "1.38")].join(","));
-    let orthocert_kernel::certificate::Claim::Machine(machine) = &mut false_claim.claim;
+    let orthocert_kernel::certificate::Claim::Machine(machine) = &mut false_claim.claim else {
+        panic!("a machine")
+    };
     *machine = claim(&text);
     assert!(matches!(check(&false_claim), Err(Rejected::Step { obligation: 0, .. })));
     assert!(certify(&claim(&text), 3_000).is_none());
@@ -311,7 +313,9 @@ fn the_cubes_upper_bound_is_no_more_than_the_papers() {
     };
     let mut certificate = certified(&text("1/2"));
     for least in ["100", "1.9", "0.500001"] {
-        let orthocert_kernel::certificate::Claim::Machine(machine) = &mut certificate.claim;
+        let orthocert_kernel::certificate::Claim::Machine(machine) = &mut certificate.claim else {
+            panic!("a machine")
+        };
         *machine = claim(&text(least));
         assert!(check(&certificate).is_err(), "{least}");
     }

@@ -13,7 +13,7 @@ use orthocert_kernel::statement::{counterexample, formulas, statement};
 const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#;
 
 fn words(certificate: &Certificate) -> String {
-    let Claim::Machine(claim) = &certificate.claim;
+    let Claim::Machine(claim) = &certificate.claim else { panic!("a machine") };
     let words = statement(claim, certificate.verdict).expect("words");
     match &certificate.proof {
         Proof::Tree(_) => words,
