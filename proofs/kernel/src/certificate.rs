@@ -1,6 +1,7 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
 use crate::claim::{MachineClaim, RegionClaim};
+use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
 use crate::test::Multiplier;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,8 @@ pub enum Claim {
     Machine(MachineClaim),
     /// Where in a box a claim holds.
     Region(RegionClaim),
+    /// No cube of some side fits, wherever its centre is in a box.
+    NoCube(NoCubeClaim),
 }
 
 /// What a certificate says of its claim.
@@ -82,6 +85,9 @@ pub struct Node {
     /// Of a leaf, how the claim fails at every point of its cell.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fails: Option<Failure>,
+    /// Of a leaf that fails in a claim of no cube, where: its cell is moved by so much.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<i64>,
 }
 
 /// An obligation, by its number, and the evidence with which it is discharged.
@@ -165,6 +171,9 @@ pub enum Failure {
     Reach,
     /// The obligation of this number; of singular values, with directions.
     Obligation(usize, Vec<Vec<i64>>),
+    /// Of an obligation `sigma_max(M) <= k`, by its number: the row of `M` of this leg, counted from
+    /// zero, is longer, or the leg does not reach.
+    Row(usize, usize),
     /// `det M` has the opposite sign at this point.
     Singular(Vec<Expression>),
 }

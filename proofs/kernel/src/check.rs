@@ -5,12 +5,13 @@ use crate::cell::{evaluate, Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
-use crate::claim::RegionClaim;
+use crate::claim::{MachineClaim, RegionClaim};
 use crate::definite::is_positive_definite;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::Formula;
 use crate::formula::Values;
 use crate::input::{shape_error, ClaimError};
+use crate::no_cube;
 use crate::number::Expression;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
@@ -103,22 +104,34 @@ impl std::error::Error for Rejected {}
 /// # Errors
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
-    let (Claim::Machine(claim) | Claim::Region(RegionClaim { machine: claim, .. })) =
-        &certificate.claim;
-    let problem = Problem::new(claim).map_err(Rejected::Claim)?;
+    let compiled = |claim: &MachineClaim| Problem::new(claim).map_err(Rejected::Claim);
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
-        (Claim::Machine(_), Verdict::Certified, Proof::Tree(tree)) => in_words_or_any_size(
-            tree.precision,
-            || tree_holds::<i64>(&problem, tree),
-            || tree_holds::<BigInt>(&problem, tree),
-        ),
-        (Claim::Region(region), Verdict::Certified, Proof::Tree(tree)) => in_words_or_any_size(
-            tree.precision,
-            || region_holds::<i64>(&problem, region, tree),
-            || region_holds::<BigInt>(&problem, region, tree),
-        ),
+        (Claim::Machine(claim), Verdict::Certified, Proof::Tree(tree)) => {
+            let problem = compiled(claim)?;
+            in_words_or_any_size(
+                tree.precision,
+                || tree_holds::<i64>(&problem, tree),
+                || tree_holds::<BigInt>(&problem, tree),
+            )
+        }
+        (Claim::Region(region), Verdict::Certified, Proof::Tree(tree)) => {
+            let problem = compiled(&region.machine)?;
+            in_words_or_any_size(
+                tree.precision,
+                || region_holds::<i64>(&problem, region, tree),
+                || region_holds::<BigInt>(&problem, region, tree),
+            )
+        }
+        (Claim::NoCube(claim), Verdict::Certified, Proof::Tree(tree)) => {
+            let problem = compiled(&claim.machine)?;
+            in_words_or_any_size(
+                tree.precision,
+                || no_cube::holds::<i64>(&problem, claim, tree),
+                || no_cube::holds::<BigInt>(&problem, claim, tree),
+            )
+        }
         (Claim::Machine(claim), Verdict::Refuted, Proof::Witness(witness)) => {
-            witness::check(&problem, &claim.workspace, witness).map_err(Rejected::Witness)
+            witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)
         }
         _ => Err(Rejected::Verdict),
     }
@@ -126,7 +139,7 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
 
 /// A proof in machine words, or, where these do not do, in integers of any size: words give what
 /// those give, or nothing.
-fn in_words_or_any_size(
+pub(crate) fn in_words_or_any_size(
     bits: u32,
     words: impl Fn() -> Result<(), Rejected>,
     any_size: impl Fn() -> Result<(), Rejected>,
@@ -142,7 +155,7 @@ fn in_words_or_any_size(
 
 /// What is shown of a leaf's cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Leaf {
+pub(crate) enum Leaf {
     /// The claim holds at each of its points.
     Holds,
     /// It fails at each of them.
@@ -153,11 +166,16 @@ enum Leaf {
 
 /// Every leaf of a tree holds: so does the claim, by the lemma of [`walk`].
 fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
-    walk::<Z>(problem, tree, |node, leaf, _| match leaf {
+    walk::<Z>(problem, tree, None, |node, leaf, _| match leaf {
         Leaf::Holds => Ok(()),
         Leaf::Open(obligation) => Err(Rejected::Open { node, obligation }),
         Leaf::Fails => Err(Rejected::Open { node, obligation: 0 }),
     })
+}
+
+/// Whether the workspace is a box.
+pub(crate) fn is_box(problem: &Problem) -> bool {
+    problem.inside.is_none() && problem.cube_kappa.is_none()
 }
 
 /// **Lemma (region).** Let the least and greatest corners of the root, by a unit each, be moved
@@ -172,12 +190,11 @@ fn region_holds<Z: Integer>(
 ) -> Result<(), Rejected> {
     let root: Cell<BigInt> = problem.root(tree.precision).map_err(Rejected::Claim)?;
     let whole = root.0.iter().map(|edge| &edge.hi - &edge.lo).product::<BigInt>();
-    let is_box = problem.inside.is_none() && problem.cube_kappa.is_none();
-    if !is_box || !whole.is_positive() {
+    if !is_box(problem) || !whole.is_positive() {
         return Err(Rejected::Claim(shape_error("workspace", "a box that has a volume")));
     }
     let mut found = [BigInt::zero(), BigInt::zero()];
-    walk::<Z>(problem, tree, |_, leaf, cell| {
+    walk::<Z>(problem, tree, None, |_, leaf, cell| {
         let left = |(edge, root): (&Interval<Z>, &Interval<BigInt>)| {
             let (lo, hi) = (edge.lo.to_big().max(&root.lo + 1), edge.hi.to_big().min(&root.hi - 1));
             (hi - lo).max(BigInt::zero())
@@ -209,9 +226,12 @@ fn region_holds<Z: Integer>(
 /// leaf every obligation is discharged, each holds at every point of the root's cell that is in the
 /// workspace. *Proof.* The halves of a cell cover it, so the leaves cover the root; what is shown of
 /// a cell holds on its parts. ∎ The root's cell holds the workspace's box, rounded outward.
-fn walk<Z: Integer>(
+///
+/// With a unit of offsets, a leaf that fails does so at the points of its cell moved by its offset.
+pub(crate) fn walk<Z: Integer>(
     problem: &Problem,
     tree: &Tree,
+    unit: Option<&Interval<Z>>,
     mut at_leaf: impl FnMut(usize, Leaf, &Cell<Z>) -> Result<(), Rejected>,
 ) -> Result<(), Rejected> {
     let bits = tree.precision;
@@ -225,39 +245,62 @@ fn walk<Z: Integer>(
     let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
     let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits));
     let root = problem.root(bits).map_err(Rejected::Claim)?;
-    let mut waiting = vec![(root.clone(), vec![true; problem.obligations.len()])];
-    for (at, node) in tree.nodes.iter().enumerate() {
-        let (cell, mut open) = waiting.pop().ok_or(Rejected::Shape(at))?;
+    let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
+        let edges = cell.edges().ok_or(Rejected::Shape(at))?;
         if !node.by.is_empty() {
-            let edges = cell.edges().ok_or(Rejected::Shape(at))?;
             let place = Place { edges: &edges, touches: cell.touches(&root) };
-            checker.discharge(&place, (at, node), &mut open)?;
+            checker.discharge(&place, (at, node), open)?;
         }
-        let first_open = open.iter().position(|&open| open);
-        match (node.split, &node.fails, first_open) {
-            (Some(k), None, _) => {
+        if let Some(failure) = &node.fails {
+            let edges = match unit {
+                None => edges,
+                Some(unit) => {
+                    no_cube::moved(&arithmetic, edges, &node.at, unit).ok_or(Rejected::Holds(at))?
+                }
+            };
+            let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
+            if !fails_throughout(problem, slopes, checker.evaluate(&edges), failure) {
+                return Err(Rejected::Holds(at));
+            }
+        }
+        let is_moved = unit.is_some() && node.fails.is_some();
+        (is_moved || node.at.is_empty()).then_some(()).ok_or(Rejected::Shape(at))
+    };
+    let mut nodes = tree.nodes.iter().enumerate();
+    bisected(&mut nodes, root.clone(), problem.obligations.len(), step, &mut at_leaf)?;
+    nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
+}
+
+/// The tree of `nodes` over a cell, in preorder: `step` discharges obligations, or shows that a leaf
+/// fails.
+pub(crate) fn bisected<'a, Z: Integer>(
+    nodes: &mut impl Iterator<Item = (usize, &'a Node)>,
+    root: Cell<Z>,
+    obligations: usize,
+    step: impl Fn(usize, &Node, &Cell<Z>, &mut [bool]) -> Result<(), Rejected>,
+    at_leaf: &mut impl FnMut(usize, Leaf, &Cell<Z>) -> Result<(), Rejected>,
+) -> Result<(), Rejected> {
+    let mut waiting = vec![(root, vec![true; obligations])];
+    let mut last = 0;
+    while let Some((cell, mut open)) = waiting.pop() {
+        let (at, node) = nodes.next().ok_or(Rejected::Shape(last + 1))?;
+        last = at;
+        if node.split.is_some() && node.fails.is_some() {
+            return Err(Rejected::Shape(at));
+        }
+        step(at, node, &cell, &mut open)?;
+        match (node.split, &node.fails, open.iter().position(|&open| open)) {
+            (Some(k), _, _) => {
                 let [lower, upper] = cell.halves(k).ok_or(Rejected::Shape(at))?;
                 waiting.push((upper, open.clone()));
                 waiting.push((lower, open));
             }
-            (None, Some(failure), _) => {
-                let edges = cell.edges().ok_or(Rejected::Shape(at))?;
-                let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
-                if !fails_throughout(problem, slopes, checker.evaluate(&edges), failure) {
-                    return Err(Rejected::Holds(at));
-                }
-                at_leaf(at, Leaf::Fails, &cell)?;
-            }
+            (None, Some(_), _) => at_leaf(at, Leaf::Fails, &cell)?,
             (None, None, Some(obligation)) => at_leaf(at, Leaf::Open(obligation), &cell)?,
             (None, None, None) => at_leaf(at, Leaf::Holds, &cell)?,
-            (Some(_), Some(_), _) => return Err(Rejected::Shape(at)),
         }
     }
-    if waiting.is_empty() {
-        Ok(())
-    } else {
-        Err(Rejected::Shape(tree.nodes.len()))
-    }
+    Ok(())
 }
 
 /// Checks steps; in another arithmetic than [`Fixed`], proposes them.

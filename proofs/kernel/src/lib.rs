@@ -18,6 +18,7 @@
 //! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
+//! | [`no_cube`]    | no cube of some side fits                                        |
 //! | [`witness`]    | refutations                                                      |
 //! | [`statement`]  | a claim in words, and its formulas                               |
 
@@ -35,6 +36,7 @@ pub mod fixed;
 pub mod formula;
 pub mod input;
 pub mod machine;
+pub mod no_cube;
 pub mod number;
 pub mod problem;
 pub mod quantity;

@@ -32,7 +32,10 @@ pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::
 pub fn region(claim: &RegionClaim) -> Result<String, fmt::Error> {
     let RegionClaim { machine: claim, inner, outer } = claim;
     let mut out = String::new();
-    writeln!(out, "Let a point be good if all of the following holds, and bad if some of it fails")?;
+    writeln!(
+        out,
+        "Let a point be good if all of the following holds, and bad if some of it fails"
+    )?;
     writeln!(out, "whichever of the machines it is.")?;
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
@@ -40,6 +43,14 @@ pub fn region(claim: &RegionClaim) -> Result<String, fmt::Error> {
     writeln!(out, "It is proved: of the box's volume, the good points have at least the share")?;
     writeln!(out, "{inner}, and the bad points at least the share {outer}.")?;
     Ok(out)
+}
+
+/// "from (..) to (..)", of a box.
+pub(crate) fn box_of(claim: &MachineClaim) -> String {
+    match &claim.workspace {
+        Workspace::Box { min, max } => format!("from ({}) to ({})", list(min), list(max)),
+        Workspace::Cylinder { .. } | Workspace::Cube { .. } => String::new(),
+    }
 }
 
 fn list<T: Display>(items: &[T]) -> String {
@@ -56,7 +67,7 @@ impl Display for Quantity {
     }
 }
 
-fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+pub(crate) fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     match &claim.mechanism {
         Mechanism::Orthoglide { offset } => {
             writeln!(
@@ -149,7 +160,7 @@ fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     }
 }
 
-fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+pub(crate) fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     writeln!(out, "every formula is defined, every leg reaches without a serial singularity,")?;
     writeln!(out, "there is no parallel singularity (M has full column rank), and")?;
     for Requirement { quantity, leg, given, bound } in &claim.require {
@@ -188,7 +199,7 @@ pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String,
     }
     match &witness.fails {
         Failure::Reach => writeln!(out, "where a leg does not reach, or is serially singular.")?,
-        Failure::Obligation(number, _) => {
+        Failure::Obligation(number, _) | Failure::Row(number, _) => {
             let problem = Problem::new(claim).ok();
             let requirement = problem
                 .and_then(|problem| problem.obligations.get(*number)?.requirement)

@@ -96,6 +96,7 @@ pub(crate) fn fails_throughout<E: Enclosure>(
             .obligations
             .get(*number)
             .is_some_and(|obligation| at.fails(obligation.test, directions) == Ok(true)),
+        Failure::Row(number, leg) => at.exceeds(*number, *leg),
         // Of two points.
         Failure::Singular(_) => false,
     }
@@ -132,6 +133,7 @@ pub fn check(
             let test = problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?.test;
             at.fails(test, directions)?
         }
+        Failure::Row(number, leg) => at.exceeds(*number, *leg),
         Failure::Singular(other) => {
             let other = At::new(problem, workspace, witness, other)?;
             at.opposite(&other)
@@ -221,6 +223,28 @@ impl<A: Signs> At<'_, A> {
             e.add(&sum, &e.div(&e.sqr(&product)?, d)?)
         })?;
         Some([length, image])
+    }
+
+    /// **Lemma (row).** If `|A_i|^2 > k^2 D_i`, then `sigma_max(M) > k`, or leg `i` does not reach
+    /// without a serial singularity. *Proof.* If it does, `D_i > 0`, and
+    /// `sigma_max(M) >= |M^T e_i| = |A_i|/sqrt(D_i) > k`. ∎ Of a leg with a length, `|A_i|` is that, and
+    /// defined where `A_i` is not.
+    fn exceeds(&self, number: usize, leg: usize) -> bool {
+        let e = &self.arithmetic;
+        let rest = || {
+            let obligation = self.problem.obligations.get(number)?;
+            let Test::SigmaMax(k_squared) = obligation.test else { return None };
+            let leg = self.problem.legs.get(leg)?;
+            let square =
+                match leg.length {
+                    Some(length) => e.sqr(self.values.of(length)?)?,
+                    None => leg.row.a.iter().try_fold(e.integer(0)?, |sum, &a| {
+                        e.add(&sum, &e.sqr(self.values.of(a)?)?)
+                    })?,
+                };
+            e.sub(&square, &e.mul(self.values.of(k_squared)?, self.values.of(leg.row.d)?)?)
+        };
+        self.is_positive(rest())
     }
 
     fn fails(&self, test: Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {

@@ -5,6 +5,7 @@ mod arithmetic;
 mod certificates;
 mod leaves;
 mod machines;
+mod no_cube;
 mod prover;
 mod regions;
 mod rejected;
