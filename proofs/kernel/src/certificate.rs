@@ -3,6 +3,7 @@
 use crate::claim::{MachineClaim, RegionClaim};
 use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
+use crate::postulate::PostulateClaim;
 use crate::test::Multiplier;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +40,8 @@ pub enum Claim {
     Region(RegionClaim),
     /// No cube of some side fits, wherever its centre is in a box.
     NoCube(NoCubeClaim),
+    /// The Q1/Q2 postulate.
+    Postulate(PostulateClaim),
 }
 
 /// What a certificate says of its claim.
@@ -114,6 +117,8 @@ pub enum Evidence {
     Cube,
     /// The lower bound about a tight corner of it.
     Corner(Corner),
+    /// The cell's mirror image is shown: of the postulate.
+    Mirror,
     /// No point of the workspace is in the cell: every obligation at once.
     Outside,
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
@@ -132,6 +137,7 @@ impl Evidence {
             Evidence::Negative => "negative",
             Evidence::Cube => "cube",
             Evidence::Corner(_) => "corner",
+            Evidence::Mirror => "mirror",
             Evidence::Outside => "outside",
             Evidence::Inside(..) => "inside",
         }

@@ -13,6 +13,7 @@ use crate::formula::Values;
 use crate::input::{shape_error, ClaimError};
 use crate::no_cube;
 use crate::number::Expression;
+use crate::postulate;
 use crate::problem::{Inside, Problem};
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
@@ -129,6 +130,9 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
                 || no_cube::holds::<i64>(&problem, claim, tree),
                 || no_cube::holds::<BigInt>(&problem, claim, tree),
             )
+        }
+        (Claim::Postulate(claim), Verdict::Certified, Proof::Tree(tree)) => {
+            postulate::check(claim, tree)
         }
         (Claim::Machine(claim), Verdict::Refuted, Proof::Witness(witness)) => {
             witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)

@@ -19,6 +19,7 @@
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
 //! | [`no_cube`]    | no cube of some side fits                                        |
+//! | [`postulate`]  | the Q1/Q2 postulate                                              |
 //! | [`witness`]    | refutations                                                      |
 //! | [`statement`]  | a claim in words, and its formulas                               |
 
@@ -38,6 +39,7 @@ pub mod input;
 pub mod machine;
 pub mod no_cube;
 pub mod number;
+pub mod postulate;
 pub mod problem;
 pub mod quantity;
 pub mod slope;

@@ -6,6 +6,7 @@ mod certificates;
 mod leaves;
 mod machines;
 mod no_cube;
+mod postulate;
 mod prover;
 mod regions;
 mod rejected;
