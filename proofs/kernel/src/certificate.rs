@@ -1,5 +1,6 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
+use crate::atlas::{AtlasCell, AtlasClaim};
 use crate::claim::{MachineClaim, RegionClaim};
 use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
@@ -42,6 +43,8 @@ pub enum Claim {
     NoCube(NoCubeClaim),
     /// The Q1/Q2 postulate.
     Postulate(PostulateClaim),
+    /// A machine over a box of parameters, in part.
+    Atlas(AtlasClaim),
 }
 
 /// What a certificate says of its claim.
@@ -62,6 +65,8 @@ pub enum Proof {
     Tree(Tree),
     /// For "refuted".
     Witness(Witness),
+    /// For an atlas.
+    Atlas(Vec<AtlasCell>),
 }
 
 /// A bisection tree in preorder: a node, then its lower half, then its upper half.

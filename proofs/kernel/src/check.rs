@@ -1,6 +1,7 @@
 //! What a certificate has to be to be accepted.
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
+use crate::atlas;
 use crate::cell::{evaluate, Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Corner, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
@@ -68,6 +69,8 @@ pub enum Rejected {
     Holds(usize),
     /// The leaves do not have the shares that are claimed.
     Shares,
+    /// Of an atlas, a cell, counted from zero, and why it is not as it says.
+    Cell(usize, Box<Rejected>),
     /// The witness shows nothing.
     Witness(WitnessError),
 }
@@ -93,6 +96,7 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node}: it does not certainly fail throughout")
             }
             Rejected::Shares => write!(f, "the leaves do not have the shares that are claimed"),
+            Rejected::Cell(cell, why) => write!(f, "cell {cell}: {why}"),
             Rejected::Witness(e) => write!(f, "the witness shows nothing: {e}"),
         }
     }
@@ -134,6 +138,10 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
         (Claim::Postulate(claim), Verdict::Certified, Proof::Tree(tree)) => {
             postulate::check(claim, tree)
         }
+        (Claim::Atlas(claim), Verdict::Certified, Proof::Atlas(cells)) => {
+            let bytes = certificate.to_text().map_or(0, |text| text.len());
+            atlas::check(claim, cells, bytes)
+        }
         (Claim::Machine(claim), Verdict::Refuted, Proof::Witness(witness)) => {
             witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)
         }
@@ -169,7 +177,7 @@ pub(crate) enum Leaf {
 }
 
 /// Every leaf of a tree holds: so does the claim, by the lemma of [`walk`].
-fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
+pub(crate) fn tree_holds<Z: Integer>(problem: &Problem, tree: &Tree) -> Result<(), Rejected> {
     walk::<Z>(problem, tree, None, |node, leaf, _| match leaf {
         Leaf::Holds => Ok(()),
         Leaf::Open(obligation) => Err(Rejected::Open { node, obligation }),

@@ -206,7 +206,9 @@ fn compiled(
     expression: &Expression,
 ) -> Result<Formula, ClaimError> {
     Ok(match expression {
-        Expression::Literal { .. } => builder.number("a formula's number", expression, 0),
+        Expression::Literal { .. } | Expression::Varying(_) => {
+            builder.number("a formula's number", expression, 0)
+        }
         Expression::Name(name) => {
             *names.get(name.as_str()).ok_or_else(|| shape_error(name, "a name given before"))?
         }

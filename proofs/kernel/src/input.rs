@@ -5,6 +5,7 @@ use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::{Expression, Operator};
 use crate::trig::{cos_sin, pi};
+use crate::vary;
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::fmt;
@@ -77,13 +78,22 @@ fn nameless(_: &str) -> Option<Interval<BigInt>> {
     None
 }
 
+/// Encloses a number with `bits` fractional bits, for every value of its names.
+fn of_all(number: &Expression, bits: u32) -> Option<Interval<BigInt>> {
+    if number.varies() {
+        vary::enclose(number, bits)
+    } else {
+        number.enclose(&Fixed::new(bits), &nameless)
+    }
+}
+
 /// Encloses a number with `bits` fractional bits, after division by `2^scale`.
 ///
 /// It is evaluated with enough bits for 64 to be left after the division, which rounds outward.
 pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
     let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
     let working = bits.checked_add(guard)?;
-    let x = number.enclose(&Fixed::new(working), &nameless)?;
+    let x = of_all(number, working)?;
     // x / 2^working / 2^scale 2^bits = x / 2^(guard + scale), with guard + scale >= 64.
     let places = i64::from(guard) + scale;
     Some(Interval { lo: x.lo >> places, hi: -(-x.hi >> places) })
@@ -135,7 +145,7 @@ pub(crate) fn sign(x: &Expression) -> Option<[bool; 2]> {
     if let Some(x) = x.rational() {
         return Some([x.is_positive(), !x.is_negative()]);
     }
-    let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
+    let x = of_all(x, SIGN_BITS)?;
     Some([x.lo.is_positive(), !x.lo.is_negative()])
 }
 

@@ -21,11 +21,14 @@
 //! | [`no_cube`]    | no cube of some side fits                                        |
 //! | [`postulate`]  | the Q1/Q2 postulate                                              |
 //! | [`witness`]    | refutations                                                      |
+//! | [`vary`]       | claims over a cell of parameters                                 |
+//! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
 //! | [`statement`]  | a claim in words, and its formulas                               |
 
 #![forbid(unsafe_code)]
 
 pub mod arithmetic;
+pub mod atlas;
 pub mod cell;
 pub mod certificate;
 pub mod check;
@@ -46,4 +49,5 @@ pub mod slope;
 pub mod statement;
 pub mod test;
 pub mod trig;
+pub mod vary;
 pub mod witness;

@@ -145,7 +145,7 @@ fn inverse_kinematics(out: &mut String, formulas: &Formulas) -> fmt::Result {
     writeln!(out, "derivatives of the rho_i by the coordinates,")
 }
 
-fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+pub(crate) fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     match &claim.workspace {
         Workspace::Box { min, max } => {
             writeln!(out, "at every point of the box from ({}) to ({}),", list(min), list(max))

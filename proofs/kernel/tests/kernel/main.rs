@@ -2,6 +2,7 @@
 //! search in doubles, and what has to be rejected.
 
 mod arithmetic;
+mod atlas;
 mod certificates;
 mod leaves;
 mod machines;

@@ -43,7 +43,7 @@ fn certified(text: &str) -> Certificate {
 fn tree(certificate: &mut Certificate) -> &mut Tree {
     match &mut certificate.proof {
         Proof::Tree(tree) => tree,
-        Proof::Witness(_) => panic!("a tree"),
+        Proof::Witness(_) | Proof::Atlas(_) => panic!("a tree"),
     }
 }
 

@@ -16,7 +16,7 @@ fn words(certificate: &Certificate) -> String {
     let Claim::Machine(claim) = &certificate.claim else { panic!("a machine") };
     let words = statement(claim, certificate.verdict).expect("words");
     match &certificate.proof {
-        Proof::Tree(_) => words,
+        Proof::Tree(_) | Proof::Atlas(_) => words,
         Proof::Witness(witness) => words + &counterexample(claim, witness).expect("words"),
     }
 }
