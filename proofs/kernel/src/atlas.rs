@@ -1,15 +1,15 @@
 //! Atlases: maps of a box of parameters, which say where in it a claim holds, and where it fails.
 
-use crate::certificate::{Node, Tree, Witness};
+use crate::certificate::{Tree, Witness};
 use crate::check::{in_words_or_any_size, tree_holds, Rejected};
 use crate::claim::{MachineClaim, Mechanism, Workspace};
-use crate::formula::Op;
-use crate::input::{shape_error, ClaimError, Input, Value};
-use crate::number::{Expression, Operator};
+use crate::input::{shape_error, ClaimError};
+use crate::number::Expression;
 use crate::problem::Problem;
 use crate::statement::{machine, requirements, workspace};
 use crate::vary::{vary, Range};
 use crate::witness;
+use crate::work::{self, Budget};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -66,10 +66,6 @@ pub const MOST_END: u64 = 128;
 pub const MOST_LEVEL: u32 = 60;
 /// Most operations of the tape of an atlas's claim: a bound on memory.
 pub const MOST_TAPE: usize = 1 << 14;
-/// Units of work for each byte of a certificate, of a third of a microsecond or so.
-pub const WORK_A_BYTE: usize = 24;
-/// A certificate may ask for the work of so many bytes, however short it is.
-pub const LEAST_BYTES: usize = 100_000;
 
 /// A part `[n, n + 1]/2^level` of each parameter's range.
 pub type Part = Vec<(u64, u32)>;
@@ -142,26 +138,16 @@ impl Parameter {
     }
 }
 
-/// Units of work that are left.
-struct Budget(usize);
-
-impl Budget {
-    fn spend(&mut self, units: usize) -> Result<(), Rejected> {
-        self.0 = self.0.checked_sub(units).ok_or(Rejected::Work)?;
-        Ok(())
-    }
-}
-
 /// Accepts an atlas of so many bytes, or says why not.
 ///
 /// The leaves of the tree of cells cover the box and overlap in faces only; a leaf below `d` halvings has
 /// the share `2^-d`.
 ///
 /// **Work.** What is to be done is estimated before it is done, but for the formulas of one cell, and a
-/// certificate that asks for more than [`WORK_A_BYTE`] is refused.
+/// certificate that asks for more than [`work::WORK_A_BYTE`] is refused.
 pub(crate) fn check(claim: &AtlasClaim, cells: &[AtlasCell], bytes: usize) -> Result<(), Rejected> {
     claim.validate().map_err(Rejected::Claim)?;
-    let mut budget = Budget(bytes.max(LEAST_BYTES).saturating_mul(WORK_A_BYTE));
+    let mut budget = Budget::new(bytes);
     let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
     let mut found = [BigInt::zero(), BigInt::zero()];
     let levels = MOST_LEVEL * MOST_PARAMETERS as u32;
@@ -222,16 +208,16 @@ fn shown(
     }
     let ranges = claim.ranges(part).map_err(Rejected::Claim)?;
     let mut claim = claim.over(part).map_err(Rejected::Claim)?;
-    let numbers: usize = claim.numbers_mut().into_iter().map(|x| work_of_number(x)).sum();
+    let numbers: usize = claim.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
     budget.spend(numbers)?;
     let problem = Problem::new(&claim).map_err(Rejected::Claim)?;
-    budget.spend(work_of_inputs(&problem))?;
+    budget.spend(work::of_problem(&problem))?;
     if problem.tape.ops().len() > MOST_TAPE {
         return Err(Rejected::Work);
     }
     match cell {
         AtlasCell::Certified(tree) => {
-            budget.spend(work_of_tree(&problem, tree))?;
+            budget.spend(work::of_tree(&problem, tree))?;
             in_words_or_any_size(
                 tree.precision,
                 || tree_holds::<i64>(&problem, tree),
@@ -243,95 +229,18 @@ fn shown(
             let mut witness = witness.clone();
             let numbers = witness.numbers_mut().into_iter().map(|number| {
                 vary(number, &ranges);
-                work_of_number(number)
+                work::of_number(number)
             });
             budget.spend(
-                numbers.sum::<usize>().saturating_add(work_at(&problem, witness.precision)),
+                numbers
+                    .sum::<usize>()
+                    .saturating_add(work::of_witness(&problem, witness.precision)),
             )?;
             witness::check(&problem, &claim.workspace, &witness).map_err(Rejected::Witness)?;
             Ok(Some(false))
         }
         AtlasCell::Undecided | AtlasCell::Split(_) => Ok(None),
     }
-}
-
-/// What a number costs, which is evaluated six times or so: an operation on rational numbers of `b` bits
-/// the square of `b`; one on slopes in parameters eight times as much as another.
-fn work_of_number(x: &Expression) -> usize {
-    6usize.saturating_mul(size(x).0)
-}
-
-/// What an expression costs, the bits that it has as a rational number, and whether it varies.
-fn size(x: &Expression) -> (usize, usize, bool) {
-    let (each, (parts, bits, varies)) = match x {
-        Expression::Literal { digits, places } => {
-            let bits = usize::try_from(digits.bits()).unwrap_or(usize::MAX);
-            (2, (0, bits.saturating_add(4 * *places as usize), false))
-        }
-        Expression::Name(_) => (2, (0, 0, false)),
-        Expression::Varying(_) => (2, (0, 0, true)),
-        Expression::Neg(inner) => (2, size(inner)),
-        Expression::Sqrt(inner) => (60, size(inner)),
-        Expression::Power(base, n) => {
-            let (work, bits, varies) = size(base);
-            (4 * *n as usize, (work, bits.saturating_mul(*n as usize), varies))
-        }
-        Expression::Binary(operator, left, right) => {
-            let each = if *operator == Operator::Div { 8 } else { 4 };
-            let ((left, b, v), (right, c, w)) = (size(left), size(right));
-            (each, (left.saturating_add(right), b.saturating_add(c), v || w))
-        }
-    };
-    let each = if varies { 8 * each } else { each };
-    let each = each.saturating_add(bits.saturating_mul(bits) >> 14);
-    (parts.saturating_add(each), bits, varies)
-}
-
-/// The operations of a problem's tape, of which roots and quotients cost more.
-fn weight(problem: &Problem) -> usize {
-    let weight = |op: &Op| match op {
-        Op::Sqrt(_) => 10,
-        Op::Div(..) => 3,
-        _ => 1,
-    };
-    problem.tape.ops().iter().map(weight).sum()
-}
-
-/// What the formulas cost of which a problem is made, and its angles.
-fn work_of_inputs(problem: &Problem) -> usize {
-    let of = |input: &Input| match input.value {
-        Value::Quantity(_) => 1,
-        Value::Cosine(_) | Value::Sine(_) | Value::Radians(_) => 4000,
-    };
-    4 * weight(problem) + problem.inputs.iter().map(of).sum::<usize>()
-}
-
-/// Numbers of more bits cost more.
-fn words(precision: u32) -> usize {
-    1 + precision as usize / 256
-}
-
-/// What a tree costs: the slopes of its nodes, and the vertices of its steps.
-fn work_of_tree(problem: &Problem, tree: &Tree) -> usize {
-    let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
-    let nodes = tree.nodes.iter().filter(is_evaluated).count();
-    let steps: usize = tree.nodes.iter().map(|node| node.by.len()).sum();
-    let each = weight(problem) * (2 + 3 * problem.dimension());
-    let all =
-        nodes.saturating_mul(each).saturating_add(steps.saturating_mul(work_of_step(problem)));
-    all.saturating_mul(words(tree.precision)).saturating_add(4 * tree.nodes.len())
-}
-
-/// Matrices at every vertex, and their own sign vertices.
-fn work_of_step(problem: &Problem) -> usize {
-    let (m, n) = (problem.dimension(), problem.legs.len());
-    let vertices = 1usize << m;
-    vertices * (4 * n * m * m + vertices * m * m * m) / 4
-}
-
-/// What a witness costs.
-fn work_at(problem: &Problem, precision: u32) -> usize {
-    (4 * weight(problem) + work_of_step(problem)).saturating_mul(words(precision))
 }
 
 /// What an accepted claim establishes.

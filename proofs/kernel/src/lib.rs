@@ -23,6 +23,7 @@
 //! | [`witness`]    | refutations                                                      |
 //! | [`vary`]       | claims over a cell of parameters                                 |
 //! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
+//! | [`work`]       | what checking costs, estimated before it is done                 |
 //! | [`statement`]  | a claim in words, and its formulas                               |
 
 #![forbid(unsafe_code)]
@@ -51,3 +52,4 @@ pub mod test;
 pub mod trig;
 pub mod vary;
 pub mod witness;
+pub mod work;
