@@ -17,8 +17,9 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// "Of the box of parameters, the cells that the proof says are certified have at least the share
-/// `certified`, and those that it says are refuted at least `refuted`. For all values of the parameters in
-/// a certified cell the claim that `machine` becomes with them is true; in a refuted one it is false."
+/// `certified`, and those that it says are refuted at least `refuted`. For all values of the parameters
+/// in a certified cell the claim that `machine` becomes with them is true; in a refuted one it is
+/// false."
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AtlasClaim {
@@ -189,14 +190,14 @@ pub(crate) fn check(claim: &AtlasClaim, cells: &[AtlasCell], bytes: usize) -> Re
 
 /// Whether the claim is shown to be true, or false, for all values of the parameters in a cell.
 ///
-/// **Lemma (atlas).** Let names stand for their ranges over the cell. *Certified*: if the claim is then well
-/// formed, and its tree holds, for all values of the parameters the claim with these values is well formed
-/// and true. *Proof.* Every condition of well-formedness is one of signs of numbers, and of formulas without
-/// coordinates, which are certain of enclosures; the root's cell, from the least of the least coordinates
-/// to the greatest of the greatest, holds each workspace; the formulas are enclosed for every machine of
-/// every value. ∎ *Refuted*: if the witness is accepted, the claim is false for all values. *Proof.* For
-/// each, the witness's point is in the workspace, its machine is one of the claim's, and what it names is
-/// violated there. ∎ The point may be another for every value.
+/// **Lemma (atlas).** Let names stand for their ranges over the cell. *Certified*: if the claim is then
+/// well formed, and its tree holds, for all values of the parameters the claim with these values is
+/// well formed and true. *Proof.* Every condition of well-formedness is one of signs of numbers, and of
+/// formulas without coordinates, which are certain of enclosures; the root's cell, from the least of
+/// the least coordinates to the greatest of the greatest, holds each workspace; the formulas are
+/// enclosed for every machine of every value. ∎ *Refuted*: if the witness is accepted, the claim is
+/// false for all values. *Proof.* For each, the witness's point is in the workspace, its machine is one
+/// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
 fn shown(
     claim: &AtlasClaim,
     part: &[(u64, u32)],

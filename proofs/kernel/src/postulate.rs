@@ -26,16 +26,17 @@
 //!
 //! **Faces suffice.** If `sigma_min(M) >= kappa'` on the faces of `W(kappa')` for every `kappa'` in
 //! `[kappa, 1)`, then `sigma_min(M) >= kappa` on `W(kappa)`. *Proof.* `t_1` and `t_2` are continuous in
-//! `kappa` and decrease to 0 at 1, and `|q|` increases with `t`: the cubes are closed, nested, and shrink
-//! to `O`. Let `P` be in `W(kappa)`. If `P = O`, `M = I`. Otherwise `kappa' = max {k : P in W(k)}` exists,
-//! is less than 1, and `P` lies on a face of `W(kappa')`: an inner point would be one for a slightly
-//! greater `k`. So `sigma_min(M(P)) >= kappa' >= kappa`. ∎ In the same way `s_i > 0`, which goes with
-//! `F >= 0`. Since `M(pi P) = Pi M(P) Pi^T` for a permutation `pi` of the coordinates, the faces
-//! `x = q_1` and `x = q_2` stand for all six. So a proof for one `psi_max` is one for every lesser one.
+//! `kappa` and decrease to 0 at 1, and `|q|` increases with `t`: the cubes are closed, nested, and
+//! shrink to `O`. Let `P` be in `W(kappa)`. If `P = O`, `M = I`. Otherwise
+//! `kappa' = max {k : P in W(k)}` exists, is less than 1, and `P` lies on a face of `W(kappa')`: an
+//! inner point would be one for a slightly greater `k`. So `sigma_min(M(P)) >= kappa' >= kappa`. ∎ In
+//! the same way `s_i > 0`, which goes with `F >= 0`. Since `M(pi P) = Pi M(P) Pi^T` for a permutation
+//! `pi` of the coordinates, the faces `x = q_1` and `x = q_2` stand for all six. So a proof for one
+//! `psi_max` is one for every lesser one.
 //!
 //! **By hand.** The same, without trees and without computation. Let `max |P_i| <= c`,
-//! `c = t/sqrt(1 + 2 t^2)`, `eta = P/c`, `S_i` with this `t`, `sigma_i = 1/S_i`, `g = (1 - kappa)/t`. Then
-//! `|eta_i| <= 1`, `0 < sigma_i <= 1`, and
+//! `c = t/sqrt(1 + 2 t^2)`, `eta = P/c`, `S_i` with this `t`, `sigma_i = 1/S_i`, `g = (1 - kappa)/t`.
+//! Then `|eta_i| <= 1`, `0 < sigma_i <= 1`, and
 //!
 //! ```text
 //! (v^T M v - kappa |v|^2)/t = sum (g - eta_i sigma_i) v_i^2 + (eta . v)(sigma . v)
@@ -43,11 +44,12 @@
 //! ```
 //!
 //! wherever `(eta_i - sigma_i)^2 <= K_i (g - eta_i sigma_i)` with `K_i > 0`, `sum K_i <= 4` (Cauchy).
-//! If `|P_i| <= |q_1|` for all `i`: `t = t_1`, `g = 2`, `K_i = 4/3`, as `e^2 + s^2 - 2 e s/3 <= 8/3` at the
-//! vertices of `[-1, 1] x [0, 1]`, and is convex. Else let `m = max P_j > |q_1|`, `t_1 <= t <= t_2`,
-//! `g = 2 t_1/t >= 1`, `eta_i >= -p`, `p = |q_1|/m`, `p^2 <= g/2`, as `(t - t_1)(2 t_1 t - 1) <= 0`. Where
-//! `eta_i = 1`, `K_i = 1/2`: `(1 - s)^2 <= (1 - s)/2`, as `S_i^2 <= 1 + 2 t^2 <= 3` and so `s >= 1/2`;
-//! elsewhere `K_i = 7/4`, as `e^2 + s^2 - e s/4 <= 7 g/4` at the vertices of `[-p, 1] x [0, 1]`. ∎
+//! If `|P_i| <= |q_1|` for all `i`: `t = t_1`, `g = 2`, `K_i = 4/3`, as `e^2 + s^2 - 2 e s/3 <= 8/3` at
+//! the vertices of `[-1, 1] x [0, 1]`, and is convex. Else let `m = max P_j > |q_1|`,
+//! `t_1 <= t <= t_2`, `g = 2 t_1/t >= 1`, `eta_i >= -p`, `p = |q_1|/m`, `p^2 <= g/2`, as
+//! `(t - t_1)(2 t_1 t - 1) <= 0`. Where `eta_i = 1`, `K_i = 1/2`: `(1 - s)^2 <= (1 - s)/2`, as
+//! `S_i^2 <= 1 + 2 t^2 <= 3` and so `s >= 1/2`; elsewhere `K_i = 7/4`, as `e^2 + s^2 - e s/4 <= 7 g/4`
+//! at the vertices of `[-p, 1] x [0, 1]`. ∎
 
 use crate::arithmetic::Enclosure;
 use crate::cell::{evaluate, Cell, Vertex};
@@ -258,8 +260,8 @@ impl Part {
     /// ```
     ///
     /// A convex combination of `F(Q) >= 0` with positive definite matrices is positive semidefinite. ∎
-    /// The centre is `Q` for whichever `kappa` it is, all of which are enclosed at once: slopes in `kappa`
-    /// would make `F(Q)`, which is singular, one of many matrices to be shown definite.
+    /// The centre is `Q` for whichever `kappa` it is, all of which are enclosed at once: slopes in
+    /// `kappa` would make `F(Q)`, which is singular, one of many matrices to be shown definite.
     fn tight_edge<E: Enclosure>(&self, e: &E, edges: [&[E::Number; 3]; 3]) -> Option<bool> {
         let [y, z, [_, kappa, _]] = edges;
         let from = e.integer(if self.face == Corner::Q1 { 0 } else { 1 })?;
@@ -291,11 +293,12 @@ impl Part {
 
 /// Checks a proof: the trees of all parts, one after the other.
 ///
-/// **Mirror.** On a face, a cell on which `u_y >= u_z` throughout needs no proof of its own. *Proof.* Fix
-/// `kappa`. Exchanging `y` and `z` maps the face to itself, `F` to `Pi F Pi^T`, and permutes the `S_i`. A
-/// point with `u_y < u_z` is in no such cell, so in a leaf on whose path `S_i > 0` and `F >= 0` are shown
-/// otherwise, on all of a closed cell. A point with `u_y > u_z` is the image of one of those. A point with
-/// `u_y = u_z` is a limit of them: as there are finitely many leaves, it lies in one of theirs. ∎
+/// **Mirror.** On a face, a cell on which `u_y >= u_z` throughout needs no proof of its own. *Proof.*
+/// Fix `kappa`. Exchanging `y` and `z` maps the face to itself, `F` to `Pi F Pi^T`, and permutes the
+/// `S_i`. A point with `u_y < u_z` is in no such cell, so in a leaf on whose path `S_i > 0` and
+/// `F >= 0` are shown otherwise, on all of a closed cell. A point with `u_y > u_z` is the image of one
+/// of those. A point with `u_y = u_z` is a limit of them: as there are finitely many leaves, it lies in
+/// one of theirs. ∎
 pub(crate) fn holds<Z: Integer>(parts: &[Part], tree: &Tree) -> Result<(), Rejected> {
     let bits = tree.precision;
     let longest = parts.iter().map(|part| part.tape.ops().len()).max().unwrap_or_default();

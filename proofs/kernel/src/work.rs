@@ -1,8 +1,9 @@
 //! What it costs to check something, estimated before it is done: an atlas compiles its claim in every
 //! cell, and a short text may ask for much.
 //!
-//! A unit is a third of a microsecond or so. The estimates are of the dearest inputs that were found; that
-//! they are not exceeded by much is measured, not proved, and nothing that is accepted rests on it.
+//! A unit is a third of a microsecond or so. The estimates are of the dearest inputs that were found;
+//! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
+//! it.
 
 use crate::certificate::{Node, Tree};
 use crate::check::Rejected;

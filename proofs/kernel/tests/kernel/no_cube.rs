@@ -4,13 +4,14 @@ use crate::certificates::claim;
 use crate::rough::Rough;
 use nalgebra::DMatrix;
 use orthocert_kernel::certificate::{
-    Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, FORMAT,
+    Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
 use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::formula::Op;
 use orthocert_kernel::no_cube::{statement, NoCubeClaim, OFFSET_PARTS};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::witness::{self, WitnessError};
 
 /// The Orthoglide with `L = 1`, `1/2 <= psi <= 2`, and centres in `[low, high]^3`.
 fn orthoglide(low: &str, high: &str, side: &str) -> NoCubeClaim {
@@ -221,6 +222,23 @@ fn long_rows_across_the_border_of_reach() {
     // Of another obligation, of none, of another leg than there is.
     for (obligation, leg) in [(0, 2), (2, 2), (1, 3), (usize::MAX, usize::MAX)] {
         assert_eq!(fails("0.62", "0.75", Failure::Row(obligation, leg)), not);
+    }
+}
+
+/// At a point of a machine's workspace as well.
+#[test]
+fn a_long_row_refutes() {
+    let claim = orthoglide("-1", "1", "1").machine;
+    let problem = Problem::new(&claim).expect("well formed");
+    let found = |x: &str, fails: Failure| {
+        let point = vec![number(x), number(x), number("0")];
+        let witness = Witness { precision: 64, point, machine: Vec::new(), fails };
+        witness::check(&problem, &claim.workspace, &witness)
+    };
+    found("0.6124", Failure::Row(1, 2)).expect("accepted");
+    found("1", Failure::Row(1, 2)).expect("accepted");
+    for (x, row) in [("0.6123", Failure::Row(1, 2)), ("1", Failure::Row(0, 2))] {
+        assert_eq!(found(x, row), Err(WitnessError::NotViolated));
     }
 }
 
