@@ -227,7 +227,8 @@ impl<A: Signs> At<'_, A> {
 
     /// **Lemma (row).** If `|A_i|^2 > k^2 D_i`, then `sigma_max(M) > k`, or leg `i` does not reach
     /// without a serial singularity. *Proof.* If it does, `D_i > 0`, and
-    /// `sigma_max(M) >= |M^T e_i| = |A_i|/sqrt(D_i) > k`. ∎ Of a leg with a length, `|A_i|` is that, and
+    /// `sigma_max(M) >= |M^T e_i| = |A_i|/sqrt(D_i) > k`. ∎ Of a leg with a length, `|A_i|` is that (or
+    /// more, but never less: a row that is a part of the leg's vector would be unsound here), and
     /// defined where `A_i` is not.
     fn exceeds(&self, number: usize, leg: usize) -> bool {
         let e = &self.arithmetic;

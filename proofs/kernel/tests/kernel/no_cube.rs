@@ -134,7 +134,10 @@ fn proofs_that_show_less() {
         check(&certificate(claim, nodes))
     };
     with(&|_, _| {}).expect("accepted");
-    let (_, nodes) = proved();
+    let (own, nodes) = proved();
+    let mut wide = certificate(own, nodes.clone());
+    wide.proof = Proof::Tree(Tree { precision: 80, nodes: nodes.clone() });
+    check(&wide).expect("accepted beyond words");
     let last = nodes.len() - 1;
     // A point beyond the cube, however far the claim fails there.
     let beyond = with(&|_, nodes| nodes[last] = leaf(Failure::Reach, [9, 9, 9]));
@@ -242,20 +245,41 @@ fn a_long_row_refutes() {
     }
 }
 
+/// What the lemma (row) rests on: the length of a leg is not more than that of its row of `A`.
 #[test]
-fn the_rows_are_the_papers() {
-    let problem = Problem::new(&orthoglide("-1", "1", "1").machine).expect("well formed");
-    let scale = (problem.scale as f64).exp2();
-    let x = [0.3, -0.2, 0.1];
-    let values = problem.tape.run(&Rough, |op| match op {
-        Op::Coordinate(k) => Some((x[k] / scale, x[k] / scale)),
-        Op::Parameter(_) => Some((1.0 / scale, 1.0 / scale)),
-        _ => None,
-    });
-    let m = matrix(x).expect("within reach");
-    for (i, leg) in problem.legs.iter().enumerate() {
-        for (k, &a) in leg.divided.a.iter().enumerate() {
-            assert!((values.of(a).expect("defined").0 - m[(i, k)]).abs() < 1e-12);
+fn rows_are_as_long_as_their_legs() {
+    let arm = r#""drive":"arm","axis":["0","1","0"],"reference":["1","0","0"],"platform":["0.1","0","0"],"arm":"1","length":"2","mode":"+""#;
+    let strut = r#""drive":"strut","platform":["0.5","0.1","-0.2"]"#;
+    let three = |leg: &str| {
+        let leg = |anchor: &str| format!(r#"{{{leg},"anchor":[{anchor}]}}"#);
+        [leg(r#""0","0","2""#), leg(r#""0.3","0","2""#), leg(r#""0","0.5","2.1""#)].join(",")
+    };
+    let boxed = r#""workspace":{"box":{"min":["0","0","0"],"max":["1","1","1"]}},"require":[]"#;
+    let turned =
+        r#""workspace":{"box":{"min":[],"max":[]}},"orientation":{"angle":"15"},"require":[]"#;
+    let mut checked = 0;
+    for text in [
+        serde_json::to_string(&orthoglide("-1", "1", "1").machine).expect("a text"),
+        format!(r#"{{"mechanism":{{"translational":[{}]}},{boxed}}}"#, three(arm)),
+        format!(r#"{{"mechanism":{{"translational":[{}]}},{boxed}}}"#, three(strut)),
+        format!(r#"{{"mechanism":{{"spherical":{{"legs":[{}]}}}},{turned}}}"#, three(strut)),
+    ] {
+        // A kind of machine without a motion is refused.
+        let Ok(problem) = Problem::new(&claim(&text)) else { continue };
+        let parameters = problem.parameters::<i64>(40, &[]).expect("parameters");
+        let double = |x: i64| x as f64 * (-40f64).exp2();
+        let values = problem.tape.run(&Rough, |op| match op {
+            Op::Coordinate(k) => Some([0.1, -0.05, 0.02][k]).map(|x| (x, x)),
+            Op::Parameter(j) => Some((double(parameters[j].lo), double(parameters[j].hi))),
+            _ => None,
+        });
+        for leg in &problem.legs {
+            let Some(length) = leg.length.and_then(|length| values.of(length)) else { continue };
+            let square: f64 =
+                leg.row.a.iter().map(|&a| values.of(a).expect("within reach").0.powi(2)).sum();
+            assert!(square >= length.0.powi(2) - 1e-6, "{text}");
+            checked += 1;
         }
     }
+    assert!(checked >= 9, "{checked}");
 }

@@ -126,6 +126,13 @@ fn for_one_for_a_range_and_for_every_psi_max() {
     accepted(r#"{"min":"1.2","max":"6.5"}"#);
     let all = accepted(r#""all""#);
     assert!(all.to_text().expect("a text").len() < 1100);
+    // Beyond words too.
+    let mut tree = prove(&claim(r#""all""#), 500).expect("a proof");
+    tree.precision = 80;
+    check(&certificate(claim(r#""all""#), tree.clone())).expect("accepted");
+    tree.precision = 31;
+    let found = check(&certificate(claim(r#""all""#), tree));
+    assert_eq!(found, Err(Rejected::Precision(31)));
 }
 
 #[test]
