@@ -128,10 +128,11 @@ pub fn of_three_legs(found: &Counterexample) -> Vec<(String, String)> {
 
 /// The counterexample of a refutation.
 pub fn counterexample(rows: &[(String, String)]) -> String {
-    let mut out = "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
+    let mut out =
+        "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
          which a requirement provably fails. Coordinates are exact.</p>\
          <div class=\"table\"><table><tbody>"
-        .to_owned();
+            .to_owned();
     for (name, value) in rows {
         let (name, value) = (xml(name), xml(value));
         let _ = write!(out, "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>");

@@ -1,7 +1,7 @@
 //! What the figures show of a kernel claim: a machine with any number of legs, over any coordinates.
 
-use super::evidence::{share, Row};
 use super::contour::Field;
+use super::evidence::{share, Row};
 use super::isomap::{map, Map, Mark, Plane, Scale, NODES};
 use super::legs::{across, unit, Numbers, Outline, Point, Shape};
 use super::mechanism;
@@ -40,9 +40,8 @@ pub fn scene(claim: &MachineClaim, proof: &kernel::Proof) -> Scene {
         kernel::Proof::Witness(witness) => Some(witness),
         kernel::Proof::Tree(_) => None,
     };
-    let sampler = Sampler::new(claim).filter(|sampler| {
-        sampler.root.iter().flatten().all(|x| x.abs() < GREATEST)
-    });
+    let sampler = Sampler::new(claim)
+        .filter(|sampler| sampler.root.iter().flatten().all(|x| x.abs() < GREATEST));
     let of = General { claim, sampler, names: names(claim), witness };
     let grid = of.sampler.as_ref().map(Sampler::grid).unwrap_or_default();
     let worst = of.sampler.as_ref().map(|sampler| sampler.worst(&grid)).unwrap_or_default();
@@ -75,7 +74,11 @@ impl General<'_> {
     }
 
     /// The requirement of which the least margin was found.
-    fn critical<'w>(&self, worst: &'w [Option<Worst>], but: Option<usize>) -> Option<(usize, &'w Worst)> {
+    fn critical<'w>(
+        &self,
+        worst: &'w [Option<Worst>],
+        but: Option<usize>,
+    ) -> Option<(usize, &'w Worst)> {
         let found = worst.iter().enumerate().filter_map(|(i, w)| Some((i, w.as_ref()?)));
         let others = found.filter(|(i, _)| Some(*i) != but);
         others.min_by(|a, b| a.1.found.margin.total_cmp(&b.1.found.margin))
@@ -87,7 +90,10 @@ impl General<'_> {
         let mark = |name: &str, at| Mark { name: name.to_owned(), at };
         let Some(witness) = self.witness else {
             let found = self.critical(worst, None);
-            return found.map(|(_, worst)| mark("least margin", worst.at.clone())).into_iter().collect();
+            return found
+                .map(|(_, worst)| mark("least margin", worst.at.clone()))
+                .into_iter()
+                .collect();
         };
         let mut all: Vec<Mark> =
             point(&witness.point).map(|at| mark("counterexample", at)).into_iter().collect();
@@ -123,7 +129,8 @@ impl General<'_> {
                 };
                 row.at = self.place(at);
                 let settings = sampler.settings(machine).into_iter();
-                let settings = settings.map(|(place, x)| format!("{place} = {}", significant(x, 9)));
+                let settings =
+                    settings.map(|(place, x)| format!("{place} = {}", significant(x, 9)));
                 row.machine = settings.collect::<Vec<_>>().join(", ");
             }
             row
@@ -178,9 +185,8 @@ impl General<'_> {
             grid.iter().filter_map(|p| sampler.values(&nominal, p)).collect();
         let m = sampler.root.len();
         let greatest = |s: &Sampled| s.psi.last().copied().filter(|_| s.psi.len() == m);
-        let is_psi = |r: &Requirement| {
-            r.quantity == "transmission" && matches!(r.bound, Bound::Max(_))
-        };
+        let is_psi =
+            |r: &Requirement| r.quantity == "transmission" && matches!(r.bound, Bound::Max(_));
         let of_psi = self.claim.require.iter().position(is_psi);
         let critical = self.critical(worst, of_psi).map(|(number, _)| number);
         let mut functions: Vec<Function<'_>> = vec![Function {
@@ -189,7 +195,9 @@ impl General<'_> {
             of: Box::new(greatest),
             worst: Box::new(move |s| greatest(s).map(|psi| -psi)),
         }];
-        if let Some((number, requirement)) = critical.and_then(|n| Some((n, self.claim.require.get(n)?))) {
+        if let Some((number, requirement)) =
+            critical.and_then(|n| Some((n, self.claim.require.get(n)?)))
+        {
             functions.push(Function {
                 file: "critical",
                 heading: mechanism::formula(requirement),
@@ -205,7 +213,8 @@ impl General<'_> {
         let base: Vec<f64> =
             point.filter(|p: &Vec<f64>| p.len() == m).unwrap_or_else(|| sampler.middle());
         let all = pairs(m, self.positions().min(m)).into_iter().enumerate();
-        let slices = all.map(|(i, pair)| self.slice(sampler, i, pair, &base, (&functions, &scales)));
+        let slices =
+            all.map(|(i, pair)| self.slice(sampler, i, pair, &base, (&functions, &scales)));
         slices.filter(|slice| !slice.maps.is_empty()).collect()
     }
 
@@ -219,7 +228,8 @@ impl General<'_> {
     ) -> Slice {
         let name = |k: usize| self.names.get(k).map_or("?", String::as_str);
         let root = [sampler.root[a], sampler.root[b]];
-        let is_round = matches!(self.claim.workspace, Workspace::Cylinder { .. }) && [a, b] == [0, 1];
+        let is_round =
+            matches!(self.claim.workspace, Workspace::Cylinder { .. }) && [a, b] == [0, 1];
         let of_kind = |k: usize| k < self.positions();
         let is_of_users = matches!(self.claim.mechanism, Mechanism::Formulas(_));
         let same_kind = !is_of_users && of_kind(a) == of_kind(b);
@@ -233,7 +243,11 @@ impl General<'_> {
             let mut point = base.to_vec();
             (point[a], point[b]) = (x, y);
             found.push(([x, y], sampler.values(&nominal, &point)));
-            if found.last().is_some_and(|(_, s)| s.is_some()) { -1.0 } else { 1.0 }
+            if found.last().is_some_and(|(_, s)| s.is_some()) {
+                -1.0
+            } else {
+                1.0
+            }
         });
         let fixed = self.names.iter().zip(base).enumerate().filter(|(k, _)| *k != a && *k != b);
         let fixed: Vec<String> =
@@ -306,7 +320,13 @@ pub fn shape(claim: &MachineClaim) -> Option<Shape> {
     let is_round = matches!(claim.workspace, Workspace::Cylinder { .. });
     let mut outline = Outline::of(least, width, is_round);
     let turns_alone = matches!(claim.mechanism, Mechanism::Spherical(_));
-    outline.rings.truncate(if turns_alone { 0 } else if is_flat { 1 } else { 2 });
+    outline.rings.truncate(if turns_alone {
+        0
+    } else if is_flat {
+        1
+    } else {
+        2
+    });
     let grid = |n: u32| [n % 3, n / 3 % 3, n / 9].map(|i| f64::from(i) / 2.0);
     let place = |u: Point| -> Point { from_fn(|k| least[k] + u[k] * width[k]) };
     let ends = |from: &[Expression; 3], to: &[Expression; 3]| Some([point(from)?, point(to)?]);
@@ -454,9 +474,7 @@ fn numbers(leg: &Leg) -> Option<Numbers> {
                 mode: sign(mode),
             }
         }
-        Leg::Planar { direction } => {
-            Numbers::Planar { direction: unit(vector(direction, zero)?)? }
-        }
+        Leg::Planar { direction } => Numbers::Planar { direction: unit(vector(direction, zero)?)? },
     })
 }
 
@@ -509,4 +527,127 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
         }
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::page::drawing::drawing;
+    use crate::page::legs::{add, scaled};
+
+    fn claim(mechanism: &str, workspace: &str, orientation: &str) -> MachineClaim {
+        let text = format!(
+            r#"{{"mechanism":{mechanism},"workspace":{{"box":{workspace}}},{orientation}"require":[]}}"#
+        );
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"))
+    }
+
+    fn strut(anchor: &str, platform: &str) -> String {
+        format!(r#"{{"drive":"strut","anchor":[{anchor}],"platform":[{platform}]}}"#)
+    }
+
+    fn length(shape: &Shape, leg: usize) -> f64 {
+        let pose = shape.pose(leg, shape.position).unwrap();
+        let d = add(pose.platform, scaled(-1.0, pose.driven));
+        crate::page::legs::dot(d, d).sqrt()
+    }
+
+    fn drawn(shape: &Shape) -> String {
+        let picture = drawing(shape, &[]);
+        assert!(!picture.content.contains("NaN") && !picture.content.contains("inf"));
+        picture.content
+    }
+
+    #[test]
+    fn machines_in_the_plane_are_seen_from_above() {
+        let legs = [
+            strut(r#""0","0""#, r#""-1","0""#),
+            r#"{"drive":"arm","axis":[],"reference":[],"anchor":["6","0"],"platform":["1","0"],"arm":"3","length":"4","mode":"+"}"#
+                .to_owned(),
+            r#"{"drive":"slider","direction":["1","0"],"anchor":["0","7"],"platform":["0","1"],"length":"5","mode":"-"}"#
+                .to_owned(),
+        ];
+        let legs = legs.join(",");
+        let mechanism = format!(r#"{{"planar":{{"legs":[{legs}],"characteristic_length":"1"}}}}"#);
+        let workspace = r#"{"min":["2","2"],"max":["4","4"]}"#;
+        let turned = r#""orientation":{"range":["80","100"]},"#;
+        let shape = shape(&claim(&mechanism, workspace, turned)).unwrap();
+        assert_eq!(shape.position, [3.0, 3.0, 0.0]);
+        // Turned by a right angle, (-1, 0) of the platform is at (0, -1) from P.
+        let platform = shape.pose(0, shape.position).unwrap().platform;
+        assert!((platform[0] - 3.0).abs() < 1e-12 && (platform[1] - 2.0).abs() < 1e-12);
+        assert!((length(&shape, 1) - 4.0).abs() < 1e-12);
+        assert!((length(&shape, 2) - 5.0).abs() < 1e-12);
+        let content = drawn(&shape);
+        assert_eq!(content.matches("class=\"leg\"").count(), 3);
+        assert_eq!(content.matches("class=\"arm\"").count(), 1);
+        assert!(content.contains("class=\"platform\"") && !content.contains(">z<"));
+        // The names of the two coordinates and of the angle.
+        assert_eq!(names(&claim(&mechanism, workspace, turned)), ["x", "y", "t"]);
+    }
+
+    #[test]
+    fn hexapods_have_six_legs_and_their_platform_turned() {
+        let joint = |i: usize, r: f64, z: &str| {
+            let (s, c) = (i as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+            format!(r#""{}","{}","{z}""#, (100.0 * r * c).round(), (100.0 * r * s).round())
+        };
+        let legs: Vec<String> =
+            (0..6).map(|i| strut(&joint(i, 2.0, "0"), &joint(i, 1.0, "0"))).collect();
+        let mechanism = format!(
+            r#"{{"spatial":{{"legs":[{}],"characteristic_length":"100"}}}}"#,
+            legs.join(",")
+        );
+        let workspace = r#"{"min":["-10","-10","300"],"max":["10","10","300"]}"#;
+        let level = claim(&mechanism, workspace, r#""orientation":{"angle":"15"},"#);
+        let of_level = shape(&level).unwrap();
+        assert!((length(&of_level, 0) - 300f64.hypot(100.0)).abs() < 1e-9);
+        let content = drawn(&of_level);
+        assert_eq!(content.matches("class=\"leg\"").count(), 6);
+        assert!(content.contains("B\u{2086}") && content.contains(">z<"));
+        let yaw = r#""orientation":{"roll_pitch_yaw":{"roll":["0","0"],"pitch":["-90","-90"],"yaw":["0","0"]}},"#;
+        let turned = shape(&claim(&mechanism, workspace, yaw)).unwrap();
+        // R_y(-90) carries x to z: R e_x = (cos p, 0, -sin p).
+        let platform = turned.pose(0, turned.position).unwrap().platform;
+        assert!((platform[2] - 400.0).abs() < 1e-9 && platform[0].abs() < 1e-9, "{platform:?}");
+        // Nothing is sampled of what the kernel does not compile, and everything else is there.
+        let scene =
+            scene(&level, &kernel::Proof::Tree(kernel::Tree { precision: 52, nodes: Vec::new() }));
+        assert_eq!(scene.trees[0].axes.len(), scene.trees[0].least.len());
+    }
+
+    #[test]
+    fn a_platform_that_only_turns_has_no_workspace_of_positions() {
+        let legs = [
+            strut(r#""200","0","0""#, r#""100","0","50""#),
+            strut(r#""-100","173","0""#, r#""-50","87","50""#),
+            strut(r#""-100","-173","0""#, r#""-50","-87","50""#),
+        ];
+        let mechanism = format!(
+            r#"{{"spherical":{{"legs":[{}],"characteristic_length":"100"}}}}"#,
+            legs.join(",")
+        );
+        let orientation = r#""orientation":{"tilt":{"tilt":"20","torsion":"40"}},"#;
+        let claim = claim(&mechanism, r#"{"min":[],"max":[]}"#, orientation);
+        let shape = shape(&claim).unwrap();
+        assert_eq!(shape.position, [0.0; 3]);
+        let content = drawn(&shape);
+        assert_eq!(content.matches("class=\"leg\"").count(), 3);
+        assert!(!content.contains("class=\"solid\"") && content.contains("class=\"platform\""));
+        assert!(mechanism::workspace(&claim).starts_with("tilted by at most 20\u{b0}"));
+    }
+
+    /// The paper's cube: `L = 310.58`, and the platform at the origin is where all legs are along the
+    /// axes.
+    #[test]
+    fn the_legs_of_the_paper_follow_from_the_claim() {
+        let text = r#"{"mechanism":{"orthoglide":{"offset":"0"}},"workspace":{"cube":{"side":"200"}},
+            "require":[{"quantity":"transmission","end":"max","bound":"2"}]}"#;
+        let claim: MachineClaim = serde_json::from_str(text).unwrap();
+        let [q1, q2, l] = of_cube(&claim).unwrap();
+        assert!((l - 310.582854123025).abs() < 1e-9 && (q1 + 73.2050807568877).abs() < 1e-9);
+        assert!((q2 - q1 - 200.0).abs() < 1e-9);
+        let shape = shape(&claim).unwrap();
+        assert!((length(&shape, 2) - l).abs() < 1e-9);
+    }
 }

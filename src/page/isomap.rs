@@ -238,8 +238,8 @@ impl Plane {
     /// A function at the nodes of a grid over the plane.
     pub fn field(&self, nodes: usize, f: impl FnMut(f64, f64) -> f64) -> Field {
         let along = |k: usize| -> Vec<f64> {
-            let part = |i: usize| i as f64 / (nodes - 1) as f64;
-            (0..nodes).map(|i| self.least[k] + self.width[k] * part(i)).collect()
+            let at = |i: usize| self.least[k] + self.width[k] * i as f64 / (nodes - 1) as f64;
+            (0..nodes).map(at).collect()
         };
         Field::of(along(0), along(1), f)
     }
@@ -289,8 +289,7 @@ pub fn map(plane: &Plane, shown: &Map<'_>) -> Picture {
         let class = if dark[k] { "level on-dark" } else { "level" };
         let d: String = set.lines.iter().map(|p| path_data(&on_plane(p), false)).collect();
         out.raw(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
-        let longest =
-            set.lines.iter().map(on_plane).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let longest = set.lines.iter().map(on_plane).max_by(|a, b| length(a).total_cmp(&length(b)));
         let Some(line) = longest.filter(|line| length(line) >= LABELLED) else {
             continue;
         };

@@ -237,8 +237,7 @@ mod tests {
                 let axis = unit([0.2, -0.4, 1.0]).unwrap();
                 let reference = across([1.0, 0.0, 0.0], axis).unwrap();
                 let (arm, length) = (1.0, 1.5);
-                let rotary =
-                    Numbers::Arm { axis, reference, anchor, platform, arm, length, mode };
+                let rotary = Numbers::Arm { axis, reference, anchor, platform, arm, length, mode };
                 let elbow = rotary.base_end(joint).unwrap();
                 let radius = add(elbow, scaled(-1.0, anchor));
                 assert!((distance(elbow, joint) - 1.5).abs() < 1e-12);

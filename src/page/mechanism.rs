@@ -45,14 +45,15 @@ pub fn legs(mechanism: &Mechanism) -> &[Leg] {
 pub fn machine(claim: &MachineClaim) -> String {
     let kind = match &claim.mechanism {
         Mechanism::Translational(_) => "translational machine",
-        Mechanism::Orthoglide { .. } => return "The Orthoglide of the paper's Steps 1 to 3".to_owned(),
+        Mechanism::Orthoglide { .. } => {
+            return "The Orthoglide of the paper's Steps 1 to 3".to_owned()
+        }
         Mechanism::Planar(_) if claim.orientation.is_some() => "planar machine",
         Mechanism::Planar(_) => "machine that moves a point in the plane",
         Mechanism::Spatial(_) => "machine with six degrees of freedom",
         Mechanism::Spherical(_) => "spherical machine",
         Mechanism::Formulas(formulas) => {
-            let tolerances =
-                formulas.parameters.iter().filter(|(_, q)| is_interval(q)).count();
+            let tolerances = formulas.parameters.iter().filter(|(_, q)| is_interval(q)).count();
             let (names, joints) = (formulas.coordinates.join(", "), formulas.joints.len());
             let every = if tolerances == 0 { "The mechanism" } else { "Every mechanism" };
             return format!(
@@ -112,7 +113,8 @@ pub fn workspace(claim: &MachineClaim) -> String {
     let positions = match &claim.workspace {
         Workspace::Cube { side } => Some(format!("the closed cube of side {}", number(side))),
         Workspace::Box { min, max } if !min.is_empty() => {
-            let edges: Vec<String> = min.iter().zip(max).map(|(min, max)| range(min, max)).collect();
+            let edges: Vec<String> =
+                min.iter().zip(max).map(|(min, max)| range(min, max)).collect();
             let what = match edges.len() {
                 1 => "the interval",
                 2 => "the rectangle",
@@ -226,8 +228,7 @@ fn table(heads: &[String], rows: &[(String, Vec<String>)]) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let mut out =
-        "<div class=\"table\"><table><thead><tr><th>parameter</th>".to_owned();
+    let mut out = "<div class=\"table\"><table><thead><tr><th>parameter</th>".to_owned();
     for head in heads {
         let _ = write!(out, "<th>{head}</th>");
     }

@@ -25,6 +25,8 @@ const OPERATIONS: usize = 200_000_000;
 /// Most legs and coordinates of a claim.
 const MOST_LEGS: usize = 12;
 const MOST_COORDINATES: usize = orthocert_kernel::slope::MOST_COORDINATES;
+/// Most rounds of that search.
+const MOST_ROUNDS: usize = 200;
 /// Least step of the search about the worst of them, as a part of the workspace.
 const STEP: f64 = 1e-7;
 
@@ -268,7 +270,9 @@ impl Sampler {
                 ("transmission", _) => greatest,
                 ("conditioning", _) => greatest.zip(psi.first()).map(|(most, least)| most / least),
                 ("parallel_margin", _) => at.parallel_margin(&problem.legs),
-                (_, leg) => problem.legs.get(leg.unwrap_or(usize::MAX)).and_then(|l| at.of_leg(ends, l)),
+                (_, leg) => {
+                    problem.legs.get(leg.unwrap_or(usize::MAX)).and_then(|l| at.of_leg(ends, l))
+                }
             };
             let margin = match (value, obligation.test) {
                 (Some(value), _) => ends.margin(value),
@@ -332,13 +336,17 @@ impl Sampler {
     }
 
     fn refined(&self, number: usize, mut machine: Vec<f64>, start: Vec<f64>) -> Option<Worst> {
-        let found =
-            |machine: &[f64], point: &[f64]| self.values(machine, point)?.of.get(number).copied()?;
+        let found = |machine: &[f64], point: &[f64]| {
+            self.values(machine, point)?.of.get(number).copied()?
+        };
         let mut point = start;
         let mut best = found(&machine, &point)?;
         for _ in 0..2 {
             let mut step = 0.1;
-            while step > STEP {
+            for _ in 0..MOST_ROUNDS {
+                if step <= STEP {
+                    break;
+                }
                 let mut moved = false;
                 for k in 0..point.len() {
                     for sign in [-1.0, 1.0] {
@@ -431,5 +439,134 @@ impl At {
             }
         }
         Some(unit.determinant().abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(mechanism: &str, workspace: &str, require: &[(&str, &str, &str)]) -> MachineClaim {
+        let require: Vec<String> = require
+            .iter()
+            .map(|(key, end, bound)| {
+                let given = if *key == "joint_speed" { r#""given":{"tool":["100"]},"# } else { "" };
+                format!(r#"{{"quantity":"{key}",{given}"end":"{end}","bound":{bound}}}"#)
+            })
+            .collect();
+        let require = require.join(",");
+        let text =
+            format!(r#"{{"mechanism":{mechanism},"workspace":{workspace},"require":[{require}]}}"#);
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"))
+    }
+
+    /// The Orthoglide with legs of this length, scaled by 8 from the unit of length.
+    fn orthoglide(length: &str, require: &[(&str, &str, &str)]) -> MachineClaim {
+        let leg = |n: &str| {
+            format!(
+                r#"{{"drive":"slider","direction":[{n}],"anchor":["0","0","0"],"platform":["0","0","0"],"length":{length},"mode":"+"}}"#
+            )
+        };
+        let legs = [r#""1","0","0""#, r#""0","1","0""#, r#""0","0","1""#].map(leg).join(",");
+        let workspace = r#"{"box":{"min":["-80","-80","-80"],"max":["120","120","120"]}}"#;
+        claim(&format!(r#"{{"translational":[{legs}]}}"#), workspace, require)
+    }
+
+    /// At `(c, c, c)`, `M = (1 - m) I + m 11^T` with `m = c/sqrt(L^2 - 2 c^2)`.
+    #[test]
+    fn every_quantity_has_the_value_of_its_definition() {
+        let all = [
+            ("transmission", "min", r#""0.1""#),
+            ("transmission", "max", r#""9""#),
+            ("joint_range", "max", r#""0""#),
+            ("conditioning", "max", r#""9""#),
+            ("serial_margin", "min", r#""0.1""#),
+            ("parallel_margin", "min", r#""0.1""#),
+            ("leg_angle", "max", r#""80""#),
+            ("joint_speed", "max", r#""500""#),
+        ];
+        let sampler = Sampler::new(&orthoglide(r#""310""#, &all)).unwrap();
+        let (c, length) = (100.0, 310.0_f64);
+        let s = (length * length - 2.0 * c * c).sqrt();
+        let m = c / s;
+        let found = sampler.values(&sampler.nominal(), &[c; 3]).unwrap();
+        let near = |value: Option<f64>, expected: f64| {
+            let value = value.unwrap();
+            assert!(
+                (value - expected).abs() < 1e-9 * (1.0 + expected.abs()),
+                "{value}, {expected}"
+            );
+        };
+        let determinant = (1.0 - m).powi(2) * (1.0 + 2.0 * m) * (s / length).powi(3);
+        let expected = [
+            1.0 / (1.0 + 2.0 * m),
+            1.0 / (1.0 - m),
+            c - s,
+            (1.0 + 2.0 * m) / (1.0 - m),
+            s / length,
+            determinant,
+            (s / length).acos().to_degrees(),
+            100.0 * (1.0 + 2.0 * m * m).sqrt(),
+        ];
+        for (found, expected) in found.of.iter().zip(expected) {
+            near(found.and_then(|found| found.value), expected);
+        }
+        assert_eq!(found.psi.len(), 3);
+        // Out of reach.
+        assert!(sampler.values(&sampler.nominal(), &[0.0, 220.0, 220.0]).is_none());
+    }
+
+    #[test]
+    fn the_worst_is_found_at_its_corner_and_for_its_machine() {
+        let tolerance = r#"{"min":"309.9","max":"310.1"}"#;
+        let all = [("transmission", "max", r#""2""#), ("joint_range", "min", r#""-500""#)];
+        let sampler = Sampler::new(&orthoglide(tolerance, &all)).unwrap();
+        let worst = sampler.worst(&sampler.grid());
+        let [psi, rho] = &worst[..] else { unreachable!() };
+        let (psi, rho) = (psi.as_ref().unwrap(), rho.as_ref().unwrap());
+        assert_eq!(psi.at, [120.0; 3]);
+        let settings = sampler.settings(&psi.machine);
+        assert_eq!(settings.len(), 3);
+        assert!(settings.iter().all(|(_, length)| (length - 309.9).abs() < 1e-9), "{settings:?}");
+        let m = 120.0 / (309.9_f64 * 309.9 - 2.0 * 120.0 * 120.0).sqrt();
+        assert!((psi.found.value.unwrap() - 1.0 / (1.0 - m)).abs() < 1e-9);
+        assert!((psi.found.margin - (2.0 - 1.0 / (1.0 - m)) / 2.0).abs() < 1e-9);
+        // rho = x - sqrt(L^2 - y^2 - z^2) is least at x = -80, y = z = 0 with the longest leg.
+        assert!((rho.found.value.unwrap() - (-80.0 - 310.1)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn angles_are_in_degrees_and_psi_in_lengths_per_radian() {
+        let leg = |x: f64, y: f64| {
+            format!(
+                r#"{{"drive":"arm","axis":["{}","{x}","0"],"reference":["{x}","{y}","0"],"anchor":["{}","{}","0"],"platform":["{}","{}","0"],"arm":"100","length":"250","mode":"-"}}"#,
+                -y,
+                80.0 * x,
+                80.0 * y,
+                30.0 * x,
+                30.0 * y
+            )
+        };
+        let legs = [leg(1.0, 0.0), leg(-0.6, 0.8), leg(-0.6, -0.8)].map(|l| l.replace("--", ""));
+        let mechanism = format!(r#"{{"translational":[{}]}}"#, legs.join(","));
+        let workspace = r#"{"box":{"min":["-5","-5","-240"],"max":["5","5","-230"]}}"#;
+        let all = [
+            ("transmission", "max", r#""1000""#),
+            ("joint_range", "within", r#"["0","170"]"#),
+            ("joint_speed", "max", r#""1000""#),
+        ];
+        let text = claim(&mechanism, workspace, &all);
+        let sampler = Sampler::new(&text).unwrap();
+        let (machine, at, step) = (sampler.nominal(), [0.0, 0.0, -235.0], 1e-4);
+        let value = |at: [f64; 3], i: usize| {
+            sampler.values(&machine, &at).unwrap().of[i].unwrap().value.unwrap()
+        };
+        // By symmetry M maps the z axis to theta_z (1, 1, 1): one psi is 1/(sqrt(3) theta_z).
+        let turned = (value([0.0, 0.0, -235.0 + step], 1) - value(at, 1)).abs() / step;
+        let found = sampler.values(&machine, &at).unwrap();
+        let along = |psi: f64| 180.0 / std::f64::consts::PI * 3f64.sqrt().recip() / psi;
+        let nearest = found.psi.iter().map(|psi| (along(*psi) / turned - 1.0).abs());
+        assert!(nearest.fold(f64::MAX, f64::min) < 1e-4, "{:?}, {turned}", found.psi);
+        assert!(value(at, 2) >= 100.0 * turned * 0.9999);
     }
 }

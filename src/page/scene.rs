@@ -92,8 +92,7 @@ fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> {
         }
     }
     if let Proof::Witness(witness) = &certificate.proof {
-        let at =
-            |p: &[Exact; 3]| p.iter().map(approximate).collect::<Option<Vec<f64>>>();
+        let at = |p: &[Exact; 3]| p.iter().map(approximate).collect::<Option<Vec<f64>>>();
         let name = |name: &str| name.to_owned();
         let Witness { point, violates, .. } = &**witness;
         all.extend(at(point).map(|at| Mark { name: name("counterexample"), at }));

@@ -148,7 +148,9 @@ impl Page<'_> {
         );
         let of_postulate;
         let three_legs = match &self.certificate.claim {
-            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => Some(claim),
+            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
+                Some(claim)
+            }
             Claim::Postulate(claim) => {
                 of_postulate = nominal::of_postulate(claim);
                 of_postulate.as_ref()

@@ -520,7 +520,7 @@ impl Subdivision {
         Picture {
             name,
             title: format!("The boxes of the proof over {}, by pairs of coordinates", self.name),
-            size: [PANEL[0] * all.len().clamp(1, 3) as f64, PANEL[1] * rows],
+            size: [PANEL[0] * 3.0, PANEL[1] * rows],
             attributes: String::new(),
             content: out.0,
         }
@@ -588,7 +588,12 @@ impl Subdivision {
 fn shade(depth: usize, least: usize, most: usize) -> String {
     let part = if most > least { (depth - least) as f64 / (most - least) as f64 } else { 0.3 };
     let channel = |light: f64, dark: f64| (light + part * (dark - light)).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", channel(220.0, 33.0), channel(236.0, 102.0), channel(247.0, 172.0))
+    format!(
+        "#{:02x}{:02x}{:02x}",
+        channel(220.0, 33.0),
+        channel(236.0, 102.0),
+        channel(247.0, 172.0)
+    )
 }
 
 /// The squares of a grid whose middle is in one of the rectangles, in rows.

@@ -199,7 +199,9 @@ fn asserted(claim: &Claim) -> Vec<String> {
                  there; <var>M</var>(<var>P</var>) has full column rank"
                     .to_owned(),
             ];
-            out.extend(claim.require.iter().map(|requirement| xml(&mechanism::formula(requirement))));
+            out.extend(
+                claim.require.iter().map(|requirement| xml(&mechanism::formula(requirement))),
+            );
             out
         }
         Claim::Machine(claim) => {
@@ -298,9 +300,9 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
         Claim::Machine(MachineClaim { mechanism: Mechanism::Translational(legs), .. }) => {
             (Some(OF_THREE), legs.iter().map(drive).collect())
         }
-        Claim::Kernel(kernel::MachineClaim { mechanism: kernel::Mechanism::Formulas(_), .. }) => {
-            (None, Vec::new())
-        }
+        Claim::Kernel(kernel::MachineClaim {
+            mechanism: kernel::Mechanism::Formulas(_), ..
+        }) => (None, Vec::new()),
         Claim::Kernel(claim) if claim.orientation.is_some() => {
             (Some(TURNED), mechanism::drives(claim))
         }
