@@ -65,7 +65,7 @@ pub fn margins(rows: &[Row]) -> String {
         };
         let _ = write!(
             out,
-            "<tr><td>{}</td><td>{}</td><td class=\"{class}\">{}{}</td>\
+            "<tr><td>{}</td><td class=\"place\">{}</td><td class=\"{class}\">{}{}</td>\
              <td class=\"number\">{}</td><td>{}{machine}</td></tr>",
             xml(&row.requirement),
             xml(&row.bound),

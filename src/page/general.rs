@@ -140,8 +140,16 @@ impl General<'_> {
 
     /// A point in words.
     fn place(&self, at: &[f64]) -> String {
-        let one = |(name, x): (&String, &f64)| format!("{name} = {}", significant(*x, 6));
-        self.names.iter().zip(at).map(one).collect::<Vec<_>>().join(", ")
+        // What the search left of a step about zero is none.
+        let step = |k: usize| {
+            let edge = self.sampler.as_ref().and_then(|s| s.root.get(k));
+            edge.map_or(0.0, |[lo, hi]| 1e-6 * (hi - lo))
+        };
+        let one = |(k, (name, x)): (usize, (&String, &f64))| {
+            let x = if x.abs() < step(k) { 0.0 } else { *x };
+            format!("{name} = {}", significant(x, 6))
+        };
+        self.names.iter().zip(at).enumerate().map(one).collect::<Vec<_>>().join(", ")
     }
 
     fn tree(&self, proof: &kernel::Proof) -> Subdivision {

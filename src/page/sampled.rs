@@ -468,7 +468,7 @@ mod tests {
             )
         };
         let legs = [r#""1","0","0""#, r#""0","1","0""#, r#""0","0","1""#].map(leg).join(",");
-        let workspace = r#"{"box":{"min":["-80","-80","-80"],"max":["120","120","120"]}}"#;
+        let workspace = r#"{"box":{"min":["-60","-60","-60"],"max":["120","120","120"]}}"#;
         claim(&format!(r#"{{"translational":[{legs}]}}"#), workspace, require)
     }
 
@@ -531,8 +531,8 @@ mod tests {
         let m = 120.0 / (309.9_f64 * 309.9 - 2.0 * 120.0 * 120.0).sqrt();
         assert!((psi.found.value.unwrap() - 1.0 / (1.0 - m)).abs() < 1e-9);
         assert!((psi.found.margin - (2.0 - 1.0 / (1.0 - m)) / 2.0).abs() < 1e-9);
-        // rho = x - sqrt(L^2 - y^2 - z^2) is least at x = -80, y = z = 0 with the longest leg.
-        assert!((rho.found.value.unwrap() - (-80.0 - 310.1)).abs() < 1e-3);
+        // rho = x - sqrt(L^2 - y^2 - z^2) is least at x = -60, y = z = 0 with the longest leg.
+        assert!((rho.found.value.unwrap() - (-60.0 - 310.1)).abs() < 1e-3);
     }
 
     #[test]

@@ -275,7 +275,7 @@ fn maps_of_slices(slices: &[Slice]) -> String {
     let mut out = "<section id=\"maps\"><h2>Maps</h2><p>Lines of equal value of the nominal machine over \
          two coordinates, the others in the middle of the workspace, or at the counterexample, in floating \
          point: of the greatest \u{3c8}, and of the requirement, other than that on the greatest \u{3c8}, \
-         of which the least margin was found. Marked: the worst point of each map. Hatched: outside the \
+         of which the least margin was found. Marked: the worst point of each map, or the counterexample. Hatched: outside the \
          workspace, or out of reach.</p>"
         .to_owned();
     for Slice { maps, fixed, .. } in slices {

@@ -137,7 +137,7 @@ fn the_first_box_has_what_a_designer_signs() {
         "<dt>verdict</dt><dd>certified</dd>",
         "Every translational machine of four struts within one tolerance",
         "the box [-60, 60] \u{d7} [-60, 60] \u{d7} [150, 220]",
-        "<td>joint coordinates: rho_i</td><td>at most 340</td>",
+        "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340</td>",
         "joint speed; of arms, degrees per time: |row_i of M| tool, tool = 100",
     ] {
         assert!(first.contains(text), "{text}: {first}");
