@@ -306,13 +306,16 @@ impl General<'_> {
     }
 }
 
+/// A number of what was sampled at a point.
+type Of<'a> = Box<dyn Fn(&Sampled) -> Option<f64> + 'a>;
+
 /// What a map is of.
 struct Function<'a> {
     file: &'static str,
     heading: String,
-    of: Box<dyn Fn(&Sampled) -> Option<f64> + 'a>,
+    of: Of<'a>,
     /// Less is worse.
-    worst: Box<dyn Fn(&Sampled) -> Option<f64> + 'a>,
+    worst: Of<'a>,
 }
 
 /// The nominal machine in the middle of its workspace; none of users' formulas, which say nothing of

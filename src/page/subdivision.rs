@@ -162,6 +162,9 @@ const OUTLINED: f64 = 1.6;
 /// Squares of that grid on either side.
 const GRID: usize = 80;
 
+/// The least and the greatest corner.
+type Rectangle = ([f64; 2], [f64; 2]);
+
 /// A box that is not split.
 #[derive(Clone, Debug)]
 pub struct Leaf {
@@ -436,7 +439,7 @@ impl Subdivision {
                 corner(low[0], high[1]),
             ]
         };
-        let mut by_rule: BTreeMap<usize, Vec<([f64; 2], [f64; 2])>> = BTreeMap::new();
+        let mut by_rule: BTreeMap<usize, Vec<Rectangle>> = BTreeMap::new();
         let mut count = 0;
         for leaf in &self.leaves {
             let [of_axis, of_b, of_c] = [axis, b, c].map(|k| leaf.parts[k]);
@@ -597,7 +600,7 @@ fn shade(depth: usize, least: usize, most: usize) -> String {
 }
 
 /// The squares of a grid whose middle is in one of the rectangles, in rows.
-fn on_grid(all: &[([f64; 2], [f64; 2])]) -> Vec<([f64; 2], [f64; 2])> {
+fn on_grid(all: &[Rectangle]) -> Vec<Rectangle> {
     let mut filled = vec![false; GRID * GRID];
     let n = GRID as f64;
     for (low, high) in all {
