@@ -1,6 +1,7 @@
 //! What the proof, or the refutation, consists of, in tables.
 
-use super::subdivision::{Leaf, Subdivision, OUTSIDE};
+use super::legend::OUTSIDE;
+use super::subdivision::{Leaf, Subdivision};
 use crate::decimal::{approximate, counted, exact, grouped, significant};
 use crate::escape::xml;
 use crate::report::{self, Counterexample};

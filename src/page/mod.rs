@@ -8,6 +8,7 @@
 //! | `words`         | the claim in words, formulas and tables                        |
 //! | `nominal`       | three translating legs in doubles                              |
 //! | `general`       | the scene of a kernel claim: any mechanism                     |
+//! | `shape`         | its machine as it is drawn                                     |
 //! | `mechanism`     | a kernel claim in words and tables                             |
 //! | `sampled`       | values of its quantities in doubles                            |
 //! | `legs`          | legs at places of their platform                               |
@@ -15,6 +16,7 @@
 //! | `isomap`        | lines of equal value over two coordinates                      |
 //! | `contour`       | level sets on a grid                                           |
 //! | `subdivision`   | the boxes of the proof                                         |
+//! | `legend`        | their rules                                                    |
 //! | `evidence`      | requirements, the counterexample, where the proof worked hardest |
 //! | `recheck`       | how to check again, and the digests                            |
 //! | `svg`           | views of space and parts of figures                            |
@@ -28,6 +30,7 @@ mod drawing;
 mod evidence;
 mod general;
 mod isomap;
+mod legend;
 mod legs;
 mod mechanism;
 mod nominal;
@@ -36,6 +39,7 @@ mod recheck;
 mod sampled;
 mod scene;
 mod sections;
+mod shape;
 mod subdivision;
 pub(crate) mod svg;
 mod words;
@@ -44,13 +48,13 @@ use crate::digest::policy_source;
 use crate::escape::{self, xml};
 use crate::report::worst_found;
 use isomap::Scale;
+use legend::PATTERNS;
 use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::Accepted;
 use scene::{of_three_legs, slice, Scene};
 use serde_json::{json, Value};
-use subdivision::PATTERNS;
 
 pub use recheck::{checker_sha256, CHECKER_COMMAND};
 pub use svg::Picture;

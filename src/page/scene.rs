@@ -2,9 +2,10 @@
 
 use super::evidence::Row;
 use super::isomap::{Mark, Scale};
+use super::legend::Legend;
 use super::legs::Shape;
 use super::nominal::Nominal;
-use super::subdivision::{Legend, Root, Subdivision};
+use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
 use crate::decimal::{approximate, significant};
 use crate::report;

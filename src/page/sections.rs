@@ -1,8 +1,9 @@
 //! The sections of a page, in their order.
 
+use super::legend::PATTERNS;
 use super::legs::Numbers;
 use super::scene::Slice;
-use super::subdivision::{Subdivision, PATTERNS};
+use super::subdivision::Subdivision;
 use super::{evidence, general, mechanism, nominal, recheck, words, Page, Picture};
 use crate::decimal::grouped;
 use crate::escape::xml;
