@@ -131,6 +131,25 @@ pub fn terminating(x: &BigRational, places: u32) -> Option<String> {
     })
 }
 
+/// The decimal of the fewest places from `min` to `max`, `min < max`: of those the nearest to the
+/// middle.
+pub fn shortest(min: &BigRational, max: &BigRational) -> BigRational {
+    let middle = (min + max) / BigRational::from_integer(2.into());
+    if max <= min {
+        return middle;
+    }
+    // From a step that is greater than the interval; of one at most half as long as it there is a
+    // multiple in it: the nearest to the middle is.
+    let mut places = -1 - order(&(max - min));
+    loop {
+        let value = scaled(&scaled(&middle, places).round(), -places);
+        if *min <= value && value <= *max {
+            return value;
+        }
+        places += 1;
+    }
+}
+
 /// An exact number for people: itself where that is short, as a decimal if it is one; else nine
 /// digits after a `~`.
 pub fn readable(x: &Exact) -> String {

@@ -9,6 +9,7 @@
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
+//! | [`decide`]       | decides a claim by the rules, or by the kernel                        |
 //! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
 //! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
@@ -22,6 +23,7 @@
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
 //! | [`interval`]     | floating-point intervals and approximations for the search            |
 //! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
+//! | [`limit`]        | how far one number of a design can go                                 |
 //! | [`machine`]      | the machine's obligations and the rules that may discharge them       |
 //! | [`output`]       | files that appear whole or not at all                                 |
 //! | [`page`]         | a certificate as a page to read and to file, and its figures          |
@@ -47,6 +49,7 @@ pub mod adverse;
 pub mod atlas;
 pub mod attestation;
 pub mod batch;
+pub mod decide;
 pub mod decimal;
 pub mod design;
 pub mod digest;
@@ -60,6 +63,7 @@ pub mod frontier;
 pub mod import;
 pub mod interval;
 pub mod largest_cube;
+pub mod limit;
 pub mod machine;
 pub mod output;
 pub mod page;

@@ -135,3 +135,39 @@ fn one_psi_max_by_a_tree_over_the_cube_is_refused_with_the_command_for_a_range()
     assert_eq!(refused, ExportError::OneCube);
     assert!(refused.to_string().contains("orthocert postulate --psi-range A..B"));
 }
+
+const FOUR: &str = include_str!("../proofs/rocq/instances/FourSliders.cert.json");
+
+#[test]
+fn certificates_of_the_kernel_are_written_as_the_instances_of_the_formal_development() {
+    for (certificate, instance) in [
+        (FOUR, include_str!("../proofs/rocq/instances/FourSliders.v")),
+        (
+            include_str!("../proofs/rocq/instances/StrutsAndPlane.cert.json"),
+            include_str!("../proofs/rocq/instances/StrutsAndPlane.v"),
+        ),
+    ] {
+        let text = exported(certificate).expect("exported");
+        assert_eq!(text, instance);
+        assert!(!statement(&text).contains("certificate"));
+    }
+}
+
+#[test]
+fn claims_of_the_kernel_that_its_formal_side_lacks_are_refused_with_what_is_missing() {
+    let replaced = |from: &str, to: &str| {
+        let text = FOUR.replacen(from, to, 1);
+        assert_ne!(text, FOUR, "{from}");
+        exported(&text)
+    };
+    let margin = r#""quantity":"serial_margin""#;
+    let refused = replaced(r#""quantity":"joint_range""#, margin).expect_err("refused");
+    assert_eq!(refused, ExportError::Quantity("serial_margin"));
+    assert!(refused.to_string().contains("\"serial_margin\""));
+    let cylinder = r#""cylinder":{"center":["0","0"],"radius":"60","z":["0","200"]}"#;
+    let workspace = r#""box":{"min":["-60","-60","0"],"max":["60","60","200"]}"#;
+    assert_eq!(replaced(workspace, cylinder), Err(ExportError::KernelNotABox));
+    let step = r#"[2,"test"]"#;
+    assert_eq!(replaced(step, r#"[2,"cube"]"#), Err(ExportError::Rule("cube")));
+    assert_eq!(replaced(r#","split":1}"#, "}"), Err(ExportError::NotATree));
+}

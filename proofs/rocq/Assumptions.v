@@ -7,7 +7,8 @@ From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker
   CheckerPostulate.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
+From Orthocert.kernel Require Machine Problem.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -133,3 +134,18 @@ Check PostulateUpTo2.certified.
 Print Assumptions PostulateUpTo2.certified.
 Check PostulateUpTo2.at_greatest.
 Print Assumptions PostulateUpTo2.at_greatest.
+
+(** ** The kernel: any number of legs *)
+
+Check kernel.Machine.row_is_derivative.
+Print Assumptions kernel.Machine.row_is_derivative.
+Check kernel.Machine.three_guided.
+Print Assumptions kernel.Machine.three_guided.
+Check kernel.Problem.check_claim_sound.
+Print Assumptions kernel.Problem.check_claim_sound.
+Check FourSliders.certified.
+Print Assumptions FourSliders.certified.
+Check StrutsAndPlane.certified.
+Print Assumptions StrutsAndPlane.certified.
+Check kernel.Check.check_all_open.
+Print Assumptions kernel.Check.check_all_open.

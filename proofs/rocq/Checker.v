@@ -7,6 +7,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool List.
 From Orthocert Require Import Vec3 SingularValues Kinematics PositiveDefinite Rules Slopes Fixed Enclosure Claim.
+From Orthocert.kernel Require Number.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -30,36 +31,8 @@ Local Notation contains_mat := (contains_mat bits).
 
 (** ** Numbers and parameters *)
 
-Fixpoint enclose (x : number) : option fixed :=
-  match x with
-  | Ratio n d => Some (ratio bits n d)
-  | Plus x y => match enclose x, enclose y with Some a, Some b => Some (add a b) | _, _ => None end
-  | Minus x y => match enclose x, enclose y with Some a, Some b => Some (sub a b) | _, _ => None end
-  | Times x y => match enclose x, enclose y with Some a, Some b => Some (mul bits a b) | _, _ => None end
-  | Over x y =>
-      match enclose x, enclose y with
-      | Some a, Some b => match recip bits b with Some c => Some (mul bits a c) | None => None end
-      | _, _ => None
-      end
-  | Root x => match enclose x with Some a => root bits a | None => None end
-  end.
-
-Lemma enclose_sound : forall x a, enclose x = Some a -> contains a (value x).
-Proof.
-  induction x as [n d | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros a h; cbn [enclose] in h.
-  - assert (e : ratio bits n d = a) by congruence. subst a. apply ratio_sound.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
-    assert (e : add b c = a) by congruence. subst a. apply add_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
-    assert (e : sub b c = a) by congruence. subst a. apply sub_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
-    assert (e : mul bits b c = a) by congruence. subst a. apply mul_sound; auto.
-  - destruct (enclose x) as [b |], (enclose y) as [c |]; try discriminate.
-    destruct (recip bits c) as [d |] eqn:r; [| discriminate].
-    assert (e : mul bits b d = a) by congruence. subst a. apply mul_sound; [auto |].
-    apply (recip_sound bits c); auto.
-  - destruct (enclose x) as [b |]; [| discriminate]. apply (root_sound bits b); auto.
-Qed.
+Local Notation enclose := (Number.enclose bits).
+Local Notation enclose_sound := (Number.enclose_sound bits).
 
 Definition enclose_tolerance (t : tolerance) : option fixed :=
   match enclose (least t), enclose (greatest t) with Some a, Some b => Some (hull a b) | _, _ => None end.

@@ -65,10 +65,12 @@ fn explanation(entry: &Entry) -> String {
     let Some(found) = &entry.counterexample else {
         return entry.message.clone().unwrap_or_default();
     };
-    let [x, y, z] = &found.point;
-    let mut text = format!("{}\n{}\nat P = ({x}, {y}, {z})", found.violated, found.value);
+    let point: Vec<String> = found.point.iter().map(ToString::to_string).collect();
+    let point = point.join(", ");
+    let mut text = format!("{}\n{}\nat P = ({point})", found.violated, found.value);
     for setting in &found.machine {
-        let _ = write!(text, "\nleg {} {} = {}", setting.leg, setting.parameter, setting.value);
+        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+        let _ = write!(text, "\n{leg}{} = {}", setting.parameter, setting.value);
     }
     text
 }

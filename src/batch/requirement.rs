@@ -2,18 +2,22 @@
 
 use crate::decimal::readable;
 use crate::design::Design;
+use crate::report::shown;
 use orthocert_checker::certificate::Violation;
 use orthocert_checker::claim::{Claim, Range, Requirements, Workspace};
 use orthocert_checker::number::Exact;
+use orthocert_kernel::claim as kernel;
+use orthocert_kernel::quantity::{Quantity, TABLE};
 use serde::Serialize;
+use std::sync::LazyLock;
 
 /// A rule: its stable name, and what it says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rule {
     /// The name, which is never given another meaning.
-    pub id: &'static str,
+    pub id: String,
     /// What holds where the rule is kept.
-    pub says: &'static str,
+    pub says: String,
 }
 
 /// Serial and parallel singularities.
@@ -21,22 +25,42 @@ pub const SINGULARITY: &str = "singularity";
 /// A file that is no design.
 pub const BAD_INPUT: &str = "bad-input";
 
-/// Every rule, in the order of reports.
-pub const RULES: [Rule; 9] = [
-    Rule {
-        id: SINGULARITY,
-        says: "Every leg reaches every point of the workspace, without a serial or a parallel \
-               singularity.",
-    },
-    Rule { id: "transmission", says: "The velocity transmission factors are within their bounds." },
-    Rule { id: "joint-range", says: "The joint coordinates are within their ranges." },
-    Rule { id: "conditioning", says: "The condition number of the Jacobian is within its bound." },
-    Rule { id: "serial-margin", says: "The legs keep their distance from serial singularities." },
-    Rule { id: "parallel-margin", says: "The legs' unit vectors span at least the volume." },
-    Rule { id: "leg-angle", says: "The angles between legs and guides are within their bound." },
-    Rule { id: "joint-speed", says: "The tool's speed demands no joint speed beyond the limit." },
-    Rule { id: BAD_INPUT, says: "The file is a design." },
+/// What holds where the rules of these quantities are kept; of others, the table's own words say it.
+const SENTENCES: [(&str, &str); 7] = [
+    ("transmission", "The velocity transmission factors are within their bounds."),
+    ("joint_range", "The joint coordinates are within their ranges."),
+    ("conditioning", "The condition number of the Jacobian is within its bound."),
+    ("serial_margin", "The legs keep their distance from serial singularities."),
+    ("parallel_margin", "The legs' unit vectors span at least the volume."),
+    ("leg_angle", "The angles between legs and guides are within their bound."),
+    ("joint_speed", "The tool's speed demands no joint speed beyond the limit."),
 ];
+
+/// Every rule, in the order of reports: singularities, the kernel's table of quantities, designs.
+pub static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
+    let rule = |id: &str, says: &str| Rule { id: id.to_owned(), says: says.to_owned() };
+    let of = |quantity: &&Quantity| {
+        let own = SENTENCES.iter().find(|(key, _)| *key == quantity.key);
+        let says = match own {
+            Some((_, says)) => (*says).to_owned(),
+            None => format!("Within its bound: {}.", quantity.words),
+        };
+        rule(&quantity.key.replace('_', "-"), &says)
+    };
+    let singularity =
+        "Every leg reaches every point of the workspace, without a serial or a parallel \
+                       singularity.";
+    let mut all = vec![rule(SINGULARITY, singularity)];
+    all.extend(TABLE.iter().map(of));
+    all.push(rule(BAD_INPUT, "The file is a design."));
+    all
+});
+
+/// The rule of a quantity, by its key.
+pub fn rule_of(quantity: &str) -> &'static str {
+    let id = quantity.replace('_', "-");
+    RULES.iter().find(|rule| rule.id == id).map_or(SINGULARITY, |rule| &rule.id)
+}
 
 /// What is known of a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -77,15 +101,27 @@ pub enum Known {
 
 /// The requirements of a design, and what is known of each.
 pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
-    let Claim::Machine(claim) = &design.claim else {
-        return Vec::new();
+    let demanded = match &design.claim {
+        Claim::Machine(claim) => {
+            let cube = matches!(claim.workspace, Workspace::Cube { .. });
+            let of_machine = demanded(&claim.requirements, cube, claim.mechanism.is_angular());
+            of_machine
+                .into_iter()
+                .map(|(rule, key, demands)| (rule, key.to_owned(), demands))
+                .collect()
+        }
+        Claim::Kernel(claim) => demanded_of_kernel(claim),
+        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
     };
-    let cube = matches!(claim.workspace, Workspace::Cube { .. });
-    let demanded = demanded(&claim.requirements, cube, claim.mechanism.is_angular());
     let demanded = demanded.into_iter().map(|(rule, key, demands)| Requirement {
         rule,
         demands,
-        line: design.sources.position(key).map(|at| at.line),
+        // A requirement of one leg has its line there.
+        line: design
+            .sources
+            .position(&key)
+            .or_else(|| design.sources.position("requirements"))
+            .map(|at| at.line),
         standing: match known {
             Known::Certified => Standing::Holds,
             Known::Refuted(broken) if broken == rule => Standing::Fails,
@@ -93,6 +129,40 @@ pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
         },
     });
     demanded.collect()
+}
+
+/// Rule, key of the design and bounds of everything that a claim of the kernel demands: one a quantity
+/// of its table.
+fn demanded_of_kernel(claim: &kernel::MachineClaim) -> Vec<(&'static str, String, String)> {
+    let mut found = vec![(SINGULARITY, "requirements".to_owned(), "no singularity".to_owned())];
+    for quantity in TABLE {
+        let own = claim.require.iter().filter(|own| own.quantity == quantity.key);
+        let texts: Vec<String> = own.map(demands).collect();
+        if !texts.is_empty() {
+            let key = format!("requirements.{}", quantity.key);
+            found.push((rule_of(quantity.key), key, texts.join(", ")));
+        }
+    }
+    found
+}
+
+/// `psi <= 2`, `leg 1: rho >= 0`.
+fn demands(own: &kernel::Requirement) -> String {
+    let name = match own.quantity.as_str() {
+        "transmission" => "psi".to_owned(),
+        "joint_range" => "rho".to_owned(),
+        "conditioning" => "condition number".to_owned(),
+        quantity => quantity.replace('_', " "),
+    };
+    let leg = own.leg.map(|leg| format!("leg {leg}: ")).unwrap_or_default();
+    match &own.bound {
+        kernel::Bound::Min(bound) => format!("{leg}{name} >= {}", shown(bound)),
+        kernel::Bound::Max(bound) => format!("{leg}{name} <= {}", shown(bound)),
+        kernel::Bound::Within([min, max]) => {
+            format!("{leg}{name} from {} to {} degrees", shown(min), shown(max))
+        }
+        kernel::Bound::Holds => format!("{leg}{name}"),
+    }
 }
 
 /// Rule, key of the design and bounds of everything that is demanded.

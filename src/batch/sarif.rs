@@ -5,7 +5,7 @@
 //! no design is a failure of the rule `bad-input`. Work that did not end is a notification of the
 //! invocation, which then was not successful.
 
-use super::requirement::{Requirement, Standing, BAD_INPUT, RULES};
+use super::requirement::{Requirement, Rule, Standing, BAD_INPUT, RULES};
 use super::{Batch, Ending, Entry};
 use serde_json::{json, Value};
 use std::fmt::Write;
@@ -33,9 +33,8 @@ pub fn sarif(batch: &Batch, locate: impl Fn(&str) -> String) -> Value {
             })
         })
         .collect();
-    let rules = RULES.map(
-        |rule| json!({ "id": rule.id, "shortDescription": { "text": rule.says }, "helpUri": HELP }),
-    );
+    let rule = |rule: &Rule| json!({ "id": rule.id, "shortDescription": { "text": rule.says }, "helpUri": HELP });
+    let rules: Vec<Value> = RULES.iter().map(rule).collect();
     json!({
         "$schema": SCHEMA,
         "version": "2.1.0",

@@ -2,13 +2,13 @@
 
 use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
 use orthocert::batch::plan::{identity, plan, Planned};
-use orthocert::batch::requirement::{broken, requirements, Known};
+use orthocert::batch::requirement::{requirements, Known};
 use orthocert::batch::run::{run as run_jobs, Outcome};
 use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
+use orthocert::decide::decide;
 use orthocert::design::{Design, ReadError};
 use orthocert::report::Report;
 use orthocert::search::{Budget, Control};
-use orthocert::verify::verify;
 use orthocert::{escape, output};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Named;
@@ -196,7 +196,7 @@ fn attempt(
     let search = |claim: &_| {
         let mut silent = |_| {};
         let cancel = interrupt::cancelled();
-        verify(claim, budget, &mut Control { cancel, progress: &mut silent })
+        decide(claim, budget, &mut Control { cancel, progress: &mut silent })
     };
     let (report, status) = task.run(search).map_err(wrong)?;
     Ok(known(&design, report, status))
@@ -210,9 +210,7 @@ fn known(design: &Design, report: Report, status: Status) -> Entry {
     };
     let known = match (status, &report.counterexample) {
         (Status::Decided(Verdict::Certified), _) => Known::Certified,
-        (Status::Decided(Verdict::Refuted), Some(found)) => {
-            Known::Refuted(broken(&found.violation))
-        }
+        (Status::Decided(Verdict::Refuted), Some(found)) => Known::Refuted(found.rule),
         _ => Known::Nothing,
     };
     let requirements = requirements(design, known);

@@ -6,11 +6,16 @@ use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
 use orthocert::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert::output;
-use orthocert::report::CertificateFile;
+use orthocert::report::{exactly, CertificateFile};
 use orthocert::sample::with_unit;
+use orthocert::search::Budget;
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
+use orthocert_kernel::certificate::Proof as Proven;
+use orthocert_kernel::claim as kernel;
+use orthocert_kernel::machine::Leg;
+use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -25,6 +30,8 @@ const WIDEST: usize = 28;
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
 /// few hundred; the condition number of the rotary Delta takes 40,000.
 const BOXES: u64 = 100_000;
+/// The same for claims of the kernel, whose boxes cost more and close more.
+const BOXES_OF_KERNEL: u64 = 20_000;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -59,7 +66,7 @@ struct Row {
     max: Option<Exact>,
     /// The point that reaches the inner end, in exact numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
-    point: Option<[Exact; 3]>,
+    point: Option<Vec<Exact>>,
     /// The relative width that was reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     relative: Option<String>,
@@ -79,31 +86,96 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let relative = relative(&arguments.relative)?;
     let design = input::design(arguments.design.as_deref())?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(Failure::Defect);
-    };
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("bounds.cert.json"))?;
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
     }
     effort.start_threads()?;
-    let budget = effort.budget_or(BOXES, started)?;
-    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
-    let mut rows = exact_rows(claim);
-    for extreme in Extreme::of(claim) {
-        let found = if singular {
-            Err(NotEnclosed::Singular)
-        } else {
-            effort.run(|control| enclose(claim, extreme, &relative, budget, control))
-        };
-        rows.push(row((extreme, claim), found, &relative, arguments)?);
-    }
+    let boxes = if matches!(design.claim, Claim::Kernel(_)) { BOXES_OF_KERNEL } else { BOXES };
+    let budget = effort.budget_or(boxes, started)?;
+    let rows = match &design.claim {
+        Claim::Machine(claim) => of_machine(claim, &relative, arguments, budget)?,
+        Claim::Kernel(claim) => of_kernel(claim, &relative, arguments, budget)?,
+        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => return Err(Failure::Defect),
+    };
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
         Format::Text => print::answer(&text(&rows, started))?,
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
     Ok(if complete { Status::Done } else { Status::Undecided })
+}
+
+fn of_machine(
+    claim: &MachineClaim,
+    relative: &BigRational,
+    arguments: &Arguments,
+    budget: Budget,
+) -> Result<Vec<Row>, Failure> {
+    let effort = &arguments.effort;
+    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
+    let mut rows = exact_rows(claim);
+    for extreme in Extreme::of(claim) {
+        let found = if singular {
+            Err(NotEnclosed::Singular)
+        } else {
+            effort.run(|control| enclose(claim, extreme, relative, budget, control))
+        };
+        let mut row = Row::new(extreme.quantity(), extreme.unit(claim), extreme.is_greatest());
+        match found {
+            Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
+                let certificates = (refuted.as_deref(), &*certified);
+                row.enclosed((width, inner, outer), relative);
+                row.store(arguments, file_stem(extreme), certificates)?;
+            }
+            Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
+                return Err(failure(error));
+            }
+            Err(error) => row.not_enclosed = Some(error.to_string()),
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+fn of_kernel(
+    claim: &kernel::MachineClaim,
+    relative: &BigRational,
+    arguments: &Arguments,
+    budget: Budget,
+) -> Result<Vec<Row>, Failure> {
+    use orthocert::solver::extremes::{enclose, is_singular, Enclosed, Extreme, NotEnclosed};
+    let effort = &arguments.effort;
+    let failure = |error: NotEnclosed| match error {
+        NotEnclosed::Cancelled => Failure::Interrupted,
+        error => Failure::input(error),
+    };
+    let problem = Problem::new(claim).map_err(Failure::input)?;
+    let angular = problem.legs.iter().any(Leg::is_angular);
+    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
+    let mut rows = Vec::new();
+    for extreme in Extreme::of(claim, problem.legs.len()) {
+        let found = if singular {
+            Err(NotEnclosed::Singular)
+        } else {
+            effort.run(|control| enclose(claim, &extreme, relative, budget, control))
+        };
+        let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
+        match found {
+            Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
+                let [inner, outer] = [inner, outer].map(Exact::Rational);
+                let certificates = (refuted.as_deref(), &*certified);
+                row.enclosed((width, inner, outer), relative);
+                row.store(arguments, extreme.file_stem(), certificates)?;
+            }
+            Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
+                return Err(failure(error));
+            }
+            Err(error) => row.not_enclosed = Some(error.to_string()),
+        }
+        rows.push(row);
+    }
+    Ok(rows)
 }
 
 fn relative(text: &str) -> Result<BigRational, Failure> {
@@ -147,50 +219,51 @@ fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
     rows
 }
 
-fn row(
-    (extreme, claim): (Extreme, &MachineClaim),
-    found: Result<Enclosed, NotEnclosed>,
-    relative: &BigRational,
-    arguments: &Arguments,
-) -> Result<Row, Failure> {
-    let mut row = Row {
-        quantity: extreme.quantity(),
-        unit: extreme.unit(claim),
-        end: if extreme.is_greatest() { "greatest" } else { "least" },
-        min: None,
-        max: None,
-        point: None,
-        relative: None,
-        wide: false,
-        not_enclosed: None,
-        certificates: Vec::new(),
-    };
-    match found {
-        Ok(found) => {
-            if let Some(folder) = &arguments.output {
-                let inner = found.refuted.iter().map(|certificate| (certificate, "inner"));
-                for (certificate, side) in inner.chain([(&found.certified, "outer")]) {
-                    let text = certificate.to_text().map_err(|_| Failure::Defect)?;
-                    let path = folder.join(format!("{}-{side}.cert.json", file_stem(extreme)));
-                    row.certificates.push(certify::store(Some(folder), &path, &text)?);
-                }
-            }
-            row.point = found.refuted.as_deref().and_then(witness_point);
-            row.wide = found.width > *relative;
-            row.relative = Some(rounded(&found.width, 2, Toward::Above));
-            let (min, max) = if extreme.is_greatest() {
-                (found.inner, found.outer)
-            } else {
-                (found.outer, found.inner)
-            };
-            (row.min, row.max) = (Some(min), Some(max));
+impl Row {
+    fn new(quantity: String, unit: Option<&'static str>, greatest: bool) -> Self {
+        Row {
+            quantity,
+            unit,
+            end: if greatest { "greatest" } else { "least" },
+            min: None,
+            max: None,
+            point: None,
+            relative: None,
+            wide: false,
+            not_enclosed: None,
+            certificates: Vec::new(),
         }
-        Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
-            return Err(failure(error));
-        }
-        Err(error) => row.not_enclosed = Some(error.to_string()),
     }
-    Ok(row)
+
+    /// Between a refuted bound and a certified one.
+    fn enclosed(
+        &mut self,
+        (width, inner, outer): (BigRational, Exact, Exact),
+        asked: &BigRational,
+    ) {
+        self.wide = width > *asked;
+        self.relative = Some(rounded(&width, 2, Toward::Above));
+        let (min, max) = if self.end == "greatest" { (inner, outer) } else { (outer, inner) };
+        (self.min, self.max) = (Some(min), Some(max));
+    }
+
+    /// Writes the certificates, if they are asked for; the point is that of the refutation.
+    fn store(
+        &mut self,
+        arguments: &Arguments,
+        stem: String,
+        (refuted, certified): (Option<&Certificate>, &Certificate),
+    ) -> Result<(), Failure> {
+        self.point = refuted.and_then(witness_point);
+        let Some(folder) = &arguments.output else { return Ok(()) };
+        let inner = refuted.into_iter().map(|certificate| (certificate, "inner"));
+        for (certificate, side) in inner.chain([(certified, "outer")]) {
+            let text = certificate.to_text().map_err(|_| Failure::Defect)?;
+            let path = folder.join(format!("{stem}-{side}.cert.json"));
+            self.certificates.push(certify::store(Some(folder), &path, &text)?);
+        }
+        Ok(())
+    }
 }
 
 fn failure(error: NotEnclosed) -> Failure {
@@ -200,9 +273,10 @@ fn failure(error: NotEnclosed) -> Failure {
     }
 }
 
-fn witness_point(certificate: &Certificate) -> Option<[Exact; 3]> {
+fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
-        Proof::Witness(witness) => Some(witness.point.clone()),
+        Proof::Witness(witness) => Some(witness.point.to_vec()),
+        Proof::Kernel(Proven::Witness(witness)) => witness.point.iter().map(exactly).collect(),
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
+use orthocert::decide::Found;
 use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::search::Stop;
 use orthocert::verify::{Answer, Undecided};
@@ -32,6 +33,22 @@ pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
     let (stop, objection) = (Stop::Exhausted, Some(objection));
     *answer = Answer::Undecided(Undecided { open: Vec::new(), stop, objection });
     Ok(None)
+}
+
+/// As [`decide`], of a claim of either kind.
+pub fn decided(found: &mut Found) -> Result<Option<Decision>, Failure> {
+    if found.is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
+    let Some((certificate, accepted)) = found.decided() else { return Ok(None) };
+    let verdict = accepted.verdict;
+    match as_written(certificate) {
+        Ok(text) => Ok(Some(Decision { verdict, text })),
+        Err(objection) => {
+            found.object(objection);
+            Ok(None)
+        }
+    }
 }
 
 /// The text of a certificate, which reads back as the certificate.

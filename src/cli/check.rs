@@ -11,6 +11,7 @@ use orthocert_checker::claim::Claim;
 use orthocert_checker::paving::{self, Extent, Header, Summary};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read, statement, Accepted};
+use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::BufReader;
@@ -50,6 +51,10 @@ pub struct Arguments {
     /// The seed of the draw, to repeat one [default: from the system's randomness, and printed]
     #[arg(long, value_name = "S", requires = "sample")]
     seed: Option<u64>,
+    /// Also print the formulas that the claim is about, of a machine of any kind: the inputs, and leg by
+    /// leg A, D and the joint coordinate
+    #[arg(long)]
+    formulas: bool,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -63,6 +68,8 @@ enum Answer<'a> {
         accepted: bool,
         verdict: Verdict,
         statement: &'a str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        formulas: Option<&'a str>,
         #[serde(skip_serializing_if = "Option::is_none")]
         proof: Option<Size>,
         claim: &'a Claim,
@@ -89,6 +96,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let design = design.map_err(Failure::input)?;
     let begun = Begun::new(&arguments.certificate)?;
     if paving::is_paving(&begun.start) {
+        if arguments.formulas {
+            return Err(without_formulas("a paving"));
+        }
         return check_paving(arguments, begun, design.as_ref());
     }
     let bytes = begun.start;
@@ -102,7 +112,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     match examine(&bytes, design.as_ref()) {
         Ok((certificate, accepted)) => {
-            accept(arguments.format, &certificate, &accepted)?;
+            let formulas = match arguments.formulas {
+                true => Some(formulas(&certificate)?),
+                false => None,
+            };
+            accept(arguments.format, &certificate, &accepted, formulas.as_deref())?;
             Ok(Status::Decided(accepted.verdict))
         }
         Err(reason) => reject(arguments, &reason),
@@ -208,6 +222,9 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
 /// Checks all of a folder.
 fn folder(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { certificate, design, designs, jobs, format, sample, .. } = arguments;
+    if arguments.formulas {
+        return Err(without_formulas("a folder"));
+    }
     if sample.is_some() {
         let message = "--sample: found with a folder; accepted: with one paving";
         return Err(Failure::Input(message.to_owned()));
@@ -234,17 +251,45 @@ pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Ac
     Ok((certificate, accepted))
 }
 
-fn accept(format: Format, certificate: &Certificate, accepted: &Accepted) -> Result<(), Failure> {
+/// The formulas that a certificate's claim is about.
+fn formulas(certificate: &Certificate) -> Result<String, Failure> {
+    let Claim::Kernel(claim) = &certificate.claim else {
+        return Err(without_formulas("a certificate that is not checked by formulas"));
+    };
+    // The certificate was accepted, so that its claim is well formed.
+    let problem = Problem::new(claim).map_err(Failure::input)?;
+    orthocert_kernel::statement::formulas(&problem).map_err(Failure::input)
+}
+
+fn without_formulas(found: &str) -> Failure {
+    Failure::Input(format!(
+        "--formulas: found {found}; accepted: one certificate about a machine of kind \"formulas\", \
+         \"planar\", \"spatial\" or \"spherical\", with more than three legs, or with a requirement that \
+         such machines brought (the theorem of every other is in its statement)"
+    ))
+}
+
+fn accept(
+    format: Format,
+    certificate: &Certificate,
+    accepted: &Accepted,
+    formulas: Option<&str>,
+) -> Result<(), Failure> {
     let verdict = accepted.verdict;
     let statement = statement::established(certificate).unwrap_or_default();
     match format {
         Format::Text => {
-            print::answer(&statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}")))
+            let mut answer = statement::wrapped(&format!("ACCEPTED: {verdict}\n{statement}"));
+            if let Some(formulas) = formulas {
+                // Not wrapped: a line is a formula.
+                answer += &format!("\nIts formulas:\n{formulas}");
+            }
+            print::answer(&answer)
         }
         Format::Json => {
             let proof = Size::accepted(&certificate.proof, &accepted.size);
-            let (statement, claim) = (statement.as_str(), &certificate.claim);
-            print::json(&Answer::Accepted { accepted: true, verdict, statement, proof, claim })
+            let (accepted, statement, claim) = (true, statement.as_str(), &certificate.claim);
+            print::json(&Answer::Accepted { accepted, verdict, statement, formulas, proof, claim })
         }
     }
 }
@@ -281,11 +326,11 @@ fn difference(one: &Value, other: &Value, key: &str) -> Option<(String, String, 
                 difference(&of(a), &of(b), &format!("{key}.{k}"))
             })
         }
-        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => a
-            .iter()
-            .zip(b)
-            .enumerate()
-            .find_map(|(i, (x, y))| difference(x, y, &format!("{key}[{}]", i + 1))),
+        // Where one list goes on, what the other lacks is absent.
+        (Value::Array(a), Value::Array(b)) => (0..a.len().max(b.len())).find_map(|i| {
+            let of = |list: &[Value]| list.get(i).cloned().unwrap_or(Value::Null);
+            difference(&of(a), &of(b), &format!("{key}[{}]", i + 1))
+        }),
         _ if one == other => None,
         _ => Some((key.to_owned(), shown(one), shown(other))),
     }

@@ -18,6 +18,7 @@ mod init;
 mod input;
 mod interrupt;
 mod largest_cube;
+mod limit;
 mod merge;
 mod paper;
 mod pave;
@@ -89,6 +90,8 @@ enum Command {
     Paper(paper::Arguments),
     /// Enclose the side of the largest axis-aligned cube in which all requirements hold.
     LargestCube(largest_cube::Arguments),
+    /// Find how far one number of a design can go: a certified and a refuted value beside each other.
+    Limit(limit::Arguments),
     /// Pave a box: where all requirements hold, where some fails, and the volume between.
     Pave(pave::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
@@ -270,6 +273,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Report(arguments) => report::run(arguments),
         Command::Paper(arguments) => paper::run(arguments),
         Command::LargestCube(arguments) => largest_cube::run(arguments),
+        Command::Limit(arguments) => limit::run(arguments),
         Command::Pave(arguments) => pave::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Atlas(arguments) => atlas::run(arguments),

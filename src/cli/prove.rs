@@ -2,12 +2,12 @@
 //! re-checked.
 
 use super::{certify, input, print, Failure, Status};
+use orthocert::decide::{recalled, Found, NotDecided};
 use orthocert::design::Design;
 use orthocert::digest::sha256;
 use orthocert::output;
 use orthocert::report::{CertificateFile, Report};
-use orthocert::verify::{sampled, Answer, Verification};
-use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::file::is_stream;
 use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read};
@@ -32,22 +32,20 @@ pub struct Task<'a> {
     pub started: Instant,
 }
 
-/// A verification, and the file that its certificate was read from.
-type Recalled = (Verification, CertificateFile);
+/// What was found, and the file that its certificate was read from.
+type Recalled = (Found, CertificateFile);
 
 impl Task<'_> {
     /// Does it; `search` decides the claim where there is no certificate of it.
     pub fn run(
         &self,
-        search: impl FnOnce(&MachineClaim) -> Result<Verification, ClaimError>,
+        search: impl FnOnce(&Claim) -> Result<Found, NotDecided>,
     ) -> Result<(Report, Status), Failure> {
-        let Claim::Machine(claim) = &self.design.claim else {
-            return Err(Failure::Input("a design is about a machine".to_owned()));
-        };
-        let recalled = if self.reprove { None } else { self.recall(claim)? };
+        let claim = &self.design.claim;
+        let recalled = if self.reprove { None } else { self.recall()? };
         let (found, status, file) = match recalled {
             Some((found, file)) => {
-                let Answer::Decided { accepted, .. } = &found.answer else {
+                let Some((_, accepted)) = found.decided() else {
                     return Err(Failure::Defect);
                 };
                 let status = Status::Decided(accepted.verdict);
@@ -56,7 +54,7 @@ impl Task<'_> {
             None => {
                 output::probe(self.target)?;
                 let mut found = search(claim).map_err(Failure::input)?;
-                match certify::decide(&mut found.answer)? {
+                match certify::decided(&mut found)? {
                     Some(decision) => {
                         let file = certify::store(self.below, self.target, &decision.text)?;
                         (found, Status::Decided(decision.verdict), Some((file, false)))
@@ -65,7 +63,7 @@ impl Task<'_> {
                 }
             }
         };
-        let mut report = Report::new(claim, &found, self.started.elapsed()).ok_or_else(|| {
+        let mut report = found.report(claim, self.started.elapsed()).ok_or_else(|| {
             Failure::Input("the design's numbers exceed what can be reported".to_owned())
         })?;
         report.title.clone_from(&self.design.title);
@@ -75,14 +73,14 @@ impl Task<'_> {
                 report.certificate = Some(file);
                 report.cached = cached;
             }
-            None => report.earlier_certificate = certify::earlier(self.target, &self.design.claim),
+            None => report.earlier_certificate = certify::earlier(self.target, claim),
         }
         Ok((report, status))
     }
 
-    /// The verification that the certificate at the target amounts to: if it is of this very claim,
-    /// and if the exact checker accepts it now.
-    fn recall(&self, claim: &MachineClaim) -> Result<Option<Recalled>, Failure> {
+    /// What the certificate at the target amounts to: if it is of this very claim, and if the exact
+    /// checker accepts it now.
+    fn recall(&self) -> Result<Option<Recalled>, Failure> {
         // Streams hold no earlier certificate, and folders will be refused.
         if is_stream(self.target) || !self.target.exists() || self.target.is_dir() {
             return Ok(None);
@@ -107,13 +105,12 @@ impl Task<'_> {
                 return Ok(None);
             }
         };
-        let worst = if self.table { sampled(claim).map_err(Failure::input)? } else { Vec::new() };
-        let answer = Answer::Decided { certificate: Box::new(certificate), accepted };
         let file = CertificateFile {
             path: self.target.to_string_lossy().into_owned(),
             bytes: bytes.len(),
             sha256: sha256(&bytes),
         };
-        Ok(Some((Verification { answer, worst, boxes: 0 }, file)))
+        let found = recalled(certificate, accepted, self.table).map_err(Failure::input)?;
+        Ok(Some((found, file)))
     }
 }

@@ -74,7 +74,8 @@ impl Shape {
                 let precision = tree.precision;
                 return Some(Shape { precision, trees: 1, nodes, leaves, depth, rules });
             }
-            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => return None,
+            Proof::Witness(_)
+            | Proof::Kernel(kernel::Proof::Witness(_) | kernel::Proof::Atlas(_)) => return None,
             Proof::Atlas(atlas) => return Some(Shape::of_atlas(atlas)),
         };
         let mut shape = Shape {

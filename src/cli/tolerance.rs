@@ -227,8 +227,8 @@ fn nodes_or_status(
             );
             if let Some(found) = counterexample {
                 let _ = writeln!(out, "\n  {}", found.value);
-                let [x, y, z] = found.point.each_ref().map(exact);
-                let _ = writeln!(out, "  at P = ({x}, {y}, {z})");
+                let point: Vec<String> = found.point.iter().map(exact).collect();
+                let _ = writeln!(out, "  at P = ({})", point.join(", "));
             }
             print::answer(&out)?;
         }

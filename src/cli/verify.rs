@@ -3,12 +3,14 @@
 use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::batch::plan::{certificate_of, identity};
+use orthocert::decide::decide;
 use orthocert::extremes::{enclose, Extreme};
 use orthocert::report::{text, Margin, Report};
-use orthocert::search::Budget;
-use orthocert::verify::verify;
+use orthocert::search::{Budget, Control};
+use orthocert::solver;
 use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::problem::Problem;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -74,7 +76,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         started,
     };
     let (mut report, status) =
-        task.run(|claim| effort.run(|control| verify(claim, budget, control)))?;
+        task.run(|claim| effort.run(|control| decide(claim, budget, control)))?;
     if task.table {
         report.margins = margins(&report, &design.claim, effort);
     }
@@ -91,20 +93,36 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
 /// The certified margins of a certified design, where its proof was short.
 fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
     let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
-    let Claim::Machine(claim) = claim else {
-        return Vec::new();
-    };
     if !short {
         return Vec::new();
     }
     let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
     let width = BigRational::new(1.into(), 1000.into());
-    let enclosed = |extreme| effort.run(|control| enclose(claim, extreme, &width, budget, control));
-    Extreme::bounded(claim)
-        .into_iter()
-        .filter_map(|extreme| enclosed(extreme).ok())
-        .map(|found| Margin::of(&found, claim))
-        .collect()
+    match claim {
+        Claim::Machine(claim) => {
+            let enclosed =
+                |extreme| effort.run(|control| enclose(claim, extreme, &width, budget, control));
+            Extreme::bounded(claim)
+                .into_iter()
+                .filter_map(|extreme| enclosed(extreme).ok())
+                .map(|found| Margin::of(&found, claim))
+                .collect()
+        }
+        Claim::Kernel(claim) => {
+            let Ok(problem) = Problem::new(claim) else { return Vec::new() };
+            let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
+            let enclosed = |extreme: solver::extremes::Extreme| {
+                let find = |control: &mut Control<'_>| {
+                    solver::extremes::enclose(claim, &extreme, &width, budget, control)
+                };
+                let found = effort.run(find).ok()?;
+                Some(Margin::of_kernel(&extreme, found.outer, angular))
+            };
+            let all = solver::extremes::Extreme::bounded(claim, problem.legs.len());
+            all.into_iter().filter_map(enclosed).collect()
+        }
+        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
+    }
 }
 
 /// Where the certificate goes: never over the design.

@@ -4,7 +4,8 @@
 use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError, ReadError};
 use super::number::{exact, ordered};
-use super::{machine_claim, modelled, text_of, Design};
+use super::refusal::modelled;
+use super::{machine_claim, text_of, Design};
 use crate::atlas::without_margin;
 use orthocert_checker::atlas::{range, Ends, MAX_PARAMETERS};
 use orthocert_checker::claim::{AtlasClaim, AtlasParameter, MachineClaim};

@@ -132,12 +132,24 @@ impl<'a> Table<'a> {
 
     /// Refuses every key that is not `accepted`, the first in the text first.
     pub fn only(&self, accepted: &[&str]) -> Result<(), DesignError> {
+        self.only_here(accepted, |_| None)
+    }
+
+    /// The same; of a key that stands elsewhere, `elsewhere` says where.
+    pub fn only_here(
+        &self,
+        accepted: &[&str],
+        elsewhere: impl Fn(&str) -> Option<String>,
+    ) -> Result<(), DesignError> {
         let unknown = self.entries.keys().filter(|key| !accepted.contains(&key.get_ref().as_ref()));
         let Some(unknown) = unknown.min_by_key(|key| key.span().start) else {
             return Ok(());
         };
         let name = unknown.get_ref();
-        let hint = suggestion::hint(name, accepted, |word| word.to_owned());
+        let hint = match elsewhere(name) {
+            Some(place) => format!("; {name} goes with {place}"),
+            None => suggestion::hint(name, accepted, |word| word.to_owned()),
+        };
         let key = self.path(name);
         let accepted = format!("{}{hint}", accepted.join(", "));
         let about = (key.as_str(), Defect::UnknownKey);
@@ -165,11 +177,6 @@ impl<'a> Table<'a> {
             Some((name, self.find(name)?))
         };
         keys.iter().filter_map(entry).collect()
-    }
-
-    /// Whether the table has no entries.
-    pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
     }
 }
 
@@ -236,6 +243,20 @@ impl<'a> Value<'a> {
     /// The text that this value is.
     pub fn text(&self, accepted: &str) -> Result<&'a str, DesignError> {
         self.inner.as_str().ok_or_else(|| self.wrong_type(accepted))
+    }
+
+    /// Where `part` of the value's content stands in the file. Between its quotes, if any, the content
+    /// stands there as it is, unless it has escapes or underscores.
+    pub fn place(&self, content: &str, part: Range<usize>) -> Range<usize> {
+        let written = self.document.text.get(self.at.clone()).unwrap_or_default();
+        let between_quotes = written.get(1..written.len().saturating_sub(1));
+        match (written == content, between_quotes == Some(content)) {
+            (false, false) => self.at.clone(),
+            (as_it_is, _) => {
+                let start = self.at.start + usize::from(!as_it_is);
+                start + part.start..start + part.end
+            }
+        }
     }
 
     /// The row of `table` that is named by the word that this value is.

@@ -1,87 +1,171 @@
 //! The legs of a machine, each with its own drive.
 //!
-//! A drive is a row of [`DRIVES`]: its name, and the function that reads the leg.
+//! A drive is a row of [`DRIVES`]: its name, its keys, and the function that reads the leg.
 
+use super::description::{Leg, Motion};
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
 use super::independence::{not_parallel, product, sign_within};
 use super::mechanism::{word, zero};
 use super::number::{positive, quantity};
-use orthocert_checker::claim::{Leg, Quantity, WorkingMode};
+use orthocert_checker::claim::{self as checker, Quantity, WorkingMode};
 use orthocert_checker::number::Exact;
 
 struct Drive {
     name: &'static str,
-    read: fn(&Table<'_>) -> Result<Leg, DesignError>,
+    keys: &'static [&'static str],
+    read: fn(&Table<'_>, Motion) -> Result<checker::Leg, DesignError>,
 }
 
 const DRIVES: &[Drive] = &[
-    Drive { name: "slider", read: slider },
-    Drive { name: "strut", read: strut },
-    Drive { name: "arm", read: arm },
-    Drive { name: "planar", read: planar },
+    Drive {
+        name: "slider",
+        keys: &["drive", "direction", "anchor", "platform", "length", "mode"],
+        read: slider,
+    },
+    Drive { name: "strut", keys: &["drive", "anchor", "platform"], read: strut },
+    Drive {
+        name: "arm",
+        keys: &["drive", "anchor", "axis", "reference", "arm", "length", "platform", "mode"],
+        read: arm,
+    },
+    Drive { name: "planar", keys: &["drive", "direction"], read: planar },
 ];
+
+/// Keys of legs that are about their joints and bodies.
+const OF_JOINTS: [&str; 3] = ["rod", "base_joint", "platform_joint"];
 
 pub(super) const LENGTH: &str = r#"a length greater than 0, such as 310.25 or "310.25 ± 0.02""#;
 
-/// Reads a `[[mechanism.legs]]` table.
-pub(super) fn leg(value: &Value<'_>) -> Result<Leg, DesignError> {
+/// Reads a `[[mechanism.legs]]` table, but for what it says of joints and bodies.
+pub(super) fn leg(value: &Value<'_>, motion: Motion) -> Result<Leg, DesignError> {
     let table = value.table("a [[mechanism.legs]] table")?;
     let drive = word(&table, "drive", DRIVES, |drive| drive.name)?;
-    (drive.read)(&table)
+    let drives = drives(motion);
+    if !drives.contains(&drive.name) {
+        let value = table.require("drive", "a drive")?;
+        let found = format!("{}, in a machine of kind {:?}", value.found(), motion.kind());
+        let accepted: Vec<String> = drives.iter().map(|drive| format!("{drive:?}")).collect();
+        return Err(value.error(Defect::Conflict, found, accepted.join(", ")));
+    }
+    let mut keys = drive.keys.to_vec();
+    keys.retain(|key| *key != "axis" || !in_plane(motion));
+    if drive.name != "planar" {
+        keys.extend(OF_JOINTS);
+    }
+    let may_have_axis = motion == Motion::Translational && drive.name == "strut";
+    if may_have_axis {
+        keys.push("base_axis");
+    }
+    table.only_here(&keys, |key| elsewhere(key, motion))?;
+    let base_axis = table.find("base_axis").map(|axis| direction(&axis, motion)).transpose()?;
+    Ok(Leg { drive: (drive.read)(&table, motion)?, base_axis })
+}
+
+/// The drives of a kind of machine.
+fn drives(motion: Motion) -> &'static [&'static str] {
+    match motion {
+        Motion::Translational => &["slider", "strut", "arm", "planar"],
+        Motion::Planar { .. } | Motion::Spatial => &["slider", "strut", "arm"],
+        Motion::Spherical => &["strut"],
+    }
+}
+
+/// The drives that have a key.
+fn elsewhere(key: &str, motion: Motion) -> Option<String> {
+    if key == "base_axis" {
+        return Some("drive = \"strut\" of kind \"translational\"".to_owned());
+    }
+    if key == "axis" && in_plane(motion) {
+        return Some("legs in space: in the plane motors turn about +z".to_owned());
+    }
+    let with = DRIVES.iter().filter(|drive| drive.keys.contains(&key));
+    let names: Vec<String> = with.map(|drive| format!("drive = {:?}", drive.name)).collect();
+    (!names.is_empty()).then(|| names.join(", "))
+}
+
+fn in_plane(motion: Motion) -> bool {
+    matches!(motion, Motion::Planar { .. })
+}
+
+/// How a vector is written.
+pub(super) fn axes(motion: Motion) -> &'static str {
+    if in_plane(motion) {
+        "[x, y]"
+    } else {
+        "[x, y, z]"
+    }
+}
+
+/// The vector at `key`, which has to be there; `meaning` says what it is.
+fn vector_at<'a>(
+    table: &Table<'a>,
+    key: &str,
+    meaning: &str,
+    motion: Motion,
+) -> Result<Value<'a>, DesignError> {
+    table.require(key, &format!("{}: {meaning}", axes(motion)))
 }
 
 /// A leg of fixed length on a linear guide.
-fn slider(table: &Table<'_>) -> Result<Leg, DesignError> {
-    table.only(&["drive", "direction", "anchor", "platform", "length", "mode"])?;
-    let direction = table.require("direction", "[x, y, z]: the guide's direction")?;
-    let anchor = table.require("anchor", "[x, y, z]: the point of the guide where rho = 0")?;
+fn slider(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+    let direction = vector_at(table, "direction", "the guide's direction", motion)?;
+    let anchor = vector_at(table, "anchor", "the point of the guide where rho = 0", motion)?;
     let length = table.require("length", LENGTH)?;
-    Ok(Leg::Slider {
-        direction: self::direction(&direction)?,
-        anchor: vector(&anchor)?,
-        platform: platform(table)?,
+    Ok(checker::Leg::Slider {
+        direction: self::direction(&direction, motion)?,
+        anchor: vector(&anchor, motion)?,
+        platform: platform(table, motion)?,
         length: self::length(&length)?,
         mode: mode(table)?,
     })
 }
 
 /// An extensible leg.
-fn strut(table: &Table<'_>) -> Result<Leg, DesignError> {
-    table.only(&["drive", "anchor", "platform"])?;
-    let anchor = table.require("anchor", "[x, y, z]: the leg's joint on the base")?;
-    Ok(Leg::Strut { anchor: vector(&anchor)?, platform: platform(table)? })
+fn strut(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+    let anchor = vector_at(table, "anchor", "the leg's joint on the base", motion)?;
+    let anchor = vector(&anchor, motion)?;
+    Ok(checker::Leg::Strut { anchor, platform: platform(table, motion)? })
 }
 
 /// A leg of fixed length on an arm that a motor turns.
-fn arm(table: &Table<'_>) -> Result<Leg, DesignError> {
-    let keys = ["drive", "anchor", "axis", "reference", "arm", "length", "platform", "mode"];
-    table.only(&keys)?;
-    let anchor = table.require("anchor", "[x, y, z]: a point of the motor's axis")?;
-    let axis = table.require("axis", "[x, y, z]: the direction of the motor's axis")?;
-    let reference = table.require("reference", REFERENCE)?;
+fn arm(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+    let anchor = vector_at(table, "anchor", "a point of the motor's axis", motion)?;
+    let axis = match in_plane(motion) {
+        true => [zero(), zero(), one()],
+        false => {
+            let axis = table.require("axis", "[x, y, z]: the direction of the motor's axis")?;
+            direction(&axis, motion)?
+        }
+    };
+    let reference = match table.find("reference") {
+        None if in_plane(motion) => None,
+        _ => Some(table.require("reference", REFERENCE)?),
+    };
     let arm = table.require("arm", "a length greater than 0: from the axis to the elbow")?;
     let length = table.require("length", LENGTH)?;
-    let leg = Leg::Arm {
-        axis: direction(&axis)?,
-        reference: direction(&reference)?,
-        anchor: vector(&anchor)?,
-        platform: platform(table)?,
+    let directed = match &reference {
+        Some(reference) => direction(reference, motion)?,
+        None => [one(), zero(), zero()],
+    };
+    if let Some(reference) = reference.filter(|_| !in_plane(motion)) {
+        orthogonal(&reference, &axis, &directed)?;
+    }
+    Ok(checker::Leg::Arm {
+        axis,
+        reference: directed,
+        anchor: vector(&anchor, motion)?,
+        platform: platform(table, motion)?,
         arm: self::length(&arm)?,
         length: self::length(&length)?,
         mode: mode(table)?,
-    };
-    if let Leg::Arm { axis, reference: vector, .. } = &leg {
-        orthogonal(&reference, axis, vector)?;
-    }
-    Ok(leg)
+    })
 }
 
 /// A leg that constrains the platform to a plane.
-fn planar(table: &Table<'_>) -> Result<Leg, DesignError> {
-    table.only(&["drive", "direction"])?;
-    let direction = table.require("direction", "[x, y, z]: the normal of the plane")?;
-    Ok(Leg::Planar { direction: self::direction(&direction)? })
+fn planar(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+    let direction = vector_at(table, "direction", "the normal of the plane", motion)?;
+    Ok(checker::Leg::Planar { direction: self::direction(&direction, motion)? })
 }
 
 /// Fractional bits in which a product that is not zero shows.
@@ -117,9 +201,9 @@ fn orthogonal(
 
 /// Refuses arms beside other drives: an arm's row of `M` is an angle per length, a slider's has no
 /// unit, and singular values of both together have none.
-pub(super) fn one_unit(values: &[Value<'_>; 3], legs: &[Leg; 3]) -> Result<(), DesignError> {
-    let [first, rest @ ..] = legs;
-    let differs = rest.iter().position(|leg| leg.is_angular() != first.is_angular());
+pub(super) fn one_unit(values: &[Value<'_>], legs: &[Leg]) -> Result<(), DesignError> {
+    let is_angular = |leg: &Leg| leg.drive.is_angular();
+    let differs = legs.windows(2).position(|two| is_angular(&two[0]) != is_angular(&two[1]));
     let Some(value) = differs.and_then(|i| values.get(i + 1)) else {
         return Ok(());
     };
@@ -145,27 +229,35 @@ pub(super) fn length(value: &Value<'_>) -> Result<Quantity, DesignError> {
 }
 
 /// `platform`: `d_i`, the origin where it is not given.
-fn platform(table: &Table<'_>) -> Result<[Quantity; 3], DesignError> {
+fn platform(table: &Table<'_>, motion: Motion) -> Result<[Quantity; 3], DesignError> {
     match table.find("platform") {
-        Some(platform) => vector(&platform),
+        Some(platform) => vector(&platform, motion),
         None => Ok([zero(), zero(), zero()]),
     }
 }
 
-/// Three coordinates.
-fn vector(value: &Value<'_>) -> Result<[Quantity; 3], DesignError> {
+/// Three coordinates; in the plane two, and 0.
+fn vector(value: &Value<'_>, motion: Motion) -> Result<[Quantity; 3], DesignError> {
+    if in_plane(motion) {
+        let [x, y] = value.elements("[x, y]: two numbers or tolerances, in the plane")?;
+        return Ok([quantity(&x)?, quantity(&y)?, zero()]);
+    }
     let [x, y, z] = value.three("[x, y, z]: three numbers or tolerances")?;
     Ok([quantity(&x)?, quantity(&y)?, quantity(&z)?])
 }
 
 /// A vector that is not zero for any admissible values: some coordinate is of one strict sign,
 /// since the coordinates vary independently.
-fn direction(value: &Value<'_>) -> Result<[Quantity; 3], DesignError> {
-    let direction = vector(value)?;
+fn direction(value: &Value<'_>, motion: Motion) -> Result<[Quantity; 3], DesignError> {
+    let direction = vector(value, motion)?;
     let strict = |x: &Quantity| x.min.sign() == Some(1) || x.max.sign() == Some(-1);
     if !value.document.demands() || direction.iter().any(strict) {
         return Ok(direction);
     }
     let found = "a vector that is, or may be, zero";
     Err(value.error(Defect::OutOfDomain, found, "a direction: any vector that is not zero"))
+}
+
+fn one() -> Quantity {
+    Quantity::exactly(Exact::integer(1))
 }

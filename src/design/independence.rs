@@ -10,18 +10,27 @@ use orthocert_checker::number::{Exact, NumberErrorKind};
 /// Fractional bits in which the sign of a number that is not tiny shows.
 const PLAIN: u32 = 128;
 
-/// Demands that the legs' rows can be independent somewhere, as far as their description shows.
-pub(super) fn independent(values: &[Value<'_>; 3], legs: &[Leg; 3]) -> Result<(), DesignError> {
-    if !values[0].document.demands() {
+/// Demands that no leg is there twice, of as many as there are coordinates.
+pub(super) fn different(values: &[Value<'_>], legs: &[&Leg]) -> Result<(), DesignError> {
+    for (j, (value, leg)) in values.iter().zip(legs).enumerate() {
+        let same = |other: &&Leg| other == leg && !leg.has_tolerance();
+        if let Some(i) = legs.iter().take(j).position(same).filter(|_| value.document.demands()) {
+            let found = format!("a leg that is leg {} once more", i + 1);
+            let accepted = "legs with independent rows: this one constrains nothing further";
+            return Err(value.error(Defect::OutOfDomain, found, accepted));
+        }
+    }
+    Ok(())
+}
+
+/// Demands that the rows of three legs that do not turn their platform can be independent somewhere,
+/// as far as their description shows.
+pub(super) fn independent(values: &[Value<'_>], legs: [&Leg; 3]) -> Result<(), DesignError> {
+    if values.iter().any(|value| !value.document.demands()) {
         return Ok(());
     }
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        if legs[i] == legs[j] && !legs[i].has_tolerance() {
-            let found = format!("a leg that is leg {} once more", i + 1);
-            let accepted = "three legs with independent rows: this one constrains nothing further";
-            return Err(values[j].error(Defect::OutOfDomain, found, accepted));
-        }
-        if let (Leg::Planar { direction: u }, Leg::Planar { direction: v }) = (&legs[i], &legs[j]) {
+        if let (Leg::Planar { direction: u }, Leg::Planar { direction: v }) = (legs[i], legs[j]) {
             if !not_parallel(u, v) {
                 let found =
                     format!("a direction that is, or may be, parallel to that of leg {}", i + 1);
@@ -116,8 +125,8 @@ fn determinant(m: &[&Exact]) -> Result<Exact, NumberErrorKind> {
 
 /// Whether `a_i - d_i`, all exact, are not provably off one line: then so are the three `w_i` off
 /// one plane.
-fn on_one_line(legs: &[Leg; 3]) -> bool {
-    if legs.iter().any(Leg::has_tolerance) {
+fn on_one_line(legs: [&Leg; 3]) -> bool {
+    if legs.iter().any(|leg| leg.has_tolerance()) {
         return false;
     }
     let base = |leg: &Leg, k: usize| match leg {
@@ -125,7 +134,7 @@ fn on_one_line(legs: &[Leg; 3]) -> bool {
         _ => Err(NumberErrorKind::TooLarge),
     };
     let span = |j: usize| -> Result<[Quantity; 3], NumberErrorKind> {
-        let along = |k: usize| base(&legs[j], k)?.minus(base(&legs[0], k)?).map(Quantity::exactly);
+        let along = |k: usize| base(legs[j], k)?.minus(base(legs[0], k)?).map(Quantity::exactly);
         Ok([along(0)?, along(1)?, along(2)?])
     };
     match (span(1), span(2)) {

@@ -21,19 +21,27 @@
 //! ```
 
 mod atlas;
+mod bodies;
+mod description;
 mod document;
 mod drive;
 mod error;
+mod exactly;
+mod expression;
+mod formulas;
 mod independence;
 mod mechanism;
 mod notation;
 mod number;
+mod orientation;
+mod refusal;
 mod requirements;
 mod sources;
 mod suggestion;
 mod template;
 #[cfg(test)]
 mod tests;
+mod variable;
 mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
@@ -41,14 +49,13 @@ pub use error::{Defect, DesignError, Position, ReadError};
 pub use notation::may_be_tolerance;
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};
+pub use variable::Variable;
 
-use crate::verify::MODEL_PRECISION;
+use description::{Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
-use orthocert_checker::claim::{Claim, ClaimError};
-use orthocert_checker::claim::{MachineClaim, Mechanism, Range, Requirements, Workspace};
+use orthocert_checker::claim::{self as checker, Claim, MachineClaim, Range, Requirements};
 use orthocert_checker::file;
-use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use std::path::Path;
 use toml::de::DeTable;
@@ -61,7 +68,8 @@ pub const MAX_FILE: u64 = 1 << 20;
 pub struct Design {
     /// The title that the file gives it.
     pub title: Option<String>,
-    /// The claim, well formed ([`MachineClaim::validate`]) and with a model ([`Model::new`]).
+    /// The claim, well formed and with a model
+    /// ([`Model`](orthocert_checker::model::Model), [`Problem`](orthocert_kernel::problem::Problem)).
     pub claim: Claim,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
@@ -80,10 +88,14 @@ impl Design {
         let root = document.root(tree.get_ref());
         root.only(&["title", "mechanism", "workspace", "requirements"])?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
-        let claim = machine_claim(&root)?;
+        let claim = claim(&root)?;
         let sources = Sources::of(text, tree.get_ref());
-        modelled(&root, &claim)?;
-        Ok(Design { title: title.map(str::to_owned), claim: Claim::Machine(claim), sources })
+        match &claim {
+            Claim::Machine(claim) => refusal::modelled(&root, claim)?,
+            Claim::Kernel(claim) => refusal::compiled(&root, claim)?,
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => {}
+        }
+        Ok(Design { title: title.map(str::to_owned), claim, sources })
     }
 
     /// Reads a design file.
@@ -113,8 +125,8 @@ impl Design {
     pub fn prototype() -> Self {
         let transmission = Range { min: None, max: Some(Exact::integer(2)) };
         let claim = MachineClaim {
-            mechanism: Mechanism::Orthoglide { offset: Exact::integer(0) },
-            workspace: Workspace::Cube { side: Exact::integer(200) },
+            mechanism: checker::Mechanism::Orthoglide { offset: Exact::integer(0) },
+            workspace: checker::Workspace::Cube { side: Exact::integer(200) },
             requirements: Requirements {
                 transmission: Some(transmission),
                 ..Requirements::default()
@@ -129,55 +141,70 @@ impl Design {
 }
 
 /// The text of a file; `path` is for messages only.
-fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
+pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
     std::str::from_utf8(bytes).map_err(|error| {
         let valid = bytes.iter().take(error.valid_up_to());
         ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
     })
 }
 
-/// Demands a claim that is well formed and has a model.
-fn modelled(root: &Table<'_>, claim: &MachineClaim) -> Result<(), DesignError> {
-    Model::new(claim, MODEL_PRECISION).map(drop).map_err(|error| ill_formed(root, &error))
+/// Reads the claim of a design.
+fn claim(root: &Table<'_>) -> Result<Claim, DesignError> {
+    let description = description(root)?;
+    if let Some(claim) = description.machine() {
+        return Ok(Claim::Machine(claim));
+    }
+    description.kernel().map(Claim::Kernel).ok_or_else(|| {
+        let accepted = "numbers of at most 8,192 characters and 512 operations";
+        refusal::of_table(root, "mechanism", "numbers too long to be written", accepted)
+    })
+}
+
+/// Reads the claim of a design with three legs that do not turn its platform, of which nothing is
+/// demanded but what the rules know.
+fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
+    description(root)?.machine().ok_or_else(|| {
+        let found = "a machine, or requirements, that maps are not made of";
+        let accepted = "kind \"orthoglide\", or \"translational\" with three legs; requirements \
+                        transmission, joint_range, conditioning, serial_margin, parallel_margin, \
+                        leg_angle, joint_speed";
+        refusal::of_table(root, "mechanism", found, accepted)
+    })
 }
 
 /// Reads the three tables of a design.
-fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
+fn description(root: &Table<'_>) -> Result<Description, DesignError> {
     let table = |name: &str| {
         let accepted = format!("a table [{name}]");
         root.require(name, &accepted)?.table(&accepted)
     };
     let (machine, points, demands) =
         (table("mechanism")?, table("workspace")?, table("requirements")?);
-    let setting = Setting { cube: points.find("cube"), joint_range: demands.find("joint_range") };
-    // The form of the workspace decides what the mechanism needs, and both decide what can be asked.
-    let workspace = workspace::workspace(&points)?;
-    let mechanism = mechanism::mechanism(&machine, &setting)?;
-    let requirements = requirements::requirements(&demands, &mechanism)?;
-    Ok(MachineClaim { mechanism, workspace, requirements })
-}
-
-/// A claim that is not well formed for a reason that no single key shows.
-fn ill_formed(root: &Table<'_>, error: &ClaimError) -> DesignError {
-    let table = match error {
-        ClaimError::EmptyTransmission
-        | ClaimError::CubeNeedsPsiMax
-        | ClaimError::CubeFixesPsiMin => "requirements",
-        ClaimError::CubeNeedsOrthoglide => "workspace",
-        ClaimError::Reversed(what)
-        | ClaimError::NotPositive(what)
-        | ClaimError::NoBound(what)
-        | ClaimError::Precision(what) => match what {
-            _ if what.starts_with("workspace") => "workspace",
-            _ if what.starts_with("transmission") => "requirements",
-            _ if what.starts_with("joint_range") => "requirements",
-            _ => "mechanism",
-        },
-        _ => "mechanism",
+    workspace::some(&points)?;
+    let setting = Setting {
+        cube: points.find("cube"),
+        joint_range: demands.find("joint_range"),
+        turns: points.find("orientation").is_some(),
     };
-    let (found, accepted) = (error.to_string(), "a well-formed claim");
-    match root.find(table) {
-        Some(value) => value.error(Defect::Claim, found, accepted),
-        None => root.lacks(table, accepted),
+    // The form of the workspace decides what the mechanism needs, and both decide what can be asked.
+    let read = mechanism::mechanism(&machine, &setting)?;
+    let workspace = workspace::workspace(&points, &read.mechanism)?;
+    let motion = match &read.mechanism {
+        Mechanism::Legs { motion, .. } => Some(*motion),
+        Mechanism::OfCube { .. } | Mechanism::Formulas(_) => None,
+    };
+    let orientation = orientation::orientation(&points, motion)?;
+    let asked = requirements::requirements(&demands, &read)?;
+    if orientation.is_some() && read.characteristic_length.is_none() {
+        if let Some(key) = requirements::of_unit(&asked) {
+            let accepted = format!(
+                "a length greater than 0, which {key} of a platform that turns needs: M maps the \
+                 velocity of P and that length times the angular velocity to the joint rates"
+            );
+            return Err(machine.lacks("characteristic_length", accepted));
+        }
     }
+    let mechanism::Machine { mechanism, characteristic_length, bodies, demands: of_legs } = read;
+    let demands = asked.into_iter().chain(of_legs).collect();
+    Ok(Description { mechanism, characteristic_length, workspace, orientation, bodies, demands })
 }

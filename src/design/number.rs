@@ -10,6 +10,7 @@ use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
 use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
+use super::variable::half_width;
 use orthocert_checker::atlas::{range, AtlasError, Ends};
 use orthocert_checker::claim::Quantity;
 use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
@@ -23,7 +24,7 @@ const NUMBER: &str = r#"a number: 310.25, "1/3", "174.75*sqrt(3)/2""#;
 const QUANTITY: &str =
     r#"a number or a tolerance: 310.25, "1/3", "310.25 ± 0.02", { min = 310.2, max = 310.3 }"#;
 const FINITE: &str = "a finite number";
-const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
+pub(super) const WITHIN_LIMITS: &str = "a number of at most 1,000 digits, exponents within ±1,000";
 const NEITHER_SUM_NOR_TOLERANCE: &str = r#""310.25 ± 0.02" for a tolerance, { min = 310.23, max = 310.3 } for unequal deviations, or, as arithmetic, blanks on both sides of a sign or on neither, and parentheses: "310.25 + 0.02", "310 + (5 - 2)", "310 ± (1/50)""#;
 const NO_TOLERANCE: &str =
     "one exact number: a machine's parameters may carry a tolerance, workspace and requirements not";
@@ -65,6 +66,28 @@ pub(super) fn quantity(value: &Value<'_>) -> Result<Quantity, DesignError> {
     }
 }
 
+/// The middle of the number or the tolerance that `value` is, and the tolerance's own text.
+pub(super) fn centred(value: &Value<'_>) -> Result<(Exact, Option<String>), DesignError> {
+    let Quantity { min, max } = quantity(value)?;
+    match value.inner {
+        DeValue::String(text) => match parts_of_tolerance(text) {
+            Some([nominal, (_, tolerance)]) => {
+                let nominal = expression(value, text, nominal, QUANTITY)?;
+                Ok((nominal, Some(tolerance.trim().to_owned())))
+            }
+            None => Ok((min, None)),
+        },
+        DeValue::Table(_) => {
+            let halved = |x: Result<Exact, NumberErrorKind>| x?.over(Exact::integer(2));
+            let too_long = |_| value.error(Defect::NotANumber, value.found(), WITHIN_LIMITS);
+            let middle = halved(min.clone().plus(max.clone())).map_err(too_long)?;
+            let half = halved(max.minus(min)).map_err(too_long)?;
+            Ok((middle, Some(half_width(&half))))
+        }
+        _ => Ok((min, None)),
+    }
+}
+
 /// Demands that `min <= max` is provable.
 pub(super) fn ordered(
     (least, min): (&Value<'_>, &Exact),
@@ -81,6 +104,18 @@ pub(super) fn ordered(
     let found = format!("{}, {relation} the lower end {}", greatest.found(), least.found());
     let accepted = "an upper end that is at least the lower one";
     Err(greatest.error(Defect::Reversed, found, accepted))
+}
+
+/// Demands that `number`, which `value` is, is provably not negative; `what` names it.
+pub(super) fn not_negative(
+    value: &Value<'_>,
+    number: &Exact,
+    what: &str,
+) -> Result<(), DesignError> {
+    if !value.document.demands() || matches!(number.sign(), Some(0 | 1)) {
+        return Ok(());
+    }
+    Err(value.error(Defect::OutOfDomain, value.found(), format!("{what}, 0 or greater")))
 }
 
 /// Demands that `number`, which `value` is or begins with, is provably positive; `what` names it.
@@ -241,16 +276,6 @@ fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &s
     let before = text.get(..error.at).unwrap_or(text);
     let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
     let found = format!("{} ({at_character})", value.found());
-    // Between its quotes, if any, the content stands in the file as it is, unless it has escapes or
-    // underscores.
-    let written = value.document.text.get(value.at.clone()).unwrap_or_default();
-    let between_quotes = written.get(1..written.len().saturating_sub(1));
-    let at = match (written == text, between_quotes == Some(text)) {
-        (false, false) => value.at.clone(),
-        (as_it_is, _) => {
-            let at = value.at.start + usize::from(!as_it_is) + before.len();
-            at..at + 1
-        }
-    };
+    let at = value.place(text, before.len()..before.len() + 1);
     value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
 }

@@ -2,17 +2,19 @@
 //!
 //! A requirement is a row of [`REQUIREMENTS`]: its key, and the function that reads its value.
 
+use super::description::{Bound, Demand, Leg, Mechanism, Motion};
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
-use super::number::{exact, ordered, positive};
-use orthocert_checker::claim::{AtLeast, AtMost, JointSpeed, Leg, Mechanism, Range, Requirements};
+use super::mechanism::Machine;
+use super::number::{exact, not_negative, ordered, positive};
+use orthocert_checker::claim::{self as checker, Range};
 use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 use toml::de::DeValue;
 
 struct Requirement {
     key: &'static str,
-    read: fn(&Value<'_>, &Mechanism, &mut Requirements) -> Result<(), DesignError>,
+    read: fn(&Value<'_>, &Machine, &'static str) -> Result<Vec<Demand>, DesignError>,
 }
 
 const REQUIREMENTS: &[Requirement] = &[
@@ -23,59 +25,102 @@ const REQUIREMENTS: &[Requirement] = &[
     Requirement { key: "parallel_margin", read: parallel_margin },
     Requirement { key: "leg_angle", read: leg_angle },
     Requirement { key: "joint_speed", read: joint_speed },
+    Requirement { key: "joint_acceleration", read: joint_acceleration },
+    Requirement { key: "joint_force", read: joint_force },
+    Requirement { key: "stiffness", read: stiffness },
+    Requirement { key: "accuracy", read: accuracy },
+    Requirement { key: "one_to_one", read: one_to_one },
+    Requirement { key: "clearance", read: clearance },
+    Requirement { key: "constraint_margin", read: constraint_margin },
 ];
+
+/// Keys that stand on legs, and are requirements as well.
+const ON_LEGS: [&str; 2] = ["base_joint", "platform_joint"];
+
+/// The place of a requirement in the order of the format, for those of no other order.
+pub(super) fn position(key: &str) -> usize {
+    let keys = REQUIREMENTS.iter().map(|requirement| requirement.key).chain(ON_LEGS);
+    keys.take_while(|known| *known != key).count()
+}
 
 const BOUNDS: &str = r#"{ min = "1/2", max = 2 }, or one of min and max"#;
 const CUBE_BOUND: &str =
     "transmission = { max = psi_max }, greater than 1: workspace.cube needs it";
 const ANGLES: &str =
-    "{ min = -45, max = 90 } in degrees, both ends, within ±360 and less than 180 \
-                      apart, or an array of three such tables";
-const JOINT_RANGE: &str = "{ min = 0, max = 257 }, or an array of three such tables";
+    "{ min = -45, max = 90 } in degrees, both ends, within ±360 and less than 180 apart";
+const LENGTHS: &str = "{ min = 0, max = 257 }";
 
-/// Reads the `[requirements]` on a mechanism.
+/// Reads the `[requirements]` on a machine.
 pub(super) fn requirements(
     table: &Table<'_>,
-    mechanism: &Mechanism,
-) -> Result<Requirements, DesignError> {
+    machine: &Machine,
+) -> Result<Vec<Demand>, DesignError> {
     let keys: Vec<&str> = REQUIREMENTS.iter().map(|requirement| requirement.key).collect();
-    table.only(&keys)?;
-    let mut requirements = Requirements::default();
+    table.only_here(&keys, |key| {
+        ON_LEGS.contains(&key).then(|| "a leg, in its [[mechanism.legs]] table".to_owned())
+    })?;
+    let mut demands = Vec::new();
     for requirement in REQUIREMENTS {
         if let Some(value) = table.find(requirement.key) {
-            (requirement.read)(&value, mechanism, &mut requirements)?;
+            demands.extend((requirement.read)(&value, machine, requirement.key)?);
         }
     }
-    if of_cube(mechanism) && requirements.transmission.is_none() {
+    let is_asked = |key: &str| demands.iter().any(|demand| demand.quantity == key);
+    if of_cube(machine) && !is_asked("transmission") {
         return Err(table.lacks("transmission", CUBE_BOUND));
     }
-    if table.is_empty() {
+    if demands.is_empty() && machine.demands.is_empty() {
         let accepted = format!("at least one requirement: {}", keys.join(", "));
         return Err(table.lacks("transmission", accepted));
     }
-    Ok(requirements)
+    Ok(demands)
+}
+
+/// The first requirement that depends on the unit of `M`, in which a turning platform's velocity has
+/// two parts.
+pub(super) fn of_unit(demands: &[Demand]) -> Option<&'static str> {
+    const OF_UNIT: [&str; 5] =
+        ["transmission", "conditioning", "stiffness", "joint_speed", "joint_force"];
+    OF_UNIT.into_iter().find(|key| demands.iter().any(|demand| demand.quantity == *key))
 }
 
 /// Whether this is the Orthoglide of a cube, all of which follows from `psi_max`.
-fn of_cube(mechanism: &Mechanism) -> bool {
-    matches!(mechanism, Mechanism::Orthoglide { .. })
+fn of_cube(machine: &Machine) -> bool {
+    matches!(machine.mechanism, Mechanism::OfCube { .. })
 }
 
-fn all_legs(mechanism: &Mechanism, have: fn(&Leg) -> bool) -> bool {
-    match mechanism {
-        Mechanism::Translational(legs) => legs.iter().all(have),
-        // Three sliders.
-        Mechanism::Orthoglide { .. } => true,
+/// Refuses a requirement on legs that are not all such, as the three sliders of a cube are.
+fn all_legs(
+    value: &Value<'_>,
+    machine: &Machine,
+    are: fn(&Leg) -> bool,
+    [found, accepted]: [&str; 2],
+) -> Result<(), DesignError> {
+    match of_cube(machine) || machine.mechanism.all_legs(are) {
+        true => Ok(()),
+        false => Err(value.error(Defect::Conflict, found, accepted)),
     }
+}
+
+/// Refuses a requirement of a machine with more joints than coordinates.
+fn not_redundant(value: &Value<'_>, machine: &Machine, key: &str) -> Result<(), DesignError> {
+    let (joints, coordinates) =
+        (machine.mechanism.joints(), machine.mechanism.coordinates().iter().sum::<usize>());
+    if joints == coordinates {
+        return Ok(());
+    }
+    let found = format!("{joints} joints of {coordinates} coordinates");
+    let accepted = format!("{key} of machines with as many joints as coordinates");
+    Err(value.error(Defect::Conflict, found, accepted))
 }
 
 /// `psi_min <= psi_i <= psi_max`.
 fn transmission(
     value: &Value<'_>,
-    mechanism: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
-    let cube = of_cube(mechanism);
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let cube = of_cube(machine);
     let table = value.table(if cube { CUBE_BOUND } else { BOUNDS })?;
     let (least, greatest, range) = bounds(&table)?;
     for (bound, number) in [(&least, &range.min), (&greatest, &range.max)] {
@@ -84,7 +129,7 @@ fn transmission(
         }
     }
     if cube {
-        return psi_max_alone(&table, &range).map(|()| requirements.transmission = Some(range));
+        psi_max_alone(&table, &range)?;
     }
     if let (Some(min), Some(max), Some(greatest)) = (&range.min, &range.max, &greatest) {
         if greatest.document.demands() && min.compare(max) != Some(Ordering::Less) {
@@ -93,8 +138,13 @@ fn transmission(
             return Err(greatest.error(Defect::Reversed, found, accepted));
         }
     }
-    requirements.transmission = Some(range);
-    Ok(())
+    Ok(ends(key, None, range))
+}
+
+/// The demands that a range comes to.
+fn ends(key: &'static str, leg: Option<usize>, range: Range) -> Vec<Demand> {
+    let bounds = range.min.map(Bound::Min).into_iter().chain(range.max.map(Bound::Max));
+    bounds.map(|bound| Demand { leg, ..Demand::of(key, bound) }).collect()
 }
 
 /// The only bound that the paper's cube leaves free: `psi_max > 1`.
@@ -112,15 +162,25 @@ fn psi_max_alone(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
     Ok(())
 }
 
-/// `rho_min <= rho_i <= rho_max`, common to the legs or one range for each; for arms in degrees.
+/// `rho_min <= rho_i <= rho_max`, common to the joints or one range for each; for arms in degrees.
 fn joint_range(
     value: &Value<'_>,
-    mechanism: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
-    let angular = mechanism.is_angular();
-    let accepted = if angular { ANGLES } else { JOINT_RANGE };
-    let range = |value: &Value<'_>| {
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let angular = machine.mechanism.is_angular();
+    let joints = machine.mechanism.joints();
+    let one = if angular { ANGLES } else { LENGTHS };
+    let accepted = &format!("{one}, or an array of {} such tables", in_words(joints));
+    if let Mechanism::Formulas(formulas) = &machine.mechanism {
+        use orthocert_kernel::claim::JointFormula::Row;
+        if formulas.joints.iter().any(|joint| matches!(joint, Row(_))) {
+            let found = "a joint without rho: the design gives its row of M alone";
+            let accepted = "joint_range where every joint has a rho";
+            return Err(value.error(Defect::Conflict, found, accepted));
+        }
+    }
+    let range = |value: &Value<'_>, leg: Option<usize>| {
         let table = value.table(accepted)?;
         let (least, greatest, range) = bounds(&table)?;
         if let (Some(least), Some(greatest), Some(min), Some(max)) =
@@ -128,29 +188,43 @@ fn joint_range(
         {
             ordered((least, min), (greatest, max))?;
         }
-        if angular {
-            angles(&table, &range)?;
+        if !angular {
+            return Ok(ends(key, leg, range));
         }
-        Ok(range)
+        angles(&table, &range, accepted)?;
+        let Range { min: Some(min), max: Some(max) } = range else {
+            return Err(table.lacks("max", accepted));
+        };
+        Ok(vec![Demand { leg, ..Demand::of(key, Bound::Within([min, max])) }])
     };
-    requirements.joint_range = Some(match value.inner {
-        DeValue::Array(_) => {
-            let [first, second, third] = value.three(accepted)?;
-            [range(&first)?, range(&second)?, range(&third)?]
-        }
-        _ => {
-            let common = range(value)?;
-            [common.clone(), common.clone(), common]
-        }
-    });
-    Ok(())
+    let DeValue::Array(_) = value.inner else {
+        return range(value, None);
+    };
+    let values = value.list(accepted)?;
+    if values.len() != joints {
+        return Err(value.wrong_type(accepted));
+    }
+    let mut demands = Vec::new();
+    for (i, value) in values.iter().enumerate() {
+        demands.extend(range(value, Some(i + 1))?);
+    }
+    Ok(demands)
+}
+
+/// A number of joints.
+fn in_words(n: usize) -> &'static str {
+    const WORDS: [&str; 12] = [
+        "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven",
+        "twelve",
+    ];
+    n.checked_sub(1).and_then(|i| WORDS.get(i).copied()).unwrap_or("as many")
 }
 
 /// Demands both ends of a range of angles, within a turn and less than half a turn apart.
-fn angles(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
-    let (least, greatest) = (table.require("min", ANGLES)?, table.require("max", ANGLES)?);
+fn angles(table: &Table<'_>, range: &Range, accepted: &str) -> Result<(), DesignError> {
+    let (least, greatest) = (table.require("min", accepted)?, table.require("max", accepted)?);
     let (Some(min), Some(max)) = (&range.min, &range.max) else {
-        return Err(table.lacks("max", ANGLES));
+        return Err(table.lacks("max", accepted));
     };
     if !least.document.demands() {
         return Ok(());
@@ -158,12 +232,12 @@ fn angles(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
     let at_most =
         |x: &Exact, y: &Exact| matches!(x.compare(y), Some(Ordering::Less | Ordering::Equal));
     if !at_most(&Exact::integer(-360), min) {
-        return Err(least.error(Defect::OutOfDomain, least.found(), ANGLES));
+        return Err(least.error(Defect::OutOfDomain, least.found(), accepted));
     }
     let span = max.clone().minus(min.clone()).ok();
     let narrow = span.and_then(|span| span.compare(&Exact::integer(180))) == Some(Ordering::Less);
     if !narrow || !at_most(max, &Exact::integer(360)) {
-        return Err(greatest.error(Defect::OutOfDomain, greatest.found(), ANGLES));
+        return Err(greatest.error(Defect::OutOfDomain, greatest.found(), accepted));
     }
     Ok(())
 }
@@ -171,52 +245,51 @@ fn angles(table: &Table<'_>, range: &Range) -> Result<(), DesignError> {
 /// `sigma_max / sigma_min <= max`.
 fn conditioning(
     value: &Value<'_>,
-    _: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
+    _: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
     let accepted = "{ max = 3 }, greater than 1";
     let (bound, max) = single(value, "max", accepted)?;
     if bound.document.demands() && max.compare(&Exact::integer(1)) != Some(Ordering::Greater) {
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
-    requirements.conditioning = Some(AtMost { max });
-    Ok(())
+    Ok(vec![Demand::of(key, Bound::Max(max))])
 }
 
 /// `|eta_i| / L_i >= min`.
 fn serial_margin(
     value: &Value<'_>,
-    mechanism: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
     let (bound, min) = single(value, "min", r#"{ min = "1/5" }, a part of the leg's length"#)?;
     positive(&bound, &min, "a part of the leg's length")?;
-    if !all_legs(mechanism, Leg::has_length) {
-        let accepted = "serial_margin for sliders and arms: other legs have no length";
-        return Err(value.error(Defect::Conflict, "legs without a length", accepted));
-    }
-    requirements.serial_margin = Some(AtLeast { min });
-    Ok(())
+    let of =
+        ["legs without a length", "serial_margin for sliders and arms: other legs have no length"];
+    all_legs(value, machine, |leg| leg.drive.has_length(), of)?;
+    Ok(vec![Demand::of(key, Bound::Min(min))])
 }
 
-/// `|det A| / (L_1 L_2 L_3) >= min`.
+/// `|det A| / (L_1 .. L_n) >= min`.
 fn parallel_margin(
     value: &Value<'_>,
-    _: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
     let (bound, min) = single(value, "min", r#"{ min = "1/10" }, the volume of unit legs"#)?;
     positive(&bound, &min, "a volume")?;
-    requirements.parallel_margin = Some(AtLeast { min });
-    Ok(())
+    let of = ["joints without legs", "parallel_margin of machines with legs"];
+    all_legs(value, machine, |_| true, of)?;
+    not_redundant(value, machine, key)?;
+    Ok(vec![Demand::of(key, Bound::Min(min))])
 }
 
 /// The angle between leg and guide is at most `max` degrees.
 fn leg_angle(
     value: &Value<'_>,
-    mechanism: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
     let accepted = "{ max = 60 }, in degrees, greater than 0 and at most 90";
     let (bound, max) = single(value, "max", accepted)?;
     let up_to_90 = max.compare(&Exact::integer(90));
@@ -225,34 +298,198 @@ fn leg_angle(
     if bound.document.demands() && !within {
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
-    if !all_legs(mechanism, |leg| matches!(leg, Leg::Slider { .. })) {
-        let accepted = "leg_angle for sliders: other legs have no guide";
-        return Err(value.error(Defect::Conflict, "legs without a guide", accepted));
-    }
-    requirements.leg_angle = Some(AtMost { max });
-    Ok(())
+    let of = ["legs without a guide", "leg_angle for sliders: other legs have no guide"];
+    all_legs(value, machine, |leg| matches!(leg.drive, checker::Leg::Slider { .. }), of)?;
+    Ok(vec![Demand::of(key, Bound::Max(max))])
 }
 
 /// No tool velocity of magnitude `tool` demands a joint speed beyond `max`, of arms in degrees per
 /// unit of time.
 fn joint_speed(
     value: &Value<'_>,
-    mechanism: &Mechanism,
-    requirements: &mut Requirements,
-) -> Result<(), DesignError> {
-    let accepted = match mechanism.is_angular() {
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let accepted = match machine.mechanism.is_angular() {
         true => "{ tool = 100, max = 1000 }: the tool's speed and the arms' limit, degrees per unit of time",
         false => "{ tool = 1200, max = 2000 }: the tool's speed and the joints' limit, lengths per unit of time",
     };
+    let [tool, max] = positives(value, ["tool", "max"], "a speed", accepted)?;
+    Ok(vec![Demand { given: vec![("tool", vec![tool])], ..Demand::of(key, Bound::Max(max)) }])
+}
+
+/// No platform motion up to a speed and an acceleration demands a joint acceleration beyond `max`.
+fn joint_acceleration(
+    value: &Value<'_>,
+    _: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let accepted = "{ speed = 1200, acceleration = 14000, max = 40000 }: the platform's, and the joints' limit";
     let table = value.table(accepted)?;
-    table.only(&["tool", "max"])?;
-    let speed = |key: &str| {
+    table.only(&["speed", "acceleration", "max"])?;
+    let of_platform = |key: &str| {
         let value = table.require(key, accepted)?;
-        let speed = exact(&value)?;
-        positive(&value, &speed, "a speed").map(|()| speed)
+        let number = exact(&value)?;
+        not_negative(&value, &number, "a magnitude")?;
+        Ok(vec![number])
     };
-    requirements.joint_speed = Some(JointSpeed { tool: speed("tool")?, max: speed("max")? });
-    Ok(())
+    let given =
+        vec![("acceleration", of_platform("acceleration")?), ("speed", of_platform("speed")?)];
+    let bound = table.require("max", accepted)?;
+    let max = exact(&bound)?;
+    positive(&bound, &max, "an acceleration")?;
+    Ok(vec![Demand { given, ..Demand::of(key, Bound::Max(max)) }])
+}
+
+/// No force on the platform up to `tool` asks more than `max` of a joint.
+fn joint_force(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let accepted = "{ tool = 100, max = 250 }: the force on the platform and the joints' limit, of arms a torque";
+    let [tool, max] = positives(value, ["tool", "max"], "a force", accepted)?;
+    not_redundant(value, machine, key)?;
+    Ok(vec![Demand { given: vec![("tool", vec![tool])], ..Demand::of(key, Bound::Max(max)) }])
+}
+
+/// With joints of a stiffness, one or one a leg, the platform's least stiffness is at least `min`.
+fn stiffness(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let accepted = "{ joint = 50, min = 20 }: the joints' stiffness, a number or one a leg, and the platform's";
+    let table = value.table(accepted)?;
+    table.only(&["joint", "min"])?;
+    let of_joints = table.require("joint", accepted)?;
+    let one = |value: &Value<'_>| {
+        let number = exact(value)?;
+        positive(value, &number, "a stiffness").map(|()| number)
+    };
+    let joint = match of_joints.inner {
+        DeValue::Array(_) => {
+            let joints = machine.mechanism.joints();
+            let values = of_joints.list(accepted)?;
+            if values.len() != joints {
+                let accepted = format!("a number, or an array of {} numbers", in_words(joints));
+                return Err(of_joints.wrong_type(&accepted));
+            }
+            values.iter().map(one).collect::<Result<Vec<_>, _>>()?
+        }
+        _ => vec![one(&of_joints)?],
+    };
+    let min = one(&table.require("min", accepted)?)?;
+    Ok(vec![Demand { given: vec![("joint", joint)], ..Demand::of(key, Bound::Min(min)) }])
+}
+
+/// Joint coordinates within `joint_error` of those commanded put the platform within `max` of the
+/// position commanded and, where it turns, within `max_angle` of the orientation.
+fn accuracy(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let turns = machine.mechanism.coordinates()[1] > 0;
+    let accepted = match turns {
+        true => "{ joint_error = 0.01, max = 0.05, max_angle = 0.1 }, max_angle in degrees",
+        false => "{ joint_error = 0.01, max = 0.05 }",
+    };
+    let table = value.table(accepted)?;
+    let keys: &[&str] =
+        if turns { &["joint_error", "max", "max_angle"] } else { &["joint_error", "max"] };
+    table.only_here(keys, |key| {
+        (key == "max_angle").then(|| "machines that turn their platform".to_owned())
+    })?;
+    let error = table.require("joint_error", accepted)?;
+    let joint_error = exact(&error)?;
+    not_negative(&error, &joint_error, "an error of the joints")?;
+    let mut given = vec![("joint_error", vec![joint_error])];
+    let bound = table.require("max", accepted)?;
+    let max = exact(&bound)?;
+    positive(&bound, &max, "a distance")?;
+    if turns {
+        let bound = table.require("max_angle", accepted)?;
+        let angle = exact(&bound)?;
+        let below = angle.compare(&Exact::integer(180)) == Some(Ordering::Less);
+        if bound.document.demands() && (angle.sign() != Some(1) || !below) {
+            let accepted = "an angle in degrees, greater than 0 and less than 180";
+            return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
+        }
+        given.push(("max_angle", vec![angle]));
+    }
+    not_redundant(value, machine, key)?;
+    Ok(vec![Demand { given, ..Demand::of(key, Bound::Max(max)) }])
+}
+
+/// No two points of the workspace have the same joint coordinates.
+fn one_to_one(
+    value: &Value<'_>,
+    _: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let accepted = "true, or no such key";
+    match value.inner {
+        DeValue::Boolean(true) => Ok(vec![Demand::of(key, Bound::Holds)]),
+        DeValue::Boolean(false) => Err(value.error(Defect::OutOfDomain, value.found(), accepted)),
+        _ => Err(value.wrong_type(accepted)),
+    }
+}
+
+/// Rods and bodies keep a distance.
+fn clearance(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let (bound, min) = single(value, "min", "{ min = 2 }, a distance between rods and bodies")?;
+    not_negative(&bound, &min, "a distance")?;
+    if machine.bodies.len() < 2 {
+        let found = match machine.bodies.len() {
+            0 => "clearance of a machine without rods and bodies",
+            _ => "clearance of one body alone",
+        };
+        let accepted = "rod = { radius = 8, trim = [20, 30] } on legs, and [[mechanism.bodies]]";
+        return Err(value.error(Defect::Conflict, found, accepted));
+    }
+    Ok(vec![Demand::of(key, Bound::Min(min))])
+}
+
+/// The least singular value of the matrix of unit constraint couples.
+fn constraint_margin(
+    value: &Value<'_>,
+    machine: &Machine,
+    key: &'static str,
+) -> Result<Vec<Demand>, DesignError> {
+    let (bound, min) = single(value, "min", "{ min = 0.1 }, a least singular value")?;
+    positive(&bound, &min, "a singular value")?;
+    let in_translation = |leg: &Leg| leg.base_axis.is_some();
+    let translational =
+        matches!(machine.mechanism, Mechanism::Legs { motion: Motion::Translational, .. });
+    if !translational || !machine.mechanism.all_legs(in_translation) {
+        let accepted =
+            "constraint_margin of kind \"translational\", every leg a strut with base_axis";
+        return Err(value.error(Defect::Conflict, "legs without a base_axis", accepted));
+    }
+    Ok(vec![Demand::of(key, Bound::Min(min))])
+}
+
+/// Two positive numbers, the only ones of a table.
+fn positives(
+    value: &Value<'_>,
+    keys: [&str; 2],
+    what: &str,
+    accepted: &str,
+) -> Result<[Exact; 2], DesignError> {
+    let table = value.table(accepted)?;
+    table.only(&keys)?;
+    let one = |key: &str| {
+        let value = table.require(key, accepted)?;
+        let number = exact(&value)?;
+        positive(&value, &number, what).map(|()| number)
+    };
+    let [first, second] = keys;
+    Ok([one(first)?, one(second)?])
 }
 
 /// The number at `key`, the only one of a table.

@@ -9,6 +9,10 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("rotary-delta", include_str!("templates/rotary-delta.toml")),
     ("strut", include_str!("templates/strut.toml")),
     ("tripteron", include_str!("templates/tripteron.toml")),
+    ("formulas", include_str!("templates/formulas.toml")),
+    ("planar", include_str!("templates/planar.toml")),
+    ("spatial", include_str!("templates/spatial.toml")),
+    ("spherical", include_str!("templates/spherical.toml")),
 ];
 
 /// The template called `kind`, one of [`TEMPLATES`].

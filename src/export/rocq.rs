@@ -16,10 +16,17 @@ use orthocert_checker::number::Exact;
 use std::fmt::Write;
 use std::slice::Iter;
 
+mod kernel;
 mod postulate;
 
 /// What is exported.
 const ONLY: &str = "only certified claims about slider legs, a box and transmission are exported";
+
+/// What is exported of other machines.
+const KERNEL: &str =
+    "of machines that are not three sliders, certified claims about sliders, struts and \
+     planar legs that do not turn the platform, a box, transmission and ranges of joints that are \
+     lengths are exported";
 
 /// Why a certificate is not exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -47,9 +54,21 @@ pub enum ExportError {
     /// There are requirements other than those on transmission, or none on transmission.
     #[error("the claim asks for something else than bounds on transmission; {ONLY}")]
     NotTransmission,
-    /// It is a claim of the kernel.
-    #[error("the machine has no formal checker yet; {ONLY}")]
-    Kernel,
+    /// The platform turns, or the mechanism is given by formulas.
+    #[error("the platform turns, or the mechanism is given by formulas; {KERNEL}")]
+    NotTranslational,
+    /// A leg is an arm, or a strut that keeps the platform from turning.
+    #[error("a leg is an arm, or a strut with a base axis; {KERNEL}")]
+    Drive,
+    /// The workspace of a claim of the kernel is not a box.
+    #[error("the workspace is not a box; {KERNEL}")]
+    KernelNotABox,
+    /// A claim of the kernel bounds this quantity.
+    #[error("the claim bounds \"{0}\", which the formal kernel lacks; {KERNEL}")]
+    Quantity(&'static str),
+    /// The kernel does not accept the claim.
+    #[error("the claim is not well formed")]
+    NotWellFormed,
     /// The tree uses this rule.
     #[error("the proof uses the rule \"{0}\", which the formal checker lacks; {ONLY}")]
     Rule(&'static str),
@@ -75,7 +94,8 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
         (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
         (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
         (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
-        (Claim::Kernel(_), _) => return Err(ExportError::Kernel),
+        (Claim::Kernel(claim), Proof::Kernel(proof)) => return kernel::kernel(claim, proof),
+        (Claim::Kernel(_), _) => return Err(ExportError::NotATree),
     };
     let Proof::Tree(tree) = &certificate.proof else {
         return Err(ExportError::NotATree);

@@ -1,39 +1,50 @@
 //! The machine and its workspace, in a parallel view: what the claim is about.
 
 use super::isomap::Mark;
-use super::nominal::{add, scaled, Nominal, Numbers, Point};
+use super::legs::{add, dot, scaled, Numbers, Point, Shape};
 use super::svg::{Elements, Fitted, Picture, View};
 
 const SIZE: [f64; 2] = [720.0, 470.0];
-/// Corners of the polygon that stands for a circle.
-const ROUND: usize = 72;
 
-/// The drawing. The platform is at the origin if that is in the workspace, else in its middle.
-pub fn drawing(machine: &Nominal, marks: &[Mark]) -> Picture {
-    let p = platform(machine);
-    let view = View::from(58.0, 24.0);
-    let guides: Vec<Option<[Point; 2]>> = (0..3).map(|i| guide(machine, i)).collect();
-    let solid = solid(machine);
-    let mut extent: Vec<Point> = solid.iter().flatten().copied().collect();
+/// The elements of a drawing, and its names: these last, so that nothing is drawn over them.
+#[derive(Default)]
+struct Layers {
+    lines: Elements,
+    names: Elements,
+}
+
+/// The drawing of a machine, and marked points: from the side, or, of a machine in the plane, from
+/// above.
+pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
+    let p = machine.position;
+    let view = if machine.is_flat { View::from(-90.0, 90.0) } else { View::from(58.0, 24.0) };
+    let count = machine.legs.len();
+    let guides: Vec<Option<[Point; 2]>> = (0..count).map(|i| guide(machine, i)).collect();
+    let mut extent: Vec<Point> = machine.outline.rings.iter().flatten().copied().collect();
     extent.extend(guides.iter().flatten().flatten());
-    for i in 0..3 {
+    for i in 0..count {
         extent.extend(machine.pose(i, p).iter().flat_map(|pose| [pose.driven, pose.platform]));
         extent.extend(anchor(machine, i));
     }
-    extent.extend(marks.iter().map(|mark| mark.at));
+    let bodies = bodies(machine);
+    extent.extend(bodies.iter().flatten());
+    extent.extend(marks.iter().map(Mark::position));
+    extent.push(p);
     let fitted = Fitted::new(view, &extent, [46.0, 34.0], [SIZE[0] - 92.0, SIZE[1] - 68.0]);
-    let mut out = Elements::default();
-    workspace(&mut out, machine, &solid, &view, &fitted);
-    axes(&mut out, &view);
-    // Names last, so that nothing is drawn over them.
-    let mut names = Elements::default();
-    for (i, guide) in guides.iter().enumerate() {
-        leg((&mut out, &mut names), machine, i, p, *guide, &fitted);
+    let mut layers = Layers::default();
+    workspace(&mut layers.lines, machine, &view, &fitted);
+    axes(&mut layers.lines, &view, if machine.is_flat { 2 } else { 3 });
+    for [from, to] in bodies {
+        layers.lines.line("body", fitted.at(from), fitted.at(to));
     }
-    platform_body((&mut out, &mut names), machine, p, &fitted);
+    for (i, guide) in guides.iter().enumerate() {
+        leg(&mut layers, machine, i, *guide, &fitted);
+    }
+    platform_body(&mut layers, machine, &fitted);
+    let Layers { lines: mut out, names } = layers;
     out.raw(&names.0);
     for mark in marks {
-        let at = fitted.at(mark.at);
+        let at = fitted.at(mark.position());
         out.dot("mark", at, 4.5);
         out.text("mark-label start", [at[0] + 8.0, at[1] - 7.0], &mark.name);
     }
@@ -46,62 +57,41 @@ pub fn drawing(machine: &Nominal, marks: &[Mark]) -> Picture {
     }
 }
 
-/// Where the platform is drawn.
-pub fn platform(machine: &Nominal) -> Point {
-    let frame = &machine.frame;
-    let inside = |k: usize| frame.least[k] <= 0.0 && 0.0 <= frame.least[k] + frame.width[k];
-    if machine.is_cube && (0..3).all(inside) {
-        return [0.0; 3];
+/// The axes of the bodies, where the platform is.
+fn bodies(machine: &Shape) -> Vec<[Point; 2]> {
+    let [base, platform] = &machine.bodies;
+    let carried = platform.iter().map(|ends| ends.map(|b| machine.carried(machine.position, b)));
+    base.iter().copied().chain(carried).collect()
+}
+
+fn workspace(out: &mut Elements, machine: &Shape, view: &View, fitted: &Fitted) {
+    let rings = &machine.outline.rings;
+    let shown: Vec<Vec<[f64; 2]>> =
+        rings.iter().map(|ring| ring.iter().map(|p| fitted.at(*p)).collect()).collect();
+    let around = hull(shown.concat());
+    if around.len() > 1 {
+        out.path("solid", &around, true);
     }
-    machine.point([0.5; 3])
-}
-
-/// The outline of the workspace: lines that bound it from below, from above, and beside.
-fn solid(machine: &Nominal) -> [Vec<Point>; 2] {
-    let ring = |z: f64| -> Vec<Point> {
-        if machine.is_cylinder {
-            return (0..ROUND)
-                .map(|i| {
-                    let (s, c) = (i as f64 / ROUND as f64 * std::f64::consts::TAU).sin_cos();
-                    machine.point([0.5 + c / 2.0, 0.5 + s / 2.0, z])
-                })
-                .collect();
-        }
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-            .map(|[x, y]| machine.point([x, y, z]))
-            .to_vec()
+    let [below, above] = match (&shown[..], &rings[..]) {
+        ([ring], _) => return out.path("edge", ring, true),
+        ([below, above], [..]) => [below, above],
+        _ => return,
     };
-    [ring(0.0), ring(1.0)]
-}
-
-fn workspace(
-    out: &mut Elements,
-    machine: &Nominal,
-    [below, above]: &[Vec<Point>; 2],
-    view: &View,
-    fitted: &Fitted,
-) {
-    let shown = |ring: &[Point]| -> Vec<[f64; 2]> { ring.iter().map(|p| fitted.at(*p)).collect() };
-    out.path("solid", &hull([shown(below), shown(above)].concat()), true);
-    if machine.is_cylinder {
-        out.path("hidden", &shown(below), true);
-        out.path("edge", &shown(above), true);
-        out.path("edge outline-only", &hull([shown(below), shown(above)].concat()), true);
+    if machine.outline.is_round {
+        out.path("hidden", below, true);
+        out.path("edge", above, true);
+        out.path("edge outline-only", &around, true);
         return;
     }
-    // The corner farthest from the viewer, and the three edges that meet there.
-    let far: [f64; 3] = view.toward.map(|d| if d > 0.0 { 0.0 } else { 1.0 });
-    for a in 0..8u8 {
-        for k in 0..3 {
-            if a >> k & 1 == 1 {
-                continue;
-            }
-            let from: Point = std::array::from_fn(|j| f64::from(a >> j & 1));
-            let mut to = from;
-            to[k] = 1.0;
-            let hidden = (0..3).all(|j| j == k || from[j] == far[j]);
-            let class = if hidden { "hidden" } else { "edge" };
-            out.line(class, fitted.at(machine.point(from)), fitted.at(machine.point(to)));
+    // The corner farthest from the viewer, and the edges that meet there.
+    let corners = rings.concat();
+    let depth = |i: &usize| dot(view.toward, corners[*i]);
+    let far = (0..corners.len()).min_by(|i, j| depth(i).total_cmp(&depth(j)));
+    let n = below.len();
+    for i in 0..n {
+        for (a, b) in [(i, (i + 1) % n), (n + i, n + (i + 1) % n), (i, n + i)] {
+            let class = if Some(a) == far || Some(b) == far { "hidden" } else { "edge" };
+            out.line(class, fitted.at(corners[a]), fitted.at(corners[b]));
         }
     }
 }
@@ -132,38 +122,34 @@ fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// The part of a leg's guide that the workspace asks for, a little longer.
-fn guide(machine: &Nominal, i: usize) -> Option<[Point; 2]> {
-    let direction = match &machine.legs[i].numbers {
+fn guide(machine: &Shape, i: usize) -> Option<[Point; 2]> {
+    let direction = match &machine.legs[i] {
         Numbers::Slider { direction, .. } | Numbers::Planar { direction } => *direction,
         Numbers::Strut { .. } | Numbers::Arm { .. } => return None,
     };
-    let origin = machine.pose(i, platform(machine))?.driven;
-    let along = |p: Point| super::nominal::dot(direction, add(p, scaled(-1.0, origin)));
+    let origin = machine.pose(i, machine.position)?.driven;
+    let along = |p: Point| dot(direction, add(p, scaled(-1.0, origin)));
     let mut ends = [0.0, 0.0];
-    for n in 0..27 {
-        let u = [n % 3, n / 3 % 3, n / 9].map(|i| f64::from(i) / 2.0);
-        if let Some(pose) = machine.pose(i, machine.point(u)) {
-            let rho = along(pose.driven);
-            ends = [f64::min(ends[0], rho), f64::max(ends[1], rho)];
-        }
+    for pose in machine.places.iter().filter_map(|p| machine.pose(i, *p)) {
+        let rho = along(pose.driven);
+        ends = [f64::min(ends[0], rho), f64::max(ends[1], rho)];
     }
     let more = 0.08 * (ends[1] - ends[0]);
     Some([ends[0] - more, ends[1] + more].map(|rho| add(origin, scaled(rho, direction))))
 }
 
 /// The fixed point of an arm.
-fn anchor(machine: &Nominal, i: usize) -> Option<Point> {
-    match &machine.legs[i].numbers {
+fn anchor(machine: &Shape, i: usize) -> Option<Point> {
+    match &machine.legs[i] {
         Numbers::Arm { anchor, .. } => Some(*anchor),
         _ => None,
     }
 }
 
 fn leg(
-    (out, names): (&mut Elements, &mut Elements),
-    machine: &Nominal,
+    Layers { lines: out, names }: &mut Layers,
+    machine: &Shape,
     i: usize,
-    p: Point,
     guide: Option<[Point; 2]>,
     fitted: &Fitted,
 ) {
@@ -171,21 +157,22 @@ fn leg(
         let [a, b] = ends.map(|p| fitted.at(p));
         out.line("guide", a, b);
     }
-    let Some(pose) = machine.pose(i, p) else {
+    let Some(pose) = machine.pose(i, machine.position) else {
         return;
     };
     let [driven, platform] = [pose.driven, pose.platform].map(|p| fitted.at(p));
-    if let Numbers::Arm { anchor, axis, arm, .. } = &machine.legs[i].numbers {
+    let number = subscript(i);
+    if let Numbers::Arm { anchor, axis, arm, .. } = &machine.legs[i] {
         let reach = scaled(0.35 * arm, *axis);
-        let [a, b] = [add(*anchor, reach), add(*anchor, scaled(-1.0, reach))].map(|p| fitted.at(p));
+        let ends = [*anchor, add(*anchor, reach), add(*anchor, scaled(-1.0, reach))];
+        let [at, a, b] = ends.map(|p| fitted.at(p));
         out.line("guide", a, b);
-        out.line("arm", fitted.at(*anchor), driven);
-        out.dot("joint", fitted.at(*anchor), 4.0);
-        let at = fitted.at(*anchor);
-        names.text("label end", [at[0] - 8.0, at[1] - 8.0], &format!("A{}", subscript(i)));
+        out.line("arm", at, driven);
+        out.dot("joint", at, 4.0);
+        names.text("label end", [at[0] - 8.0, at[1] - 8.0], &format!("A{number}"));
     }
     out.line("leg", driven, platform);
-    match &machine.legs[i].numbers {
+    match &machine.legs[i] {
         Numbers::Slider { .. } | Numbers::Planar { .. } => {
             let [x, y] = driven;
             let (x, y) = (x - 6.0, y - 6.0);
@@ -202,37 +189,32 @@ fn leg(
         [middle[0] + 7.0, middle[1] - 5.0],
         &format!("leg {}", i + 1),
     );
-    names.text("label start", [driven[0] + 10.0, driven[1] - 8.0], &format!("B{}", subscript(i)));
+    names.text("label start", [driven[0] + 10.0, driven[1] - 8.0], &format!("B{number}"));
 }
 
-fn subscript(i: usize) -> char {
-    ['\u{2081}', '\u{2082}', '\u{2083}'][i]
+/// The number of a leg, below the line.
+fn subscript(i: usize) -> String {
+    let below = |digit: char| char::from_u32(0x2080 + digit.to_digit(10)?);
+    (i + 1).to_string().chars().filter_map(below).collect()
 }
 
-/// The platform's triangle, where its joints are apart, and `P`.
-fn platform_body(
-    (out, names): (&mut Elements, &mut Elements),
-    machine: &Nominal,
-    p: Point,
-    fitted: &Fitted,
-) {
-    let joints: Option<Vec<Point>> =
-        (0..3).map(|i| machine.pose(i, p).map(|pose| pose.platform)).collect();
+/// The platform between its joints, where they are apart, and `P`.
+fn platform_body(Layers { lines: out, names }: &mut Layers, machine: &Shape, fitted: &Fitted) {
+    let p = machine.position;
     let at = fitted.at(p);
-    if let Some(joints) = joints {
-        let shown: Vec<[f64; 2]> = joints.iter().map(|p| fitted.at(*p)).collect();
-        if shown.iter().any(|q| (q[0] - at[0]).hypot(q[1] - at[1]) > 5.0) {
-            out.path("platform", &shown, true);
-        }
+    let joints = machine.legs.iter().map(|leg| fitted.at(machine.carried(p, leg.platform())));
+    let shown = hull(joints.collect());
+    if shown.iter().any(|q| (q[0] - at[0]).hypot(q[1] - at[1]) > 5.0) {
+        out.path("platform", &shown, true);
     }
     out.dot("point", at, 4.0);
     names.text("label start", [at[0] + 9.0, at[1] + 16.0], "P");
 }
 
 /// The directions of the frame, in a corner of the picture.
-fn axes(out: &mut Elements, view: &View) {
+fn axes(out: &mut Elements, view: &View, count: usize) {
     const ORIGIN: [f64; 2] = [64.0, SIZE[1] - 64.0];
-    for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+    for (k, name) in ["x", "y", "z"].into_iter().enumerate().take(count) {
         let mut unit = [0.0; 3];
         unit[k] = 1.0;
         let seen = view.seen(unit);

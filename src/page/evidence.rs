@@ -1,44 +1,87 @@
 //! What the proof, or the refutation, consists of, in tables.
 
-use super::subdivision::{parts, Subdivision, RULES};
+use super::legend::OUTSIDE;
+use super::subdivision::{Leaf, Subdivision};
 use crate::decimal::{approximate, counted, exact, grouped, significant};
 use crate::escape::xml;
-use crate::report::{Counterexample, Row};
+use crate::report::{self, Counterexample};
 use orthocert_checker::number::Exact;
-use orthocert_checker::rule::Obligation;
 use std::fmt::Write;
 
 /// Boxes listed among those where the proof worked hardest.
 const HARDEST: usize = 8;
 
-/// The table of the worst values found.
+/// A requirement with the worst value that sampling found: what its row of the table says.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What is bounded.
+    pub requirement: String,
+    /// By what.
+    pub bound: String,
+    /// The worst value found.
+    pub found: String,
+    /// Whether it is on the wrong side.
+    pub is_violated: bool,
+    /// How far it is from the bound.
+    pub margin: String,
+    /// Where it was found.
+    pub at: String,
+    /// For which machine; empty of a claim without tolerances.
+    pub machine: String,
+}
+
+impl From<&report::Row> for Row {
+    fn from(row: &report::Row) -> Self {
+        let setting = |p: &report::FreeParameter| {
+            let leg = p.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+            format!("{leg}{} {}", p.parameter, significant(p.value, 7))
+        };
+        let settings: Vec<String> = row.machine.iter().map(setting).collect();
+        Row {
+            requirement: row.requirement.clone(),
+            bound: row.bound_text.clone(),
+            found: row.worst_found.map_or("out of reach".to_owned(), |x| significant(x, 9)),
+            is_violated: row.seems_violated,
+            margin: margin(row),
+            at: report::point_text(&row.at, 6),
+            machine: settings.join(", "),
+        }
+    }
+}
+
+/// The table of the requirements and the worst values found.
 pub fn margins(rows: &[Row]) -> String {
-    let mut out = "<section id=\"margins\"><h2>Margins</h2><p>How close each requirement comes to its \
-         bound. The bounds are what is proved; the values here are the worst that <strong>sampling</strong> \
-         found, in floating point, and no proof. <code>orthocert bounds</code> proves enclosures of the \
-         extremes.</p><div class=\"table\"><table><thead><tr><th>requirement</th><th class=\"number\">bound</th>\
-         <th class=\"number\">worst found</th><th class=\"number\">margin</th><th>at P = (x, y, z)</th></tr></thead><tbody>"
+    let mut out = "<div class=\"table\" id=\"margins\"><table><thead><tr><th>requirement</th>\
+         <th>bound</th><th class=\"number\">worst found</th><th class=\"number\">margin</th>\
+         <th>at</th></tr></thead><tbody>"
         .to_owned();
     for row in rows {
-        let [x, y, z] = row.at.map(|x| significant(x, 6));
-        let found = row.worst_found.map_or("out of reach".to_owned(), |x| significant(x, 9));
-        let class = if row.seems_violated { "number bad" } else { "number" };
+        let class = if row.is_violated { "number bad" } else { "number" };
+        let machine = if row.machine.is_empty() {
+            String::new()
+        } else {
+            let machine = xml(&row.machine);
+            format!("<details><summary>machine</summary>{machine}</details>")
+        };
         let _ = write!(
             out,
-            "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"{class}\">{found}{}</td>\
-             <td class=\"number\">{}</td><td>({x}, {y}, {z}){}</td></tr>",
+            "<tr><td>{}</td><td class=\"place\">{}</td><td class=\"{class}\">{}{}</td>\
+             <td class=\"number\">{}</td><td>{}{machine}</td></tr>",
             xml(&row.requirement),
-            xml(&row.bound_text),
-            if row.seems_violated { " (violated)" } else { "" },
-            margin(row),
-            machine(row)
+            xml(&row.bound),
+            xml(&row.found),
+            if row.is_violated { " (violated)" } else { "" },
+            xml(&row.margin),
+            xml(&row.at),
         );
     }
-    out + "</tbody></table></div></section>\n"
+    out + "</tbody></table></div><p class=\"note\">How close each requirement comes to its bound. The \
+         bounds are what is claimed; the values are the worst that <strong>sampling</strong> found, in \
+         floating point, and no proof. <code>orthocert bounds</code> proves enclosures of the extremes.</p>"
 }
 
 /// The distance to the bound, as a part of it where it is not zero.
-fn margin(row: &Row) -> String {
+fn margin(row: &report::Row) -> String {
     let number = |text: &str| approximate(&Exact::parse(text, 1000).ok()?);
     let Some((relation, bound)) = row.bound.split_once(' ') else {
         return String::new();
@@ -50,50 +93,50 @@ fn margin(row: &Row) -> String {
     if bound == 0.0 {
         return significant(slack, 4);
     }
-    let share = 100.0 * slack / bound.abs();
-    match share {
+    share(slack / bound.abs())
+}
+
+/// A margin in percent.
+pub fn share(margin: f64) -> String {
+    match 100.0 * margin {
         s if s.abs() < 5e-8 => "0, tight".to_owned(),
         s if s.abs() < 1e-3 => format!("{} %", significant(s, 2)),
         s => format!("{} %", significant(s, 3)),
     }
 }
 
-fn machine(row: &Row) -> String {
-    if row.machine.is_empty() {
-        return String::new();
-    }
-    let settings: Vec<String> = row
-        .machine
-        .iter()
-        .map(|p| format!("leg {} {} {}", p.leg, p.parameter, significant(p.value, 7)))
-        .collect();
-    format!("<details><summary>machine</summary>{}</details>", xml(&settings.join(", ")))
-}
-
-/// The counterexample of a refutation.
-pub fn counterexample(found: &Counterexample) -> String {
-    let point = |p: &[Exact; 3]| {
-        let [x, y, z] = [exact(&p[0]), exact(&p[1]), exact(&p[2])];
-        xml(&format!("({x}, {y}, {z})"))
+/// The counterexample of a refutation of three translating legs: names and values.
+pub fn of_three_legs(found: &Counterexample) -> Vec<(String, String)> {
+    let point = |p: &Vec<Exact>| {
+        let all: Vec<String> = p.iter().map(exact).collect();
+        format!("({})", all.join(", "))
     };
     let mut rows = vec![
-        ("violated".to_owned(), xml(&found.violated)),
-        ("value there".to_owned(), xml(&found.value)),
+        ("violated".to_owned(), found.violated.clone()),
+        ("value there, its digits certified".to_owned(), found.value.clone()),
         ("at P".to_owned(), point(&found.point)),
     ];
     rows.extend(found.other_point.iter().map(|p| ("and at P'".to_owned(), point(p))));
     for setting in &found.machine {
-        let name = xml(&format!("leg {} {}", setting.leg, setting.parameter));
-        rows.push((name, xml(&exact(&setting.value))));
+        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+        rows.push((format!("{leg}{}", setting.parameter), exact(&setting.value)));
     }
-    for [x, y, z] in &found.directions {
-        rows.push(("moving along".to_owned(), format!("({x}, {y}, {z})")));
+    for direction in &found.directions {
+        let all: Vec<String> = direction.iter().map(i64::to_string).collect();
+        rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
     }
-    let mut out = "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
-         which a requirement provably fails. Coordinates are exact; digits of the value are certified.</p>\
+    rows
+}
+
+/// The counterexample of a refutation.
+pub fn counterexample(rows: &[(String, String)]) -> String {
+    let mut out =
+        "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
+         which a requirement provably fails. Coordinates are exact.</p>\
          <div class=\"table\"><table><tbody>"
-        .to_owned();
+            .to_owned();
     for (name, value) in rows {
+        let (name, value) = (xml(name), xml(value));
         let _ = write!(out, "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>");
     }
     out + "</tbody></table></div></section>\n"
@@ -108,7 +151,7 @@ pub fn hardest(trees: &[Subdivision]) -> String {
     }
     let mut all: Vec<(usize, usize)> = Vec::new();
     for (t, tree) in trees.iter().enumerate() {
-        let inside = |i: &usize| !tree.leaves[*i].own.iter().any(|rule| is_outside(*rule));
+        let inside = |i: &usize| !is_outside(tree, &tree.leaves[*i]);
         all.extend((0..tree.leaves.len()).filter(inside).map(|i| (t, i)));
     }
     // The smallest box is the deepest: every split halves it. Boxes outside a cylinder are no work.
@@ -122,49 +165,50 @@ pub fn hardest(trees: &[Subdivision]) -> String {
         if all.len() > HARDEST { format!(" The first {HARDEST} of {}:", counted(all.len(), "leaf", "leaves")) } else { String::new() },
     );
     out.push_str("<div class=\"table\"><table><thead><tr><th class=\"number\">depth</th>");
-    let axes = trees.first().map_or(["x", "y", "z"], |tree| tree.axes);
+    let axes = trees.first().map_or(&[][..], |tree| &tree.axes[..]);
     for axis in axes {
-        let _ = write!(out, "<th>{axis}</th>");
+        let _ = write!(out, "<th>{}</th>", xml(axis));
     }
     out.push_str("<th>closed by rule (obligation)</th></tr></thead><tbody>");
     for &(t, i) in all.iter().take(HARDEST) {
         let (tree, leaf) = (&trees[t], &trees[t].leaves[i]);
         let _ = write!(out, "<tr><td class=\"number\">{}</td>", leaf.depth);
-        for k in 0..3 {
-            let [low, high] = parts(leaf.cell.edges[k]).map(|u| tree.least[k] + u * tree.width[k]);
+        for (k, parts) in leaf.parts.iter().enumerate() {
+            let [low, high] = parts.map(|u| tree.place(k, u));
             let digits = if (high - low).abs() < 1e-4 * tree.width[k].abs() { 10 } else { 6 };
             let (low, high) = (significant(low, digits), significant(high, digits));
             let _ = write!(out, "<td class=\"place\">{low} \u{2026} {high}</td>");
         }
         let name = if trees.len() > 1 { format!("{}: ", tree.name) } else { String::new() };
-        let _ = write!(out, "<td>{}{}</td></tr>", xml(&name), xml(&closed_by(leaf.by, &leaf.own)));
+        let _ = write!(out, "<td>{}{}</td></tr>", xml(&name), xml(&closed_by(tree, leaf)));
     }
     out.push_str("</tbody></table></div><p class=\"note\">The ends of the boxes are rounded.</p>");
     out.push_str(&histogram(&counts));
     out
 }
 
-fn is_outside(rule: u8) -> bool {
-    RULES[usize::from(rule)].name == "outside"
+fn is_outside(tree: &Subdivision, leaf: &Leaf) -> bool {
+    leaf.own.iter().any(|rule| tree.legend.rules[usize::from(*rule)].name == OUTSIDE)
 }
 
 /// `lower (sigma_min), range (joint_range)`: what was left to the leaf itself.
-fn closed_by(by: [Option<u8>; Obligation::ALL.len()], own: &[u8]) -> String {
+fn closed_by(tree: &Subdivision, leaf: &Leaf) -> String {
     let of_rule = |rule: &u8| {
-        let shown: Vec<String> = Obligation::ALL
-            .iter()
-            .zip(by)
-            .filter(|(_, by)| *by == Some(*rule))
-            .map(|(obligation, _)| obligation.to_string())
+        let obligations = tree.legend.obligations.iter().zip(&leaf.by);
+        let shown: Vec<&str> = obligations
+            .filter(|(_, by)| **by == Some(*rule))
+            .map(|(obligation, _)| obligation.as_str())
             .collect();
-        let name = RULES[usize::from(*rule)].name;
+        let name = &tree.legend.rules[usize::from(*rule)].name;
         if shown.is_empty() {
-            name.to_owned()
+            name.clone()
         } else {
             format!("{name} ({})", shown.join(", "))
         }
     };
-    own.iter().map(of_rule).collect::<Vec<_>>().join(", ")
+    let mut rules = leaf.own.clone();
+    rules.dedup();
+    rules.iter().map(of_rule).collect::<Vec<_>>().join(", ")
 }
 
 fn histogram(counts: &[usize]) -> String {

@@ -1,7 +1,7 @@
-//! Maps of the velocity transmission factors over a plane `z = const` of the workspace.
+//! Maps of functions of two coordinates: lines of equal value over a slice of the workspace.
 
 use super::contour::{Field, LevelSet, Path};
-use super::nominal::{Nominal, Point};
+use super::legs::Point;
 use super::svg::{path_data, Elements, Picture};
 use crate::decimal::significant;
 use serde::Serialize;
@@ -9,9 +9,7 @@ use std::array::from_fn;
 use std::fmt::Write;
 
 /// Nodes of the grid on either side.
-const NODES: usize = 61;
-/// Nodes on every axis from which the levels are chosen.
-const SAMPLES: usize = 9;
+pub const NODES: usize = 61;
 /// Levels aimed at.
 const LEVELS: f64 = 12.0;
 /// Where the greatest value exceeds the least this many times, levels are spaced by factors.
@@ -34,11 +32,11 @@ const COLOURS: [[f64; 3]; 7] = [
     [16.0, 40.0, 110.0],
 ];
 
-/// The colours of a machine's maps, which all have in common, and the levels of each.
+/// The colours that some maps have in common, and the levels of each.
 #[derive(Clone, Debug, Serialize)]
 pub struct Scale {
-    /// For `psi_1`, `psi_2`, `psi_3`.
-    pub maps: [Levels; 3],
+    /// Of each map.
+    pub maps: Vec<Levels>,
     /// Least and greatest value sampled in the workspace.
     #[serde(skip)]
     range: [f64; 2],
@@ -69,25 +67,22 @@ fn colour(t: f64) -> String {
 }
 
 impl Scale {
-    /// The scale for a machine; `None` where it reaches none of the sampled points.
-    pub fn of(machine: &Nominal) -> Option<Self> {
-        let part = |i: usize| i as f64 / (SAMPLES - 1) as f64;
-        let mut found: [Vec<f64>; 3] = Default::default();
-        for n in 0..SAMPLES.pow(3) {
-            let u = [n % SAMPLES, n / SAMPLES % SAMPLES, n / SAMPLES / SAMPLES].map(part);
-            if machine.is_cylinder && (2.0 * u[0] - 1.0).hypot(2.0 * u[1] - 1.0) > 1.0 {
-                continue;
-            }
-            let psi = machine.psi(machine.point(u)).filter(|psi| psi.iter().all(|x| x.is_normal()));
-            for (all, x) in found.iter_mut().zip(psi.into_iter().flatten()) {
-                all.push(x);
-            }
-        }
+    /// The scale for maps of which these values were sampled in the workspace; `None` where one has
+    /// none.
+    pub fn over(mut found: Vec<Vec<f64>>) -> Option<Self> {
         found.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
-        let range = [*found[0].first()?, *found[2].last()?];
-        let shown = [0, 1, 2].map(|i| typical(&found[i]));
-        let ends = [shown[0][0], shown[2][1]];
-        Some(Scale { maps: shown.map(|shown| Levels::within(shown, ends)), range, ends })
+        let shown: Option<Vec<[f64; 2]>> = found.iter().map(|all| typical(all)).collect();
+        let shown = shown?;
+        let least = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::INFINITY, f64::min);
+        let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::NEG_INFINITY, f64::max);
+        let all = || found.iter().flatten().copied();
+        let range = [least(&mut all()), greatest(&mut all())];
+        let ends = [
+            least(&mut shown.iter().map(|ends| ends[0])),
+            greatest(&mut shown.iter().map(|ends| ends[1])),
+        ];
+        let maps = shown.into_iter().map(|shown| Levels::within(shown, ends)).collect();
+        Some(Scale { maps, range, ends })
     }
 
     /// The colours and some of their values, as a strip.
@@ -119,7 +114,7 @@ impl Scale {
 
 /// Where a value stands between the first and the last colour.
 fn position(value: f64, [low, high]: [f64; 2]) -> f64 {
-    if high / low > WIDE {
+    if is_wide(low, high) {
         (value / low).ln() / (high / low).ln()
     } else if high > low {
         (value - low) / (high - low)
@@ -128,13 +123,20 @@ fn position(value: f64, [low, high]: [f64; 2]) -> f64 {
     }
 }
 
+/// Whether levels are spaced by factors.
+fn is_wide(low: f64, high: f64) -> bool {
+    low > 0.0 && high / low > WIDE
+}
+
 /// The range of sorted values. A few points next to a singularity must not set it for all others.
-fn typical(sorted: &[f64]) -> [f64; 2] {
-    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
-    if at(1.0) / at(0.0) > WIDE {
-        [at(0.03), at(0.97)]
+fn typical(sorted: &[f64]) -> Option<[f64; 2]> {
+    let at = |share: f64| sorted.get((sorted.len().max(1) as f64 * share - share) as usize);
+    let between = |low: f64, high: f64| Some([*at(low)?, *at(high)?]);
+    let [low, high] = between(0.0, 1.0)?;
+    if is_wide(low, high) {
+        between(0.03, 0.97)
     } else {
-        [at(0.0), at(1.0)]
+        Some([low, high])
     }
 }
 
@@ -152,10 +154,10 @@ impl Levels {
 
 /// Round numbers between two values.
 fn levels(low: f64, high: f64) -> Vec<f64> {
-    if high - low <= 1e-9 * high {
+    if high - low <= 1e-9 * high.abs() {
         return Vec::new();
     }
-    if high / low > WIDE {
+    if is_wide(low, high) {
         let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
         let all = decades.flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e)));
         return all.filter(|x| (low..=high).contains(x)).take(24).collect();
@@ -169,34 +171,54 @@ fn levels(low: f64, high: f64) -> Vec<f64> {
     inner.filter(|x| *x > low + 1e-9 * step && *x < high - 1e-9 * step).collect()
 }
 
-/// A point that is marked on the maps.
+/// A point that is marked.
 #[derive(Clone, Debug, Serialize)]
 pub struct Mark {
     /// Its name.
     pub name: String,
-    /// Where it is.
-    pub at: Point,
+    /// Where it is: the coordinates of the workspace.
+    pub at: Vec<f64>,
 }
 
-/// The plane of a map in the picture.
-struct Plane {
+impl Mark {
+    /// The first three coordinates.
+    pub fn position(&self) -> Point {
+        from_fn(|k| self.at.get(k).copied().unwrap_or(0.0))
+    }
+}
+
+/// Two coordinates of a workspace, and where they are in a picture.
+pub struct Plane {
     corner: [f64; 2],
     size: [f64; 2],
     least: [f64; 2],
     width: [f64; 2],
+    names: [String; 2],
+    /// Whether the slice of the workspace is the ellipse in the rectangle.
+    is_round: bool,
 }
 
 impl Plane {
-    fn of(machine: &Nominal) -> Self {
+    /// The plane of a slice. It is true to scale where both coordinates are of a kind, unless that
+    /// leaves a strip.
+    pub fn new(
+        least: [f64; 2],
+        width: [f64; 2],
+        names: [&str; 2],
+        is_round: bool,
+        same_kind: bool,
+    ) -> Self {
         let [left, top, right, bottom] = MARGIN;
         let room = [SIZE[0] - left - right, SIZE[1] - top - bottom];
-        let width = [machine.frame.width[0], machine.frame.width[1]];
-        // True to scale, unless that leaves a strip.
-        let scale =
-            (0..2).map(|k| room[k] / width[k].max(f64::MIN_POSITIVE)).fold(f64::MAX, f64::min);
-        let size = from_fn(|k| (scale * width[k]).max(room[k] / 4.0));
+        let scales: [f64; 2] = from_fn(|k| room[k] / width[k].max(f64::MIN_POSITIVE));
+        let scale = scales[0].min(scales[1]);
+        let size = if same_kind {
+            from_fn(|k| (scale * width[k]).max(room[k] / 4.0))
+        } else {
+            room.map(|side| side.min(room[0]))
+        };
         let corner = [left + (room[0] - size[0]) / 2.0, top + (room[1] - size[1]) / 2.0];
-        Plane { corner, size, least: [machine.frame.least[0], machine.frame.least[1]], width }
+        Plane { corner, size, least, width, names: names.map(str::to_owned), is_round }
     }
 
     fn at(&self, x: f64, y: f64) -> [f64; 2] {
@@ -212,45 +234,46 @@ impl Plane {
             self.corner[1] + (1.0 - part(1, y)) * self.size[1],
         ]
     }
+
+    /// A function at the nodes of a grid over the plane.
+    pub fn field(&self, nodes: usize, f: impl FnMut(f64, f64) -> f64) -> Field {
+        let along = |k: usize| -> Vec<f64> {
+            let at = |i: usize| self.least[k] + self.width[k] * i as f64 / (nodes - 1) as f64;
+            (0..nodes).map(at).collect()
+        };
+        Field::of(along(0), along(1), f)
+    }
 }
 
-/// The three maps `psi_1`, `psi_2`, `psi_3` in the plane `z`.
-pub fn maps(machine: &Nominal, scale: &Scale, marks: &[Mark], z: f64) -> [Picture; 3] {
-    let plane = Plane::of(machine);
-    let nodes = |k: usize| -> Vec<f64> {
-        let (least, width) = (plane.least[k], plane.width[k]);
-        (0..NODES).map(|i| least + width * i as f64 / (NODES - 1) as f64).collect()
-    };
-    let field = |f: &dyn Fn(Point) -> f64| Field::of(nodes(0), nodes(1), |x, y| f([x, y, z]));
-    let reach = field(&|p| -machine.clearance(p)).at_least(0.0);
-    from_fn(|i| {
-        let field = field(&|p| machine.psi(p).map_or(f64::NAN, |psi| psi[i]));
-        let sets: Vec<LevelSet> = scale.maps[i].levels.iter().map(|l| field.at_least(*l)).collect();
-        map(i, &plane, machine, &scale.maps[i], (&sets, &reach), marks, z)
-    })
+/// What a map shows.
+pub struct Map<'a> {
+    /// Name of its file.
+    pub name: &'a str,
+    /// Above it.
+    pub heading: &'a str,
+    /// For those who do not see it.
+    pub title: String,
+    /// The function's values; NaN where there is none.
+    pub field: &'a Field,
+    /// At least zero where a leg does not reach.
+    pub out_of_reach: &'a Field,
+    /// Its lines and colours.
+    pub levels: &'a Levels,
+    /// Names of points, and where they are in the plane.
+    pub marks: &'a [(&'a str, [f64; 2])],
+    /// Its number, where a script moves the slice.
+    pub script: Option<usize>,
 }
 
-const NAMES: [(&str, &str, &str); 3] = [
-    ("psi-1", "\u{3c8}\u{2081}", "least"),
-    ("psi-2", "\u{3c8}\u{2082}", "middle"),
-    ("psi-3", "\u{3c8}\u{2083}", "greatest"),
-];
-
-fn map(
-    i: usize,
-    plane: &Plane,
-    machine: &Nominal,
-    Levels { levels, colours, dark }: &Levels,
-    (sets, reach): (&[LevelSet], &LevelSet),
-    marks: &[Mark],
-    z: f64,
-) -> Picture {
-    let (name, symbol, which) = NAMES[i];
-    let mut out = Elements::default();
-    let shown = |path: &Path| -> Path { path.iter().map(|p| plane.at(p[0], p[1])).collect() };
+/// The picture of a map.
+pub fn map(plane: &Plane, shown: &Map<'_>) -> Picture {
+    let Map { name, heading, field, levels: Levels { levels, colours, dark }, .. } = shown;
+    let on_plane = |path: &Path| -> Path { path.iter().map(|p| plane.at(p[0], p[1])).collect() };
     let area =
-        |paths: &[Path]| paths.iter().map(|p| path_data(&shown(p), true)).collect::<String>();
-    out.raw(&frame_definitions(name, plane, machine.is_cylinder));
+        |paths: &[Path]| paths.iter().map(|p| path_data(&on_plane(p), true)).collect::<String>();
+    let sets: Vec<LevelSet> = levels.iter().map(|level| field.at_least(*level)).collect();
+    let mut out = Elements::default();
+    out.raw(&frame_definitions(name, plane));
     out.raw(&format!("<g class=\"field\" clip-path=\"url(#{name}-clip)\">"));
     let [x, y] = plane.corner;
     let [w, h] = plane.size;
@@ -260,17 +283,13 @@ fn map(
         let d = area(&set.area);
         out.raw(&format!("<path class=\"band\" fill=\"{fill}\" d=\"{d}\"/>"));
     }
-    let marks: Vec<&Mark> = marks
-        .iter()
-        .filter(|mark| (mark.at[2] - z).abs() <= 1e-6 * machine.frame.width[2])
-        .collect();
     let mut labels = Elements::default();
-    let mut taken: Path = marks.iter().map(|mark| plane.at(mark.at[0], mark.at[1])).collect();
+    let mut taken: Path = shown.marks.iter().map(|(_, [x, y])| plane.at(*x, *y)).collect();
     for (k, set) in sets.iter().enumerate() {
         let class = if dark[k] { "level on-dark" } else { "level" };
-        let d: String = set.lines.iter().map(|p| path_data(&shown(p), false)).collect();
+        let d: String = set.lines.iter().map(|p| path_data(&on_plane(p), false)).collect();
         out.raw(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
-        let longest = set.lines.iter().map(shown).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let longest = set.lines.iter().map(on_plane).max_by(|a, b| length(a).total_cmp(&length(b)));
         let Some(line) = longest.filter(|line| length(line) >= LABELLED) else {
             continue;
         };
@@ -282,38 +301,43 @@ fn map(
     }
     out.raw(&format!(
         "<path class=\"unreachable\" fill=\"url(#{name}-hatch)\" d=\"{}\"/>",
-        area(&reach.area)
+        area(&shown.out_of_reach.at_least(0.0).area)
     ));
     out.raw(&labels.0);
     out.raw("</g>");
-    frame(&mut out, plane, machine);
-    for mark in marks {
-        let at = plane.at(mark.at[0], mark.at[1]);
+    frame(&mut out, plane);
+    for (name, [x, y]) in shown.marks {
+        let at = plane.at(*x, *y);
         let class = if 2.0 * (at[0] - plane.corner[0]) > plane.size[0] { "end" } else { "start" };
         let beside = if class == "end" { -7.0 } else { 7.0 };
         let above = if at[1] < plane.corner[1] + 18.0 { 15.0 } else { -6.0 };
         out.dot("mark", at, 3.5);
-        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] + above], &mark.name);
+        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] + above], name);
     }
-    out.text("map-title", [plane.corner[0], 18.0], &format!("{symbol}, the {which} factor"));
-    out.raw("<g class=\"crosshair\"></g>");
-    let z = significant(z, 6);
+    out.text("map-title", [plane.corner[0], 18.0], heading);
+    let attributes = match shown.script {
+        Some(i) => {
+            out.raw("<g class=\"crosshair\"></g>");
+            format!(
+                "data-map=\"{i}\" data-x=\"{x:.3}\" data-y=\"{y:.3}\" data-w=\"{w:.3}\" data-h=\"{h:.3}\""
+            )
+        }
+        None => String::new(),
+    };
     Picture {
-        name: name.to_owned(),
-        title: format!("Lines of equal {symbol}, the {which} velocity transmission factor, at z = {z}"),
+        name: (*name).to_owned(),
+        title: shown.title.clone(),
         size: SIZE,
-        attributes: format!(
-            "data-map=\"{i}\" data-x=\"{x:.3}\" data-y=\"{y:.3}\" data-w=\"{w:.3}\" data-h=\"{h:.3}\""
-        ),
+        attributes,
         content: out.0,
     }
 }
 
 /// The clip of the workspace and the hatching of what is out of reach.
-fn frame_definitions(name: &str, plane: &Plane, is_cylinder: bool) -> String {
+fn frame_definitions(name: &str, plane: &Plane) -> String {
     let ([x, y], [w, h]) = (plane.corner, plane.size);
     let mut out = format!("<defs><clipPath id=\"{name}-clip\">");
-    let _ = if is_cylinder {
+    let _ = if plane.is_round {
         let (rx, ry) = (w / 2.0, h / 2.0);
         let (cx, cy) = (x + rx, y + ry);
         write!(out, "<ellipse cx=\"{cx:.1}\" cy=\"{cy:.1}\" rx=\"{rx:.1}\" ry=\"{ry:.1}\"/>")
@@ -331,9 +355,9 @@ fn frame_definitions(name: &str, plane: &Plane, is_cylinder: bool) -> String {
 }
 
 /// The workspace's outline and the axes.
-fn frame(out: &mut Elements, plane: &Plane, machine: &Nominal) {
+fn frame(out: &mut Elements, plane: &Plane) {
     let ([x, y], [w, h]) = (plane.corner, plane.size);
-    if machine.is_cylinder {
+    if plane.is_round {
         let (rx, ry) = (w / 2.0, h / 2.0);
         let (cx, cy) = (x + rx, y + ry);
         out.raw(&format!(
@@ -346,10 +370,10 @@ fn frame(out: &mut Elements, plane: &Plane, machine: &Nominal) {
     let (bottom, far) = (y + h, [plane.least[0] + plane.width[0], plane.least[1] + plane.width[1]]);
     out.text("tick start", [x, bottom + 15.0], &significant(plane.least[0], 4));
     out.text("tick end", [x + w, bottom + 15.0], &significant(far[0], 4));
-    out.text("axis middle", [x + w / 2.0, bottom + 15.0], "x");
+    out.text("axis middle", [x + w / 2.0, bottom + 15.0], &plane.names[0]);
     out.text("tick end", [x - 5.0, bottom], &significant(plane.least[1], 4));
     out.text("tick end", [x - 5.0, y + 9.0], &significant(far[1], 4));
-    out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], "y");
+    out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], &plane.names[1]);
 }
 
 fn length(line: &[[f64; 2]]) -> f64 {

@@ -4,14 +4,20 @@
 //! | module          | holds                                                          |
 //! |-----------------|----------------------------------------------------------------|
 //! | `sections`      | the sections, in their order                                   |
-//! | `scene`         | the slice, the marked points and the trees of a certificate    |
+//! | `scene`         | what is drawn, mapped, marked and subdivided                   |
 //! | `words`         | the claim in words, formulas and tables                        |
-//! | `nominal`       | the nominal machine in doubles                                 |
+//! | `nominal`       | three translating legs in doubles                              |
+//! | `general`       | the scene of a kernel claim: any mechanism                     |
+//! | `shape`         | its machine as it is drawn                                     |
+//! | `mechanism`     | a kernel claim in words and tables                             |
+//! | `sampled`       | values of its quantities in doubles                            |
+//! | `legs`          | legs at places of their platform                               |
 //! | `drawing`       | the machine and its workspace                                  |
-//! | `isomap`        | lines of equal transmission factors                            |
+//! | `isomap`        | lines of equal value over two coordinates                      |
 //! | `contour`       | level sets on a grid                                           |
 //! | `subdivision`   | the boxes of the proof                                         |
-//! | `evidence`      | margins, the counterexample, where the proof worked hardest    |
+//! | `legend`        | their rules                                                    |
+//! | `evidence`      | requirements, the counterexample, where the proof worked hardest |
 //! | `recheck`       | how to check again, and the digests                            |
 //! | `svg`           | views of space and parts of figures                            |
 //! | [`paving`]      | the page of a paving                                           |
@@ -22,28 +28,33 @@
 pub(crate) mod contour;
 mod drawing;
 mod evidence;
+mod general;
 mod isomap;
+mod legend;
+mod legs;
+mod mechanism;
 mod nominal;
 pub mod paving;
 mod recheck;
+mod sampled;
 mod scene;
 mod sections;
+mod shape;
 mod subdivision;
 pub(crate) mod svg;
 mod words;
 
 use crate::digest::policy_source;
 use crate::escape::{self, xml};
-use crate::report::{worst_found, Row};
-use isomap::{Mark, Scale};
+use crate::report::worst_found;
+use isomap::Scale;
+use legend::PATTERNS;
 use nominal::Nominal;
-use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::rule::Obligation;
 use orthocert_checker::Accepted;
-use scene::{marks, slice, trees};
+use scene::{of_three_legs, slice, Scene};
 use serde_json::{json, Value};
-use subdivision::{Subdivision, PATTERNS, RULES};
 
 pub use recheck::{checker_sha256, CHECKER_COMMAND};
 pub use svg::Picture;
@@ -77,12 +88,10 @@ pub struct Page<'a> {
     accepted: &'a Accepted,
     file: File<'a>,
     title: String,
-    /// The machine, and the scale of its maps; none where there is no single one, or where its
-    /// numbers exceed what doubles can show.
+    /// Three translating legs, and the scale of their maps; none where there is no single machine of
+    /// them, or where its numbers exceed what doubles can show.
     machine: Option<(Nominal, Option<Scale>)>,
-    rows: Vec<Row>,
-    marks: Vec<Mark>,
-    trees: Vec<Subdivision>,
+    scene: Scene,
     figures: Figures,
 }
 
@@ -90,7 +99,6 @@ pub struct Page<'a> {
 #[derive(Debug, Default)]
 struct Figures {
     design: Option<Picture>,
-    maps: Vec<Picture>,
     subdivisions: Vec<Picture>,
 }
 
@@ -110,26 +118,27 @@ impl<'a> Page<'a> {
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => {
-                Vec::new()
-            }
+            _ => Vec::new(),
         };
         let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, certificate, &rows);
-            let scale = Scale::of(&machine);
+            let scale = machine.scale();
             (machine, scale)
         });
-        let marks = marks(machine.as_ref().map(|(machine, _)| machine), certificate);
-        let trees = trees(certificate, machine.as_ref().map(|(machine, _)| machine));
+        let scene = match (&certificate.claim, &certificate.proof) {
+            (Claim::Kernel(claim), Proof::Kernel(proof)) => general::scene(claim, proof),
+            _ => {
+                let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
+                of_three_legs(certificate, machine, &rows)
+            }
+        };
         let mut page = Page {
             certificate,
             accepted,
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
             machine,
-            rows,
-            marks,
-            trees,
+            scene,
             figures: Figures::default(),
         };
         page.figures = page.draw();
@@ -137,27 +146,23 @@ impl<'a> Page<'a> {
     }
 
     fn draw(&self) -> Figures {
-        let mut figures = Figures::default();
-        if let Some((machine, scale)) = &self.machine {
-            figures.design = Some(drawing::drawing(machine, &self.marks));
-            if let Some(scale) = scale {
-                let z = machine.point([0.0, 0.0, machine.slice])[2];
-                figures.maps = isomap::maps(machine, scale, &self.marks, z).into();
-            }
+        let Scene { shape, marks, trees, .. } = &self.scene;
+        let in_trees = if self.is_machine() { &marks[..] } else { &[] };
+        let trees = trees.iter().enumerate();
+        Figures {
+            design: shape.as_ref().map(|shape| drawing::drawing(shape, marks)),
+            subdivisions: trees.map(|(i, tree)| tree.picture(i, in_trees)).collect(),
         }
-        let marks = if self.is_machine() { &self.marks[..] } else { &[] };
-        let trees = self.trees.iter().enumerate();
-        figures.subdivisions = trees.map(|(i, tree)| tree.picture(i, marks)).collect();
-        figures
     }
 
     fn is_machine(&self) -> bool {
-        matches!(self.certificate.claim, Claim::Machine(_) | Claim::NoCube(_))
+        matches!(self.certificate.claim, Claim::Machine(_) | Claim::NoCube(_) | Claim::Kernel(_))
     }
 
     /// Every figure.
     pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
-        let Figures { design, maps, subdivisions } = &self.figures;
+        let Figures { design, subdivisions } = &self.figures;
+        let maps = self.scene.slices.iter().flat_map(|slice| &slice.maps);
         design.iter().chain(maps).chain(subdivisions)
     }
 
@@ -215,9 +220,9 @@ impl<'a> Page<'a> {
                 "scale": scale,
             })
         });
-        let trees: Vec<Value> = self
-            .trees
-            .iter()
+        // What the script turns has three coordinates.
+        let spatial = self.scene.trees.iter().filter(|tree| tree.is_spatial());
+        let trees: Vec<Value> = spatial
             .map(|tree| {
                 json!({
                     "name": tree.name,
@@ -230,31 +235,22 @@ impl<'a> Page<'a> {
                 })
             })
             .collect();
-        let discharges: Vec<i64> = RULES.iter().map(|rule| discharged(rule.name)).collect();
+        let legend = self.scene.trees.first().map(|tree| &tree.legend);
+        let rules = legend.map(|legend| &legend.rules[..]).unwrap_or_default();
+        // An obligation by its position; -1 for all.
+        let position = |of: Option<usize>| of.and_then(|i| i64::try_from(i).ok()).unwrap_or(-1);
+        let discharges: Vec<i64> = rules.iter().map(|rule| position(rule.discharges)).collect();
         json!({
             "machine": machine,
             "trees": trees,
-            "rules": RULES,
+            "rules": rules,
             "discharges": discharges,
-            "obligations": Obligation::ALL.map(|o| o.to_string()),
+            "obligations": legend.map(|legend| &legend.obligations[..]).unwrap_or_default(),
             "patterns": PATTERNS,
-            "marks": self.marks,
+            "marks": self.scene.marks,
             "marksInTree": self.is_machine(),
         })
     }
-}
-
-/// The obligation that a rule discharges, by its position; -1 for all.
-fn discharged(rule: &str) -> i64 {
-    let name = match rule {
-        "lower" | "entrywise" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
-        "upper" | "cube" => "sigma_max",
-        "range" => "joint_range",
-        "speed" => "joint_speed",
-        other => other,
-    };
-    let found = Obligation::ALL.iter().position(|o| o.to_string() == name);
-    found.and_then(|i| i64::try_from(i).ok()).unwrap_or(-1)
 }
 
 /// What stands in the frame of a page.

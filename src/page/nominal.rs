@@ -1,7 +1,10 @@
 //! The nominal machine of a claim in doubles: every parameter in the middle of its tolerance. It is
 //! what the figures show; nothing of it is a proof.
 
-use crate::decimal::approximate;
+use super::isomap::{map, Map, Mark, Plane, Scale, NODES};
+use super::legs::{across, unit, Numbers, Outline, Point, Shape};
+use super::svg::Picture;
+use crate::decimal::{approximate, significant};
 use crate::interval::Approx;
 use crate::report::Frame;
 use nalgebra::Matrix3;
@@ -13,39 +16,16 @@ use orthocert_checker::kinematics::Leg;
 use orthocert_checker::linear::Vector;
 use orthocert_checker::model::{CubeConstants, Model};
 use orthocert_checker::number::Exact;
-use serde::Serialize;
 use std::array::from_fn;
 
 /// Fractional bits in which the claim's numbers are enclosed before they become doubles.
 const PRECISION: u32 = 128;
 
+/// Places along every axis from which the levels of maps are chosen.
+const SAMPLES: usize = 9;
+
 /// Lengths beyond this are not drawn: their powers would exceed the doubles.
 const GREATEST: f64 = 1e60;
-
-/// A point or a vector.
-pub type Point = [f64; 3];
-
-/// A leg's numbers, in the claim's unit of length; directions are unit vectors.
-#[derive(Clone, Debug, Serialize)]
-#[serde(tag = "drive", rename_all = "snake_case")]
-pub enum Numbers {
-    /// Leg of fixed length on a guide.
-    Slider { direction: Point, anchor: Point, platform: Point, length: f64, mode: f64 },
-    /// Extensible leg.
-    Strut { anchor: Point, platform: Point },
-    /// Leg of fixed length on a rotating arm.
-    Arm {
-        axis: Point,
-        reference: Point,
-        anchor: Point,
-        platform: Point,
-        arm: f64,
-        length: f64,
-        mode: f64,
-    },
-    /// Leg that holds the platform in a plane.
-    Planar { direction: Point },
-}
 
 /// A leg: its numbers, its kinematics, and the vector `d_i - a_i`.
 #[derive(Clone, Debug)]
@@ -54,15 +34,6 @@ pub struct NominalLeg {
     pub numbers: Numbers,
     kinematics: Leg<Approx>,
     offset: Point,
-}
-
-/// Where a leg is.
-#[derive(Clone, Copy, Debug)]
-pub struct Pose {
-    /// The end that is driven: `B_i` on the guide, the elbow, or the strut's joint on the base.
-    pub driven: Point,
-    /// The end on the platform, `C_i`.
-    pub platform: Point,
 }
 
 /// The nominal machine and its workspace.
@@ -136,40 +107,76 @@ impl Nominal {
         (0..3).map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where a leg is when the platform is at `P`; `None` out of reach. A planar leg has no place of
-    /// its own: it is drawn from a guide beside the workspace.
-    pub fn pose(&self, leg: usize, p: Point) -> Option<Pose> {
-        let w = &self.leg_vectors(p)[leg];
-        let NominalLeg { numbers, kinematics, .. } = &self.legs[leg];
-        let unit = || kinematics.expand_unit(w, w).map(|(unit, _)| unit.map(|x| x.0));
-        let ends = |platform: &Point, length: f64| -> Option<Pose> {
-            let (unit, platform) = (unit()?, add(p, *platform));
-            Some(Pose { driven: add(platform, scaled(-length, unit)), platform })
-        };
-        match numbers {
-            Numbers::Slider { platform, length, .. } | Numbers::Arm { platform, length, .. } => {
-                ends(platform, *length)
+    /// The scale of the maps of `psi_1`, `psi_2`, `psi_3`; `None` where no sampled point is reached.
+    pub fn scale(&self) -> Option<Scale> {
+        let part = |i: usize| i as f64 / (SAMPLES - 1) as f64;
+        let mut found = vec![Vec::new(); 3];
+        for n in 0..SAMPLES.pow(3) {
+            let u = [n % SAMPLES, n / SAMPLES % SAMPLES, n / SAMPLES / SAMPLES].map(part);
+            if self.is_cylinder && (2.0 * u[0] - 1.0).hypot(2.0 * u[1] - 1.0) > 1.0 {
+                continue;
             }
-            Numbers::Strut { anchor, platform } => {
-                Some(Pose { driven: *anchor, platform: add(p, *platform) })
-            }
-            Numbers::Planar { direction } => {
-                let beside = self.beside(*direction);
-                let along = dot(*direction, add(p, scaled(-1.0, beside)));
-                Some(Pose { driven: add(beside, scaled(along, *direction)), platform: p })
+            let psi = self.psi(self.point(u)).filter(|psi| psi.iter().all(|x| x.is_normal()));
+            for (all, x) in found.iter_mut().zip(psi.into_iter().flatten()) {
+                all.push(x);
             }
         }
+        Scale::over(found)
     }
 
-    /// A point beside the workspace, for a guide in this direction.
-    fn beside(&self, n: Point) -> Point {
-        let centre = self.point([0.5; 3]);
-        let away = [-1.0, -1.0, -1.0];
-        let across = add(away, scaled(-dot(away, n), n));
-        let size = self.frame.width.iter().copied().fold(0.0, f64::max);
-        let norm = dot(across, across).sqrt();
-        let across = if norm > 1e-6 { scaled(1.0 / norm, across) } else { [0.0, 0.0, -1.0] };
-        add(centre, scaled(1.1 * size, across))
+    /// The maps of `psi_1`, `psi_2`, `psi_3` in the plane of the slice.
+    pub fn maps(&self, scale: &Scale, marks: &[Mark]) -> Vec<Picture> {
+        let Frame { least, width, .. } = &self.frame;
+        let z = self.point([0.0, 0.0, self.slice])[2];
+        let [least_xy, width_xy] = [least, width].map(|all| [all[0], all[1]]);
+        let plane = Plane::new(least_xy, width_xy, ["x", "y"], self.is_cylinder, true);
+        let out_of_reach = plane.field(NODES, |x, y| -self.clearance([x, y, z]));
+        let marks: Vec<(&str, [f64; 2])> = marks
+            .iter()
+            .filter(|mark| (mark.position()[2] - z).abs() <= 1e-6 * width[2])
+            .map(|mark| (mark.name.as_str(), [mark.at[0], mark.at[1]]))
+            .collect();
+        let names = [
+            ("psi-1", "\u{3c8}\u{2081}", "least"),
+            ("psi-2", "\u{3c8}\u{2082}", "middle"),
+            ("psi-3", "\u{3c8}\u{2083}", "greatest"),
+        ];
+        let of = |(i, (name, symbol, which)): (usize, (&str, &str, &str))| {
+            let psi = |x, y| self.psi([x, y, z]).map_or(f64::NAN, |psi| psi[i]);
+            let z = significant(z, 6);
+            let shown = Map {
+                name,
+                heading: &format!("{symbol}, the {which} factor"),
+                title: format!(
+                    "Lines of equal {symbol}, the {which} velocity transmission factor, at z = {z}"
+                ),
+                field: &plane.field(NODES, psi),
+                out_of_reach: &out_of_reach,
+                levels: &scale.maps[i],
+                marks: &marks,
+                script: Some(i),
+            };
+            map(&plane, &shown)
+        };
+        names.into_iter().enumerate().map(of).collect()
+    }
+
+    /// What a drawing shows. The platform is at the origin if that is in the workspace, else in its
+    /// middle.
+    pub fn shape(&self) -> Shape {
+        let frame = &self.frame;
+        let inside = |k: usize| frame.least[k] <= 0.0 && 0.0 <= frame.least[k] + frame.width[k];
+        let at_origin = self.is_cube && (0..3).all(inside);
+        let grid = |n: u32| [n % 3, n / 3 % 3, n / 9].map(|i| f64::from(i) / 2.0);
+        Shape {
+            legs: self.legs.iter().map(|leg| leg.numbers.clone()).collect(),
+            position: if at_origin { [0.0; 3] } else { self.point([0.5; 3]) },
+            rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            outline: Outline::of(frame.least, frame.width, self.is_cylinder),
+            places: (0..27).map(|n| self.point(grid(n))).collect(),
+            bodies: [Vec::new(), Vec::new()],
+            is_flat: false,
+        }
     }
 }
 
@@ -242,10 +249,9 @@ fn numbers(leg: &claim::Leg, values: &[f64]) -> Option<Numbers> {
         ) => {
             let axis = unit([kx, ky, kz])?;
             let reference = [ex, ey, ez];
-            let across = add(reference, scaled(-dot(reference, axis), axis));
             Numbers::Arm {
                 axis,
-                reference: unit(across)?,
+                reference: across(reference, axis)?,
                 anchor: [ax, ay, az],
                 platform: [dx, dy, dz],
                 arm,
@@ -276,24 +282,4 @@ pub fn of_postulate(claim: &PostulateClaim) -> Option<MachineClaim> {
         workspace: Workspace::Cube { side },
         requirements: Requirements { transmission, ..Requirements::default() },
     })
-}
-
-/// `a + b`.
-pub fn add(a: Point, b: Point) -> Point {
-    from_fn(|k| a[k] + b[k])
-}
-
-/// `c a`.
-pub fn scaled(c: f64, a: Point) -> Point {
-    a.map(|x| c * x)
-}
-
-/// `a . b`.
-pub fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: Point) -> Option<Point> {
-    let norm = dot(a, a).sqrt();
-    (norm > 0.0 && norm.is_finite()).then(|| scaled(1.0 / norm, a))
 }

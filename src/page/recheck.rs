@@ -5,71 +5,130 @@ use crate::digest::sha256;
 use crate::escape::{shell, xml};
 use std::fmt::Write;
 
-/// The command, in the folder `proofs/checker`, whose answer is [`checker_sha256`].
+/// The command, in the folder `proofs`, whose answer is [`checker_sha256`].
 pub const CHECKER_COMMAND: &str =
-    "find Cargo.toml src -type f | LC_ALL=C sort | xargs sha256sum | sha256sum";
+    "find checker/Cargo.toml checker/src kernel/Cargo.toml kernel/src -type f | LC_ALL=C sort | \
+     xargs sha256sum | sha256sum";
 
 macro_rules! checker_sources {
     ($($path:literal),* $(,)?) => {
-        [$(($path, include_bytes!(concat!("../../proofs/checker/", $path)))),*]
+        [$(($path, include_bytes!(concat!("../../proofs/", $path)))),*]
     };
 }
 
-/// The sources of the checker with which this program was built, in the order of their paths.
+/// The sources of the checker and its kernel with which this program was built, in the order of their
+/// paths.
 const SOURCES: &[(&str, &[u8])] = &checker_sources![
-    "Cargo.toml",
-    "src/atlas/instance.rs",
-    "src/atlas/mod.rs",
-    "src/atlas/role.rs",
-    "src/bin/orthocert-check.rs",
-    "src/cell.rs",
-    "src/certificate.rs",
-    "src/check/evaluate.rs",
-    "src/check/machine.rs",
-    "src/check/mod.rs",
-    "src/check/postulate.rs",
-    "src/check/rejected.rs",
-    "src/check/walk.rs",
-    "src/claim/form.rs",
-    "src/claim/leg.rs",
-    "src/claim/mod.rs",
-    "src/claim/validate.rs",
-    "src/definite.rs",
-    "src/enclosure.rs",
-    "src/expansion.rs",
-    "src/file.rs",
-    "src/fixed.rs",
-    "src/hull.rs",
-    "src/kinematics/arm.rs",
-    "src/kinematics/mod.rs",
-    "src/kinematics/planar.rs",
-    "src/kinematics/slider.rs",
-    "src/kinematics/strut.rs",
-    "src/lib.rs",
-    "src/linear.rs",
-    "src/model.rs",
-    "src/number/mod.rs",
-    "src/number/operand.rs",
-    "src/number/read.rs",
-    "src/paving/code.rs",
-    "src/paving/judge.rs",
-    "src/paving/mod.rs",
-    "src/paving/reader.rs",
-    "src/paving/symmetry.rs",
-    "src/postulate.rs",
-    "src/rule/conditioning.rs",
-    "src/rule/joints.rs",
-    "src/rule/margin.rs",
-    "src/rule/mod.rs",
-    "src/rule/outside.rs",
-    "src/rule/vertex.rs",
-    "src/rule/violated.rs",
-    "src/shown.rs",
-    "src/statement.rs",
-    "src/strict.rs",
-    "src/trig.rs",
-    "src/witness.rs",
-    "src/word.rs",
+    "checker/Cargo.toml",
+    "checker/src/atlas/instance.rs",
+    "checker/src/atlas/mod.rs",
+    "checker/src/atlas/role.rs",
+    "checker/src/bin/orthocert-check.rs",
+    "checker/src/cell.rs",
+    "checker/src/certificate.rs",
+    "checker/src/check/evaluate.rs",
+    "checker/src/check/machine.rs",
+    "checker/src/check/mod.rs",
+    "checker/src/check/postulate.rs",
+    "checker/src/check/rejected.rs",
+    "checker/src/check/walk.rs",
+    "checker/src/claim/form.rs",
+    "checker/src/claim/leg.rs",
+    "checker/src/claim/mod.rs",
+    "checker/src/claim/validate.rs",
+    "checker/src/definite.rs",
+    "checker/src/enclosure.rs",
+    "checker/src/expansion.rs",
+    "checker/src/file.rs",
+    "checker/src/fixed.rs",
+    "checker/src/hull.rs",
+    "checker/src/kernel.rs",
+    "checker/src/kinematics/arm.rs",
+    "checker/src/kinematics/mod.rs",
+    "checker/src/kinematics/planar.rs",
+    "checker/src/kinematics/slider.rs",
+    "checker/src/kinematics/strut.rs",
+    "checker/src/lib.rs",
+    "checker/src/linear.rs",
+    "checker/src/model.rs",
+    "checker/src/number/mod.rs",
+    "checker/src/number/operand.rs",
+    "checker/src/number/read.rs",
+    "checker/src/paving/code.rs",
+    "checker/src/paving/judge.rs",
+    "checker/src/paving/mod.rs",
+    "checker/src/paving/reader.rs",
+    "checker/src/paving/symmetry.rs",
+    "checker/src/postulate.rs",
+    "checker/src/rule/conditioning.rs",
+    "checker/src/rule/joints.rs",
+    "checker/src/rule/margin.rs",
+    "checker/src/rule/mod.rs",
+    "checker/src/rule/outside.rs",
+    "checker/src/rule/vertex.rs",
+    "checker/src/rule/violated.rs",
+    "checker/src/shown.rs",
+    "checker/src/statement.rs",
+    "checker/src/strict.rs",
+    "checker/src/trig.rs",
+    "checker/src/witness.rs",
+    "checker/src/word.rs",
+    "kernel/Cargo.toml",
+    "kernel/src/arithmetic.rs",
+    "kernel/src/atlas.rs",
+    "kernel/src/cell.rs",
+    "kernel/src/certificate.rs",
+    "kernel/src/check/corner.rs",
+    "kernel/src/check/inside.rs",
+    "kernel/src/check/mod.rs",
+    "kernel/src/check/region.rs",
+    "kernel/src/claim.rs",
+    "kernel/src/compile.rs",
+    "kernel/src/control.rs",
+    "kernel/src/cube.rs",
+    "kernel/src/definite.rs",
+    "kernel/src/fixed.rs",
+    "kernel/src/formula.rs",
+    "kernel/src/input.rs",
+    "kernel/src/lib.rs",
+    "kernel/src/machine/mod.rs",
+    "kernel/src/machine/motion.rs",
+    "kernel/src/no_cube.rs",
+    "kernel/src/number.rs",
+    "kernel/src/orientation.rs",
+    "kernel/src/postulate.rs",
+    "kernel/src/problem.rs",
+    "kernel/src/quantity/accuracy.rs",
+    "kernel/src/quantity/base_joint.rs",
+    "kernel/src/quantity/clearance.rs",
+    "kernel/src/quantity/conditioning.rs",
+    "kernel/src/quantity/constraint_margin.rs",
+    "kernel/src/quantity/joint_acceleration.rs",
+    "kernel/src/quantity/joint_force.rs",
+    "kernel/src/quantity/joint_range.rs",
+    "kernel/src/quantity/joint_speed.rs",
+    "kernel/src/quantity/leg_angle.rs",
+    "kernel/src/quantity/mod.rs",
+    "kernel/src/quantity/one_to_one.rs",
+    "kernel/src/quantity/parallel_margin.rs",
+    "kernel/src/quantity/platform_joint.rs",
+    "kernel/src/quantity/serial_margin.rs",
+    "kernel/src/quantity/stiffness.rs",
+    "kernel/src/quantity/transmission.rs",
+    "kernel/src/slope.rs",
+    "kernel/src/statement.rs",
+    "kernel/src/test.rs",
+    "kernel/src/test/accuracy.rs",
+    "kernel/src/test/apart.rs",
+    "kernel/src/test/curvature.rs",
+    "kernel/src/test/solve.rs",
+    "kernel/src/trig.rs",
+    "kernel/src/vary.rs",
+    "kernel/src/witness.rs",
+    "kernel/src/witness/far.rs",
+    "kernel/src/witness/same.rs",
+    "kernel/src/witness/violated.rs",
+    "kernel/src/work.rs",
 ];
 
 /// The SHA-256 of the list of the SHA-256 of the checker's sources: one line a file, its digest, two
@@ -106,9 +165,9 @@ fn of(kind: &str, codes: &str, file_name: &str, certificate: &[u8], version: &st
          <h3>1. The {kind} is the one that this page is about</h3>\
          <pre>sha256sum {file}\n<span id=\"sha-certificate\">{digest}</span></pre>\
          <h3>2. The checker is the one that accepted it (orthocert {version})</h3>\
-         <pre>cd proofs/checker\n{command}\n<span id=\"sha-checker\">{checker}</span></pre>\
-         <p class=\"note\">In a clone of orthocert: the digest of the list of digests of every file of the checker's \
-         source, by path.</p>\
+         <pre>cd proofs\n{command}\n<span id=\"sha-checker\">{checker}</span></pre>\
+         <p class=\"note\">In a clone of orthocert: the digest of the list of digests of every file of the source of \
+         the checker and its kernel, by path.</p>\
          <h3>3. The checker accepts it</h3>\
          <pre>cargo run --release -p orthocert-checker -- {file}</pre>\
          <p>or, where orthocert is installed, <code>orthocert check {file}</code>. {codes} It prints the claim in words: \
@@ -125,8 +184,8 @@ mod tests {
     use std::path::{Path, PathBuf};
     use std::process::Command;
 
-    fn checker() -> PathBuf {
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/checker")
+    fn proofs() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs")
     }
 
     fn files(folder: &Path, under: &str, found: &mut Vec<String>) {
@@ -143,8 +202,12 @@ mod tests {
 
     #[test]
     fn every_source_of_the_checker_is_in_the_digest() {
-        let mut found = vec!["Cargo.toml".to_owned()];
-        files(&checker().join("src"), "src", &mut found);
+        let mut found = Vec::new();
+        for name in ["checker", "kernel"] {
+            found.push(format!("{name}/Cargo.toml"));
+            let under = format!("{name}/src");
+            files(&proofs().join(&under), &under, &mut found);
+        }
         found.sort();
         let known: Vec<&str> = SOURCES.iter().map(|(path, _)| *path).collect();
         assert_eq!(known, found);
@@ -153,7 +216,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn the_command_shown_gives_the_digest_shown() {
-        let run = Command::new("sh").args(["-c", CHECKER_COMMAND]).current_dir(checker()).output();
+        let run = Command::new("sh").args(["-c", CHECKER_COMMAND]).current_dir(proofs()).output();
         let answer = String::from_utf8(run.unwrap().stdout).unwrap();
         assert_eq!(answer.split_whitespace().next(), Some(checker_sha256().as_str()));
     }

@@ -1,25 +1,85 @@
-//! Where to look: the slice, the marked points and the trees of a certificate.
+//! What the figures and tables of a page show, whatever the certificate is about.
 
-use super::isomap::Mark;
+use super::evidence::Row;
+use super::isomap::{Mark, Scale};
+use super::legend::Legend;
+use super::legs::Shape;
 use super::nominal::Nominal;
-use super::subdivision::Subdivision;
-use crate::decimal::approximate;
-use crate::report::Row;
+use super::subdivision::{Root, Subdivision};
+use super::svg::Picture;
+use crate::decimal::{approximate, significant};
+use crate::report;
 use orthocert_checker::cell::Axis;
 use orthocert_checker::certificate::{Certificate, FacePart, Proof, Violation, Witness};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use orthocert_checker::postulate::{Face, Half};
 use orthocert_checker::{parts_needed, PartNeeded};
+use std::rc::Rc;
+
+/// What is shown.
+#[derive(Debug, Default)]
+pub struct Scene {
+    /// What is drawn.
+    pub shape: Option<Shape>,
+    /// What is mapped.
+    pub slices: Vec<Slice>,
+    /// What is required, with the worst values found.
+    pub rows: Vec<Row>,
+    /// What is marked in all figures.
+    pub marks: Vec<Mark>,
+    /// What is subdivided.
+    pub trees: Vec<Subdivision>,
+}
+
+/// Maps over two coordinates.
+#[derive(Debug)]
+pub struct Slice {
+    /// The maps.
+    pub maps: Vec<Picture>,
+    /// What scales are of, and the scales.
+    pub legends: Vec<(String, String)>,
+    /// The other coordinates.
+    pub fixed: String,
+}
+
+/// What is shown of three translating legs, and of the postulate.
+pub fn of_three_legs(
+    certificate: &Certificate,
+    machine: Option<(&Nominal, Option<&Scale>)>,
+    rows: &[report::Row],
+) -> Scene {
+    let nominal = machine.map(|(machine, _)| machine);
+    let marks = marks(nominal, certificate);
+    let slices = machine.and_then(|(machine, scale)| {
+        let scale = scale?;
+        let z = significant(machine.point([0.0, 0.0, machine.slice])[2], 6);
+        Some(Slice {
+            maps: machine.maps(scale, &marks),
+            legends: vec![(String::new(), scale.legend())],
+            fixed: format!("z = {z}"),
+        })
+    });
+    Scene {
+        shape: nominal.map(Nominal::shape),
+        slices: slices.into_iter().collect(),
+        rows: rows.iter().map(Row::from).collect(),
+        trees: trees(certificate, nominal),
+        marks,
+    }
+}
 
 /// The plane of the first maps, as a part of the workspace's height: through `Q_1`, through the
 /// counterexample, or through the place where the greatest factor was found.
-pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[Row]) -> f64 {
+pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[report::Row]) -> f64 {
     let (least, width) = (machine.frame.least[2], machine.frame.width[2]);
     let z = match &certificate.proof {
         Proof::Witness(witness) => approximate(&witness.point[2]),
         _ if machine.is_cube => Some(least),
-        _ => rows.iter().find(|row| row.requirement == "greatest psi").map(|row| row.at[2]),
+        _ => rows
+            .iter()
+            .find(|row| row.requirement == "greatest psi")
+            .and_then(|row| row.at.get(2).copied()),
     };
     match z {
         Some(z) if width > 0.0 => ((z - least) / width).clamp(0.0, 1.0),
@@ -28,16 +88,15 @@ pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[Row]) -> f64 
 }
 
 /// `Q_1` and `Q_2` of the cube, and the points of a counterexample.
-pub fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> {
+fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> {
     let mut all = Vec::new();
     if let Some(machine) = machine.filter(|machine| machine.is_cube) {
         for (name, u) in [("Q\u{2081}", 0.0), ("Q\u{2082}", 1.0)] {
-            all.push(Mark { name: name.to_owned(), at: machine.point([u; 3]) });
+            all.push(Mark { name: name.to_owned(), at: machine.point([u; 3]).to_vec() });
         }
     }
     if let Proof::Witness(witness) = &certificate.proof {
-        let at =
-            |p: &[Exact; 3]| Some([approximate(&p[0])?, approximate(&p[1])?, approximate(&p[2])?]);
+        let at = |p: &[Exact; 3]| p.iter().map(approximate).collect::<Option<Vec<f64>>>();
         let name = |name: &str| name.to_owned();
         let Witness { point, violates, .. } = &**witness;
         all.extend(at(point).map(|at| Mark { name: name("counterexample"), at }));
@@ -49,19 +108,20 @@ pub fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> 
 }
 
 /// The trees of a proof; for a counterexample, the workspace alone.
-pub fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivision> {
+fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivision> {
     let (least, width) = match machine {
         Some(machine) => (machine.frame.least, machine.frame.width),
         None => ([0.0; 3], [1.0; 3]),
     };
-    let axes = Subdivision::axes_of(Axis::ALL);
+    let legend = Rc::new(Legend::of_three_legs());
+    let root = || Root::new(Root::axes_of(Axis::ALL), least, width);
     match (&certificate.proof, &certificate.claim) {
         (Proof::Tree(tree), _) => {
             let name = match machine {
                 Some(_) => "the workspace",
                 None => "the workspace, x, y and z as parts of it",
             };
-            vec![Subdivision::new(name, axes, least, width, &tree.nodes)]
+            vec![Subdivision::new(name, root(), &legend, &legend.ruled(&tree.nodes))]
         }
         (Proof::Faces(faces), Claim::Postulate(claim)) => {
             let needed = parts_needed(claim).unwrap_or_default();
@@ -76,12 +136,12 @@ pub fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdiv
                 };
                 let ends = [&needed.least, &needed.greatest].map(|x| approximate(x).unwrap_or(0.0));
                 let name = format!("face {face}, {half}");
-                let axes = Subdivision::axes_of(Axis::FACE);
                 let (least, width) = ([ends[0], 0.0, 0.0], [ends[1] - ends[0], 1.0, 1.0]);
-                Subdivision::new(&name, axes, least, width, &part.nodes)
+                let root = Root::new(Root::axes_of(Axis::FACE), least, width);
+                Subdivision::new(&name, root, &legend, &legend.ruled(&part.nodes))
             };
             faces.parts.iter().zip(&needed).map(part).collect()
         }
-        _ => vec![Subdivision::new("the workspace", axes, least, width, &[])],
+        _ => vec![Subdivision::new("the workspace", root(), &legend, &[])],
     }
 }

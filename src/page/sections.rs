@@ -1,15 +1,15 @@
 //! The sections of a page, in their order.
 
-use super::isomap::Scale;
-use super::nominal::{self, Numbers};
-use super::subdivision::{Subdivision, PATTERNS, RULES};
-use super::{evidence, recheck, words, Page, Picture};
-use crate::decimal::{grouped, significant};
+use super::legend::PATTERNS;
+use super::legs::Numbers;
+use super::scene::Slice;
+use super::subdivision::Subdivision;
+use super::{evidence, general, mechanism, nominal, recheck, words, Page, Picture};
+use crate::decimal::grouped;
 use crate::escape::xml;
 use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, NoCubeClaim};
-use orthocert_checker::rule::Obligation;
 use orthocert_kernel::certificate as kernel;
 use std::fmt::Write;
 
@@ -21,18 +21,25 @@ impl Page<'_> {
             ("overview", "Overview", self.overview()),
             ("claim", "Claim", words::claim_section(&self.certificate.claim, verdict)),
         ];
-        if let (Claim::Machine(claim), Proof::Witness(witness)) =
-            (&self.certificate.claim, &self.certificate.proof)
-        {
-            let found = Counterexample::new(claim, witness);
-            all.push(("counterexample", "Counterexample", evidence::counterexample(&found)));
+        let counterexample = match (&self.certificate.claim, &self.certificate.proof) {
+            (Claim::Machine(claim), Proof::Witness(witness)) => {
+                Some(evidence::of_three_legs(&Counterexample::new(claim, witness)))
+            }
+            (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) => {
+                Some(general::counterexample(claim, witness))
+            }
+            _ => None,
+        };
+        if let Some(rows) = counterexample {
+            all.push(("counterexample", "Counterexample", evidence::counterexample(&rows)));
         }
         all.push(("machine", "Machine", self.machine_section()));
-        if !self.figures.maps.is_empty() {
-            all.push(("maps", "Transmission factors", self.maps_section()));
-        }
-        if !self.rows.is_empty() {
-            all.push(("margins", "Margins", evidence::margins(&self.rows)));
+        if let Some(slice) = self.scene.slices.first() {
+            let maps = match self.machine {
+                Some(_) => ("maps", "Transmission factors", self.maps_section(slice)),
+                None => ("maps", "Maps", maps_of_slices(&self.scene.slices)),
+            };
+            all.push(maps);
         }
         all.push(("proof", "Proof", self.proof_section()));
         let version = env!("CARGO_PKG_VERSION");
@@ -41,7 +48,26 @@ impl Page<'_> {
         all
     }
 
+    /// What a designer signs: the verdict, of which machine, where, and what is required, with the
+    /// worst values found; then what the proof consists of.
     fn overview(&self) -> String {
+        let mut signed = vec![("verdict", self.accepted.verdict.to_string())];
+        if let Some([machine, workspace]) = words::machine_and_workspace(&self.certificate.claim) {
+            signed.extend([("machine", machine), ("workspace", workspace)]);
+        }
+        let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"signed\">".to_owned();
+        for (name, value) in signed {
+            let _ = write!(out, "<dt>{name}</dt><dd>{}</dd>", xml(&value));
+        }
+        out.push_str("</dl>");
+        if !self.scene.rows.is_empty() {
+            out.push_str(&evidence::margins(&self.scene.rows));
+        }
+        out + &self.facts() + "</section>\n"
+    }
+
+    /// The proof in numbers.
+    fn facts(&self) -> String {
         let size = &self.accepted.size;
         let mut facts = Vec::new();
         match &self.certificate.proof {
@@ -50,6 +76,9 @@ impl Page<'_> {
             }
             Proof::Atlas(atlas) => {
                 facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
+            }
+            Proof::Kernel(kernel::Proof::Atlas(cells)) => {
+                facts.push(("cells and their halvings", grouped(cells.len() as u64)));
             }
             Proof::Tree(_) | Proof::Faces(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
                 let cover = match self.certificate.claim {
@@ -68,21 +97,32 @@ impl Page<'_> {
             Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
             Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
             // Each cell has its own.
-            Proof::Atlas(_) => None,
+            Proof::Atlas(_) | Proof::Kernel(kernel::Proof::Atlas(_)) => None,
         };
         facts.extend(bits.map(|bits| ("fractional bits", bits.to_string())));
         facts.push(("certificate", self.file.name.to_owned()));
-        let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"facts\">".to_owned();
+        let mut out = "<dl class=\"facts\">".to_owned();
         for (name, value) in facts {
             let class = if name == "certificate" { " class=\"wide\"" } else { "" };
             let _ = write!(out, "<div{class}><dt>{name}</dt><dd>{}</dd></div>", xml(&value));
         }
-        out + "</dl></section>\n"
+        out + "</dl>"
     }
 
     fn machine_section(&self) -> String {
         let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
-        let (Some((machine, _)), Some(design)) = (&self.machine, &self.figures.design) else {
+        let (Some(shape), Some(design)) = (&self.scene.shape, &self.figures.design) else {
+            if let Claim::Kernel(claim) = &self.certificate.claim {
+                let reason = match claim.mechanism {
+                    orthocert_kernel::claim::Mechanism::Formulas(_) => {
+                        "formulas do not say where its parts are"
+                    }
+                    _ => "its numbers are beyond what floating point can show",
+                };
+                let parameters = mechanism::parameters(claim);
+                let _ = write!(out, "<p>There is no drawing: {reason}.</p>{parameters}</section>");
+                return out;
+            }
             let reason = if self.is_machine() {
                 "its numbers are beyond what floating point can show"
             } else {
@@ -91,38 +131,51 @@ impl Page<'_> {
             let _ = write!(out, "<p>There is no drawing, and no map of transmission factors: {reason}.</p></section>");
             return out;
         };
-        let planar = machine.legs.iter().any(|leg| matches!(leg.numbers, Numbers::Planar { .. }));
+        let planar = shape.legs.iter().any(|leg| matches!(leg, Numbers::Planar { .. }));
         let note = if planar {
             " Planar legs are drawn schematically, from a guide beside the workspace."
         } else {
             ""
         };
         let unit = if self.is_machine() { "" } else { " Its leg length L is 1." };
+        let turned = match &self.certificate.claim {
+            Claim::Kernel(claim) if claim.orientation.is_some() => {
+                " The platform is in the middle of its orientations."
+            }
+            _ => "",
+        };
         let _ = write!(
             out,
             "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): guides \
-             dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}</figcaption></figure>",
+             dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}{turned}</figcaption></figure>",
             design.inline()
         );
-        match &self.certificate.claim {
+        let of_postulate;
+        let three_legs = match &self.certificate.claim {
             Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
-                out.push_str(&words::parameters(claim, machine));
+                Some(claim)
             }
             Claim::Postulate(claim) => {
-                if let Some(claim) = nominal::of_postulate(claim) {
-                    out.push_str(&words::parameters(&claim, machine));
-                }
+                of_postulate = nominal::of_postulate(claim);
+                of_postulate.as_ref()
             }
-            Claim::Atlas(_) | Claim::Kernel(_) => {}
+            Claim::Kernel(claim) => {
+                out.push_str(&mechanism::parameters(claim));
+                None
+            }
+            Claim::Atlas(_) => None,
+        };
+        if let (Some(claim), Some((machine, _))) = (three_legs, &self.machine) {
+            out.push_str(&words::parameters(claim, machine));
         }
         out + "</section>\n"
     }
 
-    fn maps_section(&self) -> String {
+    fn maps_section(&self, Slice { maps, legends, fixed }: &Slice) -> String {
         let cube = self.machine.as_ref().map(|(machine, _)| machine).filter(|m| m.is_cube);
         let at = if cube.is_some() { " The first slice is the one through Q\u{2081}." } else { "" };
-        let maps: String = self.figures.maps.iter().map(Picture::inline).collect();
-        let legend = self.machine.as_ref().and_then(|(_, scale)| scale.as_ref()).map(Scale::legend);
+        let maps: String = maps.iter().map(Picture::inline).collect();
+        let legend: String = legends.iter().map(|(_, legend)| legend.as_str()).collect();
         format!(
             "<section id=\"maps\"><h2>Velocity transmission factors</h2>\
              <p>Lines of equal \u{3c8}<sub>1</sub> \u{2264} \u{3c8}<sub>2</sub> \u{2264} \u{3c8}<sub>3</sub> of the \
@@ -134,10 +187,8 @@ impl Page<'_> {
              move the cross with the arrow keys, to read the values there.</output>\
              <figcaption class=\"scripted\">Keys on a map: <kbd>\u{2190}</kbd> <kbd>\u{2192}</kbd> <kbd>\u{2191}</kbd> <kbd>\u{2193}</kbd> move the \
              cross (with <kbd>Shift</kbd> in large steps), <kbd>Page Up</kbd> <kbd>Page Down</kbd> move the slice.</figcaption>\
-             <figcaption class=\"static\">z = {z}</figcaption></figure>{corners}</section>\n",
+             <figcaption class=\"static\">{fixed}</figcaption></figure>{corners}</section>\n",
             corners = cube.map(words::corners).unwrap_or_default(),
-            legend = legend.unwrap_or_default(),
-            z = self.machine.as_ref().map_or(String::new(), |(m, _)| significant(m.point([0.0, 0.0, m.slice])[2], 6)),
         )
     }
 
@@ -157,11 +208,15 @@ impl Page<'_> {
                  checker's rules. A requirement shown on a box holds on all its parts.</p>",
             );
         }
-        out.push_str(VIEWER);
-        for (picture, tree) in self.figures.subdivisions.iter().zip(&self.trees) {
+        if self.scene.trees.iter().all(Subdivision::is_spatial) {
+            out.push_str(VIEWER);
+        }
+        for (picture, tree) in self.figures.subdivisions.iter().zip(&self.scene.trees) {
+            // What the viewer shows in a browser stands here for print.
+            let class = if tree.is_spatial() { " class=\"static\"" } else { "" };
             let _ = write!(
                 out,
-                "<figure class=\"static\">{}<figcaption>{}</figcaption></figure>",
+                "<figure{class}>{}<figcaption>{}</figcaption></figure>",
                 picture.inline(),
                 xml(&match self.certificate.claim {
                     Claim::NoCube(_) => tree.name.clone(),
@@ -171,7 +226,7 @@ impl Page<'_> {
         }
         if !refuted {
             out.push_str(&self.legend());
-            out.push_str(&evidence::hardest(&self.trees));
+            out.push_str(&evidence::hardest(&self.scene.trees));
         }
         out + "</section>\n"
     }
@@ -179,20 +234,26 @@ impl Page<'_> {
     /// The rules that are used, with their colours, patterns and uses.
     fn legend(&self) -> String {
         let mut out = "<ul class=\"legend\" aria-label=\"Rules used\">".to_owned();
-        for (k, rule) in RULES.iter().enumerate() {
-            let Some(uses) = self.accepted.size.steps.get(rule.name) else {
+        let Some(legend) = self.scene.trees.first().map(|tree| &tree.legend) else {
+            return String::new();
+        };
+        for (k, rule) in legend.rules.iter().enumerate() {
+            let uses: usize = self.scene.trees.iter().filter_map(|tree| tree.uses.get(k)).sum();
+            if uses == 0 {
                 continue;
-            };
+            }
+            let used_for = rule.used_for.as_ref();
+            let used_for = used_for.map_or(String::new(), |name| format!(" for {}", xml(name)));
             let d = PATTERNS[rule.pattern];
             let _ = write!(
                 out,
                 "<li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><defs><pattern id=\"legend-{k}\" \
                  width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><rect width=\"8\" height=\"8\" fill=\"{}\"/>\
                  <path class=\"pattern\" d=\"{d}\"/></pattern></defs><rect class=\"leaf\" width=\"26\" height=\"16\" \
-                 fill=\"url(#legend-{k})\"/></svg><span><code>{}</code> \u{d7} {}</span></li>",
+                 fill=\"url(#legend-{k})\"/></svg><span><code>{}</code>{used_for} \u{d7} {}</span></li>",
                 rule.colour,
                 rule.name,
-                grouped(*uses as u64)
+                grouped(uses as u64)
             );
         }
         out + "</ul>"
@@ -204,8 +265,35 @@ fn caption(tree: &Subdivision) -> String {
     if tree.leaves.is_empty() {
         return name.to_owned();
     }
-    let parts = if tree.axes[0] == "kappa" { ", y and z as parts of [q1, q2]" } else { "" };
-    format!("{name}{parts}; boxes are filled by the rule for {}", Obligation::ALL[tree.filled_by])
+    if tree.axes.len() > 3 {
+        return format!("{name}, by pairs of coordinates: the deeper a box, the darker");
+    }
+    let is_face = tree.axes.first().is_some_and(|axis| axis == "kappa");
+    let parts = if is_face { ", y and z as parts of [q1, q2]" } else { "" };
+    let obligation = &tree.legend.obligations[tree.filled_by];
+    format!("{name}{parts}; boxes are filled by the rule for {obligation}")
+}
+
+/// The maps of a kernel claim.
+fn maps_of_slices(slices: &[Slice]) -> String {
+    let mut out = "<section id=\"maps\"><h2>Maps</h2><p>Lines of equal value of the nominal machine over \
+         two coordinates, the others in the middle of the workspace, or at the counterexample, in floating \
+         point: of the greatest \u{3c8}, and of the requirement, other than that on the greatest \u{3c8}, \
+         of which the least margin was found. Marked: the worst point of each map, or the counterexample. Hatched: outside the \
+         workspace, or out of reach.</p>"
+        .to_owned();
+    for Slice { maps, fixed, .. } in slices {
+        let maps: String = maps.iter().map(Picture::inline).collect();
+        let at = if fixed.is_empty() { String::new() } else { format!("at {}", xml(fixed)) };
+        let _ = write!(
+            out,
+            "<figure><div class=\"maps still\">{maps}</div><figcaption>{at}</figcaption></figure>"
+        );
+    }
+    for (name, legend) in slices.first().iter().flat_map(|slice| &slice.legends) {
+        let _ = write!(out, "<h3>{}</h3>{legend}", xml(name));
+    }
+    out + "</section>\n"
 }
 
 /// The controls of the view in space.

@@ -1,59 +1,15 @@
 //! The subdivision that a proof consists of: its boxes, by the rules that close them.
 
 use super::isomap::Mark;
-use super::nominal::Point;
-use super::svg::{Elements, Fitted, Picture, View};
-use orthocert_checker::cell::{Axis, Cell, Edge};
-use orthocert_checker::certificate::{Node, Step};
-use orthocert_checker::rule::Obligation;
-use serde::Serialize;
+use super::legend::{Legend, Rule, Ruled, PATTERNS};
+use super::legs::Point;
+use super::svg::{path_data, Elements, Fitted, Picture, View};
+use crate::decimal::significant;
+use orthocert_checker::cell::Axis;
 use std::array::from_fn;
+use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// A rule as figures show it.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct RuleStyle {
-    /// The rule's name in certificates.
-    pub name: &'static str,
-    /// Its fill, distinct for those who do not tell colours apart (after Okabe and Ito).
-    pub colour: &'static str,
-    /// The number of its pattern: [`PATTERNS`].
-    pub pattern: usize,
-}
-
-const fn style(name: &'static str, colour: &'static str, pattern: usize) -> RuleStyle {
-    RuleStyle { name, colour, pattern }
-}
-
-/// Every rule; a letter of a tree's code is a position here.
-pub const RULES: [RuleStyle; 16] = [
-    style("lower", "#8ecae6", 0),
-    style("corner", "#f4a340", 1),
-    style("upper", "#74c69d", 2),
-    style("cube", "#5aae8a", 3),
-    style("range", "#f2e279", 1),
-    style("conditioning", "#7da7d9", 3),
-    style("serial_margin", "#e8936b", 2),
-    style("parallel_margin", "#b9a3d9", 1),
-    style("leg_angle", "#c9a66b", 3),
-    style("speed", "#9fd3c7", 4),
-    style("outside", "#eceff3", 5),
-    style("blow_up", "#8ecae6", 0),
-    style("edge", "#f4a340", 1),
-    style("mirror", "#d3a4c8", 3),
-    style("entrywise", "#6fa8dc", 1),
-    style("violated", "#e5989b", 2),
-];
-
-/// Lines of the patterns, on squares of eight units.
-pub const PATTERNS: [&str; 6] = [
-    "",
-    "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
-    "M2 2h1.4M6 6h1.4",
-    "M-2 -2L10 10M6 -2L10 2M-2 6L2 10",
-    "M0 4H8M4 0V8",
-    "M3 5L5 3",
-];
+use std::rc::Rc;
 
 /// Rectangles of a face that are drawn one by one; beyond, the face is drawn on a grid.
 const MOST: usize = 2500;
@@ -62,15 +18,18 @@ const OUTLINED: f64 = 1.6;
 /// Squares of that grid on either side.
 const GRID: usize = 80;
 
+/// The least and the greatest corner.
+type Rectangle = ([f64; 2], [f64; 2]);
+
 /// A box that is not split.
 #[derive(Clone, Debug)]
 pub struct Leaf {
-    /// The box.
-    pub cell: Cell,
+    /// For each coordinate, the part of the way from 0 to 1 at which the box begins and ends.
+    pub parts: Vec<[f64; 2]>,
     /// How often it was halved.
     pub depth: usize,
     /// For each obligation, the position of the rule that discharged it on the path.
-    pub by: [Option<u8>; Obligation::ALL.len()],
+    pub by: Vec<Option<u8>>,
     /// The positions of the rules used on the leaf itself.
     pub own: Vec<u8>,
 }
@@ -80,89 +39,45 @@ pub struct Leaf {
 pub struct Subdivision {
     /// What it covers.
     pub name: String,
-    /// Names of the axes.
-    pub axes: [&'static str; 3],
-    /// The root's least corner and edges, in the units of the axes.
-    pub least: Point,
+    /// Names of the coordinates.
+    pub axes: Vec<String>,
+    /// How many of them, the first, are of the position; others turn the platform.
+    pub positions: usize,
+    /// The root's least corner, in the units of the axes.
+    pub least: Vec<f64>,
     /// Its edges.
-    pub width: Point,
+    pub width: Vec<f64>,
     /// The boxes that cover it.
     pub leaves: Vec<Leaf>,
-    /// The nodes in preorder: a letter for each rule, then `X`, `Y`, `Z` for a split or `.`.
+    /// The nodes in preorder: a letter for each rule, then `X`, `Y`, `Z` for a split or `.`; of three
+    /// coordinates.
     pub code: String,
     /// The position of the obligation by whose rules boxes are filled.
     pub filled_by: usize,
+    /// How often each rule is used.
+    pub uses: Vec<usize>,
+    /// The rules.
+    pub legend: Rc<Legend>,
 }
 
-/// The part of the way from 0 to 1 at which an edge begins and ends.
-pub fn parts(edge: Edge) -> [f64; 2] {
-    let size = (-f64::from(edge.level)).exp2();
-    [edge.index as f64 * size, (edge.index as f64 + 1.0) * size]
+/// The root of a tree.
+#[derive(Clone, Debug)]
+pub struct Root {
+    /// Names of the coordinates.
+    pub axes: Vec<String>,
+    /// How many of them are of the position.
+    pub positions: usize,
+    /// Its least corner.
+    pub least: Vec<f64>,
+    /// Its edges.
+    pub width: Vec<f64>,
 }
 
-/// How many steps discharge each obligation by a rule of its own. An obligation without one is none
-/// of the claim's.
-fn uses(nodes: &[Node]) -> [usize; Obligation::ALL.len()] {
-    let mut uses = [0; Obligation::ALL.len()];
-    for discharged in nodes.iter().flat_map(|node| &node.by).filter_map(|step| step.rule().1) {
-        uses[discharged as usize] += 1;
-    }
-    uses
-}
-
-fn position(step: &Step) -> u8 {
-    let (name, _) = step.rule();
-    RULES.iter().position(|rule| rule.name == name).unwrap_or(0) as u8
-}
-
-impl Subdivision {
-    /// The subdivision of a tree that the checker has accepted.
-    pub fn new(
-        name: &str,
-        axes: [&'static str; 3],
-        least: Point,
-        width: Point,
-        nodes: &[Node],
-    ) -> Self {
-        let (mut leaves, mut code) = (Vec::new(), String::with_capacity(2 * nodes.len()));
-        let uses = uses(nodes);
-        let mut waiting = vec![(Cell::ROOT, [None; Obligation::ALL.len()], 0)];
-        for node in nodes {
-            let Some((cell, mut by, depth)) = waiting.pop() else {
-                break;
-            };
-            let own: Vec<u8> = node.by.iter().map(position).collect();
-            for (step, &rule) in node.by.iter().zip(&own) {
-                code.push(char::from(b'a' + rule));
-                let discharged = step.rule().1;
-                for ((known, obligation), uses) in by.iter_mut().zip(Obligation::ALL).zip(uses) {
-                    let concerned = discharged.map_or(uses > 0, |d| d == obligation);
-                    if known.is_none() && concerned {
-                        *known = Some(rule);
-                    }
-                }
-            }
-            let halves = node.split.and_then(|axis| Some((axis, cell.halves(axis)?)));
-            match halves {
-                Some((axis, (lower, upper))) => {
-                    code.push(['X', 'Y', 'Z'][axis.index()]);
-                    waiting.push((upper, by, depth + 1));
-                    waiting.push((lower, by, depth + 1));
-                }
-                None => {
-                    code.push('.');
-                    leaves.push(Leaf { cell, depth, by, own });
-                }
-            }
-        }
-        let most = uses.iter().max().copied().unwrap_or(0);
-        let filled_by = uses.iter().position(|uses| *uses == most).unwrap_or(0);
-        Subdivision { name: name.to_owned(), axes, least, width, leaves, code, filled_by }
-    }
-
-    /// The position of the rule by which a leaf is filled.
-    fn fill(&self, leaf: &Leaf) -> usize {
-        usize::from(leaf.by[self.filled_by].unwrap_or(0))
+impl Root {
+    /// A root of three coordinates.
+    pub fn new(axes: [&str; 3], least: Point, width: Point) -> Self {
+        let axes = axes.map(str::to_owned).to_vec();
+        Root { axes, positions: 3, least: least.to_vec(), width: width.to_vec() }
     }
 
     /// The names of a tree's axes.
@@ -174,21 +89,122 @@ impl Subdivision {
             Axis::Kappa => "kappa",
         })
     }
+}
+
+/// Pairs of coordinates in which all of them are seen: each against the first of its kind, and one
+/// that is alone of its kind against the first of all.
+pub fn pairs(coordinates: usize, positions: usize) -> Vec<[usize; 2]> {
+    let of_kind = |first: usize, end: usize| match end.saturating_sub(first) {
+        1 if first > 0 => vec![[0, first]],
+        _ => (first + 1..end).map(|k| [first, k]).collect(),
+    };
+    [of_kind(0, positions), of_kind(positions, coordinates)].concat()
+}
+
+impl Subdivision {
+    /// The subdivision of a tree that the checker has accepted.
+    pub fn new(name: &str, root: Root, legend: &Rc<Legend>, nodes: &[Ruled]) -> Self {
+        let mut uses = vec![0; legend.rules.len()];
+        nodes.iter().flat_map(|node| &node.0).for_each(|rule| uses[usize::from(*rule)] += 1);
+        // An obligation without a rule of its own is none of the claim's.
+        let mut concerned = vec![0; legend.obligations.len()];
+        for (rule, uses) in legend.rules.iter().zip(&uses) {
+            if let Some(discharged) = rule.discharges {
+                concerned[discharged] += uses;
+            }
+        }
+        let (mut leaves, mut code) = (Vec::new(), String::with_capacity(2 * nodes.len()));
+        let whole = vec![[0.0, 1.0]; root.axes.len()];
+        let mut waiting = vec![(whole, vec![None; legend.obligations.len()], 0)];
+        for (own, split) in nodes {
+            let Some((parts, mut by, depth)) = waiting.pop() else {
+                break;
+            };
+            for &rule in own {
+                code.extend(char::from_u32(u32::from(b'a') + u32::from(rule)));
+                let discharged = legend.rules[usize::from(rule)].discharges;
+                for (o, known) in by.iter_mut().enumerate() {
+                    let is_meant = discharged.map_or(concerned[o] > 0, |d| d == o);
+                    if known.is_none() && is_meant {
+                        *known = Some(rule);
+                    }
+                }
+            }
+            match split.filter(|&k| k < parts.len()) {
+                Some(k) => {
+                    code.push(*['X', 'Y', 'Z'].get(k).unwrap_or(&'?'));
+                    let [low, high] = parts[k];
+                    let middle = (low + high) / 2.0;
+                    let with = |ends: [f64; 2]| {
+                        let mut half = parts.clone();
+                        half[k] = ends;
+                        half
+                    };
+                    waiting.push((with([middle, high]), by.clone(), depth + 1));
+                    waiting.push((with([low, middle]), by, depth + 1));
+                }
+                None => {
+                    code.push('.');
+                    leaves.push(Leaf { parts, depth, by, own: own.clone() });
+                }
+            }
+        }
+        let most = concerned.iter().max().copied().unwrap_or(0);
+        let filled_by = concerned.iter().position(|uses| *uses == most).unwrap_or(0);
+        let Root { axes, positions, least, width } = root;
+        let (name, legend) = (name.to_owned(), Rc::clone(legend));
+        Subdivision { name, axes, positions, least, width, leaves, code, filled_by, uses, legend }
+    }
+
+    /// Whether it is a box in space, which a script can turn.
+    pub fn is_spatial(&self) -> bool {
+        self.axes.len() == 3
+    }
+
+    /// The position of the rule by which a leaf is filled.
+    fn fill(&self, leaf: &Leaf) -> usize {
+        usize::from(leaf.by.get(self.filled_by).copied().flatten().unwrap_or(0))
+    }
+
+    /// Where a part of the way along a coordinate is.
+    pub fn place(&self, k: usize, part: f64) -> f64 {
+        self.least[k] + part * self.width[k]
+    }
+
+    /// The part of the way at which a coordinate is.
+    fn part(&self, k: usize, x: f64) -> f64 {
+        if self.width[k] > 0.0 {
+            (x - self.least[k]) / self.width[k]
+        } else {
+            0.5
+        }
+    }
 
     /// The relative lengths of the edges, as they are drawn.
     pub fn proportions(&self) -> Point {
         let most = self.width.iter().copied().fold(0.0, f64::max);
-        self.width.map(|w| if self.axes[0] == "kappa" { 1.0 } else { (w / most).max(0.15) })
+        let is_face = self.axes.first().is_some_and(|name| name == "kappa");
+        let edge = |k: usize| self.width.get(k).map_or(1.0, |w| (w / most).max(0.15));
+        from_fn(|k| if is_face { 1.0 } else { edge(k) })
     }
 
-    /// The box seen from the first and from the seventh octant, its faces divided as the leaves
-    /// divide them and filled by the rules for one obligation.
+    /// The boxes: of three coordinates in space, of others in planes.
     pub fn picture(&self, number: usize, marks: &[Mark]) -> Picture {
         let name = if number == 0 {
             "subdivision".to_owned()
         } else {
             format!("subdivision-{}", number + 1)
         };
+        if self.is_spatial() {
+            self.in_space(name, marks)
+        } else {
+            self.in_planes(name, marks)
+        }
+    }
+
+    /// The box seen from the first and from the seventh octant, its faces divided as the leaves
+    /// divide them and filled by the rules for one obligation.
+    fn in_space(&self, name: String, marks: &[Mark]) -> Picture {
         let mut out = Elements::default();
         out.raw(&self.definitions(&name));
         for (i, azimuth, elevation, caption) in [
@@ -209,13 +225,15 @@ impl Subdivision {
     }
 
     fn definitions(&self, name: &str) -> String {
-        let mut used = [false; RULES.len()];
+        let mut used = vec![false; self.legend.rules.len()];
         for leaf in &self.leaves {
-            used[self.fill(leaf)] = true;
+            if let Some(used) = used.get_mut(self.fill(leaf)) {
+                *used = true;
+            }
         }
         let mut out = "<defs>".to_owned();
-        for (k, rule) in RULES.iter().enumerate().filter(|(k, _)| used[*k]) {
-            let RuleStyle { colour, pattern, .. } = rule;
+        for (k, rule) in self.legend.rules.iter().enumerate().filter(|(k, _)| used[*k]) {
+            let Rule { colour, pattern, .. } = rule;
             let d = PATTERNS[*pattern];
             let _ = write!(
                 out,
@@ -239,13 +257,7 @@ impl Subdivision {
         }
         self.outline(out, &view, &at);
         for mark in marks {
-            let u: Point = from_fn(|k| {
-                if self.width[k] > 0.0 {
-                    (mark.at[k] - self.least[k]) / self.width[k]
-                } else {
-                    0.5
-                }
-            });
+            let u: Point = from_fn(|k| self.part(k, mark.at[k]));
             // A mark behind the faces is not seen.
             let seen = |k: usize| {
                 let end = if view.toward[k] > 0.0 { 1.0 } else { 0.0 };
@@ -283,13 +295,13 @@ impl Subdivision {
                 corner(low[0], high[1]),
             ]
         };
-        let mut by_rule: [Vec<([f64; 2], [f64; 2])>; RULES.len()] = Default::default();
+        let mut by_rule: BTreeMap<usize, Vec<Rectangle>> = BTreeMap::new();
         let mut count = 0;
         for leaf in &self.leaves {
-            let [of_axis, of_b, of_c] = [axis, b, c].map(|k| parts(leaf.cell.edges[k]));
+            let [of_axis, of_b, of_c] = [axis, b, c].map(|k| leaf.parts[k]);
             if of_axis.contains(&end) {
-                let rule = self.fill(leaf);
-                by_rule[rule].push(([of_b[0], of_c[0]], [of_b[1], of_c[1]]));
+                let of_rule = by_rule.entry(self.fill(leaf)).or_default();
+                of_rule.push(([of_b[0], of_c[0]], [of_b[1], of_c[1]]));
                 count += 1;
             }
         }
@@ -297,12 +309,12 @@ impl Subdivision {
             let side = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
             side(o, p).min(side(o, q)) < OUTLINED
         };
-        for (rule, all) in by_rule.iter().enumerate().filter(|(_, all)| !all.is_empty()) {
+        for (rule, all) in &by_rule {
             let drawn = if count > MOST { on_grid(all) } else { all.clone() };
             let quads = drawn.iter().map(|(low, high)| quad(*low, *high));
             let (fine, outlined): (Vec<_>, Vec<_>) = quads.partition(|q| count > MOST || thin(*q));
             for (class, quads) in [("leaf fine", fine), ("leaf", outlined)] {
-                let d: String = quads.iter().map(|q| super::svg::path_data(q, true)).collect();
+                let d: String = quads.iter().map(|q| path_data(q, true)).collect();
                 if !d.is_empty() {
                     let fill = format!("url(#{name}-rule-{rule})");
                     out.raw(&format!("<path class=\"{class}\" fill=\"{fill}\" d=\"{d}\"/>"));
@@ -331,7 +343,7 @@ impl Subdivision {
         }
         // The name of an axis stands beside the silhouette edge along it.
         let centre = at([0.5; 3]);
-        for (k, name) in self.axes.into_iter().enumerate() {
+        for (k, name) in self.axes.iter().enumerate() {
             let mut middle = [0.0; 3];
             let (b, c) = ((k + 1) % 3, (k + 2) % 3);
             let candidates = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
@@ -350,10 +362,101 @@ impl Subdivision {
             }
         }
     }
+
+    /// The boxes projected onto pairs of coordinates. In a plane they are filled by the rules for one
+    /// obligation; where boxes lie above each other, by depth, the deepest on top.
+    fn in_planes(&self, name: String, marks: &[Mark]) -> Picture {
+        const PANEL: [f64; 2] = [236.0, 236.0];
+        let m = self.axes.len();
+        let all = if m == 1 { vec![[0, 0]] } else { pairs(m, self.positions) };
+        let mut out = Elements::default();
+        out.raw(&self.definitions(&name));
+        for (i, pair) in all.iter().enumerate() {
+            let corner = [PANEL[0] * (i % 3) as f64, PANEL[1] * (i / 3) as f64];
+            self.panel(&mut out, &name, *pair, corner, marks);
+        }
+        let rows = all.len().div_ceil(3).max(1) as f64;
+        Picture {
+            name,
+            title: format!("The boxes of the proof over {}, by pairs of coordinates", self.name),
+            size: [PANEL[0] * 3.0, PANEL[1] * rows],
+            attributes: String::new(),
+            content: out.0,
+        }
+    }
+
+    /// One pair of coordinates; the same one twice stands for one coordinate alone.
+    fn panel(
+        &self,
+        out: &mut Elements,
+        name: &str,
+        [a, b]: [usize; 2],
+        [left, top]: [f64; 2],
+        marks: &[Mark],
+    ) {
+        const SIDE: f64 = 176.0;
+        let at = |u: f64, v: f64| [left + 50.0 + SIDE * u, top + 14.0 + SIDE * (1.0 - v)];
+        let mut rectangles: BTreeMap<[u64; 4], &Leaf> = BTreeMap::new();
+        for leaf in &self.leaves {
+            let of_b = if a == b { [0.4, 0.6] } else { leaf.parts[b] };
+            let key = [leaf.parts[a], of_b].concat();
+            let key: [u64; 4] = from_fn(|i| key[i].to_bits());
+            let known = rectangles.entry(key).or_insert(leaf);
+            if leaf.depth > known.depth {
+                *known = leaf;
+            }
+        }
+        let mut drawn: Vec<([u64; 4], &Leaf)> = rectangles.into_iter().collect();
+        drawn.sort_by_key(|(_, leaf)| leaf.depth);
+        let [least, most] = [drawn.first(), drawn.last()].map(|d| d.map_or(0, |(_, l)| l.depth));
+        // The deepest are what is worth seeing, should there be too many.
+        for (ends, leaf) in drawn.iter().skip(drawn.len().saturating_sub(MOST)) {
+            let [u, v, x, y] = ends.map(f64::from_bits);
+            let quad = [at(u, x), at(v, x), at(v, y), at(u, y)];
+            let fill = if self.axes.len() <= 2 {
+                format!("url(#{name}-rule-{})", self.fill(leaf))
+            } else {
+                shade(leaf.depth, least, most)
+            };
+            let d = path_data(&quad, true);
+            out.raw(&format!("<path class=\"leaf\" fill=\"{fill}\" d=\"{d}\"/>"));
+        }
+        out.path("outline", &[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], true);
+        let number = |k: usize, part: f64| significant(self.place(k, part), 4);
+        let [[x0, y0], [x1, y1]] = [at(0.0, 0.0), at(1.0, 1.0)];
+        out.text("tick start", [x0, y0 + 14.0], &number(a, 0.0));
+        out.text("tick end", [x1, y0 + 14.0], &number(a, 1.0));
+        out.text("axis middle", [(x0 + x1) / 2.0, y0 + 14.0], &self.axes[a]);
+        if a != b {
+            out.text("tick end", [x0 - 5.0, y0], &number(b, 0.0));
+            out.text("tick end", [x0 - 5.0, y1 + 9.0], &number(b, 1.0));
+            out.text("axis end", [x0 - 9.0, (y0 + y1) / 2.0 + 4.0], &self.axes[b]);
+        }
+        for mark in marks {
+            let part = |k: usize| mark.at.get(k).map_or(0.5, |x| self.part(k, *x));
+            let p = at(part(a), if a == b { 0.5 } else { part(b) });
+            out.dot("mark", p, 3.5);
+            let (class, beside) = if part(a) > 0.5 { ("end", -7.0) } else { ("start", 7.0) };
+            let above = if p[1] < top + 30.0 { 15.0 } else { -6.0 };
+            out.text(&format!("mark-label {class}"), [p[0] + beside, p[1] + above], &mark.name);
+        }
+    }
+}
+
+/// The fill of a depth: the deeper, the darker.
+fn shade(depth: usize, least: usize, most: usize) -> String {
+    let part = if most > least { (depth - least) as f64 / (most - least) as f64 } else { 0.3 };
+    let channel = |light: f64, dark: f64| (light + part * (dark - light)).round() as u8;
+    format!(
+        "#{:02x}{:02x}{:02x}",
+        channel(220.0, 33.0),
+        channel(236.0, 102.0),
+        channel(247.0, 172.0)
+    )
 }
 
 /// The squares of a grid whose middle is in one of the rectangles, in rows.
-fn on_grid(all: &[([f64; 2], [f64; 2])]) -> Vec<([f64; 2], [f64; 2])> {
+fn on_grid(all: &[Rectangle]) -> Vec<Rectangle> {
     let mut filled = vec![false; GRID * GRID];
     let n = GRID as f64;
     for (low, high) in all {
@@ -387,7 +490,9 @@ fn on_grid(all: &[([f64; 2], [f64; 2])]) -> Vec<([f64; 2], [f64; 2])> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use orthocert_checker::certificate::{Node, Step};
     use orthocert_checker::rule::Rotation;
+    use orthocert_kernel::certificate as kernel;
 
     fn tree() -> Vec<Node> {
         let lower =
@@ -403,7 +508,9 @@ mod tests {
 
     #[test]
     fn leaves_know_what_their_ancestors_have_discharged() {
-        let found = Subdivision::new("box", ["x", "y", "z"], [0.0; 3], [1.0; 3], &tree());
+        let legend = Rc::new(Legend::of_three_legs());
+        let root = Root::new(["x", "y", "z"], [0.0; 3], [1.0; 3]);
+        let found = Subdivision::new("box", root, &legend, &legend.ruled(&tree()));
         assert_eq!(found.code, "dXa.Za.k.");
         assert_eq!(found.leaves.len(), 3);
         assert_eq!(found.leaves[0].by[..3], [Some(0), Some(3), None]);
@@ -411,17 +518,58 @@ mod tests {
         assert_eq!(found.leaves[2].by[..3], [Some(10), Some(3), None]);
         assert_eq!(found.filled_by, 0);
         assert_eq!(found.leaves[2].depth, 2);
-        assert_eq!(parts(found.leaves[2].cell.edges[2]), [0.5, 1.0]);
+        assert_eq!(found.leaves[2].parts[2], [0.5, 1.0]);
+        assert_eq!((found.uses[0], found.uses[3]), (2, 1));
     }
 
     #[test]
     fn every_rule_has_a_style() {
-        for step in tree().iter().flat_map(|node| &node.by) {
-            assert_eq!(RULES[usize::from(position(step))].name, step.rule().0);
+        let legend = Legend::of_three_legs();
+        for (node, (rules, _)) in tree().iter().zip(legend.ruled(&tree())) {
+            for (step, rule) in node.by.iter().zip(rules) {
+                assert_eq!(legend.rules[usize::from(rule)].name, step.rule().0);
+            }
         }
-        let names: std::collections::BTreeSet<_> = RULES.iter().map(|r| r.name).collect();
-        assert_eq!(names.len(), RULES.len());
-        assert!(RULES.iter().all(|rule| rule.pattern < PATTERNS.len()));
+        let names: std::collections::BTreeSet<_> = legend.rules.iter().map(|r| &r.name).collect();
+        assert_eq!(names.len(), legend.rules.len());
+        assert!(legend.rules.iter().all(|rule| rule.pattern < PATTERNS.len()));
+    }
+
+    #[test]
+    fn every_coordinate_is_in_a_pair() {
+        assert_eq!(pairs(2, 2), [[0, 1]]);
+        assert_eq!(pairs(3, 2), [[0, 1], [0, 2]]);
+        assert_eq!(pairs(3, 0), [[0, 1], [0, 2]]);
+        assert_eq!(pairs(6, 3), [[0, 1], [0, 2], [3, 4], [3, 5]]);
+        assert_eq!(pairs(1, 1), <[[usize; 2]; 0]>::default());
+    }
+
+    #[test]
+    fn the_rules_of_the_kernel_are_told_apart_by_what_they_are_used_for() {
+        use kernel::{Evidence, Step};
+        let node = |by: Vec<Step>, split| kernel::Node { by, split, ..kernel::Node::default() };
+        let tree = kernel::Tree {
+            precision: 52,
+            chords: None,
+            nodes: vec![
+                node(vec![Step(1, Evidence::Test), Step(2, Evidence::Test)], Some(3)),
+                node(vec![Step(0, Evidence::Divided)], None),
+                node(vec![Step(0, Evidence::Outside)], None),
+            ],
+        };
+        let names = vec!["psi".to_owned(), "rho".to_owned()];
+        let (legend, nodes) = Legend::of_kernel(&tree, names, &|o| usize::from(o > 0));
+        let shown: Vec<_> = legend.rules.iter().map(|r| (r.name.as_str(), r.discharges)).collect();
+        assert_eq!(shown, [("test", Some(1)), ("divided", Some(0)), ("outside", None)]);
+        let axes: Vec<String> = ["x", "y", "z", "c"].map(str::to_owned).to_vec();
+        let root = Root { axes, positions: 3, least: vec![0.0; 4], width: vec![2.0; 4] };
+        let found = Subdivision::new("box", root, &Rc::new(legend), &nodes);
+        assert_eq!(found.uses, [2, 1, 1]);
+        assert_eq!(found.leaves[0].parts[3], [0.0, 0.5]);
+        assert_eq!(found.leaves[1].by, [Some(2), Some(0)]);
+        let picture = found.picture(0, &[Mark { name: "worst".to_owned(), at: vec![1.0; 4] }]);
+        assert_eq!(picture.content.matches("class=\"outline\"").count(), 3);
+        assert!(picture.content.contains("worst") && !picture.content.contains("NaN"));
     }
 
     #[test]

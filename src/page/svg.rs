@@ -3,7 +3,7 @@
 //! Figures are styled by classes (`figure.css`), so that a page can show them light or dark and a
 //! file of its own can carry its style.
 
-use super::nominal::{dot, Point};
+use super::legs::{dot, Point};
 use crate::escape::xml;
 use std::fmt::Write;
 

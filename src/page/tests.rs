@@ -87,3 +87,68 @@ fn what_does_not_apply_is_left_out_with_a_word() {
     assert!(page.contains("needs one point and no subdivision"));
     assert!(page.contains("634/5") || page.contains("126.8"));
 }
+
+/// A certificate of the kernel.
+fn of_kernel(name: &str) -> Vec<u8> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    std::fs::read(root.join(format!("tests/kernel/{name}.cert.json"))).unwrap()
+}
+
+#[test]
+fn any_mechanism_has_its_figures() {
+    for (name, figures) in [
+        (
+            "four-struts",
+            &["design", "psi-1", "critical-1", "psi-2", "critical-2", "subdivision"][..],
+        ),
+        ("four-sliders", &["design", "psi-1", "critical-1", "psi-2", "critical-2", "subdivision"]),
+        ("four-struts-refuted", &["design", "psi-1", "psi-2", "subdivision"]),
+        ("biglide", &["psi-1", "critical-1", "subdivision"]),
+        ("four-coordinates", &["psi-1", "psi-2", "psi-3", "subdivision"]),
+    ] {
+        let bytes = of_kernel(name);
+        with_page(&bytes, Some("<i>{{data}}"), |page| {
+            let names: Vec<&str> = page.pictures().map(|p| p.name.as_str()).collect();
+            assert_eq!(names, figures, "{name}");
+            for picture in page.pictures() {
+                let file = picture.file();
+                assert!(!file.contains("NaN") && !file.contains("inf"), "{name}: {}", picture.name);
+                assert!(!file.contains("var("), "{name}: {}", picture.name);
+            }
+            let html = page.html();
+            assert!(html.contains("&lt;i&gt;{{data}}") && !html.contains("<i>{{"), "{name}");
+            assert!(html.contains("<dt>machine</dt><dd>"), "{name}: the first box");
+            assert_eq!(html, page.html(), "{name}");
+            // What a script turns has three coordinates.
+            let spatial = !matches!(name, "biglide" | "four-coordinates");
+            assert_eq!(html.contains("id=\"space\""), spatial, "{name}");
+            let json = html.split("id=\"data\">").nth(1).and_then(|s| s.split("</script>").next());
+            let data: Value = serde_json::from_str(json.unwrap()).unwrap();
+            assert_eq!(data["trees"].as_array().unwrap().len(), usize::from(spatial), "{name}");
+        });
+    }
+}
+
+#[test]
+fn the_first_box_has_what_a_designer_signs() {
+    let page = with_page(&of_kernel("four-struts"), None, |page| page.html());
+    let first = page.split("id=\"overview\"").nth(1).unwrap().split("</section>").next().unwrap();
+    for text in [
+        "<dt>verdict</dt><dd>certified</dd>",
+        "Every translational machine of four struts within one tolerance",
+        "the box [-60, 60] \u{d7} [-60, 60] \u{d7} [150, 220]",
+        "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340</td>",
+        "joint speed; of arms, degrees per time: |row_i of M| tool, tool = 100",
+    ] {
+        assert!(first.contains(text), "{text}: {first}");
+    }
+    assert!(!first.contains("(violated)"));
+    let page = with_page(&of_kernel("four-struts-refuted"), None, |page| page.html());
+    assert!(page.contains("(violated)") && page.contains("<h2>Counterexample</h2>"));
+    assert!(page.contains("velocity transmission factors: psi_i, at most 0.8"));
+    assert!(page.contains("<td>(60, 60, 220)</td>") && page.contains("<td>200.05</td>"));
+    // The refuted value is worse than the bound, and is where the certificate says.
+    let value = page.split("value there, in floating point</th><td>").nth(1).unwrap();
+    let value: f64 = value.split('<').next().unwrap().parse().unwrap();
+    assert!(value > 0.8 && value < 1.25, "{value}");
+}

@@ -1,5 +1,6 @@
 //! A claim in words, formulas and tables.
 
+use super::mechanism;
 use super::nominal::Nominal;
 use crate::decimal::{approximate, readable, significant};
 use crate::escape::xml;
@@ -40,8 +41,18 @@ pub fn subject(claim: &Claim) -> String {
             workspace(&claim.machine),
             machine(&claim.machine)
         ),
-        Claim::Machine(claim) => format!("{} over {}", machine(claim), workspace(claim)),
-        Claim::Kernel(claim) => kind(&claim.mechanism).to_owned(),
+        Claim::Machine(_) | Claim::Kernel(_) => {
+            machine_and_workspace(claim).unwrap_or_default().join(" over ")
+        }
+    }
+}
+
+/// The machine and the workspace of a claim about one machine, or the machines within its tolerances.
+pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
+    match claim {
+        Claim::Machine(claim) => Some([machine(claim), workspace(claim)]),
+        Claim::Kernel(claim) => Some([mechanism::machine(claim), mechanism::workspace(claim)]),
+        Claim::Postulate(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
     }
 }
 
@@ -50,27 +61,9 @@ pub fn region(claim: &MachineClaim) -> String {
     format!("Where the requirements hold: {}, in {}", machine(claim), workspace(claim))
 }
 
-/// What kind of mechanism it is.
-fn kind(mechanism: &kernel::Mechanism) -> &'static str {
-    match mechanism {
-        kernel::Mechanism::Translational(_) => "A translational parallel machine",
-        kernel::Mechanism::Orthoglide { .. } => "The Orthoglide of the paper's Steps 1 to 3",
-        kernel::Mechanism::Planar(_) => "A planar parallel machine",
-        kernel::Mechanism::Spatial(_) => "A parallel machine with six degrees of freedom",
-        kernel::Mechanism::Spherical(_) => "A spherical parallel machine",
-        kernel::Mechanism::Formulas(_) => "A mechanism given by its inverse kinematics",
-    }
-}
-
 fn machine(claim: &MachineClaim) -> String {
     let Mechanism::Translational(legs) = &claim.mechanism else {
         return "The Orthoglide of the paper's Steps 1 to 3".to_owned();
-    };
-    let drive = |leg: &Leg| match leg {
-        Leg::Slider { .. } => "slider",
-        Leg::Strut { .. } => "strut",
-        Leg::Arm { .. } => "arm",
-        Leg::Planar { .. } => "planar leg",
     };
     let names = [drive(&legs[0]), drive(&legs[1]), drive(&legs[2])];
     let kinds = if names[0] == names[1] && names[1] == names[2] {
@@ -83,6 +76,15 @@ fn machine(claim: &MachineClaim) -> String {
         0 => format!("A machine of {kinds}"),
         1 => format!("Every machine of {kinds} within one tolerance"),
         n => format!("Every machine of {kinds} within {n} tolerances"),
+    }
+}
+
+fn drive(leg: &Leg) -> &'static str {
+    match leg {
+        Leg::Slider { .. } => "slider",
+        Leg::Strut { .. } => "strut",
+        Leg::Arm { .. } => "arm",
+        Leg::Planar { .. } => "planar leg",
     }
 }
 
@@ -190,7 +192,18 @@ fn asserted(claim: &Claim) -> Vec<String> {
             out.extend(everywhere.into_iter().skip(1));
             out
         }
-        Claim::Kernel(_) => Vec::new(),
+        Claim::Kernel(claim) => {
+            let mut out = vec![
+                everywhere("<var>W</var>, the workspace").replace(", <var>i</var> = 1, 2, 3", ""),
+                "every formula is defined, every leg reaches <var>P</var> and is not serially singular \
+                 there; <var>M</var>(<var>P</var>) has full column rank"
+                    .to_owned(),
+            ];
+            out.extend(
+                claim.require.iter().map(|requirement| xml(&mechanism::formula(requirement))),
+            );
+            out
+        }
         Claim::Machine(claim) => {
             let psi = claim.requirements.transmission.as_ref();
             let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {
@@ -280,34 +293,49 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
          row of <var>M</var>: (<var>k</var>\u{d7}<var>h</var>)<sup>T</sup>/<var>N</var> \u{b1} <var>q</var><sup>T</sup>/\u{221a}<var>D</var>; \
          serially singular where <var>D</var> = 0";
     const PLANAR: &str = "planar leg: row of <var>M</var>: <var>n</var><sup>T</sup>; \u{3c1} = <var>n</var>\u{b7}<var>P</var>";
-    let mut out = vec![
-        "<var>w</var> = <var>P</var> + <var>d</var> \u{2212} <var>a</var> for each leg, with its platform offset <var>d</var> and its anchor <var>a</var>",
-    ];
-    let mut seen = Vec::new();
-    let legs: &[Leg] = match claim {
-        Claim::Machine(MachineClaim { mechanism: Mechanism::Translational(legs), .. }) => legs,
-        _ => &[],
+    const OF_THREE: &str = "<var>w</var> = <var>P</var> + <var>d</var> \u{2212} <var>a</var> for each leg, with its platform offset <var>d</var> and its anchor <var>a</var>";
+    const TURNED: &str = "<var>w</var> = <var>P</var> + <var>R</var><var>d</var> \u{2212} <var>a</var> for each leg, with its platform's joint <var>d</var> and its anchor <var>a</var>; \
+         of a platform that turns, rows of <var>M</var> have the moments of the leg about <var>P</var> beside them";
+    let (vectors, drives) = match claim {
+        Claim::Machine(MachineClaim { mechanism: Mechanism::Translational(legs), .. }) => {
+            (Some(OF_THREE), legs.iter().map(drive).collect())
+        }
+        Claim::Kernel(kernel::MachineClaim {
+            mechanism: kernel::Mechanism::Formulas(_), ..
+        }) => (None, Vec::new()),
+        Claim::Kernel(claim) if claim.orientation.is_some() => {
+            (Some(TURNED), mechanism::drives(claim))
+        }
+        Claim::Kernel(claim) => (Some(OF_THREE), mechanism::drives(claim)),
+        _ => (Some(OF_THREE), vec!["slider"]),
     };
-    for leg in legs {
-        let formula = match leg {
-            Leg::Slider { .. } => SLIDER,
-            Leg::Strut { .. } => STRUT,
-            Leg::Arm { .. } => ARM,
-            Leg::Planar { .. } => PLANAR,
+    let mut out: Vec<&str> = vectors.into_iter().collect();
+    let mut seen = Vec::new();
+    for name in drives {
+        let formula = match name {
+            "slider" => SLIDER,
+            "strut" => STRUT,
+            "arm" => ARM,
+            _ => PLANAR,
         };
         if !seen.contains(&formula) {
             seen.push(formula);
         }
     }
-    if legs.is_empty() {
-        seen.push(SLIDER);
-    }
     out.extend(seen);
-    out.push(
+    let of_kernel = matches!(claim, Claim::Kernel(_));
+    out.push(if of_kernel {
+        "<var>M</var>: joint velocities are <var>M</var> times the velocity of the coordinates; \
+         \u{3c8}<sub>i</sub> are the inverses of its singular values"
+    } else {
         "<var>M</var> = <var>J</var><sup>\u{2212}1</sup>: joint velocities are <var>M</var> times the platform's velocity; \
-         \u{3be}<sub>1</sub>, \u{3be}<sub>2</sub>, \u{3be}<sub>3</sub> are its singular values, \u{3c8}<sub>i</sub> = 1/\u{3be}<sub>i</sub> the velocity transmission factors",
-    );
-    out.push("parallel singularity: det <var>M</var> = 0");
+         \u{3be}<sub>1</sub>, \u{3be}<sub>2</sub>, \u{3be}<sub>3</sub> are its singular values, \u{3c8}<sub>i</sub> = 1/\u{3be}<sub>i</sub> the velocity transmission factors"
+    });
+    out.push(if of_kernel {
+        "parallel singularity: <var>M</var> has not full column rank"
+    } else {
+        "parallel singularity: det <var>M</var> = 0"
+    });
     out
 }
 

@@ -2,6 +2,7 @@
 
 use super::place::named_parameters;
 use super::worst::{bound, Bound};
+use crate::batch::requirement::broken;
 use crate::decimal::{exact, rounded, significant, Toward};
 use crate::dimensions::{atan, pi};
 use crate::interval::Approx;
@@ -24,31 +25,32 @@ const BOUND_BITS: u32 = 256;
 /// The point, the machine and the requirement that is provably violated there.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counterexample {
-    /// What is violated, as in the certificate.
+    /// The rule that is broken ([`crate::batch::requirement`]).
     #[serde(skip)]
-    pub violation: Violation,
+    pub rule: &'static str,
     /// What is violated: `greatest psi <= 2`.
     pub violated: String,
     /// The value there, with certified digits: `greatest psi >= 2.0050`.
     pub value: String,
     /// `P`, exact.
-    pub point: [Exact; 3],
+    pub point: Vec<Exact>,
     /// A second point, where the determinant of `M` has the opposite sign.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub other_point: Option<[Exact; 3]>,
+    pub other_point: Option<Vec<Exact>>,
     /// The parameters with a tolerance, exact.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub machine: Vec<Setting>,
     /// The direction of motion that is transmitted too fast or too slowly, or both.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub directions: Vec<[i64; 3]>,
+    pub directions: Vec<Vec<i64>>,
 }
 
 /// The value that a witness gives to a parameter with a tolerance.
 #[derive(Clone, Debug, Serialize)]
 pub struct Setting {
-    /// The leg, counted from one.
-    pub leg: usize,
+    /// The leg, counted from one; none of a mechanism that its user gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leg: Option<usize>,
     /// The parameter's name.
     pub parameter: String,
     /// Its value, exact.
@@ -61,17 +63,17 @@ impl Counterexample {
         let (violated, value) = violation(claim, witness)
             .unwrap_or_else(|| ("a requirement".to_owned(), "beyond the bound".to_owned()));
         let other_point = match &witness.violates {
-            Violation::Singular(second) => Some(second.other.clone()),
+            Violation::Singular(second) => Some(second.other.to_vec()),
             _ => None,
         };
         let directions = match &witness.violates {
-            Violation::SigmaMin(d) | Violation::SigmaMax(d) => vec![d.vector],
-            Violation::Conditioning(both) => vec![both.u, both.v],
+            Violation::SigmaMin(d) | Violation::SigmaMax(d) => vec![d.vector.to_vec()],
+            Violation::Conditioning(both) => vec![both.u.to_vec(), both.v.to_vec()],
             _ => Vec::new(),
         };
         let machine = settings(claim, witness);
-        let (violation, point) = (witness.violates.clone(), witness.point.clone());
-        Counterexample { violation, violated, value, point, other_point, machine, directions }
+        let (rule, point) = (broken(&witness.violates), witness.point.to_vec());
+        Counterexample { rule, violated, value, point, other_point, machine, directions }
     }
 }
 
@@ -84,7 +86,7 @@ fn settings(claim: &MachineClaim, witness: &Witness) -> Vec<Setting> {
         let pairs = named_parameters(given).into_iter().zip(named_parameters(claimed));
         pairs
             .filter(|(_, (_, claimed))| !claimed.is_exact())
-            .map(|((parameter, q), _)| Setting { leg: i + 1, parameter, value: q.min })
+            .map(|((parameter, q), _)| Setting { leg: Some(i + 1), parameter, value: q.min })
             .collect::<Vec<_>>()
     };
     machine.iter().zip(claimed).enumerate().flat_map(of_leg).collect()

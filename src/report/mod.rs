@@ -3,6 +3,7 @@
 
 pub mod atlas;
 mod counterexample;
+mod kernel;
 pub mod paving;
 mod place;
 mod postulate;
@@ -12,20 +13,25 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use place::{named_parameters, Frame, FreeParameter};
+pub use kernel::{exactly, shown};
+pub use place::{named_parameters, point_text, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
 use crate::extremes::Enclosed;
 use crate::sample::Sampler;
+use crate::solver;
 use crate::verify::{worst_values, Answer, Verification, FINEST};
+use num_rational::BigRational;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
-use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::certificate as of_kernel;
+use orthocert_kernel::claim::MachineClaim as KernelClaim;
+use orthocert_kernel::problem::Problem;
 use remains::Remaining;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -61,6 +67,8 @@ pub struct Report {
     pub title: Option<String>,
     /// The design file, as it was named; `None` for the built-in prototype.
     pub design: Option<String>,
+    /// The names of the workspace's coordinates, in the order of places.
+    pub coordinates: Vec<String>,
     /// The requirements, with the worst values found by sampling.
     pub requirements: Vec<Row>,
     /// How far the quantities that requirements bound really go: bounds with certificates of their
@@ -105,6 +113,17 @@ pub struct Margin {
 }
 
 impl Margin {
+    /// The certified end of an enclosure of the kernel's quantities.
+    pub fn of_kernel(
+        extreme: &solver::extremes::Extreme,
+        bound: BigRational,
+        angular: bool,
+    ) -> Self {
+        let relation = if extreme.is_greatest() { "<=" } else { ">=" };
+        let (quantity, unit) = (extreme.quantity(), extreme.unit(angular));
+        Margin { quantity, unit, relation, bound: Exact::Rational(bound) }
+    }
+
     /// The certified end of an enclosure.
     pub fn of(found: &Enclosed, claim: &MachineClaim) -> Self {
         let relation = if found.extreme.is_greatest() { "<=" } else { ">=" };
@@ -134,8 +153,10 @@ impl Size {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
             Proof::Faces(faces) => faces.precision,
-            Proof::Kernel(kernel::Proof::Tree(tree)) => tree.precision,
-            Proof::Witness(_) | Proof::Atlas(_) | Proof::Kernel(kernel::Proof::Witness(_)) => {
+            Proof::Kernel(of_kernel::Proof::Tree(tree)) => tree.precision,
+            Proof::Witness(_)
+            | Proof::Atlas(_)
+            | Proof::Kernel(of_kernel::Proof::Witness(_) | of_kernel::Proof::Atlas(_)) => {
                 return None;
             }
         };
@@ -152,6 +173,13 @@ pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
     let sampler = Sampler::new(claim, &model)?;
     let frame = Frame::new(claim, &model)?;
     Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
+}
+
+/// As [`worst_found`], of a claim of the kernel.
+pub fn worst_found_of_kernel(claim: &KernelClaim) -> Option<Vec<Row>> {
+    let problem = Problem::new(claim).ok()?;
+    let worst = solver::sampled(claim).ok()?;
+    Some(kernel::Facts::new(claim, &problem)?.rows(&worst))
 }
 
 /// A certificate on the disk.
@@ -175,25 +203,61 @@ pub struct EarlierFile {
 }
 
 impl Report {
-    /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
-    /// numbers exceed what can be shown.
-    pub fn new(claim: &MachineClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
-        let mut report = Report {
+    /// Nothing is known yet.
+    fn about(claim: Claim, coordinates: Vec<String>, boxes: usize, elapsed: Duration) -> Self {
+        Report {
             verdict: Outcome::Undecided,
             title: None,
             design: None,
+            coordinates,
             requirements: Vec::new(),
             margins: Vec::new(),
             counterexample: None,
             proof: None,
             undecided: None,
-            boxes_tried: found.boxes,
+            boxes_tried: boxes,
             seconds: elapsed.as_secs_f64(),
             cached: false,
             certificate: None,
             earlier_certificate: None,
-            claim: Claim::Machine(claim.clone()),
-        };
+            claim,
+        }
+    }
+
+    /// As [`Report::new`], of a claim of the kernel.
+    pub fn of_kernel(
+        claim: &KernelClaim,
+        found: &solver::Verification,
+        elapsed: Duration,
+    ) -> Option<Self> {
+        let coordinates = solver::value::coordinates(claim);
+        let mut report =
+            Report::about(Claim::Kernel(claim.clone()), coordinates, found.boxes, elapsed);
+        let problem = Problem::new(claim).ok()?;
+        let facts = kernel::Facts::new(claim, &problem)?;
+        match &found.answer {
+            solver::Answer::Cancelled => return None,
+            solver::Answer::Decided { certificate, accepted } => {
+                report.verdict = Outcome::Decided(accepted.verdict);
+                report.proof = Size::accepted(&certificate.proof, &accepted.size);
+                if let Proof::Kernel(of_kernel::Proof::Witness(witness)) = &certificate.proof {
+                    report.counterexample = facts.counterexample(witness);
+                }
+            }
+            solver::Answer::Undecided(undecided) => {
+                report.undecided = Some(facts.remains(undecided, &found.worst, found.boxes));
+            }
+        }
+        report.requirements = facts.rows(&found.worst);
+        Some(report)
+    }
+
+    /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
+    /// numbers exceed what can be shown.
+    pub fn new(claim: &MachineClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
+        let coordinates = ["x", "y", "z"].map(str::to_owned).to_vec();
+        let mut report =
+            Report::about(Claim::Machine(claim.clone()), coordinates, found.boxes, elapsed);
         match &found.answer {
             Answer::Cancelled => return None,
             Answer::Decided { certificate, accepted } => {

@@ -62,17 +62,18 @@ impl Frame {
     }
 }
 
-/// A point as `(x, y, z)` in so many significant digits.
-pub fn point_text(point: &[f64; 3], digits: u32) -> String {
-    let [x, y, z] = point.map(|x| significant(x, digits));
-    format!("({x}, {y}, {z})")
+/// A point as `(x, y, ..)` in so many significant digits.
+pub fn point_text(point: &[f64], digits: u32) -> String {
+    let all: Vec<String> = point.iter().map(|x| significant(*x, digits)).collect();
+    format!("({})", all.join(", "))
 }
 
 /// A parameter of a machine that has a tolerance, and its value at some place.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FreeParameter {
-    /// The leg, counted from one.
-    pub leg: usize,
+    /// The leg, counted from one; none of a mechanism that its user gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leg: Option<usize>,
     /// Its name: `length`, `anchor x`, ...
     pub parameter: String,
     /// Its value.
@@ -119,7 +120,7 @@ pub fn machine_at(claim: &MachineClaim, place: &Place) -> Vec<FreeParameter> {
         .into_iter()
         .zip(&place.t)
         .filter_map(|((leg, parameter, q), &part)| {
-            Some(FreeParameter { leg, parameter, value: value(&q, part)? })
+            Some(FreeParameter { leg: Some(leg), parameter, value: value(&q, part)? })
         })
         .collect()
 }

@@ -44,9 +44,11 @@ impl PostulateReport {
                 let size = Size::accepted(&certificate.proof, &accepted.size);
                 (Outcome::Decided(accepted.verdict), size, None)
             }
-            Answer::Undecided(undecided) => {
-                (Outcome::Undecided, None, Some(reason(undecided, found.boxes)))
-            }
+            Answer::Undecided(undecided) => (
+                Outcome::Undecided,
+                None,
+                Some(reason(undecided.objection.as_ref(), undecided.stop, found.boxes)),
+            ),
         };
         Some(PostulateReport {
             verdict,

@@ -9,6 +9,7 @@ use crate::search::{OpenBox, Stop};
 use crate::verify::{Undecided, Worst};
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::rule::{Failure, Obligation};
+use orthocert_checker::Rejected;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -50,18 +51,18 @@ pub struct OpenRegion {
     /// Their share of the workspace, rounded up.
     pub share: f64,
     /// The least coordinates of their hull, in the design's unit.
-    pub min: [f64; 3],
+    pub min: Vec<f64>,
     /// The greatest.
-    pub max: [f64; 3],
+    pub max: Vec<f64>,
 }
 
 /// The box of most concern.
 #[derive(Clone, Debug, Serialize)]
 pub struct WorstBox {
     /// Least coordinates, in the design's unit.
-    pub min: [f64; 3],
+    pub min: Vec<f64>,
     /// Greatest coordinates.
-    pub max: [f64; 3],
+    pub max: Vec<f64>,
     /// The requirement that is closest to being violated at its centre.
     pub requirement: String,
     /// Margin there, relative to the bound; negative where it is violated.
@@ -100,12 +101,12 @@ pub struct Remaining<'a> {
 }
 
 /// Why a search that tried so many boxes ended without an answer.
-pub fn reason(undecided: &Undecided, tried: usize) -> String {
-    if let Some(objection) = &undecided.objection {
+pub fn reason(objection: Option<&Rejected>, stop: Stop, tried: usize) -> String {
+    if let Some(objection) = objection {
         return format!("what was found is not accepted by the exact checker: {objection}");
     }
     let tried = boxes(tried);
-    match undecided.stop {
+    match stop {
         Stop::Boxes => format!("the budget of {tried} is used up"),
         Stop::Time => format!("the time is used up, after {tried}"),
         Stop::Exhausted | Stop::Hopeless => {
@@ -122,7 +123,7 @@ impl Remaining<'_> {
         let total: f64 = open.iter().map(|item| share(&item.cell)).fold(0.0, sum_above);
         let all = regions(open);
         Remains {
-            reason: reason(undecided, self.boxes),
+            reason: reason(undecided.objection.as_ref(), undecided.stop, self.boxes),
             boxes: open.len(),
             volume: total * self.frame.volume(),
             share: total,
@@ -137,8 +138,8 @@ impl Remaining<'_> {
         OpenRegion {
             boxes: region.boxes,
             share: region.share,
-            min: self.frame.point(&region.min),
-            max: self.frame.point(&region.max),
+            min: self.frame.point(&region.min).to_vec(),
+            max: self.frame.point(&region.max).to_vec(),
         }
     }
 
@@ -163,7 +164,7 @@ impl Remaining<'_> {
             .filter_map(|item| Some((item, at_centre(item)?)))
             .min_by(|a, b| a.1 .0.total_cmp(&b.1 .0))?;
         let (min, max) = ends(&item.cell);
-        let (min, max) = (self.frame.point(&min), self.frame.point(&max));
+        let [min, max] = [min, max].map(|end| self.frame.point(&end).to_vec());
         Some(WorstBox { min, max, requirement: self.words(quality), margin })
     }
 

@@ -117,13 +117,13 @@ pub fn report(report: &Report, style: Style) -> String {
     };
     wrap(&mut out, meaning, 0);
     if let Some(counterexample) = &report.counterexample {
-        describe_counterexample(&mut out, counterexample);
+        describe_counterexample(&mut out, counterexample, &report.coordinates);
     }
     if let Some(remains) = &report.undecided {
-        describe_remains(&mut out, remains);
+        describe_remains(&mut out, remains, &report.coordinates);
     }
     out.push('\n');
-    table(&mut out, &report.requirements);
+    table(&mut out, &report.requirements, &report.coordinates);
     if !report.margins.is_empty() {
         let margin = |m: &Margin| {
             format!("{} {} {}", with_unit(&m.quantity, m.unit), m.relation, exact(&m.bound))
@@ -139,11 +139,13 @@ pub fn report(report: &Report, style: Style) -> String {
 }
 
 /// The requirements and the worst values found.
-fn table(out: &mut String, rows: &[Row]) {
-    let head = ["requirement", "bound", "worst found", "at P = (x, y, z)"].map(str::to_owned);
+fn table(out: &mut String, rows: &[Row], coordinates: &[String]) {
+    let place = format!("at P = ({})", coordinates.join(", "));
+    let head = ["requirement".to_owned(), "bound".to_owned(), "worst found".to_owned(), place];
     let cells = |row: &Row| {
         let value = match row.worst_found {
             Some(value) => significant(value, VALUE_DIGITS),
+            None if row.bound_text == "holds" => String::new(),
             None => "out of reach".to_owned(),
         };
         let mark = if row.seems_violated { "! " } else { "" };
@@ -161,6 +163,7 @@ fn table(out: &mut String, rows: &[Row]) {
         // A place that does not fit stands on a line of its own.
         let separator = match values.chars().count() + 2 + d.chars().count() {
             0..=WIDTH => "  ",
+            _ if d.starts_with("at ") => "\n      ",
             _ => "\n      at ",
         };
         let _ = writeln!(out, "{values}{separator}{d}");
@@ -202,43 +205,54 @@ fn machine(parameters: &[FreeParameter]) -> String {
     let one = |name: &&str| {
         let same = || parameters.iter().filter(|p| p.parameter == *name);
         let values: Vec<String> = same().map(|p| significant(p.value, VALUE_DIGITS)).collect();
-        let legs: Vec<String> = same().map(|p| p.leg.to_string()).collect();
-        let leg = if legs.len() == 1 { "leg" } else { "legs" };
-        format!("{name} {} of {leg} {}", values.join(", "), legs.join(", "))
+        let legs: Vec<String> = same().filter_map(|p| Some(p.leg?.to_string())).collect();
+        let of = match legs.len() {
+            0 => String::new(),
+            1 => format!(" of leg {}", legs.join(", ")),
+            _ => format!(" of legs {}", legs.join(", ")),
+        };
+        format!("{name} {}{of}", values.join(", "))
     };
     names.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-fn describe_counterexample(out: &mut String, found: &Counterexample) {
+fn describe_counterexample(out: &mut String, found: &Counterexample, coordinates: &[String]) {
     out.push('\n');
     labelled(out, "violated", &found.violated);
     labelled(out, "value there", &found.value);
-    point(out, "at P", &found.point);
+    point(out, "at P", &found.point, coordinates);
     if let Some(other) = &found.other_point {
-        point(out, "and at P'", other);
+        point(out, "and at P'", other, coordinates);
     }
     for setting in &found.machine {
-        let label = format!("leg {} {}", setting.leg, setting.parameter);
+        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
+        let label = format!("{leg}{}", setting.parameter);
         labelled(out, &label, &exact(&setting.value));
     }
-    let directions = found.directions.iter().map(|[x, y, z]| format!("({x}, {y}, {z})"));
-    let directions: Vec<String> = directions.collect();
+    let tuple = |v: &Vec<i64>| v.iter().map(i64::to_string).collect::<Vec<_>>().join(", ");
+    let directions: Vec<String> =
+        found.directions.iter().map(|v| format!("({})", tuple(v))).collect();
     if !directions.is_empty() {
         labelled(out, "moving along", &directions.join(" and "));
     }
 }
 
-fn point(out: &mut String, label: &str, point: &[orthocert_checker::number::Exact; 3]) {
-    let [x, y, z] = [0, 1, 2].map(|k| exact(&point[k]));
-    if x.len().max(y.len()).max(z.len()) <= SHORT_COORDINATE {
-        return labelled(out, label, &format!("({x}, {y}, {z})"));
+fn point(
+    out: &mut String,
+    label: &str,
+    point: &[orthocert_checker::number::Exact],
+    coordinates: &[String],
+) {
+    let values: Vec<String> = point.iter().map(exact).collect();
+    if values.iter().all(|value| value.len() <= SHORT_COORDINATE) {
+        return labelled(out, label, &format!("({})", values.join(", ")));
     }
-    for (axis, value) in ["x", "y", "z"].into_iter().zip([x, y, z]) {
-        labelled(out, &format!("{label}, {axis}"), &value);
+    for (name, value) in coordinates.iter().zip(&values) {
+        labelled(out, &format!("{label}, {name}"), value);
     }
 }
 
-fn describe_remains(out: &mut String, remains: &Remains) {
+fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String]) {
     let number = |x: f64| significant(x, 3);
     out.push('\n');
     labelled(out, "why", &remains.reason);
@@ -260,13 +274,13 @@ fn describe_remains(out: &mut String, remains: &Remains) {
         let margin = number(worst.margin);
         let text = format!("{}: relative margin {margin} at its centre", worst.requirement);
         labelled(out, "worst box", &text);
-        extent(out, &worst.min, &worst.max);
+        extent(out, &worst.min, &worst.max, coordinates);
     }
     out.push_str("\n  regions (neighbouring boxes merged)\n");
     for region in &remains.regions {
         let text = format!("{}, {} of the workspace", boxes(region.boxes), percent(region.share));
         wrap(out, &text, 4);
-        extent(out, &region.min, &region.max);
+        extent(out, &region.min, &region.max, coordinates);
     }
     let hidden = remains.region_count - remains.regions.len();
     if hidden > 0 {
@@ -285,8 +299,8 @@ fn describe_remains(out: &mut String, remains: &Remains) {
 }
 
 /// The ends of a box, in as many digits as tell them apart.
-fn extent(out: &mut String, min: &[f64; 3], max: &[f64; 3]) {
-    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &[String]) {
+    for (k, axis) in coordinates.iter().enumerate() {
         let ends = |digits| (significant(min[k], digits), significant(max[k], digits));
         let apart = (PLACE_DIGITS..=17).map(ends).find(|(min, max)| min != max);
         let (min, max) = apart.unwrap_or_else(|| ends(PLACE_DIGITS));

@@ -28,7 +28,7 @@ pub struct Row {
     /// The worst value found; `None` where some leg does not reach the point.
     pub worst_found: Option<f64>,
     /// Where it was found, in the design's unit.
-    pub at: [f64; 3],
+    pub at: Vec<f64>,
     /// The machine for which it was found: parameters with a tolerance.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub machine: Vec<FreeParameter>,
@@ -48,7 +48,7 @@ pub fn rows(claim: &MachineClaim, sampler: &Sampler, frame: &Frame, worst: &[Wor
             bound_text: format!("{relation} {}", readable(&number)),
             bound: format!("{relation} {number}"),
             worst_found: value(claim, found.quality, &values, frame),
-            at: frame.place(&sampler.within(found.place.u)),
+            at: frame.place(&sampler.within(found.place.u)).to_vec(),
             machine: machine_at(claim, &found.place),
             seems_violated: found.margin < -NOISE,
         })

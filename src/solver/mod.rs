@@ -1,10 +1,63 @@
 //! Decides claims of the kernel: any mechanism, any quantity of its table.
+//!
+//! | module     | does                                                                        |
+//! |------------|-----------------------------------------------------------------------------|
+//! | `doubles`  | what proposals are computed in                                              |
+//! | `evidence` | a problem in doubles, over a box                                            |
+//! | `propose`  | evidence with which the kernel's tests hold on a box                        |
+//! | `less`     | how much of the workspace's own inequalities it takes                       |
+//! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
+//! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
+//! | [`sample`] | approximate values at single points and machines                            |
+//! | `descent`  | the worst of them                                                           |
+//! | `same`     | two points with the same joint coordinates                                  |
+//! | `refute`   | a place where an obligation seems to fail as an exact witness               |
+//! | `violation` | how far from holding a test is at a place, and along which direction       |
+//! | [`value`]  | a quantity at a place, in the claim's own unit                              |
+//! | [`extremes`] | encloses how small and how large each quantity gets                       |
+//!
+//! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
-use crate::search::{Budget, Control};
-use orthocert_checker::certificate::Certificate;
-use orthocert_checker::Accepted;
+mod chords;
+mod descent;
+mod directions;
+mod doubles;
+mod evidence;
+pub mod extremes;
+mod less;
+mod propose;
+mod refute;
+mod rows;
+mod same;
+pub mod sample;
+pub mod search;
+pub mod value;
+mod violation;
+
+use crate::search::{Budget, Control, Stop};
+use crate::verify::certificate;
+use evidence::Prover;
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::claim::Claim;
+use orthocert_checker::{check, Accepted, Rejected};
+use orthocert_kernel::certificate::{self as kernel, Node, Tree, Witness};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::problem::Problem;
+use sample::{Sampler, Worst};
+use search::{search, Open};
+
+pub use refute::number;
+
+/// Finest step of the search for worst values, `2^-FINEST` of the workspace.
+pub const FINEST: i32 = 26;
+/// Precisions of the exact check, in fractional bits: up to 60 it runs in machine words, if numbers are
+/// small enough.
+const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
+/// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
+const GUARD: u32 = 9;
+/// Open boxes from whose centres a violation is looked for.
+const OPEN_CENTRES: usize = 64;
 
 /// The answer to a claim.
 #[derive(Clone, Debug)]
@@ -17,12 +70,20 @@ pub enum Answer {
         accepted: Accepted,
     },
     /// Neither a proof nor a refutation was found within the budget.
-    Undecided {
-        /// Boxes on which something is open.
-        open: usize,
-    },
+    Undecided(Undecided),
     /// The verification was cancelled.
     Cancelled,
+}
+
+/// What remains of an undecided claim.
+#[derive(Clone, Debug)]
+pub struct Undecided {
+    /// The boxes on which something is open.
+    pub open: Vec<Open>,
+    /// Why the search ended.
+    pub stop: Stop,
+    /// The checker's objection, if a complete proof was found but not accepted.
+    pub objection: Option<Rejected>,
 }
 
 /// The result of a verification.
@@ -30,6 +91,8 @@ pub enum Answer {
 pub struct Verification {
     /// The answer.
     pub answer: Answer,
+    /// The worst values found, by sampling.
+    pub worst: Vec<Worst>,
     /// Boxes tried by the search.
     pub boxes: usize,
 }
@@ -40,9 +103,95 @@ pub struct Verification {
 /// If the claim is not well formed.
 pub fn verify(
     claim: &MachineClaim,
-    _budget: Budget,
-    _control: &mut Control<'_>,
+    budget: Budget,
+    control: &mut Control<'_>,
 ) -> Result<Verification, ClaimError> {
-    orthocert_kernel::problem::Problem::new(claim)?;
-    Ok(Verification { answer: Answer::Undecided { open: 0 }, boxes: 0 })
+    let problem = Problem::new(claim)?;
+    let sampler = Sampler::new(claim, &problem)?;
+    let mut worst = sampler.worst_values(FINEST);
+    if let Some(witness) = refute::refutation(claim, &problem, &sampler, &worst) {
+        return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
+    }
+    if let Some(witness) = same::refutation(claim, &problem, &sampler) {
+        return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
+    }
+    let prover = Prover::new(&problem)?;
+    let found = search(&prover, true, budget, control);
+    let boxes = found.boxes;
+    if found.stop == Stop::Cancelled {
+        return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
+    }
+    if found.is_proof() {
+        let answer = accepted(claim, &prover, found.nodes);
+        return Ok(Verification { answer, worst, boxes });
+    }
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
+    let answer = match refute::refutation(claim, &problem, &sampler, &worst) {
+        Some(witness) => refuted(claim, witness),
+        None => {
+            Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
+        }
+    };
+    Ok(Verification { answer, worst, boxes })
 }
+
+/// The worst values of a claim's obligations that sampling finds.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
+    let problem = Problem::new(claim)?;
+    Ok(Sampler::new(claim, &problem)?.worst_values(FINEST))
+}
+
+/// The certificate of a proof, at the first precision at which the checker accepts it.
+fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
+    let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
+    let words = 63u32.saturating_sub(GUARD + size);
+    let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
+    let mut objection = None;
+    let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
+    let proof = Proof::Kernel(kernel::Proof::Tree(tree));
+    let mut whole = certificate(Claim::Kernel(claim.clone()), Verdict::Certified, proof);
+    for bits in first.into_iter().chain(PRECISIONS) {
+        if let Proof::Kernel(kernel::Proof::Tree(tree)) = &mut whole.proof {
+            tree.precision = bits;
+        }
+        match check(&whole) {
+            Ok(accepted) => return Answer::Decided { certificate: Box::new(whole), accepted },
+            Err(reason) => objection = Some(reason),
+        }
+    }
+    Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
+}
+
+/// The refutation by a witness, once the checker has accepted it.
+fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
+    let proof = Proof::Kernel(kernel::Proof::Witness(witness));
+    let certificate = certificate(Claim::Kernel(claim.clone()), Verdict::Refuted, proof);
+    match check(&certificate) {
+        Ok(accepted) => Answer::Decided { certificate: Box::new(certificate), accepted },
+        Err(objection) => Answer::Undecided(Undecided {
+            open: Vec::new(),
+            stop: Stop::Exhausted,
+            objection: Some(objection),
+        }),
+    }
+}
+
+/// Improves the worst values from the centres of at most so many of the open boxes.
+fn look_into(sampler: &Sampler<'_>, open: &[Open], centres: usize, worst: &mut [Worst]) {
+    let stride = open.len().div_ceil(centres).max(1);
+    for item in open.iter().step_by(stride) {
+        let start = sampler.place_in(&item.cell);
+        for known in worst.iter_mut() {
+            let found = sampler.descend(known.quality, &start, FINEST);
+            if found.margin < known.margin {
+                *known = found;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

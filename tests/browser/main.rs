@@ -47,6 +47,44 @@ fn figures_are_drawn_light_and_dark_without_complaint() {
     }
 }
 
+/// Pages of any mechanism: their figures, light and dark, and the boxes of three coordinates turned.
+#[test]
+fn any_mechanism_is_drawn_without_complaint() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    for (name, maps, spatial) in [
+        ("four-struts", 4, true),
+        ("four-sliders", 4, true),
+        ("four-struts-refuted", 2, true),
+        ("biglide", 2, false),
+        ("four-coordinates", 3, false),
+    ] {
+        let page = folder.report_of_kernel(name);
+        browser.prefer("light");
+        browser.open(&page);
+        let counted = |browser: &mut Browser, selector: &str| {
+            browser.evaluate(&format!("document.querySelectorAll({selector:?}).length")).as_u64()
+        };
+        assert_eq!(counted(&mut browser, ".maps svg .field rect"), Some(maps), "{name}");
+        assert_eq!(counted(&mut browser, "#space"), Some(u64::from(spatial)), "{name}");
+        if spatial {
+            let boxes = browser.text("#space-readout");
+            assert!(boxes.contains("boxes; point at one") || boxes.contains("No boxes"), "{boxes}");
+        }
+        let shown =
+            "getComputedStyle(document.querySelector('svg.subdivision').parentElement).display";
+        let hidden = browser.evaluate(shown).as_str() == Some("none");
+        assert_eq!(hidden, spatial, "{name}: the viewer, or the picture");
+        let light = browser.screenshot();
+        browser.prefer("dark");
+        let dark = browser.screenshot();
+        kept(name, "light", &light);
+        kept(name, "dark", &dark);
+        assert!(browser.differ(&light, &dark) > 0.5, "{name}: light and dark look alike");
+        assert_eq!(browser.complaints(), Vec::<String>::new(), "{name}");
+    }
+}
+
 /// The value under the pointer, and the value read by keys, are the oracle's.
 #[test]
 fn values_under_the_cross_are_the_oracles() {

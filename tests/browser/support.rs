@@ -30,9 +30,17 @@ impl Folder {
 
     /// The report of a committed certificate.
     pub fn report_of_committed(&self, name: &str, options: &[&str]) -> PathBuf {
+        self.report_from("proofs/certificates", name, options)
+    }
+
+    /// The report of a certificate of the kernel.
+    pub fn report_of_kernel(&self, name: &str) -> PathBuf {
+        self.report_from("tests/kernel", name, &[])
+    }
+
+    fn report_from(&self, from: &str, name: &str, options: &[&str]) -> PathBuf {
         let file = format!("{name}.cert.json");
-        fs::copy(root().join("proofs/certificates").join(&file), self.0.path().join(&file))
-            .unwrap();
+        fs::copy(root().join(from).join(&file), self.0.path().join(&file)).unwrap();
         let code = self.run(&[&["report", &file], options].concat());
         assert!(matches!(code, Some(0 | 1)), "{name}: {code:?}");
         self.0.path().join(format!("{name}.report.html"))

@@ -50,6 +50,11 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("tolerance", &["tolerance", "orthoglide-310.toml"], 1),
     ("tolerance", &["tolerance", "orthoglide-312.toml", "--each", "0"], 3),
     ("size", &["size", "orthoglide-312.toml", "--cube", "200", "--gap", "0.01"], 0),
+    ("limit", &["limit", "orthoglide-312.toml", "mechanism.leg_length", "--gap", "0.01"], 0),
+    ("limit", &["limit", "orthoglide-312.toml", "workspace.min.0", "--max-boxes", "1"], 3),
+    ("limit", &["limit", "orthoglide-310.toml", "workspace.min.0", "--gap", "0.01"], 3),
+    ("limit", &["limit", "toleranced.toml", "mechanism.leg_length", "--timeout", "0"], 3),
+    ("limit", &["limit", "toleranced.toml", "mechanism.leg_length", "--gap", "0.1"], 0),
     ("show", &["show", "postulate.cert.json"], 0),
 ];
 
@@ -65,6 +70,8 @@ fn every_answer_is_as_the_schema_says() {
         "region.toml",
         format!("{machine}[workspace]\n{region}\n[requirements]{requirements}"),
     );
+    let toleranced = design.replace("leg_length = 310", "leg_length = \"312 ± 0.01\"");
+    folder.write("toleranced.toml", toleranced);
     folder.write("map.toml", crate::atlas::widest().read("map.toml"));
     let text = folder.run(&["schema"]).exits(0).stdout;
     let schema: Value = serde_json::from_str(&text).unwrap();

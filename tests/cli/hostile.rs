@@ -94,6 +94,7 @@ fn no_command_waits_for_what_is_no_file() {
             &["split", trap, "--shards", "2", "--out", "shards"],
             &["run-shard", trap],
             &["largest-cube", trap],
+            &["limit", trap, "mechanism.leg_length"],
             &["tolerance", trap],
             &["size", trap, "--cube", "10"],
             &["import", "klipper", trap],

@@ -62,6 +62,18 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
 }
 
 #[test]
+fn an_interrupted_limit_writes_nothing() {
+    let folder = Folder::with(&[LONG]);
+    let arguments = ["limit", LONG, "mechanism.leg_length", "--gap", "1e-9", "--threads", "1"];
+    let mut command = folder.command(&arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    wait_until_caught(&mut child, 2);
+    send(&child, 2);
+    Run::from(child.wait_with_output().unwrap()).exits(4).complains(&["interrupted"]);
+    assert_eq!(folder.names(), [LONG]);
+}
+
+#[test]
 fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
     let folder = Folder::new();
     folder.write("d.toml", crate::paving::DESIGN);

@@ -5,6 +5,7 @@
 //! | [`support`]    | running the binary in a folder of its own                         |
 //! | [`junit`]      | reading and judging JUnit reports                                 |
 //! | `verdicts`     | every verdict of `verify`: exit code, report, certificate         |
+//! | `kinds`        | machines of every kind: refused, checked against their designs    |
 //! | `certificates` | `check` and `show`: accepted, refused, about another design       |
 //! | `batch`        | `verify` of many designs, and its reports                         |
 //! | `cache`        | certificates that are there are re-checked                        |
@@ -13,6 +14,7 @@
 //! | `paving`       | `pave` and `check` of pavings                                     |
 //! | `surface`      | `export vtk` and `export stl`                                     |
 //! | `largest_cube` | `largest-cube`                                                    |
+//! | `limit`        | `limit`: every kind of key, ends, certificates, refused           |
 //! | `postulate`    | `postulate`                                                       |
 //! | `report`       | `report`: pages and figures                                       |
 //! | `atlas`        | `atlas`: maps, and what is refused                                |
@@ -44,7 +46,9 @@ mod hostile;
 mod import;
 mod interruption;
 mod json;
+mod kinds;
 mod largest_cube;
+mod limit;
 mod paving;
 mod paving_shards;
 mod postulate;

@@ -81,6 +81,41 @@ fn figures_are_written_as_svg() {
     }
 }
 
+/// Four legs, and formulas of a user: what is drawn of them, and what is not.
+#[test]
+fn any_mechanism_is_reported() {
+    let folder = Folder::new();
+    let maps = ["psi-1", "critical-1"];
+    for (name, code, figures) in [
+        (
+            "four-struts",
+            0,
+            [&["design"], &maps[..], &["psi-2", "critical-2", "subdivision"]].concat(),
+        ),
+        ("four-struts-refuted", 1, vec!["design", "psi-1", "psi-2", "subdivision"]),
+        ("biglide", 0, [&maps[..], &["subdivision"]].concat()),
+    ] {
+        let file = format!("{name}.cert.json");
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        std::fs::copy(root.join("tests/kernel").join(&file), folder.path(&file)).unwrap();
+        let run = folder.run(&["report", &file, "--svg", name, "--format", "json"]).exits(code);
+        assert_eq!(run.stderr, "");
+        let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+        let files = answer["files"].as_array().unwrap().iter();
+        let files: Vec<&str> = files.map(|f| f["path"].as_str().unwrap()).collect();
+        let expected = figures.iter().map(|figure| format!("{name}/{figure}.svg"));
+        assert_eq!(files[1..], expected.collect::<Vec<_>>());
+        let page = String::from_utf8(folder.read(files[0])).unwrap();
+        assert!(page.contains("<h2>Maps</h2>") && page.contains("<h2>Check it again</h2>"));
+    }
+    let bad = String::from_utf8(folder.read("four-struts.cert.json")).unwrap();
+    folder.write(
+        "bad.cert.json",
+        bad.replace("\"max\",\"bound\":\"1.25\"", "\"max\",\"bound\":\"1.1\""),
+    );
+    folder.run(&["report", "bad.cert.json"]).exits(5).complains(&["REJECTED"]);
+}
+
 /// The volume of the inner leaves of a page's tree, in parts of the box.
 fn inner_volume(page: &str) -> f64 {
     let data = page.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();

@@ -1,5 +1,7 @@
 //! The JSON Schema of certificates.
 
+mod kernel;
+
 use jsonschema::Validator;
 use serde_json::Value;
 use std::sync::OnceLock;

@@ -17,16 +17,14 @@ pub(crate) fn is_meant(text: &str) -> bool {
         _claim: About,
     }
     #[derive(Deserialize)]
-    struct About {
-        #[serde(rename = "machine")]
-        _machine: Listed,
+    #[serde(rename_all = "snake_case")]
+    enum About {
+        Machine {
+            #[serde(rename = "require")]
+            _require: IgnoredAny,
+        },
     }
-    #[derive(Deserialize)]
-    struct Listed {
-        #[serde(rename = "require")]
-        _require: IgnoredAny,
-    }
-    serde_json::from_str::<Header>(text).is_ok_and(|_| true)
+    serde_json::from_str::<Header>(text).is_ok()
 }
 
 /// Reads a certificate of the kernel.
@@ -39,13 +37,10 @@ pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
             syntax(&format_args!("the same certificate is written otherwise, from byte {at} on"))
         }
     })?;
-    let kernel::Certificate {
-        claim: kernel::Claim::Machine(claim),
-        verdict,
-        proof,
-        provenance,
-        ..
-    } = certificate;
+    let kernel::Certificate { claim, verdict, proof, provenance, .. } = certificate;
+    let kernel::Claim::Machine(claim) = claim else {
+        return Err(syntax(&"a claim about a machine over a workspace is expected"));
+    };
     Ok(Certificate {
         format: FORMAT.to_owned(),
         claim: Claim::Kernel(claim),
@@ -65,13 +60,19 @@ fn verdict_of(verdict: Verdict) -> kernel::Verdict {
     }
 }
 
-fn whole(claim: &MachineClaim, verdict: Verdict, proof: &kernel::Proof) -> kernel::Certificate {
+fn whole(
+    claim: &MachineClaim,
+    verdict: Verdict,
+    proof: &kernel::Proof,
+    provenance: &Provenance,
+) -> kernel::Certificate {
+    let Provenance { tool, version } = provenance;
     kernel::Certificate {
         format: FORMAT.to_owned(),
         claim: kernel::Claim::Machine(claim.clone()),
         verdict: verdict_of(verdict),
         proof: proof.clone(),
-        provenance: kernel::Provenance { tool: String::new(), version: String::new() },
+        provenance: kernel::Provenance { tool: tool.clone(), version: version.clone() },
     }
 }
 
@@ -83,10 +84,7 @@ pub(crate) fn text(
     let Claim::Kernel(claim) = &certificate.claim else {
         return Err(serde::ser::Error::custom("the kernel's proof of another claim"));
     };
-    let Provenance { tool, version } = &certificate.provenance;
-    let provenance = kernel::Provenance { tool: tool.clone(), version: version.clone() };
-    let whole = whole(claim, certificate.verdict, proof);
-    kernel::Certificate { provenance, ..whole }.to_text()
+    whole(claim, certificate.verdict, proof, &certificate.provenance).to_text()
 }
 
 /// Accepts a proof, or says why not.
@@ -96,7 +94,9 @@ pub(crate) fn check(
     proof: &kernel::Proof,
     size: &mut TreeSize,
 ) -> Result<(), Rejected> {
-    orthocert_kernel::check::check(&whole(claim, verdict, proof)).map_err(Rejected::Kernel)?;
+    let nobody = Provenance { tool: String::new(), version: String::new() };
+    let certificate = whole(claim, verdict, proof, &nobody);
+    orthocert_kernel::check::check(&certificate).map_err(Rejected::Kernel)?;
     if let kernel::Proof::Tree(tree) = proof {
         *size = size_of(tree);
     }

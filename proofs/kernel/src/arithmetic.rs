@@ -44,10 +44,26 @@ pub trait Enclosure: Arithmetic {
         centre: &Self::Number,
         slopes: &[Self::Number],
     ) -> Option<Self::Number>;
+    /// Every number from one of `a` to one of `b`.
+    fn hull(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
     /// The least and the greatest number in `a`.
     fn ends(&self, a: &Self::Number) -> [Self::Number; 2];
     /// Whether every number in `a` is greater than zero.
     fn is_positive(&self, a: &Self::Number) -> bool;
     /// Whether no number in `a` is less than zero.
     fn is_nonnegative(&self, a: &Self::Number) -> bool;
+    /// The greatest absolute value in `a`.
+    fn magnitude(&self, a: &Self::Number) -> Option<Self::Number> {
+        let [_, greatest] = self.ends(&self.hull(a, &self.neg(a)?));
+        Some(greatest)
+    }
+    /// A number that is not less than the root of any in `a`, which is a sum of squares.
+    fn greatest_root(&self, a: &Self::Number) -> Option<Self::Number> {
+        let [_, greatest] = self.ends(a);
+        if !self.is_positive(&greatest) {
+            return Some(greatest);
+        }
+        let [_, root] = self.ends(&self.sqrt(&greatest)?);
+        Some(root)
+    }
 }

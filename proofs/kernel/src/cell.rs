@@ -80,7 +80,17 @@ pub struct Vertex(u32);
 impl Vertex {
     /// The vertices of a cell with `m` coordinates.
     pub fn all(m: usize) -> impl Iterator<Item = Vertex> {
-        (0..1u32 << m).map(Vertex)
+        Vertex::first(1 << m)
+    }
+
+    /// The first `n`.
+    pub fn first(n: usize) -> impl Iterator<Item = Vertex> {
+        (0..n as u32).map(Vertex)
+    }
+
+    /// Its number.
+    pub fn index(self) -> usize {
+        self.0 as usize
     }
 
     /// Encloses `f_v`.

@@ -1,7 +1,10 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
-use crate::claim::MachineClaim;
+use crate::atlas::{AtlasCell, AtlasClaim};
+use crate::claim::{MachineClaim, RegionClaim};
+use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
+use crate::postulate::PostulateClaim;
 use crate::test::Multiplier;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +37,14 @@ pub struct Certificate {
 pub enum Claim {
     /// A machine over a workspace.
     Machine(MachineClaim),
+    /// Where in a box a claim holds.
+    Region(RegionClaim),
+    /// No cube of some side fits, wherever its centre is in a box.
+    NoCube(NoCubeClaim),
+    /// The Q1/Q2 postulate.
+    Postulate(PostulateClaim),
+    /// A machine over a box of parameters, in part.
+    Atlas(AtlasClaim),
 }
 
 /// What a certificate says of its claim.
@@ -54,6 +65,8 @@ pub enum Proof {
     Tree(Tree),
     /// For "refuted".
     Witness(Witness),
+    /// For an atlas.
+    Atlas(Vec<AtlasCell>),
 }
 
 /// A bisection tree in preorder: a node, then its lower half, then its upper half.
@@ -62,11 +75,15 @@ pub enum Proof {
 pub struct Tree {
     /// Fractional bits of the arithmetic.
     pub precision: u32,
+    /// The one `Y` of all steps by [`Evidence::Chords`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chords: Option<Multiplier>,
     /// The nodes.
     pub nodes: Vec<Node>,
 }
 
-/// A node.
+/// A node. A leaf on whose path every obligation is discharged *holds*; one that says how the claim
+/// fails *fails*; any other is *open*.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Node {
@@ -76,6 +93,12 @@ pub struct Node {
     /// The coordinate along which it is halved, counted from zero; none of a leaf.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub split: Option<usize>,
+    /// Of a leaf, how the claim fails at every point of its cell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fails: Option<Failure>,
+    /// Of a leaf that fails in a claim of no cube, where: its cell is moved by so much.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<i64>,
 }
 
 /// An obligation, by its number, and the evidence with which it is discharged.
@@ -90,22 +113,37 @@ pub enum Evidence {
     Test,
     /// None is needed; the rows are divided.
     Divided,
-    /// For a least singular value.
+    /// For a least singular value, or a solution.
     Lower(Multiplier),
     /// The same, with divided rows.
     LowerDivided(Multiplier),
+    /// For full rank alone.
+    Rank(Multiplier),
+    /// For a machine that is one to one: the tree's own `Y`.
+    Chords,
     /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
     Conditioning(Multiplier, Vec<i64>),
+    /// For accuracy: `Y`, and `kappa` over the same `2^places`.
+    Accuracy(Multiplier, i64),
+    /// For two bodies: an affine direction, three rows of `g_0, g_1, .., g_m`.
+    Direction(Multiplier),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.
     Negative,
     /// The upper bound on the paper's cube.
     Cube,
     /// The lower bound about a tight corner of it.
     Corner(Corner),
+    /// The cell's mirror image is shown: of the postulate.
+    Mirror,
     /// No point of the workspace is in the cell: every obligation at once.
     Outside,
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
     Inside(Box<Evidence>, i64, u32),
+    /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.
+    Turned(Box<Evidence>, i64, u32),
+    /// The evidence, at control points ([`crate::control`]) in place of vertices, with the scaled rows of
+    /// platforms that turn.
+    Control(Box<Evidence>),
 }
 
 impl Evidence {
@@ -116,12 +154,19 @@ impl Evidence {
             Evidence::Divided => "divided",
             Evidence::Lower(_) => "lower",
             Evidence::LowerDivided(_) => "lower_divided",
+            Evidence::Rank(_) => "rank",
+            Evidence::Chords => "chords",
             Evidence::Conditioning(..) => "conditioning",
+            Evidence::Accuracy(..) => "accuracy",
+            Evidence::Direction(_) => "direction",
             Evidence::Negative => "negative",
             Evidence::Cube => "cube",
             Evidence::Corner(_) => "corner",
+            Evidence::Mirror => "mirror",
             Evidence::Outside => "outside",
             Evidence::Inside(..) => "inside",
+            Evidence::Turned(..) => "turned",
+            Evidence::Control(_) => "control",
         }
     }
 }
@@ -141,7 +186,7 @@ pub enum Corner {
 pub struct Witness {
     /// Fractional bits of the arithmetic.
     pub precision: u32,
-    /// The point.
+    /// The point; of platforms that turn, with the half-angle tangents of [`crate::statement`] after it.
     pub point: Vec<Expression>,
     /// Values of the quantities that are intervals, in the order of the claim.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -159,6 +204,20 @@ pub enum Failure {
     Reach,
     /// The obligation of this number; of singular values, with directions.
     Obligation(usize, Vec<Vec<i64>>),
+    /// Some point of a box elsewhere in the workspace has the same joint coordinates.
+    Same {
+        /// The obligation that there is none.
+        obligation: usize,
+        /// Least coordinates of the box.
+        least: Vec<Expression>,
+        /// Greatest coordinates.
+        greatest: Vec<Expression>,
+        /// About the inverse of `M` there.
+        inverse: Multiplier,
+    },
+    /// Of an obligation `sigma_max(M) <= k`, by its number: the row of `M` of this leg, counted from
+    /// zero, is longer, or the leg does not reach.
+    Row(usize, usize),
     /// `det M` has the opposite sign at this point.
     Singular(Vec<Expression>),
 }

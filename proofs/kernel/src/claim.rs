@@ -23,6 +23,20 @@ pub struct MachineClaim {
     pub require: Vec<Requirement>,
 }
 
+/// "Of the box that is the workspace, the part at whose points the claim of `machine` holds, for
+/// every machine, has at least the share `inner`; the part at whose points it fails, for every
+/// machine, has at least the share `outer`."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RegionClaim {
+    /// The machine, the box, and the requirements.
+    pub machine: MachineClaim,
+    /// Not negative.
+    pub inner: Expression,
+    /// Not negative.
+    pub outer: Expression,
+}
+
 /// A mechanism.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -86,7 +100,7 @@ pub enum Leg {
         direction: Vector,
         /// `a`: the point of the guide where `rho = 0`.
         anchor: Vector,
-        /// `d`: the platform's joint, from `P`.
+        /// `d`: the platform's joint, from `P`; of platforms that turn, in their own frame.
         platform: Vector,
         /// `L > 0`.
         length: Quantity,
@@ -256,7 +270,7 @@ pub enum Workspace {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Orientation {
-    /// In space: every rotation by at most this, about any axis.
+    /// In space: every rotation by at most this, less than 180, about any axis.
     Angle(Expression),
     /// In space, by tilt and torsion angles: the platform's z axis tilted by up to `tilt` in any
     /// direction, with a torsion of up to `torsion` either way.
@@ -266,7 +280,7 @@ pub enum Orientation {
         /// Less than 180.
         torsion: Expression,
     },
-    /// In space, `R = R_z(yaw) R_y(pitch) R_x(roll)`, from the one to the other.
+    /// In space, `R = R_z(yaw) R_y(pitch) R_x(roll)`, from the one to the other, between -180 and 180.
     RollPitchYaw {
         /// About x.
         roll: [Expression; 2],
@@ -275,7 +289,7 @@ pub enum Orientation {
         /// About z.
         yaw: [Expression; 2],
     },
-    /// In the plane, from the one to the other.
+    /// In the plane, from the one to the other, between -180 and 180.
     Range([Expression; 2]),
 }
 

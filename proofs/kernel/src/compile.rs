@@ -1,23 +1,28 @@
 //! Mechanisms as formulas: legs by their drives, and joints that users give.
 
-use crate::claim::{Formulas, JointFormula, Kind, Leg, Quantity};
-use crate::formula::{Formula, Tape, Vector};
+use crate::claim::{Formulas, JointFormula, Kind, Leg, Mechanism, Orientation, Quantity};
+use crate::formula::{Formula, Tape};
 use crate::input::{
     magnitude, number_error, ordered, positive, shape_error, ClaimError, Input, Value,
 };
 use crate::machine;
+use crate::machine::motion::{Motion, Turn};
 use crate::number::{Expression, Operator};
+use crate::orientation::{self, Chart};
 use std::collections::HashMap;
 
 /// Most legs or joints.
 pub const MOST_LEGS: usize = 12;
 
 /// What a claim is compiled with.
+#[derive(Default)]
 pub(crate) struct Builder {
     pub tape: Tape,
     pub inputs: Vec<Input>,
     pub scale: i64,
     pub partial: Vec<Formula>,
+    /// Whether the platform turns.
+    pub turns: bool,
 }
 
 impl Builder {
@@ -80,9 +85,11 @@ fn small(x: &Expression) -> Option<i64> {
     }
 }
 
-/// Legs that do not turn the platform. The unit of length is that of the greatest length, or, where
-/// no leg has one, coordinate.
-pub(crate) fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<machine::Leg>, ClaimError> {
+/// The unit of length is that of the greatest length, or, where no leg has one, coordinate.
+pub(crate) fn unit(builder: &mut Builder, legs: &[Leg]) -> Result<(), ClaimError> {
+    if legs.is_empty() {
+        return Ok(());
+    }
     if legs.len() > MOST_LEGS {
         return Err(shape_error("mechanism.legs", "twelve legs at most"));
     }
@@ -94,42 +101,110 @@ pub(crate) fn built(builder: &mut Builder, legs: &[Leg]) -> Result<Vec<machine::
     let has_length = legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
     let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
     builder.scale = scale.ok_or_else(|| number_error("mechanism", "numbers"))? + 1;
-    legs.iter().enumerate().map(|(number, leg)| built_leg(builder, number, leg)).collect()
+    Ok(())
 }
 
-fn built_leg(builder: &mut Builder, number: usize, leg: &Leg) -> Result<machine::Leg, ClaimError> {
+/// How a mechanism's platform moves; where it turns, with its orientations.
+pub(crate) fn motion(
+    builder: &mut Builder,
+    mechanism: &Mechanism,
+    orientation: Option<&Orientation>,
+) -> Result<(Motion, Option<Chart>), ClaimError> {
+    type Components = &'static [usize];
+    let (velocity, spin, turning): (Components, Components, _) = match mechanism {
+        Mechanism::Planar(turning) => (&[0, 1], &[2], Some(turning)),
+        Mechanism::Spatial(turning) => (&[0, 1, 2], &[0, 1, 2], Some(turning)),
+        Mechanism::Spherical(turning) => (&[], &[0, 1, 2], Some(turning)),
+        Mechanism::Translational(_) | Mechanism::Orthoglide { .. } => (&[0, 1, 2], &[], None),
+        Mechanism::Formulas(_) => (&[], &[], None),
+    };
+    let tape = &mut builder.tape;
+    let position = std::array::from_fn(|k| match velocity.contains(&k) {
+        true => tape.coordinate(k),
+        false => tape.integer(0),
+    });
+    let point = turning.is_none() || velocity.len() == 2;
+    let length = turning.and_then(|turning| turning.characteristic_length.as_ref());
+    let (turn, chart) = match (orientation, length) {
+        (None, None) if point => (None, None),
+        (Some(orientation), Some(length)) => {
+            let place = "mechanism.characteristic_length";
+            positive(place, length)?;
+            let length = builder.number(place, length, builder.scale);
+            let chart = orientation::chart(builder, orientation, velocity.len(), spin.len() == 1)?;
+            let turn = Turn { matrix: chart.matrix, weight: chart.weight, length, spin };
+            (Some(turn), Some(chart))
+        }
+        _ => {
+            let expected = "with a characteristic_length, where the platform turns, and only there";
+            return Err(shape_error("orientation", expected));
+        }
+    };
+    Ok((Motion { position, velocity, turn }, chart))
+}
+
+/// Legs of a platform that moves so.
+pub(crate) fn built(
+    builder: &mut Builder,
+    motion: &Motion,
+    legs: &[Leg],
+) -> Result<Vec<machine::Leg>, ClaimError> {
+    let leg = |(number, leg)| built_leg(builder, motion, number, leg);
+    legs.iter().enumerate().map(leg).collect()
+}
+
+fn built_leg(
+    builder: &mut Builder,
+    motion: &Motion,
+    number: usize,
+    leg: &Leg,
+) -> Result<machine::Leg, ClaimError> {
     let formulas = builder.quantities(number, leg)?;
     let tape = &mut builder.tape;
-    let p: Vector = std::array::from_fn(|k| tape.coordinate(k));
-    let vector = |formulas: &[Formula]| -> Option<Vector> { formulas.try_into().ok() };
-    let from_base = |tape: &mut Tape, anchor: &[Formula], platform: &[Formula]| {
-        let joint = tape.plus(&p, &vector(platform)?);
-        Some(tape.minus(&joint, &vector(anchor)?))
+    let (zero, one) = (tape.integer(0), tape.integer(1));
+    let (moves, in_plane) = (!motion.velocity.is_empty(), motion.velocity.len() == 2);
+    let vector = |formulas: &[Formula]| match *formulas {
+        [x, y, z] if !in_plane => Some([x, y, z]),
+        [x, y] if in_plane => Some([x, y, zero]),
+        _ => None,
     };
     let mut build = || match (leg, formulas.as_slice()) {
-        (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) => {
-            let w = from_base(tape, anchor, platform)?;
+        (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) if moves => {
+            let ends = [&vector(anchor)?, &vector(platform)?];
+            let (direction, length) = (vector(direction)?, *length.first()?);
+            motion.leg(tape, ends, |tape, w| {
+                let n = tape.normalised(&direction);
+                machine::slider(tape, w, &n, length, mode.as_integer())
+            })
+        }
+        (Leg::Strut { .. }, [anchor, platform, base_axis @ ..]) => {
+            let anchor = vector(anchor)?;
+            let mut leg = motion.strut(tape, [&anchor, &vector(platform)?]);
+            if let (Some(axis), Some(tip)) = (base_axis.first(), leg.tip) {
+                let k = tape.normalised(&vector(axis)?);
+                let w = tape.minus(&tip, &anchor);
+                leg.couple = Some(machine::couple(tape, &w, &k));
+            }
+            Some(leg)
+        }
+        (Leg::Arm { mode, .. }, [axis, reference, anchor, platform, arm, length]) if moves => {
+            let ends = [&vector(anchor)?, &vector(platform)?];
+            // In the plane motors turn about +z.
+            let up = || axis.is_empty().then_some([zero, zero, one]);
+            let axis = if in_plane { up()? } else { vector(axis)? };
+            let (reference, lengths) = (vector(reference)?, [*arm.first()?, *length.first()?]);
+            motion.leg(tape, ends, |tape, w| {
+                let k = tape.normalised(&axis);
+                let along = tape.dot(&k, &reference);
+                let along = tape.scaled(along, &k);
+                let across = tape.minus(&reference, &along);
+                let e = tape.normalised(&across);
+                machine::arm(tape, w, [&k, &e], lengths, mode.as_integer())
+            })
+        }
+        (Leg::Planar { .. }, [direction]) if moves && !in_plane && motion.turn.is_none() => {
             let n = tape.normalised(&vector(direction)?);
-            Some(machine::slider(tape, &w, &n, *length.first()?, mode.as_integer()))
-        }
-        (Leg::Strut { .. }, [anchor, platform]) => {
-            let w = from_base(tape, anchor, platform)?;
-            Some(machine::strut(tape, &w))
-        }
-        (Leg::Arm { mode, .. }, [axis, reference, anchor, platform, arm, length]) => {
-            let w = from_base(tape, anchor, platform)?;
-            let k = tape.normalised(&vector(axis)?);
-            let reference = vector(reference)?;
-            let along = tape.dot(&k, &reference);
-            let along = tape.scaled(along, &k);
-            let across = tape.minus(&reference, &along);
-            let e = tape.normalised(&across);
-            let lengths = [*arm.first()?, *length.first()?];
-            Some(machine::arm(tape, &w, [&k, &e], lengths, mode.as_integer()))
-        }
-        (Leg::Planar { .. }, [direction]) => {
-            let n = tape.normalised(&vector(direction)?);
-            Some(machine::planar(tape, &p, &n))
+            Some(machine::planar(tape, &motion.position, &n))
         }
         _ => None,
     };
@@ -176,6 +251,7 @@ pub(crate) fn by_formulas(
     let joint = |joint: &JointFormula| match joint {
         JointFormula::Rho(rho) => {
             let rho = compiled(builder, &names, rho)?;
+            few_derivatives(builder, rho, m)?;
             let joint = machine::joint(&mut builder.tape, rho, m);
             few(builder).map(|()| joint)
         }
@@ -190,10 +266,22 @@ pub(crate) fn by_formulas(
 }
 
 /// Most entries of a tape that a user's formulas come to.
-const MOST_FORMULAS: usize = 1 << 17;
+const MOST_FORMULAS: usize = 1 << 14;
+/// Most derivatives of one formula and of all that it is made of.
+const MOST_DERIVATIVES: usize = 1 << 17;
 
-fn few(builder: &Builder) -> Result<(), ClaimError> {
-    if builder.tape.ops().len() > MOST_FORMULAS {
+pub(crate) fn few(builder: &Builder) -> Result<(), ClaimError> {
+    fewer(builder.tape.ops().len(), MOST_FORMULAS)
+}
+
+/// Asked before a formula is derived by so many inputs: each of its parts then has as many derivatives.
+pub(crate) fn few_derivatives(builder: &Builder, f: Formula, by: usize) -> Result<(), ClaimError> {
+    let parts = builder.tape.parts(&[f]).into_iter().filter(|&part| part).count();
+    fewer(parts.saturating_mul(by), MOST_DERIVATIVES)
+}
+
+fn fewer(n: usize, most: usize) -> Result<(), ClaimError> {
+    if n > most {
         return Err(shape_error("mechanism", "of fewer operations"));
     }
     Ok(())
@@ -206,7 +294,9 @@ fn compiled(
     expression: &Expression,
 ) -> Result<Formula, ClaimError> {
     Ok(match expression {
-        Expression::Literal { .. } => builder.number("a formula's number", expression, 0),
+        Expression::Literal { .. } | Expression::Varying(_) => {
+            builder.number("a formula's number", expression, 0)
+        }
         Expression::Name(name) => {
             *names.get(name.as_str()).ok_or_else(|| shape_error(name, "a name given before"))?
         }

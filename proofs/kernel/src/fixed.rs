@@ -18,8 +18,12 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Ends of intervals; `None` where a result does not fit.
 pub trait Integer: Clone + Ord {
+    /// The time of an operation, in that of one on words.
+    const WORK: usize;
     /// This integer.
     fn of(n: &BigInt) -> Option<Self>;
+    /// As an integer of any size.
+    fn to_big(&self) -> BigInt;
     /// `n 2^bits`.
     fn scaled(n: i64, bits: u32) -> Option<Self>;
     /// `self + other`.
@@ -50,8 +54,14 @@ fn moderate(x: BigInt) -> Option<BigInt> {
 }
 
 impl Integer for BigInt {
+    const WORK: usize = 16;
+
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())
+    }
+
+    fn to_big(&self) -> BigInt {
+        self.clone()
     }
 
     fn scaled(n: i64, bits: u32) -> Option<Self> {
@@ -109,8 +119,14 @@ impl Integer for BigInt {
 
 /// Products of two words have 127 bits at most and fit into `i128`.
 impl Integer for i64 {
+    const WORK: usize = 1;
+
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()
+    }
+
+    fn to_big(&self) -> BigInt {
+        BigInt::from(*self)
     }
 
     fn scaled(n: i64, bits: u32) -> Option<Self> {
@@ -342,6 +358,10 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         let lo = range.lo.clone().max(centre.lo.plus(&reach.negated()?)?);
         let hi = range.hi.clone().min(centre.hi.plus(&reach)?);
         (lo <= hi).then_some(Interval { lo, hi })
+    }
+
+    fn hull(&self, a: &Interval<Z>, b: &Interval<Z>) -> Interval<Z> {
+        Interval { lo: a.lo.clone().min(b.lo.clone()), hi: a.hi.clone().max(b.hi.clone()) }
     }
 
     fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {

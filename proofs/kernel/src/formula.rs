@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 /// An entry of a [`Tape`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Formula(usize);
+pub struct Formula(pub(crate) usize);
 
 /// What an entry is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,6 +56,11 @@ fn is_small(n: i64) -> bool {
     n.unsigned_abs() < 1 << 15
 }
 
+/// The first `m` coordinates.
+pub fn coordinates(m: usize) -> Vec<Op> {
+    (0..m).map(Op::Coordinate).collect()
+}
+
 /// A vector of formulas.
 pub type Vector = [Formula; 3];
 
@@ -66,10 +71,10 @@ pub struct Tape {
     known: HashMap<Op, Formula>,
 }
 
-/// Partial derivatives by the coordinates, `numerators[k] / denominator`.
+/// Partial derivatives, `numerators[k] / denominator`.
 #[derive(Clone, Debug)]
 pub struct Gradient {
-    /// One for every coordinate.
+    /// One for each input by which it is derived.
     pub numerators: Vec<Formula>,
     /// A product of divisors and roots of the formula: not zero where it is defined.
     pub denominator: Formula,
@@ -166,6 +171,15 @@ impl Tape {
             Op::Integer(n) if is_small(n) => self.integer(n * n),
             _ => self.push(Op::Sqr(a)),
         }
+    }
+
+    /// `(a - b)^2`, expanded.
+    pub fn expanded(&mut self, a: Formula, b: Formula) -> Formula {
+        let two = self.integer(2);
+        let (square, twice, other) = (self.sqr(a), self.mul(two, b), self.sqr(b));
+        let mixed = self.mul(twice, a);
+        let less = self.sub(square, mixed);
+        self.add(less, other)
     }
 
     /// `a^2` without the roots that are factors of `a`: the same number where `a` is defined, and
@@ -274,11 +288,11 @@ impl Tape {
         (0..self.ops.len()).filter(|&at| constant[at]).map(Formula).collect()
     }
 
-    /// Of each entry up to `f`, whether `f` is made of it.
-    fn parts(&self, f: Formula) -> Vec<bool> {
-        let mut needed = vec![false; f.0 + 1];
-        needed[f.0] = true;
-        for at in (0..=f.0).rev() {
+    /// Of each entry, whether one of these is made of it.
+    pub(crate) fn parts(&self, of: &[Formula]) -> Vec<bool> {
+        let mut needed = vec![false; of.iter().map(|f| f.0 + 1).max().unwrap_or(0)];
+        of.iter().for_each(|f| needed[f.0] = true);
+        for at in (0..needed.len()).rev() {
             if needed[at] {
                 self.ops[at].parts().for_each(|part| needed[part.0] = true);
             }
@@ -286,7 +300,7 @@ impl Tape {
         needed
     }
 
-    /// The partial derivatives of `f` by the coordinates `0..m`.
+    /// The partial derivatives of `f` by coordinates and parameters.
     ///
     /// With `f' = N/E` and `g' = K/F`:
     ///
@@ -296,23 +310,17 @@ impl Tape {
     /// ```
     ///
     /// where the cross factors are left out if `E = F`.
-    pub fn gradient(&mut self, f: Formula, m: usize) -> Gradient {
+    pub fn gradient(&mut self, f: Formula, by: &[Op]) -> Gradient {
         let (zero, one) = (self.integer(0), self.integer(1));
-        let needed = self.parts(f);
+        let needed = self.parts(&[f]);
         let unneeded = Gradient { numerators: Vec::new(), denominator: one };
         let mut known: Vec<Gradient> = Vec::with_capacity(f.0 + 1);
         for (at, needed) in needed.into_iter().enumerate() {
             let gradient = match self.ops[at] {
                 _ if !needed => unneeded.clone(),
-                Op::Coordinate(k) => {
-                    let mut numerators = vec![zero; m];
-                    if let Some(own) = numerators.get_mut(k) {
-                        *own = one;
-                    }
-                    Gradient { numerators, denominator: one }
-                }
-                Op::Parameter(_) | Op::Integer(_) => {
-                    Gradient { numerators: vec![zero; m], denominator: one }
+                own @ (Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_)) => {
+                    let entry = |&by: &Op| if by == own { one } else { zero };
+                    Gradient { numerators: by.iter().map(entry).collect(), denominator: one }
                 }
                 Op::Add(a, b) => self.combined((&known[a.0], one), (&known[b.0], one)),
                 Op::Sub(a, b) => {

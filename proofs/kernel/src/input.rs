@@ -1,12 +1,13 @@
 //! Numbers that formulas depend on, enclosed; what a claim's numbers have to be.
 
-use crate::arithmetic::Arithmetic as _;
+use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::{Expression, Operator};
 use crate::trig::{cos_sin, pi};
+use crate::vary;
 use num_bigint::BigInt;
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use std::fmt;
 
 /// Bits in which a claim is held to be well formed.
@@ -70,11 +71,24 @@ pub enum Value {
     Sine(Expression),
     /// An angle in degrees, in radians.
     Radians(Expression),
+    /// The tangent of half an angle in degrees, between -180 and 180.
+    HalfTangent(Expression),
+    /// `t sqrt(1 + s^2)`, `t` and `s` the tangents of half of these.
+    TiltReach(Expression, Expression),
 }
 
 /// Numbers of a claim have no names in them.
 fn nameless(_: &str) -> Option<Interval<BigInt>> {
     None
+}
+
+/// Encloses a number with `bits` fractional bits, for every value of its names.
+fn of_all(number: &Expression, bits: u32) -> Option<Interval<BigInt>> {
+    if number.varies() {
+        vary::enclose(number, bits)
+    } else {
+        number.enclose(&Fixed::new(bits), &nameless)
+    }
 }
 
 /// Encloses a number with `bits` fractional bits, after division by `2^scale`.
@@ -83,7 +97,7 @@ fn nameless(_: &str) -> Option<Interval<BigInt>> {
 pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
     let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
     let working = bits.checked_add(guard)?;
-    let x = number.enclose(&Fixed::new(working), &nameless)?;
+    let x = of_all(number, working)?;
     // x / 2^working / 2^scale 2^bits = x / 2^(guard + scale), with guard + scale >= 64.
     let places = i64::from(guard) + scale;
     Some(Interval { lo: x.lo >> places, hi: -(-x.hi >> places) })
@@ -112,8 +126,27 @@ impl Input {
                 let x = enclosed(degrees, self.scale, bits)?;
                 fixed.div(&fixed.mul(&x, &pi(bits)?)?, &fixed.integer(180)?)
             }
+            Value::HalfTangent(degrees) => half_tangent(degrees, bits),
+            Value::TiltReach(tilt, torsion) => {
+                let fixed = Fixed::<BigInt>::new(bits);
+                let [t, s] = [half_tangent(tilt, bits)?, half_tangent(torsion, bits)?];
+                let square = fixed.add(&fixed.integer(1)?, &fixed.sqr(&s)?)?;
+                fixed.mul(&t, &fixed.sqrt(&square)?)
+            }
         }
     }
+}
+
+/// `tan(x/2) = sin x/(1 + cos x)`, which of 0 is exactly 0; with 64 guard bits.
+fn half_tangent(degrees: &Expression, bits: u32) -> Option<Interval<BigInt>> {
+    if degrees.rational().is_some_and(|x| x.is_zero()) {
+        return Some(Interval::point(BigInt::from(0)));
+    }
+    let working = bits.checked_add(64)?;
+    let fixed = Fixed::<BigInt>::new(working);
+    let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
+    let t = fixed.mul(&sin, &fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?)?;
+    Some(Interval { lo: t.lo >> 64u32, hi: -(-t.hi >> 64u32) })
 }
 
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A
@@ -130,13 +163,18 @@ pub(crate) fn magnitude<'a>(numbers: impl Iterator<Item = &'a Expression>) -> Op
     Some(greatest.unwrap_or(0))
 }
 
-/// Whether a number is certainly greater than zero, or not less.
+/// Whether a number is certainly greater than zero, or not less. As a fraction, which costs more, only
+/// where an enclosure does not tell.
 pub(crate) fn sign(x: &Expression) -> Option<[bool; 2]> {
-    if let Some(x) = x.rational() {
-        return Some([x.is_positive(), !x.is_negative()]);
+    let signs = |x: &Interval<BigInt>| [x.lo.is_positive(), !x.lo.is_negative()];
+    let enclosed = of_all(x, SIGN_BITS);
+    match &enclosed {
+        Some(x) if x.lo.is_positive() || x.hi.is_negative() => Some(signs(x)),
+        _ => match x.rational() {
+            Some(x) => Some([x.is_positive(), !x.is_negative()]),
+            None => enclosed.as_ref().map(signs),
+        },
     }
-    let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
-    Some([x.lo.is_positive(), !x.lo.is_negative()])
 }
 
 /// `a - b` and the like.

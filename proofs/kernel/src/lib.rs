@@ -7,8 +7,9 @@
 //! | [`formula`]    | formulas, shared on a tape; derivatives                          |
 //! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
 //! | [`cell`]       | boxes of the bisection tree, their vertices                      |
+//! | [`control`]    | polynomials at the control points of a cell                       |
 //! | [`definite`]   | positive definiteness of interval matrices                       |
-//! | [`test`](mod@test) | the tests: a formula's sign, `sigma_min`, `sigma_max`      |
+//! | [`test`](mod@test) | the tests: signs, singular values, solutions, distances     |
 //! | [`machine`]    | drives and motions: the formulas of `A x' = B rho'`              |
 //! | [`number`]     | numbers of a claim, exactly                                      |
 //! | [`trig`]       | cosines and sines of degrees                                     |
@@ -18,28 +19,40 @@
 //! | [`problem`]    | a claim as formulas, a box, and tests to be passed               |
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
+//! | [`no_cube`]    | no cube of some side fits                                        |
+//! | [`postulate`]  | the Q1/Q2 postulate                                              |
 //! | [`witness`]    | refutations                                                      |
+//! | [`vary`]       | claims over a cell of parameters                                 |
+//! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
+//! | [`work`]       | what checking costs, estimated before it is done                 |
 //! | [`statement`]  | a claim in words, and its formulas                               |
 
 #![forbid(unsafe_code)]
 
 pub mod arithmetic;
+pub mod atlas;
 pub mod cell;
 pub mod certificate;
 pub mod check;
 pub mod claim;
 mod compile;
+pub mod control;
 mod cube;
 pub mod definite;
 pub mod fixed;
 pub mod formula;
 pub mod input;
 pub mod machine;
+pub mod no_cube;
 pub mod number;
+mod orientation;
+pub mod postulate;
 pub mod problem;
 pub mod quantity;
 pub mod slope;
 pub mod statement;
 pub mod test;
 pub mod trig;
+pub mod vary;
 pub mod witness;
+pub mod work;

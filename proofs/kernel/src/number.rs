@@ -15,6 +15,7 @@
 
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::fixed::{Fixed, Interval};
+use crate::vary::Range;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -24,12 +25,12 @@ use std::fmt;
 
 /// Most bytes of an expression.
 pub const MOST_BYTES: usize = 8192;
-/// Most operations, literals and names that are open at once while it is read.
+/// Most parentheses, roots and signs that are open at once while it is read.
 pub const MOST_DEPTH: usize = 64;
 /// Most operations.
 pub const MOST_OPERATIONS: usize = 512;
 /// Most bits of a number on the way.
-pub const MOST_BITS: u64 = 1 << 15;
+pub const MOST_BITS: u64 = 1 << 13;
 /// Most bits of a fraction that is compared exactly: its gcd costs their square.
 pub const MOST_EXACT: u64 = 1 << 12;
 /// Greatest exponent.
@@ -50,6 +51,8 @@ pub enum Expression {
     },
     /// What the context says.
     Name(String),
+    /// A name that stands for every number of a range; read from no text.
+    Varying(Box<Range>),
     /// `-a`.
     Neg(Box<Expression>),
     /// `a + b`, `a - b`, `a b`, `a / b`.
@@ -286,6 +289,7 @@ impl fmt::Display for Expression {
                 write!(f, "{whole}{point}{text}")
             }
             Expression::Name(name) => f.write_str(name),
+            Expression::Varying(range) => f.write_str(&range.name),
             Expression::Neg(inner) => {
                 f.write_str("-")?;
                 part(f, inner, 3)
@@ -330,13 +334,17 @@ impl Expression {
             Expression::Binary(operator, _, _) => operator.strength(),
             Expression::Neg(_) => 3,
             Expression::Power(_, _) => 4,
-            Expression::Literal { .. } | Expression::Name(_) | Expression::Sqrt(_) => 5,
+            Expression::Literal { .. }
+            | Expression::Name(_)
+            | Expression::Varying(_)
+            | Expression::Sqrt(_) => 5,
         }
     }
 
     /// Encloses the number, with `name` for the names in it; `None` where an operation is undefined.
     /// A root of an interval that reaches below zero is that of its part from zero on, provided that
-    /// is not empty: a number of a claim may be zero.
+    /// is not empty: a number of a claim may be zero. Not so of names that stand for many numbers, some
+    /// of which may have no root.
     pub fn enclose(
         &self,
         arithmetic: &Fixed<BigInt>,
@@ -351,6 +359,7 @@ impl Expression {
                 Some(Interval { lo, hi })
             }
             Expression::Name(inner) => name(inner),
+            Expression::Varying(range) => Some(range.enclose(arithmetic.bits())),
             Expression::Neg(inner) => arithmetic.neg(&of(inner)?),
             Expression::Binary(operator, left, right) => {
                 let (left, right) = (of(left)?, of(right)?);
@@ -364,14 +373,20 @@ impl Expression {
             Expression::Power(base, n) => {
                 let base = of(base)?;
                 let mut power = base.clone();
-                for _ in 1..*n {
-                    power = arithmetic.mul(&power, &base).filter(is_moderate)?;
+                for bit in (0..n.checked_ilog2()?).rev() {
+                    power = arithmetic.sqr(&power).filter(is_moderate)?;
+                    if n >> bit & 1 == 1 {
+                        power = arithmetic.mul(&power, &base).filter(is_moderate)?;
+                    }
                 }
                 Some(power)
             }
             Expression::Sqrt(inner) => {
                 let radicand = of(inner)?;
                 if inner.rational().is_some_and(|x| x.is_negative()) {
+                    return None;
+                }
+                if radicand.lo.is_negative() && inner.varies() {
                     return None;
                 }
                 if arithmetic.is_positive(&radicand) {
@@ -415,9 +430,21 @@ impl Expression {
                 }
                 num_traits::pow(base, *n as usize)
             }
-            Expression::Name(_) | Expression::Sqrt(_) => return None,
+            Expression::Name(_) | Expression::Varying(_) | Expression::Sqrt(_) => return None,
         };
         (value.numer().bits().max(value.denom().bits()) <= MOST_EXACT).then_some(value)
+    }
+
+    /// Whether it has names that stand for ranges.
+    pub fn varies(&self) -> bool {
+        match self {
+            Expression::Literal { .. } | Expression::Name(_) => false,
+            Expression::Varying(_) => true,
+            Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
+                inner.varies()
+            }
+            Expression::Binary(_, left, right) => left.varies() || right.varies(),
+        }
     }
 
     /// Calls `visit` with every name in the expression.
@@ -425,6 +452,7 @@ impl Expression {
         match self {
             Expression::Literal { .. } => {}
             Expression::Name(name) => visit(name),
+            Expression::Varying(range) => visit(&range.name),
             Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
                 inner.names(visit);
             }

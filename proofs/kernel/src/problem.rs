@@ -1,18 +1,20 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
-use crate::claim::{MachineClaim, Mechanism, Quantity, Workspace};
-use crate::compile::{built, by_formulas, Builder, MOST_LEGS};
+use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
+use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_LEGS};
+use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{Formula, Op, Tape};
+use crate::formula::{coordinates, Formula, Op, Tape};
 use crate::input::{
     binary, enclosed, narrowed, number_error, ordered, positive, shape_error, ClaimError, Input,
     Value, SIGN_BITS,
 };
 use crate::machine;
 use crate::number::{Expression, Operator};
-use crate::quantity::{self, Obligation};
+use crate::quantity::{self, Obligation, Test};
+use crate::test::Row;
 use num_bigint::BigInt;
 
 /// A claim, compiled.
@@ -28,6 +30,12 @@ pub struct Problem {
     pub obligations: Vec<Obligation>,
     /// The workspace's least and greatest coordinates, divided by `2^scale`.
     pub corners: [Vec<Expression>; 2],
+    /// The least and the greatest value of each coordinate of orientation; these come after the others.
+    pub orientation: Vec<[Input; 2]>,
+    /// `g >= 0` at the orientations of the claim; none where these are a box.
+    pub turned: Option<Formula>,
+    /// `w >= 1`, by which [`machine::Leg::scaled`] rows are scaled.
+    pub weight: Option<Formula>,
     /// The unit of coordinates is `2^scale`.
     pub scale: i64,
     /// `g(x) >= 0` in the workspace, concave; none of a box.
@@ -66,30 +74,31 @@ impl Problem {
             }
             _ => None,
         };
-        if claim.orientation.is_some() || !claim.bodies.is_empty() {
-            return Err(shape_error("workspace", "without orientations and bodies"));
-        }
         let corners = match (&cube, &claim.workspace) {
             (Some(cube), _) => [&cube.q1, &cube.q2].map(|q| vec![q.clone(); 3]),
             (None, workspace) => corners(workspace)?,
         };
-        let mut builder =
-            Builder { tape: Tape::default(), inputs: Vec::new(), scale: 0, partial: Vec::new() };
-        let legs = match (&cube, &claim.mechanism) {
-            (Some(cube), _) => built(&mut builder, &cube.legs)?,
-            (_, Mechanism::Translational(legs)) => built(&mut builder, legs)?,
-            (_, Mechanism::Formulas(formulas)) => by_formulas(&mut builder, formulas)?,
-            (None, Mechanism::Orthoglide { .. }) => Vec::new(),
-            (_, Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_)) => {
-                return Err(shape_error("mechanism", "of a kind whose motion is known"));
-            }
+        let mut builder = Builder::default();
+        let legs: &[Leg] = match (&cube, &claim.mechanism) {
+            (Some(cube), _) => &cube.legs,
+            (_, Mechanism::Translational(legs)) => legs,
+            (_, Mechanism::Planar(Turning { legs, .. }))
+            | (_, Mechanism::Spatial(Turning { legs, .. }))
+            | (_, Mechanism::Spherical(Turning { legs, .. })) => legs,
+            (_, Mechanism::Formulas(_) | Mechanism::Orthoglide { .. }) => &[],
         };
-        let m = match &claim.mechanism {
-            Mechanism::Formulas(formulas) => formulas.coordinates.len(),
-            _ => 3,
+        unit(&mut builder, legs)?;
+        let (motion, chart) = motion(&mut builder, &claim.mechanism, claim.orientation.as_ref())?;
+        builder.turns = chart.is_some();
+        let (m, legs) = match &claim.mechanism {
+            Mechanism::Formulas(formulas) => {
+                (formulas.coordinates.len(), by_formulas(&mut builder, formulas)?)
+            }
+            _ => (motion.velocity.len(), built(&mut builder, &motion, legs)?),
         };
         let shape = corners.iter().all(|corner| corner.len() == m);
-        if !shape || !(m..=MOST_LEGS).contains(&legs.len()) {
+        let turns = chart.as_ref().map_or(0, |chart| chart.ends.len());
+        if !shape || !(m + turns..=MOST_LEGS).contains(&legs.len()) {
             return Err(shape_error("mechanism", "as many joints as coordinates, or more"));
         }
         let inside = inside(&mut builder, &claim.workspace);
@@ -99,6 +108,9 @@ impl Problem {
             legs,
             obligations: Vec::new(),
             corners,
+            turned: chart.as_ref().and_then(|chart| chart.g),
+            weight: chart.as_ref().map(|chart| chart.weight),
+            orientation: chart.map_or_else(Vec::new, |chart| chart.ends),
             scale: builder.scale,
             inside,
             cube_has_least: cube.as_ref().zip(quantity::psi_min(claim)).is_some_and(
@@ -126,9 +138,18 @@ impl Problem {
         defined.then_some(()).ok_or_else(|| number_error("mechanism", "defined for every machine"))
     }
 
+    /// The work of a step: the tape's entries, and what a test does for all signs, vertices and signs of
+    /// the joint errors.
+    pub(crate) fn work(&self) -> usize {
+        let errors = self.obligations.iter().any(|o| matches!(o.test, quantity::Test::Accuracy(_)));
+        let signs = if errors { 1 << (3 * self.dimension()) } else { 0 };
+        // Formulas are evaluated a second time over the inflated cell.
+        self.tape.ops().len() * if errors { 2 } else { 1 } + signs
+    }
+
     /// The coordinates.
     pub fn dimension(&self) -> usize {
-        self.corners[0].len()
+        self.corners[0].len() + self.orientation.len()
     }
 
     /// The parameters of the tape with `bits` fractional bits; `machine` has the values of those that
@@ -161,7 +182,7 @@ impl Problem {
         })
     }
 
-    /// The box of the workspace, rounded outward to `bits` fractional bits.
+    /// The box of the workspace and of the orientations, rounded outward to `bits` fractional bits.
     ///
     /// # Errors
     /// If a corner cannot be enclosed.
@@ -172,10 +193,11 @@ impl Problem {
                 (enclosed(min, self.scale, bits)?.lo, enclosed(max, self.scale, bits)?.hi);
             narrowed(&Interval { lo, hi })
         };
-        let edges = min
-            .iter()
-            .zip(max)
-            .map(|e| edge(e).ok_or_else(|| number_error("workspace", "numbers")));
+        let turn = |[min, max]: &[Input; 2]| {
+            narrowed(&Interval { lo: min.enclose(bits, None)?.lo, hi: max.enclose(bits, None)?.hi })
+        };
+        let edges = min.iter().zip(max).map(edge).chain(self.orientation.iter().map(turn));
+        let edges = edges.map(|e| e.ok_or_else(|| number_error("workspace", "numbers")));
         edges.collect::<Result<_, _>>().map(Cell)
     }
 
@@ -186,13 +208,47 @@ impl Problem {
         Some([of(&self.corners[0])?, of(&self.corners[1])?])
     }
 
-    /// A point of the workspace in the problem's unit.
+    /// The scaled rows; none unless all legs have them.
+    pub(crate) fn scaled(&self) -> Vec<Row<Formula>> {
+        let rows = self.legs.iter().map(|leg| leg.scaled.clone());
+        rows.collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// Of each obligation of a platform that turns, the formulas that it needs at control points.
+    pub(crate) fn controls(&self, rows: &[Row<Formula>]) -> Vec<(Test, Control)> {
+        let Some(weight) = self.weight else { return Vec::new() };
+        let own = |Obligation { test, .. }: &Obligation| {
+            let mut wanted: Vec<Formula> = match test {
+                Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+                    let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
+                    all.copied().chain([weight]).collect()
+                }
+                Test::AtLeast(f) => vec![*f],
+                // These have no form for control points.
+                Test::Beyond(..)
+                | Test::Least(..)
+                | Test::OneToOne(_)
+                | Test::Solve(_)
+                | Test::Accuracy(_)
+                | Test::Apart(_)
+                | Test::Curvature(_) => Vec::new(),
+            };
+            wanted.extend(self.turned);
+            wanted.extend(self.inside.as_ref().map(|inside| inside.g));
+            (test.clone(), Control::new(&self.tape, self.dimension(), &wanted))
+        };
+        self.obligations.iter().map(own).collect()
+    }
+
+    /// A point of the workspace in the problem's unit, and coordinates of orientation.
     pub(crate) fn point<Z: Integer>(
         &self,
         point: &[Expression],
         bits: u32,
     ) -> Option<Vec<Interval<Z>>> {
-        point.iter().map(|x| narrowed(&enclosed(x, self.scale, bits)?)).collect()
+        let scale = |k: usize| if k < self.corners[0].len() { self.scale } else { 0 };
+        let enclose = |(k, x)| narrowed(&enclosed(x, scale(k), bits)?);
+        point.iter().enumerate().map(enclose).collect()
     }
 }
 
@@ -227,10 +283,15 @@ fn inside(builder: &mut Builder, workspace: &Workspace) -> Option<Inside> {
     for (k, center) in center.iter().enumerate() {
         let center = builder.number("workspace.center", center, scale);
         let x = builder.tape.coordinate(k);
-        let off = builder.tape.sub(x, center);
-        let off = builder.tape.sqr(off);
+        // Control points want squares of coordinates alone.
+        let off = if builder.turns {
+            builder.tape.expanded(x, center)
+        } else {
+            let off = builder.tape.sub(x, center);
+            builder.tape.sqr(off)
+        };
         g = builder.tape.sub(g, off);
     }
-    let gradient = builder.tape.gradient(g, 3).numerators;
+    let gradient = builder.tape.gradient(g, &coordinates(3)).numerators;
     Some(Inside { g, gradient })
 }

@@ -1,12 +1,16 @@
 //! A claim in words: what an accepted certificate establishes, and the formulas that it is about.
 
 use crate::certificate::{Failure, Verdict, Witness};
-use crate::claim::{Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Quantity};
-use crate::claim::{Requirement, Turning, Workspace};
+use crate::claim::{
+    Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation,
+};
+use crate::claim::{Quantity, RegionClaim, Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
+use crate::number::Expression;
 use crate::problem::Problem;
-use crate::quantity::TABLE;
+use crate::quantity::{Obligation, Test, TABLE};
+use crate::test::apart::Apart;
 use std::fmt::{self, Display, Write};
 
 /// The theorem that an accepted certificate establishes.
@@ -21,8 +25,39 @@ pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::
     }
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
+    orientation(&mut out, claim)?;
+    bodies(&mut out, claim)?;
     requirements(&mut out, claim)?;
     Ok(out)
+}
+
+/// What an accepted region establishes.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn region(claim: &RegionClaim) -> Result<String, fmt::Error> {
+    let RegionClaim { machine: claim, inner, outer } = claim;
+    let mut out = String::new();
+    writeln!(
+        out,
+        "Let a point be good if all of the following holds, and bad if some of it fails"
+    )?;
+    writeln!(out, "whichever of the machines it is.")?;
+    machine(&mut out, claim)?;
+    workspace(&mut out, claim)?;
+    bodies(&mut out, claim)?;
+    requirements(&mut out, claim)?;
+    writeln!(out, "It is proved: of the box's volume, the good points have at least the share")?;
+    writeln!(out, "{inner}, and the bad points at least the share {outer}.")?;
+    Ok(out)
+}
+
+/// "from (..) to (..)", of a box.
+pub(crate) fn box_of(claim: &MachineClaim) -> String {
+    match &claim.workspace {
+        Workspace::Box { min, max } => format!("from ({}) to ({})", list(min), list(max)),
+        Workspace::Cylinder { .. } | Workspace::Cube { .. } => String::new(),
+    }
 }
 
 fn list<T: Display>(items: &[T]) -> String {
@@ -39,7 +74,7 @@ impl Display for Quantity {
     }
 }
 
-fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+pub(crate) fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     match &claim.mechanism {
         Mechanism::Orthoglide { offset } => {
             writeln!(
@@ -53,16 +88,68 @@ fn machine(out: &mut String, claim: &MachineClaim) -> fmt::Result {
             )?;
             writeln!(out, "otherwise, q1 = -L t1/sqrt(1 + 2 t1^2), q2 = L t2/sqrt(1 + 2 t2^2)),")
         }
-        Mechanism::Translational(all) => legs(out, all),
-        Mechanism::Planar(Turning { legs: all, .. })
-        | Mechanism::Spatial(Turning { legs: all, .. })
-        | Mechanism::Spherical(Turning { legs: all, .. }) => legs(out, all),
+        Mechanism::Translational(all) => {
+            legs(out, all, "P + platform - anchor")?;
+            writeln!(out, "with rho' = M P' (the inverse Jacobian),")
+        }
+        Mechanism::Planar(turning) => turned(out, turning, "the plane, P = (x, y)", "P"),
+        Mechanism::Spatial(turning) => turned(out, turning, "space, P = (x, y, z)", "P"),
+        Mechanism::Spherical(turning) => {
+            turned(out, turning, "space about the fixed point P = 0", "")
+        }
         Mechanism::Formulas(formulas) => inverse_kinematics(out, formulas),
     }
 }
 
-fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
-    writeln!(out, "For every machine with {} legs, w_i = P + platform - anchor:", legs.len())?;
+/// A platform that may turn: `moves` is its point, if that moves.
+fn turned(out: &mut String, turning: &Turning, place: &str, moves: &str) -> fmt::Result {
+    let Some(length) = &turning.characteristic_length else {
+        writeln!(out, "In {place}:")?;
+        legs(out, &turning.legs, "P + platform - anchor")?;
+        return writeln!(out, "with rho' = M P' (the inverse Jacobian),");
+    };
+    writeln!(out, "In {place}, R the rotation of the platform:")?;
+    legs(out, &turning.legs, "P + R platform - anchor")?;
+    let twist = if moves.is_empty() { "ell omega" } else { "(P', ell omega)" };
+    writeln!(
+        out,
+        "with rho' = M {twist} (the inverse Jacobian), omega the angular velocity of the"
+    )?;
+    writeln!(out, "platform in radians and ell = {length},")
+}
+
+/// The set of orientations, in words and in the coordinates of the formulas.
+fn orientation(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    let range = |[min, max]: &[Expression; 2]| format!("from {min} to {max}");
+    let words = match &claim.orientation {
+        None => return Ok(()),
+        Some(Orientation::Angle(angle)) => format!(
+            "rotation R by at most {angle} degrees about any axis (with the coordinates
+c = tan(theta/2) axis, |c| <= tan({angle}/2)),"
+        ),
+        Some(Orientation::Tilt { tilt, torsion }) => format!(
+            "R = R_z(a) R_y(b) R_z(s - a), of any a, a tilt b up to {tilt} and a torsion s
+from -({torsion}) to {torsion} degrees (with the coordinates c = tan(theta/2) axis,
+c_1^2 + c_2^2 <= tan({tilt}/2)^2 (1 + c_3^2), |c_3| <= tan({torsion}/2)),"
+        ),
+        Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => format!(
+            "R = R_z(yaw) R_y(pitch) R_x(roll), roll {}, pitch {},
+yaw {} degrees (coordinates: tangents of half of these),",
+            range(roll),
+            range(pitch),
+            range(yaw)
+        ),
+        Some(Orientation::Range(angle)) => format!(
+            "rotation R {} degrees, counterclockwise
+(coordinate: the tangent of half of it),",
+            range(angle)
+        ),
+    };
+    writeln!(out, "for every {words}")
+}
+
+fn legs(out: &mut String, legs: &[Leg], w: &str) -> fmt::Result {
+    writeln!(out, "For every machine with {} legs, w_i = {w}:", legs.len())?;
     for (i, leg) in legs.iter().enumerate() {
         let (drive, mode) = match leg {
             Leg::Slider { mode, .. } => ("slider", Some(*mode)),
@@ -73,6 +160,7 @@ fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
         write!(out, "  leg {}: {drive}", i + 1)?;
         for (key, _, quantities) in leg.quantities() {
             match quantities {
+                [] => {}
                 [one] => write!(out, ", {key} {one}")?,
                 several => write!(out, ", {key} ({})", list(several))?,
             }
@@ -88,11 +176,7 @@ fn legs(out: &mut String, legs: &[Leg]) -> fmt::Result {
         out,
         "and axes stand for the unit vectors along them, rho_i is the joint coordinate,"
     )?;
-    writeln!(
-        out,
-        "eta_i the leg's component along the motion of its driven end, and M the matrix"
-    )?;
-    writeln!(out, "with rho' = M P' (the inverse Jacobian),")
+    writeln!(out, "eta_i the leg's component along the motion of its driven end, and M the matrix")
 }
 
 fn inverse_kinematics(out: &mut String, formulas: &Formulas) -> fmt::Result {
@@ -117,8 +201,9 @@ fn inverse_kinematics(out: &mut String, formulas: &Formulas) -> fmt::Result {
     writeln!(out, "derivatives of the rho_i by the coordinates,")
 }
 
-fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+pub(crate) fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     match &claim.workspace {
+        Workspace::Box { min, .. } if min.is_empty() => Ok(()),
         Workspace::Box { min, max } => {
             writeln!(out, "at every point of the box from ({}) to ({}),", list(min), list(max))
         }
@@ -132,19 +217,42 @@ fn workspace(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     }
 }
 
-fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
-    writeln!(out, "every formula is defined, every leg reaches without a serial singularity,")?;
+fn bodies(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    for (i, body) in claim.bodies.iter().enumerate() {
+        write!(out, "  body {}: all within ", i + 1)?;
+        match body {
+            Body::Leg { leg, radius, trim: [first, last] } => writeln!(
+                out,
+                "{radius} of leg {leg}, from {first} after its base end to {last} before its platform end"
+            )?,
+            Body::Base { from, to, radius } => {
+                writeln!(out, "{radius} of the segment from ({}) to ({})", list(from), list(to))?;
+            }
+            Body::Platform { from, to, radius } => writeln!(
+                out,
+                "{radius} of the segment from P + ({}) to P + ({})",
+                list(from),
+                list(to)
+            )?,
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
+    writeln!(out, "every formula is defined (roots of positive numbers alone),")?;
+    writeln!(out, "every leg reaches without a serial singularity,")?;
     writeln!(out, "there is no parallel singularity (M has full column rank), and")?;
     for Requirement { quantity, leg, given, bound } in &claim.require {
         let known = TABLE.iter().find(|known| known.key == quantity);
         let symbol = known.map_or(quantity.as_str(), |known| known.symbol);
         let words = known.map_or("", |known| known.words);
-        write!(out, "  {symbol} ")?;
+        write!(out, "  {symbol}")?;
         match bound {
-            Bound::Min(bound) => write!(out, ">= {bound}")?,
-            Bound::Max(bound) => write!(out, "<= {bound}")?,
-            Bound::Holds => write!(out, "holds")?,
-            Bound::Within([min, max]) => write!(out, "from {min} to {max}, up to whole turns")?,
+            Bound::Min(bound) => write!(out, " >= {bound}")?,
+            Bound::Max(bound) => write!(out, " <= {bound}")?,
+            Bound::Holds => {}
+            Bound::Within([min, max]) => write!(out, " from {min} to {max}, up to whole turns")?,
         }
         for (name, numbers) in given {
             write!(out, ", {name} = {}", list(numbers))?;
@@ -164,6 +272,9 @@ fn requirements(out: &mut String, claim: &MachineClaim) -> fmt::Result {
 pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String, fmt::Error> {
     let mut out = String::new();
     writeln!(out, "It fails at ({})", list(&witness.point))?;
+    if claim.orientation.is_some() {
+        writeln!(out, "  (the point, then half-angle tangents)")?;
+    }
     if let (Ok(problem), false) = (Problem::new(claim), witness.machine.is_empty()) {
         for ((place, _, _), value) in problem.tolerances().zip(&witness.machine) {
             writeln!(out, "  of the machine with {place} = {value}")?;
@@ -171,13 +282,29 @@ pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String,
     }
     match &witness.fails {
         Failure::Reach => writeln!(out, "where a leg does not reach, or is serially singular.")?,
-        Failure::Obligation(number, _) => {
+        Failure::Obligation(number, _) | Failure::Row(number, _) => {
             let problem = Problem::new(claim).ok();
-            let requirement = problem
-                .and_then(|problem| problem.obligations.get(*number)?.requirement)
-                .and_then(|number| claim.require.get(number));
-            let of = requirement.map_or("freedom from singularities", |r| r.quantity.as_str());
-            writeln!(out, "where {of} is violated.")?;
+            let obligation = problem.as_ref().and_then(|p| p.obligations.get(*number));
+            let requirement = obligation
+                .and_then(|obligation| claim.require.get(obligation.requirement?))
+                .map_or("freedom from singularities", |r| r.quantity.as_str());
+            match obligation {
+                Some(Obligation { test: Test::Apart(Apart { bodies: [i, j], .. }), .. }) => {
+                    write!(out, "where of body {i} and body {j} {requirement}")?;
+                }
+                Some(Obligation { leg: Some(leg), .. }) => {
+                    write!(out, "where of leg {} {requirement}", leg + 1)?;
+                }
+                _ => write!(out, "where {requirement}")?,
+            }
+            writeln!(out, " is violated.")?;
+        }
+        Failure::Same { least, greatest, .. } => {
+            let (least, greatest) = (list(least), list(greatest));
+            writeln!(
+                out,
+                "and some point from ({least}) to ({greatest}) has the same joint coordinates."
+            )?;
         }
         Failure::Singular(other) => {
             writeln!(out, "and at ({}), where det M has the other sign.", list(other))?;
@@ -194,15 +321,25 @@ pub fn counterexample(claim: &MachineClaim, witness: &Witness) -> Result<String,
 pub fn formulas(problem: &Problem) -> Result<String, fmt::Error> {
     let mut out = String::new();
     writeln!(out, "Lengths are divided by 2^{}.", problem.scale)?;
+    let (first, m) = (problem.corners[0].len(), problem.dimension());
+    if first < m {
+        writeln!(out, "Half-angle tangents: x{first} to x{}.", m - 1)?;
+    }
     for (j, input) in problem.inputs.iter().enumerate() {
         writeln!(out, "p{j} = {}", input.place)?;
     }
     let mut printer = Printer { tape: &problem.tape, out: &mut out, named: Vec::new() };
+    if let Some(weight) = problem.weight {
+        printer.line("w", weight)?;
+    }
     for (i, leg) in problem.legs.iter().enumerate() {
-        for (k, &a) in leg.row.a.iter().enumerate() {
-            printer.line(&format!("A_{}{}", i + 1, k + 1), a)?;
+        let scaled = leg.scaled.as_ref().map(|row| ("w ", row));
+        for (w, row) in [("", &leg.row)].into_iter().chain(scaled) {
+            for (k, &a) in row.a.iter().enumerate() {
+                printer.line(&format!("{w}A_{}{}", i + 1, k + 1), a)?;
+            }
+            printer.line(&format!("{w}D_{}", i + 1), row.d)?;
         }
-        printer.line(&format!("D_{}", i + 1), leg.row.d)?;
         match leg.rho {
             Some(Joint::Length(rho)) => printer.line(&format!("rho_{}", i + 1), rho)?,
             Some(Joint::Angle { cos, sin }) => {
@@ -211,6 +348,9 @@ pub fn formulas(problem: &Problem) -> Result<String, fmt::Error> {
             }
             None => {}
         }
+    }
+    if let Some(g) = problem.turned {
+        printer.line("orientations, where not negative: g", g)?;
     }
     Ok(out)
 }

@@ -2,26 +2,40 @@
 //!
 //! A machine is given by the paper's own matrices, `A x' = B rho'`: `n` rows `A_i` of `m` formulas,
 //! and `D_i = B_i^2`, so that `M = B^-1 A` has `|M v|^2 = sum_i (A_i . v)^2/D_i`. Both are simple
-//! where `M` is not: neither divides. Where a test is passed, all `D_i > 0` on the cell.
+//! where `M` is not: neither divides. Where a test of singular values is passed, all `D_i > 0` on the
+//! cell.
 //!
 //! | test | shows | evidence |
 //! |---|---|---|
 //! | [`at_least`] | `f >= 0` | |
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
+//! | [`full_rank`] | `sigma_min(M) > 0` | any `n x m` matrix `Y` |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
+//! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
+//! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
+//! | [`apart`](apart::apart) | segments farther apart than `R` | an affine direction |
+//! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
+//! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
-//! All are affine in their formulas, so the vertices of the cell decide ([`Vertex`]); they are
-//! statements about one machine, and hold for each whose formulas are in the enclosures.
+//! All are affine or concave in their formulas, so the vertices of the cell decide ([`Vertex`]), or, of
+//! polynomials, its control points ([`crate::control`]); they are statements about one machine, and hold
+//! for each whose formulas are in the enclosures.
+
+pub mod accuracy;
+pub mod apart;
+pub mod curvature;
+pub mod solve;
 
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
+use crate::control::Controls;
 use crate::definite::{eliminated, is_positive_definite, Triangle};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
 
 /// `A_i` and `D_i`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Row<F> {
     /// The row of `A`.
     pub a: Vec<F>,
@@ -39,6 +53,14 @@ pub struct Multiplier {
     pub places: u32,
 }
 
+impl Multiplier {
+    /// Whether it has `n` rows of `m` entries, over admissible places.
+    fn is_of(&self, n: usize, m: usize) -> bool {
+        let shape = self.y.len() == n && self.y.iter().all(|y| y.len() == m);
+        shape && self.places < MOST_PLACES
+    }
+}
+
 /// Binary places are fewer than this.
 pub const MOST_PLACES: u32 = 64;
 
@@ -48,13 +70,16 @@ pub struct Over<'a, E: Enclosure> {
     pub slopes: Slopes<'a, E>,
     /// Their values.
     pub values: &'a Values<Slope<E::Number>>,
-    /// A formula that is not negative at the cell's points in the workspace, where one is used: what is
-    /// shown at the vertices is then shown less its value there (the S-procedure).
+    /// The formulas at control points, where these are used in place of vertices.
+    pub controls: Option<&'a Controls<E::Number>>,
+    /// The values at the vertices of a formula that is not negative at the cell's points in the
+    /// workspace, where one is used: what is shown at the vertices is then shown less these (the
+    /// S-procedure).
     ///
     /// **Lemma.** If `f_v - t_v` is positive (definite: `F_v - t_v I`) at the vertices, `f` is positive
     /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
     /// combination of these, and `t(x) >= 0`. ∎
-    pub inside: Option<Slope<E::Number>>,
+    pub inside: Option<Vec<E::Number>>,
 }
 
 /// What a bound is at a vertex.
@@ -66,17 +91,30 @@ impl<E: Enclosure> Over<'_, E> {
         self.values.of(formula)
     }
 
+    /// The vertices, or control points.
+    pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
+        Vertex::first(self.controls.map_or(1 << self.slopes.m, Controls::len))
+    }
+
+    /// The value of a formula at a vertex, or control point.
+    pub fn at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
+        match self.controls {
+            None => vertex.value(&self.slopes, self.of(formula)?),
+            Some(controls) => controls.at(formula, vertex.index()).cloned(),
+        }
+    }
+
     /// `x - t_v`.
     fn less_inside(&self, x: E::Number, vertex: Vertex) -> Option<E::Number> {
         match &self.inside {
             None => Some(x),
-            Some(t) => self.slopes.arithmetic.sub(&x, &vertex.value(&self.slopes, t)?),
+            Some(t) => self.slopes.arithmetic.sub(&x, t.get(vertex.index())?),
         }
     }
 
     /// The rows at a vertex.
     fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Row<E::Number>>> {
-        let value = |f: &Formula| vertex.value(&self.slopes, self.of(*f)?);
+        let value = |f: &Formula| self.at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
             Some(Row { a, d: value(&row.d)? })
@@ -86,8 +124,11 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// Whether every `D_i` is positive on the cell.
     fn is_regular(&self, rows: &[Row<Formula>]) -> bool {
-        let positive = |d: &Slope<E::Number>| self.slopes.arithmetic.is_positive(&d.range);
-        rows.iter().all(|row| self.of(row.d).is_some_and(positive))
+        let positive = |d: &E::Number| self.slopes.arithmetic.is_positive(d);
+        rows.iter().all(|row| match self.controls {
+            None => self.of(row.d).is_some_and(|d| positive(&d.range)),
+            Some(_) => self.vertices().all(|v| self.at(row.d, v).is_some_and(|d| positive(&d))),
+        })
     }
 
     fn at_vertices(
@@ -96,13 +137,24 @@ impl<E: Enclosure> Over<'_, E> {
         holds: impl Fn(Vertex, Vec<Row<E::Number>>) -> bool,
     ) -> bool {
         let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
-        self.is_regular(rows) && Vertex::all(self.slopes.m).all(holds)
+        // No rows at all would have no singular value beyond any bound.
+        !rows.is_empty() && self.is_regular(rows) && self.vertices().all(holds)
     }
 }
 
-/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere.
+/// `f >= 0` on the cell if it is not negative at its vertices, or control points.
+pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
+    let holds = |v: Vertex| over.less_inside(over.at(f, v)?, v);
+    over.vertices().all(|v| holds(v).is_some_and(|x| over.slopes.arithmetic.is_nonnegative(&x)))
+}
+
+/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere. Not at control points, of which
+/// a slope knows nothing.
 pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: &Slope<E::Number>) -> bool {
     let e = over.slopes.arithmetic;
+    if over.controls.is_some() {
+        return false;
+    }
     if over.inside.is_none() {
         return e.is_nonnegative(&f.range);
     }
@@ -132,18 +184,45 @@ pub fn sigma_min<E: Enclosure>(
     kappa_squared: AtVertex<'_, E::Number>,
     evidence: &Multiplier,
 ) -> bool {
-    let (e, m, y) = (over.slopes.arithmetic, over.slopes.m, &evidence.y);
-    let shape = y.len() == rows.len() && y.iter().all(|y| y.len() == m);
-    let matrix = |v: Vertex, rows: &[Row<E::Number>]| {
-        let diagonal = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
-        let terms = rows.iter().zip(y);
-        terms.fold(scalar(e, m, &diagonal), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+    let e = over.slopes.arithmetic;
+    over.at_vertices(rows, |v, rows| {
+        let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
+        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
+    })
+}
+
+/// **Full rank.** If `T = Y^T A + A^T Y` is positive definite at the vertices, and all `D_i > 0`, then
+/// `sigma_min(M) > 0` on the cell. *Proof.* `T` is affine in `A`, so it is positive definite at `x`, and
+/// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`sigma_min`] for
+/// `kappa = 0` with `D = 0` in `T`, and as good: what `T` loses to `D` there, a small multiple of `Y`
+/// makes as small as is wanted. With one `Y` for all leaves it is what [`crate::quantity`] concludes
+/// from that a machine is one to one.
+pub fn full_rank<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    evidence: &Multiplier,
+) -> bool {
+    let Some(zero) = over.slopes.arithmetic.integer(0) else { return false };
+    over.at_vertices(rows, |v, rows| {
+        let without_d = |row| Row { d: zero.clone(), ..row };
+        let rows: Vec<_> = rows.into_iter().map(without_d).collect();
+        let rest = over.less_inside(zero.clone(), v);
+        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
+    })
+}
+
+/// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite.
+fn is_lower<E: Enclosure>(
+    &Slopes { arithmetic: e, m }: &Slopes<'_, E>,
+    rows: &[Row<E::Number>],
+    rest: &E::Number,
+    evidence: &Multiplier,
+) -> bool {
+    let matrix = || {
+        let terms = rows.iter().zip(&evidence.y);
+        terms.fold(scalar(e, m, rest), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
     };
-    shape
-        && evidence.places < MOST_PLACES
-        && over.at_vertices(rows, |v, rows| {
-            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
-        })
+    evidence.is_of(rows.len(), m) && matrix().is_some_and(|t| is_positive_definite(e, t))
 }
 
 /// `c I`.

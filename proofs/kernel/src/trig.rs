@@ -3,6 +3,7 @@
 use crate::arithmetic::Arithmetic;
 use crate::fixed::{Fixed, Interval};
 use num_bigint::BigInt;
+use num_integer::Integer as _;
 use num_traits::Signed;
 
 /// Guard bits: terms of the series below are less than `e^7 < 2^11` and lose a unit in the last place
@@ -70,7 +71,9 @@ pub fn cos_sin(
         let sum =
             if n % 4 < 2 { fixed.add(&sums[part], &term) } else { fixed.sub(&sums[part], &term) };
         sums[part] = sum?;
-        term = fixed.div(&fixed.mul(&term, &x)?, &fixed.integer(n + 1)?)?;
+        let Interval { lo, hi } = fixed.mul(&term, &x)?;
+        let divisor = BigInt::from(n + 1);
+        term = Interval { lo: lo.div_floor(&divisor), hi: -(-hi).div_floor(&divisor) };
         if n >= 13 && term.lo.bits().max(term.hi.bits()) <= 2 {
             break;
         }

@@ -1,16 +1,24 @@
 //! Refutations: one machine, one point, one obligation that fails there.
 
+mod far;
+mod same;
+mod violated;
+
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Formula, Op, Values};
+use crate::formula::{Op, Values};
 use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use num_bigint::BigInt;
 use std::fmt;
+use std::ops::Deref;
+use violated::At;
+
+pub(crate) use violated::fails_throughout;
 
 /// Why a witness refutes nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,10 +56,32 @@ impl fmt::Display for WitnessError {
 type Number = Interval<BigInt>;
 
 /// A machine's formulas at a point.
-struct At<'a> {
-    problem: &'a Problem,
-    arithmetic: Fixed<BigInt>,
-    values: Values<Number>,
+fn values_at(
+    problem: &Problem,
+    arithmetic: &Fixed<BigInt>,
+    point: &[Number],
+    parameters: &[Number],
+) -> Values<Number> {
+    problem.tape.run(arithmetic, |op| match op {
+        Op::Coordinate(k) => point.get(k).cloned(),
+        Op::Parameter(j) => parameters.get(j).cloned(),
+        _ => None,
+    })
+}
+
+/// A machine at a point, with its formulas there.
+struct AtPoint<'a> {
+    formulas: At<'a, Fixed<BigInt>>,
+    point: Vec<Number>,
+    parameters: Vec<Number>,
+}
+
+impl<'a> Deref for AtPoint<'a> {
+    type Target = At<'a, Fixed<BigInt>>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.formulas
+    }
 }
 
 /// Accepts a witness: at a point of the workspace, for a machine of the claim, an obligation fails.
@@ -78,15 +108,26 @@ pub fn check(
     if machine.next().is_some() {
         return Err(WitnessError::OutsideTolerance);
     }
-    let at = At::new(problem, workspace, witness, &witness.point)?;
+    let at = AtPoint::new(problem, workspace, witness, &witness.point)?;
     let violated = match &witness.fails {
         Failure::Reach => at.is_undefined(),
         Failure::Obligation(number, directions) => {
-            let test = problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?.test;
-            at.fails(test, directions)?
+            let obligation =
+                problem.obligations.get(*number).ok_or(WitnessError::NoSuchObligation)?;
+            at.violates(&obligation.test, directions)?
         }
+        Failure::Same { obligation, least, greatest, inverse } => {
+            let test = problem.obligations.get(*obligation).map(|obligation| &obligation.test);
+            if !matches!(test, Some(Test::OneToOne(_))) {
+                return Err(WitnessError::NoSuchObligation);
+            }
+            let other = [least.as_slice(), greatest];
+            same::is_beside(problem, workspace, &witness.point, other)?;
+            at.has_the_joints_of(other, inverse).is_some()
+        }
+        Failure::Row(number, leg) => at.exceeds(*number, *leg),
         Failure::Singular(other) => {
-            let other = At::new(problem, workspace, witness, other)?;
+            let other = AtPoint::new(problem, workspace, witness, other)?;
             at.opposite(&other)
         }
     };
@@ -97,10 +138,11 @@ pub fn check(
     }
 }
 
-/// Whether a point is certainly in a workspace whose box has these corners.
+/// Whether a point is certainly in a workspace whose box has these corners. What is said of its
+/// orientation is decided with its formulas.
 fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> bool {
     let [min, max] = &problem.corners;
-    let in_box = point.len() == min.len()
+    let in_box = point.len() == problem.dimension()
         && point.iter().zip(min).zip(max).all(|((x, min), max)| {
             ordered("", min, x, false).and_then(|()| ordered("", x, max, false)).is_ok()
         });
@@ -113,7 +155,7 @@ fn contains(problem: &Problem, workspace: &Workspace, point: &[Expression]) -> b
     in_box && matches!(sign(&rest), Some([_, true]))
 }
 
-impl<'a> At<'a> {
+impl<'a> AtPoint<'a> {
     fn new(
         problem: &'a Problem,
         workspace: &Workspace,
@@ -128,106 +170,43 @@ impl<'a> At<'a> {
         let parameters: Vec<Number> =
             problem.parameters(bits, &witness.machine).map_err(WitnessError::Claim)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
-        let values = problem.tape.run(&arithmetic, |op| match op {
-            Op::Coordinate(k) => point.get(k).cloned(),
-            Op::Parameter(j) => parameters.get(j).cloned(),
-            _ => None,
-        });
-        Ok(At { problem, arithmetic, values })
-    }
-
-    fn is_positive(&self, x: Option<Number>) -> bool {
-        x.is_some_and(|x| self.arithmetic.is_positive(&x))
-    }
-
-    /// A formula of the claim is certainly not defined: a radicand is not positive, or a divisor zero.
-    fn is_undefined(&self) -> bool {
-        let e = &self.arithmetic;
-        let at_most_zero =
-            |x: &Number| e.neg(x).is_some_and(|negative| e.is_nonnegative(&negative));
-        self.problem.tape.ops().iter().any(|op| match op {
-            Op::Sqrt(radicand) => self.values.of(*radicand).is_some_and(at_most_zero),
-            Op::Div(_, divisor) => self
-                .values
-                .of(*divisor)
-                .is_some_and(|divisor| at_most_zero(divisor) && e.is_nonnegative(divisor)),
-            _ => false,
-        })
-    }
-
-    /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
-    fn stretched(&self, v: &[i64]) -> Option<[Number; 2]> {
-        let e = &self.arithmetic;
-        if v.len() != self.problem.dimension() || v.iter().all(|&v| v == 0) {
-            return None;
+        let values = values_at(problem, &arithmetic, &point, &parameters);
+        let at = AtPoint { formulas: At { problem, arithmetic, values }, point, parameters };
+        if at.is_turned() {
+            Ok(at)
+        } else {
+            Err(WitnessError::Outside)
         }
-        let v: Vec<Number> = v.iter().map(|&v| e.integer(v)).collect::<Option<_>>()?;
-        let zero = e.integer(0)?;
-        let length = v.iter().try_fold(zero.clone(), |sum, v| e.add(&sum, &e.sqr(v)?))?;
-        let image = self.problem.legs.iter().try_fold(zero.clone(), |sum, leg| {
-            let product = leg.row.a.iter().zip(&v).try_fold(zero.clone(), |sum, (&a, v)| {
-                e.add(&sum, &e.mul(self.values.of(a)?, v)?)
-            })?;
-            let d = self.values.of(leg.row.d).filter(|d| e.is_positive(d))?;
-            e.add(&sum, &e.div(&e.sqr(&product)?, d)?)
-        })?;
-        Some([length, image])
     }
 
-    fn fails(&self, test: Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
-        let e = &self.arithmetic;
-        let of = |f: Formula| self.values.of(f);
-        let positive = match (test, directions) {
-            // |M v|^2 < kappa^2 |v|^2.
-            (Test::SigmaMin(kappa), [v]) => {
-                let rest = || {
-                    let [length, image] = self.stretched(v)?;
-                    e.sub(&e.mul(of(kappa)?, &length)?, &image)
-                };
-                self.is_positive(rest())
-            }
-            (Test::SigmaMax(k), [v]) => {
-                let rest = || {
-                    let [length, image] = self.stretched(v)?;
-                    e.sub(&image, &e.mul(of(k)?, &length)?)
-                };
-                self.is_positive(rest())
-            }
-            // |M u|^2 |v|^2 > c^2 |M v|^2 |u|^2.
-            (Test::Conditioning(c), [u, v]) => {
-                let rest = || {
-                    let ([length, image], [other, small]) =
-                        (self.stretched(u)?, self.stretched(v)?);
-                    let least = e.mul(of(c)?, &e.mul(&small, &length)?)?;
-                    e.sub(&e.mul(&image, &other)?, &least)
-                };
-                self.is_positive(rest())
-            }
-            (Test::AtLeast(f), []) => self.is_positive(of(f).and_then(|f| e.neg(f))),
-            (Test::Beyond(f, b), []) => {
-                let both = || Some((of(f)?, of(b)?));
-                self.is_positive(both().and_then(|(f, b)| e.sub(b, f)))
-                    && self.is_positive(both().and_then(|(f, b)| e.add(b, f)))
-            }
-            _ => return Err(WitnessError::NoSuchObligation),
-        };
-        Ok(positive)
+    /// Whether coordinates of orientation are certainly those of one of the claim.
+    fn is_turned(&self) -> bool {
+        let c = self.point.iter().skip(self.problem.corners[0].len());
+        let bits = self.arithmetic.bits();
+        let in_box = c.zip(&self.problem.orientation).all(|(c, [min, max])| {
+            let ends = min.enclose(bits, None).zip(max.enclose(bits, None));
+            ends.is_some_and(|(min, max)| min.hi <= c.lo && c.hi <= max.lo)
+        });
+        let g = self.problem.turned.map(|g| self.values.of(g));
+        in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
     }
 
-    /// `det M`, of as many rows as coordinates.
-    fn determinant(&self) -> Option<Number> {
-        let legs = &self.problem.legs;
-        let row = |a: &Vec<Formula>| a.iter().map(|&a| self.values.of(a).cloned()).collect();
-        let rows: Vec<Vec<Number>> =
-            legs.iter().map(|leg| row(&leg.divided.a)).collect::<Option<_>>()?;
-        (rows.len() == self.problem.dimension()).then(|| determinant(&self.arithmetic, &rows))?
+    fn violates(&self, test: &Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
+        match (test, directions) {
+            (Test::Accuracy(test), [v]) => Ok(self.is_positive(self.far(test, v))),
+            _ => self.fails(test, directions),
+        }
     }
 
-    /// **Lemma.** If `det M` of one machine has opposite signs at two points of a convex workspace, as
-    /// all are here, the claim is false. *Proof.* If every formula is defined, and every leg reaches
-    /// without a serial singularity, on the segment between them, `det M` is continuous there and
+    /// **Lemma.** If `det M` of one machine has opposite signs at two points of a path-connected
+    /// workspace, as all are here, the claim is false. *Proof.* If every formula is defined, and every
+    /// leg reaches without a serial singularity, on a path between them, `det M` is continuous there and
     /// vanishes somewhere: a parallel singularity. Otherwise some point has no such leg. ∎ (A divisor of
     /// the rows that changes its sign is zero somewhere, and a formula of the claim not defined there.)
+    ///
+    /// Boxes, cylinders, and `|c| <= t` are convex, and products of convex sets are. The orientations
+    /// `c_1^2 + c_2^2 <= t^2 (1 + c_3^2)`, `|c_3| <= s` are not, but connected: those with one `c_3` are a
+    /// disc, in which a segment leads to `(0, 0, c_3)`, and these are a segment of the set.
     fn opposite(&self, other: &Self) -> bool {
         let signs = |at: &Self| {
             let det = at.determinant();
@@ -236,21 +215,4 @@ impl<'a> At<'a> {
         };
         matches!((signs(self), signs(other)), ([true, _], [_, true]) | ([_, true], [true, _]))
     }
-}
-
-/// By the first row.
-fn determinant(e: &Fixed<BigInt>, rows: &[Vec<Number>]) -> Option<Number> {
-    let Some((first, below)) = rows.split_first() else { return e.integer(1) };
-    let mut sum = e.integer(0)?;
-    for (j, a) in first.iter().enumerate() {
-        let without = |row: &Vec<Number>| {
-            let mut row = row.clone();
-            row.remove(j);
-            row
-        };
-        let minor: Vec<Vec<Number>> = below.iter().map(without).collect();
-        let term = e.mul(a, &determinant(e, &minor)?)?;
-        sum = if j % 2 == 0 { e.add(&sum, &term)? } else { e.sub(&sum, &term)? };
-    }
-    Some(sum)
 }

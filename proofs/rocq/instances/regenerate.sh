@@ -24,3 +24,9 @@ instance OrthoglideTolerance "$root/tests/designs/orthoglide-tolerance.toml"
 instance LinearDelta "$here/linear-delta.toml"
 postulate PostulateAll --all
 postulate PostulateUpTo2 --psi-range 1.5..2
+
+# Of the kernel: the certificates that its own tests prove, and the values that they compute
+# (ORTHOCERT_WRITE=1 cargo test -p orthocert-kernel rocq writes them anew).
+for name in FourSliders StrutsAndPlane; do
+    "$orthocert" export rocq "$here/$name.cert.json" -o "$here/$name.v"
+done

@@ -24,6 +24,24 @@ fn every_design_of_the_test_suite_is_read() {
     assert!(read >= 11, "{read}");
 }
 
+/// Machines of every kind: each is read into a claim of the kernel that is written and read back.
+#[test]
+fn every_design_of_another_kind_is_read() {
+    let mut read = 0;
+    for entry in std::fs::read_dir(designs().join("kernel")).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.starts_with("# Source: "), "{}", path.display());
+        assert!(text.contains("\n# Verdict: "), "{}", path.display());
+        let claim = super::kinds::kernel(&text);
+        let written = serde_json::to_string(&claim).unwrap();
+        let again: orthocert_kernel::claim::MachineClaim = serde_json::from_str(&written).unwrap();
+        assert_eq!(again, claim, "{}", path.display());
+        read += 1;
+    }
+    assert!(read >= 16, "{read}");
+}
+
 #[test]
 fn relaxed_bounds_are_exact_expressions() {
     let design = Design::read(&designs().join("orthoglide-relaxed-1e-9.toml")).unwrap();

@@ -2,12 +2,16 @@
 
 mod accepted;
 mod files;
+mod formulas;
+mod kinds;
 mod machines;
 mod notation;
 mod refused;
+mod refused_kinds;
 mod refused_numbers;
+mod variable;
 
-use super::{Defect, Design, DesignError};
+use super::{document, Defect, Design, DesignError};
 use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
 use orthocert_checker::number::Exact;
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::design::document::{Document, Names};
-use crate::design::ill_formed;
+use crate::design::refusal::ill_formed;
 use orthocert_checker::claim::ClaimError;
 use Defect::{
     Conflict, MissingKey, OutOfDomain, Reversed, Syntax, Tolerance, UnknownKey, UnknownWord,
@@ -34,7 +34,7 @@ fn keys_that_are_unknown_or_missing() {
         row!("misspelt table", CUBE, [(5, "[workspce]")], 5, "workspce", UnknownKey,
             "an unknown key", "title, mechanism, workspace, requirements; did you mean workspace?"),
         row!("misspelt key", BOX, [(4, "leg_lenght = 310")], 4, "mechanism.leg_lenght", UnknownKey,
-            "an unknown key", "kind, leg_length, base, offset; did you mean leg_length?"),
+            "an unknown key", "kind, leg_length, base, offset, bodies; did you mean leg_length?"),
         row!("first of two unknown keys", BOX, [(4, "z = 1"), (5, "a = 1")], 4, "mechanism.z",
             UnknownKey, "an unknown key", "leg_length"),
         row!("key that needs quotes", BOX, [(4, "\"leg length\" = 310")], 4,
@@ -250,8 +250,8 @@ fn legs_that_are_not_three_tables() {
             "3", "three [[mechanism.legs]] tables"),
         row!("three numbers", ONE_LINE, [(3, "legs = [1, 2, 3]")], 3, "mechanism.legs[1]",
             WrongType, "1", "a [[mechanism.legs]] table"),
-        row!("four tables", LEGS, [(22, "[[mechanism.legs]]\n[workspace]")], 3, "mechanism.legs",
-            WrongType, "an array of 4 elements", "three [[mechanism.legs]] tables"),
+        row!("a fourth table", LEGS, [(22, "[[mechanism.legs]]\n[workspace]")], 22,
+            "mechanism.legs[4].drive", MissingKey, "no such key", "\"slider\""),
     ]);
 }
 

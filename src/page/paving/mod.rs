@@ -12,7 +12,8 @@ mod region;
 mod sections;
 
 use super::isomap::Mark;
-use super::nominal::{Nominal, Point};
+use super::legs::Point;
+use super::nominal::Nominal;
 use super::{drawing, stem, words, File, Framed, Picture};
 use crate::decimal::{approximate, percent, rounded, Toward};
 use crate::paving::{box_volume, Components, Tree};
@@ -78,7 +79,7 @@ impl<'a> PavingPage<'a> {
         let components = components.filter(|found| !found.all.is_empty());
         let mark = components.map(|found| Mark {
             name: "best conditioned".to_owned(),
-            at: found.point(least, width),
+            at: found.point(least, width).to_vec(),
         });
         let marks: Vec<Mark> = mark.into_iter().collect();
         // Images are of parts of boxes: their tree may be deeper than the paving.
@@ -104,7 +105,7 @@ impl<'a> PavingPage<'a> {
         });
         let machine = Nominal::new(claim);
         let mut pictures: Vec<Picture> =
-            machine.iter().map(|machine| drawing::drawing(machine, &[])).collect();
+            machine.iter().map(|machine| drawing::drawing(&machine.shape(), &[])).collect();
         pictures.push(Region { tree: &coarse, least, width }.picture());
         pictures.push(slices);
         Some(PavingPage {

@@ -1,7 +1,7 @@
 //! The region of a paving in pictures: from its tree, down to some depth.
 
 use super::super::isomap::Mark;
-use super::super::nominal::Point;
+use super::super::legs::Point;
 use super::super::svg::{path_data, Elements, Fitted, Picture, View};
 use crate::paving::{Node, Tree, INNER, UNDECIDED};
 use serde_json::{json, Value};

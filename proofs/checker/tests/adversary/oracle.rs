@@ -48,7 +48,7 @@ pub fn opinion(certificate: &Certificate, random: &mut Random, samples: u64) -> 
             }
             _ => Opinion::Agrees,
         },
-        (Claim::NoCube(_) | Claim::Atlas(_), _) => Opinion::None,
+        (Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_), _) => Opinion::None,
     }
 }
 

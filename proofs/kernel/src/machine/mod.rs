@@ -1,18 +1,23 @@
 //! Drives and motions: the formulas of `A x' = B rho'`, leg by leg.
 //!
-//! A drive meets the platform through `w = P + d - a` alone, from the base end `a` of the leg to its
-//! platform end `P + d`. Signs of working modes are constants: `m = 1` or `-1`.
+//! A drive meets the platform through `w = P + R d - a` alone, from the base end `a` of the leg to its
+//! platform end `P + R d`, where `R = I` unless the platform turns. Signs of working modes are
+//! constants: `m = 1` or `-1`.
 
-use crate::formula::{Formula, Tape, Vector};
+pub(crate) mod motion;
+
+use crate::formula::{coordinates, Formula, Tape, Vector};
 use crate::test::Row;
 
 /// A leg's, or joint's, formulas.
 #[derive(Clone, Debug)]
 pub struct Leg {
-    /// `A_i` in the velocity of the platform's joint, and `D_i = B_i^2`.
+    /// `A_i` in the platform's velocity or twist, and `D_i = B_i^2`.
     pub row: Row<Formula>,
     /// The same divided by `B_i`: the row of `M`, and 1.
     pub divided: Row<Formula>,
+    /// `w A_i` and `w D_i` as polynomials, `w` the problem's weight; of struts of platforms that turn.
+    pub scaled: Option<Row<Formula>>,
     /// The joint coordinate; none where a claim gives the row alone.
     pub rho: Option<Joint>,
     /// The length of the vector `A_i`, where it is that of a leg.
@@ -20,12 +25,23 @@ pub struct Leg {
     /// `eta_i^2`, of legs of fixed length: `eta_i` is the leg's component along the motion of its
     /// driven end.
     pub eta_squared: Option<Formula>,
+    /// The platform end `P + d`, of a leg with two ends.
+    pub tip: Option<Vector>,
+    /// The couple that the leg constrains, not normalised, and the square of its length; where one is
+    /// claimed.
+    pub couple: Option<Row<Formula>>,
 }
 
 impl Leg {
     /// Whether the joint coordinate is an angle: `M` is then in radians per length.
     pub fn is_angular(&self) -> bool {
         matches!(self.rho, Some(Joint::Angle { .. }))
+    }
+
+    /// The length of the leg itself, of which `A_i` is the vector; none of planes, whose normal has the
+    /// length 1 and is `D_i` at once.
+    pub fn rod(&self) -> Option<Formula> {
+        self.length.filter(|&length| length != self.row.d)
     }
 }
 
@@ -150,7 +166,21 @@ fn leg(
     (length, eta_squared): (Option<Formula>, Option<Formula>),
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
-    Leg { row, divided, rho: Some(rho), length, eta_squared }
+    let rho = Some(rho);
+    Leg { row, divided, scaled: None, rho, length, eta_squared, tip: None, couple: None }
+}
+
+/// The couple that a strut with universal joints constrains whose axis in the base, and on the platform,
+/// is along the unit vector `k`: `c = w - (k . w) k`, and `|c|^2`.
+///
+/// The other two axes are parallel to each other and orthogonal to `k` and to the leg, so along `k x w`.
+/// A couple that does no work in rotations about `k` and `k x w` is along
+/// `(k x w) x k = w - (k . w) k`.
+pub fn couple(tape: &mut Tape, w: &Vector, k: &Vector) -> Row<Formula> {
+    let along = tape.dot(k, w);
+    let along = tape.scaled(along, k);
+    let c = tape.minus(w, &along);
+    Row { d: tape.norm_squared(&c), a: c.to_vec() }
 }
 
 fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
@@ -162,11 +192,14 @@ fn signed(tape: &mut Tape, m: i64, formula: Formula) -> Formula {
 }
 
 /// A joint by its coordinate alone: with `rho' = N/E` over the `m` coordinates, `A = N`, `D = E^2`.
+///
+/// Where `rho` is defined, `E` is not zero: a derivative `E/E` is 1.
 pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
-    let gradient = tape.gradient(rho, m);
+    let gradient = tape.gradient(rho, &coordinates(m));
     let d = tape.square_without_roots(gradient.denominator);
     let root = gradient.denominator;
-    let divided = gradient.numerators.iter().map(|&a| tape.div(a, root)).collect();
+    let mut quotient = |a| if a == root { tape.integer(1) } else { tape.div(a, root) };
+    let divided = gradient.numerators.iter().map(|&a| quotient(a)).collect();
     let row = Row { a: gradient.numerators, d };
     leg(tape, row, divided, Joint::Length(rho), (None, None))
 }
@@ -174,5 +207,7 @@ pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
 /// A joint by its row of `M` alone.
 pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
     let row = Row { a, d: tape.integer(1) };
-    Leg { divided: row.clone(), row, rho: None, length: None, eta_squared: None }
+    let divided = row.clone();
+    let (rho, length, eta_squared, tip, couple) = (None, None, None, None, None);
+    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, couple }
 }

@@ -2,7 +2,7 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::Bound;
-use crate::input::{binary, ordered, ClaimError, Value};
+use crate::input::{binary, ordered, sign, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
 
@@ -15,12 +15,28 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
     tests,
 };
 
-/// A length has `rho - min >= 0` or `max - rho >= 0`. An angle `theta` is in `[min, max]`, less than
+/// A length has `rho - min >= 0` or `max - rho >= 0`; of a strut of a platform that turns, with bounds
+/// that are not negative, `w D - w min^2 >= 0` or `w max^2 - w D >= 0`, polynomials, as `rho^2 = D` and
+/// `w > 0`. An angle `theta` is in `[min, max]`, less than
 /// 180 degrees wide, up to whole turns, if and only if `sin(theta - min) >= 0` and
 /// `sin(max - theta) >= 0`: these are two half-planes through the axis, whose intersection is the
 /// sector from `min` to `max`.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let rho = leg.and_then(|leg| leg.rho);
+    let scaled = leg.and_then(|leg| leg.scaled.as_ref()).map(|row| row.d).zip(context.weight);
+    if let (Some((d, weight)), Bound::Min(b) | Bound::Max(b)) = (scaled, &context.requirement.bound)
+    {
+        if matches!(sign(b), Some([_, true])) {
+            let b = context.number(b, 1);
+            let tape = context.tape();
+            let square = tape.sqr(b);
+            let bound = tape.mul(square, weight);
+            return Ok(vec![Test::AtLeast(match context.requirement.bound {
+                Bound::Min(_) => context.tape().sub(d, bound),
+                _ => context.tape().sub(bound, d),
+            })]);
+        }
+    }
     Ok(match (rho, &context.requirement.bound) {
         (Some(Joint::Length(rho)), Bound::Min(min)) => {
             let min = context.number(min, 1);

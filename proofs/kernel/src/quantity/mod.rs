@@ -2,21 +2,35 @@
 //!
 //! A quantity is a file: its key, its words, and the tests that a bound on it comes to.
 
+mod accuracy;
+mod base_joint;
+mod clearance;
 mod conditioning;
+mod constraint_margin;
+mod joint_acceleration;
+mod joint_force;
 mod joint_range;
 mod joint_speed;
 mod leg_angle;
+mod one_to_one;
 mod parallel_margin;
+mod platform_joint;
 mod serial_margin;
+mod stiffness;
 mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
-use crate::compile::Builder;
-use crate::formula::{Formula, Tape};
-use crate::input::{shape_error, ClaimError, Value};
+use crate::compile::{few, few_derivatives, Builder};
+use crate::formula::{Formula, Op, Tape};
+use crate::input::{magnitude, number_error, shape_error, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
+use crate::test::accuracy::Accuracy;
+use crate::test::apart::Apart;
+use crate::test::curvature::Curvature;
+use crate::test::solve::Solve;
+use crate::test::Row;
 
 /// A quantity.
 pub struct Quantity {
@@ -35,7 +49,7 @@ pub struct Quantity {
 }
 
 /// All of them, in the order of reports.
-pub const TABLE: [&Quantity; 7] = [
+pub const TABLE: [&Quantity; 16] = [
     &transmission::TRANSMISSION,
     &joint_range::JOINT_RANGE,
     &conditioning::CONDITIONING,
@@ -43,10 +57,19 @@ pub const TABLE: [&Quantity; 7] = [
     &parallel_margin::PARALLEL_MARGIN,
     &leg_angle::LEG_ANGLE,
     &joint_speed::JOINT_SPEED,
+    &stiffness::STIFFNESS,
+    &joint_acceleration::JOINT_ACCELERATION,
+    &joint_force::JOINT_FORCE,
+    &accuracy::ACCURACY,
+    &clearance::CLEARANCE,
+    &constraint_margin::CONSTRAINT_MARGIN,
+    &one_to_one::ONE_TO_ONE,
+    &base_joint::BASE_JOINT,
+    &platform_joint::PLATFORM_JOINT,
 ];
 
 /// A test that has to be passed on every cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Test {
     /// `sigma_min(M) >= kappa`, all `D_i > 0`; of `kappa^2`. `kappa = 0`: `sigma_min(M) > 0`.
     SigmaMin(Formula),
@@ -58,10 +81,22 @@ pub enum Test {
     AtLeast(Formula),
     /// `f >= b` everywhere, or `f <= -b` everywhere.
     Beyond(Formula, Formula),
+    /// `sigma_min >= kappa` of other rows than the machine's; of `kappa^2`.
+    Least(Vec<Row<Formula>>, Formula),
+    /// `sym(Y^T A) > 0` at every point, for one `Y`.
+    OneToOne(Vec<Row<Formula>>),
+    /// `|A^-1 b| <= c`.
+    Solve(Solve),
+    /// One position within `d`.
+    Accuracy(Accuracy),
+    /// Two segments keep their distance.
+    Apart(Apart),
+    /// `a |row| + b |H| <= 1`.
+    Curvature(Curvature),
 }
 
 /// What is to be shown at every point of the workspace.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Obligation {
     /// The requirement, counted from zero; none of freedom from singularities.
     pub requirement: Option<usize>,
@@ -74,7 +109,9 @@ pub struct Obligation {
 /// What a quantity builds its tests with.
 pub(crate) struct Context<'a> {
     builder: &'a mut Builder,
+    claim: &'a MachineClaim,
     legs: &'a [Leg],
+    weight: Option<Formula>,
     requirement: &'a Requirement,
     place: &'a str,
 }
@@ -88,6 +125,24 @@ impl Context<'_> {
     fn number(&mut self, x: &Expression, units: i64) -> Formula {
         let scale = units * self.builder.scale;
         self.builder.number(self.place, x, scale)
+    }
+
+    /// A direction, brought to the order of one.
+    fn direction(&mut self, numbers: &[Expression]) -> Result<Vec<Formula>, ClaimError> {
+        let scale = magnitude(numbers.iter());
+        let scale = scale.ok_or_else(|| number_error(self.place, "a direction"))?;
+        Ok(numbers.iter().map(|x| self.builder.number(self.place, x, scale)).collect())
+    }
+
+    /// The partial derivatives of a formula; refused where they come to too many operations.
+    fn derivatives(&mut self, f: Formula, by: &[Op]) -> Result<Vec<Formula>, ClaimError> {
+        few_derivatives(self.builder, f, by.len())?;
+        let gradient = self.tape().gradient(f, by);
+        few(self.builder)?;
+        let tape = self.tape();
+        let zero = tape.integer(0);
+        let each = |&n: &Formula| if n == zero { n } else { tape.div(n, gradient.denominator) };
+        Ok(gradient.numerators.iter().map(each).collect())
     }
 
     fn input(&mut self, value: Value) -> Formula {
@@ -113,6 +168,22 @@ impl Context<'_> {
             [number] => Ok(number),
             _ => self.refused("given one number"),
         }
+    }
+
+    /// Refuses platforms that turn, where the quantity is another one for them.
+    fn without_rotation(&self) -> Result<(), ClaimError> {
+        match self.claim.orientation {
+            None => Ok(()),
+            Some(_) => self.refused("of platforms that do not turn"),
+        }
+    }
+
+    /// Refuses more joints than coordinates.
+    fn not_redundant(&self) -> Result<(), ClaimError> {
+        if self.legs.iter().any(|leg| leg.row.a.len() != self.legs.len()) {
+            return self.refused("of as many joints as coordinates");
+        }
+        Ok(())
     }
 
     fn refused<T>(&self, expected: &'static str) -> Result<T, ClaimError> {
@@ -161,6 +232,10 @@ pub(crate) fn obligations(
     if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
         return Err(shape_error("mechanism.legs", "arms alone, or none: psi has no unit else"));
     }
+    let kept = |requirement: &Requirement| requirement.quantity == clearance::CLEARANCE.key;
+    if !claim.bodies.is_empty() && !claim.require.iter().any(kept) {
+        return Err(shape_error("bodies", "there where a clearance is asked for"));
+    }
     let zero = builder.tape.integer(0);
     let mut all = vec![Obligation { requirement: None, leg: None, test: Test::SigmaMin(zero) }];
     for (number, requirement) in claim.require.iter().enumerate() {
@@ -190,7 +265,9 @@ pub(crate) fn obligations(
             (true, None) => (0..legs.len()).map(Some).collect(),
         };
         for leg in which {
-            let mut context = Context { builder, legs, requirement, place: &place };
+            let weight = problem.weight;
+            let place = place.as_str();
+            let mut context = Context { builder, claim, legs, weight, requirement, place };
             for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
                 all.push(Obligation { requirement: Some(number), leg, test });
             }

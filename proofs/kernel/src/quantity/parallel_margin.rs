@@ -18,6 +18,9 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.least()?.clone();
     positive(context.place, &bound)?;
+    if context.builder.turns {
+        return context.refused("of a platform that does not turn");
+    }
     let mut least = context.number(&bound, 0);
     let mut rows = Vec::new();
     for leg in context.legs {

@@ -7,20 +7,20 @@ use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 
-fn slider(direction: [&str; 3], anchor: [&str; 3], length: &str, mode: &str) -> String {
+pub fn slider(direction: [&str; 3], anchor: [&str; 3], length: &str, mode: &str) -> String {
     format!(
         r#"{{"drive":"slider","direction":{direction:?},"anchor":{anchor:?},"platform":["0","0","0"],"length":"{length}","mode":"{mode}"}}"#
     )
 }
 
-fn machine(legs: &[String], workspace: &str) -> MachineClaim {
+pub fn machine(legs: &[String], workspace: &str) -> MachineClaim {
     let legs = legs.join(",");
     claim(&format!(
         r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{workspace},"require":[]}}"#
     ))
 }
 
-fn linear_delta(workspace: &str) -> MachineClaim {
+pub fn linear_delta(workspace: &str) -> MachineClaim {
     let leg = |x: &str, y: &str| slider(["0", "0", "1"], [x, y, "0"], "333", "-");
     let legs = [
         leg("-174.75*sqrt(3)/2", "-174.75/2"),
@@ -30,20 +30,20 @@ fn linear_delta(workspace: &str) -> MachineClaim {
     machine(&legs, workspace)
 }
 
-fn orthoglide() -> MachineClaim {
+pub fn orthoglide() -> MachineClaim {
     let leg = |n: [&str; 3]| slider(n, ["0", "0", "0"], "310.7", "+");
     let legs = [leg(["1", "0", "0"]), leg(["0", "1", "0"]), leg(["0", "0", "1"])];
     machine(&legs, r#"{"box":{"min":["-72","-72","-72"],"max":["125","125","125"]}}"#)
 }
 
-fn struts() -> MachineClaim {
+pub fn struts() -> MachineClaim {
     let leg =
         |a: [&str; 3]| format!(r#"{{"drive":"strut","anchor":{a:?},"platform":["0","0","0"]}}"#);
     let legs = [leg(["-300", "-180", "0"]), leg(["310", "-170", "10"]), leg(["5", "340", "-5"])];
     machine(&legs, r#"{"box":{"min":["-60","-60","180"],"max":["60","60","260"]}}"#)
 }
 
-fn rotary() -> MachineClaim {
+pub fn rotary() -> MachineClaim {
     let leg = |axis: [&str; 3], e: [&str; 3], a: [&str; 3]| {
         format!(
             r#"{{"drive":"arm","axis":{axis:?},"reference":{e:?},"anchor":{a:?},"platform":["0","0","0"],"arm":"10","length":"14","mode":"+"}}"#

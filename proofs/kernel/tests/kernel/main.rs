@@ -1,13 +1,30 @@
 //! The kernel: arithmetic and lemmas on random and adverse inputs, claims proved and refuted by a small
 //! search in doubles, and what has to be rejected.
 
+mod accuracies;
 mod arithmetic;
+mod atlas;
 mod certificates;
+mod clearances;
+mod controls;
+mod directions;
+mod document;
+mod false_claims;
+mod false_poses;
 mod leaves;
 mod machines;
+mod motions;
+mod no_cube;
+mod postulate;
 mod prover;
+mod quantities;
+mod regions;
 mod rejected;
+mod rocq;
 mod rough;
+mod sampled;
 mod slopes;
 mod statements;
+mod turned;
+mod turning;
 mod witnesses;

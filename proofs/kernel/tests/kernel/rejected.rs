@@ -43,7 +43,7 @@ fn certified(text: &str) -> Certificate {
 fn tree(certificate: &mut Certificate) -> &mut Tree {
     match &mut certificate.proof {
         Proof::Tree(tree) => tree,
-        Proof::Witness(_) => panic!("a tree"),
+        Proof::Witness(_) | Proof::Atlas(_) => panic!("a tree"),
     }
 }
 
@@ -198,7 +198,9 @@ fn proofs_that_show_less_than_they_say() {
     // A bound that is false: psi reaches 1.3838.
     let mut false_claim = good.clone();
     let text = delta(&[psi("min", "0.516"), psi("max", "1.38")].join(","));
-    let orthocert_kernel::certificate::Claim::Machine(machine) = &mut false_claim.claim;
+    let orthocert_kernel::certificate::Claim::Machine(machine) = &mut false_claim.claim else {
+        panic!("a machine")
+    };
     *machine = claim(&text);
     assert!(matches!(check(&false_claim), Err(Rejected::Step { obligation: 0, .. })));
     assert!(certify(&claim(&text), 3_000).is_none());
@@ -230,7 +232,7 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     let mut rows: Vec<_> = (0..3).map(|k| Row { a: unit(k), d: one }).collect();
     let slopes = Slopes { arithmetic: &fixed, m: 3 };
     let values = tape.run(&slopes, |_: Op| None);
-    let over = Over { slopes, values: &values, inside: None };
+    let over = Over { slopes, values: &values, controls: None, inside: None };
     let kappa = |_| Some(Interval::point(1i64 << 28));
     let y = |rows: usize| Multiplier {
         y: (0..rows).map(|i| (0..3).map(|k| i64::from(i == k)).collect()).collect(),
@@ -311,7 +313,9 @@ fn the_cubes_upper_bound_is_no_more_than_the_papers() {
     };
     let mut certificate = certified(&text("1/2"));
     for least in ["100", "1.9", "0.500001"] {
-        let orthocert_kernel::certificate::Claim::Machine(machine) = &mut certificate.claim;
+        let orthocert_kernel::certificate::Claim::Machine(machine) = &mut certificate.claim else {
+            panic!("a machine")
+        };
         *machine = claim(&text(least));
         assert!(check(&certificate).is_err(), "{least}");
     }
@@ -345,4 +349,19 @@ fn small_claims_are_small_work() {
     tree(&mut long).precision = 1024;
     tree(&mut long).nodes = vec![step; 490_000];
     assert_eq!(check(&long), Err(Rejected::Work));
+    // Integers of any size take longer than words.
+    tree(&mut long).precision = 60;
+    assert_eq!(check(&long), Err(Rejected::Work));
+    // A thousand tolerances of a formula with thousands of parts have millions of derivatives.
+    let tolerances: Vec<String> =
+        (0..1_000).map(|k| format!(r#"["a{k}",{{"min":"0","max":"1"}}]"#)).collect();
+    let accuracy =
+        r#"{"quantity":"accuracy","given":{"joint_error":["1"]},"end":"max","bound":"1"}"#;
+    let powers: Vec<String> = (0..100).map(|k| format!("(x-{k})^64")).collect();
+    let joint = format!(r#"{{"rho":"a0+{}"}}"#, powers.join("+"));
+    let text = one("", &joint)
+        .replace(r#""parameters":[]"#, &format!(r#""parameters":[{}]"#, tolerances.join(",")))
+        .replace(r#""require":[]"#, &format!(r#""require":[{accuracy}]"#));
+    let refused = Problem::new(&claim(&text)).err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(refused.contains("fewer operations"), "{refused}");
 }

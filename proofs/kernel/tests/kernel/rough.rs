@@ -55,6 +55,9 @@ impl Enclosure for Rough {
         let cut = (range.0.max(centre.0 - reach), range.1.min(centre.1 + reach));
         (cut.0 <= cut.1 + 1e-12).then_some(cut)
     }
+    fn hull(&self, a: &Pair, b: &Pair) -> Pair {
+        (a.0.min(b.0), a.1.max(b.1))
+    }
     fn ends(&self, a: &Pair) -> [Pair; 2] {
         [(a.0, a.0), (a.1, a.1)]
     }

@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::cell::{evaluate, Cell, Vertex};
 use orthocert_kernel::fixed::{Fixed, Interval};
-use orthocert_kernel::formula::{Formula, Op, Tape};
+use orthocert_kernel::formula::{coordinates, Formula, Op, Tape};
 use orthocert_kernel::slope::Slopes;
 
 const BITS: u32 = 40;
@@ -132,7 +132,7 @@ fn gradients_are_derivatives() {
     let mut random = Random(11);
     for _ in 0..300 {
         let (mut tape, f) = tape(&mut random);
-        let gradient = tape.gradient(f, 3);
+        let gradient = tape.gradient(f, &coordinates(3));
         let x = [0; 3].map(|_: i64| random.below(100) as f64 / 50.0 - 1.0);
         let at = |x: [f64; 3]| {
             tape.run(&Rough, |op| match op {

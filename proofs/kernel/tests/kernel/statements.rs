@@ -1,7 +1,7 @@
 //! What certificates say in words.
 
 use crate::certificates::claim;
-use crate::prover::certify;
+use crate::prover::{certificate, certify};
 use orthocert_kernel::certificate::{
     Certificate, Claim, Failure, Proof, Provenance, Verdict, Witness, FORMAT,
 };
@@ -12,11 +12,11 @@ use orthocert_kernel::statement::{counterexample, formulas, statement};
 
 const FIVE_BAR: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[["l",{"min":"199.95","max":"200.05"}]],"definitions":[["s","sqrt(l^2-y^2)"]],"joints":[{"rho":"x-s"},{"rho":"x+s"}]}},"workspace":{"box":{"min":["-50","80"],"max":["50","160"]}},"require":[{"quantity":"transmission","end":"max","bound":"3"}]}"#;
 
-fn words(certificate: &Certificate) -> String {
-    let Claim::Machine(claim) = &certificate.claim;
+pub fn words(certificate: &Certificate) -> String {
+    let Claim::Machine(claim) = &certificate.claim else { panic!("a machine") };
     let words = statement(claim, certificate.verdict).expect("words");
     match &certificate.proof {
-        Proof::Tree(_) => words,
+        Proof::Tree(_) | Proof::Atlas(_) => words,
         Proof::Witness(witness) => words + &counterexample(claim, witness).expect("words"),
     }
 }
@@ -104,4 +104,46 @@ fn formulas_are_those_of_the_claim() {
             assert!(used < known, "{line}");
         }
     }
+}
+
+#[test]
+fn of_bodies_and_of_what_is_given() {
+    let leg = |x: &str, y: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":["0","0","1"],"anchor":["{x}","{y}","0"],"platform":["0","0","0"],"length":"333","mode":"-"}}"#
+        )
+    };
+    let legs = [leg("-150", "-87"), leg("150", "-87"), leg("0", "174")].join(",");
+    let rods = r#"{"on":"leg","leg":1,"radius":"4","trim":["20","30"]},{"on":"leg","leg":2,"radius":"4","trim":["20","0"]},{"on":"base","from":["0","0","-9"],"to":["1","0","-9"],"radius":"5"},{"on":"platform","from":["0","0","-9"],"to":["0","0","-40"],"radius":"5"}"#;
+    let text = |gap: &str| {
+        format!(
+            r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-5","-5","0"],"max":["5","5","1"]}}}},"bodies":[{rods}],"require":[{{"quantity":"clearance","end":"min","bound":"{gap}"}},{{"quantity":"accuracy","given":{{"joint_error":["0.01"]}},"end":"max","bound":"0.05"}},{{"quantity":"one_to_one","end":"holds"}}]}}"#
+        )
+    };
+    let claim = claim(&text("2"));
+    let witness = |number| {
+        Proof::Witness(Witness {
+            precision: 96,
+            point: ["0", "0", "0"]
+                .map(|x| Expression::try_from(x.to_owned()).expect("a number"))
+                .to_vec(),
+            machine: vec![],
+            fails: Failure::Obligation(number, vec![vec![0, 1, 1]]),
+        })
+    };
+    let text = |number| words(&certificate(&claim, Verdict::Refuted, witness(number)));
+    says(
+        &text(6),
+        &[
+            "body 1: all within 4 of leg 1, from 20 after its base end to 30 before its platform end",
+            "body 3: all within 5 of the segment from (0, 0, -9) to (1, 0, -9)",
+            "body 4: all within 5 of the segment from P + (0, 0, -9) to P + (0, 0, -40)",
+            "that are not fixed to each other >= 2",
+            "|P' - P| <= 0.05, joint_error = 0.01",
+            "exactly one position",
+            "no two points of the workspace have the same joint coordinates (",
+            "where of body 4 and body 3 clearance is violated",
+        ],
+    );
+    says(&text(8), &["where one_to_one is violated"]);
 }

@@ -47,7 +47,7 @@ pub fn known(claim: &Claim) -> bool {
                 && transmission
                     .is_some_and(|t| t.min.is_none() && t.max.as_ref().is_some_and(above_one))
         }
-        Claim::NoCube(_) | Claim::Atlas(_) => false,
+        Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => false,
     }
 }
 

@@ -1,0 +1,273 @@
+//! Atlases: maps of a box of parameters, which say where in it a claim holds, and where it fails.
+
+use crate::certificate::{Tree, Witness};
+use crate::check::{in_words_or_any_size, tree_holds, Rejected};
+use crate::claim::{MachineClaim, Mechanism, Workspace};
+use crate::input::{shape_error, ClaimError};
+use crate::number::Expression;
+use crate::problem::Problem;
+use crate::statement::{machine, requirements, workspace};
+use crate::vary::{vary, Range};
+use crate::witness;
+use crate::work::{self, Budget};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// "Of the box of parameters, the cells that the proof says are certified have at least the share
+/// `certified`, and those that it says are refuted at least `refuted`. For all values of the parameters
+/// in a certified cell the claim that `machine` becomes with them is true; in a refuted one it is
+/// false."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtlasClaim {
+    /// One to three.
+    pub parameters: Vec<Parameter>,
+    /// A claim, in whose numbers parameters may be named.
+    pub machine: MachineClaim,
+    /// Not negative.
+    pub certified: Expression,
+    /// Not negative.
+    pub refuted: Expression,
+}
+
+/// A parameter of an atlas.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// By which numbers refer to it.
+    pub name: String,
+    /// Rational.
+    pub min: Expression,
+    /// Rational, and greater.
+    pub max: Expression,
+}
+
+/// A cell of an atlas: a bisection tree of the box of parameters, in preorder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtlasCell {
+    /// It is halved along this parameter, counted from zero.
+    Split(usize),
+    /// The claim is true for all its values.
+    Certified(Tree),
+    /// The claim is false for all its values. Numbers of the witness may name parameters.
+    Refuted(Witness),
+    /// Nothing is said of it.
+    Undecided,
+}
+
+/// Most parameters of an atlas.
+pub const MOST_PARAMETERS: usize = 3;
+/// Most bits of an end of a parameter's range.
+pub const MOST_END: u64 = 128;
+/// Most halvings of a parameter on a path.
+pub const MOST_LEVEL: u32 = 60;
+
+/// A part `[n, n + 1]/2^level` of each parameter's range.
+pub type Part = Vec<(u64, u32)>;
+
+impl AtlasClaim {
+    /// The claim over a cell: what is decided of it is decided for every value of the parameters there.
+    ///
+    /// # Errors
+    /// If the parameters are not well formed.
+    pub fn over(&self, part: &[(u64, u32)]) -> Result<MachineClaim, ClaimError> {
+        let ranges = self.ranges(part)?;
+        let mut claim = self.machine.clone();
+        claim.numbers_mut().into_iter().for_each(|number| vary(number, &ranges));
+        Ok(claim)
+    }
+
+    fn ranges(&self, part: &[(u64, u32)]) -> Result<Vec<Range>, ClaimError> {
+        let named = |(k, (parameter, &(n, level))): (usize, (&Parameter, &(u64, u32)))| {
+            let [min, max] = parameter.ends()?;
+            let width = (&max - &min) / BigRational::from(BigInt::from(1) << level);
+            let least = min + &width * BigRational::from(BigInt::from(n));
+            let ends = [least.clone(), least + width];
+            Ok(Range { parameter: k, name: parameter.name.clone(), ends })
+        };
+        self.parameters.iter().zip(part).enumerate().map(named).collect()
+    }
+
+    /// Parameters have names that differ from each other and from those of the mechanism, and ranges that
+    /// are not empty; the machine has numbers of its own.
+    fn validate(&self) -> Result<(), ClaimError> {
+        let refused = |expected| Err(shape_error("parameters", expected));
+        if !(1..=MOST_PARAMETERS).contains(&self.parameters.len()) {
+            return refused("one to three");
+        }
+        if matches!(self.machine.mechanism, Mechanism::Orthoglide { .. })
+            || matches!(self.machine.workspace, Workspace::Cube { .. })
+        {
+            return refused("of a machine with numbers of its own, without a cube");
+        }
+        if self.machine.orientation.is_some() || !self.machine.bodies.is_empty() {
+            return refused("of a platform that does not turn, and of no bodies");
+        }
+        let mut names: Vec<&str> = match &self.machine.mechanism {
+            Mechanism::Formulas(formulas) => {
+                let parameters = formulas.parameters.iter().map(|(name, _)| name);
+                let definitions = formulas.definitions.iter().map(|(name, _)| name);
+                let all = formulas.coordinates.iter().chain(parameters).chain(definitions);
+                all.map(String::as_str).collect()
+            }
+            _ => Vec::new(),
+        };
+        for parameter in &self.parameters {
+            if !Expression::is_name(&parameter.name) || names.contains(&&*parameter.name) {
+                return refused("given names that differ");
+            }
+            names.push(&parameter.name);
+            parameter.ends()?;
+        }
+        Ok(())
+    }
+}
+
+impl Parameter {
+    fn ends(&self) -> Result<[BigRational; 2], ClaimError> {
+        let expected = "with rational ends of up to 128 bits, the least one first";
+        let end = |x: &Expression| {
+            let x = x.rational()?;
+            (x.numer().bits().max(x.denom().bits()) <= MOST_END).then_some(x)
+        };
+        let ends = end(&self.min).zip(end(&self.max)).map(<[_; 2]>::from);
+        let ends = ends.filter(|[min, max]| min < max);
+        ends.ok_or_else(|| shape_error(&self.name, expected))
+    }
+}
+
+/// Accepts an atlas of so many bytes, or says why not.
+///
+/// The leaves of the tree of cells cover the box and overlap in faces only; a leaf below `d` halvings has
+/// the share `2^-d`.
+///
+/// **Work.** What is to be done is estimated before it is done, but for the formulas of one cell, and a
+/// certificate that asks for more than [`work::WORK_A_BYTE`] is refused.
+pub(crate) fn check(claim: &AtlasClaim, cells: &[AtlasCell], bytes: usize) -> Result<(), Rejected> {
+    claim.validate().map_err(Rejected::Claim)?;
+    let mut budget = Budget::new(bytes);
+    let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
+    let mut found = [BigInt::zero(), BigInt::zero()];
+    let levels = MOST_LEVEL * MOST_PARAMETERS as u32;
+    for (at, cell) in cells.iter().enumerate() {
+        let part = waiting.pop().ok_or(Rejected::Shape(at))?;
+        if let AtlasCell::Split(k) = cell {
+            let (n, level) = *part.get(*k).ok_or(Rejected::Shape(at))?;
+            if level == MOST_LEVEL {
+                return Err(Rejected::Shape(at));
+            }
+            for n in [2 * n + 1, 2 * n] {
+                let mut half = part.clone();
+                half[*k] = (n, level + 1);
+                waiting.push(half);
+            }
+            continue;
+        }
+        let which = shown(claim, &part, cell, &mut budget);
+        if let Some(which) = which.map_err(|why| Rejected::Cell(at, Box::new(why)))? {
+            let depth: u32 = part.iter().map(|(_, level)| level).sum();
+            found[usize::from(which)] += BigInt::from(1) << (levels - depth);
+        }
+    }
+    if !waiting.is_empty() {
+        return Err(Rejected::Shape(cells.len()));
+    }
+    let whole = BigRational::from(BigInt::from(1) << levels);
+    let reaches = |share: &Expression, found: BigInt| {
+        let share = share.rational().filter(|share| !share.is_negative());
+        share.is_some_and(|share| share * &whole <= BigRational::from(found))
+    };
+    let [refuted, certified] = found;
+    if reaches(&claim.certified, certified) && reaches(&claim.refuted, refuted) {
+        Ok(())
+    } else {
+        Err(Rejected::Shares)
+    }
+}
+
+/// Whether the claim is shown to be true, or false, for all values of the parameters in a cell.
+///
+/// **Lemma (atlas).** Let names stand for their ranges over the cell. *Certified*: if the claim is then
+/// well formed, and its tree holds, for all values of the parameters the claim with these values is
+/// well formed and true. *Proof.* Every condition of well-formedness is one of signs of numbers, and of
+/// formulas without coordinates, which are certain of enclosures; the root's cell, from the least of
+/// the least coordinates to the greatest of the greatest, holds each workspace; the formulas are
+/// enclosed for every machine of every value. ∎ *Refuted*: if the witness is accepted, the claim is
+/// false for all values. *Proof.* For each, the witness's point is in the workspace, its machine is one
+/// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
+fn shown(
+    claim: &AtlasClaim,
+    part: &[(u64, u32)],
+    cell: &AtlasCell,
+    budget: &mut Budget,
+) -> Result<Option<bool>, Rejected> {
+    if matches!(cell, AtlasCell::Undecided | AtlasCell::Split(_)) {
+        return Ok(None);
+    }
+    let ranges = claim.ranges(part).map_err(Rejected::Claim)?;
+    let mut claim = claim.over(part).map_err(Rejected::Claim)?;
+    let numbers: usize = claim.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
+    budget.spend(numbers)?;
+    let problem = Problem::new(&claim).map_err(Rejected::Claim)?;
+    budget.spend(work::of_problem(&problem))?;
+    match cell {
+        AtlasCell::Certified(tree) => {
+            budget.spend(work::of_tree(&problem, tree))?;
+            in_words_or_any_size(
+                tree.precision,
+                || tree_holds::<i64>(&problem, tree),
+                || tree_holds::<BigInt>(&problem, tree),
+            )?;
+            Ok(Some(true))
+        }
+        AtlasCell::Refuted(witness) => {
+            let mut witness = witness.clone();
+            let numbers = witness.numbers_mut().into_iter().map(|number| {
+                vary(number, &ranges);
+                work::of_number(number)
+            });
+            budget.spend(
+                numbers
+                    .sum::<usize>()
+                    .saturating_add(work::of_witness(&problem, witness.precision)),
+            )?;
+            witness::check(&problem, &claim.workspace, &witness).map_err(Rejected::Witness)?;
+            Ok(Some(false))
+        }
+        AtlasCell::Undecided | AtlasCell::Split(_) => Ok(None),
+    }
+}
+
+/// What an accepted claim establishes.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
+    use fmt::Write;
+    let AtlasClaim { parameters, machine: claim, certified, refuted } = claim;
+    let mut out = String::new();
+    writeln!(
+        out,
+        "Let a design be good if all of the following holds, with the numbers that it has for"
+    )?;
+    for Parameter { name, min, max } in parameters {
+        writeln!(out, "  {name} in [{min}, {max}]")?;
+    }
+    machine(&mut out, claim)?;
+    workspace(&mut out, claim)?;
+    requirements(&mut out, claim)?;
+    writeln!(
+        out,
+        "It is proved: of the box of these parameters, the cells that the proof names certified,"
+    )?;
+    writeln!(
+        out,
+        "in which every design is good, have at least the share {certified}; the cells that it"
+    )?;
+    writeln!(out, "names refuted, in which none is, at least the share {refuted}.")?;
+    Ok(out)
+}

@@ -1,0 +1,101 @@
+//! Where the workspace is not the cell: what is known to be not negative there.
+
+use super::{Checker, Place};
+use crate::arithmetic::Enclosure;
+use crate::certificate::Evidence;
+use crate::formula::Formula;
+use crate::problem::Inside;
+use crate::quantity::Test;
+use crate::slope::Slope;
+use crate::test::{Over, MOST_PLACES};
+
+impl<E: Enclosure> Checker<'_, E> {
+    /// Whether the evidence shows a test less a formula that is not negative in the workspace.
+    pub(super) fn shows_less(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        test: &Test,
+        evidence: &Evidence,
+        less: Option<Vec<E::Number>>,
+    ) -> bool {
+        let sum = less.and_then(|less| match &over.inside {
+            None => Some(less),
+            Some(other) => less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect(),
+        });
+        sum.is_some_and(|sum| {
+            self.shows(&Over { inside: Some(sum), ..*over }, place, test, evidence)
+        })
+    }
+
+    /// `mu t` for the tangent `t` of the workspace's own inequality at the cell's centre.
+    ///
+    /// **Lemma.** `g` is concave, so `g <= t`, and `t >= 0` at the cell's points in the workspace.
+    /// (Taking `g` at the vertices instead of `t` would be unsound: a convex combination of these is
+    /// below `g`. `f = -0.1` "holds" then on `|x| <= 0.7` in the cell `[-1, 1]` with `g = 1/2 - x^2`.)
+    fn tangent(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        (multiple, places): (i64, u32),
+    ) -> Option<Slope<E::Number>> {
+        if multiple < 0 || places >= MOST_PLACES {
+            return None;
+        }
+        let Inside { g, gradient } = self.problem.inside.as_ref()?;
+        let e = self.arithmetic;
+        let mut tangent = over.slopes.constant(over.of(*g)?.at_centre.clone())?;
+        for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(place.edges)
+        {
+            *slope = e.dyadic(multiple, places, &e.mul(&over.of(f)?.at_centre, half)?)?;
+        }
+        tangent.at_centre = e.dyadic(multiple, places, &tangent.at_centre)?;
+        Some(tangent)
+    }
+
+    /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
+    pub(super) fn inside(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        mu: (i64, u32),
+    ) -> Option<Vec<E::Number>> {
+        if over.controls.is_some() {
+            return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
+        }
+        let tangent = self.tangent(over, place, mu)?;
+        over.vertices().map(|v| v.value(&over.slopes, &tangent)).collect()
+    }
+
+    /// `mu g` for the orientations' own inequality `g >= 0`. Its values at the vertices are those of its
+    /// slopes, not of `g` itself: their weighted sum is `g(x)`, and `g` need not be concave.
+    pub(super) fn turned(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Vec<E::Number>> {
+        self.multiples(over, self.problem.turned?, mu)
+    }
+
+    /// `mu f`, for a dyadic number `mu >= 0`, at the vertices or control points.
+    fn multiples(
+        &self,
+        over: &Over<'_, E>,
+        f: Formula,
+        (multiple, places): (i64, u32),
+    ) -> Option<Vec<E::Number>> {
+        if multiple < 0 || places >= MOST_PLACES {
+            return None;
+        }
+        let at = |v| self.arithmetic.dyadic(multiple, places, &over.at(f, v)?);
+        over.vertices().map(at).collect()
+    }
+
+    /// Whether the cell has no point of the workspace: the tangent is negative at all vertices, or the
+    /// orientations' own inequality nowhere holds.
+    pub fn is_outside(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>) -> bool {
+        let turned = self.problem.turned.and_then(|g| self.arithmetic.neg(&over.of(g)?.range));
+        if turned.is_some_and(|less| self.arithmetic.is_positive(&less)) {
+            return true;
+        }
+        let negative =
+            |t: &E::Number| self.arithmetic.neg(t).is_some_and(|t| self.arithmetic.is_positive(&t));
+        self.inside(over, place, (1, 0)).is_some_and(|t| t.iter().all(negative))
+    }
+}

@@ -1,0 +1,192 @@
+//! Polynomials of degree two at most in each coordinate, at the control points of a cell.
+//!
+//! **Lemma (control points).** Let the range of coordinate `k` be `[l, h]`, and
+//!
+//! ```text
+//! (lin, sq):   (l, l^2)    ((l + h)/2, l h)    (h, h^2)
+//! ```
+//!
+//! its three *nodes*. Let a formula be affine in each pair `(x_k, x_k^2)`, whatever the others are. For
+//! every point of the cell there are weights, not negative and of sum 1, *the same for all such
+//! formulas*, with which `f(x)` is the weighted sum of the `f_j`, the formula with a node of each
+//! coordinate in place of `(x_k, x_k^2)`. *Proof.* With `t = (x_k - l)/(h - l)` the Bernstein
+//! polynomials `(1 - t)^2`, `2 t (1 - t)`, `t^2` are not negative, of sum 1, and
+//!
+//! ```text
+//! (1 - t)^2 l + t (1 - t) (l + h) + t^2 h = l + t (h - l) = x_k
+//! (1 - t)^2 l^2 + 2 t (1 - t) l h + t^2 h^2 = ((1 - t) l + t h)^2 = x_k^2
+//! ```
+//!
+//! (if `l = h`, all nodes are `(x_k, x_k^2)`). So the pair is a weighted sum of the nodes, and `f`, affine
+//! in it, the same sum; coordinate after coordinate, with products of the weights. ∎ A coordinate of
+//! which no formula has the square needs the nodes `l` and `h` alone.
+//!
+//! The middle node is no point of the parabola: to take `((l + h)/2)^2` for its square would be unsound.
+//! `(x - 1/4)^2 - 1/32` on `[0, 1]` has the values 1/32, 1/32, 17/32 at 0, 1/2 and 1, and -1/32 at 1/4.
+//!
+//! So these are to a formula what [`crate::cell::Vertex`] values are, and the tests are the same; but
+//! nothing is lost to slopes.
+
+use crate::arithmetic::Enclosure;
+use crate::formula::{Formula, Op, Tape};
+use crate::slope::MOST_COORDINATES;
+use std::collections::HashMap;
+
+/// The degree in each coordinate.
+type Degrees = [u8; MOST_COORDINATES];
+
+const CONSTANT: Degrees = [0; MOST_COORDINATES];
+
+/// Formulas at control points.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// Coordinate `m + k` is the square of coordinate `k`.
+    tape: Tape,
+    m: usize,
+    images: HashMap<Formula, (Formula, Degrees)>,
+    degrees: Degrees,
+}
+
+impl Control {
+    /// Of a tape in `m` coordinates, those of the `wanted` formulas that are certainly affine in each
+    /// `(x_k, x_k^2)`: sums; products of formulas that share no coordinate; squares of coordinates; and
+    /// anything of what depends on none.
+    pub fn new(tape: &Tape, m: usize, wanted: &[Formula]) -> Self {
+        let mut own = Tape::default();
+        let mut images: Vec<Option<(Formula, Degrees)>> = Vec::new();
+        for (&op, needed) in tape.ops().iter().zip(tape.parts(wanted)) {
+            let of = |f: Formula| images.get(f.0).copied().flatten();
+            let image = needed.then(|| image(&mut own, m, op, tape, of)).flatten();
+            images.push(image);
+        }
+        let known = wanted.iter().filter_map(|&f| Some((f, *images.get(f.0)?.as_ref()?)));
+        let images: HashMap<Formula, (Formula, Degrees)> = known.collect();
+        let degrees = images.values().fold(CONSTANT, |all, (_, d)| most(&all, d));
+        Control { tape: own, m, images, degrees }
+    }
+
+    /// Whether a formula has the form.
+    pub fn has(&self, formula: Formula) -> bool {
+        self.images.contains_key(&formula)
+    }
+
+    /// Evaluations of a formula at all control points.
+    pub fn work(&self) -> usize {
+        let points: usize = self.degrees.iter().map(|&d| usize::from(d) + 1).product();
+        points.saturating_mul(self.tape.ops().len())
+    }
+
+    /// Values at all control points; `edges` has, for each coordinate, the cell's centre, range and
+    /// half-width.
+    pub fn values<E: Enclosure>(
+        &self,
+        e: &E,
+        parameters: &[E::Number],
+        edges: &[[E::Number; 3]],
+    ) -> Option<Controls<E::Number>> {
+        let nodes = |(range, &degree): (&[E::Number; 3], &u8)| nodes(e, &range[1], degree);
+        let nodes = edges.iter().zip(&self.degrees).map(nodes).collect::<Option<Vec<_>>>()?;
+        let points: usize = nodes.iter().map(Vec::len).product();
+        let mut values: HashMap<Formula, Vec<Option<E::Number>>> = HashMap::new();
+        for point in 0..points {
+            let (mut rest, mut own) = (point, Vec::with_capacity(nodes.len()));
+            for nodes in &nodes {
+                own.push(nodes.get(rest % nodes.len())?);
+                rest /= nodes.len();
+            }
+            let at = self.tape.run(e, |op| match op {
+                Op::Coordinate(k) if k < self.m => own.get(k).map(|[lin, _]| lin.clone()),
+                Op::Coordinate(k) => own.get(k - self.m).map(|[_, square]| square.clone()),
+                Op::Parameter(j) => parameters.get(j).cloned(),
+                _ => None,
+            });
+            for (&f, (image, _)) in &self.images {
+                values.entry(f).or_default().push(at.of(*image).cloned());
+            }
+        }
+        Some(Controls { points, values })
+    }
+}
+
+/// Formulas at the control points of a cell.
+#[derive(Clone, Debug)]
+pub struct Controls<N> {
+    points: usize,
+    values: HashMap<Formula, Vec<Option<N>>>,
+}
+
+impl<N> Controls<N> {
+    /// How many points there are.
+    #[allow(clippy::len_without_is_empty, reason = "there is one at least")]
+    pub fn len(&self) -> usize {
+        self.points
+    }
+
+    /// Encloses `f_j`; `None` where it is not defined, or the formula has not the form.
+    pub fn at(&self, formula: Formula, j: usize) -> Option<&N> {
+        self.values.get(&formula)?.get(j)?.as_ref()
+    }
+}
+
+fn most(a: &Degrees, b: &Degrees) -> Degrees {
+    std::array::from_fn(|k| a[k].max(b[k]))
+}
+
+/// An entry, and its degrees, from those of its parts.
+fn image(
+    own: &mut Tape,
+    m: usize,
+    op: Op,
+    tape: &Tape,
+    of: impl Fn(Formula) -> Option<(Formula, Degrees)>,
+) -> Option<(Formula, Degrees)> {
+    let with = |k: usize, degree: u8| {
+        let mut degrees = CONSTANT;
+        *degrees.get_mut(k).filter(|_| k < m)? = degree;
+        Some(degrees)
+    };
+    let constant = |f: Formula| of(f).filter(|(_, d)| *d == CONSTANT).map(|(f, _)| f);
+    Some(match op {
+        Op::Coordinate(k) => (own.coordinate(k), with(k, 1)?),
+        Op::Parameter(j) => (own.parameter(j), CONSTANT),
+        Op::Integer(n) => (own.integer(n), CONSTANT),
+        Op::Add(a, b) => {
+            let ((a, p), (b, q)) = (of(a)?, of(b)?);
+            (own.add(a, b), most(&p, &q))
+        }
+        Op::Sub(a, b) => {
+            let ((a, p), (b, q)) = (of(a)?, of(b)?);
+            (own.sub(a, b), most(&p, &q))
+        }
+        Op::Neg(a) => {
+            let (a, p) = of(a)?;
+            (own.neg(a), p)
+        }
+        Op::Mul(a, b) => {
+            let ((a, p), (b, q)) = (of(a)?, of(b)?);
+            let apart = p.iter().zip(&q).all(|(&p, &q)| p == 0 || q == 0);
+            apart.then(|| (own.mul(a, b), most(&p, &q)))?
+        }
+        Op::Div(a, b) => {
+            let ((a, p), b) = (of(a)?, constant(b)?);
+            (own.div(a, b), p)
+        }
+        Op::Sqr(a) => match tape.op(a) {
+            Op::Coordinate(k) => (own.coordinate(m + k), with(k, 2)?),
+            _ => (own.sqr(constant(a)?), CONSTANT),
+        },
+        Op::Sqrt(a) => (own.sqrt(constant(a)?), CONSTANT),
+    })
+}
+
+/// The nodes `(lin, sq)` of a coordinate, as many as its degree needs.
+fn nodes<E: Enclosure>(e: &E, range: &E::Number, degree: u8) -> Option<Vec<[E::Number; 2]>> {
+    let [l, h] = e.ends(range);
+    let end = |x: &E::Number| Some([x.clone(), e.sqr(x)?]);
+    let middle = || Some([e.halve(&e.add(&l, &h)?)?, e.mul(&l, &h)?]);
+    Some(match degree {
+        0 => vec![end(&l)?],
+        1 => vec![end(&l)?, end(&h)?],
+        _ => vec![end(&l)?, middle()?, end(&h)?],
+    })
+}

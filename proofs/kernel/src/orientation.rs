@@ -1,0 +1,153 @@
+//! Orientations of a platform: rotations as polynomials of half-angle tangents, and the sets that
+//! claims name.
+//!
+//! ```text
+//! Rodrigues: c = tan(theta/2) axis     N = (1 - |c|^2) I + 2 c c^T + 2 [c]x         w = 1 + |c|^2
+//! one axis:  t = tan(phi/2)            cos phi = (1 - t^2)/(1 + t^2)    sin phi = 2 t/(1 + t^2)
+//! R_z(yaw) R_y(pitch) R_x(roll):       N = N_z N_y N_x                              w = w_x w_y w_z
+//! ```
+//!
+//! `R = N/w`. Of degree two at most in each coordinate, and `w >= 1`.
+
+use crate::claim::Orientation;
+use crate::compile::Builder;
+use crate::formula::{Formula, Tape, Vector};
+use crate::input::{number_error, ordered, shape_error, ClaimError, Input, Value};
+use crate::number::Expression;
+
+const PLACE: &str = "orientation";
+
+/// A set of rotations, in coordinates.
+pub(crate) struct Chart {
+    /// `N`, row by row.
+    pub matrix: [Vector; 3],
+    /// `w`.
+    pub weight: Formula,
+    /// Of each coordinate the least and the greatest value: the box contains the set.
+    pub ends: Vec<[Input; 2]>,
+    /// `g`: the set is where it is not negative in the box; none if that is all of it.
+    pub g: Option<Formula>,
+}
+
+/// The chart of a set, in coordinates from `first` on; in the plane, or in space.
+pub(crate) fn chart(
+    builder: &mut Builder,
+    orientation: &Orientation,
+    first: usize,
+    in_plane: bool,
+) -> Result<Chart, ClaimError> {
+    if matches!(orientation, Orientation::Range(_)) != in_plane {
+        return Err(shape_error(PLACE, "a range in the plane, and only there"));
+    }
+    let few = if in_plane { 1 } else { 3 };
+    let c: Vec<Formula> = (first..first + few).map(|k| builder.tape.coordinate(k)).collect();
+    let c: Vector = std::array::from_fn(|k| c[k % few]);
+    match orientation {
+        Orientation::Angle(angle) => {
+            less_than_half_a_turn(angle)?;
+            let t = builder.input(PLACE, Value::HalfTangent(angle.clone()), 0);
+            let tape = &mut builder.tape;
+            let (radius, square) = (tape.sqr(t), tape.norm_squared(&c));
+            let g = tape.sub(radius, square);
+            let ends = symmetric(angle, Value::HalfTangent);
+            Ok(rodrigues(tape, &c, [ends.clone(), ends.clone(), ends], g))
+        }
+        // With the quaternion q, c = (q_1, q_2, q_3)/q_0: the tilt has q_1^2 + q_2^2 = sin^2(tilt/2) and
+        // q_0^2 + q_3^2 = cos^2(tilt/2), the torsion q_3/q_0 = tan(torsion/2). So a tilt of at most
+        // that with the tangent t is c_1^2 + c_2^2 <= t^2 (1 + c_3^2), and then, with |c_3| <= s,
+        // |c_1| and |c_2| are at most t sqrt(1 + s^2): t alone would cut off orientations of the set.
+        Orientation::Tilt { tilt, torsion } => {
+            less_than_half_a_turn(tilt)?;
+            less_than_half_a_turn(torsion)?;
+            let t = builder.input(PLACE, Value::HalfTangent(tilt.clone()), 0);
+            let tape = &mut builder.tape;
+            let (one, t, [x, y, z]) = (tape.integer(1), tape.sqr(t), c.map(|c| tape.sqr(c)));
+            let turned = tape.add(one, z);
+            let most = tape.mul(t, turned);
+            let less = tape.sub(most, x);
+            let g = tape.sub(less, y);
+            let reach = symmetric(tilt, |tilt| Value::TiltReach(tilt, torsion.clone()));
+            let ends = [reach.clone(), reach, symmetric(torsion, Value::HalfTangent)];
+            Ok(rodrigues(tape, &c, ends, g))
+        }
+        Orientation::RollPitchYaw { roll, pitch, yaw } => {
+            let ends = [roll, pitch, yaw].map(range).into_iter().collect::<Result<_, _>>()?;
+            let tape = &mut builder.tape;
+            let [(x, w_x), (y, w_y), (z, w_z)] =
+                std::array::from_fn(|axis| about(tape, axis, c[axis]));
+            let (matrix, weight) = (product(tape, &y, &x), tape.mul(w_y, w_x));
+            let (matrix, weight) = (product(tape, &z, &matrix), tape.mul(w_z, weight));
+            Ok(Chart { matrix, weight, ends, g: None })
+        }
+        Orientation::Range(ends) => {
+            let ends = vec![range(ends)?];
+            let (matrix, weight) = about(&mut builder.tape, 2, c[0]);
+            Ok(Chart { matrix, weight, ends, g: None })
+        }
+    }
+}
+
+fn rodrigues(tape: &mut Tape, c: &Vector, ends: [[Input; 2]; 3], g: Formula) -> Chart {
+    let (one, two) = (tape.integer(1), tape.integer(2));
+    let squares = c.map(|c| tape.sqr(c));
+    let [x, y, z] = squares;
+    let sum = tape.add(x, y);
+    let sum = tape.add(sum, z);
+    let weight = tape.add(one, sum);
+    let entry = |tape: &mut Tape, i: usize, j: usize| {
+        if i == j {
+            let (less, twice) = (tape.sub(one, sum), tape.mul(two, squares[i]));
+            return tape.add(less, twice);
+        }
+        // [c]x has -c_3, c_2, -c_1 above the diagonal.
+        let (product, other) = (tape.mul(c[i.min(j)], c[i.max(j)]), c[3 - i - j]);
+        let before = (j + 1) % 3 == i;
+        let half = if before { tape.add(product, other) } else { tape.sub(product, other) };
+        tape.mul(two, half)
+    };
+    let matrix = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(tape, i, j)));
+    Chart { matrix, weight, ends: ends.to_vec(), g: Some(g) }
+}
+
+/// `w` times the rotation about a coordinate axis, and `w`.
+fn about(tape: &mut Tape, axis: usize, t: Formula) -> ([Vector; 3], Formula) {
+    let (zero, one, two) = (tape.integer(0), tape.integer(1), tape.integer(2));
+    let square = tape.sqr(t);
+    let (weight, cos, sin) = (tape.add(one, square), tape.sub(one, square), tape.mul(two, t));
+    let minus = tape.neg(sin);
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut matrix = [[zero; 3]; 3];
+    matrix[axis][axis] = weight;
+    (matrix[j][j], matrix[j][k]) = (cos, minus);
+    (matrix[k][j], matrix[k][k]) = (sin, cos);
+    (matrix, weight)
+}
+
+fn product(tape: &mut Tape, a: &[Vector; 3], b: &[Vector; 3]) -> [Vector; 3] {
+    a.map(|row| std::array::from_fn(|k| tape.dot(&row, &[b[0][k], b[1][k], b[2][k]])))
+}
+
+fn less_than_half_a_turn(angle: &Expression) -> Result<(), ClaimError> {
+    ordered(PLACE, &Expression::integer(0), angle, false)
+        .and_then(|()| ordered(PLACE, angle, &Expression::integer(180), true))
+        .map_err(|_| number_error(PLACE, "an angle from 0 to less than 180 degrees"))
+}
+
+fn end(value: Value) -> Input {
+    Input { place: PLACE.to_owned(), value, scale: 0 }
+}
+
+/// What is made of `-angle`, and of `angle`: odd functions of it.
+fn symmetric(angle: &Expression, of: impl Fn(Expression) -> Value) -> [Input; 2] {
+    [Expression::Neg(Box::new(angle.clone())), angle.clone()].map(|angle| end(of(angle)))
+}
+
+/// The half tangents of a range of angles, between which the tangent increases.
+fn range([min, max]: &[Expression; 2]) -> Result<[Input; 2], ClaimError> {
+    let half_turn = Expression::integer(180);
+    ordered(PLACE, min, max, false)?;
+    ordered(PLACE, &Expression::Neg(Box::new(half_turn.clone())), min, true)
+        .and_then(|()| ordered(PLACE, max, &half_turn, true))
+        .map_err(|_| number_error(PLACE, "between -180 and 180 degrees"))?;
+    Ok([min, max].map(|angle| end(Value::HalfTangent(angle.clone()))))
+}

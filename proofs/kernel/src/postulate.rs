@@ -1,0 +1,378 @@
+//! The Q1/Q2 postulate: for one `psi_max`, a range, or every `psi_max > 1`.
+//!
+//! `L = 1`, `kappa = 1/psi_max`, and `W(kappa) = [q_1, q_2]^3` is the paper's cube (see `cube`, whose
+//! lemma (upper bound) gives `sigma_max(M) <= 1/kappa` on it). What trees prove is the lower bound.
+//!
+//! **Blow-up.** With `delta = 1 - kappa`, `M = I + delta N`, and for one of the corners `Q_1`, `Q_2`,
+//! with its `t`, `tau = t/delta` and `|q| = t/sqrt(1 + 2 t^2)`, in the coordinates `eta = P/|q|`,
+//!
+//! ```text
+//! N_ij = P_j/(delta s_i) = tau eta_j/S_i,  i != j      S_i = sqrt(1 + t^2 (2 - eta_j^2 - eta_k^2))
+//! sym(M) - kappa I = (delta/2) (2 I + N + N^T) = (t/2) F
+//! F = (2/tau) I + (eta_j/S_i + eta_i/S_j)_ij
+//! ```
+//!
+//! so that `F >= 0` gives `sigma_min(M) >= kappa`; `F` is regular where `kappa = 1` and `kappa = 0` too:
+//!
+//! ```text
+//!                       2/tau      t              eta_k, for u_k in [0, 1]
+//! Q_1                   4          delta/2        -1 + u_k (1 + 1/p)
+//! Q_2, kappa <= 1/2     2          delta           1 - (1 - u_k)(1 + p)
+//! Q_2, kappa >= 1/2     4 kappa    delta/(2 kappa) 1 - (1 - u_k)(1 + p)
+//!
+//! p^2 = q_1^2/q_2^2 = (1 + 2 delta^2)/(4 + 2 delta^2)            for kappa <= 1/2
+//!                   = (2 kappa^2 + delta^2)/(2 + delta^2)        for kappa >= 1/2
+//! ```
+//!
+//! **Faces suffice.** If `sigma_min(M) >= kappa'` on the faces of `W(kappa')` for every `kappa'` in
+//! `[kappa, 1)`, then `sigma_min(M) >= kappa` on `W(kappa)`. *Proof.* `t_1` and `t_2` are continuous in
+//! `kappa` and decrease to 0 at 1, and `|q|` increases with `t`: the cubes are closed, nested, and
+//! shrink to `O`. Let `P` be in `W(kappa)`. If `P = O`, `M = I`. Otherwise
+//! `kappa' = max {k : P in W(k)}` exists, is less than 1, and `P` lies on a face of `W(kappa')`: an
+//! inner point would be one for a slightly greater `k`. So `sigma_min(M(P)) >= kappa' >= kappa`. ∎ In
+//! the same way `s_i > 0`, which goes with `F >= 0`. Since `M(pi P) = Pi M(P) Pi^T` for a permutation
+//! `pi` of the coordinates, the faces `x = q_1` and `x = q_2` stand for all six. So a proof for one
+//! `psi_max` is one for every lesser one.
+//!
+//! **By hand.** The same, without trees and without computation. Let `max |P_i| <= c`,
+//! `c = t/sqrt(1 + 2 t^2)`, `eta = P/c`, `S_i` with this `t`, `sigma_i = 1/S_i`, `g = (1 - kappa)/t`.
+//! Then `|eta_i| <= 1`, `0 < sigma_i <= 1`, and
+//!
+//! ```text
+//! (v^T M v - kappa |v|^2)/t = sum (g - eta_i sigma_i) v_i^2 + (eta . v)(sigma . v)
+//!                          >= sum (g - eta_i sigma_i) v_i^2 - ((eta - sigma) . v)^2/4 >= 0
+//! ```
+//!
+//! wherever `(eta_i - sigma_i)^2 <= K_i (g - eta_i sigma_i)` with `K_i > 0`, `sum K_i <= 4` (Cauchy).
+//! If `|P_i| <= |q_1|` for all `i`: `t = t_1`, `g = 2`, `K_i = 4/3`, as `e^2 + s^2 - 2 e s/3 <= 8/3` at
+//! the vertices of `[-1, 1] x [0, 1]`, and is convex. Else let `m = max P_j > |q_1|`,
+//! `t_1 <= t <= t_2`, `g = 2 t_1/t >= 1`, `eta_i >= -p`, `p = |q_1|/m`, `p^2 <= g/2`, as
+//! `(t - t_1)(2 t_1 t - 1) <= 0`. Where `eta_i = 1`, `K_i = 1/2`: `(1 - s)^2 <= (1 - s)/2`, as
+//! `S_i^2 <= 1 + 2 t^2 <= 3` and so `s >= 1/2`; elsewhere `K_i = 7/4`, as `e^2 + s^2 - e s/4 <= 7 g/4`
+//! at the vertices of `[-p, 1] x [0, 1]`. ∎
+
+use crate::arithmetic::Enclosure;
+use crate::cell::{evaluate, Cell, Vertex};
+use crate::certificate::{Corner, Evidence, Node, Step, Tree};
+use crate::check::{bisected, Leaf, Rejected, MOST_NODES, MOST_WORK};
+use crate::claim::Quantity;
+use crate::definite::is_positive_definite;
+use crate::fixed::{Fixed, Integer, Interval};
+use crate::formula::{Formula, Tape, Values};
+use crate::input::{binary, enclosed, narrowed, number_error, ordered, sign, ClaimError};
+use crate::number::{Expression, Operator};
+use crate::slope::{Slope, Slopes};
+use num_bigint::BigInt;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// "For every `psi_max` of the set and every Orthoglide with the paper's cube for it: at every point of
+/// the cube, every leg reaches without a serial singularity, and `1/psi_max <= psi_i <= psi_max`."
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostulateClaim {
+    /// The set.
+    pub psi_max: PsiMax,
+}
+
+/// A set of `psi_max`, all greater than 1.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum PsiMax {
+    /// Every `psi_max > 1`.
+    Every(Every),
+    /// One, or every one from the one to the other.
+    Of(Quantity),
+}
+
+/// `"all"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Every {
+    /// Every one.
+    #[serde(rename = "all")]
+    All,
+}
+
+/// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
+/// Coordinates are `u_y`, `u_z` and `kappa`.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The face `x = q_1` or `x = q_2`.
+    pub face: Corner,
+    least: Expression,
+    greatest: Expression,
+    tape: Tape,
+    /// The diagonal entry of `F`, and those at (1, 2), (1, 3) and (2, 3).
+    entries: [Formula; 4],
+}
+
+/// The trees of a proof, in their order: both faces, for `kappa` up to 1/2 and from there, as far as
+/// there are any from the least one on.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn parts(claim: &PostulateClaim) -> Result<Vec<Part>, ClaimError> {
+    let (one, two) = (Expression::integer(1), Expression::integer(2));
+    let half = binary(Operator::Div, &one, &two);
+    let (least, is_low) = match &claim.psi_max {
+        PsiMax::Every(Every::All) => (Expression::integer(0), true),
+        PsiMax::Of(psi) => {
+            let [min, max] = psi.ends();
+            ordered("psi_max", &one, min, true)?;
+            ordered("psi_max", min, max, matches!(psi, Quantity::Between { .. }))?;
+            let is_low = match (
+                sign(&binary(Operator::Sub, max, &two)),
+                sign(&binary(Operator::Sub, &two, max)),
+            ) {
+                (Some([true, _]), _) => true,
+                (_, Some([_, true])) => false,
+                _ => return Err(number_error("psi_max", "told from 2")),
+            };
+            (binary(Operator::Div, &one, max), is_low)
+        }
+    };
+    let low = is_low.then(|| (least.clone(), half.clone(), true));
+    let high = (if is_low { half } else { least }, one, false);
+    let of_face = |face: Corner| {
+        let part = |(least, greatest, is_low): &(Expression, Expression, bool)| {
+            Part::new(face, *is_low, least.clone(), greatest.clone())
+        };
+        low.iter().chain([&high]).map(part).collect::<Vec<_>>()
+    };
+    Ok([Corner::Q1, Corner::Q2].into_iter().flat_map(of_face).collect())
+}
+
+impl Part {
+    fn new(face: Corner, is_low: bool, least: Expression, greatest: Expression) -> Self {
+        let mut tape = Tape::default();
+        let t = &mut tape;
+        let [u_y, u_z, kappa] = std::array::from_fn(|k| t.coordinate(k));
+        let [one, two, four] = [1, 2, 4].map(|n| t.integer(n));
+        let delta = t.sub(one, kappa);
+        let delta_squared = t.sqr(delta);
+        let (over, under) = if is_low {
+            let twice = t.mul(two, delta_squared);
+            (t.add(one, twice), t.add(four, twice))
+        } else {
+            let square = t.sqr(kappa);
+            let twice = t.mul(two, square);
+            (t.add(twice, delta_squared), t.add(two, delta_squared))
+        };
+        let p_squared = t.div(over, under);
+        let p = t.sqrt(p_squared);
+        let (diagonal, root) = match (face, is_low) {
+            (Corner::Q1, _) => (four, t.div(delta, two)),
+            (Corner::Q2, true) => (two, delta),
+            (Corner::Q2, false) => {
+                let twice = t.mul(two, kappa);
+                (t.mul(four, kappa), t.div(delta, twice))
+            }
+        };
+        let t_squared = t.sqr(root);
+        let x = t.integer(if face == Corner::Q1 { -1 } else { 1 });
+        let mut eta = |u: Formula| {
+            if face == Corner::Q1 {
+                let inverse = t.div(one, p);
+                let width = t.add(one, inverse);
+                let along = t.mul(u, width);
+                t.sub(along, one)
+            } else {
+                let (width, rest) = (t.add(one, p), t.sub(one, u));
+                let along = t.mul(rest, width);
+                t.sub(one, along)
+            }
+        };
+        let eta = [x, eta(u_y), eta(u_z)];
+        let mut s = |j: usize, k: usize| {
+            let (j, k) = (t.sqr(eta[j]), t.sqr(eta[k]));
+            let rest = t.sub(two, j);
+            let rest = t.sub(rest, k);
+            let rest = t.mul(t_squared, rest);
+            let square = t.add(one, rest);
+            t.sqrt(square)
+        };
+        let s = [s(1, 2), s(2, 0), s(0, 1)];
+        let mut entry = |i: usize, j: usize| {
+            let (above, below) = (t.div(eta[j], s[i]), t.div(eta[i], s[j]));
+            t.add(above, below)
+        };
+        let entries = [diagonal, entry(0, 1), entry(0, 2), entry(1, 2)];
+        Part { face, least, greatest, tape, entries }
+    }
+
+    /// The cell of its tree, rounded outward.
+    ///
+    /// # Errors
+    /// If the least `kappa` cannot be enclosed.
+    pub fn root<Z: Integer>(&self, bits: u32) -> Result<Cell<Z>, ClaimError> {
+        let kappa = || {
+            let (least, greatest) =
+                (enclosed(&self.least, 0, bits)?, enclosed(&self.greatest, 0, bits)?);
+            let whole = Interval { lo: Z::scaled(0, bits)?, hi: Z::scaled(1, bits)? };
+            let kappa = narrowed(&Interval { lo: least.lo, hi: greatest.hi })?;
+            Some(Cell(vec![whole.clone(), whole, kappa]))
+        };
+        kappa().ok_or_else(|| number_error("psi_max", "a number"))
+    }
+
+    /// Whether the evidence shows that `F >= 0`, and `S_i > 0`, on a cell, given for each coordinate its
+    /// centre, range and half-width.
+    pub fn shows<E: Enclosure>(
+        &self,
+        e: &E,
+        edges: &[[E::Number; 3]],
+        evidence: &Evidence,
+    ) -> bool {
+        let [y, z, kappa] = edges else { return false };
+        let shown = || match evidence {
+            Evidence::Test => self.is_definite(e, [y, z, kappa].map(Clone::clone)),
+            Evidence::Corner(corner) if *corner == self.face => self.tight_edge(e, [y, z, kappa]),
+            Evidence::Mirror => {
+                let ([least, _], [_, greatest]) = (e.ends(&y[1]), e.ends(&z[1]));
+                Some(e.is_nonnegative(&e.sub(&least, &greatest)?))
+            }
+            _ => None,
+        };
+        shown().unwrap_or(false)
+    }
+
+    /// **Definite.** If `F` is positive definite at the vertices of the cell, `F > 0` on it.
+    fn is_definite<E: Enclosure>(&self, e: &E, edges: [[E::Number; 3]; 3]) -> Option<bool> {
+        let slopes = Slopes { arithmetic: e, m: 3 };
+        let values = evaluate(&self.tape, &[], slopes, &edges);
+        let mut vertices = Vertex::all(3);
+        Some(vertices.all(|v| {
+            self.matrix(&values, |f| v.value(&slopes, f))
+                .is_some_and(|f| is_positive_definite(e, f))
+        }))
+    }
+
+    /// **Tight edge.** For every `kappa`, let `Q` be the face's own corner, `u = 0` or `u = 1`, and
+    /// `u = Q + lambda h`, `lambda` in `[0, 1]^2`: if `F` is positive definite at the vertices `lambda`
+    /// other than `Q`, then `F >= 0` on the cell, as far as it is within `[0, 1]^2`.
+    ///
+    /// *Proof.* At `Q` all `eta_k` are -1, or all are 1, and `S_i = 1`: `F(Q) = (d - o) I + o 11^T` with
+    /// `d = 2/tau`, `o = -2` or `2`, and the eigenvalues
+    ///
+    /// ```text
+    /// Q_1   d + 2 o = 0        d - o = 6
+    /// Q_2   d + 2 o = d + 4    d - o = d - 2 = 0 for kappa <= 1/2, 4 kappa - 2 >= 0 for kappa >= 1/2
+    /// ```
+    ///
+    /// A convex combination of `F(Q) >= 0` with positive definite matrices is positive semidefinite. ∎
+    /// The centre is `Q` for whichever `kappa` it is, all of which are enclosed at once: slopes in
+    /// `kappa` would make `F(Q)`, which is singular, one of many matrices to be shown definite.
+    fn tight_edge<E: Enclosure>(&self, e: &E, edges: [&[E::Number; 3]; 3]) -> Option<bool> {
+        let [y, z, [_, kappa, _]] = edges;
+        let from = e.integer(if self.face == Corner::Q1 { 0 } else { 1 })?;
+        let about = |[_, range, _]: &[E::Number; 3]| {
+            let [least, greatest] = e.ends(range);
+            let end = if self.face == Corner::Q1 { greatest } else { least };
+            Some([from.clone(), range.clone(), e.sub(&end, &from)?])
+        };
+        let edges = [about(y)?, about(z)?, [kappa.clone(), kappa.clone(), e.integer(0)?]];
+        let slopes = Slopes { arithmetic: e, m: 3 };
+        let values = evaluate(&self.tape, &[], slopes, &edges);
+        Some(Vertex::all(2).skip(1).all(|v| {
+            let matrix = self.matrix(&values, |f| v.value_about_corner(&slopes, f));
+            matrix.is_some_and(|f| is_positive_definite(e, f))
+        }))
+    }
+
+    /// `F`, the upper triangle, at a vertex.
+    fn matrix<N>(
+        &self,
+        values: &Values<Slope<N>>,
+        at: impl Fn(&Slope<N>) -> Option<N>,
+    ) -> Option<Vec<Vec<N>>> {
+        let of = |f: Formula| at(values.of(f)?);
+        let [d, xy, xz, yz] = self.entries;
+        Some(vec![vec![of(d)?, of(xy)?, of(xz)?], vec![of(d)?, of(yz)?], vec![of(d)?]])
+    }
+}
+
+/// Checks a proof: the trees of all parts, one after the other.
+///
+/// **Mirror.** On a face, a cell on which `u_y >= u_z` throughout needs no proof of its own. *Proof.*
+/// Fix `kappa`. Exchanging `y` and `z` maps the face to itself, `F` to `Pi F Pi^T`, and permutes the
+/// `S_i`. A point with `u_y < u_z` is in no such cell, so in a leaf on whose path `S_i > 0` and
+/// `F >= 0` are shown otherwise, on all of a closed cell. A point with `u_y > u_z` is the image of one
+/// of those. A point with `u_y = u_z` is a limit of them: as there are finitely many leaves, it lies in
+/// one of theirs. ∎
+pub(crate) fn holds<Z: Integer>(parts: &[Part], tree: &Tree) -> Result<(), Rejected> {
+    let bits = tree.precision;
+    let longest = parts.iter().map(|part| part.tape.ops().len()).max().unwrap_or_default();
+    let work = tree.nodes.len().saturating_mul(2 * longest * (1 + bits as usize / 64));
+    if tree.nodes.len() > MOST_NODES || work > MOST_WORK {
+        return Err(Rejected::Work);
+    }
+    let arithmetic = Fixed::<Z>::new(bits);
+    let mut nodes = tree.nodes.iter().enumerate();
+    for part in parts {
+        let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
+            if node.fails.is_some() || !node.at.is_empty() {
+                return Err(Rejected::Shape(at));
+            }
+            for Step(obligation, evidence) in &node.by {
+                let (node, obligation) = (at, *obligation);
+                match open.get_mut(obligation) {
+                    Some(is_open) if *is_open => *is_open = false,
+                    _ => return Err(Rejected::Repeated { node, obligation }),
+                }
+                let edges = cell.edges().ok_or(Rejected::Shape(at))?;
+                if !part.shows(&arithmetic, &edges, evidence) {
+                    return Err(Rejected::Step { node, obligation });
+                }
+            }
+            Ok(())
+        };
+        let root = part.root(bits).map_err(Rejected::Claim)?;
+        bisected(&mut nodes, root, 1, step, &mut |node, leaf, _| match leaf {
+            Leaf::Holds => Ok(()),
+            Leaf::Open(obligation) => Err(Rejected::Open { node, obligation }),
+            Leaf::Fails => Err(Rejected::Shape(node)),
+        })?;
+    }
+    nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
+}
+
+/// What an accepted claim establishes.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn statement(claim: &PostulateClaim) -> Result<String, fmt::Error> {
+    use fmt::Write;
+    let mut out = String::new();
+    writeln!(out, "It is proved:")?;
+    match &claim.psi_max {
+        PsiMax::Every(Every::All) => writeln!(out, "For every psi_max > 1,")?,
+        PsiMax::Of(Quantity::Exactly(psi)) => writeln!(out, "For psi_max = {psi},")?,
+        PsiMax::Of(Quantity::Between { min, max }) => {
+            writeln!(out, "For every psi_max from {min} to {max},")?;
+        }
+    }
+    writeln!(
+        out,
+        "for every Orthoglide with leg length L > 0, guides along the axes, and P measured"
+    )?;
+    writeln!(out, "from the point where they meet, with kappa = 1/psi_max, t1 = (1 - kappa)/2,")?;
+    writeln!(out, "t2 = 1 - kappa if kappa <= 1/2 and (1/kappa - 1)/2 otherwise,")?;
+    writeln!(out, "q1 = -L t1/sqrt(1 + 2 t1^2) and q2 = L t2/sqrt(1 + 2 t2^2):")?;
+    writeln!(out, "at every point P of the cube [q1, q2]^3, every leg reaches P without a serial")?;
+    writeln!(
+        out,
+        "singularity, P is no parallel singularity, and the velocity transmission factors"
+    )?;
+    writeln!(out, "psi_i satisfy 1/psi_max <= psi_i <= psi_max.")?;
+    Ok(out)
+}
+
+/// The trees in words or any size.
+pub(crate) fn check(claim: &PostulateClaim, tree: &Tree) -> Result<(), Rejected> {
+    let parts = parts(claim).map_err(Rejected::Claim)?;
+    crate::check::in_words_or_any_size(
+        tree.precision,
+        || holds::<i64>(&parts, tree),
+        || holds::<BigInt>(&parts, tree),
+    )
+}

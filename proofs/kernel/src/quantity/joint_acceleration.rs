@@ -1,0 +1,90 @@
+//! The joint acceleration that a platform's acceleration and speed ask for.
+
+use super::{Context, Quantity, Test};
+use crate::formula::{coordinates, Formula};
+use crate::input::{binary, ordered, positive, ClaimError, Value};
+use crate::machine::{Joint, Leg};
+use crate::number::{Expression, Operator};
+use crate::test::curvature::Curvature;
+
+pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
+    key: "joint_acceleration",
+    symbol: "|row_i of M| acceleration + |H_i| speed^2",
+    words:
+        "joint acceleration, H_i the second derivatives of rho_i; of arms, degrees per time squared",
+    of_legs: true,
+    given: &["acceleration", "speed"],
+    tests,
+};
+
+/// `rho'' = M_i . x'' + x'^T H_i x'`, of which the greatest absolute value for `|x''| <= a`,
+/// `|x'| <= v` is `|M_i| a + |H_i| v^2`, `|H_i|` the spectral norm: both terms are attained, with one
+/// sign, independently of each other. Divided by the bound, for `s = |eta_i|`, `t = L/s`, `l = |w|`:
+///
+/// ```text
+/// slider   H = m (I - n n^T + r r^T/s^2)/s    |M_i| = L/s    |H| = (1 + |r|^2/s^2)/s = t^3/L
+/// strut    H = (I - u u^T)/l                  |M_i| = 1      |H| = 1/l
+/// ```
+///
+/// so that a sign shows it; of others, `H` is the derivative of the row.
+fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    context.without_rotation()?;
+    let max = context.greatest()?.clone();
+    positive(context.place, &max)?;
+    let zero = Expression::integer(0);
+    let [acceleration, speed] = ["acceleration", "speed"].map(|name| context.given(name).cloned());
+    let (acceleration, speed) = (acceleration?, speed?);
+    for given in [&acceleration, &speed] {
+        ordered(context.place, &zero, given, false)?;
+    }
+    let Some(leg) = leg else { return context.refused("of a leg") };
+    let square = binary(Operator::Mul, &speed, &speed);
+    let mut over_max = |x: &Expression, units: i64| {
+        let ratio = binary(Operator::Div, x, &max);
+        if !leg.is_angular() {
+            return context.number(&ratio, units);
+        }
+        let ratio = context.number(&ratio, units + 1);
+        let degree = context.input(Value::Radians(Expression::integer(1)));
+        context.tape().div(ratio, degree)
+    };
+    let (a, b) = (over_max(&acceleration, 0), over_max(&square, 1));
+    let one = context.tape().integer(1);
+    let rest = match (leg.rho, leg.length, leg.eta_squared) {
+        (Some(Joint::Length(_)), Some(length), Some(square)) => {
+            let tape = context.tape();
+            let s = tape.sqrt(square);
+            let (t, b) = (tape.div(length, s), tape.div(b, length));
+            let square = tape.sqr(t);
+            let curved = tape.mul(b, square);
+            let factor = tape.add(a, curved);
+            let asked = tape.mul(t, factor);
+            tape.sub(one, asked)
+        }
+        (Some(Joint::Length(rho)), Some(length), None) if rho == length => {
+            let tape = context.tape();
+            let (rest, curved) = (tape.sub(one, a), tape.div(b, length));
+            tape.sub(rest, curved)
+        }
+        _ => return Ok(vec![Test::Curvature(curvature(context, leg, [a, b])?)]),
+    };
+    Ok(vec![Test::AtLeast(rest)])
+}
+
+/// Of `|x'^T H x'|` only the symmetric part of `H` matters: twice that is what is held.
+fn curvature(
+    context: &mut Context<'_>,
+    leg: &Leg,
+    [a, b]: [Formula; 2],
+) -> Result<Curvature, ClaimError> {
+    let row = leg.divided.a.clone();
+    let by = coordinates(row.len());
+    let h = row.iter().map(|&f| context.derivatives(f, &by)).collect::<Result<Vec<_>, _>>()?;
+    let tape = context.tape();
+    let mut twice = Vec::new();
+    for (j, own) in h.iter().enumerate() {
+        let entry = |(&f, other): (&Formula, &Vec<Formula>)| tape.add(f, other[j]);
+        twice.push(own.iter().zip(&h).skip(j).map(entry).collect());
+    }
+    Ok(Curvature { row, twice, a, b })
+}

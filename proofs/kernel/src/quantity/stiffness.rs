@@ -1,0 +1,42 @@
+//! Stiffness at the platform, of elastic joints and rigid legs.
+
+use super::{Context, Quantity, Test};
+use crate::input::{binary, positive, ClaimError};
+use crate::machine::Leg;
+use crate::number::Operator;
+use crate::test::Row;
+
+pub(super) const STIFFNESS: Quantity = Quantity {
+    key: "stiffness",
+    symbol: "the least eigenvalue of M^T diag(joint) M",
+    words: "stiffness of the platform, with joints of the stiffness given and rigid legs, without preload",
+    of_legs: false,
+    given: &["joint"],
+    tests,
+};
+
+/// `M^T diag(k) M >= b I`, for `b, k_i > 0`, is `sigma_min >= 1` of the rows `A_i` with `D_i b/k_i` in
+/// place of `D_i`, which are `sqrt(k_i/b)` times those of `M`. One `k`, or one a leg; of arms it is a
+/// torque per radian.
+///
+/// *Proof.* A displacement `x` of the platform displaces joint `i` by `M_i . x`, which it resists with
+/// the force `k_i M_i . x`; by virtual work the platform feels `M^T diag(k) M x`. ∎
+fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
+    let bound = context.least()?.clone();
+    positive(context.place, &bound)?;
+    let given = context.all_given("joint")?.to_vec();
+    let units = if context.is_angular() { -2 } else { 0 };
+    let legs = context.legs;
+    if given.len() != 1 && given.len() != legs.len() {
+        return context.refused("given one number, or one a leg");
+    }
+    let mut rows = Vec::new();
+    for (leg, k) in legs.iter().zip(given.iter().cycle()) {
+        positive(context.place, k)?;
+        let ratio = context.number(&binary(Operator::Div, &bound, k), units);
+        let d = context.tape().mul(leg.row.d, ratio);
+        rows.push(Row { a: leg.row.a.clone(), d });
+    }
+    let one = context.tape().integer(1);
+    Ok(vec![Test::Least(rows, one)])
+}

@@ -1,0 +1,50 @@
+//! A weighted sum of the norms of a row and of a symmetric matrix.
+
+use super::{scalar, Over};
+use crate::arithmetic::Enclosure;
+use crate::cell::Vertex;
+use crate::definite::{is_positive_definite, Triangle};
+use crate::formula::Formula;
+
+/// `a |row| + b |H| <= 1`, with `a, b >= 0` that depend on no coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curvature {
+    /// The row.
+    pub row: Vec<Formula>,
+    /// The upper triangle of `2 H`.
+    pub twice: Vec<Vec<Formula>>,
+    /// `a`.
+    pub a: Formula,
+    /// `b`.
+    pub b: Formula,
+}
+
+/// **Row and matrix.** If `(1 - a |row_v|) I + b H_v` and `(1 - a |row_v|) I - b H_v` are positive
+/// definite at the vertices `v`, then `a |row| + b |H| < 1` on the cell.
+///
+/// *Proof.* At each vertex `a |row_v| + b |H_v| < 1`, `|H_v|` the greatest absolute value of an
+/// eigenvalue. Both norms are convex, so with the weights of [`Vertex`],
+/// `a |row(x)| + b |H(x)| <= sum_v w_v (a |row_v| + b |H_v|) < 1`. ∎ With the workspace's own
+/// inequality `t`, less `t_v` at each. One of the two matrices alone would bound one end of the
+/// eigenvalues of `H` only.
+pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
+    let e = over.slopes.arithmetic;
+    let at = |v: Vertex, f: &Formula| v.value(&over.slopes, over.of(*f)?);
+    let matrices = |v: Vertex| -> Option<[Triangle<E::Number>; 2]> {
+        let square = |sum, f| e.add(&sum, &e.sqr(&at(v, f)?)?);
+        let square = test.row.iter().try_fold(e.integer(0)?, square)?;
+        let row = e.greatest_root(&square)?;
+        let rest = e.sub(&e.integer(1)?, &e.mul(&over.of(test.a)?.range, &row)?)?;
+        let start = scalar(e, test.row.len(), &over.less_inside(rest, v)?)?;
+        let b = e.halve(&over.of(test.b)?.range)?;
+        let combined = |b: &E::Number| {
+            let entry = |(t, f): (&E::Number, &Formula)| e.add(t, &e.mul(b, &at(v, f)?)?);
+            let row = |(t, h): (&Vec<_>, &Vec<_>)| t.iter().zip(h).map(entry).collect();
+            start.iter().zip(&test.twice).map(row).collect::<Option<Triangle<_>>>()
+        };
+        Some([combined(&b)?, combined(&e.neg(&b)?)?])
+    };
+    Vertex::all(over.slopes.m).all(|v| {
+        matrices(v).is_some_and(|both| both.into_iter().all(|t| is_positive_definite(e, t)))
+    })
+}

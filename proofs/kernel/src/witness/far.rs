@@ -1,0 +1,76 @@
+//! Joint errors and a machine with no position near enough.
+
+use super::{values_at, AtPoint, Number};
+use crate::arithmetic::{Arithmetic, Enclosure};
+use crate::cell::evaluate;
+use crate::formula::Values;
+use crate::input::binary;
+use crate::machine::{Joint, Leg};
+use crate::number::{Expression, Operator};
+use crate::slope::Slopes;
+use crate::test::accuracy::{inflated, spread, Accuracy};
+use crate::test::Over;
+
+impl AtPoint<'_> {
+    /// `v . b/d - |M^T v| - (d Gamma/2) |v|` for the worst joint errors, at most.
+    ///
+    /// **Lemma.** If it is positive, the machine has no position within `d` with the joint coordinates
+    /// that these errors give. *Proof.* For one, `b = f(P + u) - f(P)` with `|u| <= d` (see
+    /// [`accuracy`](crate::test::accuracy::accuracy)), so `v . b <= |M^T v| d + |v| Gamma d^2/2`. Of
+    /// `b_i = delta_i + eps_i` the error may be `e_i` with the sign of `v_i`. ∎ A position beyond `d` would
+    /// show nothing: there may be another one within.
+    pub(super) fn far(&self, test: &Accuracy, v: &[i64]) -> Option<Number> {
+        let e = &self.arithmetic;
+        let v = self.direction(v, test.joints.len())?;
+        let d = self.values.of(test.distance)?;
+        let mut rest = e.integer(0)?;
+        for ((v, delta), (error, _)) in v.iter().zip(self.off_nominal()?).zip(&test.joints) {
+            let size = if e.is_nonnegative(v) { v.clone() } else { e.neg(v)? };
+            rest = e.add(&rest, &e.mul(v, &e.div(&delta, d)?)?)?;
+            rest = e.add(&rest, &e.mul(&size, self.values.of(*error)?)?)?;
+        }
+        let edges: Vec<_> = self.point.iter().map(|x| [x.clone(), x.clone(), d.clone()]).collect();
+        let slopes = Slopes { arithmetic: e, m: edges.len() };
+        let edges = inflated(e, &edges, d)?;
+        let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
+        let far = Over { slopes, values: &values, controls: None, inside: None };
+        let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
+        let spread = e.halve(&spread(&far, &test.rows).filter(|_| defined)?)?;
+        let norm = |v: &[Number]| e.greatest_root(&self.square(v)?);
+        let image = norm(&self.transposed(&test.rows, &v)?)?;
+        e.sub(&rest, &e.add(&image, &e.mul(&spread, &norm(&v)?)?)?)
+    }
+
+    /// `rho_i` of the machine in the middle of the tolerance, less `rho_i`, at this point. Of angles,
+    /// which count their turns: if for all machines of the tolerance the cosine of the difference is
+    /// positive, it is within a quarter of a turn on the way from one to the other, and between its sine
+    /// and its tangent.
+    fn off_nominal(&self) -> Option<Vec<Number>> {
+        let (e, problem) = (&self.arithmetic, self.problem);
+        let middle = |(_, min, max): (&str, &Expression, &Expression)| {
+            binary(Operator::Div, &binary(Operator::Add, min, max), &Expression::integer(2))
+        };
+        let middle: Vec<Expression> = problem.tolerances().map(middle).collect();
+        let with = |machine: &[Expression]| {
+            let parameters = problem.parameters(e.bits(), machine).ok()?;
+            Some(values_at(problem, e, &self.point, &parameters))
+        };
+        let (nominal, all) = (with(&middle)?, with(&[])?);
+        let off = |leg: &Leg| match leg.rho? {
+            Joint::Length(rho) => e.sub(nominal.of(rho)?, self.values.of(rho)?),
+            Joint::Angle { cos, sin } => {
+                let turned = |other: &Values<Number>| {
+                    let (c, s) = (nominal.of(cos)?, nominal.of(sin)?);
+                    let (c2, s2) = (other.of(cos)?, other.of(sin)?);
+                    let along = e.add(&e.mul(c, c2)?, &e.mul(s, s2)?)?;
+                    let across = e.sub(&e.mul(s, c2)?, &e.mul(c, s2)?)?;
+                    Some((along, across)).filter(|(along, _)| e.is_positive(along))
+                };
+                turned(&all)?;
+                let (cos, sin) = turned(&self.values)?;
+                Some(e.hull(&sin, &e.div(&sin, &cos)?))
+            }
+        };
+        problem.legs.iter().map(off).collect()
+    }
+}

@@ -1,0 +1,125 @@
+//! What it costs to check something, estimated before it is done: an atlas compiles its claim in every
+//! cell, and a short text may ask for much.
+//!
+//! A unit is a third of a microsecond or so. The estimates are of the dearest inputs that were found;
+//! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
+//! it.
+
+use crate::certificate::{Node, Tree};
+use crate::check::Rejected;
+use crate::formula::Op;
+use crate::input::{Input, Value};
+use crate::number::{Expression, Operator};
+use crate::problem::Problem;
+
+/// Units of work for each byte of a certificate, of a third of a microsecond or so.
+pub const WORK_A_BYTE: usize = 24;
+/// A certificate may ask for the work of so many bytes, however short it is.
+pub const LEAST_BYTES: usize = 100_000;
+
+/// Units of work that are left.
+pub(crate) struct Budget(usize);
+
+impl Budget {
+    /// The budget of a certificate of so many bytes.
+    pub fn new(bytes: usize) -> Self {
+        Budget(bytes.max(LEAST_BYTES).saturating_mul(WORK_A_BYTE))
+    }
+
+    /// Less so many units.
+    ///
+    /// # Errors
+    /// If there are not so many left.
+    pub fn spend(&mut self, units: usize) -> Result<(), Rejected> {
+        self.0 = self.0.checked_sub(units).ok_or(Rejected::Work)?;
+        Ok(())
+    }
+}
+
+/// What a number costs, which is evaluated six times or so: an operation on rational numbers of `b` bits
+/// the square of `b`; one on slopes in parameters eight times as much as another.
+pub(crate) fn of_number(x: &Expression) -> usize {
+    6usize.saturating_mul(size(x).0)
+}
+
+/// What an expression costs, the bits that it has as a rational number, and whether it varies.
+fn size(x: &Expression) -> (usize, usize, bool) {
+    let (each, (parts, bits, varies)) = match x {
+        Expression::Literal { digits, places } => {
+            let bits = usize::try_from(digits.bits()).unwrap_or(usize::MAX);
+            (2, (0, bits.saturating_add(4 * *places as usize), false))
+        }
+        Expression::Name(_) => (2, (0, 0, false)),
+        Expression::Varying(_) => (2, (0, 0, true)),
+        Expression::Neg(inner) => (2, size(inner)),
+        Expression::Sqrt(inner) => (60, size(inner)),
+        Expression::Power(base, n) => {
+            let (work, bits, varies) = size(base);
+            (4 * *n as usize, (work, bits.saturating_mul(*n as usize), varies))
+        }
+        Expression::Binary(operator, left, right) => {
+            let each = if *operator == Operator::Div { 8 } else { 4 };
+            let ((left, b, v), (right, c, w)) = (size(left), size(right));
+            (each, (left.saturating_add(right), b.saturating_add(c), v || w))
+        }
+    };
+    let each = if varies { 8 * each } else { each };
+    let each = each.saturating_add(bits.saturating_mul(bits) >> 14);
+    (parts.saturating_add(each), bits, varies)
+}
+
+/// The operations of a problem's tape, of which roots and quotients cost more.
+fn weight(problem: &Problem) -> usize {
+    let weight = |op: &Op| match op {
+        Op::Sqrt(_) => 10,
+        Op::Div(..) => 3,
+        _ => 1,
+    };
+    problem.tape.ops().iter().map(weight).sum()
+}
+
+/// What the formulas cost of which a problem is made, and its angles.
+pub(crate) fn of_problem(problem: &Problem) -> usize {
+    4 * weight(problem) + of_angles(problem)
+}
+
+/// What angles cost, at any precision.
+fn of_angles(problem: &Problem) -> usize {
+    let of = |input: &Input| match input.value {
+        Value::Quantity(_) => 1,
+        Value::Cosine(_) | Value::Sine(_) | Value::Radians(_) | Value::HalfTangent(_) => 300,
+        Value::TiltReach(..) => 600,
+    };
+    problem.inputs.iter().map(of).sum()
+}
+
+/// Numbers of more bits cost more.
+fn words(precision: u32) -> usize {
+    1 + precision as usize / 256
+}
+
+/// What a tree costs: the slopes of its nodes, and the vertices of its steps.
+pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
+    let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
+    let nodes = tree.nodes.iter().filter(is_evaluated).count();
+    let steps: usize = tree.nodes.iter().map(|node| node.by.len()).sum();
+    let each = weight(problem) * (2 + 3 * problem.dimension());
+    let all = nodes
+        .saturating_mul(each)
+        .saturating_add(steps.saturating_mul(of_step(problem)))
+        .saturating_add(of_angles(problem));
+    all.saturating_mul(words(tree.precision)).saturating_add(4 * tree.nodes.len())
+}
+
+/// Matrices at every vertex, and their own sign vertices.
+fn of_step(problem: &Problem) -> usize {
+    let (m, n) = (problem.dimension(), problem.legs.len());
+    let vertices = 1usize << m;
+    problem.work() + vertices * (4 * n * m * m + vertices * m * m * m) / 4
+}
+
+/// What a witness costs.
+pub(crate) fn of_witness(problem: &Problem, precision: u32) -> usize {
+    let all = 4 * weight(problem) + of_step(problem) + of_angles(problem);
+    all.saturating_mul(words(precision))
+}

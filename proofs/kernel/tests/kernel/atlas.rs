@@ -1,0 +1,398 @@
+//! Maps of parameters: certified, refuted and undecided cells, and what is rejected.
+
+use crate::prover::Prover;
+use orthocert_kernel::atlas::{statement, AtlasCell, AtlasClaim, Part};
+use orthocert_kernel::certificate::{
+    Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+};
+use orthocert_kernel::check::{check, Rejected};
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+
+fn number(text: &str) -> Expression {
+    Expression::try_from(text.to_owned()).expect("a number")
+}
+
+/// The Orthoglide with `L = 1`, and a cube of the side `side` at its best place for `psi_max = 2`.
+fn orthoglide(certified: &str, refuted: &str) -> String {
+    let leg = |n: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":[{n}],"anchor":["0","0","0"],"platform":["0","0","0"],"length":"1","mode":"+"}}"#
+        )
+    };
+    let legs = [leg(r#""1","0","0""#), leg(r#""0","1","0""#), leg(r#""0","0","1""#)].join(",");
+    let (low, high) = (r#""-side*(sqrt(3)-1)/2""#, r#""side*(3-sqrt(3))/2""#);
+    format!(
+        r#"{{"parameters":[{{"name":"psi_max","min":"6/5","max":"4"}},{{"name":"side","min":"1/10","max":"1"}}],"machine":{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":[{low},{low},{low}],"max":[{high},{high},{high}]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"psi_max"}},{{"quantity":"transmission","end":"min","bound":"1/psi_max"}}]}},"certified":"{certified}","refuted":"{refuted}"}}"#
+    )
+}
+
+fn claim(text: &str) -> AtlasClaim {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+fn certificate(claim: AtlasClaim, cells: Vec<AtlasCell>) -> Certificate {
+    Certificate {
+        format: FORMAT.to_owned(),
+        claim: Claim::Atlas(claim),
+        verdict: Verdict::Certified,
+        proof: Proof::Atlas(cells),
+        provenance: Provenance { tool: "test".to_owned(), version: "0".to_owned() },
+    }
+}
+
+/// The map of a claim, with cells of up to so many halvings; `witnesses` are tried in their order.
+fn map(claim: &AtlasClaim, witnesses: &[Witness], depth: u32) -> Vec<AtlasCell> {
+    let mut cells = Vec::new();
+    let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
+    while let Some(part) = waiting.pop() {
+        let over = claim.over(&part).expect("parameters");
+        let refutes = |witness: &&Witness| {
+            let mut whole =
+                certificate(claim.clone(), vec![AtlasCell::Refuted((*witness).clone())]);
+            let Claim::Atlas(own) = &mut whole.claim else { return false };
+            (own.certified, own.refuted) = (number("0"), number("1"));
+            for (parameter, (n, level)) in own.parameters.iter_mut().zip(&part) {
+                let (min, max) = (parameter.min.to_string(), parameter.max.to_string());
+                let end = |n: u64| number(&format!("{min}+({max}-{min})*{n}/{}", 1u64 << level));
+                (parameter.min, parameter.max) = (end(*n), end(n + 1));
+            }
+            check(&whole).is_ok()
+        };
+        let levels: u32 = part.iter().map(|(_, level)| level).sum();
+        if let Some(tree) = Problem::new(&over).ok().and_then(|p| Prover::new(&p).tree(60)) {
+            cells.push(AtlasCell::Certified(tree));
+        } else if let Some(witness) = witnesses.iter().find(refutes) {
+            cells.push(AtlasCell::Refuted(witness.clone()));
+        } else if levels == depth {
+            cells.push(AtlasCell::Undecided);
+        } else {
+            let k = levels as usize % part.len();
+            cells.push(AtlasCell::Split(k));
+            let (n, level) = part[k];
+            for n in [2 * n + 1, 2 * n] {
+                let mut half = part.clone();
+                half[k] = (n, level + 1);
+                waiting.push(half);
+            }
+        }
+    }
+    cells
+}
+
+/// At the greatest corner, as it is for each side.
+fn corner(obligation: usize, direction: [i64; 3]) -> Witness {
+    Witness {
+        precision: 96,
+        point: vec![number("side*(3-sqrt(3))/2"); 3],
+        machine: Vec::new(),
+        fails: Failure::Obligation(obligation, vec![direction.to_vec()]),
+    }
+}
+
+fn witnesses() -> Vec<Witness> {
+    let mut all = vec![corner(1, [1, 1, 1]), corner(0, [1, -1, 0]), corner(0, [1, 1, 1])];
+    let mut reach = corner(0, [1, 1, 1]);
+    reach.fails = Failure::Reach;
+    all.push(reach);
+    all
+}
+
+/// The cells that are no splits, each with its part.
+fn leaves(claim: &AtlasClaim, cells: &[AtlasCell]) -> Vec<(usize, Part)> {
+    let mut found = Vec::new();
+    let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
+    for (at, cell) in cells.iter().enumerate() {
+        let part = waiting.pop().expect("a tree");
+        let AtlasCell::Split(k) = cell else {
+            found.push((at, part));
+            continue;
+        };
+        let (n, level) = part[*k];
+        for n in [2 * n + 1, 2 * n] {
+            let mut half = part.clone();
+            half[*k] = (n, level + 1);
+            waiting.push(half);
+        }
+    }
+    found
+}
+
+/// Whether the claim holds, with a margin that tells: on `[-c_1, c_2]^3` the least singular value of `M` is
+/// `1 - max(2 T, U)` and the greatest `1 + 2 U`, with `c = t/sqrt(1 + 2 t^2)` for `T` of `c_1`, `U` of `c_2`.
+fn holds(psi: f64, side: f64) -> Option<bool> {
+    let tan = |c: f64| c / (1.0 - 2.0 * c * c).sqrt();
+    let root = 3f64.sqrt();
+    let (t, u) = (tan(side * (root - 1.0) / 2.0), tan(side * (3.0 - root) / 2.0));
+    if !(t.is_finite() && u.is_finite()) {
+        return Some(false);
+    }
+    let margin = (1.0 - (2.0 * t).max(u) - 1.0 / psi).min(psi - 1.0 - 2.0 * u);
+    (margin.abs() > 1e-9).then_some(margin > 0.0)
+}
+
+fn shares(cells: &[AtlasCell], claim: &AtlasClaim) -> [i64; 2] {
+    let mut found = [0; 2];
+    for (at, part) in leaves(claim, cells) {
+        let share = 1 << (20 - part.iter().map(|(_, level)| level).sum::<u32>());
+        match cells[at] {
+            AtlasCell::Certified(_) => found[0] += share,
+            AtlasCell::Refuted(_) => found[1] += share,
+            AtlasCell::Split(_) | AtlasCell::Undecided => {}
+        }
+    }
+    found
+}
+
+/// A map with all kinds of cells, and the shares that it has of `2^20`.
+fn mapped() -> Certificate {
+    let mut own = claim(&orthoglide("0", "0"));
+    let cells = map(&own, &witnesses(), 5);
+    let [good, bad] = shares(&cells, &own);
+    assert!(good > 1 << 18 && bad > 1 << 14, "{good} {bad}");
+    own.certified = number(&format!("{good}/1048576"));
+    own.refuted = number(&format!("{bad}/1048576"));
+    certificate(own, cells)
+}
+
+fn parts(certificate: &Certificate) -> (AtlasClaim, Vec<AtlasCell>) {
+    match (&certificate.claim, &certificate.proof) {
+        (Claim::Atlas(claim), Proof::Atlas(cells)) => (claim.clone(), cells.clone()),
+        _ => panic!("an atlas"),
+    }
+}
+
+#[test]
+fn a_map_says_what_is_true() {
+    let whole = mapped();
+    let text = whole.to_text().expect("a text");
+    let read = Certificate::read(&text).expect("canonical");
+    assert_eq!(read, whole);
+    check(&read).expect("accepted");
+    let (own, cells) = parts(&whole);
+    for (at, part) in leaves(&own, &cells) {
+        let at_cell = |k: usize, i: i32| {
+            let (n, level) = part[k];
+            (n as f64 + f64::from(i) / 4.0) / f64::from(1 << level)
+        };
+        for i in 0..25 {
+            let (psi, side) = (1.2 + 2.8 * at_cell(0, i % 5), 0.1 + 0.9 * at_cell(1, i / 5));
+            let Some(holds) = holds(psi, side) else { continue };
+            match cells[at] {
+                AtlasCell::Certified(_) => assert!(holds, "cell {at}: {psi} {side}"),
+                AtlasCell::Refuted(_) => assert!(!holds, "cell {at}: {psi} {side}"),
+                AtlasCell::Split(_) | AtlasCell::Undecided => {}
+            }
+        }
+    }
+    let words = statement(&own).expect("words");
+    for sentence in ["psi_max in [6/5, 4]", "to (side*(3-sqrt(3))/2, ", "psi_i <= psi_max"] {
+        assert!(words.contains(sentence), "{words}");
+    }
+}
+
+#[test]
+fn maps_that_show_less() {
+    let (own, cells) = parts(&mapped());
+    let with = |change: &dyn Fn(&mut AtlasClaim, &mut Vec<AtlasCell>)| {
+        let (mut own, mut cells) = (own.clone(), cells.clone());
+        change(&mut own, &mut cells);
+        check(&certificate(own, cells))
+    };
+    with(&|_, _| {}).expect("accepted");
+    // More than the cells have, or less than nothing.
+    let more = |x: &Expression| number(&format!("{x}+1/1000000000"));
+    assert_eq!(with(&|own, _| own.certified = more(&own.certified)), Err(Rejected::Shares));
+    assert_eq!(with(&|own, _| own.refuted = more(&own.refuted)), Err(Rejected::Shares));
+    assert_eq!(with(&|own, _| own.refuted = number("-1")), Err(Rejected::Shares));
+    assert_eq!(with(&|own, _| own.refuted = number("psi_max")), Err(Rejected::Shares));
+    assert_eq!(with(&|_, cells| cells[0] = AtlasCell::Split(2)), Err(Rejected::Shape(0)));
+    assert_eq!(with(&|_, cells| drop(cells.pop())), Err(Rejected::Shape(cells.len() - 1)));
+    let one_more = with(&|_, cells| cells.push(AtlasCell::Undecided));
+    assert_eq!(one_more, Err(Rejected::Shape(cells.len())));
+    let long = with(&|_, cells| *cells = vec![AtlasCell::Split(0); 100]);
+    assert_eq!(long, Err(Rejected::Shape(60)));
+    // What is said of one cell is said of another.
+    let all = leaves(&own, &cells);
+    let good = all.iter().find(|(at, _)| matches!(cells[*at], AtlasCell::Certified(_)));
+    let bad = all.iter().find(|(at, _)| matches!(cells[*at], AtlasCell::Refuted(_)));
+    let (good, bad) = (good.expect("one").0, bad.expect("one").0);
+    for (at, _) in &all {
+        let moved = |from: usize| with(&|_, cells| cells[*at] = cells[from].clone());
+        if !matches!(cells[*at], AtlasCell::Certified(_)) {
+            assert!(matches!(moved(good), Err(Rejected::Cell(cell, _)) if cell == *at));
+        }
+        if matches!(cells[*at], AtlasCell::Certified(_)) {
+            assert!(matches!(moved(bad), Err(Rejected::Cell(cell, _)) if cell == *at));
+        }
+    }
+    // An open tree, and one that fails.
+    let fails = Node { fails: Some(Failure::Reach), ..Node::default() };
+    for node in [Node::default(), fails] {
+        let tree = Tree { precision: 52, chords: None, nodes: vec![node] };
+        let found = with(&|_, cells| cells[good] = AtlasCell::Certified(tree.clone()));
+        assert!(matches!(found, Err(Rejected::Cell(..))));
+    }
+}
+
+#[test]
+fn claims_that_are_not_well_formed() {
+    let good = orthoglide("0", "0");
+    let found = |text: &str| check(&certificate(claim(text), vec![AtlasCell::Undecided]));
+    found(&good).expect("accepted");
+    let side = r#"{"name":"side","min":"1/10","max":"1"}"#;
+    for (defect, from, to) in [
+        ("the same name", r#""name":"side""#, r#""name":"psi_max""#),
+        ("no name", r#""name":"side""#, r#""name":"sqrt""#),
+        ("two names", r#""name":"side""#, r#""name":"a-b""#),
+        ("an empty range", r#""min":"1/10""#, r#""min":"1""#),
+        ("a range the wrong way round", r#""min":"1/10""#, r#""min":"2""#),
+        ("an end that is not rational", r#""min":"1/10""#, r#""min":"sqrt(1/10)""#),
+        ("an end that is a name", r#""min":"1/10""#, r#""min":"psi_max""#),
+        ("a long end", r#""min":"1/10""#, r#""min":"1/3^64/3^64""#),
+        ("four parameters", side, &[side, side, side].map(String::from).join(",")),
+    ] {
+        let text = good.replacen(from, to, 1);
+        assert_ne!(text, good, "{defect}");
+        assert!(matches!(found(&text), Err(Rejected::Claim(_))), "{defect}");
+    }
+    let none = good.replacen(&good[good.find('[').unwrap()..=good.find(']').unwrap()], "[]", 1);
+    assert!(matches!(found(&none), Err(Rejected::Claim(_))));
+    let legs =
+        &good[good.find(r#"{"translational""#).unwrap()..good.find(r#","workspace""#).unwrap()];
+    let cube = good.replacen(legs, r#"{"orthoglide":{"offset":"side"}}"#, 1);
+    assert!(matches!(found(&cube), Err(Rejected::Claim(_))));
+}
+
+/// A claim of a mechanism `rho_i = x_i`, on `[0, 1]`, with one parameter and a length `a`.
+fn plain(p: [&str; 2], a: &str, max: &str) -> String {
+    let parameters =
+        ["p", "q"].map(|name| format!(r#"{{"name":"{name}","min":"{}","max":"{}"}}"#, p[0], p[1]));
+    format!(
+        r#"{{"parameters":[{}],"machine":{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[["a",{a}]],"definitions":[],"joints":[{{"rho":"a*x"}}]}}}},"workspace":{{"box":{{"min":["0"],"max":["{max}"]}}}},"require":[]}},"certified":"1","refuted":"0"}}"#,
+        parameters.join(",")
+    )
+}
+
+fn certified(text: &str) -> Result<(), Rejected> {
+    let own = claim(text);
+    let over = own.over(&[(0, 0), (0, 0)]).expect("parameters");
+    let problem = Problem::new(&over).map_err(Rejected::Claim)?;
+    let tree = Prover::new(&problem).tree(8).ok_or(Rejected::Shares)?;
+    check(&certificate(own, vec![AtlasCell::Certified(tree)]))
+}
+
+#[test]
+fn numbers_are_decided_for_every_value() {
+    let tolerance = |min: &str, max: &str| format!(r#"{{"min":"{min}","max":"{max}"}}"#);
+    for (a, max) in [
+        (r#""1+p""#.to_owned(), "1"),
+        // What cancels does.
+        (tolerance("1+p-0.01", "1+p+0.01"), "1"),
+        (tolerance("1+p*q", "2+q*p"), "1"),
+        (r#""1""#.to_owned(), "p+2-p"),
+        // The same expression is the same number.
+        (r#""1""#.to_owned(), "p"),
+    ] {
+        certified(&plain(["0", "1"], &a, max)).unwrap_or_else(|e| panic!("{a} {max}: {e}"));
+    }
+    for (a, max) in [
+        // Zero, or negative, for some.
+        (r#""p-1/2""#.to_owned(), "1"),
+        (r#""1""#.to_owned(), "p-1/1000"),
+        // Not the same number, though the same range.
+        (tolerance("1+p", "1+q"), "1"),
+        (r#""1""#.to_owned(), "p-q"),
+        // Not defined for some.
+        (r#""1+sqrt(p-1/2)""#.to_owned(), "1"),
+        (r#""1+1/(p-1/2)^2""#.to_owned(), "1"),
+        (r#""1+1/(p-q)^2""#.to_owned(), "1"),
+        // No parameter's name.
+        (r#""r""#.to_owned(), "1"),
+        (r#""1""#.to_owned(), "r"),
+    ] {
+        assert!(certified(&plain(["0", "1"], &a, max)).is_err(), "{a} {max}");
+    }
+    // A name of the mechanism's own.
+    let clash = plain(["0", "1"], r#""1""#, "1").replace(r#""name":"q""#, r#""name":"x""#);
+    assert!(matches!(
+        check(&certificate(claim(&clash), vec![AtlasCell::Undecided])),
+        Err(Rejected::Claim(_))
+    ));
+}
+
+/// The enclosure of a number over a cell has its values there.
+#[test]
+fn enclosures_have_every_value() {
+    type Function = fn(f64, f64) -> f64;
+    let numbers: [(&str, Function); 7] = [
+        ("3+p-q", |p, q| 3.0 + p - q),
+        ("p*q-p^2+5", |p, q| p * q - p * p + 5.0),
+        ("(p-q)*(p-q)+1", |p, q| (p - q) * (p - q) + 1.0),
+        ("(1+p)^5/(2+q)", |p, q| (1.0 + p).powi(5) / (2.0 + q)),
+        ("sqrt(1+p*q)-q/(1+p)+2", |p, q| (1.0 + p * q).sqrt() - q / (1.0 + p) + 2.0),
+        ("-(p-q)^3*sqrt(2)+4", |p, q| -(p - q).powi(3) * 2f64.sqrt() + 4.0),
+        ("1/(1+p)+1/(1+q)", |p, q| 1.0 / (1.0 + p) + 1.0 / (1.0 + q)),
+    ];
+    for (text, value) in numbers {
+        let own = claim(&plain(["0", "1"], &format!("\"{text}\""), "1"));
+        let mut widths = Vec::new();
+        for part in [[(0, 0), (0, 0)], [(1, 1), (0, 2)], [(5, 4), (5, 4)], [(200, 8), (17, 8)]] {
+            let problem = Problem::new(&own.over(&part).expect("parameters")).expect("well formed");
+            let found = &problem.parameters::<i64>(40, &[]).expect("parameters")[0];
+            let scale = (-40f64).exp2();
+            let (lo, hi) = (found.lo as f64 * scale, found.hi as f64 * scale);
+            for i in 0..81 {
+                let at = |(n, level): (u64, u32), i: i32| {
+                    (n as f64 + f64::from(i) / 8.0) / f64::from(1 << level)
+                };
+                let x = value(at(part[0], i % 9), at(part[1], i / 9));
+                assert!(lo - 1e-9 <= x && x <= hi + 1e-9, "{text}: {x} in [{lo}, {hi}]");
+            }
+            widths.push(hi - lo);
+        }
+        assert!(widths[3] < 0.2 && widths[3] < widths[0] / 8.0, "{text}: {widths:?}");
+    }
+}
+
+/// Files that ask for more than their bytes are worth are refused before they cost it.
+#[test]
+fn work_is_linear_in_the_file() {
+    let tree = |a: &str| {
+        let own = claim(&plain(["0", "1"], a, "1"));
+        let problem = Problem::new(&own.over(&[(0, 0), (0, 0)]).expect("parameters"));
+        let leaf = Prover::new(&problem.expect("well formed")).tree(1).expect("a proof");
+        let mut cells = Vec::new();
+        // In preorder: the lower half has no tree of its own but one cell, the upper one the rest.
+        for level in 0..60 {
+            cells.extend([AtlasCell::Split(level % 2), AtlasCell::Certified(leaf.clone())]);
+        }
+        cells.push(AtlasCell::Certified(leaf));
+        check(&certificate(own, cells))
+    };
+    let is_work = |found: Result<(), Rejected>| match found {
+        Err(Rejected::Cell(_, why)) => *why == Rejected::Work,
+        _ => false,
+    };
+    tree(r#""1+p""#).expect("accepted");
+    let roots = |n: usize| format!(r#""{}3{}""#, "sqrt(".repeat(n), ")".repeat(n));
+    tree(&roots(8)).expect("accepted");
+    let many = |n: usize| format!(r#""{}""#, vec![roots(60).replace('"', ""); n].join("+"));
+    assert!(is_work(tree(&many(8))));
+    let fractions: Vec<String> = (1..60).map(|i| format!("1/{}^20", 2 * i + 1)).collect();
+    assert!(is_work(tree(&format!("\"1+{}\"", fractions.join("+")))));
+    assert!(is_work(tree(r#""1+(1+p)^64/(3+p)^64+(2+p)^64/(5+p)^64+(1+q)^64/(3+p)^64""#)));
+    // A tape that takes too much memory is no claim's.
+    let definitions: Vec<String> =
+        (1..300).map(|i| format!(r#"["d{i}","(d{}+1)^63"]"#, i - 1)).collect();
+    let text = plain(["0", "1"], r#""1""#, "1")
+        .replace(
+            r#""definitions":[]"#,
+            &format!(r#""definitions":[["d0","x"],{}]"#, definitions.join(",")),
+        )
+        .replace("a*x", "d299");
+    let tree = Tree { precision: 1024, chords: None, nodes: vec![Node::default()] };
+    let refused = check(&certificate(claim(&text), vec![AtlasCell::Certified(tree)]));
+    let Err(Rejected::Cell(0, why)) = &refused else { panic!("{refused:?}") };
+    assert!(matches!(**why, Rejected::Claim(_)), "{why}");
+}

@@ -1,0 +1,336 @@
+//! Rows in the twist against differences of the joint coordinate, of every motion and drive, by rotations
+//! that are computed with cosines and sines.
+
+use crate::arithmetic::Random;
+use crate::certificates::claim;
+use crate::prover::double;
+use crate::rough::Rough;
+use num_bigint::BigInt;
+use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::machine::Joint;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
+
+type V = [f64; 3];
+type R = [V; 3];
+
+fn dot(a: V, b: V) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: V, b: V) -> V {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn times(r: &R, b: V) -> V {
+    [dot(r[0], b), dot(r[1], b), dot(r[2], b)]
+}
+
+fn product(a: &R, b: &R) -> R {
+    let column = |k: usize| [b[0][k], b[1][k], b[2][k]];
+    std::array::from_fn(|i| std::array::from_fn(|k| dot(a[i], column(k))))
+}
+
+/// By an angle about a unit axis, column by column.
+fn about(axis: V, angle: f64) -> R {
+    let column = |e: V| {
+        let (c, s, k) = (angle.cos(), angle.sin(), dot(axis, e) * (1.0 - angle.cos()));
+        let across = cross(axis, e);
+        [0, 1, 2].map(|i| c * e[i] + s * across[i] + k * axis[i])
+    };
+    let columns = [column([1.0, 0.0, 0.0]), column([0.0, 1.0, 0.0]), column([0.0, 0.0, 1.0])];
+    std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]))
+}
+
+const AXES: [V; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The rotation with these half-angle tangents.
+pub fn rotation(kind: &str, c: &[f64]) -> R {
+    match kind {
+        "none" => AXES,
+        "range" => about(AXES[2], 2.0 * c[0].atan()),
+        "roll_pitch_yaw" => {
+            let [x, y, z] = [0, 1, 2].map(|k| about(AXES[k], 2.0 * c[k].atan()));
+            product(&z, &product(&y, &x))
+        }
+        _ => {
+            let length = (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]).sqrt();
+            about([c[0], c[1], c[2]].map(|x| x / length), 2.0 * length.atan())
+        }
+    }
+}
+
+/// A leg's drive, with its numbers.
+#[derive(Clone, Copy)]
+enum Drive {
+    Strut,
+    Slider { n: V, length: f64, mode: f64 },
+    Arm { k: V, e: V, arm: f64, length: f64, mode: f64 },
+}
+
+impl Drive {
+    /// The joint coordinate, by geometry.
+    fn rho(&self, w: V) -> Option<f64> {
+        match *self {
+            Drive::Strut => Some(dot(w, w).sqrt()),
+            Drive::Slider { n, length, mode } => {
+                let along = dot(n, w);
+                let d = length * length - dot(w, w) + along * along;
+                (d > 0.01).then(|| along - mode * d.sqrt())
+            }
+            Drive::Arm { k, e, arm, length, mode } => {
+                let f = cross(k, e);
+                let (alpha, beta) = (dot(w, e), dot(w, f));
+                let reach = (dot(w, w) + arm * arm - length * length) / (2.0 * arm);
+                let off = (reach / alpha.hypot(beta)).clamp(-1.0, 1.0).acos();
+                if !(0.1..3.0).contains(&off) {
+                    return None;
+                }
+                [off, -off].into_iter().map(|off| beta.atan2(alpha) + off).find(|theta| {
+                    let motion = [0, 1, 2].map(|i| theta.cos() * f[i] - theta.sin() * e[i]);
+                    dot(w, motion) * mode > 0.0
+                })
+            }
+        }
+    }
+}
+
+fn number(random: &mut Random, from: f64, to: f64) -> f64 {
+    from + (to - from) * (random.below(1001) as f64 / 1000.0)
+}
+
+fn texts(x: &[f64]) -> String {
+    let texts: Vec<String> = x.iter().map(|&x| format!("\"{}\"", decimal(x))).collect();
+    texts.join(",")
+}
+
+/// Nine decimals at most.
+pub fn decimal(x: f64) -> String {
+    let text = format!("{x:.9}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+fn unit(a: V) -> V {
+    a.map(|x| x / dot(a, a).sqrt())
+}
+
+/// A motion, by the coordinates that it has.
+struct Motion {
+    mechanism: &'static str,
+    orientation: &'static str,
+    velocity: &'static [usize],
+    spin: &'static [usize],
+    text: &'static str,
+}
+
+const MOTIONS: [Motion; 6] = [
+    Motion { mechanism: "planar", orientation: "none", velocity: &[0, 1], spin: &[], text: "" },
+    Motion {
+        mechanism: "planar",
+        orientation: "range",
+        velocity: &[0, 1],
+        spin: &[2],
+        text: r#","orientation":{"range":["-80","80"]}"#,
+    },
+    Motion {
+        mechanism: "spatial",
+        orientation: "angle",
+        velocity: &[0, 1, 2],
+        spin: &[0, 1, 2],
+        text: r#","orientation":{"angle":"120"}"#,
+    },
+    Motion {
+        mechanism: "spatial",
+        orientation: "tilt",
+        velocity: &[0, 1, 2],
+        spin: &[0, 1, 2],
+        text: r#","orientation":{"tilt":{"tilt":"60","torsion":"60"}}"#,
+    },
+    Motion {
+        mechanism: "spatial",
+        orientation: "roll_pitch_yaw",
+        velocity: &[0, 1, 2],
+        spin: &[0, 1, 2],
+        text: r#","orientation":{"roll_pitch_yaw":{"roll":["-50","80"],"pitch":["-50","80"],"yaw":["-80","50"]}}"#,
+    },
+    Motion {
+        mechanism: "spherical",
+        orientation: "angle",
+        velocity: &[],
+        spin: &[0, 1, 2],
+        text: r#","orientation":{"angle":"120"}"#,
+    },
+];
+
+/// A leg of a motion, its text and its numbers.
+fn leg(random: &mut Random, motion: &Motion, which: usize) -> (String, [V; 2], Drive) {
+    let plane = motion.mechanism == "planar";
+    let mut vector = |size: f64| -> V {
+        let v = [0; 3].map(|_: i64| number(random, -size, size));
+        if plane {
+            [v[0], v[1], 0.0]
+        } else {
+            v
+        }
+    };
+    let components = if plane { 2 } else { 3 };
+    let (a, b, n, e) = (vector(1.5), vector(0.8), unit(vector(1.0)), vector(1.0));
+    let ends = format!(
+        r#""anchor":[{}],"platform":[{}]"#,
+        texts(&a[..components]),
+        texts(&b[..components])
+    );
+    let sign = random.below(2) == 0;
+    let (mode, text) = if sign { (1.0, "+") } else { (-1.0, "-") };
+    let length = number(random, 1.5, 3.0);
+    let (drive, own) = match which {
+        0 => (Drive::Strut, r#""drive":"strut""#.to_owned()),
+        1 => {
+            let n_text = texts(&n[..components]);
+            let own = format!(
+                r#""drive":"slider","direction":[{n_text}],"length":"{}","mode":"{text}""#,
+                decimal(length)
+            );
+            (Drive::Slider { n, length, mode }, own)
+        }
+        _ => {
+            let k = if plane { AXES[2] } else { n };
+            let axis = if plane { String::new() } else { texts(&k) };
+            let across = [0, 1, 2].map(|i| e[i] - dot(k, e) * k[i]);
+            let own = format!(
+                r#""drive":"arm","axis":[{axis}],"reference":[{}],"arm":"1","length":"{}","mode":"{text}""#,
+                texts(&e[..components]),
+                decimal(length)
+            );
+            (Drive::Arm { k, e: unit(across), arm: 1.0, length, mode }, own)
+        }
+    };
+    let (drive_text, rest) = own.split_once(',').map_or((own.as_str(), ""), |(d, r)| (d, r));
+    let comma = if rest.is_empty() { "" } else { "," };
+    (format!("{{{drive_text},{ends}{comma}{rest}}}"), [a, b], drive)
+}
+
+#[test]
+fn rows_are_derivatives_in_the_twist() {
+    let mut random = Random(11);
+    let mut reached = 0;
+    for round in 0..360 {
+        let motion = &MOTIONS[round % MOTIONS.len()];
+        let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
+        let m = motion.velocity.len() + motion.spin.len();
+        let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
+        let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
+        let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+        let require = match which {
+            0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"}"#,
+            _ => "",
+        };
+        let corner = |x: &str| vec![format!("\"{x}\""); motion.velocity.len()].join(",");
+        let claim = claim(&format!(
+            r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{require}]}}"#,
+            motion.mechanism,
+            text.join(","),
+            corner("-1"),
+            corner("1"),
+            motion.text
+        ));
+        let problem = Problem::new(&claim).expect("a claim");
+        assert_eq!(problem.dimension(), m);
+        let unit = (problem.scale as f64).exp2();
+        let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
+        let mut p = [0.0; 3];
+        motion.velocity.iter().for_each(|&k| p[k] = number(&mut random, -1.0, 1.0));
+        let c: Vec<f64> = motion.spin.iter().map(|_| number(&mut random, -0.7, 0.7)).collect();
+        let values = problem.tape.run(&Rough, |op| match op {
+            Op::Coordinate(k) => {
+                let x = *motion.velocity.get(k).map(|&k| &p[k]).unwrap_or(&0.0) / unit;
+                let x = if k < motion.velocity.len() { x } else { c[k - motion.velocity.len()] };
+                Some((x, x))
+            }
+            Op::Parameter(j) => Some(double(&parameters[j], 96)),
+            _ => None,
+        });
+        let of = |f: Formula| values.of(f).map(|x| x.0);
+        let r = rotation(motion.orientation, &c);
+        for (i, (own, (_, [a, b], drive))) in problem.legs.iter().zip(&legs).enumerate() {
+            let rho = |p: V, r: &R| {
+                let b = times(r, *b);
+                drive.rho([0, 1, 2].map(|k| p[k] + b[k] - a[k]))
+            };
+            let Some(expected) = rho(p, &r) else { continue };
+            let (found, per) = match own.rho.expect("a joint") {
+                Joint::Length(rho) => (of(rho).expect("reached") * unit, 1.0),
+                Joint::Angle { cos, sin } => {
+                    (of(sin).expect("reached").atan2(of(cos).expect("reached")), unit)
+                }
+            };
+            let turns = ((found - expected) / std::f64::consts::TAU).round();
+            let turns = if per == 1.0 { 0.0 } else { turns * std::f64::consts::TAU };
+            assert!((found - expected - turns).abs() < 1e-6, "{found} {expected}");
+            let row: Vec<f64> = own.divided.a.iter().map(|&f| of(f).expect("a row")).collect();
+            assert_eq!(row.len(), m);
+            let h = 1e-6;
+            let change = |move_by: &dyn Fn(f64) -> (V, R)| {
+                let [(p, r), (q, s)] = [move_by(h), move_by(-h)];
+                Some((rho(p, &r)? - rho(q, &s)?) / (2.0 * h))
+            };
+            let mut changes = Vec::new();
+            for &k in motion.velocity {
+                changes.push(change(&|h| {
+                    let mut p = p;
+                    p[k] += h;
+                    (p, r)
+                }));
+            }
+            for &k in motion.spin {
+                // Of a twist whose second part is ell omega.
+                changes.push(change(&|h| (p, product(&about(AXES[k], h / 1.5), &r))));
+            }
+            for (found, expected) in row.iter().zip(&changes) {
+                let Some(expected) = expected else { continue };
+                assert!(
+                    expected.abs() > 1e5
+                        || (found / per - expected).abs() < 1e-5 * (1.0 + expected.abs()),
+                    "{found} {expected}"
+                );
+            }
+            let d = of(own.row.d).expect("D");
+            for (k, &a) in own.row.a.iter().enumerate() {
+                let quotient = of(a).expect("A").powi(2) / d;
+                assert!((quotient - row[k].powi(2)).abs() < 1e-9 * (1.0 + quotient), "A and D");
+            }
+            if let Some(scaled) = &own.scaled {
+                let w = of(problem.weight.expect("a weight")).expect("w");
+                for (&f, &a) in scaled.a.iter().zip(&own.row.a) {
+                    assert!((of(f).expect("w A") - w * of(a).expect("A")).abs() < 1e-9);
+                }
+                assert!((of(scaled.d).expect("w D") - w * d).abs() < 1e-9);
+                // Of the strokes: w (rho^2 - min^2), in the problem's unit.
+                let Test::AtLeast(f) = problem.obligations[1 + i].test else { panic!("a sign") };
+                let most = w * (expected.powi(2) - 0.25) / unit.powi(2);
+                assert!((of(f).expect("a stroke") - most).abs() < 1e-6, "{most}");
+            }
+            assert_eq!(own.scaled.is_some(), which == 0 && !motion.spin.is_empty());
+            reached += 1;
+        }
+    }
+    assert!(reached > 900, "{reached}");
+}
+
+#[test]
+fn tilt_sets_are_tilts_and_torsions() {
+    // R_z(a) R_y(b) R_z(s - a) has c_1^2 + c_2^2 = tan(b/2)^2 (1 + c_3^2) and c_3 = tan(s/2).
+    let mut random = Random(13);
+    for _ in 0..200 {
+        let a = number(&mut random, -3.0, 3.0);
+        let (b, s) = (number(&mut random, 0.1, 2.0), number(&mut random, -2.0, 2.0));
+        let r = product(&about(AXES[2], a), &product(&about(AXES[1], b), &about(AXES[2], s - a)));
+        let q0 = (1.0 + r[0][0] + r[1][1] + r[2][2]).sqrt() / 2.0;
+        let c =
+            [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|x| x / (4.0 * q0 * q0));
+        let most = (b / 2.0).tan().powi(2) * (1.0 + c[2] * c[2]);
+        assert!((c[0] * c[0] + c[1] * c[1] - most).abs() < 1e-9 * (1.0 + most));
+        assert!((c[2] - (s / 2.0).tan()).abs() < 1e-9 * (1.0 + c[2].abs()));
+    }
+}

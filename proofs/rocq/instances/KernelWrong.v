@@ -1,0 +1,89 @@
+(** * Wrong certificates of the kernel are refused
+
+    Each example damages a certificate or a claim of this directory and shows
+    that the check is then [false]: no instance could be closed with it. *)
+
+From Coq Require Import ZArith NArith Reals List.
+From Orthocert Require Import Claim.
+From Orthocert.kernel Require Import Statement Check Problem.
+From Orthocert.instances Require FourSliders StrutsAndPlane.
+Import ListNotations.
+
+Definition step : Type := nat * evidence.
+
+(** The first leaf, and the last, left without a step. *)
+Fixpoint without_first (t : tree) : tree :=
+  match t with Leaf _ => Leaf [] | Split b k l u => Split b k (without_first l) u end.
+Fixpoint without_last (t : tree) : tree :=
+  match t with Leaf _ => Leaf [] | Split b k l u => Split b k l (without_last u) end.
+
+(** The steps of the first leaf for all. *)
+Fixpoint first_leaf (t : tree) : tree :=
+  match t with
+  | Leaf b => Leaf b
+  | Split b _ l _ => match first_leaf l with Leaf more => Leaf (b ++ more) | other => other end
+  end.
+
+Fixpoint map_steps (f : list step -> list step) (t : tree) : tree :=
+  match t with Leaf b => Leaf (f b) | Split b k l u => Split (f b) k (map_steps f l) (map_steps f u) end.
+Definition map_evidence (f : evidence -> evidence) : tree -> tree := map_steps (map (fun s => (fst s, f (snd s)))).
+
+(** Another Y. *)
+Definition with_Y (f : Z -> Z) (e : evidence) : evidence :=
+  match e with ByLower p Y => ByLower p (map (map f) Y) | e => e end.
+Definition twice (steps : list step) : list step := steps ++ steps.
+Definition for_all_tests (steps : list step) : list step := map (fun s => (0%nat, snd s)) steps.
+
+Definition requiring (c : claim) (r : list requirement) : claim := MakeClaim (legs c) (workspace c) r.
+
+Module Sliders.
+Import FourSliders.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0; 0]%Z t).
+Local Notation over := (requiring the_claim).
+Local Notation upper := (PsiMin (Over (9 // 1) (20 // 1))).
+Local Notation joint := (JointMin 0 (200 // 1)).
+
+Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts the_claim (without_first certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example last_leaf_removed : accepts the_claim (without_last certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example not_split : accepts the_claim (first_leaf certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example Y_of_zeros : accepts the_claim (map_evidence (with_Y (fun _ => 0%Z)) certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example steps_repeated : accepts the_claim (map_steps twice certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example steps_of_one_test : accepts the_claim (map_steps for_all_tests certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example lower_bound_tightened : accepts (over [PsiMax (113 // 100); upper; joint]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+Example upper_bound_tightened : accepts (over [PsiMax (Over (6 // 1) (5 // 1)); PsiMin (46 // 100); joint]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+Example joint_range_narrowed : accepts (over [PsiMax (Over (6 // 1) (5 // 1)); upper; JointMin 0 (400 // 1)]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+Example joint_of_a_leg_that_there_is_not : accepts (over [PsiMax (Over (6 // 1) (5 // 1)); upper; JointMin 4 (200 // 1)]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+Example tests_exchanged : accepts (over [upper; PsiMax (Over (6 // 1) (5 // 1)); joint]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+Example no_lower_bound : accepts (over []) (Leaf []) = false. Proof. vm_compute. reflexivity. Qed.
+Example legs_left_out : accepts (MakeClaim [leg_1; leg_2] box (require the_claim)) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+(** Out of reach: the rows are not regular. *)
+Example box_out_of_reach :
+  accepts (MakeClaim (legs the_claim) (Tolerances (Within (400 // 1) (410 // 1)) (ty box) (tz box)) [NotSingular])
+    (first_leaf certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+End Sliders.
+
+Module Struts.
+Import StrutsAndPlane.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0; 1]%Z t).
+
+Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts the_claim (without_first certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+(** A leg of length zero somewhere in the box: D is not positive there. *)
+Example through_a_base_joint :
+  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg box box] box (require the_claim)) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+End Struts.

@@ -1,0 +1,264 @@
+(** * Drives as formulas: A_i, D_i, the row divided by B_i, and the joint
+
+    The formulas are those of machine/mod.rs.  That they are the kinematics
+    of Kinematics.v and Statement.v is proved here, and that rows are
+    derivatives of joint coordinates. *)
+
+From Coq Require Import ZArith Reals Lra Lia List.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
+From Orthocert.kernel Require Import Statement Linear Number Test Formula.
+Import ListNotations.
+Local Open Scope R_scope.
+
+(** ** Vectors of formulas *)
+
+Record evec := EVec { ex : formula; ey : formula; ez : formula }.
+Definition list_of (u : evec) : list formula := [ex u; ey u; ez u].
+Definition map2 (f : formula -> formula -> formula) (u v : evec) : evec := EVec (f (ex u) (ex v)) (f (ey u) (ey v)) (f (ez u) (ez v)).
+Definition scaled (a : formula) (u : evec) : evec := EVec (times a (ex u)) (times a (ey u)) (times a (ez u)).
+Definition divided_by (u : evec) (a : formula) : evec := EVec (over (ex u) a) (over (ey u) a) (over (ez u) a).
+Definition product (u v : evec) : formula := plus (plus (times (ex u) (ex v)) (times (ey u) (ey v))) (times (ez u) (ez v)).
+Definition unit_vector (u : evec) : evec := divided_by u (root (product u u)).
+Definition point : evec := EVec (F (Coord 0)) (F (Coord 1)) (F (Coord 2)).
+
+(** ** Drives, by w from the base joint to the platform's *)
+
+Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula }.
+
+Definition signed (mode : bool) (a : formula) : formula := if mode then a else opposite a.
+
+Definition slider_formulas (w n : evec) (len : formula) (mode : bool) : leg_formulas :=
+  let along := product n w in
+  let r := map2 minus w (scaled along n) in
+  let d := minus (square len) (product r r) in
+  let eta := signed mode (root d) in
+  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta).
+
+Definition strut_formulas (w : evec) : leg_formulas :=
+  let d := product w w in let len := root d in LegFormulas w d (divided_by w len) len.
+
+Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w).
+
+(** ** Meaning *)
+
+Definition coordinates (v : vec) : list R := [vx v; vy v; vz v].
+
+Section Point.
+Variable P : vec.
+Variable theta : list R.
+Local Notation value := (value (coordinates P) theta).
+Local Notation defined := (defined (coordinates P) theta).
+
+Definition vvalue (u : evec) : vec := Vec (value (ex u)) (value (ey u)) (value (ez u)).
+
+Lemma vvalue_minus : forall u v, vvalue (map2 minus u v) = vsub (vvalue u) (vvalue v).
+Proof. intros. unfold vvalue, vsub. cbn [map2 ex ey ez vx vy vz]. rewrite !value_minus. reflexivity. Qed.
+Lemma vvalue_plus : forall u v, vvalue (map2 plus u v) = vadd (vvalue u) (vvalue v).
+Proof. intros. unfold vvalue, vadd. cbn [map2 ex ey ez vx vy vz]. rewrite !value_plus. reflexivity. Qed.
+Lemma vvalue_scaled : forall a u, vvalue (scaled a u) = vscale (value a) (vvalue u).
+Proof. intros. unfold vvalue, vscale. cbn [scaled ex ey ez vx vy vz]. rewrite !value_times. reflexivity. Qed.
+Lemma vvalue_divided : forall a u, vvalue (divided_by u a) = vscale (/ value a) (vvalue u).
+Proof.
+  intros. unfold vvalue, vscale. cbn [divided_by ex ey ez vx vy vz]. rewrite !value_over.
+  f_equal; unfold Rdiv; ring.
+Qed.
+Lemma value_product : forall u v, value (product u v) = Vec3.dot (vvalue u) (vvalue v).
+Proof. intros. unfold product. rewrite !value_plus, !value_times. reflexivity. Qed.
+Lemma vvalue_unit : forall u, vvalue (unit_vector u) = normalised (vvalue u).
+Proof.
+  intro u. unfold unit_vector, normalised. rewrite vvalue_divided, value_root, value_product, norm2_dot. reflexivity.
+Qed.
+Lemma vvalue_point : vvalue point = P.
+Proof. apply vec_ext; reflexivity. Qed.
+Lemma values_list : forall u, map value (list_of u) = coordinates (vvalue u).
+Proof. reflexivity. Qed.
+Lemma dot_coordinates : forall u v, Linear.dot (coordinates u) (coordinates v) = Vec3.dot u v.
+Proof. intros [a b c] [d e f]. unfold Vec3.dot. cbn. ring. Qed.
+
+(** The formulas are those of the leg at [P]. *)
+Definition represents (f : leg_formulas) (l : leg) : Prop :=
+  (0 < value (f_D f) -> reaches P l /\ forall v, Vec3.dot (vvalue (f_A f)) v ^ 2 / value (f_D f) = Vec3.dot (row l P) v ^ 2) /\
+  (Forall defined (list_of (f_divided f)) -> reaches P l) /\
+  vvalue (f_divided f) = row l P /\ value (f_joint f) = joint l P /\
+  (forall k, l = Guided k -> value (f_D f) = leg_length k ^ 2 - norm2 (r k P)).
+
+Lemma value_signed : forall (mode : bool) a, value (signed mode a) = (if mode then 1 else -1) * value a.
+Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
+
+Lemma slider_represents : forall ew en el (mode : bool) l,
+  vvalue ew = w l P -> vvalue en = axis l -> value el = leg_length l -> working_mode l = (if mode then 1 else -1) ->
+  represents (slider_formulas ew en el mode) (Guided l).
+Proof.
+  intros ew en el mode l hw hn hl hm. unfold slider_formulas. cbn zeta.
+  set (er := map2 minus ew (scaled (product en ew) en)). set (ed := minus (square el) (product er er)).
+  set (eeta := signed mode (root ed)).
+  assert (R : vvalue er = r l P).
+  { unfold er, r. rewrite vvalue_minus, vvalue_scaled, value_product, hn, hw. reflexivity. }
+  assert (D : value ed = leg_length l ^ 2 - norm2 (r l P)).
+  { unfold ed. rewrite value_minus, value_square, value_product, R, hl, norm2_dot. reflexivity. }
+  assert (E : value eeta = eta l P).
+  { unfold eeta, eta, s. rewrite value_signed, value_root, D, hm. reflexivity. }
+  assert (T : 0 < value ed -> 0 < s l P) by (rewrite D; apply sqrt_lt_R0).
+  assert (N : value eeta <> 0 -> 0 < s l P).
+  { rewrite E. unfold eta. intro h. destruct (sqrt_pos (leg_length l ^ 2 - norm2 (r l P))) as [p | z]; [exact p |].
+    exfalso. apply h. unfold s. rewrite <- z. ring. }
+  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
+  - intro h. split; [exact (T h) |]. intro v.
+    assert (Q : value ed = eta l P ^ 2).
+    { unfold eta. rewrite Rpow_mult_distr, hm, (s_squared l P (T h)), D. destruct mode; ring. }
+    rewrite vvalue_plus, vvalue_scaled, R, E, hn, Q. unfold Jinv_row. rewrite Q in h.
+    assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
+    clear - H. generalize dependent (eta l P). intros a a0. generalize (r l P) (axis l). intros q n.
+    unfold Vec3.dot, vadd, vscale. cbn [vx vy vz]. field. exact a0.
+  - intro h. apply N. inversion h as [| ? ? h1 _]. subst. cbn [map2 ex] in h1.
+    apply defined_plus in h1. destruct h1 as [_ h1]. exact (defined_over _ _ _ _ h1).
+  - rewrite vvalue_plus, vvalue_divided, R, E, hn. reflexivity.
+  - rewrite value_minus, value_product, hn, hw, E. reflexivity.
+  - intros k h. injection h as <-. exact D.
+Qed.
+
+Lemma strut_represents : forall ew base platform, vvalue ew = span base platform P ->
+  represents (strut_formulas ew) (Extensible base platform).
+Proof.
+  intros ew base platform hw. unfold strut_formulas. cbn zeta.
+  assert (D : value (product ew ew) = norm2 (span base platform P)) by (rewrite value_product, hw, norm2_dot; reflexivity).
+  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
+  - rewrite D, hw. intro h. split; [exact h |]. intro v. unfold normalised.
+    assert (E : forall a u, Vec3.dot (vscale a u) v = a * Vec3.dot u v) by (intros; unfold Vec3.dot; cbn; ring).
+    rewrite E, Rpow_mult_distr. pose proof (sqrt_lt_R0 _ h) as s0. rewrite pow_inv.
+    replace (sqrt (norm2 (span base platform P)) ^ 2) with (norm2 (span base platform P))
+      by (rewrite <- Rsqr_pow2, Rsqr_sqrt by lra; reflexivity).
+    field. lra.
+  - intro h. inversion h as [| ? ? h1 _]. subst. cbn [divided_by ex] in h1. apply defined_over in h1.
+    rewrite value_root, D in h1. destruct (norm2_nonneg (span base platform P)) as [p | z]; [exact p |].
+    exfalso. apply h1. rewrite <- z. apply sqrt_0.
+  - rewrite vvalue_divided, value_root, D, hw. reflexivity.
+  - rewrite value_root, D. reflexivity.
+  - discriminate.
+Qed.
+
+Lemma planar_represents : forall ew en n, vvalue ew = P -> vvalue en = normalised n ->
+  represents (planar_formulas ew en) (Plane n).
+Proof.
+  intros ew en n hw hn. unfold planar_formulas.
+  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
+  - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
+  - intros _. exact I.
+  - exact hn.
+  - rewrite value_product, hn, hw. reflexivity.
+  - discriminate.
+Qed.
+
+(** ** All legs *)
+
+Definition whole_rows (fs : list leg_formulas) : rows formula := map (fun f => (list_of (f_A f), f_D f)) fs.
+Definition divided_rows (fs : list leg_formulas) : rows formula := map (fun f => (list_of (f_divided f), integer 1)) fs.
+
+Lemma whole_speed : forall fs m, Forall2 represents fs m -> positive_D (map_rows value (whole_rows fs)) ->
+  Forall (reaches P) m /\ forall v, energy (map_rows value (whole_rows fs)) (coordinates v) = speed2 m P v.
+Proof.
+  induction 1 as [| f l fs m [h _] hs IH]; intro p; [split; [constructor | reflexivity] |].
+  inversion p as [| ? ? p1 p2]; subst. cbn [snd] in p1. destruct (IH p2) as [I1 I2]. destruct (h p1) as [h1 h2].
+  split; [constructor; assumption |]. intro v. cbn [whole_rows map map_rows energy fst snd speed2 fold_right].
+  unfold speed2, map_rows, whole_rows in I2. rewrite I2, <- h2. rewrite values_list, dot_coordinates. reflexivity.
+Qed.
+
+Lemma divided_speed : forall fs m, Forall2 represents fs m ->
+  Forall (fun p => Forall defined (fst p) /\ defined (snd p)) (divided_rows fs) ->
+  Forall (reaches P) m /\ forall v, energy (map_rows value (divided_rows fs)) (coordinates v) = speed2 m P v.
+Proof.
+  induction 1 as [| f l fs m [_ [h1 [h2 _]]] hs IH]; intro p; [split; [constructor | reflexivity] |].
+  inversion p as [| ? ? [p1 _] p2]; subst. cbn [fst] in p1. destruct (IH p2) as [I1 I2].
+  split; [constructor; auto |]. intro v. cbn [divided_rows map map_rows energy fst snd speed2 fold_right].
+  unfold speed2, map_rows, divided_rows in I2. rewrite I2, values_list, dot_coordinates, h2. cbn. field.
+Qed.
+End Point.
+
+(** ** The unit of length does not matter *)
+
+Definition resized (c : R) (l : leg) : leg :=
+  match l with
+  | Guided l => Guided (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l))
+  | Extensible base platform => Extensible (vscale c base) (vscale c platform)
+  | Plane n => Plane n
+  end.
+
+Lemma sqrt_resized : forall c x, 0 < c -> sqrt (c ^ 2 * x) = c * sqrt x.
+Proof.
+  intros c x h. rewrite sqrt_mult_alt by apply pow2_ge_0. rewrite sqrt_pow2 by lra. reflexivity.
+Qed.
+
+Lemma normalised_resized : forall c u, 0 < c -> normalised (vscale c u) = normalised u.
+Proof.
+  intros c u h. unfold normalised. rewrite norm2_scale, sqrt_resized by exact h.
+  destruct (norm2_nonneg u) as [p | z].
+  - pose proof (sqrt_lt_R0 _ p). destruct u. unfold vscale. cbn. f_equal; field; lra.
+  - symmetry in z. apply norm2_zero in z. subst u. unfold vscale, vzero. cbn. f_equal; ring.
+Qed.
+
+Section Resized.
+Variables (c : R) (P : vec).
+Hypothesis c_pos : 0 < c.
+
+Lemma r_resized : forall l, r (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l))
+  (vscale c P) = vscale c (r l P).
+Proof.
+  intros [n a d len mode]. unfold r, w. cbn [axis base_point platform_offset]. unfold vsub, vadd, vscale, Vec3.dot. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
+Lemma resized_same : forall l,
+  row (resized c l) (vscale c P) = row l P /\ joint (resized c l) (vscale c P) = c * joint l P /\
+  (reaches (vscale c P) (resized c l) -> reaches P l).
+Proof.
+  intros [l | base platform | n]; cbn [resized row joint reaches].
+  - assert (S : s (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l)) (vscale c P)
+      = c * s l P).
+    { unfold s. rewrite r_resized. cbn [leg_length]. rewrite norm2_scale, <- sqrt_resized by exact c_pos. f_equal. ring. }
+    split; [| split].
+    + unfold Jinv_row, eta. rewrite r_resized, S. cbn [axis working_mode]. destruct (Req_dec (working_mode l * s l P) 0) as [z | z].
+      * replace (working_mode l * (c * s l P)) with (c * (working_mode l * s l P)) by ring.
+        rewrite z, Rmult_0_r, Rinv_0. unfold vscale. cbn. rewrite !Rmult_0_l. reflexivity.
+      * apply (f_equal (vadd (axis l))). unfold vscale. cbn [vx vy vz].
+        set (e := working_mode l) in *. set (h := s l P) in *. assert (e <> 0 /\ h <> 0) by (split; intro k; apply z; rewrite k; ring).
+        f_equal; field; repeat split; try tauto; lra.
+    + unfold rho, eta, w. rewrite S. cbn [axis base_point platform_offset working_mode].
+      unfold vsub, vadd, vscale, Vec3.dot. cbn [vx vy vz]. ring.
+    + rewrite S. intro h. apply Rmult_lt_reg_l with c; lra.
+  - assert (W : span (vscale c base) (vscale c platform) (vscale c P) = vscale c (span base platform P))
+      by (unfold span, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
+    rewrite W, norm2_scale. split; [apply normalised_resized, c_pos |].
+    split; [apply sqrt_resized, c_pos |]. intro h. pose proof (pow_lt c 2 c_pos). apply Rmult_lt_reg_l with (c ^ 2); lra.
+  - split; [reflexivity |]. split; [| auto]. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
+Qed.
+End Resized.
+
+(** ** Rows are derivatives: a guard on the model *)
+
+Definition well_formed_leg (l : leg) : Prop :=
+  match l with Guided l => well_formed l | Extensible _ _ => True | Plane n => n <> vzero end.
+
+(** Along any differentiable trajectory P(t), rho_i' = row_i . P'. *)
+Theorem row_is_derivative : forall l P t V, well_formed_leg l -> reaches (P t) l -> has_velocity P t V ->
+  derivable_pt_lim (fun u => joint l (P u)) t (Vec3.dot (row l (P t)) V).
+Proof.
+  intros [l | base platform | n] P t V ok h hv; cbn [joint row reaches well_formed_leg] in *.
+  - apply joint_velocity; assumption.
+  - set (f := fun u => norm2 (span base platform (P u))).
+    assert (W : has_velocity (fun u => span base platform (P u)) t V)
+      by exact (velocity_w (Leg vzero base platform 1 1) P t V hv).
+    pose proof (velocity_norm2 _ t _ W) as N. cbn beta in N. fold f in N.
+    apply derivable_eq with (comp sqrt f) (/ (2 * sqrt (f t)) * (2 * Vec3.dot (span base platform (P t)) V)).
+    + exact (derivable_pt_lim_comp f sqrt t _ _ N (derivable_pt_lim_sqrt (f t) h)).
+    + reflexivity.
+    + unfold normalised. change (norm2 (span base platform (P t))) with (f t). pose proof (sqrt_lt_R0 _ h) as p.
+      change (0 < sqrt (f t)) in p. generalize (span base platform (P t)). intro w. unfold Vec3.dot, vscale. cbn [vx vy vz]. field. lra.
+  - apply velocity_dot, hv.
+Qed.
+
+(** Three guided legs are the machine of Kinematics.v: speed2 = |Jinv v|^2. *)
+Theorem three_guided : forall m P v,
+  eta (leg1 m) P <> 0 -> eta (leg2 m) P <> 0 -> eta (leg3 m) P <> 0 ->
+  speed2 [Guided (leg1 m); Guided (leg2 m); Guided (leg3 m)] P v = norm2 (mulv (Jinv m P) v).
+Proof.
+  intros m P v h1 h2 h3. rewrite Jinv_rows by assumption. unfold speed2, norm2, mulv. cbn [fold_right row row1 row2 row3 vx vy vz]. ring.
+Qed.

@@ -1,0 +1,98 @@
+(** * Claims about machines with any number of legs
+
+    What a certificate of the kernel is about, in exact numbers, and what it
+    means.  An instance states its theorem with these definitions, those of
+    Claim.v and those of Kinematics.v: they have to be read to know what is
+    proved; the checker does not. *)
+
+From Coq Require Import ZArith Reals List.
+From Orthocert Require Import Vec3 SingularValues Kinematics Claim.
+Import ListNotations.
+Local Open Scope R_scope.
+
+(** ** Machines *)
+
+Inductive leg :=
+  (* of fixed length, on a linear guide *)
+  | Guided (l : Kinematics.leg)
+  (* extensible, from its base joint to the platform's at P + platform *)
+  | Extensible (base platform : vec)
+  (* a plane that is moved along its normal, which may have any length but zero *)
+  | Plane (normal : vec).
+
+Definition normalised (d : vec) : vec := vscale (/ sqrt (norm2 d)) d.
+
+(** From the base joint of an extensible leg to its platform's. *)
+Definition span (base platform P : vec) : vec := vsub (vadd P platform) base.
+
+(** The joint coordinate rho_i. *)
+Definition joint (l : leg) (P : vec) : R :=
+  match l with
+  | Guided l => rho l P
+  | Extensible base platform => sqrt (norm2 (span base platform P))
+  | Plane n => dot (normalised n) P
+  end.
+
+(** The leg reaches P and is not serially singular there. *)
+Definition reaches (P : vec) (l : leg) : Prop :=
+  match l with
+  | Guided l => 0 < s l P
+  | Extensible base platform => 0 < norm2 (span base platform P)
+  | Plane _ => True
+  end.
+
+(** The row of M = J^-1: rho_i' = row . P' ([row_is_derivative] in Machine.v). *)
+Definition row (l : leg) (P : vec) : vec :=
+  match l with
+  | Guided l => Jinv_row l P
+  | Extensible base platform => normalised (span base platform P)
+  | Plane n => normalised n
+  end.
+
+(** |M v|^2 *)
+Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
+
+(** ** Claims *)
+
+Inductive drive :=
+  | SliderLeg (c : slider)
+  | StrutLeg (anchor platform : tolerances)
+  | PlanarLeg (direction : tolerances).
+
+Definition is_leg_of (d : drive) (l : leg) : Prop :=
+  match d, l with
+  | SliderLeg c, Guided l => is_leg c l
+  | StrutLeg a p, Extensible base platform => all_within a base /\ all_within p platform
+  | PlanarLeg d, Plane n => all_within d n
+  | _, _ => False
+  end.
+
+(** Legs are counted from zero. *)
+Inductive requirement :=
+  | NotSingular
+  | PsiMax (b : number) | PsiMin (b : number)          (* velocity transmission factors *)
+  | JointMin (leg : nat) (b : number) | JointMax (leg : nat) (b : number).
+
+Record claim := MakeClaim { legs : list drive; workspace : tolerances; require : list requirement }.
+
+(** [m] is one of the machines that the claim is about. *)
+Definition is_machine (c : claim) (m : list leg) : Prop := Forall2 is_leg_of (legs c) m.
+
+(** M is injective: no motion of the platform leaves all joints at rest. *)
+Definition injective (m : list leg) (P : vec) : Prop := forall v, v <> vzero -> 0 < speed2 m P v.
+
+Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
+  match r with
+  | NotSingular => injective m P
+  | PsiMax b => forall v, (1 / value b) ^ 2 * norm2 v <= speed2 m P v
+  | PsiMin b => forall v, speed2 m P v <= (1 / value b) ^ 2 * norm2 v
+  | JointMin i b => exists l, nth_error m i = Some l /\ value b <= joint l P
+  | JointMax i b => exists l, nth_error m i = Some l /\ joint l P <= value b
+  end.
+
+(** Every leg reaches [P], no singularity is there, and every requirement is met. *)
+Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
+  Forall (reaches P) m /\ injective m P /\ Forall (fulfils m P) (require c).
+
+Definition holds (c : claim) : Prop :=
+  forall m P, is_machine c m -> all_within (workspace c) P -> meets c m P.

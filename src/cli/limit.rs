@@ -1,0 +1,405 @@
+//! `orthocert limit`.
+
+use super::size::{explain, gap_text};
+use super::{certify, effort::Effort, input, print, Failure, Format, Status};
+use num_rational::BigRational;
+use orthocert::decimal::{exact, grouped, significant};
+use orthocert::design::{text_of, Design, Variable};
+use orthocert::limit::Side;
+use orthocert::limit::{limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question};
+use orthocert::output;
+use orthocert::report::{CertificateFile, Outcome};
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::number::Exact;
+use orthocert_checker::shown::Shown;
+use orthocert_kernel::certificate as kernel;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Boxes after which another value than the design's own counts as undecided: so many, or in so many
+/// times as many as the proof of that has.
+const BOXES: (usize, usize) = (20_000, 4);
+/// Fractional bits in which an irrational own value is compared with others.
+const OWN_BITS: u32 = 192;
+/// Columns of a line.
+const WIDTH: usize = 80;
+/// Columns of its label.
+const LABEL: usize = 16;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+KEY is the path of a number in the design file, its elements counted from 0: mechanism.leg_length,
+mechanism.legs.0.length, workspace.max.2, workspace.cylinder.radius, requirements.transmission.max.
+mechanism.legs.*.length is the length that all legs have in common. Of a tolerance the middle is
+varied and the width kept.
+
+From the design's own number the search goes upward and downward in steps of a thousandth to about a
+thousand times its size (of zero: of the largest number beside it) until the verdict changes, then
+halves. A limit is a certified value and a refuted one: an upper limit where the refuted one is the
+greater, a lower limit where it is the smaller. Nothing is claimed of other values, such as that all
+on one side are certified. NAME.limit-upper-certified.cert.json, -upper-refuted, -lower-certified and
+-lower-refuted are the certificates; another run replaces them.
+
+Exit code 0 if a certified and a refuted value no further apart than the gap were found, and, of a
+certified design, nothing is left undecided in any direction; else 3.")]
+pub struct Arguments {
+    /// The design file
+    #[arg(value_name = "DESIGN.toml")]
+    design: PathBuf,
+    /// The number's key
+    #[arg(value_name = "KEY")]
+    key: String,
+    /// Relative distance of the certified and the refuted value
+    #[arg(long, value_name = "G", default_value = "1e-6", allow_hyphen_values = true)]
+    gap: String,
+    /// Look in this direction only
+    #[arg(long, value_enum, value_name = "WHERE")]
+    direction: Option<Toward>,
+    /// The folder for the certificates, which exists [default: that of the design]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// A direction to look in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Toward {
+    /// To greater values
+    Up,
+    /// To smaller ones
+    Down,
+}
+
+/// The answer for scripts.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    title: Option<String>,
+    design: String,
+    key: String,
+    /// The number in the file, of a tolerance the middle, and the design's verdict with it.
+    own: Exact,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<String>,
+    verdict: Outcome,
+    limits: Vec<Row>,
+    seconds: f64,
+}
+
+/// A limit for scripts.
+#[derive(Serialize)]
+struct Row {
+    /// "upper" or "lower".
+    side: &'static str,
+    /// "up" or "down" from the own value, or "about" it.
+    searched: &'static str,
+    certified: Option<Value>,
+    refuted: Option<Value>,
+    /// What the refuted value violates, and where.
+    limited_by: Option<Place>,
+    /// The relative distance of the two, rounded up.
+    gap: Option<String>,
+    gap_reached: bool,
+    /// The least and the greatest undecided value, between the two or beyond the one there is.
+    undecided: Option<[Exact; 2]>,
+    /// Where the design is not well formed any more.
+    ends: Option<EndOfForm>,
+    out_of_time: bool,
+    /// Whether more effort might find a limit, or a nearer one.
+    open: bool,
+}
+
+/// A value with its certificate.
+#[derive(Serialize)]
+struct Value {
+    value: Exact,
+    certificate: CertificateFile,
+}
+
+/// A value for which there is no claim.
+#[derive(Serialize)]
+struct EndOfForm {
+    value: Exact,
+    reason: String,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let effort = &arguments.effort;
+    let gap = gap(&arguments.gap)?;
+    let budget = effort.budget(started)?;
+    let bytes = Design::bytes(&arguments.design).map_err(Failure::input)?;
+    let design = Design::of(&bytes, &arguments.design).map_err(Failure::input)?;
+    let text = text_of(&bytes, &arguments.design).map_err(Failure::input)?;
+    let name = arguments.design.to_string_lossy();
+    let variable = Variable::find(text, &name, &arguments.key).map_err(Failure::input)?;
+    for (side, verdict) in ENDS {
+        let target = arguments.target(side, verdict);
+        input::apart(&target, std::slice::from_ref(&arguments.design))?;
+        output::probe(&target)?;
+    }
+    effort.start_threads()?;
+    let question = Question {
+        own: near(variable.own())?,
+        size: variable.size().clone(),
+        gap,
+        directions: match arguments.direction {
+            None => vec![Direction::Down, Direction::Up],
+            Some(Toward::Up) => vec![Direction::Up],
+            Some(Toward::Down) => vec![Direction::Down],
+        },
+        deadline: budget.deadline,
+    };
+    let variable = &variable;
+    let own =
+        effort.run(|control| DesignFamily { variable, budget, control }.decide(&design.claim));
+    let own = own.map_err(explain)?;
+    let verdict = own.as_ref().map(|(verdict, _)| *verdict);
+    let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
+    let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
+    let budget = effort.budget_or(enough as u64, started)?;
+    let found = effort
+        .run(|control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
+    let limits = found.map_err(explain)?;
+    let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
+    let answer = Answer {
+        title: design.title.clone(),
+        design: name.into_owned(),
+        key: arguments.key.clone(),
+        own: variable.own().clone(),
+        tolerance: variable.tolerance().map(str::to_owned),
+        verdict: verdict.map_or(Outcome::Undecided, Outcome::Decided),
+        limits: rows.collect::<Result<_, _>>()?,
+        seconds: started.elapsed().as_secs_f64(),
+    };
+    match effort.format {
+        Format::Json => print::json(&answer)?,
+        Format::Text => print::answer(&words(&answer, effort.quiet))?,
+    }
+    Ok(if is_complete(&answer) { Status::Done } else { Status::Undecided })
+}
+
+/// Whether a limit was found as near as was asked for, and none is left open: of a certified design
+/// in any direction, of another where both values were found.
+fn is_complete(answer: &Answer) -> bool {
+    let certified = answer.verdict == Outcome::Decided(Verdict::Certified);
+    let open = |row: &Row| row.open && (certified || row.gap.is_some());
+    answer.limits.iter().any(|row| row.gap_reached) && !answer.limits.iter().any(open)
+}
+
+/// The files of an answer.
+const ENDS: [(&str, &str); 4] =
+    [("lower", "certified"), ("lower", "refuted"), ("upper", "certified"), ("upper", "refuted")];
+
+impl Arguments {
+    fn target(&self, side: &str, verdict: &str) -> PathBuf {
+        let mut file = self.design.file_stem().unwrap_or_default().to_owned();
+        file.push(format!(".limit-{side}-{verdict}.cert.json"));
+        match &self.output {
+            Some(folder) => folder.join(file),
+            None => self.design.with_file_name(file),
+        }
+    }
+}
+
+fn gap(text: &str) -> Result<BigRational, Failure> {
+    let number = input::number("--gap", text)?;
+    let end = |denominator: i64| BigRational::new(1.into(), denominator.into());
+    let admissible = end(1_000_000_000)..=end(2);
+    number.as_rational().filter(|gap| admissible.contains(gap)).cloned().ok_or_else(|| {
+        let text: String = text.chars().take(60).collect();
+        Failure::Input(format!("--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.5"))
+    })
+}
+
+/// A rational number, itself or one very near.
+fn near(own: &Exact) -> Result<BigRational, Failure> {
+    let rational = own.as_rational().cloned();
+    rational.or_else(|| Some(own.enclose(0, OWN_BITS)?.inf())).ok_or_else(|| {
+        Failure::Input("the design's numbers exceed what can be reported".to_owned())
+    })
+}
+
+/// The nodes of a proof.
+fn nodes(proof: &Proof) -> usize {
+    match proof {
+        Proof::Tree(tree) => tree.nodes.len(),
+        Proof::Kernel(kernel::Proof::Tree(tree)) => tree.nodes.len(),
+        _ => 0,
+    }
+}
+
+/// A limit, its certificates on the disk.
+fn row(
+    arguments: &Arguments,
+    question: &Question,
+    own: &Exact,
+    limit: Limit<Box<Certificate>>,
+) -> Result<Row, Failure> {
+    let side = match limit.side {
+        Side::Lower => "lower",
+        Side::Upper => "upper",
+    };
+    let number = |value: &BigRational| match *value == question.own {
+        true => own.clone(),
+        false => Exact::Rational(value.clone()),
+    };
+    let stored = |end: &Option<Decided<Box<Certificate>>>| -> Result<Option<Value>, Failure> {
+        let Some(end) = end else { return Ok(None) };
+        let target = arguments.target(side, &end.verdict.to_string());
+        let text = certify::as_written(&end.proof).map_err(|_| Failure::Defect)?;
+        let certificate = certify::store(arguments.output.as_deref(), &target, &text)?;
+        Ok(Some(Value { value: number(&end.value), certificate }))
+    };
+    Ok(Row {
+        side,
+        searched: match limit.direction {
+            Some(Direction::Up) => "up",
+            Some(Direction::Down) => "down",
+            None => "about",
+        },
+        certified: stored(&limit.certified)?,
+        refuted: stored(&limit.refuted)?,
+        limited_by: limit.refuted.as_ref().and_then(|refuted| Place::of(&refuted.proof)),
+        gap: question.gap_of(&limit).as_ref().map(gap_text),
+        gap_reached: question.is_reached(&limit),
+        undecided: limit.undecided.as_ref().map(|ends| ends.each_ref().map(number)),
+        open: question.is_open(&limit),
+        ends: limit
+            .end
+            .map(|end| EndOfForm { value: Exact::Rational(end.value), reason: end.reason }),
+        out_of_time: limit.out_of_time,
+    })
+}
+
+fn words(answer: &Answer, quiet: bool) -> String {
+    let mut out = String::new();
+    let verdict = match answer.verdict {
+        Outcome::Decided(verdict) => verdict.to_string(),
+        Outcome::Undecided => "undecided".to_owned(),
+    };
+    if !quiet {
+        let own = exact(&answer.own);
+        let tolerance = answer.tolerance.as_ref().map_or(String::new(), |t| format!(" ± {t}"));
+        let (key, design) = (Shown(&answer.key), Shown(&answer.design));
+        let _ = writeln!(out, "{key} of {design}\n");
+        line(&mut out, "own value", &format!("{own}{tolerance}, {verdict}"));
+    }
+    for row in &answer.limits {
+        let title = title(row);
+        if quiet {
+            let value = |end: &Option<Value>| {
+                end.as_ref().map_or_else(|| "none".to_owned(), |end| exact(&end.value))
+            };
+            let (certified, refuted) = (value(&row.certified), value(&row.refuted));
+            let _ = writeln!(out, "{title}: certified {certified}, refuted {refuted}");
+        } else {
+            let _ = writeln!(out, "\n{title}");
+            limit(&mut out, row);
+        }
+    }
+    if !quiet {
+        out += "\n  Each value has its own certificate; nothing is claimed of other values.\n";
+        if answer.limits.iter().any(|row| row.open) {
+            out += "  Where values are undecided, no proof was found, and no place that fails:\n  \
+                    a larger --max-boxes or --timeout may help.\n";
+        }
+        let _ = writeln!(out, "\n  {} s", significant(answer.seconds, 3));
+    }
+    out
+}
+
+/// What a limit is, or where none was found.
+fn title(row: &Row) -> String {
+    match (&row.gap, row.searched) {
+        (Some(_), _) => format!("{} limit", row.side),
+        (None, "up") => "upward".to_owned(),
+        (None, _) => "downward".to_owned(),
+    }
+}
+
+fn limit(out: &mut String, row: &Row) {
+    let beyond = if row.searched == "up" { "above" } else { "below" };
+    match (&row.certified, &row.refuted) {
+        (Some(certified), Some(refuted)) => {
+            line(out, "certified", &exact(&certified.value));
+            line(out, "refuted", &exact(&refuted.value));
+        }
+        (Some(end), None) => {
+            line(
+                out,
+                "certified",
+                &format!("{}; no refuted value was found {beyond} it", exact(&end.value)),
+            );
+        }
+        (None, Some(end)) => {
+            line(
+                out,
+                "refuted",
+                &format!("{}; no certified value was found {beyond} it", exact(&end.value)),
+            );
+        }
+        (None, None) => line(out, "", "no value was decided"),
+    }
+    if let Some(gap) = &row.gap {
+        let missed = if row.gap_reached { "" } else { ", more than asked for" };
+        line(out, "gap", &format!("{gap}{missed}"));
+    }
+    if let (Some(place), Some(_)) = (&row.limited_by, &row.gap) {
+        self::place(out, place);
+    }
+    match &row.undecided {
+        Some([one, other]) if one == other => line(out, "undecided", &exact(one)),
+        Some([one, other]) => {
+            line(out, "undecided", &format!("{} to {}", exact(one), exact(other)));
+        }
+        None => {}
+    }
+    if let Some(end) = &row.ends {
+        line(out, "not a design", &format!("{}: {}", exact(&end.value), end.reason));
+    }
+    if row.out_of_time {
+        line(out, "", "the time was up");
+    }
+    for Value { certificate, .. } in [&row.certified, &row.refuted].into_iter().flatten() {
+        let bytes = grouped(certificate.bytes as u64);
+        line(out, "certificate", &format!("{} ({bytes} bytes)", Shown(&certificate.path)));
+    }
+}
+
+/// The requirement that limits, and where.
+fn place(out: &mut String, place: &Place) {
+    line(out, "limited by", &place.violated);
+    if let Some(value) = &place.value {
+        line(out, "value there", value);
+    }
+    line(out, "at", &format!("({})", place.point.join(", ")));
+    if !place.other_point.is_empty() {
+        line(out, "and at", &format!("({})", place.other_point.join(", ")));
+    }
+    for (parameter, value) in &place.machine {
+        line(out, "", &format!("{parameter} = {value}"));
+    }
+}
+
+/// A label and what it says, in as many lines as that takes.
+fn line(out: &mut String, label: &str, text: &str) {
+    let mut column = 0;
+    let _ = write!(out, "  {label:<LABEL$}");
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && 2 + LABEL + column + 1 + width > WIDTH {
+            let _ = write!(out, "\n  {:LABEL$}", "");
+            column = 0;
+        }
+        let blank = if column > 0 { " " } else { "" };
+        let _ = write!(out, "{blank}{word}");
+        column += blank.len() + width;
+    }
+    out.push('\n');
+}

@@ -1,0 +1,121 @@
+//! What is about a machine's bodies and passive joints: `rod`, `base_joint` and `platform_joint` on
+//! legs, and `[[mechanism.bodies]]`.
+
+use super::description::{Bound, Demand, Motion};
+use super::document::{Table, Value};
+use super::drive::axes;
+use super::error::{Defect, DesignError};
+use super::exactly;
+use super::number::{exact, not_negative, positive};
+use orthocert_checker::number::Exact;
+use orthocert_kernel::claim::Body;
+use orthocert_kernel::number::Expression;
+use std::cmp::Ordering;
+
+const ROD: &str =
+    "{ radius = 8, trim = [20, 30] }: the rod's radius, and how far from the base joint it \
+                   begins and from the platform joint it ends";
+const BODIES: &str = "[[mechanism.bodies]] tables with on, from, to and radius";
+const RADIUS: &str = "a radius greater than 0";
+
+/// What a leg says of its rod.
+pub(super) fn rod(leg: &Table<'_>, number: usize) -> Result<Option<Body>, DesignError> {
+    let Some(value) = leg.find("rod") else {
+        return Ok(None);
+    };
+    let table = value.table(ROD)?;
+    table.only(&["radius", "trim"])?;
+    let radius = radius(&table)?;
+    let trim = table.require("trim", "[20, 30], or [0, 0]: lengths from either joint")?;
+    let [base, platform] = trim.elements("[20, 30]: lengths from either joint")?;
+    let end = |value: &Value<'_>| {
+        let length = exact(value)?;
+        not_negative(value, &length, "a length from the joint")?;
+        exactly::of(value, &length)
+    };
+    Ok(Some(Body::Leg { leg: number, radius, trim: [end(&base)?, end(&platform)?] }))
+}
+
+fn radius(table: &Table<'_>) -> Result<Expression, DesignError> {
+    let value = table.require("radius", RADIUS)?;
+    let radius = exact(&value)?;
+    positive(&value, &radius, "a radius")?;
+    exactly::of(&value, &radius)
+}
+
+/// What a leg says of the angles at its joints.
+pub(super) fn joints(
+    leg: &Table<'_>,
+    number: usize,
+    motion: Motion,
+) -> Result<Vec<Demand>, DesignError> {
+    let mut demands = Vec::new();
+    for key in ["base_joint", "platform_joint"] {
+        let Some(value) = leg.find(key) else {
+            continue;
+        };
+        let accepted = match motion {
+            Motion::Planar { .. } => "{ axis = [0, 1], max = 45 }, in degrees",
+            _ => "{ axis = [0, 0, 1], max = 45 }, in degrees",
+        };
+        let table = value.table(accepted)?;
+        table.only(&["axis", "max"])?;
+        let (axis, bound) = (table.require("axis", accepted)?, table.require("max", accepted)?);
+        let axis = self::axis(&axis, motion)?;
+        let max = exact(&bound)?;
+        let below = max.compare(&Exact::integer(180)) == Some(Ordering::Less);
+        if bound.document.demands() && (max.sign() != Some(1) || !below) {
+            let accepted = "an angle in degrees, greater than 0 and less than 180";
+            return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
+        }
+        let given = vec![("axis", axis)];
+        demands.push(Demand { quantity: key, leg: Some(number), given, bound: Bound::Max(max) });
+    }
+    Ok(demands)
+}
+
+/// A direction without tolerance.
+fn axis(value: &Value<'_>, motion: Motion) -> Result<Vec<Exact>, DesignError> {
+    let [positions, _] = motion.coordinates();
+    let count = if positions == 2 { 2 } else { 3 };
+    let accepted = format!("{}: a direction, exact numbers not all zero", axes(motion));
+    let elements = value.list(&accepted)?;
+    if elements.len() != count {
+        return Err(value.wrong_type(&accepted));
+    }
+    let axis: Vec<Exact> = elements.iter().map(exact).collect::<Result<_, _>>()?;
+    if value.document.demands() && !axis.iter().any(|x| matches!(x.sign(), Some(1 | -1))) {
+        let found = "a vector that is, or may be, zero";
+        return Err(value.error(Defect::OutOfDomain, found, accepted));
+    }
+    Ok(axis)
+}
+
+/// Reads `[[mechanism.bodies]]`.
+pub(super) fn bodies(mechanism: &Table<'_>, motion: Motion) -> Result<Vec<Body>, DesignError> {
+    match mechanism.find("bodies") {
+        Some(value) => value.list(BODIES)?.iter().map(|value| body(value, motion)).collect(),
+        None => Ok(Vec::new()),
+    }
+}
+
+fn body(value: &Value<'_>, motion: Motion) -> Result<Body, DesignError> {
+    let table = value.table("a [[mechanism.bodies]] table")?;
+    table.only(&["on", "from", "to", "radius"])?;
+    let on = super::mechanism::word(&table, "on", &["base", "platform"], |on| on)?;
+    let end = |key: &str| {
+        let accepted = format!("{}: an end of the body's axis", axes(motion));
+        let value = table.require(key, &accepted)?;
+        if let Motion::Planar { .. } = motion {
+            let [x, y] = value.elements(&accepted)?;
+            return Ok([exactly::number(&x)?, exactly::number(&y)?, Expression::integer(0)]);
+        }
+        let [x, y, z] = value.elements(&accepted)?;
+        Ok([exactly::number(&x)?, exactly::number(&y)?, exactly::number(&z)?])
+    };
+    let (from, to, radius) = (end("from")?, end("to")?, radius(&table)?);
+    Ok(match *on {
+        "base" => Body::Base { from, to, radius },
+        _ => Body::Platform { from, to, radius },
+    })
+}

@@ -1,0 +1,103 @@
+//! Claims that are not well formed for a reason that no single key shows.
+
+use super::document::{Table, Value};
+use super::error::{Defect, DesignError};
+use crate::verify::MODEL_PRECISION;
+use orthocert_checker::claim::{ClaimError, MachineClaim};
+use orthocert_checker::model::Model;
+use orthocert_kernel::claim as kernel;
+use orthocert_kernel::input::ClaimError as Refused;
+use orthocert_kernel::problem::Problem;
+
+const WELL_FORMED: &str = "a well-formed claim";
+
+/// Demands a claim that is well formed and has a model.
+pub(super) fn modelled(root: &Table<'_>, claim: &MachineClaim) -> Result<(), DesignError> {
+    Model::new(claim, MODEL_PRECISION).map(drop).map_err(|error| ill_formed(root, &error))
+}
+
+/// Demands a claim that the kernel takes.
+pub(super) fn compiled(root: &Table<'_>, claim: &kernel::MachineClaim) -> Result<(), DesignError> {
+    Problem::new(claim).map(drop).map_err(|error| refused(root, &error))
+}
+
+/// A claim that the rules refuse.
+pub(super) fn ill_formed(root: &Table<'_>, error: &ClaimError) -> DesignError {
+    let table = match error {
+        ClaimError::EmptyTransmission
+        | ClaimError::CubeNeedsPsiMax
+        | ClaimError::CubeFixesPsiMin => "requirements",
+        ClaimError::CubeNeedsOrthoglide => "workspace",
+        ClaimError::Reversed(what)
+        | ClaimError::NotPositive(what)
+        | ClaimError::NoBound(what)
+        | ClaimError::Precision(what) => match what {
+            _ if what.starts_with("workspace") => "workspace",
+            _ if what.starts_with("transmission") => "requirements",
+            _ if what.starts_with("joint_range") => "requirements",
+            _ => "mechanism",
+        },
+        _ => "mechanism",
+    };
+    of_table(root, table, &error.to_string(), WELL_FORMED)
+}
+
+/// A claim that the kernel refuses: the error about the table that it names.
+pub(super) fn refused(root: &Table<'_>, error: &Refused) -> DesignError {
+    let (Refused::Number { place, expected } | Refused::Shape { place, expected }) = error;
+    let found = "a claim that is not well formed";
+    let accepted = format!("a design whose {place} is {expected}");
+    match named(root, place) {
+        Some(value) => value.error(Defect::Claim, found, accepted),
+        None => {
+            let table = match place {
+                _ if place.starts_with("workspace") => "workspace",
+                _ if place.starts_with("orientation") => "workspace",
+                _ if place.starts_with("requirement") => "requirements",
+                _ => "mechanism",
+            };
+            of_table(root, table, found, accepted)
+        }
+    }
+}
+
+/// The value that a place of the kernel's, `requirement 3: stiffness`, `leg 2: length.0`,
+/// `orientation` or the name of a parameter, stands for.
+fn named<'a>(root: &Table<'a>, place: &str) -> Option<Value<'a>> {
+    let table = |name: &str| root.find(name)?.table("a table").ok();
+    let (subject, key) = place.split_once(": ").unwrap_or((place, ""));
+    if subject.starts_with("requirement ") {
+        return table("requirements")?.find(key);
+    }
+    if place.starts_with("transmission") {
+        return table("requirements")?.find("transmission");
+    }
+    if place.starts_with("orientation") {
+        return table("workspace")?.find("orientation");
+    }
+    let mechanism = table("mechanism")?;
+    if let Some(number) = subject.strip_prefix("leg ") {
+        let number: usize = number.parse().ok()?;
+        let leg =
+            mechanism.find("legs")?.list("legs").ok()?.into_iter().nth(number.checked_sub(1)?)?;
+        let key = key.split('.').next().unwrap_or_default();
+        let inner = leg.table("a leg").ok().and_then(|leg| leg.find(key));
+        return Some(inner.unwrap_or(leg));
+    }
+    let of_formulas = |name: &str| mechanism.find(name)?.table("a table").ok()?.find(place);
+    let whole = place.strip_prefix("mechanism.").and_then(|key| mechanism.find(key));
+    whole.or_else(|| of_formulas("parameters")).or_else(|| of_formulas("definitions"))
+}
+
+/// The error about a table of the design as a whole.
+pub(super) fn of_table(
+    root: &Table<'_>,
+    table: &str,
+    found: &str,
+    accepted: impl Into<String>,
+) -> DesignError {
+    match root.find(table) {
+        Some(value) => value.error(Defect::Claim, found, accepted),
+        None => root.lacks(table, accepted),
+    }
+}

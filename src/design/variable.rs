@@ -1,0 +1,304 @@
+//! One number of a design file, by its key, and the file with another number in its place.
+//!
+//! A key is a path of names and of positions in arrays, counted from 0, with dots between them:
+//! `workspace.max.0`. `*` stands for every element of an array: `mechanism.legs.*.length` is one
+//! number that several legs have in common. All of the file but the number stays as it is, byte by
+//! byte. Of a tolerance it is the middle that changes.
+
+use super::document::{Document, Names, Table, Value};
+use super::error::{Defect, DesignError};
+use super::number::{centred, quantity};
+use super::suggestion;
+use crate::decimal::{exact, terminating};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+use orthocert_checker::number::Exact;
+use std::ops::Range;
+use toml::de::{DeTable, DeValue};
+
+/// Fractional bits of a number's size.
+const SIZE_BITS: u32 = 128;
+/// Most decimal places of a number that is put into a file.
+const MOST_PLACES: u32 = 1000;
+/// Every element of an array.
+const EVERY: &str = "*";
+
+/// A number of a design file.
+#[derive(Clone, Debug)]
+pub struct Variable<'a> {
+    text: &'a str,
+    /// Where it stands, in the order of the text.
+    places: Vec<Range<usize>>,
+    own: Exact,
+    tolerance: Option<String>,
+    size: BigRational,
+}
+
+impl<'a> Variable<'a> {
+    /// The number at `key` of a design file's text; `file` is for messages only.
+    ///
+    /// # Errors
+    /// If there is no number at that key; the message names what there is, and the nearest key.
+    pub fn find(text: &'a str, file: &str, key: &str) -> Result<Self, DesignError> {
+        let document = Document { file, text, names: Names::None };
+        let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
+        let root = document.root(tree.get_ref());
+        let walk = Walk { key, root: &root };
+        let names: Vec<&str> = key.split('.').collect();
+        let found = walk.in_table(&root, "", &names)?;
+        let (first, rest) = found.split_first().ok_or_else(|| root.lacks(key, "a number's key"))?;
+        let (own, tolerance) = walk.number(first)?;
+        for other in rest {
+            walk.number(other)?;
+            if quantity(other)? != quantity(first)? {
+                let found = format!("{}, but {} at {}", other.found(), first.found(), first.key);
+                let accepted = "the same number in every element, or the key of one of them";
+                return Err(other.error(Defect::Conflict, found, accepted));
+            }
+        }
+        let mut places: Vec<Range<usize>> = found.iter().map(|value| value.at.clone()).collect();
+        places.sort_by_key(|at| at.start);
+        let size = size(&own).filter(|size| !size.is_zero());
+        let size = size.or_else(|| around(&root, &names)).unwrap_or_else(BigRational::one);
+        Ok(Variable { text, places, own, tolerance, size })
+    }
+
+    /// The number in the file: of a tolerance the middle.
+    pub fn own(&self) -> &Exact {
+        &self.own
+    }
+
+    /// What stands after `±`, as in the file.
+    pub fn tolerance(&self) -> Option<&str> {
+        self.tolerance.as_deref()
+    }
+
+    /// A size to measure changes by, not zero: the number's, or, where that is zero, that of the
+    /// largest number beside it.
+    pub fn size(&self) -> &BigRational {
+        &self.size
+    }
+
+    /// The file with another number.
+    pub fn with(&self, value: &BigRational) -> String {
+        let number = terminating(value, MOST_PLACES).unwrap_or_else(|| format!("({value})"));
+        let number = match &self.tolerance {
+            Some(tolerance) => format!("\"{number} ± {tolerance}\""),
+            None => format!("\"{number}\""),
+        };
+        let (mut text, mut done) = (String::new(), 0);
+        for Range { start, end } in self.places.iter().cloned() {
+            text.push_str(self.text.get(done..start).unwrap_or_default());
+            text.push_str(&number);
+            done = end;
+        }
+        text.push_str(self.text.get(done..).unwrap_or_default());
+        text
+    }
+}
+
+/// A key that is being looked up.
+struct Walk<'w, 'd> {
+    key: &'w str,
+    root: &'w Table<'d>,
+}
+
+impl<'d> Walk<'_, 'd> {
+    /// The values at the rest of a path.
+    fn in_table(
+        &self,
+        table: &Table<'d>,
+        path: &str,
+        rest: &[&str],
+    ) -> Result<Vec<Value<'d>>, DesignError> {
+        let Some((name, rest)) = rest.split_first() else {
+            return Err(table.lacks("", "the key of a number"));
+        };
+        let Some(value) = table.find(name) else {
+            let there: Vec<String> =
+                table.entries().iter().map(|(name, _)| dotted(path, name)).collect();
+            return Err(table.lacks(name, self.accepted(&there)));
+        };
+        self.in_value(value, &dotted(path, name), rest)
+    }
+
+    fn in_value(
+        &self,
+        value: Value<'d>,
+        path: &str,
+        rest: &[&str],
+    ) -> Result<Vec<Value<'d>>, DesignError> {
+        let Some((name, further)) = rest.split_first() else {
+            return Ok(vec![value]);
+        };
+        match value.inner {
+            DeValue::Table(_) => self.in_table(&value.table("a table")?, path, rest),
+            DeValue::Array(_) => {
+                let all = value.list("an array")?;
+                let one = name.parse::<usize>().ok().filter(|i| i.to_string() == **name);
+                let chosen = |i: usize| *name == EVERY || one == Some(i);
+                if !(0..all.len()).any(chosen) {
+                    let found = format!("{}, and none at {name}", value.found());
+                    let there = elements(path, all.len());
+                    return Err(value.error(Defect::UnknownKey, found, self.accepted(&there)));
+                }
+                let all = all.into_iter().enumerate().filter(|(i, _)| chosen(*i));
+                let below =
+                    all.map(|(i, v)| self.in_value(v, &dotted(path, &i.to_string()), further));
+                Ok(below.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+            }
+            _ => {
+                let found = format!("{}, which has no {name}", value.found());
+                let there = [path.to_owned()];
+                Err(value.error(Defect::UnknownKey, found, self.accepted(&there)))
+            }
+        }
+    }
+
+    /// The middle of the number or tolerance that a value is.
+    fn number(&self, value: &Value<'d>) -> Result<(Exact, Option<String>), DesignError> {
+        let there = match value.inner {
+            DeValue::Array(all) => elements(self.key, all.len()),
+            DeValue::Table(entries) if !is_tolerance(self.key, entries) => {
+                let entries = value.table("a table")?.entries();
+                entries.iter().map(|(name, _)| dotted(self.key, name)).collect()
+            }
+            DeValue::Table(_) if !is_inline(value) => {
+                let found = "a tolerance that is not written in one pair of braces";
+                let accepted = "{ min = 310.2, max = 310.3 }, or the key of one of its ends";
+                return Err(value.error(Defect::WrongType, found, accepted));
+            }
+            _ => return centred(value),
+        };
+        Err(value.error(Defect::WrongType, value.found(), self.accepted(&there)))
+    }
+
+    /// What there is, and the nearest key of a number.
+    fn accepted(&self, there: &[String]) -> String {
+        let mut all = Vec::new();
+        for (name, value) in self.root.entries() {
+            numbers(&value, name, &mut all);
+        }
+        // Without the tables that it is in, a key is meant as well as a misspelt one.
+        let key = from_zero(self.key);
+        let end = format!(".{key}");
+        let meant = |other: &&String| **other == key || other.ends_with(&end);
+        let hint = match all.iter().find(meant) {
+            Some(key) => format!("; did you mean {key}?"),
+            None => {
+                let names: Vec<&str> = all.iter().map(String::as_str).collect();
+                suggestion::hint(&key, &names, |key| key.to_owned())
+            }
+        };
+        format!("the key of a number; there is {}{hint}", there.join(", "))
+    }
+}
+
+fn dotted(path: &str, name: &str) -> String {
+    match path {
+        "" => name.to_owned(),
+        _ => format!("{path}.{name}"),
+    }
+}
+
+/// A key with `[i]`, as messages about designs count elements, from 1, written with `.i` from 0.
+fn from_zero(key: &str) -> String {
+    let mut parts = key.split('[');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (number, rest) = part.split_once(']').unwrap_or((part, ""));
+        match number.parse::<usize>().ok().and_then(|i| i.checked_sub(1)) {
+            Some(i) => text.push_str(&format!(".{i}{rest}")),
+            None => text.push_str(part),
+        }
+    }
+    text
+}
+
+/// The keys of an array's elements.
+fn elements(path: &str, length: usize) -> Vec<String> {
+    match length {
+        0 => vec!["nothing in it".to_owned()],
+        1..=3 => (0..length).map(|i| dotted(path, &i.to_string())).collect(),
+        _ => vec![format!("{path}.0 to {path}.{}", length - 1)],
+    }
+}
+
+/// Whether a table is a tolerance: parameters of a mechanism have them.
+fn is_tolerance(key: &str, entries: &DeTable<'_>) -> bool {
+    let ends = ["min", "max"].iter().all(|end| entries.contains_key(*end));
+    key.starts_with("mechanism.") && ends && entries.len() == 2
+}
+
+fn is_inline(value: &Value<'_>) -> bool {
+    let written = value.document.text.get(value.at.clone()).unwrap_or_default();
+    written.starts_with('{') && written.ends_with('}')
+}
+
+/// The keys of all numbers below a value. The parser bounds the nesting, and with it this recursion.
+fn numbers(value: &Value<'_>, path: &str, keys: &mut Vec<String>) {
+    match value.inner {
+        DeValue::Table(_) => {
+            for (name, value) in value.table("").map(|table| table.entries()).unwrap_or_default() {
+                numbers(&value, &dotted(path, name), keys);
+            }
+        }
+        DeValue::Array(_) => {
+            for (i, value) in value.list("").unwrap_or_default().iter().enumerate() {
+                numbers(value, &dotted(path, &i.to_string()), keys);
+            }
+        }
+        _ if centred(value).is_ok() => keys.push(path.to_owned()),
+        _ => {}
+    }
+}
+
+/// The size of the largest number in the innermost array or table about a key that has one other
+/// than zero.
+fn around(root: &Table<'_>, names: &[&str]) -> Option<BigRational> {
+    (0..names.len()).rev().find_map(|depth| {
+        let (first, rest) = names.get(..depth)?.split_first()?;
+        let mut value = root.find(first)?;
+        for name in rest {
+            value = match value.inner {
+                DeValue::Array(_) => {
+                    let i = if *name == EVERY { 0 } else { name.parse().ok()? };
+                    value.list("").ok()?.into_iter().nth(i)?
+                }
+                _ => value.table("").ok()?.find(name)?,
+            };
+        }
+        largest(&value)
+    })
+}
+
+fn largest(value: &Value<'_>) -> Option<BigRational> {
+    let within: Vec<Value<'_>> = match value.inner {
+        DeValue::Table(_) => {
+            value.table("").ok()?.entries().into_iter().map(|(_, value)| value).collect()
+        }
+        DeValue::Array(_) => value.list("").ok()?,
+        _ => return size(&centred(value).ok()?.0).filter(|size| !size.is_zero()),
+    };
+    within.iter().filter_map(largest).max()
+}
+
+/// `|x|`, nearly.
+fn size(x: &Exact) -> Option<BigRational> {
+    let value = match x.as_rational() {
+        Some(x) => x.clone(),
+        None => x.enclose(0, SIZE_BITS)?.inf(),
+    };
+    Some(value.abs())
+}
+
+/// A tolerance's text for half of its width.
+pub(super) fn half_width(half: &Exact) -> String {
+    let text = exact(half);
+    let plain = text.chars().all(|c| c.is_ascii_digit() || c == '.');
+    if plain {
+        text
+    } else {
+        format!("({text})")
+    }
+}

@@ -1,0 +1,48 @@
+//! The family of a design file and one of its numbers.
+
+use super::Family;
+use crate::design::{Design, Variable};
+use crate::frontier::{decision, NoAnswer};
+use crate::search::{Budget, Control};
+use crate::solver;
+use num_rational::BigRational;
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::claim::Claim;
+
+/// A design file, one number of which is varied.
+pub struct DesignFamily<'a, 'c> {
+    /// The number.
+    pub variable: &'a Variable<'a>,
+    /// For each value.
+    pub budget: Budget,
+    /// The outside's hold on the searches.
+    pub control: &'a mut Control<'c>,
+}
+
+impl Family for DesignFamily<'_, '_> {
+    type Claim = Claim;
+    type Proof = Box<Certificate>;
+
+    fn claim(&self, value: &BigRational) -> Result<Claim, String> {
+        let design = Design::parse(&self.variable.with(value), "design");
+        design.map(|design| design.claim).map_err(|error| {
+            format!("{}: found {}; accepted: {}", error.key(), error.found(), error.accepted())
+        })
+    }
+
+    fn decide(&mut self, claim: &Claim) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
+        let certificate = match claim {
+            Claim::Machine(claim) => decision(claim, self.budget, self.control)?,
+            Claim::Kernel(claim) => {
+                let found = solver::verify(claim, self.budget, self.control);
+                match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
+                    solver::Answer::Decided { certificate, .. } => Some(certificate),
+                    solver::Answer::Undecided { .. } => None,
+                    solver::Answer::Cancelled => return Err(NoAnswer::Cancelled),
+                }
+            }
+            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => None,
+        };
+        Ok(certificate.map(|certificate| (certificate.verdict, certificate)))
+    }
+}

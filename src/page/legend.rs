@@ -1,0 +1,147 @@
+//! The rules by which a proof's boxes are closed, as figures show them.
+
+use orthocert_checker::certificate::{Node, Step};
+use orthocert_checker::rule::Obligation;
+use orthocert_kernel::certificate as kernel;
+use serde::Serialize;
+
+/// A rule as figures show it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rule {
+    /// The rule's name in certificates.
+    pub name: String,
+    /// What it is used for, where that has to be said.
+    #[serde(skip)]
+    pub used_for: Option<String>,
+    /// Its fill, distinct for those who do not tell colours apart (after Okabe and Ito).
+    pub colour: &'static str,
+    /// The number of its pattern: [`PATTERNS`].
+    pub pattern: usize,
+    /// The position of the obligation that it discharges; `None`: every one.
+    #[serde(skip)]
+    pub discharges: Option<usize>,
+}
+
+/// The rules by which boxes are closed, and the obligations that they discharge.
+#[derive(Clone, Debug, Default)]
+pub struct Legend {
+    /// A letter of a tree's code is a position here.
+    pub rules: Vec<Rule>,
+    /// Their names.
+    pub obligations: Vec<String>,
+}
+
+/// A node of a tree: the positions of its rules, and the coordinate along which it is halved.
+pub type Ruled = (Vec<u8>, Option<usize>);
+
+type Style = (&'static str, &'static str, usize);
+
+/// The rules of three translating legs.
+const RULES: [Style; 16] = [
+    ("lower", "#8ecae6", 0),
+    ("corner", "#f4a340", 1),
+    ("upper", "#74c69d", 2),
+    ("cube", "#5aae8a", 3),
+    ("range", "#f2e279", 1),
+    ("conditioning", "#7da7d9", 3),
+    ("serial_margin", "#e8936b", 2),
+    ("parallel_margin", "#b9a3d9", 1),
+    ("leg_angle", "#c9a66b", 3),
+    ("speed", "#9fd3c7", 4),
+    (OUTSIDE, "#eceff3", 5),
+    ("blow_up", "#8ecae6", 0),
+    ("edge", "#f4a340", 1),
+    ("mirror", "#d3a4c8", 3),
+    ("entrywise", "#6fa8dc", 1),
+    ("violated", "#e5989b", 2),
+];
+
+/// The rule that a box is outside the workspace.
+pub const OUTSIDE: &str = "outside";
+
+/// Colours of a kernel proof's rules, in the order of their first use.
+const COLOURS: [&str; 10] = [
+    "#8ecae6", "#74c69d", "#f2e279", "#f4a340", "#b9a3d9", "#e8936b", "#9fd3c7", "#c9a66b",
+    "#7da7d9", "#e5989b",
+];
+
+/// Most rules of a legend: letters of the code, and positions in the script's signed bytes.
+const MOST_RULES: usize = 100;
+
+impl Legend {
+    /// The rules of three translating legs.
+    pub fn of_three_legs() -> Self {
+        let obligations: Vec<String> = Obligation::ALL.iter().map(ToString::to_string).collect();
+        let rule = |&(name, colour, pattern): &Style| {
+            let discharged = match name {
+                "lower" | "entrywise" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
+                "upper" | "cube" => "sigma_max",
+                "range" => "joint_range",
+                "speed" => "joint_speed",
+                other => other,
+            };
+            let discharges = obligations.iter().position(|name| name == discharged);
+            Rule { name: name.to_owned(), used_for: None, colour, pattern, discharges }
+        };
+        Legend { rules: RULES.iter().map(rule).collect(), obligations }
+    }
+
+    /// The nodes of a tree of three translating legs.
+    pub fn ruled(&self, nodes: &[Node]) -> Vec<Ruled> {
+        let position = |step: &Step| {
+            let (name, _) = step.rule();
+            self.rules.iter().position(|rule| rule.name == name).unwrap_or(0) as u8
+        };
+        let node = |node: &Node| {
+            (node.by.iter().map(position).collect(), node.split.map(|axis| axis.index()))
+        };
+        nodes.iter().map(node).collect()
+    }
+
+    /// The rules of a kernel proof: a kind of evidence for a requirement each. `of` has the position
+    /// of the requirement that an obligation of this number belongs to.
+    pub fn of_kernel(
+        tree: &kernel::Tree,
+        requirements: Vec<String>,
+        of: &dyn Fn(usize) -> usize,
+    ) -> (Self, Vec<Ruled>) {
+        let mut legend = Legend { rules: Vec::new(), obligations: requirements };
+        let mut position = |kernel::Step(number, evidence): &kernel::Step| {
+            let is_outside = matches!(evidence, kernel::Evidence::Outside);
+            let requirement = (!is_outside).then(|| of(*number));
+            let name = evidence.name();
+            let Legend { rules, obligations } = &mut legend;
+            let known =
+                rules.iter().position(|rule| rule.name == name && rule.discharges == requirement);
+            let at = known.unwrap_or_else(|| {
+                if rules.len() >= MOST_RULES {
+                    return 0;
+                }
+                let used = rules.len();
+                rules.push(Rule {
+                    name: name.to_owned(),
+                    used_for: requirement.and_then(|of| obligations.get(of).cloned()),
+                    colour: if is_outside { "#eceff3" } else { COLOURS[used % COLOURS.len()] },
+                    pattern: if is_outside { 5 } else { used % 5 },
+                    discharges: requirement,
+                });
+                used
+            });
+            at as u8
+        };
+        let nodes = tree.nodes.iter();
+        let ruled =
+            nodes.map(|node| (node.by.iter().map(&mut position).collect(), node.split)).collect();
+        (legend, ruled)
+    }
+}
+
+/// Lines of the patterns, on squares of eight units.
+pub const PATTERNS: [&str; 6] = [
+    "",
+    "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
+    "M2 2h1.4M6 6h1.4",
+    "M-2 -2L10 10M6 -2L10 2M-2 6L2 10",
+    "M0 4H8M4 0V8",
+    "M3 5L5 3",
+];

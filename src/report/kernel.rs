@@ -1,0 +1,434 @@
+//! The facts about claims of the kernel: any number of coordinates, any quantity of its table.
+
+use super::place::FreeParameter;
+use super::regions::sum_above;
+use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
+use super::{Counterexample, Row, Setting};
+use crate::batch::requirement::{rule_of, SINGULARITY};
+use crate::decimal::{exact, readable, rounded, significant, Toward};
+use crate::sample::with_unit;
+use crate::search::Stop;
+use crate::solver::sample::{Place, Quality, Sampler, Worst};
+use crate::solver::search::Open;
+use crate::solver::value::{unit, Bounded};
+use crate::solver::Undecided;
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_checker::number::Exact;
+use orthocert_kernel::certificate::{Failure, Witness};
+use orthocert_kernel::claim::{Bound, MachineClaim};
+use orthocert_kernel::machine::Leg;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::{Obligation, Test};
+use orthocert_kernel::witness;
+
+/// Relative violations below this are rounding errors of the sampling.
+const NOISE: f64 = 1e-12;
+/// Margins below this are ties, as far as doubles can tell.
+const TIE: f64 = 1e-9;
+/// Digits of a violating value: as few as show the violation.
+const DIGITS: std::ops::RangeInclusive<u32> = 6..=17;
+/// Parts of the way from the bound to the value that are tried, where the witness shows less.
+const PARTS: [f64; 4] = [1.0, 0.99, 0.9, 0.5];
+/// Longest text of an exact number.
+const MOST_DIGITS: usize = 1000;
+/// Regions that are described one by one.
+const REGIONS: usize = 12;
+/// Boxes that are brought together; more are left out of the regions.
+const MOST_BOXES: usize = 2000;
+
+/// A claim, and what its values are looked up in.
+pub struct Facts<'a> {
+    claim: &'a MachineClaim,
+    problem: &'a Problem,
+    sampler: Sampler<'a>,
+    angular: bool,
+}
+
+/// An exact number as the checker's.
+pub fn exactly(x: &Expression) -> Option<Exact> {
+    Exact::parse(&x.to_string(), MOST_DIGITS).ok()
+}
+
+/// A number for people.
+pub fn shown(x: &Expression) -> String {
+    exactly(x).map_or_else(|| x.to_string(), |x| readable(&x))
+}
+
+impl<'a> Facts<'a> {
+    /// About a claim; `None` where its numbers cannot be shown.
+    pub fn new(claim: &'a MachineClaim, problem: &'a Problem) -> Option<Self> {
+        let sampler = Sampler::new(claim, problem).ok()?;
+        let angular = problem.legs.iter().any(Leg::is_angular);
+        Some(Facts { claim, problem, sampler, angular })
+    }
+
+    fn bounded(&self, quality: Quality) -> Option<Bounded> {
+        match quality {
+            Quality::Obligation(number) => Bounded::of(self.claim, self.problem, number),
+            Quality::Reach | Quality::Determinant => None,
+        }
+    }
+
+    /// Name, unit, relation and other side of what is demanded.
+    fn demanded(
+        &self,
+        quality: Quality,
+    ) -> (String, Option<&'static str>, &'static str, Vec<Expression>) {
+        let Some(bounded) = self.bounded(quality) else {
+            let name = match quality {
+                Quality::Reach => "least radicand",
+                Quality::Determinant => "least |det M|",
+                Quality::Obligation(_) => "least sigma_min(M)",
+            };
+            return (name.to_owned(), None, ">", vec![Expression::integer(0)]);
+        };
+        let unit = unit(&bounded.requirement.quantity, self.angular);
+        let name = with_unit(&bounded.name(), unit);
+        match bounded.relation() {
+            Some((relation, sides)) => (name, unit, relation, sides.into_iter().cloned().collect()),
+            None => (name, unit, "holds", Vec::new()),
+        }
+    }
+
+    /// A requirement in words: `greatest psi <= 2`.
+    fn words(&self, quality: Quality) -> String {
+        let (name, _, relation, sides) = self.demanded(quality);
+        let side = |x: &Expression| exactly(x).map_or_else(|| x.to_string(), |x| exact(&x));
+        format!("{name} {}", bound_text(relation, sides.iter().map(side).collect()))
+    }
+
+    fn value(&self, quality: Quality, found: &Worst) -> Option<f64> {
+        let values = self.sampler.at(&found.place);
+        self.sampler.matrix(&values)?;
+        let lengths = i32::try_from(self.problem.dimension()).ok()?;
+        let unit = if self.angular { self.sampler.unit() } else { 1.0 };
+        match self.bounded(quality) {
+            // Of two points.
+            Some(bounded) if bounded.requirement.bound == Bound::Holds => None,
+            Some(bounded) => bounded.value(self.claim, self.problem, &self.sampler, &found.place),
+            None => Some(match quality {
+                // A square of a length.
+                Quality::Reach => found.margin * self.sampler.unit().powi(2),
+                Quality::Determinant => found.margin.max(0.0) / unit.powi(lengths),
+                Quality::Obligation(_) => found.margin / unit,
+            }),
+        }
+    }
+
+    /// The rows of a verification's worst values.
+    pub fn rows(&self, worst: &[Worst]) -> Vec<Row> {
+        let mut rows: Vec<(String, f64, Row)> = Vec::new();
+        for found in worst {
+            let (requirement, unit, relation, sides) = self.demanded(found.quality);
+            let texts = |text: &dyn Fn(&Expression) -> String| sides.iter().map(text).collect();
+            let row = Row {
+                requirement: requirement.clone(),
+                unit,
+                bound_text: bound_text(relation, texts(&shown)),
+                bound: bound_text(relation, texts(&Expression::to_string)),
+                worst_found: self.value(found.quality, found),
+                at: self.sampler.shown(&found.place.u),
+                machine: self.machine(&found.place),
+                seems_violated: found.margin < -NOISE,
+            };
+            // Both ends of a range of angles are one row.
+            match rows.iter_mut().find(|(name, ..)| *name == requirement) {
+                Some((_, margin, known)) if found.margin < *margin => {
+                    (*margin, *known) = (found.margin, row);
+                }
+                Some(_) => {}
+                None => rows.push((requirement, found.margin, row)),
+            }
+        }
+        rows.into_iter().map(|(.., row)| row).collect()
+    }
+
+    fn machine(&self, place: &Place) -> Vec<FreeParameter> {
+        let named = self.problem.tolerances().zip(self.sampler.machine(place));
+        named
+            .map(|((place, ..), value)| {
+                let (leg, parameter) = parameter(place);
+                FreeParameter { leg, parameter, value }
+            })
+            .collect()
+    }
+
+    /// The words for a witness that refutes the claim.
+    pub fn counterexample(&self, witness: &Witness) -> Option<Counterexample> {
+        let points = |point: &[Expression]| point.iter().map(exactly).collect::<Option<Vec<_>>>();
+        let setting = |((place, ..), value): ((&str, &Expression, &Expression), &Expression)| {
+            let (leg, parameter) = parameter(place);
+            Some(Setting { leg, parameter, value: exactly(value)? })
+        };
+        let machine = self.problem.tolerances().zip(&witness.machine).map(setting);
+        let (mut rule, mut other_point, mut directions) = (SINGULARITY, None, Vec::new());
+        let (violated, value) = match &witness.fails {
+            Failure::Reach => (
+                "every leg reaches P and is not serially singular there".to_owned(),
+                "a leg cannot reach P, or is serially singular there".to_owned(),
+            ),
+            Failure::Singular(other) => {
+                other_point = Some(points(other)?);
+                let value = "det M has opposite signs at P and P'";
+                ("no parallel singularity".to_owned(), value.to_owned())
+            }
+            Failure::Same { obligation, least, greatest, .. } => {
+                let quality = Quality::Obligation(*obligation);
+                rule = self
+                    .bounded(quality)
+                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                let ends = |k: usize| {
+                    Some(format!("[{}, {}]", shown(least.get(k)?), shown(greatest.get(k)?)))
+                };
+                let ends: Option<Vec<String>> = (0..least.len()).map(ends).collect();
+                let value =
+                    format!("a point of {} has the same joint coordinates", ends?.join(" x "));
+                (self.words(quality), value)
+            }
+            Failure::Row(number, leg) => {
+                let quality = Quality::Obligation(*number);
+                rule = self
+                    .bounded(quality)
+                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                (self.words(quality), format!("the row of M of leg {} is longer", leg + 1))
+            }
+            Failure::Obligation(number, along) => {
+                let obligation = self.problem.obligations.get(*number);
+                // Of others these are no directions of the platform.
+                if obligation.is_some_and(|o| is_of_motions(&o.test)) {
+                    directions.clone_from(along);
+                }
+                let quality = Quality::Obligation(*number);
+                rule = self
+                    .bounded(quality)
+                    .map_or(SINGULARITY, |bounded| rule_of(&bounded.requirement.quantity));
+                (self.words(quality), self.beyond(*number, witness)?)
+            }
+        };
+        Some(Counterexample {
+            rule,
+            violated,
+            value,
+            point: points(&witness.point)?,
+            other_point,
+            machine: machine.collect::<Option<_>>()?,
+            directions,
+        })
+    }
+
+    /// The value at a witness, in certified digits: a bound in its place that the witness refutes too.
+    fn beyond(&self, number: usize, witness: &Witness) -> Option<String> {
+        let quality = Quality::Obligation(number);
+        let (name, _, relation, sides) = self.demanded(quality);
+        let place = self.sampler.place_of(&witness.point, &witness.machine)?;
+        let found = Worst { quality, place, margin: -1.0 };
+        let value = self.value(quality, &found);
+        let (towards, reverse) = match relation {
+            "<=" => (Toward::Below, ">="),
+            ">=" => (Toward::Above, "<="),
+            "in" => {
+                let angle = value.map_or_else(String::new, |x| significant(x, *DIGITS.start()));
+                return Some(format!("{name} is about {angle} degrees, up to full turns"));
+            }
+            _ => return Some(format!("{name} fails")),
+        };
+        let bound = exactly(sides.first()?)?.enclose(0, 256)?.inf();
+        let value = BigRational::from_f64(value?)?;
+        let texts = PARTS.into_iter().flat_map(|part| {
+            let part = BigRational::from_f64(part).unwrap_or_else(|| bound.clone());
+            let x = &bound + (&value - &bound) * part;
+            DIGITS.map(move |digits| rounded(&x, digits, towards))
+        });
+        let mut shown = texts.filter(|text| self.refutes_with(number, witness, text));
+        let text = shown.next();
+        Some(match text {
+            Some(text) => format!("{name} {reverse} {text}"),
+            None => format!("{name} is beyond it"),
+        })
+    }
+
+    /// Whether a witness also refutes the claim with another bound.
+    fn refutes_with(&self, number: usize, witness: &Witness, text: &str) -> bool {
+        let mut claim = self.claim.clone();
+        let obligation: &Obligation = &self.problem.obligations[number];
+        let requirement = obligation.requirement.and_then(|at| claim.require.get_mut(at));
+        let (Some(requirement), Ok(x)) = (requirement, Exact::parse(text, MOST_DIGITS)) else {
+            return false;
+        };
+        let x = x.as_rational().and_then(crate::solver::number);
+        let (Bound::Min(bound) | Bound::Max(bound), Some(x)) = (&mut requirement.bound, x) else {
+            return false;
+        };
+        if *bound == x {
+            return false;
+        }
+        *bound = x;
+        let problem = Problem::new(&claim);
+        problem.is_ok_and(|problem| witness::check(&problem, &claim.workspace, witness).is_ok())
+    }
+
+    /// What an undecided claim leaves open.
+    pub fn remains(&self, undecided: &Undecided, worst: &[Worst], tried: usize) -> Remains {
+        let open = &undecided.open;
+        let [min, max] = &self.sampler.ends();
+        let volume: f64 = min.iter().zip(max).map(|(min, max)| max - min).product();
+        let total: f64 = open.iter().map(share).fold(0.0, sum_above);
+        let all = regions(open);
+        let region = |region: &Region| {
+            let [min, max] = self.extent(&region.cell);
+            OpenRegion { boxes: region.boxes, share: region.share, min, max }
+        };
+        Remains {
+            reason: reason(undecided.objection.as_ref(), undecided.stop, tried),
+            boxes: open.len(),
+            volume: total * volume,
+            share: total,
+            region_count: all.len(),
+            regions: all.iter().take(REGIONS).map(region).collect(),
+            worst_box: self.worst_box(open),
+            open: self.open(undecided, worst),
+        }
+    }
+
+    fn extent(&self, cell: &[(f64, f64)]) -> [Vec<f64>; 2] {
+        let end = |of: fn(&(f64, f64)) -> f64| {
+            let edges = cell.iter().enumerate();
+            edges.map(|(k, edge)| of(edge) * self.sampler.unit_of(k)).collect()
+        };
+        [end(|x| x.0), end(|x| x.1)]
+    }
+
+    fn worst_box(&self, open: &[Open]) -> Option<WorstBox> {
+        let stride = open.len().div_ceil(MOST_BOXES).max(1);
+        let at_centre = |item: &Open| {
+            let values = self.sampler.at(&self.sampler.place_in(&item.cell));
+            let all = item.obligations.iter().map(|&number| Quality::Obligation(number));
+            let margins = all.map(|quality| (self.sampler.margin(quality, &values), quality));
+            margins.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let boxes = open.iter().step_by(stride).filter_map(|item| Some((item, at_centre(item)?)));
+        let (item, (margin, quality)) = boxes.min_by(|a, b| a.1 .0.total_cmp(&b.1 .0))?;
+        let [min, max] = self.extent(&item.cell);
+        Some(WorstBox { min, max, requirement: self.words(quality), margin })
+    }
+
+    fn open(&self, undecided: &Undecided, worst: &[Worst]) -> Vec<OpenRequirement> {
+        let of = |number: usize| {
+            let boxes = || undecided.open.iter().filter(|item| item.obligations.contains(&number));
+            let count = boxes().count();
+            let quality = Quality::Obligation(number);
+            let rule =
+                self.bounded(quality).map_or("singularity".to_owned(), |b| b.requirement.quantity);
+            let reason = match undecided.stop {
+                Stop::Exhausted | Stop::Hopeless => "the test does not hold",
+                Stop::Boxes | Stop::Time | Stop::Cancelled => "not shown within the budget",
+            };
+            (count > 0).then(|| OpenRequirement {
+                obligation: rule,
+                requirement: self.words(quality),
+                boxes: count,
+                share: boxes().map(share).fold(0.0, sum_above),
+                reasons: vec![(reason.to_owned(), count)],
+                help: self.help(quality, undecided.stop, worst),
+            })
+        };
+        (0..self.problem.obligations.len()).filter_map(of).collect()
+    }
+
+    fn help(&self, quality: Quality, stop: Stop, worst: &[Worst]) -> String {
+        let margin = worst.iter().find(|found| found.quality == quality).map(|found| found.margin);
+        match (stop, margin) {
+            (_, Some(margin)) if margin.abs() <= TIE => {
+                "it holds with equality, or nearly, somewhere; no splitting decides a tie: give the \
+                 bound or the workspace a little more room"
+            }
+            (Stop::Exhausted | Stop::Hopeless, _) if self.problem.tolerances().next().is_some() => {
+                "narrower tolerances, or more room in the bounds: no test covers all machines within \
+                 the tolerances at once"
+            }
+            (Stop::Exhausted | Stop::Hopeless, _) => {
+                "more room in the bounds, or a smaller workspace: even the centres of the remaining \
+                 boxes are too close to the bound for the tests"
+            }
+            (Stop::Boxes | Stop::Time | Stop::Cancelled, _) => {
+                "a larger budget: --max-boxes, --timeout"
+            }
+        }
+        .to_owned()
+    }
+}
+
+/// Whether a test fails along directions in which the platform moves.
+fn is_of_motions(test: &Test) -> bool {
+    matches!(
+        test,
+        Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Curvature(_)
+    )
+}
+
+/// `>= 1/2`, `in [-30, 40]`, `holds`.
+fn bound_text(relation: &str, sides: Vec<String>) -> String {
+    match &sides[..] {
+        [] => relation.to_owned(),
+        [side] => format!("{relation} {side}"),
+        sides => format!("{relation} [{}]", sides.join(", ")),
+    }
+}
+
+/// The leg, counted from one, and the parameter that a place of the claim names: `leg 1: anchor.0`.
+fn parameter(place: &str) -> (Option<usize>, String) {
+    let split = place.strip_prefix("leg ").and_then(|rest| rest.split_once(": "));
+    let (leg, name) = match split {
+        Some((leg, name)) => (leg.parse().ok(), name),
+        None => (None, place),
+    };
+    let component = name.split_once('.').and_then(|(name, k)| {
+        let axis = ["x", "y", "z"].get(k.parse::<usize>().ok()?)?;
+        Some(format!("{name} {axis}"))
+    });
+    (leg, component.unwrap_or_else(|| name.to_owned()))
+}
+
+/// Open boxes that touch.
+struct Region {
+    boxes: usize,
+    share: f64,
+    cell: Vec<(f64, f64)>,
+}
+
+fn share(item: &Open) -> f64 {
+    (-f64::from(item.depth)).exp2()
+}
+
+/// The regions of the largest boxes, greatest share first.
+fn regions(open: &[Open]) -> Vec<Region> {
+    let mut largest: Vec<&Open> = open.iter().collect();
+    largest.sort_by_key(|item| item.depth);
+    let mut all: Vec<Region> = Vec::new();
+    let mut members: Vec<Vec<&Open>> = Vec::new();
+    for item in largest.into_iter().take(MOST_BOXES) {
+        let touch = |other: &&Open| {
+            let mut both = item.cell.iter().zip(&other.cell);
+            both.all(|(a, b)| a.0 <= b.1 && b.0 <= a.1)
+        };
+        let (near, far) =
+            members.into_iter().partition(|region: &Vec<&Open>| region.iter().any(touch));
+        let near: Vec<Vec<&Open>> = near;
+        members = far;
+        members.push(near.into_iter().flatten().chain([item]).collect());
+    }
+    for region in members {
+        let mut cell = region[0].cell.clone();
+        for other in &region {
+            for (hull, edge) in cell.iter_mut().zip(&other.cell) {
+                *hull = (hull.0.min(edge.0), hull.1.max(edge.1));
+            }
+        }
+        let share = region.iter().map(|item| share(item)).fold(0.0, sum_above);
+        all.push(Region { boxes: region.len(), share, cell });
+    }
+    all.sort_by(|a, b| b.share.total_cmp(&a.share));
+    all
+}

@@ -1,0 +1,125 @@
+//! The search for worst places: compass searches from the worst points of a grid.
+
+use super::sample::{Place, Quality, Sampler, Worst};
+
+/// Halvings of the first, coarse descents.
+const COARSE: i32 = 7;
+/// Axes up to which descents go along diagonals at every step.
+const MOST_AXES: usize = 3;
+/// Starts of coarse descents.
+const STARTS: usize = 3;
+/// What starts differ by, at least, in some coordinate.
+const APART: f64 = 0.3;
+
+/// The greatest difference of coordinates.
+fn distance(one: &Place, other: &Place) -> f64 {
+    one.u.iter().zip(&other.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+impl Sampler<'_> {
+    /// The place near `start` at which a quality has its least margin, down to steps of `2^-finest` of
+    /// the workspace: a compass search for the point, and for the machine first the tolerances' ends.
+    pub fn descend(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
+        let (m, p) = (self.box_.len(), self.free.len());
+        let margin = self.margin(quality, &self.at(start));
+        let mut worst = Worst { quality, place: start.clone(), margin };
+        self.to_ends(&mut worst);
+        self.compass(&mut worst, 0..m, 1..=COARSE.min(finest));
+        if p > 0 {
+            self.to_ends(&mut worst);
+            self.compass(&mut worst, m..m + p, 2..=COARSE.min(finest));
+            self.compass(&mut worst, 0..m, 4..=COARSE.min(finest));
+        }
+        self.compass(&mut worst, 0..m, COARSE + 1..=finest);
+        if p > 0 && self.to_ends(&mut worst) {
+            self.compass(&mut worst, 0..m, 4..=finest);
+        }
+        worst
+    }
+
+    /// Takes the place at these parts if it is worse than the worst known.
+    fn considered(&self, worst: &mut Worst, parts: &[(usize, f64)]) -> bool {
+        let mut place = worst.place.clone();
+        for &(axis, part) in parts {
+            *place.part(axis) = part.clamp(0.0, 1.0);
+        }
+        if place == worst.place {
+            return false;
+        }
+        let margin = self.margin(worst.quality, &self.at(&place));
+        let worse = margin < worst.margin;
+        if worse {
+            (worst.place, worst.margin) = (place, margin);
+        }
+        worse
+    }
+
+    fn stepped(&self, worst: &mut Worst, steps: &[(usize, f64)]) -> bool {
+        let parts: Vec<(usize, f64)> =
+            steps.iter().map(|&(axis, step)| (axis, *worst.place.part(axis) + step)).collect();
+        self.considered(worst, &parts)
+    }
+
+    fn to_ends(&self, worst: &mut Worst) -> bool {
+        let m = self.box_.len();
+        let axes = m..m + self.free.len();
+        let ends = axes.flat_map(|axis| [(axis, 0.0), (axis, 1.0)]);
+        ends.fold(false, |moved, (axis, end)| self.considered(worst, &[(axis, end)]) || moved)
+    }
+
+    /// Steps along the axes, and, where all of them are up, along the diagonals of pairs.
+    fn compass(
+        &self,
+        worst: &mut Worst,
+        axes: std::ops::Range<usize>,
+        exponents: std::ops::RangeInclusive<i32>,
+    ) {
+        // Their number is the square of the axes'.
+        let few = axes.len() <= MOST_AXES;
+        let of_points = axes.start < self.box_.len();
+        let diagonal = |exponent: i32| few || of_points && exponent <= COARSE;
+        for exponent in exponents {
+            let step = f64::from(-exponent).exp2();
+            // A few rounds a step: the next, finer one takes over what is left.
+            for _ in 0..4 {
+                let mut moved = false;
+                for axis in axes.clone() {
+                    for signed in [step, -step] {
+                        moved |= self.stepped(worst, &[(axis, signed)]);
+                    }
+                }
+                let pairs = axes.clone().flat_map(|i| (axes.start..i).map(move |j| (i, j)));
+                for (i, j) in pairs.filter(|_| diagonal(exponent)) {
+                    for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                        moved = moved || self.stepped(worst, &[(i, a * step), (j, b * step)]);
+                    }
+                }
+                if !moved {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The worst place found of every quality, from the worst points of the grid.
+    pub fn worst_values(&self, finest: i32) -> Vec<Worst> {
+        let grid: Vec<_> = self.grid().into_iter().map(|p| (self.at(&p), p)).collect();
+        let worst = |quality| {
+            let mut starts: Vec<(f64, &Place)> =
+                grid.iter().map(|(values, p)| (self.margin(quality, values), p)).collect();
+            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut apart: Vec<&Place> = Vec::new();
+            for (_, start) in starts {
+                if apart.len() < STARTS && apart.iter().all(|other| distance(other, start) > APART)
+                {
+                    apart.push(start);
+                }
+            }
+            let coarse = apart.into_iter().map(|start| self.descend(quality, start, COARSE));
+            let mut worst = coarse.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
+            self.compass(&mut worst, 0..self.box_.len(), COARSE + 1..=finest);
+            Some(worst)
+        };
+        self.qualities().into_iter().filter_map(worst).collect()
+    }
+}

@@ -1,0 +1,299 @@
+//! A problem in doubles, and what becomes of a box: the frame of the proposals in [`super::propose`].
+
+use super::chords;
+use super::doubles::{magnitude, middle, pair, Doubles, Pair};
+use super::rows::{Form, Rows};
+use super::search::{Cell, Trial};
+use nalgebra::{DMatrix, DVector};
+use num_bigint::BigInt;
+use orthocert_kernel::cell::Vertex;
+use orthocert_kernel::certificate::{Evidence, Step};
+use orthocert_kernel::check::{Checker, Place};
+use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::problem::{Inside, Problem};
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::test::{self, Multiplier, Row};
+
+/// Fractional bits in which a claim's numbers are enclosed for doubles.
+pub const BITS: u32 = 96;
+/// Halvings from a box to the one about its centre that tells whether it is hopeless.
+const FINER: i32 = 20;
+/// What a relative change of `D` counts beside one of `A`, when a coordinate is chosen.
+const WEIGHT_OF_D: f64 = 16.0;
+
+/// A problem in doubles.
+pub struct Prover<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// The box of its workspace.
+    pub root: Cell,
+    /// The one `Y` of a machine that is to be one to one.
+    pub chords: Option<Multiplier>,
+    /// Whether all legs have scaled rows.
+    pub is_scaled: bool,
+    pub(super) checker: Checker<'a, Doubles>,
+}
+
+impl<'a> Prover<'a> {
+    /// For a problem.
+    ///
+    /// # Errors
+    /// If one of its numbers cannot be enclosed.
+    pub fn new(problem: &'a Problem) -> Result<Self, ClaimError> {
+        let parameters = problem.parameters::<BigInt>(BITS, &[])?;
+        let parameters: Vec<Pair> = parameters.iter().map(|x| pair(x, BITS)).collect();
+        let tight = problem.tight::<BigInt>(BITS).map(|q| q.map(|q| pair(&q, BITS)));
+        let root: Cell = problem.root::<BigInt>(BITS)?.0.iter().map(|x| pair(x, BITS)).collect();
+        let chords = chords::common(problem, &root, &parameters);
+        let checker = Checker::new(problem, &Doubles, parameters, tight);
+        let checker = checker.with_chords(chords.clone());
+        let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
+        Ok(Prover { problem, root, chords, is_scaled, checker })
+    }
+
+    /// The greatest absolute value of a formula on the whole workspace, where it has one.
+    pub fn greatest(&self) -> f64 {
+        let values = self.checker.evaluate(&edges(&self.root));
+        let rows = |leg: &'a orthocert_kernel::machine::Leg| [Some(&leg.row), leg.scaled.as_ref()];
+        let rows = self.problem.legs.iter().flat_map(rows).flatten();
+        let formulas = rows.flat_map(|row| row.a.iter().chain([&row.d]));
+        let of = |&f: &Formula| values.of(f).map_or(1.0, |slope| magnitude(&slope.range));
+        let coordinates = self.root.iter().map(magnitude);
+        formulas.map(of).chain(coordinates).fold(1.0, f64::max)
+    }
+
+    /// What is shown of a box, and what not; where `asked`, whether it is hopeless.
+    pub fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
+        self.on(cell, |over| {
+            if over.is_outside() {
+                let steps = vec![Step(0, Evidence::Outside)];
+                return Trial { steps, open: Vec::new(), weights: Vec::new(), hopeless: false };
+            }
+            let (mut steps, mut left) = (Vec::new(), Vec::new());
+            for &obligation in open {
+                match over.evidence(&self.problem.obligations[obligation].test) {
+                    Some(evidence) => steps.push(Step(obligation, evidence)),
+                    None => left.push(obligation),
+                }
+            }
+            let weights = if left.is_empty() { Vec::new() } else { over.weights(&left) };
+            let hopeless = asked && !left.is_empty() && self.is_hopeless(cell, &left);
+            Trial { steps, open: left, weights, hopeless }
+        })
+    }
+
+    /// Whether a test fails next to the box's centre, if that is in the workspace: it fails there,
+    /// holds with equality, or the tolerances are too wide.
+    fn is_hopeless(&self, cell: &Cell, open: &[usize]) -> bool {
+        let centre = |&(lo, hi): &Pair| {
+            let (middle, half) = (0.5 * (lo + hi), 0.5 * (hi - lo) * f64::from(-FINER).exp2());
+            (middle - half, middle + half)
+        };
+        let centre: Cell = cell.iter().map(centre).collect();
+        self.on(&centre, |over| {
+            let fails = |&o: &usize| over.evidence(&self.problem.obligations[o].test).is_none();
+            over.has_centre_inside() && open.iter().any(fails)
+        })
+    }
+
+    fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
+        let edges = edges(cell);
+        let touches = |end: fn(&Pair) -> f64| {
+            cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
+        };
+        let place = Place { edges: &edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
+        let values = self.checker.evaluate(&edges);
+        let slopes = Slopes { arithmetic: &Doubles, m: edges.len() };
+        let formulas = test::Over { slopes, values: &values, controls: None, inside: None };
+        then(&Over { prover: self, formulas: &formulas, place: &place })
+    }
+}
+
+/// Centre, range and half-width of each coordinate.
+fn edges(cell: &Cell) -> Vec<[Pair; 3]> {
+    let edge = |&(lo, hi): &Pair| {
+        let centre = 0.5 * (lo + hi);
+        [(centre, centre), (lo, hi), (hi - centre, hi - centre)]
+    };
+    cell.iter().map(edge).collect()
+}
+
+/// The formulas of a problem over a box, at its vertices or control points.
+pub(super) struct Over<'a> {
+    pub prover: &'a Prover<'a>,
+    pub formulas: &'a test::Over<'a, Doubles>,
+    pub place: &'a Place<'a, Pair>,
+}
+
+/// Where rows are taken.
+#[derive(Clone, Copy)]
+pub(super) enum At {
+    /// The box's centre.
+    Centre,
+    /// The middle of the face of this coordinate and sign.
+    Face(usize, f64),
+    /// A vertex, or control point.
+    Vertex(Vertex),
+}
+
+impl Over<'_> {
+    pub fn problem(&self) -> &Problem {
+        self.prover.problem
+    }
+
+    pub fn m(&self) -> usize {
+        self.place.edges.len()
+    }
+
+    fn is_outside(&self) -> bool {
+        let cut = self.problem().inside.is_some() || self.problem().turned.is_some();
+        cut && self.prover.checker.is_outside(self.formulas, self.place)
+    }
+
+    fn has_centre_inside(&self) -> bool {
+        let inside = self.problem().inside.as_ref().map(|inside: &Inside| inside.g);
+        let mut all = inside.into_iter().chain(self.problem().turned);
+        all.all(|g| self.centre(g).is_some_and(|g| g >= 0.0))
+    }
+
+    pub fn shows(&self, test: &Test, evidence: &Evidence) -> bool {
+        self.prover.checker.shows(self.formulas, self.place, test, evidence)
+    }
+
+    /// A formula at the centre.
+    pub fn centre(&self, f: Formula) -> Option<f64> {
+        self.formulas.of(f).map(|slope| middle(&slope.at_centre))
+    }
+
+    /// A formula somewhere. Bounds are not among the formulas at control points.
+    pub fn at(&self, f: Formula, at: At) -> Option<f64> {
+        match at {
+            At::Centre => self.centre(f),
+            At::Face(k, sign) => {
+                let slope = self.formulas.of(f)?;
+                Some(middle(&slope.at_centre) + sign * middle(&slope.slopes[k]))
+            }
+            At::Vertex(v) => {
+                let own = self.formulas.at(f, v);
+                let value = own.or_else(|| self.formulas.of(f).map(|f| f.range))?;
+                Some(middle(&value))
+            }
+        }
+    }
+
+    /// A matrix of formulas.
+    pub fn matrix(&self, rows: &[Vec<Formula>], at: At) -> Option<DMatrix<f64>> {
+        let all: Option<Vec<f64>> = rows.iter().flatten().map(|&f| self.at(f, at)).collect();
+        let columns = rows.first().map_or(0, Vec::len);
+        Some(DMatrix::from_row_slice(rows.len(), columns, &all?))
+    }
+
+    /// The machine's rows.
+    pub fn own(&self, form: Form, at: At) -> Option<Rows> {
+        let rows: Option<Vec<&Row<Formula>>> = self
+            .problem()
+            .legs
+            .iter()
+            .map(|leg| match form {
+                Form::Plain => Some(&leg.row),
+                Form::Divided => Some(&leg.divided),
+                Form::Scaled => leg.scaled.as_ref(),
+            })
+            .collect();
+        self.rows(rows?.into_iter(), at)
+    }
+
+    /// Rows somewhere; `None` unless all `D_i` are positive there.
+    pub fn rows<'r>(
+        &self,
+        rows: impl ExactSizeIterator<Item = &'r Row<Formula>>,
+        at: At,
+    ) -> Option<Rows> {
+        let mut a = DMatrix::zeros(rows.len(), self.m());
+        let mut d = DVector::zeros(rows.len());
+        for (i, row) in rows.enumerate() {
+            d[i] = self.at(row.d, at)?;
+            for (k, &f) in row.a.iter().enumerate() {
+                a[(i, k)] = self.at(f, at)?;
+            }
+        }
+        let sound = d.iter().all(|&d| d > 0.0) && a.iter().all(|a: &f64| a.is_finite());
+        sound.then_some(Rows { a, d })
+    }
+
+    /// How much is gained by halving each coordinate: by how much what is open varies along it.
+    fn weights(&self, open: &[usize]) -> Vec<f64> {
+        let coordinates = 0..self.m();
+        let of = |f: Formula| coordinates.clone().map(|k| self.along(f, k)).collect();
+        let mut parts: Vec<Vec<f64>> = self.undefined().into_iter().map(of).collect();
+        if parts.is_empty() {
+            let tests = open.iter().map(|&o| &self.problem().obligations[o].test);
+            let part =
+                |test: &Test| coordinates.clone().map(|k| self.varies(test, k)).collect::<Vec<_>>();
+            parts = tests.map(part).collect();
+        }
+        let mut weights = vec![0.0; self.m()];
+        for part in parts {
+            let total: f64 = part.iter().sum();
+            if total.is_finite() && total > 0.0 {
+                weights.iter_mut().zip(&part).for_each(|(weight, part)| *weight += part / total);
+            }
+        }
+        if weights.iter().all(|&weight| weight == 0.0) {
+            return self.place.edges.iter().map(|edge| edge[2].0).collect();
+        }
+        weights
+    }
+
+    fn along(&self, f: Formula, k: usize) -> f64 {
+        self.formulas.of(f).map_or(f64::INFINITY, |slope| magnitude(&slope.slopes[k]))
+    }
+
+    /// What is not defined comes first: the divisor, or radicand, that is not of one sign. Scaled rows
+    /// need neither.
+    fn undefined(&self) -> Vec<Formula> {
+        if self.prover.is_scaled {
+            return Vec::new();
+        }
+        let ops = self.problem().tape.ops().iter();
+        ops.filter_map(|op| match *op {
+            Op::Sqrt(f) => self.formulas.of(f).filter(|x| x.range.0 <= 0.0).map(|_| f),
+            Op::Div(_, f) => {
+                let mixed = |x: &Pair| x.0 <= 0.0 && x.1 >= 0.0;
+                self.formulas.of(f).filter(|x| mixed(&x.range)).map(|_| f)
+            }
+            _ => None,
+        })
+        .collect()
+    }
+
+    /// By how much a test's formulas vary along a coordinate.
+    fn varies(&self, test: &Test, k: usize) -> f64 {
+        let sum = |all: &mut dyn Iterator<Item = &Formula>| -> f64 {
+            all.map(|&f| self.along(f, k)).sum()
+        };
+        match test {
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+                self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
+            }
+            Test::Least(rows, _) | Test::OneToOne(rows) => self.rows_vary(rows.iter(), k),
+            Test::AtLeast(f) => self.along(*f, k),
+            Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
+            Test::Solve(solve) => sum(&mut solve.a.iter().flatten().chain(&solve.b)),
+            Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
+            Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
+            Test::Curvature(test) => sum(&mut test.row.iter().chain(test.twice.iter().flatten())),
+        }
+    }
+
+    /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
+    fn rows_vary<'r>(&self, rows: impl Iterator<Item = &'r Row<Formula>>, k: usize) -> f64 {
+        rows.fold(0.0, |sum, row| {
+            let d = self.centre(row.d).unwrap_or(1.0).max(f64::MIN_POSITIVE);
+            let a: f64 = row.a.iter().map(|&a| self.along(a, k)).sum();
+            sum + a / d.sqrt() + WEIGHT_OF_D * self.along(row.d, k) / d
+        })
+    }
+}

@@ -1,0 +1,459 @@
+//! Certified extremes: how small and how large each quantity of the kernel's table gets.
+//!
+//! As in [`crate::extremes`], an extreme lies between a bound that is certified and one that is
+//! refuted; the claims that say so have that bound alone.
+
+use super::evidence::Prover;
+use super::refute::{number, witness_at};
+use super::sample::{Place, Quality, Sampler, Worst};
+use super::search::search;
+use super::value::{alone, unit, Bounded};
+use super::{accepted, look_into, refuted, verify, Answer};
+use crate::extremes::loosest;
+use crate::search::{Budget, Control, Stop};
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, One, Zero};
+use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_kernel::claim::{Bound, MachineClaim, Requirement, Workspace};
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::TABLE;
+use std::collections::BTreeMap;
+
+/// Finest step of the search for an extreme.
+const FINEST: i32 = 30;
+/// Open boxes from whose centres a better inner end is looked for.
+const OPEN_CENTRES: usize = 8;
+/// Boxes after which a width is given up for a looser one; of platforms that turn a third of that for
+/// each coordinate of orientation, as each takes three times as long.
+const MOST_BOXES: usize = 20_000;
+/// How often a better inner end may turn up before the search is given up.
+const ROUNDS: usize = 8;
+
+/// One end of a quantity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Extreme {
+    bounded: Bounded,
+}
+
+/// An extreme, enclosed from both sides.
+#[derive(Clone, Debug)]
+pub struct Enclosed {
+    /// The relative width.
+    pub width: BigRational,
+    /// The quantity goes beyond this (certified by a witness).
+    pub inner: BigRational,
+    /// The quantity never goes beyond this (certified by a tree).
+    pub outer: BigRational,
+    /// "Stays within `inner`" is refuted; `None` where that is no claim, as no condition number is less
+    /// than 1.
+    pub refuted: Option<Box<Certificate>>,
+    /// "Stays within `outer`" is certified.
+    pub certified: Box<Certificate>,
+    /// Boxes tried for the outer end.
+    pub boxes: usize,
+}
+
+/// Why an extreme is not enclosed.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum NotEnclosed {
+    /// Some machine has a singularity, or a point out of reach, in the workspace.
+    #[error("none: a singularity, or out of reach, inside")]
+    Singular,
+    /// Neither a proof nor a refutation was found within the budget.
+    #[error("not enclosed within the budget")]
+    Undecided,
+    /// It was cancelled.
+    #[error("cancelled")]
+    Cancelled,
+    /// The claim is not well formed.
+    #[error("{0}")]
+    Claim(ClaimError),
+}
+
+impl From<ClaimError> for NotEnclosed {
+    fn from(error: ClaimError) -> Self {
+        NotEnclosed::Claim(error)
+    }
+}
+
+/// What a quantity is for, where one unit of it is a choice without loss: it is linear in it.
+fn unit_given(name: &str) -> Option<Expression> {
+    matches!(name, "tool" | "joint").then(|| Expression::integer(1))
+}
+
+impl Extreme {
+    /// The extremes that a claim's machines have, in the order of the table; for the paper's cube
+    /// without those of psi, which the claim itself says.
+    ///
+    /// Joint coordinates have one a leg, all other quantities of legs the worst of all legs'.
+    pub fn of(claim: &MachineClaim, legs: usize) -> Vec<Self> {
+        let cube = matches!(claim.workspace, Workspace::Cube { .. });
+        let table = TABLE.iter().filter(|q| !(cube && q.key == "transmission"));
+        let mut all = Vec::new();
+        for quantity in table {
+            let own = claim.require.iter().find(|own| own.quantity == quantity.key);
+            let given = |name: &&'static str| {
+                let given = own.and_then(|own| own.given.get(*name).cloned());
+                let numbers = unit_given(name).map(|one| vec![one]).or(given)?;
+                Some(((*name).to_owned(), numbers))
+            };
+            let given: Option<BTreeMap<_, _>> = quantity.given.iter().map(given).collect();
+            let Some(given) = given else { continue };
+            // The axes of joints are of their legs.
+            let on_legs = claim.require.iter().filter(|own| own.quantity == quantity.key);
+            let on_legs = on_legs.filter(|own| own.leg.is_some() && own.given.contains_key("axis"));
+            let mut each: Vec<(Option<usize>, BTreeMap<_, _>)> =
+                on_legs.map(|own| (own.leg.map(|leg| leg - 1), own.given.clone())).collect();
+            if each.is_empty() {
+                each = match quantity.key {
+                    "joint_range" => (0..legs).map(|leg| (Some(leg), given.clone())).collect(),
+                    _ => vec![(None, given)],
+                };
+            }
+            let ends = [Bound::Min as fn(_) -> _, Bound::Max];
+            for ((leg, given), end) in each.iter().flat_map(|each| ends.map(|end| (each, end))) {
+                let (leg, given) = (*leg, given.clone());
+                let bound = end(Expression::integer(2));
+                let number = leg.map(|leg| leg + 1);
+                let quantity = quantity.key.to_owned();
+                let requirement = Requirement { quantity, leg: number, given, bound };
+                all.push(Extreme { bounded: Bounded { requirement, leg } });
+            }
+        }
+        all.retain(|extreme| extreme.probe(claim).is_some());
+        all
+    }
+
+    /// The extremes that a claim's requirements bound.
+    pub fn bounded(claim: &MachineClaim, legs: usize) -> Vec<Self> {
+        let bounds = |own: &Requirement, one: &Requirement| {
+            own.quantity == one.quantity
+                && (own.leg.is_none() || own.leg == one.leg)
+                && std::mem::discriminant(&own.bound) == std::mem::discriminant(&one.bound)
+        };
+        let mut all = Extreme::of(claim, legs);
+        all.retain(|one| claim.require.iter().any(|own| bounds(own, &one.bounded.requirement)));
+        all
+    }
+
+    /// A bound with which the claim is well formed.
+    fn probe(&self, claim: &MachineClaim) -> Option<MachineClaim> {
+        let two = BigRational::from_integer(2.into());
+        let half = two.recip();
+        let all = [two, half].map(|bound| self.claim(claim, &bound));
+        all.into_iter().flatten().find(|claim| Problem::new(claim).is_ok())
+    }
+
+    /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
+    fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
+        let bound = number(bound)?;
+        let bound = match &self.bounded.requirement.bound {
+            Bound::Min(_) => Bound::Min(bound),
+            Bound::Max(_) => Bound::Max(bound),
+            Bound::Within(_) | Bound::Holds => return None,
+        };
+        let mut require = vec![Requirement { bound, ..self.bounded.requirement.clone() }];
+        require.extend(defining(claim));
+        Some(alone(claim, require))
+    }
+
+    /// The quantity's name in tables.
+    pub fn quantity(&self) -> String {
+        let Requirement { quantity, .. } = &self.bounded.requirement;
+        match (quantity.as_str(), self.bounded.leg) {
+            ("transmission", _) => "psi".to_owned(),
+            ("joint_range", Some(leg)) => format!("rho_{}", leg + 1),
+            ("conditioning", _) => "sigma_max/sigma_min".to_owned(),
+            ("serial_margin", _) => "|eta_i|/L_i".to_owned(),
+            ("parallel_margin", _) => "|det A|/(L1 L2 L3)".to_owned(),
+            ("joint_speed", _) => "joint/tool speed".to_owned(),
+            (_, Some(leg)) => format!("{} {}", quantity.replace('_', " "), leg + 1),
+            (_, None) => quantity.replace('_', " "),
+        }
+    }
+
+    /// What the files of its certificates begin with.
+    pub fn file_stem(&self) -> String {
+        let Requirement { quantity, .. } = &self.bounded.requirement;
+        let end = if self.is_greatest() { "greatest" } else { "least" };
+        match (quantity.as_str(), self.bounded.leg) {
+            ("transmission", _) => format!("psi-{end}"),
+            ("joint_range", Some(leg)) => format!("rho-{}-{end}", leg + 1),
+            (_, Some(leg)) => format!("{}-{}", quantity.replace('_', "-"), leg + 1),
+            (_, None) => quantity.replace('_', "-"),
+        }
+    }
+
+    /// The unit of its bounds, where it has one.
+    pub fn unit(&self, angular: bool) -> Option<&'static str> {
+        match self.bounded.requirement.quantity.as_str() {
+            "joint_speed" => angular.then_some("deg/length"),
+            quantity => unit(quantity, angular),
+        }
+    }
+
+    /// Whether the quantity is bounded from above.
+    pub fn is_greatest(&self) -> bool {
+        matches!(self.bounded.requirement.bound, Bound::Max(_))
+    }
+}
+
+/// What defines the paper's cube.
+fn defining(claim: &MachineClaim) -> Option<Requirement> {
+    let is_it =
+        |own: &&Requirement| own.quantity == "transmission" && matches!(own.bound, Bound::Max(_));
+    let cube = matches!(claim.workspace, Workspace::Cube { .. });
+    claim.require.iter().find(is_it).filter(|_| cube).cloned()
+}
+
+/// Whether some machine of the claim has a singularity, or a point out of reach, in its workspace:
+/// then quantities have no extremes there.
+///
+/// # Errors
+/// If the claim is not well formed, or the search was cancelled.
+pub fn is_singular(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<bool, NotEnclosed> {
+    let regular = alone(claim, defining(claim).into_iter().collect());
+    match verify(&regular, budget, control)?.answer {
+        Answer::Decided { accepted, .. } => Ok(accepted.verdict == Verdict::Refuted),
+        Answer::Undecided(_) => Ok(false),
+        Answer::Cancelled => Err(NotEnclosed::Cancelled),
+    }
+}
+
+/// Encloses an extreme to the relative width `relative`, or where that does not succeed to a looser
+/// one, up to [`loosest`] (for joint coordinates: relative to the greatest size that they take).
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn enclose(
+    claim: &MachineClaim,
+    extreme: &Extreme,
+    relative: &BigRational,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Enclosed, NotEnclosed> {
+    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+    let turns = Problem::new(&probe)?.orientation.len();
+    let most = MOST_BOXES / 3usize.pow(turns as u32);
+    let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
+    let mut known = Found::worst(&probe, extreme)?;
+    let mut width = relative.clone();
+    while width <= loosest() {
+        let mut looser = 2;
+        for _ in 0..ROUNDS {
+            let step = &width * known.size()?;
+            let (inner, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
+            let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
+            match certify(&outer_claim, &mut known, extreme, budget, control)? {
+                Attempt::Certified(certified, boxes) => {
+                    let inner_claim = extreme.claim(claim, &inner);
+                    let well_formed = inner_claim.filter(|claim| Problem::new(claim).is_ok());
+                    let refuted = match well_formed {
+                        Some(claim) => {
+                            Some(refute(&claim, &known.place).ok_or(NotEnclosed::Undecided)?)
+                        }
+                        None => None,
+                    };
+                    return Ok(Enclosed { width, inner, outer, refuted, certified, boxes });
+                }
+                Attempt::Worse => {}
+                Attempt::Undecided(stop) => {
+                    // A hopeless width costs little, so the next one is tried soon.
+                    looser = if stop == Stop::Hopeless { 2 } else { 10 };
+                    break;
+                }
+            }
+        }
+        width *= BigRational::from_integer(looser.into());
+    }
+    Err(NotEnclosed::Undecided)
+}
+
+/// The most extreme place known.
+struct Found {
+    place: Place,
+    value: f64,
+    /// What widths are relative to, beside the value.
+    least_size: f64,
+}
+
+impl Found {
+    /// By sampling: of a bound that is met with equality at the worst place found so far, the place at
+    /// which it is violated most, until there is none.
+    fn worst(probe: &MachineClaim, extreme: &Extreme) -> Result<Self, NotEnclosed> {
+        let mut claim = probe.clone();
+        let mut best: Option<Found> = None;
+        for _ in 0..ROUNDS {
+            let problem = Problem::new(&claim)?;
+            let sampler = Sampler::new(&claim, &problem)?;
+            let mut found: Option<(f64, Place)> = None;
+            for Worst { quality, place, .. } in sampler.worst_values(FINEST) {
+                let Quality::Obligation(number) = quality else { continue };
+                let Some(bounded) = extreme.of_obligation(&claim, &problem, number) else {
+                    continue;
+                };
+                let value = bounded.value(&claim, &problem, &sampler, &place);
+                let value = value.ok_or(NotEnclosed::Singular)?;
+                if found.as_ref().is_none_or(|(known, _)| extreme.is_beyond(value, *known)) {
+                    found = Some((value, place));
+                }
+            }
+            let (value, place) = found.ok_or(NotEnclosed::Undecided)?;
+            let better = best.as_ref().is_none_or(|best| {
+                extreme.is_beyond(value, best.value)
+                    && (value - best.value).abs() > 1e-12 * value.abs()
+            });
+            if !better {
+                break;
+            }
+            let least_size = extreme.size(&claim, &problem, &sampler, value);
+            let tight = BigRational::from_f64(value).and_then(|value| extreme.claim(probe, &value));
+            best = Some(Found { place, value, least_size });
+            match tight.filter(|claim| Problem::new(claim).is_ok()) {
+                Some(tight) => claim = tight,
+                None => break,
+            }
+        }
+        best.ok_or(NotEnclosed::Undecided)
+    }
+
+    fn size(&self) -> Result<BigRational, NotEnclosed> {
+        let size = BigRational::from_f64(self.value.abs().max(self.least_size));
+        Ok(size.filter(|x| !x.is_zero()).unwrap_or_else(BigRational::one))
+    }
+}
+
+impl Extreme {
+    /// The bound of an obligation, if it is of this extreme's requirement.
+    fn of_obligation(
+        &self,
+        claim: &MachineClaim,
+        problem: &Problem,
+        number: usize,
+    ) -> Option<Bounded> {
+        let first = problem.obligations[number].requirement == Some(0);
+        Bounded::of(claim, problem, number).filter(|_| first)
+    }
+
+    fn is_beyond(&self, value: f64, other: f64) -> bool {
+        if self.is_greatest() {
+            value > other
+        } else {
+            value < other
+        }
+    }
+
+    /// The greatest size of a joint coordinate, which may be zero at its extreme; of others, zero.
+    fn size(
+        &self,
+        claim: &MachineClaim,
+        problem: &Problem,
+        sampler: &Sampler<'_>,
+        value: f64,
+    ) -> f64 {
+        if self.bounded.requirement.quantity != "joint_range" {
+            return 0.0;
+        }
+        let at = |place: &Place| self.bounded.value(claim, problem, sampler, place);
+        sampler.grid().iter().filter_map(at).map(f64::abs).fold(value.abs(), f64::max)
+    }
+}
+
+/// A bound that the value found goes beyond, and one that no value is expected to go beyond.
+fn ends(extreme: &Extreme, found: f64, step: &BigRational) -> Option<(BigRational, BigRational)> {
+    let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
+    // Two thirds of the width on the outer side, where the proof needs room.
+    let third = step * &sign / BigRational::from_integer(3.into());
+    let found = BigRational::from_f64(found)?;
+    let mut inner = rounded(&(&found - &third), step);
+    let outer = rounded(&(&found + &third + &third), step);
+    if extreme.bounded.requirement.quantity == "conditioning" {
+        inner = inner.max(BigRational::one());
+    }
+    Some((inner, outer))
+}
+
+/// The decimal nearest to `x` on a grid of at most a hundredth of `step`.
+fn rounded(x: &BigRational, step: &BigRational) -> BigRational {
+    let ten = BigRational::from_integer(10.into());
+    let mut grid = BigRational::one();
+    let wanted = step / BigRational::from_integer(100.into());
+    while grid > wanted {
+        grid /= &ten;
+    }
+    (x / &grid).round() * grid
+}
+
+/// What became of the attempt to certify an outer end.
+enum Attempt {
+    Certified(Box<Certificate>, usize),
+    /// The quantity goes beyond it, at the place that is now known.
+    Worse,
+    Undecided(Stop),
+}
+
+fn certify(
+    claim: &MachineClaim,
+    known: &mut Found,
+    extreme: &Extreme,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Attempt, NotEnclosed> {
+    let problem = Problem::new(claim)?;
+    let prover = Prover::new(&problem)?;
+    let found = search(&prover, false, budget, control);
+    if found.stop == Stop::Cancelled {
+        return Err(NotEnclosed::Cancelled);
+    }
+    if found.is_proof() {
+        return Ok(match accepted(claim, &prover, found.nodes) {
+            Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
+            Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
+        });
+    }
+    let sampler = Sampler::new(claim, &problem)?;
+    let own = sampler.qualities().into_iter().filter(|quality| {
+        matches!(quality, Quality::Obligation(at) if problem.obligations[*at].requirement == Some(0))
+    });
+    let place = sampler.centre();
+    let unknown = |quality| Worst { quality, place: place.clone(), margin: f64::MAX };
+    let mut worst: Vec<Worst> = own.map(unknown).collect();
+    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
+    worst.retain(|found| found.margin < 0.0);
+    worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+    for Worst { quality, place, .. } in worst {
+        let Quality::Obligation(number) = quality else { continue };
+        let Some(bounded) = Bounded::of(claim, &problem, number) else { continue };
+        let value =
+            bounded.value(claim, &problem, &sampler, &place).ok_or(NotEnclosed::Singular)?;
+        if extreme.is_beyond(value, known.value) {
+            (known.value, known.place) = (value, place);
+            return Ok(Attempt::Worse);
+        }
+    }
+    Ok(Attempt::Undecided(found.stop))
+}
+
+/// A refutation at a known place.
+fn refute(claim: &MachineClaim, place: &Place) -> Option<Box<Certificate>> {
+    let problem = Problem::new(claim).ok()?;
+    let sampler = Sampler::new(claim, &problem).ok()?;
+    let values = sampler.at(place);
+    let own = (0..problem.obligations.len())
+        .filter(|&at| problem.obligations[at].requirement == Some(0))
+        .map(Quality::Obligation);
+    let worst = own
+        .map(|quality| (sampler.margin(quality, &values), quality))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let found = Worst { quality: worst.1, place: place.clone(), margin: worst.0 };
+    match refuted(claim, witness_at(claim, &problem, &sampler, &found)?) {
+        Answer::Decided { certificate, .. } => Some(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => None,
+    }
+}

@@ -1,0 +1,167 @@
+//! Evidence with the workspace's and the orientations' own inequalities: how much of them is taken.
+
+use super::evidence::{At, Over};
+use super::rows::{between, matrix, Form, Rows};
+use nalgebra::{DMatrix, SymmetricEigen};
+use orthocert_kernel::cell::Vertex;
+use orthocert_kernel::certificate::Evidence;
+use orthocert_kernel::quantity::Test;
+
+/// Parts of the interval of multiples from which a short one is taken.
+const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
+/// Powers of two tried as multiples, where what a test leaves is not known.
+const POWERS: std::ops::RangeInclusive<i32> = -8..=4;
+
+/// Multiples `low < mu < high` with which `margin > mu g` at all points.
+fn interval(margins: &[f64], g: &[f64]) -> Option<[f64; 2]> {
+    let (mut low, mut high) = (0f64, f64::INFINITY);
+    for (margin, g) in margins.iter().zip(g) {
+        if *g > 0.0 {
+            high = high.min(margin / g);
+        } else if *g < 0.0 {
+            low = low.max(margin / g);
+        } else if *margin <= 0.0 {
+            return None;
+        }
+    }
+    let high = if high.is_finite() { high } else { 4.0 * low + 1.0 };
+    (low < high).then_some([low, high])
+}
+
+/// Short numbers of an interval.
+fn short([low, high]: [f64; 2]) -> impl Iterator<Item = (i64, u32)> {
+    let part = move |[a, b]: [f64; 2]| between(low + a * (high - low), low + b * (high - low));
+    MULTIPLES.into_iter().filter_map(part)
+}
+
+type With = fn(Box<Evidence>, i64, u32) -> Evidence;
+
+impl Over<'_> {
+    /// The evidence, alone or with one of the inequalities, or both, where the test holds with it.
+    pub fn shown(&self, test: &Test, evidence: Evidence) -> Option<Evidence> {
+        if self.shows(test, &evidence) {
+            return Some(evidence);
+        }
+        let inside = self.inside().map(|g| (Evidence::Inside as With, g));
+        let turned = self.turned().map(|g| (Evidence::Turned as With, g));
+        let all: Vec<(With, Vec<f64>)> = inside.into_iter().chain(turned).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let holds = |evidence: Evidence| self.shows(test, &evidence).then_some(evidence);
+        let margin = |v| self.margin(test, &evidence, v);
+        let margins: Option<Vec<f64>> = self.formulas.vertices().map(margin).collect();
+        let Some(margins) = margins else {
+            let mut tried = all.iter().flat_map(|(with, _)| POWERS.map(move |k| (with, k)));
+            return tried.find_map(|(with, k)| {
+                let (n, places) = between(f64::from(k).exp2(), f64::from(k).exp2())?;
+                holds(with(Box::new(evidence.clone()), n, places))
+            });
+        };
+        let one = all.iter().find_map(|(with, g)| {
+            let mut multiples = short(interval(&margins, g)?);
+            multiples.find_map(|(n, places)| holds(with(Box::new(evidence.clone()), n, places)))
+        });
+        let both = || {
+            let [(inside, t), (turned, g)] = &all[..] else { return None };
+            POWERS.into_iter().find_map(|k| {
+                let mu = f64::from(k).exp2();
+                let left: Vec<f64> = margins.iter().zip(t).map(|(m, t)| m - mu * t).collect();
+                let (n, places) = between(mu, mu)?;
+                let inner = inside(Box::new(evidence.clone()), n, places);
+                let mut multiples = short(interval(&left, g)?);
+                multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
+            })
+        };
+        one.or_else(both)
+    }
+
+    /// The workspace's inequality: its tangent at the vertices, itself at control points.
+    fn inside(&self) -> Option<Vec<f64>> {
+        let inside = self.problem().inside.as_ref()?;
+        if self.formulas.controls.is_some() {
+            return self.formulas.vertices().map(|v| self.at(inside.g, At::Vertex(v))).collect();
+        }
+        let g = self.centre(inside.g)?;
+        let gradient = inside.gradient.iter().zip(self.place.edges);
+        let steps = gradient.map(|(&f, [_, _, half])| Some(self.centre(f)? * half.0));
+        let steps: Vec<f64> = steps.collect::<Option<_>>()?;
+        let at = |v: Vertex| {
+            let signed = steps.iter().enumerate().map(|(k, s)| if v.has(k) { *s } else { -s });
+            g + signed.sum::<f64>()
+        };
+        Some(self.formulas.vertices().map(at).collect())
+    }
+
+    fn turned(&self) -> Option<Vec<f64>> {
+        let g = self.problem().turned?;
+        self.formulas.vertices().map(|v| self.at(g, At::Vertex(v))).collect()
+    }
+
+    /// The least eigenvalue, or value, of what a test wants positive, at a vertex or control point; of
+    /// some tests it is not known.
+    fn margin(&self, test: &Test, evidence: &Evidence, v: Vertex) -> Option<f64> {
+        let least = |t: DMatrix<f64>| SymmetricEigen::new(t).eigenvalues.min();
+        let (m, at) = (self.m(), At::Vertex(v));
+        let unit = |c: f64| DMatrix::identity(m, m) * c;
+        let form = match evidence {
+            Evidence::LowerDivided(_) | Evidence::Divided => Form::Divided,
+            _ if self.formulas.controls.is_some() => Form::Scaled,
+            _ => Form::Plain,
+        };
+        let weight = self.problem().weight.filter(|_| form == Form::Scaled);
+        let weight = weight.map_or(Some(1.0), |weight| self.at(weight, at))?;
+        let own = || -> Option<Rows> { self.own(form, at) };
+        match (test, evidence) {
+            (Test::SigmaMin(_), Evidence::Rank(y)) => Some(least(own()?.symmetric(&matrix(y)))),
+            (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
+                let kappa = self.centre(*kappa)? * weight;
+                Some(least(own()?.minorant(&matrix(y)) - unit(kappa)))
+            }
+            (Test::SigmaMax(k), Evidence::Test | Evidence::Divided) => {
+                Some(least(unit(self.centre(*k)? * weight) - own()?.square()))
+            }
+            (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
+                let scale = (-f64::from(y.places)).exp2();
+                let signed = mu.iter().enumerate().map(|(k, mu)| match k.checked_sub(1) {
+                    Some(k) if !v.has(k) => -*mu as f64,
+                    _ => *mu as f64,
+                });
+                let (mu, rows) = (scale * weight * signed.sum::<f64>(), own()?);
+                let lower = least(rows.minorant(&matrix(y)) - unit(mu));
+                Some(lower.min(least(unit(self.centre(*c)? * mu) - rows.square())))
+            }
+            (Test::Least(rows, kappa), Evidence::Lower(y)) => {
+                let rows = self.rows(rows.iter(), at)?;
+                Some(least(rows.minorant(&matrix(y)) - unit(self.centre(*kappa)?)))
+            }
+            (Test::OneToOne(rows), Evidence::Chords) => {
+                let y = matrix(self.prover.chords.as_ref()?);
+                Some(least(self.rows(rows.iter(), at)?.symmetric(&y)))
+            }
+            (Test::Solve(solve), Evidence::Lower(y)) => {
+                let (a, y) = (self.matrix(&solve.a, at)?, matrix(y));
+                let t = &a * y.transpose();
+                let t = &t + t.transpose() - &y * y.transpose();
+                let n = t.nrows();
+                let mut bordered = t.resize(n + 1, n + 1, self.centre(solve.square)?);
+                for (i, &b) in solve.b.iter().enumerate() {
+                    let b = self.at(b, at)?;
+                    (bordered[(i, n)], bordered[(n, i)]) = (b, b);
+                }
+                Some(least(bordered))
+            }
+            (Test::AtLeast(f), _) => {
+                let low = self.formulas.at(*f, v)?;
+                Some(low.0)
+            }
+            (Test::Beyond(f, b), Evidence::Negative) => {
+                Some(-self.formulas.at(*f, v)?.1 - self.formulas.at(*b, v)?.1)
+            }
+            (Test::Beyond(f, b), _) => {
+                Some(self.formulas.at(*f, v)?.0 - self.formulas.at(*b, v)?.1)
+            }
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! Proposals: evidence with which the kernel's tests hold on a box, in doubles.
+
+use super::directions::directions;
+use super::evidence::{At, Over};
+use super::rows::{above, exponent, in_places, rounded, Form, Rows};
+use nalgebra::{DMatrix, DVector};
+use orthocert_kernel::certificate::{Corner, Evidence};
+use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::accuracy::Accuracy;
+use orthocert_kernel::test::apart::Apart;
+use orthocert_kernel::test::solve::Solve;
+use orthocert_kernel::test::{self, Multiplier, Row};
+
+/// Bits of the greatest entry of a multiplier that is tried first.
+const FINE: i32 = 15;
+/// Bits tried for a shorter one.
+const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
+/// Parts of the least singular value tried as `kappa` of an accuracy.
+const PARTS: [f64; 3] = [0.95, 0.8, 0.5];
+/// Parts of `b z^T/c^2` in what is tried for solutions.
+const OWN: [f64; 3] = [0.0, 0.3, 0.6];
+
+impl Over<'_> {
+    /// Evidence with which a test holds.
+    pub fn evidence(&self, test: &Test) -> Option<Evidence> {
+        self.at_controls(test).or_else(|| self.at_vertices(test))
+    }
+
+    /// At control points, of platforms that turn.
+    fn at_controls(&self, test: &Test) -> Option<Evidence> {
+        let polynomial = match test {
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => self.prover.is_scaled,
+            Test::AtLeast(_) => self.problem().weight.is_some(),
+            _ => false,
+        };
+        if !polynomial {
+            return None;
+        }
+        let controls = self.prover.checker.controls(self.place, test)?;
+        if matches!(test, Test::AtLeast(f) if controls.at(*f, 0).is_none()) {
+            return None;
+        }
+        let formulas = test::Over { controls: Some(&controls), inside: None, ..*self.formulas };
+        let there = Over { formulas: &formulas, ..*self };
+        let found = match test {
+            Test::SigmaMin(kappa) => there.lower(test, *kappa, Form::Scaled),
+            Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
+            _ => there.shown(test, Evidence::Test),
+        };
+        found.map(|inner| Evidence::Control(Box::new(inner)))
+    }
+
+    fn at_vertices(&self, test: &Test) -> Option<Evidence> {
+        match test {
+            Test::SigmaMin(kappa) => self
+                .lower(test, *kappa, Form::Plain)
+                .or_else(|| self.lower(test, *kappa, Form::Divided))
+                .or_else(|| self.corner(test)),
+            Test::SigmaMax(_) => {
+                self.first(test, [Evidence::Cube, Evidence::Test, Evidence::Divided])
+            }
+            Test::Conditioning(c) => self.conditioning(test, *c, Form::Plain),
+            Test::AtLeast(_) | Test::Curvature(_) => self.shown(test, Evidence::Test),
+            Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
+            Test::Least(rows, kappa) => self.least(test, rows, *kappa),
+            Test::OneToOne(_) => self.shown(test, Evidence::Chords),
+            Test::Solve(solve) => self.solution(test, solve),
+            Test::Accuracy(accuracy) => self.accuracy(test, accuracy),
+            Test::Apart(apart) => self.apart(test, apart),
+        }
+    }
+
+    fn first(&self, test: &Test, all: impl IntoIterator<Item = Evidence>) -> Option<Evidence> {
+        all.into_iter().find_map(|evidence| self.shown(test, evidence))
+    }
+
+    /// Of the evidence with so many bits, the shortest with which the test holds.
+    fn shortest(&self, test: &Test, with: impl Fn(i32) -> Option<Evidence>) -> Option<Evidence> {
+        let found = self.shown(test, with(FINE)?)?;
+        let shorter = SHORT.into_iter().find_map(|bits| {
+            let evidence = around(&found, with(bits)?);
+            self.shows(test, &evidence).then_some(evidence)
+        });
+        shorter.or(Some(found))
+    }
+
+    fn shortest_of(
+        &self,
+        test: &Test,
+        all: impl IntoIterator<Item = DMatrix<f64>>,
+        form: impl Fn(Multiplier) -> Evidence,
+    ) -> Option<Evidence> {
+        all.into_iter()
+            .find_map(|y| self.shortest(test, |bits| Some(form(rounded(&y, bits + above(&y))?))))
+    }
+
+    /// The root of the weight by which rows of this form are scaled, at the centre.
+    fn scale(&self, form: Form) -> f64 {
+        let weight = self.problem().weight.filter(|_| form == Form::Scaled);
+        weight.and_then(|weight| self.centre(weight)).unwrap_or(1.0).sqrt()
+    }
+
+    fn lower(&self, test: &Test, kappa_squared: Formula, form: Form) -> Option<Evidence> {
+        let kappa = self.centre(kappa_squared)?.max(0.0).sqrt();
+        let zero = self.problem().tape.op(kappa_squared) == Op::Integer(0);
+        let with = match form {
+            Form::Divided => Evidence::LowerDivided,
+            _ if zero => Evidence::Rank,
+            _ => Evidence::Lower,
+        };
+        let rows = self.own(form, At::Centre)?;
+        self.shortest_of(test, rows.starts(kappa * self.scale(form)), with)
+    }
+
+    /// At a tight corner of the paper's cube.
+    fn corner(&self, test: &Test) -> Option<Evidence> {
+        let touched = [Corner::Q1, Corner::Q2].into_iter().zip(self.place.touches);
+        let corners = touched.filter(|_| self.problem().cube_kappa.is_some());
+        let corners = corners.filter_map(|(corner, touches)| touches.then_some(corner));
+        self.first(test, corners.map(Evidence::Corner))
+    }
+
+    fn least(&self, test: &Test, rows: &[Row<Formula>], kappa: Formula) -> Option<Evidence> {
+        let kappa = self.centre(kappa)?.max(0.0).sqrt();
+        let starts = self.rows(rows.iter(), At::Centre)?.starts(kappa);
+        self.shortest_of(test, starts, Evidence::Lower)
+    }
+
+    /// `mu` half-way between what both bounds allow: at the centre, and, by differences, along each
+    /// coordinate; at control points at the centre alone.
+    fn conditioning(&self, test: &Test, c_squared: Formula, form: Form) -> Option<Evidence> {
+        let c = self.centre(c_squared)?.sqrt();
+        let middle = |rows: Rows| {
+            let xi: DVector<f64> = rows.m().singular_values();
+            (0.5 * (xi.min() + xi.max() / c)).powi(2)
+        };
+        let mut mu = vec![middle(self.own(Form::Plain, At::Centre)?)];
+        let along = if form == Form::Scaled { 0 } else { self.m() };
+        for k in 0..along {
+            let at = |sign| self.own(Form::Plain, At::Face(k, sign)).map(middle);
+            mu.push(0.5 * (at(1.0)? - at(-1.0)?));
+        }
+        let size = exponent(mu[0]);
+        let starts = self.own(form, At::Centre)?.starts(mu[0].sqrt() * self.scale(form));
+        starts.into_iter().find_map(|y| {
+            self.shortest(test, |bits| {
+                let places = (bits + above(&y)).max(bits + 4 - size);
+                let multiplier = rounded(&y, places)?;
+                let scale = f64::from(multiplier.places).exp2();
+                let mu = mu.iter().map(|mu| (mu * scale).round() as i64).collect();
+                Some(Evidence::Conditioning(multiplier, mu))
+            })
+        })
+    }
+
+    /// `Y` for a solution `z` of `A z = b`: `A` at the centre, then between it and `b z^T/c^2`, which
+    /// loses nothing along `b`.
+    fn solution(&self, test: &Test, solve: &Solve) -> Option<Evidence> {
+        let a = self.matrix(&solve.a, At::Centre)?;
+        let b: Option<Vec<f64>> = solve.b.iter().map(|&b| self.centre(b)).collect();
+        let b = DVector::from_vec(b?);
+        let z = a.clone().lu().solve(&b)?;
+        let own = &b * z.transpose() / self.centre(solve.square)?;
+        let all = OWN.map(|part| &a * (1.0 - part) + &own * part);
+        self.shortest_of(test, all, Evidence::Lower)
+    }
+
+    fn accuracy(&self, test: &Test, accuracy: &Accuracy) -> Option<Evidence> {
+        let m = self.matrix(&accuracy.rows, At::Centre)?;
+        let least = m.singular_values().min();
+        PARTS.into_iter().find_map(|part| {
+            self.shortest(test, |bits| {
+                // As many bits for kappa as for the greatest entry.
+                let y = in_places(&m, (bits + above(&m)).max(bits - exponent(least)))?;
+                let kappa = (part * least * f64::from(y.places).exp2()).floor();
+                Some(Evidence::Accuracy(y, kappa as i64))
+            })
+        })
+    }
+
+    fn apart(&self, test: &Test, apart: &Apart) -> Option<Evidence> {
+        self.shortest_of(test, directions(self.formulas, apart), Evidence::Direction)
+    }
+}
+
+/// Other evidence, less what is taken from some evidence.
+fn around(found: &Evidence, own: Evidence) -> Evidence {
+    match found {
+        Evidence::Inside(inner, multiple, places) => {
+            Evidence::Inside(Box::new(around(inner, own)), *multiple, *places)
+        }
+        Evidence::Turned(inner, multiple, places) => {
+            Evidence::Turned(Box::new(around(inner, own)), *multiple, *places)
+        }
+        _ => own,
+    }
+}

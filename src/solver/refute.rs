@@ -1,0 +1,301 @@
+//! Refutation: a place where an obligation seems to fail as an exact witness.
+
+use super::sample::{At, Place, Quality, Sampler, Worst};
+use super::violation;
+use nalgebra::DVector;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use orthocert_kernel::certificate::{Failure, Witness};
+use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
+use orthocert_kernel::fixed::Fixed;
+use orthocert_kernel::input::Input;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::witness;
+
+/// Precisions in which witnesses are evaluated, lowest first.
+const PRECISIONS: [u32; 2] = [64, 160];
+/// Fractional bits of a number that is not rational.
+const NUMBER_BITS: u32 = 256;
+/// Margins above this are rounding errors of the sampling.
+const NOISE: f64 = -1e-13;
+/// Decimal places tried for the coordinates of a witness, relative to the range's width.
+const DIGITS: [i32; 5] = [3, 6, 9, 12, 15];
+/// Bits tried for the components of a direction.
+const DIRECTION_BITS: [i32; 5] = [4, 8, 14, 24, 40];
+/// Most decimal places of a number that is written as a decimal.
+const MOST_PLACES: u32 = 60;
+
+/// A witness of the obligation that fails most, if one fails.
+pub fn refutation(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    worst: &[Worst],
+) -> Option<Witness> {
+    let mut failing: Vec<&Worst> = worst.iter().filter(|found| found.margin < NOISE).collect();
+    failing.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+    failing.into_iter().find_map(|found| witness_at(claim, problem, sampler, found))
+}
+
+/// An exact witness next to a place, if the kernel accepts one: of the shortest numbers tried.
+pub fn witness_at(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    found: &Worst,
+) -> Option<Witness> {
+    DIGITS.iter().find_map(|&digits| {
+        let point = point(claim, problem, sampler, &found.place.u, digits)?;
+        let machine = machine(problem, &found.place.t, digits)?;
+        let failures = failures(claim, problem, sampler, found, digits);
+        failures.into_iter().find_map(|fails| {
+            PRECISIONS.into_iter().find_map(|precision| {
+                let (point, machine, fails) = (point.clone(), machine.clone(), fails.clone());
+                let witness = Witness { precision, point, machine, fails };
+                witness::check(problem, &claim.workspace, &witness).is_ok().then_some(witness)
+            })
+        })
+    })
+}
+
+/// What may fail at a place, shortest first.
+fn failures(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    found: &Worst,
+    digits: i32,
+) -> Vec<Failure> {
+    let values = sampler.at(&found.place);
+    let is_defined = sampler.matrix(&values).is_some();
+    match found.quality {
+        _ if !is_defined || found.quality == Quality::Reach => vec![Failure::Reach],
+        Quality::Reach => Vec::new(),
+        Quality::Determinant => opposite(claim, problem, sampler, found, digits),
+        Quality::Obligation(number) => {
+            let of = |directions| Failure::Obligation(number, directions);
+            directions(&problem.obligations[number].test, problem, sampler, &values)
+                .into_iter()
+                .map(of)
+                .collect()
+        }
+    }
+}
+
+/// Points of the grid at which `det M` of the same machine has the other sign.
+fn opposite(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    found: &Worst,
+    digits: i32,
+) -> Vec<Failure> {
+    let det = |place: &Place| sampler.determinant(&sampler.at(place)).unwrap_or(0.0);
+    let sign = det(&found.place).signum();
+    let with = |u: Vec<f64>| Place { u, t: found.place.t.clone() };
+    let grid = [sampler.centre()].into_iter().chain(sampler.grid()).map(|place| with(place.u));
+    let mut others: Vec<(f64, Place)> =
+        grid.map(|place| (sign * det(&place), place)).filter(|(det, _)| *det < 0.0).collect();
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let other =
+        others.first().and_then(|(_, other)| point(claim, problem, sampler, &other.u, digits));
+    other.map(Failure::Singular).into_iter().collect()
+}
+
+/// Directions in which a test fails, shortest first; none of a test on signs.
+fn directions(
+    test: &Test,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    at: &At,
+) -> Vec<Vec<Vec<i64>>> {
+    let own = |greatest| sampler.matrix(at).and_then(|m| violation::singular(&m, greatest));
+    let one = |v: Option<DVector<f64>>| v.map_or_else(Vec::new, |v| roundings(&v)).into_iter();
+    let each = |v| one(v).map(|v| vec![v]).collect();
+    match test {
+        Test::SigmaMin(_) => each(own(false)),
+        Test::SigmaMax(_) => each(own(true)),
+        Test::Conditioning(_) => {
+            one(own(true)).zip(one(own(false))).map(|(u, v)| vec![u, v]).collect()
+        }
+        Test::Least(rows, _) => {
+            let m = violation::divided(at, rows.iter());
+            each(m.and_then(|m| violation::singular(&m, false)))
+        }
+        Test::Solve(solve) => each(violation::unsolved(at, solve)),
+        Test::Accuracy(test) => each(violation::far(at, &problem.legs, test)),
+        Test::Curvature(test) => each(violation::curved(at, test).map(|(_, v)| v)),
+        Test::Apart(test) => violation::between(at, test).map_or_else(Vec::new, |([s, t], _)| {
+            let weights = |bits: i32| {
+                let n = f64::from(bits).exp2();
+                vec![vec![(s * n).round() as i64, (t * n).round() as i64, n as i64]]
+            };
+            DIRECTION_BITS.into_iter().map(weights).collect()
+        }),
+        Test::AtLeast(_) | Test::Beyond(..) => vec![Vec::new()],
+        // Of two points.
+        Test::OneToOne(_) => Vec::new(),
+    }
+}
+
+/// Roundings of a direction.
+fn roundings(v: &DVector<f64>) -> Vec<Vec<i64>> {
+    let v = v.normalize();
+    let rounded = |bits: i32| {
+        let scale = f64::from(bits).exp2();
+        let v: Vec<i64> = v.iter().map(|x| (x * scale).round() as i64).collect();
+        let gcd = v.iter().fold(0i64, |a, b| num_integer::gcd(a, *b));
+        (gcd > 0).then(|| v.into_iter().map(|x| x / gcd).collect())
+    };
+    DIRECTION_BITS.into_iter().filter_map(rounded).collect()
+}
+
+/// A point of short numbers near a place, within the workspace.
+pub fn point(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    u: &[f64],
+    digits: i32,
+) -> Option<Vec<Expression>> {
+    let [min, max] = &problem.corners;
+    let inside = sampler.parts(u);
+    let coordinate = |k: usize| {
+        // Rounded toward the middle of a curved set, a point does not leave it.
+        let toward = match claim.workspace {
+            Workspace::Cylinder { .. } if k < 2 => Toward::Middle,
+            Workspace::Cylinder { .. } | Workspace::Box { .. } | Workspace::Cube { .. } => {
+                Toward::Nearest
+            }
+        };
+        between([&min[k], &max[k]], inside[k], digits, toward)
+    };
+    let turned = |(j, ends): (usize, &[Input; 2])| {
+        let toward = match claim.orientation {
+            Some(Orientation::Angle(_)) => Toward::Middle,
+            Some(Orientation::Tilt { .. }) if j < 2 => Toward::Middle,
+            _ => Toward::Nearest,
+        };
+        let inner = |end: &Input| {
+            let x = end.enclose(NUMBER_BITS, None)?;
+            Some([x.lo, x.hi].map(|x| BigRational::new(x, BigInt::from(1) << NUMBER_BITS)))
+        };
+        let ([_, least], [greatest, _]) = (inner(&ends[0])?, inner(&ends[1])?);
+        short([&least, &greatest], inside[min.len() + j], digits, toward)
+    };
+    let turned = problem.orientation.iter().enumerate().map(turned);
+    (0..min.len()).map(coordinate).chain(turned).collect()
+}
+
+/// Short numbers near the parts of the tolerances.
+pub fn machine(problem: &Problem, t: &[f64], digits: i32) -> Option<Vec<Expression>> {
+    let value = |((_, min, max), &t): ((&str, &Expression, &Expression), &f64)| {
+        between([min, max], t, digits, Toward::Nearest)
+    };
+    problem.tolerances().zip(t).map(value).collect()
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Toward {
+    Nearest,
+    Middle,
+}
+
+/// A short number of `[min, max]` near `min + part (max - min)`: an end for parts 0 and 1, else a
+/// decimal of so many places relative to the width.
+fn between(
+    [min, max]: [&Expression; 2],
+    part: f64,
+    digits: i32,
+    toward: Toward,
+) -> Option<Expression> {
+    if min == max || part <= 0.0 {
+        return Some(min.clone());
+    }
+    if part >= 1.0 {
+        return Some(max.clone());
+    }
+    // Within the range also where its ends are not rational: the enclosures' inner ends.
+    let (least, greatest) = (enclosed(min)?.1, enclosed(max)?.0);
+    if least >= greatest {
+        return Some(min.clone());
+    }
+    short([&least, &greatest], part, digits, toward)
+}
+
+/// A short rational of `[least, greatest]` near `least + part (greatest - least)`.
+fn short(
+    [least, greatest]: [&BigRational; 2],
+    part: f64,
+    digits: i32,
+    toward: Toward,
+) -> Option<Expression> {
+    let width = greatest - least;
+    if !width.is_positive() {
+        return number(least);
+    }
+    let value = least + &width * BigRational::from_f64(part.clamp(0.0, 1.0))?;
+    let size =
+        i32::try_from(width.numer().bits()).ok()? - i32::try_from(width.denom().bits()).ok()?;
+    let places = digits - (f64::from(size) * std::f64::consts::LOG10_2).floor() as i32;
+    let grid = BigRational::from_integer(10.into()).pow(places);
+    let (floor, ceil) = ((&value * &grid).floor() / &grid, (&value * &grid).ceil() / &grid);
+    let nearest = (&value * &grid).round() / &grid;
+    let candidates = match toward {
+        Toward::Nearest => [nearest, floor, ceil],
+        Toward::Middle if part < 0.5 => [ceil.clone(), ceil.clone(), ceil],
+        Toward::Middle => [floor.clone(), floor.clone(), floor],
+    };
+    let within = |x: &BigRational| least <= x && x <= greatest;
+    candidates.into_iter().chain([value]).find(within).and_then(|x| number(&x))
+}
+
+/// A number as it is, or, of one that is not rational, rationals on both sides.
+fn enclosed(x: &Expression) -> Option<(BigRational, BigRational)> {
+    if let Some(x) = x.rational() {
+        return Some((x.clone(), x));
+    }
+    let x = x.enclose(&Fixed::new(NUMBER_BITS), &|_| None)?;
+    let end = |x: BigInt| BigRational::new(x, BigInt::from(1) << NUMBER_BITS);
+    Some((end(x.lo), end(x.hi)))
+}
+
+/// A rational as an expression: a decimal, if it is one of few places, else a fraction.
+pub fn number(x: &BigRational) -> Option<Expression> {
+    let ten = BigInt::from(10);
+    let decimal = (0..=MOST_PLACES).find_map(|places| {
+        let scaled = x * BigRational::from_integer(ten.pow(places));
+        scaled.is_integer().then(|| (scaled.to_integer(), places))
+    });
+    let literal = |digits: BigInt, places| Expression::Literal { digits, places };
+    let positive = match decimal {
+        Some((digits, places)) => literal(digits.abs(), places),
+        None => {
+            let (p, q) = (literal(x.numer().abs(), 0), literal(x.denom().clone(), 0));
+            let over = orthocert_kernel::number::Operator::Div;
+            return Some(Expression::Binary(over, Box::new(signed(x, p)), Box::new(q)));
+        }
+    };
+    Some(signed(x, positive))
+}
+
+fn signed(x: &BigRational, positive: Expression) -> Expression {
+    if x.is_negative() {
+        Expression::Neg(Box::new(positive))
+    } else {
+        positive
+    }
+}
+
+/// A double near a number of a claim.
+pub fn approximate(x: &Expression) -> Option<f64> {
+    let (x, _) = enclosed(x)?;
+    if x.is_zero() {
+        Some(0.0)
+    } else {
+        x.to_f64()
+    }
+}

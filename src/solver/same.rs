@@ -1,0 +1,107 @@
+//! Two points with the same joint coordinates: by Newton's method from point to point of a grid.
+
+use super::refute::{number, point};
+use super::rows::{above, rounded};
+use super::sample::{At, Place, Sampler};
+use nalgebra::DVector;
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_kernel::certificate::{Failure, Witness};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::machine::Joint;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::witness;
+
+/// Precisions in which witnesses are evaluated, lowest first.
+const PRECISIONS: [u32; 2] = [64, 160];
+/// Points of the grid that are tried, and from each of them so many others.
+const TRIED: [usize; 2] = [40, 12];
+/// Steps of Newton's method.
+const STEPS: usize = 12;
+/// Half-width of the box about the second point, in parts of the workspace.
+const HALF: f64 = 1e-6;
+/// What the points differ by at least, in parts.
+const APART: f64 = 1e-2;
+/// Decimal places of the first point's parts.
+const DIGITS: i32 = 3;
+
+/// A witness that some obligation to be one to one fails, if the kernel accepts one.
+pub fn refutation(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+) -> Option<Witness> {
+    let is_asked = |o: &orthocert_kernel::quantity::Obligation| matches!(o.test, Test::OneToOne(_));
+    let obligation = problem.obligations.iter().position(is_asked)?;
+    if problem.legs.len() != problem.dimension() {
+        return None;
+    }
+    let grid = sampler.grid();
+    let spread = |n: usize| grid.iter().step_by(grid.len().div_ceil(n).max(1));
+    spread(TRIED[0]).find_map(|start| {
+        let first = point(claim, problem, sampler, &start.u, DIGITS)?;
+        let machine = super::refute::machine(problem, &start.t, DIGITS)?;
+        let place = sampler.place_of(&first, &machine)?;
+        let at = sampler.at(&place);
+        spread(TRIED[1]).find_map(|other| {
+            let found = newton(problem, sampler, &at, other)?;
+            let apart = found.u.iter().zip(&place.u).any(|(a, b)| (a - b).abs() > APART);
+            let witness = apart.then(|| {
+                let fails = failure(sampler, obligation, &found)?;
+                let (point, machine) = (first.clone(), machine.clone());
+                Some(Witness { precision: PRECISIONS[0], point, machine, fails })
+            })??;
+            PRECISIONS.into_iter().find_map(|precision| {
+                let witness = Witness { precision, ..witness.clone() };
+                witness::check(problem, &claim.workspace, &witness).is_ok().then_some(witness)
+            })
+        })
+    })
+}
+
+/// A place, well within the workspace, with the joint coordinates of another.
+fn newton(problem: &Problem, sampler: &Sampler<'_>, like: &At, start: &Place) -> Option<Place> {
+    let mut place = start.clone();
+    for _ in 0..STEPS {
+        let at = sampler.at(&place);
+        let off = |leg: &orthocert_kernel::machine::Leg| match leg.rho? {
+            Joint::Length(rho) => Some(at.of(rho)? - like.of(rho)?),
+            Joint::Angle { cos, sin } => {
+                let (c, s, c2, s2) = (at.of(cos)?, at.of(sin)?, like.of(cos)?, like.of(sin)?);
+                Some((s * c2 - c * s2).atan2(c * c2 + s * s2))
+            }
+        };
+        let off: Vec<f64> = problem.legs.iter().map(off).collect::<Option<_>>()?;
+        let step = sampler.jacobian(&at)?.lu().solve(&DVector::from_vec(off))?;
+        let point: Vec<f64> =
+            sampler.point(&place.u).iter().zip(step.iter()).map(|(x, step)| x - step).collect();
+        place.u = sampler.parts_of(&point);
+    }
+    let again = sampler.parts(&place.u);
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 0.0;
+    let inner = place.u.iter().all(|u| (4.0 * HALF..=1.0 - 4.0 * HALF).contains(u));
+    (inner && again.iter().zip(&place.u).all(near)).then_some(place)
+}
+
+/// A small box about the place, and the inverse of `M` there.
+fn failure(sampler: &Sampler<'_>, obligation: usize, place: &Place) -> Option<Failure> {
+    let inverse = sampler.jacobian(&sampler.at(place))?.try_inverse()?;
+    let inverse = rounded(&inverse, 24 + above(&inverse))?;
+    let end = |sign: f64| -> Option<Vec<Expression>> {
+        let u: Vec<f64> = place.u.iter().map(|u| u + sign * HALF).collect();
+        let point = sampler.point(&u).into_iter().enumerate();
+        // Decimals of a hundredth of the box.
+        let width = sampler.ends();
+        let short = |(k, x): (usize, f64)| {
+            let width = (width[1][k] - width[0][k]) * HALF;
+            let places = (2.0 - width.log10()).ceil() as i32;
+            let grid = BigRational::from_integer(10.into()).pow(places);
+            let x = BigRational::from_f64(x * sampler.unit_of(k))?;
+            number(&((x * &grid).round() / grid))
+        };
+        point.map(short).collect()
+    };
+    Some(Failure::Same { obligation, least: end(-1.0)?, greatest: end(1.0)?, inverse })
+}

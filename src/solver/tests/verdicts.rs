@@ -1,0 +1,169 @@
+//! Verdicts, and what they cost.
+
+use super::*;
+
+#[test]
+fn leaves() {
+    for (name, claim, most) in [
+        ("linear Delta", linear_delta(SLAB), &[22, 55, 95][..]),
+        ("linear Delta, cylinder", linear_delta(CYLINDER), &[49, 115, 175]),
+        ("struts", struts(), &[16, 38, 62]),
+        ("Orthoglide", orthoglide("\"310.7\"", CUBE), &[14, 17, 17]),
+        ("four struts", four_struts(), &[30, 120]),
+        ("rotary Delta", rotary(), &[480]),
+    ] {
+        for (part, &most) in [1e-2, 1e-3, 1e-4].into_iter().zip(most) {
+            let (certificate, accepted) = decided(&beyond(&claim, part));
+            let bytes = certificate.to_text().expect("a text").len();
+            let leaves = accepted.size.leaves;
+            println!("{name} {part}: {leaves} leaves, {bytes} bytes");
+            assert_eq!(accepted.verdict, Verdict::Certified, "{name}");
+            assert!(leaves <= most, "{name} {part}: {leaves} leaves");
+            assert!(bytes < 1200 + 110 * leaves, "{name} {part}: {bytes} bytes");
+            let tighter = beyond(&claim, -part);
+            assert_eq!(decided(&tighter).1.verdict, Verdict::Refuted, "{name}");
+        }
+    }
+}
+
+#[test]
+fn formulas_are_as_good_as_legs() {
+    for (legs, by_formulas) in [
+        (orthoglide("\"310.7\"", CUBE), orthoglide_by_formulas()),
+        (linear_delta(SLAB), linear_delta_by_formulas()),
+    ] {
+        let ([a, b], [c, d]) = (psi(&legs), psi(&by_formulas));
+        assert!((a - c).abs() < 1e-8 && (b - d).abs() < 1e-8, "{a} {c} {b} {d}");
+        for part in [1e-2, 1e-3] {
+            let leaves = [&legs, &by_formulas].map(|claim| {
+                let (_, accepted) = decided(&beyond(claim, part));
+                assert_eq!(accepted.verdict, Verdict::Certified);
+                accepted.size.leaves
+            });
+            println!("{part}: {leaves:?}");
+            assert!(5 * leaves[1] <= 6 * leaves[0] + 5, "{leaves:?}");
+            assert_eq!(decided(&beyond(&by_formulas, -part)).1.verdict, Verdict::Refuted);
+        }
+    }
+}
+
+#[test]
+fn a_five_bar_by_its_joint_coordinates() {
+    // Two legs of variable length from (-400, 0) and (400, 0): unit rows at the angle of the legs.
+    let claim = five_bar();
+    let [least, greatest] = psi(&claim);
+    // With the angle phi between the legs, xi^2 = 1 -+ |cos phi|.
+    let mut extreme = [f64::INFINITY, 0f64];
+    for i in 0..=200 {
+        for j in 0..=200 {
+            let (x, y) = (f64::from(i) - 100.0, 200.0 + f64::from(j));
+            let (u, v) = ((x + 400.0, y), (x - 400.0, y));
+            let cos = (u.0 * v.0 + u.1 * v.1) / (u.0.hypot(u.1) * v.0.hypot(v.1));
+            extreme[0] = extreme[0].min((1.0 + cos.abs()).sqrt().recip());
+            extreme[1] = extreme[1].max((1.0 - cos.abs()).sqrt().recip());
+        }
+    }
+    assert!((least - extreme[0]).abs() < 1e-6 && (greatest - extreme[1]).abs() < 1e-6);
+    assert_eq!(decided(&beyond(&claim, 1e-3)).1.verdict, Verdict::Certified);
+    assert_eq!(decided(&beyond(&claim, -1e-3)).1.verdict, Verdict::Refuted);
+}
+
+fn failure(claim: &MachineClaim) -> (Failure, Vec<Expression>) {
+    let (certificate, accepted) = decided(claim);
+    assert_eq!(accepted.verdict, Verdict::Refuted);
+    match certificate.proof {
+        Proof::Kernel(Proven::Witness(witness)) => (witness.fails, witness.point),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn refutations() {
+    // Out of reach at the far corner alone.
+    let mut far =
+        orthoglide("\"310.7\"", r#"{"box":{"min":["-72","-72","-72"],"max":["222","222","222"]}}"#);
+    far.require.clear();
+    assert_eq!(failure(&far).0, Failure::Reach);
+    // x + y + z = L is a parallel singularity of three sliders to the origin, between the corners.
+    let wide = orthoglide(
+        "\"310\"",
+        r#"{"box":{"min":["-180","-180","-180"],"max":["100","100","100"]}}"#,
+    );
+    let (fails, _) = failure(&wide);
+    assert!(matches!(fails, Failure::Singular(_) | Failure::Reach), "{fails:?}");
+    // Through a cylinder's inside.
+    let tall = r#"{"cylinder":{"center":["0","0"],"radius":"80","z":["-1","1"]}}"#;
+    let delta = linear_delta(tall);
+    let [_, greatest] = psi(&delta);
+    let (fails, point) = failure(&with_psi(&delta, 0.1, greatest * 0.999));
+    assert!(matches!(fails, Failure::Obligation(0, _)), "{fails:?}");
+    let radius: f64 =
+        point[..2].iter().map(|x| refute::approximate(x).expect("a number").powi(2)).sum();
+    assert!(radius <= 6400.0 && radius > 6000.0, "{radius}");
+    // One leg's joint alone.
+    let mut range = orthoglide("\"310.7\"", CUBE);
+    range.require =
+        vec![Requirement { leg: Some(2), ..require("joint_range", Bound::Max(decimal(-131.0))) }];
+    assert_eq!(failure(&range).0, Failure::Obligation(1, vec![]));
+}
+
+#[test]
+fn the_paper_s_cube_meets_its_bounds_with_equality() {
+    let (_, accepted) = decided(&claim(
+        r#"{"mechanism":{"orthoglide":{"offset":"0"}},"workspace":{"cube":{"side":"200"}},
+        "require":[{"quantity":"transmission","end":"min","bound":"1/2"},
+        {"quantity":"transmission","end":"max","bound":"2"}]}"#,
+    ));
+    assert_eq!(accepted.verdict, Verdict::Certified);
+}
+
+#[test]
+fn tolerances() {
+    let lengths = |least: &str, greatest: &str| {
+        let length = format!(r#"{{"min":"{least}","max":"{greatest}"}}"#);
+        with_psi(&orthoglide(&length, CUBE), 0.5, 1.998)
+    };
+    let (_, accepted) = decided(&lengths("310.6", "310.8"));
+    assert_eq!(accepted.verdict, Verdict::Certified);
+    let (certificate, accepted) = decided(&lengths("303", "318"));
+    assert_eq!(accepted.verdict, Verdict::Refuted);
+    let Proof::Kernel(Proven::Witness(witness)) = certificate.proof else { panic!("a witness") };
+    assert_eq!(witness.machine.len(), 3);
+}
+
+#[test]
+fn a_certificate_does_not_depend_on_the_threads() {
+    let claims = [beyond(&linear_delta(CYLINDER), 1e-3), beyond(&linear_delta(CYLINDER), -1e-3)];
+    for claim in claims {
+        let texts = [1, 4].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let (certificate, _) = pool.expect("threads").install(|| decided(&claim));
+            certificate.to_text().expect("a text")
+        });
+        assert_eq!(texts[0], texts[1]);
+    }
+}
+
+#[test]
+fn budgets_end_a_search() {
+    let claim = beyond(&linear_delta(CYLINDER), 1e-4);
+    let found = with_boxes(&claim, 10);
+    let Answer::Undecided(undecided) = found.answer else { panic!("undecided") };
+    assert_eq!((found.boxes, undecided.stop), (10, Stop::Boxes));
+    assert!(undecided.open.len() > 1);
+    // What is open and what is closed make up the root.
+    let share = |open: &Open| (-f64::from(open.depth)).exp2();
+    assert!(undecided.open.iter().map(share).sum::<f64>() <= 1.0);
+}
+
+#[test]
+fn ties_are_not_refuted() {
+    // On the x axis rho_1 = x - sqrt(90001) reaches its bound, which is not rational, at the end.
+    let along = r#"{"box":{"min":["0","0","0"],"max":["100","0","0"]}}"#;
+    let mut claim = orthoglide("\"sqrt(90001)\"", along);
+    let bound = Expression::try_from("100-sqrt(90001)".to_owned()).expect("a number");
+    claim.require = vec![require("joint_range", Bound::Max(bound))];
+    let answer = with_boxes(&claim, 1000).answer;
+    let Answer::Undecided(undecided) = answer else { panic!("{answer:?}") };
+    assert!(undecided.open.iter().all(|open| open.obligations == [1]));
+}

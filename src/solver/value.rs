@@ -1,0 +1,265 @@
+//! Quantities at a place, in the claim's own unit; what bounds on them are called.
+
+use super::refute::{approximate, number};
+use super::sample::{At, Place, Quality, Sampler};
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_kernel::claim::{
+    Bound, MachineClaim, Mechanism, Orientation, Requirement, Workspace,
+};
+use orthocert_kernel::machine::{Joint, Leg};
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::{Obligation, Test};
+
+/// Steps of the search for a bound that is tight.
+const STEPS: usize = 60;
+/// Relative accuracy of such a bound.
+const ACCURACY: f64 = 1e-13;
+
+/// A bound on a quantity of one leg, or of the machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bounded {
+    /// The requirement.
+    pub requirement: Requirement,
+    /// Of this leg, counted from zero.
+    pub leg: Option<usize>,
+}
+
+/// The unit of a quantity, where it has one; `angular` where joint coordinates are angles.
+pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
+    match quantity {
+        "transmission" => angular.then_some("length/rad"),
+        "joint_range" => Some(if angular { "deg" } else { "length" }),
+        "joint_speed" => Some(if angular { "deg/time" } else { "length/time" }),
+        "leg_angle" | "base_joint" | "platform_joint" => Some("deg"),
+        "accuracy" | "clearance" => Some("length"),
+        "stiffness" => Some("force/length"),
+        "joint_force" => Some(if angular { "torque" } else { "force" }),
+        "joint_acceleration" => Some(if angular { "deg/time^2" } else { "length/time^2" }),
+        _ => None,
+    }
+}
+
+/// The names of the coordinates of a claim's workspace; of orientations half-angle tangents, about one
+/// axis or as the vector `tan(theta/2)` along the axis of the rotation.
+pub fn coordinates(claim: &MachineClaim) -> Vec<String> {
+    let in_plane = matches!(claim.mechanism, Mechanism::Planar(_));
+    let m = match (&claim.mechanism, &claim.workspace) {
+        (Mechanism::Formulas(formulas), _) => return formulas.coordinates.clone(),
+        (_, Workspace::Box { min, .. }) => min.len(),
+        (_, Workspace::Cylinder { .. } | Workspace::Cube { .. }) => 3,
+    };
+    let turns: &[&str] = match &claim.orientation {
+        None => &[],
+        Some(Orientation::Range(_)) => &["tan(phi/2)"],
+        Some(Orientation::RollPitchYaw { .. }) => &["tan(roll/2)", "tan(pitch/2)", "tan(yaw/2)"],
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => &["c_x", "c_y", "c_z"],
+    };
+    let places = ["x", "y", "z"].into_iter().take(if in_plane { m.min(2) } else { m });
+    places.chain(turns.iter().copied()).map(str::to_owned).collect()
+}
+
+impl Bounded {
+    /// What an obligation bounds; none of freedom from singularities.
+    pub fn of(claim: &MachineClaim, problem: &Problem, obligation: usize) -> Option<Self> {
+        let obligation = problem.obligations.get(obligation)?;
+        let requirement = claim.require.get(obligation.requirement?)?.clone();
+        Some(Bounded { requirement, leg: obligation.leg })
+    }
+
+    /// Its name: `greatest psi`, `least rho_2`, `joint speed 1`.
+    pub fn name(&self) -> String {
+        let Requirement { quantity, bound, .. } = &self.requirement;
+        let end = match bound {
+            Bound::Min(_) => "least ",
+            Bound::Max(_) => "greatest ",
+            Bound::Within(_) | Bound::Holds => "",
+        };
+        let number = self.leg.map(|leg| leg + 1);
+        match (quantity.as_str(), number) {
+            ("transmission", _) => format!("{end}psi"),
+            ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
+            ("conditioning", _) => "condition number".to_owned(),
+            (_, Some(leg)) => format!("{} {leg}", quantity.replace('_', " ")),
+            (_, None) => quantity.replace('_', " "),
+        }
+    }
+
+    /// `<=`, `>=` or `in`, and the other side; none of what is no number.
+    pub fn relation(&self) -> Option<(&'static str, Vec<&Expression>)> {
+        match &self.requirement.bound {
+            Bound::Min(bound) => Some((">=", vec![bound])),
+            Bound::Max(bound) => Some(("<=", vec![bound])),
+            Bound::Within([min, max]) => Some(("in", vec![min, max])),
+            Bound::Holds => None,
+        }
+    }
+
+    /// The same with another bound, on this leg alone; a range has none.
+    fn with(&self, x: f64) -> Option<Requirement> {
+        let bound = number(&BigRational::from_f64(x)?)?;
+        let bound = match &self.requirement.bound {
+            Bound::Min(_) => Bound::Min(bound),
+            Bound::Max(_) => Bound::Max(bound),
+            Bound::Within(_) | Bound::Holds => return None,
+        };
+        let leg = self.leg.map(|leg| leg + 1);
+        Some(Requirement { bound, leg, ..self.requirement.clone() })
+    }
+
+    /// The value at a place: of the quantities of velocities by their definition, of all others as the
+    /// bound that is met with equality there.
+    pub fn value(
+        &self,
+        claim: &MachineClaim,
+        problem: &Problem,
+        sampler: &Sampler<'_>,
+        place: &Place,
+    ) -> Option<f64> {
+        let values = sampler.at(place);
+        let leg = self.leg.and_then(|leg| problem.legs.get(leg));
+        let angular = problem.legs.iter().any(Leg::is_angular);
+        match (self.requirement.quantity.as_str(), &self.requirement.bound) {
+            ("transmission", bound) => {
+                let [least, greatest] = sampler.xi(&values)?;
+                let unit = if angular { sampler.unit() } else { 1.0 };
+                Some(unit / if matches!(bound, Bound::Min(_)) { greatest } else { least })
+            }
+            ("conditioning", _) => sampler.xi(&values).map(|[least, greatest]| greatest / least),
+            ("joint_range", _) => match leg?.rho? {
+                Joint::Length(rho) => Some(values.of(rho)? * sampler.unit()),
+                Joint::Angle { cos, sin } => {
+                    Some(values.of(sin)?.atan2(values.of(cos)?).to_degrees())
+                }
+            },
+            ("serial_margin", _) => cosine(leg?, &values),
+            ("leg_angle", _) => Some(cosine(leg?, &values)?.min(1.0).acos().to_degrees()),
+            ("joint_speed", _) => {
+                let tool = approximate(self.requirement.given.get("tool")?.first()?)?;
+                let unit = if angular { 1f64.to_degrees() / sampler.unit() } else { 1.0 };
+                let a = leg?.row.a.iter().map(|&a| values.of(a).map(|a| a * a));
+                let square: f64 = a.sum::<Option<f64>>()?;
+                Some((square / values.of(leg?.row.d)?).sqrt() * unit * tool)
+            }
+            (_, bound) => {
+                sampler.matrix(&values)?;
+                let own = match bound {
+                    Bound::Min(bound) | Bound::Max(bound) => approximate(bound),
+                    Bound::Within(_) | Bound::Holds => None,
+                };
+                let by_margin =
+                    own.and_then(|bound| self.by_margin(bound, problem, sampler, &values));
+                by_margin.or_else(|| self.tight(claim, place))
+            }
+        }
+    }
+
+    /// The value of a quantity that its margins tell: the worst of its tests.
+    fn by_margin(
+        &self,
+        bound: f64,
+        problem: &Problem,
+        sampler: &Sampler<'_>,
+        at: &At,
+    ) -> Option<f64> {
+        let own = problem.obligations.iter().enumerate().filter(|(_, own)| {
+            let requirement = own.requirement.and_then(|r| sampler.claim().require.get(r));
+            requirement == Some(&self.requirement) && own.leg == self.leg
+        });
+        let value = |(number, own): (usize, &Obligation)| {
+            let margin = sampler.margin(Quality::Obligation(number), at);
+            match (self.requirement.quantity.as_str(), &own.test) {
+                ("stiffness", _) => Some(bound * (1.0 + margin).powi(2)),
+                ("constraint_margin", _) => Some(bound * (1.0 + margin)),
+                ("joint_force" | "accuracy" | "joint_acceleration", _) => {
+                    Some(bound * (1.0 - margin))
+                }
+                ("clearance", Test::Apart(test)) => {
+                    Some(bound + margin * at.of(test.distance)? * sampler.unit())
+                }
+                _ => None,
+            }
+        };
+        let least = matches!(self.requirement.bound, Bound::Min(_));
+        let worst = |a: f64, b: f64| if least { a.min(b) } else { a.max(b) };
+        own.map(value).collect::<Option<Vec<f64>>>()?.into_iter().reduce(worst)
+    }
+
+    /// How far a bound is from being violated at a place; `None` where it is none.
+    fn margin_with(&self, claim: &MachineClaim, place: &Place, x: f64) -> Option<f64> {
+        let defining = claim.require.iter().find(|own| own.quantity == "transmission").cloned();
+        let mut require = vec![self.with(x)?];
+        if let Workspace::Cube { .. } = claim.workspace {
+            require.extend(defining);
+        }
+        let claim = alone(claim, require);
+        let problem = Problem::new(&claim).ok()?;
+        let sampler = Sampler::new(&claim, &problem).ok()?;
+        let values = sampler.at(place);
+        let numbers = 0..problem.obligations.len();
+        let own = numbers.filter(|&at| problem.obligations[at].requirement == Some(0));
+        own.map(|at| sampler.margin(Quality::Obligation(at), &values)).reduce(f64::min)
+    }
+
+    /// The bound `x > 0` whose margin is zero: by secants, or, where they do not arrive, by halving.
+    pub(super) fn tight(&self, claim: &MachineClaim, place: &Place) -> Option<f64> {
+        let (_, sides) = self.relation()?;
+        let start = approximate(sides.first()?)?;
+        let margin = |x: f64| self.margin_with(claim, place, x);
+        self.by_secants(start, margin).or_else(|| self.by_halving(start, margin))
+    }
+
+    fn by_secants(&self, start: f64, margin: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+        let (mut a, mut at_a) = (start, margin(start)?);
+        let mut b = start * if at_a > 0.0 { 0.99 } else { 1.01 };
+        for _ in 0..STEPS {
+            let at_b = margin(b)?;
+            if at_b == 0.0 || (b - a).abs() <= ACCURACY * b.abs() {
+                return Some(b);
+            }
+            let next = b - at_b * (b - a) / (at_b - at_a);
+            (a, at_a, b) = (b, at_b, Some(next).filter(|next| *next > 0.0)?);
+        }
+        None
+    }
+
+    fn by_halving(&self, start: f64, margin: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+        let first = margin(start)?;
+        // Whether a greater bound holds rather than a less.
+        let rising = matches!(self.requirement.bound, Bound::Max(_));
+        let outward = if rising == (first < 0.0) { 2.0 } else { 0.5 };
+        let holds = |x: f64| margin(x).map_or(first < 0.0, |margin| margin >= 0.0);
+        let (mut a, mut b) = (start, start);
+        for _ in 0..STEPS {
+            if holds(b) != (first >= 0.0) {
+                break;
+            }
+            (a, b) = (b, b * outward);
+        }
+        for _ in 0..STEPS {
+            let middle = 0.5 * (a + b);
+            if holds(middle) == (first >= 0.0) {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        Some(a)
+    }
+}
+
+/// The claim of these requirements alone; its bodies are claimed where their clearance is.
+pub(super) fn alone(claim: &MachineClaim, require: Vec<Requirement>) -> MachineClaim {
+    let mut claim = MachineClaim { require, ..claim.clone() };
+    if claim.require.iter().all(|own| own.quantity != "clearance") {
+        claim.bodies.clear();
+    }
+    claim
+}
+
+/// `|eta_i|/L_i`.
+fn cosine(leg: &Leg, values: &At) -> Option<f64> {
+    let (eta_squared, length) = (values.of(leg.eta_squared?)?, values.of(leg.length?)?);
+    Some(eta_squared.max(0.0).sqrt() / length)
+}

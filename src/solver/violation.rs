@@ -1,0 +1,114 @@
+//! How far from holding a test is at a place, and along which direction.
+
+use super::directions::{ends, nearest};
+use super::sample::At;
+use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
+use orthocert_kernel::formula::Formula;
+use orthocert_kernel::machine::{Joint, Leg};
+use orthocert_kernel::test::accuracy::Accuracy;
+use orthocert_kernel::test::apart::Apart;
+use orthocert_kernel::test::curvature::Curvature;
+use orthocert_kernel::test::solve::Solve;
+use orthocert_kernel::test::Row;
+
+fn matrix(at: &At, rows: &[Vec<Formula>]) -> Option<DMatrix<f64>> {
+    let all: Option<Vec<f64>> = rows.iter().flatten().map(|&f| at.of(f)).collect();
+    let columns = rows.first().map_or(0, Vec::len);
+    let m = DMatrix::from_row_slice(rows.len(), columns, &all?);
+    m.iter().all(|x| x.is_finite()).then_some(m)
+}
+
+/// `D^(-1/2) A`, where all of it is defined.
+pub fn divided<'r>(
+    at: &At,
+    rows: impl ExactSizeIterator<Item = &'r Row<Formula>>,
+) -> Option<DMatrix<f64>> {
+    let (n, mut all, mut m) = (rows.len(), Vec::new(), 0);
+    for row in rows {
+        let root = at.of(row.d).filter(|&d| d > 0.0)?.sqrt();
+        m = row.a.len();
+        for &a in &row.a {
+            all.push(at.of(a).map(|a| a / root).filter(|x| x.is_finite())?);
+        }
+    }
+    Some(DMatrix::from_row_slice(n, m, &all))
+}
+
+/// The right singular vector of the greatest, or the least singular value.
+pub fn singular(m: &DMatrix<f64>, greatest: bool) -> Option<DVector<f64>> {
+    let svd = m.clone().svd(false, true);
+    let xi = svd.singular_values;
+    let at = if greatest { xi.imax() } else { xi.imin() };
+    Some(svd.v_t?.row(at).transpose())
+}
+
+/// `A^-1 b`.
+pub fn solved(at: &At, solve: &Solve) -> Option<DVector<f64>> {
+    let b: Option<Vec<f64>> = solve.b.iter().map(|&f| at.of(f)).collect();
+    matrix(at, &solve.a)?.lu().solve(&DVector::from_vec(b?))
+}
+
+/// `v = A^-T z` for `z = A^-1 b`: `v . b = |z|^2`, and `|A^T v| = |z|`.
+pub fn unsolved(at: &At, solve: &Solve) -> Option<DVector<f64>> {
+    matrix(at, &solve.a)?.transpose().lu().solve(&solved(at, solve)?)
+}
+
+/// `M^-1 b/d` for the joint errors with which it is longest, to first order: `b_i` is what the joint of
+/// the machine in the middle of the tolerances has more than this one's, and the error.
+pub fn displaced(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>> {
+    let inverse = matrix(at, &test.rows)?.try_inverse()?;
+    let d = at.of(test.distance)?;
+    let off = |leg: &Leg| {
+        let by = match leg.rho? {
+            Joint::Length(rho) => at.nominal(rho)? - at.of(rho)?,
+            Joint::Angle { cos, sin } => {
+                let (c, s) = (at.nominal(cos)?, at.nominal(sin)?);
+                let (c2, s2) = (at.of(cos)?, at.of(sin)?);
+                (s * c2 - c * s2).atan2(c * c2 + s * s2)
+            }
+        };
+        Some(by / d)
+    };
+    let off: Vec<f64> = legs.iter().map(off).collect::<Option<_>>()?;
+    let errors = test.joints.iter().map(|(error, _)| at.of(*error));
+    let errors: Vec<f64> = errors.collect::<Option<_>>()?;
+    let n = errors.len();
+    let with = |signs: usize| {
+        let b = |i: usize| off[i] + if signs >> i & 1 == 1 { errors[i] } else { -errors[i] };
+        &inverse * DVector::from_fn(n, |i, _| b(i))
+    };
+    (0..1usize << n).map(with).max_by(|a, b| a.norm().total_cmp(&b.norm()))
+}
+
+/// `v = M^-T u` for `u` along that: `v . b/d = |M^-1 b|/d`, and `|M^T v| = 1`.
+pub fn far(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>> {
+    let u = displaced(at, legs, test)?;
+    matrix(at, &test.rows)?.transpose().lu().solve(&u)
+}
+
+/// The weights of the nearest points of two segments, and the vector between them.
+pub fn between(at: &At, test: &Apart) -> Option<([f64; 2], Vector3<f64>)> {
+    let [p, q] = ends(test, |f| at.of(f))?;
+    Some(nearest(p, q))
+}
+
+/// `a |row| + b |H|`, and the eigenvector of `H` of greatest absolute eigenvalue.
+pub fn curved(at: &At, test: &Curvature) -> Option<(f64, DVector<f64>)> {
+    let row: Vec<f64> = test.row.iter().map(|&f| at.of(f)).collect::<Option<_>>()?;
+    let n = row.len();
+    let mut h = DMatrix::zeros(n, n);
+    for (i, entries) in test.twice.iter().enumerate() {
+        for (j, &f) in (i..).zip(entries) {
+            let half = 0.5 * at.of(f)?;
+            (h[(i, j)], h[(j, i)]) = (half, half);
+        }
+    }
+    if !h.iter().all(|x: &f64| x.is_finite()) {
+        return None;
+    }
+    let eigen = SymmetricEigen::new(h);
+    let greatest = eigen.eigenvalues.iamax();
+    let sum = at.of(test.a)? * DVector::from_vec(row).norm()
+        + at.of(test.b)? * eigen.eigenvalues[greatest].abs();
+    Some((sum, eigen.eigenvectors.column(greatest).into_owned()))
+}
