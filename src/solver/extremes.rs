@@ -96,7 +96,12 @@ impl Extreme {
             let own = claim.require.iter().find(|own| own.quantity == quantity.key);
             let given = |name: &&'static str| {
                 let given = own.and_then(|own| own.given.get(*name).cloned());
-                let numbers = unit_given(name).map(|one| vec![one]).or(given)?;
+                let one = unit_given(name).map(|one| vec![one]);
+                // The joint speed of a unit of tool speed has a name of its own.
+                let numbers = match quantity.key {
+                    "joint_speed" => one.or(given),
+                    _ => given.or(one),
+                }?;
                 Some(((*name).to_owned(), numbers))
             };
             let given: Option<BTreeMap<_, _>> = quantity.given.iter().map(given).collect();
