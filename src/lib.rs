@@ -1,4 +1,4 @@
-//! Certified workspace verification of translational parallel machines.
+//! Certified workspace verification of parallel machines.
 //!
 //! Nothing in this crate has to be trusted: it reads designs and searches for proofs; what it finds
 //! is re-proved in exact arithmetic by [`orthocert_checker`], which never depends on this crate.

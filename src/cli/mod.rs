@@ -53,7 +53,7 @@ Exit codes, the same for every command:
   4  could not finish (input/output failed, interrupted)
   5  certificate rejected";
 
-/// Certified workspace verification of translational parallel machines.
+/// Certified workspace verification of parallel machines.
 ///
 /// Proves that a machine keeps its velocity transmission factors within their bounds and stays free
 /// of singularities at every point of a workspace, or proves that it does not.
