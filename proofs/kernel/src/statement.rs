@@ -111,11 +111,8 @@ fn turned(out: &mut String, turning: &Turning, place: &str, moves: &str) -> fmt:
     writeln!(out, "In {place}, R the rotation of the platform:")?;
     legs(out, &turning.legs, "P + R platform - anchor")?;
     let twist = if moves.is_empty() { "ell omega" } else { "(P', ell omega)" };
-    writeln!(
-        out,
-        "with rho' = M {twist} (the inverse Jacobian), omega the angular velocity of the"
-    )?;
-    writeln!(out, "platform in radians and ell = {length},")
+    writeln!(out, "with rho' = M {twist} (the inverse Jacobian), omega the platform's")?;
+    writeln!(out, "angular velocity in radians, ell = {length},")
 }
 
 /// The set of orientations, in words and in the coordinates of the formulas.
