@@ -110,7 +110,10 @@ fn verdict_by_the_kernel(text: &str, name: &str) -> (Option<Verdict>, String) {
     let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
     let told = format!("{name}: {} boxes, worst {:?}", found.boxes, found.worst);
     match found.answer {
-        solver::Answer::Decided { certificate, .. } => (Some(checked(&certificate, name)), told),
+        solver::Answer::Decided { certificate, .. } => {
+            schema::holds(&certificate.to_text().expect("a text"), name);
+            (Some(checked(&certificate, name)), told)
+        }
         solver::Answer::Undecided(_) => (None, told),
         solver::Answer::Cancelled => panic!("{name}: cancelled by nobody"),
     }
