@@ -49,6 +49,16 @@ const OF_DESIGNS: [(&str, Verdict); 16] = [
     ("rotary-delta-angle-refuted", Refuted),
     ("star-singular", Refuted),
 ];
+/// The same of `tests/designs/kernel/NAME.toml`.
+const OF_OTHER_KINDS: [(&str, Verdict); 7] = [
+    ("five-bar-formulas", Certified),
+    ("planar-3-rpr", Certified),
+    ("spherical-3-ups", Certified),
+    ("upu-base-axes", Certified),
+    ("hexapod-linuxcnc", Certified),
+    ("hexapod-rubin-camera", Certified),
+    ("hexapod-rubin-camera-stroke-refuted", Refuted),
+];
 /// The committed certificates of the postulate: name, least and greatest `psi_max`; none for all.
 const POSTULATES: [(&str, Option<(&str, &str)>); 7] = [
     ("postulate-all", None),
@@ -123,6 +133,10 @@ fn committed_certificates_are_what_the_prover_writes() {
         let design = root().join("tests/designs").join(format!("{name}.toml"));
         is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
     }
+    for (name, verdict) in OF_OTHER_KINDS {
+        let design = root().join("tests/designs/kernel").join(format!("{name}.toml"));
+        is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
+    }
     for (name, range) in POSTULATES {
         let number = |text| Exact::parse(text, 100).unwrap();
         let psi_max = match range {
@@ -163,7 +177,7 @@ fn committed_atlases_are_what_the_prover_writes() {
 fn no_certificate_is_committed_but_these() {
     let committed: BTreeSet<_> =
         fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let designs = OF_DESIGNS.iter().map(|(name, _)| *name);
+    let designs = OF_DESIGNS.iter().chain(&OF_OTHER_KINDS).map(|(name, _)| *name);
     let known = designs.chain(POSTULATES.iter().map(|(name, _)| *name)).chain([NO_CUBE]);
     let known = known.chain(OF_ATLASES.iter().map(|(name, ..)| *name));
     assert_eq!(committed, known.map(path).collect());

@@ -48,25 +48,29 @@ pub fn established(certificate: &Certificate) -> Result<String, fmt::Error> {
     }
 }
 
-/// Most characters of a line, where commas outside parentheses allow it.
+/// Most characters of a line.
 const WIDTH: usize = 80;
 
-/// A text for a terminal: long lines go on in the next, indented by four more.
+/// A text for a terminal: long lines go on in the next, indented by four more, after a comma outside
+/// parentheses, and where these are too far apart, after a word.
 pub fn wrapped(text: &str) -> String {
     let mut out = String::new();
     for line in text.lines() {
         let blanks = line.len() - line.trim_start().len();
         let (mut column, mut piece) = (0, String::new());
         let mut place = |out: &mut String, piece: &mut String| {
-            let length = piece.trim_end().chars().count();
-            if column > blanks && column + length > WIDTH {
-                out.truncate(out.trim_end_matches(' ').len());
-                out.push('\n');
-                out.push_str(&" ".repeat(blanks + 4));
-                column = blanks + 4;
+            let is_long = blanks + 4 + piece.trim_end().chars().count() > WIDTH;
+            for part in piece.split_inclusive(|c| is_long && c == ' ') {
+                let length = part.trim_end().chars().count();
+                if column > blanks && column + length > WIDTH {
+                    out.truncate(out.trim_end_matches(' ').len());
+                    out.push('\n');
+                    out.push_str(&" ".repeat(blanks + 4));
+                    column = blanks + 4;
+                }
+                column += part.chars().count();
+                out.push_str(part);
             }
-            column += piece.chars().count();
-            out.push_str(piece);
             piece.clear();
         };
         let mut open = 0u32;

@@ -9,12 +9,11 @@
 //! |---|---|---|
 //! | [`at_least`] | `f >= 0` | |
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
-//! | [`full_rank`] | `sigma_min(M) > 0` | any `n x m` matrix `Y` |
+//! | [`full_rank`] | `sigma_min(M) > 0`; one to one | any `n x m` matrix `Y`; one for all cells |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
 //! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
 //! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
 //! | [`apart`](apart::apart) | segments farther apart than `R` | an affine direction |
-//! | [`one_to_one`] | `sym(Y^T A) > 0` | one `Y` for all cells |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
 //! All are affine or concave in their formulas, so the vertices of the cell decide ([`Vertex`]), or, of
