@@ -50,7 +50,9 @@ fn every_committed_certificate_has_a_page() {
             let html = page.html();
             let json = html.split("id=\"data\">").nth(1).and_then(|s| s.split("</script>").next());
             let data: Value = serde_json::from_str(json.unwrap()).unwrap();
-            assert!(!data["trees"].as_array().unwrap().is_empty());
+            // The viewer in space takes three coordinates; other machines have projections.
+            let in_space = !matches!(page.certificate.claim, Claim::Kernel(_));
+            assert!(!in_space || !data["trees"].as_array().unwrap().is_empty());
             for picture in page.pictures() {
                 let file = picture.file();
                 assert!(file.ends_with("</svg>\n") && !file.contains("var("), "{}", picture.name);
