@@ -76,7 +76,7 @@ pub enum Proof {
     /// A bisection tree of a box of parameters, for an atlas.
     Atlas(#[serde(deserialize_with = "strict::object")] Atlas),
     /// A tree or a witness of the kernel; read and written as the kernel does.
-    #[serde(skip_deserializing, untagged)]
+    #[serde(skip_deserializing)]
     Kernel(orthocert_kernel::certificate::Proof),
 }
 
