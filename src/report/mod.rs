@@ -175,13 +175,6 @@ pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
     Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
 }
 
-/// As [`worst_found`], of a claim of the kernel.
-pub fn worst_found_of_kernel(claim: &KernelClaim) -> Option<Vec<Row>> {
-    let problem = Problem::new(claim).ok()?;
-    let worst = solver::sampled(claim).ok()?;
-    Some(kernel::Facts::new(claim, &problem)?.rows(&worst))
-}
-
 /// A certificate on the disk.
 #[derive(Clone, Debug, Serialize)]
 pub struct CertificateFile {

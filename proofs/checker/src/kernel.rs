@@ -60,22 +60,6 @@ fn verdict_of(verdict: Verdict) -> kernel::Verdict {
     }
 }
 
-fn whole(
-    claim: &MachineClaim,
-    verdict: Verdict,
-    proof: &kernel::Proof,
-    provenance: &Provenance,
-) -> kernel::Certificate {
-    let Provenance { tool, version } = provenance;
-    kernel::Certificate {
-        format: FORMAT.to_owned(),
-        claim: kernel::Claim::Machine(claim.clone()),
-        verdict: verdict_of(verdict),
-        proof: proof.clone(),
-        provenance: kernel::Provenance { tool: tool.clone(), version: version.clone() },
-    }
-}
-
 /// The text of a certificate of the kernel.
 pub(crate) fn text(
     certificate: &Certificate,
@@ -84,7 +68,15 @@ pub(crate) fn text(
     let Claim::Kernel(claim) = &certificate.claim else {
         return Err(serde::ser::Error::custom("the kernel's proof of another claim"));
     };
-    whole(claim, certificate.verdict, proof, &certificate.provenance).to_text()
+    let Provenance { tool, version } = certificate.provenance.clone();
+    let whole = kernel::Certificate {
+        format: FORMAT.to_owned(),
+        claim: kernel::Claim::Machine(claim.clone()),
+        verdict: verdict_of(certificate.verdict),
+        proof: proof.clone(),
+        provenance: kernel::Provenance { tool, version },
+    };
+    whole.to_text()
 }
 
 /// Accepts a proof, or says why not.
@@ -94,9 +86,8 @@ pub(crate) fn check(
     proof: &kernel::Proof,
     size: &mut TreeSize,
 ) -> Result<(), Rejected> {
-    let nobody = Provenance { tool: String::new(), version: String::new() };
-    let certificate = whole(claim, verdict, proof, &nobody);
-    orthocert_kernel::check::check(&certificate).map_err(Rejected::Kernel)?;
+    orthocert_kernel::check::check_machine(claim, verdict_of(verdict), proof)
+        .map_err(Rejected::Kernel)?;
     if let kernel::Proof::Tree(tree) = proof {
         *size = size_of(tree);
     }

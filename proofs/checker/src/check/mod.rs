@@ -63,14 +63,17 @@ pub fn read(bytes: &[u8]) -> Result<Certificate, Rejected> {
         return Err(Rejected::TooLarge(bytes.len()));
     }
     let text = std::str::from_utf8(bytes).map_err(|e| syntax(&e))?;
-    if kernel::is_meant(text) {
-        return kernel::read(text);
-    }
-    let certificate = strictly(text).map_err(|reason| match serde_json::from_str(text) {
-        // A later version may have any shape.
-        Ok(Header { format }) if format != FORMAT => Rejected::Format(quoted(&format)),
-        _ => reason,
-    })?;
+    let certificate = match strictly(text) {
+        Ok(certificate) => certificate,
+        Err(_) if kernel::is_meant(text) => return kernel::read(text),
+        Err(reason) => {
+            return Err(match serde_json::from_str(text) {
+                // A later version may have any shape.
+                Ok(Header { format }) if format != FORMAT => Rejected::Format(quoted(&format)),
+                _ => reason,
+            });
+        }
+    };
     if certificate.format != FORMAT {
         return Err(Rejected::Format(quoted(&certificate.format)));
     }

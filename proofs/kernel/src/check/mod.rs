@@ -116,16 +116,8 @@ impl std::error::Error for Rejected {}
 /// # Errors
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
-    let compiled = |claim: &MachineClaim| Problem::new(claim).map_err(Rejected::Claim);
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
-        (Claim::Machine(claim), Verdict::Certified, Proof::Tree(tree)) => {
-            let problem = compiled(claim)?;
-            in_words_or_any_size(
-                tree.precision,
-                || tree_holds::<i64>(&problem, tree),
-                || tree_holds::<BigInt>(&problem, tree),
-            )
-        }
+        (Claim::Machine(claim), verdict, proof) => check_machine(claim, verdict, proof),
         (Claim::Region(region), Verdict::Certified, Proof::Tree(tree)) => {
             let problem = compiled(&region.machine)?;
             in_words_or_any_size(
@@ -149,11 +141,37 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
             let bytes = certificate.to_text().map_or(0, |text| text.len());
             atlas::check(claim, cells, bytes)
         }
-        (Claim::Machine(claim), Verdict::Refuted, Proof::Witness(witness)) => {
+        _ => Err(Rejected::Verdict),
+    }
+}
+
+/// Accepts the proof of a claim about a machine, or says why not.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_machine(
+    claim: &MachineClaim,
+    verdict: Verdict,
+    proof: &Proof,
+) -> Result<(), Rejected> {
+    match (verdict, proof) {
+        (Verdict::Certified, Proof::Tree(tree)) => {
+            let problem = compiled(claim)?;
+            in_words_or_any_size(
+                tree.precision,
+                || tree_holds::<i64>(&problem, tree),
+                || tree_holds::<BigInt>(&problem, tree),
+            )
+        }
+        (Verdict::Refuted, Proof::Witness(witness)) => {
             witness::check(&compiled(claim)?, &claim.workspace, witness).map_err(Rejected::Witness)
         }
         _ => Err(Rejected::Verdict),
     }
+}
+
+fn compiled(claim: &MachineClaim) -> Result<Problem, Rejected> {
+    Problem::new(claim).map_err(Rejected::Claim)
 }
 
 /// A proof in machine words, or, where these do not do, in integers of any size: words give what
