@@ -10,7 +10,7 @@ use criterion::{criterion_group, criterion_main, Criterion, Throughput};
 use orthocert::design::Design;
 use orthocert::paving::{header, Decider, Grower, Root, Tally};
 use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::{check, Extent, Reader};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
@@ -32,10 +32,7 @@ const DEPTH: u32 = 18;
 
 fn claim() -> MachineClaim {
     let design = Design::parse(DESIGN, "bench").expect("a design");
-    match design.claim {
-        Claim::Machine(claim) => claim,
-        _ => unreachable!("a design is about a machine"),
-    }
+    design.rules.expect("a machine of three legs")
 }
 
 fn cell(u: [f64; 3], level: u32) -> Cell {

@@ -18,7 +18,7 @@ use orthocert::interval::Interval;
 use orthocert::sample::{Place, Sampler};
 use orthocert::search::{search, Budget, Control, Outcome};
 use orthocert::verify::{verify, Answer};
-use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
 use orthocert_checker::{check, read};
@@ -60,10 +60,7 @@ transmission = { min = 0.5129, max = 1.5134 }
 "#;
 
 fn claim_of(design: Design) -> MachineClaim {
-    match design.claim {
-        Claim::Machine(claim) => claim,
-        other => panic!("not about a machine: {other:?}"),
-    }
+    design.rules.expect("a machine of three legs")
 }
 
 fn claims() -> [(&'static str, MachineClaim); 3] {

@@ -5,11 +5,14 @@
 //! `https://in-toto.io/attestation/test-result/v0.1`. Its subjects are the two files by their
 //! SHA-256. It is a function of them and of the checker's version alone: there is no time in it.
 
-use crate::batch::requirement::{broken, requirements, Known, Standing};
+use crate::batch::requirement::{requirements, Known, Standing};
 use crate::design::Design;
 use crate::digest::sha256;
+use crate::report::counterexample;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::Accepted;
+use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use serde_json::{json, Value};
 
@@ -56,15 +59,24 @@ struct Predicate {
     failed_tests: Vec<&'static str>,
 }
 
+/// The rule that the counterexample breaks.
+fn refuted(certificate: &Certificate) -> Option<&'static str> {
+    let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
+        (&certificate.claim, &certificate.proof)
+    else {
+        return None;
+    };
+    counterexample(claim, witness).map(|found| found.rule)
+}
+
 /// The statement that the evidence supports. Of a refuted design only the requirement that fails at
 /// the counterexample is listed: nothing is proved of the others.
 pub fn statement(evidence: &Evidence<'_>) -> Statement {
     let Evidence { design, design_file, certificate, certificate_file, accepted } = evidence;
     let subject = |(name, bytes): &(&str, &[u8])| json!({ "name": name, "digest": { "sha256": sha256(bytes) } });
-    let known = match (accepted.verdict, &certificate.proof) {
-        (Verdict::Certified, _) => Known::Certified,
-        (Verdict::Refuted, Proof::Witness(witness)) => Known::Refuted(broken(&witness.violates)),
-        (Verdict::Refuted, _) => Known::Nothing,
+    let known = match accepted.verdict {
+        Verdict::Certified => Known::Certified,
+        Verdict::Refuted => refuted(certificate).map_or(Known::Nothing, Known::Refuted),
     };
     let all = requirements(design, known);
     let of =

@@ -1,40 +1,36 @@
-//! Decides a claim about a machine: by the rules for three translating legs, or by the kernel.
+//! Decides a claim about a machine.
 
 use crate::report::Report;
 use crate::search::{Budget, Control, Stop};
-use crate::{solver, verify};
+use crate::solver::{self, Answer, Undecided, Verification};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::claim::{self, Claim};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::{Accepted, Rejected};
-use orthocert_kernel::input;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
 use std::time::Duration;
-
-/// What was found of a claim.
-#[derive(Clone, Debug)]
-pub enum Found {
-    /// Of a claim of the rules.
-    Machine(verify::Verification),
-    /// Of a claim of the kernel.
-    Kernel(solver::Verification),
-}
 
 /// Why a claim is not decided.
 #[derive(Debug, thiserror::Error)]
 pub enum NotDecided {
-    /// A claim of the rules is not well formed.
-    #[error(transparent)]
-    Machine(#[from] claim::ClaimError),
-    /// A claim of the kernel is not well formed.
+    /// It is not well formed.
     #[error("{0}")]
-    Kernel(input::ClaimError),
+    Claim(ClaimError),
     /// It is about something else.
     #[error("a design is about a machine")]
     Other,
 }
 
-impl From<input::ClaimError> for NotDecided {
-    fn from(error: input::ClaimError) -> Self {
-        NotDecided::Kernel(error)
+impl From<ClaimError> for NotDecided {
+    fn from(error: ClaimError) -> Self {
+        NotDecided::Claim(error)
+    }
+}
+
+fn of_machine(claim: &Claim) -> Result<&MachineClaim, NotDecided> {
+    match claim {
+        Claim::Kernel(claim) => Ok(claim),
+        _ => Err(NotDecided::Other),
     }
 }
 
@@ -46,12 +42,8 @@ pub fn decide(
     claim: &Claim,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Found, NotDecided> {
-    match claim {
-        Claim::Machine(claim) => Ok(Found::Machine(verify::verify(claim, budget, control)?)),
-        Claim::Kernel(claim) => Ok(Found::Kernel(solver::verify(claim, budget, control)?)),
-        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Err(NotDecided::Other),
-    }
+) -> Result<Verification, NotDecided> {
+    Ok(solver::verify(of_machine(claim)?, budget, control)?)
 }
 
 /// What an accepted certificate of a claim amounts to; with the worst values that sampling finds, where
@@ -63,72 +55,36 @@ pub fn recalled(
     certificate: Certificate,
     accepted: Accepted,
     sampled: bool,
-) -> Result<Found, NotDecided> {
-    let claim = certificate.claim.clone();
-    let certificate = Box::new(certificate);
-    match &claim {
-        Claim::Machine(claim) => {
-            let worst = if sampled { verify::sampled(claim)? } else { Vec::new() };
-            let answer = verify::Answer::Decided { certificate, accepted };
-            Ok(Found::Machine(verify::Verification { answer, worst, boxes: 0 }))
-        }
-        Claim::Kernel(claim) => {
-            let worst = if sampled { solver::sampled(claim)? } else { Vec::new() };
-            let answer = solver::Answer::Decided { certificate, accepted };
-            Ok(Found::Kernel(solver::Verification { answer, worst, boxes: 0 }))
-        }
-        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Err(NotDecided::Other),
-    }
+) -> Result<Verification, NotDecided> {
+    let claim = of_machine(&certificate.claim)?;
+    let worst = if sampled { solver::sampled(claim)? } else { Vec::new() };
+    let answer = Answer::Decided { certificate: Box::new(certificate), accepted };
+    Ok(Verification { answer, worst, boxes: 0 })
 }
 
-impl Found {
+impl Verification {
     /// The accepted certificate.
     pub fn decided(&self) -> Option<(&Certificate, &Accepted)> {
-        match self {
-            Found::Machine(verify::Verification {
-                answer: verify::Answer::Decided { certificate, accepted },
-                ..
-            })
-            | Found::Kernel(solver::Verification {
-                answer: solver::Answer::Decided { certificate, accepted },
-                ..
-            }) => Some((certificate, accepted)),
-            Found::Machine(_) | Found::Kernel(_) => None,
+        match &self.answer {
+            Answer::Decided { certificate, accepted } => Some((certificate, accepted)),
+            Answer::Undecided(_) | Answer::Cancelled => None,
         }
     }
 
     /// Whether it was cancelled.
     pub fn is_cancelled(&self) -> bool {
-        match self {
-            Found::Machine(found) => matches!(found.answer, verify::Answer::Cancelled),
-            Found::Kernel(found) => matches!(found.answer, solver::Answer::Cancelled),
-        }
+        matches!(self.answer, Answer::Cancelled)
     }
 
     /// Makes it undecided, for this reason.
     pub fn object(&mut self, objection: Rejected) {
         let (stop, objection) = (Stop::Exhausted, Some(objection));
-        match self {
-            Found::Machine(found) => {
-                let undecided = verify::Undecided { open: Vec::new(), stop, objection };
-                found.answer = verify::Answer::Undecided(undecided);
-            }
-            Found::Kernel(found) => {
-                let undecided = solver::Undecided { open: Vec::new(), stop, objection };
-                found.answer = solver::Answer::Undecided(undecided);
-            }
-        }
+        self.answer = Answer::Undecided(Undecided { open: Vec::new(), stop, objection });
     }
 
     /// The facts about it; `None` if it was cancelled, or if the claim's numbers exceed what can be
     /// shown.
     pub fn report(&self, claim: &Claim, elapsed: Duration) -> Option<Report> {
-        match (self, claim) {
-            (Found::Machine(found), Claim::Machine(claim)) => Report::new(claim, found, elapsed),
-            (Found::Kernel(found), Claim::Kernel(claim)) => {
-                Report::of_kernel(claim, found, elapsed)
-            }
-            _ => None,
-        }
+        Report::new(of_machine(claim).ok()?, self, elapsed)
     }
 }

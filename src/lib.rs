@@ -57,7 +57,6 @@ pub mod dimensions;
 pub mod engine;
 pub mod escape;
 pub mod export;
-pub mod extremes;
 pub mod folder;
 pub mod frontier;
 pub mod import;

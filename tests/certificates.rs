@@ -152,7 +152,7 @@ fn committed_certificates_are_what_the_prover_writes() {
 #[test]
 fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
     let design = Design::read(&root().join("tests/designs/orthoglide-310.toml")).unwrap();
-    let Claim::Machine(mut machine) = design.claim else { panic!("not a machine") };
+    let mut machine = design.rules.unwrap();
     let corner = |n| [(); 3].map(|()| Exact::integer(n));
     machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
     let claim = Claim::NoCube(NoCubeClaim { machine, side: Exact::integer(200) });

@@ -7,7 +7,7 @@ use orthocert::sample::{Place, Sampler};
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::verify::{verify, Answer};
 use orthocert_checker::certificate::{Proof, Step};
-use orthocert_checker::claim::{Claim, MachineClaim, Range};
+use orthocert_checker::claim::{MachineClaim, Range};
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
 use std::path::Path;
@@ -65,10 +65,7 @@ fn claim_of(row: &Row) -> MachineClaim {
     let (machine, _) = text.split_once("[workspace]").expect("a workspace");
     let rest = "[requirements]\ntransmission = { min = \"1/1000\", max = 1000 }";
     let text = format!("{machine}[workspace]\n{}\n{rest}\n", row.workspace);
-    match Design::parse(&text, row.design).unwrap_or_else(|error| panic!("{error}")).claim {
-        Claim::Machine(claim) => claim,
-        _ => panic!("not about a machine"),
-    }
+    Design::parse(&text, row.design).unwrap_or_else(|error| panic!("{error}")).rules.unwrap()
 }
 
 /// `(least psi, greatest psi)` on the workspace, in the claim's unit.

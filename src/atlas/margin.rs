@@ -85,17 +85,13 @@ pub fn margin(claim: &MachineClaim) -> f64 {
 mod tests {
     use super::*;
     use crate::design::Design;
-    use orthocert_checker::claim::Claim;
 
     fn claim(requirements: &str) -> MachineClaim {
         let text = format!(
             "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\nbase = -1\n[workspace]\n\
              min = [-0.1, -0.1, -0.1]\nmax = [0.2, 0.2, 0.2]\n[requirements]\n{requirements}\n"
         );
-        match Design::parse(&text, "test").unwrap().claim {
-            Claim::Machine(claim) => claim,
-            _ => panic!("not a machine"),
-        }
+        Design::parse(&text, "test").unwrap().rules.unwrap()
     }
 
     fn factor(text: &str) -> Exact {

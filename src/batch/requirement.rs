@@ -1,11 +1,9 @@
 //! What a design demands: one requirement a rule, with the line that demands it.
 
-use crate::decimal::readable;
 use crate::design::Design;
 use crate::report::shown;
 use orthocert_checker::certificate::Violation;
-use orthocert_checker::claim::{Claim, Range, Requirements, Workspace};
-use orthocert_checker::number::Exact;
+use orthocert_checker::claim::Claim;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::quantity::{Quantity, TABLE};
 use serde::Serialize;
@@ -102,16 +100,8 @@ pub enum Known {
 /// The requirements of a design, and what is known of each.
 pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
     let demanded = match &design.claim {
-        Claim::Machine(claim) => {
-            let cube = matches!(claim.workspace, Workspace::Cube { .. });
-            let of_machine = demanded(&claim.requirements, cube, claim.mechanism.is_angular());
-            of_machine
-                .into_iter()
-                .map(|(rule, key, demands)| (rule, key.to_owned(), demands))
-                .collect()
-        }
-        Claim::Kernel(claim) => demanded_of_kernel(claim),
-        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
+        Claim::Kernel(claim) => demanded(claim),
+        _ => Vec::new(),
     };
     let demanded = demanded.into_iter().map(|(rule, key, demands)| Requirement {
         rule,
@@ -131,19 +121,32 @@ pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
     demanded.collect()
 }
 
-/// Rule, key of the design and bounds of everything that a claim of the kernel demands: one a quantity
-/// of its table.
-fn demanded_of_kernel(claim: &kernel::MachineClaim) -> Vec<(&'static str, String, String)> {
+/// Rule, key of the design and bounds of everything that a claim demands: one a quantity of the table.
+fn demanded(claim: &kernel::MachineClaim) -> Vec<(&'static str, String, String)> {
     let mut found = vec![(SINGULARITY, "requirements".to_owned(), "no singularity".to_owned())];
     for quantity in TABLE {
-        let own = claim.require.iter().filter(|own| own.quantity == quantity.key);
-        let texts: Vec<String> = own.map(demands).collect();
+        let own: Vec<_> = claim.require.iter().filter(|own| own.quantity == quantity.key).collect();
+        let texts: Vec<String> = match own[..] {
+            [least, greatest] => between(least, greatest)
+                .map_or_else(|| own.iter().map(|own| demands(own)).collect(), |both| vec![both]),
+            _ => own.iter().map(|own| demands(own)).collect(),
+        };
         if !texts.is_empty() {
             let key = format!("requirements.{}", quantity.key);
             found.push((rule_of(quantity.key), key, texts.join(", ")));
         }
     }
     found
+}
+
+/// `1/2 <= psi <= 2`, of two ends of the same.
+fn between(least: &kernel::Requirement, greatest: &kernel::Requirement) -> Option<String> {
+    match (&least.bound, &greatest.bound) {
+        (kernel::Bound::Min(min), kernel::Bound::Max(_)) if least.leg == greatest.leg => {
+            Some(format!("{} <= {}", shown(min), demands(greatest)))
+        }
+        _ => None,
+    }
 }
 
 /// `psi <= 2`, `leg 1: rho >= 0`.
@@ -163,64 +166,6 @@ fn demands(own: &kernel::Requirement) -> String {
         }
         kernel::Bound::Holds => format!("{leg}{name}"),
     }
-}
-
-/// Rule, key of the design and bounds of everything that is demanded.
-fn demanded(
-    all: &Requirements,
-    cube: bool,
-    angular: bool,
-) -> Vec<(&'static str, &'static str, String)> {
-    let mut found = vec![(SINGULARITY, "requirements", "no singularity".to_owned())];
-    let mut add = |rule, key, demands| found.push((rule, key, demands));
-    if let Some(Range { min, max }) = &all.transmission {
-        let min = match (cube, min) {
-            (true, _) => Some("1/psi_max".to_owned()),
-            (false, min) => min.as_ref().map(readable),
-        };
-        let demands = between(min, "psi", max.as_ref());
-        add("transmission", "requirements.transmission", demands);
-    }
-    if let Some(ranges) = &all.joint_range {
-        let leg = |(i, range): (usize, &Range)| {
-            let name = format!("rho_{}", i + 1);
-            between(range.min.as_ref().map(readable), &name, range.max.as_ref())
-        };
-        let legs: Vec<String> = ranges.iter().enumerate().map(leg).collect();
-        let degrees = if angular { ", in degrees" } else { "" };
-        add("joint-range", "requirements.joint_range", legs.join(", ") + degrees);
-    }
-    let at_most = |name: &str, max: &Exact| format!("{name} <= {}", readable(max));
-    let at_least = |name: &str, min: &Exact| format!("{name} >= {}", readable(min));
-    if let Some(bound) = &all.conditioning {
-        let demands = at_most("condition number", &bound.max);
-        add("conditioning", "requirements.conditioning", demands);
-    }
-    if let Some(bound) = &all.serial_margin {
-        let demands = at_least("serial margin", &bound.min);
-        add("serial-margin", "requirements.serial_margin", demands);
-    }
-    if let Some(bound) = &all.parallel_margin {
-        let demands = at_least("parallel margin", &bound.min);
-        add("parallel-margin", "requirements.parallel_margin", demands);
-    }
-    if let Some(bound) = &all.leg_angle {
-        let demands = at_most("leg angle in degrees", &bound.max);
-        add("leg-angle", "requirements.leg_angle", demands);
-    }
-    if let Some(speed) = &all.joint_speed {
-        let unit = if angular { "joint speed in degrees per time" } else { "joint speed" };
-        let demands = at_most(unit, &speed.max);
-        add("joint-speed", "requirements.joint_speed", demands);
-    }
-    found
-}
-
-/// `1/2 <= psi <= 2`, or one side of it.
-fn between(min: Option<String>, name: &str, max: Option<&Exact>) -> String {
-    let (min, max) = (min.map(|min| format!("{min} <= ")), max.map(readable));
-    let max = max.map(|max| format!(" <= {max}"));
-    format!("{}{name}{}", min.unwrap_or_default(), max.unwrap_or_default())
 }
 
 /// The rule that a counterexample breaks.
@@ -271,7 +216,7 @@ mod tests {
     #[test]
     fn bounds_are_written_out() {
         let one = |name: &str| of(name).into_iter().nth(1).unwrap().1;
-        assert_eq!(one("orthoglide-prototype.toml"), "1/psi_max <= psi <= 2");
+        assert_eq!(one("orthoglide-prototype.toml"), "0.5 <= psi <= 2");
         assert_eq!(one("orthoglide-310.toml"), "0.5 <= psi <= 2");
         assert_eq!(one("delta-conditioning-refuted.toml"), "condition number <= 2.6");
     }

@@ -4,13 +4,13 @@ use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
-use orthocert::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert::output;
 use orthocert::report::{exactly, CertificateFile};
 use orthocert::sample::with_unit;
 use orthocert::search::Budget;
+use orthocert::solver::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_checker::claim::{Claim, MachineClaim, Workspace};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use orthocert_kernel::certificate::Proof as Proven;
 use orthocert_kernel::claim as kernel;
@@ -31,7 +31,6 @@ const WIDEST: usize = 28;
 /// few hundred; the condition number of the rotary Delta takes 40,000.
 const BOXES: u64 = 100_000;
 /// The same for claims of the kernel, whose boxes cost more and close more.
-const BOXES_OF_KERNEL: u64 = 20_000;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -91,13 +90,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
     }
     effort.start_threads()?;
-    let boxes = if matches!(design.claim, Claim::Kernel(_)) { BOXES_OF_KERNEL } else { BOXES };
-    let budget = effort.budget_or(boxes, started)?;
-    let rows = match &design.claim {
-        Claim::Machine(claim) => of_machine(claim, &relative, arguments, budget)?,
-        Claim::Kernel(claim) => of_kernel(claim, &relative, arguments, budget)?,
-        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => return Err(Failure::Defect),
-    };
+    let budget = effort.budget_or(BOXES, started)?;
+    let Claim::Kernel(claim) = &design.claim else { return Err(Failure::Defect) };
+    let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
         Format::Text => print::answer(&text(&rows, started))?,
@@ -106,45 +101,12 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     Ok(if complete { Status::Done } else { Status::Undecided })
 }
 
-fn of_machine(
-    claim: &MachineClaim,
-    relative: &BigRational,
-    arguments: &Arguments,
-    budget: Budget,
-) -> Result<Vec<Row>, Failure> {
-    let effort = &arguments.effort;
-    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
-    let mut rows = exact_rows(claim);
-    for extreme in Extreme::of(claim) {
-        let found = if singular {
-            Err(NotEnclosed::Singular)
-        } else {
-            effort.run(|control| enclose(claim, extreme, relative, budget, control))
-        };
-        let mut row = Row::new(extreme.quantity(), extreme.unit(claim), extreme.is_greatest());
-        match found {
-            Ok(Enclosed { width, inner, outer, refuted, certified, .. }) => {
-                let certificates = (refuted.as_deref(), &*certified);
-                row.enclosed((width, inner, outer), relative);
-                row.store(arguments, file_stem(extreme), certificates)?;
-            }
-            Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
-                return Err(failure(error));
-            }
-            Err(error) => row.not_enclosed = Some(error.to_string()),
-        }
-        rows.push(row);
-    }
-    Ok(rows)
-}
-
-fn of_kernel(
+fn rows(
     claim: &kernel::MachineClaim,
     relative: &BigRational,
     arguments: &Arguments,
     budget: Budget,
 ) -> Result<Vec<Row>, Failure> {
-    use orthocert::solver::extremes::{enclose, is_singular, Enclosed, Extreme, NotEnclosed};
     let effort = &arguments.effort;
     let failure = |error: NotEnclosed| match error {
         NotEnclosed::Cancelled => Failure::Interrupted,
@@ -153,7 +115,7 @@ fn of_kernel(
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
     let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
-    let mut rows = Vec::new();
+    let mut rows = exact_rows(claim);
     for extreme in Extreme::of(claim, problem.legs.len()) {
         let found = if singular {
             Err(NotEnclosed::Singular)
@@ -190,31 +152,24 @@ fn relative(text: &str) -> Result<BigRational, Failure> {
 }
 
 /// The rows that the paper's cube has by definition.
-fn exact_rows(claim: &MachineClaim) -> Vec<Row> {
-    let Workspace::Cube { .. } = &claim.workspace else {
-        return Vec::new();
-    };
-    let psi_max = claim.requirements.transmission.as_ref().and_then(|t| t.max.clone());
-    let Some(psi_max) = psi_max else {
-        return Vec::new();
-    };
+fn exact_rows(claim: &kernel::MachineClaim) -> Vec<Row> {
+    let kernel::Workspace::Cube { .. } = &claim.workspace else { return Vec::new() };
+    let psi_max = claim.require.iter().find_map(|requirement| match &requirement.bound {
+        kernel::Bound::Max(psi) if requirement.quantity == "transmission" => exactly(psi),
+        _ => None,
+    });
+    let Some(psi_max) = psi_max else { return Vec::new() };
     let exactly = |end, value: Option<Exact>| Row {
-        quantity: "psi".into(),
-        unit: None,
-        end,
         min: value.clone(),
         max: value,
-        point: None,
         relative: Some("0".into()),
-        wide: false,
-        not_enclosed: None,
-        certificates: Vec::new(),
+        ..Row::new("psi".into(), None, end)
     };
     let inverse = Exact::integer(1).over(psi_max.clone()).ok();
     // The least psi is 1/psi_max at Q2 for psi_max <= 2 only.
-    let mut rows = vec![exactly("greatest", Some(psi_max.clone()))];
+    let mut rows = vec![exactly(true, Some(psi_max.clone()))];
     if psi_max.compare(&Exact::integer(2)).is_some_and(std::cmp::Ordering::is_le) {
-        rows.insert(0, exactly("least", inverse));
+        rows.insert(0, exactly(false, inverse));
     }
     rows
 }
@@ -266,34 +221,11 @@ impl Row {
     }
 }
 
-fn failure(error: NotEnclosed) -> Failure {
-    match error {
-        NotEnclosed::Cancelled => Failure::Interrupted,
-        error => Failure::input(error),
-    }
-}
-
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
         Proof::Witness(witness) => Some(witness.point.to_vec()),
         Proof::Kernel(Proven::Witness(witness)) => witness.point.iter().map(exactly).collect(),
         _ => None,
-    }
-}
-
-/// What the files of a quantity's certificates begin with.
-fn file_stem(extreme: Extreme) -> String {
-    match extreme {
-        Extreme::LeastPsi => "psi-least".into(),
-        Extreme::GreatestPsi => "psi-greatest".into(),
-        Extreme::Conditioning => "conditioning".into(),
-        Extreme::SerialMargin => "serial-margin".into(),
-        Extreme::ParallelMargin => "parallel-margin".into(),
-        Extreme::LegAngle => "leg-angle".into(),
-        Extreme::JointSpeed => "joint-speed".into(),
-        Extreme::LeastRho(leg) => format!("rho-{}-least", leg + 1),
-        Extreme::GreatestRho(leg) => format!("rho-{}-greatest", leg + 1),
-        _ => "extreme".into(),
     }
 }
 

@@ -1,9 +1,9 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
-use orthocert::decide::Found;
 use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::search::Stop;
+use orthocert::solver::Verification;
 use orthocert::verify::{Answer, Undecided};
 use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -36,7 +36,7 @@ pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
 }
 
 /// As [`decide`], of a claim of either kind.
-pub fn decided(found: &mut Found) -> Result<Option<Decision>, Failure> {
+pub fn decided(found: &mut Verification) -> Result<Option<Decision>, Failure> {
     if found.is_cancelled() {
         return Err(Failure::Interrupted);
     }

@@ -7,11 +7,13 @@ use orthocert::decimal::counted;
 use orthocert::output;
 use orthocert::paving::PaveError;
 use orthocert::report::paving::PavingReport;
-use orthocert::report::{text, Report};
+use orthocert::report::text;
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
-use orthocert::verify::{concluded, Answer, Undecided};
-use orthocert_checker::certificate::{Node, MAX_NODES};
+use orthocert::solver::{concluded, Answer, Undecided};
+use orthocert_checker::certificate::MAX_NODES;
+use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::certificate::Node;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -102,14 +104,16 @@ fn proved(
 ) -> Result<Status, Failure> {
     output::probe(&arguments.output)?;
     let too_many = nodes.len() > MAX_NODES;
-    let mut found = concluded(&task.claim, nodes, boxes).map_err(Failure::input)?;
+    let mut found =
+        concluded(&task.claim, nodes, boxes).map_err(|error| Failure::Input(error.to_string()))?;
     if let (Answer::Undecided(Undecided { objection: Some(reason), .. }), false) =
         (&found.answer, too_many)
     {
         return Err(Failure::Rejected(format!("the proof was not accepted: {reason}")));
     }
-    let decision = certify::decide(&mut found.answer)?;
-    let mut report = Report::new(&task.claim, &found, started.elapsed()).ok_or_else(|| {
+    let decision = certify::decided(&mut found)?;
+    let claim = Claim::Kernel(task.claim.clone());
+    let mut report = found.report(&claim, started.elapsed()).ok_or_else(|| {
         Failure::Input("the design's numbers exceed what can be reported".to_owned())
     })?;
     report.title.clone_from(&task.title);

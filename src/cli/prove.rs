@@ -2,11 +2,12 @@
 //! re-checked.
 
 use super::{certify, input, print, Failure, Status};
-use orthocert::decide::{recalled, Found, NotDecided};
+use orthocert::decide::{recalled, NotDecided};
 use orthocert::design::Design;
 use orthocert::digest::sha256;
 use orthocert::output;
 use orthocert::report::{CertificateFile, Report};
+use orthocert::solver::Verification;
 use orthocert_checker::claim::Claim;
 use orthocert_checker::file::is_stream;
 use orthocert_checker::shown::Named;
@@ -33,13 +34,13 @@ pub struct Task<'a> {
 }
 
 /// What was found, and the file that its certificate was read from.
-type Recalled = (Found, CertificateFile);
+type Recalled = (Verification, CertificateFile);
 
 impl Task<'_> {
     /// Does it; `search` decides the claim where there is no certificate of it.
     pub fn run(
         &self,
-        search: impl FnOnce(&Claim) -> Result<Found, NotDecided>,
+        search: impl FnOnce(&Claim) -> Result<Verification, NotDecided>,
     ) -> Result<(Report, Status), Failure> {
         let claim = &self.design.claim;
         let recalled = if self.reprove { None } else { self.recall()? };

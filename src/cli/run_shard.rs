@@ -58,14 +58,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         other => Failure::input(other),
     })?;
     let resumed = match ran {
-        Ran::AlreadyDone => shard.cells.len(),
+        Ran::AlreadyDone => shard.parts(),
         Ran::Done { resumed } => resumed,
     };
     let answer = Answer {
         result: shard::result_file(&arguments.file, &shard).to_string_lossy().into_owned(),
         shard: shard.shard,
         of: shard.of,
-        cells: shard.cells.len(),
+        cells: shard.parts(),
         resumed,
         already_done: ran == Ran::AlreadyDone,
         seconds: started.elapsed().as_secs_f64(),

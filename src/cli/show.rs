@@ -1,7 +1,8 @@
 //! `orthocert show`.
 
 use super::{input, print, Failure, Format, Status};
-use orthocert::decimal::{boxes, grouped};
+use orthocert::decimal::{boxes, exact, grouped};
+use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
 use orthocert_checker::certificate::{
     Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
@@ -11,7 +12,6 @@ use orthocert_checker::kernel::size_of;
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement, TreeSize};
 use orthocert_kernel::certificate as kernel;
-use orthocert_kernel::statement::counterexample;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -198,8 +198,12 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
     if let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
         (&certificate.claim, &certificate.proof)
     {
-        let text = counterexample(claim, witness).unwrap_or_default();
-        labelled(&mut out, "proof", text.trim_end());
+        if let Some(found) = counterexample(claim, witness) {
+            let point: Vec<String> = found.point.iter().map(exact).collect();
+            let (point, value) = (point.join(", "), found.value);
+            let text = format!("a counterexample at P = ({point}) to {}: {value}", found.violated);
+            labelled(&mut out, "proof", &text);
+        }
     }
     labelled(&mut out, "size", &format!("{} bytes", grouped(bytes as u64)));
     labelled(&mut out, "written by", &format!("{tool} {version}"));

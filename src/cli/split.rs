@@ -9,6 +9,7 @@ use orthocert::output;
 use orthocert::search::Progress;
 use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
 use orthocert_checker::certificate::MAX_NODES;
+use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::{Named, Shown};
 use serde::Serialize;
 use std::fs;
@@ -111,13 +112,14 @@ impl Arguments {
             return Ok(Task::Atlas(Box::new(design)));
         }
         let design = Design::read(&self.job).map_err(Failure::input)?;
-        let claim = super::input::three_legged(&design)?.clone();
         if let Some(precision) = &self.precision {
-            let claim = pave::searched(&claim, self.search_box.as_deref())?;
+            let claim = super::input::three_legged(&design)?;
+            let claim = pave::searched(claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
         }
         let boxes = usize::try_from(self.max_boxes).unwrap_or(MAX_NODES);
+        let Claim::Kernel(claim) = design.claim else { return Err(Failure::Defect) };
         Ok(Task::Verify(Box::new(Verify { title: design.title, claim, boxes })))
     }
 }

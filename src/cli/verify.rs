@@ -4,10 +4,9 @@ use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, S
 use num_rational::BigRational;
 use orthocert::batch::plan::{certificate_of, identity};
 use orthocert::decide::decide;
-use orthocert::extremes::{enclose, Extreme};
 use orthocert::report::{text, Margin, Report};
 use orthocert::search::{Budget, Control};
-use orthocert::solver;
+use orthocert::solver::extremes::{enclose, Extreme};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::problem::Problem;
@@ -98,31 +97,16 @@ fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
     }
     let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
     let width = BigRational::new(1.into(), 1000.into());
-    match claim {
-        Claim::Machine(claim) => {
-            let enclosed =
-                |extreme| effort.run(|control| enclose(claim, extreme, &width, budget, control));
-            Extreme::bounded(claim)
-                .into_iter()
-                .filter_map(|extreme| enclosed(extreme).ok())
-                .map(|found| Margin::of(&found, claim))
-                .collect()
-        }
-        Claim::Kernel(claim) => {
-            let Ok(problem) = Problem::new(claim) else { return Vec::new() };
-            let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
-            let enclosed = |extreme: solver::extremes::Extreme| {
-                let find = |control: &mut Control<'_>| {
-                    solver::extremes::enclose(claim, &extreme, &width, budget, control)
-                };
-                let found = effort.run(find).ok()?;
-                Some(Margin::of_kernel(&extreme, found.outer, angular))
-            };
-            let all = solver::extremes::Extreme::bounded(claim, problem.legs.len());
-            all.into_iter().filter_map(enclosed).collect()
-        }
-        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => Vec::new(),
-    }
+    let Claim::Kernel(claim) = claim else { return Vec::new() };
+    let Ok(problem) = Problem::new(claim) else { return Vec::new() };
+    let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
+    let enclosed = |extreme: Extreme| {
+        let find = |control: &mut Control<'_>| enclose(claim, &extreme, &width, budget, control);
+        let found = effort.run(find).ok()?;
+        Some(Margin::of(&extreme, found.outer, angular))
+    };
+    let all = Extreme::bounded(claim, problem.legs.len());
+    all.into_iter().filter_map(enclosed).collect()
 }
 
 /// Where the certificate goes: never over the design.

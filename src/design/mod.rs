@@ -51,10 +51,10 @@ pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 pub use variable::Variable;
 
-use description::{Description, Mechanism};
+use description::{Bound, Demand, Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
-use orthocert_checker::claim::{self as checker, Claim, MachineClaim, Range, Requirements};
+use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
 use std::path::Path;
@@ -69,8 +69,10 @@ pub struct Design {
     /// The title that the file gives it.
     pub title: Option<String>,
     /// The claim, well formed and with a model
-    /// ([`Model`](orthocert_checker::model::Model), [`Problem`](orthocert_kernel::problem::Problem)).
+    /// ([`Problem`](orthocert_kernel::problem::Problem)).
     pub claim: Claim,
+    /// The same in the words of the rules for three translating legs, where it has such.
+    pub rules: Option<MachineClaim>,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
 }
@@ -88,14 +90,19 @@ impl Design {
         let root = document.root(tree.get_ref());
         root.only(&["title", "mechanism", "workspace", "requirements"])?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
-        let claim = claim(&root)?;
+        let description = description(&root)?;
         let sources = Sources::of(text, tree.get_ref());
-        match &claim {
-            Claim::Machine(claim) => refusal::modelled(&root, claim)?,
-            Claim::Kernel(claim) => refusal::compiled(&root, claim)?,
-            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => {}
+        let rules = description.machine();
+        if let Some(claim) = &rules {
+            refusal::modelled(&root, claim)?;
         }
-        Ok(Design { title: title.map(str::to_owned), claim, sources })
+        let claim = description.kernel().ok_or_else(|| {
+            let accepted = "numbers of at most 8,192 characters and 512 operations";
+            refusal::of_table(&root, "mechanism", "numbers too long to be written", accepted)
+        })?;
+        refusal::compiled(&root, &claim)?;
+        let title = title.map(str::to_owned);
+        Ok(Design { title, claim: Claim::Kernel(claim), rules, sources })
     }
 
     /// Reads a design file.
@@ -123,18 +130,18 @@ impl Design {
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.
     pub fn prototype() -> Self {
-        let transmission = Range { min: None, max: Some(Exact::integer(2)) };
-        let claim = MachineClaim {
-            mechanism: checker::Mechanism::Orthoglide { offset: Exact::integer(0) },
-            workspace: checker::Workspace::Cube { side: Exact::integer(200) },
-            requirements: Requirements {
-                transmission: Some(transmission),
-                ..Requirements::default()
-            },
+        let description = Description {
+            mechanism: Mechanism::OfCube { offset: Exact::integer(0) },
+            characteristic_length: None,
+            workspace: description::Workspace::Cube { side: Exact::integer(200) },
+            orientation: None,
+            bodies: Vec::new(),
+            demands: vec![Demand::of("transmission", Bound::Max(Exact::integer(2)))],
         };
         Design {
             title: Some("Orthoglide prototype".to_owned()),
-            claim: Claim::Machine(claim),
+            claim: description.kernel().map(Claim::Kernel).expect("short numbers"),
+            rules: description.machine(),
             sources: Sources::default(),
         }
     }
@@ -145,18 +152,6 @@ pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
     std::str::from_utf8(bytes).map_err(|error| {
         let valid = bytes.iter().take(error.valid_up_to());
         ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
-    })
-}
-
-/// Reads the claim of a design.
-fn claim(root: &Table<'_>) -> Result<Claim, DesignError> {
-    let description = description(root)?;
-    if let Some(claim) = description.machine() {
-        return Ok(Claim::Machine(claim));
-    }
-    description.kernel().map(Claim::Kernel).ok_or_else(|| {
-        let accepted = "numbers of at most 8,192 characters and 512 operations";
-        refusal::of_table(root, "mechanism", "numbers too long to be written", accepted)
     })
 }
 

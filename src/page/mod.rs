@@ -53,7 +53,7 @@ use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::Accepted;
-use scene::{of_three_legs, slice, Scene};
+use scene::{corners_of_cube, first_slice, of_three_legs, slice, Scene};
 use serde_json::{json, Value};
 
 pub use recheck::{checker_sha256, CHECKER_COMMAND};
@@ -114,7 +114,8 @@ impl<'a> Page<'a> {
             Claim::Machine(claim) => Some(claim.clone()),
             Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
-            Claim::Atlas(_) | Claim::Kernel(_) => None,
+            Claim::Kernel(claim) => nominal::of_kernel(claim),
+            Claim::Atlas(_) => None,
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
@@ -126,7 +127,16 @@ impl<'a> Page<'a> {
             (machine, scale)
         });
         let scene = match (&certificate.claim, &certificate.proof) {
-            (Claim::Kernel(claim), Proof::Kernel(proof)) => general::scene(claim, proof),
+            (Claim::Kernel(claim), Proof::Kernel(proof)) => {
+                let mut scene = general::scene(claim, proof);
+                if let Some((machine, scale)) = &machine {
+                    scene.marks.extend(corners_of_cube(machine));
+                    let first =
+                        scale.as_ref().map(|scale| first_slice(machine, scale, &scene.marks));
+                    scene.slices.splice(0..0, first);
+                }
+                scene
+            }
             _ => {
                 let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
                 of_three_legs(certificate, machine, &rows)

@@ -6,7 +6,7 @@ use super::legs::{across, unit, Numbers, Outline, Point, Shape};
 use super::svg::Picture;
 use crate::decimal::{approximate, significant};
 use crate::interval::Approx;
-use crate::report::Frame;
+use crate::report::{exactly, Frame};
 use nalgebra::Matrix3;
 use orthocert_checker::claim::{
     self, MachineClaim, Mechanism, PostulateClaim, PsiMax, Quantity, Range, Requirements, Sign,
@@ -16,6 +16,8 @@ use orthocert_checker::kinematics::Leg;
 use orthocert_checker::linear::Vector;
 use orthocert_checker::model::{CubeConstants, Model};
 use orthocert_checker::number::Exact;
+use orthocert_kernel::claim as kernel;
+use orthocert_kernel::number::Expression;
 use std::array::from_fn;
 
 /// Fractional bits in which the claim's numbers are enclosed before they become doubles.
@@ -263,6 +265,92 @@ fn numbers(leg: &claim::Leg, values: &[f64]) -> Option<Numbers> {
             Numbers::Planar { direction: unit([nx, ny, nz])? }
         }
         _ => return None,
+    })
+}
+
+/// A claim about three translating legs, of which the bounds on `psi` alone are kept, in the form that
+/// a nominal machine is made of.
+pub fn of_kernel(claim: &kernel::MachineClaim) -> Option<MachineClaim> {
+    let mechanism = match &claim.mechanism {
+        kernel::Mechanism::Orthoglide { offset } => {
+            Mechanism::Orthoglide { offset: exactly(offset)? }
+        }
+        kernel::Mechanism::Translational(legs) => {
+            let legs: Vec<claim::Leg> = legs.iter().map(leg).collect::<Option<_>>()?;
+            Mechanism::Translational(legs.try_into().ok()?)
+        }
+        _ => return None,
+    };
+    let point = |x: &[Expression]| -> Option<[Exact; 3]> {
+        x.iter().map(exactly).collect::<Option<Vec<_>>>()?.try_into().ok()
+    };
+    let workspace = match &claim.workspace {
+        kernel::Workspace::Box { min, max } => {
+            Workspace::Box { min: point(min)?, max: point(max)? }
+        }
+        kernel::Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
+            Workspace::Cylinder {
+                center: [exactly(x)?, exactly(y)?],
+                radius: exactly(radius)?,
+                z: [exactly(low)?, exactly(high)?],
+            }
+        }
+        kernel::Workspace::Cube { side } => Workspace::Cube { side: exactly(side)? },
+    };
+    let mut transmission = Range { min: None, max: None };
+    for requirement in claim.require.iter().filter(|own| own.quantity == "transmission") {
+        match &requirement.bound {
+            kernel::Bound::Max(max) => transmission.max = exactly(max),
+            // The paper's cube has the other end by definition.
+            kernel::Bound::Min(min) if !matches!(workspace, Workspace::Cube { .. }) => {
+                transmission.min = exactly(min);
+            }
+            _ => {}
+        }
+    }
+    let asked = transmission.min.is_some() || transmission.max.is_some();
+    let transmission = asked.then_some(transmission);
+    let requirements = Requirements { transmission, ..Requirements::default() };
+    Some(MachineClaim { mechanism, workspace, requirements })
+}
+
+fn leg(leg: &kernel::Leg) -> Option<claim::Leg> {
+    let number = |x: &kernel::Quantity| {
+        let [min, max] = x.ends();
+        Some(Quantity { min: exactly(min)?, max: exactly(max)? })
+    };
+    let vector = |x: &[kernel::Quantity]| -> Option<[Quantity; 3]> {
+        x.iter().map(number).collect::<Option<Vec<_>>>()?.try_into().ok()
+    };
+    let mode = |sign: &kernel::Sign| match sign {
+        kernel::Sign::Plus => Sign::Plus,
+        kernel::Sign::Minus => Sign::Minus,
+    };
+    Some(match leg {
+        kernel::Leg::Slider { direction, anchor, platform, length, mode: sign } => {
+            claim::Leg::Slider {
+                direction: vector(direction)?,
+                anchor: vector(anchor)?,
+                platform: vector(platform)?,
+                length: number(length)?,
+                mode: mode(sign),
+            }
+        }
+        kernel::Leg::Strut { anchor, platform, .. } => {
+            claim::Leg::Strut { anchor: vector(anchor)?, platform: vector(platform)? }
+        }
+        kernel::Leg::Arm { axis, reference, anchor, platform, arm, length, mode: sign } => {
+            claim::Leg::Arm {
+                axis: vector(axis)?,
+                reference: vector(reference)?,
+                anchor: vector(anchor)?,
+                platform: vector(platform)?,
+                arm: number(arm)?,
+                length: number(length)?,
+                mode: mode(sign),
+            }
+        }
+        kernel::Leg::Planar { direction } => claim::Leg::Planar { direction: vector(direction)? },
     })
 }
 

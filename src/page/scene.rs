@@ -8,13 +8,14 @@ use super::nominal::Nominal;
 use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
 use crate::decimal::{approximate, significant};
-use crate::report;
+use crate::report::{self, exactly};
 use orthocert_checker::cell::Axis;
 use orthocert_checker::certificate::{Certificate, FacePart, Proof, Violation, Witness};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
 use orthocert_checker::postulate::{Face, Half};
 use orthocert_checker::{parts_needed, PartNeeded};
+use orthocert_kernel::certificate as kernel;
 use std::rc::Rc;
 
 /// What is shown.
@@ -51,15 +52,7 @@ pub fn of_three_legs(
 ) -> Scene {
     let nominal = machine.map(|(machine, _)| machine);
     let marks = marks(nominal, certificate);
-    let slices = machine.and_then(|(machine, scale)| {
-        let scale = scale?;
-        let z = significant(machine.point([0.0, 0.0, machine.slice])[2], 6);
-        Some(Slice {
-            maps: machine.maps(scale, &marks),
-            legends: vec![(String::new(), scale.legend())],
-            fixed: format!("z = {z}"),
-        })
-    });
+    let slices = machine.and_then(|(machine, scale)| Some(first_slice(machine, scale?, &marks)));
     Scene {
         shape: nominal.map(Nominal::shape),
         slices: slices.into_iter().collect(),
@@ -69,12 +62,34 @@ pub fn of_three_legs(
     }
 }
 
+/// The first maps of the transmission factors.
+pub fn first_slice(machine: &Nominal, scale: &Scale, marks: &[Mark]) -> Slice {
+    let z = significant(machine.point([0.0, 0.0, machine.slice])[2], 6);
+    Slice {
+        maps: machine.maps(scale, marks),
+        legends: vec![(String::new(), scale.legend())],
+        fixed: format!("z = {z}"),
+    }
+}
+
+/// `Q_1` and `Q_2`.
+pub fn corners_of_cube(machine: &Nominal) -> Vec<Mark> {
+    let corners = [("Q\u{2081}", 0.0), ("Q\u{2082}", 1.0)];
+    let corners = corners.into_iter().filter(|_| machine.is_cube);
+    corners
+        .map(|(name, u)| Mark { name: name.to_owned(), at: machine.point([u; 3]).to_vec() })
+        .collect()
+}
+
 /// The plane of the first maps, as a part of the workspace's height: through `Q_1`, through the
 /// counterexample, or through the place where the greatest factor was found.
 pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[report::Row]) -> f64 {
     let (least, width) = (machine.frame.least[2], machine.frame.width[2]);
     let z = match &certificate.proof {
         Proof::Witness(witness) => approximate(&witness.point[2]),
+        Proof::Kernel(kernel::Proof::Witness(witness)) => {
+            witness.point.get(2).and_then(exactly).as_ref().and_then(approximate)
+        }
         _ if machine.is_cube => Some(least),
         _ => rows
             .iter()
@@ -89,12 +104,7 @@ pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[report::Row])
 
 /// `Q_1` and `Q_2` of the cube, and the points of a counterexample.
 fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> {
-    let mut all = Vec::new();
-    if let Some(machine) = machine.filter(|machine| machine.is_cube) {
-        for (name, u) in [("Q\u{2081}", 0.0), ("Q\u{2082}", 1.0)] {
-            all.push(Mark { name: name.to_owned(), at: machine.point([u; 3]).to_vec() });
-        }
-    }
+    let mut all = machine.map(corners_of_cube).unwrap_or_default();
     if let Proof::Witness(witness) = &certificate.proof {
         let at = |p: &[Exact; 3]| p.iter().map(approximate).collect::<Option<Vec<f64>>>();
         let name = |name: &str| name.to_owned();

@@ -11,6 +11,7 @@ use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, NoCubeClaim};
 use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::claim::Mechanism;
 use std::fmt::Write;
 
 impl Page<'_> {
@@ -35,11 +36,16 @@ impl Page<'_> {
         }
         all.push(("machine", "Machine", self.machine_section()));
         if let Some(slice) = self.scene.slices.first() {
-            let maps = match self.machine {
-                Some(_) => ("maps", "Transmission factors", self.maps_section(slice)),
-                None => ("maps", "Maps", maps_of_slices(&self.scene.slices)),
+            let still = match self.machine {
+                Some((_, Some(_))) => {
+                    all.push(("maps", "Transmission factors", self.maps_section(slice)));
+                    &self.scene.slices[1..]
+                }
+                _ => &self.scene.slices[..],
             };
-            all.push(maps);
+            if !still.is_empty() {
+                all.push(("still", "Maps", maps_of_slices(still)));
+            }
         }
         all.push(("proof", "Proof", self.proof_section()));
         let version = env!("CARGO_PKG_VERSION");
@@ -114,9 +120,7 @@ impl Page<'_> {
         let (Some(shape), Some(design)) = (&self.scene.shape, &self.figures.design) else {
             if let Claim::Kernel(claim) = &self.certificate.claim {
                 let reason = match claim.mechanism {
-                    orthocert_kernel::claim::Mechanism::Formulas(_) => {
-                        "formulas do not say where its parts are"
-                    }
+                    Mechanism::Formulas(_) => "formulas do not say where its parts are",
                     _ => "its numbers are beyond what floating point can show",
                 };
                 let parameters = mechanism::parameters(claim);
@@ -150,18 +154,22 @@ impl Page<'_> {
              dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}{turned}</figcaption></figure>",
             design.inline()
         );
-        let of_postulate;
+        let of_legs;
         let three_legs = match &self.certificate.claim {
             Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
                 Some(claim)
             }
             Claim::Postulate(claim) => {
-                of_postulate = nominal::of_postulate(claim);
-                of_postulate.as_ref()
+                of_legs = nominal::of_postulate(claim);
+                of_legs.as_ref()
             }
             Claim::Kernel(claim) => {
-                out.push_str(&mechanism::parameters(claim));
-                None
+                of_legs = nominal::of_kernel(claim)
+                    .filter(|_| matches!(claim.mechanism, Mechanism::Orthoglide { .. }));
+                if of_legs.is_none() {
+                    out.push_str(&mechanism::parameters(claim));
+                }
+                of_legs.as_ref()
             }
             Claim::Atlas(_) => None,
         };
@@ -276,7 +284,7 @@ fn caption(tree: &Subdivision) -> String {
 
 /// The maps of a kernel claim.
 fn maps_of_slices(slices: &[Slice]) -> String {
-    let mut out = "<section id=\"maps\"><h2>Maps</h2><p>Lines of equal value of the nominal machine over \
+    let mut out = "<section id=\"still\"><h2>Maps</h2><p>Lines of equal value of the nominal machine over \
          two coordinates, the others in the middle of the workspace, or at the counterexample, in floating \
          point: of the greatest \u{3c8}, and of the requirement, other than that on the greatest \u{3c8}, \
          of which the least margin was found. Marked: the worst point of each map, or the counterexample. Hatched: outside the \

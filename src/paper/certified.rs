@@ -1,11 +1,12 @@
 //! Findings that rest on certificates.
 
 use super::{value, Agreement, Basis, Finding, NotEstablished};
+use crate::decide::decide;
 use crate::design::Design;
 use crate::search::{Budget, Control};
-use crate::verify::{verify, Answer};
+use crate::verify::Answer;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use orthocert_checker::claim::{PostulateClaim, PsiMax};
 use std::sync::atomic::AtomicBool;
 
 /// Far more than any of the proofs needs.
@@ -36,13 +37,16 @@ fn decided(
 ) -> Result<Certificate, NotEstablished> {
     let fails = |reason: String| NotEstablished { id, reason };
     let design = Design::parse(design, id).map_err(|e| fails(e.to_string()))?;
-    let Claim::Machine(claim) = &design.claim else {
-        return Err(fails("not a claim about a machine".into()));
-    };
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
-    let found = verify(claim, BUDGET, &mut control).map_err(|e| fails(e.to_string()))?;
-    accepted(id, found.answer, verdict)
+    let found = decide(&design.claim, BUDGET, &mut control).map_err(|e| fails(e.to_string()))?;
+    match found.decided() {
+        Some((certificate, accepted)) if accepted.verdict == verdict => Ok(certificate.clone()),
+        Some((_, accepted)) => {
+            Err(fails(format!("the verdict is {}, not {verdict}", accepted.verdict)))
+        }
+        None => Err(fails("it is not decided".into())),
+    }
 }
 
 fn accepted(

@@ -287,7 +287,6 @@ mod tests {
     use super::*;
     use crate::paving::header;
     use orthocert_checker::certificate::Step;
-    use orthocert_checker::claim::Claim;
     use orthocert_checker::paving::{Header, Item};
     use orthocert_checker::rule::Rotation;
 
@@ -298,7 +297,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let Claim::Machine(claim) = design.claim else { panic!("not a machine") };
+        let claim = design.rules.unwrap();
         let mut header = header(&claim, 9);
         if !symmetric {
             header.symmetry = None;

@@ -80,7 +80,6 @@ fn neighbours(point: &Point, step: u128) -> impl Iterator<Item = Point> + '_ {
 mod tests {
     use super::*;
     use crate::paving::header;
-    use orthocert_checker::claim::Claim;
 
     fn decider(min: &str, max: &str) -> Decider {
         let text = format!(
@@ -89,7 +88,7 @@ mod tests {
              transmission = {{ min = \"1/2\", max = 2 }}\n"
         );
         let design = crate::design::Design::parse(&text, "test").unwrap();
-        let Claim::Machine(claim) = design.claim else { panic!("not a machine") };
+        let claim = design.rules.unwrap();
         Decider::new(&header(&claim, 9)).unwrap()
     }
 

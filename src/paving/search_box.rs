@@ -93,7 +93,6 @@ mod tests {
     use super::*;
     use crate::decimal::approximate;
     use crate::design::Design;
-    use orthocert_checker::claim::Claim;
 
     /// Leg length, `a_1`, `d_1` along the guide, and `psi_min`, of a cube of side 200.
     fn numbers(psi_max: &str, offset: &str) -> [f64; 4] {
@@ -101,7 +100,7 @@ mod tests {
             "[mechanism]\nkind = \"orthoglide\"\noffset = {offset}\n[workspace]\ncube = 200\n\
              [requirements]\ntransmission = {{ max = {psi_max} }}\n"
         );
-        let Claim::Machine(claim) = Design::parse(&text, "test").unwrap().claim else { panic!() };
+        let claim = Design::parse(&text, "test").unwrap().rules.unwrap();
         let ends = |x: i64| from_fn(|_| Exact::integer(x));
         let found = in_box(&claim, ends(-10), ends(10)).unwrap();
         let Mechanism::Translational([Leg::Slider { anchor, platform, length, .. }, ..]) =

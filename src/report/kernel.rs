@@ -1,8 +1,8 @@
 //! The facts about claims of the kernel: any number of coordinates, any quantity of its table.
 
 use super::place::FreeParameter;
-use super::regions::sum_above;
 use super::remains::{reason, OpenRegion, OpenRequirement, Remains, WorstBox};
+use super::share::sum_above;
 use super::{Counterexample, Row, Setting};
 use crate::batch::requirement::{rule_of, SINGULARITY};
 use crate::decimal::{exact, readable, rounded, significant, Toward};

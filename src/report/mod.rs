@@ -7,8 +7,8 @@ mod kernel;
 pub mod paving;
 mod place;
 mod postulate;
-mod regions;
 mod remains;
+mod share;
 pub mod text;
 mod worst;
 
@@ -19,10 +19,9 @@ pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
-use crate::extremes::Enclosed;
 use crate::sample::Sampler;
 use crate::solver;
-use crate::verify::{worst_values, Answer, Verification, FINEST};
+use crate::verify::{worst_values, FINEST};
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
@@ -32,7 +31,7 @@ use orthocert_checker::TreeSize;
 use orthocert_kernel::certificate as of_kernel;
 use orthocert_kernel::claim::MachineClaim as KernelClaim;
 use orthocert_kernel::problem::Problem;
-use remains::Remaining;
+
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -113,22 +112,11 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// The certified end of an enclosure of the kernel's quantities.
-    pub fn of_kernel(
-        extreme: &solver::extremes::Extreme,
-        bound: BigRational,
-        angular: bool,
-    ) -> Self {
+    /// The certified end of an enclosure.
+    pub fn of(extreme: &solver::extremes::Extreme, bound: BigRational, angular: bool) -> Self {
         let relation = if extreme.is_greatest() { "<=" } else { ">=" };
         let (quantity, unit) = (extreme.quantity(), extreme.unit(angular));
         Margin { quantity, unit, relation, bound: Exact::Rational(bound) }
-    }
-
-    /// The certified end of an enclosure.
-    pub fn of(found: &Enclosed, claim: &MachineClaim) -> Self {
-        let relation = if found.extreme.is_greatest() { "<=" } else { ">=" };
-        let (quantity, unit) = (found.extreme.quantity(), found.extreme.unit(claim));
-        Margin { quantity, unit, relation, bound: found.outer.clone() }
     }
 }
 
@@ -175,6 +163,12 @@ pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
     Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
 }
 
+/// What a witness says against a claim; `None` if its numbers exceed what can be shown.
+pub fn counterexample(claim: &KernelClaim, witness: &of_kernel::Witness) -> Option<Counterexample> {
+    let problem = Problem::new(claim).ok()?;
+    kernel::Facts::new(claim, &problem)?.counterexample(witness)
+}
+
 /// A certificate on the disk.
 #[derive(Clone, Debug, Serialize)]
 pub struct CertificateFile {
@@ -217,8 +211,9 @@ impl Report {
         }
     }
 
-    /// As [`Report::new`], of a claim of the kernel.
-    pub fn of_kernel(
+    /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
+    /// numbers exceed what can be shown.
+    pub fn new(
         claim: &KernelClaim,
         found: &solver::Verification,
         elapsed: Duration,
@@ -242,39 +237,6 @@ impl Report {
             }
         }
         report.requirements = facts.rows(&found.worst);
-        Some(report)
-    }
-
-    /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
-    /// numbers exceed what can be shown.
-    pub fn new(claim: &MachineClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
-        let coordinates = ["x", "y", "z"].map(str::to_owned).to_vec();
-        let mut report =
-            Report::about(Claim::Machine(claim.clone()), coordinates, found.boxes, elapsed);
-        match &found.answer {
-            Answer::Cancelled => return None,
-            Answer::Decided { certificate, accepted } => {
-                report.verdict = Outcome::Decided(accepted.verdict);
-                report.proof = Size::accepted(&certificate.proof, &accepted.size);
-                if let Proof::Witness(witness) = &certificate.proof {
-                    report.counterexample = Some(Counterexample::new(claim, witness));
-                }
-                if found.worst.is_empty() {
-                    // A certificate that was re-checked: nothing was sampled beside it.
-                    return Some(report);
-                }
-            }
-            Answer::Undecided(_) => {}
-        }
-        let model = Model::new(claim, MODEL_PRECISION).ok()?;
-        let sampler = Sampler::new(claim, &model)?;
-        let frame = Frame::new(claim, &model)?;
-        report.requirements = worst::rows(claim, &sampler, &frame, &found.worst);
-        if let Answer::Undecided(undecided) = &found.answer {
-            let (sampler, frame, worst) = (&sampler, &frame, &found.worst[..]);
-            let remaining = Remaining { claim, sampler, frame, worst, boxes: found.boxes };
-            report.undecided = Some(remaining.report(undecided));
-        }
         Some(report)
     }
 }

@@ -3,11 +3,13 @@
 use super::task::Task;
 use crate::atlas::Top;
 use crate::digest;
+use crate::solver::search::Branch;
 use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
 use orthocert_checker::rule::Obligation;
 use orthocert_checker::shown::{Named, Shown};
+use orthocert_kernel::certificate::Node;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -165,7 +167,11 @@ pub struct Shard {
     /// What is to be done.
     pub task: Task,
     /// The cells to be grown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cells: Vec<Place>,
+    /// Of a design to be proved, the branches of its tree to be grown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub branches: Vec<Branch>,
 }
 
 /// What a shard found.
@@ -194,8 +200,19 @@ impl Job {
 
 impl Shard {
     /// A shard.
-    pub fn new(task: Task, shard: usize, of: usize, cells: Vec<Place>) -> Self {
-        Shard { format: SHARD.to_owned(), job: task.identity(), shard, of, task, cells }
+    pub fn new(
+        task: Task,
+        shard: usize,
+        of: usize,
+        cells: Vec<Place>,
+        branches: Vec<Branch>,
+    ) -> Self {
+        Shard { format: SHARD.to_owned(), job: task.identity(), shard, of, task, cells, branches }
+    }
+
+    /// How many parts there are of it.
+    pub fn parts(&self) -> usize {
+        self.cells.len() + self.branches.len()
     }
 }
 

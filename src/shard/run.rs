@@ -12,7 +12,8 @@ use crate::atlas::{grow, Growing, Stopped, Top};
 use crate::output::{self, OutputError};
 use crate::paving::Cancelled;
 use crate::search::{Budget, Control, Stop};
-use crate::verify;
+use crate::solver;
+use crate::solver::search::Outcome;
 use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
 use orthocert_checker::shown::Named;
@@ -140,7 +141,7 @@ pub fn run(
         };
         at += found.bytes();
         *part = Some(found);
-        done(number + 1, (number + 1) as f64 / shard.cells.len() as f64);
+        done(number + 1, (number + 1) as f64 / shard.parts() as f64);
     }
     if in_nodes {
         paving::close(&nodes, at)?;
@@ -159,11 +160,27 @@ fn grown(
     nodes: (&Path, u64),
     cancel: &AtomicBool,
 ) -> Result<Part, RunError> {
+    if let Task::Verify(task) = &shard.task {
+        let branch = shard.branches.get(number).ok_or(RunError::Interrupted)?;
+        let budget = Budget { max_boxes: task.boxes, deadline: None };
+        let mut control = Control { cancel, progress: &mut |_| {} };
+        let found = solver::below(&task.claim, branch, budget, &mut control)
+            .map_err(|error| RunError::Claim(error.to_string()))?;
+        let found = found.ok_or_else(|| RunError::Claim("a branch that is none".to_owned()))?;
+        return match found.stop {
+            Stop::Cancelled => Err(RunError::Interrupted),
+            _ => {
+                let Outcome { nodes, open, boxes, .. } = found;
+                Ok(Part::Tree { nodes, open: open.len(), boxes })
+            }
+        };
+    }
     // Every place was seen to be a cell when the shard was read.
     let place = shard.cells.get(number).ok_or(RunError::Interrupted)?;
     let root = place.cell().ok_or(RunError::Interrupted)?;
     let mut unseen = |_: usize, _: f64| {};
     match &shard.task {
+        Task::Verify(_) => Err(RunError::Interrupted),
         Task::Atlas(design) => {
             let mut growing = Growing::new(design, cancel, &mut unseen);
             let tree = grow(&mut growing, root, None).map_err(|stopped| match stopped {
@@ -180,27 +197,12 @@ fn grown(
         Task::Pave(task) => {
             paving::grown(nodes, task, (root, &place.open), cancel).map(Part::Nodes)
         }
-        Task::Verify(task) => {
-            let budget = Budget { max_boxes: task.boxes, deadline: None };
-            let mut control = Control { cancel, progress: &mut |_| {} };
-            let root = (root, place.open.clone());
-            let found = verify::below(&task.claim, root, budget, &mut control)
-                .map_err(|error| RunError::Claim(error.to_string()))?;
-            match found.stop {
-                Stop::Cancelled => Err(RunError::Interrupted),
-                _ => Ok(Part::Tree {
-                    nodes: found.nodes,
-                    open: found.open.len(),
-                    boxes: found.boxes,
-                }),
-            }
-        }
     }
 }
 
 /// What earlier runs have done.
 fn resumed(progress: &Path, shard: &Shard, answers: &str) -> Vec<Option<Part>> {
-    let mut parts = vec![None; shard.cells.len()];
+    let mut parts = vec![None; shard.parts()];
     let written = file::read(progress, MAX_FILE).unwrap_or_default();
     for line in written.split(|byte| *byte == b'\n') {
         let Ok(line) = serde_json::from_slice::<Line>(line) else {

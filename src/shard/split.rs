@@ -6,9 +6,9 @@ use super::task::{Task, Verify};
 use crate::atlas::{grow, waiting, Growing, Stopped};
 use crate::design::AtlasDesign;
 use crate::search::{Control, Stop};
-use crate::verify;
+use crate::solver;
+use crate::solver::search::Branch;
 use orthocert_checker::cell::Cell;
-use orthocert_checker::claim::ClaimError;
 use std::sync::atomic::AtomicBool;
 
 /// Cells that a shard has at least, where the tree has as many: dealt out in turn, so that costly
@@ -23,8 +23,8 @@ pub enum SplitError {
     #[error("interrupted")]
     Interrupted,
     /// The claim is not well formed.
-    #[error(transparent)]
-    Claim(ClaimError),
+    #[error("{0}")]
+    Claim(String),
     /// The design is refuted by a single point.
     #[error(
         "the design is refuted by a single point, so that there is nothing to be shared out; \
@@ -53,15 +53,25 @@ pub fn split(
     done: &mut dyn FnMut(usize, f64),
 ) -> Result<(Job, Vec<String>), SplitError> {
     let enough = shards.saturating_mul(CELLS_A_SHARD);
-    let (top, cells) = match task {
-        Task::Atlas(design) => of_atlas(design, enough, cancel, done)?,
-        Task::Verify(task) => of_design(task, enough, cancel, done)?,
-        Task::Pave(task) => paving::top(task, shards, cancel)?,
+    let (top, cells, branches) = match task {
+        Task::Atlas(design) => {
+            let (top, cells) = of_atlas(design, enough, cancel, done)?;
+            (top, cells, Vec::new())
+        }
+        Task::Verify(task) => {
+            let (top, branches) = of_design(task, enough, cancel, done)?;
+            (top, Vec::new(), branches)
+        }
+        Task::Pave(task) => {
+            let (top, cells) = paving::top(task, shards, cancel)?;
+            (top, cells, Vec::new())
+        }
     };
     let texts: Vec<String> = (0..shards)
         .map(|shard| {
-            let own = cells.iter().skip(shard).step_by(shards).cloned();
-            text(&Shard::new(task.clone(), shard + 1, shards, own.collect())) + "\n"
+            let own = cells.iter().skip(shard).step_by(shards).cloned().collect();
+            let below = branches.iter().skip(shard).step_by(shards).cloned().collect();
+            text(&Shard::new(task.clone(), shard + 1, shards, own, below)) + "\n"
         })
         .collect();
     let job = Job::new(task.clone(), top, texts.iter().map(|text| sha256(text)).collect());
@@ -89,22 +99,18 @@ fn of_design(
     enough: usize,
     cancel: &AtomicBool,
     done: &mut dyn FnMut(usize, f64),
-) -> Result<(JobTop, Vec<Place>), SplitError> {
+) -> Result<(JobTop, Vec<Branch>), SplitError> {
     let mut progress = |now: crate::search::Progress| done(now.boxes, now.closed);
     let mut control = Control { cancel, progress: &mut progress };
-    let found = verify::top(&task.claim, enough, &mut control).map_err(SplitError::Claim)?;
+    let found = solver::top(&task.claim, enough, &mut control)
+        .map_err(|error| SplitError::Claim(error.to_string()))?;
     let found = found.ok_or(SplitError::Refuted)?;
     if found.stop == Stop::Cancelled {
         return Err(SplitError::Interrupted);
     }
-    let place = |open: &crate::search::OpenBox| {
-        // A reason means that it was tried and cannot be split.
-        let untried = open.open.iter().all(|(_, reason)| reason.is_none());
-        let open_there = open.open.iter().map(|(obligation, _)| *obligation).collect();
-        untried.then(|| Place::of(&open.cell, open_there)).flatten()
-    };
-    let places: Option<Vec<Place>> = found.open.iter().map(place).collect();
-    let places = places.ok_or(SplitError::Hopeless)?;
-    let waiting = found.open.iter().map(|open| open.node).collect();
-    Ok((JobTop::Tree { nodes: found.nodes, waiting, boxes: found.boxes }, places))
+    if found.open.len() > found.waiting.len() {
+        return Err(SplitError::Hopeless);
+    }
+    let (waiting, branches) = found.waiting.into_iter().unzip();
+    Ok((JobTop::Tree { nodes: found.nodes, waiting, boxes: found.boxes }, branches))
 }

@@ -6,6 +6,7 @@ use crate::paving::{Parts, DEEPEST};
 use orthocert_checker::cell::Cell;
 use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::paving::MAX_AXIS_LEVEL;
+use orthocert_kernel::problem::Problem;
 use serde::{Deserialize, Serialize};
 
 /// What is to be done.
@@ -41,7 +42,7 @@ pub struct Verify {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// What is claimed.
-    pub claim: MachineClaim,
+    pub claim: orthocert_kernel::claim::MachineClaim,
     /// Most boxes tried below one of the cells that are dealt out.
     pub boxes: usize,
 }
@@ -80,7 +81,9 @@ impl Task {
         self.legible()?;
         let design = match self {
             Task::Atlas(design) => design,
-            Task::Verify(task) => return task.claim.validate().map_err(|error| error.to_string()),
+            Task::Verify(task) => {
+                return Problem::new(&task.claim).map(drop).map_err(|error| error.to_string());
+            }
             Task::Pave(task) if task.depth > DEEPEST => {
                 return Err(format!("{} splits; pavings have at most {DEEPEST}", task.depth));
             }

@@ -6,10 +6,9 @@
 use super::evidence::Prover;
 use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
-use super::search::search;
+use super::search::{search, Branch, Ends};
 use super::value::{alone, unit, Bounded};
 use super::{accepted, look_into, refuted, verify, Answer};
-use crate::extremes::loosest;
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Zero};
@@ -370,6 +369,11 @@ impl Extreme {
     }
 }
 
+/// The loosest relative width that may be asked for.
+pub fn loosest() -> BigRational {
+    BigRational::new(1.into(), 10.into())
+}
+
 /// A bound that the value found goes beyond, and one that no value is expected to go beyond.
 fn ends(extreme: &Extreme, found: f64, step: &BigRational) -> Option<(BigRational, BigRational)> {
     let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
@@ -412,7 +416,9 @@ fn certify(
 ) -> Result<Attempt, NotEnclosed> {
     let problem = Problem::new(claim)?;
     let prover = Prover::new(&problem)?;
-    let found = search(&prover, false, budget, control);
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let found = search(&prover, &Branch::whole(&prover), ends, budget, control);
+    let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
     if found.stop == Stop::Cancelled {
         return Err(NotEnclosed::Cancelled);
     }

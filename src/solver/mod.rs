@@ -45,7 +45,7 @@ use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::Problem;
 use sample::{Sampler, Worst};
-use search::{search, Open};
+use search::{search, Branch, Ends, Open, Outcome};
 
 pub use refute::number;
 
@@ -116,7 +116,8 @@ pub fn verify(
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
     let prover = Prover::new(&problem)?;
-    let found = search(&prover, true, budget, control);
+    let found = search(&prover, &Branch::whole(&prover), Ends::default(), budget, control)
+        .expect("the root is a box of the tree");
     let boxes = found.boxes;
     if found.stop == Stop::Cancelled {
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
@@ -132,6 +133,59 @@ pub fn verify(
             Answer::Undecided(Undecided { open: found.open, stop: found.stop, objection: None })
         }
     };
+    Ok(Verification { answer, worst, boxes })
+}
+
+/// The top of a claim's tree, to be grown in parts: as [`verify`] begins, but for at most so many boxes
+/// in a level. `None` if the claim is refuted on the spot.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn top(
+    claim: &MachineClaim,
+    enough: usize,
+    control: &mut Control<'_>,
+) -> Result<Option<Outcome>, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let sampler = Sampler::new(claim, &problem)?;
+    let worst = sampler.worst_values(FINEST);
+    let is_refuted = refute::refutation(claim, &problem, &sampler, &worst).is_some()
+        || same::refutation(claim, &problem, &sampler).is_some();
+    if is_refuted {
+        return Ok(None);
+    }
+    let prover = Prover::new(&problem)?;
+    let ends = Ends { enough: Some(enough), ..Ends::default() };
+    let budget = Budget { max_boxes: usize::MAX, deadline: None };
+    Ok(search(&prover, &Branch::whole(&prover), ends, budget, control))
+}
+
+/// The tree below a branch; none below one that no tree of the claim has.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn below(
+    claim: &MachineClaim,
+    branch: &Branch,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Outcome>, ClaimError> {
+    let problem = Problem::new(claim)?;
+    Ok(search(&Prover::new(&problem)?, branch, Ends::default(), budget, control))
+}
+
+/// What a tree that was grown in parts, and on which nothing is open, amounts to.
+///
+/// # Errors
+/// If the claim is not well formed.
+pub fn concluded(
+    claim: &MachineClaim,
+    nodes: Vec<Node>,
+    boxes: usize,
+) -> Result<Verification, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
+    let answer = accepted(claim, &Prover::new(&problem)?, nodes);
     Ok(Verification { answer, worst, boxes })
 }
 

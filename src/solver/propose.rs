@@ -14,6 +14,8 @@ use orthocert_kernel::test::{self, Multiplier, Row};
 
 /// Bits of the greatest entry of a multiplier that is tried first.
 const FINE: i32 = 15;
+/// The same, of what `mu` shares its places with: what it is rounded by is lost whole.
+const FINER: i32 = 27;
 /// Bits tried for a shorter one.
 const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
 /// Parts of the least singular value tried as `kappa` of an accuracy.
@@ -61,7 +63,8 @@ impl Over<'_> {
                 self.first(test, [Evidence::Cube, Evidence::Test, Evidence::Divided])
             }
             Test::Conditioning(c) => self.conditioning(test, *c, Form::Plain),
-            Test::AtLeast(_) | Test::Curvature(_) => self.shown(test, Evidence::Test),
+            Test::AtLeast(_) => self.first(test, [Evidence::Test, Evidence::Cube]),
+            Test::Curvature(_) => self.shown(test, Evidence::Test),
             Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => self.least(test, rows, *kappa),
             Test::OneToOne(_) => self.shown(test, Evidence::Chords),
@@ -77,7 +80,16 @@ impl Over<'_> {
 
     /// Of the evidence with so many bits, the shortest with which the test holds.
     fn shortest(&self, test: &Test, with: impl Fn(i32) -> Option<Evidence>) -> Option<Evidence> {
-        let found = self.shown(test, with(FINE)?)?;
+        self.shortest_from(FINE, test, with)
+    }
+
+    fn shortest_from(
+        &self,
+        fine: i32,
+        test: &Test,
+        with: impl Fn(i32) -> Option<Evidence>,
+    ) -> Option<Evidence> {
+        let found = self.shown(test, with(fine)?)?;
         let shorter = SHORT.into_iter().find_map(|bits| {
             let evidence = around(&found, with(bits)?);
             self.shows(test, &evidence).then_some(evidence)
@@ -141,10 +153,11 @@ impl Over<'_> {
             let at = |sign| self.own(Form::Plain, At::Face(k, sign)).map(middle);
             mu.push(0.5 * (at(1.0)? - at(-1.0)?));
         }
-        let size = exponent(mu[0]);
+        // As fine as what may stand between both bounds, `mu` and `c^2 mu`.
+        let size = exponent(mu[0] * (1.0 - c.powi(-2)).clamp(f64::EPSILON, 0.5));
         let starts = self.own(form, At::Centre)?.starts(mu[0].sqrt() * self.scale(form));
         starts.into_iter().find_map(|y| {
-            self.shortest(test, |bits| {
+            self.shortest_from(FINER, test, |bits| {
                 let places = (bits + above(&y)).max(bits + 4 - size);
                 let multiplier = rounded(&y, places)?;
                 let scale = f64::from(multiplier.places).exp2();

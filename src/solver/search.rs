@@ -1,13 +1,14 @@
 //! Branch and bound: a bisection tree on whose leaves every obligation is discharged.
 //!
 //! The tree grows level by level, and what becomes of a box depends on the box and on what is open
-//! there alone: it is the same for every number of threads.
+//! there alone: it is the same for every number of threads, and grown in parts.
 
 use super::doubles::Pair;
 use super::evidence::Prover;
 use crate::search::{Budget, Control, Progress, Stop};
 use orthocert_kernel::certificate::{Node, Step};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -34,6 +35,44 @@ pub struct Open {
     pub obligations: Vec<usize>,
 }
 
+/// A box of a tree by the way to it, and what is open there: where a part of the tree begins.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Branch {
+    /// From the root on: the coordinate that is halved, and whether to the upper half.
+    pub path: Vec<(usize, bool)>,
+    /// The obligations that are open.
+    pub open: Vec<usize>,
+}
+
+impl Branch {
+    /// The whole tree.
+    pub fn whole(prover: &Prover<'_>) -> Self {
+        Branch { path: Vec::new(), open: (0..prover.problem.obligations.len()).collect() }
+    }
+
+    /// The box, with the halvings of each coordinate; none beyond what trees have.
+    fn begin(&self, prover: &Prover<'_>) -> Option<Growing> {
+        let mut cell = prover.root.clone();
+        let mut halvings = vec![0; cell.len()];
+        for &(k, is_upper) in &self.path {
+            let halves = halves(*cell.get(k)?).filter(|_| halvings[k] < MOST_HALVINGS)?;
+            cell[k] = halves[usize::from(is_upper)];
+            halvings[k] += 1;
+        }
+        let known = self.open.iter().all(|&o| o < prover.problem.obligations.len());
+        let depth = halvings.iter().sum();
+        let item = Open { cell, depth, obligations: self.open.clone() };
+        known.then(|| growing(item, halvings))
+    }
+}
+
+/// The halves of an edge, unless it is too short for doubles.
+fn halves((lo, hi): Pair) -> Option<[Pair; 2]> {
+    let middle = 0.5 * (lo + hi);
+    (lo < middle && middle < hi).then_some([(lo, middle), (middle, hi)])
+}
+
 /// The end of a search.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -41,6 +80,8 @@ pub struct Outcome {
     pub nodes: Vec<Node>,
     /// What remains.
     pub open: Vec<Open>,
+    /// Boxes that were not tried, by their positions among the nodes: where a search of parts stopped.
+    pub waiting: Vec<(usize, Branch)>,
     /// Boxes tried.
     pub boxes: usize,
     /// Why it ended.
@@ -71,23 +112,31 @@ struct Growing {
     halvings: Vec<u32>,
     node: Node,
     halves: Option<[usize; 2]>,
+    tried: bool,
 }
 
-/// Searches for a proof of every obligation; where `whole`, what is hopeless is an account of what
-/// remains, else the end.
+/// What ends a search, beside its budget.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ends {
+    /// A box that is hopeless: for those who want a proof or nothing, and no account of what remains.
+    pub hopeless: bool,
+    /// A level of so many boxes.
+    pub enough: Option<usize>,
+}
+
+/// Searches for a proof of what is open on a branch; none of a branch that no tree has.
 pub fn search(
     prover: &Prover<'_>,
-    whole: bool,
+    branch: &Branch,
+    ends: Ends,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Outcome {
-    let m = prover.root.len();
-    let all = (0..prover.problem.obligations.len()).collect();
-    let root = Open { cell: prover.root.clone(), depth: 0, obligations: all };
-    let mut tree = vec![growing(root, vec![0; m])];
+) -> Option<Outcome> {
+    let mut tree = vec![branch.begin(prover)?];
     let mut level = vec![0];
     let (mut boxes, mut closed, mut stop) = (0, 0.0, Stop::Exhausted);
-    while !level.is_empty() && stop == Stop::Exhausted {
+    let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
+    while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes.saturating_sub(boxes));
         let mut next = Vec::new();
         for batch in level[..affordable].chunks(BATCH) {
@@ -101,7 +150,7 @@ pub fn search(
                 closed += settle(&mut tree, at, trial, &mut next);
             }
             boxes += batch.len();
-            if hopeless && !whole {
+            if hopeless && ends.hopeless {
                 stop = Stop::Hopeless;
                 break;
             }
@@ -112,12 +161,12 @@ pub fn search(
         }
         level = next;
     }
-    let (nodes, open) = in_preorder(tree);
-    Outcome { nodes, open, boxes, stop }
+    let (nodes, open, waiting) = in_preorder(tree, &branch.path);
+    Some(Outcome { nodes, open, waiting, boxes, stop })
 }
 
 fn growing(item: Open, halvings: Vec<u32>) -> Growing {
-    Growing { item, halvings, node: Node::default(), halves: None }
+    Growing { item, halvings, node: Node::default(), halves: None, tried: false }
 }
 
 fn interrupted(budget: &Budget, control: &Control<'_>) -> Option<Stop> {
@@ -143,6 +192,7 @@ fn tried(prover: &Prover<'_>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
 /// Records a trial, and halves the box if something is open there; the volume that is closed.
 fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize>) -> f64 {
     let grown = &mut tree[at];
+    grown.tried = true;
     grown.node.by = trial.steps;
     grown.item.obligations = trial.open;
     let Open { cell, depth, obligations } = grown.item.clone();
@@ -150,23 +200,20 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
         return (-f64::from(depth)).exp2();
     }
     let halvings = grown.halvings.clone();
-    let splittable = (0..cell.len()).filter(|&k| {
-        let (lo, hi) = cell[k];
-        let middle = 0.5 * (lo + hi);
-        halvings[k] < MOST_HALVINGS && lo < middle && middle < hi
-    });
+    let splittable =
+        (0..cell.len()).filter(|&k| halvings[k] < MOST_HALVINGS && halves(cell[k]).is_some());
     // Of equal weights the first coordinate's.
     let greatest = |best: Option<usize>, k: usize| match best {
         Some(best) if trial.weights[best] >= trial.weights[k] => Some(best),
         _ => Some(k),
     };
     let axis = splittable.fold(None, greatest);
-    let Some(k) = axis.filter(|_| !trial.hopeless) else { return 0.0 };
+    let axis = axis.filter(|_| !trial.hopeless);
+    let Some((k, edges)) = axis.and_then(|k| Some((k, halves(cell[k])?))) else { return 0.0 };
     grown.node.split = Some(k);
     let first = tree.len();
     tree[at].halves = Some([first, first + 1]);
-    let middle = 0.5 * (cell[k].0 + cell[k].1);
-    for edge in [(cell[k].0, middle), (middle, cell[k].1)] {
+    for edge in edges {
         let mut half =
             Open { cell: cell.clone(), depth: depth + 1, obligations: obligations.clone() };
         half.cell[k] = edge;
@@ -178,17 +225,28 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     0.0
 }
 
-fn in_preorder(tree: Vec<Growing>) -> (Vec<Node>, Vec<Open>) {
+type InPreorder = (Vec<Node>, Vec<Open>, Vec<(usize, Branch)>);
+
+fn in_preorder(tree: Vec<Growing>, path: &[(usize, bool)]) -> InPreorder {
     let (mut nodes, mut open) = (Vec::with_capacity(tree.len()), Vec::new());
-    let mut waiting = vec![0];
-    while let Some(at) = waiting.pop() {
+    let mut untried = Vec::new();
+    let mut waiting = vec![(0, path.to_vec())];
+    while let Some((at, path)) = waiting.pop() {
         let grown = &tree[at];
         nodes.push(grown.node.clone());
-        match grown.halves {
-            Some([lower, upper]) => waiting.extend([upper, lower]),
-            None if grown.item.obligations.is_empty() => {}
-            None => open.push(grown.item.clone()),
+        match (grown.halves, grown.node.split) {
+            (Some([lower, upper]), Some(k)) => {
+                let to = |is_upper| path.iter().copied().chain([(k, is_upper)]).collect();
+                waiting.extend([(upper, to(true)), (lower, to(false))]);
+            }
+            _ if grown.item.obligations.is_empty() => {}
+            _ if grown.tried => open.push(grown.item.clone()),
+            _ => {
+                open.push(grown.item.clone());
+                let branch = Branch { path, open: grown.item.obligations.clone() };
+                untried.push((nodes.len() - 1, branch));
+            }
         }
     }
-    (nodes, open)
+    (nodes, open, untried)
 }

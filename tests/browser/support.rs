@@ -2,7 +2,7 @@
 
 use orthocert::design::Design;
 use orthocert::sample::{Place, Quality, Sampler};
-use orthocert_checker::claim::{Claim, MachineClaim};
+use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::model::Model;
 use serde_json::Value;
 use std::fs;
@@ -51,7 +51,7 @@ impl Folder {
         let path = root().join("tests/designs").join(format!("{name}.toml"));
         let text = fs::read_to_string(&path).unwrap();
         let page = report(self, name, &text, 0).unwrap();
-        let Claim::Machine(claim) = Design::read(&path).unwrap().claim else { unreachable!() };
+        let claim = Design::read(&path).unwrap().rules.unwrap();
         (page, claim)
     }
 

@@ -109,8 +109,11 @@ fn formulas_are_printed_on_request() {
     let run = folder.run(&["check", "machine.json", "--formulas", "--format", "json"]).exits(1);
     let answer: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert!(answer["formulas"].as_str().unwrap().contains("p0 = g"));
-    folder.run(&["verify", "orthoglide-310.toml", "-o", "rules.json"]).exits(1);
-    let run = folder.run(&["check", "rules.json", "--formulas"]).exits(2);
+    folder.run(&["verify", "orthoglide-310.toml", "-o", "legs.json"]).exits(1);
+    let run = folder.run(&["check", "legs.json", "--formulas"]).exits(1);
+    run.says(&["Its formulas:", "rho_1 = "]);
+    folder.run(&["postulate", "--psi-max", "2", "-o", "postulate.json"]).exits(0);
+    let run = folder.run(&["check", "postulate.json", "--formulas"]).exits(2);
     assert_eq!(run.stdout, "");
     run.complains(&["--formulas", "not checked by formulas", "accepted"]);
     folder.run(&["check", ".", "--formulas"]).exits(2).complains(&["--formulas", "a folder"]);

@@ -2,7 +2,7 @@
 
 use orthocert::design::Design;
 use orthocert::import::{Files, ImportError, Imported, Importer};
-use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
+use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Quantity};
 use orthocert_checker::number::Exact;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -53,10 +53,7 @@ pub fn claim(imported: &Imported) -> MachineClaim {
     for sentence in told {
         assert!(squeezed(&comments).contains(&squeezed(&sentence)), "{sentence}\n{text}");
     }
-    match design.claim {
-        Claim::Machine(claim) => claim,
-        _ => panic!("not about a machine"),
-    }
+    design.rules.expect("a machine of three legs")
 }
 
 /// The legs of a translational machine.

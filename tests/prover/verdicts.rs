@@ -5,7 +5,6 @@ use super::{verdict, verified};
 use orthocert::design::Design;
 use orthocert::verify::Answer;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::{check, read};
 use std::path::Path;
 
@@ -26,7 +25,7 @@ fn designs_have_their_stated_verdicts() {
     ] {
         let file = format!("{}/tests/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let design = Design::read(Path::new(&file)).unwrap();
-        let Claim::Machine(claim) = &design.claim else { panic!("{name}") };
+        let claim = design.rules.as_ref().unwrap();
         let found = verified(claim, 20_000);
         assert_eq!(verdict(&found), Some(expected), "{name}");
         assert!(found.boxes <= most_boxes, "{name}: {} boxes", found.boxes);

@@ -21,6 +21,8 @@ pub(crate) struct Builder {
     pub inputs: Vec<Input>,
     pub scale: i64,
     pub partial: Vec<Formula>,
+    /// Not negative on the paper's cube.
+    pub reached: Vec<Formula>,
     /// Whether the platform turns.
     pub turns: bool,
 }

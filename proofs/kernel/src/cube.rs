@@ -13,6 +13,11 @@
 //! is `1/kappa^2`; for `kappa <= 1/2`, `1 + 2 t_2 = 3 - 2 kappa <= 1/kappa`, since
 //! `1 - 3 kappa + 2 kappa^2 = (1 - kappa)(1 - 2 kappa) >= 0`. ∎ A claim with `psi_min <= kappa` asks for no
 //! more; one with a greater `psi_min` has to be shown otherwise.
+//!
+//! **Lemma (joint coordinates).** `rho_i >= 0` at every point of the cube, so that `rho_i >= min` for every
+//! `min <= 0`. *Proof.* With the anchor `a = q_1 - offset - L` and the joint at `P_i - offset`,
+//! `rho_i = P_i - offset - a - s_i = (P_i - q_1) + (L - s_i)`, `P_i >= q_1` and `s_i <= L`. ∎ It is 0 where
+//! `P_i = q_1` and the others are 0: a point that enclosures never settle.
 
 use crate::claim::{Leg, MachineClaim, Quantity, Sign};
 use crate::input::{binary, number_error, ordered, positive, shape_error, sign, ClaimError};

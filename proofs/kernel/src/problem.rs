@@ -45,6 +45,8 @@ pub struct Problem {
     /// Whether the least psi asked for is at most `kappa`: shown on the paper's cube by its lemma
     /// (upper bound), see `cube`.
     pub cube_has_least: bool,
+    /// Not negative on the paper's cube by its lemma (joint coordinates), see `cube`.
+    pub cube_reached: Vec<Formula>,
     /// Quotients and roots of a user's formulas: defined where the claim is true.
     pub partial: Vec<Formula>,
 }
@@ -117,9 +119,11 @@ impl Problem {
                 |(cube, least)| ordered("transmission", least, &cube.kappa, false).is_ok(),
             ),
             partial: std::mem::take(&mut builder.partial),
+            cube_reached: Vec::new(),
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
+        problem.cube_reached = builder.reached;
         problem.tape = builder.tape;
         problem.inputs = builder.inputs;
         problem.constants_are_defined()?;

@@ -45,7 +45,7 @@ fn every_design_of_another_kind_is_read() {
 #[test]
 fn relaxed_bounds_are_exact_expressions() {
     let design = Design::read(&designs().join("orthoglide-relaxed-1e-9.toml")).unwrap();
-    let Claim::Machine(claim) = design.claim else { panic!("not of a machine") };
+    let claim = design.rules.unwrap();
     let transmission = claim.requirements.transmission.unwrap();
     assert_eq!(transmission.max, Some(number("2.000000002")));
     assert_eq!(transmission.min, Some(number("1000000000/2000000002")));

@@ -100,8 +100,9 @@ transmission = { max = 3 }
 pub(super) fn claim(text: &str) -> Claim {
     let tree = toml::de::DeTable::parse(text).unwrap();
     let document = document::Document { file: "test.toml", text, names: document::Names::None };
-    let claim = crate::design::claim(&document.root(tree.get_ref()));
-    claim.unwrap_or_else(|error| panic!("{error}\n{text}"))
+    let description = crate::design::description(&document.root(tree.get_ref()));
+    let description = description.unwrap_or_else(|error| panic!("{error}\n{text}"));
+    description.kernel().map(Claim::Kernel).expect("short numbers")
 }
 
 pub(super) fn kernel(text: &str) -> kernel::MachineClaim {

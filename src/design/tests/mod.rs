@@ -155,7 +155,7 @@ fn with(design: &str, changes: &[(usize, &str)]) -> String {
 
 fn read(text: &str) -> MachineClaim {
     match Design::parse(text, "test.toml") {
-        Ok(Design { claim: Claim::Machine(claim), .. }) => claim,
+        Ok(Design { rules: Some(claim), .. }) => claim,
         Ok(design) => panic!("{:?}", design.claim),
         Err(error) => panic!("{error}\n{text}"),
     }

@@ -2,7 +2,6 @@ use super::*;
 use crate::paving::header;
 use orthocert_checker::cell::{Axis, Cell};
 use orthocert_checker::certificate::Step;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::paving::{Item, Kind, SHARE_BITS};
 use orthocert_checker::rule::Rotation;
 use std::collections::{BTreeSet, HashMap};
@@ -20,7 +19,7 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
                 min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                 transmission = { min = \"1/2\", max = 2 }\n";
     let design = crate::design::Design::parse(text, "test").unwrap();
-    let Claim::Machine(claim) = design.claim else { panic!("not a machine") };
+    let claim = design.rules.unwrap();
     let mut header = header(&claim, 30);
     if !symmetric {
         header.symmetry = None;

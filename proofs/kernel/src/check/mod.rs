@@ -455,6 +455,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
+            (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
             (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
                 let rest = || {

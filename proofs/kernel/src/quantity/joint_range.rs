@@ -1,7 +1,7 @@
 //! Joint coordinates `rho_i`.
 
 use super::{Context, Quantity, Test};
-use crate::claim::Bound;
+use crate::claim::{Bound, Mechanism};
 use crate::input::{binary, ordered, sign, ClaimError, Value};
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
@@ -15,7 +15,8 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
     tests,
 };
 
-/// A length has `rho - min >= 0` or `max - rho >= 0`; of a strut of a platform that turns, with bounds
+/// A length has `rho - min >= 0` or `max - rho >= 0`, the first on the paper's cube by its lemma (joint
+/// coordinates) where `min <= 0`; of a strut of a platform that turns, with bounds
 /// that are not negative, `w D - w min^2 >= 0` or `w max^2 - w D >= 0`, polynomials, as `rho^2 = D` and
 /// `w > 0`. An angle `theta` is in `[min, max]`, less than
 /// 180 degrees wide, up to whole turns, if and only if `sin(theta - min) >= 0` and
@@ -39,8 +40,14 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
     }
     Ok(match (rho, &context.requirement.bound) {
         (Some(Joint::Length(rho)), Bound::Min(min)) => {
+            let is_cube = matches!(context.claim.mechanism, Mechanism::Orthoglide { .. });
+            let least = Expression::Neg(Box::new(min.clone()));
             let min = context.number(min, 1);
-            vec![Test::AtLeast(context.tape().sub(rho, min))]
+            let rest = context.tape().sub(rho, min);
+            if is_cube && matches!(sign(&least), Some([_, true])) {
+                context.builder.reached.push(rest);
+            }
+            vec![Test::AtLeast(rest)]
         }
         (Some(Joint::Length(rho)), Bound::Max(max)) => {
             let max = context.number(max, 1);

@@ -389,7 +389,8 @@ impl<'a> Prover<'a> {
                 crate::directions::directions(over, apart).into_iter().map(Evidence::Direction),
             ),
             Test::OneToOne(_) => tried.push(Evidence::Chords),
-            Test::AtLeast(_) | Test::Curvature(_) => tried.push(Evidence::Test),
+            Test::AtLeast(_) => tried.extend([Evidence::Test, Evidence::Cube]),
+            Test::Curvature(_) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => {
                 let starts = self.starts(over, rows, number(kappa).sqrt());

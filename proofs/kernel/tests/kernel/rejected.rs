@@ -5,7 +5,7 @@ use crate::certificates::claim;
 use crate::prover::certify;
 use num_bigint::BigInt;
 use orthocert_kernel::certificate::{
-    Certificate, Corner, Evidence, Proof, Step, Tree, Unreadable, Verdict,
+    Certificate, Claim, Corner, Evidence, Proof, Step, Tree, Unreadable, Verdict,
 };
 use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::claim::MachineClaim;
@@ -364,4 +364,30 @@ fn small_claims_are_small_work() {
         .replace(r#""require":[]"#, &format!(r#""require":[{accuracy}]"#));
     let refused = Problem::new(&claim(&text)).err().map(|e| e.to_string()).unwrap_or_default();
     assert!(refused.contains("fewer operations"), "{refused}");
+}
+
+/// On the paper's cube `rho_i >= 0`, with equality: shown by its lemma for bounds up to 0, for no other.
+#[test]
+fn joint_coordinates_on_the_cube() {
+    let with = |bound: &str| {
+        let require =
+            format!(r#"{{"quantity":"joint_range","leg":2,"end":"min","bound":"{bound}"}}"#);
+        format!(
+            r#"{{"mechanism":{{"orthoglide":{{"offset":"7"}}}},"workspace":{{"cube":{{"side":"200"}}}},"require":[{},{},{require}]}}"#,
+            psi("min", "1/2"),
+            psi("max", "2")
+        )
+    };
+    let good = certified(&with("0"));
+    for (bound, holds) in
+        [("-1/3", true), ("sqrt(2)*sqrt(2)-2", false), ("0.000001", false), ("1", false)]
+    {
+        let claim = Claim::Machine(claim(&with(bound)));
+        let other = Certificate { claim, ..good.clone() };
+        assert_eq!(check(&other).is_ok(), holds, "{bound}");
+    }
+    // The same machine on a box has no such lemma.
+    let delta =
+        format!(r#"{{"quantity":"joint_range","end":"min","bound":"0"}},{}"#, psi("max", "2"));
+    assert!(Problem::new(&claim(&self::delta(&delta))).unwrap().cube_reached.is_empty());
 }
