@@ -12,7 +12,7 @@ use crate::interval::Interval;
 use crate::sample::Sampler;
 use crate::search::{prove, Budget, Control, Stop};
 use crate::verify::MODEL_PRECISION;
-use crate::verify::{accepted, look_into, refutation as witness, refuted, worst_values, Answer};
+use crate::verify::{accepted, refutation as witness, refuted, worst_values, Answer};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Tree};
@@ -27,8 +27,6 @@ use std::time::Instant;
 pub const LARGEST_FACTOR: f64 = 10.0;
 /// Finest step of the search for a violation, `2^-FINEST` of the workspace and the tolerances.
 const FINEST: i32 = 26;
-/// Open boxes from whose centres a violation is looked for.
-const OPEN_CENTRES: usize = 16;
 
 /// A value, and the certificate of the claim for it.
 pub type Certified = (BigRational, Box<Certificate>);
@@ -205,39 +203,6 @@ pub fn refutation(
     };
     let found = witness(claim, &sampler, &worst);
     Ok(found.and_then(|witness| decided(refuted(claim, witness))))
-}
-
-/// What is proved of `claim` within the budget: a certificate of either verdict. A claim that is not
-/// well formed has none.
-///
-/// # Errors
-/// If it was cancelled.
-pub fn decision(
-    claim: &MachineClaim,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    if let Some(refuted) = refutation(claim, control)? {
-        return Ok(Some(refuted));
-    }
-    let Ok(model) = Model::new(claim, MODEL_PRECISION) else {
-        return Ok(None);
-    };
-    let found = prove(&model.map(&Interval::from_fixed), budget, control);
-    if found.stop == Stop::Cancelled {
-        return Err(NoAnswer::Cancelled);
-    }
-    if found.stop == Stop::Exhausted && found.open.is_empty() {
-        let tree = |precision| Proof::Tree(Tree { precision, nodes: found.nodes.clone() });
-        return Ok(decided(accepted(Claim::Machine(claim.clone()), tree)));
-    }
-    // Where no proof closes a box, a violation may be near its centre.
-    let Some(sampler) = Sampler::new(claim, &model) else {
-        return Ok(None);
-    };
-    let mut worst = worst_values(&sampler, FINEST);
-    look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
-    Ok(witness(claim, &sampler, &worst).and_then(|witness| decided(refuted(claim, witness))))
 }
 
 fn decided(answer: Answer) -> Option<Box<Certificate>> {

@@ -6,16 +6,16 @@
 //! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
 //! a band, where the tolerances, which are not subdivided, are too wide to be proved.
 
-use crate::decimal::approximate;
-use crate::frontier::{
-    frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
-};
+use crate::frontier::{frontier, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR};
 use crate::search::{Budget, Control};
+use crate::solver::{self, number};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
-use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Parameter, Quantity};
-use orthocert_checker::number::{Exact, NumberErrorKind};
+use num_traits::{ToPrimitive, Zero};
+use orthocert_checker::certificate::Certificate;
+use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
+use orthocert_kernel::number::{Expression, Operator};
 use std::fmt;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// The first tolerance tried, relative to the greatest number of its unit.
@@ -65,13 +65,9 @@ impl Kind {
 
     /// Those that a mechanism has.
     pub fn of(mechanism: &Mechanism) -> Vec<Kind> {
-        let Mechanism::Translational(legs) = mechanism else {
-            return Vec::new();
-        };
-        let has = |kind: &Kind| {
-            legs.iter().flat_map(Leg::parameters).any(|(parameter, _)| kind.is(parameter))
-        };
-        Kind::ALL.into_iter().filter(has).collect()
+        let mut legs = legs(mechanism).to_vec();
+        let there: Vec<Kind> = legs.iter_mut().flat_map(parameters).map(|(kind, _)| kind).collect();
+        Kind::ALL.into_iter().filter(|kind| there.contains(kind)).collect()
     }
 
     /// Its name.
@@ -91,18 +87,44 @@ impl Kind {
     pub fn is_direction(self) -> bool {
         matches!(self, Kind::Direction | Kind::Axis | Kind::Reference)
     }
+}
 
-    fn is(self, parameter: Parameter) -> bool {
-        let own = match self {
-            Kind::LegLength => Parameter::Length,
-            Kind::Anchor => Parameter::Anchor,
-            Kind::Direction => Parameter::Direction,
-            Kind::Platform => Parameter::Platform,
-            Kind::Axis => Parameter::Axis,
-            Kind::Reference => Parameter::Reference,
-            Kind::Arm => Parameter::Arm,
-        };
-        own == parameter
+/// The legs of a mechanism.
+fn legs(mechanism: &Mechanism) -> &[Leg] {
+    match mechanism {
+        Mechanism::Translational(legs)
+        | Mechanism::Planar(Turning { legs, .. })
+        | Mechanism::Spatial(Turning { legs, .. })
+        | Mechanism::Spherical(Turning { legs, .. }) => legs,
+        Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => &[],
+    }
+}
+
+/// The parameters of a leg.
+fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
+    fn vector(kind: Kind, x: &mut Vector) -> impl Iterator<Item = (Kind, &mut Quantity)> {
+        x.iter_mut().map(move |x| (kind, x))
+    }
+    match leg {
+        Leg::Slider { direction, anchor, platform, length, .. } => {
+            let mut all = vec![(Kind::LegLength, length)];
+            all.extend(vector(Kind::Direction, direction));
+            all.extend(vector(Kind::Anchor, anchor));
+            all.extend(vector(Kind::Platform, platform));
+            all
+        }
+        Leg::Strut { anchor, platform, .. } => {
+            vector(Kind::Anchor, anchor).chain(vector(Kind::Platform, platform)).collect()
+        }
+        Leg::Arm { axis, reference, anchor, platform, arm, length, .. } => {
+            let mut all = vec![(Kind::LegLength, length), (Kind::Arm, arm)];
+            all.extend(vector(Kind::Axis, axis));
+            all.extend(vector(Kind::Reference, reference));
+            all.extend(vector(Kind::Anchor, anchor));
+            all.extend(vector(Kind::Platform, platform));
+            all
+        }
+        Leg::Planar { direction } => vector(Kind::Direction, direction).collect(),
     }
 }
 
@@ -131,15 +153,16 @@ impl Scheme {
     /// numbers become too large.
     pub fn claim(&self, claim: &MachineClaim, t: &BigRational) -> Option<MachineClaim> {
         let mut widened = claim.clone();
-        let Mechanism::Translational(legs) = &mut widened.mechanism else {
-            return None;
+        let legs = match &mut widened.mechanism {
+            Mechanism::Translational(legs)
+            | Mechanism::Planar(Turning { legs, .. })
+            | Mechanism::Spatial(Turning { legs, .. })
+            | Mechanism::Spherical(Turning { legs, .. }) => legs,
+            Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => return None,
         };
-        for leg in legs {
-            let names: Vec<Parameter> = leg.parameters().iter().map(|(name, _)| *name).collect();
-            for (name, quantity) in names.into_iter().zip(leg.parameters_mut()) {
-                if let Some((_, weight)) = self.weights.iter().find(|(kind, _)| kind.is(name)) {
-                    *quantity = around(quantity, &Exact::Rational(weight * t)).ok()?;
-                }
+        for (kind, quantity) in legs.iter_mut().flat_map(parameters) {
+            if let Some((_, weight)) = self.weights.iter().find(|(own, _)| *own == kind) {
+                *quantity = around(quantity, &(weight * t))?;
             }
         }
         Some(widened)
@@ -148,13 +171,11 @@ impl Scheme {
     /// The greatest number among the parameters that have the same unit as those named, which
     /// measures tolerances: directions with directions, lengths with lengths.
     fn scale(&self, claim: &MachineClaim) -> f64 {
-        let Mechanism::Translational(legs) = &claim.mechanism else {
-            return 1.0;
-        };
         let directions = self.weights.iter().all(|(kind, _)| kind.is_direction());
-        let all = legs.iter().flat_map(Leg::parameters);
-        let same = all.filter(|(parameter, _)| parameter.is_direction() == directions);
-        let sizes = same.filter_map(|(_, q)| approximate(&q.max)).map(f64::abs);
+        let mut legs = legs(&claim.mechanism).to_vec();
+        let all = legs.iter_mut().flat_map(parameters);
+        let same = all.filter(|(kind, _)| kind.is_direction() == directions);
+        let sizes = same.filter_map(|(_, q)| solver::approximate(q.ends()[1])).map(f64::abs);
         let greatest = sizes.fold(0.0, f64::max);
         if greatest > 0.0 {
             greatest
@@ -165,16 +186,27 @@ impl Scheme {
 }
 
 /// `nominal - t` to `nominal + t`.
-fn around(quantity: &Quantity, t: &Exact) -> Result<Quantity, NumberErrorKind> {
-    let nominal = if quantity.is_exact() {
-        quantity.min.clone()
-    } else {
-        quantity.min.clone().plus(quantity.max.clone())?.over(Exact::integer(2))?
+fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
+    let both = |operator, a: &Expression, b: &Expression| {
+        Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()))
     };
-    if t.sign() == Some(0) {
-        return Ok(Quantity::exactly(nominal));
+    let short = |x: Expression| match x.rational() {
+        Some(value) => number(&value),
+        None => Some(x),
+    };
+    let nominal = match quantity {
+        Quantity::Exactly(x) => x.clone(),
+        Quantity::Between { min, max } => {
+            let sum = both(Operator::Add, min, max);
+            short(both(Operator::Div, &sum, &Expression::integer(2)))?
+        }
+    };
+    if t.is_zero() {
+        return Some(Quantity::Exactly(nominal));
     }
-    Ok(Quantity { min: nominal.clone().minus(t.clone())?, max: nominal.plus(t.clone())? })
+    let t = number(t)?;
+    let end = |operator| short(both(operator, &nominal, &t));
+    Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
 }
 
 /// Encloses the widest `t` for which the claim widened by `scheme` holds. The refuted end is found
@@ -206,9 +238,12 @@ pub fn widest(
             now + end.saturating_duration_since(now) / 3
         }),
     };
-    let mut refute = |walk: &Walk| {
+    let refute = |walk: &Walk| {
         frontier(walk, |t| match scheme.claim(claim, t) {
-            Some(claim) => refutation(&claim, control),
+            Some(claim) if !control.cancel.load(Ordering::Relaxed) => {
+                Ok(solver::refutation(&claim))
+            }
+            Some(_) => Err(NoAnswer::Cancelled),
             None => Ok(None),
         })
     };
@@ -228,9 +263,18 @@ pub fn widest(
         },
         None => walk,
     };
-    let certified = frontier(&walk, |t| match scheme.claim(claim, t) {
-        Some(claim) => proof(&claim, budget, control),
-        None => Ok(None),
-    })?;
+    let certified = frontier(&walk, |t| proved(scheme.claim(claim, t), budget, control))?;
     Ok(Bracket { certified, refuted })
+}
+
+fn proved(
+    claim: Option<MachineClaim>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    let found = claim.and_then(|claim| solver::proof(&claim, budget, control));
+    match control.cancel.load(Ordering::Relaxed) {
+        true => Err(NoAnswer::Cancelled),
+        false => Ok(found),
+    }
 }

@@ -62,14 +62,6 @@ pub struct Worst {
     pub margin: f64,
 }
 
-impl Worst {
-    /// Nothing is known yet: any place is worse.
-    pub(crate) fn unknown(quality: Quality, sampler: &Sampler) -> Self {
-        let place = Place { u: [0.5; 3], t: vec![0.5; sampler.parameters()] };
-        Worst { quality, place, margin: f64::MAX }
-    }
-}
-
 /// The result of a verification.
 #[derive(Clone, Debug)]
 pub struct Verification {

@@ -4,8 +4,7 @@
 use crate::schema;
 use orthocert::design::{Design, TEMPLATES};
 use orthocert::search::{Budget, Control, Progress};
-use orthocert::solver;
-use orthocert::verify::{verify, Answer, Verification};
+use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
 use std::fs;
@@ -13,7 +12,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// Undecided designs are to stay so for want of precision, not of boxes.
-const MAX_BOXES: usize = 20_000;
+const MAX_BOXES: usize = 2_000;
 
 /// What a design's comment says of it, and the name of the file.
 struct Stated {
@@ -50,16 +49,6 @@ fn stated(text: &str) -> Option<Option<Verdict>> {
     }
 }
 
-fn decide(text: &str, name: &str) -> Verification {
-    let design = Design::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
-    let Claim::Machine(claim) = design.claim else { panic!("{name}: not about a machine") };
-    let cancel = AtomicBool::new(false);
-    let mut progress = |_: Progress| {};
-    let mut control = Control { cancel: &cancel, progress: &mut progress };
-    let budget = Budget { max_boxes: MAX_BOXES, deadline: None };
-    verify(&claim, budget, &mut control).unwrap_or_else(|error| panic!("{name}: {error}"))
-}
-
 /// The verdict that the checker accepts from the certificate's text, and the number of nodes.
 fn checked(certificate: &Certificate, name: &str) -> Verdict {
     let text = certificate.to_text().expect("a text");
@@ -70,9 +59,16 @@ fn checked(certificate: &Certificate, name: &str) -> Verdict {
 }
 
 fn verdict(text: &str, name: &str) -> (Option<Verdict>, String) {
-    let verification = decide(text, name);
-    let told = format!("{name}: {} boxes, worst {:?}", verification.boxes, verification.worst);
-    match verification.answer {
+    let design = Design::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
+    let Claim::Kernel(claim) = design.claim else { panic!("{name}: not about a machine") };
+    let cancel = AtomicBool::new(false);
+    let mut progress = |_: Progress| {};
+    let mut control = Control { cancel: &cancel, progress: &mut progress };
+    let budget = Budget { max_boxes: MAX_BOXES, deadline: None };
+    let found = verify(&claim, budget, &mut control);
+    let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let told = format!("{name}: {} boxes, worst {:?}", found.boxes, found.worst);
+    match found.answer {
         Answer::Decided { certificate, .. } => {
             schema::holds(&certificate.to_text().expect("a text"), name);
             (Some(checked(&certificate, name)), told)
@@ -99,44 +95,20 @@ fn every_design_gives_its_stated_verdict() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn verdict_by_the_kernel(text: &str, name: &str) -> (Option<Verdict>, String) {
-    let design = Design::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
-    let Claim::Kernel(claim) = design.claim else { panic!("{name}: not about the kernel's") };
-    let cancel = AtomicBool::new(false);
-    let mut progress = |_: Progress| {};
-    let mut control = Control { cancel: &cancel, progress: &mut progress };
-    let budget = Budget { max_boxes: 2_000, deadline: None };
-    let found = solver::verify(&claim, budget, &mut control);
-    let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
-    let told = format!("{name}: {} boxes, worst {:?}", found.boxes, found.worst);
-    match found.answer {
-        solver::Answer::Decided { certificate, .. } => {
-            schema::holds(&certificate.to_text().expect("a text"), name);
-            (Some(checked(&certificate, name)), told)
-        }
-        solver::Answer::Undecided(_) => (None, told),
-        solver::Answer::Cancelled => panic!("{name}: cancelled by nobody"),
-    }
-}
-
 #[test]
 fn every_design_of_another_kind_gives_its_stated_verdict() {
     let designs = gallery("tests/designs/kernel");
     assert!(designs.len() >= 16, "{}", designs.len());
     for Stated { name, verdict: expected, text } in designs {
-        let (found, told) = verdict_by_the_kernel(&text, &name);
+        let (found, told) = verdict(&text, &name);
         assert_eq!(found, expected, "{told}");
     }
 }
 
 #[test]
 fn every_template_is_certified() {
-    let of_the_kernel = ["formulas", "planar", "spatial", "spherical"];
     for (kind, text) in TEMPLATES {
-        let (found, told) = match of_the_kernel.contains(kind) {
-            true => verdict_by_the_kernel(text, kind),
-            false => verdict(text, kind),
-        };
+        let (found, told) = verdict(text, kind);
         assert_eq!(found, Some(Verdict::Certified), "{told}");
     }
 }

@@ -1,24 +1,27 @@
 //! `orthocert tolerance`.
 
 use super::size::{explain, file, gap, gap_text, shown};
-use super::{effort, input, print, Failure, Format, Status};
+use super::{effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, Toward};
 use orthocert::design::Design;
-use orthocert::frontier::{proof, refutation, Bracket};
+use orthocert::frontier::Bracket;
 use orthocert::output;
-use orthocert::report::CertificateFile;
-use orthocert::report::Counterexample;
+use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::search::Budget;
+use orthocert::solver::{proof, refutation};
 use orthocert::tolerance::{widest, Kind, Scheme};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::{Claim, MachineClaim, Mechanism};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Boxes after which a tolerance counts as not certified: what closes at all mostly closes in a few
@@ -90,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-6, 0.5)?;
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let claim = input::three_legged(&design)?;
+    let Claim::Kernel(claim) = &design.claim else { return Err(Failure::Defect) };
     let kinds = named(&arguments.on, claim)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;
@@ -153,6 +156,13 @@ fn named(on: &[String], claim: &MachineClaim) -> Result<Vec<Kind>, Failure> {
                 .to_owned(),
         ));
     }
+    if there.is_empty() {
+        return Err(Failure::Input(
+            "mechanism: found a machine by formulas, whose parameters are of no kinds; accepted by \
+             this command: a machine of legs"
+                .to_owned(),
+        ));
+    }
     for name in on {
         if !there.iter().any(|kind| kind.name() == name.trim()) {
             let names: Vec<&str> = there.iter().map(|kind| kind.name()).collect();
@@ -194,11 +204,16 @@ fn nodes_or_status(
     budget: Budget,
 ) -> Result<Result<usize, Status>, Failure> {
     let effort = &arguments.effort;
-    let refuted = effort.run(|control| refutation(nominal, control)).map_err(explain)?;
-    let counterexample = refuted.as_deref().and_then(|found| witness(nominal, found));
+    let refuted = refutation(nominal);
+    let counterexample = refuted.as_deref().and_then(witness);
     if refuted.is_none() {
-        let found = effort.run(|control| proof(nominal, budget, control)).map_err(explain)?;
-        if let Some(Proof::Tree(tree)) = found.map(|certificate| certificate.proof) {
+        let found = effort.run(|control| proof(nominal, budget, control));
+        if interrupt::cancelled().load(Ordering::Relaxed) {
+            return Err(Failure::Interrupted);
+        }
+        if let Some(Proof::Kernel(kernel::Proof::Tree(tree))) =
+            found.map(|certificate| certificate.proof)
+        {
             return Ok(Ok(tree.nodes.len()));
         }
     }
@@ -236,9 +251,11 @@ fn nodes_or_status(
     Ok(Err(status))
 }
 
-fn witness(claim: &MachineClaim, certificate: &Certificate) -> Option<Counterexample> {
-    match &certificate.proof {
-        Proof::Witness(witness) => Some(Counterexample::new(claim, witness)),
+fn witness(certificate: &Certificate) -> Option<Counterexample> {
+    match (&certificate.claim, &certificate.proof) {
+        (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) => {
+            counterexample(claim, witness)
+        }
         _ => None,
     }
 }
@@ -266,10 +283,7 @@ fn row(
             }
         }
     }
-    let counterexample = found.refuted.as_ref().and_then(|(_, certificate)| {
-        let Claim::Machine(claim) = &certificate.claim else { return None };
-        witness(claim, certificate)
-    });
+    let counterexample = found.refuted.as_ref().and_then(|(_, certificate)| witness(certificate));
     let weights = match measure {
         Measure::Share => scheme
             .weights

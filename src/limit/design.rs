@@ -2,7 +2,7 @@
 
 use super::Family;
 use crate::design::{Design, Variable};
-use crate::frontier::{decision, NoAnswer};
+use crate::frontier::NoAnswer;
 use crate::search::{Budget, Control};
 use crate::solver;
 use num_rational::BigRational;
@@ -31,17 +31,12 @@ impl Family for DesignFamily<'_, '_> {
     }
 
     fn decide(&mut self, claim: &Claim) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
-        let certificate = match claim {
-            Claim::Machine(claim) => decision(claim, self.budget, self.control)?,
-            Claim::Kernel(claim) => {
-                let found = solver::verify(claim, self.budget, self.control);
-                match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
-                    solver::Answer::Decided { certificate, .. } => Some(certificate),
-                    solver::Answer::Undecided { .. } => None,
-                    solver::Answer::Cancelled => return Err(NoAnswer::Cancelled),
-                }
-            }
-            Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => None,
+        let Claim::Kernel(claim) = claim else { return Ok(None) };
+        let found = solver::verify(claim, self.budget, self.control);
+        let certificate = match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
+            solver::Answer::Decided { certificate, .. } => Some(certificate),
+            solver::Answer::Undecided { .. } => None,
+            solver::Answer::Cancelled => return Err(NoAnswer::Cancelled),
         };
         Ok(certificate.map(|certificate| (certificate.verdict, certificate)))
     }

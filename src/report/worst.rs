@@ -6,7 +6,6 @@ use crate::sample::{with_unit, Quality, Reached, Sampler, Values};
 use crate::verify::Worst;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Range, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::rule::Obligation;
 use serde::Serialize;
 
 /// Relative violations below this are rounding errors of the sampling.
@@ -158,18 +157,4 @@ fn value(claim: &MachineClaim, quality: Quality, values: &Values, frame: &Frame)
             matrix.row(leg).norm() / length * angle * tool
         }
     })
-}
-
-/// The obligation that a quality belongs to.
-pub fn obligation(quality: Quality) -> Obligation {
-    match quality {
-        Quality::Clearance | Quality::Determinant | Quality::GreatestPsi => Obligation::SigmaMin,
-        Quality::LeastPsi => Obligation::SigmaMax,
-        Quality::LeastRho(_) | Quality::GreatestRho(_) => Obligation::JointRange,
-        Quality::Conditioning => Obligation::Conditioning,
-        Quality::SerialMargin(_) => Obligation::SerialMargin,
-        Quality::ParallelMargin => Obligation::ParallelMargin,
-        Quality::LegAngle(_) => Obligation::LegAngle,
-        Quality::JointSpeed(_) => Obligation::JointSpeed,
-    }
 }

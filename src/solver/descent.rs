@@ -60,7 +60,13 @@ impl Sampler<'_> {
         self.considered(worst, &parts)
     }
 
-    fn to_ends(&self, worst: &mut Worst) -> bool {
+    /// Moves the point alone.
+    pub(super) fn to_point(&self, worst: &mut Worst, finest: i32) {
+        self.compass(worst, 0..self.box_.len(), 1..=finest);
+    }
+
+    /// Puts each parameter in turn at the worse end of its tolerance.
+    pub(super) fn to_ends(&self, worst: &mut Worst) -> bool {
         let m = self.box_.len();
         let axes = m..m + self.free.len();
         let ends = axes.flat_map(|axis| [(axis, 0.0), (axis, 1.0)]);

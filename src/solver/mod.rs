@@ -9,7 +9,7 @@
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines                            |
-//! | `descent`  | the worst of them                                                           |
+//! | `descent`, `adverse` | the worst of them                                                 |
 //! | `same`     | two points with the same joint coordinates                                  |
 //! | `refute`   | a place where an obligation seems to fail as an exact witness               |
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
@@ -18,6 +18,7 @@
 //!
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
+mod adverse;
 mod chords;
 mod descent;
 mod directions;
@@ -47,7 +48,7 @@ use orthocert_kernel::problem::Problem;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
 
-pub use refute::number;
+pub use refute::{approximate, number};
 
 /// Finest step of the search for worst values, `2^-FINEST` of the workspace.
 pub const FINEST: i32 = 26;
@@ -187,6 +188,41 @@ pub fn concluded(
     let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
     let answer = accepted(claim, &Prover::new(&problem)?, nodes);
     Ok(Verification { answer, worst, boxes })
+}
+
+/// A certificate that a claim holds, if the search finds one within the budget; none of a claim that is
+/// not well formed, and none where it was cancelled.
+pub fn proof(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Option<Box<Certificate>> {
+    let problem = Problem::new(claim).ok()?;
+    let prover = Prover::new(&problem).ok()?;
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let found = search(&prover, &Branch::whole(&prover), ends, budget, control)?;
+    if !found.is_proof() {
+        return None;
+    }
+    match accepted(claim, &prover, found.nodes) {
+        Answer::Decided { certificate, .. } => Some(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => None,
+    }
+}
+
+/// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
+/// well formed.
+pub fn refutation(claim: &MachineClaim) -> Option<Box<Certificate>> {
+    let problem = Problem::new(claim).ok()?;
+    let sampler = Sampler::new(claim, &problem).ok()?;
+    let worst = match problem.tolerances().next() {
+        None => sampler.worst_values(FINEST),
+        Some(_) => sampler.worst_machines(FINEST),
+    };
+    match refuted(claim, refute::refutation(claim, &problem, &sampler, &worst)?) {
+        Answer::Decided { certificate, .. } => Some(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => None,
+    }
 }
 
 /// The worst values of a claim's obligations that sampling finds.

@@ -3,7 +3,7 @@
 use crate::atlas::{coarse, widest};
 use crate::support::Folder;
 use orthocert::shard::{read_shard, sha256, Part, ShardResult, Task};
-use orthocert_checker::certificate::Node;
+use orthocert_kernel::certificate::Node;
 use std::fs;
 
 /// A folder with the map of one machine in `one`, and shards of the same job in `job`.

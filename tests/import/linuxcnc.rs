@@ -193,15 +193,12 @@ fn real_configurations_are_the_firmwares_machines() {
     ];
     for (names, firmware, [x0, x1, y0, y1, z0, z1]) in shipped {
         let imported = on_disk(names).unwrap_or_else(|e| panic!("{names:?}: {e}"));
-        let mut claim = claim(&imported);
-        let whole = claim.workspace.clone();
-        let min = [x0, y0, z0].map(number);
-        claim.workspace = Workspace::Box { min, max: [x1, y1, z1].map(number) };
+        let whole = claim(&imported);
+        let claim = claim(&imported).on_a_box([[x0, y0, z0], [x1, y1, z1]].map(|x| x.map(number)));
         assert_eq!(same_joints(names[0], &claim, &*firmware, 400), 400, "{names:?}");
         assert_eq!(same_extremes(names[0], &claim, &*firmware), Extremes::Agree, "{names:?}");
-        if whole != claim.workspace {
-            claim.workspace = whole;
-            let told = same_extremes(names[0], &claim, &*firmware);
+        if whole.workspace != claim.workspace {
+            let told = same_extremes(names[0], &whole, &*firmware);
             assert_eq!(told, Extremes::Singular, "{names:?}");
         }
     }
@@ -304,7 +301,7 @@ fn ini_files_name_what_is_run_and_in_which_order() {
     let late = ini.replace("[HAL]\n", "[HAL]\nHALCMD = setp lineardeltakins.R 7\n");
     assert_eq!(radius(run(&late).unwrap()), exactly("130.5"));
     let twice = format!("{ini}\n[AXIS_X]\nMAX_LIMIT = 7\n");
-    let Workspace::Box { max, .. } = claim(&run(&twice).unwrap()).workspace else { panic!() };
+    let Workspace::Box { max, .. } = &claim(&run(&twice).unwrap()).workspace else { panic!() };
     assert_eq!(max[0], number("50"));
     for (from, to, told) in [
         ("[HAL]\n", "[HAL]\nHALFILE = more.tcl\n", "[HAL]HALFILE = more.tcl"),

@@ -4,12 +4,13 @@
 //! firmware, and the extremes of `rho` and `psi` over it, found from the firmware's kinematics alone,
 //! lie inside `bounds` and no farther in than 1e-4.
 
-use crate::support::legs;
+use crate::support::{legs, Machine};
 use nalgebra::Matrix3;
 use num_rational::BigRational;
-use orthocert::extremes::{enclose, is_singular, Extreme, NotEnclosed};
+use num_traits::ToPrimitive;
 use orthocert::sample::{Place, Sampler};
 use orthocert::search::{Budget, Control};
+use orthocert::solver::extremes::{enclose, is_singular, Extreme as Bounded, NotEnclosed};
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::model::Model;
 use orthocert_checker::number::Exact;
@@ -216,6 +217,34 @@ fn worst(region: &Region, firmware: &dyn Firmware, extreme: Extreme, h: f64) -> 
     Some(best)
 }
 
+/// An extreme that the firmware knows of.
+#[derive(Clone, Copy, Debug)]
+enum Extreme {
+    LeastPsi,
+    GreatestPsi,
+    LeastRho(usize),
+    GreatestRho(usize),
+}
+
+impl Extreme {
+    fn of(bounded: &Bounded) -> Option<Self> {
+        let greatest = bounded.is_greatest();
+        let rho = |leg| if greatest { Extreme::GreatestRho(leg) } else { Extreme::LeastRho(leg) };
+        match bounded.quantity().as_str() {
+            "psi" if greatest => Some(Extreme::GreatestPsi),
+            "psi" => Some(Extreme::LeastPsi),
+            "rho_1" => Some(rho(0)),
+            "rho_2" => Some(rho(1)),
+            "rho_3" => Some(rho(2)),
+            _ => None,
+        }
+    }
+
+    fn is_greatest(self) -> bool {
+        matches!(self, Extreme::GreatestPsi | Extreme::GreatestRho(_))
+    }
+}
+
 /// What is known of a design's extremes.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Extremes {
@@ -229,11 +258,11 @@ pub enum Extremes {
 
 /// Holds that the extremes that the firmware's kinematics has over the imported workspace are
 /// inside `bounds`, and the bounds at most 1e-4 outside them.
-pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) -> Extremes {
+pub fn same_extremes(name: &str, claim: &Machine, firmware: &dyn Firmware) -> Extremes {
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let budget = Budget { max_boxes: 20_000, deadline: None };
-    match is_singular(claim, budget, &mut control) {
+    match is_singular(&claim.kernel, budget, &mut control) {
         Ok(false) => {}
         Ok(true) => return Extremes::Singular,
         Err(error) => panic!("{name}: {error}"),
@@ -242,12 +271,9 @@ pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) 
     let span = (0..3).map(|k| region.high[k] - region.low[k]).fold(0.0, f64::max);
     let angular = legs(claim)[0].is_angular();
     let width = BigRational::new(5.into(), 100_000.into());
-    let all = Extreme::of(claim).into_iter().filter(|extreme| {
-        use Extreme::*;
-        matches!(extreme, LeastPsi | GreatestPsi | LeastRho(_) | GreatestRho(_))
-    });
-    for extreme in all {
-        let enclosed = match enclose(claim, extreme, &width, budget, &mut control) {
+    for bounded in Bounded::of(&claim.kernel, 3) {
+        let Some(extreme) = Extreme::of(&bounded) else { continue };
+        let enclosed = match enclose(&claim.kernel, &bounded, &width, budget, &mut control) {
             Ok(enclosed) if enclosed.width <= &width * BigRational::from_integer(2.into()) => {
                 enclosed
             }
@@ -263,7 +289,7 @@ pub fn same_extremes(name: &str, claim: &MachineClaim, firmware: &dyn Firmware) 
             Extreme::LeastPsi | Extreme::GreatestPsi if angular => 1f64.to_degrees(),
             _ => 1.0,
         };
-        let (sampled, outer) = (sign * sampled * per, float(&enclosed.outer));
+        let (sampled, outer) = (sign * sampled * per, enclosed.outer.to_f64().expect("a double"));
         let room = sign * (outer - sampled);
         // Joint coordinates may be zero: then a share of the workspace's size.
         let scale = match extreme {

@@ -215,14 +215,14 @@ fn soft_endstops_and_endstops_bound_the_workspace() {
     assert_eq!(claim_of(&format!("{PLAIN}{soft}")).workspace, Workspace::Box { min, max });
     let homing = "endstops_enable true\ndelta_homing true\ngamma_homing_direction home_to_max\n\
                   gamma_max 300\nbeta_trim_mm 1.5\n";
-    let Workspace::Cylinder { radius, z, .. } = claim_of(&format!("{PLAIN}{homing}")).workspace
+    let Workspace::Cylinder { radius, z, .. } = &claim_of(&format!("{PLAIN}{homing}")).workspace
     else {
         panic!("no cylinder")
     };
-    assert_eq!(radius, number("124.0/2"));
+    assert_eq!(*radius, number("124.0/2"));
     let top =
         "300+(0)+sqrt(250.0*250.0-124*124)-(1.5)-sqrt(250.0*250.0-(124-(124.0/2))*(124-(124.0/2)))";
-    assert_eq!(z, [number("0"), number(top)]);
+    assert_eq!(*z, [number("0"), number(top)]);
     let partly = format!("{PLAIN}soft_endstop.enable true\nsoft_endstop.x_max 50\n");
     let error = text(&partly).unwrap_err().to_string();
     assert!(error.contains("soft_endstop.x_max = 50: not understood"), "{error}");

@@ -2,7 +2,7 @@
 
 use orthocert::design::Design;
 use orthocert::import::{Files, ImportError, Imported, Importer};
-use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Quantity};
+use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_checker::number::Exact;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ pub fn ignoring(
 }
 
 /// The claim of an imported design, whose comments say all that is said of the import.
-pub fn claim(imported: &Imported) -> MachineClaim {
+pub fn claim(imported: &Imported) -> Machine {
     let text = &imported.design;
     let design = Design::parse(text, "imported.toml").unwrap_or_else(|e| panic!("{e}\n{text}"));
     let comments: String = text.lines().take_while(|line| line.starts_with('#')).collect();
@@ -53,7 +53,38 @@ pub fn claim(imported: &Imported) -> MachineClaim {
     for sentence in told {
         assert!(squeezed(&comments).contains(&squeezed(&sentence)), "{sentence}\n{text}");
     }
-    design.rules.expect("a machine of three legs")
+    let Claim::Kernel(kernel) = design.claim else { panic!("about a machine") };
+    Machine { rules: design.rules.expect("a machine of three legs"), kernel }
+}
+
+/// A claim about three legs, in both vocabularies.
+#[derive(Debug)]
+pub struct Machine {
+    rules: MachineClaim,
+    /// As it is decided.
+    pub kernel: orthocert_kernel::claim::MachineClaim,
+}
+
+impl Machine {
+    /// The same over a box.
+    pub fn on_a_box(self, [min, max]: [[Exact; 3]; 2]) -> Self {
+        let texts = |corner: &[Exact; 3]| corner.each_ref().map(ToString::to_string);
+        let own = serde_json::json!({ "box": { "min": texts(&min), "max": texts(&max) } });
+        let workspace = serde_json::from_value(own).expect("a box of the kernel");
+        let kernel = orthocert_kernel::claim::MachineClaim { workspace, ..self.kernel };
+        Machine {
+            rules: MachineClaim { workspace: Workspace::Box { min, max }, ..self.rules },
+            kernel,
+        }
+    }
+}
+
+impl std::ops::Deref for Machine {
+    type Target = MachineClaim;
+
+    fn deref(&self) -> &MachineClaim {
+        &self.rules
+    }
 }
 
 /// The legs of a translational machine.

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 fn report(claim: &MachineClaim, boxes: usize) -> Report {
     let found = with_boxes(claim, boxes);
-    Report::of_kernel(claim, &found, Duration::from_millis(5)).expect("a report")
+    Report::new(claim, &found, Duration::from_millis(5)).expect("a report")
 }
 
 fn objection(report: &Report) -> Option<String> {
