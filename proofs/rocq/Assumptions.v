@@ -5,9 +5,8 @@
 
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
-  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker
-  CheckerPostulate.
-From Orthocert.kernel Require Machine Problem.
+  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker.
+From Orthocert.kernel Require Machine Problem Faces.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -124,12 +123,12 @@ Print Assumptions LinearDelta.certified.
 
 (** ** The postulate by subdivision *)
 
-Check check_postulate_sound.
-Print Assumptions check_postulate_sound.
+Check Faces.check_postulate_sound.
+Print Assumptions Faces.check_postulate_sound.
 Check PostulateAll.certified.
 Print Assumptions PostulateAll.certified.
-Check check_postulate_up_to_sound.
-Print Assumptions check_postulate_up_to_sound.
+Check Faces.check_postulate_up_to_sound.
+Print Assumptions Faces.check_postulate_up_to_sound.
 Check PostulateUpTo2.certified.
 Print Assumptions PostulateUpTo2.certified.
 Check PostulateUpTo2.at_greatest.

@@ -4,8 +4,8 @@
     that the check is then [false]: no instance could be closed with it. *)
 
 From Coq Require Import ZArith List.
-From Orthocert Require Import Claim Checker CheckerPostulate.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
+From Orthocert Require Import Claim Checker.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta.
 Import ListNotations.
 
 (** The first leaf left without a rule. *)
@@ -62,52 +62,3 @@ Example first_leaf_removed : accepts claim (without_first_leaf certificate) = fa
 Example bound_tightened : accepts (with_bounds claim (1 // 2) (3 // 2)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Delta.
-
-Fixpoint map_rules (f : face_rule -> face_rule) (t : face_tree) : face_tree :=
-  match t with
-  | FaceLeaf by_ => FaceLeaf (f by_)
-  | FaceSplit k first second => FaceSplit k (map_rules f first) (map_rules f second)
-  end.
-
-(** The first leaf, which touches the corner, by another rule. *)
-Fixpoint first_by (rule : face_rule) (t : face_tree) : face_tree :=
-  match t with
-  | FaceLeaf _ => FaceLeaf rule
-  | FaceSplit k first second => FaceSplit k (first_by rule first) second
-  end.
-
-Module PostulateForAll.
-Import PostulateAll.
-
-Local Notation accepts := (check_postulate 64).
-
-Example edge_rule_replaced : accepts (first_by BlowUp q1_low) q1_high q2_low q2_high = false.
-Proof. vm_compute. reflexivity. Qed.
-Example edge_rule_moved :
-  accepts (map_rules (fun r => match r with BlowUp => EdgeRule | r => r end) q1_low) q1_high q2_low q2_high = false.
-Proof. vm_compute. reflexivity. Qed.
-Example all_mirrored : accepts q1_low q1_high (map_rules (fun _ => Mirror) q2_low) q2_high = false.
-Proof. vm_compute. reflexivity. Qed.
-Example one_leaf_for_all : accepts q1_low q1_high q2_low (FaceLeaf EdgeRule) = false.
-Proof. vm_compute. reflexivity. Qed.
-Example halves_exchanged : accepts q1_low q1_high q2_high q2_low = false.
-Proof. vm_compute. reflexivity. Qed.
-End PostulateForAll.
-
-(** Trees prove the range of kappa that they were found for, and a greatest psi no greater than theirs. *)
-Module PostulateForARange.
-Import PostulateUpTo2.
-Local Notation accepts := (check_postulate_up_to 64).
-
-Example greatest_increased : accepts (2000001 // 1000000) q1 q2 = false.
-Proof. vm_compute. reflexivity. Qed.
-Example trees_of_kappa_above_half_also_below :
-  accepts (3 // 1) (Both q1_high q1_high) (Both q2_high q2_high) = false.
-Proof. vm_compute. reflexivity. Qed.
-Example tree_of_kappa_below_half_above : accepts (2 // 1) (HighOnly PostulateAll.q1_low) q2 = false.
-Proof. vm_compute. reflexivity. Qed.
-Example greatest_not_above_one : accepts (1 // 1) q1 q2 = false. Proof. vm_compute. reflexivity. Qed.
-Example edge_rule_replaced : accepts (2 // 1) (HighOnly (first_by BlowUp q1_high)) q2 = false.
-Proof. vm_compute. reflexivity. Qed.
-Example faces_exchanged : accepts (2 // 1) q2 q1 = false. Proof. vm_compute. reflexivity. Qed.
-End PostulateForARange.
