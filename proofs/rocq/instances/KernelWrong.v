@@ -6,7 +6,7 @@
 From Coq Require Import ZArith NArith Reals List.
 From Orthocert Require Import Claim.
 From Orthocert.kernel Require Import Statement Check Problem Faces.
-From Orthocert.instances Require FourSliders StrutsAndPlane PostulateAll PostulateUpTo2.
+From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 Definition step : Type := nat * evidence.
@@ -87,6 +87,19 @@ Example through_a_base_joint :
   accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg box box] box (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Struts.
+
+Module Tolerance.
+Import OrthoglideTolerance.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
+Local Notation between least greatest := (requiring the_claim [PsiMax greatest; PsiMin least]).
+
+Example the_certificate : accepts (between (1 // 2) (2 // 1)) certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts the_claim (without_first certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example not_split : accepts the_claim (first_leaf certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example lower_bound_tightened : accepts (between (1 // 2) (19 // 10)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example upper_bound_tightened : accepts (between (501 // 1000) (2 // 1)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example of_another_machine : accepts LinearDelta.the_claim certificate = false. Proof. vm_compute. reflexivity. Qed.
+End Tolerance.
 
 (** Of the first leaf, which touches the corner, another step. *)
 Fixpoint first_by (e : evidence) (t : tree) : tree :=
