@@ -1,83 +1,21 @@
 //! What is exported to Rocq, and what is refused. That the files prove what they state is for Rocq
 //! to say: `proofs/rocq/instances`.
 
-use orthocert::export::rocq::{rocq, ExportError};
+use orthocert::export::rocq::{postulate, rocq, ExportError};
 use orthocert_checker::read;
-
-fn certificate(workspace: &str, requirements: &str, nodes: &str) -> String {
-    let leg = |direction: &str| {
-        format!(
-            r#"{{"drive":"slider","direction":{direction},"anchor":["0","0","0"],"platform":["0","0","0"],"length":{{"min":"3113/10","max":"3117/10"}},"mode":"+"}}"#
-        )
-    };
-    let legs = [r#"["1","0","0"]"#, r#"["0","1","0"]"#, r#"["0","0","1"]"#].map(leg).join(",");
-    format!(
-        r#"{{"format":"orthocert/2","claim":{{"machine":{{"mechanism":{{"translational":[{legs}]}},"workspace":{workspace},"requirements":{requirements}}}}},"verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":{nodes}}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#
-    )
-}
-
-const BOX: &str = r#"{"box":{"min":["-1","-1","-1"],"max":["1","1","1/2"]}}"#;
-const TRANSMISSION: &str = r#"{"transmission":{"min":"1/2","max":"2"}}"#;
-const LOWER: &str = r#"{"lower":{"q":[1,0,0,-2],"sign":"-"}}"#;
+use orthocert_kernel::certificate::{Certificate, Claim, Proof};
 
 fn exported(text: &str) -> Result<String, ExportError> {
     rocq(&read(text.as_bytes()).expect("a certificate"))
 }
 
-#[test]
-fn the_claim_and_the_tree_are_written_and_the_theorem_has_no_tree_in_it() {
-    let nodes =
-        format!(r#"[{{"by":["upper"],"split":"y"}},{{"by":[{LOWER}]}},{{"by":[{LOWER}]}}]"#);
-    let text = exported(&certificate(BOX, TRANSMISSION, &nodes)).expect("exported");
-    assert!(text.contains("(Within (3113 // 10) (3117 // 10))"));
-    assert!(text.contains("(Within ((-1) // 1) (1 // 2))"));
-    assert!(text.contains("MachineClaim leg_1 leg_2 leg_3 box (Some (1 // 2)) (Some (2 // 1))"));
-    assert!(text.contains("(Split [Upper] AlongY\n    (Leaf [Lower (1) (0) (0) (-2) false])"));
-    let (_, theorem) = text.split_once("Theorem certified").expect("a theorem");
-    let (statement, _) = theorem.split_once("Proof.").expect("a proof");
-    assert!(!statement.contains("certificate"));
-    assert!(statement.contains("sigma_at_least (1 / value (2 // 1)) (Jinv m P)"));
-    assert!(statement.contains("sigma_at_most (1 / value (1 // 2)) (Jinv m P)"));
-}
-
-#[test]
-fn other_claims_and_broken_trees_are_refused() {
-    let leaf = format!(r#"[{{"by":[{LOWER}]}}]"#);
-    let cylinder = r#"{"cylinder":{"center":["0","0"],"radius":"1","z":["0","1"]}}"#;
-    assert_eq!(exported(&certificate(cylinder, TRANSMISSION, &leaf)), Err(ExportError::NotABox));
-    let margin = r#"{"transmission":{"max":"2"},"serial_margin":{"min":"1/2"}}"#;
-    assert_eq!(exported(&certificate(BOX, margin, &leaf)), Err(ExportError::NotTransmission));
-    assert_eq!(exported(&certificate(BOX, "{}", &leaf)), Err(ExportError::NotTransmission));
-    for nodes in [r#"[{"split":"x"},{}]"#, "[{},{}]", r#"[{"split":"kappa"},{},{}]"#] {
-        let refused = exported(&certificate(BOX, TRANSMISSION, nodes));
-        assert_eq!(refused, Err(ExportError::NotATree), "{nodes}");
+/// That the instance is the committed one; with `ORTHOCERT_WRITE` set, it is written first.
+fn committed(file: &str, text: &str) {
+    if std::env::var_os("ORTHOCERT_WRITE").is_some() {
+        std::fs::write(file, text).expect("written");
     }
-    let speed = r#"[{"by":["speed"]}]"#;
-    assert_eq!(exported(&certificate(BOX, TRANSMISSION, speed)), Err(ExportError::Rule("speed")));
+    assert_eq!(text, std::fs::read_to_string(file).expect("committed"));
 }
-
-/// A certificate of the postulate with one leaf for each part.
-fn postulate(psi_max: &str, parts: &[(&str, &str, &str)]) -> String {
-    let parts: Vec<String> = parts
-        .iter()
-        .map(|(face, half, nodes)| {
-            format!(r#"{{"face":"{face}","half":"{half}","nodes":{nodes}}}"#)
-        })
-        .collect();
-    format!(
-        r#"{{"format":"orthocert/2","claim":{{"postulate":{{"psi_max":{psi_max}}}}},"verdict":"certified","proof":{{"faces":{{"precision":64,"parts":[{}]}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#,
-        parts.join(",")
-    )
-}
-
-const ONE_LEAF: &str = r#"[{"by":["blow_up"]}]"#;
-const HIGH: [(&str, &str, &str); 2] = [("q1", "high", ONE_LEAF), ("q2", "high", ONE_LEAF)];
-const BOTH: [(&str, &str, &str); 4] = [
-    ("q1", "low", ONE_LEAF),
-    ("q1", "high", ONE_LEAF),
-    ("q2", "low", ONE_LEAF),
-    ("q2", "high", ONE_LEAF),
-];
 
 /// The statement of `certified`, without its proof.
 fn statement(text: &str) -> &str {
@@ -85,72 +23,84 @@ fn statement(text: &str) -> &str {
     theorem.split_once("Proof.").expect("a proof").0
 }
 
-#[test]
-fn a_range_of_the_postulate_is_stated_up_to_its_greatest_psi_max() {
-    let range = r#"{"min":"3/2","max":"2"}"#;
-    let text = exported(&postulate(range, &HIGH)).expect("exported");
-    assert!(statement(&text).contains("forall psi, 1 < psi <= 2 -> forall P, in_cube L psi P"));
-    assert!(text.contains("check_postulate_up_to 64 (2 // 1) q1 q2 = true"));
-    assert!(text.contains("Definition q1 : halves := HighOnly q1_high."));
-    assert!(text.contains("Corollary at_greatest : forall L a e, 0 < L -> forall P, in_cube L 2 P"));
-    assert!(text.contains("forall v, (1 / 2) ^ 2 * norm2 v <="));
-
-    let range = r#"{"min":"3/2","max":"2+sqrt(1/3)"}"#;
-    let text = exported(&postulate(range, &BOTH)).expect("exported");
-    assert!(statement(&text).contains("1 < psi <= (2 + (sqrt (1 / 3))) ->"), "{text}");
-    assert!(text.contains("value (Plus (2 // 1) (Root (1 // 3))) ="));
-    assert!(text.contains("Definition q2 : halves := Both q2_low q2_high."));
+/// A certificate of the postulate, as the instance that it is exported to.
+fn postulate_of(psi_max: &str, nodes: &str) -> Result<String, ExportError> {
+    let claim = serde_json::from_str(&format!(r#"{{"psi_max":{psi_max}}}"#)).expect("a claim");
+    let tree = format!(r#"{{"precision":52,"nodes":{nodes}}}"#);
+    postulate(&claim, &serde_json::from_str(&tree).expect("a tree"))
 }
 
 #[test]
-fn the_postulate_for_all_is_stated_without_an_upper_end() {
-    let text = exported(&postulate(r#""all""#, &BOTH)).expect("exported");
-    assert!(statement(&text).contains("forall psi, 1 < psi -> forall P, in_cube L psi P"));
-    assert!(text.contains("check_postulate 64 q1_low q1_high q2_low q2_high = true"));
-}
-
-#[test]
-fn trees_that_the_range_of_the_postulate_does_not_need_are_refused() {
-    let range = r#"{"min":"3/2","max":"2"}"#;
-    let exchanged = [HIGH[1], HIGH[0]];
-    let over_x = [("q1", "high", r#"[{"split":"x"},{},{}]"#), HIGH[1]];
-    let two_roots = [("q1", "high", r#"[{"by":["blow_up"]},{"by":["blow_up"]}]"#), HIGH[1]];
-    for (psi_max, parts) in [
-        (r#""all""#, &HIGH[..]),
-        (range, &HIGH[..1]),
-        (range, &BOTH[..3]),
-        (range, &exchanged),
-        (range, &over_x),
-        (range, &two_roots),
-    ] {
-        let refused = exported(&postulate(psi_max, parts));
-        assert_eq!(refused, Err(ExportError::NotATree), "{psi_max} {parts:?}");
+fn the_postulate_is_written_as_the_instances_of_the_formal_development() {
+    for name in ["PostulateAll", "PostulateUpTo2"] {
+        let file = |end: &str| format!("proofs/rocq/instances/{name}{end}");
+        let text = std::fs::read_to_string(file(".cert.json")).expect("committed");
+        let certificate = Certificate::read(&text).expect("canonical");
+        let (Claim::Postulate(claim), Proof::Tree(tree)) = (&certificate.claim, &certificate.proof)
+        else {
+            panic!("{name} is about the postulate");
+        };
+        let text = postulate(claim, tree).expect("exported");
+        committed(&file(".v"), &text);
+        assert!(!statement(&text).contains("trees"));
     }
 }
 
+const LEAF: &str = r#"{"by":[[0,"test"]]}"#;
+
 #[test]
-fn one_psi_max_by_a_tree_over_the_cube_is_refused_with_the_command_for_a_range() {
-    let text = r#"{"format":"orthocert/2","claim":{"postulate":{"psi_max":"2"}},"verdict":"certified","proof":{"tree":{"precision":64,"nodes":[{"by":["blow_up"]}]}},"provenance":{"tool":"orthocert","version":"0.1.0"}}"#;
-    let refused = exported(text).expect_err("refused");
-    assert_eq!(refused, ExportError::OneCube);
-    assert!(refused.to_string().contains("orthocert postulate --psi-range A..B"));
+fn a_range_of_the_postulate_is_stated_up_to_its_greatest_psi_max() {
+    let two = format!("[{LEAF},{LEAF}]");
+    let text = postulate_of(r#"{"min":"1.5","max":"2"}"#, &two).expect("exported");
+    assert!(statement(&text).contains("forall psi, 1 < psi <= 2 -> forall P, in_cube L psi P"));
+    assert!(text.contains("check_postulate_up_to 52 (2 // 1) trees = true"));
+    assert!(text.contains("Definition trees : list tree := [q1_high; q2_high]."));
+    assert!(text.contains("Corollary at_greatest : forall L a e, 0 < L -> forall P, in_cube L 2 P"));
+    assert!(text.contains("forall v, (1 / 2) ^ 2 * norm2 v <="));
+    assert_eq!(postulate_of(r#""2""#, &two).as_ref(), Ok(&text));
+
+    let four = format!("[{LEAF},{LEAF},{LEAF},{LEAF}]");
+    let text = postulate_of(r#""2+sqrt(1/3)-0.5""#, &four).expect("exported");
+    assert!(statement(&text).contains("1 < psi <= ((2 + (sqrt (1 / 3))) - (1 / 2)) ->"), "{text}");
+    let exact = "value (Minus (Plus (2 // 1) (Root (Over (1 // 1) (3 // 1)))) (1 // 2)) =";
+    assert!(text.contains(exact), "{text}");
+    assert!(text.contains(":= [q1_low; q1_high; q2_low; q2_high]."));
+}
+
+#[test]
+fn trees_that_the_postulate_does_not_need_are_refused() {
+    let node = r#"{"split":0}"#;
+    for nodes in [
+        String::new(),
+        LEAF.to_owned(),
+        format!("{LEAF},{LEAF},{LEAF}"),
+        format!("{node},{LEAF},{LEAF}"),
+    ] {
+        let refused = postulate_of(r#""2""#, &format!("[{nodes}]"));
+        assert_eq!(refused, Err(ExportError::NotATree), "{nodes}");
+    }
+    let cube = r#"[{"by":[[0,"cube"]]},{"by":[[0,"cube"]]}]"#;
+    assert_eq!(postulate_of(r#""2""#, cube), Err(ExportError::Evidence("cube")));
+    assert_eq!(postulate_of(r#""1""#, "[]"), Err(ExportError::NotWellFormed));
 }
 
 const FOUR: &str = include_str!("../proofs/rocq/instances/FourSliders.cert.json");
 
 #[test]
-fn certificates_of_the_kernel_are_written_as_the_instances_of_the_formal_development() {
-    for (certificate, instance) in [
-        (FOUR, include_str!("../proofs/rocq/instances/FourSliders.v")),
-        (
-            include_str!("../proofs/rocq/instances/StrutsAndPlane.cert.json"),
-            include_str!("../proofs/rocq/instances/StrutsAndPlane.v"),
-        ),
-    ] {
-        let text = exported(certificate).expect("exported");
-        assert_eq!(text, instance);
+fn machines_are_written_as_the_instances_of_the_formal_development() {
+    for name in ["FourSliders", "StrutsAndPlane", "OrthoglideTolerance", "LinearDelta"] {
+        let file = |end: &str| format!("proofs/rocq/instances/{name}{end}");
+        let certificate = std::fs::read_to_string(file(".cert.json")).expect("committed");
+        let text = exported(&certificate).expect("exported");
+        committed(&file(".v"), &text);
         assert!(!statement(&text).contains("certificate"));
     }
+}
+
+#[test]
+fn certificates_of_the_rules_are_refused() {
+    let text = include_str!("../proofs/certificates/orthoglide-prototype.cert.json");
+    assert_eq!(exported(text), Err(ExportError::Rules));
 }
 
 #[test]
@@ -166,8 +116,8 @@ fn claims_of_the_kernel_that_its_formal_side_lacks_are_refused_with_what_is_miss
     assert!(refused.to_string().contains("\"serial_margin\""));
     let cylinder = r#""cylinder":{"center":["0","0"],"radius":"60","z":["0","200"]}"#;
     let workspace = r#""box":{"min":["-60","-60","0"],"max":["60","60","200"]}"#;
-    assert_eq!(replaced(workspace, cylinder), Err(ExportError::KernelNotABox));
+    assert_eq!(replaced(workspace, cylinder), Err(ExportError::NotABox));
     let step = r#"[2,"test"]"#;
-    assert_eq!(replaced(step, r#"[2,"cube"]"#), Err(ExportError::Rule("cube")));
+    assert_eq!(replaced(step, r#"[2,"cube"]"#), Err(ExportError::Evidence("cube")));
     assert_eq!(replaced(r#","split":1}"#, "}"), Err(ExportError::NotATree));
 }

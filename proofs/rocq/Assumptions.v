@@ -5,9 +5,8 @@
 
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
-  Postulate Extremes Design PositiveDefinite Rules Slopes AllPsi Claim Checker
-  CheckerPostulate.
-From Orthocert.kernel Require Machine Problem.
+  Postulate Extremes Design TightCorner AllPsi Claim.
+From Orthocert.kernel Require Machine Problem Faces.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -70,39 +69,14 @@ Print Assumptions joint_range_reached.
 Check rho_max_200.
 Print Assumptions rho_max_200.
 
-(** ** Rules of certificates *)
+(** ** A corner at which the bound is reached *)
 
 Check symmetric_part.
 Print Assumptions symmetric_part.
-Check leading_minors.
-Print Assumptions leading_minors.
-Check leading_minors_complete.
-Print Assumptions leading_minors_complete.
-Check hertz.
-Print Assumptions hertz.
-Check vertices_suffice.
-Print Assumptions vertices_suffice.
-Check vertex_rule_lower.
-Print Assumptions vertex_rule_lower.
-Check vertex_rule_upper.
-Print Assumptions vertex_rule_upper.
 Check tight_corner_rule.
 Print Assumptions tight_corner_rule.
 Check tight_corner_semidefinite.
 Print Assumptions tight_corner_semidefinite.
-Check quaternion_orthogonal.
-Print Assumptions quaternion_orthogonal.
-
-(** ** Slopes *)
-
-Check entry_slope.
-Print Assumptions entry_slope.
-Check slider_row_slope.
-Print Assumptions slider_row_slope.
-Check slider_rho_slope.
-Print Assumptions slider_rho_slope.
-Check Jinv_slopes.
-Print Assumptions Jinv_slopes.
 
 (** ** All psi at once *)
 
@@ -113,29 +87,20 @@ Print Assumptions two_faces_suffice.
 Check blow_up.
 Print Assumptions blow_up.
 
-(** ** The checker for machines, and what it has checked *)
-
-Check check_sound.
-Print Assumptions check_sound.
-Check OrthoglideTolerance.certified.
-Print Assumptions OrthoglideTolerance.certified.
-Check LinearDelta.certified.
-Print Assumptions LinearDelta.certified.
-
 (** ** The postulate by subdivision *)
 
-Check check_postulate_sound.
-Print Assumptions check_postulate_sound.
+Check Faces.check_postulate_sound.
+Print Assumptions Faces.check_postulate_sound.
 Check PostulateAll.certified.
 Print Assumptions PostulateAll.certified.
-Check check_postulate_up_to_sound.
-Print Assumptions check_postulate_up_to_sound.
+Check Faces.check_postulate_up_to_sound.
+Print Assumptions Faces.check_postulate_up_to_sound.
 Check PostulateUpTo2.certified.
 Print Assumptions PostulateUpTo2.certified.
 Check PostulateUpTo2.at_greatest.
 Print Assumptions PostulateUpTo2.at_greatest.
 
-(** ** The kernel: any number of legs *)
+(** ** The kernel *)
 
 Check kernel.Machine.row_is_derivative.
 Print Assumptions kernel.Machine.row_is_derivative.
@@ -143,6 +108,10 @@ Check kernel.Machine.three_guided.
 Print Assumptions kernel.Machine.three_guided.
 Check kernel.Problem.check_claim_sound.
 Print Assumptions kernel.Problem.check_claim_sound.
+Check OrthoglideTolerance.certified.
+Print Assumptions OrthoglideTolerance.certified.
+Check LinearDelta.certified.
+Print Assumptions LinearDelta.certified.
 Check FourSliders.certified.
 Print Assumptions FourSliders.certified.
 Check StrutsAndPlane.certified.

@@ -1,8 +1,8 @@
-(** * Claims about machines within tolerances
+(** * Exact numbers, and sliders within tolerances
 
-    What a certificate is about, in exact numbers, and what it means.  An
-    instance states its theorem with these definitions: they have to be read
-    to know what is proved; the checker does not. *)
+    An instance states its theorem with these definitions and those of
+    kernel/Statement.v: they have to be read to know what is proved; the
+    checker does not. *)
 
 From Coq Require Import ZArith Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics.
@@ -59,26 +59,3 @@ Definition is_leg (c : slider) (l : leg) : Prop :=
   all_within (platform c) (platform_offset l) /\
   within (length c) (leg_length l) /\
   working_mode l = (if mode c then 1 else -1).
-
-Record machine_claim := MachineClaim {
-  slider1 : slider;
-  slider2 : slider;
-  slider3 : slider;
-  workspace : tolerances;      (* the box: least and greatest coordinates *)
-  psi_min : option number;     (* bounds on the velocity transmission factors *)
-  psi_max : option number
-}.
-
-(** [m] is one of the machines that the claim is about. *)
-Definition is_machine (c : machine_claim) (m : machine) : Prop :=
-  is_leg (slider1 c) (leg1 m) /\ is_leg (slider2 c) (leg2 m) /\ is_leg (slider3 c) (leg3 m).
-
-(** No singularity at [P], and every velocity transmission factor, 1 over a
-    singular value of J^-1, from psi_min to psi_max (where these are given). *)
-Definition meets (c : machine_claim) (m : machine) (P : vec) : Prop :=
-  regular m P /\
-  (forall psi, psi_max c = Some psi -> sigma_at_least (1 / value psi) (Jinv m P)) /\
-  (forall psi, psi_min c = Some psi -> sigma_at_most (1 / value psi) (Jinv m P)).
-
-Definition holds (c : machine_claim) : Prop :=
-  forall m P, is_machine c m -> all_within (workspace c) P -> meets c m P.

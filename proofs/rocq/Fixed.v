@@ -262,18 +262,6 @@ Proof.
     unfold sqrt_ceil. destruct (Z.sqrt n * Z.sqrt n =? n) eqn:q; apply F; lia.
 Qed.
 
-(** ** Hull *)
-
-Definition hull (a b : fixed) : fixed := Fixed (Z.min (lo a) (lo b)) (Z.max (hi a) (hi b)).
-
-Lemma hull_sound : forall a b x y z, contains a x -> contains b y -> (x <= z <= y)%R -> contains (hull a b) z.
-Proof.
-  intros a b x y z [h _] [_ k] [l u]. unfold contains, hull. cbn [lo hi]. pose proof unit_R_pos.
-  pose proof (IZR_min (lo a) (lo b)). pose proof (IZR_max (hi a) (hi b)).
-  assert (x * unit_R <= z * unit_R)%R by (apply Rmult_le_compat_r; lra).
-  assert (z * unit_R <= y * unit_R)%R by (apply Rmult_le_compat_r; lra). lra.
-Qed.
-
 Lemma contains_nonneg : forall a x, 0 <= lo a -> contains a x -> (0 <= x)%R.
 Proof.
   intros a x h [l _]. apply IZR_le in h. pose proof unit_R_pos.

@@ -71,6 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
     if let Some(output) = output {
         input::apart(output, &[path.to_owned()])?;
+        output::probe(output)?;
     }
     let bytes = input::certificate(path)?;
     let certificate = match read(&bytes) {

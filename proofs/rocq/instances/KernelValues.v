@@ -2,12 +2,15 @@
 
     Written by proofs/kernel/tests/kernel/rocq.rs.  The digests are of the
     integers that the kernel's arithmetic gives: operations on random
-    intervals, definiteness of random matrices, and the slopes of all rows of
-    two machines over cells of their boxes.  Nothing depends on this file. *)
+    intervals, definiteness of random matrices, what is shown of random cells
+    of the postulate's faces in so few bits that each rounding counts, and the
+    slopes of all rows of two machines over cells of their boxes.  Nothing
+    depends on this file. *)
 
 From Coq Require Import ZArith NArith List Bool.
 From Orthocert Require Import Fixed Claim.
 From Orthocert.kernel Require Import Arithmetic Slope Definite Test Check Number Statement Machine Problem Formula.
+From Orthocert.kernel Require Faces.
 From Orthocert.instances Require FourSliders StrutsAndPlane.
 Import ListNotations.
 Local Open Scope Z_scope.
@@ -60,6 +63,25 @@ Definition drawn_operations := operations_digest 200 1 0.
 Definition arithmetic : Z := fst drawn_operations.
 Definition definite : Z := definite_digest 100 (snd drawn_operations) 0.
 
+(** ** The postulate's faces *)
+
+Definition part (f : face) (low : bool) : list (op nat) * list nat := compile (Faces.entries f low).
+Definition part_1 := Eval vm_compute in part Q1 true.
+Definition part_2 := Eval vm_compute in part Q1 false.
+Definition part_3 := Eval vm_compute in part Q2 true.
+Definition part_4 := Eval vm_compute in part Q2 false.
+Definition near (seed low base width : Z) : fixed * Z := let s := next seed in interval s (low + drawn s base) width.
+Fixpoint face_digest (n : nat) (f : face) (from : Z) (part : list (op nat) * list nat) (st : Z * Z) : Z * Z :=
+  match n with
+  | O => st
+  | S n =>
+      let (y, s) := near (snd st) 0 3400 700 in let (z, s) := near s 0 3400 700 in let (k, s) := near s from 1400 600 in
+      let shows e := if Faces.shows f 12 (fst part) (snd part) [y; z; k] e then 1 else 0 in
+      face_digest n f from part (absorb (fst st) (2 * shows ByTest + shows (ByCorner f)), s)
+  end.
+Definition shown : Z :=
+  fst (face_digest 100 Q2 2048 part_4 (face_digest 100 Q2 0 part_3 (face_digest 100 Q1 2048 part_2 (face_digest 100 Q1 0 part_1 (0, 1))))).
+
 (** ** Slopes *)
 
 Definition absorb_slope (digest : Z) (f : option slope) : Z :=
@@ -93,6 +115,8 @@ Example operations : arithmetic = 7017841435846086887692315725061807257.
 Proof. vm_cast_no_check (eq_refl 7017841435846086887692315725061807257). Qed.
 Example definiteness : definite = 117724195210062243353930469751842205840.
 Proof. vm_cast_no_check (eq_refl 117724195210062243353930469751842205840). Qed.
+Example faces : shown = 31913373165326602092280992525734546912.
+Proof. vm_cast_no_check (eq_refl 31913373165326602092280992525734546912). Qed.
 
 Example foursliders_52_0 : FourSliders.over 52 [Fixed (-527765581332480) (527765581332480); Fixed (-527765581332480) (527765581332480); Fixed (0) (1759218604441600)] = 112952018440446013053676556095504964808.
 Proof. vm_cast_no_check (eq_refl 112952018440446013053676556095504964808). Qed.

@@ -5,8 +5,8 @@
 
 From Coq Require Import ZArith NArith Reals List.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Statement Check Problem.
-From Orthocert.instances Require FourSliders StrutsAndPlane.
+From Orthocert.kernel Require Import Statement Check Problem Faces.
+From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 Definition step : Type := nat * evidence.
@@ -87,3 +87,63 @@ Example through_a_base_joint :
   accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg box box] box (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Struts.
+
+Module Tolerance.
+Import OrthoglideTolerance.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
+Local Notation between least greatest := (requiring the_claim [PsiMax greatest; PsiMin least]).
+
+Example the_certificate : accepts (between (1 // 2) (2 // 1)) certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts the_claim (without_first certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example not_split : accepts the_claim (first_leaf certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example lower_bound_tightened : accepts (between (1 // 2) (19 // 10)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example upper_bound_tightened : accepts (between (501 // 1000) (2 // 1)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example of_another_machine : accepts LinearDelta.the_claim certificate = false. Proof. vm_compute. reflexivity. Qed.
+End Tolerance.
+
+(** Of the first leaf, which touches the corner, another step. *)
+Fixpoint first_by (e : evidence) (t : tree) : tree :=
+  match t with Leaf _ => Leaf [(0%nat, e)] | Split b k l u => Split b k (first_by e l) u end.
+Definition corner_for_test (f : face) (e : evidence) : evidence := match e with ByTest => ByCorner f | e => e end.
+Definition mirrored (e : evidence) : evidence := ByMirror.
+
+Module PostulateForAll.
+Import PostulateAll.
+Local Notation accepts := (check_postulate 52).
+
+Example the_certificate : accepts trees = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts [without_first q1_low; q1_high; q2_low; q2_high] = false. Proof. vm_compute. reflexivity. Qed.
+Example last_leaf_removed : accepts [q1_low; q1_high; q2_low; without_last q2_high] = false. Proof. vm_compute. reflexivity. Qed.
+Example steps_repeated : accepts (map (map_steps twice) trees) = false. Proof. vm_compute. reflexivity. Qed.
+Example the_other_corner : accepts [first_by (ByCorner Q2) q1_low; q1_high; q2_low; q2_high] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example corner_by_vertices : accepts [first_by ByTest q1_low; q1_high; q2_low; q2_high] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example tight_edge_moved : accepts [map_evidence (corner_for_test Q1) q1_low; q1_high; q2_low; q2_high] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example all_mirrored : accepts [q1_low; q1_high; map_evidence mirrored q2_low; q2_high] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example one_leaf_for_all : accepts [q1_low; q1_high; q2_low; Leaf [(0%nat, ByCorner Q2)]] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example halves_exchanged : accepts [q1_low; q1_high; q2_high; q2_low] = false. Proof. vm_compute. reflexivity. Qed.
+Example faces_exchanged : accepts [q2_low; q2_high; q1_low; q1_high] = false. Proof. vm_compute. reflexivity. Qed.
+Example a_tree_left_out : accepts [q1_low; q1_high; q2_low] = false. Proof. vm_compute. reflexivity. Qed.
+End PostulateForAll.
+
+(** Trees prove the range of kappa that they were found for, and a greatest psi no greater than theirs. *)
+Module PostulateForARange.
+Import PostulateUpTo2.
+Local Notation accepts := (check_postulate_up_to 52).
+
+Example the_certificate : accepts (2 // 1) trees = true. Proof. vm_compute. reflexivity. Qed.
+Example greatest_increased : accepts (2000001 // 1000000) trees = false. Proof. vm_compute. reflexivity. Qed.
+Example trees_of_kappa_above_half_also_below : accepts (3 // 1) [q1_high; q1_high; q2_high; q2_high] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example tree_of_kappa_below_half_above : accepts (2 // 1) [q1_high; PostulateAll.q2_low] = false.
+Proof. vm_compute. reflexivity. Qed.
+Example trees_of_the_larger_range : accepts (2 // 1) PostulateAll.trees = false. Proof. vm_compute. reflexivity. Qed.
+Example greatest_not_above_one : accepts (1 // 1) trees = false. Proof. vm_compute. reflexivity. Qed.
+Example corner_by_vertices : accepts (2 // 1) [first_by ByTest q1_high; q2_high] = false. Proof. vm_compute. reflexivity. Qed.
+Example the_other_corner : accepts (2 // 1) [q1_high; first_by (ByCorner Q1) q2_high] = false. Proof. vm_compute. reflexivity. Qed.
+Example faces_exchanged : accepts (2 // 1) [q2_high; q1_high] = false. Proof. vm_compute. reflexivity. Qed.
+End PostulateForARange.

@@ -1,82 +1,61 @@
 (** Written by `orthocert export rocq`; nothing here is trusted but what is read: the numbers of
-    the claim and the last theorem, with the definitions of Claim.v and Kinematics.v. *)
+    the claim and the last theorem, with the definitions of kernel/Statement.v, Claim.v and
+    Kinematics.v. *)
 
-From Coq Require Import ZArith Reals List.
-From Orthocert Require Import Vec3 SingularValues Kinematics Claim Checker.
+From Coq Require Import ZArith NArith Reals List.
+From Orthocert Require Import Vec3 SingularValues Kinematics Claim.
+From Orthocert.kernel Require Import Statement Check Problem.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(** direction, anchor, platform, length, mode *)
-Definition leg_1 : slider :=
-  Slider
+Definition leg_1 : drive :=
+  SliderLeg (Slider
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)))
     (Tolerances (exactly (0 // 1)) (exactly (699 // 4)) (exactly (0 // 1)))
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))
-    (exactly (333 // 1))
-    false.
+    (exactly (333 // 1)) false).
 
-(** direction, anchor, platform, length, mode *)
-Definition leg_2 : slider :=
-  Slider
+Definition leg_2 : drive :=
+  SliderLeg (Slider
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)))
     (Tolerances (exactly ((-699) // 5)) (exactly ((-2097) // 20)) (exactly (0 // 1)))
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))
-    (exactly (333 // 1))
-    false.
+    (exactly (333 // 1)) false).
 
-(** direction, anchor, platform, length, mode *)
-Definition leg_3 : slider :=
-  Slider
+Definition leg_3 : drive :=
+  SliderLeg (Slider
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)))
     (Tolerances (exactly (699 // 5)) (exactly ((-2097) // 20)) (exactly (0 // 1)))
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))
-    (exactly (333 // 1))
-    false.
+    (exactly (333 // 1)) false).
 
 Definition box : tolerances :=
-  Tolerances
-    (Within ((-60) // 1) (60 // 1))
-    (Within ((-60) // 1) (60 // 1))
-    (Within (0 // 1) (200 // 1)).
+  Tolerances (Within ((-60) // 1) (60 // 1)) (Within ((-60) // 1) (60 // 1)) (Within (0 // 1) (200 // 1)).
 
-(** Transmission factors from psi_min to psi_max. *)
-Definition claim : machine_claim :=
-  MachineClaim leg_1 leg_2 leg_3 box (Some (1 // 2)) (Some (8 // 5)).
+Definition the_claim : claim :=
+  MakeClaim [leg_1; leg_2; leg_3] box [(PsiMax (Over (8 // 1) (5 // 1))); (PsiMin (Over (1 // 1) (2 // 1)))].
 
-(** The proof: a bisection tree, and the rules that hold on its boxes. *)
+(** The proof: a bisection tree, and what shows the requirements on its boxes. *)
 Definition certificate : tree :=
-  (Split [] AlongY
-    (Split [Upper] AlongX
-      (Split [] AlongY
-        (Split [] AlongX
-          (Leaf [Lower (4) (4) (1) (5) true])
-          (Leaf [Lower (5) (4) (1) (6) true]))
-        (Split [] AlongX
-          (Leaf [Lower (4) (4) (1) (5) true])
-          (Leaf [Lower (4) (4) (1) (6) true])))
-      (Split [] AlongY
-        (Split [] AlongX
-          (Leaf [Lower (5) (3) (1) (6) true])
-          (Leaf [Lower (5) (3) (1) (6) true]))
-        (Split [] AlongX
-          (Leaf [Lower (4) (3) (0) (6) true])
-          (Leaf [Lower (4) (3) (0) (6) true]))))
-    (Split [] AlongX
-      (Split [Upper] AlongY
-        (Leaf [Lower (17) (16) (2) (22) true])
-        (Leaf [Lower (4) (4) (0) (5) true]))
-      (Split [Upper] AlongY
-        (Leaf [Lower (2) (2) (0) (3) true])
-        (Leaf [Lower (2) (2) (0) (3) true])))).
+  (Split [] 1
+    (Split [(1, ByTest)]%nat 0
+      (Leaf [(0, ByLower 14 [[(-1058); (-17077); (-10541)]; [(11239); (6307); (-11347)]; [(-14301); (7169); (-10179)]]%Z)]%nat)
+      (Leaf [(0, ByLower 14 [[(1058); (-17077); (-10541)]; [(14301); (7169); (-10179)]; [(-11239); (6307); (-11347)]]%Z)]%nat))
+    (Split [] 0
+      (Leaf [(0, ByLower 14 [[(-1024); (-13068); (-11701)]; [(12150); (8732); (-10815)]; [(-15572); (9800); (-9582)]]%Z); (1, ByDivided)]%nat)
+      (Leaf [(0, ByLower 14 [[(1024); (-13068); (-11701)]; [(15572); (9800); (-9582)]; [(-12150); (8732); (-10815)]]%Z); (1, ByDivided)]%nat))).
 
-Lemma checked : check 100 claim certificate = true.
+Lemma checked : check_claim 52 the_claim (9) [(0); (0); (0)]%Z certificate = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem certified : forall m P, is_machine claim m -> all_within box P ->
-  regular m P /\
-  sigma_at_least (1 / value (8 // 5)) (Jinv m P) /\
-  sigma_at_most (1 / value (1 // 2)) (Jinv m P).
+Theorem certified : forall m P, is_machine the_claim m -> all_within box P ->
+  Forall (reaches P) m /\
+  (forall v, v <> vzero -> 0 < speed2 m P v) /\
+  (forall v, (1 / value (Over (8 // 1) (5 // 1))) ^ 2 * norm2 v <= speed2 m P v) /\
+  (forall v, speed2 m P v <= (1 / value (Over (1 // 1) (2 // 1))) ^ 2 * norm2 v).
 Proof.
-  intros m P hm hP. destruct (check_sound 100 claim certificate checked m P hm hP) as [reg [low up]].
-  split; [exact reg |]. split; [exact (low _ eq_refl) | exact (up _ eq_refl)].
+  intros m P hm hP.
+  destruct (check_claim_sound _ _ _ _ _ checked m P hm hP) as [reached [regular met]].
+  rewrite Forall_forall in met. split; [exact reached |]. split; [exact regular |].
+  split; [exact (met (PsiMax (Over (8 // 1) (5 // 1))) (or_introl eq_refl)) |]. exact (met (PsiMin (Over (1 // 1) (2 // 1))) (or_intror (or_introl eq_refl))).
 Qed.

@@ -10,10 +10,15 @@ From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Te
 Import ListNotations.
 Local Open Scope R_scope.
 
+(** A face of the cube of the postulate, by its corner. *)
+Inductive face := Q1 | Q2.
+
 (** [Y] over [2^places]; the names are those of certificate.rs. *)
 Inductive evidence :=
   | ByTest | ByDivided
-  | ByLower (places : N) (Y : list (list Z)) | ByLowerDivided (places : N) (Y : list (list Z)).
+  | ByLower (places : N) (Y : list (list Z)) | ByLowerDivided (places : N) (Y : list (list Z))
+  (* of the postulate: see Faces.v *)
+  | ByCorner (f : face) | ByMirror.
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -192,7 +197,7 @@ Qed.
 
 Lemma shows_sound : forall t e, shows values (length cell) t e = true -> holds (length cell) x t.
 Proof.
-  rewrite <- lambda_length. intros t e h. destruct t as [low | high | f], e as [| | places Y | places Y];
+  rewrite <- lambda_length. intros t e h. destruct t as [low | high | f], e as [| | places Y | places Y | |];
     cbn [shows holds] in *; try discriminate.
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros; eapply sigma_min_sound; eassumption.
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros; eapply sigma_max_sound; eassumption.

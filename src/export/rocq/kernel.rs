@@ -8,7 +8,7 @@ use super::{ExportError, MAX_INDENT};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed};
-use orthocert_kernel::certificate::{Evidence, Node, Proof, Step, Tree};
+use orthocert_kernel::certificate::{Corner, Evidence, Node, Proof, Step, Tree};
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Workspace,
 };
@@ -48,7 +48,7 @@ pub(super) fn kernel(claim: &MachineClaim, proof: &Proof) -> Result<String, Expo
         return Err(ExportError::NotTranslational);
     };
     let Workspace::Box { min, max } = &claim.workspace else {
-        return Err(ExportError::KernelNotABox);
+        return Err(ExportError::NotABox);
     };
     let problem = Problem::new(claim).map_err(|_| ExportError::NotWellFormed)?;
     let mut out = String::from(HEADER);
@@ -199,7 +199,7 @@ fn between(min: &Expression, max: &Expression) -> String {
 }
 
 /// The number, operation by operation, so that it is enclosed as the kernel encloses it.
-fn number(x: &Expression) -> String {
+pub(super) fn number(x: &Expression) -> String {
     match x {
         Expression::Literal { digits, places } => fraction(digits.clone(), *places),
         Expression::Neg(inner) => match &**inner {
@@ -227,16 +227,24 @@ fn number(x: &Expression) -> String {
 }
 
 /// `digits / 10^places` in lowest terms.
-fn fraction(digits: BigInt, places: u32) -> String {
+pub(super) fn lowest(digits: BigInt, places: u32) -> [BigInt; 2] {
     let ten = BigInt::from(10).pow(places);
     let common = if places == 0 { BigInt::one() } else { digits.gcd(&ten) };
-    let (numer, denom) = (digits / &common, ten / &common);
+    [digits / &common, ten / &common]
+}
+
+fn fraction(digits: BigInt, places: u32) -> String {
+    let [numer, denom] = lowest(digits, places);
     let numer = if numer.is_negative() { format!("({numer})") } else { numer.to_string() };
     format!("({numer} // {denom})")
 }
 
 /// The tree that begins with the next node, indented.
-fn node(out: &mut String, nodes: &mut Iter<'_, Node>, depth: usize) -> Result<(), ExportError> {
+pub(super) fn node(
+    out: &mut String,
+    nodes: &mut Iter<'_, Node>,
+    depth: usize,
+) -> Result<(), ExportError> {
     let Node { by, split, fails, at: _ } = nodes.next().ok_or(ExportError::NotATree)?;
     if fails.is_some() {
         return Err(ExportError::NotATree);
@@ -268,7 +276,10 @@ fn step(Step(obligation, evidence): &Step) -> Result<String, ExportError> {
         Evidence::Divided => "ByDivided".to_owned(),
         Evidence::Lower(y) => format!("ByLower {}", multiplier(y)),
         Evidence::LowerDivided(y) => format!("ByLowerDivided {}", multiplier(y)),
-        other => return Err(ExportError::Rule(other.name())),
+        Evidence::Corner(Corner::Q1) => "ByCorner Q1".to_owned(),
+        Evidence::Corner(Corner::Q2) => "ByCorner Q2".to_owned(),
+        Evidence::Mirror => "ByMirror".to_owned(),
+        other => return Err(ExportError::Evidence(other.name())),
     };
     Ok(format!("({obligation}, {evidence})"))
 }

@@ -108,7 +108,8 @@ fn certificate(claim: PostulateClaim, tree: Tree) -> Certificate {
     }
 }
 
-fn accepted(psi_max: &str) -> Certificate {
+/// Its proof, which is accepted.
+pub fn accepted(psi_max: &str) -> Certificate {
     let tree = prove(&claim(psi_max), 500).expect("a proof");
     let certificate = certificate(claim(psi_max), tree);
     let text = certificate.to_text().expect("a text");

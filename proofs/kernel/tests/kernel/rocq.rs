@@ -3,15 +3,17 @@
 
 use crate::arithmetic::Random;
 use crate::certificates::claim;
+use crate::postulate;
 use crate::prover::certify;
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use orthocert_kernel::arithmetic::{Arithmetic as _, Enclosure as _};
 use orthocert_kernel::cell::{evaluate, Cell};
-use orthocert_kernel::certificate::Certificate;
+use orthocert_kernel::certificate::{Certificate, Evidence};
 use orthocert_kernel::check::check;
 use orthocert_kernel::definite::is_positive_definite;
 use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::postulate::{parts, Every, PostulateClaim, PsiMax};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::slope::Slopes;
 use std::fmt::Write;
@@ -48,9 +50,41 @@ fn struts_and_a_plane() -> String {
     )
 }
 
+/// An Orthoglide, the length of each leg within a tolerance of its own.
+fn orthoglide_within_tolerances() -> String {
+    let leg = |direction: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":[{direction}],"anchor":["0","0","0"],"platform":["0","0","0"],"length":{{"min":"311.3","max":"311.7"}},"mode":"+"}}"#
+        )
+    };
+    let legs = [r#""1","0","0""#, r#""0","1","0""#, r#""0","0","1""#].map(leg).join(",");
+    format!(
+        r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-73.2","-73.2","-73.2"],"max":["126.8","126.8","126.8"]}}}},"require":[{{"quantity":"transmission","end":"min","bound":"1/2"}},{{"quantity":"transmission","end":"max","bound":"2"}}]}}"#
+    )
+}
+
+/// A linear Delta: three parallel guides, at points of a circle.
+fn linear_delta() -> String {
+    let leg = |x: &str, y: &str| {
+        format!(
+            r#"{{"drive":"slider","direction":["0","0","1"],"anchor":["{x}","{y}","0"],"platform":["0","0","0"],"length":"333","mode":"-"}}"#
+        )
+    };
+    let anchors = [("0", "174.75"), ("-139.8", "-104.85"), ("139.8", "-104.85")];
+    let legs = anchors.map(|(x, y)| leg(x, y)).join(",");
+    format!(
+        r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-60","-60","0"],"max":["60","60","200"]}}}},"require":[{{"quantity":"transmission","end":"min","bound":"1/2"}},{{"quantity":"transmission","end":"max","bound":"8/5"}}]}}"#
+    )
+}
+
 /// The claims of the instances, by their names.
-fn instances() -> [(&'static str, String); 2] {
-    [("FourSliders", four_sliders()), ("StrutsAndPlane", struts_and_a_plane())]
+fn instances() -> [(&'static str, String); 4] {
+    [
+        ("FourSliders", four_sliders()),
+        ("StrutsAndPlane", struts_and_a_plane()),
+        ("OrthoglideTolerance", orthoglide_within_tolerances()),
+        ("LinearDelta", linear_delta()),
+    ]
 }
 
 fn path(file: &str) -> String {
@@ -72,6 +106,11 @@ fn certificates_of_instances_are_accepted() {
             let certificate = certify(&claim(&text), 2_000).expect("a proof");
             certificate.to_text().expect("a text")
         };
+        let certificate = Certificate::read(&committed(&format!("{name}.cert.json"), proved));
+        check(&certificate.expect("canonical")).expect("accepted");
+    }
+    for (name, psi_max) in [("PostulateAll", r#""all""#), ("PostulateUpTo2", r#""2""#)] {
+        let proved = || postulate::accepted(psi_max).to_text().expect("a text");
         let certificate = Certificate::read(&committed(&format!("{name}.cert.json"), proved));
         check(&certificate.expect("canonical")).expect("accepted");
     }
@@ -139,6 +178,27 @@ fn operations() -> [BigInt; 2] {
     [digest.0, definite.0]
 }
 
+/// What is shown of cells of the postulate's faces, in twelve bits.
+fn faces() -> BigInt {
+    let fixed = Fixed::<BigInt>::new(12);
+    let (mut draw, mut digest) = (Draw(1), Digest(BigInt::from(0)));
+    let all = parts(&PostulateClaim { psi_max: PsiMax::Every(Every::All) }).expect("well formed");
+    for (number, part) in all.iter().enumerate() {
+        for _ in 0..100 {
+            let ranges = [(0, 3400, 700), (0, 3400, 700), (number as i64 % 2 * 2048, 1400, 600)];
+            let cell = Cell(Vec::from(ranges.map(|(from, base, width)| {
+                let low = from + draw.below(base);
+                draw.interval(low, width)
+            })));
+            let edges = cell.edges().expect("edges");
+            let shows = |evidence| i32::from(part.shows(&fixed, &edges, &evidence));
+            let shown = 2 * shows(Evidence::Test) + shows(Evidence::Corner(part.face));
+            digest.add(&shown.into());
+        }
+    }
+    digest.0
+}
+
 /// The values of all rows over a cell.
 fn leaf(problem: &Problem, bits: u32, cell: &Cell<BigInt>) -> BigInt {
     let fixed = Fixed::<BigInt>::new(bits);
@@ -182,14 +242,16 @@ fn leaves(name: &str, text: &str, bits: u32) -> String {
 #[test]
 fn values_of_the_formal_kernel_are_these() {
     let [arithmetic, definite] = operations();
+    let shown = faces();
     let mut text = include_str!("../../../rocq/instances/KernelValues.head").to_owned();
     let _ = writeln!(
         text,
         "Example operations : arithmetic = {arithmetic}.\nProof. vm_cast_no_check (eq_refl {arithmetic}). Qed.\n\
-         Example definiteness : definite = {definite}.\nProof. vm_cast_no_check (eq_refl {definite}). Qed.\n"
+         Example definiteness : definite = {definite}.\nProof. vm_cast_no_check (eq_refl {definite}). Qed.\n\
+         Example faces : shown = {shown}.\nProof. vm_cast_no_check (eq_refl {shown}). Qed.\n"
     );
     for bits in [52, 100] {
-        for (name, claim) in instances() {
+        for (name, claim) in instances().into_iter().take(2) {
             text += &leaves(name, &claim, bits);
         }
     }

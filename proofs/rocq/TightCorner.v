@@ -1,15 +1,31 @@
-(** * The rules a certificate may use
+(** * A corner at which the bound is reached
 
-    A certificate cuts the workspace into boxes and names, for each box, the
-    rule that proves the bounds there.  The lemmas below are those rules, for
-    any 3x3 matrix function; they share one idea: a matrix that depends
-    affinely on the position inside a box is a convex combination of its
-    values at the eight vertices, and both bounds are inherited by convex
-    combinations, in the right form. *)
+    There sigma_min = kappa: the matrix of the lower bound is singular at a
+    vertex of the box, and no test at all vertices can succeed.  It may be
+    semidefinite at that vertex if it is definite at the others.  Of the
+    kernel's evidence `corner` this is the argument. *)
 
 From Coq Require Import Reals Lra Psatz.
-From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal PositiveDefinite.
+From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal.
 Local Open Scope R_scope.
+
+(** The quadratic form v^T S v.  Only the symmetric part of S matters. *)
+Definition quad (S : mat) (v : vec) : R := dot v (mulv S v).
+Definition positive_definite (S : mat) : Prop := forall v, v <> vzero -> 0 < quad S v.
+Definition positive_semidefinite (S : mat) : Prop := forall v, 0 <= quad S v.
+
+Lemma positive_definite_semidefinite : forall S, positive_definite S -> positive_semidefinite S.
+Proof.
+  intros S h v. destruct (Req_dec (norm2 v) 0) as [z | n].
+  - apply norm2_zero in z. subst v. apply Req_le. unfold quad. unfold_vec. ring.
+  - apply Rlt_le, h. intro z. apply n. subst v. unfold_vec. ring.
+Qed.
+
+Lemma zero_or_not : forall v : vec, v = vzero \/ v <> vzero.
+Proof.
+  intro v. destruct (Req_dec (norm2 v) 0) as [e | n]; [left; apply norm2_zero; exact e |].
+  right. intros ->. apply n. unfold_vec. ring.
+Qed.
 
 (** ** Boxes and their vertices *)
 
@@ -70,10 +86,6 @@ Proof.
   unfold between. vec_ring.
 Qed.
 
-Lemma norm2_between : forall t p q,
-  norm2 (between t p q) = (1 - t) * norm2 p + t * norm2 q - t * (1 - t) * norm2 (vsub p q).
-Proof. unfold between. vec_ring. Qed.
-
 Lemma between_0 : forall u w, between 0 u w = u.
 Proof. intros. unfold between. apply vec_ext; unfold_vec; ring. Qed.
 
@@ -91,8 +103,6 @@ Qed.
 
 (** W A - kappa I, whose form is v^T W A v - kappa |v|^2. *)
 Definition lower_test (W : mat) (kappa : R) (A : mat) : mat := msub (mulm W A) (mscale kappa midentity).
-(** k^2 I - A^T A. *)
-Definition upper_test (k : R) (A : mat) : mat := msub (mscale (k ^ 2) midentity) (mulm (transpose A) A).
 
 Lemma quad_lower_test : forall W kappa A v,
   quad (lower_test W kappa A) v = dot (mulv (transpose W) v) (mulv A v) - kappa * norm2 v.
@@ -101,19 +111,13 @@ Proof.
   rewrite <- dot_transpose. generalize (mulv A v). intro u. generalize (mulv W u). vec_ring.
 Qed.
 
-Lemma quad_upper_test : forall k A v, quad (upper_test k A) v = k ^ 2 * norm2 v - norm2 (mulv A v).
-Proof.
-  intros. unfold quad, upper_test. rewrite mulv_msub, mulv_mscale, mulv_identity, mulv_mulm.
-  rewrite (norm2_dot (mulv A v)), dot_transpose. generalize (mulv (transpose A) (mulv A v)). vec_ring.
-Qed.
-
 Lemma lower_test_between : forall W kappa M0 E1 E2 E3 t u w v,
   quad (lower_test W kappa (affine M0 E1 E2 E3 (between t u w))) v
   = (1 - t) * quad (lower_test W kappa (affine M0 E1 E2 E3 u)) v
     + t * quad (lower_test W kappa (affine M0 E1 E2 E3 w)) v.
 Proof. intros. rewrite !quad_lower_test, affine_between. unfold between. vec_ring. Qed.
 
-(** The bounds that the two tests give for one matrix. *)
+(** The bound that the test gives for one matrix. *)
 Lemma lower_test_sound : forall W kappa A, orthogonal W -> 0 <= kappa ->
   positive_semidefinite (lower_test W kappa A) -> sigma_at_least kappa A.
 Proof.
@@ -121,10 +125,7 @@ Proof.
   specialize (h v). rewrite quad_lower_test in h. rewrite mulv_mulm, dot_transpose. lra.
 Qed.
 
-Lemma upper_test_sound : forall k A, positive_semidefinite (upper_test k A) -> sigma_at_most k A.
-Proof. intros k A h v. specialize (h v). rewrite quad_upper_test in h. lra. Qed.
-
-(** ** Vertex rules, for one affine function *)
+(** ** One affine function *)
 
 Section Affine.
 Variables M0 E1 E2 E3 : mat.
@@ -136,33 +137,6 @@ Proof.
   intros W kappa t u w ht hu hw v. unfold A. rewrite lower_test_between.
   specialize (hu v). specialize (hw v).
   apply Rplus_le_le_0_compat; apply Rmult_le_pos; try lra; assumption.
-Qed.
-
-(** |A(d) v|^2 is convex in d. *)
-Lemma upper_convex : forall k, convex (fun d => positive_semidefinite (upper_test k (A d))).
-Proof.
-  intros k t u w ht hu hw v. specialize (hu v). specialize (hw v). rewrite quad_upper_test in *.
-  unfold A in *. rewrite affine_between.
-  set (p := mulv (affine M0 E1 E2 E3 u) v) in *. set (q := mulv (affine M0 E1 E2 E3 w) v) in *.
-  rewrite norm2_between. pose proof (norm2_nonneg (vsub p q)).
-  assert (0 <= t * (1 - t) * norm2 (vsub p q)) by (apply Rmult_le_pos; [nra | assumption]).
-  assert ((1 - t) * norm2 p <= (1 - t) * (k ^ 2 * norm2 v)) by (apply Rmult_le_compat_l; lra).
-  assert (t * norm2 q <= t * (k ^ 2 * norm2 v)) by (apply Rmult_le_compat_l; lra). lra.
-Qed.
-
-Theorem affine_lower : forall W kappa, orthogonal W -> 0 <= kappa ->
-  (forall v, is_vertex lo hi v -> positive_semidefinite (lower_test W kappa (A v))) ->
-  forall d, in_range lo hi d -> sigma_at_least kappa (A d).
-Proof.
-  intros W kappa hW hk V d hd. apply (lower_test_sound W); [exact hW | exact hk |].
-  apply (vertices_suffice _ lo hi (lower_convex W kappa) V d hd).
-Qed.
-
-Theorem affine_upper : forall k,
-  (forall v, is_vertex lo hi v -> positive_semidefinite (upper_test k (A v))) ->
-  forall d, in_range lo hi d -> sigma_at_most k (A d).
-Proof.
-  intros k V d hd. apply upper_test_sound. apply (vertices_suffice _ lo hi (upper_convex k) V d hd).
 Qed.
 
 (** Tight corner: vertex 0 is only positive semidefinite (there the bound
@@ -205,7 +179,7 @@ Proof.
 Qed.
 End Affine.
 
-(** ** Vertex rules on a box of the workspace
+(** ** A box of the workspace
 
     M(P) = M(c) + sum_k (P - c)_k E_k(P), where each E_k(P) is only known to
     lie in an enclosure, the same for the whole box.  What is tested at each
@@ -223,24 +197,6 @@ Hypothesis slopes : forall P, inside P ->
 
 Let family (test : mat -> Prop) (v : vec) : Prop :=
   forall E1 E2 E3, Enc1 E1 -> Enc2 E2 -> Enc3 E3 -> test (affine M0 E1 E2 E3 v).
-
-Theorem vertex_rule_lower : forall W kappa, orthogonal W -> 0 <= kappa ->
-  (forall v, is_vertex lo hi v -> family (fun A => positive_definite (lower_test W kappa A)) v) ->
-  forall P, inside P -> sigma_at_least kappa (Mfun P).
-Proof.
-  intros W kappa hW hk V P hP. destruct (slopes P hP) as [E1 [E2 [E3 [e1 [e2 [e3 ->]]]]]].
-  apply (affine_lower M0 E1 E2 E3 lo hi W); auto.
-  intros v hv. apply positive_definite_semidefinite, V; assumption.
-Qed.
-
-Theorem vertex_rule_upper : forall k,
-  (forall v, is_vertex lo hi v -> family (fun A => positive_definite (upper_test k A)) v) ->
-  forall P, inside P -> sigma_at_most k (Mfun P).
-Proof.
-  intros k V P hP. destruct (slopes P hP) as [E1 [E2 [E3 [e1 [e2 [e3 ->]]]]]].
-  apply (affine_upper M0 E1 E2 E3 lo hi k); auto.
-  intros v hv. apply positive_definite_semidefinite, V; assumption.
-Qed.
 
 (** [c] is the corner where the bound is tight, and M0 is exactly M(c). *)
 Theorem tight_corner_rule : forall W kappa, orthogonal W -> 0 <= kappa ->
@@ -291,26 +247,4 @@ Proof.
     assert (0 <= (1 + 2 * m - kappa) * (x + y + z) ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
     assert (0 <= (1 - m - kappa) * ((x - y) ^ 2 + (x - z) ^ 2 + (y - z) ^ 2)) by (apply Rmult_le_pos; lra).
     lra.
-Qed.
-
-(** ** Orthogonal matrices from quaternions
-
-    W = sign Rot(q) / |q|^2 is orthogonal whatever the (integer) quaternion
-    q <> 0, so a certificate can name W by five small numbers. *)
-
-Definition rotation (qa qb qc qd : R) : mat :=
-  Mat (Vec (qa^2 + qb^2 - qc^2 - qd^2) (2 * (qb*qc - qa*qd)) (2 * (qb*qd + qa*qc)))
-      (Vec (2 * (qb*qc + qa*qd)) (qa^2 - qb^2 + qc^2 - qd^2) (2 * (qc*qd - qa*qb)))
-      (Vec (2 * (qb*qd - qa*qc)) (2 * (qc*qd + qa*qb)) (qa^2 - qb^2 - qc^2 + qd^2)).
-
-Theorem quaternion_orthogonal : forall sign qa qb qc qd,
-  sign = 1 \/ sign = -1 -> qa^2 + qb^2 + qc^2 + qd^2 <> 0 ->
-  orthogonal (mscale (sign / (qa^2 + qb^2 + qc^2 + qd^2)) (rotation qa qb qc qd)).
-Proof.
-  intros sign qa qb qc qd hs n. unfold orthogonal, rotation.
-  assert (s2 : sign ^ 2 = 1) by (destruct hs; subst; ring).
-  set (N := qa^2 + qb^2 + qc^2 + qd^2) in *.
-  assert (E : (sign / N) ^ 2 * N ^ 2 = 1) by (transitivity (sign ^ 2); [field; exact n | exact s2]).
-  set (f := sign / N) in *. clearbody f. unfold N in E. clear - E.
-  unfold_vec. vec_split; try ring; rewrite <- E; ring.
 Qed.
