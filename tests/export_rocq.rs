@@ -48,36 +48,13 @@ fn other_claims_and_broken_trees_are_refused() {
     let margin = r#"{"transmission":{"max":"2"},"serial_margin":{"min":"1/2"}}"#;
     assert_eq!(exported(&certificate(BOX, margin, &leaf)), Err(ExportError::NotTransmission));
     assert_eq!(exported(&certificate(BOX, "{}", &leaf)), Err(ExportError::NotTransmission));
-    for nodes in [r#"[{"split":"x"},{}]"#, "[{},{}]", r#"[{"split":"kappa"},{},{}]"#] {
+    for nodes in [r#"[{"split":"x"},{}]"#, "[{},{}]"] {
         let refused = exported(&certificate(BOX, TRANSMISSION, nodes));
         assert_eq!(refused, Err(ExportError::NotATree), "{nodes}");
     }
     let speed = r#"[{"by":["speed"]}]"#;
     assert_eq!(exported(&certificate(BOX, TRANSMISSION, speed)), Err(ExportError::Rule("speed")));
 }
-
-/// A certificate of the postulate with one leaf for each part.
-fn postulate(psi_max: &str, parts: &[(&str, &str, &str)]) -> String {
-    let parts: Vec<String> = parts
-        .iter()
-        .map(|(face, half, nodes)| {
-            format!(r#"{{"face":"{face}","half":"{half}","nodes":{nodes}}}"#)
-        })
-        .collect();
-    format!(
-        r#"{{"format":"orthocert/2","claim":{{"postulate":{{"psi_max":{psi_max}}}}},"verdict":"certified","proof":{{"faces":{{"precision":64,"parts":[{}]}}}},"provenance":{{"tool":"orthocert","version":"0.1.0"}}}}"#,
-        parts.join(",")
-    )
-}
-
-const ONE_LEAF: &str = r#"[{"by":["blow_up"]}]"#;
-const HIGH: [(&str, &str, &str); 2] = [("q1", "high", ONE_LEAF), ("q2", "high", ONE_LEAF)];
-const BOTH: [(&str, &str, &str); 4] = [
-    ("q1", "low", ONE_LEAF),
-    ("q1", "high", ONE_LEAF),
-    ("q2", "low", ONE_LEAF),
-    ("q2", "high", ONE_LEAF),
-];
 
 /// The statement of `certified`, without its proof.
 fn statement(text: &str) -> &str {
@@ -86,54 +63,11 @@ fn statement(text: &str) -> &str {
 }
 
 #[test]
-fn a_range_of_the_postulate_is_stated_up_to_its_greatest_psi_max() {
-    let range = r#"{"min":"3/2","max":"2"}"#;
-    let text = exported(&postulate(range, &HIGH)).expect("exported");
-    assert!(statement(&text).contains("forall psi, 1 < psi <= 2 -> forall P, in_cube L psi P"));
-    assert!(text.contains("check_postulate_up_to 64 (2 // 1) q1 q2 = true"));
-    assert!(text.contains("Definition q1 : halves := HighOnly q1_high."));
-    assert!(text.contains("Corollary at_greatest : forall L a e, 0 < L -> forall P, in_cube L 2 P"));
-    assert!(text.contains("forall v, (1 / 2) ^ 2 * norm2 v <="));
-
-    let range = r#"{"min":"3/2","max":"2+sqrt(1/3)"}"#;
-    let text = exported(&postulate(range, &BOTH)).expect("exported");
-    assert!(statement(&text).contains("1 < psi <= (2 + (sqrt (1 / 3))) ->"), "{text}");
-    assert!(text.contains("value (Plus (2 // 1) (Root (1 // 3))) ="));
-    assert!(text.contains("Definition q2 : halves := Both q2_low q2_high."));
-}
-
-#[test]
-fn the_postulate_for_all_is_stated_without_an_upper_end() {
-    let text = exported(&postulate(r#""all""#, &BOTH)).expect("exported");
-    assert!(statement(&text).contains("forall psi, 1 < psi -> forall P, in_cube L psi P"));
-    assert!(text.contains("check_postulate 64 q1_low q1_high q2_low q2_high = true"));
-}
-
-#[test]
-fn trees_that_the_range_of_the_postulate_does_not_need_are_refused() {
-    let range = r#"{"min":"3/2","max":"2"}"#;
-    let exchanged = [HIGH[1], HIGH[0]];
-    let over_x = [("q1", "high", r#"[{"split":"x"},{},{}]"#), HIGH[1]];
-    let two_roots = [("q1", "high", r#"[{"by":["blow_up"]},{"by":["blow_up"]}]"#), HIGH[1]];
-    for (psi_max, parts) in [
-        (r#""all""#, &HIGH[..]),
-        (range, &HIGH[..1]),
-        (range, &BOTH[..3]),
-        (range, &exchanged),
-        (range, &over_x),
-        (range, &two_roots),
-    ] {
-        let refused = exported(&postulate(psi_max, parts));
-        assert_eq!(refused, Err(ExportError::NotATree), "{psi_max} {parts:?}");
-    }
-}
-
-#[test]
-fn one_psi_max_by_a_tree_over_the_cube_is_refused_with_the_command_for_a_range() {
-    let text = r#"{"format":"orthocert/2","claim":{"postulate":{"psi_max":"2"}},"verdict":"certified","proof":{"tree":{"precision":64,"nodes":[{"by":["blow_up"]}]}},"provenance":{"tool":"orthocert","version":"0.1.0"}}"#;
+fn the_postulate_is_refused() {
+    let text = include_str!("../proofs/certificates/postulate-all.cert.json");
     let refused = exported(text).expect_err("refused");
-    assert_eq!(refused, ExportError::OneCube);
-    assert!(refused.to_string().contains("orthocert postulate --psi-range A..B"));
+    assert_eq!(refused, ExportError::Postulate);
+    assert!(refused.to_string().contains("Q1/Q2 postulate"));
 }
 
 const FOUR: &str = include_str!("../proofs/rocq/instances/FourSliders.cert.json");

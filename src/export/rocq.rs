@@ -17,7 +17,6 @@ use std::fmt::Write;
 use std::slice::Iter;
 
 mod kernel;
-mod postulate;
 
 /// What is exported.
 const ONLY: &str = "only certified claims about slider legs, a box and transmission are exported";
@@ -35,13 +34,11 @@ pub enum ExportError {
     /// It refutes.
     #[error("the certificate refutes its claim; {ONLY}")]
     Refutes,
-    /// It proves the postulate by a tree over the cube of one `psi_max`.
+    /// It proves the postulate.
     #[error(
-        "it proves the Q1/Q2 postulate for one psi_max alone; certificates for a range or for all \
-         psi_max are exported, which contain it: orthocert postulate --psi-range A..B with A less \
-         than B, or --all"
+        "the claim is the Q1/Q2 postulate, whose trees the formal checker does not read; {ONLY}"
     )]
-    OneCube,
+    Postulate,
     /// It is about cubes that do not fit.
     #[error("the claim is that no cube fits; {ONLY}")]
     NoCube,
@@ -72,7 +69,7 @@ pub enum ExportError {
     /// The tree uses this rule.
     #[error("the proof uses the rule \"{0}\", which the formal checker lacks; {ONLY}")]
     Rule(&'static str),
-    /// The nodes are not those of one tree over x, y and z, or of the trees of the faces.
+    /// The nodes are not those of one tree over x, y and z.
     #[error("the nodes are not those of the trees that the claim needs")]
     NotATree,
 }
@@ -88,10 +85,7 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
     }
     let claim = match (&certificate.claim, &certificate.proof) {
         (Claim::Machine(claim), _) => claim,
-        (Claim::Postulate(claim), Proof::Faces(faces)) => {
-            return postulate::postulate(&claim.psi_max, faces);
-        }
-        (Claim::Postulate(_), _) => return Err(ExportError::OneCube),
+        (Claim::Postulate(_), _) => return Err(ExportError::Postulate),
         (Claim::NoCube(_), _) => return Err(ExportError::NoCube),
         (Claim::Atlas(_), _) => return Err(ExportError::NotATree),
         (Claim::Kernel(claim), Proof::Kernel(proof)) => return kernel::kernel(claim, proof),
@@ -266,7 +260,6 @@ fn node(out: &mut String, nodes: &mut Iter<'_, Node>, depth: usize) -> Result<()
         Axis::X => "AlongX",
         Axis::Y => "AlongY",
         Axis::Z => "AlongZ",
-        Axis::Kappa => return Err(ExportError::NotATree),
     };
     let _ = writeln!(out, "{indent}(Split [{steps}] {axis}");
     node(out, nodes, depth + 1)?;

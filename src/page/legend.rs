@@ -37,7 +37,7 @@ pub type Ruled = (Vec<u8>, Option<usize>);
 type Style = (&'static str, &'static str, usize);
 
 /// The rules of three translating legs.
-const RULES: [Style; 16] = [
+const RULES: [Style; 13] = [
     ("lower", "#8ecae6", 0),
     ("corner", "#f4a340", 1),
     ("upper", "#74c69d", 2),
@@ -49,9 +49,6 @@ const RULES: [Style; 16] = [
     ("leg_angle", "#c9a66b", 3),
     ("speed", "#9fd3c7", 4),
     (OUTSIDE, "#eceff3", 5),
-    ("blow_up", "#8ecae6", 0),
-    ("edge", "#f4a340", 1),
-    ("mirror", "#d3a4c8", 3),
     ("entrywise", "#6fa8dc", 1),
     ("violated", "#e5989b", 2),
 ];
@@ -74,7 +71,7 @@ impl Legend {
         let obligations: Vec<String> = Obligation::ALL.iter().map(ToString::to_string).collect();
         let rule = |&(name, colour, pattern): &Style| {
             let discharged = match name {
-                "lower" | "entrywise" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
+                "lower" | "entrywise" | "corner" => "sigma_min",
                 "upper" | "cube" => "sigma_max",
                 "range" => "joint_range",
                 "speed" => "joint_speed",

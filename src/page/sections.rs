@@ -80,7 +80,7 @@ impl Page<'_> {
             Proof::Kernel(kernel::Proof::Atlas(cells)) => {
                 facts.push(("cells and their halvings", grouped(cells.len() as u64)));
             }
-            Proof::Tree(_) | Proof::Faces(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
+            Proof::Tree(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
                 let cover = match self.certificate.claim {
                     Claim::NoCube(_) => "boxes that cover the centres",
                     _ => "boxes that cover the workspace",
@@ -92,7 +92,6 @@ impl Page<'_> {
         }
         let bits = match &self.certificate.proof {
             Proof::Tree(tree) => Some(tree.precision),
-            Proof::Faces(faces) => Some(faces.precision),
             Proof::Witness(witness) => Some(witness.precision),
             Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
             Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
@@ -268,7 +267,7 @@ fn caption(tree: &Subdivision) -> String {
     if tree.axes.len() > 3 {
         return format!("{name}, by pairs of coordinates: the deeper a box, the darker");
     }
-    let is_face = tree.axes.first().is_some_and(|axis| axis == "kappa");
+    let is_face = tree.is_face();
     let parts = if is_face { ", y and z as parts of [q1, q2]" } else { "" };
     let obligation = &tree.legend.obligations[tree.filled_by];
     format!("{name}{parts}; boxes are filled by the rule for {obligation}")

@@ -7,8 +7,8 @@ use crate::escape::xml;
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
-    AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements,
-    Workspace,
+    AtlasParameter, Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range,
+    Requirements, Workspace,
 };
 use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
@@ -22,12 +22,11 @@ const DIGITS: u32 = 9;
 pub fn subject(claim: &Claim) -> String {
     match claim {
         Claim::Postulate(claim) => match &claim.psi_max {
-            PsiMax::All => "The Q1/Q2 postulate for every psi_max > 1".to_owned(),
-            PsiMax::Range(range) if range.is_exact() => {
-                format!("The Q1/Q2 postulate for psi_max = {}", readable(&range.min))
+            PsiMax::Every(Every::All) => "The Q1/Q2 postulate for every psi_max > 1".to_owned(),
+            PsiMax::Of(kernel::Quantity::Exactly(psi)) => {
+                format!("The Q1/Q2 postulate for psi_max = {psi}")
             }
-            PsiMax::Range(range) => {
-                let (min, max) = (readable(&range.min), readable(&range.max));
+            PsiMax::Of(kernel::Quantity::Between { min, max }) => {
                 format!("The Q1/Q2 postulate for every psi_max from {min} to {max}")
             }
         },
@@ -163,10 +162,10 @@ fn asserted(claim: &Claim) -> Vec<String> {
     };
     match claim {
         Claim::Postulate(claim) => of_cube(match &claim.psi_max {
-            PsiMax::All => "&gt; 1, any".to_owned(),
-            PsiMax::Range(range) if range.is_exact() => format!("= {}", number(&range.min)),
-            PsiMax::Range(range) => {
-                format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
+            PsiMax::Every(Every::All) => "&gt; 1, any".to_owned(),
+            PsiMax::Of(kernel::Quantity::Exactly(psi)) => format!("= {psi}"),
+            PsiMax::Of(kernel::Quantity::Between { min, max }) => {
+                format!("\u{2208} [{min}, {max}], any")
             }
         }),
         Claim::Atlas(claim) => {

@@ -3,9 +3,10 @@
 use super::{value, Agreement, Basis, Finding, NotEstablished};
 use crate::design::Design;
 use crate::search::{Budget, Control};
+use crate::solver;
 use crate::verify::{verify, Answer};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use orthocert_checker::claim::{Claim, Every, PostulateClaim, PsiMax};
 use std::sync::atomic::AtomicBool;
 
 /// Far more than any of the proofs needs.
@@ -63,12 +64,15 @@ fn accepted(
 }
 
 fn postulate(id: &'static str) -> Result<Certificate, NotEstablished> {
-    let claim = PostulateClaim { psi_max: PsiMax::All };
+    let claim = PostulateClaim { psi_max: PsiMax::Every(Every::All) };
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let proved = crate::postulate::prove(&claim, BUDGET, &mut control)
         .map_err(|e| NotEstablished { id, reason: e.to_string() })?;
-    accepted(id, proved.answer, Verdict::Certified)
+    match proved.answer {
+        solver::Answer::Decided { certificate, .. } => Ok(*certificate),
+        _ => Err(NotEstablished { id, reason: "not decided within the budget".into() }),
+    }
 }
 
 /// The findings with certificates.

@@ -47,6 +47,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Direction(y.clone()),
         Evidence::Negative,
         Evidence::Cube,
+        Evidence::Mirror,
         Evidence::Corner(Corner::Q1),
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,

@@ -8,7 +8,6 @@
 //! | `paving`      | pavings: accepted, rejected, volumes                                      |
 //! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
 //! | `no_cube`     | claims that no cube of some side fits                                     |
-//! | `postulate`   | proofs of the postulate for a range of `psi_max`                          |
 //! | `hostile`     | files made to exhaust the checker or to mislead                           |
 
 mod adversary;
@@ -18,4 +17,3 @@ mod hostile;
 mod mathematics;
 mod no_cube;
 mod paving;
-mod postulate;

@@ -3,7 +3,6 @@
 use super::evaluate::Evaluator;
 use super::walk::{admit_precision, discharges, Walk};
 use super::{obligations, Rejected, TreeSize};
-use crate::cell::Axis;
 use crate::certificate::{Step, Tree, Violated};
 use crate::claim::{ClaimError, MachineClaim, NoCubeClaim, OFFSET_PARTS};
 use crate::enclosure::{Enclosure, Scalar};
@@ -23,7 +22,7 @@ pub(crate) fn check_tree(
     admit_precision(tree.precision)?;
     let model = Model::new(claim, tree.precision)?;
     let obligations = obligations(&model);
-    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    let walk = Walk { nodes: &tree.nodes, obligations: &obligations };
     let coarse = Model::new(claim, MAX_BITS).ok().map(|model| model.map(&Word::from_fixed));
     let evaluator = Evaluator::new(model, coarse);
     walk.run(size, |cell, node, index, size| {
@@ -57,7 +56,7 @@ pub(super) fn check_no_cube(
     let part = part.and_then(|x| x.enclose(model.unit_exponent?, tree.precision));
     let part = part.ok_or_else(too_small)?;
     let obligations = [Obligation::SigmaMin];
-    let walk = Walk { nodes: &tree.nodes, first: 0, axes: Axis::ALL, obligations: &obligations };
+    let walk = Walk { nodes: &tree.nodes, obligations: &obligations };
     walk.run(size, |cell, node, index, size| {
         let mut discharged = 0;
         for step in &node.by {

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 pub use leg::{Leg, Parameter, Sign, WorkingMode};
+pub use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 pub use validate::ClaimError;
 
 /// What a certificate is about.
@@ -29,7 +30,8 @@ pub enum Claim {
     /// One machine (or every machine within its tolerances) over one workspace.
     Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
     /// The Q1/Q2 postulate for one `psi_max`, a range, or every one.
-    Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
+    #[serde(skip_deserializing)]
+    Postulate(PostulateClaim),
     /// No cube of some side fits, wherever its centre is in a box.
     NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
     /// Every machine of a box of parameters, in part.
@@ -84,24 +86,6 @@ pub struct AtlasParameter {
     pub min: Exact,
     /// Greatest value, rational and greater than the least.
     pub max: Exact,
-}
-
-/// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
-/// (`L = 1`): every `s_i > 0`, and `1/psi_max <= psi_i(P) <= psi_max`."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PostulateClaim {
-    /// The `psi_max` that the claim is about.
-    pub psi_max: PsiMax,
-}
-
-/// A set of `psi_max`, all greater than 1.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PsiMax {
-    /// Every `psi_max > 1`; written `"all"`.
-    All,
-    /// Every one from `min` to `max`; written as one number where both are the same.
-    Range(Quantity),
 }
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel

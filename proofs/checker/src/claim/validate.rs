@@ -1,8 +1,8 @@
 //! Which claims are well formed.
 
 use super::{
-    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim, PsiMax,
-    Range, Requirements, Workspace,
+    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, NoCubeClaim, Range, Requirements,
+    Workspace,
 };
 use crate::number::Exact;
 use std::cmp::Ordering;
@@ -28,8 +28,6 @@ pub enum ClaimError {
     NeedsCentres,
     /// A cube without `psi_max`, or with `psi_max <= 1`.
     CubeNeedsPsiMax,
-    /// A `psi_max` that is not provably greater than 1.
-    PsiMaxNotAboveOne,
     /// A number that is not provably greater than this one.
     NotAbove(String, i64),
     /// Arms beside other drives: the transmission factors have no common unit.
@@ -81,9 +79,6 @@ impl fmt::Display for ClaimError {
                 f,
                 "joint_range of arms, in degrees, needs min and max within ±360 and less than 180 apart"
             ),
-            ClaimError::PsiMaxNotAboveOne => {
-                write!(f, "psi_max is not (provably) greater than 1")
-            }
             ClaimError::CubeFixesPsiMin => {
                 write!(f, "with a workspace \"cube\", psi_min = 1/psi_max is not free")
             }
@@ -107,20 +102,6 @@ impl NoCubeClaim {
             return Err(ClaimError::NeedsCentres);
         }
         positive(&self.side, || "side".into())
-    }
-}
-
-impl PostulateClaim {
-    /// Proves the claim well formed: `1 < min <= max`.
-    pub fn validate(&self) -> Result<(), ClaimError> {
-        let PsiMax::Range(range) = &self.psi_max else {
-            return Ok(());
-        };
-        ordered(&range.min, &range.max, || "psi_max".into())?;
-        match range.min.compare(&Exact::integer(1)) {
-            Some(Ordering::Greater) => Ok(()),
-            _ => Err(ClaimError::PsiMaxNotAboveOne),
-        }
     }
 }
 
