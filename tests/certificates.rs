@@ -18,7 +18,7 @@ use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
 };
-use orthocert_checker::claim::{Claim, NoCubeClaim, PostulateClaim, Workspace};
+use orthocert_checker::claim::{Claim, PostulateClaim, Workspace};
 use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
@@ -96,13 +96,9 @@ fn decided(claim: &Claim) -> Certificate {
             Answer::Decided { certificate, .. } => return *certificate,
             other => panic!("{other:?}"),
         },
-        Claim::NoCube(claim) => {
-            let NoCubeClaim { machine, side } = claim;
-            return *exclude(machine, side, budget, &mut control).unwrap().unwrap();
-        }
         Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control),
         Claim::Kernel(claim) => solver::verify(claim, budget, &mut control),
-        Claim::Atlas(_) => panic!("an atlas is not decided"),
+        Claim::NoCube(_) | Claim::Atlas(_) => panic!("not of a machine"),
     };
     match found.unwrap().answer {
         solver::Answer::Decided { certificate, .. } => *certificate,
@@ -150,8 +146,11 @@ fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
     let Claim::Machine(mut machine) = design.claim else { panic!("not a machine") };
     let corner = |n| [(); 3].map(|()| Exact::integer(n));
     machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
-    let claim = Claim::NoCube(NoCubeClaim { machine, side: Exact::integer(200) });
-    is_what_the_prover_writes(NO_CUBE, &claim, Certified);
+    let budget = Budget { max_boxes: 10_000, deadline: None };
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let found = exclude(&machine, &Exact::integer(200), budget, &mut control).unwrap();
+    is_committed(NO_CUBE, &found.unwrap());
 }
 
 #[test]

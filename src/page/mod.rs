@@ -112,9 +112,8 @@ impl<'a> Page<'a> {
     ) -> Self {
         let machine_claim = match &certificate.claim {
             Claim::Machine(claim) => Some(claim.clone()),
-            Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
-            Claim::Atlas(_) | Claim::Kernel(_) => None,
+            Claim::Atlas(_) | Claim::Kernel(_) | Claim::NoCube(_) => None,
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
@@ -127,6 +126,7 @@ impl<'a> Page<'a> {
         });
         let scene = match (&certificate.claim, &certificate.proof) {
             (Claim::Kernel(claim), Proof::Kernel(proof)) => general::scene(claim, proof),
+            (Claim::NoCube(claim), Proof::Kernel(proof)) => general::of_centres(claim, proof),
             _ => {
                 let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
                 of_three_legs(certificate, machine, &rows)

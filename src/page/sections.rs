@@ -111,7 +111,9 @@ impl Page<'_> {
     fn machine_section(&self) -> String {
         let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
         let (Some(shape), Some(design)) = (&self.scene.shape, &self.figures.design) else {
-            if let Claim::Kernel(claim) = &self.certificate.claim {
+            if let Claim::Kernel(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) =
+                &self.certificate.claim
+            {
                 let reason = match claim.mechanism {
                     orthocert_kernel::claim::Mechanism::Formulas(_) => {
                         "formulas do not say where its parts are"
@@ -151,14 +153,12 @@ impl Page<'_> {
         );
         let of_postulate;
         let three_legs = match &self.certificate.claim {
-            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
-                Some(claim)
-            }
+            Claim::Machine(claim) => Some(claim),
             Claim::Postulate(claim) => {
                 of_postulate = nominal::of_postulate(claim);
                 of_postulate.as_ref()
             }
-            Claim::Kernel(claim) => {
+            Claim::Kernel(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
                 out.push_str(&mechanism::parameters(claim));
                 None
             }

@@ -10,6 +10,7 @@
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines                            |
 //! | `descent`  | the worst of them                                                           |
+//! | `fails`    | how a claim fails at every point of a box                                   |
 //! | `same`     | two points with the same joint coordinates                                  |
 //! | `refute`   | a place where an obligation seems to fail as an exact witness               |
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
@@ -24,6 +25,7 @@ mod directions;
 pub(crate) mod doubles;
 mod evidence;
 pub mod extremes;
+pub(crate) mod fails;
 mod less;
 mod propose;
 mod refute;

@@ -4,9 +4,8 @@
 //! there alone: it is the same for every number of threads.
 
 use super::doubles::Pair;
-use super::evidence::Prover;
 use crate::search::{Budget, Control, Progress, Stop};
-use orthocert_kernel::certificate::{Node, Step};
+use orthocert_kernel::certificate::Node;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -56,14 +55,24 @@ impl Outcome {
 
 /// What became of a box.
 pub struct Trial {
-    /// What is shown on all of it.
-    pub steps: Vec<Step>,
+    /// What is shown of all of it.
+    pub node: Node,
     /// What stays open.
     pub open: Vec<usize>,
     /// How much is gained by halving a coordinate.
     pub weights: Vec<f64>,
     /// Not even next to the centre is a test passed.
     pub hopeless: bool,
+}
+
+/// What a search is about.
+pub trait Boxes: Sync {
+    /// The box to be covered, in the problem's unit.
+    fn root(&self) -> &Cell;
+    /// How many obligations there are.
+    fn obligations(&self) -> usize;
+    /// What becomes of a box on which these are open; where `asked`, whether it is hopeless.
+    fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial;
 }
 
 struct Growing {
@@ -76,14 +85,14 @@ struct Growing {
 /// Searches for a proof of every obligation; where `whole`, what is hopeless is an account of what
 /// remains, else the end.
 pub fn search(
-    prover: &Prover<'_>,
+    problem: &impl Boxes,
     whole: bool,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Outcome {
-    let m = prover.root.len();
-    let all = (0..prover.problem.obligations.len()).collect();
-    let root = Open { cell: prover.root.clone(), depth: 0, obligations: all };
+    let root = problem.root();
+    let (m, all) = (root.len(), (0..problem.obligations()).collect());
+    let root = Open { cell: root.clone(), depth: 0, obligations: all };
     let mut tree = vec![growing(root, vec![0; m])];
     let mut level = vec![0];
     let (mut boxes, mut closed, mut stop) = (0, 0.0, Stop::Exhausted);
@@ -95,7 +104,7 @@ pub fn search(
                 stop = reason;
                 break;
             }
-            let trials = tried(prover, &tree, batch);
+            let trials = tried(problem, &tree, batch);
             let hopeless = trials.iter().any(|trial| trial.hopeless);
             for (&at, trial) in batch.iter().zip(trials) {
                 closed += settle(&mut tree, at, trial, &mut next);
@@ -127,11 +136,11 @@ fn interrupted(budget: &Budget, control: &Control<'_>) -> Option<Stop> {
     budget.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Stop::Time)
 }
 
-fn tried(prover: &Prover<'_>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
+fn tried(problem: &impl Boxes, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
     let one = |&at: &usize| {
         let Open { cell, depth, obligations } = &tree[at].item;
         let asked = *depth >= HOPELESS_HALVINGS * cell.len() as u32;
-        prover.trial(cell, obligations, asked)
+        problem.trial(cell, obligations, asked)
     };
     if batch.len() < PARALLEL_FROM {
         batch.iter().map(one).collect()
@@ -143,7 +152,7 @@ fn tried(prover: &Prover<'_>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
 /// Records a trial, and halves the box if something is open there; the volume that is closed.
 fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize>) -> f64 {
     let grown = &mut tree[at];
-    grown.node.by = trial.steps;
+    grown.node = trial.node;
     grown.item.obligations = trial.open;
     let Open { cell, depth, obligations } = grown.item.clone();
     if obligations.is_empty() {

@@ -150,8 +150,6 @@ pub enum Step {
     Speed,
     /// The cell has no point of the cylinder.
     Outside,
-    /// No cube: with its centre in the cell, the cube has a point at which the claim fails.
-    Violated(#[serde(deserialize_with = "strict::object")] Box<Violated>),
 }
 
 /// Evidence for [`crate::rule::conditioning`].
@@ -163,16 +161,6 @@ pub struct ConditioningEvidence {
     pub rotation: Rotation,
     /// `mu`.
     pub mu: Mu,
-}
-
-/// A point of a cube, relative to its centre, at which a requirement fails.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Violated {
-    /// The point, in parts of half the side, of which there are [`crate::claim::OFFSET_PARTS`].
-    pub at: [i64; 3],
-    /// What fails there.
-    pub violates: Violation,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.

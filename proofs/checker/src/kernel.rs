@@ -11,7 +11,7 @@ use serde::Deserialize;
 use std::fmt;
 
 /// Whether a text is meant as a certificate of the kernel: its claim has a list of requirements, or is
-/// the postulate.
+/// of another kind that the kernel has.
 pub(crate) fn is_meant(text: &str) -> bool {
     #[derive(Deserialize)]
     struct Header {
@@ -26,6 +26,7 @@ pub(crate) fn is_meant(text: &str) -> bool {
             _require: IgnoredAny,
         },
         Postulate(IgnoredAny),
+        NoCube(IgnoredAny),
     }
     serde_json::from_str::<Header>(text).is_ok()
 }
@@ -44,6 +45,7 @@ pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
     let claim = match claim {
         kernel::Claim::Machine(claim) => Claim::Kernel(claim),
         kernel::Claim::Postulate(claim) => Claim::Postulate(claim),
+        kernel::Claim::NoCube(claim) => Claim::NoCube(claim),
         _ => return Err(syntax(&"a claim about a machine over a workspace is expected")),
     };
     Ok(Certificate {
@@ -73,6 +75,7 @@ pub(crate) fn text(
     let claim = match certificate.claim.clone() {
         Claim::Kernel(claim) => kernel::Claim::Machine(claim),
         Claim::Postulate(claim) => kernel::Claim::Postulate(claim),
+        Claim::NoCube(claim) => kernel::Claim::NoCube(claim),
         _ => return Err(serde::ser::Error::custom("the kernel's proof of another claim")),
     };
     let Provenance { tool, version } = certificate.provenance.clone();
@@ -97,6 +100,7 @@ pub(crate) fn check(
     let checked = match claim {
         Claim::Kernel(claim) => check::check_machine(claim, verdict, proof),
         Claim::Postulate(claim) => check::check_postulate(claim, verdict, proof),
+        Claim::NoCube(claim) => check::check_no_cube(claim, verdict, proof),
         _ => return Err(Rejected::VerdictMismatch),
     };
     checked.map_err(Rejected::Kernel)?;
@@ -135,6 +139,9 @@ pub fn size_of(tree: &Tree) -> TreeSize {
         }
         for step in &node.by {
             *size.steps.entry(step.1.name()).or_default() += 1;
+        }
+        if node.fails.is_some() {
+            *size.steps.entry("fails").or_default() += 1;
         }
     }
     size

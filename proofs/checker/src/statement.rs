@@ -2,8 +2,8 @@
 
 use crate::certificate::{Certificate, Proof, Verdict};
 use crate::claim::{
-    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, Quantity, Range,
-    Requirements, Sign, Workspace,
+    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements,
+    Sign, Workspace,
 };
 use crate::kernel;
 use crate::paving::{self, Shares};
@@ -25,7 +25,7 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
             requirements(&mut out, claim)?;
         }
         Claim::Postulate(claim) => return orthocert_kernel::postulate::statement(claim),
-        Claim::NoCube(claim) => no_cube(&mut out, claim)?,
+        Claim::NoCube(claim) => return orthocert_kernel::no_cube::statement(claim),
         Claim::Atlas(claim) => atlas(&mut out, claim)?,
         Claim::Kernel(claim) => return kernel::statement(claim, verdict),
     }
@@ -87,15 +87,6 @@ pub fn wrapped(text: &str) -> String {
         out.push('\n');
     }
     out
-}
-
-fn no_cube(out: &mut String, claim: &NoCubeClaim) -> fmt::Result {
-    writeln!(out, "No axis-aligned cube of side {} with its centre in the box below", claim.side)?;
-    writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
-    machine(out, &claim.machine)?;
-    requirements(out, &claim.machine)?;
-    writeln!(out, "(The box is that of the centres; P is any point of the cube. With tolerances,")?;
-    writeln!(out, "the cube has such a point for every machine: none of them has the cube.)")
 }
 
 /// What an accepted paving establishes, in words.

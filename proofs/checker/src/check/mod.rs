@@ -4,7 +4,7 @@
 //! |-------------|---------------------------------------------------------------------|
 //! | `walk`      | the walk over a tree, and what every tree is held to                |
 //! | `evaluate`  | the steps of a node on its cell                                     |
-//! | `machine`   | trees about a machine: over a workspace, or over centres of cubes   |
+//! | `machine`   | trees about a machine over its workspace                            |
 //! | `rejected`  | why certificates are rejected                                       |
 
 mod evaluate;
@@ -122,9 +122,6 @@ pub fn check_part(
         }
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
-        }
-        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
-            machine::check_no_cube(claim, tree, &mut size)?;
         }
         (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
             atlas::check(claim, map, |number| number % of == part, &mut size)?;

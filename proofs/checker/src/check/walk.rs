@@ -37,7 +37,6 @@ impl Step {
             Step::LegAngle => ("leg_angle", Obligation::LegAngle),
             Step::Speed => ("speed", Obligation::JointSpeed),
             Step::Outside => return ("outside", None),
-            Step::Violated(_) => return ("violated", None),
         };
         (name, Some(obligation))
     }

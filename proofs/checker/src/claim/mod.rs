@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 pub use leg::{Leg, Parameter, Sign, WorkingMode};
+pub use orthocert_kernel::no_cube::NoCubeClaim;
 pub use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 pub use validate::ClaimError;
 
@@ -33,28 +34,14 @@ pub enum Claim {
     #[serde(skip_deserializing)]
     Postulate(PostulateClaim),
     /// No cube of some side fits, wherever its centre is in a box.
-    NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
+    #[serde(skip_deserializing)]
+    NoCube(NoCubeClaim),
     /// Every machine of a box of parameters, in part.
     Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
     /// Any mechanism, in the kernel's vocabulary; read and written as the kernel does.
     #[serde(skip_deserializing, rename = "machine")]
     Kernel(orthocert_kernel::claim::MachineClaim),
 }
-
-/// "For every machine described and every point `C` of the box, the closed cube of this side with
-/// the centre `C` and edges along the axes has a point at which the claim of `machine` fails."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NoCubeClaim {
-    /// The machine, the requirements, and, as the workspace, the box of the centres.
-    #[serde(deserialize_with = "strict::object")]
-    pub machine: MachineClaim,
-    /// The cube's side.
-    pub side: Exact,
-}
-
-/// The parts that half a cube's side is divided in, for the points of [`crate::certificate::Violated`].
-pub const OFFSET_PARTS: i64 = 8;
 
 /// "Of the box of parameters, the cells that the proof names certified, which fill the share
 /// `certified` of it, hold only designs that meet every requirement; the cells that it names

@@ -1,8 +1,7 @@
 //! Which claims are well formed.
 
 use super::{
-    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, NoCubeClaim, Range, Requirements,
-    Workspace,
+    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, Range, Requirements, Workspace,
 };
 use crate::number::Exact;
 use std::cmp::Ordering;
@@ -24,8 +23,6 @@ pub enum ClaimError {
     NoBound(String),
     /// A cube without the Orthoglide that it defines, or the reverse.
     CubeNeedsOrthoglide,
-    /// Centres of cubes that are not in a box.
-    NeedsCentres,
     /// A cube without `psi_max`, or with `psi_max <= 1`.
     CubeNeedsPsiMax,
     /// A number that is not provably greater than this one.
@@ -60,7 +57,6 @@ impl fmt::Display for ClaimError {
                 f,
                 "a workspace \"cube\" goes with the mechanism \"orthoglide\", and only with it"
             ),
-            ClaimError::NeedsCentres => write!(f, "the centres of cubes are not given as a box"),
             ClaimError::CubeNeedsPsiMax => {
                 write!(f, "a workspace \"cube\" needs transmission.max (psi_max) greater than 1")
             }
@@ -93,17 +89,6 @@ impl fmt::Display for ClaimError {
 }
 
 impl std::error::Error for ClaimError {}
-
-impl NoCubeClaim {
-    /// Proves the claim well formed: a claim about a box of centres, and a positive side.
-    pub fn validate(&self) -> Result<(), ClaimError> {
-        self.machine.validate()?;
-        if !matches!(self.machine.workspace, Workspace::Box { .. }) {
-            return Err(ClaimError::NeedsCentres);
-        }
-        positive(&self.side, || "side".into())
-    }
-}
 
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.

@@ -136,8 +136,6 @@ pub enum Failure {
     NoSuchLeg(usize),
     /// A direction that is zero.
     ZeroVector,
-    /// An offset that is not one of the cube's points.
-    NotOfTheCube,
 }
 
 impl From<OutOfReach> for Failure {
@@ -180,7 +178,6 @@ impl fmt::Display for Failure {
                 write!(f, "the requirement is not provably violated on the whole box")
             }
             Failure::NoSuchLeg(leg) => write!(f, "there is no leg {leg}"),
-            Failure::NotOfTheCube => write!(f, "the offset is not a point of the cube"),
             Failure::ZeroVector => write!(f, "the vector is zero"),
         }
     }
