@@ -1,32 +1,22 @@
-//! Proofs of the Q1/Q2 postulate for one `psi_max`, a range of them, or every one.
-//!
-//! For a single `psi_max` one tree over the cube is searched; for more, a tree over `kappa` and two
-//! coordinates for each face and half. The rules are those of [`orthocert_checker::postulate`].
+//! Proofs of the Q1/Q2 postulate for one `psi_max`, a range of them, or every one: a tree over `kappa`
+//! and two coordinates for each face and half. What closes a box is tried in doubles, by the tests of
+//! [`orthocert_kernel::postulate`]; the exact checker decides.
 
-use crate::interval::Interval;
-use crate::search::{self, by_weight, Budget, Control, Outcome, Problem, Stop, Trial};
-use crate::verify::{accepted, Answer, Undecided};
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{FacePart, Faces, Proof, Step, Tree};
-use orthocert_checker::claim::{Claim, ClaimError, PostulateClaim, PsiMax};
-use orthocert_checker::enclosure::Enclosure;
-use orthocert_checker::postulate::{self, BlowUp, Face, Half};
-use orthocert_checker::rule::{Failure, Obligation, TightCorner};
-use orthocert_checker::{parts_needed, single_kappa, PartNeeded};
+use crate::search::{Budget, Control, Progress, Stop};
+use crate::solver::doubles::{Doubles, Pair};
+use crate::solver::{confirmed, Answer, Undecided, Verification, PRECISIONS};
+use orthocert_checker::claim::{Claim, PostulateClaim};
+use orthocert_kernel::cell::Cell;
+use orthocert_kernel::certificate::{Corner, Evidence, Node, Step, Tree};
+use orthocert_kernel::fixed::Interval;
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::postulate::{parts, Part};
+use std::collections::HashMap;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
 
-/// Fractional bits in which `kappa` is enclosed for the search.
-const PRECISION: u32 = 192;
-/// The corners at which a bound may be met with equality.
-const CORNERS: [TightCorner; 2] = [TightCorner::Q1, TightCorner::Q2];
-
-/// The result of a proof search for the postulate.
-#[derive(Clone, Debug)]
-pub struct Proved {
-    /// The answer.
-    pub answer: Answer,
-    /// Boxes tried.
-    pub boxes: usize,
-}
+/// Fractional bits of the search's boxes.
+const BITS: u32 = PRECISIONS[0];
 
 /// Proves the postulate for the claim's `psi_max`.
 ///
@@ -36,152 +26,116 @@ pub fn prove(
     claim: &PostulateClaim,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Proved, ClaimError> {
-    claim.validate()?;
-    let unenclosed = || ClaimError::Precision("psi_max".into());
-    let is_single = matches!(&claim.psi_max, PsiMax::Range(range) if range.is_exact());
-    let mut found = Vec::new();
-    if is_single {
-        let (kappa, half) = single_kappa(claim, PRECISION).ok_or_else(unenclosed)?;
-        let problem = OneCube { kappa: Interval::from_fixed(&kappa), half };
-        found.push((None, search::search(&problem, budget, control)));
-    } else {
-        let mut left = budget;
-        for part in parts_needed(claim).ok_or_else(unenclosed)? {
-            let (least, width) = part.range(PRECISION).ok_or_else(unenclosed)?;
-            let problem = FaceProblem {
-                least: Interval::from_fixed(&least),
-                width: Interval::from_fixed(&width),
-                half: part.half,
-                face: part.face,
-            };
-            let outcome = search::search(&problem, left, control);
-            left.max_boxes -= outcome.boxes;
-            found.push((Some(part), outcome));
+) -> Result<Verification, ClaimError> {
+    let parts = parts(claim)?;
+    let share = 1.0 / parts.len() as f64;
+    let mut growing = Growing { nodes: Vec::new(), closed: 0.0, budget, control };
+    for part in &parts {
+        let mut search = Search { part, tried: HashMap::new() };
+        let grown = search.grow(&mut growing, &part.root(BITS)?, share);
+        let Err(stop) = grown else { continue };
+        let answer = match stop {
+            Stop::Cancelled => Answer::Cancelled,
+            stop => Answer::Undecided(Undecided { open: Vec::new(), stop, objection: None }),
+        };
+        return Ok(Verification { answer, worst: Vec::new(), boxes: growing.nodes.len() });
+    }
+    let boxes = growing.nodes.len();
+    let tree = Tree { precision: BITS, chords: None, nodes: growing.nodes };
+    let answer = confirmed(Claim::Postulate(claim.clone()), tree, PRECISIONS);
+    Ok(Verification { answer, worst: Vec::new(), boxes })
+}
+
+/// The trees so far.
+struct Growing<'a, 'c> {
+    nodes: Vec<Node>,
+    /// The share of the parts' volume on which nothing is open.
+    closed: f64,
+    budget: Budget,
+    control: &'a mut Control<'c>,
+}
+
+impl Growing<'_, '_> {
+    fn interrupted(&self) -> Option<Stop> {
+        let Budget { max_boxes, deadline } = self.budget;
+        if self.control.cancel.load(Ordering::Relaxed) {
+            Some(Stop::Cancelled)
+        } else if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            Some(Stop::Time)
+        } else {
+            (self.nodes.len() >= max_boxes).then_some(Stop::Boxes)
         }
     }
-    let boxes = found.iter().map(|(_, outcome)| outcome.boxes).sum();
-    Ok(Proved { answer: answer(claim, found), boxes })
 }
 
-fn answer(claim: &PostulateClaim, found: Vec<(Option<PartNeeded>, Outcome)>) -> Answer {
-    let unfinished = |o: &Outcome| o.stop != Stop::Exhausted || !o.open.is_empty();
-    if let Some(stop) = found.iter().find(|(_, o)| unfinished(o)).map(|(_, o)| o.stop) {
-        if stop == Stop::Cancelled {
-            return Answer::Cancelled;
+/// The search for the tree of a part.
+struct Search<'a> {
+    part: &'a Part,
+    /// What closes the boxes that have been tried: each is met in several orders.
+    tried: HashMap<Vec<[i64; 2]>, Option<Evidence>>,
+}
+
+impl Search<'_> {
+    /// What closes a box.
+    fn closing(&mut self, cell: &Cell<i64>) -> Option<Evidence> {
+        let key: Vec<[i64; 2]> = cell.0.iter().map(|edge| [edge.lo, edge.hi]).collect();
+        if let Some(known) = self.tried.get(&key) {
+            return known.clone();
         }
-        let open = found.into_iter().flat_map(|(_, outcome)| outcome.open).collect();
-        return Answer::Undecided(Undecided { open, stop, objection: None });
+        let found = self.found(cell);
+        self.tried.insert(key, found.clone());
+        found
     }
-    let claim = Claim::Postulate(claim.clone());
-    accepted(claim, |precision| {
-        let mut parts = Vec::new();
-        for (part, outcome) in &found {
-            let nodes = outcome.nodes.clone();
-            match part {
-                None => return Proof::Tree(Tree { precision, nodes }),
-                Some(part) => parts.push(FacePart { face: part.face, half: part.half, nodes }),
-            }
+
+    fn found(&self, cell: &Cell<i64>) -> Option<Evidence> {
+        let scale = (-f64::from(BITS)).exp2();
+        let pair = |x: &Interval<i64>| -> Pair { (x.lo as f64 * scale, x.hi as f64 * scale) };
+        let edges = cell.edges()?;
+        let edges: Vec<[Pair; 3]> = edges.iter().map(|edge| edge.each_ref().map(pair)).collect();
+        // Away from the face's own corner, what is shown about it is no more than what is shown about
+        // the centre.
+        let at_end = |edge: &Interval<i64>| match self.part.face {
+            Corner::Q1 => edge.lo == 0,
+            Corner::Q2 => edge.hi == 1 << BITS,
+        };
+        let touches = cell.0.iter().take(2).all(at_end);
+        let corner = touches.then_some(Evidence::Corner(self.part.face));
+        let mut tried =
+            [Some(Evidence::Mirror), Some(Evidence::Test), corner].into_iter().flatten();
+        tried.find(|evidence| self.part.shows(&Doubles, &edges, evidence))
+    }
+
+    /// What halving a box along `k` is worth: a half that closes 4, else for each of its own halves
+    /// that then closes 1, along its best coordinate.
+    fn worth(&mut self, cell: &Cell<i64>, k: usize, each: u32) -> u32 {
+        let halves = cell.halves(k).into_iter().flatten();
+        let of = |half: Cell<i64>| match self.closing(&half) {
+            Some(_) => each,
+            None if each == 1 => 0,
+            None => (0..3).map(|k| self.worth(&half, k, 1)).max().unwrap_or(0),
+        };
+        halves.map(of).sum()
+    }
+
+    /// The tree over a box, which is halved along the coordinate along which most of it closes.
+    fn grow(
+        &mut self,
+        growing: &mut Growing<'_, '_>,
+        cell: &Cell<i64>,
+        share: f64,
+    ) -> Result<(), Stop> {
+        growing.interrupted().map_or(Ok(()), Err)?;
+        if let Some(evidence) = self.closing(cell) {
+            growing.nodes.push(Node { by: vec![Step(0, evidence)], ..Node::default() });
+            growing.closed += share;
+            let progress = Progress { boxes: growing.nodes.len(), closed: growing.closed };
+            (growing.control.progress)(progress);
+            return Ok(());
         }
-        Proof::Faces(Faces { precision, parts })
-    })
-}
-
-/// The cube for one `psi_max`; axes x, y and z.
-struct OneCube {
-    kappa: Interval,
-    half: Half,
-}
-
-impl Problem for OneCube {
-    fn obligations(&self) -> Vec<Obligation> {
-        vec![Obligation::SigmaMin, Obligation::SigmaMax]
+        // On a tie the first of y, z, kappa.
+        let k = (0..3).rev().max_by_key(|&k| self.worth(cell, k, 4)).unwrap_or(0);
+        let halves = cell.halves(k).ok_or(Stop::Exhausted)?;
+        growing.nodes.push(Node { split: Some(k), ..Node::default() });
+        halves.iter().try_for_each(|half| self.grow(growing, half, 0.5 * share))
     }
-
-    fn try_box(&self, cell: &Cell, open: &[Obligation]) -> Trial {
-        let mut trial = try_blow_up(postulate::on_cube(&self.kappa, self.half, cell), Axis::ALL);
-        if open.contains(&Obligation::SigmaMax) {
-            trial.steps.insert(0, Step::Cube);
-        }
-        trial
-    }
-}
-
-/// A face over a range of `kappa`; axes kappa, y and z.
-struct FaceProblem {
-    least: Interval,
-    width: Interval,
-    half: Half,
-    face: Face,
-}
-
-impl Problem for FaceProblem {
-    fn obligations(&self) -> Vec<Obligation> {
-        vec![Obligation::SigmaMin]
-    }
-
-    fn try_box(&self, cell: &Cell, _open: &[Obligation]) -> Trial {
-        let mut trial = self.rules(cell);
-        if !trial.failures.is_empty() {
-            // Prefer the axis whose halves close most often; the order breaks ties.
-            let closing = |axis: &Axis| {
-                let halves = cell.halves(*axis).map_or(Vec::new(), |(a, b)| vec![a, b]);
-                halves.iter().filter(|half| self.rules(half).failures.is_empty()).count()
-            };
-            trial.axes.sort_by_cached_key(|axis| std::cmp::Reverse(closing(axis)));
-        }
-        trial
-    }
-}
-
-impl FaceProblem {
-    fn rules(&self, cell: &Cell) -> Trial {
-        if postulate::mirror(cell).is_ok() {
-            return closed(Step::Mirror, Axis::FACE);
-        }
-        let blow_up = postulate::on_face(&self.least, &self.width, self.half, self.face, cell);
-        try_blow_up(blow_up, Axis::FACE)
-    }
-}
-
-fn closed(step: Step, axes: [Axis; 3]) -> Trial {
-    Trial { steps: vec![step], failures: Vec::new(), axes, hopeless: false }
-}
-
-fn try_blow_up(blow_up: Option<BlowUp<Interval>>, axes: [Axis; 3]) -> Trial {
-    let Some(blow_up) = blow_up else {
-        let failures = vec![(Obligation::SigmaMin, Failure::NotEnclosed)];
-        return Trial { steps: Vec::new(), failures, axes, hopeless: false };
-    };
-    let failure = match postulate::blow_up(&blow_up) {
-        Ok(()) => return closed(Step::BlowUp, axes),
-        Err(failure) => failure,
-    };
-    if let Some(corner) = CORNERS.into_iter().find(|&c| postulate::edge(&blow_up, c).is_ok()) {
-        return closed(Step::Edge(corner), axes);
-    }
-    Trial {
-        steps: Vec::new(),
-        failures: vec![(Obligation::SigmaMin, failure)],
-        axes: by_variation(&blow_up, axes),
-        hopeless: false,
-    }
-}
-
-/// The axes by how much `F` varies along them: by slopes for coordinates; by the widths of `F` at
-/// the centre and (half) of the slopes for `kappa`, which has no slopes of its own.
-fn by_variation(blow_up: &BlowUp<Interval>, axes: [Axis; 3]) -> [Axis; 3] {
-    let Ok(expansion) = blow_up.expand(None) else {
-        return axes;
-    };
-    let width = |x: &Interval| x.sup() - x.inf();
-    let slopes = |k: usize| -> f64 { expansion.slopes[k].iter().map(Interval::mag).sum() };
-    let first = if axes[0] == Axis::Kappa {
-        let at_centre: f64 = expansion.off.iter().map(width).sum();
-        let of_slopes: f64 = expansion.slopes.iter().flatten().map(width).sum();
-        at_centre + of_slopes / 2.0
-    } else {
-        slopes(0)
-    };
-    by_weight(axes, [first, slopes(1), slopes(2)])
 }

@@ -2,10 +2,15 @@
 
 use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use clap::ArgGroup;
+use orthocert::design::written;
 use orthocert::output;
 use orthocert::postulate::prove;
 use orthocert::report::{text, PostulateReport};
-use orthocert_checker::claim::{Claim, ClaimError, PostulateClaim, PsiMax, Quantity};
+use orthocert_checker::claim::{Claim, Every, PostulateClaim, PsiMax};
+use orthocert_kernel::claim::Quantity;
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::postulate::parts;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -35,13 +40,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let Arguments { effort, output: target, .. } = arguments;
     let budget = effort.budget(started)?;
     let claim = PostulateClaim { psi_max: arguments.psi_max()? };
-    claim.validate().map_err(|error| arguments.refused(&error))?;
+    parts(&claim).map_err(|error| arguments.refused(&error))?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
     let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
-    let decision = certify::decide(&mut found.answer)?;
-    let mut report =
-        PostulateReport::new(&claim, &found, started.elapsed()).ok_or(Failure::Interrupted)?;
+    let decision = certify::decided(&mut found)?;
+    let report = PostulateReport::new(&claim, &found, started.elapsed());
+    let mut report = report.ok_or(Failure::Interrupted)?;
     let status = match (decision, target) {
         (Some(decision), Some(target)) => {
             report.certificate = Some(certify::store(None, target, &decision.text)?);
@@ -80,19 +85,31 @@ impl Arguments {
     }
 
     fn psi_max(&self) -> Result<PsiMax, Failure> {
-        let range = match (&self.psi, &self.psi_range) {
-            (Some(psi), _) => Quantity::exactly(input::number("--psi", psi)?),
+        let psi_max = match (&self.psi, &self.psi_range) {
+            (Some(psi), _) => Quantity::Exactly(number("--psi", psi)?),
             (None, Some(range)) => {
                 let (min, max) = range.split_once("..").ok_or_else(|| {
                     Failure::Input(format!(
                         "--psi-range: found \"{range}\"; accepted: two numbers, such as 1.5..3"
                     ))
                 })?;
-                let end = |text| input::number("--psi-range", text);
-                Quantity { min: end(min)?, max: end(max)? }
+                let (min, max) = (number("--psi-range", min)?, number("--psi-range", max)?);
+                match min == max {
+                    true => Quantity::Exactly(max),
+                    false => Quantity::Between { min, max },
+                }
             }
-            (None, None) => return Ok(PsiMax::All),
+            (None, None) => return Ok(PsiMax::Every(Every::All)),
         };
-        Ok(PsiMax::Range(range))
+        Ok(PsiMax::Of(psi_max))
     }
+}
+
+fn number(option: &str, text: &str) -> Result<Expression, Failure> {
+    written(&input::number(option, text)?).ok_or_else(|| {
+        let text: String = text.chars().take(60).collect();
+        Failure::Input(format!(
+            "{option}: found \"{text}\", whose exact value is too long; accepted: a shorter number"
+        ))
+    })
 }

@@ -8,7 +8,7 @@ use orthocert_checker::certificate::{
     Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
 };
 use orthocert_checker::claim::Claim;
-use orthocert_checker::kernel::size_of;
+use orthocert_checker::kernel::{size_of, trees};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement, TreeSize};
 use orthocert_kernel::certificate as kernel;
@@ -65,14 +65,11 @@ impl Shape {
     fn of(proof: &Proof) -> Option<Self> {
         let (precision, trees): (u32, Vec<&[Node]>) = match proof {
             Proof::Tree(tree) => (tree.precision, vec![&tree.nodes]),
-            Proof::Faces(faces) => {
-                (faces.precision, faces.parts.iter().map(|part| &part.nodes[..]).collect())
-            }
             Proof::Kernel(kernel::Proof::Tree(tree)) => {
                 let TreeSize { nodes, leaves, depth, steps } = size_of(tree);
                 let rules = steps.into_iter().collect();
-                let precision = tree.precision;
-                return Some(Shape { precision, trees: 1, nodes, leaves, depth, rules });
+                let (precision, trees) = (tree.precision, trees(&tree.nodes).len());
+                return Some(Shape { precision, trees, nodes, leaves, depth, rules });
             }
             Proof::Witness(_)
             | Proof::Kernel(kernel::Proof::Witness(_) | kernel::Proof::Atlas(_)) => return None,

@@ -257,6 +257,74 @@ impl Description {
     }
 }
 
+/// The claim of three legs that the rules take, in the kernel's vocabulary; `None` where a number is too
+/// long for it.
+pub fn in_the_kernel(claim: &checker::MachineClaim) -> Option<kernel::MachineClaim> {
+    let mechanism = match &claim.mechanism {
+        checker::Mechanism::Orthoglide { offset } => Mechanism::OfCube { offset: offset.clone() },
+        checker::Mechanism::Translational(legs) => {
+            let leg = |drive: &checker::Leg| Leg { drive: drive.clone(), base_axis: None };
+            Mechanism::Legs { motion: Motion::Translational, legs: legs.iter().map(leg).collect() }
+        }
+    };
+    let workspace = match claim.workspace.clone() {
+        checker::Workspace::Box { min, max } => Workspace::Box { min: min.into(), max: max.into() },
+        checker::Workspace::Cylinder { center, radius, z } => {
+            Workspace::Cylinder { center, radius, z }
+        }
+        checker::Workspace::Cube { side } => Workspace::Cube { side },
+    };
+    let demands = demands(&claim.requirements, claim.mechanism.is_angular());
+    let (orientation, bodies) = (None, Vec::new());
+    let description = Description {
+        mechanism,
+        characteristic_length: None,
+        workspace,
+        orientation,
+        bodies,
+        demands,
+    };
+    description.kernel()
+}
+
+/// What the rules' requirements demand.
+fn demands(requirements: &checker::Requirements, angular: bool) -> Vec<Demand> {
+    let ends = |range: &Range| {
+        let (min, max) = (range.min.clone(), range.max.clone());
+        min.map(Bound::Min).into_iter().chain(max.map(Bound::Max)).collect::<Vec<_>>()
+    };
+    let mut all = Vec::new();
+    let transmission = requirements.transmission.iter().flat_map(ends);
+    all.extend(transmission.map(|bound| Demand::of(TRANSMISSION, bound)));
+    for (i, range) in requirements.joint_range.iter().flatten().enumerate() {
+        let bounds = match range.clone() {
+            Range { min: Some(min), max: Some(max) } if angular => vec![Bound::Within([min, max])],
+            _ => ends(range),
+        };
+        let of_leg = |bound| Demand { leg: Some(i + 1), ..Demand::of("joint_range", bound) };
+        all.extend(bounds.into_iter().map(of_leg));
+    }
+    let greatest =
+        [("conditioning", &requirements.conditioning), ("leg_angle", &requirements.leg_angle)];
+    for (quantity, bound) in greatest {
+        let bound = bound.iter().map(|bound| Bound::Max(bound.max.clone()));
+        all.extend(bound.map(|bound| Demand::of(quantity, bound)));
+    }
+    let least = [
+        ("serial_margin", &requirements.serial_margin),
+        ("parallel_margin", &requirements.parallel_margin),
+    ];
+    for (quantity, bound) in least {
+        let bound = bound.iter().map(|bound| Bound::Min(bound.min.clone()));
+        all.extend(bound.map(|bound| Demand::of(quantity, bound)));
+    }
+    if let Some(JointSpeed { tool, max }) = &requirements.joint_speed {
+        let given = vec![("tool", vec![tool.clone()])];
+        all.push(Demand { given, ..Demand::of("joint_speed", Bound::Max(max.clone())) });
+    }
+    all
+}
+
 const TRANSMISSION: &str = "transmission";
 /// The key of the one demand that is about bodies.
 const CLEARANCE: &str = "clearance";

@@ -7,6 +7,7 @@
 
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::claim::Claim;
+use orthocert_kernel::certificate::Proof as Proven;
 
 mod kernel;
 mod postulate;
@@ -35,6 +36,9 @@ pub enum ExportError {
     /// A leg is an arm, or a strut that keeps the platform from turning.
     #[error("a leg is an arm, or a strut with a base axis; {ONLY}")]
     Drive,
+    /// It is about cubes that do not fit.
+    #[error("the claim is that no cube fits; {ONLY}")]
+    NoCube,
     /// The workspace is not a box.
     #[error("the workspace is not a box; {ONLY}")]
     NotABox,
@@ -63,6 +67,8 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
     }
     match (&certificate.claim, &certificate.proof) {
         (Claim::Kernel(claim), Proof::Kernel(proof)) => kernel::kernel(claim, proof),
+        (Claim::Postulate(claim), Proof::Kernel(Proven::Tree(tree))) => postulate(claim, tree),
+        (Claim::NoCube(_), _) => Err(ExportError::NoCube),
         _ => Err(ExportError::Rules),
     }
 }

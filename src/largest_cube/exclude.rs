@@ -1,44 +1,57 @@
 //! No cube of a side fits: a tree over the centres.
 
+use crate::design::in_the_kernel;
 use crate::frontier::NoAnswer;
-use crate::paving::{header, Decider};
-use crate::search::{by_weight, search, Budget, Control, Problem, Stop, Trial};
-use crate::verify::{accepted, Answer};
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{Certificate, Proof, Step, Tree, Violated};
-use orthocert_checker::claim::{Claim, MachineClaim, NoCubeClaim, Workspace, OFFSET_PARTS};
+use crate::search::{Budget, Control, Stop};
+use crate::solver::doubles::{middle, Pair};
+use crate::solver::fails::Failing;
+use crate::solver::search::{search, Boxes, Branch, Cell, Ends, Trial};
+use crate::solver::{confirmed, Answer, PRECISIONS};
+use orthocert_checker::certificate::Certificate;
+use orthocert_checker::claim::{Claim, MachineClaim, NoCubeClaim};
 use orthocert_checker::number::Exact;
-use orthocert_checker::rule::{Failure, Obligation};
+use orthocert_kernel::certificate::{Node, Tree};
+use orthocert_kernel::no_cube::OFFSET_PARTS;
+use orthocert_kernel::problem::Problem;
 
-/// The search for a violated point of the cube in every cell of centres.
-struct Centres {
-    /// Points of the cube, and what decides the claim moved there: corners first, then the middles
-    /// of edges and faces, then the centre.
-    points: Vec<([i64; 3], Decider)>,
-    /// Edges of the box of centres.
-    width: [f64; 3],
+/// The search, in every cell of centres, for a point of the cube at which the claim fails.
+struct Centres<'a> {
+    failing: Failing<'a>,
+    /// Points of the cube, and how far they are from its centre: corners, the middles of edges and
+    /// faces, the centre.
+    points: Vec<([i64; 3], [f64; 3])>,
 }
 
-impl Problem for Centres {
-    fn obligations(&self) -> Vec<Obligation> {
-        vec![Obligation::SigmaMin]
+impl Boxes for Centres<'_> {
+    fn root(&self) -> &Cell {
+        self.failing.root()
     }
 
-    fn try_box(&self, cell: &Cell, _open: &[Obligation]) -> Trial {
-        let weights =
-            std::array::from_fn(|k| self.width[k] * (-f64::from(cell.edges[k].level)).exp2());
-        let axes = by_weight(Axis::ALL, weights);
-        let found = self
-            .points
-            .iter()
-            .find_map(|(at, decider)| decider.violated(cell).map(|violates| (*at, violates)));
-        let (steps, failures) = match found {
-            Some((at, violates)) => {
-                (vec![Step::Violated(Box::new(Violated { at, violates }))], Vec::new())
-            }
-            None => (Vec::new(), vec![(Obligation::SigmaMin, Failure::NotViolated)]),
+    fn obligations(&self) -> usize {
+        1
+    }
+
+    fn trial(&self, cell: &Cell, _open: &[usize], _asked: bool) -> Trial {
+        let margin = |by: &[f64; 3]| {
+            let point: Vec<f64> = cell.iter().zip(by).map(|(x, by)| middle(x) + by).collect();
+            self.failing.margin(&point)
         };
-        Trial { steps, failures, axes, hopeless: false }
+        let margins = self.points.iter().map(|point| (margin(&point.1), point));
+        let mut failing: Vec<_> = margins.filter(|(margin, _)| *margin < 0.0).collect();
+        failing.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let found = failing.into_iter().find_map(|(_, (at, by))| {
+            let moved: Vec<Pair> =
+                cell.iter().zip(by).map(|(x, by)| (x.0 + by, x.1 + by)).collect();
+            Some((at, self.failing.throughout(&moved)?))
+        });
+        let weights = cell.iter().map(|(lo, hi)| hi - lo).collect();
+        let (node, open) = match found {
+            Some((at, fails)) => {
+                (Node { fails: Some(fails), at: at.to_vec(), ..Node::default() }, Vec::new())
+            }
+            None => (Node::default(), vec![0]),
+        };
+        Trial { node, open, weights, hopeless: false }
     }
 }
 
@@ -53,60 +66,29 @@ pub fn exclude(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let claim = NoCubeClaim { machine: claim.clone(), side: side.clone() };
-    claim.validate()?;
-    let problem = centres(&claim)?;
-    let found = search(&problem, budget, control);
+    let too_large = || NoAnswer::Claim("its numbers exceed what can be reported".to_owned());
+    let machine = in_the_kernel(claim).ok_or_else(too_large)?;
+    let part = crate::decimal::approximate(side).ok_or_else(too_large)?;
+    let side = crate::design::written(side).ok_or_else(too_large)?;
+    let claim = NoCubeClaim { machine, side };
+    let refused = |error: orthocert_kernel::input::ClaimError| NoAnswer::Claim(error.to_string());
+    let problem = Problem::new(&claim.machine).map_err(refused)?;
+    let failing = Failing::new(&claim.machine, &problem).map_err(refused)?;
+    let half = 0.5 * part / failing.unit();
+    let offset = |n: i64| [n % 3, n / 3 % 3, n / 9].map(|i| i - 1);
+    let point = |n| (offset(n).map(|i| i * OFFSET_PARTS), offset(n).map(|i| i as f64 * half));
+    let centres = Centres { failing, points: (0..27).map(point).collect() };
+    let found = search(&centres, &Branch::whole(&centres), Ends::default(), budget, control);
+    let Some(found) = found else { return Ok(None) };
     if found.stop == Stop::Cancelled {
         return Err(NoAnswer::Cancelled);
     }
-    if found.stop != Stop::Exhausted || !found.open.is_empty() {
+    if !found.is_proof() {
         return Ok(None);
     }
-    let answer = accepted(Claim::NoCube(claim), |precision| {
-        Proof::Tree(Tree { precision, nodes: found.nodes.clone() })
-    });
-    match answer {
+    let tree = Tree { precision: PRECISIONS[0], chords: None, nodes: found.nodes };
+    match confirmed(Claim::NoCube(claim), tree, PRECISIONS) {
         Answer::Decided { certificate, .. } => Ok(Some(certificate)),
         _ => Ok(None),
     }
-}
-
-fn centres(claim: &NoCubeClaim) -> Result<Centres, NoAnswer> {
-    let refused = |reason: String| NoAnswer::Claim(reason);
-    let Workspace::Box { min, max } = &claim.machine.workspace else {
-        return Err(refused("the workspace is not a box".to_owned()));
-    };
-    let mut offsets: Vec<[i64; 3]> = Vec::new();
-    for n in 0..27 {
-        offsets.push([n % 3, n / 3 % 3, n / 9].map(|i| (i - 1) * OFFSET_PARTS));
-    }
-    offsets.sort_by_key(|offset| offset.iter().filter(|n| **n == 0).count());
-    let mut points = Vec::with_capacity(offsets.len());
-    for offset in offsets {
-        let too_large = || refused("its numbers exceed what can be reported".to_owned());
-        let moved = moved(claim, &offset).ok_or_else(too_large)?;
-        let decider = Decider::new(&header(&moved, 0)).map_err(|e| refused(e.to_string()))?;
-        points.push((offset, decider));
-    }
-    let edge = |k: usize| {
-        let width = max[k].clone().minus(min[k].clone()).ok()?;
-        crate::decimal::approximate(&width)
-    };
-    let width = [edge(0), edge(1), edge(2)].map(|edge| edge.unwrap_or(1.0));
-    Ok(Centres { points, width })
-}
-
-/// The claim about the points `C + offset side / (2 OFFSET_PARTS)`, `C` in the box of centres.
-fn moved(claim: &NoCubeClaim, offset: &[i64; 3]) -> Option<MachineClaim> {
-    let Workspace::Box { mut min, mut max } = claim.machine.workspace.clone() else {
-        return None;
-    };
-    let part = claim.side.clone().over(Exact::integer(2 * OFFSET_PARTS)).ok()?;
-    for (k, &n) in offset.iter().enumerate() {
-        let by = part.clone().times(Exact::integer(n)).ok()?;
-        min[k] = min[k].clone().plus(by.clone()).ok()?;
-        max[k] = max[k].clone().plus(by).ok()?;
-    }
-    Some(MachineClaim { workspace: Workspace::Box { min, max }, ..claim.machine.clone() })
 }

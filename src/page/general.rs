@@ -12,6 +12,7 @@ use super::subdivision::{pairs, Root, Subdivision};
 use crate::decimal::significant;
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
+use orthocert_kernel::no_cube::NoCubeClaim;
 use orthocert_kernel::number::Expression;
 use std::rc::Rc;
 
@@ -51,6 +52,17 @@ pub fn scene(claim: &MachineClaim, proof: &kernel::Proof) -> Scene {
         trees: vec![of.tree(proof)],
         marks,
     }
+}
+
+/// What they show of a claim that no cube fits: the machine, and the boxes of the centres.
+pub fn of_centres(claim: &NoCubeClaim, proof: &kernel::Proof) -> Scene {
+    let mut scene = scene(&claim.machine, proof);
+    scene.rows.clear();
+    scene.marks.clear();
+    for tree in &mut scene.trees {
+        "the box of the centres".clone_into(&mut tree.name);
+    }
+    scene
 }
 
 /// Names of the coordinates: of the position, then of the chart of the orientations.

@@ -37,7 +37,7 @@ pub type Ruled = (Vec<u8>, Option<usize>);
 type Style = (&'static str, &'static str, usize);
 
 /// The rules of three translating legs.
-const RULES: [Style; 16] = [
+const RULES: [Style; 12] = [
     ("lower", "#8ecae6", 0),
     ("corner", "#f4a340", 1),
     ("upper", "#74c69d", 2),
@@ -49,11 +49,7 @@ const RULES: [Style; 16] = [
     ("leg_angle", "#c9a66b", 3),
     ("speed", "#9fd3c7", 4),
     (OUTSIDE, "#eceff3", 5),
-    ("blow_up", "#8ecae6", 0),
-    ("edge", "#f4a340", 1),
-    ("mirror", "#d3a4c8", 3),
     ("entrywise", "#6fa8dc", 1),
-    ("violated", "#e5989b", 2),
 ];
 
 /// The rule that a box is outside the workspace.
@@ -74,7 +70,7 @@ impl Legend {
         let obligations: Vec<String> = Obligation::ALL.iter().map(ToString::to_string).collect();
         let rule = |&(name, colour, pattern): &Style| {
             let discharged = match name {
-                "lower" | "entrywise" | "corner" | "blow_up" | "edge" | "mirror" => "sigma_min",
+                "lower" | "entrywise" | "corner" => "sigma_min",
                 "upper" | "cube" => "sigma_max",
                 "range" => "joint_range",
                 "speed" => "joint_speed",
@@ -130,8 +126,18 @@ impl Legend {
             at as u8
         };
         let nodes = tree.nodes.iter();
-        let ruled =
+        let mut ruled: Vec<Ruled> =
             nodes.map(|node| (node.by.iter().map(&mut position).collect(), node.split)).collect();
+        let fails = legend.rules.len();
+        if tree.nodes.iter().any(|node| node.fails.is_some()) {
+            let (colour, pattern) = ("#e5989b", 2);
+            let (name, used_for, discharges) = ("fails".to_owned(), None, None);
+            legend.rules.push(Rule { name, used_for, colour, pattern, discharges });
+        }
+        for (ruled, _) in ruled.iter_mut().zip(&tree.nodes).filter(|(_, node)| node.fails.is_some())
+        {
+            ruled.0.push(fails as u8);
+        }
         (legend, ruled)
     }
 }

@@ -112,10 +112,9 @@ impl<'a> Page<'a> {
     ) -> Self {
         let machine_claim = match &certificate.claim {
             Claim::Machine(claim) => Some(claim.clone()),
-            Claim::NoCube(claim) => Some(claim.machine.clone()),
             Claim::Postulate(claim) => nominal::of_postulate(claim),
             Claim::Kernel(claim) => nominal::of_kernel(claim),
-            Claim::Atlas(_) => None,
+            Claim::Atlas(_) | Claim::NoCube(_) => None,
         };
         let rows = match &certificate.claim {
             Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
@@ -137,6 +136,7 @@ impl<'a> Page<'a> {
                 }
                 scene
             }
+            (Claim::NoCube(claim), Proof::Kernel(proof)) => general::of_centres(claim, proof),
             _ => {
                 let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
                 of_three_legs(certificate, machine, &rows)

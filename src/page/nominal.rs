@@ -15,7 +15,7 @@ use orthocert_checker::claim::{
 use orthocert_checker::kinematics::Leg;
 use orthocert_checker::linear::Vector;
 use orthocert_checker::model::{CubeConstants, Model};
-use orthocert_checker::number::Exact;
+use orthocert_checker::number::{Exact, MAX_DIGITS};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::number::Expression;
 use std::array::from_fn;
@@ -356,15 +356,13 @@ fn leg(leg: &kernel::Leg) -> Option<claim::Leg> {
 
 /// The Orthoglide with `L = 1` that the postulate for a single `psi_max` is about.
 pub fn of_postulate(claim: &PostulateClaim) -> Option<MachineClaim> {
-    let PsiMax::Range(range) = &claim.psi_max else {
+    let PsiMax::Of(kernel::Quantity::Exactly(psi)) = &claim.psi_max else {
         return None;
     };
-    if !range.is_exact() {
-        return None;
-    }
-    let cube = CubeConstants::new(&range.min, &Exact::integer(1)).ok()?;
+    let psi = Exact::parse(&psi.to_string(), MAX_DIGITS).ok()?;
+    let cube = CubeConstants::new(&psi, &Exact::integer(1)).ok()?;
     let side = cube.q2.minus(cube.q1).ok()?;
-    let transmission = Some(Range { min: None, max: Some(range.min.clone()) });
+    let transmission = Some(Range { min: None, max: Some(psi) });
     Some(MachineClaim {
         mechanism: Mechanism::Orthoglide { offset: Exact::integer(0) },
         workspace: Workspace::Cube { side },

@@ -5,17 +5,18 @@ use super::isomap::{Mark, Scale};
 use super::legend::Legend;
 use super::legs::Shape;
 use super::nominal::Nominal;
+use super::sampled::double;
 use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
 use crate::decimal::{approximate, significant};
 use crate::report::{self, exactly};
 use orthocert_checker::cell::Axis;
-use orthocert_checker::certificate::{Certificate, FacePart, Proof, Violation, Witness};
+use orthocert_checker::certificate::{Certificate, Proof, Violation, Witness};
 use orthocert_checker::claim::Claim;
+use orthocert_checker::kernel::trees as kernel_trees;
 use orthocert_checker::number::Exact;
-use orthocert_checker::postulate::{Face, Half};
-use orthocert_checker::{parts_needed, PartNeeded};
 use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::postulate::{parts, Part};
 use std::rc::Rc;
 
 /// What is shown.
@@ -133,24 +134,27 @@ fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivisio
             };
             vec![Subdivision::new(name, root(), &legend, &legend.ruled(&tree.nodes))]
         }
-        (Proof::Faces(faces), Claim::Postulate(claim)) => {
-            let needed = parts_needed(claim).unwrap_or_default();
-            let part = |(part, needed): (&FacePart, &PartNeeded)| {
+        (Proof::Kernel(kernel::Proof::Tree(tree)), Claim::Postulate(claim)) => {
+            let needed = parts(claim).unwrap_or_default();
+            let bound = "\u{3c3}_min(M) \u{2265} 1/psi_max".to_owned();
+            let (legend, ruled) = Legend::of_kernel(tree, vec![bound], &|_| 0);
+            let legend = Rc::new(legend);
+            let mut rest = &ruled[..];
+            let part = |(nodes, part): (&[kernel::Node], &Part)| {
+                let (own, others) = rest.split_at(nodes.len());
+                rest = others;
                 let face = match part.face {
-                    Face::Q1 => "x = q1",
-                    Face::Q2 => "x = q2",
+                    kernel::Corner::Q1 => "x = q1",
+                    kernel::Corner::Q2 => "x = q2",
                 };
-                let half = match part.half {
-                    Half::Low => "kappa <= 1/2",
-                    Half::High => "kappa >= 1/2",
-                };
-                let ends = [&needed.least, &needed.greatest].map(|x| approximate(x).unwrap_or(0.0));
+                let [low, high] =
+                    [&part.least, &part.greatest].map(|x| double(x).unwrap_or_default());
+                let half = if high > 0.5 { "kappa >= 1/2" } else { "kappa <= 1/2" };
                 let name = format!("face {face}, {half}");
-                let (least, width) = ([ends[0], 0.0, 0.0], [ends[1] - ends[0], 1.0, 1.0]);
-                let root = Root::new(Root::axes_of(Axis::FACE), least, width);
-                Subdivision::new(&name, root, &legend, &legend.ruled(&part.nodes))
+                let root = Root::new(["y", "z", "kappa"], [0.0, 0.0, low], [1.0, 1.0, high - low]);
+                Subdivision::new(&name, root, &legend, own)
             };
-            faces.parts.iter().zip(&needed).map(part).collect()
+            kernel_trees(&tree.nodes).into_iter().zip(&needed).map(part).collect()
         }
         _ => vec![Subdivision::new("the workspace", root(), &legend, &[])],
     }

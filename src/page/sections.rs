@@ -86,7 +86,7 @@ impl Page<'_> {
             Proof::Kernel(kernel::Proof::Atlas(cells)) => {
                 facts.push(("cells and their halvings", grouped(cells.len() as u64)));
             }
-            Proof::Tree(_) | Proof::Faces(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
+            Proof::Tree(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
                 let cover = match self.certificate.claim {
                     Claim::NoCube(_) => "boxes that cover the centres",
                     _ => "boxes that cover the workspace",
@@ -98,7 +98,6 @@ impl Page<'_> {
         }
         let bits = match &self.certificate.proof {
             Proof::Tree(tree) => Some(tree.precision),
-            Proof::Faces(faces) => Some(faces.precision),
             Proof::Witness(witness) => Some(witness.precision),
             Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
             Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
@@ -118,7 +117,9 @@ impl Page<'_> {
     fn machine_section(&self) -> String {
         let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
         let (Some(shape), Some(design)) = (&self.scene.shape, &self.figures.design) else {
-            if let Claim::Kernel(claim) = &self.certificate.claim {
+            if let Claim::Kernel(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) =
+                &self.certificate.claim
+            {
                 let reason = match claim.mechanism {
                     Mechanism::Formulas(_) => "formulas do not say where its parts are",
                     _ => "its numbers are beyond what floating point can show",
@@ -156,9 +157,7 @@ impl Page<'_> {
         );
         let of_legs;
         let three_legs = match &self.certificate.claim {
-            Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
-                Some(claim)
-            }
+            Claim::Machine(claim) => Some(claim),
             Claim::Postulate(claim) => {
                 of_legs = nominal::of_postulate(claim);
                 of_legs.as_ref()
@@ -170,6 +169,10 @@ impl Page<'_> {
                     out.push_str(&mechanism::parameters(claim));
                 }
                 of_legs.as_ref()
+            }
+            Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
+                out.push_str(&mechanism::parameters(claim));
+                None
             }
             Claim::Atlas(_) => None,
         };
@@ -276,7 +279,7 @@ fn caption(tree: &Subdivision) -> String {
     if tree.axes.len() > 3 {
         return format!("{name}, by pairs of coordinates: the deeper a box, the darker");
     }
-    let is_face = tree.axes.first().is_some_and(|axis| axis == "kappa");
+    let is_face = tree.is_face();
     let parts = if is_face { ", y and z as parts of [q1, q2]" } else { "" };
     let obligation = &tree.legend.obligations[tree.filled_by];
     format!("{name}{parts}; boxes are filled by the rule for {obligation}")

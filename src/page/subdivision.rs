@@ -86,7 +86,6 @@ impl Root {
             Axis::X => "x",
             Axis::Y => "y",
             Axis::Z => "z",
-            Axis::Kappa => "kappa",
         })
     }
 }
@@ -161,6 +160,11 @@ impl Subdivision {
         self.axes.len() == 3
     }
 
+    /// Whether it is one over a face of the cube and `kappa`.
+    pub fn is_face(&self) -> bool {
+        self.axes.last().is_some_and(|name| name == "kappa")
+    }
+
     /// The position of the rule by which a leaf is filled.
     fn fill(&self, leaf: &Leaf) -> usize {
         usize::from(leaf.by.get(self.filled_by).copied().flatten().unwrap_or(0))
@@ -183,9 +187,8 @@ impl Subdivision {
     /// The relative lengths of the edges, as they are drawn.
     pub fn proportions(&self) -> Point {
         let most = self.width.iter().copied().fold(0.0, f64::max);
-        let is_face = self.axes.first().is_some_and(|name| name == "kappa");
         let edge = |k: usize| self.width.get(k).map_or(1.0, |w| (w / most).max(0.15));
-        from_fn(|k| if is_face { 1.0 } else { edge(k) })
+        from_fn(|k| if self.is_face() { 1.0 } else { edge(k) })
     }
 
     /// The boxes: of three coordinates in space, of others in planes.

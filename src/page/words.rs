@@ -7,8 +7,8 @@ use crate::escape::xml;
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
-    AtlasParameter, Claim, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements,
-    Workspace,
+    AtlasParameter, Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range,
+    Requirements, Workspace,
 };
 use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
@@ -22,12 +22,11 @@ const DIGITS: u32 = 9;
 pub fn subject(claim: &Claim) -> String {
     match claim {
         Claim::Postulate(claim) => match &claim.psi_max {
-            PsiMax::All => "The Q1/Q2 postulate for every psi_max > 1".to_owned(),
-            PsiMax::Range(range) if range.is_exact() => {
-                format!("The Q1/Q2 postulate for psi_max = {}", readable(&range.min))
+            PsiMax::Every(Every::All) => "The Q1/Q2 postulate for every psi_max > 1".to_owned(),
+            PsiMax::Of(kernel::Quantity::Exactly(psi)) => {
+                format!("The Q1/Q2 postulate for psi_max = {psi}")
             }
-            PsiMax::Range(range) => {
-                let (min, max) = (readable(&range.min), readable(&range.max));
+            PsiMax::Of(kernel::Quantity::Between { min, max }) => {
                 format!("The Q1/Q2 postulate for every psi_max from {min} to {max}")
             }
         },
@@ -37,9 +36,9 @@ pub fn subject(claim: &Claim) -> String {
         }
         Claim::NoCube(claim) => format!(
             "No cube of side {} with its centre in {} for: {}",
-            readable(&claim.side),
-            workspace(&claim.machine),
-            machine(&claim.machine)
+            claim.side,
+            mechanism::workspace(&claim.machine),
+            mechanism::machine(&claim.machine)
         ),
         Claim::Machine(_) | Claim::Kernel(_) => {
             machine_and_workspace(claim).unwrap_or_default().join(" over ")
@@ -163,10 +162,10 @@ fn asserted(claim: &Claim) -> Vec<String> {
     };
     match claim {
         Claim::Postulate(claim) => of_cube(match &claim.psi_max {
-            PsiMax::All => "&gt; 1, any".to_owned(),
-            PsiMax::Range(range) if range.is_exact() => format!("= {}", number(&range.min)),
-            PsiMax::Range(range) => {
-                format!("\u{2208} [{}, {}], any", number(&range.min), number(&range.max))
+            PsiMax::Every(Every::All) => "&gt; 1, any".to_owned(),
+            PsiMax::Of(kernel::Quantity::Exactly(psi)) => format!("= {psi}"),
+            PsiMax::Of(kernel::Quantity::Between { min, max }) => {
+                format!("\u{2208} [{min}, {max}], any")
             }
         }),
         Claim::Atlas(claim) => {
@@ -182,13 +181,13 @@ fn asserted(claim: &Claim) -> Vec<String> {
             ]
         }
         Claim::NoCube(claim) => {
-            let side = number(&claim.side);
+            let side = &claim.side;
             let mut out = vec![format!(
                 "for every <var>C</var> \u{2208} <var>W</var> there is a <var>P</var> with \
                  |<var>P</var> \u{2212} <var>C</var>|<sub>\u{221e}</sub> \u{2264} {side}/2 at which \
                  one of these fails:"
             )];
-            let everywhere = asserted(&Claim::Machine(claim.machine.clone()));
+            let everywhere = asserted(&Claim::Kernel(claim.machine.clone()));
             out.extend(everywhere.into_iter().skip(1));
             out
         }
@@ -282,6 +281,9 @@ fn number(x: &Exact) -> String {
 
 /// Definitions, as markup.
 fn definitions(claim: &Claim) -> Vec<&'static str> {
+    if let Claim::NoCube(claim) = claim {
+        return definitions(&Claim::Kernel(claim.machine.clone()));
+    }
     const SLIDER: &str = "slider: <var>r</var> = <var>w</var> \u{2212} (<var>n</var>\u{b7}<var>w</var>)<var>n</var>, \
          <var>s</var> = \u{221a}(<var>L</var>\u{b2} \u{2212} |<var>r</var>|\u{b2}), \u{3b7} = \u{b1}<var>s</var>; \
          row of <var>M</var>: <var>n</var><sup>T</sup> + <var>r</var><sup>T</sup>/\u{3b7}; \

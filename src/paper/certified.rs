@@ -4,9 +4,9 @@ use super::{value, Agreement, Basis, Finding, NotEstablished};
 use crate::decide::decide;
 use crate::design::Design;
 use crate::search::{Budget, Control};
-use crate::verify::Answer;
+use crate::solver;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{PostulateClaim, PsiMax};
+use orthocert_checker::claim::{Every, PostulateClaim, PsiMax};
 use std::sync::atomic::AtomicBool;
 
 /// Far more than any of the proofs needs.
@@ -49,30 +49,16 @@ fn decided(
     }
 }
 
-fn accepted(
-    id: &'static str,
-    answer: Answer,
-    verdict: Verdict,
-) -> Result<Certificate, NotEstablished> {
-    match answer {
-        Answer::Decided { certificate, accepted } if accepted.verdict == verdict => {
-            Ok(*certificate)
-        }
-        Answer::Decided { accepted, .. } => {
-            let reason = format!("the verdict is {}, not {verdict}", accepted.verdict);
-            Err(NotEstablished { id, reason })
-        }
-        _ => Err(NotEstablished { id, reason: "not decided within the budget".into() }),
-    }
-}
-
 fn postulate(id: &'static str) -> Result<Certificate, NotEstablished> {
-    let claim = PostulateClaim { psi_max: PsiMax::All };
+    let claim = PostulateClaim { psi_max: PsiMax::Every(Every::All) };
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let proved = crate::postulate::prove(&claim, BUDGET, &mut control)
         .map_err(|e| NotEstablished { id, reason: e.to_string() })?;
-    accepted(id, proved.answer, Verdict::Certified)
+    match proved.answer {
+        solver::Answer::Decided { certificate, .. } => Ok(*certificate),
+        _ => Err(NotEstablished { id, reason: "not decided within the budget".into() }),
+    }
 }
 
 /// The findings with certificates.

@@ -140,7 +140,6 @@ impl Size {
     pub fn accepted(proof: &Proof, size: &TreeSize) -> Option<Self> {
         let precision = match proof {
             Proof::Tree(tree) => tree.precision,
-            Proof::Faces(faces) => faces.precision,
             Proof::Kernel(of_kernel::Proof::Tree(tree)) => tree.precision,
             Proof::Witness(_)
             | Proof::Atlas(_)

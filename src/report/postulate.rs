@@ -2,10 +2,9 @@
 
 use super::remains::reason;
 use super::{CertificateFile, EarlierFile, Outcome, Size};
-use crate::decimal::exact;
-use crate::postulate::Proved;
-use crate::verify::Answer;
-use orthocert_checker::claim::{Claim, PostulateClaim, PsiMax};
+use crate::solver::{Answer, Verification};
+use orthocert_checker::claim::{Claim, Every, PostulateClaim, PsiMax};
+use orthocert_kernel::claim::Quantity;
 use serde::Serialize;
 use std::time::Duration;
 
@@ -37,7 +36,7 @@ pub struct PostulateReport {
 
 impl PostulateReport {
     /// The facts about a search for a proof of `claim`; `None` if it was cancelled.
-    pub fn new(claim: &PostulateClaim, found: &Proved, elapsed: Duration) -> Option<Self> {
+    pub fn new(claim: &PostulateClaim, found: &Verification, elapsed: Duration) -> Option<Self> {
         let (verdict, proof, undecided) = match &found.answer {
             Answer::Cancelled => return None,
             Answer::Decided { certificate, accepted } => {
@@ -66,12 +65,9 @@ impl PostulateReport {
 
 fn subject(psi_max: &PsiMax) -> String {
     match psi_max {
-        PsiMax::All => "Q1/Q2 postulate for every psi_max > 1".to_owned(),
-        PsiMax::Range(range) if range.is_exact() => {
-            format!("Q1/Q2 postulate for psi_max = {}", exact(&range.min))
-        }
-        PsiMax::Range(range) => {
-            let (min, max) = (exact(&range.min), exact(&range.max));
+        PsiMax::Every(Every::All) => "Q1/Q2 postulate for every psi_max > 1".to_owned(),
+        PsiMax::Of(Quantity::Exactly(psi)) => format!("Q1/Q2 postulate for psi_max = {psi}"),
+        PsiMax::Of(Quantity::Between { min, max }) => {
             format!("Q1/Q2 postulate for {min} <= psi_max <= {max}")
         }
     }

@@ -3,11 +3,11 @@
 use super::chords;
 use super::doubles::{magnitude, middle, pair, Doubles, Pair};
 use super::rows::{Form, Rows};
-use super::search::{Cell, Trial};
+use super::search::{Boxes, Cell, Trial};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
-use orthocert_kernel::certificate::{Evidence, Step};
+use orthocert_kernel::certificate::{Evidence, Node, Step};
 use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::input::ClaimError;
@@ -64,26 +64,6 @@ impl<'a> Prover<'a> {
         formulas.map(of).chain(coordinates).fold(1.0, f64::max)
     }
 
-    /// What is shown of a box, and what not; where `asked`, whether it is hopeless.
-    pub fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
-        self.on(cell, |over| {
-            if over.is_outside() {
-                let steps = vec![Step(0, Evidence::Outside)];
-                return Trial { steps, open: Vec::new(), weights: Vec::new(), hopeless: false };
-            }
-            let (mut steps, mut left) = (Vec::new(), Vec::new());
-            for &obligation in open {
-                match over.evidence(&self.problem.obligations[obligation].test) {
-                    Some(evidence) => steps.push(Step(obligation, evidence)),
-                    None => left.push(obligation),
-                }
-            }
-            let weights = if left.is_empty() { Vec::new() } else { over.weights(&left) };
-            let hopeless = asked && !left.is_empty() && self.is_hopeless(cell, &left);
-            Trial { steps, open: left, weights, hopeless }
-        })
-    }
-
     /// Whether a test fails next to the box's centre, if that is in the workspace: it fails there,
     /// holds with equality, or the tolerances are too wide.
     fn is_hopeless(&self, cell: &Cell, open: &[usize]) -> bool {
@@ -111,8 +91,39 @@ impl<'a> Prover<'a> {
     }
 }
 
+impl Boxes for Prover<'_> {
+    fn root(&self) -> &Cell {
+        &self.root
+    }
+
+    fn obligations(&self) -> usize {
+        self.problem.obligations.len()
+    }
+
+    fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
+        self.on(cell, |over| {
+            if over.is_outside() {
+                let by = vec![Step(0, Evidence::Outside)];
+                let node = Node { by, ..Node::default() };
+                return Trial { node, open: Vec::new(), weights: Vec::new(), hopeless: false };
+            }
+            let (mut by, mut left) = (Vec::new(), Vec::new());
+            for &obligation in open {
+                match over.evidence(&self.problem.obligations[obligation].test) {
+                    Some(evidence) => by.push(Step(obligation, evidence)),
+                    None => left.push(obligation),
+                }
+            }
+            let weights = if left.is_empty() { Vec::new() } else { over.weights(&left) };
+            let hopeless = asked && !left.is_empty() && self.is_hopeless(cell, &left);
+            let node = Node { by, ..Node::default() };
+            Trial { node, open: left, weights, hopeless }
+        })
+    }
+}
+
 /// Centre, range and half-width of each coordinate.
-fn edges(cell: &Cell) -> Vec<[Pair; 3]> {
+pub(super) fn edges(cell: &[Pair]) -> Vec<[Pair; 3]> {
     let edge = |&(lo, hi): &Pair| {
         let centre = 0.5 * (lo + hi);
         [(centre, centre), (lo, hi), (hi - centre, hi - centre)]

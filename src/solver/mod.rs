@@ -10,6 +10,7 @@
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines                            |
 //! | `descent`, `adverse` | the worst of them                                                 |
+//! | `fails`    | how a claim fails at every point of a box                                   |
 //! | `same`     | two points with the same joint coordinates                                  |
 //! | `refute`   | a place where an obligation seems to fail as an exact witness               |
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
@@ -22,9 +23,10 @@ mod adverse;
 mod chords;
 mod descent;
 mod directions;
-mod doubles;
+pub(crate) mod doubles;
 mod evidence;
 pub mod extremes;
+pub(crate) mod fails;
 mod less;
 mod propose;
 mod refute;
@@ -54,7 +56,7 @@ pub use refute::{approximate, number};
 pub const FINEST: i32 = 26;
 /// Precisions of the exact check, in fractional bits: up to 60 it runs in machine words, if numbers are
 /// small enough.
-const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
+pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
 /// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
 const GUARD: u32 = 9;
 /// Open boxes from whose centres a violation is looked for.
@@ -239,11 +241,20 @@ fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answ
     let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
     let words = 63u32.saturating_sub(GUARD + size);
     let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
-    let mut objection = None;
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
+    confirmed(Claim::Kernel(claim.clone()), tree, first.into_iter().chain(PRECISIONS))
+}
+
+/// The certificate of a tree, at the first of the precisions at which the checker accepts it.
+pub(crate) fn confirmed(
+    claim: Claim,
+    tree: Tree,
+    precisions: impl IntoIterator<Item = u32>,
+) -> Answer {
+    let mut objection = None;
     let proof = Proof::Kernel(kernel::Proof::Tree(tree));
-    let mut whole = certificate(Claim::Kernel(claim.clone()), Verdict::Certified, proof);
-    for bits in first.into_iter().chain(PRECISIONS) {
+    let mut whole = certificate(claim, Verdict::Certified, proof);
+    for bits in precisions {
         if let Proof::Kernel(kernel::Proof::Tree(tree)) = &mut whole.proof {
             tree.precision = bits;
         }

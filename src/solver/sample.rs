@@ -267,6 +267,13 @@ impl<'a> Sampler<'a> {
         At { own: self.values(&point, &parameters), nominal }
     }
 
+    /// The same at a point in the problem's unit, wherever it is, of the middle machine.
+    pub fn at_point(&self, point: &[f64]) -> At {
+        let parameters: Vec<f64> = self.parameters.iter().map(middle).collect();
+        let own = self.values(point, &parameters);
+        At { nominal: Some(own.clone()), own }
+    }
+
     fn values(&self, point: &[f64], parameters: &[f64]) -> Values<f64> {
         self.problem.tape.run(&Single, |op| match op {
             Op::Coordinate(k) => point.get(k).copied(),

@@ -4,9 +4,8 @@
 //! there alone: it is the same for every number of threads, and grown in parts.
 
 use super::doubles::Pair;
-use super::evidence::Prover;
 use crate::search::{Budget, Control, Progress, Stop};
-use orthocert_kernel::certificate::{Node, Step};
+use orthocert_kernel::certificate::Node;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::Ordering;
@@ -47,20 +46,20 @@ pub struct Branch {
 
 impl Branch {
     /// The whole tree.
-    pub fn whole(prover: &Prover<'_>) -> Self {
-        Branch { path: Vec::new(), open: (0..prover.problem.obligations.len()).collect() }
+    pub fn whole(problem: &impl Boxes) -> Self {
+        Branch { path: Vec::new(), open: (0..problem.obligations()).collect() }
     }
 
     /// The box, with the halvings of each coordinate; none beyond what trees have.
-    fn begin(&self, prover: &Prover<'_>) -> Option<Growing> {
-        let mut cell = prover.root.clone();
+    fn begin(&self, problem: &impl Boxes) -> Option<Growing> {
+        let mut cell = problem.root().clone();
         let mut halvings = vec![0; cell.len()];
         for &(k, is_upper) in &self.path {
             let halves = halves(*cell.get(k)?).filter(|_| halvings[k] < MOST_HALVINGS)?;
             cell[k] = halves[usize::from(is_upper)];
             halvings[k] += 1;
         }
-        let known = self.open.iter().all(|&o| o < prover.problem.obligations.len());
+        let known = self.open.iter().all(|&o| o < problem.obligations());
         let depth = halvings.iter().sum();
         let item = Open { cell, depth, obligations: self.open.clone() };
         known.then(|| growing(item, halvings))
@@ -97,14 +96,24 @@ impl Outcome {
 
 /// What became of a box.
 pub struct Trial {
-    /// What is shown on all of it.
-    pub steps: Vec<Step>,
+    /// What is shown of all of it.
+    pub node: Node,
     /// What stays open.
     pub open: Vec<usize>,
     /// How much is gained by halving a coordinate.
     pub weights: Vec<f64>,
     /// Not even next to the centre is a test passed.
     pub hopeless: bool,
+}
+
+/// What a search is about.
+pub trait Boxes: Sync {
+    /// The box to be covered, in the problem's unit.
+    fn root(&self) -> &Cell;
+    /// How many obligations there are.
+    fn obligations(&self) -> usize;
+    /// What becomes of a box on which these are open; where `asked`, whether it is hopeless.
+    fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial;
 }
 
 struct Growing {
@@ -126,13 +135,13 @@ pub struct Ends {
 
 /// Searches for a proof of what is open on a branch; none of a branch that no tree has.
 pub fn search(
-    prover: &Prover<'_>,
+    problem: &impl Boxes,
     branch: &Branch,
     ends: Ends,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
-    let mut tree = vec![branch.begin(prover)?];
+    let mut tree = vec![branch.begin(problem)?];
     let mut level = vec![0];
     let (mut boxes, mut closed, mut stop) = (0, 0.0, Stop::Exhausted);
     let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
@@ -144,7 +153,7 @@ pub fn search(
                 stop = reason;
                 break;
             }
-            let trials = tried(prover, &tree, batch);
+            let trials = tried(problem, &tree, batch);
             let hopeless = trials.iter().any(|trial| trial.hopeless);
             for (&at, trial) in batch.iter().zip(trials) {
                 closed += settle(&mut tree, at, trial, &mut next);
@@ -176,11 +185,11 @@ fn interrupted(budget: &Budget, control: &Control<'_>) -> Option<Stop> {
     budget.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Stop::Time)
 }
 
-fn tried(prover: &Prover<'_>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
+fn tried(problem: &impl Boxes, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
     let one = |&at: &usize| {
         let Open { cell, depth, obligations } = &tree[at].item;
         let asked = *depth >= HOPELESS_HALVINGS * cell.len() as u32;
-        prover.trial(cell, obligations, asked)
+        problem.trial(cell, obligations, asked)
     };
     if batch.len() < PARALLEL_FROM {
         batch.iter().map(one).collect()
@@ -193,7 +202,7 @@ fn tried(prover: &Prover<'_>, tree: &[Growing], batch: &[usize]) -> Vec<Trial> {
 fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize>) -> f64 {
     let grown = &mut tree[at];
     grown.tried = true;
-    grown.node.by = trial.steps;
+    grown.node = trial.node;
     grown.item.obligations = trial.open;
     let Open { cell, depth, obligations } = grown.item.clone();
     if obligations.is_empty() {

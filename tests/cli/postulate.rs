@@ -44,7 +44,6 @@ fn the_certificate_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-#[ignore = "the programs' certificates of the postulate are not the kernel's"]
 fn certificates_are_exported_to_rocq() {
     let folder = Folder::new();
     for (arguments, statement) in [
@@ -76,6 +75,7 @@ fn what_is_no_psi_max_is_refused() {
         &["--psi-range", "3..2"],
         &["--psi-range", "1..2"],
         &["--psi-range", "2.."],
+        &["--psi-range", "0..2"],
         &["--psi", "2", "--all"],
     ] {
         let arguments = [&["postulate"], arguments].concat();

@@ -6,6 +6,7 @@ use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Step, Tree, Verdict, Witness,
 };
 use orthocert_kernel::claim::RegionClaim;
+use orthocert_kernel::no_cube::NoCubeClaim;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::test::Multiplier;
 use serde_json::Value;
@@ -47,6 +48,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Direction(y.clone()),
         Evidence::Negative,
         Evidence::Cube,
+        Evidence::Mirror,
         Evidence::Corner(Corner::Q1),
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,
@@ -61,6 +63,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
     let failures = [
         Failure::Reach,
         Failure::Obligation(0, vec![vec![1, -1]]),
+        Failure::Row(1, 0),
         Failure::Same {
             obligation: 1,
             least: point.clone(),
@@ -72,6 +75,10 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
     for fails in failures {
         let node = Node { fails: Some(fails.clone()), ..Node::default() };
         let Claim::Machine(machine) = good.claim.clone() else { panic!("a machine") };
+        let no_cube = NoCubeClaim { machine: machine.clone(), side: number("2") };
+        let moved = Node { fails: Some(fails.clone()), at: vec![-8, 0, 8], ..Node::default() };
+        let proof = Proof::Tree(Tree { nodes: vec![moved], ..tree.clone() });
+        holds(&Certificate { claim: Claim::NoCube(no_cube), proof, ..good.clone() });
         let region = RegionClaim { machine, inner: number("0.5"), outer: number("1/3") };
         let nodes = vec![node];
         let proof = Proof::Tree(Tree { nodes, ..tree.clone() });

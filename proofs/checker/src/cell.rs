@@ -20,20 +20,16 @@ pub enum Axis {
     Y,
     /// The third coordinate.
     Z,
-    /// `kappa`, the first axis of a face's tree in a proof of the postulate.
-    Kappa,
 }
 
 impl Axis {
     /// The axes of a machine's workspace, in order.
     pub const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
-    /// The axes of a face's tree, in order.
-    pub const FACE: [Axis; 3] = [Axis::Kappa, Axis::Y, Axis::Z];
 
     /// Position in a vector, from zero.
     pub fn index(self) -> usize {
         match self {
-            Axis::X | Axis::Kappa => 0,
+            Axis::X => 0,
             Axis::Y => 1,
             Axis::Z => 2,
         }

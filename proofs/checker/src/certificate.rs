@@ -4,7 +4,6 @@ use crate::cell::Axis;
 use crate::claim::{Claim, Leg};
 use crate::kernel;
 use crate::number::Exact;
-use crate::postulate::{Face, Half};
 use crate::rule::{Mu, Rotation, TightCorner};
 use crate::strict;
 use serde::{Deserialize, Serialize};
@@ -18,8 +17,6 @@ pub const MAX_BYTES: usize = 16 << 20;
 pub const MAX_NODES: usize = 500_000;
 /// Most cells of an atlas, split or not.
 pub const MAX_CELLS: usize = 200_000;
-/// Most trees of a proof by faces.
-pub const MAX_PARTS: usize = 4;
 /// Most steps of one node.
 pub const MAX_STEPS: usize = 16;
 /// Most bytes of a string of the provenance.
@@ -69,8 +66,6 @@ impl fmt::Display for Verdict {
 pub enum Proof {
     /// A bisection tree, for "certified".
     Tree(#[serde(deserialize_with = "strict::object")] Tree),
-    /// Trees over `kappa` and the faces of the cube, for the postulate.
-    Faces(#[serde(deserialize_with = "strict::object")] Faces),
     /// A counterexample, for "refuted".
     Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
     /// A bisection tree of a box of parameters, for an atlas.
@@ -115,30 +110,6 @@ pub struct Tree {
     pub nodes: Vec<Node>,
 }
 
-/// A proof of the postulate for an interval of `kappa`: a tree for each face and half.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Faces {
-    /// Fractional bits of the arithmetic in which the rules are to be evaluated.
-    pub precision: u32,
-    /// The trees, in the order of [`crate::parts_needed`].
-    #[serde(deserialize_with = "strict::parts")]
-    pub parts: Vec<FacePart>,
-}
-
-/// The tree of one face over one half of the `kappa`, with axes `kappa`, `y` and `z`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FacePart {
-    /// The face.
-    pub face: Face,
-    /// The half.
-    pub half: Half,
-    /// The nodes in preorder.
-    #[serde(deserialize_with = "strict::nodes")]
-    pub nodes: Vec<Node>,
-}
-
 /// A node: the steps that discharge obligations on its cell, and whether it is split.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -179,14 +150,6 @@ pub enum Step {
     Speed,
     /// The cell has no point of the cylinder.
     Outside,
-    /// No cube: with its centre in the cell, the cube has a point at which the claim fails.
-    Violated(#[serde(deserialize_with = "strict::object")] Box<Violated>),
-    /// Postulate: vertex rule for the blow-up about the centre.
-    BlowUp,
-    /// Postulate: vertex rule for the blow-up about a tight edge `Q(kappa)`.
-    Edge(TightCorner),
-    /// Postulate: the mirror image of other cells.
-    Mirror,
 }
 
 /// Evidence for [`crate::rule::conditioning`].
@@ -198,16 +161,6 @@ pub struct ConditioningEvidence {
     pub rotation: Rotation,
     /// `mu`.
     pub mu: Mu,
-}
-
-/// A point of a cube, relative to its centre, at which a requirement fails.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Violated {
-    /// The point, in parts of half the side, of which there are [`crate::claim::OFFSET_PARTS`].
-    pub at: [i64; 3],
-    /// What fails there.
-    pub violates: Violation,
 }
 
 /// A point of the workspace, and a machine within its tolerances, at which the claim is false.
@@ -329,18 +282,6 @@ impl Certificate {
             Proof::Tree(Tree { precision, nodes }) => {
                 let nodes = lines(nodes)?;
                 format!("{{\"tree\":{{\"precision\":{precision},\"nodes\":[\n{nodes}\n]}}}}")
-            }
-            Proof::Faces(Faces { precision, parts }) => {
-                let part = |part: &FacePart| {
-                    let (face, half) =
-                        (serde_json::to_string(&part.face)?, serde_json::to_string(&part.half)?);
-                    let nodes = lines(&part.nodes)?;
-                    Ok(format!("{{\"face\":{face},\"half\":{half},\"nodes\":[\n{nodes}\n]}}"))
-                };
-                let parts: Result<Vec<String>, serde_json::Error> =
-                    parts.iter().map(part).collect();
-                let parts = parts?.join(",\n");
-                format!("{{\"faces\":{{\"precision\":{precision},\"parts\":[\n{parts}\n]}}}}")
             }
         };
         Ok(format!(

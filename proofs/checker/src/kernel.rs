@@ -3,13 +3,15 @@
 use crate::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use crate::check::{syntax, Rejected, TreeSize};
 use crate::claim::Claim;
-use orthocert_kernel::certificate::{self as kernel, Tree, Unreadable};
+use orthocert_kernel::certificate::{self as kernel, Node, Tree, Unreadable};
+use orthocert_kernel::check;
 use orthocert_kernel::claim::MachineClaim;
 use serde::de::IgnoredAny;
 use serde::Deserialize;
 use std::fmt;
 
-/// Whether a text is meant as a certificate of the kernel: its claim has a list of requirements.
+/// Whether a text is meant as a certificate of the kernel: its claim has a list of requirements, or is
+/// of another kind that the kernel has.
 pub(crate) fn is_meant(text: &str) -> bool {
     #[derive(Deserialize)]
     struct Header {
@@ -23,6 +25,8 @@ pub(crate) fn is_meant(text: &str) -> bool {
             #[serde(rename = "require")]
             _require: IgnoredAny,
         },
+        Postulate(IgnoredAny),
+        NoCube(IgnoredAny),
     }
     serde_json::from_str::<Header>(text).is_ok()
 }
@@ -38,12 +42,15 @@ pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
         }
     })?;
     let kernel::Certificate { claim, verdict, proof, provenance, .. } = certificate;
-    let kernel::Claim::Machine(claim) = claim else {
-        return Err(syntax(&"a claim about a machine over a workspace is expected"));
+    let claim = match claim {
+        kernel::Claim::Machine(claim) => Claim::Kernel(claim),
+        kernel::Claim::Postulate(claim) => Claim::Postulate(claim),
+        kernel::Claim::NoCube(claim) => Claim::NoCube(claim),
+        _ => return Err(syntax(&"a claim about a machine over a workspace is expected")),
     };
     Ok(Certificate {
         format: FORMAT.to_owned(),
-        claim: Claim::Kernel(claim),
+        claim,
         verdict: match verdict {
             kernel::Verdict::Certified => Verdict::Certified,
             kernel::Verdict::Refuted => Verdict::Refuted,
@@ -65,13 +72,16 @@ pub(crate) fn text(
     certificate: &Certificate,
     proof: &kernel::Proof,
 ) -> Result<String, serde_json::Error> {
-    let Claim::Kernel(claim) = &certificate.claim else {
-        return Err(serde::ser::Error::custom("the kernel's proof of another claim"));
+    let claim = match certificate.claim.clone() {
+        Claim::Kernel(claim) => kernel::Claim::Machine(claim),
+        Claim::Postulate(claim) => kernel::Claim::Postulate(claim),
+        Claim::NoCube(claim) => kernel::Claim::NoCube(claim),
+        _ => return Err(serde::ser::Error::custom("the kernel's proof of another claim")),
     };
     let Provenance { tool, version } = certificate.provenance.clone();
     let whole = kernel::Certificate {
         format: FORMAT.to_owned(),
-        claim: kernel::Claim::Machine(claim.clone()),
+        claim,
         verdict: verdict_of(certificate.verdict),
         proof: proof.clone(),
         provenance: kernel::Provenance { tool, version },
@@ -81,20 +91,42 @@ pub(crate) fn text(
 
 /// Accepts a proof, or says why not.
 pub(crate) fn check(
-    claim: &MachineClaim,
+    claim: &Claim,
     verdict: Verdict,
     proof: &kernel::Proof,
     size: &mut TreeSize,
 ) -> Result<(), Rejected> {
-    orthocert_kernel::check::check_machine(claim, verdict_of(verdict), proof)
-        .map_err(Rejected::Kernel)?;
+    let verdict = verdict_of(verdict);
+    let checked = match claim {
+        Claim::Kernel(claim) => check::check_machine(claim, verdict, proof),
+        Claim::Postulate(claim) => check::check_postulate(claim, verdict, proof),
+        Claim::NoCube(claim) => check::check_no_cube(claim, verdict, proof),
+        _ => return Err(Rejected::VerdictMismatch),
+    };
+    checked.map_err(Rejected::Kernel)?;
     if let kernel::Proof::Tree(tree) = proof {
         *size = size_of(tree);
     }
     Ok(())
 }
 
-/// The size and shape of a tree.
+/// The nodes of each tree of a proof.
+pub fn trees(mut nodes: &[Node]) -> Vec<&[Node]> {
+    let mut trees = Vec::new();
+    while !nodes.is_empty() {
+        let mut open = 1;
+        let last = nodes.iter().position(|node| {
+            open = if node.split.is_some() { open + 1 } else { open - 1 };
+            open == 0
+        });
+        let (tree, rest) = nodes.split_at(last.map_or(nodes.len(), |last| last + 1));
+        trees.push(tree);
+        nodes = rest;
+    }
+    trees
+}
+
+/// The size and shape of trees together.
 pub fn size_of(tree: &Tree) -> TreeSize {
     let mut size = TreeSize { nodes: tree.nodes.len(), ..TreeSize::default() };
     let mut waiting = vec![0];
@@ -107,6 +139,9 @@ pub fn size_of(tree: &Tree) -> TreeSize {
         }
         for step in &node.by {
             *size.steps.entry(step.1.name()).or_default() += 1;
+        }
+        if node.fails.is_some() {
+            *size.steps.entry("fails").or_default() += 1;
         }
     }
     size

@@ -22,7 +22,6 @@
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
 //! | [`atlas`]       | maps of a box of parameters: the claims of its cells, their shares     |
-//! | [`postulate`]   | the Q1/Q2 postulate: blow-up, faces, tight edges                       |
 //! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
 //! | [`paving`]      | pavings of a search box: inner, outer and boundary cells               |
@@ -51,7 +50,6 @@ pub mod linear;
 pub mod model;
 pub mod number;
 pub mod paving;
-pub mod postulate;
 pub mod rule;
 pub mod shown;
 pub mod statement;
@@ -60,7 +58,4 @@ pub mod trig;
 pub mod witness;
 pub mod word;
 
-pub use check::{
-    check, check_part, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded,
-    Rejected, TreeSize,
-};
+pub use check::{check, check_part, obligations, read, Accepted, Rejected, TreeSize};

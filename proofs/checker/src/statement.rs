@@ -2,8 +2,8 @@
 
 use crate::certificate::{Certificate, Proof, Verdict};
 use crate::claim::{
-    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim,
-    PsiMax, Quantity, Range, Requirements, Sign, Workspace,
+    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements,
+    Sign, Workspace,
 };
 use crate::kernel;
 use crate::paving::{self, Shares};
@@ -24,8 +24,8 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
             machine(&mut out, claim)?;
             requirements(&mut out, claim)?;
         }
-        Claim::Postulate(claim) => postulate(&mut out, claim)?,
-        Claim::NoCube(claim) => no_cube(&mut out, claim)?,
+        Claim::Postulate(claim) => return orthocert_kernel::postulate::statement(claim),
+        Claim::NoCube(claim) => return orthocert_kernel::no_cube::statement(claim),
         Claim::Atlas(claim) => atlas(&mut out, claim)?,
         Claim::Kernel(claim) => return kernel::statement(claim, verdict),
     }
@@ -89,15 +89,6 @@ pub fn wrapped(text: &str) -> String {
     out
 }
 
-fn no_cube(out: &mut String, claim: &NoCubeClaim) -> fmt::Result {
-    writeln!(out, "No axis-aligned cube of side {} with its centre in the box below", claim.side)?;
-    writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
-    machine(out, &claim.machine)?;
-    requirements(out, &claim.machine)?;
-    writeln!(out, "(The box is that of the centres; P is any point of the cube. With tolerances,")?;
-    writeln!(out, "the cube has such a point for every machine: none of them has the cube.)")
-}
-
 /// What an accepted paving establishes, in words.
 ///
 /// # Errors
@@ -151,30 +142,6 @@ fn atlas(out: &mut String, claim: &AtlasClaim) -> fmt::Result {
     writeln!(out, "  which fill the share {} of all:", claim.refuted)?;
     machine(out, &claim.design)?;
     requirements(out, &claim.design)
-}
-
-fn postulate(out: &mut String, claim: &PostulateClaim) -> fmt::Result {
-    match &claim.psi_max {
-        PsiMax::All => writeln!(out, "For every psi_max > 1,")?,
-        PsiMax::Range(range) if range.is_exact() => writeln!(out, "For psi_max = {},", range.min)?,
-        PsiMax::Range(range) => {
-            writeln!(out, "For every psi_max with {} <= psi_max <= {},", range.min, range.max)?;
-        }
-    }
-    writeln!(
-        out,
-        "with kappa = 1/psi_max, t1 = (1 - kappa)/2, t2 = 1 - kappa if kappa <= 1/2 and"
-    )?;
-    writeln!(out, "(1/kappa - 1)/2 otherwise, q1 = -L t1/sqrt(1 + 2 t1^2) and")?;
-    writeln!(
-        out,
-        "q2 = L t2/sqrt(1 + 2 t2^2), the Orthoglide of any leg length L > 0 has at every"
-    )?;
-    writeln!(out, "point P of [q1, q2]^3:")?;
-    writeln!(out, "  every leg reaches P without a serial singularity;")?;
-    writeln!(out, "  P is not a parallel singularity;")?;
-    writeln!(out, "  1/psi_max <= psi_i(P) <= psi_max for i = 1, 2, 3 (the Q1/Q2 postulate);")?;
-    transmission_factors(out)
 }
 
 fn transmission_factors(out: &mut String) -> fmt::Result {

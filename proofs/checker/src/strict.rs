@@ -1,7 +1,7 @@
 //! Reading nothing but the format: derived readers also take an array of the fields' values, in
 //! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::{Witness, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_PARTS, MAX_STEPS};
+use crate::certificate::{Witness, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS};
 use crate::number::Exact;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
@@ -107,15 +107,6 @@ where
     T: Deserialize<'de>,
 {
     objects(deserializer, MAX_NODES)
-}
-
-/// Reads an array of at most [`MAX_PARTS`] objects.
-pub(crate) fn parts<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    objects(deserializer, MAX_PARTS)
 }
 
 /// Reads an array of at most three objects.

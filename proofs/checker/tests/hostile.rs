@@ -186,33 +186,14 @@ fn memory_is_bounded() {
         let count = ((MAX_BYTES - 1000) / (item.len() + 1)).min(most);
         format!("[{}{item}]", format!("{item},").repeat(count - 1))
     };
-    const SINGULAR: &str = r#"{"singular":{"other":["0","0","0"]}}"#;
-    let violated = |violates: &str| {
-        format!(r#"{{"by":[{{"violated":{{"at":[0,0,0],"violates":{violates}}}}}]}}"#)
-    };
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("hostile");
     std::fs::create_dir_all(&folder).unwrap();
     let steps = format!("[{{\"by\":{}}}]", list("\"cube\"", MAX_BYTES));
-    let part =
-        |node: &str| format!(r#"{{"face":"q1","half":"low","nodes":{}}}"#, list(node, MAX_NODES));
-    let face_parts = |node: &str| {
-        prototype("[]").replace(
-            r#"{"tree":{"precision":64,"nodes":[]}}"#,
-            &format!(
-                r#"{{"faces":{{"precision":64,"parts":[{}]}}}}"#,
-                vec![part(node); (MAX_BYTES - 1000) / part(node).len()].join(",")
-            ),
-        )
-    };
     for (name, text) in [
         ("steps", prototype(&steps)),
         ("empty-nodes", prototype(&list("{}", MAX_NODES))),
         ("nodes", prototype(&list(r#"{"by":["cube"]}"#, MAX_NODES))),
         ("full-nodes", prototype(&list(r#"{"by":["cube","cube","cube"]}"#, MAX_NODES))),
-        ("violated", prototype(&list(&violated(r#""parallel_margin""#), MAX_NODES))),
-        ("singular", prototype(&list(&violated(SINGULAR), MAX_NODES))),
-        ("parts", face_parts("{}")),
-        ("full-parts", face_parts(r#"{"by":["cube"]}"#)),
         ("key", prototype("[]").replace("proof", &"é".repeat(MAX_BYTES / 2 - 1000))),
     ] {
         assert!(text.len() <= MAX_BYTES, "{name}");

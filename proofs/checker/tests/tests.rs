@@ -7,8 +7,6 @@
 //! | `drives`      | drives and the rules about their joints                                   |
 //! | `paving`      | pavings: accepted, rejected, volumes                                      |
 //! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
-//! | `no_cube`     | claims that no cube of some side fits                                     |
-//! | `postulate`   | proofs of the postulate for a range of `psi_max`                          |
 //! | `hostile`     | files made to exhaust the checker or to mislead                           |
 
 mod adversary;
@@ -16,6 +14,4 @@ mod atlas;
 mod drives;
 mod hostile;
 mod mathematics;
-mod no_cube;
 mod paving;
-mod postulate;

@@ -76,15 +76,16 @@ pub fn statement(claim: &NoCubeClaim) -> Result<String, fmt::Error> {
     use fmt::Write;
     let NoCubeClaim { machine: claim, side } = claim;
     let mut out = String::new();
-    writeln!(out, "Let a point be good for a machine if all of the following holds there.")?;
+    writeln!(out, "It is proved:")?;
+    writeln!(out, "No axis-aligned cube of side {side} with its centre in the box")?;
+    writeln!(out, "{}", crate::statement::box_of(claim))?;
+    writeln!(out, "is such that all of the following holds at every point P of the cube.")?;
     machine(&mut out, claim)?;
-    writeln!(out, "at the point,")?;
     requirements(&mut out, claim)?;
     writeln!(
         out,
-        "It is proved: for every one of the machines, no closed cube of side {side}, with"
+        "(With tolerances, the cube has a point at which it does not for every machine:"
     )?;
-    writeln!(out, "edges along the axes, consists of good points if its centre is in the box")?;
-    writeln!(out, "{}.", crate::statement::box_of(claim))?;
+    writeln!(out, "none of them has the cube.)")?;
     Ok(out)
 }

@@ -62,7 +62,6 @@ use crate::formula::{Formula, Tape, Values};
 use crate::input::{binary, enclosed, narrowed, number_error, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::slope::{Slope, Slopes};
-use num_bigint::BigInt;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -99,8 +98,10 @@ pub enum Every {
 pub struct Part {
     /// The face `x = q_1` or `x = q_2`.
     pub face: Corner,
-    least: Expression,
-    greatest: Expression,
+    /// The least `kappa`.
+    pub least: Expression,
+    /// The greatest `kappa`.
+    pub greatest: Expression,
     tape: Tape,
     /// The diagonal entry of `F`, and those at (1, 2), (1, 3) and (2, 3).
     entries: [Formula; 4],
@@ -353,7 +354,7 @@ pub fn statement(claim: &PostulateClaim) -> Result<String, fmt::Error> {
     }
     writeln!(
         out,
-        "for every Orthoglide with leg length L > 0, guides along the axes, and P measured"
+        "for every Orthoglide of leg length L > 0, guides along the axes and P measured"
     )?;
     writeln!(out, "from the point where they meet, with kappa = 1/psi_max, t1 = (1 - kappa)/2,")?;
     writeln!(out, "t2 = 1 - kappa if kappa <= 1/2 and (1/kappa - 1)/2 otherwise,")?;
@@ -365,14 +366,4 @@ pub fn statement(claim: &PostulateClaim) -> Result<String, fmt::Error> {
     )?;
     writeln!(out, "psi_i satisfy 1/psi_max <= psi_i <= psi_max.")?;
     Ok(out)
-}
-
-/// The trees in words or any size.
-pub(crate) fn check(claim: &PostulateClaim, tree: &Tree) -> Result<(), Rejected> {
-    let parts = parts(claim).map_err(Rejected::Claim)?;
-    crate::check::in_words_or_any_size(
-        tree.precision,
-        || holds::<i64>(&parts, tree),
-        || holds::<BigInt>(&parts, tree),
-    )
 }

@@ -18,7 +18,7 @@ use std::fmt;
 use std::ops::Deref;
 use violated::At;
 
-pub(crate) use violated::fails_throughout;
+pub use violated::fails_throughout;
 
 /// Why a witness refutes nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -104,6 +104,5 @@ fn check_step<S: Enclosure>(
         Step::LegAngle => rule::leg_angle(model, cell),
         Step::Speed => rule::speed(model, about_centre()?),
         Step::Outside => rule::outside(model, cell),
-        Step::Violated(_) | Step::BlowUp | Step::Edge(_) | Step::Mirror => Err(Failure::OtherKind),
     }
 }

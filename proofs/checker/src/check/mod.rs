@@ -4,13 +4,11 @@
 //! |-------------|---------------------------------------------------------------------|
 //! | `walk`      | the walk over a tree, and what every tree is held to                |
 //! | `evaluate`  | the steps of a node on its cell                                     |
-//! | `machine`   | trees about a machine: over a workspace, or over centres of cubes   |
-//! | `postulate` | trees about the Q1/Q2 postulate                                     |
+//! | `machine`   | trees about a machine over its workspace                            |
 //! | `rejected`  | why certificates are rejected                                       |
 
 mod evaluate;
 mod machine;
-mod postulate;
 mod rejected;
 mod walk;
 
@@ -28,7 +26,6 @@ use std::num::NonZeroUsize;
 
 pub(crate) use evaluate::Evaluator;
 pub(crate) use machine::check_tree;
-pub use postulate::{parts_needed, single_kappa, PartNeeded};
 pub use rejected::Rejected;
 pub(crate) use walk::{bit, discharges, Discharged};
 
@@ -126,19 +123,10 @@ pub fn check_part(
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
         }
-        (Claim::NoCube(claim), Proof::Tree(tree), Verdict::Certified) => {
-            machine::check_no_cube(claim, tree, &mut size)?;
-        }
-        (Claim::Postulate(claim), Proof::Tree(tree), Verdict::Certified) => {
-            postulate::check_one_cube(claim, tree, &mut size)?;
-        }
-        (Claim::Postulate(claim), Proof::Faces(faces), Verdict::Certified) => {
-            postulate::check_faces(claim, faces, &mut size)?;
-        }
         (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
             atlas::check(claim, map, |number| number % of == part, &mut size)?;
         }
-        (Claim::Kernel(claim), Proof::Kernel(proof), verdict) => {
+        (claim, Proof::Kernel(proof), verdict) => {
             kernel::check(claim, verdict, proof, &mut size)?;
         }
         _ => return Err(Rejected::VerdictMismatch),

@@ -33,10 +33,6 @@ pub enum Rejected {
     TooDeep(usize),
     /// A node is split on an axis that its tree does not have.
     NoSuchAxis(usize),
-    /// A single tree proves the postulate for a single `psi_max` only.
-    OneCubeOnly,
-    /// The faces and halves of `kappa` are not those that the claim needs.
-    Parts,
     /// A step does not discharge its obligation.
     Step {
         /// The node, counted from zero in preorder.
@@ -108,13 +104,6 @@ impl fmt::Display for Rejected {
             Rejected::NoSuchAxis(node) => {
                 write!(f, "node {node} is split on an axis that its tree does not have")
             }
-            Rejected::OneCubeOnly => {
-                write!(f, "a tree over one cube proves the postulate for a single psi_max only")
-            }
-            Rejected::Parts => write!(
-                f,
-                "the parts are not the faces and halves of kappa that the claim needs, in order"
-            ),
             Rejected::Step { node, rule, failure } => {
                 write!(f, "node {node}: rule \"{rule}\" does not apply: {failure}")
             }

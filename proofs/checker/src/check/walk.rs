@@ -1,7 +1,7 @@
 //! The walk over a tree, and what every tree is held to.
 
 use super::{Rejected, TreeSize};
-use crate::cell::{Axis, Cell};
+use crate::cell::Cell;
 use crate::certificate::{Node, Step, MAX_STEPS, PRECISIONS};
 use crate::rule::{Failure, Obligation};
 
@@ -36,11 +36,7 @@ impl Step {
             Step::ParallelMargin => ("parallel_margin", Obligation::ParallelMargin),
             Step::LegAngle => ("leg_angle", Obligation::LegAngle),
             Step::Speed => ("speed", Obligation::JointSpeed),
-            Step::BlowUp => ("blow_up", Obligation::SigmaMin),
-            Step::Edge(_) => ("edge", Obligation::SigmaMin),
-            Step::Mirror => ("mirror", Obligation::SigmaMin),
             Step::Outside => return ("outside", None),
-            Step::Violated(_) => return ("violated", None),
         };
         (name, Some(obligation))
     }
@@ -54,12 +50,9 @@ pub(super) fn admit_precision(bits: u32) -> Result<(), Rejected> {
     }
 }
 
-/// A tree to be walked: its nodes, the number of the first in the certificate, its axes, and what
-/// every leaf has to end with.
+/// A tree to be walked: its nodes, and what every leaf has to end with.
 pub(super) struct Walk<'a> {
     pub nodes: &'a [Node],
-    pub first: usize,
-    pub axes: [Axis; 3],
     pub obligations: &'a [Obligation],
 }
 
@@ -77,10 +70,9 @@ impl Walk<'_> {
         mut steps: impl FnMut(&Cell, &Node, usize, &mut TreeSize) -> Result<Discharged, Rejected>,
     ) -> Result<(), Rejected> {
         let mut waiting: Vec<(Cell, Discharged, usize)> = vec![(Cell::ROOT, 0, 0)];
-        for (position, node) in self.nodes.iter().enumerate() {
-            let index = self.first + position;
+        for (index, node) in self.nodes.iter().enumerate() {
             let Some((cell, inherited, depth)) = waiting.pop() else {
-                return Err(Rejected::TrailingNodes(self.nodes.len() - position));
+                return Err(Rejected::TrailingNodes(self.nodes.len() - index));
             };
             if node.by.len() > MAX_STEPS {
                 return Err(Rejected::TooManySteps(index));
@@ -90,9 +82,6 @@ impl Walk<'_> {
             size.nodes += 1;
             size.depth = size.depth.max(depth);
             if let Some(axis) = node.split {
-                if !self.axes.contains(&axis) {
-                    return Err(Rejected::NoSuchAxis(index));
-                }
                 let (lower, upper) = cell.halves(axis).ok_or(Rejected::TooDeep(index))?;
                 waiting.push((upper, discharged, depth + 1));
                 waiting.push((lower, discharged, depth + 1));

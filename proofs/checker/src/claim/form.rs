@@ -1,6 +1,6 @@
 //! How claims are written and read, where their form is not that of their types.
 
-use super::{PsiMax, Quantity};
+use super::Quantity;
 use crate::number::Exact;
 use crate::strict;
 use serde::de::{Error as _, MapAccess, Visitor};
@@ -86,55 +86,32 @@ struct Tolerance {
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match deserializer.deserialize_any(NumberOrTolerance { or_all: false })? {
-            PsiMax::Range(quantity) => Ok(quantity),
-            PsiMax::All => Err(D::Error::custom("not a number: \"all\"")),
-        }
+        deserializer.deserialize_any(NumberOrTolerance)
     }
 }
 
-/// Reads a number or an object with `min` and `max`; or, where it may be, the word `all`.
-struct NumberOrTolerance {
-    or_all: bool,
-}
+/// Reads a number or an object with `min` and `max`.
+struct NumberOrTolerance;
 
 impl<'de> Visitor<'de> for NumberOrTolerance {
-    type Value = PsiMax;
+    type Value = Quantity;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a number as a string, or an object with min and max")
     }
 
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<PsiMax, E> {
-        if self.or_all && text == "all" {
-            return Ok(PsiMax::All);
-        }
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Quantity, E> {
         Exact::parse_canonical(text)
-            .map(|x| PsiMax::Range(Quantity::exactly(x)))
+            .map(Quantity::exactly)
             .map_err(|e| E::custom(format!("not a number: {e}")))
     }
 
-    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<PsiMax, M::Error> {
+    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Quantity, M::Error> {
         let form = serde::de::value::MapAccessDeserializer::new(map);
         let Tolerance { min, max } = Tolerance::deserialize(form)?;
         if min == max {
             return Err(M::Error::custom("equal min and max are written as one number"));
         }
-        Ok(PsiMax::Range(Quantity { min, max }))
-    }
-}
-
-impl Serialize for PsiMax {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            PsiMax::All => serializer.serialize_str("all"),
-            PsiMax::Range(range) => range.serialize(serializer),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for PsiMax {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(NumberOrTolerance { or_all: true })
+        Ok(Quantity { min, max })
     }
 }

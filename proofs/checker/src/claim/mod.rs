@@ -19,6 +19,8 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 pub use leg::{Leg, Parameter, Sign, WorkingMode};
+pub use orthocert_kernel::no_cube::NoCubeClaim;
+pub use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 pub use validate::ClaimError;
 
 /// What a certificate is about.
@@ -29,30 +31,17 @@ pub enum Claim {
     /// One machine (or every machine within its tolerances) over one workspace.
     Machine(#[serde(deserialize_with = "strict::object")] MachineClaim),
     /// The Q1/Q2 postulate for one `psi_max`, a range, or every one.
-    Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
+    #[serde(skip_deserializing)]
+    Postulate(PostulateClaim),
     /// No cube of some side fits, wherever its centre is in a box.
-    NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
+    #[serde(skip_deserializing)]
+    NoCube(NoCubeClaim),
     /// Every machine of a box of parameters, in part.
     Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
     /// Any mechanism, in the kernel's vocabulary; read and written as the kernel does.
     #[serde(skip_deserializing, rename = "machine")]
     Kernel(orthocert_kernel::claim::MachineClaim),
 }
-
-/// "For every machine described and every point `C` of the box, the closed cube of this side with
-/// the centre `C` and edges along the axes has a point at which the claim of `machine` fails."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NoCubeClaim {
-    /// The machine, the requirements, and, as the workspace, the box of the centres.
-    #[serde(deserialize_with = "strict::object")]
-    pub machine: MachineClaim,
-    /// The cube's side.
-    pub side: Exact,
-}
-
-/// The parts that half a cube's side is divided in, for the points of [`crate::certificate::Violated`].
-pub const OFFSET_PARTS: i64 = 8;
 
 /// "Of the box of parameters, the cells that the proof names certified, which fill the share
 /// `certified` of it, hold only designs that meet every requirement; the cells that it names
@@ -84,24 +73,6 @@ pub struct AtlasParameter {
     pub min: Exact,
     /// Greatest value, rational and greater than the least.
     pub max: Exact,
-}
-
-/// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
-/// (`L = 1`): every `s_i > 0`, and `1/psi_max <= psi_i(P) <= psi_max`."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PostulateClaim {
-    /// The `psi_max` that the claim is about.
-    pub psi_max: PsiMax,
-}
-
-/// A set of `psi_max`, all greater than 1.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PsiMax {
-    /// Every `psi_max > 1`; written `"all"`.
-    All,
-    /// Every one from `min` to `max`; written as one number where both are the same.
-    Range(Quantity),
 }
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel

@@ -1,8 +1,7 @@
 //! Which claims are well formed.
 
 use super::{
-    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim, PsiMax,
-    Range, Requirements, Workspace,
+    AtLeast, AtMost, JointSpeed, Leg, MachineClaim, Mechanism, Range, Requirements, Workspace,
 };
 use crate::number::Exact;
 use std::cmp::Ordering;
@@ -24,12 +23,8 @@ pub enum ClaimError {
     NoBound(String),
     /// A cube without the Orthoglide that it defines, or the reverse.
     CubeNeedsOrthoglide,
-    /// Centres of cubes that are not in a box.
-    NeedsCentres,
     /// A cube without `psi_max`, or with `psi_max <= 1`.
     CubeNeedsPsiMax,
-    /// A `psi_max` that is not provably greater than 1.
-    PsiMaxNotAboveOne,
     /// A number that is not provably greater than this one.
     NotAbove(String, i64),
     /// Arms beside other drives: the transmission factors have no common unit.
@@ -62,7 +57,6 @@ impl fmt::Display for ClaimError {
                 f,
                 "a workspace \"cube\" goes with the mechanism \"orthoglide\", and only with it"
             ),
-            ClaimError::NeedsCentres => write!(f, "the centres of cubes are not given as a box"),
             ClaimError::CubeNeedsPsiMax => {
                 write!(f, "a workspace \"cube\" needs transmission.max (psi_max) greater than 1")
             }
@@ -81,9 +75,6 @@ impl fmt::Display for ClaimError {
                 f,
                 "joint_range of arms, in degrees, needs min and max within ±360 and less than 180 apart"
             ),
-            ClaimError::PsiMaxNotAboveOne => {
-                write!(f, "psi_max is not (provably) greater than 1")
-            }
             ClaimError::CubeFixesPsiMin => {
                 write!(f, "with a workspace \"cube\", psi_min = 1/psi_max is not free")
             }
@@ -98,31 +89,6 @@ impl fmt::Display for ClaimError {
 }
 
 impl std::error::Error for ClaimError {}
-
-impl NoCubeClaim {
-    /// Proves the claim well formed: a claim about a box of centres, and a positive side.
-    pub fn validate(&self) -> Result<(), ClaimError> {
-        self.machine.validate()?;
-        if !matches!(self.machine.workspace, Workspace::Box { .. }) {
-            return Err(ClaimError::NeedsCentres);
-        }
-        positive(&self.side, || "side".into())
-    }
-}
-
-impl PostulateClaim {
-    /// Proves the claim well formed: `1 < min <= max`.
-    pub fn validate(&self) -> Result<(), ClaimError> {
-        let PsiMax::Range(range) = &self.psi_max else {
-            return Ok(());
-        };
-        ordered(&range.min, &range.max, || "psi_max".into())?;
-        match range.min.compare(&Exact::integer(1)) {
-            Some(Ordering::Greater) => Ok(()),
-            _ => Err(ClaimError::PsiMaxNotAboveOne),
-        }
-    }
-}
 
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.

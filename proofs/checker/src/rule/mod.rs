@@ -16,8 +16,6 @@
 //!
 //! [`violated`] shows the opposite: that a requirement fails at every point of a cell.
 //!
-//! The steps `blow_up`, `edge` and `mirror` belong to the postulate, [`crate::postulate`].
-//!
 //! A rule does not know where in the tree it is used; [`crate::check`] adds that. The rules for
 //! `sigma_min` enclose `M` over the cell and can do so only where every leg certainly reaches every
 //! point of it with `s_i > 0`: so `sigma_min`, which is always to be discharged, excludes serial
@@ -132,16 +130,12 @@ pub enum Failure {
     OtherKind,
     /// The numbers cannot be enclosed.
     NotEnclosed,
-    /// The cell has points with `u_y < u_z`.
-    NotMirrored,
     /// The requirement is not certainly violated on the whole cell.
     NotViolated,
     /// A leg number that is not 1, 2 or 3.
     NoSuchLeg(usize),
     /// A direction that is zero.
     ZeroVector,
-    /// An offset that is not one of the cube's points.
-    NotOfTheCube,
 }
 
 impl From<OutOfReach> for Failure {
@@ -180,12 +174,10 @@ impl fmt::Display for Failure {
             }
             Failure::OtherKind => write!(f, "the rule belongs to another kind of tree"),
             Failure::NotEnclosed => write!(f, "the numbers cannot be enclosed"),
-            Failure::NotMirrored => write!(f, "the box has points with u_y < u_z"),
             Failure::NotViolated => {
                 write!(f, "the requirement is not provably violated on the whole box")
             }
             Failure::NoSuchLeg(leg) => write!(f, "there is no leg {leg}"),
-            Failure::NotOfTheCube => write!(f, "the offset is not a point of the cube"),
             Failure::ZeroVector => write!(f, "the vector is zero"),
         }
     }

@@ -2,7 +2,6 @@
 
 mod case;
 mod cube;
-mod faces;
 mod falsehoods;
 mod identities;
 mod mutation;

@@ -6,7 +6,7 @@ use super::truth::{determinant, dot, scale, singular, Leg, State, V};
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Violation, Witness};
 use orthocert_checker::claim::{
-    self, Claim, MachineClaim, Mechanism, PsiMax, Quantity, Requirements, Workspace,
+    self, Claim, MachineClaim, Mechanism, Quantity, Requirements, Workspace,
 };
 use orthocert_checker::number::Exact;
 use std::array::from_fn;
@@ -41,14 +41,9 @@ pub fn opinion(certificate: &Certificate, random: &mut Random, samples: u64) -> 
     match (&certificate.claim, &certificate.proof) {
         (Claim::Machine(claim), Proof::Witness(witness)) => refuted(claim, witness),
         (Claim::Machine(claim), _) => certified(claim, random, samples),
-        (Claim::Postulate(claim), _) => match &claim.psi_max {
-            // A theorem for every psi_max > 1 (proofs/README.md, section 3).
-            PsiMax::Range(range) if approximate(&range.min) < 1.0 => {
-                Opinion::Contradicts(format!("psi_max = {}", range.min))
-            }
-            _ => Opinion::Agrees,
-        },
-        (Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_), _) => Opinion::None,
+        (Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_), _) => {
+            Opinion::None
+        }
     }
 }
 

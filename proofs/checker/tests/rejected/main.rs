@@ -5,6 +5,7 @@ mod broken;
 
 use broken::{all, Broken};
 use orthocert_checker::{check, read, Rejected};
+use orthocert_kernel::check::Rejected as of_kernel;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -23,10 +24,10 @@ fn kind(reason: &Rejected) -> &'static str {
     match reason {
         Rejected::Syntax(_) => "Syntax",
         Rejected::Format(_) => "Format",
-        Rejected::Claim(_) => "Claim",
-        Rejected::VerdictMismatch | Rejected::OneCubeOnly | Rejected::Parts => "Proof",
-        Rejected::Step { .. } => "Step",
-        Rejected::Open { .. } => "Open",
+        Rejected::Claim(_) | Rejected::Kernel(of_kernel::Claim(_)) => "Claim",
+        Rejected::VerdictMismatch | Rejected::Kernel(of_kernel::Verdict) => "Proof",
+        Rejected::Step { .. } | Rejected::Kernel(of_kernel::Step { .. }) => "Step",
+        Rejected::Open { .. } | Rejected::Kernel(of_kernel::Open { .. }) => "Open",
         Rejected::Witness(_) => "Witness",
         _ => "Tree",
     }

@@ -15,8 +15,8 @@ use crate::control::{Control, Controls};
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Op, Values};
 use crate::input::ClaimError;
-use crate::no_cube;
-use crate::postulate;
+use crate::no_cube::{self, NoCubeClaim};
+use crate::postulate::{self, PostulateClaim};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
@@ -126,17 +126,8 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
                 || region_holds::<BigInt>(&problem, region, tree),
             )
         }
-        (Claim::NoCube(claim), Verdict::Certified, Proof::Tree(tree)) => {
-            let problem = compiled(&claim.machine)?;
-            in_words_or_any_size(
-                tree.precision,
-                || no_cube::holds::<i64>(&problem, claim, tree),
-                || no_cube::holds::<BigInt>(&problem, claim, tree),
-            )
-        }
-        (Claim::Postulate(claim), Verdict::Certified, Proof::Tree(tree)) => {
-            postulate::check(claim, tree)
-        }
+        (Claim::NoCube(claim), verdict, proof) => check_no_cube(claim, verdict, proof),
+        (Claim::Postulate(claim), verdict, proof) => check_postulate(claim, verdict, proof),
         (Claim::Atlas(claim), Verdict::Certified, Proof::Atlas(cells)) => {
             let bytes = certificate.to_text().map_or(0, |text| text.len());
             atlas::check(claim, cells, bytes)
@@ -168,6 +159,42 @@ pub fn check_machine(
         }
         _ => Err(Rejected::Verdict),
     }
+}
+
+/// Accepts the proof of a claim that no cube fits, or says why not.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_no_cube(claim: &NoCubeClaim, verdict: Verdict, proof: &Proof) -> Result<(), Rejected> {
+    let (Verdict::Certified, Proof::Tree(tree)) = (verdict, proof) else {
+        return Err(Rejected::Verdict);
+    };
+    let problem = compiled(&claim.machine)?;
+    in_words_or_any_size(
+        tree.precision,
+        || no_cube::holds::<i64>(&problem, claim, tree),
+        || no_cube::holds::<BigInt>(&problem, claim, tree),
+    )
+}
+
+/// Accepts a proof of the postulate, or says why not.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_postulate(
+    claim: &PostulateClaim,
+    verdict: Verdict,
+    proof: &Proof,
+) -> Result<(), Rejected> {
+    let (Verdict::Certified, Proof::Tree(tree)) = (verdict, proof) else {
+        return Err(Rejected::Verdict);
+    };
+    let parts = postulate::parts(claim).map_err(Rejected::Claim)?;
+    in_words_or_any_size(
+        tree.precision,
+        || postulate::holds::<i64>(&parts, tree),
+        || postulate::holds::<BigInt>(&parts, tree),
+    )
 }
 
 fn compiled(claim: &MachineClaim) -> Result<Problem, Rejected> {

@@ -48,7 +48,7 @@ pub(super) struct At<'a, A: Arithmetic> {
 
 /// Whether a claim fails in this way at every point of a cell, for every machine: the formulas are
 /// enclosed over the cell, and what is certain of an enclosure is true of all that it holds.
-pub(crate) fn fails_throughout<E: Enclosure>(
+pub fn fails_throughout<E: Enclosure>(
     problem: &Problem,
     slopes: Slopes<'_, E>,
     values: Values<Slope<E::Number>>,

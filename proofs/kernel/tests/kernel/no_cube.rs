@@ -4,7 +4,8 @@ use crate::certificates::claim;
 use crate::rough::Rough;
 use nalgebra::DMatrix;
 use orthocert_kernel::certificate::{
-    Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+    Certificate, Claim, Evidence, Failure, Node, Proof, Provenance, Step, Tree, Verdict, Witness,
+    FORMAT,
 };
 use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::formula::Op;
@@ -121,7 +122,7 @@ fn no_cube_of_three_quarters_of_the_leg() {
     assert_eq!(read, certificate);
     check(&read).expect("accepted");
     let words = statement(&claim).expect("words");
-    for sentence in ["no closed cube of side 0.75", "from (0, 0, 0) to (0.25, 0.25, 0.25)"] {
+    for sentence in ["No axis-aligned cube of side 0.75", "from (0, 0, 0) to (0.25, 0.25, 0.25)"] {
         assert!(words.contains(sentence), "{words}");
     }
 }
@@ -178,6 +179,56 @@ fn proofs_that_show_less() {
     let mut other = certificate(claim.clone(), nodes);
     other.claim = Claim::Machine(claim.machine);
     assert!(check(&other).is_err());
+}
+
+/// Centres in `[0, 1/10]^3`, side 9/10: the corner `C + (s/2) (1, 1, 1)` is at least `s/2` along each
+/// axis, and `sigma_max` is 2 at `1/sqrt(6) = 0.408248`.
+#[test]
+fn one_corner_excludes_a_cube_and_what_excludes_none() {
+    let stretched = |v: [i64; 3]| Failure::Obligation(1, vec![v.to_vec()]);
+    let with =
+        |side: &str, nodes: Vec<Node>| check(&certificate(orthoglide("0", "1/10", side), nodes));
+    let corner = || leaf(stretched([1; 3]), [8; 3]);
+    with("9/10", vec![corner()]).expect("accepted");
+    assert_eq!(with("8/10", vec![corner()]), Err(Rejected::Holds(0)));
+    // The halves of a cell may have different points.
+    let split = Node { split: Some(1), ..Node::default() };
+    with("9/10", vec![split, corner(), leaf(stretched([2; 3]), [8; 3])]).expect("accepted");
+    let singular = Failure::Singular(vec![number("0"), number("0"), number("0")]);
+    let by = |evidence: Evidence| Node { by: vec![Step(0, evidence)], ..Node::default() };
+    let held = |evidence: Evidence| Node { by: vec![Step(0, evidence)], ..corner() };
+    for (defect, nodes) in [
+        ("the opposite corner", vec![leaf(stretched([1; 3]), [-8; 3])]),
+        ("a point within", vec![leaf(stretched([1; 3]), [7; 3])]),
+        ("another direction", vec![leaf(stretched([1, -1, 0]), [8; 3])]),
+        ("no direction", vec![leaf(stretched([0; 3]), [8; 3])]),
+        ("two directions", vec![leaf(Failure::Obligation(1, vec![vec![1; 3]; 2]), [8; 3])]),
+        ("another obligation", vec![leaf(Failure::Obligation(0, vec![vec![1; 3]]), [8; 3])]),
+        ("no such obligation", vec![leaf(Failure::Obligation(2, vec![vec![1; 3]]), [8; 3])]),
+        ("no such leg", vec![leaf(Failure::Row(1, 3), [8; 3])]),
+        ("within reach", vec![leaf(Failure::Reach, [8; 3])]),
+        ("two points", vec![leaf(singular, [8; 3])]),
+        ("what holds", vec![by(Evidence::Test)]),
+        ("what is outside", vec![by(Evidence::Outside)]),
+        ("a mirror image", vec![by(Evidence::Mirror)]),
+        ("a step beside the point", vec![held(Evidence::Test)]),
+        ("an open leaf", vec![Node::default()]),
+        ("no nodes", Vec::new()),
+    ] {
+        assert!(with("9/10", nodes).is_err(), "{defect}");
+    }
+    let reversed = check(&certificate(orthoglide("1", "0", "1"), vec![corner()]));
+    assert!(matches!(reversed, Err(Rejected::Claim(_))));
+    let good = certificate(orthoglide("0", "1/10", "9/10"), vec![corner()]);
+    let refuted = Certificate { verdict: Verdict::Refuted, ..good.clone() };
+    assert_eq!(check(&refuted), Err(Rejected::Verdict));
+    let point = vec![number("0"), number("0"), number("0")];
+    let fails = stretched([1; 3]);
+    let witness = Witness { precision: 52, point, machine: Vec::new(), fails };
+    for verdict in [Verdict::Certified, Verdict::Refuted] {
+        let proof = Proof::Witness(witness.clone());
+        assert_eq!(check(&Certificate { verdict, proof, ..good.clone() }), Err(Rejected::Verdict));
+    }
 }
 
 /// A leaf with a wide cell is accepted only if every point of it, moved, is bad.

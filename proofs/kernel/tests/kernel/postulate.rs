@@ -6,7 +6,7 @@ use orthocert_kernel::arithmetic::Enclosure;
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Provenance, Step, Tree, Verdict,
-    FORMAT,
+    Witness, FORMAT,
 };
 use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::fixed::Interval;
@@ -155,6 +155,7 @@ fn claims_that_are_not_well_formed() {
         r#""1""#,
         r#""0.5""#,
         r#""-2""#,
+        r#"{"min":"0","max":"2"}"#,
         r#""every""#,
         r#""sqrt(-1)""#,
         r#"{"min":"1","max":"2"}"#,
@@ -220,6 +221,116 @@ fn proofs_that_show_less() {
         assert_eq!(fails, Err(Rejected::Shape(at)));
         let moved = every(&|nodes| nodes[at].at = vec![0; 3]);
         assert_eq!(moved, Err(Rejected::Shape(at)));
+    }
+}
+
+/// The nodes of each tree.
+fn trees(nodes: &[Node]) -> Vec<Vec<Node>> {
+    let (mut all, mut open) = (vec![Vec::new()], 1);
+    for node in nodes {
+        if open == 0 {
+            all.push(Vec::new());
+            open = 1;
+        }
+        open = if node.split.is_some() { open + 1 } else { open - 1 };
+        all.last_mut().expect("a tree").push(node.clone());
+    }
+    all
+}
+
+#[test]
+fn every_part_is_needed_and_in_its_place() {
+    let good = prove(&claim(r#""all""#), 500).expect("a proof");
+    let all = trees(&good.nodes);
+    assert_eq!(all.len(), 4);
+    let with = |psi: &str, trees: &[Vec<Node>]| {
+        check(&certificate(claim(psi), Tree { nodes: trees.concat(), ..good.clone() }))
+    };
+    with(r#""all""#, &all).expect("accepted");
+    for i in 0..4 {
+        let mut without = all.clone();
+        without.remove(i);
+        assert!(with(r#""all""#, &without).is_err(), "without part {i}");
+        let mut doubled = all.clone();
+        doubled.insert(i, all[i].clone());
+        assert!(with(r#""all""#, &doubled).is_err(), "part {i} twice");
+        for j in 0..i {
+            let mut exchanged = all.clone();
+            exchanged.swap(i, j);
+            assert!(with(r#""all""#, &exchanged).is_err(), "parts {i} and {j}");
+        }
+        // A mirror alone proves nothing: its image has to be proved.
+        let mut mirrored = all.clone();
+        mirrored[i] = vec![Node { by: vec![Step(0, Evidence::Mirror)], ..Node::default() }];
+        let at = all[..i].iter().map(Vec::len).sum();
+        let step = Err(Rejected::Step { node: at, obligation: 0 });
+        assert_eq!(with(r#""all""#, &mirrored), step, "part {i}");
+        // There are three coordinates.
+        let mut split = all.clone();
+        let node = split[i].iter().position(|node| node.split.is_some()).expect("a split");
+        split[i][node].split = Some(3);
+        assert_eq!(with(r#""all""#, &split), Err(Rejected::Shape(at + node)), "part {i}");
+    }
+    // For psi_max up to 2 there is no part below kappa = 1/2; the least psi_max does not matter.
+    let range = |min: &str, max: &str| format!(r#"{{"min":"{min}","max":"{max}"}}"#);
+    for (psi, count) in [
+        (range("1.5", "2"), 2),
+        (range("1.2", "1.5"), 2),
+        (range("1.5", "2.5"), 4),
+        (range("3", "4"), 4),
+    ] {
+        let own = parts(&claim(&psi)).expect("well formed");
+        assert_eq!(own.len(), count, "{psi}");
+        for pair in own.windows(2).filter(|pair| pair[0].face == pair[1].face) {
+            assert_eq!(pair[0].greatest, pair[1].least, "{psi}");
+        }
+        let to_one = own.iter().filter(|part| part.greatest.to_string() == "1");
+        assert_eq!(to_one.count(), 2, "{psi}");
+    }
+    let narrow = prove(&claim(&range("1.2", "1.5")), 500).expect("a proof");
+    for psi in [range("1.5", "3.5"), range("1.2", "2"), r#""all""#.to_owned()] {
+        assert!(check(&certificate(claim(&psi), narrow.clone())).is_err(), "{psi}");
+    }
+}
+
+#[test]
+fn verdicts_and_claims_of_another_kind() {
+    let good = prove(&claim(r#""2""#), 500).expect("a proof");
+    let whole = certificate(claim(r#""2""#), good);
+    let refuted = Certificate { verdict: Verdict::Refuted, ..whole.clone() };
+    assert_eq!(check(&refuted), Err(Rejected::Verdict));
+    let fails = Failure::Reach;
+    let witness = Witness { precision: 52, point: Vec::new(), machine: Vec::new(), fails };
+    for verdict in [Verdict::Certified, Verdict::Refuted] {
+        let proof = Proof::Witness(witness.clone());
+        assert_eq!(check(&Certificate { verdict, proof, ..whole.clone() }), Err(Rejected::Verdict));
+    }
+    let cube = r#"{"mechanism":{"orthoglide":{"offset":"0"}},"workspace":{"cube":{"side":"200"}},"require":[{"quantity":"transmission","end":"max","bound":"2"}]}"#;
+    let machine = Claim::Machine(serde_json::from_str(cube).expect("a claim"));
+    let of_machine = |nodes: Vec<Node>| {
+        let proof = Proof::Tree(Tree { precision: 52, chords: None, nodes });
+        check(&Certificate { claim: machine.clone(), proof, ..whole.clone() })
+    };
+    let Proof::Tree(tree) = &whole.proof else { panic!("a tree") };
+    assert!(of_machine(tree.nodes.clone()).is_err());
+    let mirror = Node { by: vec![Step(0, Evidence::Mirror)], ..Node::default() };
+    assert_eq!(of_machine(vec![mirror]), Err(Rejected::Step { node: 0, obligation: 0 }));
+}
+
+#[test]
+fn mirrored_is_what_is_nowhere_beyond_the_diagonal() {
+    let part = &parts(&claim(r#""all""#)).expect("well formed")[0];
+    let edge = |index: u32, level: u32| {
+        let ends = [index, index + 1].map(|i| f64::from(i) / f64::from(1u32 << level));
+        let centre = (ends[0] + ends[1]) / 2.0;
+        [(centre, centre), (ends[0], ends[1]), (centre - ends[0], centre - ends[0])]
+    };
+    for (a, b) in [(0, 0), (1, 3), (3, 1), (2, 2), (4, 3)] {
+        for (y, z) in (0..1 << a).flat_map(|y| (0..1 << b).map(move |z| (y, z))) {
+            let edges = [edge(y, a), edge(z, b), edge(0, 1)];
+            let mirrored = part.shows(&Rough, &edges, &Evidence::Mirror);
+            assert_eq!(mirrored, edges[0][1].0 >= edges[1][1].1, "{y}/2^{a} {z}/2^{b}");
+        }
     }
 }
 

@@ -81,11 +81,10 @@ fn integers(n: i64, all: &mut Vec<Edit>) {
 }
 
 /// Every name that the format has in some place, and some that it does not.
-const NAMES: [&str; 36] = [
+const NAMES: [&str; 33] = [
     "x",
     "y",
     "z",
-    "kappa",
     "Q1",
     "Q2",
     "+",
@@ -112,8 +111,6 @@ const NAMES: [&str; 36] = [
     "leg_angle",
     "speed",
     "outside",
-    "blow_up",
-    "mirror",
     "0",
     "1",
     "X",
@@ -219,7 +216,7 @@ pub fn steps() -> Vec<Value> {
     let names =
         ["upper", "cube", "range", "serial_margin", "parallel_margin", "leg_angle", "speed"];
     let mut all: Vec<Value> = names.map(|name| json!(name)).to_vec();
-    all.extend(["outside", "blow_up", "mirror", "lower", "none"].map(|name| json!(name)));
+    all.extend(["outside", "lower", "none"].map(|name| json!(name)));
     all.extend(["Q1", "Q2"].map(|corner| json!({ "corner": corner })));
     all.extend(["Q1", "Q2"].map(|corner| json!({ "edge": corner })));
     all.extend(["+", "-"].map(|sign| json!({ "lower": rotation(sign) })));
@@ -342,7 +339,7 @@ fn objects(path: &str, fields: &Map<String, Value>, all: &mut Vec<Edit>) {
 
 /// A node split on every axis, or no longer; with every rule in the place of its steps.
 fn node(fields: &Map<String, Value>, all: &mut Vec<Edit>) {
-    for axis in ["x", "y", "z", "kappa"] {
+    for axis in ["x", "y", "z"] {
         let mut split = fields.clone();
         split.insert("split".to_owned(), json!(axis));
         all.push((Kind::Axis, Value::Object(split)));

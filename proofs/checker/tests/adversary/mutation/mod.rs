@@ -9,7 +9,7 @@ mod weaker;
 use super::oracle::{opinion, Opinion};
 use super::random::Random;
 use edits::{edits, paths, texts, Kind};
-use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::claim::{Claim, Leg, Mechanism};
 use orthocert_checker::number::Exact;
 use orthocert_checker::{check, read};
@@ -101,7 +101,7 @@ fn good_certificates() -> Vec<Good> {
         Good { name, value: serde_json::from_str(&text).unwrap(), text, certificate, nanoseconds }
     });
     // Those of the kernel are for its own oracles.
-    all.filter(|good| !matches!(good.certificate.claim, Claim::Kernel(_))).collect()
+    all.filter(|good| !matches!(good.certificate.proof, Proof::Kernel(_))).collect()
 }
 
 /// Why what a mutant says is true, or why it is not known to be.

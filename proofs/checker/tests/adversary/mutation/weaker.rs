@@ -1,7 +1,7 @@
 //! Whether one claim follows from another by comparing their numbers.
 
 use orthocert_checker::claim::{
-    AtLeast, AtMost, Claim, JointSpeed, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range,
+    AtLeast, AtMost, Claim, JointSpeed, Leg, MachineClaim, Mechanism, Quantity, Range,
     Requirements, Workspace,
 };
 use orthocert_checker::number::Exact;
@@ -25,16 +25,12 @@ pub fn follows(b: &Claim, a: &Claim) -> bool {
     }
 }
 
-/// What proofs/README.md, section 3, proves by hand: the postulate, and claims on the paper's cube
-/// that ask for `transmission` alone.
+/// What proofs/README.md, section 3, proves by hand: claims on the paper's cube that ask for
+/// `transmission` alone.
 pub fn known(claim: &Claim) -> bool {
     let one = Exact::integer(1);
     let above_one = |x: &Exact| one.compare(x) == Some(Ordering::Less);
     match claim {
-        Claim::Postulate(claim) => match &claim.psi_max {
-            PsiMax::All => true,
-            PsiMax::Range(range) => above_one(&range.min) && at_most(&range.min, &range.max),
-        },
         Claim::Machine(claim) => {
             let Workspace::Cube { side } = &claim.workspace else { return false };
             let alone = Requirements {
@@ -47,7 +43,7 @@ pub fn known(claim: &Claim) -> bool {
                 && transmission
                     .is_some_and(|t| t.min.is_none() && t.max.as_ref().is_some_and(above_one))
         }
-        Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => false,
+        Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) | Claim::Kernel(_) => false,
     }
 }
 
