@@ -111,12 +111,13 @@ impl Arguments {
             return Ok(Task::Atlas(Box::new(design)));
         }
         let design = Design::read(&self.job).map_err(Failure::input)?;
-        let claim = super::input::three_legged(&design)?.clone();
         if let Some(precision) = &self.precision {
-            let claim = pave::searched(&claim, self.search_box.as_deref())?;
+            let claim = super::input::of_the_kernel(&design)?;
+            let claim = pave::searched(claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
         }
+        let claim = super::input::three_legged(&design)?.clone();
         let boxes = usize::try_from(self.max_boxes).unwrap_or(MAX_NODES);
         Ok(Task::Verify(Box::new(Verify { title: design.title, claim, boxes })))
     }

@@ -45,6 +45,7 @@ mod variable;
 mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
+pub use exactly::written;
 pub use error::{Defect, DesignError, Position, ReadError};
 pub use notation::may_be_tolerance;
 pub use sources::Sources;
@@ -57,6 +58,7 @@ use mechanism::Setting;
 use orthocert_checker::claim::{self as checker, Claim, MachineClaim, Range, Requirements};
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::claim as kernel;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -71,6 +73,9 @@ pub struct Design {
     /// The claim, well formed and with a model
     /// ([`Model`](orthocert_checker::model::Model), [`Problem`](orthocert_kernel::problem::Problem)).
     pub claim: Claim,
+    /// The claim in the kernel's vocabulary; none where a number is too long for it, and of
+    /// [`Design::prototype`].
+    pub kernel: Option<kernel::MachineClaim>,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
 }
@@ -88,14 +93,14 @@ impl Design {
         let root = document.root(tree.get_ref());
         root.only(&["title", "mechanism", "workspace", "requirements"])?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
-        let claim = claim(&root)?;
+        let (claim, kernel) = claims(&root)?;
         let sources = Sources::of(text, tree.get_ref());
         match &claim {
             Claim::Machine(claim) => refusal::modelled(&root, claim)?,
             Claim::Kernel(claim) => refusal::compiled(&root, claim)?,
             Claim::Postulate(_) | Claim::NoCube(_) | Claim::Atlas(_) => {}
         }
-        Ok(Design { title: title.map(str::to_owned), claim, sources })
+        Ok(Design { title: title.map(str::to_owned), claim, kernel, sources })
     }
 
     /// Reads a design file.
@@ -135,6 +140,7 @@ impl Design {
         Design {
             title: Some("Orthoglide prototype".to_owned()),
             claim: Claim::Machine(claim),
+            kernel: None,
             sources: Sources::default(),
         }
     }
@@ -148,16 +154,16 @@ pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
     })
 }
 
-/// Reads the claim of a design.
-fn claim(root: &Table<'_>) -> Result<Claim, DesignError> {
+/// Reads the claim of a design, also in the kernel's vocabulary.
+fn claims(root: &Table<'_>) -> Result<(Claim, Option<kernel::MachineClaim>), DesignError> {
     let description = description(root)?;
-    if let Some(claim) = description.machine() {
-        return Ok(Claim::Machine(claim));
-    }
-    description.kernel().map(Claim::Kernel).ok_or_else(|| {
+    let kernel = description.kernel();
+    let claim = description.machine().map(Claim::Machine);
+    let claim = claim.or_else(|| kernel.clone().map(Claim::Kernel)).ok_or_else(|| {
         let accepted = "numbers of at most 8,192 characters and 512 operations";
         refusal::of_table(root, "mechanism", "numbers too long to be written", accepted)
-    })
+    })?;
+    Ok((claim, kernel))
 }
 
 /// Reads the claim of a design with three legs that do not turn its platform, of which nothing is

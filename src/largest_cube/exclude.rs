@@ -1,7 +1,7 @@
 //! No cube of a side fits: a tree over the centres.
 
+use super::violated::Violations;
 use crate::frontier::NoAnswer;
-use crate::paving::{header, Decider};
 use crate::search::{by_weight, search, Budget, Control, Problem, Stop, Trial};
 use crate::verify::{accepted, Answer};
 use orthocert_checker::cell::{Axis, Cell};
@@ -14,7 +14,7 @@ use orthocert_checker::rule::{Failure, Obligation};
 struct Centres {
     /// Points of the cube, and what decides the claim moved there: corners first, then the middles
     /// of edges and faces, then the centre.
-    points: Vec<([i64; 3], Decider)>,
+    points: Vec<([i64; 3], Violations)>,
     /// Edges of the box of centres.
     width: [f64; 3],
 }
@@ -86,7 +86,7 @@ fn centres(claim: &NoCubeClaim) -> Result<Centres, NoAnswer> {
     for offset in offsets {
         let too_large = || refused("its numbers exceed what can be reported".to_owned());
         let moved = moved(claim, &offset).ok_or_else(too_large)?;
-        let decider = Decider::new(&header(&moved, 0)).map_err(|e| refused(e.to_string()))?;
+        let decider = Violations::new(&moved).map_err(|e| refused(e.to_string()))?;
         points.push((offset, decider));
     }
     let edge = |k: usize| {

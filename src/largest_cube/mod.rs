@@ -9,6 +9,7 @@
 //! certificate of the claim [`NoCube`](orthocert_checker::claim::Claim::NoCube).
 
 mod exclude;
+mod violated;
 
 use crate::frontier::NoAnswer;
 use crate::placement::{best_place, cube_about, Centres};

@@ -1,7 +1,7 @@
 //! The best conditioned point of the inner part, and the inner box that it is in.
 
 use super::Decider;
-use orthocert_checker::cell::{Cell, Edge};
+use orthocert_kernel::paving::Cell;
 
 /// Halvings of the box's edges that coordinates of points are multiples of.
 const LEVEL: u32 = 40;
@@ -16,16 +16,6 @@ pub(super) type Point = [u128; 3];
 /// A cell's centre.
 pub(super) fn centre_of(cell: &Cell) -> Point {
     cell.edges.map(|edge| (2 * edge.index + 1) << LEVEL.saturating_sub(edge.level + 1))
-}
-
-/// A cell whose centre is the point, if that is no corner of the box; else nearly.
-fn about(point: &Point) -> Cell {
-    // x 2^-LEVEL = (2 j + 1) 2^-(l + 1)
-    let edge = |x: u128| match x.trailing_zeros() {
-        zeros if zeros < LEVEL => Edge { index: x >> (zeros + 1), level: LEVEL - zeros - 1 },
-        _ => Edge { index: 0, level: 2 * LEVEL },
-    };
-    Cell { edges: point.map(edge) }
 }
 
 /// Parts of the box's edges.
@@ -44,11 +34,11 @@ pub(super) fn sides(cell: &Cell, axis: usize, point: &Point) -> [bool; 2] {
 /// diagonals; returns the last and its `sigma_max / sigma_min`, nearly. At an isotropic point, that
 /// is 1.
 pub(super) fn best_conditioned(
-    decider: &Decider,
+    decider: &Decider<'_>,
     start: Point,
     that: impl Fn(&Point) -> bool,
 ) -> (Point, f64) {
-    let value = |point: &Point| decider.conditioning(&about(point));
+    let value = |point: &Point| decider.conditioning(parts_of(point));
     let mut best = (start, value(&start));
     for step in STEPS {
         for _ in 0..MOST {

@@ -178,7 +178,7 @@ fn grown(
             Ok(Part::Cells(cells.collect()))
         }
         Task::Pave(task) => {
-            paving::grown(nodes, task, (root, &place.open), cancel).map(Part::Nodes)
+            paving::grown(nodes, task, (root, &place.left), cancel).map(Part::Nodes)
         }
         Task::Verify(task) => {
             let budget = Budget { max_boxes: task.boxes, deadline: None };

@@ -128,6 +128,11 @@ impl Enclosure for Doubles {
     fn is_nonnegative(&self, a: &Pair) -> bool {
         a.0 >= 0.0
     }
+
+    fn rounded(&self, a: &Pair, places: u32) -> Option<i64> {
+        let x = (middle(a) * f64::from(places).exp2()).round();
+        (x.abs() < 2f64.powi(62)).then_some(x as i64)
+    }
 }
 
 /// One double a number.

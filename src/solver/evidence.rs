@@ -7,7 +7,7 @@ use super::search::{Cell, Trial};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
-use orthocert_kernel::certificate::{Evidence, Step};
+use orthocert_kernel::certificate::{Evidence, Failure, Step};
 use orthocert_kernel::check::{Checker, Place};
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::input::ClaimError;
@@ -51,6 +51,11 @@ impl<'a> Prover<'a> {
         let checker = checker.with_chords(chords.clone());
         let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
         Ok(Prover { problem, root, chords, is_scaled, checker })
+    }
+
+    /// The claim's numbers, nearly.
+    pub(crate) fn parameters(&self) -> &[Pair] {
+        self.checker.parameters()
     }
 
     /// The greatest absolute value of a formula on the whole workspace, where it has one.
@@ -98,7 +103,7 @@ impl<'a> Prover<'a> {
         })
     }
 
-    fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
+    pub(crate) fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
         let edges = edges(cell);
         let touches = |end: fn(&Pair) -> f64| {
             cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
@@ -121,7 +126,7 @@ fn edges(cell: &Cell) -> Vec<[Pair; 3]> {
 }
 
 /// The formulas of a problem over a box, at its vertices or control points.
-pub(super) struct Over<'a> {
+pub(crate) struct Over<'a> {
     pub prover: &'a Prover<'a>,
     pub formulas: &'a test::Over<'a, Doubles>,
     pub place: &'a Place<'a, Pair>,
@@ -129,7 +134,7 @@ pub(super) struct Over<'a> {
 
 /// Where rows are taken.
 #[derive(Clone, Copy)]
-pub(super) enum At {
+pub(crate) enum At {
     /// The box's centre.
     Centre,
     /// The middle of the face of this coordinate and sign.
@@ -145,6 +150,11 @@ impl Over<'_> {
 
     pub fn m(&self) -> usize {
         self.place.edges.len()
+    }
+
+    /// Whether the claim seems to fail so at every point of the box.
+    pub(crate) fn fails(&self, failure: &Failure) -> bool {
+        self.prover.checker.fails(self.formulas.values, self.m(), failure)
     }
 
     fn is_outside(&self) -> bool {
@@ -224,7 +234,7 @@ impl Over<'_> {
     }
 
     /// How much is gained by halving each coordinate: by how much what is open varies along it.
-    fn weights(&self, open: &[usize]) -> Vec<f64> {
+    pub(crate) fn weights(&self, open: &[usize]) -> Vec<f64> {
         let coordinates = 0..self.m();
         let of = |f: Formula| coordinates.clone().map(|k| self.along(f, k)).collect();
         let mut parts: Vec<Vec<f64>> = self.undefined().into_iter().map(of).collect();
@@ -253,7 +263,7 @@ impl Over<'_> {
 
     /// What is not defined comes first: the divisor, or radicand, that is not of one sign. Scaled rows
     /// need neither.
-    fn undefined(&self) -> Vec<Formula> {
+    pub(crate) fn undefined(&self) -> Vec<Formula> {
         if self.prover.is_scaled {
             return Vec::new();
         }

@@ -21,12 +21,12 @@
 mod chords;
 mod descent;
 mod directions;
-mod doubles;
-mod evidence;
+pub(crate) mod doubles;
+pub(crate) mod evidence;
 pub mod extremes;
 mod less;
 mod propose;
-mod refute;
+pub(crate) mod refute;
 mod rows;
 mod same;
 pub mod sample;

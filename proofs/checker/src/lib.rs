@@ -25,7 +25,6 @@
 //! | [`postulate`]   | the Q1/Q2 postulate: blow-up, faces, tight edges                       |
 //! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
-//! | [`paving`]      | pavings of a search box: inner, outer and boundary cells               |
 //! | [`word`]        | fixed-point intervals over machine words, as [`fixed`] but faster      |
 //! | [`statement`]   | the claim in words                                                     |
 //! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible |
@@ -50,7 +49,6 @@ pub mod kinematics;
 pub mod linear;
 pub mod model;
 pub mod number;
-pub mod paving;
 pub mod postulate;
 pub mod rule;
 pub mod shown;
@@ -59,6 +57,8 @@ mod strict;
 pub mod trig;
 pub mod witness;
 pub mod word;
+
+pub use orthocert_kernel::paving;
 
 pub use check::{
     check, check_part, obligations, parts_needed, read, single_kappa, Accepted, PartNeeded,

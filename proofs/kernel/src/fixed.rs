@@ -44,6 +44,8 @@ pub trait Integer: Clone + Ord {
     fn half(&self) -> Self;
     /// `-1`, `0` or `1`.
     fn sign(&self) -> i8;
+    /// As a machine word, if it fits.
+    fn word(&self) -> Option<i64>;
 }
 
 /// Most bits of an end: more than any claim needs.
@@ -115,6 +117,10 @@ impl Integer for BigInt {
             num_bigint::Sign::Plus => 1,
         }
     }
+
+    fn word(&self) -> Option<i64> {
+        self.to_i64()
+    }
 }
 
 /// Products of two words have 127 bits at most and fit into `i128`.
@@ -180,6 +186,10 @@ impl Integer for i64 {
 
     fn sign(&self) -> i8 {
         self.signum() as i8
+    }
+
+    fn word(&self) -> Option<i64> {
+        Some(*self)
     }
 }
 
@@ -374,5 +384,10 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
 
     fn is_nonnegative(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() >= 0
+    }
+
+    /// The middle; precisions are 32 bits or more, places fewer.
+    fn rounded(&self, a: &Interval<Z>, places: u32) -> Option<i64> {
+        a.lo.plus(&a.hi)?.half().dyadic(1, self.bits.checked_sub(places)?)?.word()
     }
 }

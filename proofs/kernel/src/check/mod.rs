@@ -2,6 +2,7 @@
 
 mod corner;
 mod inside;
+mod own;
 mod region;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
@@ -257,7 +258,7 @@ pub(crate) fn walk<Z: Integer>(
                 }
             };
             let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
-            if !fails_throughout(problem, slopes, checker.evaluate(&edges), failure) {
+            if !fails_throughout(problem, slopes, &checker.evaluate(&edges), failure) {
                 return Err(Rejected::Holds(at));
             }
         }
@@ -345,6 +346,11 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     #[must_use]
     pub fn with_chords(self, chords: Option<Multiplier>) -> Self {
         Checker { chords, ..self }
+    }
+
+    /// What it was given.
+    pub fn parameters(&self) -> &[E::Number] {
+        &self.parameters
     }
 
     /// The formulas over a cell.
