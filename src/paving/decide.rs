@@ -53,11 +53,13 @@ pub enum Fate {
     Open(Option<Axis>),
 }
 
-/// A value that is not negative where a test holds, to first order.
-#[derive(Clone, Copy)]
+/// A value that is not negative where a test holds: at the centre, by how much each coordinate moves it to
+/// first order, and, about, beyond that.
+#[derive(Clone, Copy, Default)]
 struct Margin {
     centre: f64,
     along: [f64; 3],
+    beyond: [f64; 3],
 }
 
 impl Margin {
@@ -70,13 +72,21 @@ impl Margin {
         self.centre / self.reach().max(f64::MIN_POSITIVE)
     }
 
+    /// What is gained by halving each coordinate.
+    fn weights(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
+    }
+
     fn times(self, factor: f64) -> Self {
-        Margin { centre: self.centre * factor, along: self.along.map(|x| x * factor) }
+        let times = |all: [f64; 3]| all.map(|x| x * factor);
+        let Margin { centre, along, beyond } = self;
+        Margin { centre: centre * factor, along: times(along), beyond: times(beyond) }
     }
 
     fn plus(self, other: Self) -> Self {
-        let along = std::array::from_fn(|k| self.along[k] + other.along[k]);
-        Margin { centre: self.centre + other.centre, along }
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
+        let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
+        Margin { centre: self.centre + other.centre, along, beyond }
     }
 }
 
@@ -117,16 +127,27 @@ impl<'a> Local<'a> {
     /// `|M v|^2/|v|^2`.
     fn stretched(&self, over: &Over<'_>, v: [f64; 3]) -> Margin {
         let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
+        // The middle of a slope, and by how much it varies over the cell.
         let slope = |f: Formula, k: usize| {
-            over.formulas.of(f).map_or(0.0, |slope| middle(&slope.slopes[k]))
+            let known = over.formulas.of(f).map_or((0.0, 0.0), |slope| slope.slopes[k]);
+            (middle(&known), 0.5 * (known.1 - known.0))
         };
-        let mut sum = Margin { centre: 0.0, along: [0.0; 3] };
+        let mut sum = Margin::default();
         for (row, a, d) in &self.rows {
             let product = dot(a);
             sum.centre += product * product / d;
             for k in 0..over.m() {
-                let moved: f64 = row.a.iter().zip(v).map(|(&f, v)| slope(f, k) * v).sum();
-                sum.along[k] += product * (2.0 * moved - product * slope(row.d, k) / d) / d;
+                let (mut moved, mut varied) = (0.0, 0.0);
+                for (&f, v) in row.a.iter().zip(v) {
+                    let (middle, varies) = slope(f, k);
+                    moved += middle * v;
+                    varied += varies * v.abs();
+                }
+                let (of_d, d_varies) = slope(row.d, k);
+                let moved = moved - 0.5 * product * of_d / d;
+                sum.along[k] += 2.0 * product * moved / d;
+                let varied = 2.0 * varied + product.abs() * d_varies / d;
+                sum.beyond[k] += (product.abs() * varied + moved * moved) / d;
             }
         }
         sum.times(dot(&v).recip())
@@ -211,7 +232,7 @@ impl<'a> Decider<'a> {
         // What is closest to failing, or fails at the centre.
         let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
-            return self.split(cell, Vec::new(), worst.along);
+            return self.split(cell, Vec::new(), worst.weights());
         }
         let (mut steps, mut left, mut own) = (Vec::new(), Vec::new(), Vec::new());
         for (&o, margin) in open.iter().zip(&margins) {
@@ -249,7 +270,7 @@ impl<'a> Decider<'a> {
             return Decision { steps, fate: Fate::Closed(Kind::Inner) };
         }
         let along = match worst {
-            Some(worst) if left.iter().all(|o| !self.is_general(*o)) => worst.along,
+            Some(worst) if left.iter().all(|o| !self.is_general(*o)) => worst.weights(),
             _ => padded(over.weights(&left)),
         };
         self.split(cell, steps, along)
@@ -345,7 +366,7 @@ impl<'a> Decider<'a> {
     fn margin(&self, over: &Over<'_>, local: &Local<'_>, test: &Test) -> Option<Margin> {
         let bound = |f: Formula| over.centre(f);
         let less = |stretched: Margin, bound: f64| {
-            Margin { centre: stretched.centre - bound, along: stretched.along }
+            Margin { centre: stretched.centre - bound, ..stretched }
         };
         let least = |local: &Local<'_>| local.stretched(over, local.spectrum.least_direction());
         Some(match test {
@@ -396,7 +417,8 @@ impl<'a> Decider<'a> {
 impl Margin {
     fn of(over: &Over<'_>, slope: &orthocert_kernel::slope::Slope<Pair>) -> Self {
         let along = |k: usize| if k < over.m() { magnitude(&slope.slopes[k]) } else { 0.0 };
-        Margin { centre: middle(&slope.at_centre), along: std::array::from_fn(along) }
+        let (centre, along) = (middle(&slope.at_centre), std::array::from_fn(along));
+        Margin { centre, along, ..Margin::default() }
     }
 }
 

@@ -30,7 +30,7 @@ const PLACES: u32 = 20;
 /// Bits of the greatest entry of a matrix whose direction is found.
 const BITS: u32 = 28;
 /// Bits of the greatest component of an own direction.
-const DIRECTION: u32 = 10;
+const DIRECTION: u32 = 8;
 /// Squarings of a matrix: its `2^SQUARINGS`-th power has the direction.
 const SQUARINGS: u32 = 7;
 
