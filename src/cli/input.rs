@@ -39,7 +39,8 @@ pub fn three_legged(design: &Design) -> Result<&MachineClaim, Failure> {
 /// The claim of a design in the kernel's vocabulary.
 pub fn of_the_kernel(design: &Design) -> Result<&kernel::MachineClaim, Failure> {
     design.kernel.as_ref().ok_or_else(|| {
-        let refused = "mechanism: found numbers too long to be written; accepted: numbers of at most \
+        let refused =
+            "mechanism: found numbers too long to be written; accepted: numbers of at most \
                        8,192 characters and 512 operations";
         Failure::Input(refused.to_owned())
     })

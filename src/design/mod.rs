@@ -45,8 +45,8 @@ mod variable;
 mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
-pub use exactly::written;
 pub use error::{Defect, DesignError, Position, ReadError};
+pub use exactly::written;
 pub use notation::may_be_tolerance;
 pub use sources::Sources;
 pub use template::{template, TEMPLATES};

@@ -57,8 +57,7 @@ impl Violations {
         let rows = numbered.iter().cloned().map(Violation::Row);
         let reach = numbered.iter().cloned().map(Violation::Reach);
         let holds = |violation: &Violation| {
-            rule::violated(&self.rough, cell, violation).is_ok()
-                && self.confirms(cell, violation)
+            rule::violated(&self.rough, cell, violation).is_ok() && self.confirms(cell, violation)
         };
         rows.chain(reach).find(holds)
     }

@@ -33,6 +33,8 @@ pub struct Decider<'a> {
     sampler: Sampler<'a>,
     /// Of a claim about machines within tolerances, evidence may have to be given.
     has_tolerances: bool,
+    /// So it may of that, and has to be where tests have none of their own.
+    gives_evidence: bool,
 }
 
 /// What becomes of a cell.
@@ -121,7 +123,9 @@ impl<'a> Local<'a> {
         // the eigenvalues is neither the least nor the greatest alone.
         let mean = gram.iter().take(m).sum::<f64>() / m as f64;
         gram[m.min(3)..3].fill(mean);
-        gram.iter().all(|x| x.is_finite()).then(|| Local { rows: own, spectrum: Spectrum::of(gram) })
+        gram.iter()
+            .all(|x| x.is_finite())
+            .then(|| Local { rows: own, spectrum: Spectrum::of(gram) })
     }
 
     /// `|M v|^2/|v|^2`.
@@ -161,12 +165,15 @@ impl<'a> Decider<'a> {
     /// If one of its numbers cannot be enclosed.
     pub fn new(subject: &'a Subject) -> Result<Self, Rejected> {
         let (claim, problem) = (&subject.header.claim, &subject.problem);
+        let has_tolerances = problem.tolerances().next().is_some();
+        let is_general = problem.obligations.iter().any(|own| is_general(&own.test));
         Ok(Decider {
             subject,
             judge: Judge::new(subject)?,
             prover: Prover::new(problem)?,
             sampler: Sampler::new(claim, problem)?,
-            has_tolerances: problem.tolerances().next().is_some(),
+            has_tolerances,
+            gives_evidence: has_tolerances || is_general,
         })
     }
 
@@ -202,7 +209,11 @@ impl<'a> Decider<'a> {
             (at(part(edge, 0)), at(part(edge, 1)))
         };
         let place = self.prover.root.iter().zip(&cell.edges).map(edge).collect();
-        self.prover.on(&place, |over| self.decided(cell, inherited, over))
+        let decided = |over: &Over<'_>| self.decided(cell, inherited, over);
+        match self.gives_evidence {
+            true => self.prover.on(&place, decided),
+            false => self.prover.on_own(&place, decided),
+        }
     }
 
     fn decided(&self, cell: &Cell, inherited: u128, over: &Over<'_>) -> Decision {
@@ -270,18 +281,10 @@ impl<'a> Decider<'a> {
             return Decision { steps, fate: Fate::Closed(Kind::Inner) };
         }
         let along = match worst {
-            Some(worst) if left.iter().all(|o| !self.is_general(*o)) => worst.weights(),
+            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => worst.weights(),
             _ => padded(over.weights(&left)),
         };
         self.split(cell, steps, along)
-    }
-
-    /// Whether a test has no [`Margin`].
-    fn is_general(&self, obligation: usize) -> bool {
-        use Test::{Accuracy, Apart, Curvature, OneToOne, Solve};
-        let test = self.test(obligation);
-        matches!(test, OneToOne(_) | Solve(_) | Accuracy(_) | Apart(_) | Curvature(_))
-            || matches!(test, Test::Conditioning(_))
     }
 
     fn split(&self, cell: &Cell, steps: Vec<Step>, along: [f64; 3]) -> Decision {
@@ -307,6 +310,9 @@ impl<'a> Decider<'a> {
         let at = self.sampler.at(&self.centre(cell));
         if self.sampler.margin(Quality::Obligation(obligation), &at) >= 0.0 {
             return None;
+        }
+        if let Test::Conditioning(_) = self.test(obligation) {
+            return self.fails(cell, obligation);
         }
         let test = self.test(obligation);
         let all = directions(test, &self.subject.problem, &self.sampler, &at);
@@ -346,9 +352,7 @@ impl<'a> Decider<'a> {
                 Test::SigmaMax(_) => {
                     (0..problem.legs.len()).any(|leg| seems(&Failure::Row(o, leg)))
                 }
-                Test::AtLeast(_) | Test::Beyond(..) => {
-                    seems(&Failure::Obligation(o, Vec::new()))
-                }
+                Test::AtLeast(_) | Test::Beyond(..) => seems(&Failure::Obligation(o, Vec::new())),
                 _ => false,
             };
             if let Some(outer) = is_of_values.then(|| self.fails(cell, o)).flatten() {
@@ -365,8 +369,9 @@ impl<'a> Decider<'a> {
 
     fn margin(&self, over: &Over<'_>, local: &Local<'_>, test: &Test) -> Option<Margin> {
         let bound = |f: Formula| over.centre(f);
-        let less = |stretched: Margin, bound: f64| {
-            Margin { centre: stretched.centre - bound, ..stretched }
+        let less = |stretched: Margin, bound: f64| Margin {
+            centre: stretched.centre - bound,
+            ..stretched
         };
         let least = |local: &Local<'_>| local.stretched(over, local.spectrum.least_direction());
         Some(match test {
@@ -424,6 +429,12 @@ impl Margin {
 
 fn closed(kind: Kind) -> Decision {
     Decision { steps: Vec::new(), fate: Fate::Closed(kind) }
+}
+
+/// Whether a test has no [`Margin`].
+fn is_general(test: &Test) -> bool {
+    use Test::{Accuracy, Apart, Conditioning, Curvature, OneToOne, Solve};
+    matches!(test, OneToOne(_) | Solve(_) | Accuracy(_) | Apart(_) | Curvature(_) | Conditioning(_))
 }
 
 fn padded(weights: Vec<f64>) -> [f64; 3] {

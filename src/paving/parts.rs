@@ -100,7 +100,8 @@ impl Parts {
     ) -> Result<(), E> {
         let grower = self.grower(decider, cancel);
         let depth = root.depth + BELOW;
-        let segments = grower.segments(root, depth, &mut Tally::up_to(self.subject.header.depth))?;
+        let segments =
+            grower.segments(root, depth, &mut Tally::up_to(self.subject.header.depth))?;
         for window in segments.chunks(WINDOW) {
             for (bytes, _) in grower.grow_all(window)? {
                 to(&bytes)?;
@@ -130,7 +131,8 @@ impl Parts {
         let sum = out.sum.clone();
         drop(out);
         let mut paved = finish(file, path, sum, 0)?;
-        if let Some(coarsest) = paved.coarsest.filter(|_| !paved.reaches(self.subject.header.depth)) {
+        if let Some(coarsest) = paved.coarsest.filter(|_| !paved.reaches(self.subject.header.depth))
+        {
             return Err(PaveError::Coarse(coarsest));
         }
         paved.boxes = checked(file, path, &paved.sha256, cancel)?;

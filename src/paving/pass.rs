@@ -171,8 +171,8 @@ fn taken_up(part: &Path) -> Result<File, PaveError> {
 /// The depth in the first line of an unfinished paving of the same claim.
 fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, PaveError> {
     let fails = |reason: String| PaveError::Resume(part.to_owned(), reason);
-    let found = paving::header(&mut BufReader::new(file))
-        .map_err(|reason| fails(reason.to_string()))?;
+    let found =
+        paving::header(&mut BufReader::new(file)).map_err(|reason| fails(reason.to_string()))?;
     if found == header(claim, found.depth) {
         Ok(found.depth)
     } else {
@@ -180,11 +180,7 @@ fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, 
     }
 }
 
-fn planned(
-    decider: &Decider<'_>,
-    goal: &Goal,
-    control: &Control<'_>,
-) -> Result<u32, PaveError> {
+fn planned(decider: &Decider<'_>, goal: &Goal, control: &Control<'_>) -> Result<u32, PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
     let coarse = COARSE.min(deepest);
     let grower = Grower { decider, depth: deepest, cancel: control.cancel };

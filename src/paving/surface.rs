@@ -89,10 +89,7 @@ pub enum SurfaceError {
 ///
 /// # Errors
 /// [`SurfaceError`].
-pub fn surface<R: Read>(
-    reader: Reader<R>,
-    cancel: &AtomicBool,
-) -> Result<Surface, SurfaceError> {
+pub fn surface<R: Read>(reader: Reader<R>, cancel: &AtomicBool) -> Result<Surface, SurfaceError> {
     let (header, tree) = Tree::read(reader, Detail::InnerPart, cancel)?;
     let ends = ends(&header).ok_or(SurfaceError::TooClose)?;
     let walls = walls(&tree, cancel)?;

@@ -148,7 +148,8 @@ impl Grower<'_> {
                 }
                 let split = Item { steps: Vec::new(), kind: item.kind.clone() };
                 let items = [&split, &lower, &upper];
-                let written = steps.and_then(|()| items.iter().try_for_each(|item| item.write(out)));
+                let written =
+                    steps.and_then(|()| items.iter().try_for_each(|item| item.write(out)));
                 debug_assert!(written.is_some());
                 return None;
             }

@@ -44,7 +44,8 @@ pub(super) fn top(
             Segment::Known(bytes) => Stretch::Nodes(HEXLOWER.encode(&bytes)),
             Segment::Subtree(root) => {
                 // No axis of a paving is split more often than files can tell.
-                let edges = root.cell.edges.map(|Edge { index, level }| cell::Edge { index, level });
+                let edges =
+                    root.cell.edges.map(|Edge { index, level }| cell::Edge { index, level });
                 let place = Place::of(&cell::Cell { edges }, Vec::new());
                 places.extend(place.map(|place| Place { left: parts.open(&root), ..place }));
                 Stretch::Waiting

@@ -9,11 +9,11 @@ use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Evidence, Failure, Step};
 use orthocert_kernel::check::{Checker, Place};
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::slope::{Slope, Slopes};
 use orthocert_kernel::test::{self, Multiplier, Row};
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
@@ -105,13 +105,30 @@ impl<'a> Prover<'a> {
 
     pub(crate) fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
         let edges = edges(cell);
+        let values = self.checker.evaluate(&edges);
+        self.with(cell, &edges, &values, then)
+    }
+
+    /// The same with the formulas alone that own evidence is made of.
+    pub(crate) fn on_own<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
+        let edges = edges(cell);
+        let values = self.checker.evaluate_own(&edges);
+        self.with(cell, &edges, &values, then)
+    }
+
+    fn with<T>(
+        &self,
+        cell: &Cell,
+        edges: &[[Pair; 3]],
+        values: &Values<Slope<Pair>>,
+        then: impl FnOnce(&Over<'_>) -> T,
+    ) -> T {
         let touches = |end: fn(&Pair) -> f64| {
             cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
         };
-        let place = Place { edges: &edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
-        let values = self.checker.evaluate(&edges);
+        let place = Place { edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
         let slopes = Slopes { arithmetic: &Doubles, m: edges.len() };
-        let formulas = test::Over { slopes, values: &values, controls: None, inside: None };
+        let formulas = test::Over { slopes, values, controls: None, inside: None };
         then(&Over { prover: self, formulas: &formulas, place: &place })
     }
 }

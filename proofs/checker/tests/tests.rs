@@ -5,7 +5,6 @@
 //! | `mathematics` | exact values inside enclosures, and nothing accepted that is not true     |
 //! | `adversary`   | false claims, and what would prove them                                   |
 //! | `drives`      | drives and the rules about their joints                                   |
-//! | `paving`      | pavings: accepted, rejected, volumes                                      |
 //! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
 //! | `no_cube`     | claims that no cube of some side fits                                     |
 //! | `postulate`   | proofs of the postulate for a range of `psi_max`                          |
@@ -17,5 +16,4 @@ mod drives;
 mod hostile;
 mod mathematics;
 mod no_cube;
-mod paving;
 mod postulate;

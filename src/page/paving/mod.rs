@@ -51,6 +51,7 @@ pub struct PavingPage<'a> {
     /// The tree of the view in space.
     tree: Tree,
     ends: [Point; 2],
+    dimension: usize,
     /// The depths of the view in space, of the pictures of it, and of the slices; none where all of
     /// the paving is there.
     depths: [Option<u32>; 3],
@@ -79,7 +80,8 @@ impl<'a> PavingPage<'a> {
         let components = components.filter(|found| !found.all.is_empty());
         let mark = components.map(|found| Mark {
             name: "best conditioned".to_owned(),
-            at: found.point(&box_ends),
+            // Along axes that there are not, in the middle.
+            at: found.point(&box_ends).into_iter().chain([0.5; 3]).take(3).collect(),
         });
         let marks: Vec<Mark> = mark.into_iter().collect();
         // Images are of parts of boxes: their tree may be deeper than the paving.
@@ -117,6 +119,7 @@ impl<'a> PavingPage<'a> {
             marks,
             tree: view,
             ends: [least, width],
+            dimension: box_ends.len(),
             depths,
             pictures,
         })

@@ -141,7 +141,11 @@ impl PavingPage<'_> {
         for component in found.all.iter().take(SHOWN) {
             let share = Self::percent(Share(component.share), Toward::Below);
             let contains = if component.best_conditioned {
-                let at = self.marks.iter().flat_map(|mark| &mark.at).map(|x| significant(*x, 3));
+                let at = self
+                    .marks
+                    .iter()
+                    .flat_map(|mark| mark.at.iter().take(self.dimension))
+                    .map(|x| significant(*x, 3));
                 let at = at.collect::<Vec<_>>().join(", ");
                 format!(
                     "the {}, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at ({at})",

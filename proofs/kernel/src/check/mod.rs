@@ -7,7 +7,7 @@ mod region;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::atlas;
-use crate::cell::{evaluate, Cell, Vertex};
+use crate::cell::{evaluate, evaluate_parts, Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
@@ -316,6 +316,8 @@ pub struct Checker<'a, E: Enclosure> {
     /// One for each obligation of platforms that turn.
     controls: Vec<(Test, Control)>,
     chords: Option<Multiplier>,
+    /// What own evidence is made of; none where that is all.
+    needed: Option<Vec<bool>>,
 }
 
 /// Where a step is made.
@@ -338,8 +340,20 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
         let scaled = problem.scaled();
         let controls = problem.controls(&scaled);
+        let needed = own::needed(problem);
         let chords = None;
-        Checker { problem, arithmetic, parameters, tight, rows, divided, scaled, controls, chords }
+        Checker {
+            problem,
+            arithmetic,
+            parameters,
+            tight,
+            rows,
+            divided,
+            scaled,
+            controls,
+            chords,
+            needed,
+        }
     }
 
     /// With the one `Y` of a tree.

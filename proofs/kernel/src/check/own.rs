@@ -16,10 +16,11 @@
 //!
 //! [`sigma_min`]: crate::test::sigma_min
 
-use super::{Checker, Place};
+use super::{evaluate_parts, Checker, Place};
 use crate::arithmetic::Enclosure;
 use crate::certificate::{Evidence, Failure};
 use crate::formula::{Formula, Op, Values};
+use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use crate::test::{Multiplier, Over, Row};
@@ -36,7 +37,42 @@ const SQUARINGS: u32 = 7;
 
 type Square = [[i64; 3]; 3];
 
+/// The entries of a tape of which own evidence is made, and own failures; none where that is all of them.
+pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
+    let mut formulas = problem.partial.clone();
+    let row = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect::<Vec<_>>();
+    for leg in &problem.legs {
+        formulas.extend(row(&leg.row));
+        formulas.extend(leg.length);
+    }
+    for obligation in &problem.obligations {
+        match &obligation.test {
+            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) | Test::AtLeast(f) => {
+                formulas.push(*f);
+            }
+            Test::Beyond(f, b) => formulas.extend([*f, *b]),
+            Test::Least(rows, f) => {
+                formulas.extend(rows.iter().flat_map(row));
+                formulas.push(*f);
+            }
+            Test::OneToOne(_)
+            | Test::Solve(_)
+            | Test::Accuracy(_)
+            | Test::Apart(_)
+            | Test::Curvature(_) => return None,
+        }
+    }
+    Some(problem.tape.parts(&formulas))
+}
+
 impl<E: Enclosure> Checker<'_, E> {
+    /// The formulas over a cell that own evidence, and own failures, are made of.
+    pub fn evaluate_own(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
+        let slopes = Slopes { arithmetic: self.arithmetic, m: edges.len() };
+        let (tape, needed) = (&self.problem.tape, self.needed.as_deref());
+        evaluate_parts(tape, needed, &self.parameters, slopes, edges)
+    }
+
     /// Whether a test holds on a cell by its own evidence.
     pub fn shows_own(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>, test: &Test) -> bool {
         let own = || {
@@ -50,9 +86,8 @@ impl<E: Enclosure> Checker<'_, E> {
                 }
                 Test::Least(rows, _) => Evidence::Lower(self.own_multiplier(over, rows)?),
                 Test::Solve(solve) => {
-                    let entry = |f: &Formula| {
-                        self.arithmetic.rounded(&over.of(*f)?.at_centre, PLACES)
-                    };
+                    let entry =
+                        |f: &Formula| self.arithmetic.rounded(&over.of(*f)?.at_centre, PLACES);
                     let rows = solve.a.iter().map(|row| row.iter().map(entry).collect());
                     let y = rows.collect::<Option<_>>()?;
                     Evidence::Lower(Multiplier { y, places: PLACES })
@@ -80,7 +115,8 @@ impl<E: Enclosure> Checker<'_, E> {
             if !e.is_positive(d) {
                 return None;
             }
-            let entry = |f: &Formula| e.rounded(&e.ratio(&over.of(*f)?.at_centre, &one, d)?, PLACES);
+            let entry =
+                |f: &Formula| e.rounded(&e.ratio(&over.of(*f)?.at_centre, &one, d)?, PLACES);
             row.a.iter().map(entry).collect()
         };
         let y = rows.iter().map(row).collect::<Option<_>>()?;

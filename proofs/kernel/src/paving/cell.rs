@@ -131,14 +131,18 @@ mod tests {
         let e = Fixed::<i64>::new(32);
         // Enclosures of -1/3 and 10/7.
         let unit = 1i64 << 32;
-        let around = |n: i64, d: i64| Interval { lo: (n * unit).div_euclid(d), hi: (n * unit).div_euclid(d) + 1 };
+        let around = |n: i64, d: i64| Interval {
+            lo: (n * unit).div_euclid(d),
+            hi: (n * unit).div_euclid(d) + 1,
+        };
         let corners = [vec![around(-1, 3)], vec![around(10, 7)]];
         for level in [0, 1, 5, 20, MAX_AXIS_LEVEL] {
             let parts = 1u128 << level;
             for index in [0, parts / 3, parts / 2, parts - 1] {
                 let edge = Edge { index, level };
                 let cell = Cell { edges: [edge, Cell::ROOT.edges[1], Cell::ROOT.edges[2]] };
-                let [[centre, range, half]] = cell.within(&e, &corners).unwrap()[..].try_into().unwrap();
+                let found = cell.within(&e, &corners).unwrap();
+                let [[centre, range, half]] = &found[..] else { panic!("one coordinate") };
                 // 21 2^level (min + (max - min) j/2^level) = -7 2^level + 37 j.
                 let end = |j: u128| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);
                 let scaled = |x: i64| 21 * parts as i128 * i128::from(x);

@@ -93,10 +93,7 @@ pub fn write_pair(out: &mut Vec<u8>, axis: Axis, halves: [&Kind; 2]) -> Option<(
 impl Item {
     /// Reads an item, the node's number being `node`, and the kinds of its halves where these follow in
     /// the same byte.
-    pub fn read(
-        input: &mut impl Read,
-        node: u64,
-    ) -> Result<(Self, Option<[Kind; 2]>), Rejected> {
+    pub fn read(input: &mut impl Read, node: u64) -> Result<(Self, Option<[Kind; 2]>), Rejected> {
         let mut source = Source { input, node };
         let mut steps = Vec::new();
         loop {
@@ -126,7 +123,8 @@ impl Item {
                 FAILS => {
                     let obligation = usize::from(source.byte()?);
                     let count = source.count()?;
-                    let directions = (0..count).map(|_| source.integers()).collect::<Result<_, _>>()?;
+                    let directions =
+                        (0..count).map(|_| source.integers()).collect::<Result<_, _>>()?;
                     let failure = Failure::Obligation(obligation, directions);
                     (Kind::Outer(Outer::Given(failure)), None)
                 }

@@ -175,7 +175,12 @@ impl<'a, Z: Integer> Side<'a, Z> {
         item: &Item,
     ) -> Result<(), Flaw> {
         let edges = cell.within(self.arithmetic, &self.corners).ok_or(Flaw::Outer)?;
-        let values = self.checker.evaluate(&edges);
+        let is_given = item.steps.iter().any(|step| step.1.is_some())
+            || matches!(item.kind, Kind::Outer(Outer::Given(_)));
+        let values = match is_given {
+            true => self.checker.evaluate(&edges),
+            false => self.checker.evaluate_own(&edges),
+        };
         let m = edges.len();
         let slopes = Slopes { arithmetic: self.arithmetic, m };
         let over = Over { slopes, values: &values, controls: None, inside: None };
@@ -194,7 +199,8 @@ impl<'a, Z: Integer> Side<'a, Z> {
             Kind::Inner => {
                 let open = subject.all() & !discharged(inherited, &item.steps);
                 let mut all = 0..subject.problem.obligations.len();
-                return all.try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
+                return all
+                    .try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
             }
             Kind::Outer(Outer::Own(o)) => self.checker.fails_own(&values, m, *o),
             Kind::Outer(Outer::Given(failure)) => self.checker.fails(&values, m, failure),

@@ -241,7 +241,9 @@ impl fmt::Display for Rejected {
             Rejected::OfTwoPoints => {
                 write!(f, "the claim is about two points at a time: one_to_one has no region")
             }
-            Rejected::TooMany => write!(f, "the claim has more than {MOST_OBLIGATIONS} obligations"),
+            Rejected::TooMany => {
+                write!(f, "the claim has more than {MOST_OBLIGATIONS} obligations")
+            }
             Rejected::Precision(bits) => {
                 write!(f, "precision {bits} is not within {:?}", crate::certificate::PRECISIONS)
             }
