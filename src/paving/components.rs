@@ -276,10 +276,7 @@ fn mirrors(cell: &Cell) -> u8 {
 mod tests {
     use super::*;
     use crate::paving::header;
-    use orthocert_checker::certificate::Step;
-    use orthocert_checker::claim::Claim;
-    use orthocert_checker::paving::{Header, Item};
-    use orthocert_checker::rule::Rotation;
+    use orthocert_kernel::paving::{Header, Item, Subject};
 
     /// A small box about the isotropic point, with every cell inner or not as the test wants:
     /// components do not look at evidence.
@@ -288,8 +285,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let Claim::Machine(claim) = design.claim else { panic!("not a machine") };
-        let mut header = header(&claim, 9);
+        let mut header = header(&design.kernel.unwrap(), 9);
         if !symmetric {
             header.symmetry = None;
         }
@@ -313,14 +309,11 @@ mod tests {
             } else {
                 Kind::Boundary
             };
-            let steps = match kind {
-                Kind::Inner => vec![Step::Lower(Rotation::IDENTITY), Step::Upper],
-                _ => Vec::new(),
-            };
-            Item { steps, kind }.write(&mut bytes).unwrap();
+            Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
         }
         let mut reader = Reader::new(bytes.as_slice()).unwrap();
-        let decider = Decider::new(&header).unwrap();
+        let subject = Subject::new(&header).unwrap();
+        let decider = Decider::new(&subject).unwrap();
         let found = components(&mut reader, &decider, 1 << 30).unwrap().unwrap();
         assert_eq!(found.all.iter().filter(|c| c.best_conditioned).count(), 1);
         found.all.iter().map(|c| (c.boxes, c.copies)).collect()
@@ -361,7 +354,8 @@ mod tests {
             Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
         }
         let mut reader = Reader::new(bytes.as_slice()).unwrap();
-        let decider = Decider::new(&header).unwrap();
+        let subject = Subject::new(&header).unwrap();
+        let decider = Decider::new(&subject).unwrap();
         assert_eq!(components(&mut reader, &decider, 0).unwrap(), None);
     }
 }

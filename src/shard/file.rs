@@ -319,7 +319,10 @@ mod tests {
         let root = Place::of(&Cell::ROOT, Vec::new());
         assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
         for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
-            assert_eq!(Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new() }.cell(), None);
+            assert_eq!(
+                Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new(), left: Vec::new() }.cell(),
+                None
+            );
         }
     }
 }

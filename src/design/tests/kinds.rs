@@ -100,7 +100,7 @@ transmission = { max = 3 }
 pub(super) fn claim(text: &str) -> Claim {
     let tree = toml::de::DeTable::parse(text).unwrap();
     let document = document::Document { file: "test.toml", text, names: document::Names::None };
-    let claim = crate::design::claim(&document.root(tree.get_ref()));
+    let claim = crate::design::claims(&document.root(tree.get_ref())).map(|(claim, _)| claim);
     claim.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 

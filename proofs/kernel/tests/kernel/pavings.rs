@@ -197,6 +197,8 @@ fn each_kind_is_rejected_where_it_is_not_true() {
         let step = Step(0, Some(Evidence::Lower(Multiplier { y, places: 1 })));
         Item { steps: vec![step], kind: Kind::Inner }
     };
+    let of_two = Evidence::Lower(Multiplier { y: vec![vec![1, 0, 0], vec![0, 1, 0]], places: 1 });
+    let flat = Item { steps: vec![Step(0, Some(of_two))], kind: Kind::Inner };
     let outer_in = |o: usize| bare(Kind::Outer(Outer::Own(o)));
     let row = |o, leg| bare(Kind::Outer(Outer::Given(Failure::Row(o, leg))));
     for (name, at, item, expected) in [
@@ -229,7 +231,7 @@ fn each_kind_is_rejected_where_it_is_not_true() {
         ("a step twice", inner, own(&[0, 0], Kind::Inner), "already discharged"),
         ("a step for nothing", inner, own(&[2], Kind::Inner), "is not certainly met"),
         ("another Y", inner, lower([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), "is not certainly met"),
-        ("Y of another shape", inner, own(&[0, 1, 2], Kind::Inner), "is not certainly met"),
+        ("Y of another shape", inner, flat, "is not certainly met"),
         ("split without halves", boundary, bare(Kind::Split(Axis::X)), "split too often"),
     ] {
         let found = with(at, item);
