@@ -180,10 +180,10 @@ impl<E: Enclosure> Checker<'_, E> {
         let [_, most] = e.ends(&trace);
         let unit = e.recip(&most)?;
         let mut g: Square = [[0; 3]; 3];
-        for j in 0..m.min(3) {
-            for k in j..m.min(3) {
-                let x = e.rounded(&e.mul(&entry(j, k)?, &unit)?, BITS)?;
-                (g[j][k], g[k][j]) = (x, x);
+        for (j, row) in g.iter_mut().enumerate().take(m) {
+            for (k, x) in row.iter_mut().enumerate().take(m) {
+                // The same number for both orders of the indices.
+                *x = e.rounded(&e.mul(&entry(j.min(k), j.max(k))?, &unit)?, BITS)?;
             }
         }
         let g = if greatest { g } else { adjugate(&g, m) };

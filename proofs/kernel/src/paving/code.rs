@@ -130,12 +130,12 @@ impl Item {
                 }
                 OUTER..PAIR => (Kind::Outer(Outer::Own(usize::from(code - OUTER))), None),
                 _ => {
-                    let code = code.checked_sub(PAIR).filter(|code| *code < 75);
-                    let pair = code.and_then(|n| {
+                    let number = code.checked_sub(PAIR).filter(|number| *number < 75);
+                    let pair = number.and_then(|n| {
                         let axis = Axis::ALL[usize::from(n / 25)];
                         Some((Kind::Split(axis), Some([plain(n / 5 % 5)?, plain(n % 5)?])))
                     });
-                    pair.ok_or(Rejected::BadCode(node, code.map_or(0, |n| n + PAIR)))?
+                    pair.ok_or(Rejected::BadCode(node, code))?
                 }
             };
             return Ok((Item { steps, kind }, halves));

@@ -342,7 +342,8 @@ fn machines_that_look_different_from_permuted_axes_are_refused() {
     let exactly = |text| Quantity::Exactly(number(text));
     assert!(is_symmetric(&orthoglide("-0.5", "0.5")));
     // Sets, for each leg, an entry of its anchor, direction, or length.
-    let change = |change: &dyn Fn(usize, &mut Vec<Quantity>, &mut Vec<Quantity>, &mut Quantity)| {
+    type Change<'a> = &'a dyn Fn(usize, &mut Vec<Quantity>, &mut Vec<Quantity>, &mut Quantity);
+    let change = |change: Change<'_>| {
         let mut claim = orthoglide("-0.5", "0.5");
         let Mechanism::Translational(legs) = &mut claim.mechanism else { panic!("no legs") };
         for (i, leg) in legs.iter_mut().enumerate() {
