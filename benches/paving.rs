@@ -8,10 +8,9 @@
 
 use criterion::{criterion_group, criterion_main, Criterion, Throughput};
 use orthocert::design::Design;
-use orthocert::paving::{header, Decider, Grower, Root, Tally};
-use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{check, Extent, Reader};
+use orthocert::paving::{header, Decider, Grower, Tally};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::paving::{check, Cell, Edge, Extent, Reader, Root, Subject};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
 
@@ -32,7 +31,7 @@ const DEPTH: u32 = 18;
 
 fn claim() -> MachineClaim {
     let design = Design::parse(DESIGN, "bench").expect("a design");
-    design.rules.expect("a machine of three legs")
+    design.kernel().expect("a machine").clone()
 }
 
 fn cell(u: [f64; 3], level: u32) -> Cell {
@@ -42,7 +41,8 @@ fn cell(u: [f64; 3], level: u32) -> Cell {
 
 fn paving(c: &mut Criterion) {
     let header = header(&claim(), DEPTH);
-    let decider = Decider::new(&header).expect("a header");
+    let subject = Subject::new(&header).expect("a header");
+    let decider = Decider::new(&subject).expect("a header");
     let mut group = c.benchmark_group("decide");
     for (name, u) in [
         ("inner", [0.4, 0.5, 0.6]),
@@ -56,7 +56,7 @@ fn paving(c: &mut Criterion) {
     group.finish();
 
     let cancel = AtomicBool::new(false);
-    let grower = Grower { decider: &decider, symmetric: true, depth: DEPTH, cancel: &cancel };
+    let grower = Grower { decider: &decider, depth: DEPTH, cancel: &cancel };
     let grow = || {
         let (mut bytes, mut tally) = (Vec::new(), Tally::up_to(DEPTH));
         grower.grow(Root::WHOLE, &mut bytes, &mut tally).expect("not cancelled");

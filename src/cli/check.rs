@@ -1,6 +1,6 @@
 //! `orthocert check`.
 
-use super::input::Begun;
+use super::input::{of_the_kernel, Begun};
 use super::pave::searched;
 use super::{audit, print, Failure, Format, Status};
 use orthocert::design::Design;
@@ -8,9 +8,9 @@ use orthocert::digest::Summed;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::paving::{self, Extent, Header, Summary};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read, statement, Accepted};
+use orthocert_kernel::paving::{self, Extent, Header, Summary};
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use serde_json::Value;
@@ -155,21 +155,22 @@ fn check_paving(
     };
     let mut input = BufReader::new(Summed::new(begun.whole()));
     let accepted = paving::check(&mut input, extent).map_err(|reason| reason.to_string());
-    let wanted = match design.map(|design| (design, &design.rules)) {
-        Some((_, Some(claim))) => {
-            Some(Claim::Machine(searched(claim, arguments.search_box.as_deref())?))
+    let wanted = match design {
+        Some(design) => {
+            let claim = of_the_kernel(design)?;
+            Some(searched(claim, arguments.search_box.as_deref())?)
         }
-        other => other.map(|(design, _)| design.claim.clone()),
+        None => None,
     };
-    let accepted = accepted.and_then(|accepted| match &wanted {
-        Some(claim) if accepted.header.claim != *claim => {
-            Err(another_claim(&accepted.header.claim, claim))
+    let accepted = accepted.and_then(|accepted| match wanted {
+        Some(claim) if accepted.header.claim != claim => {
+            Err(another_claim(&Claim::Kernel(accepted.header.claim), &Claim::Kernel(claim)))
         }
         _ => Ok(accepted),
     });
     match accepted {
         Ok(accepted) => {
-            let statement = statement::paving(&accepted).unwrap_or_default();
+            let statement = orthocert_kernel::statement::paving(&accepted).unwrap_or_default();
             // An accepted paving was read to its end.
             let (sha256, _) = input.into_inner().finish().map_err(|error| {
                 Failure::Input(format!("{}: {error}", arguments.certificate.shown()))

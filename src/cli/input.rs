@@ -7,6 +7,7 @@ use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::claim as kernel;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
@@ -31,6 +32,16 @@ pub fn three_legged(design: &Design) -> Result<&MachineClaim, Failure> {
              (verify, check, show, bounds and limit take every kind)"
                 .to_owned(),
         )
+    })
+}
+
+/// The claim of a design in the kernel's vocabulary.
+pub fn of_the_kernel(design: &Design) -> Result<&kernel::MachineClaim, Failure> {
+    design.kernel().ok_or_else(|| {
+        let refused =
+            "mechanism: found numbers too long to be written; accepted: numbers of at most \
+                       8,192 characters and 512 operations";
+        Failure::Input(refused.to_owned())
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
 use orthocert::batch::plan::identity;
-use orthocert::design::Design;
+use orthocert::design::{written, Design};
 use orthocert::digest::Summed;
 use orthocert::output::{self, OutputError};
 use orthocert::paving::{
@@ -11,10 +11,12 @@ use orthocert::paving::{
 };
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
-use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::paving::{Reader, Rejected};
 use orthocert_checker::shown::Named;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::paving::{Reader, Rejected, Subject};
+use std::cmp::Ordering;
 use std::fs::{self, OpenOptions};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -79,7 +81,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let claim = input::three_legged(&design)?;
+    let claim = input::of_the_kernel(&design)?;
     let claim = &searched(claim, arguments.search_box.as_deref())?;
     let goal = arguments.goal(claim)?;
     let target = arguments.target()?;
@@ -145,13 +147,44 @@ pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim
     };
     let numbers = text.split(',').map(|text| input::number("--box", text));
     let numbers: Vec<Exact> = numbers.collect::<Result<_, _>>()?;
-    let Ok([x0, x1, y0, y1, z0, z1]) = <[Exact; 6]>::try_from(numbers) else {
+    let (m, names) = coordinates(claim);
+    if numbers.len() != 2 * m {
+        let (count, ends) = match m {
+            1 => ("two numbers X0,X1, the ends".to_owned(), ""),
+            2 => ("four numbers X0,X1,Y0,Y1, the ends along x and y".to_owned(), ""),
+            3 => ("six numbers X0,X1,Y0,Y1,Z0,Z1, the ends along x, y and z".to_owned(), ""),
+            m => (format!("{} numbers", 2 * m), ", two for each coordinate"),
+        };
+        return Err(Failure::Input(format!("--box: found {text}; accepted: {count}{ends}")));
+    }
+    let less = |k: &usize| numbers[2 * k].compare(&numbers[2 * k + 1]) == Some(Ordering::Less);
+    if let Some(k) = (0..m).find(|k| !less(k)) {
         return Err(Failure::Input(format!(
-            "--box: found {text}; accepted: six numbers X0,X1,Y0,Y1,Z0,Z1, the ends along x, y and z"
+            "--box: found {text}; along {} the first number is not less than the second",
+            names[k]
         )));
-    };
-    in_box(claim, [x0, y0, z0], [x1, y1, z1])
+    }
+    let end = |side: usize| numbers.iter().skip(side).step_by(2).map(expression).collect();
+    let (min, max): (Result<_, _>, Result<_, _>) = (end(0), end(1));
+    in_box(claim, min?, max?)
         .map_err(|error| Failure::Input(format!("--box: found {text}; {error}")))
+}
+
+/// The names of a claim's coordinates of places, and how many there are.
+fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
+    let names = orthocert::page::coordinates(claim);
+    let m = match &claim.workspace {
+        Workspace::Box { min, .. } => min.len(),
+        Workspace::Cylinder { .. } | Workspace::Cube { .. } => 3,
+    };
+    (m, names)
+}
+
+fn expression(number: &Exact) -> Result<Expression, Failure> {
+    written(number).ok_or_else(|| {
+        let refused = "a number is too long; accepted: at most 8,192 characters and 512 operations";
+        Failure::Input(refused.to_owned())
+    })
 }
 
 impl Arguments {
@@ -227,7 +260,7 @@ fn positive(option: &str, text: &str) -> Result<Exact, Failure> {
 /// The depth at which boxes have the edges that `--precision` asks for.
 pub fn depth(claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
     is_a_box(claim)?;
-    let edge = positive("--precision", precision)?;
+    let edge = expression(&positive("--precision", precision)?)?;
     depth_for_edge(claim, &edge).ok_or_else(|| {
         Failure::Input(format!(
             "--precision: found {precision}; accepted: an edge that at most {DEEPEST} splits lead to"
@@ -270,6 +303,7 @@ pub fn connected(path: &Path, sha256: &str, memory: u64) -> Result<Option<Compon
 
 fn found_in(input: impl BufRead, memory: u64) -> Result<Option<Components>, Rejected> {
     let mut reader = Reader::new(input)?;
-    let decider = Decider::new(reader.header())?;
+    let subject = Subject::new(reader.header())?;
+    let decider = Decider::new(&subject)?;
     components(&mut reader, &decider, memory)
 }

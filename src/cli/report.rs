@@ -9,10 +9,9 @@ use orthocert::page::paving::{PavingPage, DEPTH};
 use orthocert::page::{File, Page, Picture};
 use orthocert::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::number::Exact;
-use orthocert_checker::paving::{self, is_paving, Accepted, Extent, Reader};
 use orthocert_checker::shown::{Named, Shown};
 use orthocert_checker::{check, read};
+use orthocert_kernel::paving::{self, is_paving, Accepted, Extent, Reader, Share, Subject};
 use serde::Serialize;
 use std::fs;
 use std::io::Read;
@@ -56,8 +55,8 @@ enum Answer<'a> {
     },
     Paving {
         accepted: bool,
-        inner_share: Exact,
-        boundary_share: Exact,
+        inner_share: Share,
+        boundary_share: Share,
         paving_sha256: String,
         files: Vec<Written>,
     },
@@ -158,10 +157,9 @@ fn examined(bytes: &[u8]) -> Result<(Accepted, Tree, Option<Components>), Surfac
     let accepted = paving::check(bytes, Extent::All)?;
     let (header, tree) =
         Tree::read(Reader::new(bytes)?, Detail::Depth(DEPTH), interrupt::cancelled())?;
-    let components = match Decider::new(&header) {
-        Ok(decider) => components(&mut Reader::new(bytes)?, &decider, MEMORY << 20)?,
-        Err(_) => None,
-    };
+    let subject = Subject::new(&header)?;
+    let decider = Decider::new(&subject)?;
+    let components = components(&mut Reader::new(bytes)?, &decider, MEMORY << 20)?;
     Ok((accepted, tree, components))
 }
 

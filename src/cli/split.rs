@@ -113,7 +113,7 @@ impl Arguments {
         }
         let design = Design::read(&self.job).map_err(Failure::input)?;
         if let Some(precision) = &self.precision {
-            let claim = super::input::three_legged(&design)?;
+            let claim = super::input::of_the_kernel(&design)?;
             let claim = pave::searched(claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));

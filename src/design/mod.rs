@@ -59,6 +59,7 @@ use mechanism::Setting;
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::claim as kernel;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -105,6 +106,14 @@ impl Design {
         refusal::compiled(&root, &claim)?;
         let title = title.map(str::to_owned);
         Ok(Design { title, claim: Claim::Kernel(claim), rules, sources })
+    }
+
+    /// The claim in the kernel's vocabulary.
+    pub fn kernel(&self) -> Option<&kernel::MachineClaim> {
+        match &self.claim {
+            Claim::Kernel(claim) => Some(claim),
+            _ => None,
+        }
     }
 
     /// Reads a design file.

@@ -47,6 +47,7 @@ mod words;
 use crate::digest::policy_source;
 use crate::escape::{self, xml};
 use crate::report::worst_found;
+pub use general::names as coordinates;
 use isomap::Scale;
 use legend::PATTERNS;
 use nominal::Nominal;

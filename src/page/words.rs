@@ -55,11 +55,6 @@ pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
     }
 }
 
-/// What a paving is about, on a line.
-pub fn region(claim: &MachineClaim) -> String {
-    format!("Where the requirements hold: {}, in {}", machine(claim), workspace(claim))
-}
-
 fn machine(claim: &MachineClaim) -> String {
     let Mechanism::Translational(legs) = &claim.mechanism else {
         return "The Orthoglide of the paper's Steps 1 to 3".to_owned();
@@ -114,23 +109,6 @@ pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
     );
     out.push_str(&formulas(claim, &asserted(claim)));
     out + "</section>\n"
-}
-
-/// The same of a paving, of which the statement is given.
-pub fn region_section(claim: &Claim, statement: &str) -> String {
-    let mut asserted = asserted(claim);
-    if let Some(first) = asserted.first_mut() {
-        *first =
-            "<var>R</var>: the points <var>P</var> of the box, for <var>i</var> = 1, 2, 3, with:"
-                .to_owned();
-    }
-    format!(
-        "<section id=\"claim\"><h2>What is proved</h2>\
-         <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
-         {}</section>\n",
-        xml(statement.trim_end()),
-        formulas(claim, &asserted)
-    )
 }
 
 fn formulas(claim: &Claim, asserted: &[String]) -> String {

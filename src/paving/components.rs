@@ -5,11 +5,9 @@
 
 use super::isotropy::{best_conditioned, centre_of, parts_of, sides, Point};
 use super::Decider;
-use orthocert_checker::cell::{Axis, Cell, Edge};
-use orthocert_checker::paving::{six_ordered, Kind, Reader, Rejected, SHARE_BITS};
+use orthocert_kernel::paving::{Axis, Cell, Edge, Kind, Reader, Rejected};
 use rayon::prelude::*;
-use std::array::from_fn;
-use std::io::BufRead;
+use std::io::Read;
 
 /// Bytes that a node and its box take, about.
 const NODE_BYTES: u64 = 64;
@@ -39,13 +37,14 @@ pub struct Components {
 }
 
 impl Components {
-    /// The best conditioned point, in the box that begins at `least` and is so wide: to eight digits
-    /// of its width, as it was found by searching.
-    pub fn point(&self, least: [f64; 3], width: [f64; 3]) -> [f64; 3] {
-        from_fn(|k| {
-            let grid = 1e-8 * width[k];
-            ((least[k] + self.best_conditioned_at[k] * width[k]) / grid).round() * grid + 0.0
-        })
+    /// The best conditioned point, in the box with these ends: to eight digits of its width, as it was
+    /// found by searching.
+    pub fn point(&self, ends: &[(f64, f64)]) -> Vec<f64> {
+        let along = |(&(least, most), u): (&(f64, f64), f64)| {
+            let grid = 1e-8 * (most - least);
+            ((least + u * (most - least)) / grid).round() * grid + 0.0
+        };
+        ends.iter().zip(self.best_conditioned_at).map(along).collect()
     }
 
     /// What the best conditioned point is.
@@ -70,9 +69,9 @@ enum Node {
 ///
 /// # Errors
 /// If the paving cannot be read.
-pub fn components<R: BufRead>(
+pub fn components<R: Read>(
     reader: &mut Reader<R>,
-    decider: &Decider,
+    decider: &Decider<'_>,
     memory: u64,
 ) -> Result<Option<Components>, Rejected> {
     let most = usize::try_from(memory / NODE_BYTES).unwrap_or(usize::MAX).min(u32::MAX as usize);
@@ -200,13 +199,12 @@ impl Union<'_> {
         found.or_else(|| in_upper.then(|| self.box_of((upper, above), point)).flatten())
     }
 
-    fn found(mut self, top: u32, decider: &Decider, symmetric: bool) -> Components {
+    fn found(mut self, top: u32, decider: &Decider<'_>, symmetric: bool) -> Components {
         let mut sums: Vec<(u128, u64, u8)> = vec![(0, 0, 0); self.inner.len()];
         for (i, cell) in self.inner.iter().enumerate() {
             let root = self.root(i as u32);
             let sum = &mut sums[root as usize];
-            let level: u32 = cell.edges.iter().map(|e| e.level).sum();
-            sum.0 += if symmetric { six_ordered(cell) } else { 1 << (SHARE_BITS - level) };
+            sum.0 += decider.share(cell);
             sum.1 += 1;
             sum.2 |= mirrors(cell);
         }
@@ -220,7 +218,7 @@ impl Union<'_> {
         };
         let centres = self.inner.par_iter().enumerate();
         let start = centres
-            .map(|(i, cell)| (decider.conditioning(cell), i, cell))
+            .map(|(i, cell)| (decider.conditioning(parts_of(&centre_of(cell))), i, cell))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let best = start.map(|(_, _, cell)| {
             best_conditioned(decider, centre_of(cell), |point| held(point).is_some())
@@ -274,21 +272,11 @@ fn mirrors(cell: &Cell) -> u8 {
     u8::from(overlaps(x, y)) | u8::from(overlaps(y, z)) << 1 | u8::from(overlaps(x, z)) << 2
 }
 
-impl Decider {
-    /// `sigma_max / sigma_min` at a cell's centre, nearly.
-    pub(super) fn conditioning(&self, cell: &Cell) -> f64 {
-        self.spectrum_at_centre(cell)
-            .map_or(f64::INFINITY, |s| (s.greatest / s.least.max(f64::MIN_POSITIVE)).sqrt())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::paving::header;
-    use orthocert_checker::certificate::Step;
-    use orthocert_checker::paving::{Header, Item};
-    use orthocert_checker::rule::Rotation;
+    use orthocert_kernel::paving::{Header, Item, Subject};
 
     /// A small box about the isotropic point, with every cell inner or not as the test wants:
     /// components do not look at evidence.
@@ -297,8 +285,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let claim = design.rules.unwrap();
-        let mut header = header(&claim, 9);
+        let mut header = header(design.kernel().unwrap(), 9);
         if !symmetric {
             header.symmetry = None;
         }
@@ -322,14 +309,11 @@ mod tests {
             } else {
                 Kind::Boundary
             };
-            let steps = match kind {
-                Kind::Inner => vec![Step::Lower(Rotation::IDENTITY), Step::Upper],
-                _ => Vec::new(),
-            };
-            Item { steps, kind }.write(&mut bytes).unwrap();
+            Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
         }
         let mut reader = Reader::new(bytes.as_slice()).unwrap();
-        let decider = Decider::new(&header).unwrap();
+        let subject = Subject::new(&header).unwrap();
+        let decider = Decider::new(&subject).unwrap();
         let found = components(&mut reader, &decider, 1 << 30).unwrap().unwrap();
         assert_eq!(found.all.iter().filter(|c| c.best_conditioned).count(), 1);
         found.all.iter().map(|c| (c.boxes, c.copies)).collect()
@@ -370,7 +354,8 @@ mod tests {
             Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
         }
         let mut reader = Reader::new(bytes.as_slice()).unwrap();
-        let decider = Decider::new(&header).unwrap();
+        let subject = Subject::new(&header).unwrap();
+        let decider = Decider::new(&subject).unwrap();
         assert_eq!(components(&mut reader, &decider, 0).unwrap(), None);
     }
 }

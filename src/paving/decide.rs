@@ -1,29 +1,40 @@
 //! What becomes of one cell: proposed in doubles, confirmed in exact arithmetic.
+//!
+//! What a test bounds is looked at to first order: its value at the cell's centre, and by how much each
+//! coordinate moves it. Where that decides the test, the exact judge is asked; where it does not, the
+//! cell is split along the coordinate that moves most what is closest to failing.
 
-use crate::interval::Interval;
 use crate::paving::spectrum::Spectrum;
-use crate::rotation;
-use crate::rough::Rough;
-use nalgebra::Matrix3;
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{Direction, LegNumber, Step, TwoDirections, Violation};
-use orthocert_checker::enclosure::Enclosure;
-use orthocert_checker::expansion::{Expansion, ExpansionPoint, Region};
-use orthocert_checker::kinematics::JointCoordinate;
-use orthocert_checker::model::{JointRange, Model};
-use orthocert_checker::paving::{is_mirrored, Header, Judge, Kind, Rejected, MAX_AXIS_LEVEL};
-use orthocert_checker::rule::{self, Obligation, Rotation};
+use crate::solver::doubles::{magnitude, middle, Pair, Single};
+use crate::solver::evidence::{Over, Prover};
+use crate::solver::refute::directions;
+use crate::solver::sample::{Place, Quality, Sampler};
+use orthocert_kernel::certificate::Failure;
+use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::paving::{
+    bit, discharged, is_mirrored, Axis, Cell, Item, Judge, Kind, Outer, Rejected, Step, Subject,
+    MAX_AXIS_LEVEL,
+};
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::Row;
 
-/// Half the bits of a direction's components: eight bits with a sign, or more where cells are small.
-const DIRECTION: [f64; 2] = [127.0, 1_048_576.0];
+/// How much a test has to hold by on a cell that is split, for its step to be tried there: in what
+/// the cell moves its value by.
+const ROOM: f64 = 1.5;
+/// Obligations of own steps, and of own failures, that have a byte.
+const MOST_STEPS: usize = 16;
+const MOST_FAILURES: usize = 64;
 
 /// Decides cells of one claim.
-pub struct Decider {
-    rough: Model<Rough>,
-    judge: Judge,
-    symmetric: bool,
-    /// Whether every requirement is about singular values alone.
-    plain: bool,
+pub struct Decider<'a> {
+    subject: &'a Subject,
+    judge: Judge<'a>,
+    prover: Prover<'a>,
+    sampler: Sampler<'a>,
+    /// Of a claim about machines within tolerances, evidence may have to be given.
+    has_tolerances: bool,
+    /// So it may of that, and has to be where tests have none of their own.
+    gives_evidence: bool,
 }
 
 /// What becomes of a cell.
@@ -44,382 +55,388 @@ pub enum Fate {
     Open(Option<Axis>),
 }
 
-/// The claim seems to hold at the centre.
-struct HoldsAtCentre;
-
-/// The place of an obligation in sets of them, such as what a cell inherits.
-pub(super) fn bit(obligation: Obligation) -> u32 {
-    1 << obligation as u8
+/// A value that is not negative where a test holds: at the centre, by how much each coordinate moves it to
+/// first order, and, about, beyond that.
+#[derive(Clone, Copy, Default)]
+struct Margin {
+    centre: f64,
+    along: [f64; 3],
+    beyond: [f64; 3],
 }
 
-/// What is discharged once these steps are added.
-pub(super) fn discharged(before: u32, steps: &[Step]) -> u32 {
-    steps.iter().filter_map(|step| step.rule().1).fold(before, |done, o| done | bit(o))
+impl Margin {
+    fn reach(&self) -> f64 {
+        self.along.iter().map(|x| x.abs()).sum()
+    }
+
+    /// How close it is to failing, relative to what the cell moves it by.
+    fn room(&self) -> f64 {
+        self.centre / self.reach().max(f64::MIN_POSITIVE)
+    }
+
+    /// What is gained by halving each coordinate.
+    fn weights(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
+    }
+
+    fn times(self, factor: f64) -> Self {
+        let times = |all: [f64; 3]| all.map(|x| x * factor);
+        let Margin { centre, along, beyond } = self;
+        Margin { centre: centre * factor, along: times(along), beyond: times(beyond) }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
+        let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
+        Margin { centre: self.centre + other.centre, along, beyond }
+    }
 }
 
-impl Decider {
-    /// For the pavings that begin with this header.
+/// `M` at a cell's centre, and what its rows are made of.
+struct Local<'a> {
+    rows: Vec<(&'a Row<Formula>, [f64; 3], f64)>,
+    spectrum: Spectrum,
+}
+
+impl<'a> Local<'a> {
+    /// `None` unless all is defined there.
+    fn of(
+        rows: impl Iterator<Item = &'a Row<Formula>>,
+        centre: impl Fn(Formula) -> Option<f64>,
+    ) -> Option<Self> {
+        let mut own = Vec::with_capacity(6);
+        let (mut gram, mut m) = ([0.0; 6], 0);
+        for row in rows {
+            let d = centre(row.d).filter(|d| *d > 0.0)?;
+            let mut a = [0.0; 3];
+            m = row.a.len();
+            for (a, &f) in a.iter_mut().zip(&row.a) {
+                *a = centre(f)?;
+            }
+            let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+            for (sum, (j, k)) in gram.iter_mut().zip(pairs) {
+                *sum += a[j] * a[k] / d;
+            }
+            own.push((row, a, d));
+        }
+        // Of fewer than three coordinates, the others take nothing away and add nothing: the mean of
+        // the eigenvalues is neither the least nor the greatest alone.
+        let mean = gram.iter().take(m).sum::<f64>() / m as f64;
+        gram[m.min(3)..3].fill(mean);
+        gram.iter()
+            .all(|x| x.is_finite())
+            .then(|| Local { rows: own, spectrum: Spectrum::of(gram) })
+    }
+
+    /// `|M v|^2/|v|^2`.
+    fn stretched(&self, over: &Over<'_>, v: [f64; 3]) -> Margin {
+        let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
+        // The middle of a slope, and by how much it varies over the cell.
+        let slope = |f: Formula, k: usize| {
+            let known = over.formulas.of(f).map_or((0.0, 0.0), |slope| slope.slopes[k]);
+            (middle(&known), 0.5 * (known.1 - known.0))
+        };
+        let mut sum = Margin::default();
+        for (row, a, d) in &self.rows {
+            let product = dot(a);
+            sum.centre += product * product / d;
+            for k in 0..over.m() {
+                let (mut moved, mut varied) = (0.0, 0.0);
+                for (&f, v) in row.a.iter().zip(v) {
+                    let (middle, varies) = slope(f, k);
+                    moved += middle * v;
+                    varied += varies * v.abs();
+                }
+                let (of_d, d_varies) = slope(row.d, k);
+                let moved = moved - 0.5 * product * of_d / d;
+                sum.along[k] += 2.0 * product * moved / d;
+                let varied = 2.0 * varied + product.abs() * d_varies / d;
+                sum.beyond[k] += (product.abs() * varied + moved * moved) / d;
+            }
+        }
+        sum.times(dot(&v).recip())
+    }
+}
+
+impl<'a> Decider<'a> {
+    /// For the pavings about a subject.
     ///
     /// # Errors
-    /// If the header is not well formed.
-    pub fn new(header: &Header) -> Result<Self, Rejected> {
-        let judge = Judge::new(header)?;
-        let model = Model::new(header.machine_claim()?, crate::verify::MODEL_PRECISION)?;
-        let singular_values = [Obligation::SigmaMin, Obligation::SigmaMax];
-        let plain = judge.obligations().iter().all(|o| singular_values.contains(o));
-        let rough = model.map(&Rough::from_fixed);
-        Ok(Decider { rough, judge, symmetric: header.symmetry.is_some(), plain })
+    /// If one of its numbers cannot be enclosed.
+    pub fn new(subject: &'a Subject) -> Result<Self, Rejected> {
+        let (claim, problem) = (&subject.header.claim, &subject.problem);
+        let has_tolerances = problem.tolerances().next().is_some();
+        let is_general = problem.obligations.iter().any(|own| is_general(&own.test));
+        Ok(Decider {
+            subject,
+            judge: Judge::new(subject)?,
+            prover: Prover::new(problem)?,
+            sampler: Sampler::new(claim, problem)?,
+            has_tolerances,
+            gives_evidence: has_tolerances || is_general,
+        })
     }
 
     /// The exact judge of every decision.
-    pub fn judge(&self) -> &Judge {
+    pub fn judge(&self) -> &Judge<'a> {
         &self.judge
     }
 
+    /// Whether cells stand for their images under permutations.
+    pub fn is_symmetric(&self) -> bool {
+        self.subject.header.symmetry.is_some()
+    }
+
+    /// The share of the box that a cell stands for.
+    pub fn share(&self, cell: &Cell) -> u128 {
+        self.subject.header.share(cell)
+    }
+
+    fn test(&self, obligation: usize) -> &'a Test {
+        &self.subject.problem.obligations[obligation].test
+    }
+
     /// Decides a cell on which `inherited` is discharged already.
-    pub fn decide(&self, cell: &Cell, inherited: u32) -> Decision {
-        let closed = |kind| Decision { steps: Vec::new(), fate: Fate::Closed(kind) };
-        if self.symmetric && is_mirrored(cell) {
+    pub fn decide(&self, cell: &Cell, inherited: u128) -> Decision {
+        if self.is_symmetric() && is_mirrored(cell) {
             return closed(Kind::Mirrored);
         }
-        let model = &self.rough;
-        let Ok(expansion) = Expansion::new(model, cell, ExpansionPoint::Centre) else {
-            return match self.beyond_reach(cell) {
-                Some(violation) => closed(Kind::Outer(violation)),
-                None => self.open(cell, Vec::new(), &clearance_weights(model, cell)),
-            };
+        let part = |edge: &orthocert_kernel::paving::Edge, end: u128| {
+            (edge.index + end) as f64 * (-f64::from(edge.level)).exp2()
         };
-        let spectrum = Spectrum::of(&expansion.matrix);
-        match self.failing(cell, &expansion, &spectrum) {
-            Ok(Some(violation)) => return closed(Kind::Outer(violation)),
-            Ok(None) => {
-                let weights = self.weights(&expansion, &spectrum, inherited);
-                return self.open(cell, Vec::new(), &weights);
+        let edge = |(&(lo, hi), edge): (&Pair, &_)| {
+            let at = |u: f64| lo * (1.0 - u) + hi * u;
+            (at(part(edge, 0)), at(part(edge, 1)))
+        };
+        let place = self.prover.root.iter().zip(&cell.edges).map(edge).collect();
+        let decided = |over: &Over<'_>| self.decided(cell, inherited, over);
+        match self.gives_evidence {
+            true => self.prover.on(&place, decided),
+            false => self.prover.on_own(&place, decided),
+        }
+    }
+
+    fn decided(&self, cell: &Cell, inherited: u128, over: &Over<'_>) -> Decision {
+        let problem = &self.subject.problem;
+        let open = |o: &usize| inherited & bit(*o) == 0;
+        let open: Vec<usize> = (0..problem.obligations.len()).filter(open).collect();
+        let legs = || problem.legs.iter().map(|leg| &leg.row);
+        let centre = |f| over.centre(f);
+        let reaches = |d: Formula| over.formulas.of(d).is_some_and(|d| d.range.0 > 0.0);
+        let undefined = over.undefined();
+        let local = match Local::of(legs(), centre) {
+            Some(local) if undefined.is_empty() && legs().all(|row| reaches(row.d)) => local,
+            _ => return self.hardly_reached(cell, over, &open, undefined),
+        };
+        let margins: Vec<Option<Margin>> =
+            open.iter().map(|&o| self.margin(over, &local, self.test(o))).collect();
+        for (&o, margin) in open.iter().zip(&margins) {
+            let outer = match margin {
+                Some(margin) if margin.centre + margin.reach() < 0.0 => self.fails(cell, o),
+                Some(_) => None,
+                None => self.fails_elsewise(cell, o),
+            };
+            if let Some(outer) = outer {
+                return closed(Kind::Outer(outer));
             }
-            Err(HoldsAtCentre) => {}
         }
-        let open = self.judge.obligations().iter().filter(|&&o| inherited & bit(o) == 0);
-        let wanted = open.clone().count();
-        let mut steps: Vec<Step> =
-            open.filter_map(|&o| self.step(cell, &expansion, &spectrum, o)).collect();
-        if self.judge.steps(cell, &steps).is_err() {
-            steps.retain(|step| self.judge.steps(cell, std::slice::from_ref(step)).is_ok());
+        // What is closest to failing, or fails at the centre.
+        let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
+        if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
+            return self.split(cell, Vec::new(), worst.weights());
         }
-        if steps.len() == wanted {
+        let (mut steps, mut left, mut own) = (Vec::new(), Vec::new(), Vec::new());
+        for (&o, margin) in open.iter().zip(&margins) {
+            match margin {
+                Some(margin) if margin.room() > 1.0 => own.push((o, margin.room())),
+                Some(_) => left.push(o),
+                None => match over.evidence(self.test(o)) {
+                    Some(evidence) => steps.push(Step(o, Some(evidence))),
+                    None => left.push(o),
+                },
+            }
+        }
+        let confirms = |steps: &[Step], kind: Kind| {
+            self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
+        };
+        if left.is_empty() && confirms(&steps, Kind::Inner) {
             return Decision { steps, fate: Fate::Closed(Kind::Inner) };
         }
-        let weights = self.weights(&expansion, &spectrum, discharged(inherited, &steps));
-        self.open(cell, steps, &weights)
-    }
-
-    fn open(&self, cell: &Cell, steps: Vec<Step>, weights: &[f64; 3]) -> Decision {
-        let splittable = |k: &usize| cell.edges[*k].level < MAX_AXIS_LEVEL;
-        let axis = (0..3).filter(splittable).max_by(|&a, &b| {
-            // The first of equals.
-            weights[a].total_cmp(&weights[b]).then(b.cmp(&a))
-        });
-        Decision { steps, fate: Fate::Open(axis.map(|k| Axis::ALL[k])) }
-    }
-
-    /// The extreme singular values at a cell's centre, nearly; `None` out of reach.
-    pub(super) fn spectrum_at_centre(&self, cell: &Cell) -> Option<Spectrum> {
-        let at = Region::new(&self.rough, cell, ExpansionPoint::Centre).at;
-        let row = |i: usize| self.rough.legs[i].at(&at[i]).map(|state| state.row);
-        Some(Spectrum::of(&[row(0)?, row(1)?, row(2)?]))
-    }
-
-    /// A violation, confirmed in exact arithmetic, that holds on all of the cell.
-    pub fn violated(&self, cell: &Cell) -> Option<Violation> {
-        let Ok(expansion) = Expansion::new(&self.rough, cell, ExpansionPoint::Centre) else {
-            return self.beyond_reach(cell);
-        };
-        self.failing(cell, &expansion, &Spectrum::of(&expansion.matrix)).ok()?
-    }
-
-    /// A violation that holds on all of the cell, if the claim fails at its centre and there is one;
-    /// an error if the claim holds there.
-    fn failing(
-        &self,
-        cell: &Cell,
-        expansion: &Expansion<Rough>,
-        spectrum: &Spectrum,
-    ) -> Result<Option<Violation>, HoldsAtCentre> {
-        let failing = self.failing_at_centre(cell, expansion, spectrum);
-        if failing.is_empty() {
-            return Err(HoldsAtCentre);
-        }
-        Ok(failing.into_iter().find(|violation| {
-            self.violated_roughly(cell, expansion, violation)
-                && self.judge.violation(cell, violation).is_ok()
-        }))
-    }
-
-    /// A violation by a leg that does not reach, or hardly reaches, any of the cell.
-    fn beyond_reach(&self, cell: &Cell) -> Option<Violation> {
-        let numbered = [1, 2, 3].map(|leg| LegNumber { leg });
-        let rows = numbered.iter().cloned().map(Violation::Row);
-        let reach = numbered.iter().cloned().map(Violation::Reach);
-        let holds = |violation: &Violation| {
-            rule::violated(&self.rough, cell, violation).is_ok()
-                && self.judge.violation(cell, violation).is_ok()
-        };
-        rows.chain(reach).find(holds)
-    }
-
-    /// The violations, with evidence, that the centre suggests.
-    fn failing_at_centre(
-        &self,
-        cell: &Cell,
-        expansion: &Expansion<Rough>,
-        spectrum: &Spectrum,
-    ) -> Vec<Violation> {
-        let bounds = &self.rough.bounds;
-        let mut found = Vec::new();
-        let scales = if depth(cell) < 27 { &DIRECTION[..1] } else { &DIRECTION[..] };
-        let kappa = bounds.kappa.mid();
-        if spectrum.least < kappa * kappa {
-            found.extend(scales.iter().map(|&s| {
-                Violation::SigmaMin(Direction { vector: integers(spectrum.least_direction(), s) })
-            }));
-        }
-        if bounds.k.is_some_and(|k| spectrum.greatest > k.mid() * k.mid()) {
-            found.extend(scales.iter().map(|&s| {
-                Violation::SigmaMax(Direction {
-                    vector: integers(spectrum.greatest_direction(), s),
-                })
-            }));
-        }
-        if !self.plain {
-            self.others_at_centre(cell, expansion, spectrum, &mut found);
-        }
-        found
-    }
-
-    fn others_at_centre(
-        &self,
-        cell: &Cell,
-        expansion: &Expansion<Rough>,
-        spectrum: &Spectrum,
-        found: &mut Vec<Violation>,
-    ) {
-        let model = &self.rough;
-        let bounds = &model.bounds;
-        let at = Region::new(model, cell, ExpansionPoint::Centre).at;
-        for leg in 0..3 {
-            let number = || LegNumber { leg: leg + 1 };
-            let cosine = model.legs[leg].cosine_squared(&at[leg]).map(|c| c.mid());
-            let oblique = |bound: Option<Rough>| {
-                bound.zip(cosine).is_some_and(|(bound, cosine)| cosine < bound.mid())
-            };
-            if oblique(bounds.serial_margin) {
-                found.push(Violation::SerialMargin(number()));
+        let is_split = || Kind::Split(Axis::X);
+        steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
+        if self.has_tolerances {
+            for &(o, _) in &own {
+                let given = over.evidence(self.test(o)).map(|evidence| Step(o, Some(evidence)));
+                let step = [Some(Step(o, None)).filter(|_| o < MOST_STEPS), given];
+                let mut step = step.into_iter().flatten();
+                steps.extend(step.find(|step| confirms(std::slice::from_ref(step), is_split())));
             }
-            if oblique(bounds.leg_angle) {
-                found.push(Violation::LegAngle(number()));
-            }
-            let row: f64 = expansion.matrix[leg].iter().map(|x| x.mid() * x.mid()).sum();
-            if bounds.joint_speed.is_some_and(|v| row > v.mid() * v.mid()) {
-                found.push(Violation::JointSpeed(number()));
-            }
-            let rho = model.legs[leg].at(&at[leg]).map(|state| state.rho);
-            if let (Some(rho), Some(ranges)) = (rho, &bounds.joint_range) {
-                if outside(&rho, &ranges[leg]) {
-                    found.push(Violation::JointRange(number()));
-                }
-            }
-        }
-        let ratio = bounds.conditioning.map(|c| c.mid() * c.mid());
-        if ratio.is_some_and(|c| spectrum.greatest > c * spectrum.least) {
-            found.push(Violation::Conditioning(TwoDirections {
-                u: integers(spectrum.greatest_direction(), DIRECTION[1]),
-                v: integers(spectrum.least_direction(), DIRECTION[1]),
-            }));
-        }
-        let small = |min: Rough| unit_determinant(model, &at).is_some_and(|det| det < min.mid());
-        if bounds.parallel_margin.is_some_and(small) {
-            found.push(Violation::ParallelMargin);
-        }
-    }
-
-    fn violated_roughly(
-        &self,
-        cell: &Cell,
-        expansion: &Expansion<Rough>,
-        violation: &Violation,
-    ) -> bool {
-        match violation {
-            Violation::SigmaMin(v) => rule::shrunk(&self.rough, expansion, &v.vector),
-            Violation::SigmaMax(v) => rule::stretched(&self.rough, expansion, &v.vector),
-            other => rule::violated(&self.rough, cell, other),
-        }
-        .is_ok()
-    }
-
-    /// The step that seems to discharge an obligation.
-    fn step(
-        &self,
-        cell: &Cell,
-        expansion: &Expansion<Rough>,
-        spectrum: &Spectrum,
-        obligation: Obligation,
-    ) -> Option<Step> {
-        let model = &self.rough;
-        let (result, step) = match obligation {
-            Obligation::SigmaMin => {
-                let v = spectrum.least_direction();
-                let least = spectrum.least.sqrt() - variation(expansion, v);
-                let hopeless = least <= model.bounds.kappa.mid();
-                return if hopeless { None } else { lower(model, expansion) };
-            }
-            Obligation::SigmaMax => {
-                let v = spectrum.greatest_direction();
-                let greatest = spectrum.greatest.sqrt() + variation(expansion, v);
-                if greatest >= model.bounds.k?.mid() {
-                    return None;
-                }
-                (rule::upper(model, expansion), Step::Upper)
-            }
-            Obligation::JointRange => (rule::range(model, cell, expansion), Step::Range),
-            Obligation::SerialMargin => (rule::serial_margin(model, cell), Step::SerialMargin),
-            Obligation::ParallelMargin => {
-                (rule::parallel_margin(model, cell), Step::ParallelMargin)
-            }
-            Obligation::LegAngle => (rule::leg_angle(model, cell), Step::LegAngle),
-            Obligation::JointSpeed => (rule::speed(model, expansion), Step::Speed),
-            Obligation::Conditioning => {
-                return crate::machine::conditioning_step(&intervals(model), &widened(expansion))
-                    .ok()
-            }
-            _ => return None,
-        };
-        result.is_ok().then_some(step)
-    }
-
-    /// By how much each axis of the cell moves what is next to its bound: the squared length of
-    /// `M v` for the singular vector in question. Where there are other requirements: by how much it
-    /// moves `M`, and the joint coordinates, which a translation along a guide moves alone; each
-    /// where something that depends on it is not `done`.
-    fn weights(&self, expansion: &Expansion<Rough>, spectrum: &Spectrum, done: u32) -> [f64; 3] {
-        if !self.plain {
-            let open = |o: &&Obligation| done & bit(**o) == 0;
-            let all = || self.judge.obligations().iter().filter(open);
-            let joints = all().any(|&o| o == Obligation::JointRange);
-            let of_m = all().any(|&o| o != Obligation::JointRange);
-            return std::array::from_fn(|k| {
-                let rho = expansion.rho.iter().flatten().map(|(_, along)| along[k].mag());
-                let slopes = expansion.slopes[k].iter().flatten().map(Rough::mag);
-                let part = |is_open: bool, sum: f64| if is_open { sum } else { 0.0 };
-                part(joints, rho.sum()) + part(of_m, slopes.sum())
-            });
-        }
-        let (kappa, k) = (self.rough.bounds.kappa.mid(), self.rough.bounds.k.map(|k| k.mid()));
-        let margin_below = (spectrum.least / (kappa * kappa)).ln().abs();
-        let margin_above = k.map_or(f64::INFINITY, |k| (spectrum.greatest / (k * k)).ln().abs());
-        let v = if margin_below <= margin_above {
-            spectrum.least_direction()
         } else {
-            spectrum.greatest_direction()
+            let roomy = own.iter().filter(|(o, room)| *o < MOST_STEPS && *room > ROOM);
+            let own = roomy.map(|&(o, _)| Step(o, None));
+            steps.extend(own.filter(|step| confirms(std::slice::from_ref(step), is_split())));
+        }
+        let done = discharged(inherited, &steps);
+        if done == self.subject.all() {
+            return Decision { steps, fate: Fate::Closed(Kind::Inner) };
+        }
+        let along = match worst {
+            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => worst.weights(),
+            _ => padded(over.weights(&left)),
         };
-        let apply = |m: &[[Rough; 3]; 3]| -> [f64; 3] {
-            std::array::from_fn(|i| (0..3).map(|j| m[i][j].mid() * v[j]).sum())
+        self.split(cell, steps, along)
+    }
+
+    fn split(&self, cell: &Cell, steps: Vec<Step>, along: [f64; 3]) -> Decision {
+        let axes = Axis::ALL.into_iter().take(self.prover.root.len());
+        let axis = axes.filter(|axis| cell.edges[axis.index()].level < MAX_AXIS_LEVEL);
+        let axis = axis.max_by(|&a, &b| {
+            let weight = |axis: Axis| along[axis.index()].abs();
+            // The first of equals.
+            weight(a).total_cmp(&weight(b)).then(b.cmp(&a))
+        });
+        Decision { steps, fate: Fate::Open(axis) }
+    }
+
+    /// The failure of an obligation in its own directions, where the judge confirms it.
+    fn fails(&self, cell: &Cell, obligation: usize) -> Option<Outer> {
+        let outer = Outer::Own(obligation);
+        let item = Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) };
+        (obligation < MOST_FAILURES && self.judge.confirms(cell, 0, &item)).then_some(outer)
+    }
+
+    /// The same of a test that has no directions of its own, by those of the cell's centre.
+    fn fails_elsewise(&self, cell: &Cell, obligation: usize) -> Option<Outer> {
+        let at = self.sampler.at(&self.centre(cell));
+        if self.sampler.margin(Quality::Obligation(obligation), &at) >= 0.0 {
+            return None;
+        }
+        if let Test::Conditioning(_) = self.test(obligation) {
+            return self.fails(cell, obligation);
+        }
+        let test = self.test(obligation);
+        let all = directions(test, &self.subject.problem, &self.sampler, &at);
+        let of = |directions| Outer::Given(Failure::Obligation(obligation, directions));
+        all.into_iter().map(of).find(|outer| {
+            let item = Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) };
+            self.judge.confirms(cell, 0, &item)
+        })
+    }
+
+    fn centre(&self, cell: &Cell) -> Place {
+        let u = cell.edges.iter().take(self.prover.root.len());
+        let u = u.map(|edge| (edge.index as f64 + 0.5) * (-f64::from(edge.level)).exp2());
+        Place { u: u.collect(), ..self.sampler.centre() }
+    }
+
+    /// A cell on which some leg may not reach, or a formula is not defined: off the region if that is
+    /// so on all of it, or if a row of `M` is too long there; else split where that is closest.
+    fn hardly_reached(
+        &self,
+        cell: &Cell,
+        over: &Over<'_>,
+        open: &[usize],
+        undefined: Vec<Formula>,
+    ) -> Decision {
+        let problem = &self.subject.problem;
+        let item = |kind| Item { steps: Vec::new(), kind };
+        let seems = |failure: &Failure| over.fails(failure);
+        if seems(&Failure::Reach) {
+            let kind = Kind::Outer(Outer::Given(Failure::Reach));
+            if self.judge.confirms(cell, 0, &item(kind.clone())) {
+                return closed(kind);
+            }
+        }
+        for &o in open {
+            let is_of_values = match self.test(o) {
+                Test::SigmaMax(_) => {
+                    (0..problem.legs.len()).any(|leg| seems(&Failure::Row(o, leg)))
+                }
+                Test::AtLeast(_) | Test::Beyond(..) => seems(&Failure::Obligation(o, Vec::new())),
+                _ => false,
+            };
+            if let Some(outer) = is_of_values.then(|| self.fails(cell, o)).flatten() {
+                return closed(Kind::Outer(outer));
+            }
+        }
+        let divisors = problem.legs.iter().map(|leg| leg.row.d);
+        let known = undefined.into_iter().chain(divisors);
+        let margin = |f: Formula| over.formulas.of(f).map(|slope| Margin::of(over, slope));
+        let worst = known.filter_map(margin).min_by(|a, b| a.room().total_cmp(&b.room()));
+        let along = worst.map_or_else(|| padded(over.weights(open)), |worst| worst.along);
+        self.split(cell, Vec::new(), along)
+    }
+
+    fn margin(&self, over: &Over<'_>, local: &Local<'_>, test: &Test) -> Option<Margin> {
+        let bound = |f: Formula| over.centre(f);
+        let less = |stretched: Margin, bound: f64| Margin {
+            centre: stretched.centre - bound,
+            ..stretched
         };
-        let y = apply(&expansion.matrix);
-        expansion.slopes.each_ref().map(|slope| {
-            let e = apply(slope);
-            let along: f64 = (0..3).map(|i| y[i] * e[i]).sum();
-            2.0 * along.abs() + e.iter().map(|x| x * x).sum::<f64>()
+        let least = |local: &Local<'_>| local.stretched(over, local.spectrum.least_direction());
+        Some(match test {
+            Test::SigmaMin(kappa) => less(least(local), bound(*kappa)?),
+            Test::SigmaMax(k) => {
+                let v = local.spectrum.greatest_direction();
+                less(local.stretched(over, v), bound(*k)?).times(-1.0)
+            }
+            Test::Least(rows, kappa) => {
+                let local = Local::of(rows.iter(), |f| over.centre(f))?;
+                less(least(&local), bound(*kappa)?)
+            }
+            Test::AtLeast(f) => Margin::of(over, over.formulas.of(*f)?),
+            Test::Beyond(f, b) => {
+                let (f, b) = (over.formulas.of(*f)?, over.formulas.of(*b)?);
+                let f = Margin::of(over, f);
+                let sign = if f.centre < 0.0 { -1.0 } else { 1.0 };
+                f.times(sign).plus(Margin::of(over, b).times(-1.0))
+            }
+            Test::Conditioning(_)
+            | Test::OneToOne(_)
+            | Test::Solve(_)
+            | Test::Accuracy(_)
+            | Test::Apart(_)
+            | Test::Curvature(_) => return None,
+        })
+    }
+
+    /// `sigma_max / sigma_min` at the point with these parts of the box, nearly; infinite out of reach.
+    pub(super) fn conditioning(&self, u: [f64; 3]) -> f64 {
+        let point: Vec<f64> =
+            self.prover.root.iter().zip(u).map(|((lo, hi), u)| lo * (1.0 - u) + hi * u).collect();
+        let problem = &self.subject.problem;
+        let parameters = self.prover.parameters();
+        let values = problem.tape.run(&Single, |op| match op {
+            Op::Coordinate(k) => point.get(k).copied(),
+            Op::Parameter(j) => parameters.get(j).map(middle),
+            _ => None,
+        });
+        let rows = problem.legs.iter().map(|leg| &leg.row);
+        Local::of(rows, |f| values.of(f).copied()).map_or(f64::INFINITY, |local| {
+            let Spectrum { least, greatest, .. } = local.spectrum;
+            (greatest / least.max(f64::MIN_POSITIVE)).sqrt()
         })
     }
 }
 
-/// By how much the singular value with the direction `v` varies over the cell, to first order:
-/// `sum_k |u . E_k v|`, `u = M v / |M v|`. At one of the vertices it is lower, at one higher by that
-/// much: a vertex rule that has less room than this cannot hold.
-fn variation(expansion: &Expansion<Rough>, v: [f64; 3]) -> f64 {
-    let apply = |m: &[[Rough; 3]; 3]| -> [f64; 3] {
-        std::array::from_fn(|i| (0..3).map(|j| m[i][j].mid() * v[j]).sum())
-    };
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let y = apply(&expansion.matrix);
-    let sum: f64 = expansion.slopes.iter().map(|slope| dot(y, apply(slope)).abs()).sum();
-    sum / (dot(y, y) * dot(v, v)).sqrt()
-}
-
-/// The number of splits above a cell.
-fn depth(cell: &Cell) -> u32 {
-    cell.edges.iter().map(|e| e.level).sum()
-}
-
-/// The shortest evidence with which the lower vertex rule seems to hold.
-fn lower(model: &Model<Rough>, expansion: &Expansion<Rough>) -> Option<Step> {
-    if rule::lower(model, expansion, &Rotation::IDENTITY).is_ok() {
-        return Some(Step::Lower(Rotation::IDENTITY));
-    }
-    let centre = Matrix3::from_fn(|i, j| expansion.matrix[i][j].mid());
-    let candidates = rotation::candidates(&centre);
-    // Beyond 18 bits nothing is gained; the longest decides whether any may hold.
-    let holds = |r: &&Rotation| rule::lower(model, expansion, r).is_ok();
-    candidates.last().filter(holds)?;
-    candidates.iter().find(holds).map(|rotation| Step::Lower(*rotation))
-}
-
-/// A unit vector as integers of this size.
-fn integers(v: [f64; 3], scale: f64) -> [i64; 3] {
-    let most = v.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-    let rounded = v.map(|x| (x / most * scale).round() as i64);
-    if rounded == [0; 3] {
-        [1, 0, 0]
-    } else {
-        rounded
+impl Margin {
+    fn of(over: &Over<'_>, slope: &orthocert_kernel::slope::Slope<Pair>) -> Self {
+        let along = |k: usize| if k < over.m() { magnitude(&slope.slopes[k]) } else { 0.0 };
+        let (centre, along) = (middle(&slope.at_centre), std::array::from_fn(along));
+        Margin { centre, along, ..Margin::default() }
     }
 }
 
-fn outside(rho: &JointCoordinate<Rough>, range: &JointRange<Rough>) -> bool {
-    match (rho, range) {
-        (JointCoordinate::Length(rho), JointRange::Length { min, max }) => {
-            min.is_some_and(|min| rho.mid() < min.mid())
-                || max.is_some_and(|max| rho.mid() > max.mid())
-        }
-        (JointCoordinate::Angle { cos, sin }, JointRange::Angle { min, max }) => {
-            let sine = |a: (f64, f64), b: (f64, f64)| a.1 * b.0 - a.0 * b.1;
-            let pair = |p: &(Rough, Rough)| (p.0.mid(), p.1.mid());
-            let theta = (cos.mid(), sin.mid());
-            sine(theta, pair(min)) < 0.0 || sine(pair(max), theta) < 0.0
-        }
-        _ => false,
-    }
+fn closed(kind: Kind) -> Decision {
+    Decision { steps: Vec::new(), fate: Fate::Closed(kind) }
 }
 
-fn unit_determinant(model: &Model<Rough>, at: &[[Rough; 3]; 3]) -> Option<f64> {
-    let unit = |i: usize| model.legs[i].expand_unit(&at[i], &at[i]).map(|(unit, _)| unit);
-    let units = [unit(0)?, unit(1)?, unit(2)?];
-    Some(Matrix3::from_fn(|i, j| units[i][j].mid()).determinant().abs())
+/// Whether a test has no [`Margin`].
+fn is_general(test: &Test) -> bool {
+    use Test::{Accuracy, Apart, Conditioning, Curvature, OneToOne, Solve};
+    matches!(test, OneToOne(_) | Solve(_) | Accuracy(_) | Apart(_) | Curvature(_) | Conditioning(_))
 }
 
-fn widened(expansion: &Expansion<Rough>) -> Expansion<Interval> {
-    let interval = |x: Rough| Interval::new(x.lo, x.hi);
-    Expansion {
-        matrix: expansion.matrix.map(|row| row.map(interval)),
-        slopes: expansion.slopes.map(|m| m.map(|row| row.map(interval))),
-        rho: [None, None, None],
-        hull: expansion.hull,
-    }
-}
-
-fn intervals(model: &Model<Rough>) -> Model<Interval> {
-    model.map(&|x: &Rough| Interval::new(x.lo, x.hi))
-}
-
-/// The axes by how much the legs' clearances gain in width from them.
-fn clearance_weights(model: &Model<Rough>, cell: &Cell) -> [f64; 3] {
-    let region = Region::new(model, cell, ExpansionPoint::Centre);
-    std::array::from_fn(|k| {
-        let widths = (0..3).map(|leg| {
-            let mut along = region.at[leg];
-            along[k] = region.over[leg][k];
-            let clearance = model.legs[leg].clearance(&along);
-            clearance.hi - clearance.lo
-        });
-        widths.sum()
-    })
+fn padded(weights: Vec<f64>) -> [f64; 3] {
+    std::array::from_fn(|k| weights.get(k).copied().unwrap_or(0.0))
 }

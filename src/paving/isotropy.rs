@@ -1,7 +1,7 @@
 //! The best conditioned point of the inner part, and the inner box that it is in.
 
 use super::Decider;
-use orthocert_checker::cell::{Cell, Edge};
+use orthocert_kernel::paving::Cell;
 
 /// Halvings of the box's edges that coordinates of points are multiples of.
 const LEVEL: u32 = 40;
@@ -16,16 +16,6 @@ pub(super) type Point = [u128; 3];
 /// A cell's centre.
 pub(super) fn centre_of(cell: &Cell) -> Point {
     cell.edges.map(|edge| (2 * edge.index + 1) << LEVEL.saturating_sub(edge.level + 1))
-}
-
-/// A cell whose centre is the point, if that is no corner of the box; else nearly.
-fn about(point: &Point) -> Cell {
-    // x 2^-LEVEL = (2 j + 1) 2^-(l + 1)
-    let edge = |x: u128| match x.trailing_zeros() {
-        zeros if zeros < LEVEL => Edge { index: x >> (zeros + 1), level: LEVEL - zeros - 1 },
-        _ => Edge { index: 0, level: 2 * LEVEL },
-    };
-    Cell { edges: point.map(edge) }
 }
 
 /// Parts of the box's edges.
@@ -44,11 +34,11 @@ pub(super) fn sides(cell: &Cell, axis: usize, point: &Point) -> [bool; 2] {
 /// diagonals; returns the last and its `sigma_max / sigma_min`, nearly. At an isotropic point, that
 /// is 1.
 pub(super) fn best_conditioned(
-    decider: &Decider,
+    decider: &Decider<'_>,
     start: Point,
     that: impl Fn(&Point) -> bool,
 ) -> (Point, f64) {
-    let value = |point: &Point| decider.conditioning(&about(point));
+    let value = |point: &Point| decider.conditioning(parts_of(point));
     let mut best = (start, value(&start));
     for step in STEPS {
         for _ in 0..MOST {
@@ -80,22 +70,23 @@ fn neighbours(point: &Point, step: u128) -> impl Iterator<Item = Point> + '_ {
 mod tests {
     use super::*;
     use crate::paving::header;
+    use orthocert_kernel::paving::{Axis, Subject};
 
-    fn decider(min: &str, max: &str) -> Decider {
+    fn subject(min: &str, max: &str) -> Subject {
         let text = format!(
             "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
              min = [{min}]\nmax = [{max}]\n[requirements]\n\
              transmission = {{ min = \"1/2\", max = 2 }}\n"
         );
         let design = crate::design::Design::parse(&text, "test").unwrap();
-        let claim = design.rules.unwrap();
-        Decider::new(&header(&claim, 9)).unwrap()
+        Subject::new(&header(design.kernel().unwrap(), 9)).unwrap()
     }
 
     #[test]
     fn the_isotropic_point_of_the_orthoglide_is_found() {
         // It is the origin: 5/8, 3/8, 4/9 of the edges.
-        let decider = decider("-0.5, -0.3, -0.4", "0.3, 0.5, 0.5");
+        let subject = subject("-0.5, -0.3, -0.4", "0.3, 0.5, 0.5");
+        let decider = Decider::new(&subject).unwrap();
         let (point, conditioning) = best_conditioned(&decider, centre_of(&Cell::ROOT), |_| true);
         let expected = [5.0 / 8.0, 3.0 / 8.0, 4.0 / 9.0];
         for (found, expected) in parts_of(&point).iter().zip(expected) {
@@ -111,11 +102,10 @@ mod tests {
 
     #[test]
     fn a_centre_is_in_both_halves_and_a_corner_in_one() {
-        let (lower, upper) = Cell::ROOT.halves(orthocert_checker::cell::Axis::Y).unwrap();
+        let (lower, upper) = Cell::ROOT.halves(Axis::Y).unwrap();
         assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&Cell::ROOT)), [true, true]);
         assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&lower)), [true, false]);
         assert_eq!(sides(&Cell::ROOT, 1, &centre_of(&upper)), [false, true]);
         assert_eq!(parts_of(&centre_of(&upper)), [0.5, 0.75, 0.5]);
-        assert_eq!(about(&centre_of(&upper)).edges[1], upper.edges[1]);
     }
 }

@@ -1,16 +1,13 @@
 //! A paving in parts that are made anywhere: the top of its tree, the subtrees below, and all of
 //! them in one file.
 
-use super::decide::bit;
 use super::pass::{finish, first_line, refused, WINDOW};
-use super::tree::{Cancelled, Grower, Root, Segment, Tally};
+use super::tree::{Cancelled, Grower, Segment, Tally};
 use super::{header, Decider, PaveError, Paved};
 use crate::digest::Summed;
 use crate::output::{self, Pending};
-use orthocert_checker::cell::Cell;
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{Header, Reader};
-use orthocert_checker::rule::Obligation;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::paving::{bit, Cell, Judge, Reader, Root, Subject};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -26,8 +23,7 @@ const BATCH: usize = 1 << 14;
 
 /// The paving of one claim to one depth.
 pub struct Parts {
-    header: Header,
-    decider: Decider,
+    subject: Subject,
 }
 
 impl Parts {
@@ -36,14 +32,21 @@ impl Parts {
     /// # Errors
     /// If the claim cannot be paved.
     pub fn new(claim: &MachineClaim, depth: u32) -> Result<Self, PaveError> {
-        let header = header(claim, depth);
-        let decider = Decider::new(&header).map_err(PaveError::Claim)?;
-        Ok(Parts { header, decider })
+        let subject = Subject::new(&header(claim, depth)).map_err(PaveError::Claim)?;
+        Decider::new(&subject).map_err(PaveError::Claim)?;
+        Ok(Parts { subject })
     }
 
-    fn grower<'a>(&'a self, cancel: &'a AtomicBool) -> Grower<'a> {
-        let symmetric = self.header.symmetry.is_some();
-        Grower { decider: &self.decider, symmetric, depth: self.header.depth, cancel }
+    /// What decides its cells.
+    ///
+    /// # Errors
+    /// None: the parts would not be there.
+    pub fn decider(&self) -> Result<Decider<'_>, PaveError> {
+        Decider::new(&self.subject).map_err(PaveError::Claim)
+    }
+
+    fn grower<'a>(&self, decider: &'a Decider<'a>, cancel: &'a AtomicBool) -> Grower<'a> {
+        Grower { decider, depth: self.subject.header.depth, cancel }
     }
 
     /// The tree with subtrees left to be grown: at least `enough`, all of one depth, where the tree
@@ -51,13 +54,18 @@ impl Parts {
     ///
     /// # Errors
     /// If it was cancelled.
-    pub fn top(&self, enough: usize, cancel: &AtomicBool) -> Result<Vec<Segment>, Cancelled> {
-        let grower = self.grower(cancel);
-        let deepest = self.header.depth.saturating_sub(BELOW);
+    pub fn top(
+        &self,
+        decider: &Decider<'_>,
+        enough: usize,
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Segment>, Cancelled> {
+        let grower = self.grower(decider, cancel);
+        let deepest = self.subject.header.depth.saturating_sub(BELOW);
         // At most 2^depth cells have a depth.
         let mut depth = enough.next_power_of_two().ilog2().min(deepest);
         loop {
-            let mut tally = Tally::up_to(self.header.depth);
+            let mut tally = Tally::up_to(self.subject.header.depth);
             let top = grower.segments(Root::WHOLE, depth, &mut tally)?;
             let left = top.iter().filter(|segment| matches!(segment, Segment::Subtree(_))).count();
             if left >= enough || depth >= deepest {
@@ -68,16 +76,15 @@ impl Parts {
     }
 
     /// What is not discharged above a subtree.
-    pub fn open(&self, root: &Root) -> Vec<Obligation> {
-        let open = |o: &Obligation| root.inherited & bit(*o) == 0;
-        self.decider.judge().obligations().iter().copied().filter(open).collect()
+    pub fn open(&self, root: &Root) -> Vec<usize> {
+        let all = 0..self.subject.problem.obligations.len();
+        all.filter(|o| root.inherited & bit(*o) == 0).collect()
     }
 
     /// The root of a subtree above which all but `open` is discharged.
-    pub fn root(&self, cell: Cell, open: &[Obligation]) -> Root {
-        let done = self.decider.judge().obligations().iter().filter(|o| !open.contains(o));
-        let inherited = done.fold(0, |done, o| done | bit(*o));
-        Root { cell, inherited, depth: cell.edges.iter().map(|edge| edge.level).sum() }
+    pub fn root(&self, cell: Cell, open: &[usize]) -> Root {
+        let open = open.iter().fold(0, |open, &o| open | bit(o));
+        Root { cell, inherited: self.subject.all() & !open, depth: cell.depth() }
     }
 
     /// Grows a subtree and hands its bytes on, in order.
@@ -86,13 +93,15 @@ impl Parts {
     /// If it was cancelled, or the bytes are refused.
     pub fn grow<E: From<Cancelled>>(
         &self,
+        decider: &Decider<'_>,
         root: Root,
         cancel: &AtomicBool,
         mut to: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let grower = self.grower(cancel);
+        let grower = self.grower(decider, cancel);
         let depth = root.depth + BELOW;
-        let segments = grower.segments(root, depth, &mut Tally::up_to(self.header.depth))?;
+        let segments =
+            grower.segments(root, depth, &mut Tally::up_to(self.subject.header.depth))?;
         for window in segments.chunks(WINDOW) {
             for (bytes, _) in grower.grow_all(window)? {
                 to(&bytes)?;
@@ -116,13 +125,14 @@ impl Parts {
         let pending = Pending::beside(path).map_err(io)?;
         let file = pending.file();
         let mut out = TreeWriter { file: BufWriter::new(file), path, sum: Sha256::new() };
-        out.write(&first_line(&self.header).map_err(io)?)?;
+        out.write(&first_line(&self.subject.header).map_err(io)?)?;
         tree(&mut out)?;
         out.file.flush().map_err(io)?;
         let sum = out.sum.clone();
         drop(out);
         let mut paved = finish(file, path, sum, 0)?;
-        if let Some(coarsest) = paved.coarsest.filter(|_| !paved.reaches(self.header.depth)) {
+        if let Some(coarsest) = paved.coarsest.filter(|_| !paved.reaches(self.subject.header.depth))
+        {
             return Err(PaveError::Coarse(coarsest));
         }
         paved.boxes = checked(file, path, &paved.sha256, cancel)?;
@@ -163,7 +173,8 @@ fn checked(
     file.rewind().map_err(io)?;
     let mut input = BufReader::new(Summed::new(file));
     let mut reader = Reader::new(&mut input).map_err(defect)?;
-    let judge = reader.judge().map_err(defect)?;
+    let subject = Subject::new(reader.header()).map_err(defect)?;
+    let judge = Judge::new(&subject).map_err(defect)?;
     loop {
         let mut batch = Vec::with_capacity(BATCH);
         while batch.len() < BATCH {

@@ -1,16 +1,15 @@
 //! Writes a paving, subtree by subtree, to a file that can be taken up again.
 
-use super::decide::discharged;
-use super::tree::{Cancelled, Grower, Grown, Root, Segment, Tally};
+use super::tree::{Cancelled, Grower, Grown, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::digest::{hexadecimal, Summed};
 use crate::output::{self, OutputError};
 use crate::search::{Control, Progress};
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::{
-    Header, Item, Kind, Reader, Rejected, Shares, Summary, Visited, MAX_AXIS_LEVEL,
-};
 use orthocert_checker::shown::Named;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::paving::{
+    self, Header, Kind, Reader, Rejected, Root, Shares, Subject, Summary,
+};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -120,7 +119,8 @@ pub fn pave(
     control: &mut Control<'_>,
 ) -> Result<Paved, PaveError> {
     let part = unfinished(path);
-    let decider = Decider::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
+    let subject = Subject::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
+    let decider = Decider::new(&subject).map_err(PaveError::Claim)?;
     let mut held = match resume {
         Resume::Yes => Some(taken_up(&part)?),
         Resume::No => None,
@@ -135,7 +135,7 @@ pub fn pave(
             }
             depth
         }
-        None => planned(&decider, claim, goal, control)?,
+        None => planned(&decider, goal, control)?,
     };
     loop {
         let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
@@ -171,8 +171,8 @@ fn taken_up(part: &Path) -> Result<File, PaveError> {
 /// The depth in the first line of an unfinished paving of the same claim.
 fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, PaveError> {
     let fails = |reason: String| PaveError::Resume(part.to_owned(), reason);
-    let found = orthocert_checker::paving::header(&mut BufReader::new(file))
-        .map_err(|reason| fails(reason.to_string()))?;
+    let found =
+        paving::header(&mut BufReader::new(file)).map_err(|reason| fails(reason.to_string()))?;
     if found == header(claim, found.depth) {
         Ok(found.depth)
     } else {
@@ -180,16 +180,10 @@ fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, 
     }
 }
 
-fn planned(
-    decider: &Decider,
-    claim: &MachineClaim,
-    goal: &Goal,
-    control: &Control<'_>,
-) -> Result<u32, PaveError> {
-    let symmetric = header(claim, 0).symmetry.is_some();
+fn planned(decider: &Decider<'_>, goal: &Goal, control: &Control<'_>) -> Result<u32, PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
     let coarse = COARSE.min(deepest);
-    let grower = Grower { decider, symmetric, depth: deepest, cancel: control.cancel };
+    let grower = Grower { decider, depth: deepest, cancel: control.cancel };
     let mut above = Tally::up_to(deepest);
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
     Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
@@ -214,13 +208,12 @@ struct Pass<'a> {
 
 impl<'a> Pass<'a> {
     fn new(
-        decider: &'a Decider,
+        decider: &'a Decider<'a>,
         header: Header,
         part: &Path,
         cancel: &'a AtomicBool,
     ) -> Result<Self, PaveError> {
-        let symmetric = header.symmetry.is_some();
-        let grower = Grower { decider, symmetric, depth: header.depth, cancel };
+        let grower = Grower { decider, depth: header.depth, cancel };
         let mut above = Tally::up_to(header.depth);
         let segments = grower.segments(Root::WHOLE, COARSE.min(header.depth), &mut above)?;
         let (part, sum) = (part.to_owned(), Sha256::new());
@@ -307,26 +300,11 @@ impl<'a> Pass<'a> {
             }
             Segment::Subtree(root) => *root,
         };
-        let mut waiting = vec![root];
-        while let Some(Root { cell, inherited, depth }) = waiting.pop() {
-            let item = Item::read(input, 0)?;
-            let done = discharged(inherited, &item.steps);
-            let has_steps = matches!(item.kind, Kind::Split(_) | Kind::Inner);
-            let new = if has_steps { (done & !inherited).count_ones() as usize } else { 0 };
-            if item.steps.len() != new {
-                return Err(Rejected::IdleSteps(0));
-            }
-            if item.kind == Kind::Boundary && depth < self.header.depth {
+        let mut reader = Reader::below(input, &self.header, root)?;
+        while let Some(visited) = reader.next()? {
+            if visited.item.kind == Kind::Boundary && visited.depth < self.header.depth {
                 return Err(Rejected::Truncated(0));
             }
-            if let Kind::Split(axis) = item.kind {
-                let shallow = cell.edges[axis.index()].level < MAX_AXIS_LEVEL;
-                let halves = cell.halves(axis).filter(|_| shallow && depth < self.header.depth);
-                let (lower, upper) = halves.ok_or(Rejected::TooDeep(0))?;
-                let half = |cell| Root { cell, inherited: done, depth: depth + 1 };
-                waiting.extend([half(upper), half(lower)]);
-            }
-            let visited = Visited { cell, inherited, depth, node: 0, item };
             self.grower.decider.judge().check(&visited)?;
         }
         Ok(())

@@ -1,8 +1,8 @@
 //! How deep a paving has to go, from a sample of its subtrees.
 
-use super::tree::{Cancelled, Grower, Root, Segment, Tally};
+use super::tree::{Cancelled, Grower, Segment, Tally};
 use super::Goal;
-use orthocert_checker::paving::SHARE_BITS;
+use orthocert_kernel::paving::{Root, SHARE_BITS};
 use rayon::prelude::*;
 
 /// One subtree of this many is looked into.

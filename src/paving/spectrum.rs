@@ -1,8 +1,5 @@
 //! Least and greatest singular values of a matrix, and their directions, in a few operations.
 
-use crate::rough::Rough;
-use orthocert_checker::linear::Matrix;
-
 /// The extreme eigenvalues of `G = M^T M`: the squares of the extreme singular values of `M`.
 #[derive(Clone, Copy, Debug)]
 pub struct Spectrum {
@@ -15,12 +12,9 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the midpoint of an interval matrix, by the closed formula for symmetric 3x3 matrices.
-    pub fn of(matrix: &Matrix<Rough>) -> Self {
-        let m = matrix.map(|row| row.map(|x| x.mid()));
-        let entry = |i: usize, j: usize| m[0][i] * m[0][j] + m[1][i] * m[1][j] + m[2][i] * m[2][j];
-        let gram @ [a, b, c, x, y, z] =
-            [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
+    /// Of `G_11, G_22, G_33, G_12, G_13, G_23`, by the closed formula for symmetric 3x3 matrices.
+    pub fn of(gram: [f64; 6]) -> Self {
+        let [a, b, c, x, y, z] = gram;
         let mean = (a + b + c) / 3.0;
         let (a, b, c) = (a - mean, b - mean, c - mean);
         let p = ((a * a + b * b + c * c + 2.0 * (x * x + y * y + z * z)) / 6.0).sqrt();
@@ -88,8 +82,9 @@ fn longest(vectors: [[f64; 3]; 3]) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    fn matrix(m: [[f64; 3]; 3]) -> Matrix<Rough> {
-        m.map(|row| row.map(|x| Rough { lo: x, hi: x }))
+    fn gram(m: [[f64; 3]; 3]) -> [f64; 6] {
+        let entry = |i: usize, j: usize| (0..3).map(|k| m[k][i] * m[k][j]).sum();
+        [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| entry(i, j))
     }
 
     #[test]
@@ -102,7 +97,7 @@ mod tests {
             [[1.0, -0.2, -0.2], [-0.2, 1.0, -0.2], [-0.2, -0.2, 1.0]],
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         ] {
-            let spectrum = Spectrum::of(&matrix(m));
+            let spectrum = Spectrum::of(gram(m));
             let reference = nalgebra::Matrix3::from_fn(|i, j| m[i][j]).singular_values();
             assert!((spectrum.least.sqrt() - reference.min()).abs() < 1e-7, "{m:?}");
             assert!((spectrum.greatest.sqrt() - reference.max()).abs() < 1e-7, "{m:?}");

@@ -14,10 +14,9 @@ mod mesh;
 mod tree;
 mod wall;
 
-use orthocert_checker::claim::Workspace;
-use orthocert_checker::number::Exact;
-use orthocert_checker::paving::{Header, Reader, Rejected};
-use std::io::BufRead;
+use super::box_ends;
+use orthocert_kernel::paving::{Header, Reader, Rejected};
+use std::io::Read;
 use std::sync::atomic::AtomicBool;
 
 pub use tree::{Detail, Node, Tree, INNER, OUTER, UNDECIDED};
@@ -90,10 +89,7 @@ pub enum SurfaceError {
 ///
 /// # Errors
 /// [`SurfaceError`].
-pub fn surface<R: BufRead>(
-    reader: Reader<R>,
-    cancel: &AtomicBool,
-) -> Result<Surface, SurfaceError> {
+pub fn surface<R: Read>(reader: Reader<R>, cancel: &AtomicBool) -> Result<Surface, SurfaceError> {
     let (header, tree) = Tree::read(reader, Detail::InnerPart, cancel)?;
     let ends = ends(&header).ok_or(SurfaceError::TooClose)?;
     let walls = walls(&tree, cancel)?;
@@ -104,17 +100,13 @@ pub fn surface<R: BufRead>(
     Ok(mesh::assembled(&walls, ends))
 }
 
-/// The ends of the box that is paved, nearly.
+/// The ends of the box that is paved, nearly; along axes that there are not, 0 and 1.
 pub fn ends(header: &Header) -> Option<[[f64; 2]; 3]> {
-    let Workspace::Box { min, max } = &header.machine_claim().ok()?.workspace else {
-        return None;
-    };
-    let near = |x: &Exact| crate::decimal::approximate(x).filter(|x| x.is_finite());
-    let mut ends = [[0.0; 2]; 3];
-    for (end, (min, max)) in ends.iter_mut().zip(min.iter().zip(max)) {
-        *end = [near(min)?, near(max)?];
+    let mut ends = [[0.0, 1.0]; 3];
+    for (end, (min, max)) in ends.iter_mut().zip(box_ends(&header.claim)?) {
+        *end = [min, max];
     }
-    Some(ends)
+    ends.as_flattened().iter().all(|x| x.is_finite()).then_some(ends)
 }
 
 impl Surface {
@@ -160,7 +152,7 @@ impl Surface {
     /// The enclosed share of the box's volume, in units of `2^-`[`SHARE_BITS`], by the divergence
     /// theorem: the sum of `x n_x` over the faces.
     ///
-    /// [`SHARE_BITS`]: orthocert_checker::paving::SHARE_BITS
+    /// [`SHARE_BITS`]: orthocert_kernel::paving::SHARE_BITS
     pub fn share(&self) -> i128 {
         let twice = self.in_triangles().map(|corners| {
             let [a, b, c] = corners.map(|at| self.points[at as usize].map(i128::from));

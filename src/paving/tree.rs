@@ -1,26 +1,9 @@
 //! The tree of a paving: written depth first, cut into subtrees for the threads.
 
-use super::decide::{discharged, Decider, Fate};
-use orthocert_checker::cell::Cell;
-use orthocert_checker::paving::{six_ordered, Item, Kind, SHARE_BITS};
+use super::decide::{Decider, Fate};
+use orthocert_kernel::paving::{discharged, write_pair, write_steps, Item, Kind, Root};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// A cell whose subtree is still to be grown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Root {
-    /// The cell.
-    pub cell: Cell,
-    /// What its ancestors discharge.
-    pub inherited: u32,
-    /// Splits above it.
-    pub depth: u32,
-}
-
-impl Root {
-    /// The whole box.
-    pub const WHOLE: Root = Root { cell: Cell::ROOT, inherited: 0, depth: 0 };
-}
 
 /// A stretch of a tree in preorder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,9 +57,7 @@ impl Tally {
 /// Grows trees of one claim down to one depth.
 pub struct Grower<'a> {
     /// Decides the cells.
-    pub decider: &'a Decider,
-    /// Whether cells stand for their images under permutations.
-    pub symmetric: bool,
+    pub decider: &'a Decider<'a>,
     /// Most splits on a path.
     pub depth: u32,
     /// Set to give up.
@@ -95,7 +76,7 @@ impl Grower<'_> {
             if tally.boxes.is_multiple_of(256) && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
-            if let Some((lower, upper)) = self.node(root, self.depth, out, tally) {
+            if let Some((lower, upper)) = self.node(root, out, tally) {
                 waiting.extend([upper, lower]);
             }
         }
@@ -135,7 +116,7 @@ impl Grower<'_> {
                     segments.push(Segment::Known(std::mem::take(&mut known)));
                 }
                 segments.push(Segment::Subtree(root));
-            } else if let Some((lower, upper)) = self.node(root, self.depth, &mut known, tally) {
+            } else if let Some((lower, upper)) = self.node(root, &mut known, tally) {
                 waiting.extend([upper, lower]);
             }
         }
@@ -145,20 +126,46 @@ impl Grower<'_> {
         Ok(segments)
     }
 
-    /// Decides a node and appends it; returns its halves, if it is split.
-    fn node(
-        &self,
-        root: Root,
-        depth: u32,
-        out: &mut Vec<u8>,
-        tally: &mut Tally,
-    ) -> Option<(Root, Root)> {
+    /// Decides a node and appends it; returns its halves, if it is split. Halves that may not be split
+    /// are appended with it, in one byte where that does for them.
+    fn node(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Option<(Root, Root)> {
+        let (item, halves) = self.decided(root, tally);
+        // Every step and failure that a decision makes has a code.
+        let written = match (&item.kind, halves) {
+            (Kind::Split(axis), Some((lower, upper))) if lower.depth == self.depth => {
+                let [(lower, _), (upper, _)] = [lower, upper].map(|half| self.decided(half, tally));
+                let is_bare = lower.steps.is_empty() && upper.steps.is_empty();
+                let steps = write_steps(&item.steps, out);
+                let pair = || {
+                    let mut pair = Vec::new();
+                    write_pair(&mut pair, *axis, [&lower.kind, &upper.kind])?;
+                    Some(pair)
+                };
+                if let Some(pair) = is_bare.then(pair).flatten() {
+                    out.extend(pair);
+                    debug_assert!(steps.is_some());
+                    return None;
+                }
+                let split = Item { steps: Vec::new(), kind: item.kind.clone() };
+                let items = [&split, &lower, &upper];
+                let written =
+                    steps.and_then(|()| items.iter().try_for_each(|item| item.write(out)));
+                debug_assert!(written.is_some());
+                return None;
+            }
+            _ => item.write(out),
+        };
+        debug_assert!(written.is_some());
+        halves
+    }
+
+    fn decided(&self, root: Root, tally: &mut Tally) -> (Item, Option<(Root, Root)>) {
         let decision = self.decider.decide(&root.cell, root.inherited);
         let at = root.depth as usize;
         tally.boxes += 1;
         tally.boxes_at[at] += 1;
         let split = match decision.fate {
-            Fate::Open(axis) if root.depth < depth => axis,
+            Fate::Open(axis) if root.depth < self.depth => axis,
             _ => None,
         };
         let halves = split.and_then(|axis| root.cell.halves(axis));
@@ -168,25 +175,13 @@ impl Grower<'_> {
             (Fate::Open(_), None) => Kind::Boundary,
         };
         match kind {
-            Kind::Inner => tally.inner_at[at] += self.share(&root.cell),
-            Kind::Split(_) | Kind::Boundary => tally.open_at[at] += self.share(&root.cell),
+            Kind::Inner => tally.inner_at[at] += self.decider.share(&root.cell),
+            Kind::Split(_) | Kind::Boundary => tally.open_at[at] += self.decider.share(&root.cell),
             Kind::Outer(_) | Kind::Mirrored => {}
         }
         let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
         let inherited = discharged(root.inherited, &steps);
-        // Every step and violation that a decision makes has a code.
-        let written = Item { steps, kind }.write(out);
-        debug_assert!(written.is_some());
-        let (lower, upper) = halves?;
         let half = |cell| Root { cell, inherited, depth: root.depth + 1 };
-        Some((half(lower), half(upper)))
-    }
-
-    fn share(&self, cell: &Cell) -> u128 {
-        if self.symmetric {
-            six_ordered(cell)
-        } else {
-            1 << (SHARE_BITS - cell.edges.iter().map(|e| e.level).sum::<u32>())
-        }
+        (Item { steps, kind }, halves.map(|(lower, upper)| (half(lower), half(upper))))
     }
 }

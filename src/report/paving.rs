@@ -1,13 +1,13 @@
 //! What a paving holds, for people and for scripts.
 
-use crate::decimal::{approximate, grouped, percent, rounded, significant, Toward};
-use crate::paving::{box_volume, Component, Components, Paved};
+use crate::decimal::{grouped, percent, rounded, significant, Toward};
+use crate::paving::{box_ends, box_volume, Component, Components, Paved};
 use num_rational::BigRational;
 use num_traits::Zero;
-use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
-use orthocert_checker::paving::{Shares, SHARE_BITS};
 use orthocert_checker::shown::Shown;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::paving::{Share, Shares, SHARE_BITS};
 use serde::Serialize;
 use std::path::Path;
 
@@ -63,7 +63,7 @@ pub struct ComponentsReport {
     /// The least condition number `sigma_max / sigma_min` found in an inner box.
     pub best_conditioning: f64,
     /// Where that is, about.
-    pub best_conditioned_at: [f64; 3],
+    pub best_conditioned_at: Vec<f64>,
     /// What that point is.
     #[serde(skip)]
     what_is_there: &'static str,
@@ -103,14 +103,15 @@ impl PavingReport {
         target: &Path,
     ) -> Self {
         let volume = box_volume(claim);
-        let part = |boxes: u64, share: Exact| {
-            let volume = volume.clone().zip(share.as_rational().cloned());
-            Part { boxes, share, volume: volume.map(|(v, share)| Exact::Rational(v * share)) }
+        let part = |boxes: u64, share: Share| {
+            let share = share.fraction();
+            let volume = volume.as_ref().map(|volume| Exact::Rational(volume * &share));
+            Part { boxes, share: Exact::Rational(share), volume }
         };
         let summary = &paved.summary;
         let Shares { inner, boundary } = paved.shares;
         let whole = 1 << SHARE_BITS;
-        let outer = Shares::fraction(whole - inner - boundary);
+        let outer = Share(whole - inner - boundary);
         let gap = match (inner, boundary) {
             (_, 0) => Some(0.0),
             (0, _) => None,
@@ -124,9 +125,9 @@ impl PavingReport {
             sha256: paved.sha256.clone(),
             gap,
             reached: true,
-            inner: part(summary.inner, summary.inner_share.clone()),
+            inner: part(summary.inner, summary.inner_share),
             outer: part(summary.outer, outer),
-            boundary: part(summary.boundary, summary.boundary_share.clone()),
+            boundary: part(summary.boundary, summary.boundary_share),
             mirrored: summary.mirrored,
             depth: paved.header.depth,
             components: components.map(|found| described(claim, found)),
@@ -200,12 +201,7 @@ fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
         copies: component.copies,
         best_conditioned: component.best_conditioned,
     };
-    let mut at = found.best_conditioned_at;
-    if let Workspace::Box { min, max } = &claim.workspace {
-        let end = |x: &Exact| approximate(x).unwrap_or(f64::NAN);
-        let (least, most) = (min.each_ref().map(end), max.each_ref().map(end));
-        at = found.point(least, std::array::from_fn(|k| most[k] - least[k]));
-    }
+    let at = found.point(&box_ends(claim).unwrap_or_default());
     ComponentsReport {
         count: found.all.iter().map(|component| component.copies).sum(),
         largest: found.all.iter().take(SHOWN).map(described).collect(),
@@ -232,7 +228,9 @@ impl ComponentReport {
 }
 
 fn components_text(components: &ComponentsReport) -> String {
-    let [x, y, z] = components.best_conditioned_at.map(|x| significant(x, 3));
+    let at: Vec<String> =
+        components.best_conditioned_at.iter().map(|x| significant(*x, 3)).collect();
+    let at = at.join(", ");
     let mut out = format!(
         "\n  components {:>10}, by shared faces; they may join in undecided boxes\n",
         grouped(components.count)
@@ -250,7 +248,7 @@ fn components_text(components: &ComponentsReport) -> String {
         if component.best_conditioned {
             let least = significant(components.best_conditioning, 4);
             out += &format!(
-                "              has the {}, ({x}, {y}, {z}):\n              \
+                "              has the {}, ({at}):\n              \
                  sigma_max/sigma_min = {least}\n",
                 components.what_is_there
             );

@@ -28,9 +28,12 @@ const RESULT: &str = "orthocert-result/1";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    edges: [(u64, u32); 3],
+    pub(super) edges: [(u64, u32); 3],
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) open: Vec<Obligation>,
+    /// Of a paving, what is open by its number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) left: Vec<usize>,
 }
 
 /// Deepest level of an edge in a file.
@@ -43,7 +46,7 @@ impl Place {
         for (place, edge) in edges.iter_mut().zip(&cell.edges) {
             *place = (u64::try_from(edge.index).ok()?, edge.level);
         }
-        let place = Place { edges, open };
+        let place = Place { edges, open, left: Vec::new() };
         place.cell().is_some().then_some(place)
     }
 
@@ -333,7 +336,10 @@ mod tests {
         let root = Place::of(&Cell::ROOT, Vec::new());
         assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
         for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
-            assert_eq!(Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new() }.cell(), None);
+            assert_eq!(
+                Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new(), left: Vec::new() }.cell(),
+                None
+            );
         }
     }
 }

@@ -12,9 +12,9 @@ use super::task::Pave;
 use crate::output::{self, OutputError};
 use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use data_encoding::HEXLOWER;
-use orthocert_checker::cell::Cell;
+use orthocert_checker::cell;
 use orthocert_checker::file;
-use orthocert_checker::rule::Obligation;
+use orthocert_kernel::paving::{Cell, Edge};
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -34,7 +34,9 @@ pub(super) fn top(
     let parts =
         Parts::new(&task.claim, task.depth).map_err(|e| SplitError::Paving(e.to_string()))?;
     let enough = shards.saturating_mul(CELLS_A_SHARD);
-    let segments = parts.top(enough, cancel).map_err(|Cancelled| SplitError::Interrupted)?;
+    let decider = parts.decider().map_err(|e| SplitError::Paving(e.to_string()))?;
+    let segments =
+        parts.top(&decider, enough, cancel).map_err(|Cancelled| SplitError::Interrupted)?;
     let mut places = Vec::new();
     let mut top = Vec::new();
     for segment in segments {
@@ -42,7 +44,10 @@ pub(super) fn top(
             Segment::Known(bytes) => Stretch::Nodes(HEXLOWER.encode(&bytes)),
             Segment::Subtree(root) => {
                 // No axis of a paving is split more often than files can tell.
-                places.extend(Place::of(&root.cell, parts.open(&root)));
+                let edges =
+                    root.cell.edges.map(|Edge { index, level }| cell::Edge { index, level });
+                let place = Place::of(&cell::Cell { edges }, Vec::new());
+                places.extend(place.map(|place| Place { left: parts.open(&root), ..place }));
                 Stretch::Waiting
             }
         });
@@ -55,7 +60,7 @@ pub(super) fn top(
 pub(super) fn grown(
     (path, at): (&Path, u64),
     task: &Pave,
-    (cell, open): (Cell, &[Obligation]),
+    (root, open): (cell::Cell, &[usize]),
     cancel: &AtomicBool,
 ) -> Result<Nodes, RunError> {
     let io = |error| RunError::Output(OutputError::Io(path.to_owned(), error));
@@ -63,7 +68,9 @@ pub(super) fn grown(
     let mut file = opened(path)?;
     file.seek(SeekFrom::Start(at)).map_err(io)?;
     let (mut sum, mut bytes) = (Sha256::new(), 0);
-    parts.grow(parts.root(cell, open), cancel, |stretch| {
+    let decider = parts.decider().map_err(|e| RunError::Claim(e.to_string()))?;
+    let cell = Cell { edges: root.edges.map(|cell::Edge { index, level }| Edge { index, level }) };
+    parts.grow(&decider, parts.root(cell, open), cancel, |stretch| {
         sum.update(stretch);
         bytes += stretch.len() as u64;
         file.write_all(stretch).map_err(io)
@@ -225,7 +232,7 @@ mod tests {
     fn a_pipe_in_the_place_of_nodes_is_not_waited_for() {
         let text = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
                     min = [0, 0, 0]\nmax = [1, 1, 1]\n[requirements]\ntransmission = { max = 2 }\n";
-        let claim = Design::parse(text, "d.toml").unwrap().rules.unwrap();
+        let claim = Design::parse(text, "d.toml").unwrap().kernel().unwrap().clone();
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("result-0001.nodes");
         assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());

@@ -195,7 +195,7 @@ fn grown(
             Ok(Part::Cells(cells.collect()))
         }
         Task::Pave(task) => {
-            paving::grown(nodes, task, (root, &place.open), cancel).map(Part::Nodes)
+            paving::grown(nodes, task, (root, &place.left), cancel).map(Part::Nodes)
         }
     }
 }

@@ -4,8 +4,7 @@ use super::file::{sha256, text};
 use crate::design::{is_line, AtlasDesign, MAX_RESOLUTION};
 use crate::paving::{Parts, DEEPEST};
 use orthocert_checker::cell::Cell;
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::paving::MAX_AXIS_LEVEL;
+use orthocert_kernel::paving::MAX_AXIS_LEVEL;
 use orthocert_kernel::problem::Problem;
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +28,7 @@ pub struct Pave {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// What is claimed of the region's points.
-    pub claim: MachineClaim,
+    pub claim: orthocert_kernel::claim::MachineClaim,
     /// Most splits on a path.
     pub depth: u32,
 }

@@ -52,81 +52,104 @@ fn greatest(a: f64, b: f64) -> f64 {
 impl Arithmetic for Doubles {
     type Number = Pair;
 
+    #[inline]
     fn integer(&self, n: i64) -> Option<Pair> {
         Some((n as f64, n as f64))
     }
 
+    #[inline]
     fn add(&self, a: &Pair, b: &Pair) -> Option<Pair> {
         Some((a.0 + b.0, a.1 + b.1))
     }
 
+    #[inline]
     fn sub(&self, a: &Pair, b: &Pair) -> Option<Pair> {
         Some((a.0 - b.1, a.1 - b.0))
     }
 
+    #[inline]
     fn neg(&self, a: &Pair) -> Option<Pair> {
         Some((-a.1, -a.0))
     }
 
+    #[inline]
     fn mul(&self, a: &Pair, b: &Pair) -> Option<Pair> {
         let (p, q) = (a.0 * b.0, a.0 * b.1);
         let (r, s) = (a.1 * b.0, a.1 * b.1);
         Some((least(least(p, q), least(r, s)), greatest(greatest(p, q), greatest(r, s))))
     }
 
+    #[inline]
     fn div(&self, a: &Pair, b: &Pair) -> Option<Pair> {
         self.mul(a, &self.recip(b)?)
     }
 
+    #[inline]
     fn sqr(&self, a: &Pair) -> Option<Pair> {
         let (p, q) = (a.0 * a.0, a.1 * a.1);
         let straddles = a.0 < 0.0 && a.1 > 0.0;
         Some((if straddles { 0.0 } else { least(p, q) }, greatest(p, q)))
     }
 
+    #[inline]
     fn sqrt(&self, a: &Pair) -> Option<Pair> {
         (a.0 > 0.0).then(|| (a.0.sqrt(), a.1.sqrt()))
     }
 }
 
 impl Enclosure for Doubles {
+    #[inline]
     fn recip(&self, a: &Pair) -> Option<Pair> {
         (a.0 > 0.0 || a.1 < 0.0).then(|| (1.0 / a.1, 1.0 / a.0))
     }
 
+    #[inline]
     fn halve(&self, a: &Pair) -> Option<Pair> {
         Some((0.5 * a.0, 0.5 * a.1))
     }
 
+    #[inline]
     fn dyadic(&self, n: i64, places: u32, a: &Pair) -> Option<Pair> {
         let n = n as f64 / (1u64 << places.min(63)) as f64;
         Some(if n >= 0.0 { (n * a.0, n * a.1) } else { (n * a.1, n * a.0) })
     }
 
+    #[inline]
     fn ratio(&self, a: &Pair, b: &Pair, c: &Pair) -> Option<Pair> {
         self.div(&self.mul(a, b)?, c)
     }
 
+    #[inline]
     fn within(&self, range: &Pair, centre: &Pair, slopes: &[Pair]) -> Option<Pair> {
         let reach: f64 = slopes.iter().map(magnitude).sum();
         let cut = (greatest(range.0, centre.0 - reach), least(range.1, centre.1 + reach));
         (cut.0 <= cut.1 + ROUNDING * (1.0 + reach)).then_some(cut)
     }
 
+    #[inline]
     fn hull(&self, a: &Pair, b: &Pair) -> Pair {
         (least(a.0, b.0), greatest(a.1, b.1))
     }
 
+    #[inline]
     fn ends(&self, a: &Pair) -> [Pair; 2] {
         [(a.0, a.0), (a.1, a.1)]
     }
 
+    #[inline]
     fn is_positive(&self, a: &Pair) -> bool {
         a.0 > 0.0
     }
 
+    #[inline]
     fn is_nonnegative(&self, a: &Pair) -> bool {
         a.0 >= 0.0
+    }
+
+    #[inline]
+    fn rounded(&self, a: &Pair, places: u32) -> Option<i64> {
+        let x = (middle(a) * f64::from(places).exp2()).round();
+        (x.abs() < 2f64.powi(62)).then_some(x as i64)
     }
 }
 

@@ -7,13 +7,13 @@ use super::search::{Boxes, Cell, Trial};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
-use orthocert_kernel::certificate::{Evidence, Node, Step};
+use orthocert_kernel::certificate::{Evidence, Failure, Node, Step};
 use orthocert_kernel::check::{Checker, Place};
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::slope::{Slope, Slopes};
 use orthocert_kernel::test::{self, Multiplier, Row};
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
@@ -53,6 +53,11 @@ impl<'a> Prover<'a> {
         Ok(Prover { problem, root, chords, is_scaled, checker })
     }
 
+    /// The claim's numbers, nearly.
+    pub(crate) fn parameters(&self) -> &[Pair] {
+        self.checker.parameters()
+    }
+
     /// The greatest absolute value of a formula on the whole workspace, where it has one.
     pub fn greatest(&self) -> f64 {
         let values = self.checker.evaluate(&edges(&self.root));
@@ -78,15 +83,32 @@ impl<'a> Prover<'a> {
         })
     }
 
-    fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
+    pub(crate) fn on<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
         let edges = edges(cell);
+        let values = self.checker.evaluate(&edges);
+        self.with(cell, &edges, &values, then)
+    }
+
+    /// The same with the formulas alone that own evidence is made of.
+    pub(crate) fn on_own<T>(&self, cell: &Cell, then: impl FnOnce(&Over<'_>) -> T) -> T {
+        let edges = edges(cell);
+        let values = self.checker.evaluate_own(&edges);
+        self.with(cell, &edges, &values, then)
+    }
+
+    fn with<T>(
+        &self,
+        cell: &Cell,
+        edges: &[[Pair; 3]],
+        values: &Values<Slope<Pair>>,
+        then: impl FnOnce(&Over<'_>) -> T,
+    ) -> T {
         let touches = |end: fn(&Pair) -> f64| {
             cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
         };
-        let place = Place { edges: &edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
-        let values = self.checker.evaluate(&edges);
+        let place = Place { edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
         let slopes = Slopes { arithmetic: &Doubles, m: edges.len() };
-        let formulas = test::Over { slopes, values: &values, controls: None, inside: None };
+        let formulas = test::Over { slopes, values, controls: None, inside: None };
         then(&Over { prover: self, formulas: &formulas, place: &place })
     }
 }
@@ -132,7 +154,7 @@ pub(super) fn edges(cell: &[Pair]) -> Vec<[Pair; 3]> {
 }
 
 /// The formulas of a problem over a box, at its vertices or control points.
-pub(super) struct Over<'a> {
+pub(crate) struct Over<'a> {
     pub prover: &'a Prover<'a>,
     pub formulas: &'a test::Over<'a, Doubles>,
     pub place: &'a Place<'a, Pair>,
@@ -140,7 +162,7 @@ pub(super) struct Over<'a> {
 
 /// Where rows are taken.
 #[derive(Clone, Copy)]
-pub(super) enum At {
+pub(crate) enum At {
     /// The box's centre.
     Centre,
     /// The middle of the face of this coordinate and sign.
@@ -156,6 +178,11 @@ impl Over<'_> {
 
     pub fn m(&self) -> usize {
         self.place.edges.len()
+    }
+
+    /// Whether the claim seems to fail so at every point of the box.
+    pub(crate) fn fails(&self, failure: &Failure) -> bool {
+        self.prover.checker.fails(self.formulas.values, self.m(), failure)
     }
 
     fn is_outside(&self) -> bool {
@@ -235,7 +262,7 @@ impl Over<'_> {
     }
 
     /// How much is gained by halving each coordinate: by how much what is open varies along it.
-    fn weights(&self, open: &[usize]) -> Vec<f64> {
+    pub(crate) fn weights(&self, open: &[usize]) -> Vec<f64> {
         let coordinates = 0..self.m();
         let of = |f: Formula| coordinates.clone().map(|k| self.along(f, k)).collect();
         let mut parts: Vec<Vec<f64>> = self.undefined().into_iter().map(of).collect();
@@ -264,7 +291,7 @@ impl Over<'_> {
 
     /// What is not defined comes first: the divisor, or radicand, that is not of one sign. Scaled rows
     /// need neither.
-    fn undefined(&self) -> Vec<Formula> {
+    pub(crate) fn undefined(&self) -> Vec<Formula> {
         if self.prover.is_scaled {
             return Vec::new();
         }

@@ -58,8 +58,7 @@ impl<'a> Failing<'a> {
         let problem = self.prover.problem;
         let formulas = self.prover.checker.evaluate(&edges(cell));
         let slopes = Slopes { arithmetic: &Doubles, m: cell.len() };
-        let fails =
-            |failure: &Failure| fails_throughout(problem, slopes, formulas.clone(), failure);
+        let fails = |failure: &Failure| fails_throughout(problem, slopes, &formulas, failure);
         let centre: Vec<f64> = cell.iter().map(middle).collect();
         let values = self.sampler.at_point(&centre);
         let mut failing: Vec<(f64, Quality)> = self

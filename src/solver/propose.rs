@@ -63,7 +63,7 @@ impl Over<'_> {
                 self.first(test, [Evidence::Cube, Evidence::Test, Evidence::Divided])
             }
             Test::Conditioning(c) => self.conditioning(test, *c, Form::Plain),
-            Test::AtLeast(_) => self.first(test, [Evidence::Test, Evidence::Cube]),
+            Test::AtLeast(_) => self.first(test, [Evidence::Cube, Evidence::Test]),
             Test::Curvature(_) => self.shown(test, Evidence::Test),
             Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => self.least(test, rows, *kappa),

@@ -106,7 +106,7 @@ fn opposite(
 }
 
 /// Directions in which a test fails, shortest first; none of a test on signs.
-pub(super) fn directions(
+pub(crate) fn directions(
     test: &Test,
     problem: &Problem,
     sampler: &Sampler<'_>,

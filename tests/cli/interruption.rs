@@ -2,7 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use crate::support::{Folder, Run, LONG};
-use orthocert_checker::paving::{Item, Kind};
+use orthocert_kernel::paving::{write_pair, Item, Kind};
 use std::fs::{self, File};
 use std::io::Write;
 use std::process::{Child, Command, Stdio};
@@ -150,9 +150,13 @@ fn nothing_is_said_of_what_another_program_wrote_into_a_paving() {
         let start = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
         let mut rest = &bytes[start..];
         loop {
-            let at = bytes.len() - rest.len();
-            if Item::read(&mut rest, 0).unwrap().kind == Kind::Boundary {
-                return [&bytes[..at], &[3], &bytes[at + 1..]].concat();
+            let (item, halves) = Item::read(&mut rest, 0).unwrap();
+            let (Kind::Split(axis), Some(mut halves)) = (item.kind, halves) else { continue };
+            if let Some(half) = halves.iter_mut().find(|half| **half == Kind::Boundary) {
+                *half = Kind::Inner;
+                let (end, mut pair) = (bytes.len() - rest.len(), Vec::new());
+                write_pair(&mut pair, axis, [&halves[0], &halves[1]]).unwrap();
+                return [&bytes[..end - 1], &pair, &bytes[end..]].concat();
             }
         }
     };

@@ -3,7 +3,7 @@
 use crate::paving::DESIGN;
 use crate::support::{Folder, Run};
 use orthocert::digest;
-use orthocert_checker::paving::{Item, Kind};
+use orthocert_kernel::paving::{Item, Kind};
 use serde_json::{json, Value};
 use std::fs;
 use std::process::Stdio;
@@ -240,7 +240,7 @@ fn a_forged_result_is_not_accepted() {
     };
     let boundary = node(Kind::Boundary);
     for (forged, words) in [
-        (node(Kind::Inner), "is inner, but"),
+        (node(Kind::Inner), "is not certainly met"),
         (node(Kind::Mirrored), "is left out by symmetry, but"),
         // More nodes, or fewer, than a tree has.
         ([boundary.clone(), boundary.clone()].concat(), "a box is left undecided after"),

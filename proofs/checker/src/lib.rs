@@ -24,7 +24,6 @@
 //! | [`atlas`]       | maps of a box of parameters: the claims of its cells, their shares     |
 //! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
-//! | [`paving`]      | pavings of a search box: inner, outer and boundary cells               |
 //! | [`word`]        | fixed-point intervals over machine words, as [`fixed`] but faster      |
 //! | [`statement`]   | the claim in words                                                     |
 //! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible |
@@ -49,7 +48,6 @@ pub mod kinematics;
 pub mod linear;
 pub mod model;
 pub mod number;
-pub mod paving;
 pub mod rule;
 pub mod shown;
 pub mod statement;
@@ -57,5 +55,7 @@ mod strict;
 pub mod trig;
 pub mod witness;
 pub mod word;
+
+pub use orthocert_kernel::paving;
 
 pub use check::{check, check_part, obligations, read, Accepted, Rejected, TreeSize};

@@ -6,7 +6,6 @@ use crate::claim::{
     Sign, Workspace,
 };
 use crate::kernel;
-use crate::paving::{self, Shares};
 use std::fmt::{self, Write};
 
 /// The theorem that an accepted certificate with this claim and verdict establishes.
@@ -87,47 +86,6 @@ pub fn wrapped(text: &str) -> String {
         out.push('\n');
     }
     out
-}
-
-/// What an accepted paving establishes, in words.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn paving(accepted: &paving::Accepted) -> Result<String, fmt::Error> {
-    let mut out = String::new();
-    let (Claim::Machine(claim), summary) = (&accepted.header.claim, &accepted.summary) else {
-        return Err(fmt::Error);
-    };
-    writeln!(out, "Let R be the set of the points P at which all of the following holds.")?;
-    machine(&mut out, claim)?;
-    requirements(&mut out, claim)?;
-    writeln!(out, "The box is cut into boxes that overlap in faces only, of which")?;
-    writeln!(out, "  {} lie in R and {} do not meet R;", summary.inner, summary.outer)?;
-    writeln!(out, "  {} are left undecided;", summary.boundary)?;
-    if accepted.header.symmetry.is_some() {
-        writeln!(
-            out,
-            "  {} are left out, for R is invariant under permutations of x, y, z, and they hold no",
-            summary.mirrored
-        )?;
-        writeln!(out, "  point with x < y < z;")?;
-    }
-    let evidence = summary.inner.saturating_add(summary.outer);
-    if accepted.checked == evidence {
-        writeln!(out, "It is proved: the volume of R is at least the share")?;
-    } else {
-        writeln!(
-            out,
-            "The evidence of {} of the {evidence} boxes in R or off it, drawn at random, was checked \
-             and holds.",
-            accepted.checked
-        )?;
-        writeln!(out, "If that of the others holds: the volume of R is at least the share")?;
-    }
-    let most = Shares::fraction(accepted.shares.inner.saturating_add(accepted.shares.boundary));
-    writeln!(out, "  {}", summary.inner_share)?;
-    writeln!(out, "of the box's volume, and at most the share\n  {most}.")?;
-    Ok(out)
 }
 
 fn atlas(out: &mut String, claim: &AtlasClaim) -> fmt::Result {

@@ -208,12 +208,3 @@ where
 {
     three(deserializer).map(Some)
 }
-
-/// Reads an optional name.
-pub(crate) fn optional_name<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    name(deserializer).map(Some)
-}

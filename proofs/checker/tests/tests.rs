@@ -5,7 +5,6 @@
 //! | `mathematics` | exact values inside enclosures, and nothing accepted that is not true     |
 //! | `adversary`   | false claims, and what would prove them                                   |
 //! | `drives`      | drives and the rules about their joints                                   |
-//! | `paving`      | pavings: accepted, rejected, volumes                                      |
 //! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
 //! | `hostile`     | files made to exhaust the checker or to mislead                           |
 
@@ -14,4 +13,3 @@ mod atlas;
 mod drives;
 mod hostile;
 mod mathematics;
-mod paving;

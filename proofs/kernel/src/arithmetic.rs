@@ -52,6 +52,8 @@ pub trait Enclosure: Arithmetic {
     fn is_positive(&self, a: &Self::Number) -> bool;
     /// Whether no number in `a` is less than zero.
     fn is_nonnegative(&self, a: &Self::Number) -> bool;
+    /// An integer near `2^places a`. Which one, nothing rests on.
+    fn rounded(&self, a: &Self::Number, places: u32) -> Option<i64>;
     /// The greatest absolute value in `a`.
     fn magnitude(&self, a: &Self::Number) -> Option<Self::Number> {
         let [_, greatest] = self.ends(&self.hull(a, &self.neg(a)?));

@@ -44,6 +44,8 @@ pub trait Integer: Clone + Ord {
     fn half(&self) -> Self;
     /// `-1`, `0` or `1`.
     fn sign(&self) -> i8;
+    /// As a machine word, if it fits.
+    fn word(&self) -> Option<i64>;
 }
 
 /// Most bits of an end: more than any claim needs.
@@ -115,41 +117,53 @@ impl Integer for BigInt {
             num_bigint::Sign::Plus => 1,
         }
     }
+
+    fn word(&self) -> Option<i64> {
+        self.to_i64()
+    }
 }
 
 /// Products of two words have 127 bits at most and fit into `i128`.
 impl Integer for i64 {
     const WORK: usize = 1;
 
+    #[inline]
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()
     }
 
+    #[inline]
     fn to_big(&self) -> BigInt {
         BigInt::from(*self)
     }
 
+    #[inline]
     fn scaled(n: i64, bits: u32) -> Option<Self> {
         let factor = 1i64.checked_shl(bits).filter(|&factor| factor > 0)?;
         n.checked_mul(factor)
     }
 
+    #[inline]
     fn plus(&self, other: &Self) -> Option<Self> {
         self.checked_add(*other)
     }
 
+    #[inline]
     fn negated(&self) -> Option<Self> {
         self.checked_neg()
     }
 
+    #[inline]
     fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
         self.product(&n, places)
     }
 
+    #[inline]
     fn product(&self, other: &Self, bits: u32) -> Option<Self> {
         ((i128::from(*self) * i128::from(*other)) >> bits.min(127)).try_into().ok()
     }
 
+    #[inline]
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
         if *divisor <= 0 {
             return None;
@@ -159,6 +173,7 @@ impl Integer for i64 {
         product.div_euclid(i128::from(*divisor)).try_into().ok()
     }
 
+    #[inline]
     fn inverse(&self, bits: u32) -> Option<Self> {
         let one = 1i128.checked_shl(2 * bits).filter(|&one| one > 0)?;
         let quotient = one.checked_div_euclid(i128::from(*self))?;
@@ -167,6 +182,7 @@ impl Integer for i64 {
         floor.try_into().ok()
     }
 
+    #[inline]
     fn root(&self, bits: u32) -> Option<(Self, bool)> {
         let n = u128::try_from(*self).ok()?;
         let n = n.checked_mul(1u128.checked_shl(bits)?)?;
@@ -174,12 +190,19 @@ impl Integer for i64 {
         Some((root.try_into().ok()?, root * root == n))
     }
 
+    #[inline]
     fn half(&self) -> Self {
         self >> 1
     }
 
+    #[inline]
     fn sign(&self) -> i8 {
         self.signum() as i8
+    }
+
+    #[inline]
+    fn word(&self) -> Option<i64> {
+        Some(*self)
     }
 }
 
@@ -218,11 +241,13 @@ impl<Z: Integer> Fixed<Z> {
     }
 
     /// `floor(a b)`.
+    #[inline]
     fn down(&self, a: &Z, b: &Z) -> Option<Z> {
         a.product(b, self.bits)
     }
 
     /// `ceil(a b) = -floor(-a b)`.
+    #[inline]
     fn up(&self, a: &Z, b: &Z) -> Option<Z> {
         a.negated()?.product(b, self.bits)?.negated()
     }
@@ -236,6 +261,7 @@ impl<Z: Integer> Fixed<Z> {
 /// | `a >= 0`  | `[lo lo', hi hi']` | `[hi lo', lo hi']` | `[hi lo', hi hi']`                   |
 /// | `a <= 0`  | `[lo hi', hi lo']` | `[hi hi', lo lo']` | `[lo hi', lo lo']`                   |
 /// | mixed     | `[lo hi', hi hi']` | `[hi lo', lo lo']` | least of `lo hi'`, `hi lo'`, greatest of `lo lo'`, `hi hi'` |
+#[inline]
 fn over_ends<Z: Integer>(
     a: &Interval<Z>,
     b: &Interval<Z>,
@@ -262,6 +288,7 @@ fn over_ends<Z: Integer>(
 }
 
 /// The greatest absolute value in an interval.
+#[inline]
 fn magnitude<Z: Integer>(a: &Interval<Z>) -> Option<Z> {
     Some(a.hi.clone().max(a.lo.negated()?))
 }
@@ -269,30 +296,37 @@ fn magnitude<Z: Integer>(a: &Interval<Z>) -> Option<Z> {
 impl<Z: Integer> Arithmetic for Fixed<Z> {
     type Number = Interval<Z>;
 
+    #[inline]
     fn integer(&self, n: i64) -> Option<Interval<Z>> {
         Some(Interval::point(Z::scaled(n, self.bits)?))
     }
 
+    #[inline]
     fn add(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.lo.plus(&b.lo)?, hi: a.hi.plus(&b.hi)? })
     }
 
+    #[inline]
     fn sub(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         self.add(a, &self.neg(b)?)
     }
 
+    #[inline]
     fn neg(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.hi.negated()?, hi: a.lo.negated()? })
     }
 
+    #[inline]
     fn mul(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         over_ends(a, b, |x, y| self.down(x, y), |x, y| self.up(x, y))
     }
 
+    #[inline]
     fn div(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         self.mul(a, &self.recip(b)?)
     }
 
+    #[inline]
     fn sqr(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         let zero = Z::scaled(0, 0)?;
         let (least, greatest) = match (a.lo.sign(), a.hi.sign()) {
@@ -317,6 +351,7 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 
 impl<Z: Integer> Enclosure for Fixed<Z> {
     /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero.
+    #[inline]
     fn recip(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         if a.lo.sign() <= 0 && a.hi.sign() >= 0 {
             return None;
@@ -325,12 +360,14 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         Some(Interval { lo: a.hi.inverse(self.bits)?, hi })
     }
 
+    #[inline]
     fn halve(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.lo.half(), hi: a.hi.negated()?.half().negated()? })
     }
 
     /// A product divided by `[c, d]`: a lower end by `d` where it is not negative, else by `c`; an
     /// upper one the other way round.
+    #[inline]
     fn ratio(&self, a: &Interval<Z>, b: &Interval<Z>, c: &Interval<Z>) -> Option<Interval<Z>> {
         let negative = |x: &Z, y: &Z| x.sign() * y.sign() < 0;
         let down = |x: &Z, y: &Z| x.ratio(y, if negative(x, y) { &c.lo } else { &c.hi });
@@ -341,12 +378,14 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         over_ends(a, b, down, up)
     }
 
+    #[inline]
     fn dyadic(&self, n: i64, places: u32, a: &Interval<Z>) -> Option<Interval<Z>> {
         let (lo, hi) = if n >= 0 { (&a.lo, &a.hi) } else { (&a.hi, &a.lo) };
         let hi = hi.negated()?.dyadic(n, places)?.negated()?;
         Some(Interval { lo: lo.dyadic(n, places)?, hi })
     }
 
+    #[inline]
     fn within(
         &self,
         range: &Interval<Z>,
@@ -364,15 +403,23 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         Interval { lo: a.lo.clone().min(b.lo.clone()), hi: a.hi.clone().max(b.hi.clone()) }
     }
 
+    #[inline]
     fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {
         [Interval::point(a.lo.clone()), Interval::point(a.hi.clone())]
     }
 
+    #[inline]
     fn is_positive(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() > 0
     }
 
+    #[inline]
     fn is_nonnegative(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() >= 0
+    }
+
+    /// The middle; precisions are 32 bits or more, places fewer.
+    fn rounded(&self, a: &Interval<Z>, places: u32) -> Option<i64> {
+        a.lo.plus(&a.hi)?.half().dyadic(1, self.bits.checked_sub(places)?)?.word()
     }
 }

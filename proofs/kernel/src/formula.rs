@@ -253,8 +253,23 @@ impl Tape {
         arithmetic: &A,
         input: impl Fn(Op) -> Option<A::Number>,
     ) -> Values<A::Number> {
-        let mut values: Vec<Option<A::Number>> = Vec::with_capacity(self.ops.len());
-        for &op in &self.ops {
+        self.run_parts(arithmetic, None, input)
+    }
+
+    /// The same of those that are needed alone, where it is said which: the others are undefined.
+    pub fn run_parts<A: Arithmetic>(
+        &self,
+        arithmetic: &A,
+        needed: Option<&[bool]>,
+        input: impl Fn(Op) -> Option<A::Number>,
+    ) -> Values<A::Number> {
+        let ops = needed.map_or(&self.ops[..], |needed| &self.ops[..needed.len()]);
+        let mut values: Vec<Option<A::Number>> = Vec::with_capacity(ops.len());
+        for (at, &op) in ops.iter().enumerate() {
+            if needed.is_some_and(|needed| !needed[at]) {
+                values.push(None);
+                continue;
+            }
             let at = |f: Formula| values.get(f.0).and_then(Option::as_ref);
             let both = |a, b| Some((at(a)?, at(b)?));
             let value = match op {

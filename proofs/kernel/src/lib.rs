@@ -8,6 +8,7 @@
 //! | [`slope`]      | a formula over a cell: value at the centre, range, slopes        |
 //! | [`cell`]       | boxes of the bisection tree, their vertices                      |
 //! | [`control`]    | polynomials at the control points of a cell                       |
+//! | [`cube`]       | the machine of the paper's cube                                  |
 //! | [`definite`]   | positive definiteness of interval matrices                       |
 //! | [`test`](mod@test) | the tests: signs, singular values, solutions, distances     |
 //! | [`machine`]    | drives and motions: the formulas of `A x' = B rho'`              |
@@ -20,6 +21,7 @@
 //! | [`certificate`]| claim, verdict and proof as canonical text                       |
 //! | [`check`](mod@check) | what a certificate has to be to be accepted                |
 //! | [`no_cube`]    | no cube of some side fits                                        |
+//! | [`paving`]     | a box cut into cells within, and off, the region of a claim       |
 //! | [`postulate`]  | the Q1/Q2 postulate                                              |
 //! | [`witness`]    | refutations                                                      |
 //! | [`vary`]       | claims over a cell of parameters                                 |
@@ -37,7 +39,7 @@ pub mod check;
 pub mod claim;
 mod compile;
 pub mod control;
-mod cube;
+pub mod cube;
 pub mod definite;
 pub mod fixed;
 pub mod formula;
@@ -46,6 +48,7 @@ pub mod machine;
 pub mod no_cube;
 pub mod number;
 mod orientation;
+pub mod paving;
 pub mod postulate;
 pub mod problem;
 pub mod quantity;

@@ -80,6 +80,7 @@ impl<E: Enclosure> Slopes<'_, E> {
     }
 
     /// The slope with these parts, its range cut to what the slopes reach.
+    #[inline]
     fn cut(
         &self,
         at_centre: E::Number,
@@ -91,6 +92,7 @@ impl<E: Enclosure> Slopes<'_, E> {
     }
 
     /// `change` applied to the slopes of the coordinates there are.
+    #[inline]
     fn each(
         &self,
         mut slopes: [E::Number; MOST_COORDINATES],
@@ -106,28 +108,33 @@ impl<E: Enclosure> Slopes<'_, E> {
 impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
     type Number = Slope<E::Number>;
 
+    #[inline]
     fn integer(&self, n: i64) -> Option<Self::Number> {
         self.constant(self.arithmetic.integer(n)?)
     }
 
+    #[inline]
     fn add(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let slopes = self.each(f.slopes.clone(), |k, s| e.add(s, &g.slopes[k]))?;
         self.cut(e.add(&f.at_centre, &g.at_centre)?, &e.add(&f.range, &g.range)?, slopes)
     }
 
+    #[inline]
     fn sub(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let slopes = self.each(f.slopes.clone(), |k, s| e.sub(s, &g.slopes[k]))?;
         self.cut(e.sub(&f.at_centre, &g.at_centre)?, &e.sub(&f.range, &g.range)?, slopes)
     }
 
+    #[inline]
     fn neg(&self, f: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let slopes = self.each(f.slopes.clone(), |_, s| e.neg(s))?;
         Some(Slope { at_centre: e.neg(&f.at_centre)?, range: e.neg(&f.range)?, slopes })
     }
 
+    #[inline]
     fn mul(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let p = e.add(&g.range, &g.at_centre)?;
@@ -138,6 +145,7 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
         self.cut(e.mul(&f.at_centre, &g.at_centre)?, &e.mul(&f.range, &g.range)?, slopes)
     }
 
+    #[inline]
     fn div(&self, f: &Self::Number, g: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let (at_centre, over) = (e.recip(&g.at_centre)?, e.recip(&g.range)?);
@@ -148,6 +156,7 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
         self.cut(quotient, &e.mul(&f.range, &over)?, slopes)
     }
 
+    #[inline]
     fn sqr(&self, f: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let sum = e.add(&f.range, &f.at_centre)?;
@@ -155,6 +164,7 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
         self.cut(e.sqr(&f.at_centre)?, &e.sqr(&f.range)?, slopes)
     }
 
+    #[inline]
     fn sqrt(&self, f: &Self::Number) -> Option<Self::Number> {
         let e = self.arithmetic;
         let (at_centre, range) = (e.sqrt(&f.at_centre)?, e.sqrt(&f.range)?);

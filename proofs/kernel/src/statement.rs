@@ -8,6 +8,7 @@ use crate::claim::{Quantity, RegionClaim, Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
 use crate::number::Expression;
+use crate::paving::{Accepted, Share};
 use crate::problem::Problem;
 use crate::quantity::{Obligation, Test, TABLE};
 use crate::test::apart::Apart;
@@ -49,6 +50,47 @@ pub fn region(claim: &RegionClaim) -> Result<String, fmt::Error> {
     requirements(&mut out, claim)?;
     writeln!(out, "It is proved: of the box's volume, the good points have at least the share")?;
     writeln!(out, "{inner}, and the bad points at least the share {outer}.")?;
+    Ok(out)
+}
+
+/// What an accepted paving establishes.
+///
+/// # Errors
+/// Only if the formatter fails.
+pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
+    let Accepted { header, summary, shares, checked } = accepted;
+    let claim = &header.claim;
+    let mut out = String::new();
+    writeln!(out, "Let R be the set of the points at which all of the following holds.")?;
+    machine(&mut out, claim)?;
+    workspace(&mut out, claim)?;
+    bodies(&mut out, claim)?;
+    requirements(&mut out, claim)?;
+    writeln!(out, "The box is cut into boxes that overlap in faces only, of which")?;
+    writeln!(out, "  {} lie in R and {} do not meet R;", summary.inner, summary.outer)?;
+    writeln!(out, "  {} are left undecided;", summary.boundary)?;
+    if header.symmetry.is_some() {
+        writeln!(
+            out,
+            "  {} are left out, for R is invariant under permutations of x, y, z, and they hold no",
+            summary.mirrored
+        )?;
+        writeln!(out, "  point with x < y < z;")?;
+    }
+    let evidence = summary.inner.saturating_add(summary.outer);
+    if *checked == evidence {
+        writeln!(out, "It is proved: the volume of R is at least the share")?;
+    } else {
+        writeln!(
+            out,
+            "The evidence of {checked} of the {evidence} boxes in R or off it, drawn at random, was \
+             checked and holds."
+        )?;
+        writeln!(out, "If that of the others holds: the volume of R is at least the share")?;
+    }
+    let most = Share(shares.inner.saturating_add(shares.boundary));
+    writeln!(out, "  {}", summary.inner_share)?;
+    writeln!(out, "of the box's volume, and at most the share\n  {most}.")?;
     Ok(out)
 }
 

@@ -14,6 +14,7 @@ use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use num_bigint::BigInt;
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
 use violated::At;
@@ -171,7 +172,11 @@ impl<'a> AtPoint<'a> {
             problem.parameters(bits, &witness.machine).map_err(WitnessError::Claim)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
         let values = values_at(problem, &arithmetic, &point, &parameters);
-        let at = AtPoint { formulas: At { problem, arithmetic, values }, point, parameters };
+        let at = AtPoint {
+            formulas: At { problem, arithmetic, values: Cow::Owned(values) },
+            point,
+            parameters,
+        };
         if at.is_turned() {
             Ok(at)
         } else {

@@ -13,14 +13,17 @@ mod sections;
 
 use super::isomap::Mark;
 use super::legs::Point;
-use super::nominal::Nominal;
-use super::{drawing, stem, words, File, Framed, Picture};
-use crate::decimal::{approximate, percent, rounded, Toward};
-use crate::paving::{box_volume, Components, Tree};
+use super::{drawing, mechanism, shape, stem, File, Framed, Picture};
+use crate::decimal::{percent, rounded, Toward};
+use crate::paving::{box_ends, box_volume, ends, Components, Tree};
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use orthocert_checker::claim::{MachineClaim, Workspace};
-use orthocert_checker::number::Exact;
-use orthocert_checker::paving::Accepted;
+use orthocert_checker::certificate;
+use orthocert_kernel::certificate::Provenance;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::fixed::Fixed;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::paving::{Accepted, Share};
 use region::Region;
 use serde_json::json;
 
@@ -44,11 +47,11 @@ pub struct PavingPage<'a> {
     components: Option<&'a Components>,
     file: File<'a>,
     title: String,
-    machine: Option<Nominal>,
     marks: Vec<Mark>,
     /// The tree of the view in space.
     tree: Tree,
     ends: [Point; 2],
+    dimension: usize,
     /// The depths of the view in space, of the pictures of it, and of the slices; none where all of
     /// the paving is there.
     depths: [Option<u32>; 3],
@@ -65,21 +68,20 @@ impl<'a> PavingPage<'a> {
         file: File<'a>,
         title: Option<&str>,
     ) -> Option<Self> {
-        let claim = accepted.header.machine_claim().ok()?;
-        let Workspace::Box { min, max } = &claim.workspace else {
-            return None;
-        };
-        let near = |x: &Exact| approximate(x).filter(|x| x.abs() < 1e60);
-        let point = |x: &[Exact; 3]| Some([near(&x[0])?, near(&x[1])?, near(&x[2])?]);
-        let (least, most) = (point(min)?, point(max)?);
-        let width: Point = std::array::from_fn(|k| most[k] - least[k]);
-        if width.iter().any(|w| *w <= 0.0) {
+        let claim = &accepted.header.claim;
+        let ends = ends(&accepted.header)?;
+        let least: Point = ends.map(|[least, _]| least);
+        let width: Point = ends.map(|[least, most]| most - least);
+        let is_shown = |x: &f64| x.abs() < 1e60;
+        if !ends.as_flattened().iter().all(is_shown) || width.iter().any(|w| *w <= 0.0) {
             return None;
         }
+        let box_ends = box_ends(claim)?;
         let components = components.filter(|found| !found.all.is_empty());
         let mark = components.map(|found| Mark {
             name: "best conditioned".to_owned(),
-            at: found.point(least, width).to_vec(),
+            // Along axes that there are not, in the middle.
+            at: found.point(&box_ends).into_iter().chain([0.5; 3]).take(3).collect(),
         });
         let marks: Vec<Mark> = mark.into_iter().collect();
         // Images are of parts of boxes: their tree may be deeper than the paving.
@@ -103,9 +105,9 @@ impl<'a> PavingPage<'a> {
             _ if !is_whole => Some(depth.min(DEPTH)),
             _ => Some(depth).filter(|depth| *depth < deepest),
         });
-        let machine = Nominal::new(claim);
+        let machine = shape::shape(claim);
         let mut pictures: Vec<Picture> =
-            machine.iter().map(|machine| drawing::drawing(&machine.shape(), &[])).collect();
+            machine.iter().map(|machine| drawing::drawing(machine, &[])).collect();
         pictures.push(Region { tree: &coarse, least, width }.picture());
         pictures.push(slices);
         Some(PavingPage {
@@ -114,10 +116,10 @@ impl<'a> PavingPage<'a> {
             components,
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
-            machine,
             marks,
             tree: view,
             ends: [least, width],
+            dimension: box_ends.len(),
             depths,
             pictures,
         })
@@ -145,15 +147,20 @@ impl<'a> PavingPage<'a> {
         let meaning =
             "Every inner box lies in the region where all requirements hold, and no outer box \
             meets it. The exact checker accepted the evidence of every box.";
+        let Provenance { tool, version } = self.accepted.header.provenance.clone();
         Framed {
             kind: "paving",
             title: &self.title,
-            subject: &words::region(self.claim),
+            subject: &format!(
+                "Where the requirements hold: {}, in {}",
+                mechanism::machine(self.claim),
+                mechanism::workspace(self.claim)
+            ),
             verdict: "certified",
             headline: &headline,
             meaning,
             sections: &self.sections(),
-            provenance: &self.accepted.header.provenance,
+            provenance: &certificate::Provenance { tool, version },
             data: &data,
         }
         .html()
@@ -163,8 +170,7 @@ impl<'a> PavingPage<'a> {
     /// own volume is not rational.
     fn volume(&self) -> [String; 2] {
         let summary = &self.accepted.summary;
-        let share = |share: &Exact| share.as_rational().cloned().unwrap_or_default();
-        let (inner, open) = (share(&summary.inner_share), share(&summary.boundary_share));
+        let (inner, open) = (summary.inner_share.fraction(), summary.boundary_share.fraction());
         let (unit, whole) = match box_volume(self.claim) {
             Some(volume) => ("", volume),
             None => (" of the box", BigRational::from_integer(1.into())),
@@ -184,12 +190,18 @@ impl<'a> PavingPage<'a> {
         let Workspace::Box { min, max } = &self.claim.workspace else {
             return None;
         };
-        let enclosed = |x: &Exact| match x.as_rational() {
-            Some(x) => Some([x.clone(), x.clone()]),
-            None => x.enclose(0, END_BITS).map(|x| [x.inf(), x.sup()]),
+        let enclosed = |x: &Expression| match x.rational() {
+            Some(x) => Some([x.clone(), x]),
+            None => {
+                let x = x.enclose(&Fixed::new(END_BITS), &|_| None)?;
+                let end = |x| BigRational::new(x, BigInt::from(1) << END_BITS);
+                Some([end(x.lo), end(x.hi)])
+            }
         };
+        let constant = |x: i64| Expression::integer(x);
         let ends = |k: usize| {
-            let (least, most) = (enclosed(&min[k])?, enclosed(&max[k])?);
+            let end = |of: &[Expression], other| enclosed(of.get(k).unwrap_or(&constant(other)));
+            let (least, most) = (end(min, 0)?, end(max, 1)?);
             Some([0, 1].map(|side| {
                 let (a, b) = (&least[side], &most[side]);
                 [a.numer(), a.denom(), b.numer(), b.denom()].map(ToString::to_string)
@@ -199,7 +211,7 @@ impl<'a> PavingPage<'a> {
     }
 
     /// A share of the box, in percent.
-    fn percent(share: &Exact, toward: Toward) -> String {
-        share.as_rational().map_or_else(String::new, |share| percent(share, 6, toward))
+    fn percent(share: Share, toward: Toward) -> String {
+        percent(&share.fraction(), 6, toward)
     }
 }

@@ -1,12 +1,12 @@
 //! The sections of a paving's page, in their order.
 
-use super::super::{recheck, words};
+use super::super::{mechanism, recheck};
 use super::PavingPage;
 use crate::decimal::{grouped, percent, significant, Toward};
 use crate::escape::xml;
 use num_rational::BigRational;
-use orthocert_checker::paving::{Shares, SHARE_BITS};
-use orthocert_checker::statement;
+use orthocert_kernel::paving::{Share, Shares, SHARE_BITS};
+use orthocert_kernel::statement;
 use std::fmt::Write;
 
 /// Components that are listed.
@@ -31,7 +31,7 @@ impl PavingPage<'_> {
     fn overview(&self) -> String {
         let (summary, header) = (&self.accepted.summary, &self.accepted.header);
         let Shares { inner, boundary } = self.accepted.shares;
-        let outer = Shares::fraction((1 << SHARE_BITS) - inner - boundary);
+        let outer = Share((1 << SHARE_BITS) - inner - boundary);
         let [low, high] = self.volume();
         let gap = match (inner, boundary) {
             (_, 0) => "0".to_owned(),
@@ -57,16 +57,16 @@ impl PavingPage<'_> {
             (
                 "inner",
                 summary.inner,
-                (&summary.inner_share, Toward::Below),
+                (summary.inner_share, Toward::Below),
                 "all requirements hold at every point, for every machine of the claim",
             ),
             (
                 "outer",
                 summary.outer,
-                (&outer, Toward::Below),
+                (outer, Toward::Below),
                 "at every point some requirement fails",
             ),
-            ("undecided", summary.boundary, (&summary.boundary_share, Toward::Above), "nothing"),
+            ("undecided", summary.boundary, (summary.boundary_share, Toward::Above), "nothing"),
         ] {
             let _ = write!(
                 out,
@@ -139,11 +139,16 @@ impl PavingPage<'_> {
              paved</th><th class=\"number\">images, itself included</th><th>contains</th></tr></thead><tbody>",
         );
         for component in found.all.iter().take(SHOWN) {
-            let share = Self::percent(&Shares::fraction(component.share), Toward::Below);
+            let share = Self::percent(Share(component.share), Toward::Below);
             let contains = if component.best_conditioned {
-                let [x, y, z] = found.point(self.ends[0], self.ends[1]).map(|x| significant(x, 3));
+                let at = self
+                    .marks
+                    .iter()
+                    .flat_map(|mark| mark.at.iter().take(self.dimension))
+                    .map(|x| significant(*x, 3));
+                let at = at.collect::<Vec<_>>().join(", ");
                 format!(
-                    "the {}, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at ({x}, {y}, {z})",
+                    "the {}, \u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub> = {} at ({at})",
                     found.what_is_there(),
                     significant(found.conditioning, 4)
                 )
@@ -167,25 +172,31 @@ impl PavingPage<'_> {
 
     fn claim_section(&self) -> String {
         let statement = statement::paving(self.accepted).unwrap_or_default();
-        words::region_section(&self.accepted.header.claim, &statement)
+        let mut out = format!(
+            "<section id=\"claim\"><h2>What is proved</h2>\
+             <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
+             <h3>In formulas</h3><p><var>R</var>: the points <var>P</var> of the box with:</p>\
+             <ul class=\"formulas\">",
+            xml(statement.trim_end())
+        );
+        for requirement in &self.claim.require {
+            let _ = write!(out, "<li>{}</li>", mechanism::formula(requirement));
+        }
+        out + "</ul></section>\n"
     }
 
     fn machine_section(&self) -> String {
-        let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
-        match &self.machine {
-            Some(machine) => {
-                let _ = write!(
-                    out,
-                    "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): \
-                     guides dash-dotted, legs from B<sub>i</sub> to the platform at P, the box that is paved in \
-                     colour.</figcaption></figure>{}",
-                    self.picture("design"),
-                    words::parameters(self.claim, machine)
-                );
+        let figure = match self.picture("design") {
+            none if none.is_empty() => {
+                "<p>Its numbers are beyond what floating point can show.</p>".to_owned()
             }
-            None => out.push_str("<p>Its numbers are beyond what floating point can show.</p>"),
-        }
-        out + "</section>\n"
+            drawing => format!(
+                "<figure>{drawing}<figcaption>The nominal machine (every parameter in the middle of its \
+                 tolerance), and the box that is paved in colour.</figcaption></figure>"
+            ),
+        };
+        let parameters = mechanism::parameters(self.claim);
+        format!("<section id=\"machine\"><h2>The machine</h2>{figure}{parameters}</section>\n")
     }
 }
 

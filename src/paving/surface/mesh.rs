@@ -12,7 +12,7 @@
 
 use super::wall::{Wall, EDGE};
 use super::{Face, Surface};
-use orthocert_checker::paving::MAX_AXIS_LEVEL;
+use orthocert_kernel::paving::MAX_AXIS_LEVEL;
 
 /// Bits of a coordinate: `0..=EDGE`.
 const BITS: u32 = MAX_AXIS_LEVEL + 1;

@@ -1,9 +1,6 @@
 use super::*;
 use crate::paving::header;
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::Step;
-use orthocert_checker::paving::{Item, Kind, SHARE_BITS};
-use orthocert_checker::rule::Rotation;
+use orthocert_kernel::paving::{is_mirrored, Axis, Cell, Item, Kind, SHARE_BITS};
 use std::collections::{BTreeSet, HashMap};
 
 /// What a test makes of a cell.
@@ -19,8 +16,7 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
                 min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                 transmission = { min = \"1/2\", max = 2 }\n";
     let design = crate::design::Design::parse(text, "test").unwrap();
-    let claim = design.rules.unwrap();
-    let mut header = header(&claim, 30);
+    let mut header = header(design.kernel().unwrap(), 30);
     if !symmetric {
         header.symmetry = None;
     }
@@ -29,20 +25,20 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
     let start = bytes.len();
     let mut waiting = vec![Cell::ROOT];
     while let Some(cell) = waiting.pop() {
-        let (kind, steps) = if symmetric && orthocert_checker::paving::is_mirrored(&cell) {
-            (Kind::Mirrored, Vec::new())
+        let kind = if symmetric && is_mirrored(&cell) {
+            Kind::Mirrored
         } else {
             match fate(&cell) {
                 Fate::Split(axis) => {
                     let (lower, upper) = cell.halves(axis).unwrap();
                     waiting.extend([upper, lower]);
-                    (Kind::Split(axis), Vec::new())
+                    Kind::Split(axis)
                 }
-                Fate::Inner => (Kind::Inner, vec![Step::Lower(Rotation::IDENTITY), Step::Upper]),
-                Fate::Undecided => (Kind::Boundary, Vec::new()),
+                Fate::Inner => Kind::Inner,
+                Fate::Undecided => Kind::Boundary,
             }
         };
-        Item { steps, kind }.write(&mut bytes).unwrap();
+        Item { steps: Vec::new(), kind }.write(&mut bytes).unwrap();
     }
     assert!(bytes.len() > start);
     let mut reader = Reader::new(bytes.as_slice()).unwrap();

@@ -1,9 +1,8 @@
 //! The tree of a paving, for its shape alone: what is inner, outer and undecided.
 
 use super::SurfaceError;
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::paving::{Header, Kind, Reader};
-use std::io::BufRead;
+use orthocert_kernel::paving::{Axis, Cell, Header, Kind, Reader};
+use std::io::Read;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most nodes that are split.
@@ -75,7 +74,7 @@ impl Tree {
     ///
     /// # Errors
     /// [`SurfaceError`].
-    pub fn read<R: BufRead>(
+    pub fn read<R: Read>(
         mut reader: Reader<R>,
         detail: Detail,
         cancel: &AtomicBool,

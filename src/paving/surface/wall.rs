@@ -2,7 +2,7 @@
 
 use super::tree::{Node, Tree, INNER, OUTER, UNDECIDED};
 use super::{Beyond, SurfaceError};
-use orthocert_checker::paving::MAX_AXIS_LEVEL;
+use orthocert_kernel::paving::MAX_AXIS_LEVEL;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most walls.

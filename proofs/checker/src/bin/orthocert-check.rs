@@ -70,7 +70,7 @@ fn main() -> ExitCode {
 fn check_paving(input: impl BufRead) -> ExitCode {
     match paving::check(input, Extent::All) {
         Ok(accepted) => {
-            let words = statement::paving(&accepted).unwrap_or_default();
+            let words = orthocert_kernel::statement::paving(&accepted).unwrap_or_default();
             print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
         }
         Err(reason) => {

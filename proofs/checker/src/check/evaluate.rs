@@ -2,7 +2,7 @@
 
 use super::walk::{discharges, Discharged};
 use crate::cell::Cell;
-use crate::certificate::{Step, Violation};
+use crate::certificate::Step;
 use crate::enclosure::Enclosure;
 use crate::expansion::{Expansion, ExpansionPoint, OutOfReach};
 use crate::fixed::Fixed;
@@ -42,32 +42,6 @@ impl Evaluator {
             discharged |= discharges(step);
         }
         Ok(discharged)
-    }
-
-    /// Whether what the violation is about is bounded by the claim.
-    pub fn has_bound(&self, violation: &Violation) -> bool {
-        let bounds = &self.fixed.bounds;
-        match violation {
-            Violation::SigmaMin(_) => bounds.kappa.is_positive(),
-            Violation::SigmaMax(_) | Violation::Row(_) => bounds.k.is_some(),
-            Violation::Reach(_) => true,
-            Violation::JointRange(_) => bounds.joint_range.is_some(),
-            Violation::Conditioning(_) => bounds.conditioning.is_some(),
-            Violation::SerialMargin(_) => bounds.serial_margin.is_some(),
-            Violation::ParallelMargin => bounds.parallel_margin.is_some(),
-            Violation::LegAngle(_) => bounds.leg_angle.is_some(),
-            Violation::JointSpeed(_) => bounds.joint_speed.is_some(),
-            Violation::Singular(_) => false,
-        }
-    }
-
-    /// Whether the violation holds on all of the cell.
-    pub fn violation(&self, cell: &Cell, violation: &Violation) -> Result<(), Failure> {
-        let admitted = |model| rule::violated(model, cell, violation).is_ok();
-        if self.word.as_ref().is_some_and(admitted) {
-            return Ok(());
-        }
-        rule::violated(&self.fixed, cell, violation)
     }
 }
 

@@ -24,10 +24,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::num::NonZeroUsize;
 
-pub(crate) use evaluate::Evaluator;
 pub(crate) use machine::check_tree;
 pub use rejected::Rejected;
-pub(crate) use walk::{bit, discharges, Discharged};
 
 /// Most characters of a message that quotes the file.
 const MAX_MESSAGE: usize = 300;

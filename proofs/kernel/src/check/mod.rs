@@ -2,11 +2,12 @@
 
 mod corner;
 mod inside;
+mod own;
 mod region;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::atlas;
-use crate::cell::{evaluate, Cell, Vertex};
+use crate::cell::{evaluate, evaluate_parts, Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
@@ -284,7 +285,7 @@ pub(crate) fn walk<Z: Integer>(
                 }
             };
             let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
-            if !fails_throughout(problem, slopes, checker.evaluate(&edges), failure) {
+            if !fails_throughout(problem, slopes, &checker.evaluate(&edges), failure) {
                 return Err(Rejected::Holds(at));
             }
         }
@@ -342,6 +343,8 @@ pub struct Checker<'a, E: Enclosure> {
     /// One for each obligation of platforms that turn.
     controls: Vec<(Test, Control)>,
     chords: Option<Multiplier>,
+    /// What own evidence is made of; none where that is all.
+    needed: Option<Vec<bool>>,
 }
 
 /// Where a step is made.
@@ -364,14 +367,31 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let divided = problem.legs.iter().map(|leg| leg.divided.clone()).collect();
         let scaled = problem.scaled();
         let controls = problem.controls(&scaled);
+        let needed = own::needed(problem);
         let chords = None;
-        Checker { problem, arithmetic, parameters, tight, rows, divided, scaled, controls, chords }
+        Checker {
+            problem,
+            arithmetic,
+            parameters,
+            tight,
+            rows,
+            divided,
+            scaled,
+            controls,
+            chords,
+            needed,
+        }
     }
 
     /// With the one `Y` of a tree.
     #[must_use]
     pub fn with_chords(self, chords: Option<Multiplier>) -> Self {
         Checker { chords, ..self }
+    }
+
+    /// What it was given.
+    pub fn parameters(&self) -> &[E::Number] {
+        &self.parameters
     }
 
     /// The formulas over a cell.

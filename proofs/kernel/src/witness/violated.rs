@@ -12,6 +12,7 @@ use crate::test::apart::Apart;
 use crate::test::curvature::Curvature;
 use crate::test::solve::Solve;
 use crate::test::Row;
+use std::borrow::Cow;
 
 /// Signs that are those of all numbers that are enclosed.
 pub(super) trait Signs: Arithmetic {
@@ -43,7 +44,7 @@ impl<E: Enclosure> Signs for Slopes<'_, E> {
 pub(super) struct At<'a, A: Arithmetic> {
     pub problem: &'a Problem,
     pub arithmetic: A,
-    pub values: Values<A::Number>,
+    pub values: Cow<'a, Values<A::Number>>,
 }
 
 /// Whether a claim fails in this way at every point of a cell, for every machine: the formulas are
@@ -51,10 +52,10 @@ pub(super) struct At<'a, A: Arithmetic> {
 pub fn fails_throughout<E: Enclosure>(
     problem: &Problem,
     slopes: Slopes<'_, E>,
-    values: Values<Slope<E::Number>>,
+    values: &Values<Slope<E::Number>>,
     failure: &Failure,
 ) -> bool {
-    let at = At { problem, arithmetic: slopes, values };
+    let at = At { problem, arithmetic: slopes, values: Cow::Borrowed(values) };
     match failure {
         Failure::Reach => at.is_undefined(),
         Failure::Obligation(number, directions) => problem

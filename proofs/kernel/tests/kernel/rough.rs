@@ -67,4 +67,8 @@ impl Enclosure for Rough {
     fn is_nonnegative(&self, a: &Pair) -> bool {
         a.0 >= 0.0
     }
+
+    fn rounded(&self, a: &Pair, places: u32) -> Option<i64> {
+        Some((0.5 * (a.0 + a.1) * f64::from(places).exp2()).round() as i64)
+    }
 }

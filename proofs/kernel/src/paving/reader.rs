@@ -1,16 +1,10 @@
 //! The nodes of a paving, one by one, and their cells.
 
+use super::cell::{Axis, Cell};
 use super::code::{Item, Kind};
-use super::judge::discharged;
-use super::{
-    symmetry, Header, Judge, Rejected, Shares, Summary, FORMAT, MAX_AXIS_LEVEL, MAX_LINE,
-    SHARE_BITS,
-};
-use crate::cell::{Axis, Cell};
-use crate::check::quoted;
-use crate::rule::Failure;
-use crate::strict::{foreign_byte, Strict};
-use serde::de::DeserializeOwned;
+use super::judge::bit;
+use super::{symmetry, Header, Rejected, Share, Shares, Summary, FORMAT, MAX_LINE, SHARE_BITS};
+use crate::certificate::MOST_LABEL;
 use std::io::{self, BufRead, Read};
 
 /// A node with its place in the tree.
@@ -19,7 +13,7 @@ pub struct Visited {
     /// Its cell.
     pub cell: Cell,
     /// What its ancestors discharge, as a bit for each obligation.
-    pub inherited: u32,
+    pub inherited: u128,
     /// Splits above it.
     pub depth: u32,
     /// Its number in preorder, from zero.
@@ -28,27 +22,63 @@ pub struct Visited {
     pub item: Item,
 }
 
+/// The root of a subtree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// Its cell.
+    pub cell: Cell,
+    /// What is discharged above it.
+    pub inherited: u128,
+    /// Splits above it.
+    pub depth: u32,
+}
+
+impl Root {
+    /// The whole box.
+    pub const WHOLE: Root = Root { cell: Cell::ROOT, inherited: 0, depth: 0 };
+}
+
 /// Reads a paving in one pass, in memory bounded by its depth.
 pub struct Reader<R> {
     input: R,
     header: Header,
-    waiting: Vec<(Cell, u32, u32)>,
+    dimension: usize,
+    /// What is to be read, and what is read already of a node whose byte has its halves.
+    waiting: Vec<(Root, Option<Kind>)>,
     nodes: u64,
     /// Nodes of each kind: split, inner, outer, boundary, mirrored.
     counts: [u64; 5],
     shares: Shares,
 }
 
-/// Reads the first line of a paving.
+/// Reads the first line of a paving: the text that its header has.
+///
+/// # Errors
+/// If it is none.
 pub fn header<R: BufRead>(input: &mut R) -> Result<Header, Rejected> {
     let mut bytes = Vec::new();
     input.take(MAX_LINE as u64).read_until(b'\n', &mut bytes)?;
     if bytes.pop() != Some(b'\n') {
         return Err(Rejected::Header("there is no line of at most a megabyte".to_owned()));
     }
-    let header: Header = line(&bytes).map_err(Rejected::Header)?;
-    if header.format != FORMAT {
-        return Err(Rejected::Format(quoted(&header.format)));
+    #[derive(serde::Deserialize)]
+    struct Format {
+        format: String,
+    }
+    let malformed = |e: serde_json::Error| Rejected::Header(quoted(&e.to_string()));
+    let Format { format } = serde_json::from_slice(&bytes).map_err(malformed)?;
+    if format != FORMAT {
+        return Err(Rejected::Format(quoted(&format)));
+    }
+    let header: Header = serde_json::from_slice(&bytes).map_err(malformed)?;
+    let is_label = |text: &str| {
+        text.len() <= MOST_LABEL && text.bytes().all(|b| b == b' ' || b.is_ascii_graphic())
+    };
+    if !is_label(&header.provenance.tool) || !is_label(&header.provenance.version) {
+        return Err(Rejected::Header("provenance: a name of printable ASCII".to_owned()));
+    }
+    if serde_json::to_vec(&header).map_err(malformed)? != bytes {
+        return Err(Rejected::Header("the same header is written otherwise".to_owned()));
     }
     if header.depth > SHARE_BITS {
         return Err(Rejected::Depth(header.depth));
@@ -56,24 +86,38 @@ pub fn header<R: BufRead>(input: &mut R) -> Result<Header, Rejected> {
     Ok(header)
 }
 
-/// A line of the format: a JSON object without fractions, exponents and literals.
-fn line<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
-    let text = std::str::from_utf8(bytes).map_err(|e| e.to_string())?;
-    if let Some((at, c)) = foreign_byte(text) {
-        return Err(quoted(&format!("{c:?} at byte {at}, outside a string")));
-    }
-    let Strict(value) = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
-    Ok(value)
+/// The beginning of a stranger's text, in printable ASCII.
+fn quoted(text: &str) -> String {
+    let shown = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
+    text.chars().take(200).map(shown).collect()
 }
 
 impl<R: BufRead> Reader<R> {
     /// Reads the header.
+    ///
+    /// # Errors
+    /// If it is none.
     pub fn new(mut input: R) -> Result<Self, Rejected> {
         let header = header(&mut input)?;
-        header.machine_claim()?;
-        let waiting = vec![(Cell::ROOT, 0, 0)];
-        let shares = Shares::default();
-        Ok(Reader { input, header, waiting, nodes: 0, counts: [0; 5], shares })
+        Self::below(input, &header, Root::WHOLE)
+    }
+}
+
+impl<R: Read> Reader<R> {
+    /// Reads the subtree of a paving with this header.
+    ///
+    /// # Errors
+    /// If the header's claim cannot be paved.
+    pub fn below(input: R, header: &Header, root: Root) -> Result<Self, Rejected> {
+        Ok(Reader {
+            input,
+            dimension: header.dimension()?,
+            header: header.clone(),
+            waiting: vec![(root, None)],
+            nodes: 0,
+            counts: [0; 5],
+            shares: Shares::default(),
+        })
     }
 
     /// The first line.
@@ -86,42 +130,41 @@ impl<R: BufRead> Reader<R> {
         self.nodes
     }
 
-    /// What can check the nodes' evidence.
-    pub fn judge(&self) -> Result<Judge, Rejected> {
-        Judge::new(&self.header)
-    }
-
     /// The next node in preorder, of which the place in the tree alone is checked; `None` after the
     /// last.
+    ///
+    /// # Errors
+    /// If it is none.
     #[allow(clippy::should_implement_trait)] // It fails, and a failure is the end.
     pub fn next(&mut self) -> Result<Option<Visited>, Rejected> {
-        let Some((cell, inherited, depth)) = self.waiting.pop() else {
+        let Some((Root { cell, inherited, depth }, known)) = self.waiting.pop() else {
             return Ok(None);
         };
         let node = self.nodes;
-        let item = Item::read(&mut self.input, node)?;
+        let (item, halves) = match known {
+            Some(kind) => (Item { steps: Vec::new(), kind }, None),
+            None => Item::read(&mut self.input, node)?,
+        };
         self.nodes += 1;
         let done = refuse_repetition(inherited, &item, node)?;
         if let Kind::Split(axis) = item.kind {
             let (lower, upper) = self.halves(&cell, axis, depth).ok_or(Rejected::TooDeep(node))?;
-            self.waiting.push((upper, done, depth + 1));
-            self.waiting.push((lower, done, depth + 1));
+            let below = |cell| Root { cell, inherited: done, depth: depth + 1 };
+            let [first, second] = halves.map_or([None, None], |halves| halves.map(Some));
+            self.waiting.push((below(upper), second));
+            self.waiting.push((below(lower), first));
         }
         self.count(&cell, &item.kind);
         Ok(Some(Visited { cell, inherited, depth, node, item }))
     }
 
     fn halves(&self, cell: &Cell, axis: Axis, depth: u32) -> Option<(Cell, Cell)> {
-        let shallow = depth < self.header.depth && cell.edges[axis.index()].level < MAX_AXIS_LEVEL;
-        shallow.then(|| cell.halves(axis)).flatten()
+        let may = depth < self.header.depth && axis.index() < self.dimension;
+        may.then(|| cell.halves(axis)).flatten()
     }
 
     fn count(&mut self, cell: &Cell, kind: &Kind) {
-        let share = || match self.header.symmetry {
-            Some(_) => symmetry::six_ordered(cell),
-            // Three levels of at most 40.
-            None => 1 << (SHARE_BITS - cell.edges.iter().map(|e| e.level).sum::<u32>()),
-        };
+        let share = || self.header.share(cell);
         let position = match kind {
             Kind::Split(_) => 0,
             Kind::Inner => {
@@ -147,8 +190,8 @@ impl<R: BufRead> Reader<R> {
             outer,
             boundary,
             mirrored,
-            inner_share: Shares::fraction(self.shares.inner),
-            boundary_share: Shares::fraction(self.shares.boundary),
+            inner_share: Share(self.shares.inner),
+            boundary_share: Share(self.shares.boundary),
         }
     }
 
@@ -159,35 +202,46 @@ impl<R: BufRead> Reader<R> {
 
     /// After the last node: reads the summary, which has to be that of the tree and the last of the
     /// bytes.
+    ///
+    /// # Errors
+    /// If it is not.
     pub fn finish(self) -> Result<(Summary, Shares), Rejected> {
         if !self.waiting.is_empty() {
             return Err(Rejected::Truncated(self.nodes));
         }
         let summary = self.summary();
+        let mut wanted = serde_json::to_vec(&summary).map_err(|e| Rejected::Io(e.into()))?;
+        wanted.push(b'\n');
         let mut bytes = Vec::new();
         // One byte more than there may be, lest anything hide behind it.
-        self.input.take(MAX_LINE as u64 + 1).read_to_end(&mut bytes)?;
-        let one_line = bytes.pop() == Some(b'\n') && !bytes.contains(&b'\n');
-        if bytes.len() >= MAX_LINE || !one_line {
-            return Err(Rejected::Summary("it does not end the file".to_owned()));
-        }
-        let found: Summary = line(&bytes).map_err(Rejected::Summary)?;
-        if found == summary {
+        self.input.take(wanted.len() as u64 + 1).read_to_end(&mut bytes)?;
+        if bytes == wanted {
             Ok((summary, self.shares))
         } else {
-            Err(Rejected::Summary("the numbers differ".to_owned()))
+            Err(Rejected::Summary)
+        }
+    }
+}
+
+impl Header {
+    /// The share of the box that a cell stands for, in units of `2^-`[`SHARE_BITS`].
+    pub fn share(&self, cell: &Cell) -> u128 {
+        match self.symmetry {
+            Some(_) => symmetry::six_ordered(cell),
+            // Three levels of at most 40.
+            None => 1 << (SHARE_BITS - cell.depth()),
         }
     }
 }
 
 /// Every step discharges something that its path has not discharged: that bounds the work for a
 /// tree by its nodes. Returns what is then discharged.
-fn refuse_repetition(inherited: u32, item: &Item, node: u64) -> Result<u32, Rejected> {
+fn refuse_repetition(inherited: u128, item: &Item, node: u64) -> Result<u128, Rejected> {
     let mut done = inherited;
-    for (at, step) in item.steps.iter().enumerate() {
-        let new = discharged(&item.steps[at..=at]) & !done;
+    for step in &item.steps {
+        let new = bit(step.0) & !done;
         if new == 0 {
-            return Err(Rejected::Step(node, step.rule().0, Failure::Repeated));
+            return Err(Rejected::Repeated(node, step.0));
         }
         done |= new;
     }

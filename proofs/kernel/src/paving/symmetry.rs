@@ -1,45 +1,64 @@
 //! Machines that look the same from permuted axes.
 
-use crate::cell::{Cell, Edge};
-use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Requirements, Workspace};
-use crate::paving::SHARE_BITS;
+use super::cell::{Cell, Edge};
+use super::SHARE_BITS;
+use crate::claim::{Leg, MachineClaim, Mechanism, Requirement, Vector, Workspace};
 
 /// A transposition and a cycle: they generate the permutations of three things.
 const GENERATORS: [[usize; 3]; 2] = [[1, 0, 2], [1, 2, 0]];
+/// Quantities that do not change with the axes: of singular values, of legs by their numbers, lengths
+/// and angles between their own vectors.
+const INVARIANT: [&str; 7] = [
+    "transmission",
+    "joint_range",
+    "conditioning",
+    "serial_margin",
+    "parallel_margin",
+    "leg_angle",
+    "joint_speed",
+];
 
-/// **Lemma.** If the claim's text stays the same when the coordinates are permuted, leg `i` becoming
+/// **Lemma.** If the claim stays the same when the coordinates are permuted, leg `i` becoming
 /// leg `p(i)` with coordinate `k` of its vectors becoming coordinate `p(k)`, then its region is
 /// invariant under that permutation of the coordinates.
 ///
 /// *Proof.* Let `Pi e_k = e_p(k)`. A machine of the claim with legs `l_i` at `P` has the same joint
 /// coordinates, clearances and leg vectors turned by `Pi` as the machine with legs `Pi l_i` at
 /// `Pi P` (drives are defined by scalar products and lengths; `M' = Pi M Pi^T`, the same singular
-/// values and row lengths, and `|det U|`). That machine is one of the claim's: its quantities vary
-/// over the same intervals, independently. Every requirement is the same for all legs, or is
-/// permuted with them. So the claim holds at `P` for every machine if and only if it holds at
-/// `Pi P`, and the box is invariant. ∎
+/// values and row lengths, and the same determinant of unit vectors but for its sign). That machine
+/// is one of the claim's: its quantities vary over the same intervals, independently. Every
+/// requirement is the same for all legs, or is permuted with them. So the claim holds at `P` for every
+/// machine if and only if it holds at `Pi P`, and the box is invariant. ∎
 ///
 /// Arms are turned by their axis, which a transposition reverses (`k x h` changes its sign): they
-/// are refused.
+/// are refused, as are requirements with directions of their own, and bodies.
 pub fn is_symmetric(claim: &MachineClaim) -> bool {
-    let Mechanism::Translational(legs) = &claim.mechanism else {
+    let (Mechanism::Translational(legs), Workspace::Box { min, max }) =
+        (&claim.mechanism, &claim.workspace)
+    else {
         return false;
     };
-    let Workspace::Box { min, max } = &claim.workspace else {
-        return false;
-    };
-    let Requirements { joint_range, .. } = &claim.requirements;
-    let all_same = |x: &[crate::number::Exact; 3]| x[0] == x[1] && x[1] == x[2];
+    let all_same = |x: &[_]| matches!(x, [a, b, c] if a == b && b == c);
+    let is_invariant = |own: &Requirement| INVARIANT.contains(&&*own.quantity);
     let permuted = |p: &[usize; 3]| {
-        (0..3).all(|i| is_image(&legs[i], &legs[p[i]], p))
-            && joint_range.as_ref().is_none_or(|range| (0..3).all(|i| range[i] == range[p[i]]))
+        let image = |own: &Requirement| {
+            let leg = own.leg.and_then(|leg| p.get(leg.checked_sub(1)?)).map(|leg| leg + 1);
+            claim.require.contains(&Requirement { leg, ..own.clone() })
+        };
+        (0..3).all(|i| is_image(&legs[i], &legs[p[i]], p)) && claim.require.iter().all(image)
     };
-    all_same(min) && all_same(max) && GENERATORS.iter().all(permuted)
+    legs.len() == 3
+        && claim.bodies.is_empty()
+        && all_same(min)
+        && all_same(max)
+        && claim.require.iter().all(is_invariant)
+        && GENERATORS.iter().all(permuted)
 }
 
 /// Whether `image` is `leg` with coordinate `k` of its vectors moved to `p(k)`.
 fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
-    let moved = |a: &[Quantity; 3], b: &[Quantity; 3]| (0..3).all(|k| a[k] == b[p[k]]);
+    let moved =
+        |a: &Vector, b: &Vector| a.len() == 3 && b.len() == 3 && (0..3).all(|k| a[k] == b[p[k]]);
     match (leg, image) {
         (
             Leg::Slider { direction, anchor, platform, length, mode },
@@ -51,9 +70,10 @@ fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
                 && length == l
                 && mode == m
         }
-        (Leg::Strut { anchor, platform }, Leg::Strut { anchor: a, platform: d }) => {
-            moved(anchor, a) && moved(platform, d)
-        }
+        (
+            Leg::Strut { anchor, platform, base_axis: None },
+            Leg::Strut { anchor: a, platform: d, base_axis: None },
+        ) => moved(anchor, a) && moved(platform, d),
         (Leg::Planar { direction }, Leg::Planar { direction: n }) => moved(direction, n),
         _ => false,
     }

@@ -1,8 +1,9 @@
 //! Pavings: a search box cut into cells, each shown to be within or outside the region where a
-//! claim holds, or left undecided. `FORMAT.md` is normative.
+//! claim holds, or left undecided. `KERNEL.md` is normative.
 //!
 //! | module     | holds                                                                 |
 //! |------------|-----------------------------------------------------------------------|
+//! | `cell`     | cells, as exact parts of the box                                      |
 //! | `code`     | the bytes of a node                                                   |
 //! | `judge`    | what is shown of a cell, in exact arithmetic                          |
 //! | `reader`   | the nodes of a paving, one by one, and their cells                    |
@@ -12,35 +13,35 @@
 //! at which it is true for every machine of the claim. A paving is a bisection tree of the
 //! box; nothing of it is kept in memory but the path to the node that is read.
 
+mod cell;
 mod code;
 mod judge;
 mod reader;
 mod symmetry;
 
 use crate::certificate::Provenance;
-use crate::claim::{Claim, ClaimError, MachineClaim, Workspace};
-use crate::number::Exact;
-use crate::rule::{Failure, Obligation};
-use crate::strict;
+use crate::claim::{MachineClaim, Workspace};
+use crate::input::ClaimError;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 use std::io::{self, BufRead};
 
-pub use code::{Item, Kind};
-pub use judge::Judge;
-pub use reader::{header, Reader, Visited};
+pub use cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL};
+pub use code::{write_pair, write_steps, Item, Kind, Outer, Step};
+pub use judge::{bit, discharged, Judge, Subject};
+pub use reader::{header, Reader, Root, Visited};
 pub use symmetry::{is_mirrored, is_symmetric, six_ordered};
 
 /// The format that this version reads and writes.
-pub const FORMAT: &str = "orthocert-paving/2";
+pub const FORMAT: &str = "orthocert-paving/3";
 /// Most bytes of the header's and of the last line.
 pub const MAX_LINE: usize = 1 << 20;
-/// Deepest bisection of one axis: three of them are [`SHARE_BITS`].
-pub const MAX_AXIS_LEVEL: u32 = 40;
 /// Shares of the box's volume are multiples of `2^-SHARE_BITS`.
 pub const SHARE_BITS: u32 = 120;
+/// Most obligations of a claim.
+pub const MOST_OBLIGATIONS: usize = 128;
 
 /// The first line of a paving.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,22 +49,37 @@ pub const SHARE_BITS: u32 = 120;
 pub struct Header {
     /// [`FORMAT`].
     pub format: String,
-    /// The claim whose region is paved: about a machine and a box.
-    pub claim: Claim,
-    /// Fractional bits of the arithmetic in which the rules are to be evaluated.
+    /// The claim whose region is paved: about a box.
+    #[serde(with = "machine")]
+    pub claim: MachineClaim,
+    /// Fractional bits of the arithmetic.
     pub precision: u32,
     /// Most splits on a path.
     pub depth: u32,
     /// Present if cells are left out by symmetry.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::optional_name"
-    )]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetry: Option<Symmetry>,
     /// Who wrote the paving. Never trusted, never needed.
-    #[serde(deserialize_with = "strict::object")]
     pub provenance: Provenance,
+}
+
+/// A claim as it is in certificates.
+mod machine {
+    use crate::certificate::Claim;
+    use crate::claim::MachineClaim;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(claim: &MachineClaim, to: S) -> Result<S::Ok, S::Error> {
+        Claim::Machine(claim.clone()).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<MachineClaim, D::Error> {
+        match Claim::deserialize(from)? {
+            Claim::Machine(claim) => Ok(claim),
+            _ => Err(D::Error::custom("a claim about a machine over a workspace is expected")),
+        }
+    }
 }
 
 /// A symmetry of the claim.
@@ -75,27 +91,26 @@ pub enum Symmetry {
 }
 
 impl Header {
-    /// The claim, if it is about a machine and a box that has a volume.
-    pub fn machine_claim(&self) -> Result<&MachineClaim, Rejected> {
-        let Claim::Machine(claim) = &self.claim else {
-            return Err(Rejected::NotABox);
-        };
-        claim.validate()?;
-        let Workspace::Box { min, max } = &claim.workspace else {
-            return Err(Rejected::NotABox);
-        };
-        let less = |(a, b): (&Exact, &Exact)| a.compare(b) == Some(std::cmp::Ordering::Less);
-        if min.iter().zip(max).all(less) {
-            Ok(claim)
-        } else {
-            Err(Rejected::NotABox)
+    /// The number of coordinates of the claim's box, if it is about one that may be paved.
+    ///
+    /// # Errors
+    /// [`Rejected::NotABox`].
+    pub fn dimension(&self) -> Result<usize, Rejected> {
+        match &self.claim.workspace {
+            Workspace::Box { min, max }
+                if self.claim.orientation.is_none()
+                    && (1..=3).contains(&min.len())
+                    && min.len() == max.len() =>
+            {
+                Ok(min.len())
+            }
+            _ => Err(Rejected::NotABox),
         }
     }
 }
 
 /// The last line of a paving: how many nodes of each kind there are, and what they cover.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Nodes that are split.
     pub splits: u64,
@@ -108,9 +123,32 @@ pub struct Summary {
     /// Cells that are left out by symmetry.
     pub mirrored: u64,
     /// The inner cells' share of the box's volume; with symmetry, of all their images.
-    pub inner_share: Exact,
+    pub inner_share: Share,
     /// The undecided cells' share of the box's volume, likewise.
-    pub boundary_share: Exact,
+    pub boundary_share: Share,
+}
+
+/// A share of the box's volume, in units of `2^-SHARE_BITS`; written as a reduced fraction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Share(pub u128);
+
+impl Share {
+    /// The share as a number.
+    pub fn fraction(self) -> BigRational {
+        BigRational::new(BigInt::from(self.0), BigInt::from(1) << SHARE_BITS)
+    }
+}
+
+impl fmt::Display for Share {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.fraction())
+    }
+}
+
+impl Serialize for Share {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }
 
 /// The shares of a paving, in units of `2^-SHARE_BITS` of the box's volume.
@@ -129,14 +167,6 @@ pub struct Shares {
     pub boundary: u128,
 }
 
-impl Shares {
-    /// A number of units as a fraction of the box's volume.
-    pub fn fraction(units: u128) -> Exact {
-        let one = BigInt::from(1) << SHARE_BITS;
-        Exact::Rational(BigRational::new(BigInt::from(units), one))
-    }
-}
-
 /// Why a paving is rejected.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -149,8 +179,12 @@ pub enum Rejected {
     Format(String),
     /// The claim is not well formed.
     Claim(ClaimError),
-    /// The claim is not about a machine and a box that has a volume.
+    /// The claim is not about a box of one to three coordinates that has a volume.
     NotABox,
+    /// The claim is about two points at a time.
+    OfTwoPoints,
+    /// The claim has more obligations than [`MOST_OBLIGATIONS`].
+    TooMany,
     /// The precision is not admissible.
     Precision(u32),
     /// The header's depth is more than [`SHARE_BITS`].
@@ -163,18 +197,19 @@ pub enum Rejected {
     BadCode(u64, u8),
     /// A node has steps but is neither split nor inner.
     IdleSteps(u64),
-    /// A cell is split more often than the header says, or an axis more than [`MAX_AXIS_LEVEL`].
+    /// A cell is split more often than the header says, along an axis more often than
+    /// [`MAX_AXIS_LEVEL`], or along one that there is not.
     TooDeep(u64),
-    /// A step does not discharge its obligation.
-    Step(u64, &'static str, Failure),
-    /// An inner cell leaves an obligation open.
-    Open(u64, Obligation),
+    /// A step does not discharge its obligation, or the cell is inner and nothing does.
+    Step(u64, usize),
+    /// A step discharges what is discharged already.
+    Repeated(u64, usize),
     /// A cell is not shown to be outside.
-    Outer(u64, Failure),
+    Outer(u64),
     /// A cell is not left out by symmetry.
     NotMirrored(u64),
     /// The last line is not the summary of the tree.
-    Summary(String),
+    Summary,
 }
 
 impl From<io::Error> for Rejected {
@@ -198,8 +233,16 @@ impl fmt::Display for Rejected {
                 write!(f, "format {found:?} is not known; this checker reads {FORMAT:?}")
             }
             Rejected::Claim(error) => write!(f, "the claim is not well formed: {error}"),
-            Rejected::NotABox => {
-                write!(f, "the claim is not about a machine and a box of positive volume")
+            Rejected::NotABox => write!(
+                f,
+                "the claim is not about a box of positive volume, of one to three coordinates \
+                 without orientations"
+            ),
+            Rejected::OfTwoPoints => {
+                write!(f, "the claim is about two points at a time: one_to_one has no region")
+            }
+            Rejected::TooMany => {
+                write!(f, "the claim has more than {MOST_OBLIGATIONS} obligations")
             }
             Rejected::Precision(bits) => {
                 write!(f, "precision {bits} is not within {:?}", crate::certificate::PRECISIONS)
@@ -217,19 +260,21 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node} has steps but is neither split nor inner")
             }
             Rejected::TooDeep(node) => write!(f, "node {node} is split too often"),
-            Rejected::Step(node, rule, failure) => {
-                write!(f, "node {node}: rule \"{rule}\" does not apply: {failure}")
+            Rejected::Step(node, obligation) => {
+                write!(f, "node {node}: obligation {obligation} is not certainly met on the cell")
             }
-            Rejected::Open(node, obligation) => {
-                write!(f, "node {node} is inner, but {obligation} is not discharged on its path")
+            Rejected::Repeated(node, obligation) => {
+                write!(f, "node {node}: obligation {obligation} is already discharged")
             }
-            Rejected::Outer(node, failure) => write!(f, "node {node} is not outer: {failure}"),
+            Rejected::Outer(node) => {
+                write!(f, "node {node} is not outer: it does not certainly fail throughout")
+            }
             Rejected::NotMirrored(node) => write!(
                 f,
                 "node {node} is left out by symmetry, but has points with u_x < u_y < u_z"
             ),
-            Rejected::Summary(message) => {
-                write!(f, "the last line is not the summary of the tree: {message}")
+            Rejected::Summary => {
+                write!(f, "the last line is not the summary of the tree, or does not end the file")
             }
         }
     }
@@ -276,9 +321,13 @@ pub struct Accepted {
 
 /// Checks a paving, in one pass over its bytes. The shape of the tree, what every node claims, the
 /// symmetry and the summary are always checked whole.
+///
+/// # Errors
+/// If it is rejected.
 pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected> {
     let mut reader = Reader::new(input)?;
-    let judge = reader.judge()?;
+    let subject = Subject::new(reader.header())?;
+    let judge = Judge::new(&subject)?;
     let mut sample = match extent {
         Extent::All => None,
         Extent::Sample { size, seed } => Some(Sample::new(size, seed)),

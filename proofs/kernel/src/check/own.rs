@@ -1,0 +1,231 @@
+//! Evidence that is not given: a test's own, which follows from the cell.
+//!
+//! Nothing rests on how it is found: the multiplier of a lower bound may be any ([`sigma_min`]), and so
+//! may the direction along which a bound fails. Both are computed in integers, so that all who find
+//! them find the same.
+//!
+//! With `A`, `D` at the cell's centre:
+//!
+//! | test                  | own evidence                                                      |
+//! |-----------------------|-------------------------------------------------------------------|
+//! | `SigmaMin`, `Least`   | `Y_i = A_i/D_i`: to second order in the cell's size nothing is lost |
+//! | `Solve`               | `Y = A`                                                           |
+//! | `Beyond`              | the sign at the centre                                            |
+//! | `Conditioning`, `OneToOne`, `Accuracy`, `Apart` | none                                    |
+//! | others                | none is needed                                                    |
+//!
+//! [`sigma_min`]: crate::test::sigma_min
+
+use super::{evaluate_parts, Checker, Place};
+use crate::arithmetic::Enclosure;
+use crate::certificate::{Evidence, Failure};
+use crate::formula::{Formula, Op, Values};
+use crate::problem::Problem;
+use crate::quantity::Test;
+use crate::slope::{Slope, Slopes};
+use crate::test::{Multiplier, Over, Row};
+use crate::witness::fails_throughout;
+
+/// Binary places of an own multiplier.
+const PLACES: u32 = 20;
+/// Bits of the greatest entry of a matrix whose direction is found.
+const BITS: u32 = 28;
+/// Bits of the greatest component of an own direction.
+const DIRECTION: u32 = 8;
+/// Squarings of a matrix: its `2^SQUARINGS`-th power has the direction.
+const SQUARINGS: u32 = 7;
+
+type Square = [[i64; 3]; 3];
+
+/// The entries of a tape of which own evidence is made, and own failures; none where that is all of them.
+pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
+    let mut formulas = problem.partial.clone();
+    let row = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect::<Vec<_>>();
+    for leg in &problem.legs {
+        formulas.extend(row(&leg.row));
+        formulas.extend(leg.length);
+    }
+    for obligation in &problem.obligations {
+        match &obligation.test {
+            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) | Test::AtLeast(f) => {
+                formulas.push(*f);
+            }
+            Test::Beyond(f, b) => formulas.extend([*f, *b]),
+            Test::Least(rows, f) => {
+                formulas.extend(rows.iter().flat_map(row));
+                formulas.push(*f);
+            }
+            Test::OneToOne(_)
+            | Test::Solve(_)
+            | Test::Accuracy(_)
+            | Test::Apart(_)
+            | Test::Curvature(_) => return None,
+        }
+    }
+    Some(problem.tape.parts(&formulas))
+}
+
+impl<E: Enclosure> Checker<'_, E> {
+    /// The formulas over a cell that own evidence, and own failures, are made of.
+    pub fn evaluate_own(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
+        let slopes = Slopes { arithmetic: self.arithmetic, m: edges.len() };
+        let (tape, needed) = (&self.problem.tape, self.needed.as_deref());
+        evaluate_parts(tape, needed, &self.parameters, slopes, edges)
+    }
+
+    /// Whether a test holds on a cell by its own evidence.
+    pub fn shows_own(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>, test: &Test) -> bool {
+        let own = || {
+            Some(match test {
+                Test::SigmaMin(kappa) => {
+                    let y = self.own_multiplier(over, &self.rows)?;
+                    match self.problem.tape.op(*kappa) {
+                        Op::Integer(0) => Evidence::Rank(y),
+                        _ => Evidence::Lower(y),
+                    }
+                }
+                Test::Least(rows, _) => Evidence::Lower(self.own_multiplier(over, rows)?),
+                Test::Solve(solve) => {
+                    let entry =
+                        |f: &Formula| self.arithmetic.rounded(&over.of(*f)?.at_centre, PLACES);
+                    let rows = solve.a.iter().map(|row| row.iter().map(entry).collect());
+                    let y = rows.collect::<Option<_>>()?;
+                    Evidence::Lower(Multiplier { y, places: PLACES })
+                }
+                Test::Beyond(f, _) => {
+                    match self.arithmetic.is_nonnegative(&over.of(*f)?.at_centre) {
+                        true => Evidence::Test,
+                        false => Evidence::Negative,
+                    }
+                }
+                Test::Conditioning(_) | Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) => {
+                    return None
+                }
+                Test::SigmaMax(_) | Test::AtLeast(_) | Test::Curvature(_) => Evidence::Test,
+            })
+        };
+        own().is_some_and(|evidence| self.shows(over, place, test, &evidence))
+    }
+
+    fn own_multiplier(&self, over: &Over<'_, E>, rows: &[Row<Formula>]) -> Option<Multiplier> {
+        let e = self.arithmetic;
+        let one = e.integer(1)?;
+        let row = |row: &Row<Formula>| {
+            let d = &over.of(row.d)?.at_centre;
+            if !e.is_positive(d) {
+                return None;
+            }
+            let entry =
+                |f: &Formula| e.rounded(&e.ratio(&over.of(*f)?.at_centre, &one, d)?, PLACES);
+            row.a.iter().map(entry).collect()
+        };
+        let y = rows.iter().map(row).collect::<Option<_>>()?;
+        Some(Multiplier { y, places: PLACES })
+    }
+
+    /// Whether the claim fails so at every point of a cell, for every machine.
+    pub fn fails(&self, values: &Values<Slope<E::Number>>, m: usize, failure: &Failure) -> bool {
+        let slopes = Slopes { arithmetic: self.arithmetic, m };
+        fails_throughout(self.problem, slopes, values, failure)
+    }
+
+    /// Whether an obligation fails so in its own directions: of singular values those of the centre; or,
+    /// of the greatest one, in the row of a leg.
+    pub fn fails_own(&self, values: &Values<Slope<E::Number>>, m: usize, number: usize) -> bool {
+        let Some(obligation) = self.problem.obligations.get(number) else { return false };
+        let direction = |rows, greatest| self.direction(values, rows, m, greatest);
+        let directions = || {
+            Some(match &obligation.test {
+                Test::SigmaMin(_) => vec![direction(&self.rows, false)?],
+                Test::SigmaMax(_) => vec![direction(&self.rows, true)?],
+                Test::Conditioning(_) => {
+                    vec![direction(&self.rows, true)?, direction(&self.rows, false)?]
+                }
+                Test::Least(rows, _) => vec![direction(rows, false)?],
+                Test::AtLeast(_) | Test::Beyond(..) => Vec::new(),
+                Test::OneToOne(_)
+                | Test::Solve(_)
+                | Test::Accuracy(_)
+                | Test::Apart(_)
+                | Test::Curvature(_) => return None,
+            })
+        };
+        let of = |directions| Failure::Obligation(number, directions);
+        let mut rows = match obligation.test {
+            Test::SigmaMax(_) => 0..self.rows.len(),
+            _ => 0..0,
+        };
+        directions().is_some_and(|directions| self.fails(values, m, &of(directions)))
+            || rows.any(|leg| self.fails(values, m, &Failure::Row(number, leg)))
+    }
+
+    /// Nearly the direction that `M` at the centre stretches most, or least: of `G = M^T M`, or of its
+    /// adjugate, a high power, of which every column is nearly an eigenvector.
+    fn direction(
+        &self,
+        values: &Values<Slope<E::Number>>,
+        rows: &[Row<Formula>],
+        m: usize,
+        greatest: bool,
+    ) -> Option<Vec<i64>> {
+        let e = self.arithmetic;
+        let at = |f: &Formula| values.of(*f).map(|slope| &slope.at_centre);
+        let entry = |j: usize, k: usize| {
+            rows.iter().try_fold(e.integer(0)?, |sum, row| {
+                let d = at(&row.d).filter(|d| e.is_positive(d))?;
+                e.add(&sum, &e.ratio(at(row.a.get(j)?)?, at(row.a.get(k)?)?, d)?)
+            })
+        };
+        let trace = (0..m).try_fold(e.integer(0)?, |sum, k| e.add(&sum, &entry(k, k)?))?;
+        let [_, most] = e.ends(&trace);
+        let unit = e.recip(&most)?;
+        let mut g: Square = [[0; 3]; 3];
+        for (j, row) in g.iter_mut().enumerate().take(m) {
+            for (k, x) in row.iter_mut().enumerate().take(m) {
+                // The same number for both orders of the indices.
+                *x = e.rounded(&e.mul(&entry(j.min(k), j.max(k))?, &unit)?, BITS)?;
+            }
+        }
+        let g = if greatest { g } else { adjugate(&g, m) };
+        dominant(g, m)
+    }
+}
+
+fn adjugate(g: &Square, m: usize) -> Square {
+    let mut of = [[0; 3]; 3];
+    match m {
+        1 => of[0][0] = 1,
+        2 => of = [[g[1][1], -g[0][1], 0], [-g[0][1], g[0][0], 0], [0; 3]],
+        _ => {
+            for (i, row) in of.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    let [a, b] = [(j + 1) % 3, (j + 2) % 3];
+                    let [c, d] = [(i + 1) % 3, (i + 2) % 3];
+                    *entry = g[a][c] * g[b][d] - g[a][d] * g[b][c];
+                }
+            }
+        }
+    }
+    of
+}
+
+/// The matrix times a power of two such that its greatest entry has so many bits.
+fn sized(g: Square, bits: u32) -> Option<Square> {
+    let most = g.iter().flatten().map(|x| x.unsigned_abs()).max().filter(|&most| most > 0)?;
+    let own = u64::BITS - most.leading_zeros();
+    let fit = |x: i64| if own > bits { x >> (own - bits) } else { x << (bits - own) };
+    Some(g.map(|row| row.map(fit)))
+}
+
+/// The longest column of a high power of a matrix with entries of at most `2^BITS`, or `2^57`: sums of
+/// three products of entries of `BITS` bits are below `2^(2 BITS + 2) = 2^58`.
+fn dominant(g: Square, m: usize) -> Option<Vec<i64>> {
+    let mut g = sized(g, BITS)?;
+    for _ in 0..SQUARINGS {
+        let entry = |i: usize, j: usize| (0..3).map(|k| g[i][k] * g[k][j]).sum();
+        g = sized(std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))), BITS)?;
+    }
+    let column = (0..3).max_by_key(|&k| g[k][k])?;
+    let half = 1 << (BITS - DIRECTION - 1);
+    Some(g.iter().take(m).map(|row| (row[column] + half) >> (BITS - DIRECTION)).collect())
+}

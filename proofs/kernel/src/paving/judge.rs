@@ -1,0 +1,211 @@
+//! What is shown of a cell, in exact arithmetic.
+
+use super::cell::Cell;
+use super::code::{Item, Kind, Outer, Step};
+use super::reader::Visited;
+use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS};
+use crate::certificate::PRECISIONS;
+use crate::check::{Checker, Place};
+use crate::fixed::{Fixed, Integer, Interval};
+use crate::problem::Problem;
+use crate::quantity::Test;
+use crate::slope::Slopes;
+use crate::test::Over;
+use num_bigint::BigInt;
+
+/// What the nodes of a paving are about.
+pub struct Subject {
+    /// The first line.
+    pub header: Header,
+    /// Its claim, compiled.
+    pub problem: Problem,
+    words: Fixed<i64>,
+    any_size: Fixed<BigInt>,
+}
+
+impl Subject {
+    /// Of the pavings that begin with this header, which is checked.
+    ///
+    /// # Errors
+    /// If it is not admissible.
+    pub fn new(header: &Header) -> Result<Self, Rejected> {
+        header.dimension()?;
+        let bits = header.precision;
+        if !PRECISIONS.contains(&bits) {
+            return Err(Rejected::Precision(bits));
+        }
+        if header.symmetry.is_some() && !symmetry::is_symmetric(&header.claim) {
+            return Err(Rejected::NotSymmetric);
+        }
+        let problem = Problem::new(&header.claim)?;
+        let of_two_points = |test: &Test| matches!(test, Test::OneToOne(_));
+        if problem.obligations.iter().any(|obligation| of_two_points(&obligation.test)) {
+            return Err(Rejected::OfTwoPoints);
+        }
+        if problem.obligations.len() > MOST_OBLIGATIONS {
+            return Err(Rejected::TooMany);
+        }
+        let (words, any_size) = (Fixed::new(bits), Fixed::new(bits));
+        let subject = Subject { header: header.clone(), problem, words, any_size };
+        let [min, max] = subject.corners::<BigInt>()?;
+        let has_volume = min.iter().zip(&max).all(|(min, max)| min.hi < max.lo);
+        has_volume.then_some(subject).ok_or(Rejected::NotABox)
+    }
+
+    fn corners<Z: Integer>(&self) -> Result<[Vec<Interval<Z>>; 2], Rejected> {
+        let [min, max] = &self.problem.corners;
+        let corner = |x| self.problem.point(x, self.header.precision).ok_or(Rejected::NotABox);
+        Ok([corner(min)?, corner(max)?])
+    }
+
+    /// What is shown on the path to a cell on which nothing is left to be shown.
+    pub fn all(&self) -> u128 {
+        (0..self.problem.obligations.len()).fold(0, |all, o| all | bit(o))
+    }
+}
+
+/// The place of an obligation in sets of them.
+pub fn bit(obligation: usize) -> u128 {
+    u32::try_from(obligation).ok().and_then(|o| 1u128.checked_shl(o)).unwrap_or(0)
+}
+
+/// What is discharged once these steps are added.
+pub fn discharged(before: u128, steps: &[Step]) -> u128 {
+    steps.iter().fold(before, |done, Step(o, _)| done | bit(*o))
+}
+
+/// Checks the evidence of cells.
+pub struct Judge<'a> {
+    subject: &'a Subject,
+    /// In machine words, as far as these do: they give what the others give, or nothing.
+    words: Option<Side<'a, i64>>,
+    any_size: Side<'a, BigInt>,
+}
+
+struct Side<'a, Z: Integer> {
+    arithmetic: &'a Fixed<Z>,
+    checker: Checker<'a, Fixed<Z>>,
+    corners: [Vec<Interval<Z>>; 2],
+}
+
+/// Where evidence does not hold.
+enum Flaw {
+    Step(usize),
+    Outer,
+}
+
+impl<'a> Judge<'a> {
+    /// For the nodes about a subject.
+    ///
+    /// # Errors
+    /// If one of its numbers cannot be enclosed.
+    pub fn new(subject: &'a Subject) -> Result<Self, Rejected> {
+        let words = Side::new(subject, &subject.words).ok();
+        let words = words.filter(|_| subject.header.precision < 60);
+        Ok(Judge { subject, words, any_size: Side::new(subject, &subject.any_size)? })
+    }
+
+    /// Whether an item's evidence holds on a cell, as far as it takes to say so in machine words where
+    /// the precision is one for these: what does not is no more than undecided.
+    pub fn confirms(&self, cell: &Cell, inherited: u128, item: &Item) -> bool {
+        match &self.words {
+            Some(words) => words.item(self.subject, cell, inherited, item).is_ok(),
+            None => self.any_size.item(self.subject, cell, inherited, item).is_ok(),
+        }
+    }
+
+    /// Checks a node without evaluating its evidence: it names obligations that the claim has, and an
+    /// outer one a failure that one of these may have.
+    ///
+    /// # Errors
+    /// If it does not.
+    pub fn claims(&self, visited: &Visited) -> Result<(), Rejected> {
+        let Visited { item, node, .. } = visited;
+        let obligations = &self.subject.problem.obligations;
+        if let Some(Step(o, _)) = item.steps.iter().find(|Step(o, _)| *o >= obligations.len()) {
+            return Err(Rejected::Step(*node, *o));
+        }
+        match &item.kind {
+            Kind::Outer(Outer::Own(o)) if *o >= obligations.len() => Err(Rejected::Outer(*node)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks a node: what it claims, and its evidence.
+    ///
+    /// # Errors
+    /// If it does not hold.
+    pub fn check(&self, visited: &Visited) -> Result<(), Rejected> {
+        let Visited { cell, inherited, item, node, .. } = visited;
+        self.claims(visited)?;
+        match &item.kind {
+            Kind::Boundary => return Ok(()),
+            Kind::Split(_) if item.steps.is_empty() => return Ok(()),
+            Kind::Mirrored => {
+                let is = self.subject.header.symmetry.is_some() && symmetry::is_mirrored(cell);
+                return is.then_some(()).ok_or(Rejected::NotMirrored(*node));
+            }
+            Kind::Split(_) | Kind::Inner | Kind::Outer(_) => {}
+        }
+        let words = self.words.as_ref();
+        if words.is_some_and(|side| side.item(self.subject, cell, *inherited, item).is_ok()) {
+            return Ok(());
+        }
+        self.any_size.item(self.subject, cell, *inherited, item).map_err(|flaw| match flaw {
+            Flaw::Step(obligation) => Rejected::Step(*node, obligation),
+            Flaw::Outer => Rejected::Outer(*node),
+        })
+    }
+}
+
+impl<'a, Z: Integer> Side<'a, Z> {
+    fn new(subject: &'a Subject, arithmetic: &'a Fixed<Z>) -> Result<Self, Rejected> {
+        let parameters = subject.problem.parameters(arithmetic.bits(), &[])?;
+        let checker = Checker::new(&subject.problem, arithmetic, parameters, None);
+        Ok(Side { arithmetic, checker, corners: subject.corners()? })
+    }
+
+    /// An inner node's cell has every obligation discharged: on its path, by its steps, or by the
+    /// obligation's own evidence.
+    fn item(
+        &self,
+        subject: &Subject,
+        cell: &Cell,
+        inherited: u128,
+        item: &Item,
+    ) -> Result<(), Flaw> {
+        let edges = cell.within(self.arithmetic, &self.corners).ok_or(Flaw::Outer)?;
+        let is_given = item.steps.iter().any(|step| step.1.is_some())
+            || matches!(item.kind, Kind::Outer(Outer::Given(_)));
+        let values = match is_given {
+            true => self.checker.evaluate(&edges),
+            false => self.checker.evaluate_own(&edges),
+        };
+        let m = edges.len();
+        let slopes = Slopes { arithmetic: self.arithmetic, m };
+        let over = Over { slopes, values: &values, controls: None, inside: None };
+        let place = Place { edges: &edges, touches: [false; 2] };
+        let shown = |obligation: usize, evidence: Option<&_>| {
+            let obligations = &subject.problem.obligations;
+            let test = &obligations.get(obligation).ok_or(Flaw::Step(obligation))?.test;
+            let holds = match evidence {
+                Some(evidence) => self.checker.shows(&over, &place, test, evidence),
+                None => self.checker.shows_own(&over, &place, test),
+            };
+            holds.then_some(()).ok_or(Flaw::Step(obligation))
+        };
+        item.steps.iter().try_for_each(|Step(o, evidence)| shown(*o, evidence.as_ref()))?;
+        let fails = match &item.kind {
+            Kind::Inner => {
+                let open = subject.all() & !discharged(inherited, &item.steps);
+                let mut all = 0..subject.problem.obligations.len();
+                return all
+                    .try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
+            }
+            Kind::Outer(Outer::Own(o)) => self.checker.fails_own(&values, m, *o),
+            Kind::Outer(Outer::Given(failure)) => self.checker.fails(&values, m, failure),
+            Kind::Split(_) | Kind::Boundary | Kind::Mirrored => true,
+        };
+        fails.then_some(()).ok_or(Flaw::Outer)
+    }
+}
