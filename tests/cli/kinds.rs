@@ -112,7 +112,7 @@ fn formulas_are_printed_on_request() {
     folder.run(&["verify", "orthoglide-310.toml", "-o", "legs.json"]).exits(1);
     let run = folder.run(&["check", "legs.json", "--formulas"]).exits(1);
     run.says(&["Its formulas:", "rho_1 = "]);
-    folder.run(&["postulate", "--psi-max", "2", "-o", "postulate.json"]).exits(0);
+    folder.run(&["postulate", "--psi", "2", "-o", "postulate.json"]).exits(0);
     let run = folder.run(&["check", "postulate.json", "--formulas"]).exits(2);
     assert_eq!(run.stdout, "");
     run.complains(&["--formulas", "not checked by formulas", "accepted"]);
