@@ -99,7 +99,7 @@ fn machines_are_written_as_the_instances_of_the_formal_development() {
 
 #[test]
 fn certificates_of_the_rules_are_refused() {
-    let text = include_str!("../proofs/certificates/orthoglide-prototype.cert.json");
+    let text = include_str!("../proofs/checker/tests/certificates/orthoglide-prototype.cert.json");
     assert_eq!(exported(text), Err(ExportError::Rules));
 }
 

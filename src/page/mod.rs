@@ -133,6 +133,14 @@ impl<'a> Page<'a> {
                     scene.marks.extend(corners_of_cube(machine));
                     let first =
                         scale.as_ref().map(|scale| first_slice(machine, scale, &scene.marks));
+                    if first.is_some() {
+                        // Those over every plane z = const are there.
+                        for slice in &mut scene.slices {
+                            slice.maps.retain(|map| !map.name.starts_with("psi-"));
+                            slice.legends.retain(|(name, _)| !name.contains('\u{3c8}'));
+                        }
+                        scene.slices.retain(|slice| !slice.maps.is_empty());
+                    }
                     scene.slices.splice(0..0, first);
                 }
                 scene

@@ -212,10 +212,12 @@ fn between(
     digits: i32,
     toward: Toward,
 ) -> Option<Expression> {
-    if min == max || part <= 0.0 {
+    // Whether a point with an irrational end is in a curved set may not be told: within it, then.
+    let told = toward == Toward::Nearest || [min, max].iter().all(|x| x.rational().is_some());
+    if min == max || told && part <= 0.0 {
         return Some(min.clone());
     }
-    if part >= 1.0 {
+    if told && part >= 1.0 {
         return Some(max.clone());
     }
     // Within the range also where its ends are not rational: the enclosures' inner ends.

@@ -71,7 +71,7 @@ fn figures_are_written_as_svg() {
     assert_eq!((&answer["accepted"], &answer["verdict"]), (&true.into(), &"certified".into()));
     let files: Vec<&str> =
         answer["files"].as_array().unwrap().iter().map(|f| f["path"].as_str().unwrap()).collect();
-    let figures = ["design", "psi-1", "psi-2", "psi-3", "subdivision"];
+    let figures = ["design", "psi-1", "psi-2", "psi-3", "critical-1", "critical-2", "subdivision"];
     let expected = figures.map(|name| format!("x/figures/{name}.svg"));
     assert_eq!(files[0], "a.html");
     assert_eq!(files[1..], expected);

@@ -90,11 +90,12 @@ fn wide_tolerances_of_a_turned_machine_are_certified() {
     let all = [&["tolerance", "linear-delta-linuxcnc-box.toml"], &arguments[..]].concat();
     let value: Value = serde_json::from_str(&folder.run(&all).exits(0).stdout).unwrap();
     let row = &value["tolerances"][0];
-    // The vertex rule alone ends near 3.04, where the widths of three entries meet in each of W M.
-    assert!(end(&row["certified"]) > 8.0, "{row}");
+    // With M in place of A and D it would end near 3.04, where the widths of three entries meet in each
+    // of W M.
+    assert!(end(&row["certified"]) > 6.0, "{row}");
     let certificate = "tolerance-leg_length-certified.cert.json";
     folder.run(&["check", certificate]).exits(0).says(&["ACCEPTED"]);
-    folder.run(&["show", certificate]).exits(0).says(&["entrywise"]);
+    folder.run(&["show", certificate]).exits(0).says(&["lower"]);
 }
 
 #[test]

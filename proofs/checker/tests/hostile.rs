@@ -170,7 +170,7 @@ fn signs_of_signs_are_no_tree() {
 /// A file has irrational numbers in its claim and in one machine alone, however long it is.
 #[test]
 fn points_are_rational() {
-    let good = include_str!("../../certificates/orthoglide-310.cert.json");
+    let good = include_str!("certificates/orthoglide-310.cert.json");
     let (before, rest) = good.split_once("\"point\":[\"").expect("a point");
     let (_, after) = rest.split_once('"').expect("a number");
     let irrational = format!("{before}\"point\":[\"sqrt(2)\"{after}");

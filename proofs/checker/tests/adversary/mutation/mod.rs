@@ -87,11 +87,13 @@ fn accepted(bytes: &[u8]) -> Option<Certificate> {
 }
 
 fn good_certificates() -> Vec<Good> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../certificates");
-    let mut files: Vec<_> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = ["../certificates", "tests/certificates"].map(|folder| root.join(folder));
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+    let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     files.sort();
     // The list of a long tree's edits is as long as the square of the tree.
+    files.retain(|path| path.extension().is_some_and(|end| end == "json"));
     files.retain(|path| fs::metadata(path).unwrap().len() <= LONGEST);
     let all = files.iter().map(|path| {
         let text = fs::read_to_string(path).unwrap();
