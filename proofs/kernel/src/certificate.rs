@@ -1,12 +1,15 @@
 //! Certificates: a claim, a verdict, a proof, as canonical text.
 
 use crate::atlas::{AtlasCell, AtlasClaim};
+use crate::check::MOST_NODES;
 use crate::claim::{MachineClaim, RegionClaim};
 use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
 use crate::postulate::PostulateClaim;
 use crate::test::Multiplier;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error as _, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
 
 /// The format that is read and written.
 pub const FORMAT: &str = "orthocert/2";
@@ -79,7 +82,34 @@ pub struct Tree {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chords: Option<Multiplier>,
     /// The nodes.
+    #[serde(deserialize_with = "few")]
     pub nodes: Vec<Node>,
+}
+
+/// Reads no more nodes than a tree may have: their memory is bounded while they are read, not after.
+fn few<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Node>, D::Error> {
+    struct Few;
+
+    impl<'de> Visitor<'de> for Few {
+        type Value = Vec<Node>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write!(f, "at most {MOST_NODES} nodes")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut all: A) -> Result<Vec<Node>, A::Error> {
+            let mut nodes = Vec::new();
+            while let Some(node) = all.next_element()? {
+                if nodes.len() == MOST_NODES {
+                    return Err(A::Error::custom(format!("more than {MOST_NODES} nodes")));
+                }
+                nodes.push(node);
+            }
+            Ok(nodes)
+        }
+    }
+
+    deserializer.deserialize_seq(Few)
 }
 
 /// A node. A leaf on whose path every obligation is discharged *holds*; one that says how the claim

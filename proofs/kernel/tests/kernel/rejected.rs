@@ -391,3 +391,18 @@ fn joint_coordinates_on_the_cube() {
         format!(r#"{{"quantity":"joint_range","end":"min","bound":"0"}},{}"#, psi("max", "2"));
     assert!(Problem::new(&claim(&self::delta(&delta))).unwrap().cube_reached.is_empty());
 }
+
+/// Nodes are counted while they are read.
+#[test]
+fn more_nodes_than_a_tree_has() {
+    let text = certified(&delta(&psi("max", "2"))).to_text().expect("a text");
+    let (head, rest) = text.split_once(r#""nodes":["#).expect("nodes");
+    let (_, tail) = rest.split_once(r#"]}},"provenance""#).expect("an end");
+    let with = |nodes: usize| {
+        let many = vec!["{}"; nodes].join(",");
+        Certificate::read(&format!(r#"{head}"nodes":[{many}]}}}},"provenance"{tail}"#))
+    };
+    assert!(check(&with(500_000).expect("read")).is_err());
+    let Err(Unreadable::Malformed(found)) = with(500_001) else { panic!("read") };
+    assert!(found.to_string().contains("more than 500000 nodes"), "{found}");
+}

@@ -285,7 +285,7 @@ fn the_oracle_is_not_blind() {
             seen += 1;
         }
     }
-    assert!(good_ones > 20 && seen > 20, "{good_ones}, {seen}");
+    assert!(good_ones >= 16 && seen > 20, "{good_ones}, {seen}");
 }
 
 /// Legs so long that the square of their length overflows make `M` nearly the identity.
