@@ -30,7 +30,6 @@ const WIDEST: usize = 28;
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
 /// few hundred; the condition number of the rotary Delta takes 40,000.
 const BOXES: u64 = 100_000;
-/// The same for claims of the kernel, whose boxes cost more and close more.
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
