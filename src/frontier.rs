@@ -4,7 +4,7 @@
 //! for all values on one side of it. [`frontier`] looks for the last value at which a test succeeds:
 //! steps of a growing factor until the test changes, then halves by the geometric mean. Every value
 //! tried is a decimal, which is taken exactly. The tests are [`proof`] and [`refutation`], which
-//! give certificates that the exact checker has accepted; [`decision`] gives either. Of claims that
+//! give certificates that the exact checker has accepted. Of claims that
 //! are not so ordered, [`limit`](crate::limit) looks for a value of each verdict.
 
 use crate::adverse::worst_machines;

@@ -9,7 +9,7 @@
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
-//! | [`decide`]       | decides a claim by the rules, or by the kernel                        |
+//! | [`decide`]       | decides a claim about a machine                                       |
 //! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
 //! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
@@ -17,7 +17,6 @@
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
 //! | [`escape`]       | text in XML, Markdown and JSON: it stays text                         |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
-//! | [`extremes`]     | encloses how small and how large each quantity gets                   |
 //! | [`folder`]       | folders that appear whole or not at all                               |
 //! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
@@ -39,9 +38,9 @@
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
 //! | [`size`]         | the smallest machine for an axis-aligned cube of a given side         |
-//! | [`solver`]       | decides claims of the kernel: every kind of mechanism                 |
+//! | [`solver`]       | decides claims about machines of every kind; encloses extremes        |
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
-//! | [`verify`]       | decides a claim: certified, refuted, or undecided                     |
+//! | [`verify`]       | decides a claim of the rules, for cubes and maps                      |
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 

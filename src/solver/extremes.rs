@@ -1,6 +1,6 @@
 //! Certified extremes: how small and how large each quantity of the kernel's table gets.
 //!
-//! As in [`crate::extremes`], an extreme lies between a bound that is certified and one that is
+//! An extreme lies between a bound that is certified and one that is
 //! refuted; the claims that say so have that bound alone.
 
 use super::evidence::Prover;
