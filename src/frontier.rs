@@ -7,26 +7,19 @@
 //! give certificates that the exact checker has accepted. Of claims that
 //! are not so ordered, [`limit`](crate::limit) looks for a value of each verdict.
 
-use crate::adverse::worst_machines;
-use crate::interval::Interval;
-use crate::sample::Sampler;
-use crate::search::{prove, Budget, Control, Stop};
-use crate::verify::MODEL_PRECISION;
-use crate::verify::{accepted, refutation as witness, refuted, worst_values, Answer};
+use crate::search::{Budget, Control};
+use crate::solver;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use orthocert_checker::certificate::{Certificate, Proof, Tree};
-use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
-use orthocert_checker::enclosure::Enclosure;
-use orthocert_checker::model::Model;
+use orthocert_checker::certificate::Certificate;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Largest factor between one value and the next that is of use.
 pub const LARGEST_FACTOR: f64 = 10.0;
-/// Finest step of the search for a violation, `2^-FINEST` of the workspace and the tolerances.
-const FINEST: i32 = 26;
 
 /// A value, and the certificate of the claim for it.
 pub type Certified = (BigRational, Box<Certificate>);
@@ -165,18 +158,8 @@ pub fn proof(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let Ok(model) = Model::new(claim, MODEL_PRECISION) else {
-        return Ok(None);
-    };
-    let found = prove(&model.map(&Interval::from_fixed), budget, control);
-    if found.stop == Stop::Cancelled {
-        return Err(NoAnswer::Cancelled);
-    }
-    if found.stop != Stop::Exhausted || !found.open.is_empty() {
-        return Ok(None);
-    }
-    let tree = |precision| Proof::Tree(Tree { precision, nodes: found.nodes.clone() });
-    Ok(decided(accepted(Claim::Machine(claim.clone()), tree)))
+    let found = solver::proof(claim, budget, control);
+    unless_cancelled(control, found)
 }
 
 /// A certificate that `claim` does not hold, if sampling finds a witness. A claim that is not well
@@ -188,27 +171,14 @@ pub fn refutation(
     claim: &MachineClaim,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    if control.cancel.load(Ordering::Relaxed) {
-        return Err(NoAnswer::Cancelled);
-    }
-    let Ok(model) = Model::new(claim, MODEL_PRECISION) else {
-        return Ok(None);
-    };
-    let Some(sampler) = Sampler::new(claim, &model) else {
-        return Ok(None);
-    };
-    let worst = match sampler.parameters() {
-        0 => worst_values(&sampler, FINEST),
-        _ => worst_machines(&sampler, FINEST),
-    };
-    let found = witness(claim, &sampler, &worst);
-    Ok(found.and_then(|witness| decided(refuted(claim, witness))))
+    unless_cancelled(control, None::<()>)?;
+    Ok(solver::refutation(claim))
 }
 
-fn decided(answer: Answer) -> Option<Box<Certificate>> {
-    match answer {
-        Answer::Decided { certificate, .. } => Some(certificate),
-        _ => None,
+fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
+    match control.cancel.load(Ordering::Relaxed) {
+        true => Err(NoAnswer::Cancelled),
+        false => Ok(found),
     }
 }
 

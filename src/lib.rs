@@ -6,6 +6,7 @@
 //! | module           | does                                                                  |
 //! |------------------|-----------------------------------------------------------------------|
 //! | [`adverse`]      | the machine of a tolerance that makes a requirement worst             |
+//! | [`arithmetic`]   | arithmetic with the exact numbers of claims                           |
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
@@ -45,6 +46,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
 pub mod adverse;
+pub mod arithmetic;
 pub mod atlas;
 pub mod attestation;
 pub mod batch;

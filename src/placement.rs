@@ -1,12 +1,13 @@
 //! The best place for a cube in the region where a claim holds, in doubles: nothing rests on it.
 
-use crate::decimal::approximate;
+use crate::arithmetic::apply;
 use crate::frontier::NoAnswer;
-use crate::sample::{Place, Quality, Sampler};
-use crate::verify::MODEL_PRECISION;
-use orthocert_checker::claim::{MachineClaim, Workspace};
-use orthocert_checker::model::Model;
-use orthocert_checker::number::{Exact, NumberErrorKind};
+use crate::solver::number;
+use crate::solver::sample::{Quality, Sampler};
+use num_rational::BigRational;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::number::{Expression, Operator};
+use orthocert_kernel::problem::Problem;
 use std::array::from_fn;
 
 /// Points of a coarse grid along each axis of the workspace.
@@ -42,8 +43,8 @@ pub struct Cube {
     pub side: f64,
 }
 
-struct Cubes {
-    sampler: Sampler,
+struct Cubes<'a> {
+    sampler: Sampler<'a>,
     qualities: Vec<Quality>,
     centres: Centres,
     min: [f64; 3],
@@ -56,13 +57,15 @@ struct Cubes {
 /// relative `precision`; `None` where no centre of a grid fulfils the claim.
 ///
 /// # Errors
-/// If the claim is not well formed, or its workspace is not a box with a volume.
+/// If the claim is not well formed, or its workspace is not a box with a volume, of three
+/// coordinates.
 pub fn best_place(
     claim: &MachineClaim,
     centres: Centres,
     precision: f64,
 ) -> Result<Option<Cube>, NoAnswer> {
-    let cubes = Cubes::new(claim, centres)?;
+    let problem = Problem::new(claim)?;
+    let cubes = Cubes::new(Sampler::new(claim, &problem)?, centres)?;
     let mut starts = cubes.starts();
     starts.sort_by(|a, b| b.side.total_cmp(&a.side));
     let found = starts.into_iter().filter(|cube| cube.side > 0.0).take(STARTS);
@@ -79,37 +82,36 @@ pub fn is_endless(cube: &Cube, size: f64) -> bool {
     cube.side > ENDLESS * size
 }
 
-/// The cube of this side about a centre, as a workspace.
-///
-/// # Errors
-/// If its numbers exceed what can be written.
-pub fn cube_about(centre: &[Exact; 3], side: &Exact) -> Result<Workspace, NumberErrorKind> {
-    let half = side.clone().over(Exact::integer(2))?;
-    let (mut min, mut max) = (centre.clone(), centre.clone());
-    for k in 0..3 {
-        min[k] = centre[k].clone().minus(half.clone())?;
-        max[k] = centre[k].clone().plus(half.clone())?;
-    }
-    Ok(Workspace::Box { min, max })
+/// The cube of this side about a centre, as a workspace; `None` if its numbers are too long for a
+/// claim.
+pub fn cube_about(centre: &[BigRational; 3], side: &Expression) -> Option<Workspace> {
+    let half = apply(Operator::Div, side, &Expression::integer(2))?;
+    let end = |operator| {
+        let ends = centre.iter().map(|x| apply(operator, &number(x)?, &half));
+        ends.collect::<Option<Vec<_>>>()
+    };
+    Some(Workspace::Box { min: end(Operator::Sub)?, max: end(Operator::Add)? })
 }
 
-impl Cubes {
-    fn new(claim: &MachineClaim, centres: Centres) -> Result<Self, NoAnswer> {
-        let refused = || NoAnswer::Claim("the workspace is not a box with a volume".to_owned());
-        let Workspace::Box { min, max } = &claim.workspace else {
-            return Err(refused());
+impl<'a> Cubes<'a> {
+    fn new(sampler: Sampler<'a>, centres: Centres) -> Result<Self, NoAnswer> {
+        let refused = || {
+            let why = "the workspace is not a box with a volume, of three coordinates of length";
+            NoAnswer::Claim(why.to_owned())
         };
-        let model = Model::new(claim, MODEL_PRECISION)?;
-        let sampler = Sampler::new(claim, &model).ok_or_else(refused)?;
-        let qualities = sampler.qualities();
-        let (mut least, mut width) = ([0.0; 3], [0.0; 3]);
-        for k in 0..3 {
-            let ends = approximate(&min[k]).zip(approximate(&max[k]));
-            let (low, high) = ends.filter(|(low, high)| low < high).ok_or_else(refused)?;
-            (least[k], width[k]) = (low, high - low);
+        let claim = sampler.claim();
+        if !matches!(claim.workspace, Workspace::Box { .. }) || claim.orientation.is_some() {
+            return Err(refused());
+        }
+        let three = |x: Vec<f64>| <[f64; 3]>::try_from(x).map_err(|_| refused());
+        let [min, max] = sampler.ends();
+        let (min, max) = (three(min)?, three(max)?);
+        let width: [f64; 3] = from_fn(|k| max[k] - min[k]);
+        if !width.iter().all(|width| *width > 0.0) {
+            return Err(refused());
         }
         let size = width.iter().fold(0.0, |a: f64, &b| a.max(b));
-        Ok(Cubes { sampler, qualities, centres, min: least, width, size })
+        Ok(Cubes { qualities: sampler.qualities(), sampler, centres, min, width, size })
     }
 
     /// The greatest cubes about the points of a coarse grid.
@@ -142,11 +144,9 @@ impl Cubes {
     }
 
     fn holds(&self, point: [f64; 3]) -> bool {
-        let u = from_fn(|k| (point[k] - self.min[k]) / self.width[k]);
-        let values = self.sampler.at(&Place { u, t: vec![0.5; self.sampler.parameters()] });
-        self.qualities.iter().all(|&quality| {
-            self.sampler.margin(quality, &values).is_none_or(|margin| margin >= 0.0)
-        })
+        let values = self.sampler.at_point(&point.map(|x| x / self.sampler.unit()));
+        let mut qualities = self.qualities.iter();
+        qualities.all(|&quality| self.sampler.margin(quality, &values) >= 0.0)
     }
 
     /// The greatest side that fits, from `least` (which fits, or is zero), to a relative precision.

@@ -9,7 +9,7 @@
 //! [`Family::excluded`] shows the latter for every placement at once of a cube with its edges along
 //! the axes: of turned cubes, which may fit a smaller machine, nothing is claimed.
 
-use crate::decimal::approximate;
+use crate::arithmetic::{apply, at_most};
 use crate::frontier::{
     decimal, frontier, proof, refutation, Bracket, Certified, NoAnswer, Succeeds, Walk,
     LARGEST_FACTOR,
@@ -17,14 +17,16 @@ use crate::frontier::{
 use crate::largest_cube::exclude;
 use crate::placement::{best_place, cube_about, is_endless, Centres, Cube};
 use crate::search::{Budget, Control};
+use crate::solver::{approximate, number};
+use crate::tolerance::parameters;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive};
-use orthocert_checker::claim::{
-    Leg, MachineClaim, Mechanism, Quantity, Range, WorkingMode, Workspace,
+use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use orthocert_kernel::claim::{
+    Bound, Leg, MachineClaim, Mechanism, Quantity, Requirement, Sign, Workspace,
 };
-use orthocert_checker::number::Exact;
-use std::array::from_fn;
+use orthocert_kernel::number::{Expression, Operator};
 
+const TRANSMISSION: &str = "transmission";
 /// Share of the gap that is left between the size found and either end.
 const SHARE: f64 = 0.4;
 /// Significance of a placement, relative to the gap.
@@ -60,7 +62,7 @@ pub struct Family {
     /// What the size is.
     pub unknown: Unknown,
     /// The cube's centre for the size one; for size `x` it is `x` times this.
-    pub centre: [Exact; 3],
+    pub centre: [BigRational; 3],
     /// The size that the search in doubles expects.
     pub expected: f64,
     /// The machine of size one (for [`Unknown::LegLength`] up to the length).
@@ -91,30 +93,32 @@ impl Family {
     /// The claim about the machine of size `x`, and its cube. `None` where the numbers become too
     /// large.
     pub fn claim(&self, x: &BigRational) -> Option<MachineClaim> {
-        let centre = scaled(&self.centre, &Exact::Rational(x.clone()))?;
-        let workspace = cube_about(&centre, &Exact::Rational(self.side.clone())).ok()?;
+        let centre = self.centre.each_ref().map(|c| c * x);
+        let workspace = cube_about(&centre, &number(&self.side)?)?;
         Some(MachineClaim { workspace, ..self.machine(x)? })
     }
 
     /// The machine of size `x`, in the workspace of size 1.
     fn machine(&self, x: &BigRational) -> Option<MachineClaim> {
-        let factor = Exact::Rational(x.clone());
+        let factor = number(x)?;
         let mut claim = self.claim.clone();
         let Mechanism::Translational(legs) = &mut claim.mechanism else {
             return None;
         };
         for leg in legs {
             if let (Unknown::LegLength, Leg::Slider { length, .. }) = (self.unknown, &mut *leg) {
-                *length = Quantity::exactly(factor.clone());
+                *length = Quantity::Exactly(factor.clone());
                 continue;
             }
-            let directions: Vec<bool> =
-                leg.parameters().iter().map(|(name, _)| name.is_direction()).collect();
-            for (_, quantity) in
-                directions.into_iter().zip(leg.parameters_mut()).filter(|(direction, _)| !direction)
-            {
-                let end = |x: &Exact| x.clone().times(factor.clone()).ok();
-                *quantity = Quantity { min: end(&quantity.min)?, max: end(&quantity.max)? };
+            for (kind, quantity) in parameters(leg) {
+                match quantity {
+                    _ if kind.is_direction() => {}
+                    Quantity::Exactly(x) => *x = apply(Operator::Mul, x, &factor)?,
+                    Quantity::Between { min, max } => {
+                        *min = apply(Operator::Mul, min, &factor)?;
+                        *max = apply(Operator::Mul, max, &factor)?;
+                    }
+                }
             }
         }
         Some(claim)
@@ -125,11 +129,11 @@ impl Family {
         if self.unknown == Unknown::LegLength {
             return Some(Scope::Everywhere);
         }
-        let (min, max) = self.claim.workspace.bounding_box().ok()?;
-        let at_most = |x: &Exact, y: &Exact| x.compare(y).is_some_and(std::cmp::Ordering::is_le);
-        let within =
-            |k: usize| at_most(&min[k], &self.centre[k]) && at_most(&self.centre[k], &max[k]);
-        (0..3).all(within).then_some(Scope::Workspace)
+        let [min, max] = bounding_box(&self.claim.workspace)?;
+        let within = |((min, max), x): ((&Expression, &Expression), &BigRational)| {
+            number(x).is_some_and(|x| at_most(min, &x) && at_most(&x, max))
+        };
+        min.iter().zip(&max).zip(&self.centre).all(within).then_some(Scope::Workspace)
     }
 
     /// The machine of size `x`, whose workspace is the box of the centres of [`Scope`].
@@ -140,14 +144,16 @@ impl Family {
     /// some guide: at a centre with a coordinate beyond `[-x, x]`, a point of the cube, some leg is
     /// out of reach. ∎
     fn centres(&self, x: &BigRational) -> Option<MachineClaim> {
-        let factor = Exact::Rational(x.clone());
-        let (min, max) = match self.scope()? {
-            Scope::Everywhere => {
-                (from_fn(|_| factor.clone().negated()), from_fn(|_| factor.clone()))
-            }
+        let [min, max] = match self.scope()? {
+            Scope::Everywhere => [vec![number(&-x)?; 3], vec![number(x)?; 3]],
             Scope::Workspace => {
-                let (min, max) = self.claim.workspace.bounding_box().ok()?;
-                (scaled(&min, &factor)?, scaled(&max, &factor)?)
+                let factor = number(x)?;
+                let scaled = |end: Vec<Expression>| {
+                    let end = end.iter().map(|x| apply(Operator::Mul, x, &factor));
+                    end.collect::<Option<Vec<_>>>()
+                };
+                let [min, max] = bounding_box(&self.claim.workspace)?;
+                [scaled(min)?, scaled(max)?]
             }
         };
         Some(MachineClaim { workspace: Workspace::Box { min, max }, ..self.machine(x)? })
@@ -165,7 +171,7 @@ impl Family {
         budget: Budget,
         control: &mut Control<'_>,
     ) -> Result<Option<Certified>, NoAnswer> {
-        let side = Exact::Rational(self.side.clone());
+        let Some(side) = number(&self.side) else { return Ok(None) };
         let (mut best, mut below) = (None, EXCLUDED.0);
         // A size far below is excluded by few boxes, and what fails costs most.
         loop {
@@ -219,26 +225,35 @@ impl Family {
     }
 }
 
-/// `x` times `factor`; `None` where the numbers become too large.
-fn scaled(x: &[Exact; 3], factor: &Exact) -> Option<[Exact; 3]> {
-    let [a, b, c] = x.each_ref().map(|x| x.clone().times(factor.clone()).ok());
-    Some([a?, b?, c?])
+/// The least and the greatest coordinates of a workspace that is given by them; none of a cube.
+fn bounding_box(workspace: &Workspace) -> Option<[Vec<Expression>; 2]> {
+    match workspace {
+        Workspace::Box { min, max } => Some([min.clone(), max.clone()]),
+        Workspace::Cylinder { center, radius, z: [low, high] } => {
+            let end = |operator, z: &Expression| {
+                let around = center.iter().map(|x| apply(operator, x, radius));
+                around.chain([Some(z.clone())]).collect::<Option<Vec<_>>>()
+            };
+            Some([end(Operator::Sub, low)?, end(Operator::Add, high)?])
+        }
+        Workspace::Cube { .. } => None,
+    }
 }
 
 /// The best place found for a cube, searched from a cube about the claim's workspace.
 fn placed(claim: &MachineClaim, diagonal: bool, precision: f64) -> Result<Cube, NoAnswer> {
     let refused = |why: &str| NoAnswer::Claim(why.to_owned());
     let too_large = || refused("the design's numbers are too large");
-    let (min, max) = claim.workspace.bounding_box()?;
-    let ends = |k: usize| approximate(&min[k]).zip(approximate(&max[k]));
-    let ends = [ends(0), ends(1), ends(2)].into_iter().collect::<Option<Vec<_>>>();
-    let ends = ends.ok_or_else(too_large)?;
+    let [min, max] = bounding_box(&claim.workspace).ok_or_else(too_large)?;
+    let ends = min.iter().zip(&max).map(|(min, max)| approximate(min).zip(approximate(max)));
+    let ends = ends.collect::<Option<Vec<_>>>().ok_or_else(too_large)?;
     let width = ends.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
     let width = if width > 0.0 { width } else { 1.0 };
-    let number = |x: f64| BigRational::from_f64(x).map(Exact::Rational).ok_or_else(too_large);
-    let middle = |k: usize| number((ends[k].0 + ends[k].1) / 2.0);
-    let workspace = cube_about(&[middle(0)?, middle(1)?, middle(2)?], &number(width)?);
-    let workspace = workspace.map_err(|_| too_large())?;
+    let middles = ends.iter().map(|(low, high)| BigRational::from_f64((low + high) / 2.0));
+    let centre = middles.collect::<Option<Vec<_>>>().and_then(|x| <[_; 3]>::try_from(x).ok());
+    let side = BigRational::from_f64(width).and_then(|width| number(&width));
+    let workspace = centre.zip(side).and_then(|(centre, side)| cube_about(&centre, &side));
+    let workspace = workspace.ok_or_else(too_large)?;
     let centres = if diagonal { Centres::Diagonal } else { Centres::Anywhere };
     let place = best_place(&MachineClaim { workspace, ..claim.clone() }, centres, precision)?;
     let place = place.ok_or_else(|| {
@@ -256,60 +271,79 @@ fn placed(claim: &MachineClaim, diagonal: bool, precision: f64) -> Result<Cube, 
 }
 
 /// The decimal near `x` with an error of at most `error`.
-fn signed(x: f64, error: f64) -> Exact {
+fn signed(x: f64, error: f64) -> BigRational {
     let size = x.abs();
     let value = if size <= error { None } else { decimal(size, error / size) };
     match value {
-        Some(value) if x < 0.0 => Exact::Rational(-value),
-        Some(value) => Exact::Rational(value),
-        None => Exact::integer(0),
+        Some(value) if x < 0.0 => -value,
+        Some(value) => value,
+        None => BigRational::zero(),
     }
 }
 
-/// The claim about three legs in a box: an Orthoglide that the paper's cube defines becomes one of
-/// leg length 1 with the bounds `1/psi_max` and `psi_max`.
+/// The claim about legs in a box or a cylinder: an Orthoglide that the paper's cube defines becomes
+/// one of leg length 1 with the bounds `1/psi_max` and `psi_max`.
 fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
-    let Mechanism::Orthoglide { .. } = &claim.mechanism else {
-        return Ok(claim.clone());
-    };
-    let number = |n| Quantity::exactly(Exact::integer(n));
-    let legs = from_fn(|axis| Leg::Slider {
-        direction: from_fn(|k| number(i64::from(k == axis))),
-        anchor: from_fn(|_| number(0)),
-        platform: from_fn(|_| number(0)),
-        length: number(1),
-        mode: WorkingMode::Plus,
+    match &claim.mechanism {
+        Mechanism::Translational(_) => return Ok(claim.clone()),
+        Mechanism::Orthoglide { .. } => {}
+        Mechanism::Planar(_)
+        | Mechanism::Spatial(_)
+        | Mechanism::Spherical(_)
+        | Mechanism::Formulas(_) => {
+            return Err(NoAnswer::Claim(
+                "mechanism: found one whose platform turns, or is not moved in space by legs; accepted \
+                 by size: kind \"orthoglide\" or \"translational\""
+                    .to_owned(),
+            ))
+        }
+    }
+    let number = Expression::integer;
+    let legs = (0..3).map(|axis| Leg::Slider {
+        direction: (0..3).map(|k| Quantity::Exactly(number(i64::from(k == axis)))).collect(),
+        anchor: vec![Quantity::Exactly(number(0)); 3],
+        platform: vec![Quantity::Exactly(number(0)); 3],
+        length: Quantity::Exactly(number(1)),
+        mode: Sign::Plus,
     });
-    let mut requirements = claim.requirements.clone();
-    let max = requirements.transmission.take().and_then(|range| range.max);
-    let min = max.clone().and_then(|max| Exact::integer(1).over(max).ok());
-    requirements.transmission = Some(Range { min, max });
+    let mut require = claim.require.clone();
+    require.retain(|own| own.quantity != TRANSMISSION || matches!(own.bound, Bound::Max(_)));
+    let of_psi = |own: &Requirement| match &own.bound {
+        Bound::Max(max) if own.quantity == TRANSMISSION => {
+            let bound = Bound::Min(apply(Operator::Div, &number(1), max)?);
+            Some(Requirement { bound, ..own.clone() })
+        }
+        _ => None,
+    };
+    require.extend(require.iter().find_map(of_psi));
     Ok(MachineClaim {
-        mechanism: Mechanism::Translational(legs),
-        workspace: Workspace::Box {
-            min: from_fn(|_| Exact::integer(-1)),
-            max: from_fn(|_| Exact::integer(1)),
-        },
-        requirements,
+        mechanism: Mechanism::Translational(legs.collect()),
+        workspace: Workspace::Box { min: vec![number(-1); 3], max: vec![number(1); 3] },
+        require,
+        ..claim.clone()
     })
 }
 
-/// Demands that what is required of a machine does not depend on the unit of length.
+/// Demands that what is required of a machine does not depend on the unit of length: angles,
+/// determinants and quotients of lengths do not, nor do joints along lengths to tool velocities and
+/// forces. Angles of arms to them do.
 fn scale_free(claim: &MachineClaim) -> Result<(), NoAnswer> {
-    let requirements = &claim.requirements;
-    let angular = claim.mechanism.is_angular();
-    let found = if requirements.joint_range.is_some() {
-        "joint_range, which"
-    } else if angular && requirements.transmission.is_some() {
-        "transmission of arms, which"
-    } else if angular && requirements.joint_speed.is_some() {
-        "joint_speed of arms, which"
-    } else {
-        return Ok(());
+    let angular = match &claim.mechanism {
+        Mechanism::Translational(legs) => legs.iter().any(|leg| matches!(leg, Leg::Arm { .. })),
+        _ => false,
     };
+    let depends = |own: &&Requirement| match own.quantity.as_str() {
+        "conditioning" | "serial_margin" | "parallel_margin" | "constraint_margin"
+        | "leg_angle" | "base_joint" | "platform_joint" | "one_to_one" => false,
+        TRANSMISSION | "joint_speed" | "joint_force" | "stiffness" => angular,
+        _ => true,
+    };
+    let Some(found) = claim.require.iter().find(depends) else { return Ok(()) };
+    let of_arms = if found.quantity == "joint_range" || !angular { "" } else { " of arms" };
     Err(NoAnswer::Claim(format!(
-        "requirements: found {found} does not scale with the machine; accepted: requirements that \
-         no unit of length enters"
+        "requirements: found {}{of_arms}, which does not scale with the machine; accepted: \
+         requirements that no unit of length enters",
+        found.quantity
     )))
 }
 
@@ -319,23 +353,26 @@ fn leg_length(claim: &MachineClaim) -> Option<f64> {
     let Mechanism::Translational(legs) = &claim.mechanism else {
         return None;
     };
+    let is = |q: &Quantity, n: i64| match q {
+        Quantity::Exactly(x) => x.rational() == Some(BigRational::from_integer(n.into())),
+        Quantity::Between { .. } => false,
+    };
     let mut common = None;
     for (axis, leg) in legs.iter().enumerate() {
-        let Leg::Slider { direction, anchor, platform, length, mode: WorkingMode::Plus } = leg
-        else {
+        let Leg::Slider { direction, anchor, platform, length, mode: Sign::Plus } = leg else {
             return None;
         };
-        let is = |q: &Quantity, n| *q == Quantity::exactly(Exact::integer(n));
         let along = (0..3).all(|k| {
             let off_guide = k == axis || is(&anchor[k], 0) && is(&platform[k], 0);
             is(&direction[k], i64::from(k == axis)) && off_guide
         });
-        if !along || !length.is_exact() || common.is_some_and(|common| common != length) {
+        let (Quantity::Exactly(length), true) = (length, along) else { return None };
+        if common.is_some_and(|common| common != length) {
             return None;
         }
         common = Some(length);
     }
-    approximate(&common?.min)
+    approximate(common.filter(|_| legs.len() == 3)?)
 }
 
 /// Whether a number can be the side of a cube.

@@ -6,16 +6,17 @@
 //! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
 //! a band, where the tolerances, which are not subdivided, are too wide to be proved.
 
-use crate::frontier::{frontier, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR};
+use crate::arithmetic::apply;
+use crate::frontier::{
+    frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+};
 use crate::search::{Budget, Control};
 use crate::solver::{self, number};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
 use orthocert_kernel::number::{Expression, Operator};
 use std::fmt;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// The first tolerance tried, relative to the greatest number of its unit.
@@ -101,7 +102,7 @@ fn legs(mechanism: &Mechanism) -> &[Leg] {
 }
 
 /// The parameters of a leg.
-fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
+pub(crate) fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
     fn vector(kind: Kind, x: &mut Vector) -> impl Iterator<Item = (Kind, &mut Quantity)> {
         x.iter_mut().map(move |x| (kind, x))
     }
@@ -187,25 +188,16 @@ impl Scheme {
 
 /// `nominal - t` to `nominal + t`.
 fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
-    let both = |operator, a: &Expression, b: &Expression| {
-        Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()))
-    };
-    let short = |x: Expression| match x.rational() {
-        Some(value) => number(&value),
-        None => Some(x),
-    };
     let nominal = match quantity {
         Quantity::Exactly(x) => x.clone(),
         Quantity::Between { min, max } => {
-            let sum = both(Operator::Add, min, max);
-            short(both(Operator::Div, &sum, &Expression::integer(2)))?
+            apply(Operator::Div, &apply(Operator::Add, min, max)?, &Expression::integer(2))?
         }
     };
     if t.is_zero() {
         return Some(Quantity::Exactly(nominal));
     }
-    let t = number(t)?;
-    let end = |operator| short(both(operator, &nominal, &t));
+    let end = |operator| apply(operator, &nominal, &number(t)?);
     Some(Quantity::Between { min: end(Operator::Sub)?, max: end(Operator::Add)? })
 }
 
@@ -238,12 +230,9 @@ pub fn widest(
             now + end.saturating_duration_since(now) / 3
         }),
     };
-    let refute = |walk: &Walk| {
+    let mut refute = |walk: &Walk| {
         frontier(walk, |t| match scheme.claim(claim, t) {
-            Some(claim) if !control.cancel.load(Ordering::Relaxed) => {
-                Ok(solver::refutation(&claim))
-            }
-            Some(_) => Err(NoAnswer::Cancelled),
+            Some(claim) => refutation(&claim, control),
             None => Ok(None),
         })
     };
@@ -263,18 +252,9 @@ pub fn widest(
         },
         None => walk,
     };
-    let certified = frontier(&walk, |t| proved(scheme.claim(claim, t), budget, control))?;
+    let certified = frontier(&walk, |t| match scheme.claim(claim, t) {
+        Some(claim) => proof(&claim, budget, control),
+        None => Ok(None),
+    })?;
     Ok(Bracket { certified, refuted })
-}
-
-fn proved(
-    claim: Option<MachineClaim>,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let found = claim.and_then(|claim| solver::proof(&claim, budget, control));
-    match control.cancel.load(Ordering::Relaxed) {
-        true => Err(NoAnswer::Cancelled),
-        false => Ok(found),
-    }
 }

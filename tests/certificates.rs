@@ -18,10 +18,12 @@ use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
 };
-use orthocert_checker::claim::{Claim, PostulateClaim, Workspace};
-use orthocert_checker::number::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
+use orthocert_checker::claim::{Claim, PostulateClaim};
+use orthocert_checker::number::{MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
+use orthocert_kernel::claim::Workspace;
+use orthocert_kernel::number::Expression;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -143,13 +145,13 @@ fn committed_certificates_are_what_the_prover_writes() {
 #[test]
 fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
     let design = Design::read(&root().join("tests/designs/orthoglide-310.toml")).unwrap();
-    let mut machine = design.rules.unwrap();
-    let corner = |n| [(); 3].map(|()| Exact::integer(n));
+    let mut machine = design.kernel().unwrap().clone();
+    let corner = |n| vec![Expression::integer(n); 3];
     machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
     let budget = Budget { max_boxes: 10_000, deadline: None };
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
-    let found = exclude(&machine, &Exact::integer(200), budget, &mut control).unwrap();
+    let found = exclude(&machine, &Expression::integer(200), budget, &mut control).unwrap();
     is_committed(NO_CUBE, &found.unwrap());
 }
 

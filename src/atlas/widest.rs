@@ -10,7 +10,7 @@ use super::decide::refuted;
 use super::margin::{margin, tightened, without_margin};
 use super::part::{assemble, in_order, least_halved, Node};
 use crate::design::{AtlasDesign, MAX_RESOLUTION};
-use crate::frontier::{decimal, proof, NoAnswer};
+use crate::frontier::{decimal, NoAnswer};
 use crate::search::{Budget, Control};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -368,5 +368,23 @@ mod tests {
         assert_eq!(neighbours(&[end], 4), [vec![end - 4]]);
         assert_eq!(neighbours(&[8, 8], 4).len(), 8);
         assert_eq!(neighbours(&[0, end], 4).len(), 3);
+    }
+}
+
+fn proof(
+    claim: &orthocert_checker::claim::MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Box<Certificate>>, NoAnswer> {
+    use crate::verify::{verify, Answer};
+    let Ok(found) = verify(claim, budget, control) else { return Ok(None) };
+    match found.answer {
+        Answer::Cancelled => Err(NoAnswer::Cancelled),
+        Answer::Decided { certificate, accepted }
+            if accepted.verdict == orthocert_checker::certificate::Verdict::Certified =>
+        {
+            Ok(Some(certificate))
+        }
+        _ => Ok(None),
     }
 }

@@ -3,7 +3,6 @@
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
 use orthocert_checker::certificate::MAX_BYTES;
-use orthocert_checker::claim::MachineClaim;
 use orthocert_checker::file;
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Named;
@@ -21,18 +20,6 @@ pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
         Some(path) => Design::read(path).map_err(Failure::input),
         None => Ok(Design::prototype()),
     }
-}
-
-/// The claim of a design that a command for machines with three translating legs can take.
-pub fn three_legged(design: &Design) -> Result<&MachineClaim, Failure> {
-    design.rules.as_ref().ok_or_else(|| {
-        Failure::Input(
-            "mechanism: found another machine than one of three legs that do not turn its platform; \
-             accepted by this command: kind \"orthoglide\", or \"translational\" with three legs \
-             (verify, check, show, bounds and limit take every kind)"
-                .to_owned(),
-        )
-    })
 }
 
 /// The claim of a design in the kernel's vocabulary.

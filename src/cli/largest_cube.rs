@@ -3,14 +3,15 @@
 use super::{certify, effort::Effort, input, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
 use orthocert::decimal::{readable, significant};
-use orthocert::design::Design;
+use orthocert::design::{written, Design};
 use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::number::Expression;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -49,13 +50,13 @@ struct Answer {
     title: Option<String>,
     /// A side that is certified, below the greatest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    min: Option<Exact>,
+    min: Option<Expression>,
     /// The centre of the cube of that side.
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<[Exact; 3]>,
     /// A side for which no cube fits, above the greatest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    max: Option<Exact>,
+    max: Option<Expression>,
     /// `(max - min) / min`.
     #[serde(skip_serializing_if = "Option::is_none")]
     gap: Option<f64>,
@@ -94,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         title: design.title.clone(),
         gap: reached(&bracket),
         min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
-        centre: bracket.inside.map(|inside| inside.centre),
+        centre: bracket.inside.map(|inside| inside.centre.map(Exact::Rational)),
         max: bracket.too_large.map(|too_large| too_large.side),
         certificates,
         seconds: started.elapsed().as_secs_f64(),
@@ -113,14 +114,18 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
-    let claim = input::three_legged(design)?;
-    let found = match claim.workspace {
-        Workspace::Box { .. } => return Ok(claim),
+    let claim = input::of_the_kernel(design)?;
+    let found = match &claim.workspace {
+        Workspace::Box { min, .. } if min.len() == 3 && claim.orientation.is_none() => {
+            return Ok(claim);
+        }
+        Workspace::Box { .. } => "box with orientations, or of two coordinates",
         Workspace::Cylinder { .. } => "cylinder",
         Workspace::Cube { .. } => "cube",
     };
     Err(Failure::Input(format!(
-        "[workspace]: found a {found}; accepted: a box, min and max, in which the centres are"
+        "[workspace]: found a {found}; accepted: a box of three coordinates, min and max, in which the \
+         centres are"
     )))
 }
 
@@ -138,8 +143,8 @@ fn stored(
 /// `(max - min) / min`, where both are there.
 fn reached(bracket: &Bracket) -> Option<f64> {
     let (inside, too_large) = (bracket.inside.as_ref()?, bracket.too_large.as_ref()?);
-    let (min, max) = (inside.side.as_rational()?, too_large.side.as_rational()?);
-    ((max - min) / min).to_f64()
+    let (min, max) = (inside.side.rational()?, too_large.side.rational()?);
+    ((&max - &min) / min).to_f64()
 }
 
 fn gap(text: &str) -> Result<f64, Failure> {
@@ -152,12 +157,11 @@ fn gap(text: &str) -> Result<f64, Failure> {
     }
 }
 
-fn side(text: &str) -> Result<Exact, Failure> {
+fn side(text: &str) -> Result<Expression, Failure> {
     let number = input::number("--side", text)?;
-    match number.sign() {
-        Some(1) => Ok(number),
-        _ => Err(Failure::Input(format!("--side: found {text}; accepted: a positive number"))),
-    }
+    let positive = (number.sign() == Some(1)).then(|| written(&number)).flatten();
+    positive
+        .ok_or_else(|| Failure::Input(format!("--side: found {text}; accepted: a positive number")))
 }
 
 impl Arguments {
@@ -197,6 +201,6 @@ fn text(answer: &Answer, quiet: bool) -> String {
     out
 }
 
-fn exactly(x: &Exact) -> String {
-    orthocert::decimal::exact(x)
+fn exactly(x: &Expression) -> String {
+    x.rational().map_or_else(|| x.to_string(), |x| orthocert::decimal::exact(&Exact::Rational(x)))
 }

@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let width = gap(&arguments.gap, 1e-9, 0.1)?;
     let side = side(&arguments.cube)?;
     let design = input::design(arguments.design.as_deref())?;
-    let claim = input::three_legged(&design)?;
+    let claim = input::of_the_kernel(&design)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("size.cert.json"))?;
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
@@ -180,10 +180,10 @@ fn answer(
         (found, refuted_for) = (for_all, all);
     }
     let certified = end(&found.certified);
-    let centre = certified.as_ref().and_then(|size| {
-        let [x, y, z] = family.centre.each_ref().map(|c| c.clone().times(size.clone()).ok());
-        Some([x?, y?, z?])
-    });
+    let centre = found
+        .certified
+        .as_ref()
+        .map(|(size, _)| family.centre.each_ref().map(|c| Exact::Rational(c * size)));
     Ok(Answer {
         unknown: match family.unknown {
             Unknown::LegLength => "leg_length",
@@ -197,7 +197,7 @@ fn answer(
         gap_reached: reaches(&found),
         excluded,
         excluded_for,
-        centre_for_size_one: family.centre.clone(),
+        centre_for_size_one: family.centre.clone().map(Exact::Rational),
         centre,
         certificates,
     })

@@ -1,18 +1,21 @@
 //! No cube of a side fits: a tree over the centres.
 
-use crate::design::in_the_kernel;
 use crate::frontier::NoAnswer;
 use crate::search::{Budget, Control, Stop};
 use crate::solver::doubles::{middle, Pair};
 use crate::solver::fails::Failing;
 use crate::solver::search::{search, Boxes, Branch, Cell, Ends, Trial};
-use crate::solver::{confirmed, Answer, PRECISIONS};
+use crate::solver::{approximate, confirmed, Answer, PRECISIONS};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::claim::{Claim, MachineClaim, NoCubeClaim};
-use orthocert_checker::number::Exact;
+use orthocert_checker::claim::{Claim, NoCubeClaim};
 use orthocert_kernel::certificate::{Node, Tree};
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::no_cube::OFFSET_PARTS;
+use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+
+/// A precision at which most exclusions are checked in machine words.
+const IN_WORDS: u32 = 40;
 
 /// The search, in every cell of centres, for a point of the cube at which the claim fails.
 struct Centres<'a> {
@@ -62,19 +65,14 @@ impl Boxes for Centres<'_> {
 /// [`NoAnswer`].
 pub fn exclude(
     claim: &MachineClaim,
-    side: &Exact,
+    side: &Expression,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
     let too_large = || NoAnswer::Claim("its numbers exceed what can be reported".to_owned());
-    let machine = in_the_kernel(claim).ok_or_else(too_large)?;
-    let part = crate::decimal::approximate(side).ok_or_else(too_large)?;
-    let side = crate::design::written(side).ok_or_else(too_large)?;
-    let claim = NoCubeClaim { machine, side };
-    let refused = |error: orthocert_kernel::input::ClaimError| NoAnswer::Claim(error.to_string());
-    let problem = Problem::new(&claim.machine).map_err(refused)?;
-    let failing = Failing::new(&claim.machine, &problem).map_err(refused)?;
-    let half = 0.5 * part / failing.unit();
+    let problem = Problem::new(claim)?;
+    let failing = Failing::new(claim, &problem)?;
+    let half = 0.5 * approximate(side).ok_or_else(too_large)? / failing.unit();
     let offset = |n: i64| [n % 3, n / 3 % 3, n / 9].map(|i| i - 1);
     let point = |n| (offset(n).map(|i| i * OFFSET_PARTS), offset(n).map(|i| i as f64 * half));
     let centres = Centres { failing, points: (0..27).map(point).collect() };
@@ -86,8 +84,10 @@ pub fn exclude(
     if !found.is_proof() {
         return Ok(None);
     }
-    let tree = Tree { precision: PRECISIONS[0], chords: None, nodes: found.nodes };
-    match confirmed(Claim::NoCube(claim), tree, PRECISIONS) {
+    let claim = NoCubeClaim { machine: claim.clone(), side: side.clone() };
+    let tree = Tree { precision: IN_WORDS, chords: None, nodes: found.nodes };
+    let precisions = [IN_WORDS].into_iter().chain(PRECISIONS);
+    match confirmed(Claim::NoCube(claim), tree, precisions) {
         Answer::Decided { certificate, .. } => Ok(Some(certificate)),
         _ => Ok(None),
     }

@@ -10,16 +10,17 @@
 
 mod exclude;
 
-use crate::frontier::NoAnswer;
+use crate::arithmetic::at_most;
+use crate::frontier::{proof, NoAnswer};
 use crate::placement::{best_place, cube_about, Centres};
 use crate::search::{Budget, Control};
-use crate::verify::{verify, Answer};
+use crate::solver::{approximate, number};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::FromPrimitive;
-use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{MachineClaim, Workspace};
-use orthocert_checker::number::Exact;
+use num_traits::{FromPrimitive, Signed, Zero};
+use orthocert_checker::certificate::Certificate;
+use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::number::Expression;
 
 pub use exclude::exclude;
 
@@ -27,9 +28,9 @@ pub use exclude::exclude;
 #[derive(Clone, Debug)]
 pub struct Inside {
     /// Its side.
-    pub side: Exact,
+    pub side: Expression,
     /// Its centre.
-    pub centre: [Exact; 3],
+    pub centre: [BigRational; 3],
     /// The certificate for the cube as a workspace.
     pub certificate: Box<Certificate>,
 }
@@ -38,7 +39,7 @@ pub struct Inside {
 #[derive(Clone, Debug)]
 pub struct TooLarge {
     /// The side.
-    pub side: Exact,
+    pub side: Expression,
     /// The certificate.
     pub certificate: Box<Certificate>,
 }
@@ -82,15 +83,14 @@ pub fn largest_cube(
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
     let inside = nearest(|share| {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
-        match side.filter(|side| side.sign() == Some(1)) {
+        match side.filter(BigRational::is_positive).and_then(|side| number(&side)) {
             Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
             None => Ok(None),
         }
     })?;
     let too_large = nearest(|share| {
-        let Some(side) = decimal(place.side * (1.0 + share * gap), place.side * gap) else {
-            return Ok(None);
-        };
+        let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
+        let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
         let excluded = exclude(claim, &side, budget, control)?;
         Ok(excluded.map(|certificate| TooLarge { side, certificate }))
     })?;
@@ -128,13 +128,13 @@ fn nearest<T>(
 /// [`NoAnswer`].
 pub fn cube_of_side(
     claim: &MachineClaim,
-    side: &Exact,
+    side: &Expression,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
-    let wanted = crate::decimal::approximate(side).unwrap_or(f64::INFINITY);
+    let wanted = approximate(side).unwrap_or(f64::INFINITY);
     let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT)?;
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
@@ -150,44 +150,38 @@ pub fn cube_of_side(
 /// The certificate for a cube, if there is one within the budget.
 fn certified(
     claim: &MachineClaim,
-    side: &Exact,
+    side: &Expression,
     centre: &[f64; 3],
     gap: f64,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Inside>, NoAnswer> {
-    let size = crate::decimal::approximate(side).unwrap_or(1.0);
-    let centre = centre.map(|x| decimal(x, size * gap * 0.1).unwrap_or(Exact::integer(0)));
+    let size = approximate(side).unwrap_or(1.0);
+    let centre = centre.map(|x| decimal(x, size * gap * 0.1).unwrap_or_else(BigRational::zero));
     if !contains(claim, &centre) {
         return Ok(None);
     }
-    let too_large = |_| NoAnswer::Claim("its numbers exceed what can be reported".to_owned());
-    let workspace = cube_about(&centre, side).map_err(too_large)?;
-    let cube = MachineClaim { workspace, ..claim.clone() };
-    match verify(&cube, budget, control)?.answer {
-        Answer::Cancelled => Err(NoAnswer::Cancelled),
-        Answer::Decided { certificate, accepted } if accepted.verdict == Verdict::Certified => {
-            Ok(Some(Inside { side: side.clone(), centre, certificate }))
-        }
-        _ => Ok(None),
-    }
+    let Some(workspace) = cube_about(&centre, side) else {
+        return Err(NoAnswer::Claim("its numbers exceed what can be reported".to_owned()));
+    };
+    let certificate = proof(&MachineClaim { workspace, ..claim.clone() }, budget, control)?;
+    Ok(certificate.map(|certificate| Inside { side: side.clone(), centre, certificate }))
 }
 
 /// Whether a point is provably in the workspace, a box.
-fn contains(claim: &MachineClaim, point: &[Exact; 3]) -> bool {
+fn contains(claim: &MachineClaim, point: &[BigRational; 3]) -> bool {
     let Workspace::Box { min, max } = &claim.workspace else {
         return false;
     };
-    let at_most = |x: &Exact, y: &Exact| x.compare(y).is_some_and(std::cmp::Ordering::is_le);
-    (0..3).all(|k| at_most(&min[k], &point[k]) && at_most(&point[k], &max[k]))
+    let mut edges = min.iter().zip(max).zip(point);
+    edges.all(|((min, max), x)| number(x).is_some_and(|x| at_most(min, &x) && at_most(&x, max)))
 }
 
 /// A decimal within a hundredth of `width` of `x`.
-fn decimal(x: f64, width: f64) -> Option<Exact> {
+fn decimal(x: f64, width: f64) -> Option<BigRational> {
     let places = 2 - width.log10().floor() as i32;
     let grid = BigRational::from_integer(BigInt::from(10)).pow(places);
-    let nearest = (BigRational::from_f64(x)? * &grid).round() / grid;
-    Some(Exact::Rational(nearest))
+    Some((BigRational::from_f64(x)? * &grid).round() / grid)
 }
 
 #[cfg(test)]

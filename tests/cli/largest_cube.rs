@@ -56,7 +56,7 @@ fn a_small_budget_leaves_looser_bounds() {
     let folder = Folder::new();
     folder.write("d.toml", DESIGN);
     let few = ["largest-cube", "d.toml", "--max-boxes", "5"];
-    folder.run(&few).exits(3).says(&["a cube of side 0.61", "fits"]);
+    folder.run(&few).exits(3).says(&["a cube of side 0.5", "fits"]);
     assert_eq!(folder.names(), ["d.cube.cert.json", "d.toml"]);
     folder.run(&["check", "d.cube.cert.json"]).exits(0);
 }

@@ -15,6 +15,7 @@ mod leaves;
 mod machines;
 mod motions;
 mod no_cube;
+mod oracle;
 mod pavings;
 mod postulate;
 mod prover;
