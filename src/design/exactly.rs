@@ -47,7 +47,7 @@ pub(super) fn between(quantity: &checker::Quantity) -> Option<Quantity> {
 
 /// The expression of the same number: every operation is that of `number`, and rational numbers are
 /// decimals or fractions in lowest terms. `None` where its text is beyond the kernel's limits.
-pub(super) fn written(number: &Exact) -> Option<Expression> {
+pub(crate) fn written(number: &Exact) -> Option<Expression> {
     let expression = translated(number);
     let read = Expression::try_from(expression.to_string());
     (read.as_ref() == Ok(&expression)).then_some(expression)
@@ -68,7 +68,8 @@ fn translated(number: &Exact) -> Expression {
     }
 }
 
-fn rational(x: &BigRational) -> Expression {
+/// A decimal of few places, or a fraction.
+pub(super) fn rational(x: &BigRational) -> Expression {
     let literal = |digits: BigInt, places: u32| {
         let positive = Expression::Literal { digits: digits.abs(), places };
         if digits.is_negative() {

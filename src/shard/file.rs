@@ -4,10 +4,11 @@ use super::task::Task;
 use crate::atlas::Top;
 use crate::digest;
 use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::certificate::{AtlasCell, Node};
+use orthocert_checker::certificate::Node;
 use orthocert_checker::file;
 use orthocert_checker::rule::Obligation;
 use orthocert_checker::shown::{Named, Shown};
+use orthocert_kernel::atlas::AtlasCell;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -43,6 +44,18 @@ impl Place {
         }
         let place = Place { edges, open };
         place.cell().is_some().then_some(place)
+    }
+
+    /// The place of a cell of an atlas.
+    pub fn of_part(part: &[(u64, u32)]) -> Self {
+        let mut edges = [(0, 0); 3];
+        edges.iter_mut().zip(part).for_each(|(edge, own)| *edge = *own);
+        Place { edges, open: Vec::new() }
+    }
+
+    /// The cell of an atlas of so many parameters.
+    pub fn part(&self, parameters: usize) -> orthocert_kernel::atlas::Part {
+        self.edges.iter().take(parameters).copied().collect()
     }
 
     /// The cell; `None` if it is not within the box.

@@ -26,7 +26,7 @@ mod evidence;
 pub mod extremes;
 mod less;
 mod propose;
-mod refute;
+pub(crate) mod refute;
 mod rows;
 mod same;
 pub mod sample;
@@ -135,6 +135,27 @@ pub fn verify(
     Ok(Verification { answer, worst, boxes })
 }
 
+/// The certificate of a claim that the search proves within the budget; why there is none, if not.
+///
+/// # Errors
+/// Why the search ended.
+pub fn proof(
+    claim: &MachineClaim,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Box<Certificate>, Stop> {
+    let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
+    let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
+    let found = search(&prover, false, budget, control);
+    if !found.is_proof() {
+        return Err(found.stop);
+    }
+    match accepted(claim, &prover, found.nodes) {
+        Answer::Decided { certificate, .. } => Ok(certificate),
+        Answer::Undecided { .. } | Answer::Cancelled => Err(found.stop),
+    }
+}
+
 /// The worst values of a claim's obligations that sampling finds.
 ///
 /// # Errors
@@ -144,16 +165,48 @@ pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
     Ok(Sampler::new(claim, &problem)?.worst_values(FINEST))
 }
 
-/// The certificate of a proof, at the first precision at which the checker accepts it.
-fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
+/// The precisions at which a proof is tried.
+fn precisions(prover: &Prover<'_>) -> impl Iterator<Item = u32> {
     let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
     let words = 63u32.saturating_sub(GUARD + size);
     let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
+    first.into_iter().chain(PRECISIONS)
+}
+
+/// A tree on whose leaves every obligation of a problem is discharged, if one is found that `accepts`;
+/// why not, if not. No search is worth it unless tests hold next to each of these points.
+pub(crate) fn tree(
+    problem: &Problem,
+    points: &[Vec<f64>],
+    budget: Budget,
+    control: &mut Control<'_>,
+    accepts: impl Fn(&Tree) -> bool,
+) -> Result<Tree, Stop> {
+    let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
+    if !points.iter().all(|point| prover.holds_next_to(point)) {
+        return Err(Stop::Hopeless);
+    }
+    let found = search(&prover, false, budget, control);
+    if !found.is_proof() {
+        return Err(found.stop);
+    }
+    let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes: found.nodes };
+    for bits in precisions(&prover) {
+        tree.precision = bits;
+        if accepts(&tree) {
+            return Ok(tree);
+        }
+    }
+    Err(Stop::Exhausted)
+}
+
+/// The certificate of a proof, at the first precision at which the checker accepts it.
+fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
     let mut objection = None;
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
     let proof = Proof::Kernel(kernel::Proof::Tree(tree));
     let mut whole = certificate(Claim::Kernel(claim.clone()), Verdict::Certified, proof);
-    for bits in first.into_iter().chain(PRECISIONS) {
+    for bits in precisions(prover) {
         if let Proof::Kernel(kernel::Proof::Tree(tree)) = &mut whole.proof {
             tree.precision = bits;
         }

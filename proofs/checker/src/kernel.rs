@@ -3,13 +3,15 @@
 use crate::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use crate::check::{syntax, Rejected, TreeSize};
 use crate::claim::Claim;
+use orthocert_kernel::atlas::{self, AtlasCell, AtlasClaim};
 use orthocert_kernel::certificate::{self as kernel, Tree, Unreadable};
 use orthocert_kernel::claim::MachineClaim;
 use serde::de::IgnoredAny;
 use serde::Deserialize;
 use std::fmt;
 
-/// Whether a text is meant as a certificate of the kernel: its claim has a list of requirements.
+/// Whether a text is meant as a certificate of the kernel: its claim is an atlas, or has a list of
+/// requirements.
 pub(crate) fn is_meant(text: &str) -> bool {
     #[derive(Deserialize)]
     struct Header {
@@ -23,6 +25,7 @@ pub(crate) fn is_meant(text: &str) -> bool {
             #[serde(rename = "require")]
             _require: IgnoredAny,
         },
+        Atlas(IgnoredAny),
     }
     serde_json::from_str::<Header>(text).is_ok()
 }
@@ -38,12 +41,14 @@ pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
         }
     })?;
     let kernel::Certificate { claim, verdict, proof, provenance, .. } = certificate;
-    let kernel::Claim::Machine(claim) = claim else {
-        return Err(syntax(&"a claim about a machine over a workspace is expected"));
+    let claim = match claim {
+        kernel::Claim::Machine(claim) => Claim::Kernel(claim),
+        kernel::Claim::Atlas(claim) => Claim::Atlas(claim),
+        _ => return Err(syntax(&"a claim about machines over workspaces is expected")),
     };
     Ok(Certificate {
         format: FORMAT.to_owned(),
-        claim: Claim::Kernel(claim),
+        claim,
         verdict: match verdict {
             kernel::Verdict::Certified => Verdict::Certified,
             kernel::Verdict::Refuted => Verdict::Refuted,
@@ -65,13 +70,15 @@ pub(crate) fn text(
     certificate: &Certificate,
     proof: &kernel::Proof,
 ) -> Result<String, serde_json::Error> {
-    let Claim::Kernel(claim) = &certificate.claim else {
-        return Err(serde::ser::Error::custom("the kernel's proof of another claim"));
+    let claim = match &certificate.claim {
+        Claim::Kernel(claim) => kernel::Claim::Machine(claim.clone()),
+        Claim::Atlas(claim) => kernel::Claim::Atlas(claim.clone()),
+        _ => return Err(serde::ser::Error::custom("the kernel's proof of another claim")),
     };
     let Provenance { tool, version } = certificate.provenance.clone();
     let whole = kernel::Certificate {
         format: FORMAT.to_owned(),
-        claim: kernel::Claim::Machine(claim.clone()),
+        claim,
         verdict: verdict_of(certificate.verdict),
         proof: proof.clone(),
         provenance: kernel::Provenance { tool, version },
@@ -90,6 +97,25 @@ pub(crate) fn check(
         .map_err(Rejected::Kernel)?;
     if let kernel::Proof::Tree(tree) = proof {
         *size = size_of(tree);
+    }
+    Ok(())
+}
+
+/// Accepts an atlas but for the cells that are not wanted, or says why not; adds up the
+/// trees of the others.
+pub(crate) fn check_atlas(
+    claim: &AtlasClaim,
+    proof: &kernel::Proof,
+    is_wanted: impl Fn(usize) -> bool,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    let kernel::Proof::Atlas(cells) = proof else { return Err(Rejected::VerdictMismatch) };
+    atlas::check_part(claim, cells, &is_wanted).map_err(Rejected::Kernel)?;
+    let wanted = cells.iter().enumerate().filter(|(number, _)| is_wanted(*number));
+    for (_, cell) in wanted {
+        if let AtlasCell::Certified(tree) = cell {
+            size.add(size_of(tree));
+        }
     }
     Ok(())
 }

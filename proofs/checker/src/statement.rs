@@ -2,8 +2,8 @@
 
 use crate::certificate::{Certificate, Proof, Verdict};
 use crate::claim::{
-    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim,
-    PsiMax, Quantity, Range, Requirements, Sign, Workspace,
+    Claim, Leg, MachineClaim, Mechanism, NoCubeClaim, PostulateClaim, PsiMax, Quantity, Range,
+    Requirements, Sign, Workspace,
 };
 use crate::kernel;
 use crate::paving::{self, Shares};
@@ -26,7 +26,7 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
         }
         Claim::Postulate(claim) => postulate(&mut out, claim)?,
         Claim::NoCube(claim) => no_cube(&mut out, claim)?,
-        Claim::Atlas(claim) => atlas(&mut out, claim)?,
+        Claim::Atlas(claim) => return orthocert_kernel::atlas::statement(claim),
         Claim::Kernel(claim) => return kernel::statement(claim, verdict),
     }
     Ok(out)
@@ -137,20 +137,6 @@ pub fn paving(accepted: &paving::Accepted) -> Result<String, fmt::Error> {
     writeln!(out, "  {}", summary.inner_share)?;
     writeln!(out, "of the box's volume, and at most the share\n  {most}.")?;
     Ok(out)
-}
-
-fn atlas(out: &mut String, claim: &AtlasClaim) -> fmt::Result {
-    writeln!(out, "Of the parameters")?;
-    for AtlasParameter { name, min, max } in &claim.parameters {
-        writeln!(out, "  {min} <= {name} <= {max},")?;
-    }
-    writeln!(out, "cut into the cells of the proof, the following holds")?;
-    writeln!(out, "  for all values of the parameters in the cells that it names certified,")?;
-    writeln!(out, "  which fill the share {} of all, and", claim.certified)?;
-    writeln!(out, "  for no values of the parameters in the cells that it names refuted,")?;
-    writeln!(out, "  which fill the share {} of all:", claim.refuted)?;
-    machine(out, &claim.design)?;
-    requirements(out, &claim.design)
 }
 
 fn postulate(out: &mut String, claim: &PostulateClaim) -> fmt::Result {

@@ -6,13 +6,11 @@
 //! | `adversary`   | false claims, and what would prove them                                   |
 //! | `drives`      | drives and the rules about their joints                                   |
 //! | `paving`      | pavings: accepted, rejected, volumes                                      |
-//! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
 //! | `no_cube`     | claims that no cube of some side fits                                     |
 //! | `postulate`   | proofs of the postulate for a range of `psi_max`                          |
 //! | `hostile`     | files made to exhaust the checker or to mislead                           |
 
 mod adversary;
-mod atlas;
 mod drives;
 mod hostile;
 mod mathematics;

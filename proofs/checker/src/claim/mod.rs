@@ -32,8 +32,9 @@ pub enum Claim {
     Postulate(#[serde(deserialize_with = "strict::object")] PostulateClaim),
     /// No cube of some side fits, wherever its centre is in a box.
     NoCube(#[serde(deserialize_with = "strict::object")] NoCubeClaim),
-    /// Every machine of a box of parameters, in part.
-    Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
+    /// Every machine of a box of parameters, in part; read and written as the kernel does.
+    #[serde(skip_deserializing)]
+    Atlas(orthocert_kernel::atlas::AtlasClaim),
     /// Any mechanism, in the kernel's vocabulary; read and written as the kernel does.
     #[serde(skip_deserializing, rename = "machine")]
     Kernel(orthocert_kernel::claim::MachineClaim),
@@ -53,38 +54,6 @@ pub struct NoCubeClaim {
 
 /// The parts that half a cube's side is divided in, for the points of [`crate::certificate::Violated`].
 pub const OFFSET_PARTS: i64 = 8;
-
-/// "Of the box of parameters, the cells that the proof names certified, which fill the share
-/// `certified` of it, hold only designs that meet every requirement; the cells that it names
-/// refuted, which fill the share `refuted`, hold only designs that do not."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AtlasClaim {
-    /// What is varied: one to three parameters, in the order of the axes of the map.
-    #[serde(deserialize_with = "strict::parameters")]
-    pub parameters: Vec<AtlasParameter>,
-    /// A machine claim, some numbers of which are expressions with the parameters' names: one
-    /// claim for each choice of their values.
-    #[serde(deserialize_with = "strict::object")]
-    pub design: MachineClaim,
-    /// The share of the box in certified cells.
-    pub certified: Exact,
-    /// The share of the box in refuted cells.
-    pub refuted: Exact,
-}
-
-/// A parameter of an atlas: every real value from `min` to `max`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AtlasParameter {
-    /// How expressions call it.
-    #[serde(deserialize_with = "strict::label")]
-    pub name: String,
-    /// Least value, rational.
-    pub min: Exact,
-    /// Greatest value, rational and greater than the least.
-    pub max: Exact,
-}
 
 /// "For every admissible `psi_max` and every point `P` of the paper's cube `[q_1, q_2]^3` for it
 /// (`L = 1`): every `s_i > 0`, and `1/psi_max <= psi_i(P) <= psi_max`."
