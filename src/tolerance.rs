@@ -272,7 +272,7 @@ fn proved(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let found = claim.and_then(|claim| solver::proof(&claim, budget, control));
+    let found = claim.and_then(|claim| solver::proof(&claim, budget, control).ok());
     match control.cancel.load(Ordering::Relaxed) {
         true => Err(NoAnswer::Cancelled),
         false => Ok(found),
