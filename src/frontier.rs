@@ -158,7 +158,7 @@ pub fn proof(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let found = solver::proof(claim, budget, control);
+    let found = solver::proof(claim, budget, control).ok();
     unless_cancelled(control, found)
 }
 

@@ -14,9 +14,9 @@ use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::solver;
 use orthocert::verify::{verify, Answer};
-use orthocert_checker::cell::{Cell, MAX_LEVEL};
+use orthocert_checker::cell::MAX_LEVEL;
 use orthocert_checker::certificate::{
-    Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
+    Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
 };
 use orthocert_checker::claim::{Claim, PostulateClaim};
 use orthocert_checker::number::{MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
@@ -163,7 +163,8 @@ fn committed_atlases_are_what_the_prover_writes() {
         design.resolution = resolution;
         let cancel = AtomicBool::new(false);
         let mut done = |_: usize, _: f64| {};
-        let top = grow(&mut Growing::new(&design, &cancel, &mut done), Cell::ROOT, None).unwrap();
+        let top =
+            grow(&mut Growing::new(&design, &cancel, &mut done), design.whole(), None).unwrap();
         let (certificate, _) = certify(&design, assemble(top, Vec::new()).unwrap()).unwrap();
         is_committed(name, &certificate);
     }
@@ -202,9 +203,8 @@ fn the_format_document_has_an_accepted_instance_and_the_limits_of_the_checker() 
     let (least, greatest) = (PRECISIONS.start(), PRECISIONS.end());
     for row in [
         format!("bytes of a file | {MAX_BYTES}"),
-        format!("nodes of a tree, and of all trees of an atlas together | {MAX_NODES}"),
+        format!("nodes of a tree | {MAX_NODES}"),
         format!("steps of a node | {MAX_STEPS}"),
-        format!("cells of an atlas | {MAX_CELLS}"),
         format!("splits on one axis on a path | {MAX_LEVEL}"),
         format!("precision, least and greatest | {least}, {greatest}"),
         format!("component of a quaternion | {MAX_QUATERNION}"),

@@ -1,10 +1,10 @@
 //! What a map says of single designs: the best one, and those that are marked.
 
-use crate::design::{AtlasDesign, Mark};
-use orthocert_checker::atlas::{range, walk, Ends};
-use orthocert_checker::cell::Cell;
-use orthocert_checker::certificate::AtlasCell;
+use crate::design::{AtlasDesign, Mark, Parameter};
+use num_rational::BigRational;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{walk, AtlasCell};
+use orthocert_kernel::number::Expression;
 use serde::Serialize;
 use std::cmp::Ordering;
 
@@ -36,24 +36,20 @@ pub enum Standing {
 /// are certified.
 pub fn best(
     design: &AtlasDesign,
-    expression: &Exact,
+    expression: &Expression,
     better: Ordering,
     cells: &[AtlasCell],
 ) -> Option<Best> {
-    let claim = design.claim();
     let mut best: Option<Best> = None;
     // The tree's shape was checked with the certificate.
-    let walked = walk(cells, design.parameters.len(), |_, cell, said| {
-        let (AtlasCell::Certified(_), Ok(ranges)) = (said, claim.ranges(cell)) else {
+    let walked = walk(cells, design.parameters.len(), |_, part, said| {
+        let (AtlasCell::Certified(_), Some(ends)) = (said, ends(design, part)) else {
             return Ok(());
         };
-        for vertex in 0..1usize << ranges.len() {
-            let end = |(i, (_, ends)): (usize, &(&str, Ends))| match vertex >> i & 1 {
-                0 => ends.0.clone(),
-                _ => ends.1.clone(),
-            };
-            let at: Vec<Exact> = ranges.iter().enumerate().map(end).collect();
-            let Some(value) = value(design, expression, &at) else {
+        for vertex in 0..1usize << ends.len() {
+            let end = |(i, ends): (usize, &[Exact; 2])| ends[vertex >> i & 1].clone();
+            let at: Vec<Exact> = ends.iter().enumerate().map(end).collect();
+            let Some(value) = design.value(expression, &at) else {
                 continue;
             };
             if best.as_ref().is_none_or(|best| value.compare(&best.value) == Some(better)) {
@@ -65,30 +61,29 @@ pub fn best(
     walked.ok().and(best)
 }
 
-/// The value of an expression at values of the parameters.
-fn value(design: &AtlasDesign, expression: &Exact, at: &[Exact]) -> Option<Exact> {
-    let names = design.parameters.iter().map(|parameter| parameter.name.as_str());
-    let points: Vec<(&str, Ends)> =
-        names.zip(at).map(|(name, x)| (name, (x.clone(), x.clone()))).collect();
-    range(expression, &points).ok().map(|(value, _)| value)
+/// The ends of each parameter's range in a cell.
+pub fn ends(design: &AtlasDesign, part: &[(u64, u32)]) -> Option<Vec<[Exact; 2]>> {
+    let of = |(parameter, &(n, level)): (&Parameter, &(u64, u32))| {
+        let end = |n: u64| parameter.at(&BigRational::new(n.into(), (1u64 << level).into()));
+        Some([end(n)?, end(n + 1)?])
+    };
+    design.parameters.iter().zip(part).map(of).collect()
 }
 
 /// What the map says of a marked design: the verdict of the first decided cell that holds it.
 pub fn verdict_at(design: &AtlasDesign, mark: &Mark, cells: &[AtlasCell]) -> Standing {
-    let claim = design.claim();
-    let within = |x: &Exact, (min, max): &Ends| {
+    let within = |x: &Exact, [min, max]: &[Exact; 2]| {
         let at_most =
             |a: &Exact, b: &Exact| matches!(a.compare(b), Some(Ordering::Less | Ordering::Equal));
         at_most(min, x) && at_most(x, max)
     };
-    let holds = |cell: &Cell| {
-        claim
-            .ranges(cell)
-            .is_ok_and(|ranges| ranges.iter().zip(&mark.at).all(|((_, ends), x)| within(x, ends)))
+    let holds = |part: &[(u64, u32)]| {
+        ends(design, part)
+            .is_some_and(|ends| ends.iter().zip(&mark.at).all(|(ends, x)| within(x, ends)))
     };
     let mut standing = Standing::Outside;
-    let walked = walk(cells, design.parameters.len(), |_, cell, said| {
-        if matches!(standing, Standing::Outside | Standing::Undecided) && holds(cell) {
+    let walked = walk(cells, design.parameters.len(), |_, part, said| {
+        if matches!(standing, Standing::Outside | Standing::Undecided) && holds(part) {
             standing = match said {
                 AtlasCell::Certified(_) => Standing::Certified,
                 AtlasCell::Refuted(_) => Standing::Refuted,

@@ -1,18 +1,18 @@
 //! Lines of equal margin on a map of two parameters.
 
-use super::margin::{margin, without_margin};
+use super::margin::{margin_to, without_margin};
 use crate::design::AtlasDesign;
 use crate::page::contour::{Field, Path};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use orthocert_checker::atlas::walk;
-use orthocert_checker::cell::Edge;
-use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{walk, AtlasCell};
 use rayon::prelude::*;
 
 /// Parts of each range at whose ends margins are sampled.
 const PARTS: u32 = 64;
+/// Finest step of the search for worst values, `2^-FINEST` of the workspace.
+const FINEST: i32 = 7;
 /// Most lines.
 const LINES: f64 = 8.0;
 
@@ -28,16 +28,16 @@ pub struct Contour {
 /// The lines of equal margin within the certified cells of a map of two parameters, by sampling;
 /// none where margins are not defined.
 pub fn contours(design: &AtlasDesign, cells: &[AtlasCell]) -> Vec<Contour> {
-    if design.parameters.len() != 2 || without_margin(&design.design).is_some() {
+    if design.parameters.len() != 2 || without_margin(&design.machine).is_some() {
         return Vec::new();
     }
     let side = PARTS as usize + 1;
     let mut is_certified = vec![false; side * side];
     // The tree's shape was checked with the certificate.
-    let _ = walk(cells, 2, |_, cell, said| {
+    let _ = walk(cells, 2, |_, part, said| {
         if matches!(said, AtlasCell::Certified(_)) {
-            for j in ends(&cell.edges[1]) {
-                for i in ends(&cell.edges[0]) {
+            for j in ends(part[1]) {
+                for i in ends(part[0]) {
                     is_certified[j * side + i] = true;
                 }
             }
@@ -67,22 +67,18 @@ pub fn contours(design: &AtlasDesign, cells: &[AtlasCell]) -> Vec<Contour> {
 }
 
 /// The numbers of the grid's lines that meet an edge.
-fn ends(edge: &Edge) -> std::ops::RangeInclusive<usize> {
-    let scale = (-f64::from(edge.level)).exp2() * f64::from(PARTS);
-    let (from, to) = (edge.index as f64 * scale, (edge.index as f64 + 1.0) * scale);
+fn ends((n, level): (u64, u32)) -> std::ops::RangeInclusive<usize> {
+    let scale = (-f64::from(level)).exp2() * f64::from(PARTS);
+    let (from, to) = (n as f64 * scale, (n as f64 + 1.0) * scale);
     // Exact: powers of two.
     from.ceil() as usize..=to.floor() as usize
 }
 
 fn margin_at(design: &AtlasDesign, at: [usize; 2]) -> f64 {
-    let value = |(parameter, i): (&orthocert_checker::claim::AtlasParameter, usize)| {
-        let part = Exact::Rational(BigRational::new(BigInt::from(i), BigInt::from(PARTS)));
-        let width = parameter.max.clone().minus(parameter.min.clone()).ok()?;
-        parameter.min.clone().plus(width.times(part).ok()?).ok()
-    };
-    let values: Option<Vec<Exact>> = design.parameters.iter().zip(at).map(value).collect();
-    let claim = values.and_then(|values| design.at(&values).ok());
-    claim.map_or(f64::NAN, |claim| margin(&claim))
+    let part = |i: usize| BigRational::new(BigInt::from(i), BigInt::from(PARTS));
+    let values = design.parameters.iter().zip(at).map(|(parameter, i)| parameter.at(&part(i)));
+    let values: Option<Vec<Exact>> = values.collect();
+    values.map_or(f64::NAN, |values| margin_to(&design.at(&values), FINEST))
 }
 
 /// Round levels up to the widest margin: multiples of 1, 2 or 5 times a power of ten, above zero.
@@ -112,9 +108,9 @@ mod tests {
 
     #[test]
     fn the_lines_of_the_grid_that_meet_an_edge_are_those_within_and_at_its_ends() {
-        assert_eq!(ends(&Edge { index: 0, level: 0 }), 0..=64);
-        assert_eq!(ends(&Edge { index: 3, level: 3 }), 24..=32);
-        assert_eq!(ends(&Edge { index: 2, level: 7 }), 1..=1);
-        assert!(ends(&Edge { index: 5, level: 9 }).is_empty());
+        assert_eq!(ends((0, 0)), 0..=64);
+        assert_eq!(ends((3, 3)), 24..=32);
+        assert_eq!(ends((2, 7)), 1..=1);
+        assert!(ends((5, 9)).is_empty());
     }
 }

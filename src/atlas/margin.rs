@@ -1,101 +1,151 @@
 //! The margin of a design: how much its bounds could be tightened.
 //!
-//! A claim *tightened* by a factor `f >= 1` has lower bounds `f` times and upper bounds `1/f` times
-//! as great, and joint ranges `1/f` times as wide about their middles. The *margin* of a design is
-//! the greatest `m` for which its claim tightened by `1 + m` is true.
+//! A claim *tightened* by a margin `m >= 0` has lower bounds `1 + m` times and upper bounds `1/(1 + m)`
+//! times as great, and joint ranges `1/(1 + m)` times as wide about their middles. The *margin* of a
+//! design is the greatest `m` for which its claim, tightened by it, is true.
 //!
-//! **Lemma.** A claim tightened by `f` implies the claim tightened by `g`, `1 <= g <= f`. *Proof.*
-//! Lower bounds are positive or zero, upper bounds positive: `f b >= g b` and `b/f <= b/g`. The
-//! ranges are nested. All else is the same. ∎ So what is certified of a tightened claim bounds the
-//! margin from below, and what refutes it bounds the margin from above.
+//! **Lemma.** A claim tightened by `m` implies the claim tightened by `n`, `0 <= n <= m`. *Proof.*
+//! Lower bounds are positive or zero, upper bounds positive: `(1 + m) b >= (1 + n) b` and
+//! `b/(1 + m) <= b/(1 + n)`. The ranges are nested. All else is the same. ∎ So what is certified of a
+//! tightened claim bounds the margin from below, and what refutes it bounds the margin from above.
 
-use super::decide::sampled;
-use orthocert_checker::claim::{
-    AtLeast, AtMost, JointSpeed, MachineClaim, Range, Requirements, Workspace,
-};
-use orthocert_checker::number::{Exact, NumberErrorKind};
+use super::decide::FINEST;
+use crate::design::written;
+use crate::solver::refute::approximate;
+use crate::solver::sample::{Quality, Sampler};
+use crate::solver::value::Bounded;
+use num_rational::BigRational;
+use num_traits::One;
+use orthocert_checker::number::Exact;
+use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
+use orthocert_kernel::number::{Expression, Operator};
+use orthocert_kernel::problem::Problem;
+
+/// The one quantity whose bounds may be of any sign.
+const JOINT_RANGE: &str = "joint_range";
 
 /// Why a claim's margin is not defined; `None` if it is.
 pub fn without_margin(claim: &MachineClaim) -> Option<&'static str> {
-    if matches!(claim.workspace, Workspace::Cube { .. }) {
-        return Some("the paper's cube is the claim of a tight design");
-    }
-    let half_open = |range: &Range| range.min.is_none() || range.max.is_none();
-    let half_open = claim.requirements.joint_range.iter().flatten().any(half_open);
+    let lone = |own: &Requirement| own.quantity == JOINT_RANGE && range(claim, own).is_none();
+    let half_open = claim.require.iter().any(lone);
     half_open.then_some("a joint_range with one end has no middle about which to tighten it")
 }
 
-/// The claim tightened by a factor, for a claim that has a margin.
-///
-/// # Errors
-/// If a number is too large.
-pub fn tightened(claim: &MachineClaim, factor: &Exact) -> Result<MachineClaim, NumberErrorKind> {
-    let least = |x: &Exact| x.clone().times(factor.clone());
-    let greatest = |x: &Exact| x.clone().over(factor.clone());
-    let at_least = |bound: &AtLeast| Ok(AtLeast { min: least(&bound.min)? });
-    let at_most = |bound: &AtMost| Ok(AtMost { max: greatest(&bound.max)? });
-    let all = &claim.requirements;
-    let transmission = |range: &Range| {
-        let min = range.min.as_ref().map(least).transpose()?;
-        Ok(Range { min, max: range.max.as_ref().map(greatest).transpose()? })
+/// Both ends of the joint range that a requirement is of.
+fn range<'a>(claim: &'a MachineClaim, own: &'a Requirement) -> Option<[&'a Expression; 2]> {
+    let other = |wanted: fn(&Bound) -> Option<&Expression>| {
+        let same = |r: &&Requirement| r.quantity == own.quantity && r.leg == own.leg;
+        claim.require.iter().filter(same).find_map(|r| wanted(&r.bound))
     };
-    let joint_range = |[a, b, c]: &[Range; 3]| {
-        Ok([narrowed(a, factor)?, narrowed(b, factor)?, narrowed(c, factor)?])
-    };
-    let joint_speed = |speed: &JointSpeed| {
-        Ok(JointSpeed { tool: speed.tool.clone(), max: greatest(&speed.max)? })
-    };
-    Ok(MachineClaim {
-        requirements: Requirements {
-            transmission: all.transmission.as_ref().map(transmission).transpose()?,
-            joint_range: all.joint_range.as_ref().map(joint_range).transpose()?,
-            conditioning: all.conditioning.as_ref().map(at_most).transpose()?,
-            serial_margin: all.serial_margin.as_ref().map(at_least).transpose()?,
-            parallel_margin: all.parallel_margin.as_ref().map(at_least).transpose()?,
-            leg_angle: all.leg_angle.as_ref().map(at_most).transpose()?,
-            joint_speed: all.joint_speed.as_ref().map(joint_speed).transpose()?,
-        },
-        ..claim.clone()
-    })
+    let least = other(|bound| match bound {
+        Bound::Min(min) | Bound::Within([min, _]) => Some(min),
+        Bound::Max(_) | Bound::Holds => None,
+    });
+    let greatest = other(|bound| match bound {
+        Bound::Max(max) | Bound::Within([_, max]) => Some(max),
+        Bound::Min(_) | Bound::Holds => None,
+    });
+    Some([least?, greatest?])
 }
 
-/// A range `1/factor` times as wide about its middle.
-fn narrowed(range: &Range, factor: &Exact) -> Result<Range, NumberErrorKind> {
-    let (Some(min), Some(max)) = (&range.min, &range.max) else {
-        return Ok(range.clone());
-    };
-    let two = || Exact::integer(2);
-    let middle = min.clone().plus(max.clone())?.over(two())?;
-    let half = max.clone().minus(min.clone())?.over(two())?.over(factor.clone())?;
-    let (min, max) = (middle.clone().minus(half.clone())?, middle.plus(half)?);
-    Ok(Range { min: Some(min), max: Some(max) })
+/// The claim tightened by a margin, for a claim that has one; `None` if a number is too long.
+pub fn tightened(claim: &MachineClaim, margin: &BigRational) -> Option<MachineClaim> {
+    let factor = written(&Exact::Rational(BigRational::one() + margin))?;
+    let mut tightened = claim.clone();
+    for (own, new) in claim.require.iter().zip(&mut tightened.require) {
+        let narrowed = |end: usize| {
+            let ends = range(claim, own)?;
+            let sum = over(Operator::Add, ends[0], ends[1])?;
+            let middle = over(Operator::Div, &sum, &Expression::integer(2))?;
+            let off = over(Operator::Sub, ends[end], &middle)?;
+            over(Operator::Add, &middle, &over(Operator::Div, &off, &factor)?)
+        };
+        new.bound = match &own.bound {
+            Bound::Holds => Bound::Holds,
+            Bound::Within(_) => Bound::Within([narrowed(0)?, narrowed(1)?]),
+            Bound::Min(_) if own.quantity == JOINT_RANGE => Bound::Min(narrowed(0)?),
+            Bound::Max(_) if own.quantity == JOINT_RANGE => Bound::Max(narrowed(1)?),
+            Bound::Min(bound) => Bound::Min(over(Operator::Mul, bound, &factor)?),
+            Bound::Max(bound) => Bound::Max(over(Operator::Div, bound, &factor)?),
+        };
+    }
+    Some(tightened)
+}
+
+/// The result of an operation, as one number where it is rational.
+fn over(operator: Operator, left: &Expression, right: &Expression) -> Option<Expression> {
+    let both = Expression::Binary(operator, Box::new(left.clone()), Box::new(right.clone()));
+    match both.rational() {
+        Some(value) => written(&Exact::Rational(value)),
+        None => Some(both),
+    }
 }
 
 /// The margin of a claim, nearly, by sampling: not much less than 0 where the claim does not hold,
-/// -1 where a leg does not reach or there is no model, infinite without bounds.
+/// -1 where a leg does not reach or the claim is not well formed, infinite without bounds.
 pub fn margin(claim: &MachineClaim) -> f64 {
-    let Some((sampler, worst)) = sampled(claim) else {
-        return -1.0;
-    };
-    let rooms = worst.iter().filter_map(|w| sampler.room(w.quality, &sampler.at(&w.place)));
-    rooms.fold(f64::INFINITY, f64::min).max(-1.0)
+    margin_to(claim, FINEST)
+}
+
+/// The same down to steps of `2^-finest` of the workspace.
+pub(super) fn margin_to(claim: &MachineClaim, finest: i32) -> f64 {
+    sampled(claim, finest).unwrap_or(-1.0)
+}
+
+fn sampled(claim: &MachineClaim, finest: i32) -> Option<f64> {
+    let problem = Problem::new(claim).ok()?;
+    let sampler = Sampler::new(claim, &problem).ok()?.quick();
+    let rooms = sampler.worst_on_grid().into_iter().map(|worst| {
+        let Quality::Obligation(number) = worst.quality else {
+            return if worst.margin > 0.0 { f64::INFINITY } else { -1.0 };
+        };
+        let worst = sampler.descend(worst.quality, &worst.place, finest);
+        let Some(bounded) = Bounded::of(claim, &problem, number) else {
+            return f64::INFINITY;
+        };
+        let value = bounded.value(claim, &problem, &sampler, &worst.place);
+        let room = value.and_then(|value| room(claim, &bounded.requirement, value));
+        room.unwrap_or(if worst.margin > 0.0 { f64::INFINITY } else { -1.0 })
+    });
+    Some(rooms.fold(f64::INFINITY, f64::min).max(-1.0))
+}
+
+/// By how much a bound can be tightened until it is met by a value.
+fn room(claim: &MachineClaim, own: &Requirement, value: f64) -> Option<f64> {
+    if own.quantity == JOINT_RANGE {
+        let [least, greatest] = range(claim, own)?;
+        let (least, greatest) = (approximate(least)?, approximate(greatest)?);
+        let off = value - (least + greatest) / 2.0;
+        let turns = match own.bound {
+            Bound::Within(_) => (off / 360.0).round(),
+            _ => 0.0,
+        };
+        return Some((greatest - least) / 2.0 / (off - 360.0 * turns).abs() - 1.0);
+    }
+    match &own.bound {
+        Bound::Min(bound) => Some(value / approximate(bound)? - 1.0),
+        Bound::Max(bound) => Some(approximate(bound)? / value - 1.0),
+        Bound::Within(_) | Bound::Holds => None,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Design;
+    use crate::design::AtlasDesign;
 
     fn claim(requirements: &str) -> MachineClaim {
         let text = format!(
-            "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\nbase = -1\n[workspace]\n\
+            "[parameters]\na = {{ min = 1, max = 2 }}\n[atlas]\nresolution = 1\nboxes = 1\n\
+             [mechanism]\nkind = \"orthoglide\"\nleg_length = \"a\"\nbase = -1\n[workspace]\n\
              min = [-0.1, -0.1, -0.1]\nmax = [0.2, 0.2, 0.2]\n[requirements]\n{requirements}\n"
         );
-        Design::parse(&text, "test").unwrap().rules.unwrap()
+        let design = AtlasDesign::parse(&text, "test").unwrap();
+        design.at(&[Exact::integer(1)])
     }
 
-    fn factor(text: &str) -> Exact {
-        Exact::parse(text, 100).unwrap()
+    fn by(text: &str) -> BigRational {
+        Exact::parse(text, 100).unwrap().as_rational().unwrap().clone()
     }
 
     /// Every requirement with a bound.
@@ -113,8 +163,8 @@ mod tests {
              parallel_margin = { min = \"9/20\" }\nleg_angle = { max = 40 }\n\
              joint_speed = { tool = 1, max = \"8/3\" }",
         );
-        assert_eq!(tightened(&claim(ALL), &factor("3/2")).unwrap(), expected);
-        assert_eq!(tightened(&claim(ALL), &factor("1")).unwrap(), claim(ALL));
+        assert_eq!(tightened(&claim(ALL), &by("1/2")).unwrap(), expected);
+        assert_eq!(tightened(&claim(ALL), &by("0")).unwrap(), claim(ALL));
     }
 
     #[test]
@@ -123,8 +173,7 @@ mod tests {
             let claim = claim(requirement);
             let found = margin(&claim);
             assert!(found > 0.05 && found.is_finite(), "{requirement}: {found}");
-            let of =
-                |m: f64| margin(&tightened(&claim, &factor(&format!("{:.9}", 1.0 + m))).unwrap());
+            let of = |m: f64| margin(&tightened(&claim, &by(&format!("{m:.9}"))).unwrap());
             assert!(of(0.999 * found) > 0.0, "{requirement}: {found}");
             assert!(of(1.001 * found) < 0.0, "{requirement}: {found}");
         }

@@ -14,7 +14,7 @@ mod part;
 mod picture;
 mod widest;
 
-pub use best::{best, verdict_at, Best, Standing};
+pub use best::{best, ends, verdict_at, Best, Standing};
 pub use contours::{contours, Contour};
 pub use decide::{decide, Decision};
 pub use margin::{margin, tightened, without_margin};
@@ -24,10 +24,15 @@ pub use picture::{picture, Point};
 pub use widest::{widest, Bound, Widest};
 
 use crate::design::AtlasDesign;
-use orthocert_checker::certificate::{Atlas, AtlasCell, Certificate, Proof, Verdict};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::number::Exact;
-use orthocert_checker::{atlas, check_part, Accepted, Rejected, TreeSize};
+use orthocert_checker::{check_part, Accepted, Rejected, TreeSize};
+use orthocert_kernel::atlas::{walk, AtlasCell};
+use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::number::{Expression, Operator};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 
@@ -44,14 +49,24 @@ pub fn certify(
     cells: Vec<AtlasCell>,
 ) -> Result<(Certificate, Accepted), Rejected> {
     let mut claim = design.claim();
-    let shares = atlas::walk(&cells, claim.parameters.len(), |_, _, _| Ok(()))?;
-    claim.certified = Exact::Rational(shares.certified);
-    claim.refuted = Exact::Rational(shares.refuted);
-    let proof = Proof::Atlas(Atlas { cells });
+    let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()));
+    let shares = shares.map_err(Rejected::Kernel)?;
+    (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
+    let proof = Proof::Kernel(kernel::Proof::Atlas(cells));
     let certificate = crate::verify::certificate(Claim::Atlas(claim), Verdict::Certified, proof);
     let size = checked(&certificate)?;
     let accepted = Accepted { verdict: certificate.verdict, size };
     Ok((certificate, accepted))
+}
+
+/// A share as a fraction.
+fn fraction(share: &BigRational) -> Expression {
+    let whole = |x: &BigInt| Expression::Literal { digits: x.clone(), places: 0 };
+    let (p, q) = (whole(share.numer()), whole(share.denom()));
+    match share.denom().is_one() {
+        true => p,
+        false => Expression::Binary(Operator::Div, Box::new(p), Box::new(q)),
+    }
 }
 
 /// Has every part of an atlas checked, side by side; returns its size.
@@ -62,13 +77,7 @@ fn checked(certificate: &Certificate) -> Result<TreeSize, Rejected> {
         .map(|part| check_part(certificate, part, PARTS))
         .collect();
     parts.into_iter().try_fold(TreeSize::default(), |mut sum, part| {
-        let part = part?;
-        sum.nodes += part.nodes;
-        sum.leaves += part.leaves;
-        sum.depth = sum.depth.max(part.depth);
-        for (rule, uses) in part.steps {
-            *sum.steps.entry(rule).or_default() += uses;
-        }
+        sum.add(part?);
         Ok(sum)
     })
 }

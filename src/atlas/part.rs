@@ -2,9 +2,8 @@
 
 use super::decide::{decide, Decision};
 use crate::design::AtlasDesign;
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{AtlasCell, MAX_BYTES, MAX_CELLS, MAX_NODES};
-use orthocert_checker::claim::AtlasClaim;
+use orthocert_checker::certificate::MAX_BYTES;
+use orthocert_kernel::atlas::{halves, AtlasCell, AtlasClaim, Part};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,19 +16,15 @@ pub enum Stopped {
     Cancelled,
     /// Its cells would not fit into a certificate.
     #[error(
-        "the map has more cells or longer proofs than a certificate holds ({MAX_CELLS} cells, \
-         {MAX_NODES} boxes, {MAX_BYTES} bytes); accepted: a lower atlas.resolution"
+        "the map has more cells or longer proofs than a certificate holds ({MAX_BYTES} bytes); \
+         accepted: a lower atlas.resolution"
     )]
     TooLarge,
 }
 
-/// What a certificate has room for.
+/// Bytes of the certificate that are taken.
 #[derive(Default)]
-struct Room {
-    cells: usize,
-    nodes: usize,
-    bytes: usize,
-}
+struct Room(usize);
 
 /// Bytes kept for what is not cells.
 const REST: usize = 1 << 16;
@@ -37,17 +32,8 @@ const REST: usize = 1 << 16;
 impl Room {
     /// Takes the room of a cell, if there is.
     fn take(&mut self, cell: &AtlasCell) -> Result<(), Stopped> {
-        if let AtlasCell::Certified(tree) = cell {
-            self.nodes += tree.nodes.len();
-        }
-        self.cells += 1;
-        self.bytes += serde_json::to_string(cell).map_or(MAX_BYTES, |text| text.len() + 2);
-        let full =
-            self.cells > MAX_CELLS || self.nodes > MAX_NODES || self.bytes + REST > MAX_BYTES;
-        if full {
-            return Err(Stopped::TooLarge);
-        }
-        Ok(())
+        self.0 += serde_json::to_string(cell).map_or(MAX_BYTES, |text| text.len() + 1);
+        (self.0 + REST <= MAX_BYTES).then_some(()).ok_or(Stopped::TooLarge)
     }
 }
 
@@ -83,15 +69,14 @@ impl<'a> Growing<'a> {
 
     /// The axis on which a cell is split: the one that was halved least, the first of these; `None`
     /// at the finest resolution.
-    fn axis(&self, cell: &Cell) -> Option<usize> {
-        least_halved(cell, self.claim.parameters.len(), self.design.resolution)
+    fn axis(&self, part: &[(u64, u32)]) -> Option<usize> {
+        least_halved(part, self.design.resolution)
     }
 }
 
 /// The axis of a cell that was halved least, the first of these, if less than `finest` times.
-pub(super) fn least_halved(cell: &Cell, parameters: usize, finest: u32) -> Option<usize> {
-    let levels = cell.edges.iter().map(|edge| edge.level).take(parameters);
-    let (level, axis) = levels.enumerate().map(|(axis, level)| (level, axis)).min()?;
+pub(super) fn least_halved(part: &[(u64, u32)], finest: u32) -> Option<usize> {
+    let (level, axis) = part.iter().enumerate().map(|(axis, (_, level))| (*level, axis)).min()?;
     (level < finest).then_some(axis)
 }
 
@@ -102,7 +87,7 @@ pub(super) fn least_halved(cell: &Cell, parameters: usize, finest: u32) -> Optio
 /// If it was cancelled, or is too large for a certificate.
 pub fn grow(
     growing: &mut Growing<'_>,
-    root: Cell,
+    root: Part,
     enough: Option<usize>,
 ) -> Result<Vec<Top>, Stopped> {
     let mut room = Room::default();
@@ -124,17 +109,16 @@ pub fn grow(
                     (Decision::Decided(leaf), _) => leaf,
                     (Decision::Open, None) => AtlasCell::Undecided,
                     (Decision::Open, Some(axis)) => {
-                        let (lower, upper) =
-                            cell.halves(Axis::ALL[axis]).ok_or(Stopped::TooLarge)?;
+                        let [lower, upper] = halves(cell, axis).ok_or(Stopped::TooLarge)?;
                         let first = nodes.len();
                         nodes.extend([Node::Waiting, Node::Waiting]);
                         next.extend([(first, lower), (first + 1, upper)]);
                         nodes[*at] = Node::Split(axis, [first, first + 1]);
-                        room.take(&AtlasCell::Split(axis + 1))?;
+                        room.take(&AtlasCell::Split(axis))?;
                         continue;
                     }
                 };
-                let depth: u32 = cell.edges.iter().map(|edge| edge.level).sum();
+                let depth: u32 = cell.iter().map(|(_, level)| level).sum();
                 room.take(&leaf)?;
                 decided += 1;
                 closed += (-f64::from(depth)).exp2();
@@ -166,7 +150,7 @@ pub(super) fn in_order(mut nodes: Vec<Node>) -> Vec<Top> {
             Node::Waiting => top.push(Top::Waiting),
             Node::Leaf(leaf) => top.push(Top::Cell(leaf)),
             Node::Split(axis, [lower, upper]) => {
-                top.push(Top::Cell(AtlasCell::Split(axis + 1)));
+                top.push(Top::Cell(AtlasCell::Split(axis)));
                 waiting.extend([upper, lower]);
             }
         }
@@ -180,17 +164,16 @@ impl Node {
     }
 }
 
-/// The cells that wait in a tree below the whole box, in order; `None` if it is not a tree.
-pub fn waiting(top: &[Top]) -> Option<Vec<Cell>> {
+/// The cells that wait in a tree below a cell, in order; `None` if it is not a tree.
+pub fn waiting(top: &[Top], root: Part) -> Option<Vec<Part>> {
     let mut found = Vec::new();
-    let mut below = vec![Cell::ROOT];
+    let mut below = vec![root];
     for node in top {
-        let cell = below.pop()?;
+        let part = below.pop()?;
         match node {
-            Top::Waiting => found.push(cell),
-            Top::Cell(AtlasCell::Split(number)) => {
-                let axis = Axis::ALL.get(number.checked_sub(1)?)?;
-                let (lower, upper) = cell.halves(*axis)?;
+            Top::Waiting => found.push(part),
+            Top::Cell(AtlasCell::Split(axis)) => {
+                let [lower, upper] = halves(&part, *axis)?;
                 below.extend([upper, lower]);
             }
             Top::Cell(_) => {}
@@ -216,16 +199,14 @@ pub fn assemble(top: Vec<Top>, parts: Vec<Vec<AtlasCell>>) -> Option<Vec<AtlasCe
 #[cfg(test)]
 mod tests {
     use super::*;
-    use orthocert_checker::certificate::{Node as Box, Tree};
+    use orthocert_kernel::certificate::{Node as Box, Tree};
 
     #[test]
     fn there_is_room_for_what_a_certificate_holds() {
-        let mut room = Room::default();
-        for _ in 0..MAX_CELLS {
-            assert_eq!(room.take(&AtlasCell::Undecided), Ok(()));
-        }
-        assert_eq!(room.take(&AtlasCell::Undecided), Err(Stopped::TooLarge));
-        let tree = Tree { precision: 64, nodes: vec![Box::default(); MAX_NODES + 1] };
+        let small = AtlasCell::Undecided;
+        assert_eq!(Room::default().take(&small), Ok(()));
+        assert_eq!(Room(MAX_BYTES - REST).take(&small), Err(Stopped::TooLarge));
+        let tree = Tree { precision: 64, chords: None, nodes: vec![Box::default(); MAX_BYTES / 2] };
         let large = Room::default().take(&AtlasCell::Certified(tree));
         assert_eq!(large, Err(Stopped::TooLarge));
     }

@@ -9,10 +9,8 @@ use crate::design::AtlasDesign;
 use crate::escape::xml;
 use crate::page::svg::path_data;
 use num_traits::ToPrimitive;
-use orthocert_checker::atlas::walk;
-use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{walk, AtlasCell, Part};
 use std::fmt::Write;
 
 /// Side of a map, in pixels.
@@ -134,10 +132,10 @@ fn approximate(x: &Exact) -> f64 {
 }
 
 /// Whether the plane at `part / of` of the third range passes through the edge.
-fn meets(edge: &Edge, (part, of): (u32, u32)) -> bool {
+fn meets((n, level): (u64, u32), (part, of): (u32, u32)) -> bool {
     let at = f64::from(part) / f64::from(of);
-    let scale = (-f64::from(edge.level)).exp2();
-    let from = edge.index as f64 * scale;
+    let scale = (-f64::from(level)).exp2();
+    let from = n as f64 * scale;
     from <= at && at < from + scale
 }
 
@@ -149,13 +147,13 @@ fn draw_cells(
     plane: Option<(u32, u32)>,
 ) {
     let strip = design.parameters.len() == 1;
-    let ends = |edge: &Edge, length: f64| {
-        let scale = (-f64::from(edge.level)).exp2() * length;
-        (edge.index as f64 * scale, scale)
+    let ends = |(n, level): (u64, u32), length: f64| {
+        let scale = (-f64::from(level)).exp2() * length;
+        (n as f64 * scale, scale)
     };
     // The tree's shape was checked with the certificate.
-    let _ = walk(cells, design.parameters.len(), |_, cell: &Cell, said| {
-        if plane.is_some_and(|plane| !meets(&cell.edges[2], plane)) {
+    let _ = walk(cells, design.parameters.len(), |_, cell: &Part, said| {
+        if plane.is_some_and(|plane| !meets(cell[2], plane)) {
             return Ok(());
         }
         let class = match said {
@@ -163,8 +161,8 @@ fn draw_cells(
             AtlasCell::Refuted(_) => "r",
             AtlasCell::Undecided | AtlasCell::Split(_) => "u",
         };
-        let (x, w) = ends(&cell.edges[0], SIDE);
-        let (y, h) = if strip { (0.0, high) } else { ends(&cell.edges[1], high) };
+        let (x, w) = ends(cell[0], SIDE);
+        let (y, h) = if strip { (0.0, high) } else { ends(cell[1], high) };
         let _ = writeln!(
             svg,
             "<rect class=\"cell {class}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",

@@ -6,19 +6,18 @@
 //! cell of the box.
 
 use super::certify;
-use super::decide::refuted;
+use super::decide::{middle, refuted};
 use super::margin::{margin, tightened, without_margin};
 use super::part::{assemble, in_order, least_halved, Node};
 use crate::design::{AtlasDesign, MAX_RESOLUTION};
 use crate::frontier::{decimal, NoAnswer};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Stop};
+use crate::solver;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use orthocert_checker::atlas::{walk, AtlasError};
-use orthocert_checker::cell::{Axis, Cell};
-use orthocert_checker::certificate::{AtlasCell, Certificate};
-use orthocert_checker::claim::AtlasClaim;
-use orthocert_checker::number::{Exact, NumberErrorKind};
+use orthocert_checker::certificate::Certificate;
+use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{halves, walk, AtlasCell, AtlasClaim, Part};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -76,14 +75,14 @@ pub fn widest(
     cells: &[AtlasCell],
     cancel: &AtomicBool,
 ) -> Result<Option<Widest>, NoAnswer> {
-    if without_margin(&design.design).is_some() {
+    if without_margin(&design.machine).is_some() {
         return Ok(None);
     }
     let mut starts: Vec<Vec<u64>> = Vec::new();
     // The tree's shape was checked with the certificate.
-    let _ = walk(cells, design.parameters.len(), |_, cell, said| {
+    let _ = walk(cells, design.parameters.len(), |_, part, said| {
         if matches!(said, AtlasCell::Certified(_)) {
-            starts.push(middle(design, cell));
+            starts.push(in_grid(part));
         }
         Ok(())
     });
@@ -108,25 +107,19 @@ pub fn widest(
 }
 
 /// The middle of a cell, in the grid.
-fn middle(design: &AtlasDesign, cell: &Cell) -> Vec<u64> {
-    let edges = cell.edges.iter().take(design.parameters.len());
-    // index < 2^level, level <= MAX_RESOLUTION < LEVEL.
-    edges.map(|edge| (2 * edge.index as u64 + 1) << (LEVEL - edge.level - 1)).collect()
+fn in_grid(part: &[(u64, u32)]) -> Vec<u64> {
+    // n < 2^level, level <= MAX_RESOLUTION < LEVEL.
+    part.iter().map(|(n, level)| (2 * n + 1) << (LEVEL - level - 1)).collect()
 }
 
 /// The values of the parameters at a place of the grid.
-fn values(design: &AtlasDesign, at: &[u64]) -> Result<Vec<Exact>, NumberErrorKind> {
-    let value = |(parameter, index): (&orthocert_checker::claim::AtlasParameter, &u64)| {
-        let part = BigRational::new(BigInt::from(*index), BigInt::from(1) << LEVEL);
-        let width = parameter.max.clone().minus(parameter.min.clone())?;
-        parameter.min.clone().plus(width.times(Exact::Rational(part))?)
-    };
-    design.parameters.iter().zip(at).map(value).collect()
+fn values(design: &AtlasDesign, at: &[u64]) -> Option<Vec<Exact>> {
+    let part = |n: &u64| BigRational::new(BigInt::from(*n), BigInt::from(1) << LEVEL);
+    design.parameters.iter().zip(at).map(|(parameter, n)| parameter.at(&part(n))).collect()
 }
 
 fn margin_at(design: &AtlasDesign, at: &[u64]) -> f64 {
-    let claim = values(design, at).ok().and_then(|values| design.at(&values).ok());
-    claim.map_or(-1.0, |claim| margin(&claim))
+    values(design, at).map_or(-1.0, |values| margin(&design.at(&values)))
 }
 
 /// Moves to the best neighbour, diagonal ones among them, while that is better, with steps of half
@@ -179,20 +172,25 @@ fn certified(
     sampled: f64,
     cancel: &AtomicBool,
 ) -> Result<Option<Widest>, NoAnswer> {
-    let number = |error: NumberErrorKind| NoAnswer::Claim(AtlasError::from(error).to_string());
-    let at = values(design, at).map_err(number)?;
-    let claim = design.at(&at).map_err(NoAnswer::Claim)?;
+    let Some(at) = values(design, at) else { return Ok(None) };
+    let claim = design.at(&at);
     for short in SHORT {
-        let Some(margin) = decimal(sampled * (1.0 - short), ACCURACY).map(Exact::Rational) else {
+        let Some(margin) = decimal(sampled * (1.0 - short), ACCURACY) else {
             continue;
         };
-        let factor = Exact::integer(1).plus(margin.clone()).map_err(number)?;
+        let Some(claim) = tightened(&claim, &margin) else {
+            continue;
+        };
         // As for a cell, and some more: there is nothing else to fall back on.
         let budget = Budget { max_boxes: 10 * design.boxes, deadline: None };
         let mut control = Control { cancel, progress: &mut |_| {} };
-        let claim = tightened(&claim, &factor).map_err(number)?;
-        if let Some(certificate) = proof(&claim, budget, &mut control)? {
-            return Ok(Some(Widest { at, margin, certificate, bound: None }));
+        match solver::proof(&claim, budget, &mut control) {
+            Ok(certificate) => {
+                let margin = Exact::Rational(margin);
+                return Ok(Some(Widest { at, margin, certificate, bound: None }));
+            }
+            Err(Stop::Cancelled) => return Err(NoAnswer::Cancelled),
+            Err(_) => {}
         }
     }
     Ok(None)
@@ -229,15 +227,14 @@ fn bounded(
     margin: f64,
     cancel: &AtomicBool,
 ) -> Result<Option<Bound>, NoAnswer> {
-    let Some(margin) = decimal(margin, ACCURACY).map(Exact::Rational) else {
+    let Some(margin) = decimal(margin, ACCURACY) else {
         return Ok(None);
     };
-    let tightened =
-        Exact::integer(1).plus(margin.clone()).and_then(|f| tightened(&design.design, &f));
-    let Ok(claim) = tightened else {
+    let Some(machine) = tightened(&design.machine, &margin) else {
         return Ok(None);
     };
-    let design = AtlasDesign { design: claim, ..design.clone() };
+    let margin = Exact::Rational(margin);
+    let design = AtlasDesign { machine, ..design.clone() };
     let Some(cells) = all_refuted(&design, cancel)? else {
         return Ok(None);
     };
@@ -255,7 +252,7 @@ fn all_refuted(
     let claim = design.claim();
     let finest = (design.resolution + FINER).min(u32::try_from(MAX_RESOLUTION).unwrap_or(0));
     let mut nodes = vec![Node::Waiting];
-    let mut waiting = vec![(0, Cell::ROOT)];
+    let mut waiting = vec![(0, design.whole())];
     let mut tries = 0;
     while !waiting.is_empty() {
         if cancel.load(Ordering::Relaxed) {
@@ -275,8 +272,11 @@ fn all_refuted(
                     let first = nodes.len();
                     nodes.extend([Node::Waiting, Node::Waiting]);
                     nodes[at] = Node::Split(axis, [first, first + 1]);
-                    let halves = [(first, lower), (first + 1, upper)];
-                    waiting.extend(if first_upper { halves } else { [halves[1], halves[0]] });
+                    let mut halves = [(first, lower), (first + 1, upper)];
+                    if !first_upper {
+                        halves.reverse();
+                    }
+                    waiting.extend(halves);
                 }
                 Tried::Open => return Ok(None),
             }
@@ -289,25 +289,26 @@ fn all_refuted(
 enum Tried {
     Refuted(AtlasCell),
     /// The axis along which it is split, whether the upper half comes first, and both.
-    Split(usize, bool, [Cell; 2]),
+    Split(usize, bool, [Part; 2]),
     Open,
 }
 
-fn tried(design: &AtlasDesign, claim: &AtlasClaim, cell: &Cell, finest: u32) -> Tried {
-    if let Some(refuted) = refuted(claim, cell) {
+fn tried(design: &AtlasDesign, claim: &AtlasClaim, part: &Part, finest: u32) -> Tried {
+    if let Some(refuted) = refuted(design, claim, part) {
         return Tried::Refuted(refuted);
     }
-    let axis = least_halved(cell, claim.parameters.len(), finest);
-    let halves = axis.and_then(|axis| Some((axis, cell.halves(*Axis::ALL.get(axis)?)?)));
-    let Some((axis, (lower, upper))) = halves else {
+    let axis = least_halved(part, finest);
+    let Some((axis, both)) = axis.and_then(|axis| Some((axis, halves(part, axis)?))) else {
         return Tried::Open;
     };
-    let [below, above] = [lower, upper].map(|half| margin_at(design, &middle(design, &half)));
+    let [below, above] = both
+        .each_ref()
+        .map(|half| middle(design, half).map_or(-1.0, |values| margin(&design.at(&values))));
     if below.max(above) > 0.0 {
         // Some design of the cell seems to have the margin.
         return Tried::Open;
     }
-    Tried::Split(axis, above > below, [lower, upper])
+    Tried::Split(axis, above > below, both)
 }
 
 #[cfg(test)]
@@ -331,7 +332,8 @@ mod tests {
     fn the_widest_margin_is_between_its_two_certificates() {
         let (design, cancel) = (orthoglides(), AtomicBool::new(false));
         let mut done = |_: usize, _: f64| {};
-        let top = grow(&mut Growing::new(&design, &cancel, &mut done), Cell::ROOT, None).unwrap();
+        let top =
+            grow(&mut Growing::new(&design, &cancel, &mut done), design.whole(), None).unwrap();
         let cells = assemble(top, Vec::new()).unwrap();
         let Widest { at, margin, certificate, bound } =
             widest(&design, &cells, &cancel).unwrap().unwrap();
@@ -368,23 +370,5 @@ mod tests {
         assert_eq!(neighbours(&[end], 4), [vec![end - 4]]);
         assert_eq!(neighbours(&[8, 8], 4).len(), 8);
         assert_eq!(neighbours(&[0, end], 4).len(), 3);
-    }
-}
-
-fn proof(
-    claim: &orthocert_checker::claim::MachineClaim,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    use crate::verify::{verify, Answer};
-    let Ok(found) = verify(claim, budget, control) else { return Ok(None) };
-    match found.answer {
-        Answer::Cancelled => Err(NoAnswer::Cancelled),
-        Answer::Decided { certificate, accepted }
-            if accepted.verdict == orthocert_checker::certificate::Verdict::Certified =>
-        {
-            Ok(Some(certificate))
-        }
-        _ => Ok(None),
     }
 }

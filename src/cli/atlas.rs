@@ -12,12 +12,13 @@ use orthocert::output;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
 use orthocert::search::{Budget, Control, Progress};
-use orthocert::verify::verify;
-use orthocert_checker::cell::Cell;
-use orthocert_checker::certificate::{AtlasCell, Certificate};
+use orthocert::solver::{verify, Answer};
+use orthocert_checker::certificate::Certificate;
 use orthocert_checker::claim::Claim;
 use orthocert_checker::number::Exact;
-use orthocert_checker::{statement, Accepted};
+use orthocert_checker::statement;
+use orthocert_kernel::atlas::AtlasCell;
+use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -107,7 +108,7 @@ fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
     let mut bar = Bar::new(quiet);
     let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
     let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
-    let grown = atlas::grow(&mut growing, Cell::ROOT, None);
+    let grown = atlas::grow(&mut growing, design.whole(), None);
     bar.clear();
     let top = grown.map_err(|stopped| match stopped {
         Stopped::Cancelled => Failure::Interrupted,
@@ -130,6 +131,8 @@ pub fn publish(
     let Claim::Atlas(claim) = &certificate.claim else {
         return Err(Failure::Defect);
     };
+    let share = |x: &Expression| x.rational().map(Exact::Rational).ok_or(Failure::Defect);
+    let (certified, refuted) = (share(&claim.certified)?, share(&claim.refuted)?);
     let text = certify::as_written(&certificate).map_err(rejected)?;
     let mut files = Files { folder, all: Vec::new() };
     let best = match &design.objective {
@@ -152,10 +155,10 @@ pub fn publish(
         title: design.title.clone(),
         atlas: name,
         parameters: design.parameters.clone(),
-        certified: part(&cells, claim.certified.clone(), Standing::Certified),
-        refuted: part(&cells, claim.refuted.clone(), Standing::Refuted),
-        undecided: part(&cells, rest(&claim.certified, &claim.refuted)?, Standing::Undecided),
-        nodes: nodes(&accepted),
+        undecided: part(&cells, rest(&certified, &refuted)?, Standing::Undecided),
+        certified: part(&cells, certified, Standing::Certified),
+        refuted: part(&cells, refuted, Standing::Refuted),
+        nodes: accepted.size.nodes,
         best,
         marks: marks.collect(),
         certificate: files.add(CERTIFICATE, text),
@@ -182,10 +185,6 @@ pub fn answer(report: &AtlasReport, work: &Work) -> Result<Status, Failure> {
     }
     let decided = report.certified.cells + report.refuted.cells;
     Ok(if decided > 0 { Status::Done } else { Status::Undecided })
-}
-
-fn nodes(accepted: &Accepted) -> usize {
-    accepted.size.nodes
 }
 
 fn part(cells: &[AtlasCell], share: Exact, standing: Standing) -> Part {
@@ -215,21 +214,26 @@ fn points(report: &AtlasReport) -> Vec<Point> {
 /// The design with the best value, with an ordinary certificate of its own.
 fn best_value(
     design: &AtlasDesign,
-    (expression, better): (&Exact, Ordering),
+    (expression, better): (&Expression, Ordering),
     cells: &[AtlasCell],
     files: &mut Files<'_>,
 ) -> Result<Option<BestDesign>, Failure> {
     let Some(best) = atlas::best(design, expression, better, cells) else {
         return Ok(None);
     };
-    let claim = design.at(&best.at).map_err(Failure::Input)?;
+    let claim = design.at(&best.at);
     // A part of what was proved of its cell: the same number of boxes is enough in all but rare
     // cases, and where it is not, the report says so.
     let budget = Budget { max_boxes: 10 * design.boxes, deadline: None };
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut |_| {} };
-    let mut found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
-    let decided = certify::decide(&mut found.answer)?;
-    let certificate = decided.map(|decision| files.add(BEST, decision.text));
+    let found = verify(&claim, budget, &mut control).map_err(Failure::input)?;
+    let certificate = match found.answer {
+        Answer::Decided { certificate, .. } => {
+            certify::as_written(&certificate).ok().map(|text| files.add(BEST, text))
+        }
+        Answer::Undecided(_) => None,
+        Answer::Cancelled => return Err(Failure::Interrupted),
+    };
     Ok(Some(BestDesign {
         at: best.at,
         sense: if better == Ordering::Greater { "maximise" } else { "minimise" },
@@ -238,6 +242,17 @@ fn best_value(
         certificate,
         bound: None,
     }))
+}
+
+/// Adds a certificate that the checker accepts as it is written.
+fn stored(
+    files: &mut Files<'_>,
+    name: &'static str,
+    certificate: &Certificate,
+) -> Result<CertificateFile, Failure> {
+    let text = certify::as_written(certificate)
+        .map_err(|reason| Failure::Output(format!("{name} was not accepted: {reason}")))?;
+    Ok(files.add(name, text))
 }
 
 /// The design with the widest margin, with the certificates of both sides.
@@ -254,15 +269,10 @@ fn widest_margin(
     let Some(Widest { at, margin, certificate, bound }) = found else {
         return Ok(None);
     };
-    let mut stored = |name: &'static str, certificate: &Certificate| {
-        let text = certify::as_written(certificate)
-            .map_err(|reason| Failure::Output(format!("{name} was not accepted: {reason}")))?;
-        Ok::<_, Failure>(files.add(name, text))
-    };
-    let certificate = Some(stored(BEST, &certificate)?);
+    let certificate = Some(stored(files, BEST, &certificate)?);
     let bound = match bound {
         Some(Bound { margin: value, certificate }) => {
-            Some(MarginBound { value, certificate: stored(BOUND, &certificate)? })
+            Some(MarginBound { value, certificate: stored(files, BOUND, &certificate)? })
         }
         None => None,
     };

@@ -2,9 +2,7 @@
 
 use super::{input, Failure};
 use orthocert::report::{CertificateFile, EarlierFile};
-use orthocert::search::Stop;
 use orthocert::solver::Verification;
-use orthocert::verify::{Answer, Undecided};
 use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::Claim;
@@ -21,21 +19,6 @@ pub struct Decision {
 
 /// The decision that an answer amounts to. An answer whose certificate would not read back as the
 /// very one that was accepted becomes undecided.
-pub fn decide(answer: &mut Answer) -> Result<Option<Decision>, Failure> {
-    let objection = match answer {
-        Answer::Cancelled => return Err(Failure::Interrupted),
-        Answer::Undecided(_) => return Ok(None),
-        Answer::Decided { certificate, accepted } => match as_written(certificate) {
-            Ok(text) => return Ok(Some(Decision { verdict: accepted.verdict, text })),
-            Err(objection) => objection,
-        },
-    };
-    let (stop, objection) = (Stop::Exhausted, Some(objection));
-    *answer = Answer::Undecided(Undecided { open: Vec::new(), stop, objection });
-    Ok(None)
-}
-
-/// As [`decide`], of a claim of either kind.
 pub fn decided(found: &mut Verification) -> Result<Option<Decision>, Failure> {
     if found.is_cancelled() {
         return Err(Failure::Interrupted);

@@ -5,12 +5,13 @@ use orthocert::decimal::{boxes, exact, grouped};
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
 use orthocert_checker::certificate::{
-    Atlas, AtlasCell, Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
+    Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
 };
 use orthocert_checker::claim::Claim;
 use orthocert_checker::kernel::{size_of, trees};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement, TreeSize};
+use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -71,9 +72,8 @@ impl Shape {
                 let (precision, trees) = (tree.precision, trees(&tree.nodes).len());
                 return Some(Shape { precision, trees, nodes, leaves, depth, rules });
             }
-            Proof::Witness(_)
-            | Proof::Kernel(kernel::Proof::Witness(_) | kernel::Proof::Atlas(_)) => return None,
-            Proof::Atlas(atlas) => return Some(Shape::of_atlas(atlas)),
+            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => return None,
+            Proof::Kernel(kernel::Proof::Atlas(cells)) => return Some(Shape::of_atlas(cells)),
         };
         let mut shape = Shape {
             precision,
@@ -90,18 +90,17 @@ impl Shape {
     }
 
     /// The trees of an atlas's certified cells together; of precisions, the greatest.
-    fn of_atlas(atlas: &Atlas) -> Self {
-        let (trees, depth) = (0, 0);
-        let mut shape =
-            Shape { precision: 0, trees, nodes: 0, leaves: 0, depth, rules: BTreeMap::new() };
-        for cell in &atlas.cells {
+    fn of_atlas(cells: &[AtlasCell]) -> Self {
+        let (mut precision, mut trees, mut size) = (0, 0, TreeSize::default());
+        for cell in cells {
             if let AtlasCell::Certified(tree) = cell {
-                shape.trees += 1;
-                shape.precision = shape.precision.max(tree.precision);
-                shape.add(&tree.nodes);
+                trees += 1;
+                precision = precision.max(tree.precision);
+                size.add(size_of(tree));
             }
         }
-        shape
+        let TreeSize { nodes, leaves, depth, steps } = size;
+        Shape { precision, trees, nodes, leaves, depth, rules: steps.into_iter().collect() }
     }
 
     fn add(&mut self, nodes: &[Node]) {
@@ -174,7 +173,7 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
         let uses = rules.iter().map(|(rule, uses)| format!("{rule} {uses}"));
         labelled(&mut out, "rules used", &uses.collect::<Vec<_>>().join(", "));
     }
-    if let Proof::Atlas(Atlas { cells }) = &certificate.proof {
+    if let Proof::Kernel(kernel::Proof::Atlas(cells)) = &certificate.proof {
         let count = |wanted: fn(&AtlasCell) -> bool| {
             grouped(cells.iter().filter(|cell| wanted(cell)).count() as u64)
         };

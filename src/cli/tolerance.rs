@@ -211,7 +211,7 @@ fn nodes_or_status(
         if interrupt::cancelled().load(Ordering::Relaxed) {
             return Err(Failure::Interrupted);
         }
-        if let Some(Proof::Kernel(kernel::Proof::Tree(tree))) =
+        if let Ok(Proof::Kernel(kernel::Proof::Tree(tree))) =
             found.map(|certificate| certificate.proof)
         {
             return Ok(Ok(tree.nodes.len()));

@@ -4,12 +4,16 @@
 use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError, ReadError};
 use super::number::{exact, ordered};
-use super::refusal::modelled;
-use super::{machine_claim, text_of, Design};
+use super::refusal::compiled;
+use super::{exactly, mapped_claim, names, text_of, Design};
 use crate::atlas::without_margin;
-use orthocert_checker::atlas::{range, Ends, MAX_PARAMETERS};
-use orthocert_checker::claim::{AtlasClaim, AtlasParameter, MachineClaim};
+use num_rational::BigRational;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{self as kernel, AtlasClaim, MOST_PARAMETERS};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
@@ -20,6 +24,8 @@ pub const MAX_RESOLUTION: i64 = 20;
 const MAX_BOXES: i64 = 100_000;
 /// Most machines drawn on a map.
 const MAX_MARKS: usize = 64;
+/// Most digits of a number of an objective, whose own are fewer.
+const MAX_DIGITS: usize = 4000;
 /// Most characters of a label.
 const MAX_LABEL: usize = 80;
 
@@ -37,11 +43,11 @@ pub struct AtlasDesign {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// What is varied.
-    pub parameters: Vec<AtlasParameter>,
+    pub parameters: Vec<Parameter>,
     /// What the axes of the map are called, one for each parameter.
     pub labels: Vec<String>,
     /// The claim about a design, with the names of parameters.
-    pub design: MachineClaim,
+    pub machine: MachineClaim,
     /// Most halvings of each parameter's range.
     pub resolution: u32,
     /// Most boxes tried for a cell.
@@ -53,14 +59,34 @@ pub struct AtlasDesign {
     pub marks: Vec<Mark>,
 }
 
+/// A parameter of an atlas: every real value from `min` to `max`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// How expressions call it.
+    pub name: String,
+    /// Least value, rational.
+    pub min: Exact,
+    /// Greatest value, rational and greater than the least.
+    pub max: Exact,
+}
+
+impl Parameter {
+    /// The value at a part of the range.
+    pub fn at(&self, part: &BigRational) -> Option<Exact> {
+        let (min, max) = (self.min.as_rational()?, self.max.as_rational()?);
+        Some(Exact::Rational(min + (max - min) * part))
+    }
+}
+
 /// What the best design is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Objective {
     /// The greatest value of an expression with the names of parameters.
-    Maximise(Exact),
+    Maximise(Expression),
     /// The least value of one.
-    Minimise(Exact),
+    Minimise(Expression),
     /// The widest margin ([`crate::atlas::tightened`]).
     WidestMargin,
 }
@@ -123,19 +149,21 @@ impl AtlasDesign {
         for values in probes(&parameters) {
             let document = Document { names: Names::Values(&values), ..document };
             let root = document.root(tree.get_ref());
-            modelled(&root, &machine_claim(&root)?)?;
+            let mut claim = mapped_claim(&root)?;
+            names::put(&mut claim, &values);
+            compiled(&root, &claim)?;
         }
         let middle = at_part(&parameters, |_| 1);
         let document = Document { names: Names::Kept(&middle), ..document };
         let root = document.root(tree.get_ref());
-        let design = machine_claim(&root)?;
+        let machine = mapped_claim(&root)?;
         let objective = root.require("atlas", "")?.table("")?.find("objective");
-        let objective = objective.map(|value| self::objective(&value, &design)).transpose()?;
+        let objective = objective.map(|value| self::objective(&value, &machine)).transpose()?;
         let read = AtlasDesign {
             title: title.map(str::to_owned),
             parameters,
             labels,
-            design,
+            machine,
             resolution: u32::try_from(resolution).unwrap_or(0),
             boxes: usize::try_from(boxes).unwrap_or(0),
             objective,
@@ -149,11 +177,18 @@ impl AtlasDesign {
 
     /// The claim, with shares to be stated.
     pub fn claim(&self) -> AtlasClaim {
+        // Rational numbers of a design have a text.
+        let written = |x: &Exact| exactly::written(x).unwrap_or(Expression::integer(0));
+        let parameters = self.parameters.iter().map(|p| kernel::Parameter {
+            name: p.name.clone(),
+            min: written(&p.min),
+            max: written(&p.max),
+        });
         AtlasClaim {
-            parameters: self.parameters.clone(),
-            design: self.design.clone(),
-            certified: Exact::integer(0),
-            refuted: Exact::integer(0),
+            parameters: parameters.collect(),
+            machine: self.machine.clone(),
+            certified: Expression::integer(0),
+            refuted: Expression::integer(0),
         }
     }
 
@@ -162,59 +197,65 @@ impl AtlasDesign {
     /// # Errors
     /// A sentence.
     pub fn well_formed(&self) -> Result<(), String> {
+        for Parameter { name, .. } in &self.parameters {
+            if Exact::parse_open(name, 1) != Ok(Exact::Name(name.as_str().into())) {
+                return Err(format!(
+                    "the name {name:?}; a parameter's is a small letter, then small letters, \
+                     digits and \"_\", not \"sqrt\""
+                ));
+            }
+        }
         let claim = self.claim();
         claim.validate().map_err(|error| error.to_string())?;
-        let box_of_all = orthocert_checker::cell::Cell::ROOT;
-        let ends = claim.ranges(&box_of_all).map_err(|error| error.to_string())?;
-        self.lengths().iter().try_for_each(|(what, length)| {
-            let least = range(length, &ends).map_err(|error| format!("{what}: {error}"))?.0;
-            match least.sign() {
-                Some(1) => Ok(()),
-                _ => Err(format!(
-                    "{what} = {length}, which is not (provably) positive for all values of the \
-                     parameters: a cell may have a length of zero"
-                )),
-            }
-        })
+        let mut machine = self.machine.clone();
+        let mut used = Vec::new();
+        for number in machine.numbers_mut() {
+            number.names(&mut |name| used.push(name.to_owned()));
+        }
+        if let Some(spare) = self.parameters.iter().find(|p| !used.contains(&p.name)) {
+            return Err(format!("no number of the design depends on {}", spare.name));
+        }
+        let over = claim.over(&self.whole()).map_err(|error| error.to_string())?;
+        match Problem::new(&over) {
+            Err(ClaimError::Number { place, expected: "greater than zero" }) => Err(format!(
+                "{place}, which is not (provably) greater than zero for all values of the \
+                 parameters: a cell may have a length of zero"
+            )),
+            // Of smaller cells more is provable.
+            _ => Ok(()),
+        }
     }
 
-    /// The numbers of the design that have to be positive, and what they are.
-    fn lengths(&self) -> Vec<(String, Exact)> {
-        use orthocert_checker::claim::{Mechanism, Workspace};
-        let mut lengths = Vec::new();
-        if let Mechanism::Translational(legs) = &self.design.mechanism {
-            for (i, leg) in legs.iter().enumerate() {
-                let positive = leg.parameters().into_iter().filter(|(p, _)| p.is_length());
-                lengths.extend(
-                    positive.map(|(p, q)| (format!("{p} of leg {}", i + 1), q.min.clone())),
-                );
-            }
-        }
-        if let Workspace::Cylinder { radius, .. } = &self.design.workspace {
-            lengths.push(("radius of the workspace".to_owned(), radius.clone()));
-        }
-        lengths
+    /// The box of parameters as a cell.
+    pub fn whole(&self) -> kernel::Part {
+        vec![(0, 0); self.parameters.len()]
+    }
+
+    /// The names, with these values.
+    fn named(&self, values: &[Exact]) -> Vec<(String, Exact)> {
+        let names = self.parameters.iter().map(|parameter| parameter.name.clone());
+        names.zip(values.iter().cloned()).collect()
     }
 
     /// The design at values of its parameters.
-    ///
-    /// # Errors
-    /// A sentence, if there is none.
-    pub fn at(&self, values: &[Exact]) -> Result<MachineClaim, String> {
-        let names = self.parameters.iter().map(|parameter| parameter.name.as_str());
-        let points: Vec<(&str, Ends)> =
-            names.zip(values).map(|(name, x)| (name, (x.clone(), x.clone()))).collect();
-        let strictest = orthocert_checker::atlas::Side::Strictest;
-        orthocert_checker::atlas::instance(&self.design, &points, strictest)
-            .map_err(|error| error.to_string())
+    pub fn at(&self, values: &[Exact]) -> MachineClaim {
+        let mut claim = self.machine.clone();
+        names::put(&mut claim, &self.named(values));
+        claim
+    }
+
+    /// The value of an expression at values of the parameters, if it has one.
+    pub fn value(&self, expression: &Expression, values: &[Exact]) -> Option<Exact> {
+        let open = Exact::parse_open(&expression.to_string(), MAX_DIGITS).ok()?;
+        names::value(&open, &self.named(values)).ok()
     }
 }
 
 /// Reads `[parameters]`.
-fn parameters(value: &Value<'_>) -> Result<(Vec<AtlasParameter>, Vec<String>), DesignError> {
+fn parameters(value: &Value<'_>) -> Result<(Vec<Parameter>, Vec<String>), DesignError> {
     let table = value.table("a table [parameters]")?;
     let entries = table.entries();
-    if entries.is_empty() || entries.len() > MAX_PARAMETERS {
+    if entries.is_empty() || entries.len() > MOST_PARAMETERS {
         let found = format!("{} parameters", entries.len());
         return Err(value.error(Defect::OutOfDomain, found, PARAMETERS));
     }
@@ -241,7 +282,7 @@ fn parameters(value: &Value<'_>) -> Result<(Vec<AtlasParameter>, Vec<String>), D
             Some(value) => label(&value)?,
             None => name.to_owned(),
         });
-        parameters.push(AtlasParameter { name: name.to_owned(), min, max });
+        parameters.push(Parameter { name: name.to_owned(), min, max });
     }
     Ok((parameters, labels))
 }
@@ -268,7 +309,7 @@ fn whole(table: &Table<'_>, key: &str, most: i64) -> Result<i64, DesignError> {
         .ok_or_else(|| value.error(Defect::OutOfDomain, value.found(), accepted))
 }
 
-fn marks(value: &Value<'_>, parameters: &[AtlasParameter]) -> Result<Vec<Mark>, DesignError> {
+fn marks(value: &Value<'_>, parameters: &[Parameter]) -> Result<Vec<Mark>, DesignError> {
     let values = value.list(MARKS)?;
     if values.len() > MAX_MARKS {
         return Err(value.error(Defect::OutOfDomain, value.found(), "at most 64 marks"));
@@ -302,14 +343,14 @@ fn objective(value: &Value<'_>, design: &MachineClaim) -> Result<Objective, Desi
     let table = value.table(OBJECTIVE)?;
     table.only(&["maximise", "minimise"])?;
     match (table.find("maximise"), table.find("minimise")) {
-        (Some(expression), None) => Ok(Objective::Maximise(exact(&expression)?)),
-        (None, Some(expression)) => Ok(Objective::Minimise(exact(&expression)?)),
+        (Some(expression), None) => Ok(Objective::Maximise(exactly::number(&expression)?)),
+        (None, Some(expression)) => Ok(Objective::Minimise(exactly::number(&expression)?)),
         _ => Err(value.error(Defect::Conflict, value.found(), OBJECTIVE)),
     }
 }
 
 /// The values of the parameters at the vertices of their box and in its middle.
-fn probes(parameters: &[AtlasParameter]) -> Vec<Vec<(String, Exact)>> {
+fn probes(parameters: &[Parameter]) -> Vec<Vec<(String, Exact)>> {
     let vertices = 0..1usize << parameters.len();
     let mut probes = vec![at_part(parameters, |_| 1)];
     probes.extend(vertices.map(|vertex| at_part(parameters, |i| 2 * (vertex >> i & 1))));
@@ -317,8 +358,8 @@ fn probes(parameters: &[AtlasParameter]) -> Vec<Vec<(String, Exact)>> {
 }
 
 /// The values at `part(i)` halves of the range of parameter `i`.
-fn at_part(parameters: &[AtlasParameter], part: impl Fn(usize) -> usize) -> Vec<(String, Exact)> {
-    let value = |(i, p): (usize, &AtlasParameter)| {
+fn at_part(parameters: &[Parameter], part: impl Fn(usize) -> usize) -> Vec<(String, Exact)> {
+    let value = |(i, p): (usize, &Parameter)| {
         let value = match (part(i), p.min.as_rational(), p.max.as_rational()) {
             (1, Some(min), Some(max)) => Exact::Rational((min + max) / num_bigint::BigInt::from(2)),
             (0, ..) => p.min.clone(),

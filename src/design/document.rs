@@ -58,6 +58,14 @@ impl<'a> Document<'a> {
         !matches!(self.names, Names::Kept(_))
     }
 
+    /// Values of the names.
+    pub fn values(&self) -> &'a [(String, Exact)] {
+        match self.names {
+            Names::None => &[],
+            Names::Values(values) | Names::Kept(values) => values,
+        }
+    }
+
     /// The error about `text[at]`.
     pub fn error(
         &self,
@@ -118,6 +126,11 @@ impl<'a> Document<'a> {
 }
 
 impl<'a> Table<'a> {
+    /// Values of the names.
+    pub fn values(&self) -> &'a [(String, Exact)] {
+        self.document.values()
+    }
+
     /// The path of the entry `name`.
     pub fn path(&self, name: &str) -> String {
         joined(&self.key, name)

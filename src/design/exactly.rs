@@ -68,7 +68,8 @@ fn translated(number: &Exact) -> Expression {
     }
 }
 
-fn rational(x: &BigRational) -> Expression {
+/// A decimal of few places, or a fraction.
+pub(super) fn rational(x: &BigRational) -> Expression {
     let literal = |digits: BigInt, places: u32| {
         let positive = Expression::Literal { digits: digits.abs(), places };
         if digits.is_negative() {

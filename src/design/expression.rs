@@ -7,9 +7,11 @@
 //! coordinates the claim demands that it is defined, which is for the proof.
 
 use super::error::Defect;
+use super::exactly::written;
 use super::suggestion;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
+use orthocert_checker::number::Exact;
 use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::number::{
@@ -81,9 +83,17 @@ pub(super) fn formula(text: &str, known: &mut Known) -> Read {
     Ok(formula)
 }
 
-/// The interval of the numbers between `min` and `max`.
-pub(super) fn enclosed(min: &Expression, max: &Expression) -> Option<Interval<BigInt>> {
-    let end = |x: &Expression| x.enclose(&Fixed::new(BITS), &|_| None);
+/// The interval of the numbers between `min` and `max`, at values of their names.
+pub(super) fn enclosed(
+    min: &Expression,
+    max: &Expression,
+    values: &[(String, Exact)],
+) -> Option<Interval<BigInt>> {
+    let named = |name: &str| {
+        let (_, x) = values.iter().find(|(known, _)| known == name)?;
+        written(x)?.enclose(&Fixed::new(BITS), &|_| None)
+    };
+    let end = |x: &Expression| x.enclose(&Fixed::new(BITS), &named);
     Some(Interval { lo: end(min)?.lo, hi: end(max)?.hi })
 }
 
@@ -401,7 +411,7 @@ impl Reader<'_, '_> {
         }
         let places = u32::try_from(places).unwrap_or(0);
         let expression = Expression::Literal { digits: value, places };
-        let value = enclosed(&expression, &expression);
+        let value = enclosed(&expression, &expression, &[]);
         let meaning = Meaning::Constant(self.moderate(value, &(start..self.at))?);
         Ok(Formula { expression, meaning })
     }

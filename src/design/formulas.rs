@@ -24,6 +24,12 @@ pub(super) const KEYS: &[&str] = &["kind", "coordinates", "parameters", "definit
 /// Reads them.
 pub(super) fn formulas(table: &Table<'_>) -> Result<Formulas, DesignError> {
     let mut known = Known::default();
+    let values = table.values();
+    for (name, x) in values {
+        let expression = exactly::written(x);
+        let interval = expression.and_then(|x| enclosed(&x, &x, &[]));
+        known.names.extend(interval.map(|x| (name.clone(), Meaning::Constant(x))));
+    }
     let coordinates = coordinates(table, &mut known)?;
     let (parameters, given) = parameters(table, &mut known)?;
     let (definitions, defined) = definitions(table, &mut known)?;
@@ -84,7 +90,7 @@ fn parameters<'a>(
         named(&value, name, known)?;
         let quantity = exactly::quantity(&value)?;
         let [min, max] = quantity.ends();
-        let Some(interval) = enclosed(min, max) else {
+        let Some(interval) = enclosed(min, max, value.document.values()) else {
             let accepted = "a number of moderate size";
             return Err(value.error(Defect::NotANumber, value.found(), accepted));
         };
@@ -155,7 +161,7 @@ fn read(value: &Value<'_>, known: &mut Known) -> Result<(Expression, Meaning), D
         DeValue::String(text) => text,
         DeValue::Integer(_) | DeValue::Float(_) => {
             let number = exactly::number(value)?;
-            let interval = enclosed(&number, &number);
+            let interval = enclosed(&number, &number, &[]);
             let too_large = || value.error(Defect::NotANumber, value.found(), "a moderate number");
             return Ok((number, Meaning::Constant(interval.ok_or_else(too_large)?)));
         }

@@ -31,6 +31,7 @@ mod expression;
 mod formulas;
 mod independence;
 mod mechanism;
+mod names;
 mod notation;
 mod number;
 mod orientation;
@@ -44,7 +45,7 @@ mod tests;
 mod variable;
 mod workspace;
 
-pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, MAX_RESOLUTION};
+pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, Parameter, MAX_RESOLUTION};
 pub use description::in_the_kernel;
 pub use error::{Defect, DesignError, Position, ReadError};
 pub use exactly::written;
@@ -99,10 +100,7 @@ impl Design {
         if let Some(claim) = &rules {
             refusal::modelled(&root, claim)?;
         }
-        let claim = description.kernel().ok_or_else(|| {
-            let accepted = "numbers of at most 8,192 characters and 512 operations";
-            refusal::of_table(&root, "mechanism", "numbers too long to be written", accepted)
-        })?;
+        let claim = description.kernel().ok_or_else(|| too_long(&root))?;
         refusal::compiled(&root, &claim)?;
         let title = title.map(str::to_owned);
         Ok(Design { title, claim: Claim::Kernel(claim), rules, sources })
@@ -166,16 +164,23 @@ pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
     })
 }
 
-/// Reads the claim of a design with three legs that do not turn its platform, of which nothing is
-/// demanded but what the rules know.
-fn machine_claim(root: &Table<'_>) -> Result<MachineClaim, DesignError> {
-    description(root)?.machine().ok_or_else(|| {
+fn too_long(root: &Table<'_>) -> DesignError {
+    let accepted = "numbers of at most 8,192 characters and 512 operations";
+    refusal::of_table(root, "mechanism", "numbers too long to be written", accepted)
+}
+
+/// Reads the claim of a design of which maps are made.
+fn mapped_claim(root: &Table<'_>) -> Result<kernel::MachineClaim, DesignError> {
+    let claim = description(root)?.kernel().ok_or_else(|| too_long(root))?;
+    let has_cube = matches!(claim.workspace, kernel::Workspace::Cube { .. });
+    if has_cube || claim.orientation.is_some() || !claim.bodies.is_empty() {
         let found = "a machine, or requirements, that maps are not made of";
-        let accepted = "kind \"orthoglide\", or \"translational\" with three legs; requirements \
-                        transmission, joint_range, conditioning, serial_margin, parallel_margin, \
-                        leg_angle, joint_speed";
-        refusal::of_table(root, "mechanism", found, accepted)
-    })
+        let accepted =
+            "a machine with numbers of its own, no \"cube\", of a platform that does not \
+                        turn; requirements other than clearance";
+        return Err(refusal::of_table(root, "mechanism", found, accepted));
+    }
+    Ok(claim)
 }
 
 /// Reads the three tables of a design.

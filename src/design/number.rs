@@ -8,10 +8,10 @@
 
 use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
+use super::names::{self, NoValue};
 use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
 use super::variable::half_width;
-use orthocert_checker::atlas::{range, AtlasError, Ends};
 use orthocert_checker::claim::Quantity;
 use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
 use std::cmp::Ordering;
@@ -168,20 +168,17 @@ fn expression(
         Names::Kept(known) => (known, true),
     };
     let open = Exact::parse_open(part, MAX_DIGITS).map_err(refused)?;
-    let points: Vec<(&str, Ends)> =
-        known.iter().map(|(name, x)| (name.as_str(), (x.clone(), x.clone()))).collect();
-    match range(&open, &points) {
-        Ok((number, _)) => Ok(if keep { open } else { number }),
-        Err(AtlasError::Unknown(name)) => {
-            let names: Vec<&str> = points.iter().map(|(name, _)| *name).collect();
+    match names::value(&open, known) {
+        Ok(number) => Ok(if keep { open } else { number }),
+        Err(NoValue::Unknown(name)) => {
+            let names: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
             let hint = suggestion::hint(&name, &names, |word| word.to_owned());
             let found = format!("{}, with the name {name}", value.found());
             let accepted = format!("the names of [parameters]: {}{hint}", names.join(", "));
             Err(value.error(Defect::UnknownWord, found, accepted))
         }
         Err(error) => {
-            let at: Vec<String> =
-                points.iter().map(|(name, (x, _))| format!("{name} = {x}")).collect();
+            let at: Vec<String> = known.iter().map(|(name, x)| format!("{name} = {x}")).collect();
             let found = format!("{}; for {} {error}", value.found(), at.join(", "));
             Err(value.error(Defect::NotANumber, found, accepted))
         }
@@ -256,7 +253,12 @@ fn around(
 
 /// `number`, if its canonical text is within the limits of certificates: those of the parser.
 fn writable(value: &Value<'_>, number: Exact) -> Result<Exact, DesignError> {
-    match Exact::parse_canonical(&number.to_string()) {
+    let text = number.to_string();
+    let same = match number.is_open() {
+        true => Exact::parse_open(&text, MAX_DIGITS),
+        false => Exact::parse_canonical(&text),
+    };
+    match same {
         Ok(same) if same == number => Ok(number),
         _ => {
             let found = format!("{}, whose exact value is too long to be written", value.found());

@@ -20,9 +20,6 @@ macro_rules! checker_sources {
 /// paths.
 const SOURCES: &[(&str, &[u8])] = &checker_sources![
     "checker/Cargo.toml",
-    "checker/src/atlas/instance.rs",
-    "checker/src/atlas/mod.rs",
-    "checker/src/atlas/role.rs",
     "checker/src/bin/orthocert-check.rs",
     "checker/src/cell.rs",
     "checker/src/certificate.rs",

@@ -80,9 +80,6 @@ impl Page<'_> {
             Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => {
                 facts.push(("proof", "one counterexample".to_owned()));
             }
-            Proof::Atlas(atlas) => {
-                facts.push(("cells and their halvings", grouped(atlas.cells.len() as u64)));
-            }
             Proof::Kernel(kernel::Proof::Atlas(cells)) => {
                 facts.push(("cells and their halvings", grouped(cells.len() as u64)));
             }
@@ -102,7 +99,7 @@ impl Page<'_> {
             Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
             Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
             // Each cell has its own.
-            Proof::Atlas(_) | Proof::Kernel(kernel::Proof::Atlas(_)) => None,
+            Proof::Kernel(kernel::Proof::Atlas(_)) => None,
         };
         facts.extend(bits.map(|bits| ("fractional bits", bits.to_string())));
         facts.push(("certificate", self.file.name.to_owned()));

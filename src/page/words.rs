@@ -7,11 +7,11 @@ use crate::escape::xml;
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
-    AtlasParameter, Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range,
-    Requirements, Workspace,
+    Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements, Workspace,
 };
 use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
+use orthocert_kernel::atlas::Parameter;
 use orthocert_kernel::claim as kernel;
 use std::fmt::Write;
 
@@ -147,11 +147,12 @@ fn asserted(claim: &Claim) -> Vec<String> {
             }
         }),
         Claim::Atlas(claim) => {
-            let range = |p: &AtlasParameter| {
-                format!("{} \u{2264} {} \u{2264} {}", number(&p.min), xml(&p.name), number(&p.max))
+            let range = |p: &Parameter| {
+                let (min, max) = (mechanism::number(&p.min), mechanism::number(&p.max));
+                format!("{min} \u{2264} {} \u{2264} {max}", xml(&p.name))
             };
             let ranges: Vec<String> = claim.parameters.iter().map(range).collect();
-            let share = |share| format!("the share {} of the box", number(share));
+            let share = |share| format!("the share {} of the box", mechanism::number(share));
             vec![
                 ranges.join(", "),
                 format!("certified: {}", share(&claim.certified)),

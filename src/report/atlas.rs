@@ -4,9 +4,9 @@ use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::atlas::Standing;
 use crate::decimal::{boxes, counted, exact, grouped, percent, significant, Toward};
+use crate::design::Parameter;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
-use orthocert_checker::claim::AtlasParameter;
 use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
@@ -23,7 +23,7 @@ pub struct AtlasReport {
     /// The atlas's file, or what it was merged from.
     pub atlas: String,
     /// What was varied.
-    pub parameters: Vec<AtlasParameter>,
+    pub parameters: Vec<Parameter>,
     /// Cells certified, and their share of the box.
     pub certified: Part,
     /// Cells refuted.
@@ -133,7 +133,7 @@ impl AtlasReport {
 
     /// A design's parameters.
     fn place(&self, at: &[Exact]) -> String {
-        let value = |(p, x): (&AtlasParameter, &Exact)| format!("{} = {}", p.name, exact(x));
+        let value = |(p, x): (&Parameter, &Exact)| format!("{} = {}", p.name, exact(x));
         self.parameters.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
     }
 

@@ -142,7 +142,6 @@ impl Size {
             Proof::Tree(tree) => tree.precision,
             Proof::Kernel(of_kernel::Proof::Tree(tree)) => tree.precision,
             Proof::Witness(_)
-            | Proof::Atlas(_)
             | Proof::Kernel(of_kernel::Proof::Witness(_) | of_kernel::Proof::Atlas(_)) => {
                 return None;
             }

@@ -4,12 +4,11 @@ use super::task::Task;
 use crate::atlas::Top;
 use crate::digest;
 use crate::solver::search::Branch;
-use orthocert_checker::cell::{Cell, Edge};
-use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
-use orthocert_checker::rule::Obligation;
 use orthocert_checker::shown::{Named, Shown};
+use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate::Node;
+use orthocert_kernel::paving::{Cell, Edge};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -23,14 +22,11 @@ const JOB: &str = "orthocert-job/1";
 const SHARD: &str = "orthocert-shard/1";
 const RESULT: &str = "orthocert-result/1";
 
-/// A cell in a file: index and level of its edges; but for cells of an atlas, also what is open on
-/// it.
+/// A cell in a file: index and level of its edges.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
     pub(super) edges: [(u64, u32); 3],
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) open: Vec<Obligation>,
     /// Of a paving, what is open by its number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) left: Vec<usize>,
@@ -41,13 +37,25 @@ const MAX_LEVEL: u32 = 60;
 
 impl Place {
     /// The place of a cell; `None` beyond the depth of files.
-    pub fn of(cell: &Cell, open: Vec<Obligation>) -> Option<Self> {
+    pub fn of(cell: &Cell) -> Option<Self> {
         let mut edges = [(0, 0); 3];
         for (place, edge) in edges.iter_mut().zip(&cell.edges) {
             *place = (u64::try_from(edge.index).ok()?, edge.level);
         }
-        let place = Place { edges, open, left: Vec::new() };
+        let place = Place { edges, left: Vec::new() };
         place.cell().is_some().then_some(place)
+    }
+
+    /// The place of a cell of an atlas.
+    pub fn of_part(part: &[(u64, u32)]) -> Self {
+        let mut edges = [(0, 0); 3];
+        edges.iter_mut().zip(part).for_each(|(edge, own)| *edge = *own);
+        Place { edges, left: Vec::new() }
+    }
+
+    /// The cell of an atlas of so many parameters.
+    pub fn part(&self, parameters: usize) -> orthocert_kernel::atlas::Part {
+        self.edges.iter().take(parameters).copied().collect()
     }
 
     /// The cell; `None` if it is not within the box.
@@ -333,13 +341,11 @@ mod tests {
 
     #[test]
     fn places_beyond_the_box_are_no_cells() {
-        let root = Place::of(&Cell::ROOT, Vec::new());
+        let root = Place::of(&Cell::ROOT);
         assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
         for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
-            assert_eq!(
-                Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new(), left: Vec::new() }.cell(),
-                None
-            );
+            let place = Place { edges: [(0, 0), edge, (0, 0)], left: Vec::new() };
+            assert_eq!(place.cell(), None);
         }
     }
 }

@@ -12,9 +12,8 @@ use super::task::Pave;
 use crate::output::{self, OutputError};
 use crate::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use data_encoding::HEXLOWER;
-use orthocert_checker::cell;
 use orthocert_checker::file;
-use orthocert_kernel::paving::{Cell, Edge};
+use orthocert_kernel::paving::Cell;
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -44,9 +43,7 @@ pub(super) fn top(
             Segment::Known(bytes) => Stretch::Nodes(HEXLOWER.encode(&bytes)),
             Segment::Subtree(root) => {
                 // No axis of a paving is split more often than files can tell.
-                let edges =
-                    root.cell.edges.map(|Edge { index, level }| cell::Edge { index, level });
-                let place = Place::of(&cell::Cell { edges }, Vec::new());
+                let place = Place::of(&root.cell);
                 places.extend(place.map(|place| Place { left: parts.open(&root), ..place }));
                 Stretch::Waiting
             }
@@ -60,7 +57,7 @@ pub(super) fn top(
 pub(super) fn grown(
     (path, at): (&Path, u64),
     task: &Pave,
-    (root, open): (cell::Cell, &[usize]),
+    (cell, open): (Cell, &[usize]),
     cancel: &AtomicBool,
 ) -> Result<Nodes, RunError> {
     let io = |error| RunError::Output(OutputError::Io(path.to_owned(), error));
@@ -69,7 +66,6 @@ pub(super) fn grown(
     file.seek(SeekFrom::Start(at)).map_err(io)?;
     let (mut sum, mut bytes) = (Sha256::new(), 0);
     let decider = parts.decider().map_err(|e| RunError::Claim(e.to_string()))?;
-    let cell = Cell { edges: root.edges.map(|cell::Edge { index, level }| Edge { index, level }) };
     parts.grow(&decider, parts.root(cell, open), cancel, |stretch| {
         sum.update(stretch);
         bytes += stretch.len() as u64;

@@ -14,9 +14,9 @@ use crate::paving::Cancelled;
 use crate::search::{Budget, Control, Stop};
 use crate::solver;
 use crate::solver::search::Outcome;
-use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::atlas::AtlasCell;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, OpenOptions};
 use std::io::Write;
@@ -183,10 +183,12 @@ fn grown(
         Task::Verify(_) => Err(RunError::Interrupted),
         Task::Atlas(design) => {
             let mut growing = Growing::new(design, cancel, &mut unseen);
-            let tree = grow(&mut growing, root, None).map_err(|stopped| match stopped {
-                Stopped::Cancelled => RunError::Interrupted,
-                Stopped::TooLarge => RunError::Claim(stopped.to_string()),
-            })?;
+            let tree = grow(&mut growing, place.part(design.parameters.len()), None).map_err(
+                |stopped| match stopped {
+                    Stopped::Cancelled => RunError::Interrupted,
+                    Stopped::TooLarge => RunError::Claim(stopped.to_string()),
+                },
+            )?;
             let cells = tree.into_iter().map(|node| match node {
                 Top::Cell(cell) => cell,
                 // Grown to its end, a tree has none.

@@ -8,7 +8,6 @@ use crate::design::AtlasDesign;
 use crate::search::{Control, Stop};
 use crate::solver;
 use crate::solver::search::Branch;
-use orthocert_checker::cell::Cell;
 use std::sync::atomic::AtomicBool;
 
 /// Cells that a shard has at least, where the tree has as many: dealt out in turn, so that costly
@@ -85,12 +84,13 @@ fn of_atlas(
     done: &mut dyn FnMut(usize, f64),
 ) -> Result<(JobTop, Vec<Place>), SplitError> {
     let mut growing = Growing::new(design, cancel, done);
-    let top = grow(&mut growing, Cell::ROOT, Some(enough)).map_err(|stopped| match stopped {
-        Stopped::Cancelled => SplitError::Interrupted,
-        Stopped::TooLarge => SplitError::TooLarge,
-    })?;
-    let cells = waiting(&top).unwrap_or_default();
-    let places = cells.iter().filter_map(|cell| Place::of(cell, Vec::new())).collect();
+    let top =
+        grow(&mut growing, design.whole(), Some(enough)).map_err(|stopped| match stopped {
+            Stopped::Cancelled => SplitError::Interrupted,
+            Stopped::TooLarge => SplitError::TooLarge,
+        })?;
+    let cells = waiting(&top, design.whole()).unwrap_or_default();
+    let places = cells.iter().map(|part| Place::of_part(part)).collect();
     Ok((JobTop::Cells(top), places))
 }
 

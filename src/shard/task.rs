@@ -3,8 +3,7 @@
 use super::file::{sha256, text};
 use crate::design::{is_line, AtlasDesign, MAX_RESOLUTION};
 use crate::paving::{Parts, DEEPEST};
-use orthocert_checker::cell::Cell;
-use orthocert_kernel::paving::MAX_AXIS_LEVEL;
+use orthocert_kernel::paving::{Cell, MAX_AXIS_LEVEL};
 use orthocert_kernel::problem::Problem;
 use serde::{Deserialize, Serialize};
 
@@ -101,11 +100,10 @@ impl Task {
 
     /// Whether a cell may be one of the task's.
     pub(super) fn has(&self, cell: &Cell) -> bool {
-        let levels = cell.edges.map(|edge| edge.level);
         match self {
             Task::Pave(task) => {
-                let deepest = levels.iter().all(|level| *level <= MAX_AXIS_LEVEL);
-                deepest && levels.iter().sum::<u32>() <= task.depth
+                let deepest = cell.edges.iter().all(|edge| edge.level <= MAX_AXIS_LEVEL);
+                deepest && cell.depth() <= task.depth
             }
             Task::Atlas(_) | Task::Verify(_) => true,
         }

@@ -107,6 +107,17 @@ impl Sampler<'_> {
         }
     }
 
+    /// The worst point of the grid for every quality.
+    pub fn worst_on_grid(&self) -> Vec<Worst> {
+        let grid: Vec<_> = self.grid().into_iter().map(|p| (self.at(&p), p)).collect();
+        let worst = |quality| {
+            let margins = grid.iter().map(|(values, p)| (self.margin(quality, values), p));
+            let (margin, place) = margins.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(Worst { quality, place: place.clone(), margin })
+        };
+        self.qualities().into_iter().filter_map(worst).collect()
+    }
+
     /// The worst place found of every quality, from the worst points of the grid.
     pub fn worst_values(&self, finest: i32) -> Vec<Worst> {
         let grid: Vec<_> = self.grid().into_iter().map(|p| (self.at(&p), p)).collect();

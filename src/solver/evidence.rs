@@ -69,6 +69,17 @@ impl<'a> Prover<'a> {
         formulas.map(of).chain(coordinates).fold(1.0, f64::max)
     }
 
+    /// Whether every test holds next to a point: where one does not, no tree is a proof.
+    pub fn holds_next_to(&self, point: &[f64]) -> bool {
+        let near = |(x, &(lo, hi)): (&f64, &Pair)| {
+            let off = (hi - lo) * f64::from(-FINER).exp2();
+            ((x - off).max(lo), (x + off).min(hi))
+        };
+        let cell: Cell = point.iter().zip(&self.root).map(near).collect();
+        let all: Vec<usize> = (0..self.problem.obligations.len()).collect();
+        self.trial(&cell, &all, false).open.is_empty()
+    }
+
     /// Whether a test fails next to the box's centre, if that is in the workspace: it fails there,
     /// holds with equality, or the tolerances are too wide.
     fn is_hopeless(&self, cell: &Cell, open: &[usize]) -> bool {

@@ -192,23 +192,37 @@ pub fn concluded(
     Ok(Verification { answer, worst, boxes })
 }
 
-/// A certificate that a claim holds, if the search finds one within the budget; none of a claim that is
-/// not well formed, and none where it was cancelled.
+/// The certificate of a claim that the search proves within the budget; why there is none, if not.
+///
+/// # Errors
+/// Why the search ended.
 pub fn proof(
     claim: &MachineClaim,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Option<Box<Certificate>> {
-    let problem = Problem::new(claim).ok()?;
-    let prover = Prover::new(&problem).ok()?;
-    let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(&prover, &Branch::whole(&prover), ends, budget, control)?;
-    if !found.is_proof() {
-        return None;
+) -> Result<Box<Certificate>, Stop> {
+    let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
+    let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
+    let found = from_root(&prover, budget, control)?;
+    match accepted(claim, &prover, found) {
+        Answer::Decided { certificate, .. } => Ok(certificate),
+        Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
     }
-    match accepted(claim, &prover, found.nodes) {
-        Answer::Decided { certificate, .. } => Some(certificate),
-        Answer::Undecided(_) | Answer::Cancelled => None,
+}
+
+/// The nodes of a tree on which nothing is open; why there are none, if not.
+fn from_root(
+    prover: &Prover<'_>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Vec<Node>, Stop> {
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let found = search(prover, &Branch::whole(prover), ends, budget, control);
+    let found = found.ok_or(Stop::Hopeless)?;
+    if found.is_proof() {
+        Ok(found.nodes)
+    } else {
+        Err(found.stop)
     }
 }
 
@@ -236,13 +250,42 @@ pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
     Ok(Sampler::new(claim, &problem)?.worst_values(FINEST))
 }
 
-/// The certificate of a proof, at the first precision at which the checker accepts it.
-fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
+/// The precisions at which a proof is tried.
+fn precisions(prover: &Prover<'_>) -> impl Iterator<Item = u32> {
     let size = prover.greatest().log2().ceil().clamp(0.0, 64.0) as u32;
     let words = 63u32.saturating_sub(GUARD + size);
     let first = (32..PRECISIONS[0]).contains(&words).then_some(words);
+    first.into_iter().chain(PRECISIONS)
+}
+
+/// A tree on whose leaves every obligation of a problem is discharged, if one is found that `accepts`;
+/// why not, if not. No search is worth it unless tests hold next to each of these points.
+pub(crate) fn tree(
+    problem: &Problem,
+    points: &[Vec<f64>],
+    budget: Budget,
+    control: &mut Control<'_>,
+    accepts: impl Fn(&Tree) -> bool,
+) -> Result<Tree, Stop> {
+    let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
+    if !points.iter().all(|point| prover.holds_next_to(point)) {
+        return Err(Stop::Hopeless);
+    }
+    let nodes = from_root(&prover, budget, control)?;
+    let mut tree = Tree { precision: 0, chords: prover.chords.clone(), nodes };
+    for bits in precisions(&prover) {
+        tree.precision = bits;
+        if accepts(&tree) {
+            return Ok(tree);
+        }
+    }
+    Err(Stop::Exhausted)
+}
+
+/// The certificate of a proof.
+fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
-    confirmed(Claim::Kernel(claim.clone()), tree, first.into_iter().chain(PRECISIONS))
+    confirmed(Claim::Kernel(claim.clone()), tree, precisions(prover))
 }
 
 /// The certificate of a tree, at the first of the precisions at which the checker accepts it.

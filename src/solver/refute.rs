@@ -62,7 +62,7 @@ pub fn witness_at(
 }
 
 /// What may fail at a place, shortest first.
-fn failures(
+pub(crate) fn failures(
     claim: &MachineClaim,
     problem: &Problem,
     sampler: &Sampler<'_>,
@@ -74,7 +74,11 @@ fn failures(
     match found.quality {
         _ if !is_defined || found.quality == Quality::Reach => vec![Failure::Reach],
         Quality::Reach => Vec::new(),
-        Quality::Determinant => opposite(claim, problem, sampler, found, digits),
+        Quality::Determinant => {
+            let other = opposite(sampler, &found.place);
+            let other = other.and_then(|other| point(claim, problem, sampler, &other.u, digits));
+            other.map(Failure::Singular).into_iter().collect()
+        }
         Quality::Obligation(number) => {
             let of = |directions| Failure::Obligation(number, directions);
             directions(&problem.obligations[number].test, problem, sampler, &values)
@@ -85,24 +89,16 @@ fn failures(
     }
 }
 
-/// Points of the grid at which `det M` of the same machine has the other sign.
-fn opposite(
-    claim: &MachineClaim,
-    problem: &Problem,
-    sampler: &Sampler<'_>,
-    found: &Worst,
-    digits: i32,
-) -> Vec<Failure> {
+/// The place of the grid at which `det M` of the same machine has the other sign, and is greatest.
+pub(crate) fn opposite(sampler: &Sampler<'_>, found: &Place) -> Option<Place> {
     let det = |place: &Place| sampler.determinant(&sampler.at(place)).unwrap_or(0.0);
-    let sign = det(&found.place).signum();
-    let with = |u: Vec<f64>| Place { u, t: found.place.t.clone() };
+    let sign = det(found).signum();
+    let with = |u: Vec<f64>| Place { u, t: found.t.clone() };
     let grid = [sampler.centre()].into_iter().chain(sampler.grid()).map(|place| with(place.u));
     let mut others: Vec<(f64, Place)> =
         grid.map(|place| (sign * det(&place), place)).filter(|(det, _)| *det < 0.0).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let other =
-        others.first().and_then(|(_, other)| point(claim, problem, sampler, &other.u, digits));
-    other.map(Failure::Singular).into_iter().collect()
+    others.into_iter().next().map(|(_, other)| other)
 }
 
 /// Directions in which a test fails, shortest first; none of a test on signs.
@@ -199,7 +195,7 @@ pub fn machine(problem: &Problem, t: &[f64], digits: i32) -> Option<Vec<Expressi
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Toward {
+pub(crate) enum Toward {
     Nearest,
     Middle,
 }
@@ -229,7 +225,7 @@ fn between(
 }
 
 /// A short rational of `[least, greatest]` near `least + part (greatest - least)`.
-fn short(
+pub(crate) fn short(
     [least, greatest]: [&BigRational; 2],
     part: f64,
     digits: i32,

@@ -34,6 +34,45 @@ pub fn divided<'r>(
     Some(DMatrix::from_row_slice(n, m, &all))
 }
 
+/// Rotations of all pairs of columns after which they are orthogonal, nearly always.
+const SWEEPS: usize = 12;
+
+/// The least and the greatest singular value, by rotations that make columns orthogonal (Hestenes).
+pub fn extremes(mut m: DMatrix<f64>) -> [f64; 2] {
+    let (n, columns) = m.shape();
+    let all = m.as_mut_slice();
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for q in 1..columns {
+            for p in 0..q {
+                let (mut a, mut b, mut c) = (0.0, 0.0, 0.0);
+                for i in 0..n {
+                    let (x, y) = (all[p * n + i], all[q * n + i]);
+                    (a, b, c) = (a + x * x, b + y * y, c + x * y);
+                }
+                if c * c <= f64::EPSILON * f64::EPSILON * a * b {
+                    continue;
+                }
+                rotated = true;
+                let zeta = (b - a) / (2.0 * c);
+                let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                let cos = 1.0 / (1.0 + t * t).sqrt();
+                let sin = cos * t;
+                for i in 0..n {
+                    let (x, y) = (all[p * n + i], all[q * n + i]);
+                    (all[p * n + i], all[q * n + i]) = (cos * x - sin * y, sin * x + cos * y);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    let norm = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let norms = all.chunks(n.max(1)).map(norm);
+    norms.fold([f64::INFINITY, 0.0], |[least, most], x| [least.min(x), most.max(x)])
+}
+
 /// The right singular vector of the greatest, or the least singular value.
 pub fn singular(m: &DMatrix<f64>, greatest: bool) -> Option<DVector<f64>> {
     let svd = m.clone().svd(false, true);

@@ -2,14 +2,15 @@
 //! single designs.
 
 use num_traits::ToPrimitive;
-use orthocert::atlas::{assemble, certify, decide, grow, margin, waiting, Decision, Growing, Top};
+use orthocert::atlas::{
+    assemble, certify, decide, ends, grow, margin, waiting, Decision, Growing, Top,
+};
 use orthocert::design::AtlasDesign;
 use orthocert::search::{Budget, Control};
-use orthocert::verify::{verify, Answer};
-use orthocert_checker::atlas::{walk, Ends};
-use orthocert_checker::cell::Cell;
-use orthocert_checker::certificate::{AtlasCell, Verdict};
+use orthocert::solver::{verify, Answer};
+use orthocert_checker::certificate::Verdict;
 use orthocert_checker::number::Exact;
+use orthocert_kernel::atlas::{walk, AtlasCell, Part};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -20,14 +21,14 @@ fn atlas(name: &str, resolution: u32) -> AtlasDesign {
     design
 }
 
-fn grown(design: &AtlasDesign, root: Cell, enough: Option<usize>) -> Vec<Top> {
+fn grown(design: &AtlasDesign, root: Part, enough: Option<usize>) -> Vec<Top> {
     let cancel = AtomicBool::new(false);
     let mut done = |_: usize, _: f64| {};
     grow(&mut Growing::new(design, &cancel, &mut done), root, enough).unwrap()
 }
 
 fn map(design: &AtlasDesign) -> Vec<AtlasCell> {
-    assemble(grown(design, Cell::ROOT, None), Vec::new()).unwrap()
+    assemble(grown(design, design.whole(), None), Vec::new()).unwrap()
 }
 
 fn approximate(x: &Exact) -> f64 {
@@ -53,7 +54,7 @@ fn margins_agree_with_the_closed_form() {
     for (psi_max, side) in [("2", "0.2"), ("2", "0.6"), ("3", "0.7"), ("1.3", "0.25"), ("4", "0.1")]
     {
         let number = |text| Exact::parse(text, 10).unwrap();
-        let found = margin(&design.at(&[number(psi_max), number(side)]).unwrap());
+        let found = margin(&design.at(&[number(psi_max), number(side)]));
         let (psi_max, side): (f64, f64) = (psi_max.parse().unwrap(), side.parse().unwrap());
         let fails = |m: f64| closed_form(psi_max / (1.0 + m), side) < 0.0;
         assert!(!fails(found - 1e-4) && fails(found + 1e-4), "{psi_max} {side}: {found}");
@@ -66,14 +67,10 @@ fn orthoglides_agree_with_the_closed_form() {
     let cells = map(&design);
     let (certificate, _) = certify(&design, cells.clone()).unwrap();
     assert_eq!(certificate.verdict, Verdict::Certified);
-    let claim = design.claim();
     let (mut certified, mut refuted) = (0, 0);
-    let shares = walk(&cells, 2, |_, cell, said| {
-        let ranges = claim.ranges(cell).unwrap();
-        let ends = |i: usize| {
-            let (_, (min, max)): &(&str, Ends) = &ranges[i];
-            (approximate(min), approximate(max))
-        };
+    let shares = walk(&cells, 2, |_, part, said| {
+        let ranges = ends(&design, part).unwrap();
+        let ends = |i: usize| (approximate(&ranges[i][0]), approximate(&ranges[i][1]));
         let ((psi_low, psi_high), (small, large)) = (ends(0), ends(1));
         // The most demanding and the least demanding design of the cell.
         match said {
@@ -102,7 +99,7 @@ fn orthoglides_agree_with_the_closed_form() {
 
 /// The design at values of the parameters, decided by itself.
 fn alone(design: &AtlasDesign, at: &[Exact]) -> Option<Verdict> {
-    let claim = design.at(at).unwrap();
+    let claim = design.at(at);
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let budget = Budget { max_boxes: 20_000, deadline: None };
@@ -116,17 +113,16 @@ fn alone(design: &AtlasDesign, at: &[Exact]) -> Option<Verdict> {
 fn single_designs_are_what_their_cell_says() {
     for name in ["linear-delta-2", "linear-delta-3"] {
         let design = atlas(name, 3);
-        let claim = design.claim();
         let mut certified = 0;
-        walk(&map(&design), 2, |_, cell, said| {
+        walk(&map(&design), 2, |_, part, said| {
             let expected = match said {
                 AtlasCell::Certified(_) => Verdict::Certified,
                 AtlasCell::Refuted(_) => Verdict::Refuted,
                 _ => return Ok(()),
             };
             certified += usize::from(expected == Verdict::Certified);
-            let ranges = claim.ranges(cell).unwrap();
-            let third = |(_, (min, max)): &(&str, Ends)| {
+            let ranges = ends(&design, part).unwrap();
+            let third = |[min, max]: &[Exact; 2]| {
                 let width = max.clone().minus(min.clone()).unwrap();
                 min.clone().plus(width.over(Exact::integer(3)).unwrap()).unwrap()
             };
@@ -144,10 +140,11 @@ fn parts_put_in_their_places_are_the_whole() {
     let design = atlas("orthoglide", 5);
     let whole = map(&design);
     for enough in [1, 2, 7, 40, 10_000] {
-        let top = grown(&design, Cell::ROOT, Some(enough));
-        let cells = waiting(&top).unwrap();
-        let parts =
-            cells.iter().map(|cell| assemble(grown(&design, *cell, None), Vec::new()).unwrap());
+        let top = grown(&design, design.whole(), Some(enough));
+        let cells = waiting(&top, design.whole()).unwrap();
+        let parts = cells
+            .iter()
+            .map(|cell| assemble(grown(&design, cell.clone(), None), Vec::new()).unwrap());
         let parts: Vec<_> = parts.collect();
         assert_eq!(assemble(top.clone(), parts.clone()), Some(whole.clone()), "{enough}");
         if !parts.is_empty() {
@@ -160,6 +157,62 @@ fn parts_put_in_their_places_are_the_whole() {
 fn a_cell_with_both_kinds_of_designs_stays_open() {
     let design = atlas("orthoglide", 3);
     let cancel = AtomicBool::new(false);
-    let decision = decide(&design, &design.claim(), &Cell::ROOT, &cancel);
+    let decision = decide(&design, &design.claim(), &design.whole(), &cancel);
     assert_eq!(decision, Decision::Open);
+}
+
+/// Machines that maps were not made of by the rules: more legs, the plane, users' own formulas.
+#[test]
+fn maps_of_every_kind_of_machine() {
+    let head = "[atlas]\nresolution = 3\nboxes = 200\n";
+    let strut =
+        |anchor: &str| format!("[[mechanism.legs]]\ndrive = \"strut\"\nanchor = {anchor}\n");
+    let a = "[parameters]\na = { min = 1, max = 3 }\n";
+    let four =
+        [r#"["a", 0, 0]"#, r#"[0, "a", 0]"#, r#"["-a", 0, 0]"#, r#"[0, "-a", 0]"#].map(strut);
+    let wide = "[workspace]\nmin = [-0.2, -0.2, 2]\nmax = [0.2, 0.2, 2.2]\n";
+    let bounded = "[requirements]\nconditioning = { max = 2 }\n";
+    let four =
+        format!("{a}{head}[mechanism]\nkind = \"translational\"\n{}{wide}{bounded}", four.concat());
+    let two = [r#"["-a", 0]"#, r#"["a", 0]"#].map(strut);
+    let flat = "[workspace]\nmin = [-0.2, 2]\nmax = [0.2, 2.2]\n";
+    let wider = "[parameters]\na = { min = 1, max = 4 }\n";
+    let two = format!("{wider}{head}[mechanism]\nkind = \"planar\"\n{}{flat}[requirements]\nconditioning = {{ max = \"3/2\" }}\n", two.concat());
+    let own = "[mechanism]\nkind = \"formulas\"\ncoordinates = [\"x\", \"y\"]\n\
+               [mechanism.parameters]\nl = \"3 ± tol\"\n\
+               [[mechanism.joints]]\nrho = \"x - sqrt(l^2 - y^2)\"\n\
+               [[mechanism.joints]]\nrho = \"y - sqrt(9 - (x/w)^2)\"\n";
+    let box_of = "[workspace]\nmin = [-1, -1]\nmax = [\"w\", 1]\n";
+    let w = "[parameters]\nw = { min = 1, max = 3 }\ntol = { min = 0, max = 0.1 }\n";
+    let own = format!("{w}{head}{own}{box_of}{bounded}");
+    for (name, text) in [("four", four), ("two", two), ("own", own)] {
+        let design = AtlasDesign::parse(&text, name).unwrap_or_else(|error| panic!("{error}"));
+        let cells = map(&design);
+        let (_, accepted) = certify(&design, cells.clone()).unwrap();
+        assert!(accepted.size.leaves > 0, "{name}");
+        let (mut certified, mut refuted) = (0, 0);
+        walk(&cells, design.parameters.len(), |_, part, said| {
+            let expected = match said {
+                AtlasCell::Certified(_) => Verdict::Certified,
+                AtlasCell::Refuted(_) => Verdict::Refuted,
+                _ => return Ok(()),
+            };
+            certified += usize::from(expected == Verdict::Certified);
+            refuted += usize::from(expected == Verdict::Refuted);
+            for end in 0..2 {
+                let at: Vec<Exact> = ends(&design, part)
+                    .unwrap()
+                    .into_iter()
+                    .map(|ends| ends[end].clone())
+                    .collect();
+                if at.iter().all(|x| *x != Exact::integer(0)) {
+                    assert_eq!(alone(&design, &at), Some(expected), "{name}: {at:?}");
+                }
+            }
+            Ok(())
+        })
+        .unwrap();
+        assert!(certified > 0, "{name}");
+        assert!(refuted > 0 || name == "own", "{name}");
+    }
 }

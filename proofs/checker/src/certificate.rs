@@ -15,8 +15,6 @@ pub const FORMAT: &str = "orthocert/2";
 pub const MAX_BYTES: usize = 16 << 20;
 /// Most nodes of a tree.
 pub const MAX_NODES: usize = 500_000;
-/// Most cells of an atlas, split or not.
-pub const MAX_CELLS: usize = 200_000;
 /// Most steps of one node.
 pub const MAX_STEPS: usize = 16;
 /// Most bytes of a string of the provenance.
@@ -68,34 +66,9 @@ pub enum Proof {
     Tree(#[serde(deserialize_with = "strict::object")] Tree),
     /// A counterexample, for "refuted".
     Witness(#[serde(deserialize_with = "strict::object")] Box<Witness>),
-    /// A bisection tree of a box of parameters, for an atlas.
-    Atlas(#[serde(deserialize_with = "strict::object")] Atlas),
-    /// A tree or a witness of the kernel; read and written as the kernel does.
+    /// A tree, a witness or the cells of an atlas, of the kernel; read and written as the kernel does.
     #[serde(skip_deserializing)]
     Kernel(orthocert_kernel::certificate::Proof),
-}
-
-/// A bisection tree of the parameters in preorder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Atlas {
-    /// The cells.
-    #[serde(deserialize_with = "strict::cells")]
-    pub cells: Vec<AtlasCell>,
-}
-
-/// What is shown of a cell of parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AtlasCell {
-    /// Nothing; its halves along the parameter of this number, counted from one, follow.
-    Split(usize),
-    /// Every design of the cell meets every requirement: a tree for all of them.
-    Certified(#[serde(deserialize_with = "strict::object")] Tree),
-    /// No design of the cell meets every requirement: one witness for all of them.
-    Refuted(#[serde(deserialize_with = "strict::of_every_machine")] Box<Witness>),
-    /// Nothing.
-    Undecided,
 }
 
 /// A bisection tree of the workspace in preorder: a node, then, if it is split, its lower part
@@ -259,8 +232,8 @@ pub struct Provenance {
 }
 
 impl Certificate {
-    /// The text of the certificate: one node, or cell of an atlas, a line, ending in a line feed. A function of the
-    /// certificate alone.
+    /// The text of the certificate: one node a line, ending in a line feed; of the kernel's, as it writes them. A
+    /// function of the certificate alone.
     ///
     /// # Errors
     /// Never for certificates that [`crate::read`] accepts; serialisation of other values may fail.
@@ -271,11 +244,6 @@ impl Certificate {
         };
         let proof = match &self.proof {
             Proof::Kernel(proof) => return kernel::text(self, proof),
-            Proof::Atlas(Atlas { cells }) => {
-                let cells: Result<Vec<String>, _> =
-                    cells.iter().map(serde_json::to_string).collect();
-                format!("{{\"atlas\":{{\"cells\":[\n{}\n]}}}}", cells?.join(",\n"))
-            }
             Proof::Witness(witness) => {
                 format!("{{\"witness\":{}}}", serde_json::to_string(witness)?)
             }

@@ -3,6 +3,7 @@
 use crate::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use crate::check::{syntax, Rejected, TreeSize};
 use crate::claim::Claim;
+use orthocert_kernel::atlas::{self, AtlasCell, AtlasClaim};
 use orthocert_kernel::certificate::{self as kernel, Node, Tree, Unreadable};
 use orthocert_kernel::check;
 use orthocert_kernel::claim::MachineClaim;
@@ -27,6 +28,7 @@ pub(crate) fn is_meant(text: &str) -> bool {
         },
         Postulate(IgnoredAny),
         NoCube(IgnoredAny),
+        Atlas(IgnoredAny),
     }
     serde_json::from_str::<Header>(text).is_ok()
 }
@@ -46,7 +48,8 @@ pub(crate) fn read(text: &str) -> Result<Certificate, Rejected> {
         kernel::Claim::Machine(claim) => Claim::Kernel(claim),
         kernel::Claim::Postulate(claim) => Claim::Postulate(claim),
         kernel::Claim::NoCube(claim) => Claim::NoCube(claim),
-        _ => return Err(syntax(&"a claim about a machine over a workspace is expected")),
+        kernel::Claim::Atlas(claim) => Claim::Atlas(claim),
+        _ => return Err(syntax(&"a claim about machines over workspaces is expected")),
     };
     Ok(Certificate {
         format: FORMAT.to_owned(),
@@ -76,6 +79,7 @@ pub(crate) fn text(
         Claim::Kernel(claim) => kernel::Claim::Machine(claim),
         Claim::Postulate(claim) => kernel::Claim::Postulate(claim),
         Claim::NoCube(claim) => kernel::Claim::NoCube(claim),
+        Claim::Atlas(claim) => kernel::Claim::Atlas(claim),
         _ => return Err(serde::ser::Error::custom("the kernel's proof of another claim")),
     };
     let Provenance { tool, version } = certificate.provenance.clone();
@@ -124,6 +128,25 @@ pub fn trees(mut nodes: &[Node]) -> Vec<&[Node]> {
         nodes = rest;
     }
     trees
+}
+
+/// Accepts an atlas but for the cells that are not wanted, or says why not; adds up the
+/// trees of the others.
+pub(crate) fn check_atlas(
+    claim: &AtlasClaim,
+    proof: &kernel::Proof,
+    is_wanted: impl Fn(usize) -> bool,
+    size: &mut TreeSize,
+) -> Result<(), Rejected> {
+    let kernel::Proof::Atlas(cells) = proof else { return Err(Rejected::VerdictMismatch) };
+    atlas::check_part(claim, cells, &is_wanted).map_err(Rejected::Kernel)?;
+    let wanted = cells.iter().enumerate().filter(|(number, _)| is_wanted(*number));
+    for (_, cell) in wanted {
+        if let AtlasCell::Certified(tree) = cell {
+            size.add(size_of(tree));
+        }
+    }
+    Ok(())
 }
 
 /// The size and shape of trees together.

@@ -21,7 +21,6 @@
 //! | [`expansion`]   | `M` over a cell, as a point value and slopes                           |
 //! | [`definite`]    | positive definiteness of interval matrices                             |
 //! | [`rule`]        | the rules, each with its lemma and proof                               |
-//! | [`atlas`]       | maps of a box of parameters: the claims of its cells, their shares     |
 //! | [`trig`]        | cosines and sines of degrees, enclosed                                 |
 //! | [`witness`]     | refutations                                                            |
 //! | [`word`]        | fixed-point intervals over machine words, as [`fixed`] but faster      |
@@ -32,7 +31,6 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
-pub mod atlas;
 pub mod cell;
 pub mod certificate;
 mod check;

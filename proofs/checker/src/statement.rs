@@ -2,8 +2,7 @@
 
 use crate::certificate::{Certificate, Proof, Verdict};
 use crate::claim::{
-    AtlasClaim, AtlasParameter, Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements,
-    Sign, Workspace,
+    Claim, Leg, MachineClaim, Mechanism, Quantity, Range, Requirements, Sign, Workspace,
 };
 use crate::kernel;
 use std::fmt::{self, Write};
@@ -25,7 +24,7 @@ pub fn statement(claim: &Claim, verdict: Verdict) -> Result<String, fmt::Error> 
         }
         Claim::Postulate(claim) => return orthocert_kernel::postulate::statement(claim),
         Claim::NoCube(claim) => return orthocert_kernel::no_cube::statement(claim),
-        Claim::Atlas(claim) => atlas(&mut out, claim)?,
+        Claim::Atlas(claim) => return orthocert_kernel::atlas::statement(claim),
         Claim::Kernel(claim) => return kernel::statement(claim, verdict),
     }
     Ok(out)
@@ -86,20 +85,6 @@ pub fn wrapped(text: &str) -> String {
         out.push('\n');
     }
     out
-}
-
-fn atlas(out: &mut String, claim: &AtlasClaim) -> fmt::Result {
-    writeln!(out, "Of the parameters")?;
-    for AtlasParameter { name, min, max } in &claim.parameters {
-        writeln!(out, "  {min} <= {name} <= {max},")?;
-    }
-    writeln!(out, "cut into the cells of the proof, the following holds")?;
-    writeln!(out, "  for all values of the parameters in the cells that it names certified,")?;
-    writeln!(out, "  which fill the share {} of all, and", claim.certified)?;
-    writeln!(out, "  for no values of the parameters in the cells that it names refuted,")?;
-    writeln!(out, "  which fill the share {} of all:", claim.refuted)?;
-    machine(out, &claim.design)?;
-    requirements(out, &claim.design)
 }
 
 fn transmission_factors(out: &mut String) -> fmt::Result {

@@ -1,7 +1,7 @@
 //! Reading nothing but the format: derived readers also take an array of the fields' values, in
 //! order, for an object, `null` for what is absent, and objects for names; the format does not.
 
-use crate::certificate::{Witness, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS};
+use crate::certificate::{MAX_LABEL, MAX_NODES, MAX_STEPS};
 use crate::number::Exact;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
@@ -109,24 +109,6 @@ where
     objects(deserializer, MAX_NODES)
 }
 
-/// Reads an array of at most three objects.
-pub(crate) fn parameters<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    objects(deserializer, 3)
-}
-
-/// Reads an array of at most [`MAX_CELLS`] names or objects.
-pub(crate) fn cells<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    list(deserializer, MAX_CELLS)
-}
-
 /// Reads an array of at most [`MAX_STEPS`] names or objects.
 pub(crate) fn steps<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
 where
@@ -176,17 +158,6 @@ pub(crate) fn point<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[Exact
     match point.iter().all(|x| x.as_rational().is_some()) {
         true => Ok(point),
         false => Err(D::Error::custom("a point is not three rational numbers")),
-    }
-}
-
-/// Reads the witness of an atlas's cell, which is about every machine.
-pub(crate) fn of_every_machine<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Box<Witness>, D::Error> {
-    let witness: Box<Witness> = object(deserializer)?;
-    match &witness.machine {
-        None => Ok(witness),
-        Some(_) => Err(D::Error::custom("the witness of an atlas's cell has a machine")),
     }
 }
 

@@ -5,11 +5,9 @@
 //! | `mathematics` | exact values inside enclosures, and nothing accepted that is not true     |
 //! | `adversary`   | false claims, and what would prove them                                   |
 //! | `drives`      | drives and the rules about their joints                                   |
-//! | `atlas`       | atlases: what is derived of a cell, and what is rejected                  |
 //! | `hostile`     | files made to exhaust the checker or to mislead                           |
 
 mod adversary;
-mod atlas;
 mod drives;
 mod hostile;
 mod mathematics;

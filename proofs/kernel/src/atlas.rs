@@ -81,7 +81,26 @@ impl AtlasClaim {
         Ok(claim)
     }
 
-    fn ranges(&self, part: &[(u64, u32)]) -> Result<Vec<Range>, ClaimError> {
+    /// A witness over a cell: its numbers may name parameters.
+    ///
+    /// # Errors
+    /// As [`AtlasClaim::over`].
+    pub fn witness_over(
+        &self,
+        part: &[(u64, u32)],
+        witness: &Witness,
+    ) -> Result<Witness, ClaimError> {
+        let ranges = self.ranges(part)?;
+        let mut witness = witness.clone();
+        witness.numbers_mut().into_iter().for_each(|number| vary(number, &ranges));
+        Ok(witness)
+    }
+
+    /// The parameters' ranges in a cell.
+    ///
+    /// # Errors
+    /// If the parameters are not well formed.
+    pub fn ranges(&self, part: &[(u64, u32)]) -> Result<Vec<Range>, ClaimError> {
         let named = |(k, (parameter, &(n, level))): (usize, (&Parameter, &(u64, u32)))| {
             let [min, max] = parameter.ends()?;
             let width = (&max - &min) / BigRational::from(BigInt::from(1) << level);
@@ -94,7 +113,10 @@ impl AtlasClaim {
 
     /// Parameters have names that differ from each other and from those of the mechanism, and ranges that
     /// are not empty; the machine has numbers of its own.
-    fn validate(&self) -> Result<(), ClaimError> {
+    ///
+    /// # Errors
+    /// What is not so.
+    pub fn validate(&self) -> Result<(), ClaimError> {
         let refused = |expected| Err(shape_error("parameters", expected));
         if !(1..=MOST_PARAMETERS).contains(&self.parameters.len()) {
             return refused("one to three");
@@ -140,56 +162,120 @@ impl Parameter {
     }
 }
 
-/// Accepts an atlas of so many bytes, or says why not.
+/// Both halves of a cell along a parameter; `None` where there are none.
+pub fn halves(part: &[(u64, u32)], k: usize) -> Option<[Part; 2]> {
+    let &(n, level) = part.get(k).filter(|(_, level)| *level < MOST_LEVEL)?;
+    Some([2 * n, 2 * n + 1].map(|n| {
+        let mut half = part.to_vec();
+        half[k] = (n, level + 1);
+        half
+    }))
+}
+
+/// The shares of the box that are in certified and in refuted cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shares {
+    /// The sum over the certified cells.
+    pub certified: BigRational,
+    /// The same over the refuted ones.
+    pub refuted: BigRational,
+}
+
+/// Gives every cell that is not split to `visit`, with its number; the sums of shares. The tree alone is
+/// checked here.
 ///
 /// The leaves of the tree of cells cover the box and overlap in faces only; a leaf below `d` halvings has
 /// the share `2^-d`.
 ///
-/// **Work.** What is to be done is estimated before it is done, but for the formulas of one cell, and a
-/// certificate that asks for more than [`work::WORK_A_BYTE`] is refused.
-pub(crate) fn check(claim: &AtlasClaim, cells: &[AtlasCell], bytes: usize) -> Result<(), Rejected> {
-    claim.validate().map_err(Rejected::Claim)?;
-    let mut budget = Budget::new(bytes);
-    let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
-    let mut found = [BigInt::zero(), BigInt::zero()];
+/// # Errors
+/// If the cells are no tree of so many parameters, or `visit` fails.
+pub fn walk(
+    cells: &[AtlasCell],
+    parameters: usize,
+    mut visit: impl FnMut(usize, &Part, &AtlasCell) -> Result<(), Rejected>,
+) -> Result<Shares, Rejected> {
+    let mut waiting: Vec<Part> = vec![vec![(0, 0); parameters]];
+    let (mut certified, mut refuted) = (BigInt::zero(), BigInt::zero());
     let levels = MOST_LEVEL * MOST_PARAMETERS as u32;
     for (at, cell) in cells.iter().enumerate() {
         let part = waiting.pop().ok_or(Rejected::Shape(at))?;
-        if let AtlasCell::Split(k) = cell {
-            let (n, level) = *part.get(*k).ok_or(Rejected::Shape(at))?;
-            if level == MOST_LEVEL {
-                return Err(Rejected::Shape(at));
+        let depth: u32 = part.iter().map(|(_, level)| level).sum();
+        let share = || BigInt::from(1) << levels.saturating_sub(depth);
+        match cell {
+            AtlasCell::Split(k) => {
+                let [lower, upper] = halves(&part, *k).ok_or(Rejected::Shape(at))?;
+                waiting.extend([upper, lower]);
+                continue;
             }
-            for n in [2 * n + 1, 2 * n] {
-                let mut half = part.clone();
-                half[*k] = (n, level + 1);
-                waiting.push(half);
-            }
-            continue;
+            AtlasCell::Certified(_) => certified += share(),
+            AtlasCell::Refuted(_) => refuted += share(),
+            AtlasCell::Undecided => {}
         }
-        let which = shown(claim, &part, cell, &mut budget);
-        if let Some(which) = which.map_err(|why| Rejected::Cell(at, Box::new(why)))? {
-            let depth: u32 = part.iter().map(|(_, level)| level).sum();
-            found[usize::from(which)] += BigInt::from(1) << (levels - depth);
-        }
+        visit(at, &part, cell)?;
     }
     if !waiting.is_empty() {
         return Err(Rejected::Shape(cells.len()));
     }
-    let whole = BigRational::from(BigInt::from(1) << levels);
-    let reaches = |share: &Expression, found: BigInt| {
+    let of_whole = |found| BigRational::new(found, BigInt::from(1) << levels);
+    Ok(Shares { certified: of_whole(certified), refuted: of_whole(refuted) })
+}
+
+/// Accepts an atlas but for the cells that are not wanted, by their number, or says why not. Where each
+/// cell is wanted by one of several checks, and none refuses, the atlas is accepted.
+///
+/// **Work.** What is to be done is estimated before it is done, but for the formulas of one cell. A cell
+/// may ask for what [`work::WORK_A_BYTE`] allows its own bytes and its part of all bytes together: so the
+/// work of all cells is within that of twice the bytes, and no cell's depends on another's.
+///
+/// # Errors
+/// If the proof does not show what is claimed.
+pub fn check_part(
+    claim: &AtlasClaim,
+    cells: &[AtlasCell],
+    is_wanted: impl Fn(usize) -> bool,
+) -> Result<(), Rejected> {
+    claim.validate().map_err(Rejected::Claim)?;
+    let says = |cell: &&AtlasCell| matches!(cell, AtlasCell::Certified(_) | AtlasCell::Refuted(_));
+    let of_cells: usize = cells.iter().map(bytes).sum();
+    let all = bytes(claim).saturating_add(of_cells).max(work::LEAST_BYTES);
+    let each = all / cells.iter().filter(says).count().max(1);
+    let found = walk(cells, claim.parameters.len(), |at, part, cell| {
+        if !is_wanted(at) {
+            return Ok(());
+        }
+        let shown = shown(claim, part, cell, Budget::new(each.saturating_add(bytes(cell))));
+        shown.map_err(|why| Rejected::Cell(at, Box::new(why)))
+    })?;
+    let reaches = |share: &Expression, found: &BigRational| {
         let share = share.rational().filter(|share| !share.is_negative());
-        share.is_some_and(|share| share * &whole <= BigRational::from(found))
+        share.is_some_and(|share| share <= *found)
     };
-    let [refuted, certified] = found;
-    if reaches(&claim.certified, certified) && reaches(&claim.refuted, refuted) {
+    if reaches(&claim.certified, &found.certified) && reaches(&claim.refuted, &found.refuted) {
         Ok(())
     } else {
         Err(Rejected::Shares)
     }
 }
 
-/// Whether the claim is shown to be true, or false, for all values of the parameters in a cell.
+/// The bytes of a text.
+fn bytes(part: &impl Serialize) -> usize {
+    serde_json::to_string(part).map_or(0, |text| text.len())
+}
+
+/// Accepts what is said of one cell of an atlas by itself, or says why not.
+///
+/// # Errors
+/// If it is not shown.
+pub fn check_cell(
+    claim: &AtlasClaim,
+    part: &[(u64, u32)],
+    cell: &AtlasCell,
+) -> Result<(), Rejected> {
+    claim.validate().map_err(Rejected::Claim)?;
+    shown(claim, part, cell, Budget::new(work::LEAST_BYTES))
+}
+
+/// Whether what is said of a cell holds for all values of the parameters there.
 ///
 /// **Lemma (atlas).** Let names stand for their ranges over the cell. *Certified*: if the claim is then
 /// well formed, and its tree holds, for all values of the parameters the claim with these values is
@@ -199,20 +285,21 @@ pub(crate) fn check(claim: &AtlasClaim, cells: &[AtlasCell], bytes: usize) -> Re
 /// enclosed for every machine of every value. ∎ *Refuted*: if the witness is accepted, the claim is
 /// false for all values. *Proof.* For each, the witness's point is in the workspace, its machine is one
 /// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
+///
+/// Where a tolerance varies, it may be none for some values: its ends are the same number there.
 fn shown(
     claim: &AtlasClaim,
     part: &[(u64, u32)],
     cell: &AtlasCell,
-    budget: &mut Budget,
-) -> Result<Option<bool>, Rejected> {
+    mut budget: Budget,
+) -> Result<(), Rejected> {
     if matches!(cell, AtlasCell::Undecided | AtlasCell::Split(_)) {
-        return Ok(None);
+        return Ok(());
     }
-    let ranges = claim.ranges(part).map_err(Rejected::Claim)?;
-    let mut claim = claim.over(part).map_err(Rejected::Claim)?;
-    let numbers: usize = claim.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
+    let mut over = claim.over(part).map_err(Rejected::Claim)?;
+    let numbers: usize = over.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
     budget.spend(numbers)?;
-    let problem = Problem::new(&claim).map_err(Rejected::Claim)?;
+    let problem = Problem::new(&over).map_err(Rejected::Claim)?;
     budget.spend(work::of_problem(&problem))?;
     match cell {
         AtlasCell::Certified(tree) => {
@@ -221,24 +308,16 @@ fn shown(
                 tree.precision,
                 || tree_holds::<i64>(&problem, tree),
                 || tree_holds::<BigInt>(&problem, tree),
-            )?;
-            Ok(Some(true))
+            )
         }
         AtlasCell::Refuted(witness) => {
-            let mut witness = witness.clone();
-            let numbers = witness.numbers_mut().into_iter().map(|number| {
-                vary(number, &ranges);
-                work::of_number(number)
-            });
-            budget.spend(
-                numbers
-                    .sum::<usize>()
-                    .saturating_add(work::of_witness(&problem, witness.precision)),
-            )?;
-            witness::check(&problem, &claim.workspace, &witness).map_err(Rejected::Witness)?;
-            Ok(Some(false))
+            let mut witness = claim.witness_over(part, witness).map_err(Rejected::Claim)?;
+            let numbers = witness.numbers_mut().into_iter().map(|x| work::of_number(x));
+            let numbers: usize = numbers.sum();
+            budget.spend(numbers.saturating_add(work::of_witness(&problem, witness.precision)))?;
+            witness::check(&problem, &over.workspace, &witness).map_err(Rejected::Witness)
         }
-        AtlasCell::Undecided | AtlasCell::Split(_) => Ok(None),
+        AtlasCell::Undecided | AtlasCell::Split(_) => Ok(()),
     }
 }
 
@@ -250,6 +329,7 @@ pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
     use fmt::Write;
     let AtlasClaim { parameters, machine: claim, certified, refuted } = claim;
     let mut out = String::new();
+    writeln!(out, "It is proved:")?;
     writeln!(
         out,
         "Let a design be good if all of the following holds, with the numbers that it has for"
@@ -262,12 +342,12 @@ pub fn statement(claim: &AtlasClaim) -> Result<String, fmt::Error> {
     requirements(&mut out, claim)?;
     writeln!(
         out,
-        "It is proved: of the box of these parameters, the cells that the proof names certified,"
+        "Of the box of these parameters, the cells that the proof names certified, in which"
     )?;
     writeln!(
         out,
-        "in which every design is good, have at least the share {certified}; the cells that it"
+        "every design is good, have at least the share {certified}; the cells that it names"
     )?;
-    writeln!(out, "names refuted, in which none is, at least the share {refuted}.")?;
+    writeln!(out, "refuted, in which none is, at least the share {refuted}.")?;
     Ok(out)
 }

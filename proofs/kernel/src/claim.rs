@@ -161,6 +161,12 @@ impl Quantity {
             Quantity::Between { min, max } => [min, max],
         }
     }
+
+    /// Whether its ends have to differ: those of a range that varies may be one number for some values.
+    pub(crate) fn has_width(&self) -> bool {
+        let [min, max] = self.ends();
+        matches!(self, Quantity::Between { .. }) && !min.varies() && !max.varies()
+    }
 }
 
 impl Leg {

@@ -56,7 +56,7 @@ impl Builder {
             let place = format!("leg {}: {key}", number + 1);
             for quantity in quantities {
                 let [min, max] = quantity.ends();
-                ordered(&place, min, max, matches!(quantity, Quantity::Between { .. }))?;
+                ordered(&place, min, max, quantity.has_width())?;
                 if kind == Kind::Length {
                     positive(&place, min)?;
                 }
@@ -241,7 +241,7 @@ pub(crate) fn by_formulas(
     }
     for (name, quantity) in &formulas.parameters {
         let [min, max] = quantity.ends();
-        ordered(name, min, max, matches!(quantity, Quantity::Between { .. }))?;
+        ordered(name, min, max, quantity.has_width())?;
         let parameter = builder.quantity(name, quantity, 0);
         define(&mut names, name.as_str(), parameter)?;
     }

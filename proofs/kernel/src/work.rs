@@ -13,7 +13,7 @@ use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
-pub const WORK_A_BYTE: usize = 24;
+pub const WORK_A_BYTE: usize = 96;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 
@@ -21,9 +21,9 @@ pub const LEAST_BYTES: usize = 100_000;
 pub(crate) struct Budget(usize);
 
 impl Budget {
-    /// The budget of a certificate of so many bytes.
+    /// The budget of so many bytes.
     pub fn new(bytes: usize) -> Self {
-        Budget(bytes.max(LEAST_BYTES).saturating_mul(WORK_A_BYTE))
+        Budget(bytes.saturating_mul(WORK_A_BYTE))
     }
 
     /// Less so many units.

@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::rule::Obligation;
 use crate::shown::Shown;
 use crate::strict::{self, Strict};
-use crate::{atlas, kernel, witness};
+use crate::{kernel, witness};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -50,6 +50,18 @@ pub struct TreeSize {
     pub depth: usize,
     /// Uses of each rule.
     pub steps: BTreeMap<&'static str, usize>,
+}
+
+impl TreeSize {
+    /// Adds those of another tree.
+    pub fn add(&mut self, other: TreeSize) {
+        self.nodes += other.nodes;
+        self.leaves += other.leaves;
+        self.depth = self.depth.max(other.depth);
+        for (rule, uses) in other.steps {
+            *self.steps.entry(rule).or_default() += uses;
+        }
+    }
 }
 
 /// Reads a certificate.
@@ -121,8 +133,8 @@ pub fn check_part(
         (Claim::Machine(claim), Proof::Witness(witness), Verdict::Refuted) => {
             witness::check(claim, witness).map_err(Rejected::Witness)?;
         }
-        (Claim::Atlas(claim), Proof::Atlas(map), Verdict::Certified) => {
-            atlas::check(claim, map, |number| number % of == part, &mut size)?;
+        (Claim::Atlas(claim), Proof::Kernel(proof), Verdict::Certified) => {
+            kernel::check_atlas(claim, proof, |number| number % of == part, &mut size)?;
         }
         (claim, Proof::Kernel(proof), verdict) => {
             kernel::check(claim, verdict, proof, &mut size)?;

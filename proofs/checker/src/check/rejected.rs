@@ -1,7 +1,6 @@
 //! Why certificates are rejected.
 
-use crate::atlas::AtlasError;
-use crate::certificate::{FORMAT, MAX_BYTES, MAX_NODES, MAX_STEPS, PRECISIONS};
+use crate::certificate::{FORMAT, MAX_BYTES, MAX_STEPS, PRECISIONS};
 use crate::claim::ClaimError;
 use crate::rule::{Failure, Obligation};
 use crate::witness::WitnessError;
@@ -51,21 +50,8 @@ pub enum Rejected {
     },
     /// The witness does not refute the claim.
     Witness(WitnessError),
-    /// The claim of an atlas, or of a cell of it, is not well formed.
-    AtlasClaim(AtlasError),
-    /// The trees of an atlas have too many nodes together.
-    TooManyNodes(usize),
-    /// The shares that an atlas claims are not those of its cells.
-    Shares,
     /// The kernel does not accept it.
     Kernel(orthocert_kernel::check::Rejected),
-    /// What an atlas says of a cell is not proved.
-    Cell {
-        /// The cell, counted from zero in preorder.
-        cell: usize,
-        /// Why.
-        reason: Box<Rejected>,
-    },
 }
 
 impl From<ClaimError> for Rejected {
@@ -111,17 +97,6 @@ impl fmt::Display for Rejected {
                 write!(f, "node {node} is a leaf, but {obligation} is not discharged on its path")
             }
             Rejected::Witness(error) => write!(f, "the witness does not refute: {error}"),
-            Rejected::AtlasClaim(error) => {
-                write!(f, "the claim of the atlas is not well formed: {error}")
-            }
-            Rejected::TooManyNodes(nodes) => write!(
-                f,
-                "the trees of the atlas have {nodes} nodes; at most {MAX_NODES} are accepted"
-            ),
-            Rejected::Shares => {
-                write!(f, "the shares that are claimed are not those of the proof's cells")
-            }
-            Rejected::Cell { cell, reason } => write!(f, "cell {cell} of the atlas: {reason}"),
         }
     }
 }

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 pub use leg::{Leg, Parameter, Sign, WorkingMode};
+pub use orthocert_kernel::atlas::AtlasClaim;
 pub use orthocert_kernel::no_cube::NoCubeClaim;
 pub use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 pub use validate::ClaimError;
@@ -37,42 +38,11 @@ pub enum Claim {
     #[serde(skip_deserializing)]
     NoCube(NoCubeClaim),
     /// Every machine of a box of parameters, in part.
-    Atlas(#[serde(deserialize_with = "strict::object")] AtlasClaim),
+    #[serde(skip_deserializing)]
+    Atlas(AtlasClaim),
     /// Any mechanism, in the kernel's vocabulary; read and written as the kernel does.
     #[serde(skip_deserializing, rename = "machine")]
     Kernel(orthocert_kernel::claim::MachineClaim),
-}
-
-/// "Of the box of parameters, the cells that the proof names certified, which fill the share
-/// `certified` of it, hold only designs that meet every requirement; the cells that it names
-/// refuted, which fill the share `refuted`, hold only designs that do not."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AtlasClaim {
-    /// What is varied: one to three parameters, in the order of the axes of the map.
-    #[serde(deserialize_with = "strict::parameters")]
-    pub parameters: Vec<AtlasParameter>,
-    /// A machine claim, some numbers of which are expressions with the parameters' names: one
-    /// claim for each choice of their values.
-    #[serde(deserialize_with = "strict::object")]
-    pub design: MachineClaim,
-    /// The share of the box in certified cells.
-    pub certified: Exact,
-    /// The share of the box in refuted cells.
-    pub refuted: Exact,
-}
-
-/// A parameter of an atlas: every real value from `min` to `max`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AtlasParameter {
-    /// How expressions call it.
-    #[serde(deserialize_with = "strict::label")]
-    pub name: String,
-    /// Least value, rational.
-    pub min: Exact,
-    /// Greatest value, rational and greater than the least.
-    pub max: Exact,
 }
 
 /// "Every machine described, at every point of the workspace, is free of serial and parallel

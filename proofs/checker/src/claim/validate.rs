@@ -39,8 +39,6 @@ pub enum ClaimError {
     CubeFixesPsiMin,
     /// The numbers cannot be enclosed at the precision of the proof.
     Precision(String),
-    /// A number with a name, which only the design of an atlas has.
-    Open(String),
 }
 
 impl fmt::Display for ClaimError {
@@ -81,9 +79,6 @@ impl fmt::Display for ClaimError {
             ClaimError::Precision(what) => {
                 write!(f, "{what} cannot be enclosed at the precision of the proof")
             }
-            ClaimError::Open(number) => {
-                write!(f, "{number:?} has a name; only the design of an atlas has names")
-            }
         }
     }
 }
@@ -93,10 +88,6 @@ impl std::error::Error for ClaimError {}
 impl MachineClaim {
     /// Proves the claim well formed: ordered ranges, positive lengths, admissible bounds.
     pub fn validate(&self) -> Result<(), ClaimError> {
-        self.try_map(&mut |x, _| match x.is_open() {
-            true => Err(ClaimError::Open(x.to_string())),
-            false => Ok(x.clone()),
-        })?;
         match (&self.mechanism, &self.workspace) {
             (Mechanism::Translational(legs), Workspace::Box { min, max }) => {
                 self.validate_legs(legs)?;

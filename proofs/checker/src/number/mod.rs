@@ -7,11 +7,9 @@
 //! literal = digits [ "." digits ] [ ("e" | "E") [ "+" | "-" ] digits ]
 //! ```
 //!
-//! In the design of an atlas, a `unary` may also be a name, of a parameter:
+//! In the design of an atlas, which is no certificate, a `unary` may also be a name, of a parameter:
 //! `letter { letter | digit | "_" }`, small letters only. An expression with names is *open*
-//! ([`Exact::is_open`]): it has no sign, order or enclosure, so that nothing is proved of it, and
-//! what its divisors and radicands have to be is proved when the names are given values
-//! ([`crate::atlas`]).
+//! ([`Exact::is_open`]): it has no sign, order or enclosure, so that nothing is proved of it.
 //!
 //! Rational parts are folded, so `0.5 + 1/3` is the rational `5/6`; square roots of squares are
 //! rational; `-(-x)` is `x`. What remains is a tree whose value is enclosed by [`Exact::enclose`].
@@ -153,9 +151,9 @@ impl Exact {
         read::expression(text, max_digits, true)
     }
 
-    /// Parses a canonical text, with or without names: exactly what [`Exact`] prints.
+    /// Parses a canonical text: exactly what [`Exact`] prints.
     pub fn parse_canonical(text: &str) -> Result<Self, NumberError> {
-        let value = Exact::parse_open(text, MAX_DIGITS)?;
+        let value = Exact::parse(text, MAX_DIGITS)?;
         if value.to_string() != text {
             return Err(NumberError { at: 0, kind: NumberErrorKind::Expected("canonical form") });
         }

@@ -1,13 +1,14 @@
 //! Maps of parameters: certified, refuted and undecided cells, and what is rejected.
 
 use crate::prover::Prover;
-use orthocert_kernel::atlas::{statement, AtlasCell, AtlasClaim, Part};
+use orthocert_kernel::atlas::{check_part, statement, walk, AtlasCell, AtlasClaim, Part};
 use orthocert_kernel::certificate::{
     Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
 use orthocert_kernel::check::{check, Rejected};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use orthocert_kernel::witness::WitnessError;
 
 fn number(text: &str) -> Expression {
     Expression::try_from(text.to_owned()).expect("a number")
@@ -101,20 +102,11 @@ fn witnesses() -> Vec<Witness> {
 /// The cells that are no splits, each with its part.
 fn leaves(claim: &AtlasClaim, cells: &[AtlasCell]) -> Vec<(usize, Part)> {
     let mut found = Vec::new();
-    let mut waiting: Vec<Part> = vec![vec![(0, 0); claim.parameters.len()]];
-    for (at, cell) in cells.iter().enumerate() {
-        let part = waiting.pop().expect("a tree");
-        let AtlasCell::Split(k) = cell else {
-            found.push((at, part));
-            continue;
-        };
-        let (n, level) = part[*k];
-        for n in [2 * n + 1, 2 * n] {
-            let mut half = part.clone();
-            half[*k] = (n, level + 1);
-            waiting.push(half);
-        }
-    }
+    walk(cells, claim.parameters.len(), |at, part, _| {
+        found.push((at, part.clone()));
+        Ok(())
+    })
+    .expect("a tree");
     found
 }
 
@@ -226,13 +218,109 @@ fn maps_that_show_less() {
             assert!(matches!(moved(bad), Err(Rejected::Cell(cell, _)) if cell == *at));
         }
     }
-    // An open tree, and one that fails.
+    // An open tree, one that fails, and one without precision.
     let fails = Node { fails: Some(Failure::Reach), ..Node::default() };
-    for node in [Node::default(), fails] {
-        let tree = Tree { precision: 52, chords: None, nodes: vec![node] };
+    for (precision, node) in [(52, Node::default()), (52, fails), (4, Node::default())] {
+        let tree = Tree { precision, chords: None, nodes: vec![node] };
         let found = with(&|_, cells| cells[good] = AtlasCell::Certified(tree.clone()));
         assert!(matches!(found, Err(Rejected::Cell(..))));
     }
+}
+
+/// Whatever cell is wrong, one of the parts rejects it; what is of no cell, all of them.
+#[test]
+fn the_parts_of_a_check_are_the_whole() {
+    let (own, cells) = parts(&mapped());
+    let rejecting = |own: &AtlasClaim, cells: &[AtlasCell]| {
+        let part = |part: &usize| check_part(own, cells, |number| number % 3 == *part).is_err();
+        (0..3).filter(part).collect::<Vec<_>>()
+    };
+    assert_eq!(rejecting(&own, &cells), [0; 0]);
+    let open = Tree { precision: 52, chords: None, nodes: vec![Node::default()] };
+    for (at, _) in leaves(&own, &cells) {
+        if matches!(cells[at], AtlasCell::Certified(_)) {
+            let mut wrong = cells.clone();
+            wrong[at] = AtlasCell::Certified(open.clone());
+            assert_eq!(rejecting(&own, &wrong), [at % 3]);
+        }
+    }
+    let more = AtlasClaim { refuted: number("1"), ..own };
+    assert_eq!(rejecting(&more, &cells), [0, 1, 2]);
+}
+
+/// The same cells of a box that reaches to smaller `psi_max`, or to larger cubes; refuted, of one with small ones only.
+#[test]
+fn a_wider_box_needs_other_proofs() {
+    let (own, cells) = parts(&mapped());
+    let of_box = |k: usize, end: &str, to: &str, all: &dyn Fn(&AtlasCell) -> bool| {
+        let mut own = own.clone();
+        let parameter = &mut own.parameters[k];
+        *(if end == "min" { &mut parameter.min } else { &mut parameter.max }) = number(to);
+        let kept = |cell: &AtlasCell| match cell {
+            AtlasCell::Split(_) => cell.clone(),
+            _ if all(cell) => cell.clone(),
+            _ => AtlasCell::Undecided,
+        };
+        check(&certificate(own, cells.iter().map(kept).collect()))
+    };
+    let certified = |cell: &AtlasCell| matches!(cell, AtlasCell::Certified(_));
+    let refuted = |cell: &AtlasCell| matches!(cell, AtlasCell::Refuted(_));
+    assert!(matches!(of_box(0, "min", "1", &certified), Err(Rejected::Cell(..))));
+    assert!(matches!(of_box(1, "max", "3/2", &certified), Err(Rejected::Cell(..))));
+    assert!(matches!(of_box(1, "max", "1/5", &refuted), Err(Rejected::Cell(..))));
+}
+
+/// What a witness shows, it shows of every design of its cell.
+#[test]
+fn witnesses_that_show_less() {
+    let (own, cells) = parts(&mapped());
+    let at = cells.iter().position(|cell| matches!(cell, AtlasCell::Refuted(_))).expect("one");
+    let with = |change: &dyn Fn(&mut Witness)| {
+        let mut cells = cells.clone();
+        if let AtlasCell::Refuted(witness) = &mut cells[at] {
+            change(witness);
+        }
+        match check(&certificate(own.clone(), cells)) {
+            Err(Rejected::Cell(found, why)) if found == at => match *why {
+                Rejected::Witness(why) => why,
+                why => panic!("{why}"),
+            },
+            other => panic!("{other:?}"),
+        }
+    };
+    let at_point = |point: [&str; 3]| with(&|witness| witness.point = point.map(number).to_vec());
+    assert_eq!(at_point(["0", "0", "0"]), WitnessError::NotViolated);
+    // In none of the workspaces, or in the larger ones only; beyond them by a number with a name.
+    assert_eq!(at_point(["9/10", "0", "0"]), WitnessError::Outside);
+    assert_eq!(at_point(["side", "0", "0"]), WitnessError::Outside);
+    // No parameter's name.
+    assert_eq!(at_point(["size/2", "0", "0"]), WitnessError::Outside);
+    // A machine, where none is to be chosen.
+    let machine = with(&|witness| witness.machine = vec![number("1")]);
+    assert_eq!(machine, WitnessError::OutsideTolerance);
+    assert_eq!(with(&|witness| witness.precision = 4), WitnessError::Precision(4));
+    let none = with(&|witness| witness.fails = Failure::Obligation(9, Vec::new()));
+    assert_eq!(none, WitnessError::NoSuchObligation);
+}
+
+#[test]
+fn an_atlas_goes_with_its_own_kind_of_proof_and_verdict() {
+    let good = mapped();
+    let (own, cells) = parts(&good);
+    let refuted = Certificate { verdict: Verdict::Refuted, ..good.clone() };
+    assert_eq!(check(&refuted), Err(Rejected::Verdict));
+    let tree = cells.iter().find_map(|cell| match cell {
+        AtlasCell::Certified(tree) => Some(tree.clone()),
+        _ => None,
+    });
+    let tree = Proof::Tree(tree.expect("one"));
+    assert_eq!(check(&Certificate { proof: tree.clone(), ..good.clone() }), Err(Rejected::Verdict));
+    // Names are numbers in atlases only.
+    let claim = Claim::Machine(own.machine);
+    let map = Certificate { claim: claim.clone(), ..good.clone() };
+    assert_eq!(check(&map), Err(Rejected::Verdict));
+    let named = Certificate { claim, proof: tree, ..good };
+    assert!(matches!(check(&named), Err(Rejected::Claim(_))));
 }
 
 #[test]
@@ -290,6 +378,8 @@ fn numbers_are_decided_for_every_value() {
         // What cancels does.
         (tolerance("1+p-0.01", "1+p+0.01"), "1"),
         (tolerance("1+p*q", "2+q*p"), "1"),
+        // None, for some.
+        (tolerance("2-p", "2+p"), "1"),
         (r#""1""#.to_owned(), "p+2-p"),
         // The same expression is the same number.
         (r#""1""#.to_owned(), "p"),
@@ -302,6 +392,9 @@ fn numbers_are_decided_for_every_value() {
         (r#""1""#.to_owned(), "p-1/1000"),
         // Not the same number, though the same range.
         (tolerance("1+p", "1+q"), "1"),
+        // From the greater to the lesser for some, or for all: no machine would be meant.
+        (tolerance("1+p", "3/2"), "1"),
+        (tolerance("2+p", "1"), "1"),
         (r#""1""#.to_owned(), "p-q"),
         // Not defined for some.
         (r#""1+sqrt(p-1/2)""#.to_owned(), "1"),
@@ -378,10 +471,11 @@ fn work_is_linear_in_the_file() {
     let roots = |n: usize| format!(r#""{}3{}""#, "sqrt(".repeat(n), ")".repeat(n));
     tree(&roots(8)).expect("accepted");
     let many = |n: usize| format!(r#""{}""#, vec![roots(60).replace('"', ""); n].join("+"));
-    assert!(is_work(tree(&many(8))));
-    let fractions: Vec<String> = (1..60).map(|i| format!("1/{}^20", 2 * i + 1)).collect();
+    assert!(is_work(tree(&many(20))));
+    let fractions: Vec<String> = (1..200).map(|i| format!("1/{}^20", 2 * i + 1)).collect();
     assert!(is_work(tree(&format!("\"1+{}\"", fractions.join("+")))));
-    assert!(is_work(tree(r#""1+(1+p)^64/(3+p)^64+(2+p)^64/(5+p)^64+(1+q)^64/(3+p)^64""#)));
+    let powers = ["(1+p)^64/(3+p)^64+(2+p)^64/(5+p)^64+(1+q)^64/(3+p)^64"; 6].join("+");
+    assert!(is_work(tree(&format!("\"1+{powers}\""))));
     // A tape that takes too much memory is no claim's.
     let definitions: Vec<String> =
         (1..300).map(|i| format!(r#"["d{i}","(d{}+1)^63"]"#, i - 1)).collect();
