@@ -16,6 +16,7 @@
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
 //! | [`escape`]       | text in XML, Markdown and JSON: it stays text                         |
+//! | [`exact`]        | exact numbers as they are written                                     |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`folder`]       | folders that appear whole or not at all                               |
 //! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
@@ -55,6 +56,7 @@ pub mod digest;
 pub mod dimensions;
 pub mod engine;
 pub mod escape;
+pub mod exact;
 pub mod export;
 pub mod folder;
 pub mod frontier;

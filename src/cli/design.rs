@@ -3,7 +3,7 @@
 use super::{input, print, Failure, Format, Status};
 use orthocert::decimal::{readable, rounded, Toward};
 use orthocert::dimensions::{dimensions, Dimension, DimensionError, Unit};
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -4,12 +4,12 @@ use super::{certify, effort::Effort, input, print, size, Failure, Format, Status
 use num_traits::ToPrimitive;
 use orthocert::decimal::{readable, significant};
 use orthocert::design::Design;
+use orthocert::exact::Exact;
 use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::claim::{MachineClaim, Workspace};
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
 use std::fmt::Write;

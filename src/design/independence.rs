@@ -3,9 +3,9 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
+use crate::exact::{Exact, NumberErrorKind};
 use orthocert_checker::claim::{Leg, Quantity};
 use orthocert_checker::enclosure::{Enclosure, Scalar};
-use orthocert_checker::number::{Exact, NumberErrorKind};
 
 /// Fractional bits in which the sign of a number that is not tiny shows.
 const PLAIN: u32 = 128;

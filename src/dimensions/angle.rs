@@ -83,8 +83,8 @@ fn series(x: &Fixed) -> Option<Fixed> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::Exact;
     use num_rational::BigRational;
-    use orthocert_checker::number::Exact;
 
     /// 50 decimal places of pi, rounded down.
     const PI: &str = "3.14159265358979323846264338327950288419716939937510";

@@ -9,12 +9,12 @@ mod angle;
 pub use angle::atan;
 pub use orthocert_checker::trig::pi;
 
+use crate::exact::Exact;
 use num_traits::Signed;
 use orthocert_checker::claim::ClaimError;
 use orthocert_checker::enclosure::Scalar;
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::model::CubeConstants;
-use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 
 /// Fractional bits tried, fewest first.

@@ -2,11 +2,11 @@
 
 use super::error::printable;
 use super::Imported;
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use orthocert_checker::trig::cos_sin;
 use std::cmp::Ordering;

@@ -1,10 +1,10 @@
 //! The requirement that a refuted claim violates, and where, for every kind of claim.
 
 use crate::decimal::exact;
+use crate::exact::Exact;
 use crate::report::{counterexample, Setting};
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -4,8 +4,8 @@ use super::legend::OUTSIDE;
 use super::subdivision::{Leaf, Subdivision};
 use crate::decimal::{approximate, counted, exact, grouped, significant};
 use crate::escape::xml;
+use crate::exact::Exact;
 use crate::report::{self, Counterexample};
-use orthocert_checker::number::Exact;
 use std::fmt::Write;
 
 /// Boxes listed among those where the proof worked hardest.

@@ -5,6 +5,7 @@ use super::isomap::{map, Map, Mark, Plane, Scale, NODES};
 use super::legs::{across, unit, Numbers, Outline, Point, Shape};
 use super::svg::Picture;
 use crate::decimal::{approximate, significant};
+use crate::exact::{Exact, MAX_DIGITS};
 use crate::interval::Approx;
 use crate::report::{exactly, Frame};
 use nalgebra::Matrix3;
@@ -15,7 +16,6 @@ use orthocert_checker::claim::{
 use orthocert_checker::kinematics::Leg;
 use orthocert_checker::linear::Vector;
 use orthocert_checker::model::{CubeConstants, Model};
-use orthocert_checker::number::{Exact, MAX_DIGITS};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::number::Expression;
 use std::array::from_fn;

@@ -4,13 +4,13 @@ use super::mechanism;
 use super::nominal::Nominal;
 use crate::decimal::{approximate, readable, significant};
 use crate::escape::xml;
+use crate::exact::Exact;
 use crate::report::named_parameters;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{
     AtlasParameter, Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range,
     Requirements, Workspace,
 };
-use orthocert_checker::number::Exact;
 use orthocert_checker::statement;
 use orthocert_kernel::claim as kernel;
 use std::fmt::Write;

@@ -5,6 +5,7 @@ use super::worst::{bound, Bound};
 use crate::batch::requirement::broken;
 use crate::decimal::{exact, rounded, significant, Toward};
 use crate::dimensions::{atan, pi};
+use crate::exact::Exact;
 use crate::interval::Approx;
 use crate::sample::Quality;
 use orthocert_checker::certificate::{LegNumber, Violation, Witness};
@@ -14,7 +15,6 @@ use orthocert_checker::fixed::Fixed;
 use orthocert_checker::kinematics::JointCoordinate;
 use orthocert_checker::linear::{apply, determinant, norm_squared, Matrix, Vector};
 use orthocert_checker::model::{CubeConstants, Model};
-use orthocert_checker::number::Exact;
 use serde::Serialize;
 
 /// Digits of a violating value: as few as show the violation, within these limits.

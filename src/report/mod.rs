@@ -19,6 +19,7 @@ pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
+use crate::exact::Exact;
 use crate::sample::Sampler;
 use crate::solver;
 use crate::verify::{worst_values, FINEST};
@@ -26,7 +27,6 @@ use num_rational::BigRational;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::model::Model;
-use orthocert_checker::number::Exact;
 use orthocert_checker::TreeSize;
 use orthocert_kernel::certificate as of_kernel;
 use orthocert_kernel::claim::MachineClaim as KernelClaim;

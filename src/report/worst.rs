@@ -2,10 +2,10 @@
 
 use super::place::{machine_at, Frame, FreeParameter};
 use crate::decimal::{approximate, readable};
+use crate::exact::Exact;
 use crate::sample::{with_unit, Quality, Reached, Sampler, Values};
 use crate::verify::Worst;
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Range, Workspace};
-use orthocert_checker::number::Exact;
 use serde::Serialize;
 
 /// Relative violations below this are rounding errors of the sampling.
