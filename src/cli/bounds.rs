@@ -222,7 +222,6 @@ impl Row {
 
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
-        Proof::Witness(witness) => Some(witness.point.to_vec()),
         Proof::Kernel(Proven::Witness(witness)) => witness.point.iter().map(exactly).collect(),
         _ => None,
     }

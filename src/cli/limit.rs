@@ -228,7 +228,6 @@ fn near(own: &Exact) -> Result<BigRational, Failure> {
 /// The nodes of a proof.
 fn nodes(proof: &Proof) -> usize {
     match proof {
-        Proof::Tree(tree) => tree.nodes.len(),
         Proof::Kernel(kernel::Proof::Tree(tree)) => tree.nodes.len(),
         _ => 0,
     }
