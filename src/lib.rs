@@ -34,7 +34,6 @@
 //! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
 //! | [`report`]       | what a verification found, for people and for scripts                 |
 //! | [`rotation`]     | finds the orthogonal matrix that the vertex rule takes as evidence    |
-//! | [`rough`]        | intervals without rounding, for proposals                             |
 //! | [`sample`]       | looks around: approximate values at single points and machines        |
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
@@ -74,7 +73,6 @@ pub mod postulate;
 pub mod refute;
 pub mod report;
 pub mod rotation;
-pub mod rough;
 pub mod sample;
 pub mod search;
 pub mod shard;
