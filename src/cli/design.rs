@@ -58,8 +58,8 @@ impl Enclosed {
                 Unit::Length => "length",
                 Unit::Degree => "deg",
             },
-            min: rounded(&dimension.value.inf(), DIGITS, Toward::Below),
-            max: rounded(&dimension.value.sup(), DIGITS, Toward::Above),
+            min: rounded(&dimension.inf(), DIGITS, Toward::Below),
+            max: rounded(&dimension.sup(), DIGITS, Toward::Above),
         }
     }
 }
