@@ -9,10 +9,8 @@ use crate::batch::requirement::{requirements, Known, Standing};
 use crate::design::Design;
 use crate::digest::sha256;
 use crate::report::counterexample;
-use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::Accepted;
-use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use serde_json::{json, Value};
 
@@ -59,16 +57,6 @@ struct Predicate {
     failed_tests: Vec<&'static str>,
 }
 
-/// The rule that the counterexample breaks.
-fn refuted(certificate: &Certificate) -> Option<&'static str> {
-    let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
-        (&certificate.claim, &certificate.proof)
-    else {
-        return None;
-    };
-    counterexample(claim, witness).map(|found| found.rule)
-}
-
 /// The statement that the evidence supports. Of a refuted design only the requirement that fails at
 /// the counterexample is listed: nothing is proved of the others.
 pub fn statement(evidence: &Evidence<'_>) -> Statement {
@@ -76,7 +64,9 @@ pub fn statement(evidence: &Evidence<'_>) -> Statement {
     let subject = |(name, bytes): &(&str, &[u8])| json!({ "name": name, "digest": { "sha256": sha256(bytes) } });
     let known = match accepted.verdict {
         Verdict::Certified => Known::Certified,
-        Verdict::Refuted => refuted(certificate).map_or(Known::Nothing, Known::Refuted),
+        Verdict::Refuted => {
+            counterexample(certificate).map_or(Known::Nothing, |found| Known::Refuted(found.rule))
+        }
     };
     let all = requirements(design, known);
     let of =

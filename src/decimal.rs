@@ -1,10 +1,10 @@
 //! Decimal notation of exact numbers, and of enclosures with every digit certified.
 
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
-use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 
 /// Longest text of an exact number that is shown to people as it stands.

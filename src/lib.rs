@@ -17,6 +17,7 @@
 //! | [`dimensions`]   | the paper's Steps 1 to 3, enclosed                                    |
 //! | [`engine`]       | hands the shards of a job to Slurm or HyperQueue                      |
 //! | [`escape`]       | text in XML, Markdown and JSON: it stays text                         |
+//! | [`exact`]        | exact numbers as they are written                                     |
 //! | [`export`]       | writes certificates for the formal checker in Rocq                    |
 //! | [`folder`]       | folders that appear whole or not at all                               |
 //! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
@@ -34,7 +35,6 @@
 //! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
 //! | [`report`]       | what a verification found, for people and for scripts                 |
 //! | [`rotation`]     | finds the orthogonal matrix that the vertex rule takes as evidence    |
-//! | [`rough`]        | intervals without rounding, for proposals                             |
 //! | [`sample`]       | looks around: approximate values at single points and machines        |
 //! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
@@ -57,6 +57,7 @@ pub mod digest;
 pub mod dimensions;
 pub mod engine;
 pub mod escape;
+pub mod exact;
 pub mod export;
 pub mod folder;
 pub mod frontier;
@@ -74,7 +75,6 @@ pub mod postulate;
 pub mod refute;
 pub mod report;
 pub mod rotation;
-pub mod rough;
 pub mod sample;
 pub mod search;
 pub mod shard;

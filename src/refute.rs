@@ -1,5 +1,6 @@
 //! Refutation: turns a place where a requirement seems to fail into an exact witness.
 
+use crate::exact::Exact;
 use crate::sample::{Place, Quality, Sampler};
 use nalgebra::Matrix3;
 use num_bigint::BigInt;
@@ -11,7 +12,6 @@ use orthocert_checker::certificate::{
 use orthocert_checker::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::model::{CubeConstants, Model};
-use orthocert_checker::number::Exact;
 use orthocert_checker::witness;
 
 /// Fractional bits in which witnesses are evaluated.

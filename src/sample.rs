@@ -3,13 +3,13 @@
 //! Nothing here is a proof. A [`Sampler`] finds where requirements are met worst, which gives
 //! candidates for refutations ([`crate::refute`]) and the table of worst values found.
 
+use crate::exact::Exact;
 use crate::interval::Approx;
 use nalgebra::Matrix3;
 use orthocert_checker::claim::{self, MachineClaim, Mechanism};
 use orthocert_checker::kinematics::{JointCoordinate, Leg};
 use orthocert_checker::linear::Vector;
 use orthocert_checker::model::{Bounds, JointRange, Model};
-use orthocert_checker::number::Exact;
 
 /// A point of the workspace and a machine within the tolerances, each as parts in `[0, 1]`.
 #[derive(Clone, Debug, PartialEq)]

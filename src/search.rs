@@ -127,51 +127,28 @@ pub trait Problem: Sync {
 
 /// Searches for a proof that every obligation of `problem` holds on the root cell.
 pub fn search(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    run(problem, (Cell::ROOT, problem.obligations()), Ends::default(), budget, control)
+    run(problem, false, budget, control)
 }
 
 /// As [`search`], but ends with the first box that splitting cannot close: for callers who want a
 /// proof or nothing, and no account of what remains.
 pub fn prove(problem: &impl Problem, budget: Budget, control: &mut Control<'_>) -> Outcome {
-    let ends = Ends { hopeless: true, ..Ends::default() };
-    run(problem, (Cell::ROOT, problem.obligations()), ends, budget, control)
+    run(problem, true, budget, control)
 }
 
-/// Searches for a proof that what is open on a cell holds there. Where a number of boxes is
-/// `enough`, the search ends before a level of so many, which remain open without a reason.
-pub fn search_below(
-    problem: &impl Problem,
-    below: (Cell, Vec<Obligation>),
-    enough: Option<usize>,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Outcome {
-    run(problem, below, Ends { enough, ..Ends::default() }, budget, control)
-}
-
-/// What ends a search, beside its budget.
-#[derive(Default)]
-struct Ends {
-    /// A level of so many boxes.
-    enough: Option<usize>,
-    /// A hopeless box.
-    hopeless: bool,
-}
-
+/// Ends with a hopeless box if `hopeless` says so.
 fn run(
     problem: &impl Problem,
-    (root, open): (Cell, Vec<Obligation>),
-    ends: Ends,
+    hopeless: bool,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Outcome {
-    let mut tree = vec![growing(root, open)];
+    let mut tree = vec![growing(Cell::ROOT, problem.obligations())];
     let mut level = vec![0];
     let mut boxes = 0;
     let mut closed = 0.0;
     let mut stop = Stop::Exhausted;
-    let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
-    while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
+    while !level.is_empty() && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes - boxes);
         let (now, later) = level.split_at(affordable);
         let mut next = Vec::new();
@@ -181,12 +158,12 @@ fn run(
                 break;
             }
             let trials = try_all(problem, &tree, batch);
-            let hopeless = trials.iter().any(|trial| trial.hopeless);
+            let is_hopeless = trials.iter().any(|trial| trial.hopeless);
             for (&at, trial) in batch.iter().zip(trials) {
                 settle(&mut tree, at, trial, &mut next, &mut closed);
             }
             boxes += batch.len();
-            if hopeless && ends.hopeless {
+            if is_hopeless && hopeless {
                 stop = Stop::Hopeless;
                 break;
             }

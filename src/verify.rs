@@ -3,15 +3,13 @@
 use crate::interval::Interval;
 use crate::refute;
 use crate::sample::{Place, Quality, Sampler};
-use crate::search::{self, Budget, Control, OpenBox, Outcome, Problem, Stop};
-use orthocert_checker::cell::Cell;
+use crate::search::{self, Budget, Control, OpenBox, Stop};
 use orthocert_checker::certificate::{
-    Certificate, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+    Certificate, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
 use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
-use orthocert_checker::rule::Obligation;
 use orthocert_checker::{check, Accepted, Rejected};
 
 /// Precisions of the exact check, in fractional bits, lowest first: the first that is accepted is
@@ -110,61 +108,6 @@ pub fn verify(
     Ok(Verification { answer, worst, boxes })
 }
 
-/// The top of a claim's tree, to be grown in parts: as [`verify`] begins, but for at most so many
-/// boxes in a level. `None` if the claim is refuted on the spot.
-///
-/// # Errors
-/// If the claim is not well formed.
-pub fn top(
-    claim: &MachineClaim,
-    enough: usize,
-    control: &mut Control<'_>,
-) -> Result<Option<Outcome>, ClaimError> {
-    let model = Model::new(claim, MODEL_PRECISION)?;
-    let sampler =
-        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
-    if refutation(claim, &sampler, &worst_values(&sampler, FINEST)).is_some() {
-        return Ok(None);
-    }
-    let model = model.map(&Interval::from_fixed);
-    let root = (Cell::ROOT, Problem::obligations(&model));
-    let budget = Budget { max_boxes: usize::MAX, deadline: None };
-    Ok(Some(search::search_below(&model, root, Some(enough), budget, control)))
-}
-
-/// The tree below a cell on which these obligations are open.
-///
-/// # Errors
-/// If the claim is not well formed.
-pub fn below(
-    claim: &MachineClaim,
-    root: (Cell, Vec<Obligation>),
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Outcome, ClaimError> {
-    let model = Model::new(claim, MODEL_PRECISION)?.map(&Interval::from_fixed);
-    Ok(search::search_below(&model, root, None, budget, control))
-}
-
-/// What a tree that was grown in parts, and on which nothing is open, amounts to.
-///
-/// # Errors
-/// If the claim is not well formed.
-pub fn concluded(
-    claim: &MachineClaim,
-    nodes: Vec<Node>,
-    boxes: usize,
-) -> Result<Verification, ClaimError> {
-    let model = Model::new(claim, MODEL_PRECISION)?;
-    let sampler =
-        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
-    let worst = worst_values(&sampler, FINEST);
-    let answer = accepted(Claim::Machine(claim.clone()), |precision| {
-        Proof::Tree(Tree { precision, nodes: nodes.clone() })
-    });
-    Ok(Verification { answer, worst, boxes })
-}
-
 /// The certificate of a proof, at the lowest precision at which the checker accepts it.
 pub(crate) fn accepted(claim: Claim, proof: impl Fn(u32) -> Proof) -> Answer {
     let mut certificate = certificate(claim, Verdict::Certified, proof(PRECISIONS[0]));
@@ -206,17 +149,6 @@ pub(crate) fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
             objection: Some(objection),
         }),
     }
-}
-
-/// The worst value of every requirement of a claim, found by sampling alone.
-///
-/// # Errors
-/// If the claim is not well formed.
-pub fn sampled(claim: &MachineClaim) -> Result<Vec<Worst>, ClaimError> {
-    let model = Model::new(claim, MODEL_PRECISION)?;
-    let sampler =
-        Sampler::new(claim, &model).ok_or_else(|| ClaimError::Precision("mechanism".into()))?;
-    Ok(worst_values(&sampler, FINEST))
 }
 
 /// The worst value of every quality, from the best start of a coarse grid, down to steps of

@@ -9,6 +9,7 @@
 use crate::schema;
 use orthocert::atlas::{assemble, certify, grow, Growing};
 use orthocert::design::{AtlasDesign, Design};
+use orthocert::exact::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
@@ -19,7 +20,6 @@ use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
 };
 use orthocert_checker::claim::{Claim, PostulateClaim};
-use orthocert_checker::number::{MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert_checker::rule::MAX_QUATERNION;
 use orthocert_checker::{check, read};
 use orthocert_kernel::claim::Workspace;

@@ -3,13 +3,13 @@
 //! `cargo test --release --test integration leaves -- --nocapture`.
 
 use orthocert::design::Design;
+use orthocert::exact::Exact;
 use orthocert::sample::{Place, Sampler};
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::verify::{verify, Answer};
 use orthocert_checker::certificate::{Proof, Step};
 use orthocert_checker::claim::{MachineClaim, Range};
 use orthocert_checker::model::Model;
-use orthocert_checker::number::Exact;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;

@@ -2,7 +2,6 @@
 
 use crate::design::Design;
 use crate::report::shown;
-use orthocert_checker::certificate::Violation;
 use orthocert_checker::claim::Claim;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::quantity::{Quantity, TABLE};
@@ -165,20 +164,6 @@ fn demands(own: &kernel::Requirement) -> String {
             format!("{leg}{name} from {} to {} degrees", shown(min), shown(max))
         }
         kernel::Bound::Holds => format!("{leg}{name}"),
-    }
-}
-
-/// The rule that a counterexample breaks.
-pub fn broken(violation: &Violation) -> &'static str {
-    match violation {
-        Violation::SigmaMin(_) | Violation::SigmaMax(_) | Violation::Row(_) => "transmission",
-        Violation::Reach(_) | Violation::Singular(_) => SINGULARITY,
-        Violation::JointRange(_) => "joint-range",
-        Violation::Conditioning(_) => "conditioning",
-        Violation::SerialMargin(_) => "serial-margin",
-        Violation::ParallelMargin => "parallel-margin",
-        Violation::LegAngle(_) => "leg-angle",
-        Violation::JointSpeed(_) => "joint-speed",
     }
 }
 

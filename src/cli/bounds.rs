@@ -4,6 +4,7 @@ use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{rounded, Toward};
+use orthocert::exact::Exact;
 use orthocert::output;
 use orthocert::report::{exactly, CertificateFile};
 use orthocert::sample::with_unit;
@@ -11,7 +12,6 @@ use orthocert::search::Budget;
 use orthocert::solver::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::certificate::Proof as Proven;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::Leg;
@@ -222,7 +222,6 @@ impl Row {
 
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
-        Proof::Witness(witness) => Some(witness.point.to_vec()),
         Proof::Kernel(Proven::Witness(witness)) => witness.point.iter().map(exactly).collect(),
         _ => None,
     }

@@ -3,7 +3,7 @@
 use super::{input, print, Failure, Format, Status};
 use orthocert::decimal::{readable, rounded, Toward};
 use orthocert::dimensions::{dimensions, Dimension, DimensionError, Unit};
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -58,8 +58,8 @@ impl Enclosed {
                 Unit::Length => "length",
                 Unit::Degree => "deg",
             },
-            min: rounded(&dimension.value.inf(), DIGITS, Toward::Below),
-            max: rounded(&dimension.value.sup(), DIGITS, Toward::Above),
+            min: rounded(&dimension.inf(), DIGITS, Toward::Below),
+            max: rounded(&dimension.sup(), DIGITS, Toward::Above),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
+use orthocert::exact::Exact;
 use orthocert_checker::certificate::MAX_BYTES;
 use orthocert_checker::file;
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim as kernel;
 use std::fs::{self, File};

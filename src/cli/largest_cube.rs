@@ -4,11 +4,11 @@ use super::{certify, effort::Effort, input, print, size, Failure, Format, Status
 use num_traits::ToPrimitive;
 use orthocert::decimal::{readable, significant};
 use orthocert::design::{written, Design};
+use orthocert::exact::Exact;
 use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
 use orthocert::report::CertificateFile;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;

@@ -5,12 +5,12 @@ use super::{certify, effort::Effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::decimal::{exact, grouped, significant};
 use orthocert::design::{text_of, Design, Variable};
+use orthocert::exact::Exact;
 use orthocert::limit::Side;
 use orthocert::limit::{limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question};
 use orthocert::output;
 use orthocert::report::{CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
@@ -228,7 +228,6 @@ fn near(own: &Exact) -> Result<BigRational, Failure> {
 /// The nodes of a proof.
 fn nodes(proof: &Proof) -> usize {
     match proof {
-        Proof::Tree(tree) => tree.nodes.len(),
         Proof::Kernel(kernel::Proof::Tree(tree)) => tree.nodes.len(),
         _ => 0,
     }

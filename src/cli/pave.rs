@@ -4,6 +4,7 @@ use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Sta
 use orthocert::batch::plan::identity;
 use orthocert::design::{written, Design};
 use orthocert::digest::Summed;
+use orthocert::exact::Exact;
 use orthocert::output::{self, OutputError};
 use orthocert::paving::{
     components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal, PaveError,
@@ -11,7 +12,6 @@ use orthocert::paving::{
 };
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;

@@ -4,9 +4,7 @@ use super::{input, print, Failure, Format, Status};
 use orthocert::decimal::{boxes, exact, grouped};
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
-use orthocert_checker::certificate::{
-    Certificate, Node, Proof, Provenance, Verdict, Violation, Witness,
-};
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::kernel::{size_of, trees};
 use orthocert_checker::shown::Named;
@@ -37,17 +35,9 @@ struct Shown<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tree: Option<Shape>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    witness: Option<WitnessShown<'a>>,
+    witness: Option<&'a kernel::Witness>,
     provenance: &'a Provenance,
     claim: &'a Claim,
-}
-
-/// A counterexample, as written.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum WitnessShown<'a> {
-    OfRules(&'a Witness),
-    OfKernel(&'a kernel::Witness),
 }
 
 /// The shape of a proof, as written.
@@ -64,29 +54,16 @@ struct Shape {
 impl Shape {
     /// The shape of a proof's trees; `None` for a counterexample.
     fn of(proof: &Proof) -> Option<Self> {
-        let (precision, trees): (u32, Vec<&[Node]>) = match proof {
-            Proof::Tree(tree) => (tree.precision, vec![&tree.nodes]),
+        match proof {
             Proof::Kernel(kernel::Proof::Tree(tree)) => {
                 let TreeSize { nodes, leaves, depth, steps } = size_of(tree);
                 let rules = steps.into_iter().collect();
                 let (precision, trees) = (tree.precision, trees(&tree.nodes).len());
-                return Some(Shape { precision, trees, nodes, leaves, depth, rules });
+                Some(Shape { precision, trees, nodes, leaves, depth, rules })
             }
-            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => return None,
-            Proof::Kernel(kernel::Proof::Atlas(cells)) => return Some(Shape::of_atlas(cells)),
-        };
-        let mut shape = Shape {
-            precision,
-            trees: trees.len(),
-            nodes: 0,
-            leaves: 0,
-            depth: 0,
-            rules: BTreeMap::new(),
-        };
-        for nodes in trees {
-            shape.add(nodes);
+            Proof::Kernel(kernel::Proof::Atlas(cells)) => Some(Shape::of_atlas(cells)),
+            _ => None,
         }
-        Some(shape)
     }
 
     /// The trees of an atlas's certified cells together; of precisions, the greatest.
@@ -101,22 +78,6 @@ impl Shape {
         }
         let TreeSize { nodes, leaves, depth, steps } = size;
         Shape { precision, trees, nodes, leaves, depth, rules: steps.into_iter().collect() }
-    }
-
-    fn add(&mut self, nodes: &[Node]) {
-        self.nodes += nodes.len();
-        let mut waiting = vec![0];
-        for node in nodes {
-            let depth = waiting.pop().unwrap_or(0);
-            self.depth = self.depth.max(depth);
-            match node.split {
-                Some(_) => waiting.extend([depth + 1, depth + 1]),
-                None => self.leaves += 1,
-            }
-            for step in &node.by {
-                *self.rules.entry(step.rule().0).or_default() += 1;
-            }
-        }
     }
 }
 
@@ -140,8 +101,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn shown(certificate: &Certificate, bytes: usize) -> Shown<'_> {
     let witness = match &certificate.proof {
-        Proof::Witness(witness) => Some(WitnessShown::OfRules(witness)),
-        Proof::Kernel(kernel::Proof::Witness(witness)) => Some(WitnessShown::OfKernel(witness)),
+        Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness),
         _ => None,
     };
     Shown {
@@ -185,41 +145,14 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
         );
         labelled(&mut out, "map", &text);
     }
-    if let Proof::Witness(witness) = &certificate.proof {
-        let [x, y, z] = &witness.point;
-        let violated = violated(&witness.violates);
-        let text = format!("a counterexample at P = ({x}, {y}, {z}): {violated}");
+    if let Some(found) = counterexample(certificate) {
+        let point: Vec<String> = found.point.iter().map(exact).collect();
+        let (point, value) = (point.join(", "), found.value);
+        let text = format!("a counterexample at P = ({point}) to {}: {value}", found.violated);
         labelled(&mut out, "proof", &text);
-    }
-    if let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
-        (&certificate.claim, &certificate.proof)
-    {
-        if let Some(found) = counterexample(claim, witness) {
-            let point: Vec<String> = found.point.iter().map(exact).collect();
-            let (point, value) = (point.join(", "), found.value);
-            let text = format!("a counterexample at P = ({point}) to {}: {value}", found.violated);
-            labelled(&mut out, "proof", &text);
-        }
     }
     labelled(&mut out, "size", &format!("{} bytes", grouped(bytes as u64)));
     labelled(&mut out, "written by", &format!("{tool} {version}"));
     wrap(&mut out, "\"orthocert check\" re-proves it.", 2);
     out
-}
-
-/// What a witness says is violated.
-fn violated(violation: &Violation) -> String {
-    match violation {
-        Violation::SigmaMin(_) => "the greatest psi is beyond psi_max".to_owned(),
-        Violation::SigmaMax(_) => "the least psi is below psi_min".to_owned(),
-        Violation::Row(leg) => format!("the least psi is below psi_min, by leg {}", leg.leg),
-        Violation::Reach(leg) => format!("leg {} cannot reach P with s > 0", leg.leg),
-        Violation::JointRange(leg) => format!("rho_{} is outside its range", leg.leg),
-        Violation::Conditioning(_) => "the condition number is beyond its bound".to_owned(),
-        Violation::SerialMargin(leg) => format!("leg {} is below the serial margin", leg.leg),
-        Violation::ParallelMargin => "|det A| is below the parallel margin".to_owned(),
-        Violation::LegAngle(leg) => format!("leg {} is beyond its angle to the guide", leg.leg),
-        Violation::JointSpeed(leg) => format!("joint {} is beyond its speed", leg.leg),
-        Violation::Singular(_) => "det M has another sign there than at a second point".to_owned(),
-    }
 }

@@ -6,15 +6,15 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, Toward};
 use orthocert::design::Design;
+use orthocert::exact::Exact;
 use orthocert::frontier::Bracket;
 use orthocert::output;
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::search::Budget;
 use orthocert::solver::{proof, refutation};
 use orthocert::tolerance::{widest, Kind, Scheme};
-use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::Claim;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
@@ -205,7 +205,7 @@ fn nodes_or_status(
 ) -> Result<Result<usize, Status>, Failure> {
     let effort = &arguments.effort;
     let refuted = refutation(nominal);
-    let counterexample = refuted.as_deref().and_then(witness);
+    let counterexample = refuted.as_deref().and_then(counterexample);
     if refuted.is_none() {
         let found = effort.run(|control| proof(nominal, budget, control));
         if interrupt::cancelled().load(Ordering::Relaxed) {
@@ -251,15 +251,6 @@ fn nodes_or_status(
     Ok(Err(status))
 }
 
-fn witness(certificate: &Certificate) -> Option<Counterexample> {
-    match (&certificate.claim, &certificate.proof) {
-        (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) => {
-            counterexample(claim, witness)
-        }
-        _ => None,
-    }
-}
-
 fn row(
     scheme: &Scheme,
     measure: Measure,
@@ -283,7 +274,8 @@ fn row(
             }
         }
     }
-    let counterexample = found.refuted.as_ref().and_then(|(_, certificate)| witness(certificate));
+    let counterexample =
+        found.refuted.as_ref().and_then(|(_, certificate)| counterexample(certificate));
     let weights = match measure {
         Measure::Share => scheme
             .weights

@@ -7,7 +7,7 @@ use super::drive::axes;
 use super::error::{Defect, DesignError};
 use super::exactly;
 use super::number::{exact, not_negative, positive};
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 use orthocert_kernel::claim::Body;
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;

@@ -5,8 +5,8 @@
 //! ([`Description::machine`]); every other one a claim of the kernel ([`Description::kernel`]).
 
 use super::exactly::{between, written};
+use crate::exact::Exact;
 use orthocert_checker::claim::{self as checker, AtLeast, AtMost, JointSpeed, Range, WorkingMode};
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim::{self as kernel, Body, Formulas, Orientation, Turning};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::quantity::TABLE;

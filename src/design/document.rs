@@ -3,7 +3,7 @@
 
 use super::error::{Defect, DesignError};
 use super::suggestion;
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 

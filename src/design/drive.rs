@@ -8,8 +8,8 @@ use super::error::{Defect, DesignError};
 use super::independence::{not_parallel, product, sign_within};
 use super::mechanism::{word, zero};
 use super::number::{positive, quantity};
+use crate::exact::Exact;
 use orthocert_checker::claim::{self as checker, Quantity, WorkingMode};
-use orthocert_checker::number::Exact;
 
 struct Drive {
     name: &'static str,

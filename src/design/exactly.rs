@@ -3,12 +3,12 @@
 use super::document::Value;
 use super::error::{Defect, DesignError};
 use super::number::{self, WITHIN_LIMITS};
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use orthocert_checker::claim as checker;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::number::{Expression, Operator};
 

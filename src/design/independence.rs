@@ -3,9 +3,10 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
+use crate::exact::{enclosed, Exact, NumberErrorKind};
+use num_traits::Signed;
 use orthocert_checker::claim::{Leg, Quantity};
-use orthocert_checker::enclosure::{Enclosure, Scalar};
-use orthocert_checker::number::{Exact, NumberErrorKind};
+use orthocert_kernel::fixed::Interval;
 
 /// Fractional bits in which the sign of a number that is not tiny shows.
 const PLAIN: u32 = 128;
@@ -81,8 +82,8 @@ pub(super) fn sign_within(x: &Exact, bits: u32) -> Option<i32> {
     if x.as_rational().is_some() {
         return x.sign().filter(|sign| *sign != 0);
     }
-    let enclosed = x.enclose(0, bits)?;
-    match (enclosed.is_positive(), enclosed.neg().is_positive()) {
+    let Interval { lo, hi } = enclosed(x, bits)?;
+    match (lo.is_positive(), hi.is_negative()) {
         (true, _) => Some(1),
         (_, true) => Some(-1),
         _ => None,

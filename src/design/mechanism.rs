@@ -10,8 +10,8 @@ use super::error::{Defect, DesignError};
 use super::formulas;
 use super::independence;
 use super::number::{exact, negated, positive, quantity};
+use crate::exact::Exact;
 use orthocert_checker::claim::{self as checker, Quantity, WorkingMode};
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim::Body;
 
 /// Most legs or joints.

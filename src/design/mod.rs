@@ -54,12 +54,12 @@ pub use sources::Sources;
 pub use template::{template, TEMPLATES};
 pub use variable::Variable;
 
+use crate::exact::Exact;
 use description::{Bound, Demand, Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
 use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::file;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim as kernel;
 use std::path::Path;
 use toml::de::DeTable;

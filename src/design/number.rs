@@ -12,8 +12,8 @@ use super::names::{self, NoValue};
 use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
 use super::variable::half_width;
+use crate::exact::{Exact, NumberError, NumberErrorKind};
 use orthocert_checker::claim::Quantity;
-use orthocert_checker::number::{Exact, NumberError, NumberErrorKind};
 use std::cmp::Ordering;
 use toml::de::{DeFloat, DeInteger, DeValue};
 

@@ -7,7 +7,7 @@ use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
 use super::exactly;
 use super::number::{exact, ordered};
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 use orthocert_kernel::claim::Orientation;
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;

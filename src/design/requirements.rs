@@ -7,8 +7,8 @@ use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
 use super::mechanism::Machine;
 use super::number::{exact, not_negative, ordered, positive};
+use crate::exact::Exact;
 use orthocert_checker::claim::{self as checker, Range};
-use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 use toml::de::DeValue;
 

@@ -10,9 +10,9 @@ use super::error::{Defect, DesignError};
 use super::number::{centred, quantity};
 use super::suggestion;
 use crate::decimal::{exact, terminating};
+use crate::exact::Exact;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
-use orthocert_checker::number::Exact;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 

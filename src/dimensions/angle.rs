@@ -2,28 +2,26 @@
 
 use num_bigint::BigInt;
 use num_traits::Signed;
-use orthocert_checker::enclosure::{Enclosure, Scalar};
-use orthocert_checker::fixed::Fixed;
-use orthocert_checker::trig::pi;
+use orthocert_kernel::arithmetic::{Arithmetic, Enclosure};
+use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::trig::pi;
 
 /// Bits beyond those of the result, against the rounding of some hundred operations.
 const GUARD_BITS: u32 = 32;
 /// Halvings of the angle before the series: its argument is then below 1/8.
 const HALVINGS: u32 = 4;
 
-/// An enclosure of `atan(x)`, in the precision of `x`; `None` never for sensible precisions, but a
-/// division might fail.
+type Ends = Interval<BigInt>;
+
+/// An enclosure of `atan(x)`, with `bits` fractional bits as `x`; `None` never for sensible precisions,
+/// but a division might fail.
 ///
 /// `atan` grows, so the arctangents of the two ends enclose those of everything between.
-pub fn atan(x: &Fixed) -> Option<Fixed> {
-    let bits = x.bits();
-    let working = bits.checked_add(GUARD_BITS)?;
-    let end = |n: &BigInt| {
-        let n = n << GUARD_BITS;
-        atan_of_point(&Fixed::new(n.clone(), n, working)?)
-    };
-    let (lower, upper) = (end(x.lo())?, end(x.hi())?);
-    Some(lower.hull(&upper).rescale(0, bits))
+pub fn atan(x: &Ends, bits: u32) -> Option<Ends> {
+    let f = Fixed::new(bits.checked_add(GUARD_BITS)?);
+    let end = |n: &BigInt| atan_of_point(&f, &Interval::point(n << GUARD_BITS));
+    let (lower, upper) = (end(&x.lo)?, end(&x.hi)?);
+    Some(Interval { lo: lower.lo >> GUARD_BITS, hi: -(-upper.hi >> GUARD_BITS) })
 }
 
 /// `atan(x)` for a degenerate interval.
@@ -33,49 +31,43 @@ pub fn atan(x: &Fixed) -> Option<Fixed> {
 /// atan(x)  = pi/2 - atan(1/x)                        x > 1
 /// atan(x)  = 2 atan(x / (1 + sqrt(1 + x^2)))         half the angle
 /// ```
-fn atan_of_point(x: &Fixed) -> Option<Fixed> {
-    let bits = x.bits();
-    if x.lo().is_negative() {
-        return Some(atan_of_point(&x.neg())?.neg());
+fn atan_of_point(f: &Fixed<BigInt>, x: &Ends) -> Option<Ends> {
+    if x.lo.is_negative() {
+        return f.neg(&atan_of_point(f, &f.neg(x)?)?);
     }
-    let one = Fixed::integer(1, bits);
-    if x.sub(&one).is_positive() {
-        let half_pi = pi(bits).mul(&Fixed::integer(1, bits).div(&Fixed::integer(2, bits))?);
-        return Some(half_pi.sub(&atan_small(&x.recip()?)?));
+    if f.is_positive(&f.sub(x, &f.integer(1)?)?) {
+        return f.sub(&f.halve(&pi(f.bits())?)?, &atan_small(f, &f.recip(x)?)?);
     }
-    atan_small(x)
+    atan_small(f, x)
 }
 
 /// `atan(x)` for `x` within `[0, 1]`.
-fn atan_small(x: &Fixed) -> Option<Fixed> {
-    let one = Fixed::integer(1, x.bits());
+fn atan_small(f: &Fixed<BigInt>, x: &Ends) -> Option<Ends> {
+    let one = f.integer(1)?;
     let mut reduced = x.clone();
     for _ in 0..HALVINGS {
-        let hypotenuse = one.add(&reduced.sqr()).sqrt()?;
-        reduced = reduced.div(&one.add(&hypotenuse))?;
+        let hypotenuse = f.sqrt(&f.add(&one, &f.sqr(&reduced)?)?)?;
+        reduced = f.div(&reduced, &f.add(&one, &hypotenuse)?)?;
     }
-    let factor = Fixed::integer(1 << HALVINGS, x.bits());
-    series(&reduced).map(|angle| angle.mul(&factor))
+    f.mul(&series(f, &reduced)?, &f.integer(1 << HALVINGS)?)
 }
 
 /// `atan(x) = x - x^3/3 + x^5/5 - ...` for `x` within `[0, 1)`.
 ///
 /// The terms alternate and decrease, so that the rest after any of them lies between zero and the
 /// next term.
-fn series(x: &Fixed) -> Option<Fixed> {
-    let bits = x.bits();
-    let square = x.sqr();
-    let zero = Fixed::integer(0, bits);
+fn series(f: &Fixed<BigInt>, x: &Ends) -> Option<Ends> {
+    let (square, zero) = (f.sqr(x)?, f.integer(0)?);
     let (mut sum, mut power) = (zero.clone(), x.clone());
     for n in 0.. {
-        let term = power.div(&Fixed::integer(2 * n + 1, bits))?;
-        let signed = if n % 2 == 0 { term.clone() } else { term.neg() };
+        let term = f.div(&power, &f.integer(2 * n + 1)?)?;
+        let signed = if n % 2 == 0 { term.clone() } else { f.neg(&term)? };
         // One unit in the last place: from here on the terms are within [0, 2^-bits].
-        if *term.hi() <= BigInt::from(1) {
-            return Some(sum.add(&zero.hull(&signed)));
+        if term.hi <= BigInt::from(1) {
+            return f.add(&sum, &f.hull(&zero, &signed));
         }
-        sum = sum.add(&signed);
-        power = power.mul(&square);
+        sum = f.add(&sum, &signed)?;
+        power = f.mul(&power, &square)?;
     }
     None
 }
@@ -83,21 +75,19 @@ fn series(x: &Fixed) -> Option<Fixed> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::{enclosed, Exact};
     use num_rational::BigRational;
-    use orthocert_checker::number::Exact;
 
-    /// 50 decimal places of pi, rounded down.
-    const PI: &str = "3.14159265358979323846264338327950288419716939937510";
-
-    fn exact(text: &str) -> BigRational {
-        Exact::parse(text, 1000).unwrap().as_rational().unwrap().clone()
+    fn exact(text: &str) -> Exact {
+        Exact::parse(text, 1000).unwrap()
     }
 
-    #[test]
-    fn pi_is_enclosed_tightly() {
-        let pi = pi(150);
-        assert!(pi.inf() <= exact(PI) && pi.sup() >= exact(PI));
-        assert!(pi.sup() - pi.inf() <= exact("1e-44"));
+    fn ends(x: &Ends, bits: u32) -> [BigRational; 2] {
+        [&x.lo, &x.hi].map(|end| BigRational::new(end.clone(), BigInt::from(1) << bits))
+    }
+
+    fn rational(text: &str) -> BigRational {
+        exact(text).as_rational().unwrap().clone()
     }
 
     #[test]
@@ -110,23 +100,24 @@ mod tests {
             ("1/1000", "0.00099999966666686666652380963492054401162093455426801"),
             ("1000000", "1.5707953267948966195646550249728847754319181758780"),
         ] {
-            let x = Fixed::rational(&exact(x), 0, 120);
-            let found = atan(&x).unwrap();
+            let f = Fixed::new(120);
+            let x = enclosed(&exact(x), 120).unwrap();
+            let found = atan(&x, 120).unwrap();
             // The digits are good to 50 places; the enclosure is of 120 bits.
-            let angle = exact(angle);
-            assert!(found.inf() <= angle && angle <= found.sup(), "{angle}");
-            assert!(found.sup() - found.inf() <= exact("1e-34"));
-            let mirrored = atan(&x.neg()).unwrap();
-            assert_eq!(mirrored, found.neg());
+            let ([inf, sup], angle) = (ends(&found, 120), rational(angle));
+            assert!(inf <= angle && angle <= sup, "{angle}");
+            assert!(sup - inf <= rational("1e-34"));
+            let mirrored = atan(&f.neg(&x).unwrap(), 120);
+            assert_eq!(mirrored, f.neg(&found));
         }
     }
 
     #[test]
     fn arctangents_agree_with_floating_point() {
         for n in -400i64..400 {
-            let x = BigRational::new((n * n * n).into(), 8000.into());
-            let found = atan(&Fixed::rational(&x, 0, 128)).unwrap();
-            let middle = ((found.lo() + found.hi()) >> 65u32).to_string().parse::<f64>().unwrap();
+            let x = Exact::Rational(BigRational::new((n * n * n).into(), 8000.into()));
+            let found = atan(&enclosed(&x, 128).unwrap(), 128).unwrap();
+            let middle = ((found.lo + found.hi) >> 65u32).to_string().parse::<f64>().unwrap();
             let middle = middle / 2f64.powi(64);
             let float = ((n * n * n) as f64 / 8000.0).atan();
             assert!((middle - float).abs() < 1e-14, "{n}");
@@ -135,12 +126,11 @@ mod tests {
 
     #[test]
     fn an_arctangent_of_an_interval_encloses_those_of_its_ends() {
-        let (lo, hi) = (exact("-1/3"), exact("5/2"));
-        let x = Fixed::rational(&lo, 0, 96).hull(&Fixed::rational(&hi, 0, 96));
-        let whole = atan(&x).unwrap();
+        let [lo, hi] = ["-1/3", "5/2"].map(|x| enclosed(&exact(x), 96).unwrap());
+        let whole = atan(&Fixed::new(96).hull(&lo, &hi), 96).unwrap();
         for end in [lo, hi] {
-            let at_end = atan(&Fixed::rational(&end, 0, 96)).unwrap();
-            assert!(whole.inf() <= at_end.inf() && at_end.sup() <= whole.sup());
+            let at_end = atan(&end, 96).unwrap();
+            assert!(whole.lo <= at_end.lo && at_end.hi <= whole.hi);
         }
     }
 }

@@ -7,14 +7,14 @@
 mod angle;
 
 pub use angle::atan;
-pub use orthocert_checker::trig::pi;
 
+use crate::exact::{enclosed, Exact};
+use num_bigint::BigInt;
+use num_rational::BigRational;
 use num_traits::Signed;
-use orthocert_checker::claim::ClaimError;
-use orthocert_checker::enclosure::Scalar;
-use orthocert_checker::fixed::Fixed;
-use orthocert_checker::model::CubeConstants;
-use orthocert_checker::number::Exact;
+use orthocert_kernel::arithmetic::{Arithmetic, Enclosure};
+use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::trig::pi;
 use std::cmp::Ordering;
 
 /// Fractional bits tried, fewest first.
@@ -43,8 +43,22 @@ pub struct Dimension {
     pub name: &'static str,
     /// What it is measured in.
     pub unit: Unit,
-    /// An interval that contains it.
-    pub value: Fixed,
+    /// An interval that contains it, in units of `2^-bits`.
+    pub value: Interval<BigInt>,
+    /// Fractional bits.
+    pub bits: u32,
+}
+
+impl Dimension {
+    /// A number that it is not less than.
+    pub fn inf(&self) -> BigRational {
+        BigRational::new(self.value.lo.clone(), BigInt::from(1) << self.bits)
+    }
+
+    /// A number that it is not greater than.
+    pub fn sup(&self) -> BigRational {
+        BigRational::new(self.value.hi.clone(), BigInt::from(1) << self.bits)
+    }
 }
 
 /// Why there is no machine, or none that can be enclosed.
@@ -60,12 +74,6 @@ pub enum DimensionError {
     /// The numbers are too large, or too close to a limit, to be enclosed.
     #[error("the numbers are too large, or too close to their limits, to be enclosed")]
     Precision,
-}
-
-impl From<ClaimError> for DimensionError {
-    fn from(_: ClaimError) -> Self {
-        DimensionError::Precision
-    }
 }
 
 /// The dimensions for `psi_max > 1`, a cube of side `cube > 0` and a platform offset `e`, each
@@ -96,8 +104,11 @@ pub fn dimensions(
     if cube.sign() != Some(1) {
         return Err(DimensionError::CubeNotPositive);
     }
-    let constants = CubeConstants::new(psi_max, cube)?;
-    let enclosed = |bits: &u32| enclose(&constants, cube, offset, *bits);
+    let below_two = match psi_max.compare(&Exact::integer(2)) {
+        Some(order) => order == Ordering::Less,
+        None => return Err(DimensionError::Precision),
+    };
+    let enclosed = |bits: &u32| enclose((psi_max, below_two), cube, offset, *bits);
     let fine = |all: &Vec<Dimension>| all.iter().all(|dimension| is_fine(dimension, digits));
     PRECISIONS.iter().filter_map(enclosed).find(fine).ok_or(DimensionError::Precision)
 }
@@ -105,47 +116,51 @@ pub fn dimensions(
 /// Whether an enclosure is narrow enough for so many significant digits: exact, or of a width below
 /// `10^-digits 2^-GUARD_BITS` of its magnitude. The base point, which an offset may bring to zero
 /// where no precision tells, is fine in the highest.
-fn is_fine(Dimension { symbol, value: x, .. }: &Dimension, digits: u32) -> bool {
+fn is_fine(Dimension { symbol, value: x, bits, .. }: &Dimension, digits: u32) -> bool {
     if crosses_zero(x) {
-        let highest = Some(&x.bits()) == PRECISIONS.last();
-        return x.lo() == x.hi() || (*symbol == BASE && highest);
+        return x.lo == x.hi || (*symbol == BASE && Some(bits) == PRECISIONS.last());
     }
-    let width = x.hi() - x.lo();
-    let magnitude = x.lo().bits().min(x.hi().bits());
+    let width = &x.hi - &x.lo;
+    let magnitude = x.lo.bits().min(x.hi.bits());
     // 10^d < 2^(10 d / 3 + 1), since 10 < 2^(10/3).
     let needed = u64::from(digits) * 10 / 3 + 1 + GUARD_BITS;
     width.bits() == 0 || magnitude >= needed + width.bits()
 }
 
-fn crosses_zero(x: &Fixed) -> bool {
-    !x.lo().is_positive() && !x.hi().is_negative()
+fn crosses_zero(x: &Interval<BigInt>) -> bool {
+    !x.lo.is_positive() && !x.hi.is_negative()
 }
 
 /// Every dimension at a precision of `bits`; `None` where that does not suffice.
 fn enclose(
-    constants: &CubeConstants,
+    (psi_max, below_two): (&Exact, bool),
     cube: &Exact,
     offset: &Exact,
     bits: u32,
 ) -> Option<Vec<Dimension>> {
-    let number = |x: &Exact| x.enclose(0, bits);
-    let one = Fixed::integer(1, bits);
-    let (t1, t2) = (number(&constants.t1)?, number(&constants.t2)?);
-    let (sin1, sin2) = (number(&constants.q1)?, number(&constants.q2)?);
-    let (cube, offset) = (number(cube)?, number(offset)?);
-    let length = number(&constants.inverse_length)?.recip()?;
-    let (q1, q2) = (length.mul(&sin1), length.mul(&sin2));
-    let base = q1.sub(&offset).sub(&length);
-    let twice = t2.sqr().mul(&Fixed::integer(2, bits));
-    let s_q2 = length.div(&one.add(&twice).sqrt()?)?;
-    let rho_max = cube.add(&length).sub(&s_q2);
-    let cos_corner = one.sub(&sin1.sqr()).sub(&sin2.sqr()).sqrt()?;
-    let least_tangent = sin1.div(&cos_corner)?;
-    let degrees = Fixed::integer(180, bits).div(&pi(bits))?;
-    let angle = |tangent: &Fixed| Some(atan(tangent)?.mul(&degrees));
+    let f = Fixed::<BigInt>::new(bits);
+    let (one, cube, offset) = (f.integer(1)?, enclosed(cube, bits)?, enclosed(offset, bits)?);
+    let psi_max = enclosed(psi_max, bits)?;
+    let rest = f.sub(&one, &f.recip(&psi_max)?)?;
+    let t1 = f.halve(&rest)?;
+    let t2 = if below_two { f.halve(&f.sub(&psi_max, &one)?)? } else { rest };
+    // sqrt(1 + 2 t^2), and t over it.
+    let root = |t: &Interval<BigInt>| f.sqrt(&f.add(&one, &f.mul(&f.integer(2)?, &f.sqr(t)?)?)?);
+    let sine = |t: &Interval<BigInt>| f.div(t, &root(t)?);
+    let (sin1, sin2) = (f.neg(&sine(&t1)?)?, sine(&t2)?);
+    let length = f.div(&cube, &f.sub(&sin2, &sin1)?)?;
+    let (q1, q2) = (f.mul(&length, &sin1)?, f.mul(&length, &sin2)?);
+    let base = f.sub(&f.sub(&q1, &offset)?, &length)?;
+    let s_q2 = f.div(&length, &root(&t2)?)?;
+    let rho_max = f.sub(&f.add(&cube, &length)?, &s_q2)?;
+    let cos_corner = f.sqrt(&f.sub(&f.sub(&one, &f.sqr(&sin1)?)?, &f.sqr(&sin2)?)?)?;
+    let least_tangent = f.div(&sin1, &cos_corner)?;
+    let degrees = f.div(&f.integer(180)?, &pi(bits)?)?;
+    let angle = |tangent: &Interval<BigInt>| f.mul(&atan(tangent, bits)?, &degrees);
     // beta is in (-90, 90) degrees: tan(beta) = sin(beta) / sqrt(1 - sin^2(beta)).
-    let arcsine = |sine: &Fixed| angle(&sine.div(&one.sub(&sine.sqr()).sqrt()?)?);
-    let new = |symbol, name, unit, value| Dimension { symbol, name, unit, value };
+    let arcsine =
+        |sine: &Interval<BigInt>| angle(&f.div(sine, &f.sqrt(&f.sub(&one, &f.sqr(sine)?)?)?)?);
+    let new = |symbol, name, unit, value| Dimension { symbol, name, unit, value, bits };
     let (mm, degree) = (Unit::Length, Unit::Degree);
     Some(vec![
         new("L", "leg length", mm, length),
@@ -153,7 +168,7 @@ fn enclose(
         new("q2", "corner Q2 = (q2, q2, q2)", mm, q2),
         new(BASE, "base point of each guide", mm, base),
         new("rho_max", "joint range, from 0", mm, rho_max),
-        new("theta_Q1", "theta at Q1", degree, angle(&t1.neg())?),
+        new("theta_Q1", "theta at Q1", degree, angle(&f.neg(&t1)?)?),
         new("theta_Q2", "theta at Q2", degree, angle(&t2)?),
         new("theta_min", "least theta in the cube", degree, angle(&least_tangent)?),
         new("theta_max", "greatest theta in the cube", degree, angle(&t2)?),

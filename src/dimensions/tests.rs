@@ -114,7 +114,7 @@ fn every_enclosure_holds_the_expected_digits() {
             // The expected digits themselves are rounded.
             let uncertain = BigRational::new(1.into(), 10.into()).pow(23) * expected.abs();
             let (a, b) = (&expected - &uncertain, &expected + &uncertain);
-            let (inf, sup) = (dimension.value.inf(), dimension.value.sup());
+            let (inf, sup) = (dimension.inf(), dimension.sup());
             assert!(inf <= b && a <= sup, "{} for {psi_max}", dimension.symbol);
             let [lower, upper] =
                 [rounded(&inf, 15, Toward::Below), rounded(&sup, 15, Toward::Above)]
@@ -129,8 +129,8 @@ fn fifteen_digits_are_certified() {
     for psi_max in ["1.000001", "1.01", "sqrt(2)", "2", "3", "1000", "1e300", "1 + 1e-300"] {
         for cube in ["1e-9", "200", "100*sqrt(3)", "1e12"] {
             let all = dimensions(&exact(psi_max), &exact(cube), &exact("0"), 15).unwrap();
-            for Dimension { symbol, value, .. } in all {
-                let (inf, sup) = (value.inf(), value.sup());
+            for dimension in all {
+                let (symbol, inf, sup) = (dimension.symbol, dimension.inf(), dimension.sup());
                 let unit = BigRational::from_integer(10.into());
                 let width = (&sup - &inf) * unit.pow(16);
                 assert!(width <= inf.abs(), "{symbol} for {psi_max}, {cube}");
@@ -144,25 +144,26 @@ fn the_two_forms_of_the_greatest_theta_agree() {
     // theta_max = atan(q2 / s(Q2)), from lengths alone.
     let all = dimensions(&exact("3/2"), &exact("200"), &exact("0"), 15).unwrap();
     let of = |symbol: &str| &all.iter().find(|d| d.symbol == symbol).unwrap().value;
-    let (length, q2) = (of("L"), of("q2"));
-    let s = length.sqr().sub(&q2.sqr()).sub(&q2.sqr()).sqrt().unwrap();
-    let angle = atan(&q2.div(&s).unwrap()).unwrap();
-    let bits = angle.bits();
-    let degrees = angle.mul(&Fixed::integer(180, bits)).div(&pi(bits)).unwrap();
-    assert!(degrees.intersection(of("theta_max")).is_some());
+    let (length, q2, bits) = (of("L"), of("q2"), all[0].bits);
+    let f = Fixed::<BigInt>::new(bits);
+    let degrees = || {
+        let twice = f.mul(&f.integer(2)?, &f.sqr(q2)?)?;
+        let s = f.sqrt(&f.sub(&f.sqr(length)?, &twice)?)?;
+        let angle = atan(&f.div(q2, &s)?, bits)?;
+        f.div(&f.mul(&angle, &f.integer(180)?)?, &pi(bits)?)
+    };
+    let (degrees, theta_max) = (degrees().unwrap(), of("theta_max"));
+    assert!(degrees.lo <= theta_max.hi && theta_max.lo <= degrees.hi);
 }
 
 #[test]
 fn an_offset_may_bring_the_base_point_to_zero() {
     // psi_max = 2: q1 - L = -L (1 + sin(beta_Q1)), of which only an enclosure is known.
-    let constants = CubeConstants::new(&exact("2"), &exact("200")).unwrap();
-    let offset = constants.q1.minus(exact("1")).unwrap().over(constants.inverse_length).unwrap();
+    let offset = exact("(-1/sqrt(18)-1)*200/(1/sqrt(18)+1/sqrt(6))");
     let all = dimensions(&exact("2"), &exact("200"), &offset, 15).unwrap();
-    let base = &all.iter().find(|d| d.symbol == BASE).unwrap().value;
-    assert!(
-        crosses_zero(base)
-            && base.sup() - base.inf() < BigRational::new(1.into(), 10.into()).pow(1000)
-    );
+    let base = all.iter().find(|d| d.symbol == BASE).unwrap();
+    let most = BigRational::new(1.into(), 10.into()).pow(1000);
+    assert!(crosses_zero(&base.value) && base.sup() - base.inf() < most);
 }
 
 #[test]

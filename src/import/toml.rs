@@ -2,13 +2,14 @@
 
 use super::error::printable;
 use super::Imported;
+use crate::exact::{enclosed, Exact};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
-use orthocert_checker::trig::cos_sin;
+use orthocert_kernel::fixed::Interval;
+use orthocert_kernel::trig::cos_sin;
 use std::cmp::Ordering;
 
 /// A decimal number, as text that a design reads exactly.
@@ -115,7 +116,7 @@ fn components(degrees: &Exact) -> Option<[Component; 2]> {
         let sine = (step + 9) % 12;
         return Some([Component::Exactly(COSINES[step]), Component::Exactly(COSINES[sine])]);
     }
-    let (cos, sin) = cos_sin(degrees, BITS)?;
+    let [cos, sin] = cos_sin(|bits| enclosed(degrees, bits), BITS)?;
     let ten = BigInt::from(10).pow(PLACES);
     let decimal = |n: &BigInt, up: bool| {
         let one = BigInt::from(1) << BITS;
@@ -125,9 +126,8 @@ fn components(degrees: &Exact) -> Option<[Component; 2]> {
         let (whole, part) = digits.magnitude().div_rem(ten.magnitude());
         format!("{sign}{whole}.{part:0>18}")
     };
-    let around = |x: &orthocert_checker::fixed::Fixed| {
-        Component::Between(decimal(x.lo(), false), decimal(x.hi(), true))
-    };
+    let around =
+        |x: &Interval<BigInt>| Component::Between(decimal(&x.lo, false), decimal(&x.hi, true));
     Some([around(&cos), around(&sin)])
 }
 

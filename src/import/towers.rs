@@ -3,10 +3,10 @@
 //! the platform.
 
 use super::toml::{least, polar, quoted, slider, Number};
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
-use orthocert_checker::number::Exact;
 use std::cmp::Ordering;
 
 /// A tower, its carriage and its rods.

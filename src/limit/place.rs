@@ -1,11 +1,9 @@
 //! The requirement that a refuted claim violates, and where, for every kind of claim.
 
 use crate::decimal::exact;
+use crate::exact::Exact;
 use crate::report::{counterexample, Setting};
-use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_checker::claim::Claim;
-use orthocert_checker::number::Exact;
-use orthocert_kernel::certificate as kernel;
+use orthocert_checker::certificate::Certificate;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -30,12 +28,7 @@ pub struct Place {
 impl Place {
     /// Where a certificate refutes its claim; `None` of another certificate.
     pub fn of(certificate: &Certificate) -> Option<Self> {
-        let (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) =
-            (&certificate.claim, &certificate.proof)
-        else {
-            return None;
-        };
-        let found = counterexample(claim, witness)?;
+        let found = counterexample(certificate)?;
         let texts = |point: &[Exact]| point.iter().map(exact).collect();
         let setting = |s: &Setting| {
             let leg = s.leg.map_or(String::new(), |leg| format!("leg {leg} "));

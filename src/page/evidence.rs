@@ -2,10 +2,8 @@
 
 use super::legend::OUTSIDE;
 use super::subdivision::{Leaf, Subdivision};
-use crate::decimal::{approximate, counted, exact, grouped, significant};
+use crate::decimal::{counted, grouped, significant};
 use crate::escape::xml;
-use crate::report::{self, Counterexample};
-use orthocert_checker::number::Exact;
 use std::fmt::Write;
 
 /// Boxes listed among those where the proof worked hardest.
@@ -28,25 +26,6 @@ pub struct Row {
     pub at: String,
     /// For which machine; empty of a claim without tolerances.
     pub machine: String,
-}
-
-impl From<&report::Row> for Row {
-    fn from(row: &report::Row) -> Self {
-        let setting = |p: &report::FreeParameter| {
-            let leg = p.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
-            format!("{leg}{} {}", p.parameter, significant(p.value, 7))
-        };
-        let settings: Vec<String> = row.machine.iter().map(setting).collect();
-        Row {
-            requirement: row.requirement.clone(),
-            bound: row.bound_text.clone(),
-            found: row.worst_found.map_or("out of reach".to_owned(), |x| significant(x, 9)),
-            is_violated: row.seems_violated,
-            margin: margin(row),
-            at: report::point_text(&row.at, 6),
-            machine: settings.join(", "),
-        }
-    }
 }
 
 /// The table of the requirements and the worst values found.
@@ -80,22 +59,6 @@ pub fn margins(rows: &[Row]) -> String {
          floating point, and no proof. <code>orthocert bounds</code> proves enclosures of the extremes.</p>"
 }
 
-/// The distance to the bound, as a part of it where it is not zero.
-fn margin(row: &report::Row) -> String {
-    let number = |text: &str| approximate(&Exact::parse(text, 1000).ok()?);
-    let Some((relation, bound)) = row.bound.split_once(' ') else {
-        return String::new();
-    };
-    let (Some(found), Some(bound)) = (row.worst_found, number(bound)) else {
-        return "\u{2013}".to_owned();
-    };
-    let slack = if relation == "<=" { bound - found } else { found - bound };
-    if bound == 0.0 {
-        return significant(slack, 4);
-    }
-    share(slack / bound.abs())
-}
-
 /// A margin in percent.
 pub fn share(margin: f64) -> String {
     match 100.0 * margin {
@@ -103,29 +66,6 @@ pub fn share(margin: f64) -> String {
         s if s.abs() < 1e-3 => format!("{} %", significant(s, 2)),
         s => format!("{} %", significant(s, 3)),
     }
-}
-
-/// The counterexample of a refutation of three translating legs: names and values.
-pub fn of_three_legs(found: &Counterexample) -> Vec<(String, String)> {
-    let point = |p: &Vec<Exact>| {
-        let all: Vec<String> = p.iter().map(exact).collect();
-        format!("({})", all.join(", "))
-    };
-    let mut rows = vec![
-        ("violated".to_owned(), found.violated.clone()),
-        ("value there, its digits certified".to_owned(), found.value.clone()),
-        ("at P".to_owned(), point(&found.point)),
-    ];
-    rows.extend(found.other_point.iter().map(|p| ("and at P'".to_owned(), point(p))));
-    for setting in &found.machine {
-        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
-        rows.push((format!("{leg}{}", setting.parameter), exact(&setting.value)));
-    }
-    for direction in &found.directions {
-        let all: Vec<String> = direction.iter().map(i64::to_string).collect();
-        rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
-    }
-    rows
 }
 
 /// The counterexample of a refutation.

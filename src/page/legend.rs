@@ -1,7 +1,5 @@
 //! The rules by which a proof's boxes are closed, as figures show them.
 
-use orthocert_checker::certificate::{Node, Step};
-use orthocert_checker::rule::Obligation;
 use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 
@@ -34,24 +32,6 @@ pub struct Legend {
 /// A node of a tree: the positions of its rules, and the coordinate along which it is halved.
 pub type Ruled = (Vec<u8>, Option<usize>);
 
-type Style = (&'static str, &'static str, usize);
-
-/// The rules of three translating legs.
-const RULES: [Style; 12] = [
-    ("lower", "#8ecae6", 0),
-    ("corner", "#f4a340", 1),
-    ("upper", "#74c69d", 2),
-    ("cube", "#5aae8a", 3),
-    ("range", "#f2e279", 1),
-    ("conditioning", "#7da7d9", 3),
-    ("serial_margin", "#e8936b", 2),
-    ("parallel_margin", "#b9a3d9", 1),
-    ("leg_angle", "#c9a66b", 3),
-    ("speed", "#9fd3c7", 4),
-    (OUTSIDE, "#eceff3", 5),
-    ("entrywise", "#6fa8dc", 1),
-];
-
 /// The rule that a box is outside the workspace.
 pub const OUTSIDE: &str = "outside";
 
@@ -65,35 +45,6 @@ const COLOURS: [&str; 10] = [
 const MOST_RULES: usize = 100;
 
 impl Legend {
-    /// The rules of three translating legs.
-    pub fn of_three_legs() -> Self {
-        let obligations: Vec<String> = Obligation::ALL.iter().map(ToString::to_string).collect();
-        let rule = |&(name, colour, pattern): &Style| {
-            let discharged = match name {
-                "lower" | "entrywise" | "corner" => "sigma_min",
-                "upper" | "cube" => "sigma_max",
-                "range" => "joint_range",
-                "speed" => "joint_speed",
-                other => other,
-            };
-            let discharges = obligations.iter().position(|name| name == discharged);
-            Rule { name: name.to_owned(), used_for: None, colour, pattern, discharges }
-        };
-        Legend { rules: RULES.iter().map(rule).collect(), obligations }
-    }
-
-    /// The nodes of a tree of three translating legs.
-    pub fn ruled(&self, nodes: &[Node]) -> Vec<Ruled> {
-        let position = |step: &Step| {
-            let (name, _) = step.rule();
-            self.rules.iter().position(|rule| rule.name == name).unwrap_or(0) as u8
-        };
-        let node = |node: &Node| {
-            (node.by.iter().map(position).collect(), node.split.map(|axis| axis.index()))
-        };
-        nodes.iter().map(node).collect()
-    }
-
     /// The rules of a kernel proof: a kind of evidence for a requirement each. `of` has the position
     /// of the requirement that an obligation of this number belongs to.
     pub fn of_kernel(

@@ -79,6 +79,59 @@ impl Numbers {
         end.iter().all(|x| x.is_finite()).then_some(end)
     }
 
+    /// The row of `M` of a platform at `p` that does not turn, joint rates per velocity; `None` out of
+    /// reach and at a serial singularity. With the leg `A` from the driven end to the platform it is
+    ///
+    /// ```text
+    /// slider   A^T / (A . n)       strut   A^T / |A|       arm   A^T / (A . (k x u))       planar   n^T
+    /// ```
+    ///
+    /// where `u` is the arm: joint rates are those at which the leg keeps its length.
+    pub fn row(&self, p: Point) -> Option<Point> {
+        if let Numbers::Planar { direction } = self {
+            return Some(*direction);
+        }
+        let joint = add(p, self.platform());
+        let end = self.base_end(joint)?;
+        let leg = add(joint, scaled(-1.0, end));
+        let along = match self {
+            Numbers::Slider { direction, .. } => dot(leg, *direction),
+            Numbers::Arm { axis, anchor, .. } => {
+                dot(leg, cross(*axis, add(end, scaled(-1.0, *anchor))))
+            }
+            Numbers::Strut { .. } | Numbers::Planar { .. } => dot(leg, leg).sqrt(),
+        };
+        let row = scaled(1.0 / along, leg);
+        row.iter().all(|x| x.is_finite()).then_some(row)
+    }
+
+    /// Positive exactly where the leg of a platform at `p` that does not turn reaches, without a serial
+    /// singularity:
+    ///
+    /// ```text
+    /// slider   L^2 - |r|^2         arm   L^2 - kappa^2 - (g - r)^2,  g = (|w|^2 + r^2 - L^2)/2r
+    /// ```
+    pub fn clearance(&self, p: Point) -> f64 {
+        let from = |anchor: &Point| add(add(p, self.platform()), scaled(-1.0, *anchor));
+        match self {
+            Numbers::Planar { .. } => 1.0,
+            Numbers::Strut { anchor, .. } => {
+                let w = from(anchor);
+                dot(w, w).sqrt()
+            }
+            Numbers::Slider { direction, anchor, length, .. } => {
+                let w = from(anchor);
+                let r = add(w, scaled(-dot(*direction, w), *direction));
+                length * length - dot(r, r)
+            }
+            Numbers::Arm { axis, anchor, arm, length, .. } => {
+                let w = from(anchor);
+                let g = (dot(w, w) + arm * arm - length * length) / (2.0 * arm);
+                length * length - dot(*axis, w).powi(2) - (g - arm).powi(2)
+            }
+        }
+    }
+
     /// The platform's joint, in the platform's frame.
     pub fn platform(&self) -> Point {
         match self {

@@ -46,7 +46,6 @@ mod words;
 
 use crate::digest::policy_source;
 use crate::escape::{self, xml};
-use crate::report::worst_found;
 pub use general::names as coordinates;
 use isomap::Scale;
 use legend::PATTERNS;
@@ -54,7 +53,7 @@ use nominal::Nominal;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::Accepted;
-use scene::{corners_of_cube, first_slice, of_three_legs, slice, Scene};
+use scene::{corners_of_cube, first_slice, of_nothing, of_postulate, slice, Scene};
 use serde_json::{json, Value};
 
 pub use recheck::{checker_sha256, CHECKER_COMMAND};
@@ -111,18 +110,17 @@ impl<'a> Page<'a> {
         file: File<'a>,
         title: Option<&str>,
     ) -> Self {
+        let of_cube;
         let machine_claim = match &certificate.claim {
-            Claim::Machine(claim) => Some(claim.clone()),
-            Claim::Postulate(claim) => nominal::of_postulate(claim),
-            Claim::Kernel(claim) => nominal::of_kernel(claim),
-            Claim::Atlas(_) | Claim::NoCube(_) => None,
+            Claim::Kernel(claim) => Some(claim),
+            Claim::Postulate(claim) => {
+                of_cube = nominal::of_postulate(claim);
+                of_cube.as_ref()
+            }
+            Claim::Machine(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
         };
-        let rows = match &certificate.claim {
-            Claim::Machine(claim) => worst_found(claim).unwrap_or_default(),
-            _ => Vec::new(),
-        };
-        let machine = machine_claim.as_ref().and_then(Nominal::new).map(|mut machine| {
-            machine.slice = slice(&machine, certificate, &rows);
+        let machine = machine_claim.and_then(Nominal::new).map(|mut machine| {
+            machine.slice = slice(&machine, &certificate.proof);
             let scale = machine.scale();
             (machine, scale)
         });
@@ -146,10 +144,11 @@ impl<'a> Page<'a> {
                 scene
             }
             (Claim::NoCube(claim), Proof::Kernel(proof)) => general::of_centres(claim, proof),
-            _ => {
+            (Claim::Postulate(claim), proof) => {
                 let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
-                of_three_legs(certificate, machine, &rows)
+                of_postulate(claim, proof, machine_claim, machine)
             }
+            _ => Scene { trees: vec![of_nothing()], ..Scene::default() },
         };
         let mut page = Page {
             certificate,
@@ -175,7 +174,7 @@ impl<'a> Page<'a> {
     }
 
     fn is_machine(&self) -> bool {
-        matches!(self.certificate.claim, Claim::Machine(_) | Claim::NoCube(_) | Claim::Kernel(_))
+        matches!(self.certificate.claim, Claim::NoCube(_) | Claim::Kernel(_))
     }
 
     /// Every figure.
@@ -231,9 +230,9 @@ impl<'a> Page<'a> {
     fn data(&self) -> Value {
         let machine = self.machine.as_ref().map(|(machine, scale)| {
             json!({
-                "legs": machine.legs.each_ref().map(|leg| &leg.numbers),
-                "least": machine.frame.least,
-                "width": machine.frame.width,
+                "legs": machine.legs,
+                "least": machine.least,
+                "width": machine.width,
                 "cylinder": machine.is_cylinder,
                 "slice": machine.slice,
                 "scale": scale,

@@ -6,17 +6,15 @@ use super::legend::Legend;
 use super::legs::Shape;
 use super::nominal::Nominal;
 use super::sampled::double;
+use super::shape::shape;
 use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
-use crate::decimal::{approximate, significant};
-use crate::report::{self, exactly};
-use orthocert_checker::cell::Axis;
-use orthocert_checker::certificate::{Certificate, Proof, Violation, Witness};
-use orthocert_checker::claim::Claim;
+use crate::decimal::significant;
+use orthocert_checker::certificate::Proof;
 use orthocert_checker::kernel::trees as kernel_trees;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::certificate as kernel;
-use orthocert_kernel::postulate::{parts, Part};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::postulate::{parts, Part, PostulateClaim};
 use std::rc::Rc;
 
 /// What is shown.
@@ -45,22 +43,21 @@ pub struct Slice {
     pub fixed: String,
 }
 
-/// What is shown of three translating legs, and of the postulate.
-pub fn of_three_legs(
-    certificate: &Certificate,
+/// What is shown of the postulate: for a single `psi_max` the machine, and the parts of every proof.
+pub fn of_postulate(
+    claim: &PostulateClaim,
+    proof: &Proof,
+    of_cube: Option<&MachineClaim>,
     machine: Option<(&Nominal, Option<&Scale>)>,
-    rows: &[report::Row],
 ) -> Scene {
-    let nominal = machine.map(|(machine, _)| machine);
-    let marks = marks(nominal, certificate);
+    let marks = machine.map(|(machine, _)| corners_of_cube(machine)).unwrap_or_default();
     let slices = machine.and_then(|(machine, scale)| Some(first_slice(machine, scale?, &marks)));
-    Scene {
-        shape: nominal.map(Nominal::shape),
-        slices: slices.into_iter().collect(),
-        rows: rows.iter().map(Row::from).collect(),
-        trees: trees(certificate, nominal),
-        marks,
-    }
+    let trees = match proof {
+        Proof::Kernel(kernel::Proof::Tree(tree)) => faces(claim, tree),
+        _ => Vec::new(),
+    };
+    let shape = of_cube.and_then(shape);
+    Scene { shape, slices: slices.into_iter().collect(), rows: Vec::new(), trees, marks }
 }
 
 /// The first maps of the transmission factors.
@@ -82,20 +79,13 @@ pub fn corners_of_cube(machine: &Nominal) -> Vec<Mark> {
         .collect()
 }
 
-/// The plane of the first maps, as a part of the workspace's height: through `Q_1`, through the
-/// counterexample, or through the place where the greatest factor was found.
-pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[report::Row]) -> f64 {
-    let (least, width) = (machine.frame.least[2], machine.frame.width[2]);
-    let z = match &certificate.proof {
-        Proof::Witness(witness) => approximate(&witness.point[2]),
-        Proof::Kernel(kernel::Proof::Witness(witness)) => {
-            witness.point.get(2).and_then(exactly).as_ref().and_then(approximate)
-        }
-        _ if machine.is_cube => Some(least),
-        _ => rows
-            .iter()
-            .find(|row| row.requirement == "greatest psi")
-            .and_then(|row| row.at.get(2).copied()),
+/// The plane of the first maps, as a part of the workspace's height: through `Q_1`, or through the
+/// counterexample.
+pub fn slice(machine: &Nominal, proof: &Proof) -> f64 {
+    let (least, width) = (machine.least[2], machine.width[2]);
+    let z = match proof {
+        Proof::Kernel(kernel::Proof::Witness(witness)) => witness.point.get(2).and_then(double),
+        _ => machine.is_cube.then_some(least),
     };
     match z {
         Some(z) if width > 0.0 => ((z - least) / width).clamp(0.0, 1.0),
@@ -103,59 +93,31 @@ pub fn slice(machine: &Nominal, certificate: &Certificate, rows: &[report::Row])
     }
 }
 
-/// `Q_1` and `Q_2` of the cube, and the points of a counterexample.
-fn marks(machine: Option<&Nominal>, certificate: &Certificate) -> Vec<Mark> {
-    let mut all = machine.map(corners_of_cube).unwrap_or_default();
-    if let Proof::Witness(witness) = &certificate.proof {
-        let at = |p: &[Exact; 3]| p.iter().map(approximate).collect::<Option<Vec<f64>>>();
-        let name = |name: &str| name.to_owned();
-        let Witness { point, violates, .. } = &**witness;
-        all.extend(at(point).map(|at| Mark { name: name("counterexample"), at }));
-        if let Violation::Singular(second) = violates {
-            all.extend(at(&second.other).map(|at| Mark { name: name("P'"), at }));
-        }
-    }
-    all
+/// The parts of a proof of the postulate: two faces of the cube, and the ranges of `kappa`.
+fn faces(claim: &PostulateClaim, tree: &kernel::Tree) -> Vec<Subdivision> {
+    let needed = parts(claim).unwrap_or_default();
+    let bound = "\u{3c3}_min(M) \u{2265} 1/psi_max".to_owned();
+    let (legend, ruled) = Legend::of_kernel(tree, vec![bound], &|_| 0);
+    let legend = Rc::new(legend);
+    let mut rest = &ruled[..];
+    let part = |(nodes, part): (&[kernel::Node], &Part)| {
+        let (own, others) = rest.split_at(nodes.len());
+        rest = others;
+        let face = match part.face {
+            kernel::Corner::Q1 => "x = q1",
+            kernel::Corner::Q2 => "x = q2",
+        };
+        let [low, high] = [&part.least, &part.greatest].map(|x| double(x).unwrap_or_default());
+        let half = if high > 0.5 { "kappa >= 1/2" } else { "kappa <= 1/2" };
+        let name = format!("face {face}, {half}");
+        let root = Root::new(["y", "z", "kappa"], [0.0, 0.0, low], [1.0, 1.0, high - low]);
+        Subdivision::new(&name, root, &legend, own)
+    };
+    kernel_trees(&tree.nodes).into_iter().zip(&needed).map(part).collect()
 }
 
-/// The trees of a proof; for a counterexample, the workspace alone.
-fn trees(certificate: &Certificate, machine: Option<&Nominal>) -> Vec<Subdivision> {
-    let (least, width) = match machine {
-        Some(machine) => (machine.frame.least, machine.frame.width),
-        None => ([0.0; 3], [1.0; 3]),
-    };
-    let legend = Rc::new(Legend::of_three_legs());
-    let root = || Root::new(Root::axes_of(Axis::ALL), least, width);
-    match (&certificate.proof, &certificate.claim) {
-        (Proof::Tree(tree), _) => {
-            let name = match machine {
-                Some(_) => "the workspace",
-                None => "the workspace, x, y and z as parts of it",
-            };
-            vec![Subdivision::new(name, root(), &legend, &legend.ruled(&tree.nodes))]
-        }
-        (Proof::Kernel(kernel::Proof::Tree(tree)), Claim::Postulate(claim)) => {
-            let needed = parts(claim).unwrap_or_default();
-            let bound = "\u{3c3}_min(M) \u{2265} 1/psi_max".to_owned();
-            let (legend, ruled) = Legend::of_kernel(tree, vec![bound], &|_| 0);
-            let legend = Rc::new(legend);
-            let mut rest = &ruled[..];
-            let part = |(nodes, part): (&[kernel::Node], &Part)| {
-                let (own, others) = rest.split_at(nodes.len());
-                rest = others;
-                let face = match part.face {
-                    kernel::Corner::Q1 => "x = q1",
-                    kernel::Corner::Q2 => "x = q2",
-                };
-                let [low, high] =
-                    [&part.least, &part.greatest].map(|x| double(x).unwrap_or_default());
-                let half = if high > 0.5 { "kappa >= 1/2" } else { "kappa <= 1/2" };
-                let name = format!("face {face}, {half}");
-                let root = Root::new(["y", "z", "kappa"], [0.0, 0.0, low], [1.0, 1.0, high - low]);
-                Subdivision::new(&name, root, &legend, own)
-            };
-            kernel_trees(&tree.nodes).into_iter().zip(&needed).map(part).collect()
-        }
-        _ => vec![Subdivision::new("the workspace", root(), &legend, &[])],
-    }
+/// The workspace alone, of claims of which no boxes are shown.
+pub fn of_nothing() -> Subdivision {
+    let root = Root::new(["x", "y", "z"], [0.0; 3], [1.0; 3]);
+    Subdivision::new("the workspace", root, &Rc::new(Legend::default()), &[])
 }

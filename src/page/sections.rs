@@ -4,10 +4,9 @@ use super::legend::PATTERNS;
 use super::legs::Numbers;
 use super::scene::Slice;
 use super::subdivision::Subdivision;
-use super::{evidence, general, mechanism, nominal, recheck, words, Page, Picture};
+use super::{evidence, general, mechanism, recheck, words, Page, Picture};
 use crate::decimal::grouped;
 use crate::escape::xml;
-use crate::report::Counterexample;
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_checker::claim::{Claim, NoCubeClaim};
 use orthocert_kernel::certificate as kernel;
@@ -23,9 +22,6 @@ impl Page<'_> {
             ("claim", "Claim", words::claim_section(&self.certificate.claim, verdict)),
         ];
         let counterexample = match (&self.certificate.claim, &self.certificate.proof) {
-            (Claim::Machine(claim), Proof::Witness(witness)) => {
-                Some(evidence::of_three_legs(&Counterexample::new(claim, witness)))
-            }
             (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) => {
                 Some(general::counterexample(claim, witness))
             }
@@ -152,29 +148,17 @@ impl Page<'_> {
              dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}{turned}</figcaption></figure>",
             design.inline()
         );
-        let of_legs;
-        let three_legs = match &self.certificate.claim {
-            Claim::Machine(claim) => Some(claim),
-            Claim::Postulate(claim) => {
-                of_legs = nominal::of_postulate(claim);
-                of_legs.as_ref()
-            }
-            Claim::Kernel(claim) => {
-                of_legs = nominal::of_kernel(claim)
-                    .filter(|_| matches!(claim.mechanism, Mechanism::Orthoglide { .. }));
-                if of_legs.is_none() {
-                    out.push_str(&mechanism::parameters(claim));
-                }
-                of_legs.as_ref()
+        match &self.certificate.claim {
+            Claim::Kernel(claim) if !matches!(claim.mechanism, Mechanism::Orthoglide { .. }) => {
+                out.push_str(&mechanism::parameters(claim));
             }
             Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {
                 out.push_str(&mechanism::parameters(claim));
-                None
             }
-            Claim::Atlas(_) => None,
-        };
-        if let (Some(claim), Some((machine, _))) = (three_legs, &self.machine) {
-            out.push_str(&words::parameters(claim, machine));
+            _ => {
+                let machine = self.machine.as_ref().map(|(machine, _)| machine);
+                out.extend(machine.and_then(words::parameters_of_cube));
+            }
         }
         out + "</section>\n"
     }

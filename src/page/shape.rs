@@ -4,24 +4,26 @@ use super::legs::{across, unit, Numbers, Outline, Point, Shape};
 use super::mechanism;
 use super::sampled::double;
 use orthocert_kernel::claim::{
-    Body, Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Sign, Workspace,
+    Body, Leg, MachineClaim, Mechanism, Orientation, Quantity, Sign, Workspace,
 };
-use orthocert_kernel::number::Expression;
+use orthocert_kernel::cube::written_out;
+use orthocert_kernel::number::{Expression, Operator};
 use std::array::from_fn;
 
 /// Lengths beyond this are not drawn: their powers would exceed the doubles.
 const GREATEST: f64 = 1e60;
 
-/// The nominal machine in the middle of its workspace; none of users' formulas, which say nothing of
+/// The nominal machine in the middle of its workspace, or of the paper's cube at the origin; none of users' formulas, which say nothing of
 /// where a leg is, and of numbers beyond what doubles can show.
 pub fn shape(claim: &MachineClaim) -> Option<Shape> {
     let (least, width) = frame(claim)?;
-    let legs = match &claim.mechanism {
-        Mechanism::Formulas(_) => return None,
-        Mechanism::Orthoglide { offset } => of_the_paper(claim, double(offset)?)?,
-        mechanism => mechanism::legs(mechanism).iter().map(numbers).collect::<Option<_>>()?,
-    };
+    if let Mechanism::Formulas(_) = claim.mechanism {
+        return None;
+    }
+    let written = written_out(claim).ok()?;
+    let legs = mechanism::legs(&written.mechanism).iter().map(numbers).collect::<Option<_>>()?;
     let is_flat = matches!(claim.mechanism, Mechanism::Planar(_));
+    let is_cube = matches!(claim.workspace, Workspace::Cube { .. });
     let is_round = matches!(claim.workspace, Workspace::Cylinder { .. });
     let mut outline = Outline::of(least, width, is_round);
     let turns_alone = matches!(claim.mechanism, Mechanism::Spherical(_));
@@ -45,7 +47,7 @@ pub fn shape(claim: &MachineClaim) -> Option<Shape> {
     }
     let shape = Shape {
         legs,
-        position: place([0.5; 3]),
+        position: if is_cube { [0.0; 3] } else { place([0.5; 3]) },
         rotation: rotation(claim.orientation.as_ref())?,
         outline,
         places: (0..27).map(|n| place(grid(n))).collect(),
@@ -60,7 +62,7 @@ pub fn shape(claim: &MachineClaim) -> Option<Shape> {
 
 /// The least corner and the edges of the box of positions; of less than three coordinates, with
 /// zeros.
-fn frame(claim: &MachineClaim) -> Option<(Point, Point)> {
+pub fn frame(claim: &MachineClaim) -> Option<(Point, Point)> {
     let (min, max) = match &claim.workspace {
         Workspace::Box { min, max } => (all(min)?, all(max)?),
         Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
@@ -68,7 +70,7 @@ fn frame(claim: &MachineClaim) -> Option<(Point, Point)> {
             (vec![x - r, y - r, double(low)?], vec![x + r, y + r, double(high)?])
         }
         Workspace::Cube { side } => {
-            let [q1, _, _] = of_cube(claim)?;
+            let q1 = least_of_cube(claim)?;
             (vec![q1; 3], vec![q1 + double(side)?; 3])
         }
     };
@@ -77,33 +79,20 @@ fn frame(claim: &MachineClaim) -> Option<(Point, Point)> {
     Some((least, from_fn(|k| coordinate(&max, k) - least[k])))
 }
 
-/// `q_1`, `q_2` and `L` of the paper's cube.
-fn of_cube(claim: &MachineClaim) -> Option<Point> {
-    let Workspace::Cube { side } = &claim.workspace else { return None };
-    let psi_max = claim.require.iter().find_map(|requirement| match &requirement.bound {
-        Bound::Max(bound) if requirement.quantity == "transmission" => double(bound),
-        _ => None,
-    });
-    let kappa = 1.0 / psi_max?;
-    let t1 = (1.0 - kappa) / 2.0;
-    let t2 = if kappa <= 0.5 { 1.0 - kappa } else { (1.0 / kappa - 1.0) / 2.0 };
-    let [q1, q2] = [-t1, t2].map(|t| t / (1.0 + 2.0 * t * t).sqrt());
-    let length = double(side)? / (q2 - q1);
-    Some([q1 * length, q2 * length, length])
-}
-
-/// The legs of the paper's Orthoglide.
-fn of_the_paper(claim: &MachineClaim, offset: f64) -> Option<Vec<Numbers>> {
-    let [q1, _, length] = of_cube(claim)?;
-    let along = |i: usize, x: f64| -> Point { from_fn(|k| if k == i { x } else { 0.0 }) };
-    let leg = |i: usize| Numbers::Slider {
-        direction: along(i, 1.0),
-        anchor: along(i, q1 - offset - length),
-        platform: along(i, -offset),
-        length,
-        mode: 1.0,
+/// `q_1 = a + e + L` of the paper's cube, from its legs.
+fn least_of_cube(claim: &MachineClaim) -> Option<f64> {
+    let Mechanism::Orthoglide { offset } = &claim.mechanism else { return None };
+    let written = written_out(claim).ok()?;
+    let Leg::Slider { anchor, length: Quantity::Exactly(length), .. } =
+        mechanism::legs(&written.mechanism).first()?
+    else {
+        return None;
     };
-    Some((0..3).map(leg).collect())
+    let Quantity::Exactly(base) = anchor.first()? else { return None };
+    let add = |x: Expression, y: &Expression| {
+        Expression::Binary(Operator::Add, Box::new(x), Box::new(y.clone()))
+    };
+    double(&add(add(base.clone(), offset), length))
 }
 
 /// The rows of `R` in the middle of a set of orientations.
@@ -303,10 +292,10 @@ mod tests {
         let text = r#"{"mechanism":{"orthoglide":{"offset":"0"}},"workspace":{"cube":{"side":"200"}},
             "require":[{"quantity":"transmission","end":"max","bound":"2"}]}"#;
         let claim: MachineClaim = serde_json::from_str(text).unwrap();
-        let [q1, q2, l] = of_cube(&claim).unwrap();
-        assert!((l - 310.582854123025).abs() < 1e-9 && (q1 + 73.2050807568877).abs() < 1e-9);
-        assert!((q2 - q1 - 200.0).abs() < 1e-9);
+        let (least, width) = frame(&claim).unwrap();
+        assert!((least[1] + 73.2050807568877).abs() < 1e-9 && width == [200.0; 3]);
         let shape = shape(&claim).unwrap();
-        assert!((length(&shape, 2) - l).abs() < 1e-9);
+        assert!((length(&shape, 2) - 310.582854123025).abs() < 1e-9);
+        assert_eq!(shape.position, [0.0; 3]);
     }
 }

@@ -5,7 +5,6 @@ use super::legend::{Legend, Rule, Ruled, PATTERNS};
 use super::legs::Point;
 use super::svg::{path_data, Elements, Fitted, Picture, View};
 use crate::decimal::significant;
-use orthocert_checker::cell::Axis;
 use std::array::from_fn;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -78,15 +77,6 @@ impl Root {
     pub fn new(axes: [&str; 3], least: Point, width: Point) -> Self {
         let axes = axes.map(str::to_owned).to_vec();
         Root { axes, positions: 3, least: least.to_vec(), width: width.to_vec() }
-    }
-
-    /// The names of a tree's axes.
-    pub fn axes_of(all: [Axis; 3]) -> [&'static str; 3] {
-        all.map(|axis| match axis {
-            Axis::X => "x",
-            Axis::Y => "y",
-            Axis::Z => "z",
-        })
     }
 }
 
@@ -493,48 +483,41 @@ fn on_grid(all: &[Rectangle]) -> Vec<Rectangle> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use orthocert_checker::certificate::{Node, Step};
-    use orthocert_checker::rule::Rotation;
+    use kernel::{Evidence, Node, Step};
     use orthocert_kernel::certificate as kernel;
 
-    fn tree() -> Vec<Node> {
-        let lower =
-            Step::Lower(Rotation { q: [1, 0, 0, 0], sign: orthocert_checker::claim::Sign::Plus });
-        vec![
-            Node { by: vec![Step::Cube], split: Some(Axis::X) },
-            Node { by: vec![lower.clone()], split: None },
-            Node { by: vec![], split: Some(Axis::Z) },
-            Node { by: vec![lower], split: None },
-            Node { by: vec![Step::Outside], split: None },
-        ]
+    fn node(by: Vec<Step>, split: Option<usize>) -> Node {
+        Node { by, split, ..Node::default() }
+    }
+
+    fn legend(nodes: Vec<Node>, names: &[&str]) -> (Rc<Legend>, Vec<Ruled>) {
+        let tree = kernel::Tree { precision: 52, chords: None, nodes };
+        let names = names.iter().map(ToString::to_string).collect();
+        let (legend, ruled) = Legend::of_kernel(&tree, names, &|obligation| obligation);
+        (Rc::new(legend), ruled)
     }
 
     #[test]
     fn leaves_know_what_their_ancestors_have_discharged() {
-        let legend = Rc::new(Legend::of_three_legs());
+        let nodes = vec![
+            node(vec![Step(1, Evidence::Test)], Some(0)),
+            node(vec![Step(0, Evidence::Divided)], None),
+            node(vec![], Some(2)),
+            node(vec![Step(0, Evidence::Divided)], None),
+            node(vec![Step(0, Evidence::Outside)], None),
+        ];
+        let (legend, ruled) = legend(nodes, &["det", "psi", "rho"]);
         let root = Root::new(["x", "y", "z"], [0.0; 3], [1.0; 3]);
-        let found = Subdivision::new("box", root, &legend, &legend.ruled(&tree()));
-        assert_eq!(found.code, "dXa.Za.k.");
+        let found = Subdivision::new("box", root, &legend, &ruled);
+        assert_eq!(found.code, "aXb.Zb.c.");
         assert_eq!(found.leaves.len(), 3);
-        assert_eq!(found.leaves[0].by[..3], [Some(0), Some(3), None]);
+        assert_eq!(found.leaves[0].by, [Some(1), Some(0), None]);
         // What is outside is discharged of what the claim asks and was open.
-        assert_eq!(found.leaves[2].by[..3], [Some(10), Some(3), None]);
+        assert_eq!(found.leaves[2].by, [Some(2), Some(0), None]);
         assert_eq!(found.filled_by, 0);
         assert_eq!(found.leaves[2].depth, 2);
         assert_eq!(found.leaves[2].parts[2], [0.5, 1.0]);
-        assert_eq!((found.uses[0], found.uses[3]), (2, 1));
-    }
-
-    #[test]
-    fn every_rule_has_a_style() {
-        let legend = Legend::of_three_legs();
-        for (node, (rules, _)) in tree().iter().zip(legend.ruled(&tree())) {
-            for (step, rule) in node.by.iter().zip(rules) {
-                assert_eq!(legend.rules[usize::from(rule)].name, step.rule().0);
-            }
-        }
-        let names: std::collections::BTreeSet<_> = legend.rules.iter().map(|r| &r.name).collect();
-        assert_eq!(names.len(), legend.rules.len());
+        assert_eq!(found.uses, [1, 2, 1]);
         assert!(legend.rules.iter().all(|rule| rule.pattern < PATTERNS.len()));
     }
 
@@ -549,17 +532,12 @@ mod tests {
 
     #[test]
     fn the_rules_of_the_kernel_are_told_apart_by_what_they_are_used_for() {
-        use kernel::{Evidence, Step};
-        let node = |by: Vec<Step>, split| kernel::Node { by, split, ..kernel::Node::default() };
-        let tree = kernel::Tree {
-            precision: 52,
-            chords: None,
-            nodes: vec![
-                node(vec![Step(1, Evidence::Test), Step(2, Evidence::Test)], Some(3)),
-                node(vec![Step(0, Evidence::Divided)], None),
-                node(vec![Step(0, Evidence::Outside)], None),
-            ],
-        };
+        let nodes = vec![
+            node(vec![Step(1, Evidence::Test), Step(2, Evidence::Test)], Some(3)),
+            node(vec![Step(0, Evidence::Divided)], None),
+            node(vec![Step(0, Evidence::Outside)], None),
+        ];
+        let tree = kernel::Tree { precision: 52, chords: None, nodes };
         let names = vec!["psi".to_owned(), "rho".to_owned()];
         let (legend, nodes) = Legend::of_kernel(&tree, names, &|o| usize::from(o > 0));
         let shown: Vec<_> = legend.rules.iter().map(|r| (r.name.as_str(), r.discharges)).collect();

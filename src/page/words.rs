@@ -1,15 +1,13 @@
 //! A claim in words, formulas and tables.
 
+use super::legs::Numbers;
 use super::mechanism;
 use super::nominal::Nominal;
-use crate::decimal::{approximate, readable, significant};
+use crate::decimal::{readable, significant};
 use crate::escape::xml;
-use crate::report::named_parameters;
+use crate::exact::Exact;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::claim::{
-    Claim, Every, Leg, MachineClaim, Mechanism, PsiMax, Quantity, Range, Requirements, Workspace,
-};
-use orthocert_checker::number::Exact;
+use orthocert_checker::claim::{Claim, Every, PsiMax};
 use orthocert_checker::statement;
 use orthocert_kernel::atlas::Parameter;
 use orthocert_kernel::claim as kernel;
@@ -49,52 +47,8 @@ pub fn subject(claim: &Claim) -> String {
 /// The machine and the workspace of a claim about one machine, or the machines within its tolerances.
 pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
     match claim {
-        Claim::Machine(claim) => Some([machine(claim), workspace(claim)]),
         Claim::Kernel(claim) => Some([mechanism::machine(claim), mechanism::workspace(claim)]),
-        Claim::Postulate(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
-    }
-}
-
-fn machine(claim: &MachineClaim) -> String {
-    let Mechanism::Translational(legs) = &claim.mechanism else {
-        return "The Orthoglide of the paper's Steps 1 to 3".to_owned();
-    };
-    let names = [drive(&legs[0]), drive(&legs[1]), drive(&legs[2])];
-    let kinds = if names[0] == names[1] && names[1] == names[2] {
-        format!("three {}s", names[0])
-    } else {
-        names.join(", ")
-    };
-    let tolerances = legs.iter().flat_map(Leg::parameters).filter(|(_, q)| !q.is_exact()).count();
-    match tolerances {
-        0 => format!("A machine of {kinds}"),
-        1 => format!("Every machine of {kinds} within one tolerance"),
-        n => format!("Every machine of {kinds} within {n} tolerances"),
-    }
-}
-
-fn drive(leg: &Leg) -> &'static str {
-    match leg {
-        Leg::Slider { .. } => "slider",
-        Leg::Strut { .. } => "strut",
-        Leg::Arm { .. } => "arm",
-        Leg::Planar { .. } => "planar leg",
-    }
-}
-
-fn workspace(claim: &MachineClaim) -> String {
-    match &claim.workspace {
-        Workspace::Cube { side } => format!("the closed cube of side {}", readable(side)),
-        Workspace::Box { min, max } => {
-            let ends = |k: usize| format!("[{}, {}]", readable(&min[k]), readable(&max[k]));
-            format!("the box {} \u{d7} {} \u{d7} {}", ends(0), ends(1), ends(2))
-        }
-        Workspace::Cylinder { radius, z: [low, high], .. } => format!(
-            "the cylinder of radius {}, {} \u{2264} z \u{2264} {}",
-            readable(radius),
-            readable(low),
-            readable(high)
-        ),
+        Claim::Machine(_) | Claim::Postulate(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
     }
 }
 
@@ -182,80 +136,8 @@ fn asserted(claim: &Claim) -> Vec<String> {
             );
             out
         }
-        Claim::Machine(claim) => {
-            let psi = claim.requirements.transmission.as_ref();
-            let mut out = match (&claim.workspace, psi.and_then(|range| range.max.as_ref())) {
-                (Workspace::Cube { side }, Some(psi_max)) => {
-                    let mut out = of_cube(format!("= {}", number(psi_max)));
-                    let length = format!(
-                        "<var>q</var><sub>2</sub> \u{2212} <var>q</var><sub>1</sub> = {}",
-                        number(side)
-                    );
-                    out.insert(1, format!("{length}, which determines <var>L</var>"));
-                    out
-                }
-                _ => {
-                    let mut out = vec![everywhere("<var>W</var>, the workspace"), FREE.to_owned()];
-                    out.extend(psi.map(|range| within(range, "\u{3c8}<sub>i</sub>(<var>P</var>)")));
-                    out
-                }
-            };
-            out.extend(required(&claim.requirements, claim.mechanism.is_angular()));
-            out
-        }
+        Claim::Machine(_) => Vec::new(),
     }
-}
-
-/// The requirements but for those on the transmission factors.
-fn required(requirements: &Requirements, angular: bool) -> Vec<String> {
-    let mut out = Vec::new();
-    if let Some(ranges) = &requirements.joint_range {
-        let each = (1..)
-            .zip(ranges)
-            .map(|(i, range)| within(range, &format!("\u{3c1}<sub>{i}</sub>(<var>P</var>)")));
-        let degrees = if angular { ", in degrees" } else { "" };
-        out.push(each.collect::<Vec<_>>().join(", ") + degrees);
-    }
-    let at_most = |what: &str, x: &Exact| format!("{what} \u{2264} {}", number(x));
-    let at_least = |what: &str, x: &Exact| format!("{what} \u{2265} {}", number(x));
-    if let Some(bound) = &requirements.conditioning {
-        out.push(at_most(
-            "\u{3c3}<sub>max</sub>(<var>M</var>)/\u{3c3}<sub>min</sub>(<var>M</var>)",
-            &bound.max,
-        ));
-    }
-    if let Some(bound) = &requirements.serial_margin {
-        out.push(at_least("|\u{3b7}<sub>i</sub>|/<var>L</var><sub>i</sub>", &bound.min));
-    }
-    if let Some(bound) = &requirements.parallel_margin {
-        let determinant = "|det <var>A</var>|/(<var>L</var><sub>1</sub><var>L</var><sub>2</sub><var>L</var><sub>3</sub>)";
-        out.push(format!(
-            "{}, rows of <var>A</var> the leg vectors",
-            at_least(determinant, &bound.min)
-        ));
-    }
-    if let Some(bound) = &requirements.leg_angle {
-        out.push(at_most("angle between leg <var>i</var> and its guide, in degrees", &bound.max));
-    }
-    if let Some(bound) = &requirements.joint_speed {
-        let degrees = if angular { " \u{b7} 180/\u{3c0}" } else { "" };
-        let tool = number(&bound.tool);
-        let speed = format!("|row<sub>i</sub> of <var>M</var>| \u{b7} {tool}{degrees}");
-        let unit = if angular { ", in degrees per unit of time" } else { "" };
-        out.push(at_most(&speed, &bound.max) + unit);
-    }
-    out
-}
-
-fn within(Range { min, max }: &Range, what: &str) -> String {
-    let least = min.as_ref().map(|x| format!("{} \u{2264} ", number(x))).unwrap_or_default();
-    let most = max.as_ref().map(|x| format!(" \u{2264} {}", number(x))).unwrap_or_default();
-    format!("{least}{what}{most}")
-}
-
-/// A number in full where that is short; the statement above has all of it.
-fn number(x: &Exact) -> String {
-    xml(&readable(x))
 }
 
 /// Definitions, as markup.
@@ -278,9 +160,6 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
     const TURNED: &str = "<var>w</var> = <var>P</var> + <var>R</var><var>d</var> \u{2212} <var>a</var> for each leg, with its platform's joint <var>d</var> and its anchor <var>a</var>; \
          of a platform that turns, rows of <var>M</var> have the moments of the leg about <var>P</var> beside them";
     let (vectors, drives) = match claim {
-        Claim::Machine(MachineClaim { mechanism: Mechanism::Translational(legs), .. }) => {
-            (Some(OF_THREE), legs.iter().map(drive).collect())
-        }
         Claim::Kernel(kernel::MachineClaim {
             mechanism: kernel::Mechanism::Formulas(_), ..
         }) => (None, Vec::new()),
@@ -320,31 +199,27 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
     out
 }
 
-/// The machine's numbers: of each leg, exact; of the paper's cube, what follows from it.
-pub fn parameters(claim: &MachineClaim, machine: &Nominal) -> String {
-    match &claim.mechanism {
-        Mechanism::Translational(legs) => of_legs(legs),
-        Mechanism::Orthoglide { offset } => {
-            let (q1, side, length) =
-                (machine.frame.least[0], machine.frame.width[0], machine.frame.unit);
-            let e = approximate(offset).unwrap_or(0.0);
-            let rows = [
-                ("leg length L", length),
-                ("corner Q\u{2081}, every coordinate", q1),
-                ("corner Q\u{2082}, every coordinate", q1 + side),
-                ("base a, where \u{3c1} = 0", q1 - e - length),
-                ("offset e", e),
-            ];
-            let mut out = "<div class=\"table\"><table><thead><tr><th>follows from the claim</th>\
-                           <th class=\"number\">about</th></tr></thead><tbody>"
-                .to_owned();
-            for (name, value) in rows {
-                let value = significant(value, DIGITS);
-                let _ = write!(out, "<tr><td>{name}</td><td class=\"number\">{value}</td></tr>");
-            }
-            out + "</tbody></table></div>"
-        }
+/// The numbers of the paper's cube and its machine, which follow from the claim.
+pub fn parameters_of_cube(machine: &Nominal) -> Option<String> {
+    let Numbers::Slider { anchor, platform, length, .. } = &machine.legs[0] else {
+        return None;
+    };
+    let q1 = machine.least[0];
+    let rows = [
+        ("leg length L", *length),
+        ("corner Q\u{2081}, every coordinate", q1),
+        ("corner Q\u{2082}, every coordinate", q1 + machine.width[0]),
+        ("base a, where \u{3c1} = 0", anchor[0]),
+        ("offset e", 0.0 - platform[0]),
+    ];
+    let mut out = "<div class=\"table\"><table><thead><tr><th>follows from the claim</th>\
+                   <th class=\"number\">about</th></tr></thead><tbody>"
+        .to_owned();
+    for (name, value) in rows {
+        let value = significant(value, DIGITS);
+        let _ = write!(out, "<tr><td>{name}</td><td class=\"number\">{value}</td></tr>");
     }
+    Some(out + "</tbody></table></div>")
 }
 
 /// The factors at the corners and at the origin of the paper's cube.
@@ -361,34 +236,4 @@ pub fn corners(machine: &Nominal) -> String {
         out.push_str("</tr>");
     }
     out + "</tbody></table></div>"
-}
-
-fn of_legs(legs: &[Leg; 3]) -> String {
-    let named: Vec<Vec<(String, Quantity)>> = legs.iter().map(named_parameters).collect();
-    let mut names: Vec<&String> = Vec::new();
-    for (name, _) in named.iter().flatten() {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    let mut out = "<div class=\"table\"><table><thead><tr><th>parameter</th><th>leg 1</th>\
-                   <th>leg 2</th><th>leg 3</th></tr></thead><tbody>"
-        .to_owned();
-    for name in names {
-        let _ = write!(out, "<tr><td>{}</td>", xml(name));
-        for leg in &named {
-            let quantity = leg.iter().find(|(other, _)| other == name).map(|(_, q)| value(q));
-            let _ = write!(out, "<td>{}</td>", xml(&quantity.unwrap_or_default()));
-        }
-        out.push_str("</tr>");
-    }
-    out + "</tbody></table></div>"
-}
-
-fn value(q: &Quantity) -> String {
-    if q.is_exact() {
-        readable(&q.min)
-    } else {
-        format!("{} to {}", readable(&q.min), readable(&q.max))
-    }
 }

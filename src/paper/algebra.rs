@@ -1,7 +1,7 @@
 //! Findings that rest on identities.
 
 use super::{value, Agreement, Basis, Finding, NotEstablished};
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 
 /// `L` of the prototype, in mm.
 const LENGTH: &str = "200/(1/sqrt(18)+1/sqrt(6))";

@@ -10,9 +10,9 @@
 mod algebra;
 mod certified;
 
+use crate::exact::Exact;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::number::Exact;
 
 /// How a claim of the paper fares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,30 +14,23 @@ mod worst;
 
 pub use counterexample::{Counterexample, Setting};
 pub use kernel::{exactly, shown};
-pub use place::{named_parameters, point_text, Frame, FreeParameter};
+pub use place::{point_text, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
 
-use crate::sample::Sampler;
+use crate::exact::Exact;
 use crate::solver;
-use crate::verify::{worst_values, FINEST};
 use num_rational::BigRational;
-use orthocert_checker::certificate::{Proof, Verdict};
-use orthocert_checker::claim::{Claim, MachineClaim};
-use orthocert_checker::model::Model;
-use orthocert_checker::number::Exact;
+use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::claim::Claim;
 use orthocert_checker::TreeSize;
 use orthocert_kernel::certificate as of_kernel;
-use orthocert_kernel::claim::MachineClaim as KernelClaim;
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;
-
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::time::Duration;
-
-/// Fractional bits of the model from which values are sampled for the table.
-const MODEL_PRECISION: u32 = 128;
 
 /// What is known of a claim after a verification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,31 +131,24 @@ pub struct Size {
 impl Size {
     /// The size of a proof that the checker has accepted; `None` for a counterexample.
     pub fn accepted(proof: &Proof, size: &TreeSize) -> Option<Self> {
-        let precision = match proof {
-            Proof::Tree(tree) => tree.precision,
-            Proof::Kernel(of_kernel::Proof::Tree(tree)) => tree.precision,
-            Proof::Witness(_)
-            | Proof::Kernel(of_kernel::Proof::Witness(_) | of_kernel::Proof::Atlas(_)) => {
-                return None;
-            }
+        let Proof::Kernel(of_kernel::Proof::Tree(tree)) = proof else {
+            return None;
         };
+        let precision = tree.precision;
         let rules = size.steps.iter().map(|(rule, uses)| ((*rule).to_owned(), *uses)).collect();
         let TreeSize { leaves, nodes, depth, .. } = *size;
         Some(Size { leaves, nodes, depth, precision, rules })
     }
 }
 
-/// The requirements of a claim with the worst values that sampling finds; `None` if the claim's
+/// What a certificate's witness says against its claim; `None` of another certificate, and if its
 /// numbers exceed what can be shown.
-pub fn worst_found(claim: &MachineClaim) -> Option<Vec<Row>> {
-    let model = Model::new(claim, MODEL_PRECISION).ok()?;
-    let sampler = Sampler::new(claim, &model)?;
-    let frame = Frame::new(claim, &model)?;
-    Some(worst::rows(claim, &sampler, &frame, &worst_values(&sampler, FINEST)))
-}
-
-/// What a witness says against a claim; `None` if its numbers exceed what can be shown.
-pub fn counterexample(claim: &KernelClaim, witness: &of_kernel::Witness) -> Option<Counterexample> {
+pub fn counterexample(certificate: &Certificate) -> Option<Counterexample> {
+    let (Claim::Kernel(claim), Proof::Kernel(of_kernel::Proof::Witness(witness))) =
+        (&certificate.claim, &certificate.proof)
+    else {
+        return None;
+    };
     let problem = Problem::new(claim).ok()?;
     kernel::Facts::new(claim, &problem)?.counterexample(witness)
 }
@@ -212,7 +198,7 @@ impl Report {
     /// The facts about a verification of `claim`; `None` if it was cancelled, or if the claim's
     /// numbers exceed what can be shown.
     pub fn new(
-        claim: &KernelClaim,
+        claim: &MachineClaim,
         found: &solver::Verification,
         elapsed: Duration,
     ) -> Option<Self> {

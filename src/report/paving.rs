@@ -1,10 +1,10 @@
 //! What a paving holds, for people and for scripts.
 
 use crate::decimal::{grouped, percent, rounded, significant, Toward};
+use crate::exact::Exact;
 use crate::paving::{box_ends, box_volume, Component, Components, Paved};
 use num_rational::BigRational;
 use num_traits::Zero;
-use orthocert_checker::number::Exact;
 use orthocert_checker::shown::Shown;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{Share, Shares, SHARE_BITS};

@@ -237,12 +237,7 @@ fn describe_counterexample(out: &mut String, found: &Counterexample, coordinates
     }
 }
 
-fn point(
-    out: &mut String,
-    label: &str,
-    point: &[orthocert_checker::number::Exact],
-    coordinates: &[String],
-) {
+fn point(out: &mut String, label: &str, point: &[crate::exact::Exact], coordinates: &[String]) {
     let values: Vec<String> = point.iter().map(exact).collect();
     if values.iter().all(|value| value.len() <= SHORT_COORDINATE) {
         return labelled(out, label, &format!("({})", values.join(", ")));

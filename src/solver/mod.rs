@@ -112,10 +112,7 @@ pub fn verify(
     let problem = Problem::new(claim)?;
     let sampler = Sampler::new(claim, &problem)?;
     let mut worst = sampler.worst_values(FINEST);
-    if let Some(witness) = refute::refutation(claim, &problem, &sampler, &worst) {
-        return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
-    }
-    if let Some(witness) = same::refutation(claim, &problem, &sampler) {
+    if let Some(witness) = on_the_spot(claim, &problem, &sampler, &worst) {
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
     let prover = Prover::new(&problem)?;
@@ -139,6 +136,17 @@ pub fn verify(
     Ok(Verification { answer, worst, boxes })
 }
 
+/// A witness against a claim that sampling alone finds.
+fn on_the_spot(
+    claim: &MachineClaim,
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    worst: &[Worst],
+) -> Option<Witness> {
+    refute::refutation(claim, problem, sampler, worst)
+        .or_else(|| same::refutation(claim, problem, sampler))
+}
+
 /// The top of a claim's tree, to be grown in parts: as [`verify`] begins, but for at most so many boxes
 /// in a level. `None` if the claim is refuted on the spot.
 ///
@@ -152,9 +160,7 @@ pub fn top(
     let problem = Problem::new(claim)?;
     let sampler = Sampler::new(claim, &problem)?;
     let worst = sampler.worst_values(FINEST);
-    let is_refuted = refute::refutation(claim, &problem, &sampler, &worst).is_some()
-        || same::refutation(claim, &problem, &sampler).is_some();
-    if is_refuted {
+    if on_the_spot(claim, &problem, &sampler, &worst).is_some() {
         return Ok(None);
     }
     let prover = Prover::new(&problem)?;

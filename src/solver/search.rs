@@ -239,20 +239,23 @@ type InPreorder = (Vec<Node>, Vec<Open>, Vec<(usize, Branch)>);
 fn in_preorder(tree: Vec<Growing>, path: &[(usize, bool)]) -> InPreorder {
     let (mut nodes, mut open) = (Vec::with_capacity(tree.len()), Vec::new());
     let mut untried = Vec::new();
-    let mut waiting = vec![(0, path.to_vec())];
-    while let Some((at, path)) = waiting.pop() {
+    // Of each node how long the path above it is, and the half that it is.
+    let (mut path, mut waiting) = (path.to_vec(), vec![(0, path.len(), None)]);
+    while let Some((at, above, half)) = waiting.pop() {
+        path.truncate(above);
+        path.extend(half);
         let grown = &tree[at];
         nodes.push(grown.node.clone());
         match (grown.halves, grown.node.split) {
             (Some([lower, upper]), Some(k)) => {
-                let to = |is_upper| path.iter().copied().chain([(k, is_upper)]).collect();
-                waiting.extend([(upper, to(true)), (lower, to(false))]);
+                let to = |half, is_upper| (half, path.len(), Some((k, is_upper)));
+                waiting.extend([to(upper, true), to(lower, false)]);
             }
             _ if grown.item.obligations.is_empty() => {}
             _ if grown.tried => open.push(grown.item.clone()),
             _ => {
                 open.push(grown.item.clone());
-                let branch = Branch { path, open: grown.item.obligations.clone() };
+                let branch = Branch { path: path.clone(), open: grown.item.obligations.clone() };
                 untried.push((nodes.len() - 1, branch));
             }
         }

@@ -1,7 +1,7 @@
 //! `pave`, and `check` of pavings.
 
 use crate::support::{Folder, Run};
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use orthocert_kernel::certificate::Failure;
 use orthocert_kernel::paving::{Item, Kind, Outer, Reader, Step};
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! `size`: both ends against the closed form, scales, and what is refused.
 
 use crate::support::Folder;
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {

@@ -8,12 +8,12 @@ use crate::support::{legs, Machine};
 use nalgebra::Matrix3;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use orthocert::exact::Exact;
 use orthocert::sample::{Place, Sampler};
 use orthocert::search::{Budget, Control};
 use orthocert::solver::extremes::{enclose, is_singular, Extreme as Bounded, NotEnclosed};
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::model::Model;
-use orthocert_checker::number::Exact;
 use std::sync::atomic::AtomicBool;
 
 /// A firmware's kinematics; joint coordinates of arms are degrees.

@@ -1,9 +1,9 @@
 //! Imported designs, for tests.
 
 use orthocert::design::Design;
+use orthocert::exact::Exact;
 use orthocert::import::{Files, ImportError, Imported, Importer};
 use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity, Workspace};
-use orthocert_checker::number::Exact;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

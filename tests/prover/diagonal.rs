@@ -11,9 +11,9 @@
 use super::machines::{exact, orthoglide};
 use super::random::Random;
 use super::{verdict, verified};
+use orthocert::exact::Exact;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::claim::{MachineClaim, Range};
-use orthocert_checker::number::Exact;
 
 /// A random cube: the tangents as texts, and its claim without requirements.
 struct Cube {

@@ -4,6 +4,7 @@ use super::machines::{self, random_cell, random_lambda, reference, within_cell, 
 use super::random::Random;
 use num_bigint::BigInt;
 use num_rational::BigRational;
+use orthocert::exact::Exact;
 use orthocert::interval::Interval;
 use orthocert_checker::claim::{MachineClaim, Workspace};
 use orthocert_checker::definite::is_positive_definite;
@@ -12,7 +13,6 @@ use orthocert_checker::expansion::{Expansion, ExpansionPoint, Region};
 use orthocert_checker::fixed::Fixed;
 use orthocert_checker::linear::{determinant, Symmetric};
 use orthocert_checker::model::Model;
-use orthocert_checker::number::Exact;
 use serde_json::Value;
 
 /// Whether an interval of finite doubles contains all of an exact enclosure, up to the width of

@@ -59,10 +59,10 @@ fn alternatives(value: &Value) -> Vec<Value> {
             let words = ["x", "y", "z", "Q1", "Q2", "upper", "cube", "range", "+", "-"];
             let words = words.iter().chain(&["certified", "refuted", "orthocert/2", "0", "1"]);
             all.extend(words.map(|word| json!(word)));
-            if let Ok(number) = orthocert_checker::number::Exact::parse(text, 1000) {
+            if let Ok(number) = orthocert::exact::Exact::parse(text, 1000) {
                 for change in ["+1", "-1", "+1/1000000", "-1/1000000", "*2", "/2", "*(-1)"] {
                     let altered = format!("({number}){change}");
-                    let altered = orthocert_checker::number::Exact::parse(&altered, 1000).unwrap();
+                    let altered = orthocert::exact::Exact::parse(&altered, 1000).unwrap();
                     all.push(json!(altered.to_string()));
                 }
             }

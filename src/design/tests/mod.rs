@@ -12,8 +12,8 @@ mod refused_numbers;
 mod variable;
 
 use super::{document, Defect, Design, DesignError};
+use crate::exact::Exact;
 use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
-use orthocert_checker::number::Exact;
 
 /// An Orthoglide on a box.
 const BOX: &str = r#"title = "box"

@@ -2,8 +2,8 @@
 
 use super::{BOX, CUBE, LEGS};
 use crate::design::{Defect, Design, DesignError, Variable};
+use crate::exact::Exact;
 use num_rational::BigRational;
-use orthocert_checker::number::Exact;
 
 fn variable<'a>(text: &'a str, key: &str) -> Variable<'a> {
     Variable::find(text, "design", key).unwrap_or_else(|error| panic!("{error}"))

@@ -2,11 +2,11 @@
 //! floating point and stores a `float`; the number that is written is the one that is meant.
 
 use super::source::Token;
+use crate::exact::Exact;
 use crate::import::toml::Number;
 use crate::import::towers::written;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
-use orthocert_checker::number::Exact;
 
 /// What is accepted as a value.
 pub(super) const EXPECTED: &str = "decimal numbers and macros of such, with + - * / ( )";

@@ -13,7 +13,7 @@ use super::settings::Settings;
 use super::toml::{cylinder, factors_per_radian, Arm, Machine, Number, FACTORS};
 use super::towers::{highest, sum, Tower, TOWERS};
 use super::{ImportError, Imported, Setting};
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 use script::{Kinematics, Script};
 use std::cmp::Ordering;
 use std::path::PathBuf;

@@ -13,7 +13,7 @@ use super::settings::Settings;
 use super::toml::{cylinder, factors_per_radian, quoted, Arm, Machine, Number, FACTORS};
 use super::towers::{difference, highest, sum, Tower, TOWERS};
 use super::{ImportError, Imported};
-use orthocert_checker::number::Exact;
+use crate::exact::Exact;
 use std::cmp::Ordering;
 use std::path::PathBuf;
 

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use orthocert_fuzz::edits::{edits, paths};
 use orthocert_fuzz::examine;
 use orthocert_fuzz::reader::Reader;

@@ -5,7 +5,7 @@
 use libfuzzer_sys::fuzz_target;
 use num_traits::ToPrimitive;
 use orthocert_checker::fixed::Fixed;
-use orthocert_checker::number::Exact;
+use orthocert::exact::Exact;
 use std::cmp::Ordering;
 
 /// A value and a bound on its error in doubles; `None` where it cannot be told.
