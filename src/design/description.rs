@@ -5,8 +5,9 @@
 //! ([`Description::machine`]); every other one a claim of the kernel ([`Description::kernel`]).
 
 use super::exactly::{between, written};
+use super::leg::{self, WorkingMode};
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, AtLeast, AtMost, JointSpeed, Range, WorkingMode};
+use orthocert_checker::claim::{self as checker, AtLeast, AtMost, JointSpeed, Range};
 use orthocert_kernel::claim::{self as kernel, Body, Formulas, Orientation, Turning};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::quantity::TABLE;
@@ -47,9 +48,9 @@ pub(super) enum Motion {
 
 /// A leg.
 pub(super) struct Leg {
-    pub drive: checker::Leg,
+    pub drive: leg::Leg,
     /// The axis of a strut's universal joint that is fixed to the base.
-    pub base_axis: Option<[checker::Quantity; 3]>,
+    pub base_axis: Option<[leg::Quantity; 3]>,
 }
 
 /// A closed set of points; empty corners where no coordinate is one of a point.
@@ -263,7 +264,7 @@ pub fn in_the_kernel(claim: &checker::MachineClaim) -> Option<kernel::MachineCla
     let mechanism = match &claim.mechanism {
         checker::Mechanism::Orthoglide { offset } => Mechanism::OfCube { offset: offset.clone() },
         checker::Mechanism::Translational(legs) => {
-            let leg = |drive: &checker::Leg| Leg { drive: drive.clone(), base_axis: None };
+            let leg = |drive: &leg::Leg| Leg { drive: drive.clone(), base_axis: None };
             Mechanism::Legs { motion: Motion::Translational, legs: legs.iter().map(leg).collect() }
         }
     };
@@ -400,7 +401,7 @@ fn all(numbers: &[Exact]) -> Option<Vec<Expression>> {
 }
 
 fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
-    let vector = |vector: &[checker::Quantity; 3]| -> Option<kernel::Vector> {
+    let vector = |vector: &[leg::Quantity; 3]| -> Option<kernel::Vector> {
         vector.iter().take(if in_plane { 2 } else { 3 }).map(between).collect()
     };
     let sign = |mode: WorkingMode| match mode {
@@ -408,14 +409,14 @@ fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
         WorkingMode::Minus => kernel::Sign::Minus,
     };
     Some(match &leg.drive {
-        checker::Leg::Slider { direction, anchor, platform, length, mode } => kernel::Leg::Slider {
+        leg::Leg::Slider { direction, anchor, platform, length, mode } => kernel::Leg::Slider {
             direction: vector(direction)?,
             anchor: vector(anchor)?,
             platform: vector(platform)?,
             length: between(length)?,
             mode: sign(*mode),
         },
-        checker::Leg::Strut { anchor, platform } => kernel::Leg::Strut {
+        leg::Leg::Strut { anchor, platform } => kernel::Leg::Strut {
             anchor: vector(anchor)?,
             platform: vector(platform)?,
             base_axis: match &leg.base_axis {
@@ -423,7 +424,7 @@ fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
                 None => None,
             },
         },
-        checker::Leg::Arm { axis, reference, anchor, platform, arm, length, mode } => {
+        leg::Leg::Arm { axis, reference, anchor, platform, arm, length, mode } => {
             kernel::Leg::Arm {
                 axis: if in_plane { Vec::new() } else { vector(axis)? },
                 reference: vector(reference)?,
@@ -434,6 +435,6 @@ fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
                 mode: sign(*mode),
             }
         }
-        checker::Leg::Planar { direction } => kernel::Leg::Planar { direction: vector(direction)? },
+        leg::Leg::Planar { direction } => kernel::Leg::Planar { direction: vector(direction)? },
     })
 }

@@ -2,13 +2,13 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
+use super::leg;
 use super::number::{self, WITHIN_LIMITS};
 use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
-use orthocert_checker::claim as checker;
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::number::{Expression, Operator};
 
@@ -37,7 +37,7 @@ fn too_long(value: &Value<'_>) -> DesignError {
 }
 
 /// The quantity with the same ends.
-pub(super) fn between(quantity: &checker::Quantity) -> Option<Quantity> {
+pub(super) fn between(quantity: &leg::Quantity) -> Option<Quantity> {
     let min = written(&quantity.min)?;
     Some(match quantity.is_exact() {
         true => Quantity::Exactly(min),

@@ -3,9 +3,9 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
+use super::leg::{Leg, Quantity};
 use crate::exact::{enclosed, Exact, NumberErrorKind};
 use num_traits::Signed;
-use orthocert_checker::claim::{Leg, Quantity};
 use orthocert_kernel::fixed::Interval;
 
 /// Fractional bits in which the sign of a number that is not tiny shows.

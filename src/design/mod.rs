@@ -30,6 +30,7 @@ mod exactly;
 mod expression;
 mod formulas;
 mod independence;
+mod leg;
 mod mechanism;
 mod notation;
 mod number;

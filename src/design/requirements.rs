@@ -5,10 +5,11 @@
 use super::description::{Bound, Demand, Leg, Mechanism, Motion};
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
+use super::leg;
 use super::mechanism::Machine;
 use super::number::{exact, not_negative, ordered, positive};
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, Range};
+use orthocert_checker::claim::Range;
 use std::cmp::Ordering;
 use toml::de::DeValue;
 
@@ -299,7 +300,7 @@ fn leg_angle(
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
     let of = ["legs without a guide", "leg_angle for sliders: other legs have no guide"];
-    all_legs(value, machine, |leg| matches!(leg.drive, checker::Leg::Slider { .. }), of)?;
+    all_legs(value, machine, |leg| matches!(leg.drive, leg::Leg::Slider { .. }), of)?;
     Ok(vec![Demand::of(key, Bound::Max(max))])
 }
 
