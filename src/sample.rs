@@ -67,14 +67,6 @@ impl Quality {
     }
 }
 
-/// A quantity's name with its unit in a table, where the unit has an angle in it.
-pub fn with_unit(name: &str, unit: Option<&str>) -> String {
-    match unit.filter(|unit| !unit.starts_with("length") || unit.ends_with("rad")) {
-        Some(unit) => format!("{name}, {unit}"),
-        None => name.to_owned(),
-    }
-}
-
 /// What is found at a place.
 #[derive(Clone, Debug)]
 pub struct Values {

@@ -4,9 +4,8 @@ use crate::interval::Interval;
 use crate::refute;
 use crate::sample::{Place, Quality, Sampler};
 use crate::search::{self, Budget, Control, OpenBox, Stop};
-use orthocert_checker::certificate::{
-    Certificate, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
-};
+pub(crate) use crate::solver::certificate;
+use orthocert_checker::certificate::{Certificate, Proof, Tree, Verdict, Witness};
 use orthocert_checker::claim::{Claim, ClaimError, MachineClaim};
 use orthocert_checker::enclosure::Enclosure;
 use orthocert_checker::model::Model;
@@ -122,19 +121,6 @@ pub(crate) fn accepted(claim: Claim, proof: impl Fn(u32) -> Proof) -> Answer {
         }
     }
     Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
-}
-
-pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
-    Certificate {
-        format: FORMAT.to_owned(),
-        claim,
-        verdict,
-        proof,
-        provenance: Provenance {
-            tool: env!("CARGO_PKG_NAME").to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-        },
-    }
 }
 
 /// The refutation by a witness, once the checker has accepted it.

@@ -218,7 +218,7 @@ fn values_are_short_decimals_well_between() {
 
 #[test]
 fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
-    use crate::verify::certificate;
+    use crate::solver::certificate;
     use orthocert_checker::certificate::Proof;
     use orthocert_checker::claim::Claim;
     use orthocert_kernel::certificate::{self as kernel, Failure};

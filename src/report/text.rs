@@ -6,7 +6,7 @@ use super::{
     Report, Row, Size,
 };
 use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
-use crate::sample::with_unit;
+use crate::solver::value::with_unit;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Shown;

@@ -38,9 +38,8 @@ pub mod value;
 mod violation;
 
 use crate::search::{Budget, Control, Stop};
-use crate::verify::certificate;
 use evidence::Prover;
-use orthocert_checker::certificate::{Certificate, Proof, Verdict};
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use orthocert_checker::claim::Claim;
 use orthocert_checker::{check, Accepted, Rejected};
 use orthocert_kernel::certificate::{self as kernel, Node, Tree, Witness};
@@ -270,6 +269,20 @@ pub(crate) fn confirmed(
         }
     }
     Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
+}
+
+/// A certificate by this program.
+pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
+    Certificate {
+        format: FORMAT.to_owned(),
+        claim,
+        verdict,
+        proof,
+        provenance: Provenance {
+            tool: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+    }
 }
 
 /// The refutation by a witness, once the checker has accepted it.
