@@ -14,7 +14,6 @@ use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::solver;
-use orthocert::verify::{verify, Answer};
 use orthocert_checker::cell::{Cell, MAX_LEVEL};
 use orthocert_checker::certificate::{
     Certificate, Verdict, MAX_BYTES, MAX_CELLS, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
@@ -92,13 +91,9 @@ fn decided(claim: &Claim) -> Certificate {
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let found = match claim {
-        Claim::Machine(claim) => match verify(claim, budget, &mut control).unwrap().answer {
-            Answer::Decided { certificate, .. } => return *certificate,
-            other => panic!("{other:?}"),
-        },
         Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control),
         Claim::Kernel(claim) => solver::verify(claim, budget, &mut control),
-        Claim::NoCube(_) | Claim::Atlas(_) => panic!("not of a machine"),
+        _ => panic!("not of a machine"),
     };
     match found.unwrap().answer {
         solver::Answer::Decided { certificate, .. } => *certificate,
