@@ -7,7 +7,6 @@ use crate::solver::search::Branch;
 use orthocert_checker::cell::{Cell, Edge};
 use orthocert_checker::certificate::AtlasCell;
 use orthocert_checker::file;
-use orthocert_checker::rule::Obligation;
 use orthocert_checker::shown::{Named, Shown};
 use orthocert_kernel::certificate::Node;
 use serde::de::DeserializeOwned;
@@ -23,14 +22,11 @@ const JOB: &str = "orthocert-job/1";
 const SHARD: &str = "orthocert-shard/1";
 const RESULT: &str = "orthocert-result/1";
 
-/// A cell in a file: index and level of its edges; but for cells of an atlas, also what is open on
-/// it.
+/// A cell in a file: index and level of its edges.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
     pub(super) edges: [(u64, u32); 3],
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) open: Vec<Obligation>,
     /// Of a paving, what is open by its number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) left: Vec<usize>,
@@ -41,12 +37,12 @@ const MAX_LEVEL: u32 = 60;
 
 impl Place {
     /// The place of a cell; `None` beyond the depth of files.
-    pub fn of(cell: &Cell, open: Vec<Obligation>) -> Option<Self> {
+    pub fn of(cell: &Cell) -> Option<Self> {
         let mut edges = [(0, 0); 3];
         for (place, edge) in edges.iter_mut().zip(&cell.edges) {
             *place = (u64::try_from(edge.index).ok()?, edge.level);
         }
-        let place = Place { edges, open, left: Vec::new() };
+        let place = Place { edges, left: Vec::new() };
         place.cell().is_some().then_some(place)
     }
 
@@ -333,13 +329,11 @@ mod tests {
 
     #[test]
     fn places_beyond_the_box_are_no_cells() {
-        let root = Place::of(&Cell::ROOT, Vec::new());
+        let root = Place::of(&Cell::ROOT);
         assert_eq!(root.and_then(|place| place.cell()), Some(Cell::ROOT));
         for edge in [(1, 0), (2, 1), (0, 61), (u64::MAX, 20)] {
-            assert_eq!(
-                Place { edges: [(0, 0), edge, (0, 0)], open: Vec::new(), left: Vec::new() }.cell(),
-                None
-            );
+            let place = Place { edges: [(0, 0), edge, (0, 0)], left: Vec::new() };
+            assert_eq!(place.cell(), None);
         }
     }
 }

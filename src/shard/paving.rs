@@ -46,7 +46,7 @@ pub(super) fn top(
                 // No axis of a paving is split more often than files can tell.
                 let edges =
                     root.cell.edges.map(|Edge { index, level }| cell::Edge { index, level });
-                let place = Place::of(&cell::Cell { edges }, Vec::new());
+                let place = Place::of(&cell::Cell { edges });
                 places.extend(place.map(|place| Place { left: parts.open(&root), ..place }));
                 Stretch::Waiting
             }

@@ -90,7 +90,7 @@ fn of_atlas(
         Stopped::TooLarge => SplitError::TooLarge,
     })?;
     let cells = waiting(&top).unwrap_or_default();
-    let places = cells.iter().filter_map(|cell| Place::of(cell, Vec::new())).collect();
+    let places = cells.iter().filter_map(Place::of).collect();
     Ok((JobTop::Cells(top), places))
 }
 
