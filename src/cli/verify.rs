@@ -105,7 +105,7 @@ fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
         let found = effort.run(find).ok()?;
         Some(Margin::of(&extreme, found.outer, angular))
     };
-    let all = Extreme::bounded(claim, problem.legs.len());
+    let all = Extreme::required(claim, problem.legs.len());
     all.into_iter().filter_map(enclosed).collect()
 }
 

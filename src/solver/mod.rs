@@ -16,6 +16,7 @@
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
 //! | [`value`]  | a quantity at a place, in the claim's own unit                              |
 //! | [`extremes`] | encloses how small and how large each quantity gets                       |
+//! | [`sector`] | encloses the angles that a joint takes                                      |
 //!
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
@@ -34,6 +35,7 @@ mod rows;
 mod same;
 pub mod sample;
 pub mod search;
+pub mod sector;
 pub mod value;
 mod violation;
 
