@@ -39,6 +39,7 @@
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
 //! | [`size`]         | the smallest machine for an axis-aligned cube of a given side         |
 //! | [`solver`]       | decides claims about machines of every kind; encloses extremes        |
+//! | [`summary`]      | what a designer reads first: how far quantities go, the nearest limit |
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
 //! | [`verify`]       | decides a claim of the rules, for cubes and maps                      |
 
@@ -78,5 +79,6 @@ pub mod search;
 pub mod shard;
 pub mod size;
 pub mod solver;
+pub mod summary;
 pub mod tolerance;
 pub mod verify;

@@ -101,7 +101,7 @@ fn legs(mechanism: &Mechanism) -> &[Leg] {
 }
 
 /// The parameters of a leg.
-fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
+pub(crate) fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
     fn vector(kind: Kind, x: &mut Vector) -> impl Iterator<Item = (Kind, &mut Quantity)> {
         x.iter_mut().map(move |x| (kind, x))
     }
@@ -186,7 +186,7 @@ impl Scheme {
 }
 
 /// `nominal - t` to `nominal + t`.
-fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
+pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
     let both = |operator, a: &Expression, b: &Expression| {
         Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()))
     };

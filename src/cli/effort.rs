@@ -17,8 +17,8 @@ pub const MAX_THREADS: u64 = 1024;
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
-    /// Boxes after which a search gives up [default: 500000; in bounds, limit, size and tolerance,
-    /// which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
+    /// Boxes after which a search gives up [default: 500000; in bounds, limit, size, summary and
+    /// tolerance, which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h

@@ -378,7 +378,7 @@ fn bound_text(relation: &str, sides: Vec<String>) -> String {
 }
 
 /// The leg, counted from one, and the parameter that a place of the claim names: `leg 1: anchor.0`.
-fn parameter(place: &str) -> (Option<usize>, String) {
+pub fn parameter(place: &str) -> (Option<usize>, String) {
     let split = place.strip_prefix("leg ").and_then(|rest| rest.split_once(": "));
     let (leg, name) = match split {
         Some((leg, name)) => (leg.parse().ok(), name),

@@ -13,7 +13,7 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use kernel::{exactly, shown};
+pub use kernel::{exactly, parameter, shown, Facts};
 pub use place::{named_parameters, point_text, Frame, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
