@@ -227,11 +227,13 @@ impl Problem {
                     let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
                     all.copied().chain([weight]).collect()
                 }
+                Test::OneToOne(rows) => {
+                    rows.iter().flat_map(|row| row.a.iter().chain([&row.d])).copied().collect()
+                }
                 Test::AtLeast(f) => vec![*f],
                 // These have no form for control points.
                 Test::Beyond(..)
                 | Test::Least(..)
-                | Test::OneToOne(_)
                 | Test::Solve(_)
                 | Test::Accuracy(_)
                 | Test::Apart(_)

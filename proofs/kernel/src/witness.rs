@@ -8,7 +8,7 @@ use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Op, Values};
+use crate::formula::{Formula, Op, Values};
 use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
@@ -177,22 +177,27 @@ impl<'a> AtPoint<'a> {
             point,
             parameters,
         };
-        if at.is_turned() {
+        if at.is_turned(&at.point, |g| at.values.of(g)) {
             Ok(at)
         } else {
             Err(WitnessError::Outside)
         }
     }
 
-    /// Whether coordinates of orientation are certainly those of one of the claim.
-    fn is_turned(&self) -> bool {
-        let c = self.point.iter().skip(self.problem.corners[0].len());
+    /// Whether coordinates of orientation, of a point or a box, are certainly those of the claim's;
+    /// `value` encloses its inequality there.
+    fn is_turned<'v>(
+        &self,
+        point: &[Number],
+        value: impl Fn(Formula) -> Option<&'v Number>,
+    ) -> bool {
+        let c = point.iter().skip(self.problem.corners[0].len());
         let bits = self.arithmetic.bits();
         let in_box = c.zip(&self.problem.orientation).all(|(c, [min, max])| {
             let ends = min.enclose(bits, None).zip(max.enclose(bits, None));
             ends.is_some_and(|(min, max)| min.hi <= c.lo && c.hi <= max.lo)
         });
-        let g = self.problem.turned.map(|g| self.values.of(g));
+        let g = self.problem.turned.map(value);
         in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
     }
 

@@ -175,6 +175,8 @@ fn a_hexapod_and_its_orientations() {
         let text = with(SPATIAL, &[(15, &format!("orientation = {written}"))]);
         assert_eq!(shown(&text)["orientation"], expected, "{written}");
     }
+    let one_to_one = shown(&with(SPATIAL, &[(17, "one_to_one = true")]));
+    assert_eq!(one_to_one["require"], json!([{ "quantity": "one_to_one", "end": "holds" }]));
     let cylinder = with(
         SPATIAL,
         &[(13, "cylinder = { center = [0, 1], radius = 4, z = [16, 24] }"), (14, "")],

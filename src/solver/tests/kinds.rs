@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::solver::value::Bounded;
-use orthocert_kernel::claim::Body;
+use orthocert_kernel::claim::{Body, Workspace};
 use std::f64::consts::TAU;
 
 fn on_circle(radius: f64, degrees: f64) -> String {
@@ -245,6 +245,53 @@ fn bodies_keep_their_distance() {
     both.require.insert(0, Requirement { given, leg: Some(1), ..angle });
     let greatest = worst(&both);
     assert!((20.0..60.0).contains(&greatest), "{greatest}");
+}
+
+#[test]
+fn platforms_that_turn_are_one_to_one() {
+    for (name, machine, most) in [
+        ("hexapod, angle", hexapod(ANGLE), 1),
+        ("hexapod, tilt", hexapod(TILT), 1),
+        ("hexapod, roll", hexapod(ROLL_PITCH_YAW), 1),
+        ("about a point, angle", spherical(ANGLE), 1),
+        ("about a point, tilt", spherical(TILT), 1),
+        ("about a point, roll", spherical(ROLL_PITCH_YAW), 1),
+        ("3-RPR", three_rpr(), 1),
+    ] {
+        let claim = asking(&machine, "one_to_one", &[], Bound::Holds);
+        let started = std::time::Instant::now();
+        let (certificate, accepted) = decided(&claim);
+        assert_eq!(accepted.verdict, Verdict::Certified, "{name}");
+        let leaves = accepted.size.leaves;
+        println!("{name}: {leaves} leaves, {:?}", started.elapsed());
+        assert!(leaves <= most, "{name}: {leaves}");
+        let Proof::Kernel(Proven::Tree(tree)) = certificate.proof else { panic!("a tree") };
+        assert!(tree.chords.is_some());
+    }
+}
+
+/// Collinear joints: a pose and its mirror image have the same joint coordinates.
+#[test]
+fn platforms_that_turn_are_not_one_to_one() {
+    let leg = |base: &str, platform: &str| {
+        strut(&format!(r#""{base}","0""#), &format!(r#""{platform}","0""#))
+    };
+    let legs = [("-1", "-0.5"), ("0.2", "0.1"), ("1", "0.4")].map(|(a, b)| leg(a, b));
+    let workspace = r#"{"min":["-0.3","-1.2"],"max":["0.3","1.1"]}"#;
+    let collinear = turning("planar", &legs, workspace, r#"{"range":["-20","20"]}"#);
+    let mut flat = hexapod(TILT);
+    let Workspace::Box { min, max } = &mut flat.workspace else { panic!("a box") };
+    (min[2], max[2]) = (decimal(-1.3), decimal(1.2));
+    for machine in [collinear, flat] {
+        let claim = asking(&machine, "one_to_one", &[], Bound::Holds);
+        // Between them is a singularity.
+        assert_eq!(decided(&claim).1.verdict, Verdict::Refuted);
+        let problem = Problem::new(&claim).expect("a claim");
+        let sampler = Sampler::new(&claim, &problem).expect("numbers");
+        let witness = crate::solver::same::refutation(&claim, &problem, &sampler);
+        let witness = witness.expect("two poses");
+        assert!(matches!(witness.fails, Failure::Same { .. }), "{:?}", witness.fails);
+    }
 }
 
 /// `(x + i y)^3` is regular but at zero, and takes some values twice where arguments differ by a third of

@@ -479,6 +479,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, rows, *c, (y, mu))
             }
+            (Test::OneToOne(rows), Evidence::Chords) => {
+                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
+            }
             (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
                 at_least_there(over, *f)
             }
@@ -492,9 +495,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 sigma_min(over, rows, &constant(kappa), y)
-            }
-            (Test::OneToOne(rows), Evidence::Chords) => {
-                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
             }
             (Test::Solve(test), Evidence::Lower(y)) => solve(over, test, y),
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {

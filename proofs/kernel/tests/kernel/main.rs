@@ -16,6 +16,7 @@ mod machines;
 mod motions;
 mod no_cube;
 mod pavings;
+mod poses;
 mod postulate;
 mod prover;
 mod quantities;

@@ -105,7 +105,8 @@ impl<'a> Prover<'a> {
             }
             Some(a)
         };
-        let at: Vec<DMatrix<f64>> = self.grid(5).iter().filter_map(|x| matrix(x)).collect();
+        let at: Vec<DMatrix<f64>> =
+            self.grid(if m > 3 { 2 } else { 5 }).iter().filter_map(|x| matrix(x)).collect();
         let mean = at.iter().fold(DMatrix::zeros(rows.len(), m), |sum, a| sum + a);
         let mut y = mean.pseudo_inverse(1e-9).ok()?.transpose().normalize();
         let (mut best, mut value) = (y.clone(), f64::MIN);
@@ -329,6 +330,7 @@ impl<'a> Prover<'a> {
             }
             Test::SigmaMin(kappa) => starts(number(kappa).sqrt()).map(Evidence::Lower).collect(),
             Test::SigmaMax(_) | Test::AtLeast(_) => vec![Evidence::Test],
+            Test::OneToOne(_) => vec![Evidence::Chords],
             Test::Conditioning(c) => {
                 let mu = self.between(over, number(c))?;
                 let terms = vec![(mu * f64::from(PLACES).exp2()) as i64];
