@@ -188,8 +188,10 @@ pub(super) fn less(a: &str, b: &str) -> bool {
 pub(super) struct Machine {
     /// What it is, for the title.
     pub title: &'static str,
+    /// How its platform moves.
+    pub kind: &'static str,
     /// The legs' tables, in the order of the firmware's joints.
-    pub legs: [String; 3],
+    pub legs: Vec<String>,
     /// The lines of `[workspace]`.
     pub workspace: String,
     /// Those of `[requirements]`.
@@ -289,11 +291,13 @@ pub(super) fn document(name: &str, machine: &Machine, imported: &Imported) -> St
         imported.ignored.iter().map(ToString::to_string).collect(),
     );
     list("Not in the configuration, or not expressible here:", imported.not_carried_over.clone());
-    let [first, second, third] = &machine.legs;
     text.push_str(&format!(
-        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"translational\"\n\n\
-         {first}\n{second}\n{third}\n[workspace]\n{}\n[requirements]\n{}",
-        machine.workspace, machine.requirements
+        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"{}\"\n\n{}\n[workspace]\n{}\n\
+         [requirements]\n{}",
+        machine.kind,
+        machine.legs.join("\n"),
+        machine.workspace,
+        machine.requirements
     ));
     text
 }
