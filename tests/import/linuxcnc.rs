@@ -485,7 +485,7 @@ fn hexapods() {
         ("setp genhexkins.base.0.w 1", "machine.hal:2: found a line"),
         ("setp genhexkins.base.0.x [HEX]X", "found \"[HEX]X\""),
         ("net tool-offset genhexkins.tool-offset motion.tooloffset.z", "motion.tooloffset.z"),
-        ("loadrt pentakins", "genhexkins and pentakins"),
+        ("loadrt pentakins", "five struts on rings about the spindle"),
     ] {
         let error = hal(&format!("{module}{lines}\n")).expect_err(lines).to_string();
         assert!(error.contains(told), "{lines}: {error}");
