@@ -24,6 +24,8 @@ const STEPS: usize = 12;
 const HALF: f64 = 1e-6;
 /// What the points differ by at least, in parts.
 const APART: f64 = 1e-2;
+/// Part of the workspace, about its middle, in which a platform that turns has the first pose.
+const INNER: f64 = 0.9;
 /// Steps of differences, in parts.
 const STEP: f64 = 1e-5;
 /// Decimal places of the first point's parts.
@@ -43,12 +45,21 @@ pub fn refutation(
     let grid = sampler.grid();
     let spread = |n: usize| grid.iter().step_by(grid.len().div_ceil(n).max(1));
     spread(TRIED[0]).find_map(|start| {
-        let first = point(claim, problem, sampler, &start.u, DIGITS)?;
+        // What has the joint coordinates of a pose at an edge is often at another one.
+        let off = |u: &f64| 0.5 + if problem.weight.is_some() { INNER } else { 1.0 } * (u - 0.5);
+        let u: Vec<f64> = start.u.iter().map(off).collect();
+        let first = point(claim, problem, sampler, &u, DIGITS)?;
         let machine = super::refute::machine(problem, &start.t, DIGITS)?;
         let place = sampler.place_of(&first, &machine)?;
         let at = sampler.at(&place);
-        spread(TRIED[1]).find_map(|other| {
-            let found = newton(problem, sampler, &at, other)?;
+        // Many machines have mirror images near these.
+        let mirrored = (0..place.u.len()).map(|k| {
+            let mut other = place.clone();
+            other.u[k] = 1.0 - other.u[k];
+            other
+        });
+        mirrored.chain(spread(TRIED[1]).cloned()).find_map(|other| {
+            let found = newton(problem, sampler, &at, &other)?;
             let apart = found.u.iter().zip(&place.u).any(|(a, b)| (a - b).abs() > APART);
             let witness = apart.then(|| {
                 let fails = failure(problem, sampler, obligation, &found)?;
