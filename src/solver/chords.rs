@@ -14,6 +14,8 @@ const GRID: [usize; 6] = [33, 9, 5, 3, 2, 2];
 const TURNED: [usize; 6] = [9, 7, 5, 3, 3, 3];
 /// A point off the orientations of the claim is brought so much nearer to the middle at a time.
 const NEARER: f64 = 0.95;
+/// How often at most.
+const MOST_NEARER: usize = 100;
 /// Steps along subgradients.
 const STEPS: u32 = 400;
 /// The first step, of `Y` of norm one.
@@ -29,6 +31,7 @@ pub fn common(problem: &Problem, root: &[Pair], parameters: &[Pair]) -> Option<M
         _ => None,
     })?;
     let (m, n, lengths) = (root.len(), rows.len(), problem.corners[0].len());
+    let turns = problem.weight.is_some();
     let run = |x: &[f64]| {
         problem.tape.run(&Single, |op| match op {
             Op::Coordinate(k) => x.get(k).copied(),
@@ -41,7 +44,8 @@ pub fn common(problem: &Problem, root: &[Pair], parameters: &[Pair]) -> Option<M
         let off = |values: &Values<f64>, g: Option<Formula>| {
             g.is_some_and(|g| values.of(g).is_none_or(|&g| g < 0.0))
         };
-        if off(&values, problem.inside.as_ref().map(|inside| inside.g)) {
+        let inside = problem.inside.as_ref().map(|inside| inside.g);
+        if off(&values, inside) && !turns {
             return None;
         }
         // Sets of orientations contain, with each, those on the way to none.
@@ -49,10 +53,20 @@ pub fn common(problem: &Problem, root: &[Pair], parameters: &[Pair]) -> Option<M
             x[lengths..].iter_mut().for_each(|c| *c *= NEARER);
             values = run(&x);
         }
+        // So do cylinders, on the way to their axis.
+        for _ in 0..MOST_NEARER {
+            if !off(&values, inside) {
+                break;
+            }
+            for (x, (lo, hi)) in x[..lengths].iter_mut().zip(root).take(2) {
+                let middle = 0.5 * (lo + hi);
+                *x = middle + NEARER * (*x - middle);
+            }
+            values = run(&x);
+        }
         let all = rows.iter().flat_map(|row| &row.a).map(|&f| values.of(f).copied());
         Some(DMatrix::from_row_slice(n, m, &all.collect::<Option<Vec<f64>>>()?))
     };
-    let turns = problem.weight.is_some();
     let affine = problem.legs.iter().all(|leg| leg.scaled.is_some());
     let points = |k: usize| match (turns, affine && k < lengths) {
         (false, _) => GRID.get(m - 1).copied(),

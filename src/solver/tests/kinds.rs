@@ -249,6 +249,9 @@ fn bodies_keep_their_distance() {
 
 #[test]
 fn platforms_that_turn_are_one_to_one() {
+    let mut round = hexapod(ANGLE);
+    let (center, z) = ([0.01, -0.02].map(decimal), [0.8, 1.2].map(decimal));
+    round.workspace = Workspace::Cylinder { center, radius: decimal(0.25), z };
     for (name, machine, most) in [
         ("hexapod, angle", hexapod(ANGLE), 1),
         ("hexapod, tilt", hexapod(TILT), 1),
@@ -257,6 +260,7 @@ fn platforms_that_turn_are_one_to_one() {
         ("about a point, tilt", spherical(TILT), 1),
         ("about a point, roll", spherical(ROLL_PITCH_YAW), 1),
         ("3-RPR", three_rpr(), 1),
+        ("hexapod over a cylinder", round, 1),
     ] {
         let claim = asking(&machine, "one_to_one", &[], Bound::Holds);
         let started = std::time::Instant::now();
