@@ -13,6 +13,7 @@ use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::slope::Slopes;
 use num_bigint::BigInt;
 use std::borrow::Cow;
 use std::fmt;
@@ -132,11 +133,37 @@ pub fn check(
             at.opposite(&other)
         }
     };
-    if violated {
+    if violated || fails_by_names(problem, witness) == Some(true) {
         Ok(())
     } else {
         Err(WitnessError::NotViolated)
     }
+}
+
+/// Whether a witness over a cell of an atlas fails in slopes in the names, in which its point is
+/// enclosed also: what several numbers share cancels. What is asked of two points is not seen.
+fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
+    if problem.names.is_empty() {
+        return None;
+    }
+    let bits = witness.precision;
+    let arithmetic = Fixed::<BigInt>::new(bits);
+    let slopes = Slopes { arithmetic: &arithmetic, m: problem.dimension() + problem.names.len() };
+    let parameters = problem.parameters(bits, &witness.machine).ok()?;
+    let varying = problem.varying(bits);
+    let values = problem.tape.run(&slopes, |op| match op {
+        Op::Coordinate(k) => {
+            let x = witness.point.get(k)?;
+            let fixed = || slopes.constant(problem.point(std::slice::from_ref(x), bits)?.pop()?);
+            problem.sloped(x, problem.scale, bits).or_else(fixed)
+        }
+        Op::Parameter(j) => match varying.get(j)? {
+            Some(slope) => Some(slope.clone()),
+            None => slopes.constant(parameters.get(j)?.clone()),
+        },
+        _ => None,
+    });
+    Some(fails_throughout(problem, slopes, &values, &witness.fails))
 }
 
 /// Whether a point is certainly in a workspace whose box has these corners. What is said of its

@@ -103,7 +103,7 @@ pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
     let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
     let nodes = tree.nodes.iter().filter(is_evaluated).count();
     let steps: usize = tree.nodes.iter().map(|node| node.by.len()).sum();
-    let each = weight(problem) * (2 + 3 * problem.dimension());
+    let each = weight(problem) * (2 + 3 * (problem.dimension() + problem.names.len()));
     let all = nodes
         .saturating_mul(each)
         .saturating_add(steps.saturating_mul(of_step(problem)))
@@ -114,8 +114,8 @@ pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
 /// Matrices at every vertex, and their own sign vertices.
 fn of_step(problem: &Problem) -> usize {
     let (m, n) = (problem.dimension(), problem.legs.len());
-    let vertices = 1usize << m;
-    problem.work() + vertices * (4 * n * m * m + vertices * m * m * m) / 4
+    let (vertices, signs) = (1usize << (m + problem.names.len()), 1usize << m);
+    problem.work() + vertices * (4 * n * m * m + signs * m * m * m) / 4
 }
 
 /// What a witness costs.

@@ -16,7 +16,7 @@
 //!
 //! [`sigma_min`]: crate::test::sigma_min
 
-use super::{evaluate_parts, Checker, Place};
+use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
 use crate::certificate::{Evidence, Failure};
 use crate::formula::{Formula, Op, Values};
@@ -68,9 +68,7 @@ pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
 impl<E: Enclosure> Checker<'_, E> {
     /// The formulas over a cell that own evidence, and own failures, are made of.
     pub fn evaluate_own(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
-        let slopes = Slopes { arithmetic: self.arithmetic, m: edges.len() };
-        let (tape, needed) = (&self.problem.tape, self.needed.as_deref());
-        evaluate_parts(tape, needed, &self.parameters, slopes, edges)
+        self.values(self.needed.as_deref(), edges)
     }
 
     /// Whether a test holds on a cell by its own evidence.

@@ -15,7 +15,7 @@ use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::slope::Slope;
 use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Row};
 
@@ -60,7 +60,13 @@ impl<'a> Prover<'a> {
         let checker = Checker::new(problem, &Rough, parameters.clone(), tight);
         let mut prover = Prover { problem, checker, parameters, root, chords: None };
         prover.chords = prover.common();
-        prover.checker = prover.checker.with_chords(prover.chords.clone());
+        let slope = |x: Slope<Interval<BigInt>>| Slope {
+            at_centre: double(&x.at_centre, 96),
+            range: double(&x.range, 96),
+            slopes: x.slopes.map(|x| double(&x, 96)),
+        };
+        let varying = problem.varying(96).into_iter().map(|x| x.map(slope)).collect();
+        prover.checker = prover.checker.with_chords(prover.chords.clone()).with_varying(varying);
         prover
     }
 
@@ -422,7 +428,7 @@ impl<'a> Prover<'a> {
                 cell.edges()?.iter().map(|e| [pair(&e[0]), pair(&e[1]), pair(&e[2])]).collect();
             let place = Place { edges: &edges, touches: cell.touches(&self.root) };
             let values = self.checker.evaluate(&edges);
-            let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+            let slopes = self.checker.slopes(edges.len());
             let over = Over { slopes, values: &values, controls: None, inside: None };
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
             if cut && self.checker.is_outside(&over, &place) {
@@ -491,7 +497,7 @@ impl<'a> Prover<'a> {
         let edges: Vec<[Pair; 3]> = cell.iter().map(edge).collect();
         let place = Place { edges: &edges, touches: [false; 2] };
         let values = self.checker.evaluate(&edges);
-        let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+        let slopes = self.checker.slopes(edges.len());
         let over = Over { slopes, values: &values, controls: None, inside: None };
         self.checker.is_outside(&over, &place)
     }
