@@ -36,11 +36,14 @@ impl Range {
     /// different `lambda`.
     pub(crate) fn edge(&self, bits: u32) -> [Interval<BigInt>; 3] {
         let [least, greatest] = &self.ends;
-        let two = BigInt::from(2);
-        let [centre, half] = [(least + greatest) / &two, (greatest - least) / &two];
-        [(&centre, &centre), (least, greatest), (&half, &half)].map(|(lo, hi)| Interval {
-            lo: (lo.numer() << bits).div_floor(lo.denom()),
-            hi: -(-hi.numer() << bits).div_floor(hi.denom()),
+        // Over twice the common denominator.
+        let whole = (least.denom() * greatest.denom()) << 1u32;
+        let lo = least.numer() * greatest.denom();
+        let hi = greatest.numer() * least.denom();
+        let (centre, half) = (&lo + &hi, &hi - &lo);
+        [[&centre, &centre], [&(&lo << 1u32), &(&hi << 1u32)], [&half, &half]].map(|[lo, hi]| {
+            let lo = (lo << bits).div_floor(&whole);
+            Interval { lo, hi: -(-hi << bits).div_floor(&whole) }
         })
     }
 }

@@ -22,7 +22,7 @@ use crate::certificate::{Evidence, Failure};
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::{Slope, Slopes};
+use crate::slope::Slope;
 use crate::test::{Multiplier, Over, Row};
 use crate::witness::fails_throughout;
 
@@ -123,8 +123,7 @@ impl<E: Enclosure> Checker<'_, E> {
 
     /// Whether the claim fails so at every point of a cell, for every machine.
     pub fn fails(&self, values: &Values<Slope<E::Number>>, m: usize, failure: &Failure) -> bool {
-        let slopes = Slopes { arithmetic: self.arithmetic, m };
-        fails_throughout(self.problem, slopes, values, failure)
+        fails_throughout(self.problem, self.slopes(m), values, failure)
     }
 
     /// Whether an obligation fails so in its own directions: of singular values those of the centre; or,
