@@ -434,8 +434,9 @@ fn a_name_is_one_number_wherever_it_stands() {
     assert!(with("a*x-b*x", same, "1").is_err());
     with("a*x/b", r#"["a","4+p/64"],["b","4+p/64"]"#, "1.001").expect("a/b = 1");
     assert!(with("a*x/b", r#"["a","4+p/64"],["b","4+q/64"]"#, "1.001").is_err());
-    with("a*x", r#"["a","1+p/8"]"#, "9/8+1/1000").expect("up to 9/8");
-    assert!(with("a*x", r#"["a","1+p/8"]"#, "9/8-1/1000").is_err());
+    // psi is up to 1/(1 - 1/8).
+    with("a*x", r#"["a","1-p/8"]"#, "8/7+1/1000").expect("up to 8/7");
+    assert!(with("a*x", r#"["a","1-p/8"]"#, "8/7-1/1000").is_err());
 }
 
 /// Cells of linear Deltas whose guides' radius and workspace have names are certified only where all of
