@@ -31,7 +31,7 @@ const DEPTH: u32 = 18;
 
 fn claim() -> MachineClaim {
     let design = Design::parse(DESIGN, "bench").expect("a design");
-    design.kernel().expect("a machine").clone()
+    design.claim
 }
 
 fn cell(u: [f64; 3], level: u32) -> Cell {

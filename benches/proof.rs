@@ -14,21 +14,18 @@
 use criterion::measurement::WallTime;
 use criterion::{criterion_group, criterion_main, BenchmarkGroup, Criterion, Throughput};
 use orthocert::design::Design;
-use orthocert::interval::Interval;
-use orthocert::sample::{Place, Sampler};
-use orthocert::search::{search, Budget, Control, Outcome};
-use orthocert::verify::{verify, Answer};
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::enclosure::Enclosure;
-use orthocert_checker::model::Model;
+use orthocert::search::{Budget, Control};
+use orthocert::solver::sample::{Place, Sampler};
+use orthocert::solver::search::{Branch, Outcome};
+use orthocert::solver::{below, verify, Answer};
 use orthocert_checker::{check, read};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::problem::Problem;
 use std::hint::black_box;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 const BUDGET: Budget = Budget { max_boxes: 100_000, deadline: None };
-/// Fractional bits in which a claim's numbers are enclosed for the search.
-const PRECISION: u32 = 192;
 
 /// A linear Delta with bounds 0.1 % beyond its extremes: evidence matters, trees are larger.
 const LINEAR_DELTA: &str = r#"
@@ -60,7 +57,7 @@ transmission = { min = 0.5129, max = 1.5134 }
 "#;
 
 fn claim_of(design: Design) -> MachineClaim {
-    design.rules.expect("a machine of three legs")
+    design.claim
 }
 
 fn claims() -> [(&'static str, MachineClaim); 3] {
@@ -79,8 +76,10 @@ fn controlled<T>(run: impl FnOnce(&mut Control<'_>) -> T) -> T {
     run(&mut Control { cancel: &cancel, progress: &mut |_| {} })
 }
 
-fn searched(model: &Model<Interval>) -> Outcome {
-    controlled(|control| search(model, BUDGET, control))
+/// The tree below the root, from the claim.
+fn searched(claim: &MachineClaim, whole: &Branch) -> Outcome {
+    let found = controlled(|control| below(claim, whole, BUDGET, control));
+    found.expect("a well-formed claim").expect("the root is a box of the tree")
 }
 
 /// The text of the certificate that certifies a claim.
@@ -96,11 +95,12 @@ fn certificate(claim: &MachineClaim) -> String {
 /// of a machine drifts.
 fn baseline(group: &mut BenchmarkGroup<'_, WallTime>) {
     let [(_, claim), ..] = claims();
-    let model = Model::new(&claim, PRECISION).expect("a well-formed claim");
-    let sampler = Sampler::new(&claim, &model).expect("a model in doubles");
-    let place = Place { u: [0.4, 0.5, 0.6], t: Vec::new() };
+    let problem = Problem::new(&claim).expect("a well-formed claim");
+    let sampler = Sampler::new(&claim, &problem).expect("numbers in doubles");
+    let place = Place { u: vec![0.4, 0.5, 0.6], t: Vec::new() };
     group.throughput(Throughput::Elements(1));
-    group.bench_function("baseline", |b| b.iter(|| sampler.at(black_box(&place))));
+    let at = |place| sampler.xi(&sampler.at(place));
+    group.bench_function("baseline", |b| b.iter(|| at(black_box(&place))));
 }
 
 fn search_on_one_core(c: &mut Criterion) {
@@ -108,11 +108,13 @@ fn search_on_one_core(c: &mut Criterion) {
     let mut group = c.benchmark_group("search");
     baseline(&mut group);
     for (name, claim) in claims() {
-        let model = Model::new(&claim, PRECISION).expect("a well-formed claim");
-        let model = model.map(&Interval::from_fixed);
-        let boxes = searched(&model).boxes;
+        let obligations = Problem::new(&claim).expect("a well-formed claim").obligations.len();
+        let whole = Branch { path: Vec::new(), open: (0..obligations).collect() };
+        let boxes = searched(&claim, &whole).boxes;
         group.throughput(Throughput::Elements(boxes as u64));
-        group.bench_function(name, |b| pool.install(|| b.iter(|| searched(black_box(&model)))));
+        group.bench_function(name, |b| {
+            pool.install(|| b.iter(|| searched(black_box(&claim), &whole)));
+        });
     }
     group.finish();
 }

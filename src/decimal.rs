@@ -163,7 +163,7 @@ pub fn readable(x: &Exact) -> String {
         return text;
     }
     // Beyond the doubles, too, the order of magnitude is what is to be seen.
-    let enclosed = || x.enclose(0, SHOWN_BITS).map(|x| rounded(&x.inf(), SHORTENED, Toward::Below));
+    let enclosed = || x.below(SHOWN_BITS).map(|x| rounded(&x, SHORTENED, Toward::Below));
     match approximate(x).filter(|value| *value != 0.0) {
         Some(value) => format!("~{}", significant(value, SHORTENED)),
         None => enclosed().filter(|text| text != "0").map_or(text, |text| format!("~{text}")),
@@ -180,7 +180,7 @@ pub fn exact(x: &Exact) -> String {
 pub fn approximate(x: &Exact) -> Option<f64> {
     let value = match x.as_rational() {
         Some(x) => x.to_f64()?,
-        None => x.enclose(0, SHOWN_BITS)?.inf().to_f64()?,
+        None => x.below(SHOWN_BITS)?.to_f64()?,
     };
     value.is_finite().then_some(value)
 }

@@ -7,12 +7,12 @@
 //! give certificates that the exact checker has accepted. Of claims that
 //! are not so ordered, [`limit`](crate::limit) looks for a value of each verdict.
 
+use crate::exact::Exact;
 use crate::search::{Budget, Control};
 use crate::solver;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
 use std::sync::atomic::Ordering;

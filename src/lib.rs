@@ -5,12 +5,11 @@
 //!
 //! | module           | does                                                                  |
 //! |------------------|-----------------------------------------------------------------------|
-//! | [`adverse`]      | the machine of a tolerance that makes a requirement worst             |
 //! | [`arithmetic`]   | arithmetic with the exact numbers of claims                           |
 //! | [`atlas`]        | maps which designs of a box of parameters meet their requirements     |
 //! | [`attestation`]  | what the checker accepts, as an in-toto statement                     |
 //! | [`batch`]        | many designs at once, and reports for continuous integration          |
-//! | [`decide`]       | decides a claim about a machine                                       |
+//! | [`decide`]       | what a decision about a machine amounts to                            |
 //! | [`decimal`]      | decimal notation of exact numbers, certified digits                   |
 //! | [`design`]       | reads design files, written by people, into claims in exact numbers   |
 //! | [`digest`]       | SHA-256 as people and browsers compare it                             |
@@ -22,30 +21,24 @@
 //! | [`folder`]       | folders that appear whole or not at all                               |
 //! | [`frontier`]     | how far a number of a claim goes before its verdict changes           |
 //! | [`import`]       | makes design files of the configurations of motion controllers        |
-//! | [`interval`]     | floating-point intervals and approximations for the search            |
 //! | [`largest_cube`] | encloses the side of the largest cube in which a claim holds          |
 //! | [`limit`]        | how far one number of a design can go                                 |
-//! | [`machine`]      | the machine's obligations and the rules that may discharge them       |
 //! | [`output`]       | files that appear whole or not at all                                 |
 //! | [`page`]         | a certificate as a page to read and to file, and its figures          |
 //! | [`paper`]        | the claims of the seed paper, one by one                              |
 //! | [`paving`]       | the region of a box where a claim holds, from within and from without |
 //! | [`placement`]    | the best place for a cube, as it seems                                |
 //! | [`postulate`]    | proves the Q1/Q2 postulate for one psi_max, a range, or every one     |
-//! | [`refute`]       | turns a place where a requirement seems to fail into an exact witness |
 //! | [`report`]       | what a verification found, for people and for scripts                 |
-//! | [`rotation`]     | finds the orthogonal matrix that the vertex rule takes as evidence    |
-//! | [`sample`]       | looks around: approximate values at single points and machines        |
-//! | [`search`]       | branch and bound: finds a bisection tree that discharges everything   |
+//! | [`search`]       | what a search may take, and how it ends                              |
 //! | [`shard`]        | long jobs in parts: shards, their results, their merging              |
 //! | [`size`]         | the smallest machine for an axis-aligned cube of a given side         |
 //! | [`solver`]       | decides claims about machines of every kind; encloses extremes        |
+//! | [`summary`]      | what a designer reads first: how far quantities go, the nearest limit |
 //! | [`tolerance`]    | the widest tolerances with which a design is still certified          |
-//! | [`verify`]       | decides a claim of the rules, for cubes and maps                      |
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
-pub mod adverse;
 pub mod arithmetic;
 pub mod atlas;
 pub mod attestation;
@@ -62,23 +55,18 @@ pub mod export;
 pub mod folder;
 pub mod frontier;
 pub mod import;
-pub mod interval;
 pub mod largest_cube;
 pub mod limit;
-pub mod machine;
 pub mod output;
 pub mod page;
 pub mod paper;
 pub mod paving;
 pub mod placement;
 pub mod postulate;
-pub mod refute;
 pub mod report;
-pub mod rotation;
-pub mod sample;
 pub mod search;
 pub mod shard;
 pub mod size;
 pub mod solver;
+pub mod summary;
 pub mod tolerance;
-pub mod verify;

@@ -5,11 +5,12 @@
 use crate::search::{Budget, Control, Progress, Stop};
 use crate::solver::doubles::{Doubles, Pair};
 use crate::solver::{confirmed, Answer, Undecided, Verification, PRECISIONS};
-use orthocert_checker::claim::{Claim, PostulateClaim};
 use orthocert_kernel::cell::Cell;
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::certificate::{Corner, Evidence, Node, Step, Tree};
 use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::postulate::PostulateClaim;
 use orthocert_kernel::postulate::{parts, Part};
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;

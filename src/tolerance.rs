@@ -187,7 +187,7 @@ impl Scheme {
 }
 
 /// `nominal - t` to `nominal + t`.
-fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
+pub(crate) fn around(quantity: &Quantity, t: &BigRational) -> Option<Quantity> {
     let nominal = match quantity {
         Quantity::Exactly(x) => x.clone(),
         Quantity::Between { min, max } => {

@@ -9,21 +9,15 @@
 use crate::schema;
 use orthocert::atlas::{assemble, certify, grow, Growing};
 use orthocert::design::{AtlasDesign, Design};
-use orthocert::exact::{Exact, MAX_DIGITS, MAX_LITERALS, MAX_NESTING, MAX_TEXT};
 use orthocert::largest_cube::exclude;
 use orthocert::postulate;
 use orthocert::search::{Budget, Control};
 use orthocert::solver;
-use orthocert::verify::{verify, Answer};
-use orthocert_checker::cell::MAX_LEVEL;
-use orthocert_checker::certificate::{
-    Certificate, Verdict, MAX_BYTES, MAX_LABEL, MAX_NODES, MAX_STEPS, PRECISIONS,
-};
-use orthocert_checker::claim::{Claim, PostulateClaim};
-use orthocert_checker::rule::MAX_QUATERNION;
+use orthocert_checker::certificate::{Certificate, Claim, Verdict};
 use orthocert_checker::{check, read};
 use orthocert_kernel::claim::Workspace;
 use orthocert_kernel::number::Expression;
+use orthocert_kernel::postulate::PostulateClaim;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -94,12 +88,8 @@ fn decided(claim: &Claim) -> Certificate {
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
     let found = match claim {
-        Claim::Machine(claim) => match verify(claim, budget, &mut control).unwrap().answer {
-            Answer::Decided { certificate, .. } => return *certificate,
-            other => panic!("{other:?}"),
-        },
         Claim::Postulate(claim) => postulate::prove(claim, budget, &mut control),
-        Claim::Kernel(claim) => solver::verify(claim, budget, &mut control),
+        Claim::Machine(claim) => solver::verify(claim, budget, &mut control),
         Claim::NoCube(_) | Claim::Atlas(_) => panic!("not of a machine"),
     };
     match found.unwrap().answer {
@@ -128,11 +118,13 @@ fn is_committed(name: &str, certificate: &Certificate) {
 fn committed_certificates_are_what_the_prover_writes() {
     for (name, verdict) in OF_DESIGNS {
         let design = root().join("tests/designs").join(format!("{name}.toml"));
-        is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
+        let claim = Claim::Machine(Design::read(&design).unwrap().claim);
+        is_what_the_prover_writes(name, &claim, verdict);
     }
     for (name, verdict) in OF_OTHER_KINDS {
         let design = root().join("tests/designs/kernel").join(format!("{name}.toml"));
-        is_what_the_prover_writes(name, &Design::read(&design).unwrap().claim, verdict);
+        let claim = Claim::Machine(Design::read(&design).unwrap().claim);
+        is_what_the_prover_writes(name, &claim, verdict);
     }
     for (name, psi_max) in POSTULATES {
         let psi_max = serde_json::from_str(psi_max).unwrap();
@@ -145,7 +137,7 @@ fn committed_certificates_are_what_the_prover_writes() {
 #[test]
 fn the_committed_certificate_of_no_cube_is_what_the_prover_writes() {
     let design = Design::read(&root().join("tests/designs/orthoglide-310.toml")).unwrap();
-    let mut machine = design.kernel().unwrap().clone();
+    let mut machine = design.claim;
     let corner = |n| vec![Expression::integer(n); 3];
     machine.workspace = Workspace::Box { min: corner(-217), max: corner(217) };
     let budget = Budget { max_boxes: 10_000, deadline: None };
@@ -190,30 +182,5 @@ fn committed_certificates_are_accepted_and_written_back_unchanged() {
         assert_eq!(accepted.verdict, certificate.verdict);
         assert_eq!(certificate.to_text().unwrap().as_bytes(), bytes, "{}", path.display());
         schema::holds(std::str::from_utf8(&bytes).unwrap(), &path.display().to_string());
-    }
-}
-
-#[test]
-fn the_format_document_has_an_accepted_instance_and_the_limits_of_the_checker() {
-    let document = fs::read_to_string(root().join("proofs/FORMAT.md")).unwrap();
-    let (_, rest) = document.split_once("```json\n").unwrap();
-    let (prototype, _) = rest.split_once("```\n").unwrap();
-    let prototype = read(prototype.as_bytes()).unwrap();
-    assert_eq!(check(&prototype).unwrap().verdict, Certified);
-    let (least, greatest) = (PRECISIONS.start(), PRECISIONS.end());
-    for row in [
-        format!("bytes of a file | {MAX_BYTES}"),
-        format!("nodes of a tree | {MAX_NODES}"),
-        format!("steps of a node | {MAX_STEPS}"),
-        format!("splits on one axis on a path | {MAX_LEVEL}"),
-        format!("precision, least and greatest | {least}, {greatest}"),
-        format!("component of a quaternion | {MAX_QUATERNION}"),
-        format!("bytes of a string of the provenance | {MAX_LABEL}"),
-        format!("bytes of a number | {MAX_TEXT}"),
-        format!("literals of a number | {MAX_LITERALS}"),
-        format!("digits of a literal | {MAX_DIGITS}"),
-        format!("nested parentheses, roots and signs of a number | {MAX_NESTING}"),
-    ] {
-        assert!(document.contains(&format!("| {row} |\n")), "{row}");
     }
 }

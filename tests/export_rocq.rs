@@ -98,12 +98,6 @@ fn machines_are_written_as_the_instances_of_the_formal_development() {
 }
 
 #[test]
-fn certificates_of_the_rules_are_refused() {
-    let text = include_str!("../proofs/checker/tests/certificates/orthoglide-prototype.cert.json");
-    assert_eq!(exported(text), Err(ExportError::Rules));
-}
-
-#[test]
 fn claims_of_the_kernel_that_its_formal_side_lacks_are_refused_with_what_is_missing() {
     let replaced = |from: &str, to: &str| {
         let text = FOUR.replacen(from, to, 1);

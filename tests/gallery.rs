@@ -6,7 +6,6 @@ use orthocert::design::{Design, TEMPLATES};
 use orthocert::search::{Budget, Control, Progress};
 use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::Claim;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -60,7 +59,7 @@ fn checked(certificate: &Certificate, name: &str) -> Verdict {
 
 fn verdict(text: &str, name: &str) -> (Option<Verdict>, String) {
     let design = Design::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
-    let Claim::Kernel(claim) = design.claim else { panic!("{name}: not about a machine") };
+    let claim = design.claim;
     let cancel = AtomicBool::new(false);
     let mut progress = |_: Progress| {};
     let mut control = Control { cancel: &cancel, progress: &mut progress };

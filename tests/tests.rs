@@ -3,11 +3,9 @@
 //! | module         | holds                                                                   |
 //! |----------------|-------------------------------------------------------------------------|
 //! | [`schema`]     | the JSON Schema of certificates                                         |
-//! | `prover`       | enclosures, search and verdicts against what is known in closed form    |
+//! | `prover`       | values and verdicts against what is known in closed form                |
 //! | `certificates` | the committed certificates are what the prover writes, and accepted     |
-//! | `rejected`     | the schema against the broken certificates                              |
 //! | `gallery`      | every committed design has its stated verdict                           |
-//! | `leaves`       | near-tight bounds take few leaves                                       |
 //! | `export_rocq`  | what certificates export to                                             |
 //! | `ci_steps`     | what is offered to continuous integration runs as it is written         |
 
@@ -18,6 +16,4 @@ mod certificates;
 mod ci_steps;
 mod export_rocq;
 mod gallery;
-mod leaves;
 mod prover;
-mod rejected;

@@ -1,8 +1,8 @@
 //! What a map says of single designs: the best one, and those that are marked.
 
 use crate::design::{AtlasDesign, Mark, Parameter};
+use crate::exact::Exact;
 use num_rational::BigRational;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::atlas::{walk, AtlasCell};
 use orthocert_kernel::number::Expression;
 use serde::Serialize;

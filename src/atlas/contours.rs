@@ -2,10 +2,10 @@
 
 use super::margin::{margin_to, without_margin};
 use crate::design::AtlasDesign;
+use crate::exact::Exact;
 use crate::page::contour::{Field, Path};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::atlas::{walk, AtlasCell};
 use rayon::prelude::*;
 

@@ -1,6 +1,7 @@
 //! One cell of parameters: certified, refuted, or open.
 
 use crate::design::AtlasDesign;
+use crate::exact::Exact;
 use crate::search::{Budget, Control, Stop};
 use crate::solver::refute::{failures, machine, opposite, point, short, Toward};
 use crate::solver::sample::{Place, Quality, Sampler, Worst};
@@ -8,7 +9,6 @@ use crate::solver::{number, tree};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::atlas::{check_cell, AtlasCell, AtlasClaim};
 use orthocert_kernel::certificate::{Failure, Witness};
 use orthocert_kernel::claim::{MachineClaim, Quantity, Workspace};

@@ -11,12 +11,12 @@
 
 use super::decide::FINEST;
 use crate::design::written;
+use crate::exact::Exact;
 use crate::solver::refute::approximate;
 use crate::solver::sample::{Quality, Sampler};
 use crate::solver::value::Bounded;
 use num_rational::BigRational;
 use num_traits::One;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;

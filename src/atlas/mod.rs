@@ -24,14 +24,14 @@ pub use picture::{picture, Point};
 pub use widest::{widest, Bound, Widest};
 
 use crate::design::AtlasDesign;
+use crate::solver::certificate;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::Claim;
 use orthocert_checker::{check_part, Accepted, Rejected, TreeSize};
 use orthocert_kernel::atlas::{walk, AtlasCell};
-use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::number::{Expression, Operator};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -52,8 +52,8 @@ pub fn certify(
     let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()));
     let shares = shares.map_err(Rejected::Kernel)?;
     (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
-    let proof = Proof::Kernel(kernel::Proof::Atlas(cells));
-    let certificate = crate::verify::certificate(Claim::Atlas(claim), Verdict::Certified, proof);
+    let proof = Proof::Atlas(cells);
+    let certificate = certificate(Claim::Atlas(claim), Verdict::Certified, proof);
     let size = checked(&certificate)?;
     let accepted = Accepted { verdict: certificate.verdict, size };
     Ok((certificate, accepted))

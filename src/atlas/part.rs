@@ -2,7 +2,7 @@
 
 use super::decide::{decide, Decision};
 use crate::design::AtlasDesign;
-use orthocert_checker::certificate::MAX_BYTES;
+use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_kernel::atlas::{halves, AtlasCell, AtlasClaim, Part};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ pub enum Stopped {
     Cancelled,
     /// Its cells would not fit into a certificate.
     #[error(
-        "the map has more cells or longer proofs than a certificate holds ({MAX_BYTES} bytes); \
+        "the map has more cells or longer proofs than a certificate holds ({MOST_BYTES} bytes); \
          accepted: a lower atlas.resolution"
     )]
     TooLarge,
@@ -32,8 +32,8 @@ const REST: usize = 1 << 16;
 impl Room {
     /// Takes the room of a cell, if there is.
     fn take(&mut self, cell: &AtlasCell) -> Result<(), Stopped> {
-        self.0 += serde_json::to_string(cell).map_or(MAX_BYTES, |text| text.len() + 1);
-        (self.0 + REST <= MAX_BYTES).then_some(()).ok_or(Stopped::TooLarge)
+        self.0 += serde_json::to_string(cell).map_or(MOST_BYTES, |text| text.len() + 1);
+        (self.0 + REST <= MOST_BYTES).then_some(()).ok_or(Stopped::TooLarge)
     }
 }
 
@@ -205,8 +205,9 @@ mod tests {
     fn there_is_room_for_what_a_certificate_holds() {
         let small = AtlasCell::Undecided;
         assert_eq!(Room::default().take(&small), Ok(()));
-        assert_eq!(Room(MAX_BYTES - REST).take(&small), Err(Stopped::TooLarge));
-        let tree = Tree { precision: 64, chords: None, nodes: vec![Box::default(); MAX_BYTES / 2] };
+        assert_eq!(Room(MOST_BYTES - REST).take(&small), Err(Stopped::TooLarge));
+        let tree =
+            Tree { precision: 64, chords: None, nodes: vec![Box::default(); MOST_BYTES / 2] };
         let large = Room::default().take(&AtlasCell::Certified(tree));
         assert_eq!(large, Err(Stopped::TooLarge));
     }

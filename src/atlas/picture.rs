@@ -7,9 +7,9 @@
 use super::contours::Contour;
 use crate::design::AtlasDesign;
 use crate::escape::xml;
+use crate::exact::Exact;
 use crate::page::svg::path_data;
 use num_traits::ToPrimitive;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::atlas::{walk, AtlasCell, Part};
 use std::fmt::Write;
 
@@ -127,7 +127,7 @@ pub fn picture(
 fn approximate(x: &Exact) -> f64 {
     match x.as_rational() {
         Some(x) => x.to_f64().unwrap_or(0.0),
-        None => x.enclose(0, 64).and_then(|x| x.inf().to_f64()).unwrap_or(0.0),
+        None => x.below(64).and_then(|x| x.to_f64()).unwrap_or(0.0),
     }
 }
 

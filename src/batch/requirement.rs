@@ -2,7 +2,6 @@
 
 use crate::design::Design;
 use crate::report::shown;
-use orthocert_checker::claim::Claim;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::quantity::{Quantity, TABLE};
 use serde::Serialize;
@@ -98,11 +97,7 @@ pub enum Known {
 
 /// The requirements of a design, and what is known of each.
 pub fn requirements(design: &Design, known: Known) -> Vec<Requirement> {
-    let demanded = match &design.claim {
-        Claim::Kernel(claim) => demanded(claim),
-        _ => Vec::new(),
-    };
-    let demanded = demanded.into_iter().map(|(rule, key, demands)| Requirement {
+    let demanded = demanded(&design.claim).into_iter().map(|(rule, key, demands)| Requirement {
         rule,
         demands,
         // A requirement of one leg has its line there.

@@ -5,10 +5,10 @@ use orthocert::batch::plan::{identity, plan, Planned};
 use orthocert::batch::requirement::{requirements, Known};
 use orthocert::batch::run::{run as run_jobs, Outcome};
 use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
-use orthocert::decide::decide;
 use orthocert::design::{Design, ReadError};
 use orthocert::report::Report;
 use orthocert::search::{Budget, Control};
+use orthocert::solver;
 use orthocert::{escape, output};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Named;
@@ -196,7 +196,7 @@ fn attempt(
     let search = |claim: &_| {
         let mut silent = |_| {};
         let cancel = interrupt::cancelled();
-        decide(claim, budget, &mut Control { cancel, progress: &mut silent })
+        solver::verify(claim, budget, &mut Control { cancel, progress: &mut silent })
     };
     let (report, status) = task.run(search).map_err(wrong)?;
     Ok(known(&design, report, status))

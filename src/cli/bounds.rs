@@ -7,12 +7,12 @@ use orthocert::decimal::{rounded, Toward};
 use orthocert::exact::Exact;
 use orthocert::output;
 use orthocert::report::{exactly, CertificateFile};
-use orthocert::sample::with_unit;
 use orthocert::search::Budget;
-use orthocert::solver::extremes::{enclose, is_singular, loosest, Enclosed, Extreme, NotEnclosed};
+use orthocert::solver::extremes::{
+    enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
+};
+use orthocert::solver::value::with_unit;
 use orthocert_checker::certificate::{Certificate, Proof};
-use orthocert_checker::claim::Claim;
-use orthocert_kernel::certificate::Proof as Proven;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;
-    let Claim::Kernel(claim) = &design.claim else { return Err(Failure::Defect) };
+    let claim = &design.claim;
     let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
         Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
@@ -152,25 +152,13 @@ fn relative(text: &str) -> Result<BigRational, Failure> {
 
 /// The rows that the paper's cube has by definition.
 fn exact_rows(claim: &kernel::MachineClaim) -> Vec<Row> {
-    let kernel::Workspace::Cube { .. } = &claim.workspace else { return Vec::new() };
-    let psi_max = claim.require.iter().find_map(|requirement| match &requirement.bound {
-        kernel::Bound::Max(psi) if requirement.quantity == "transmission" => exactly(psi),
-        _ => None,
-    });
-    let Some(psi_max) = psi_max else { return Vec::new() };
-    let exactly = |end, value: Option<Exact>| Row {
-        min: value.clone(),
-        max: value,
+    let row = |(greatest, value): (bool, Exact)| Row {
+        min: Some(value.clone()),
+        max: Some(value),
         relative: Some("0".into()),
-        ..Row::new("psi".into(), None, end)
+        ..Row::new("psi".into(), None, greatest)
     };
-    let inverse = Exact::integer(1).over(psi_max.clone()).ok();
-    // The least psi is 1/psi_max at Q2 for psi_max <= 2 only.
-    let mut rows = vec![exactly(true, Some(psi_max.clone()))];
-    if psi_max.compare(&Exact::integer(2)).is_some_and(std::cmp::Ordering::is_le) {
-        rows.insert(0, exactly(false, inverse));
-    }
-    rows
+    of_cube(claim).into_iter().map(row).collect()
 }
 
 impl Row {
@@ -222,7 +210,7 @@ impl Row {
 
 fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     match &certificate.proof {
-        Proof::Kernel(Proven::Witness(witness)) => witness.point.iter().map(exactly).collect(),
+        Proof::Witness(witness) => witness.point.iter().map(exactly).collect(),
         _ => None,
     }
 }

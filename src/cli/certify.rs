@@ -5,7 +5,6 @@ use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::solver::Verification;
 use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::Claim;
 use orthocert_checker::{read, Rejected};
 use std::path::Path;
 
@@ -55,11 +54,11 @@ pub fn store(folder: Option<&Path>, path: &Path, text: &str) -> Result<Certifica
 }
 
 /// What stands where a certificate of `claim` would have been written.
-pub fn earlier(path: &Path, claim: &Claim) -> Option<EarlierFile> {
+pub fn earlier(path: &Path, is_it: impl Fn(&Certificate) -> bool) -> Option<EarlierFile> {
     if !path.is_file() {
         return None;
     }
     let certificate = input::certificate(path).ok().and_then(|bytes| read(&bytes).ok());
-    let same_claim = certificate.is_some_and(|certificate| certificate.claim == *claim);
+    let same_claim = certificate.is_some_and(|certificate| is_it(&certificate));
     Some(EarlierFile { path: path.to_string_lossy().into_owned(), same_claim })
 }

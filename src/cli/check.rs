@@ -1,15 +1,15 @@
 //! `orthocert check`.
 
-use super::input::{of_the_kernel, Begun};
+use super::input::Begun;
 use super::pave::searched;
 use super::{audit, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::digest::Summed;
 use orthocert::report::Size;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read, statement, Accepted};
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::paving::{self, Extent, Header, Summary};
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
@@ -156,15 +156,12 @@ fn check_paving(
     let mut input = BufReader::new(Summed::new(begun.whole()));
     let accepted = paving::check(&mut input, extent).map_err(|reason| reason.to_string());
     let wanted = match design {
-        Some(design) => {
-            let claim = of_the_kernel(design)?;
-            Some(searched(claim, arguments.search_box.as_deref())?)
-        }
+        Some(design) => Some(searched(&design.claim, arguments.search_box.as_deref())?),
         None => None,
     };
     let accepted = accepted.and_then(|accepted| match wanted {
         Some(claim) if accepted.header.claim != claim => {
-            Err(another_claim(&Claim::Kernel(accepted.header.claim), &Claim::Kernel(claim)))
+            Err(another_claim(&Claim::Machine(accepted.header.claim), &Claim::Machine(claim)))
         }
         _ => Ok(accepted),
     });
@@ -240,12 +237,18 @@ fn folder(arguments: &Arguments) -> Result<Status, Failure> {
     audit::run(certificate, designs, *jobs, *format)
 }
 
+/// Whether a certificate's claim is that of the design.
+pub fn is_of(certificate: &Certificate, design: &Design) -> bool {
+    matches!(&certificate.claim, Claim::Machine(claim) if *claim == design.claim)
+}
+
 /// Accepts a certificate, or says why not.
 pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Accepted), String> {
     let certificate = read(bytes).map_err(|reason| reason.to_string())?;
     if let Some(design) = design {
-        if certificate.claim != design.claim {
-            return Err(another_claim(&certificate.claim, &design.claim));
+        if !is_of(&certificate, design) {
+            let claim = Claim::Machine(design.claim.clone());
+            return Err(another_claim(&certificate.claim, &claim));
         }
     }
     let accepted = check(&certificate).map_err(|reason| reason.to_string())?;
@@ -254,7 +257,7 @@ pub fn examine(bytes: &[u8], design: Option<&Design>) -> Result<(Certificate, Ac
 
 /// The formulas that a certificate's claim is about.
 fn formulas(certificate: &Certificate) -> Result<String, Failure> {
-    let Claim::Kernel(claim) = &certificate.claim else {
+    let Claim::Machine(claim) = &certificate.claim else {
         return Err(without_formulas("a certificate that is not checked by formulas"));
     };
     // The certificate was accepted, so that its claim is well formed.

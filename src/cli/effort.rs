@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 use orthocert::search::{Budget, Control};
-use orthocert_checker::certificate::MAX_NODES;
+use orthocert_kernel::check::MOST_NODES;
 use std::time::{Duration, Instant};
 
 /// Boxes tried by default.
@@ -17,8 +17,8 @@ pub const MAX_THREADS: u64 = 1024;
 /// The flags.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Effort {
-    /// Boxes after which a search gives up [default: 500000; in bounds, limit, size and tolerance,
-    /// which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
+    /// Boxes after which a search gives up [default: 500000; in bounds, limit, size, summary and
+    /// tolerance, which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
@@ -47,7 +47,7 @@ impl Effort {
         let max_boxes = self.max_boxes.unwrap_or(boxes);
         let timeout = self.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;
         Ok(Budget {
-            max_boxes: usize::try_from(max_boxes).unwrap_or(MAX_NODES).min(MAX_NODES),
+            max_boxes: usize::try_from(max_boxes).unwrap_or(MOST_NODES).min(MOST_NODES),
             // A deadline beyond what the clock can tell is none.
             deadline: timeout.and_then(|timeout| started.checked_add(timeout)),
         })

@@ -17,7 +17,7 @@ pub struct Arguments {
 enum Controller {
     /// A linear or rotary Delta of Klipper: its printer.cfg, with what that includes
     Klipper(Configuration),
-    /// A linear or rotary Delta or a tripod of LinuxCNC: its .ini, with the HAL files that it names,
+    /// A linear or rotary Delta, a tripod or a hexapod of LinuxCNC: its .ini, with the HAL files that it names,
     /// then those of them that are elsewhere; or HAL files alone, in order
     Linuxcnc(Configuration),
     /// A linear Delta of Marlin 2: its Configuration.h, and further headers in order

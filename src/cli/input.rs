@@ -3,10 +3,9 @@
 use super::Failure;
 use orthocert::design::{may_be_tolerance, Design};
 use orthocert::exact::Exact;
-use orthocert_checker::certificate::MAX_BYTES;
+use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_checker::file;
 use orthocert_checker::shown::Named;
-use orthocert_kernel::claim as kernel;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
@@ -22,16 +21,6 @@ pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
     }
 }
 
-/// The claim of a design in the kernel's vocabulary.
-pub fn of_the_kernel(design: &Design) -> Result<&kernel::MachineClaim, Failure> {
-    design.kernel().ok_or_else(|| {
-        let refused =
-            "mechanism: found numbers too long to be written; accepted: numbers of at most \
-                       8,192 characters and 512 operations";
-        Failure::Input(refused.to_owned())
-    })
-}
-
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
 pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     let unreadable =
@@ -39,7 +28,7 @@ pub fn certificate(path: &Path) -> Result<Vec<u8>, Failure> {
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a certificate (a JSON file)".to_owned()));
     }
-    file::read(path, MAX_BYTES as u64).map_err(|error| unreadable(error.to_string()))
+    file::read(path, MOST_BYTES as u64).map_err(|error| unreadable(error.to_string()))
 }
 
 /// A file of which the beginning was read, as much as a certificate may have and a byte more; what
@@ -61,7 +50,7 @@ impl Begun {
         }
         let mut start = Vec::new();
         let mut rest = file::reader(path).map_err(|error| unreadable(&error))?;
-        let read = rest.by_ref().take(MAX_BYTES as u64 + 1).read_to_end(&mut start);
+        let read = rest.by_ref().take(MOST_BYTES as u64 + 1).read_to_end(&mut start);
         read.map_err(|error| unreadable(&error))?;
         Ok(Begun { start, rest })
     }

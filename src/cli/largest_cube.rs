@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 }
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
-    let claim = input::of_the_kernel(design)?;
+    let claim = &design.claim;
     let found = match &claim.workspace {
         Workspace::Box { min, .. } if min.len() == 3 && claim.orientation.is_none() => {
             return Ok(claim);

@@ -12,7 +12,6 @@ use orthocert::output;
 use orthocert::report::{CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::shown::Shown;
-use orthocert_kernel::certificate as kernel;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -220,7 +219,7 @@ fn gap(text: &str) -> Result<BigRational, Failure> {
 /// A rational number, itself or one very near.
 fn near(own: &Exact) -> Result<BigRational, Failure> {
     let rational = own.as_rational().cloned();
-    rational.or_else(|| Some(own.enclose(0, OWN_BITS)?.inf())).ok_or_else(|| {
+    rational.or_else(|| own.below(OWN_BITS)).ok_or_else(|| {
         Failure::Input("the design's numbers exceed what can be reported".to_owned())
     })
 }
@@ -228,7 +227,7 @@ fn near(own: &Exact) -> Result<BigRational, Failure> {
 /// The nodes of a proof.
 fn nodes(proof: &Proof) -> usize {
     match proof {
-        Proof::Kernel(kernel::Proof::Tree(tree)) => tree.nodes.len(),
+        Proof::Tree(tree) => tree.nodes.len(),
         _ => 0,
     }
 }

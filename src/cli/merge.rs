@@ -10,10 +10,9 @@ use orthocert::report::paving::PavingReport;
 use orthocert::report::text;
 use orthocert::shard::{self, MergeError, Pave, Stretches, Task, Verify, Whole};
 use orthocert::solver::{concluded, Answer, Undecided};
-use orthocert_checker::certificate::MAX_NODES;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::certificate::Node;
+use orthocert_kernel::check::MOST_NODES;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -103,7 +102,7 @@ fn proved(
     started: Instant,
 ) -> Result<Status, Failure> {
     output::probe(&arguments.output)?;
-    let too_many = nodes.len() > MAX_NODES;
+    let too_many = nodes.len() > MOST_NODES;
     let mut found =
         concluded(&task.claim, nodes, boxes).map_err(|error| Failure::Input(error.to_string()))?;
     if let (Answer::Undecided(Undecided { objection: Some(reason), .. }), false) =
@@ -112,8 +111,7 @@ fn proved(
         return Err(Failure::Rejected(format!("the proof was not accepted: {reason}")));
     }
     let decision = certify::decided(&mut found)?;
-    let claim = Claim::Kernel(task.claim.clone());
-    let mut report = found.report(&claim, started.elapsed()).ok_or_else(|| {
+    let mut report = found.report(&task.claim, started.elapsed()).ok_or_else(|| {
         Failure::Input("the design's numbers exceed what can be reported".to_owned())
     })?;
     report.title.clone_from(&task.title);

@@ -33,6 +33,7 @@ mod show;
 mod size;
 mod split;
 mod submit;
+mod summary;
 mod tolerance;
 mod verify;
 
@@ -94,6 +95,9 @@ enum Command {
     Limit(limit::Arguments),
     /// Pave a box: where all requirements hold, where some fails, and the volume between.
     Pave(pave::Arguments),
+    /// Print what a designer reads first, certified: how far joints, speeds, forces and the rest go, and
+    /// which requirement is nearest to its limit.
+    Summary(summary::Arguments),
     /// Enclose the least and greatest of every quantity over a design's workspace.
     Bounds(bounds::Arguments),
     /// Map which designs of a box of parameters meet their requirements, and which fail.
@@ -275,6 +279,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::LargestCube(arguments) => largest_cube::run(arguments),
         Command::Limit(arguments) => limit::run(arguments),
         Command::Pave(arguments) => pave::run(arguments),
+        Command::Summary(arguments) => summary::run(arguments),
         Command::Bounds(arguments) => bounds::run(arguments),
         Command::Atlas(arguments) => atlas::run(arguments),
         Command::Split(arguments) => split::run(arguments),

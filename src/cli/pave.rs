@@ -81,7 +81,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let claim = input::of_the_kernel(&design)?;
+    let claim = &design.claim;
     let claim = &searched(claim, arguments.search_box.as_deref())?;
     let goal = arguments.goal(claim)?;
     let target = arguments.target()?;

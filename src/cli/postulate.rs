@@ -6,11 +6,12 @@ use orthocert::design::written;
 use orthocert::output;
 use orthocert::postulate::prove;
 use orthocert::report::{text, PostulateReport};
-use orthocert_checker::claim::{Claim, Every, PostulateClaim, PsiMax};
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::postulate::parts;
+use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -55,8 +56,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         (Some(decision), None) => Status::Decided(decision.verdict),
         (None, target) => {
             let claim = Claim::Postulate(claim);
-            report.earlier_certificate =
-                target.as_ref().and_then(|target| certify::earlier(target, &claim));
+            report.earlier_certificate = target
+                .as_ref()
+                .and_then(|target| certify::earlier(target, |own| own.claim == claim));
             Status::Undecided
         }
     };

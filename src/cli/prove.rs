@@ -1,17 +1,19 @@
 //! One design, from its claim to its certificate on the disk: searched for, or found there and
 //! re-checked.
 
+use super::check::is_of;
 use super::{certify, input, print, Failure, Status};
-use orthocert::decide::{recalled, NotDecided};
+use orthocert::decide::recalled;
 use orthocert::design::Design;
 use orthocert::digest::sha256;
 use orthocert::output;
 use orthocert::report::{CertificateFile, Report};
 use orthocert::solver::Verification;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::file::is_stream;
 use orthocert_checker::shown::Named;
 use orthocert_checker::{check, read};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::input::ClaimError;
 use std::path::Path;
 use std::time::Instant;
 
@@ -40,7 +42,7 @@ impl Task<'_> {
     /// Does it; `search` decides the claim where there is no certificate of it.
     pub fn run(
         &self,
-        search: impl FnOnce(&Claim) -> Result<Verification, NotDecided>,
+        search: impl FnOnce(&MachineClaim) -> Result<Verification, ClaimError>,
     ) -> Result<(Report, Status), Failure> {
         let claim = &self.design.claim;
         let recalled = if self.reprove { None } else { self.recall()? };
@@ -74,7 +76,10 @@ impl Task<'_> {
                 report.certificate = Some(file);
                 report.cached = cached;
             }
-            None => report.earlier_certificate = certify::earlier(self.target, claim),
+            None => {
+                report.earlier_certificate =
+                    certify::earlier(self.target, |own| is_of(own, self.design))
+            }
         }
         Ok((report, status))
     }
@@ -91,8 +96,7 @@ impl Task<'_> {
             Err(_) if self.target.is_file() => return Ok(None),
             Err(failure) => return Err(failure),
         };
-        let Some(certificate) = read(&bytes).ok().filter(|read| read.claim == self.design.claim)
-        else {
+        let Some(certificate) = read(&bytes).ok().filter(|read| is_of(read, self.design)) else {
             return Ok(None);
         };
         let accepted = match check(&certificate) {
@@ -111,7 +115,8 @@ impl Task<'_> {
             bytes: bytes.len(),
             sha256: sha256(&bytes),
         };
-        let found = recalled(certificate, accepted, self.table).map_err(Failure::input)?;
+        let found = recalled(&self.design.claim, certificate, accepted, self.table)
+            .map_err(Failure::input)?;
         Ok(Some((found, file)))
     }
 }

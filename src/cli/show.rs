@@ -5,12 +5,12 @@ use orthocert::decimal::{boxes, exact, grouped};
 use orthocert::report::counterexample;
 use orthocert::report::text::{labelled, wrap};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
-use orthocert_checker::claim::Claim;
-use orthocert_checker::kernel::{size_of, trees};
 use orthocert_checker::shown::Named;
 use orthocert_checker::{read, statement, TreeSize};
+use orthocert_checker::{size_of, trees};
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::certificate::Claim;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -55,13 +55,13 @@ impl Shape {
     /// The shape of a proof's trees; `None` for a counterexample.
     fn of(proof: &Proof) -> Option<Self> {
         match proof {
-            Proof::Kernel(kernel::Proof::Tree(tree)) => {
+            Proof::Tree(tree) => {
                 let TreeSize { nodes, leaves, depth, steps } = size_of(tree);
                 let rules = steps.into_iter().collect();
                 let (precision, trees) = (tree.precision, trees(&tree.nodes).len());
                 Some(Shape { precision, trees, nodes, leaves, depth, rules })
             }
-            Proof::Kernel(kernel::Proof::Atlas(cells)) => Some(Shape::of_atlas(cells)),
+            Proof::Atlas(cells) => Some(Shape::of_atlas(cells)),
             _ => None,
         }
     }
@@ -101,7 +101,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn shown(certificate: &Certificate, bytes: usize) -> Shown<'_> {
     let witness = match &certificate.proof {
-        Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness),
+        Proof::Witness(witness) => Some(witness),
         _ => None,
     };
     Shown {
@@ -133,7 +133,7 @@ fn text(certificate: &Certificate, bytes: usize) -> String {
         let uses = rules.iter().map(|(rule, uses)| format!("{rule} {uses}"));
         labelled(&mut out, "rules used", &uses.collect::<Vec<_>>().join(", "));
     }
-    if let Proof::Kernel(kernel::Proof::Atlas(cells)) = &certificate.proof {
+    if let Proof::Atlas(cells) = &certificate.proof {
         let count = |wanted: fn(&AtlasCell) -> bool| {
             grouped(cells.iter().filter(|cell| wanted(cell)).count() as u64)
         };

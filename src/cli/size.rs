@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let width = gap(&arguments.gap, 1e-9, 0.1)?;
     let side = side(&arguments.cube)?;
     let design = input::design(arguments.design.as_deref())?;
-    let claim = input::of_the_kernel(&design)?;
+    let claim = &design.claim;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("size.cert.json"))?;
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;

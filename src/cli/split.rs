@@ -8,9 +8,8 @@ use orthocert::design::{is_atlas, AtlasDesign, Design};
 use orthocert::output;
 use orthocert::search::Progress;
 use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
-use orthocert_checker::certificate::MAX_NODES;
-use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::{Named, Shown};
+use orthocert_kernel::check::MOST_NODES;
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,8 +31,8 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Of a design: boxes tried below one of the cells that are dealt out
-    #[arg(long, value_name = "N", default_value_t = MAX_NODES as u64,
-        value_parser = clap::value_parser!(u64).range(1..=MAX_NODES as u64))]
+    #[arg(long, value_name = "N", default_value_t = MOST_NODES as u64,
+        value_parser = clap::value_parser!(u64).range(1..=MOST_NODES as u64))]
     max_boxes: u64,
     /// Pave the design's box, to the precision given
     #[arg(long, requires = "precision", conflicts_with = "max_boxes")]
@@ -113,14 +112,13 @@ impl Arguments {
         }
         let design = Design::read(&self.job).map_err(Failure::input)?;
         if let Some(precision) = &self.precision {
-            let claim = super::input::of_the_kernel(&design)?;
-            let claim = pave::searched(claim, self.search_box.as_deref())?;
+            let claim = pave::searched(&design.claim, self.search_box.as_deref())?;
             let depth = pave::depth(&claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
         }
-        let boxes = usize::try_from(self.max_boxes).unwrap_or(MAX_NODES);
-        let Claim::Kernel(claim) = design.claim else { return Err(Failure::Defect) };
-        Ok(Task::Verify(Box::new(Verify { title: design.title, claim, boxes })))
+        let boxes = usize::try_from(self.max_boxes).unwrap_or(MOST_NODES);
+        let Design { title, claim, .. } = design;
+        Ok(Task::Verify(Box::new(Verify { title, claim, boxes })))
     }
 }
 

@@ -14,8 +14,6 @@ use orthocert::search::Budget;
 use orthocert::solver::{proof, refutation};
 use orthocert::tolerance::{widest, Kind, Scheme};
 use orthocert_checker::certificate::{Proof, Verdict};
-use orthocert_checker::claim::Claim;
-use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -93,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-6, 0.5)?;
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let Claim::Kernel(claim) = &design.claim else { return Err(Failure::Defect) };
+    let claim = &design.claim;
     let kinds = named(&arguments.on, claim)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;
@@ -211,9 +209,7 @@ fn nodes_or_status(
         if interrupt::cancelled().load(Ordering::Relaxed) {
             return Err(Failure::Interrupted);
         }
-        if let Ok(Proof::Kernel(kernel::Proof::Tree(tree))) =
-            found.map(|certificate| certificate.proof)
-        {
+        if let Ok(Proof::Tree(tree)) = found.map(|certificate| certificate.proof) {
             return Ok(Ok(tree.nodes.len()));
         }
     }

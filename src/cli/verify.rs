@@ -3,12 +3,12 @@
 use super::{batch, effort::Effort, input, print, prove::Task, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::batch::plan::{certificate_of, identity};
-use orthocert::decide::decide;
 use orthocert::report::{text, Margin, Report};
 use orthocert::search::{Budget, Control};
+use orthocert::solver;
 use orthocert::solver::extremes::{enclose, Extreme};
-use orthocert_checker::claim::Claim;
 use orthocert_checker::shown::Named;
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -75,7 +75,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         started,
     };
     let (mut report, status) =
-        task.run(|claim| effort.run(|control| decide(claim, budget, control)))?;
+        task.run(|claim| effort.run(|control| solver::verify(claim, budget, control)))?;
     if task.table {
         report.margins = margins(&report, &design.claim, effort);
     }
@@ -90,14 +90,13 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
 }
 
 /// The certified margins of a certified design, where its proof was short.
-fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
+fn margins(report: &Report, claim: &MachineClaim, effort: &Effort) -> Vec<Margin> {
     let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
     if !short {
         return Vec::new();
     }
     let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
     let width = BigRational::new(1.into(), 1000.into());
-    let Claim::Kernel(claim) = claim else { return Vec::new() };
     let Ok(problem) = Problem::new(claim) else { return Vec::new() };
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
     let enclosed = |extreme: Extreme| {
@@ -105,7 +104,7 @@ fn margins(report: &Report, claim: &Claim, effort: &Effort) -> Vec<Margin> {
         let found = effort.run(find).ok()?;
         Some(Margin::of(&extreme, found.outer, angular))
     };
-    let all = Extreme::bounded(claim, problem.legs.len());
+    let all = Extreme::required(claim, problem.legs.len());
     all.into_iter().filter_map(enclosed).collect()
 }
 

@@ -1,12 +1,10 @@
 //! What a design file says, before it is a claim: numbers as they are written, and demands one by one.
 //!
-//! A machine with three legs that do not turn its platform, of which nothing is demanded but what the
-//! rules know, becomes a [`Claim::Machine`](orthocert_checker::claim::Claim::Machine)
-//! ([`Description::machine`]); every other one a claim of the kernel ([`Description::kernel`]).
+//! [`Description::kernel`] makes it one.
 
 use super::exactly::{between, written};
+use super::leg;
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, AtLeast, AtMost, JointSpeed, Range, WorkingMode};
 use orthocert_kernel::claim::{self as kernel, Body, Formulas, Orientation, Turning};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::quantity::TABLE;
@@ -47,12 +45,13 @@ pub(super) enum Motion {
 
 /// A leg.
 pub(super) struct Leg {
-    pub drive: checker::Leg,
+    pub drive: leg::Leg,
     /// The axis of a strut's universal joint that is fixed to the base.
-    pub base_axis: Option<[checker::Quantity; 3]>,
+    pub base_axis: Option<[leg::Quantity; 3]>,
 }
 
 /// A closed set of points; empty corners where no coordinate is one of a point.
+#[derive(Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "one value for each design")]
 pub(super) enum Workspace {
     Box { min: Vec<Exact>, max: Vec<Exact> },
@@ -141,41 +140,6 @@ impl Mechanism {
 }
 
 impl Description {
-    /// The claim that the rules take, if they do.
-    pub fn machine(&self) -> Option<checker::MachineClaim> {
-        if self.orientation.is_some() || !self.kept_apart().is_empty() {
-            return None;
-        }
-        let mechanism = match &self.mechanism {
-            Mechanism::OfCube { offset } => {
-                checker::Mechanism::Orthoglide { offset: offset.clone() }
-            }
-            Mechanism::Legs { motion: Motion::Translational, legs } => {
-                let plain = |leg: &Leg| leg.base_axis.is_none().then(|| leg.drive.clone());
-                let legs: Vec<_> = legs.iter().map(plain).collect::<Option<_>>()?;
-                checker::Mechanism::Translational(legs.try_into().ok()?)
-            }
-            Mechanism::Legs { .. } | Mechanism::Formulas(_) => return None,
-        };
-        let workspace = match &self.workspace {
-            Workspace::Box { min, max } => checker::Workspace::Box {
-                min: min.clone().try_into().ok()?,
-                max: max.clone().try_into().ok()?,
-            },
-            Workspace::Cylinder { center, radius, z } => checker::Workspace::Cylinder {
-                center: center.clone(),
-                radius: radius.clone(),
-                z: z.clone(),
-            },
-            Workspace::Cube { side } => checker::Workspace::Cube { side: side.clone() },
-        };
-        let mut requirements = checker::Requirements::default();
-        for demand in &self.demands {
-            demand.add_to(&mut requirements)?;
-        }
-        Some(checker::MachineClaim { mechanism, workspace, requirements })
-    }
-
     /// The claim in the kernel's vocabulary; `None` where a number is too long for it.
     pub fn kernel(&self) -> Option<kernel::MachineClaim> {
         let mechanism = match &self.mechanism {
@@ -238,7 +202,7 @@ impl Description {
     fn require(&self) -> Option<Vec<kernel::Requirement>> {
         let mut require: Vec<_> = self.demands.iter().map(Demand::kernel).collect::<Option<_>>()?;
         if let Mechanism::OfCube { .. } = &self.mechanism {
-            // psi_min = 1/psi_max, which the rules' claim has by definition.
+            // psi_min = 1/psi_max, by definition.
             let psi_max = self.demands.iter().find_map(|demand| match &demand.bound {
                 Bound::Max(max) if demand.quantity == TRANSMISSION => Some(max.clone()),
                 _ => None,
@@ -255,74 +219,6 @@ impl Description {
         });
         Some(require)
     }
-}
-
-/// The claim of three legs that the rules take, in the kernel's vocabulary; `None` where a number is too
-/// long for it.
-pub fn in_the_kernel(claim: &checker::MachineClaim) -> Option<kernel::MachineClaim> {
-    let mechanism = match &claim.mechanism {
-        checker::Mechanism::Orthoglide { offset } => Mechanism::OfCube { offset: offset.clone() },
-        checker::Mechanism::Translational(legs) => {
-            let leg = |drive: &checker::Leg| Leg { drive: drive.clone(), base_axis: None };
-            Mechanism::Legs { motion: Motion::Translational, legs: legs.iter().map(leg).collect() }
-        }
-    };
-    let workspace = match claim.workspace.clone() {
-        checker::Workspace::Box { min, max } => Workspace::Box { min: min.into(), max: max.into() },
-        checker::Workspace::Cylinder { center, radius, z } => {
-            Workspace::Cylinder { center, radius, z }
-        }
-        checker::Workspace::Cube { side } => Workspace::Cube { side },
-    };
-    let demands = demands(&claim.requirements, claim.mechanism.is_angular());
-    let (orientation, bodies) = (None, Vec::new());
-    let description = Description {
-        mechanism,
-        characteristic_length: None,
-        workspace,
-        orientation,
-        bodies,
-        demands,
-    };
-    description.kernel()
-}
-
-/// What the rules' requirements demand.
-fn demands(requirements: &checker::Requirements, angular: bool) -> Vec<Demand> {
-    let ends = |range: &Range| {
-        let (min, max) = (range.min.clone(), range.max.clone());
-        min.map(Bound::Min).into_iter().chain(max.map(Bound::Max)).collect::<Vec<_>>()
-    };
-    let mut all = Vec::new();
-    let transmission = requirements.transmission.iter().flat_map(ends);
-    all.extend(transmission.map(|bound| Demand::of(TRANSMISSION, bound)));
-    for (i, range) in requirements.joint_range.iter().flatten().enumerate() {
-        let bounds = match range.clone() {
-            Range { min: Some(min), max: Some(max) } if angular => vec![Bound::Within([min, max])],
-            _ => ends(range),
-        };
-        let of_leg = |bound| Demand { leg: Some(i + 1), ..Demand::of("joint_range", bound) };
-        all.extend(bounds.into_iter().map(of_leg));
-    }
-    let greatest =
-        [("conditioning", &requirements.conditioning), ("leg_angle", &requirements.leg_angle)];
-    for (quantity, bound) in greatest {
-        let bound = bound.iter().map(|bound| Bound::Max(bound.max.clone()));
-        all.extend(bound.map(|bound| Demand::of(quantity, bound)));
-    }
-    let least = [
-        ("serial_margin", &requirements.serial_margin),
-        ("parallel_margin", &requirements.parallel_margin),
-    ];
-    for (quantity, bound) in least {
-        let bound = bound.iter().map(|bound| Bound::Min(bound.min.clone()));
-        all.extend(bound.map(|bound| Demand::of(quantity, bound)));
-    }
-    if let Some(JointSpeed { tool, max }) = &requirements.joint_speed {
-        let given = vec![("tool", vec![tool.clone()])];
-        all.push(Demand { given, ..Demand::of("joint_speed", Bound::Max(max.clone())) });
-    }
-    all
 }
 
 const TRANSMISSION: &str = "transmission";
@@ -350,49 +246,6 @@ impl Demand {
             },
         })
     }
-
-    /// Adds the demand to those that the rules know; `None` where it is not of these.
-    fn add_to(&self, requirements: &mut checker::Requirements) -> Option<()> {
-        let whole = |range: &mut Range| match &self.bound {
-            Bound::Min(min) => range.min = Some(min.clone()),
-            Bound::Max(max) => range.max = Some(max.clone()),
-            Bound::Within([min, max]) => {
-                *range = Range { min: Some(min.clone()), max: Some(max.clone()) };
-            }
-            Bound::Holds => {}
-        };
-        match (self.quantity, &self.bound, self.given.as_slice()) {
-            (TRANSMISSION, ..) => {
-                whole(requirements.transmission.get_or_insert(Range { min: None, max: None }));
-            }
-            ("joint_range", ..) => {
-                let none = || std::array::from_fn(|_| Range { min: None, max: None });
-                let ranges = requirements.joint_range.get_or_insert_with(none);
-                match self.leg {
-                    None => ranges.iter_mut().for_each(whole),
-                    Some(leg) => whole(ranges.get_mut(leg.checked_sub(1)?)?),
-                }
-            }
-            ("conditioning", Bound::Max(max), _) => {
-                requirements.conditioning = Some(AtMost { max: max.clone() });
-            }
-            ("serial_margin", Bound::Min(min), _) => {
-                requirements.serial_margin = Some(AtLeast { min: min.clone() });
-            }
-            ("parallel_margin", Bound::Min(min), _) => {
-                requirements.parallel_margin = Some(AtLeast { min: min.clone() });
-            }
-            ("leg_angle", Bound::Max(max), _) => {
-                requirements.leg_angle = Some(AtMost { max: max.clone() });
-            }
-            ("joint_speed", Bound::Max(max), [("tool", tool)]) => {
-                let tool = tool.first()?.clone();
-                requirements.joint_speed = Some(JointSpeed { tool, max: max.clone() });
-            }
-            _ => return None,
-        }
-        Some(())
-    }
 }
 
 fn all(numbers: &[Exact]) -> Option<Vec<Expression>> {
@@ -400,22 +253,18 @@ fn all(numbers: &[Exact]) -> Option<Vec<Expression>> {
 }
 
 fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
-    let vector = |vector: &[checker::Quantity; 3]| -> Option<kernel::Vector> {
+    let vector = |vector: &[leg::Quantity; 3]| -> Option<kernel::Vector> {
         vector.iter().take(if in_plane { 2 } else { 3 }).map(between).collect()
     };
-    let sign = |mode: WorkingMode| match mode {
-        WorkingMode::Plus => kernel::Sign::Plus,
-        WorkingMode::Minus => kernel::Sign::Minus,
-    };
     Some(match &leg.drive {
-        checker::Leg::Slider { direction, anchor, platform, length, mode } => kernel::Leg::Slider {
+        leg::Leg::Slider { direction, anchor, platform, length, mode } => kernel::Leg::Slider {
             direction: vector(direction)?,
             anchor: vector(anchor)?,
             platform: vector(platform)?,
             length: between(length)?,
-            mode: sign(*mode),
+            mode: *mode,
         },
-        checker::Leg::Strut { anchor, platform } => kernel::Leg::Strut {
+        leg::Leg::Strut { anchor, platform } => kernel::Leg::Strut {
             anchor: vector(anchor)?,
             platform: vector(platform)?,
             base_axis: match &leg.base_axis {
@@ -423,7 +272,7 @@ fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
                 None => None,
             },
         },
-        checker::Leg::Arm { axis, reference, anchor, platform, arm, length, mode } => {
+        leg::Leg::Arm { axis, reference, anchor, platform, arm, length, mode } => {
             kernel::Leg::Arm {
                 axis: if in_plane { Vec::new() } else { vector(axis)? },
                 reference: vector(reference)?,
@@ -431,9 +280,9 @@ fn leg(leg: &Leg, in_plane: bool) -> Option<kernel::Leg> {
                 platform: vector(platform)?,
                 arm: between(arm)?,
                 length: between(length)?,
-                mode: sign(*mode),
+                mode: *mode,
             }
         }
-        checker::Leg::Planar { direction } => kernel::Leg::Planar { direction: vector(direction)? },
+        leg::Leg::Planar { direction } => kernel::Leg::Planar { direction: vector(direction)? },
     })
 }

@@ -6,15 +6,15 @@ use super::description::{Leg, Motion};
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
 use super::independence::{not_parallel, product, sign_within};
+use super::leg::{self, Quantity, WorkingMode};
 use super::mechanism::{word, zero};
 use super::number::{positive, quantity};
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, Quantity, WorkingMode};
 
 struct Drive {
     name: &'static str,
     keys: &'static [&'static str],
-    read: fn(&Table<'_>, Motion) -> Result<checker::Leg, DesignError>,
+    read: fn(&Table<'_>, Motion) -> Result<leg::Leg, DesignError>,
 }
 
 const DRIVES: &[Drive] = &[
@@ -108,11 +108,11 @@ fn vector_at<'a>(
 }
 
 /// A leg of fixed length on a linear guide.
-fn slider(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+fn slider(table: &Table<'_>, motion: Motion) -> Result<leg::Leg, DesignError> {
     let direction = vector_at(table, "direction", "the guide's direction", motion)?;
     let anchor = vector_at(table, "anchor", "the point of the guide where rho = 0", motion)?;
     let length = table.require("length", LENGTH)?;
-    Ok(checker::Leg::Slider {
+    Ok(leg::Leg::Slider {
         direction: self::direction(&direction, motion)?,
         anchor: vector(&anchor, motion)?,
         platform: platform(table, motion)?,
@@ -122,14 +122,14 @@ fn slider(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError
 }
 
 /// An extensible leg.
-fn strut(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+fn strut(table: &Table<'_>, motion: Motion) -> Result<leg::Leg, DesignError> {
     let anchor = vector_at(table, "anchor", "the leg's joint on the base", motion)?;
     let anchor = vector(&anchor, motion)?;
-    Ok(checker::Leg::Strut { anchor, platform: platform(table, motion)? })
+    Ok(leg::Leg::Strut { anchor, platform: platform(table, motion)? })
 }
 
 /// A leg of fixed length on an arm that a motor turns.
-fn arm(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+fn arm(table: &Table<'_>, motion: Motion) -> Result<leg::Leg, DesignError> {
     let anchor = vector_at(table, "anchor", "a point of the motor's axis", motion)?;
     let axis = match in_plane(motion) {
         true => [zero(), zero(), one()],
@@ -151,7 +151,7 @@ fn arm(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
     if let Some(reference) = reference.filter(|_| !in_plane(motion)) {
         orthogonal(&reference, &axis, &directed)?;
     }
-    Ok(checker::Leg::Arm {
+    Ok(leg::Leg::Arm {
         axis,
         reference: directed,
         anchor: vector(&anchor, motion)?,
@@ -163,9 +163,9 @@ fn arm(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
 }
 
 /// A leg that constrains the platform to a plane.
-fn planar(table: &Table<'_>, motion: Motion) -> Result<checker::Leg, DesignError> {
+fn planar(table: &Table<'_>, motion: Motion) -> Result<leg::Leg, DesignError> {
     let direction = vector_at(table, "direction", "the normal of the plane", motion)?;
-    Ok(checker::Leg::Planar { direction: self::direction(&direction, motion)? })
+    Ok(leg::Leg::Planar { direction: self::direction(&direction, motion)? })
 }
 
 /// Fractional bits in which a product that is not zero shows.

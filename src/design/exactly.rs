@@ -2,13 +2,13 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
+use super::leg;
 use super::number::{self, WITHIN_LIMITS};
 use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
-use orthocert_checker::claim as checker;
 use orthocert_kernel::claim::Quantity;
 use orthocert_kernel::number::{Expression, Operator};
 
@@ -37,7 +37,7 @@ fn too_long(value: &Value<'_>) -> DesignError {
 }
 
 /// The quantity with the same ends.
-pub(super) fn between(quantity: &checker::Quantity) -> Option<Quantity> {
+pub(super) fn between(quantity: &leg::Quantity) -> Option<Quantity> {
     let min = written(&quantity.min)?;
     Some(match quantity.is_exact() {
         true => Quantity::Exactly(min),
@@ -166,10 +166,10 @@ mod tests {
             if let (Some(x), Some(y)) = (exact.as_rational(), expression.rational()) {
                 assert_eq!(*x, y, "{text}");
             }
-            let (old, new) = (exact.enclose(0, 400).unwrap(), {
+            let (old, new) = (exact.enclose(400).unwrap(), {
                 expression.enclose(&Fixed::new(400), &|_| None).unwrap()
             });
-            assert!(old.lo() <= &new.hi && &new.lo <= old.hi(), "{text}");
+            assert!(old.lo <= new.hi && new.lo <= old.hi, "{text}");
             let least = BigInt::from(1) << 20;
             if exact.as_rational().is_none() {
                 assert!(&new.hi - &new.lo < least, "{text}");

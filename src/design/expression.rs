@@ -9,9 +9,9 @@
 use super::error::Defect;
 use super::exactly::written;
 use super::suggestion;
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use orthocert_checker::number::Exact;
 use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::number::{

@@ -3,9 +3,9 @@
 
 use super::document::Value;
 use super::error::{Defect, DesignError};
-use crate::exact::{enclosed, Exact, NumberErrorKind};
+use super::leg::{Leg, Quantity};
+use crate::exact::{Exact, NumberErrorKind};
 use num_traits::Signed;
-use orthocert_checker::claim::{Leg, Quantity};
 use orthocert_kernel::fixed::Interval;
 
 /// Fractional bits in which the sign of a number that is not tiny shows.
@@ -82,7 +82,7 @@ pub(super) fn sign_within(x: &Exact, bits: u32) -> Option<i32> {
     if x.as_rational().is_some() {
         return x.sign().filter(|sign| *sign != 0);
     }
-    let Interval { lo, hi } = enclosed(x, bits)?;
+    let Interval { lo, hi } = x.enclose(bits)?;
     match (lo.is_positive(), hi.is_negative()) {
         (true, _) => Some(1),
         (_, true) => Some(-1),

@@ -9,9 +9,9 @@ use super::drive::{self, LENGTH};
 use super::error::{Defect, DesignError};
 use super::formulas;
 use super::independence;
+use super::leg::{self, Quantity, WorkingMode};
 use super::number::{exact, negated, positive, quantity};
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, Quantity, WorkingMode};
 use orthocert_kernel::claim::Body;
 
 /// Most legs or joints.
@@ -104,7 +104,7 @@ fn orthoglide(table: &Table<'_>, setting: &Setting<'_>) -> Result<Machine, Desig
         }
     };
     let leg = |axis: usize| {
-        let drive = checker::Leg::Slider {
+        let drive = leg::Leg::Slider {
             direction: along(axis, &Quantity::exactly(Exact::integer(1))),
             anchor: along(axis, &base),
             platform: along(axis, &offset),
@@ -169,7 +169,7 @@ fn legs(table: &Table<'_>, motion: Motion) -> Result<Machine, DesignError> {
         demands.extend(bodies::joints(&table, i + 1, motion)?);
     }
     drive::one_unit(&values, &legs)?;
-    let drives: Vec<&checker::Leg> = legs.iter().map(|leg| &leg.drive).collect();
+    let drives: Vec<&leg::Leg> = legs.iter().map(|leg| &leg.drive).collect();
     if legs.len() == coordinates {
         independence::different(&values, &drives)?;
     }

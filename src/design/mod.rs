@@ -1,6 +1,6 @@
 //! Design files: machines, workspaces and requirements as people write them, in TOML.
 //!
-//! A design is read into a [`Claim`] of exact numbers. Nothing is defaulted silently, clamped or
+//! A design is read into a [`MachineClaim`](kernel::MachineClaim) of exact numbers. Nothing is defaulted silently, clamped or
 //! rounded, and whatever is wrong with a file is said in one message ([`DesignError`]).
 //!
 //! ```
@@ -30,6 +30,7 @@ mod exactly;
 mod expression;
 mod formulas;
 mod independence;
+mod leg;
 mod mechanism;
 mod names;
 mod notation;
@@ -46,7 +47,6 @@ mod variable;
 mod workspace;
 
 pub use atlas::{is_atlas, AtlasDesign, Mark, Objective, Parameter, MAX_RESOLUTION};
-pub use description::in_the_kernel;
 pub use error::{Defect, DesignError, Position, ReadError};
 pub use exactly::written;
 pub use notation::may_be_tolerance;
@@ -58,7 +58,6 @@ use crate::exact::Exact;
 use description::{Bound, Demand, Description, Mechanism};
 use document::{Document, Names, Table};
 use mechanism::Setting;
-use orthocert_checker::claim::{Claim, MachineClaim};
 use orthocert_checker::file;
 use orthocert_kernel::claim as kernel;
 use std::path::Path;
@@ -74,9 +73,7 @@ pub struct Design {
     pub title: Option<String>,
     /// The claim, well formed and with a model
     /// ([`Problem`](orthocert_kernel::problem::Problem)).
-    pub claim: Claim,
-    /// The same in the words of the rules for three translating legs, where it has such.
-    pub rules: Option<MachineClaim>,
+    pub claim: kernel::MachineClaim,
     /// Where each key stands in the file; empty for [`Design::prototype`].
     pub sources: Sources,
 }
@@ -96,22 +93,10 @@ impl Design {
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
         let description = description(&root)?;
         let sources = Sources::of(text, tree.get_ref());
-        let rules = description.machine();
-        if let Some(claim) = &rules {
-            refusal::modelled(&root, claim)?;
-        }
         let claim = description.kernel().ok_or_else(|| too_long(&root))?;
         refusal::compiled(&root, &claim)?;
         let title = title.map(str::to_owned);
-        Ok(Design { title, claim: Claim::Kernel(claim), rules, sources })
-    }
-
-    /// The claim in the kernel's vocabulary.
-    pub fn kernel(&self) -> Option<&kernel::MachineClaim> {
-        match &self.claim {
-            Claim::Kernel(claim) => Some(claim),
-            _ => None,
-        }
+        Ok(Design { title, claim, sources })
     }
 
     /// Reads a design file.
@@ -149,8 +134,7 @@ impl Design {
         };
         Design {
             title: Some("Orthoglide prototype".to_owned()),
-            claim: description.kernel().map(Claim::Kernel).expect("short numbers"),
-            rules: description.machine(),
+            claim: description.kernel().expect("short numbers"),
             sources: Sources::default(),
         }
     }

@@ -1,8 +1,8 @@
 //! Names of parameters in numbers, and values for them.
 
 use super::exactly::{rational, written};
+use crate::exact::{Exact, NumberErrorKind};
 use num_rational::BigRational;
-use orthocert_checker::number::{Exact, NumberErrorKind};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::number::Expression;
 

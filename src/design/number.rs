@@ -8,12 +8,12 @@
 
 use super::document::{Names, Value};
 use super::error::{Defect, DesignError};
+use super::leg::Quantity;
 use super::names::{self, NoValue};
 use super::notation::{is_plain_tolerance, may_be_tolerance, parts_of_tolerance};
 use super::suggestion;
 use super::variable::half_width;
 use crate::exact::{Exact, NumberError, NumberErrorKind};
-use orthocert_checker::claim::Quantity;
 use std::cmp::Ordering;
 use toml::de::{DeFloat, DeInteger, DeValue};
 

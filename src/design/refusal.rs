@@ -2,44 +2,13 @@
 
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
-use crate::verify::MODEL_PRECISION;
-use orthocert_checker::claim::{ClaimError, MachineClaim};
-use orthocert_checker::model::Model;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::input::ClaimError as Refused;
 use orthocert_kernel::problem::Problem;
 
-const WELL_FORMED: &str = "a well-formed claim";
-
-/// Demands a claim that is well formed and has a model.
-pub(super) fn modelled(root: &Table<'_>, claim: &MachineClaim) -> Result<(), DesignError> {
-    Model::new(claim, MODEL_PRECISION).map(drop).map_err(|error| ill_formed(root, &error))
-}
-
 /// Demands a claim that the kernel takes.
 pub(super) fn compiled(root: &Table<'_>, claim: &kernel::MachineClaim) -> Result<(), DesignError> {
     Problem::new(claim).map(drop).map_err(|error| refused(root, &error))
-}
-
-/// A claim that the rules refuse.
-pub(super) fn ill_formed(root: &Table<'_>, error: &ClaimError) -> DesignError {
-    let table = match error {
-        ClaimError::EmptyTransmission
-        | ClaimError::CubeNeedsPsiMax
-        | ClaimError::CubeFixesPsiMin => "requirements",
-        ClaimError::CubeNeedsOrthoglide => "workspace",
-        ClaimError::Reversed(what)
-        | ClaimError::NotPositive(what)
-        | ClaimError::NoBound(what)
-        | ClaimError::Precision(what) => match what {
-            _ if what.starts_with("workspace") => "workspace",
-            _ if what.starts_with("transmission") => "requirements",
-            _ if what.starts_with("joint_range") => "requirements",
-            _ => "mechanism",
-        },
-        _ => "mechanism",
-    };
-    of_table(root, table, &error.to_string(), WELL_FORMED)
 }
 
 /// A claim that the kernel refuses: the error about the table that it names.

@@ -5,12 +5,19 @@
 use super::description::{Bound, Demand, Leg, Mechanism, Motion};
 use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
+use super::leg;
 use super::mechanism::Machine;
 use super::number::{exact, not_negative, ordered, positive};
 use crate::exact::Exact;
-use orthocert_checker::claim::{self as checker, Range};
 use std::cmp::Ordering;
 use toml::de::DeValue;
+
+/// `min <= x <= max`; one of them is there.
+#[derive(Clone)]
+struct Range {
+    min: Option<Exact>,
+    max: Option<Exact>,
+}
 
 struct Requirement {
     key: &'static str,
@@ -299,7 +306,7 @@ fn leg_angle(
         return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
     }
     let of = ["legs without a guide", "leg_angle for sliders: other legs have no guide"];
-    all_legs(value, machine, |leg| matches!(leg.drive, checker::Leg::Slider { .. }), of)?;
+    all_legs(value, machine, |leg| matches!(leg.drive, leg::Leg::Slider { .. }), of)?;
     Ok(vec![Demand::of(key, Bound::Max(max))])
 }
 

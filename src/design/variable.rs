@@ -287,7 +287,7 @@ fn largest(value: &Value<'_>) -> Option<BigRational> {
 fn size(x: &Exact) -> Option<BigRational> {
     let value = match x.as_rational() {
         Some(x) => x.clone(),
-        None => x.enclose(0, SIZE_BITS)?.inf(),
+        None => x.below(SIZE_BITS)?,
     };
     Some(value.abs())
 }

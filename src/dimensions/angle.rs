@@ -75,7 +75,7 @@ fn series(f: &Fixed<BigInt>, x: &Ends) -> Option<Ends> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{enclosed, Exact};
+    use crate::exact::Exact;
     use num_rational::BigRational;
 
     fn exact(text: &str) -> Exact {
@@ -101,7 +101,7 @@ mod tests {
             ("1000000", "1.5707953267948966195646550249728847754319181758780"),
         ] {
             let f = Fixed::new(120);
-            let x = enclosed(&exact(x), 120).unwrap();
+            let x = exact(x).enclose(120).unwrap();
             let found = atan(&x, 120).unwrap();
             // The digits are good to 50 places; the enclosure is of 120 bits.
             let ([inf, sup], angle) = (ends(&found, 120), rational(angle));
@@ -116,7 +116,7 @@ mod tests {
     fn arctangents_agree_with_floating_point() {
         for n in -400i64..400 {
             let x = Exact::Rational(BigRational::new((n * n * n).into(), 8000.into()));
-            let found = atan(&enclosed(&x, 128).unwrap(), 128).unwrap();
+            let found = atan(&x.enclose(128).unwrap(), 128).unwrap();
             let middle = ((found.lo + found.hi) >> 65u32).to_string().parse::<f64>().unwrap();
             let middle = middle / 2f64.powi(64);
             let float = ((n * n * n) as f64 / 8000.0).atan();
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn an_arctangent_of_an_interval_encloses_those_of_its_ends() {
-        let [lo, hi] = ["-1/3", "5/2"].map(|x| enclosed(&exact(x), 96).unwrap());
+        let [lo, hi] = ["-1/3", "5/2"].map(|x| exact(x).enclose(96).unwrap());
         let whole = atan(&Fixed::new(96).hull(&lo, &hi), 96).unwrap();
         for end in [lo, hi] {
             let at_end = atan(&end, 96).unwrap();

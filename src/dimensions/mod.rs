@@ -8,7 +8,7 @@ mod angle;
 
 pub use angle::atan;
 
-use crate::exact::{enclosed, Exact};
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -139,8 +139,8 @@ fn enclose(
     bits: u32,
 ) -> Option<Vec<Dimension>> {
     let f = Fixed::<BigInt>::new(bits);
-    let (one, cube, offset) = (f.integer(1)?, enclosed(cube, bits)?, enclosed(offset, bits)?);
-    let psi_max = enclosed(psi_max, bits)?;
+    let (one, cube, offset) = (f.integer(1)?, cube.enclose(bits)?, offset.enclose(bits)?);
+    let psi_max = psi_max.enclose(bits)?;
     let rest = f.sub(&one, &f.recip(&psi_max)?)?;
     let t1 = f.halve(&rest)?;
     let t2 = if below_two { f.halve(&f.sub(&psi_max, &one)?)? } else { rest };

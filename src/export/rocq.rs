@@ -6,8 +6,7 @@
 //! claim and the theorem in the file.
 
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::Claim;
-use orthocert_kernel::certificate::Proof as Proven;
+use orthocert_kernel::certificate::Claim;
 
 mod kernel;
 mod postulate;
@@ -27,9 +26,9 @@ pub enum ExportError {
     /// It refutes.
     #[error("the certificate refutes its claim; {ONLY}")]
     Refutes,
-    /// It is not a certificate of the kernel.
-    #[error("it proves its claim by rules that the formal checker lacks; {ONLY}")]
-    Rules,
+    /// It is an atlas.
+    #[error("the claim is about a box of parameters; {ONLY}")]
+    Atlas,
     /// The platform turns, or the mechanism is given by formulas.
     #[error("the platform turns, or the mechanism is given by formulas; {ONLY}")]
     NotTranslational,
@@ -66,10 +65,11 @@ pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
         return Err(ExportError::Refutes);
     }
     match (&certificate.claim, &certificate.proof) {
-        (Claim::Kernel(claim), Proof::Kernel(proof)) => kernel::kernel(claim, proof),
-        (Claim::Postulate(claim), Proof::Kernel(Proven::Tree(tree))) => postulate(claim, tree),
+        (Claim::Machine(claim), proof) => kernel::kernel(claim, proof),
+        (Claim::Postulate(claim), Proof::Tree(tree)) => postulate(claim, tree),
         (Claim::NoCube(_), _) => Err(ExportError::NoCube),
-        _ => Err(ExportError::Rules),
+        (Claim::Atlas(_), _) => Err(ExportError::Atlas),
+        (Claim::Postulate(_), _) => Err(ExportError::NotATree),
     }
 }
 

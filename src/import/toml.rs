@@ -2,7 +2,7 @@
 
 use super::error::printable;
 use super::Imported;
-use crate::exact::{enclosed, Exact};
+use crate::exact::Exact;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -116,7 +116,7 @@ fn components(degrees: &Exact) -> Option<[Component; 2]> {
         let sine = (step + 9) % 12;
         return Some([Component::Exactly(COSINES[step]), Component::Exactly(COSINES[sine])]);
     }
-    let [cos, sin] = cos_sin(|bits| enclosed(degrees, bits), BITS)?;
+    let [cos, sin] = cos_sin(|bits| degrees.enclose(bits), BITS)?;
     let ten = BigInt::from(10).pow(PLACES);
     let decimal = |n: &BigInt, up: bool| {
         let one = BigInt::from(1) << BITS;
@@ -188,8 +188,10 @@ pub(super) fn less(a: &str, b: &str) -> bool {
 pub(super) struct Machine {
     /// What it is, for the title.
     pub title: &'static str,
+    /// How its platform moves.
+    pub kind: &'static str,
     /// The legs' tables, in the order of the firmware's joints.
-    pub legs: [String; 3],
+    pub legs: Vec<String>,
     /// The lines of `[workspace]`.
     pub workspace: String,
     /// Those of `[requirements]`.
@@ -289,11 +291,13 @@ pub(super) fn document(name: &str, machine: &Machine, imported: &Imported) -> St
         imported.ignored.iter().map(ToString::to_string).collect(),
     );
     list("Not in the configuration, or not expressible here:", imported.not_carried_over.clone());
-    let [first, second, third] = &machine.legs;
     text.push_str(&format!(
-        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"translational\"\n\n\
-         {first}\n{second}\n{third}\n[workspace]\n{}\n[requirements]\n{}",
-        machine.workspace, machine.requirements
+        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"{}\"\n\n{}\n[workspace]\n{}\n\
+         [requirements]\n{}",
+        machine.kind,
+        machine.legs.join("\n"),
+        machine.workspace,
+        machine.requirements
     ));
     text
 }

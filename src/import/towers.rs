@@ -103,7 +103,6 @@ pub(super) fn highest(towers: &[Tower], tops: &[String], radius: &Number) -> Opt
 /// The number nearest to an expression, for a comment.
 pub(super) fn about(expression: &str) -> Option<String> {
     let value = Exact::parse(expression, 1000).ok()?;
-    let enclosed = value.enclose(0, 64)?;
-    let value = BigRational::new(enclosed.lo().clone(), BigInt::from(1) << 64u32).to_f64()?;
+    let value = value.below(64)?.to_f64()?;
     Some(format!("{value:.3}"))
 }

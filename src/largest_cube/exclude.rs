@@ -7,10 +7,9 @@ use crate::solver::fails::Failing;
 use crate::solver::search::{search, Boxes, Branch, Cell, Ends, Trial};
 use crate::solver::{approximate, confirmed, Answer, PRECISIONS};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::claim::{Claim, NoCubeClaim};
-use orthocert_kernel::certificate::{Node, Tree};
+use orthocert_kernel::certificate::{Claim, Node, Tree};
 use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::no_cube::OFFSET_PARTS;
+use orthocert_kernel::no_cube::{NoCubeClaim, OFFSET_PARTS};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 

@@ -6,7 +6,7 @@
 //! | `exclude` | proves that no cube of a side fits, wherever its centre is in a box |
 //!
 //! The lower bound is a certificate for the cube as a workspace of its own; the upper bound is a
-//! certificate of the claim [`NoCube`](orthocert_checker::claim::Claim::NoCube).
+//! certificate of the claim [`NoCube`](orthocert_kernel::certificate::Claim::NoCube).
 
 mod exclude;
 

@@ -7,7 +7,7 @@ use crate::search::{Budget, Control};
 use crate::solver;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_kernel::claim::MachineClaim;
 
 /// A design file, one number of which is varied.
 pub struct DesignFamily<'a, 'c> {
@@ -20,18 +20,20 @@ pub struct DesignFamily<'a, 'c> {
 }
 
 impl Family for DesignFamily<'_, '_> {
-    type Claim = Claim;
+    type Claim = MachineClaim;
     type Proof = Box<Certificate>;
 
-    fn claim(&self, value: &BigRational) -> Result<Claim, String> {
+    fn claim(&self, value: &BigRational) -> Result<MachineClaim, String> {
         let design = Design::parse(&self.variable.with(value), "design");
         design.map(|design| design.claim).map_err(|error| {
             format!("{}: found {}; accepted: {}", error.key(), error.found(), error.accepted())
         })
     }
 
-    fn decide(&mut self, claim: &Claim) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
-        let Claim::Kernel(claim) = claim else { return Ok(None) };
+    fn decide(
+        &mut self,
+        claim: &MachineClaim,
+    ) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
         let found = solver::verify(claim, self.budget, self.control);
         let certificate = match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
             solver::Answer::Decided { certificate, .. } => Some(certificate),

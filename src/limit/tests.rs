@@ -218,9 +218,9 @@ fn values_are_short_decimals_well_between() {
 
 #[test]
 fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
-    use crate::verify::certificate;
+    use crate::solver::certificate;
     use orthocert_checker::certificate::Proof;
-    use orthocert_checker::claim::Claim;
+    use orthocert_kernel::certificate::Claim;
     use orthocert_kernel::certificate::{self as kernel, Failure};
     use orthocert_kernel::number::Expression;
 
@@ -238,7 +238,7 @@ fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
     let claim = format!(
         r#"{{"mechanism":{{"translational":[{legs}]}},"workspace":{{"box":{{"min":["-72","-72","-72"],"max":["125","125","125"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"1.96"}}]}}"#
     );
-    let claim = Claim::Kernel(serde_json::from_str(&claim).unwrap());
+    let claim = Claim::Machine(serde_json::from_str(&claim).unwrap());
     let number = |text: &str| Expression::try_from(text.to_owned()).unwrap();
     let place = |fails: Failure| {
         let witness = kernel::Witness {
@@ -247,7 +247,7 @@ fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
             machine: vec![number("310")],
             fails,
         };
-        let proof = Proof::Kernel(kernel::Proof::Witness(witness));
+        let proof = Proof::Witness(witness);
         Place::of(&certificate(claim.clone(), Refuted, proof)).unwrap()
     };
     let found = place(Failure::Obligation(0, vec![vec![1, -1, 0]]));
@@ -265,7 +265,7 @@ fn a_witness_of_the_kernel_has_its_requirement_and_its_place() {
     );
     // What is certified, or no witness, has no place.
     let tree = kernel::Tree { precision: 96, chords: None, nodes: Vec::new() };
-    let proof = Proof::Kernel(kernel::Proof::Tree(tree));
+    let proof = Proof::Tree(tree);
     assert_eq!(Place::of(&certificate(claim.clone(), Certified, proof)), None);
 }
 

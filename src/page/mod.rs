@@ -50,9 +50,9 @@ pub use general::names as coordinates;
 use isomap::Scale;
 use legend::PATTERNS;
 use nominal::Nominal;
-use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
 use orthocert_checker::Accepted;
+use orthocert_kernel::certificate::Claim;
 use scene::{corners_of_cube, first_slice, of_nothing, of_postulate, slice, Scene};
 use serde_json::{json, Value};
 
@@ -112,12 +112,12 @@ impl<'a> Page<'a> {
     ) -> Self {
         let of_cube;
         let machine_claim = match &certificate.claim {
-            Claim::Kernel(claim) => Some(claim),
+            Claim::Machine(claim) => Some(claim),
             Claim::Postulate(claim) => {
                 of_cube = nominal::of_postulate(claim);
                 of_cube.as_ref()
             }
-            Claim::Machine(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
+            Claim::Atlas(_) | Claim::NoCube(_) => None,
         };
         let machine = machine_claim.and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, &certificate.proof);
@@ -125,7 +125,7 @@ impl<'a> Page<'a> {
             (machine, scale)
         });
         let scene = match (&certificate.claim, &certificate.proof) {
-            (Claim::Kernel(claim), Proof::Kernel(proof)) => {
+            (Claim::Machine(claim), proof) => {
                 let mut scene = general::scene(claim, proof);
                 if let Some((machine, scale)) = &machine {
                     scene.marks.extend(corners_of_cube(machine));
@@ -143,7 +143,7 @@ impl<'a> Page<'a> {
                 }
                 scene
             }
-            (Claim::NoCube(claim), Proof::Kernel(proof)) => general::of_centres(claim, proof),
+            (Claim::NoCube(claim), proof) => general::of_centres(claim, proof),
             (Claim::Postulate(claim), proof) => {
                 let machine = machine.as_ref().map(|(machine, scale)| (machine, scale.as_ref()));
                 of_postulate(claim, proof, machine_claim, machine)
@@ -174,7 +174,7 @@ impl<'a> Page<'a> {
     }
 
     fn is_machine(&self) -> bool {
-        matches!(self.certificate.claim, Claim::NoCube(_) | Claim::Kernel(_))
+        matches!(self.certificate.claim, Claim::NoCube(_) | Claim::Machine(_))
     }
 
     /// Every figure.
@@ -192,7 +192,7 @@ impl<'a> Page<'a> {
             Verdict::Refuted => "\u{2717} REFUTED",
         };
         let meaning = match (&self.certificate.claim, verdict) {
-            (Claim::Machine(_) | Claim::Kernel(_), Verdict::Certified) => {
+            (Claim::Machine(_), Verdict::Certified) => {
                 "Every requirement holds, at every point of the workspace and for every machine that \
                  the claim describes. The exact checker accepted the proof."
             }

@@ -11,7 +11,7 @@ use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
 use crate::decimal::significant;
 use orthocert_checker::certificate::Proof;
-use orthocert_checker::kernel::trees as kernel_trees;
+use orthocert_checker::trees as kernel_trees;
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::postulate::{parts, Part, PostulateClaim};
@@ -53,7 +53,7 @@ pub fn of_postulate(
     let marks = machine.map(|(machine, _)| corners_of_cube(machine)).unwrap_or_default();
     let slices = machine.and_then(|(machine, scale)| Some(first_slice(machine, scale?, &marks)));
     let trees = match proof {
-        Proof::Kernel(kernel::Proof::Tree(tree)) => faces(claim, tree),
+        Proof::Tree(tree) => faces(claim, tree),
         _ => Vec::new(),
     };
     let shape = of_cube.and_then(shape);
@@ -84,7 +84,7 @@ pub fn corners_of_cube(machine: &Nominal) -> Vec<Mark> {
 pub fn slice(machine: &Nominal, proof: &Proof) -> f64 {
     let (least, width) = (machine.least[2], machine.width[2]);
     let z = match proof {
-        Proof::Kernel(kernel::Proof::Witness(witness)) => witness.point.get(2).and_then(double),
+        Proof::Witness(witness) => witness.point.get(2).and_then(double),
         _ => machine.is_cube.then_some(least),
     };
     match z {

@@ -8,9 +8,9 @@ use super::{evidence, general, mechanism, recheck, words, Page, Picture};
 use crate::decimal::grouped;
 use crate::escape::xml;
 use orthocert_checker::certificate::{Proof, Verdict};
-use orthocert_checker::claim::{Claim, NoCubeClaim};
-use orthocert_kernel::certificate as kernel;
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::Mechanism;
+use orthocert_kernel::no_cube::NoCubeClaim;
 use std::fmt::Write;
 
 impl Page<'_> {
@@ -22,7 +22,7 @@ impl Page<'_> {
             ("claim", "Claim", words::claim_section(&self.certificate.claim, verdict)),
         ];
         let counterexample = match (&self.certificate.claim, &self.certificate.proof) {
-            (Claim::Kernel(claim), Proof::Kernel(kernel::Proof::Witness(witness))) => {
+            (Claim::Machine(claim), Proof::Witness(witness)) => {
                 Some(general::counterexample(claim, witness))
             }
             _ => None,
@@ -73,13 +73,13 @@ impl Page<'_> {
         let size = &self.accepted.size;
         let mut facts = Vec::new();
         match &self.certificate.proof {
-            Proof::Witness(_) | Proof::Kernel(kernel::Proof::Witness(_)) => {
+            Proof::Witness(_) => {
                 facts.push(("proof", "one counterexample".to_owned()));
             }
-            Proof::Kernel(kernel::Proof::Atlas(cells)) => {
+            Proof::Atlas(cells) => {
                 facts.push(("cells and their halvings", grouped(cells.len() as u64)));
             }
-            Proof::Tree(_) | Proof::Kernel(kernel::Proof::Tree(_)) => {
+            Proof::Tree(_) => {
                 let cover = match self.certificate.claim {
                     Claim::NoCube(_) => "boxes that cover the centres",
                     _ => "boxes that cover the workspace",
@@ -92,10 +92,8 @@ impl Page<'_> {
         let bits = match &self.certificate.proof {
             Proof::Tree(tree) => Some(tree.precision),
             Proof::Witness(witness) => Some(witness.precision),
-            Proof::Kernel(kernel::Proof::Tree(tree)) => Some(tree.precision),
-            Proof::Kernel(kernel::Proof::Witness(witness)) => Some(witness.precision),
             // Each cell has its own.
-            Proof::Kernel(kernel::Proof::Atlas(_)) => None,
+            Proof::Atlas(_) => None,
         };
         facts.extend(bits.map(|bits| ("fractional bits", bits.to_string())));
         facts.push(("certificate", self.file.name.to_owned()));
@@ -110,7 +108,7 @@ impl Page<'_> {
     fn machine_section(&self) -> String {
         let mut out = "<section id=\"machine\"><h2>The machine</h2>".to_owned();
         let (Some(shape), Some(design)) = (&self.scene.shape, &self.figures.design) else {
-            if let Claim::Kernel(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) =
+            if let Claim::Machine(claim) | Claim::NoCube(NoCubeClaim { machine: claim, .. }) =
                 &self.certificate.claim
             {
                 let reason = match claim.mechanism {
@@ -137,7 +135,7 @@ impl Page<'_> {
         };
         let unit = if self.is_machine() { "" } else { " Its leg length L is 1." };
         let turned = match &self.certificate.claim {
-            Claim::Kernel(claim) if claim.orientation.is_some() => {
+            Claim::Machine(claim) if claim.orientation.is_some() => {
                 " The platform is in the middle of its orientations."
             }
             _ => "",
@@ -149,7 +147,7 @@ impl Page<'_> {
             design.inline()
         );
         match &self.certificate.claim {
-            Claim::Kernel(claim) if !matches!(claim.mechanism, Mechanism::Orthoglide { .. }) => {
+            Claim::Machine(claim) if !matches!(claim.mechanism, Mechanism::Orthoglide { .. }) => {
                 out.push_str(&mechanism::parameters(claim));
             }
             Claim::NoCube(NoCubeClaim { machine: claim, .. }) => {

@@ -3,14 +3,14 @@
 use super::legs::Numbers;
 use super::mechanism;
 use super::nominal::Nominal;
-use crate::decimal::{readable, significant};
+use crate::decimal::significant;
 use crate::escape::xml;
-use crate::exact::Exact;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::claim::{Claim, Every, PsiMax};
 use orthocert_checker::statement;
 use orthocert_kernel::atlas::Parameter;
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim as kernel;
+use orthocert_kernel::postulate::{Every, PsiMax};
 use std::fmt::Write;
 
 /// Digits of numbers that are computed for people.
@@ -38,17 +38,15 @@ pub fn subject(claim: &Claim) -> String {
             mechanism::workspace(&claim.machine),
             mechanism::machine(&claim.machine)
         ),
-        Claim::Machine(_) | Claim::Kernel(_) => {
-            machine_and_workspace(claim).unwrap_or_default().join(" over ")
-        }
+        Claim::Machine(_) => machine_and_workspace(claim).unwrap_or_default().join(" over "),
     }
 }
 
 /// The machine and the workspace of a claim about one machine, or the machines within its tolerances.
 pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
     match claim {
-        Claim::Kernel(claim) => Some([mechanism::machine(claim), mechanism::workspace(claim)]),
-        Claim::Machine(_) | Claim::Postulate(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
+        Claim::Machine(claim) => Some([mechanism::machine(claim), mechanism::workspace(claim)]),
+        Claim::Postulate(_) | Claim::Atlas(_) | Claim::NoCube(_) => None,
     }
 }
 
@@ -120,11 +118,11 @@ fn asserted(claim: &Claim) -> Vec<String> {
                  |<var>P</var> \u{2212} <var>C</var>|<sub>\u{221e}</sub> \u{2264} {side}/2 at which \
                  one of these fails:"
             )];
-            let everywhere = asserted(&Claim::Kernel(claim.machine.clone()));
+            let everywhere = asserted(&Claim::Machine(claim.machine.clone()));
             out.extend(everywhere.into_iter().skip(1));
             out
         }
-        Claim::Kernel(claim) => {
+        Claim::Machine(claim) => {
             let mut out = vec![
                 everywhere("<var>W</var>, the workspace").replace(", <var>i</var> = 1, 2, 3", ""),
                 "every formula is defined, every leg reaches <var>P</var> and is not serially singular \
@@ -136,14 +134,13 @@ fn asserted(claim: &Claim) -> Vec<String> {
             );
             out
         }
-        Claim::Machine(_) => Vec::new(),
     }
 }
 
 /// Definitions, as markup.
 fn definitions(claim: &Claim) -> Vec<&'static str> {
     if let Claim::NoCube(claim) = claim {
-        return definitions(&Claim::Kernel(claim.machine.clone()));
+        return definitions(&Claim::Machine(claim.machine.clone()));
     }
     const SLIDER: &str = "slider: <var>r</var> = <var>w</var> \u{2212} (<var>n</var>\u{b7}<var>w</var>)<var>n</var>, \
          <var>s</var> = \u{221a}(<var>L</var>\u{b2} \u{2212} |<var>r</var>|\u{b2}), \u{3b7} = \u{b1}<var>s</var>; \
@@ -160,13 +157,13 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
     const TURNED: &str = "<var>w</var> = <var>P</var> + <var>R</var><var>d</var> \u{2212} <var>a</var> for each leg, with its platform's joint <var>d</var> and its anchor <var>a</var>; \
          of a platform that turns, rows of <var>M</var> have the moments of the leg about <var>P</var> beside them";
     let (vectors, drives) = match claim {
-        Claim::Kernel(kernel::MachineClaim {
+        Claim::Machine(kernel::MachineClaim {
             mechanism: kernel::Mechanism::Formulas(_), ..
         }) => (None, Vec::new()),
-        Claim::Kernel(claim) if claim.orientation.is_some() => {
+        Claim::Machine(claim) if claim.orientation.is_some() => {
             (Some(TURNED), mechanism::drives(claim))
         }
-        Claim::Kernel(claim) => (Some(OF_THREE), mechanism::drives(claim)),
+        Claim::Machine(claim) => (Some(OF_THREE), mechanism::drives(claim)),
         _ => (Some(OF_THREE), vec!["slider"]),
     };
     let mut out: Vec<&str> = vectors.into_iter().collect();
@@ -183,7 +180,7 @@ fn definitions(claim: &Claim) -> Vec<&'static str> {
         }
     }
     out.extend(seen);
-    let of_kernel = matches!(claim, Claim::Kernel(_));
+    let of_kernel = matches!(claim, Claim::Machine(_));
     out.push(if of_kernel {
         "<var>M</var>: joint velocities are <var>M</var> times the velocity of the coordinates; \
          \u{3c8}<sub>i</sub> are the inverses of its singular values"

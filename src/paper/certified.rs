@@ -1,12 +1,11 @@
 //! Findings that rest on certificates.
 
 use super::{value, Agreement, Basis, Finding, NotEstablished};
-use crate::decide::decide;
 use crate::design::Design;
 use crate::search::{Budget, Control};
 use crate::solver;
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::claim::{Every, PostulateClaim, PsiMax};
+use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 use std::sync::atomic::AtomicBool;
 
 /// Far more than any of the proofs needs.
@@ -39,7 +38,8 @@ fn decided(
     let design = Design::parse(design, id).map_err(|e| fails(e.to_string()))?;
     let cancel = AtomicBool::new(false);
     let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
-    let found = decide(&design.claim, BUDGET, &mut control).map_err(|e| fails(e.to_string()))?;
+    let found =
+        solver::verify(&design.claim, BUDGET, &mut control).map_err(|e| fails(e.to_string()))?;
     match found.decided() {
         Some((certificate, accepted)) if accepted.verdict == verdict => Ok(certificate.clone()),
         Some((_, accepted)) => {

@@ -11,7 +11,9 @@ mod algebra;
 mod certified;
 
 use crate::exact::Exact;
+use num_bigint::BigInt;
 use num_rational::BigRational;
+use num_traits::One;
 use orthocert_checker::certificate::Certificate;
 
 /// How a claim of the paper fares.
@@ -111,6 +113,9 @@ const ORDER: [&str; 20] = [
     "case-split",
 ];
 
+/// Fractional bits of the enclosures of values.
+const BITS: u32 = 128;
+
 /// A value from its expression.
 fn value(
     id: &'static str,
@@ -119,9 +124,9 @@ fn value(
 ) -> Result<Value, NotEstablished> {
     let fails = |reason: String| NotEstablished { id, reason };
     let exact = Exact::parse(expression, 100).map_err(|e| fails(format!("{expression}: {e}")))?;
-    let enclosure =
-        exact.enclose(0, 128).ok_or_else(|| fails(format!("{expression}: no value")))?;
-    Ok(Value { symbol, exact, least: enclosure.inf(), greatest: enclosure.sup() })
+    let ends = exact.enclose(BITS).ok_or_else(|| fails(format!("{expression}: no value")))?;
+    let [least, greatest] = [ends.lo, ends.hi].map(|x| BigRational::new(x, BigInt::one() << BITS));
+    Ok(Value { symbol, exact, least, greatest })
 }
 
 #[cfg(test)]

@@ -285,7 +285,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let mut header = header(design.kernel().unwrap(), 9);
+        let mut header = header(&design.claim, 9);
         if !symmetric {
             header.symmetry = None;
         }

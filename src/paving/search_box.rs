@@ -37,7 +37,7 @@ mod tests {
         );
         let design = Design::parse(&text, "test").unwrap();
         let ends = |x: i64| vec![Expression::integer(x); 3];
-        let found = in_box(design.kernel().unwrap(), ends(-10), ends(10)).unwrap();
+        let found = in_box(&design.claim, ends(-10), ends(10)).unwrap();
         let Mechanism::Translational(legs) = found.mechanism else { panic!() };
         let Leg::Slider { anchor, platform, length, .. } = &legs[0] else { panic!() };
         let min = found.require.iter().find_map(|own| match &own.bound {

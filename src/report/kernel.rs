@@ -7,11 +7,10 @@ use super::{Counterexample, Row, Setting};
 use crate::batch::requirement::{rule_of, SINGULARITY};
 use crate::decimal::{exact, readable, rounded, significant, Toward};
 use crate::exact::Exact;
-use crate::sample::with_unit;
 use crate::search::Stop;
 use crate::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::solver::search::Open;
-use crate::solver::value::{unit, Bounded};
+use crate::solver::value::{unit, with_unit, Bounded};
 use crate::solver::Undecided;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -234,7 +233,7 @@ impl<'a> Facts<'a> {
             }
             _ => return Some(format!("{name} fails")),
         };
-        let bound = exactly(sides.first()?)?.enclose(0, 256)?.inf();
+        let bound = exactly(sides.first()?)?.below(256)?;
         let value = BigRational::from_f64(value?)?;
         let texts = PARTS.into_iter().flat_map(|part| {
             let part = BigRational::from_f64(part).unwrap_or_else(|| bound.clone());
@@ -378,7 +377,7 @@ fn bound_text(relation: &str, sides: Vec<String>) -> String {
 }
 
 /// The leg, counted from one, and the parameter that a place of the claim names: `leg 1: anchor.0`.
-fn parameter(place: &str) -> (Option<usize>, String) {
+pub fn parameter(place: &str) -> (Option<usize>, String) {
     let split = place.strip_prefix("leg ").and_then(|rest| rest.split_once(": "));
     let (leg, name) = match split {
         Some((leg, name)) => (leg.parse().ok(), name),

@@ -13,7 +13,7 @@ pub mod text;
 mod worst;
 
 pub use counterexample::{Counterexample, Setting};
-pub use kernel::{exactly, shown};
+pub use kernel::{exactly, parameter, shown, Facts};
 pub use place::{point_text, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
@@ -23,9 +23,8 @@ use crate::exact::Exact;
 use crate::solver;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::Claim;
 use orthocert_checker::TreeSize;
-use orthocert_kernel::certificate as of_kernel;
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::problem::Problem;
 use serde::{Serialize, Serializer};
@@ -131,7 +130,7 @@ pub struct Size {
 impl Size {
     /// The size of a proof that the checker has accepted; `None` for a counterexample.
     pub fn accepted(proof: &Proof, size: &TreeSize) -> Option<Self> {
-        let Proof::Kernel(of_kernel::Proof::Tree(tree)) = proof else {
+        let Proof::Tree(tree) = proof else {
             return None;
         };
         let precision = tree.precision;
@@ -144,8 +143,7 @@ impl Size {
 /// What a certificate's witness says against its claim; `None` of another certificate, and if its
 /// numbers exceed what can be shown.
 pub fn counterexample(certificate: &Certificate) -> Option<Counterexample> {
-    let (Claim::Kernel(claim), Proof::Kernel(of_kernel::Proof::Witness(witness))) =
-        (&certificate.claim, &certificate.proof)
+    let (Claim::Machine(claim), Proof::Witness(witness)) = (&certificate.claim, &certificate.proof)
     else {
         return None;
     };
@@ -204,7 +202,7 @@ impl Report {
     ) -> Option<Self> {
         let coordinates = solver::value::coordinates(claim);
         let mut report =
-            Report::about(Claim::Kernel(claim.clone()), coordinates, found.boxes, elapsed);
+            Report::about(Claim::Machine(claim.clone()), coordinates, found.boxes, elapsed);
         let problem = Problem::new(claim).ok()?;
         let facts = kernel::Facts::new(claim, &problem)?;
         match &found.answer {
@@ -212,7 +210,7 @@ impl Report {
             solver::Answer::Decided { certificate, accepted } => {
                 report.verdict = Outcome::Decided(accepted.verdict);
                 report.proof = Size::accepted(&certificate.proof, &accepted.size);
-                if let Proof::Kernel(of_kernel::Proof::Witness(witness)) = &certificate.proof {
+                if let Proof::Witness(witness) = &certificate.proof {
                     report.counterexample = facts.counterexample(witness);
                 }
             }

@@ -3,8 +3,9 @@
 use super::remains::reason;
 use super::{CertificateFile, EarlierFile, Outcome, Size};
 use crate::solver::{Answer, Verification};
-use orthocert_checker::claim::{Claim, Every, PostulateClaim, PsiMax};
+use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim::Quantity;
+use orthocert_kernel::postulate::{Every, PostulateClaim, PsiMax};
 use serde::Serialize;
 use std::time::Duration;
 

@@ -6,7 +6,7 @@ use super::{
     Report, Row, Size,
 };
 use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
-use crate::sample::with_unit;
+use crate::solver::value::with_unit;
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Shown;
@@ -51,11 +51,11 @@ impl Style {
 /// The first line of a report.
 pub fn headline(report: &Report, style: Style) -> String {
     let name = report.title.as_deref().or(report.design.as_deref()).unwrap_or("design");
-    verdict_line(report.verdict, name, style)
+    headline_of(report.verdict, name, style)
 }
 
 /// A verdict and what it is about, on one line.
-fn verdict_line(verdict: Outcome, subject: &str, style: Style) -> String {
+pub fn headline_of(verdict: Outcome, subject: &str, style: Style) -> String {
     let room = WIDTH - "UNDECIDED  ".len();
     let subject: String = Shown(subject).to_string().chars().take(room).collect();
     format!("{}  {subject}", style.verdict(verdict))
@@ -63,7 +63,7 @@ fn verdict_line(verdict: Outcome, subject: &str, style: Style) -> String {
 
 /// The first line of a report about the postulate.
 pub fn postulate_headline(report: &PostulateReport, style: Style) -> String {
-    verdict_line(report.verdict, &report.subject, style)
+    headline_of(report.verdict, &report.subject, style)
 }
 
 /// The whole report about the postulate.
@@ -101,21 +101,7 @@ pub fn report(report: &Report, style: Style) -> String {
     let mut out = headline(report, style);
     out.push('\n');
     let toleranced = report.requirements.iter().any(|row| !row.machine.is_empty());
-    let meaning = match report.verdict {
-        Outcome::Decided(Verdict::Certified) if toleranced => {
-            "Every requirement holds at every point of the workspace, for every machine within the \
-             tolerances. The proof was accepted by the exact checker."
-        }
-        Outcome::Decided(Verdict::Certified) => {
-            "Every requirement holds at every point of the workspace. The proof was accepted by the \
-             exact checker."
-        }
-        Outcome::Decided(Verdict::Refuted) => {
-            "A requirement fails: the counterexample was accepted by the exact checker."
-        }
-        Outcome::Undecided => "Neither a proof nor a counterexample was found.",
-    };
-    wrap(&mut out, meaning, 0);
+    meaning(&mut out, report.verdict, toleranced);
     if let Some(counterexample) = &report.counterexample {
         describe_counterexample(&mut out, counterexample, &report.coordinates);
     }
@@ -136,6 +122,25 @@ pub fn report(report: &Report, style: Style) -> String {
     effort(&mut out, report.proof.as_ref(), tried, report.seconds);
     files(&mut out, report);
     out
+}
+
+/// What a verdict means, in words.
+pub fn meaning(out: &mut String, verdict: Outcome, toleranced: bool) {
+    let meaning = match verdict {
+        Outcome::Decided(Verdict::Certified) if toleranced => {
+            "Every requirement holds at every point of the workspace, for every machine within the \
+             tolerances. The proof was accepted by the exact checker."
+        }
+        Outcome::Decided(Verdict::Certified) => {
+            "Every requirement holds at every point of the workspace. The proof was accepted by the \
+             exact checker."
+        }
+        Outcome::Decided(Verdict::Refuted) => {
+            "A requirement fails: the counterexample was accepted by the exact checker."
+        }
+        Outcome::Undecided => "Neither a proof nor a counterexample was found.",
+    };
+    wrap(out, meaning, 0);
 }
 
 /// The requirements and the worst values found.
@@ -195,7 +200,7 @@ fn machines(out: &mut String, rows: &[Row]) {
 
 /// The parameters of a machine, those of one name together: `length 310, 310.1, 310.2 of legs 1,
 /// 2, 3`.
-fn machine(parameters: &[FreeParameter]) -> String {
+pub fn machine(parameters: &[FreeParameter]) -> String {
     let mut names: Vec<&str> = Vec::new();
     for FreeParameter { parameter, .. } in parameters {
         if !names.contains(&parameter.as_str()) {
@@ -216,7 +221,8 @@ fn machine(parameters: &[FreeParameter]) -> String {
     names.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-fn describe_counterexample(out: &mut String, found: &Counterexample, coordinates: &[String]) {
+/// A refutation's witness.
+pub fn describe_counterexample(out: &mut String, found: &Counterexample, coordinates: &[String]) {
     out.push('\n');
     labelled(out, "violated", &found.violated);
     labelled(out, "value there", &found.value);

@@ -228,7 +228,7 @@ mod tests {
     fn a_pipe_in_the_place_of_nodes_is_not_waited_for() {
         let text = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
                     min = [0, 0, 0]\nmax = [1, 1, 1]\n[requirements]\ntransmission = { max = 2 }\n";
-        let claim = Design::parse(text, "d.toml").unwrap().kernel().unwrap().clone();
+        let claim = Design::parse(text, "d.toml").unwrap().claim;
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("result-0001.nodes");
         assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());

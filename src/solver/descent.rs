@@ -20,7 +20,7 @@ impl Sampler<'_> {
     /// The place near `start` at which a quality has its least margin, down to steps of `2^-finest` of
     /// the workspace: a compass search for the point, and for the machine first the tolerances' ends.
     pub fn descend(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
-        let (m, p) = (self.box_.len(), self.free.len());
+        let (m, p) = (self.box_.len(), self.frees());
         let margin = self.margin(quality, &self.at(start));
         let mut worst = Worst { quality, place: start.clone(), margin };
         self.to_ends(&mut worst);
@@ -68,7 +68,7 @@ impl Sampler<'_> {
     /// Puts each parameter in turn at the worse end of its tolerance.
     pub(super) fn to_ends(&self, worst: &mut Worst) -> bool {
         let m = self.box_.len();
-        let axes = m..m + self.free.len();
+        let axes = m..m + self.frees();
         let ends = axes.flat_map(|axis| [(axis, 0.0), (axis, 1.0)]);
         ends.fold(false, |moved, (axis, end)| self.considered(worst, &[(axis, end)]) || moved)
     }

@@ -9,11 +9,12 @@ use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Evidence, Failure, Node, Step};
 use orthocert_kernel::check::{Checker, Place};
+use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::{Slope, Slopes};
+use orthocert_kernel::slope::Slope;
 use orthocert_kernel::test::{self, Multiplier, Row};
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
@@ -48,7 +49,13 @@ impl<'a> Prover<'a> {
         let root: Cell = problem.root::<BigInt>(BITS)?.0.iter().map(|x| pair(x, BITS)).collect();
         let chords = chords::common(problem, &root, &parameters);
         let checker = Checker::new(problem, &Doubles, parameters, tight);
-        let checker = checker.with_chords(chords.clone());
+        let slope = |x: Slope<Interval<BigInt>>| Slope {
+            at_centre: pair(&x.at_centre, BITS),
+            range: pair(&x.range, BITS),
+            slopes: x.slopes.map(|x| pair(&x, BITS)),
+        };
+        let varying = problem.varying(BITS).into_iter().map(|x| x.map(slope)).collect();
+        let checker = checker.with_chords(chords.clone()).with_varying(varying);
         let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
         Ok(Prover { problem, root, chords, is_scaled, checker })
     }
@@ -118,7 +125,7 @@ impl<'a> Prover<'a> {
             cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
         };
         let place = Place { edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
-        let slopes = Slopes { arithmetic: &Doubles, m: edges.len() };
+        let slopes = self.checker.slopes(edges.len());
         let formulas = test::Over { slopes, values, controls: None, inside: None };
         then(&Over { prover: self, formulas: &formulas, place: &place })
     }

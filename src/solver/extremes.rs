@@ -9,6 +9,7 @@ use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{search, Branch, Ends};
 use super::value::{alone, unit, Bounded};
 use super::{accepted, look_into, refuted, verify, Answer};
+use crate::exact::Exact;
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Zero};
@@ -18,6 +19,7 @@ use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::TABLE;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Finest step of the search for an extreme.
@@ -27,6 +29,8 @@ const OPEN_CENTRES: usize = 8;
 /// Boxes after which a width is given up for a looser one; of platforms that turn a third of that for
 /// each coordinate of orientation, as each takes three times as long.
 const MOST_BOXES: usize = 20_000;
+/// Longest text of an exact number.
+const MOST_DIGITS: usize = 1000;
 /// How often a better inner end may turn up before the search is given up.
 const ROUNDS: usize = 8;
 
@@ -83,6 +87,30 @@ fn unit_given(name: &str) -> Option<Expression> {
 }
 
 impl Extreme {
+    /// The end of a quantity that a requirement bounds, whatever its bound: of the leg given, counted from
+    /// zero, or of all together. `None` where that is no bound on a number.
+    pub fn on(requirement: Requirement, leg: Option<usize>) -> Option<Self> {
+        let two = Expression::integer(2);
+        let bound = match requirement.bound {
+            Bound::Min(_) => Bound::Min(two),
+            Bound::Max(_) => Bound::Max(two),
+            Bound::Within(_) | Bound::Holds => return None,
+        };
+        let leg_number = leg.map(|leg| leg + 1);
+        let requirement = Requirement { bound, leg: leg_number, ..requirement };
+        Some(Extreme { bounded: Bounded { requirement, leg } })
+    }
+
+    /// The quantity, what it is for, and the leg; the bound's number has no meaning.
+    pub fn bounded(&self) -> &Bounded {
+        &self.bounded
+    }
+
+    /// Whether a claim's machines have it.
+    pub fn is_of(&self, claim: &MachineClaim) -> bool {
+        self.probe(claim).is_some()
+    }
+
     /// The extremes that a claim's machines have, in the order of the table; for the paper's cube
     /// without those of psi, which the claim itself says.
     ///
@@ -126,12 +154,12 @@ impl Extreme {
                 all.push(Extreme { bounded: Bounded { requirement, leg } });
             }
         }
-        all.retain(|extreme| extreme.probe(claim).is_some());
+        all.retain(|extreme| extreme.is_of(claim));
         all
     }
 
     /// The extremes that a claim's requirements bound.
-    pub fn bounded(claim: &MachineClaim, legs: usize) -> Vec<Self> {
+    pub fn required(claim: &MachineClaim, legs: usize) -> Vec<Self> {
         let bounds = |own: &Requirement, one: &Requirement| {
             own.quantity == one.quantity
                 && (own.leg.is_none() || own.leg == one.leg)
@@ -204,6 +232,17 @@ impl Extreme {
     }
 }
 
+/// The extremes of psi that the paper's cube has by definition, with whether each is the greatest.
+pub fn of_cube(claim: &MachineClaim) -> Vec<(bool, Exact)> {
+    let Some(Bound::Max(psi)) = defining(claim).map(|own| own.bound) else { return Vec::new() };
+    let Ok(psi_max) = Exact::parse(&psi.to_string(), MOST_DIGITS) else { return Vec::new() };
+    let inverse = Exact::integer(1).over(psi_max.clone()).ok();
+    // The least psi is 1/psi_max at Q2 for psi_max <= 2 only.
+    let is_least = psi_max.compare(&Exact::integer(2)).is_some_and(Ordering::is_le);
+    let least = inverse.filter(|_| is_least).map(|inverse| (false, inverse));
+    least.into_iter().chain([(true, psi_max)]).collect()
+}
+
 /// What defines the paper's cube.
 fn defining(claim: &MachineClaim) -> Option<Requirement> {
     let is_it =
@@ -243,9 +282,7 @@ pub fn enclose(
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let turns = Problem::new(&probe)?.orientation.len();
-    let most = MOST_BOXES / 3usize.pow(turns as u32);
-    let budget = Budget { max_boxes: budget.max_boxes.min(most), ..budget };
+    let budget = of_one_width(budget, &Problem::new(&probe)?);
     let mut known = Found::worst(&probe, extreme)?;
     let mut width = relative.clone();
     while width <= loosest() {
@@ -277,6 +314,12 @@ pub fn enclose(
         width *= BigRational::from_integer(looser.into());
     }
     Err(NotEnclosed::Undecided)
+}
+
+/// The budget after which a width is given up.
+pub(super) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
+    let most = MOST_BOXES / 3usize.pow(problem.orientation.len() as u32);
+    Budget { max_boxes: budget.max_boxes.min(most), ..budget }
 }
 
 /// The most extreme place known.
@@ -389,7 +432,7 @@ fn ends(extreme: &Extreme, found: f64, step: &BigRational) -> Option<(BigRationa
 }
 
 /// The decimal nearest to `x` on a grid of at most a hundredth of `step`.
-fn rounded(x: &BigRational, step: &BigRational) -> BigRational {
+pub(super) fn rounded(x: &BigRational, step: &BigRational) -> BigRational {
     let ten = BigRational::from_integer(10.into());
     let mut grid = BigRational::one();
     let wanted = step / BigRational::from_integer(100.into());

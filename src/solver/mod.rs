@@ -16,6 +16,7 @@
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
 //! | [`value`]  | a quantity at a place, in the claim's own unit                              |
 //! | [`extremes`] | encloses how small and how large each quantity gets                       |
+//! | [`sector`] | encloses the angles that a joint takes                                      |
 //!
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
@@ -34,16 +35,15 @@ mod rows;
 mod same;
 pub mod sample;
 pub mod search;
+pub mod sector;
 pub mod value;
 mod violation;
 
 use crate::search::{Budget, Control, Stop};
-use crate::verify::certificate;
 use evidence::Prover;
-use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_checker::claim::Claim;
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use orthocert_checker::{check, Accepted, Rejected};
-use orthocert_kernel::certificate::{self as kernel, Node, Tree, Witness};
+use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::Problem;
@@ -291,7 +291,7 @@ pub(crate) fn tree(
 /// The certificate of a proof.
 fn accepted(claim: &MachineClaim, prover: &Prover<'_>, nodes: Vec<Node>) -> Answer {
     let tree = Tree { precision: PRECISIONS[0], chords: prover.chords.clone(), nodes };
-    confirmed(Claim::Kernel(claim.clone()), tree, precisions(prover))
+    confirmed(Claim::Machine(claim.clone()), tree, precisions(prover))
 }
 
 /// The certificate of a tree, at the first of the precisions at which the checker accepts it.
@@ -301,10 +301,10 @@ pub(crate) fn confirmed(
     precisions: impl IntoIterator<Item = u32>,
 ) -> Answer {
     let mut objection = None;
-    let proof = Proof::Kernel(kernel::Proof::Tree(tree));
+    let proof = Proof::Tree(tree);
     let mut whole = certificate(claim, Verdict::Certified, proof);
     for bits in precisions {
-        if let Proof::Kernel(kernel::Proof::Tree(tree)) = &mut whole.proof {
+        if let Proof::Tree(tree) = &mut whole.proof {
             tree.precision = bits;
         }
         match check(&whole) {
@@ -315,10 +315,24 @@ pub(crate) fn confirmed(
     Answer::Undecided(Undecided { open: Vec::new(), stop: Stop::Exhausted, objection })
 }
 
+/// A certificate by this program.
+pub(crate) fn certificate(claim: Claim, verdict: Verdict, proof: Proof) -> Certificate {
+    Certificate {
+        format: FORMAT.to_owned(),
+        claim,
+        verdict,
+        proof,
+        provenance: Provenance {
+            tool: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+    }
+}
+
 /// The refutation by a witness, once the checker has accepted it.
 fn refuted(claim: &MachineClaim, witness: Witness) -> Answer {
-    let proof = Proof::Kernel(kernel::Proof::Witness(witness));
-    let certificate = certificate(Claim::Kernel(claim.clone()), Verdict::Refuted, proof);
+    let proof = Proof::Witness(witness);
+    let certificate = certificate(Claim::Machine(claim.clone()), Verdict::Refuted, proof);
     match check(&certificate) {
         Ok(accepted) => Answer::Decided { certificate: Box::new(certificate), accepted },
         Err(objection) => Answer::Undecided(Undecided {

@@ -32,7 +32,9 @@ impl Over<'_> {
     /// At control points, of platforms that turn.
     fn at_controls(&self, test: &Test) -> Option<Evidence> {
         let polynomial = match test {
-            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => self.prover.is_scaled,
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::OneToOne(_) => {
+                self.prover.is_scaled
+            }
             Test::AtLeast(_) => self.problem().weight.is_some(),
             _ => false,
         };
@@ -48,6 +50,7 @@ impl Over<'_> {
         let found = match test {
             Test::SigmaMin(kappa) => there.lower(test, *kappa, Form::Scaled),
             Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
+            Test::OneToOne(_) => there.shown(test, Evidence::Chords),
             _ => there.shown(test, Evidence::Test),
         };
         found.map(|inner| Evidence::Control(Box::new(inner)))

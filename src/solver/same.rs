@@ -3,7 +3,7 @@
 use super::refute::{number, point};
 use super::rows::{above, rounded};
 use super::sample::{At, Place, Sampler};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::certificate::{Failure, Witness};
@@ -24,6 +24,10 @@ const STEPS: usize = 12;
 const HALF: f64 = 1e-6;
 /// What the points differ by at least, in parts.
 const APART: f64 = 1e-2;
+/// Part of the workspace, about its middle, in which a platform that turns has the first pose.
+const INNER: f64 = 0.9;
+/// Steps of differences, in parts.
+const STEP: f64 = 1e-5;
 /// Decimal places of the first point's parts.
 const DIGITS: i32 = 3;
 
@@ -41,15 +45,24 @@ pub fn refutation(
     let grid = sampler.grid();
     let spread = |n: usize| grid.iter().step_by(grid.len().div_ceil(n).max(1));
     spread(TRIED[0]).find_map(|start| {
-        let first = point(claim, problem, sampler, &start.u, DIGITS)?;
+        // What has the joint coordinates of a pose at an edge is often at another one.
+        let off = |u: &f64| 0.5 + if problem.weight.is_some() { INNER } else { 1.0 } * (u - 0.5);
+        let u: Vec<f64> = start.u.iter().map(off).collect();
+        let first = point(claim, problem, sampler, &u, DIGITS)?;
         let machine = super::refute::machine(problem, &start.t, DIGITS)?;
         let place = sampler.place_of(&first, &machine)?;
         let at = sampler.at(&place);
-        spread(TRIED[1]).find_map(|other| {
-            let found = newton(problem, sampler, &at, other)?;
+        // Many machines have mirror images near these.
+        let mirrored = (0..place.u.len()).map(|k| {
+            let mut other = place.clone();
+            other.u[k] = 1.0 - other.u[k];
+            other
+        });
+        mirrored.chain(spread(TRIED[1]).cloned()).find_map(|other| {
+            let found = newton(problem, sampler, &at, &other)?;
             let apart = found.u.iter().zip(&place.u).any(|(a, b)| (a - b).abs() > APART);
             let witness = apart.then(|| {
-                let fails = failure(sampler, obligation, &found)?;
+                let fails = failure(problem, sampler, obligation, &found)?;
                 let (point, machine) = (first.clone(), machine.clone());
                 Some(Witness { precision: PRECISIONS[0], point, machine, fails })
             })??;
@@ -65,16 +78,8 @@ pub fn refutation(
 fn newton(problem: &Problem, sampler: &Sampler<'_>, like: &At, start: &Place) -> Option<Place> {
     let mut place = start.clone();
     for _ in 0..STEPS {
-        let at = sampler.at(&place);
-        let off = |leg: &orthocert_kernel::machine::Leg| match leg.rho? {
-            Joint::Length(rho) => Some(at.of(rho)? - like.of(rho)?),
-            Joint::Angle { cos, sin } => {
-                let (c, s, c2, s2) = (at.of(cos)?, at.of(sin)?, like.of(cos)?, like.of(sin)?);
-                Some((s * c2 - c * s2).atan2(c * c2 + s * s2))
-            }
-        };
-        let off: Vec<f64> = problem.legs.iter().map(off).collect::<Option<_>>()?;
-        let step = sampler.jacobian(&at)?.lu().solve(&DVector::from_vec(off))?;
+        let off = off(problem, &sampler.at(&place), like)?;
+        let step = derivative(problem, sampler, &place)?.lu().solve(&off)?;
         let point: Vec<f64> =
             sampler.point(&place.u).iter().zip(step.iter()).map(|(x, step)| x - step).collect();
         place.u = sampler.parts_of(&point);
@@ -85,9 +90,45 @@ fn newton(problem: &Problem, sampler: &Sampler<'_>, like: &At, start: &Place) ->
     (inner && again.iter().zip(&place.u).all(near)).then_some(place)
 }
 
-/// A small box about the place, and the inverse of `M` there.
-fn failure(sampler: &Sampler<'_>, obligation: usize, place: &Place) -> Option<Failure> {
-    let inverse = sampler.jacobian(&sampler.at(place))?.try_inverse()?;
+/// By how much joint coordinates differ.
+fn off(problem: &Problem, at: &At, like: &At) -> Option<DVector<f64>> {
+    let off = |leg: &orthocert_kernel::machine::Leg| match leg.rho? {
+        Joint::Length(rho) => Some(at.of(rho)? - like.of(rho)?),
+        Joint::Angle { cos, sin } => {
+            let (c, s, c2, s2) = (at.of(cos)?, at.of(sin)?, like.of(cos)?, like.of(sin)?);
+            Some((s * c2 - c * s2).atan2(c * c2 + s * s2))
+        }
+    };
+    let off: Vec<f64> = problem.legs.iter().map(off).collect::<Option<_>>()?;
+    Some(DVector::from_vec(off))
+}
+
+/// The derivative of the joint coordinates: `M`, or, by half-angle tangents, differences.
+fn derivative(problem: &Problem, sampler: &Sampler<'_>, place: &Place) -> Option<DMatrix<f64>> {
+    if problem.weight.is_none() {
+        return sampler.jacobian(&sampler.at(place));
+    }
+    let width = |k: usize| sampler.box_[k].1 * 2.0 * STEP;
+    let column = |k: usize| {
+        let at = |sign: f64| {
+            let mut place = place.clone();
+            place.u[k] += sign * STEP;
+            sampler.at(&place)
+        };
+        Some(off(problem, &at(1.0), &at(-1.0))? / width(k))
+    };
+    let columns: Vec<_> = (0..problem.dimension()).map(column).collect::<Option<_>>()?;
+    Some(DMatrix::from_columns(&columns))
+}
+
+/// A small box about the place, and the inverse of the derivative there.
+fn failure(
+    problem: &Problem,
+    sampler: &Sampler<'_>,
+    obligation: usize,
+    place: &Place,
+) -> Option<Failure> {
+    let inverse = derivative(problem, sampler, place)?.try_inverse()?;
     let inverse = rounded(&inverse, 24 + above(&inverse))?;
     let end = |sign: f64| -> Option<Vec<Expression>> {
         let u: Vec<f64> = place.u.iter().map(|u| u + sign * HALF).collect();

@@ -91,8 +91,10 @@ pub struct Sampler<'a> {
     /// Of each coordinate its least value and its width, in the problem's unit.
     pub(super) box_: Vec<(f64, f64)>,
     parameters: Vec<Pair>,
-    /// The parameters that are intervals; over a cell of an atlas also those that vary.
-    pub(super) free: Vec<usize>,
+    /// The parameters that are intervals; over a cell of an atlas also those that vary by themselves.
+    free: Vec<usize>,
+    /// Of an atlas, the values in the middle and the slopes of parameters that vary with its names.
+    varying: Vec<(usize, f64, Vec<f64>)>,
     /// Radicands that depend on the point.
     radicands: Vec<Formula>,
     sign: f64,
@@ -126,6 +128,14 @@ impl<'a> Sampler<'a> {
         let free = inputs.filter(|(_, input)| {
             matches!(input.value, Value::Quantity(Quantity::Between { .. })) || input.varies()
         });
+        let (m, slopes) = (problem.dimension(), problem.varying::<BigInt>(BITS));
+        let number = |x| middle(&pair(x, BITS));
+        let varying = slopes.iter().enumerate().filter_map(|(j, slope)| {
+            let slope = slope.as_ref()?;
+            let by = slope.slopes.iter().skip(m).take(problem.names.len()).map(number);
+            Some((j, number(&slope.at_centre), by.collect()))
+        });
+        let free = free.filter(|(j, _)| slopes[*j].is_none());
         let constants: std::collections::HashSet<Formula> =
             problem.tape.constants().into_iter().collect();
         let radicand = |op: &Op| match *op {
@@ -138,6 +148,7 @@ impl<'a> Sampler<'a> {
             box_: root.iter().map(edge).collect(),
             parameters: parameters.iter().map(|x| pair(x, BITS)).collect(),
             free: free.map(|(j, _)| j).collect(),
+            varying: varying.collect(),
             radicands: problem.tape.ops().iter().filter_map(radicand).collect(),
             sign: 1.0,
             quick: false,
@@ -159,7 +170,12 @@ impl<'a> Sampler<'a> {
 
     /// The middle of the workspace's box and of the tolerances.
     pub fn centre(&self) -> Place {
-        Place { u: vec![0.5; self.box_.len()], t: vec![0.5; self.free.len()] }
+        Place { u: vec![0.5; self.box_.len()], t: vec![0.5; self.frees()] }
+    }
+
+    /// In how many ways machines differ: parameters that are free, and names.
+    pub(super) fn frees(&self) -> usize {
+        self.free.len() + self.problem.names.len()
     }
 
     /// The parts of the workspace's box that a place stands for: outside a cylinder, those of the point
@@ -272,6 +288,11 @@ impl<'a> Sampler<'a> {
         for (&j, t) in self.free.iter().zip(&place.t) {
             let (lo, hi) = self.parameters[j];
             parameters[j] = lo + t * (hi - lo);
+        }
+        let names = place.t.get(self.free.len()..).unwrap_or_default();
+        for (j, centre, by) in &self.varying {
+            let terms = by.iter().zip(names).map(|(by, t)| by * (2.0 * t - 1.0));
+            parameters[*j] = centre + terms.sum::<f64>();
         }
         At { own: self.values(&point, &parameters), nominal }
     }

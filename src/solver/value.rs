@@ -41,6 +41,14 @@ pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
     }
 }
 
+/// A quantity's name with its unit in a table, where the unit has an angle in it.
+pub fn with_unit(name: &str, unit: Option<&str>) -> String {
+    match unit.filter(|unit| !unit.starts_with("length") || unit.ends_with("rad")) {
+        Some(unit) => format!("{name}, {unit}"),
+        None => name.to_owned(),
+    }
+}
+
 /// The names of the coordinates of a claim's workspace; of orientations half-angle tangents, about one
 /// axis or as the vector `tan(theta/2)` along the axis of the rotation.
 pub fn coordinates(claim: &MachineClaim) -> Vec<String> {

@@ -89,7 +89,7 @@ fn any_mechanism_is_drawn_without_complaint() {
 #[test]
 fn values_under_the_cross_are_the_oracles() {
     let Some(mut browser) = Browser::start() else { return };
-    let oracle = include_str!("../../proofs/checker/tests/oracle/points.json");
+    let oracle = include_str!("../../proofs/kernel/tests/oracle/points.json");
     let oracle: serde_json::Value = serde_json::from_str(oracle).unwrap();
     let mut read = 0;
     for case in oracle["cases"].as_array().unwrap() {

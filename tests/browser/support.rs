@@ -1,9 +1,10 @@
 //! Reports to look at, and looking at pictures.
 
 use orthocert::design::Design;
-use orthocert::sample::{Place, Quality, Sampler};
-use orthocert_checker::claim::MachineClaim;
-use orthocert_checker::model::Model;
+use orthocert::solver::sample::{Place, Sampler};
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::machine::Leg;
+use orthocert_kernel::problem::Problem;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +52,7 @@ impl Folder {
         let path = root().join("tests/designs").join(format!("{name}.toml"));
         let text = fs::read_to_string(&path).unwrap();
         let page = report(self, name, &text, 0).unwrap();
-        let claim = Design::read(&path).unwrap().rules.unwrap();
+        let claim = Design::read(&path).unwrap().claim;
         (page, claim)
     }
 
@@ -107,14 +108,14 @@ pub fn psi(point: &Value) -> [f64; 3] {
 
 /// The least and the greatest factor that the prover's sampling finds at parts of the workspace.
 pub fn psi_range(claim: &MachineClaim, u: [f64; 3]) -> [f64; 2] {
-    let model = Model::new(claim, 128).unwrap();
-    let sampler = Sampler::new(claim, &model).unwrap();
-    let place = Place { u, t: vec![0.5; sampler.parameters()] };
-    let values = sampler.at(&place);
-    assert_eq!(sampler.within(u), u, "outside the workspace");
-    let angular = format!("{:?}", claim.mechanism).contains("Arm");
-    let unit = if angular { (model.unit_exponent.unwrap() as f64).exp2() } else { 1.0 };
-    [Quality::LeastPsi, Quality::GreatestPsi].map(|q| sampler.value(q, &values).unwrap() * unit)
+    let problem = Problem::new(claim).unwrap();
+    let sampler = Sampler::new(claim, &problem).unwrap();
+    assert_eq!(sampler.parts(&u), u, "outside the workspace");
+    let place = Place { u: u.to_vec(), ..sampler.centre() };
+    let [least, greatest] = sampler.xi(&sampler.at(&place)).unwrap();
+    let angular = problem.legs.iter().any(Leg::is_angular);
+    let unit = if angular { sampler.unit() } else { 1.0 };
+    [unit / greatest, unit / least]
 }
 
 /// Parts of a workspace, within its cylinder if it is one.

@@ -55,6 +55,10 @@ const COMMANDS: &[(&str, &[&str], i32)] = &[
     ("limit", &["limit", "orthoglide-310.toml", "workspace.min.0", "--gap", "0.01"], 3),
     ("limit", &["limit", "toleranced.toml", "mechanism.leg_length", "--timeout", "0"], 3),
     ("limit", &["limit", "toleranced.toml", "mechanism.leg_length", "--gap", "0.1"], 0),
+    ("summary", &["summary", "--speed", "1200", "--gap", "0.1"], 0),
+    ("summary", &["summary", "orthoglide-310.toml", "--gap", "0.1"], 1),
+    ("summary", &["summary", "orthoglide-tie.toml", "--max-boxes", "50"], 3),
+    ("summary", &["summary", "accurate.toml", "--gap", "0.1"], 0),
     ("show", &["show", "postulate.cert.json"], 0),
 ];
 
@@ -71,7 +75,10 @@ fn every_answer_is_as_the_schema_says() {
         format!("{machine}[workspace]\n{region}\n[requirements]{requirements}"),
     );
     let toleranced = design.replace("leg_length = 310", "leg_length = \"312 ± 0.01\"");
-    folder.write("toleranced.toml", toleranced);
+    folder.write("toleranced.toml", &toleranced);
+    let accurate =
+        toleranced.replace("transmission =", "accuracy = { joint_error = 0.01, max = 1 } #");
+    folder.write("accurate.toml", accurate);
     folder.write("map.toml", crate::atlas::widest().read("map.toml"));
     let text = folder.run(&["schema"]).exits(0).stdout;
     let schema: Value = serde_json::from_str(&text).unwrap();

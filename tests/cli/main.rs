@@ -28,6 +28,7 @@
 //! | `answers`      | `--format json` is as its schema says                             |
 //! | `tolerance`    | `tolerance`: both ends, together, refused                         |
 //! | `hostile`      | checkouts and names of strangers                                  |
+//! | `summary`      | `summary`: closed forms, the nearest requirement, every kind      |
 //! | `size`         | `size`: against the closed form, scaled, refused                  |
 
 mod junit;
@@ -55,6 +56,7 @@ mod postulate;
 mod report;
 mod shards;
 mod size;
+mod summary;
 mod surface;
 mod tolerance;
 mod verdicts;

@@ -1,15 +1,11 @@
 #!/usr/bin/env bash
 # Puts what the fuzz targets start from into CORPUS/TARGET: seeds.sh CORPUS
-# The broken certificates are among it where the checker's tests have left them.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 corpus=$1
 mkdir -p "$corpus"/{bytes,certificate,number,design}
-broken=${CARGO_TARGET_DIR:-$root/target}/tmp/rejected
-mkdir -p "$broken"
 small() { find "$1" -name "$2" -size -16k; }
-{ small "$root/proofs/certificates" '*.json'; small "$broken" '*.json'; } \
-  | while read -r file; do cp "$file" "$corpus/bytes/"; done
+small "$root/proofs/certificates" '*.json' | while read -r file; do cp "$file" "$corpus/bytes/"; done
 small "$root/tests/designs" '*.toml' | while read -r file; do cp "$file" "$corpus/design/"; done
 for template in "$root"/src/design/templates/*; do cp "$template" "$corpus/design/"; done
 # Every certificate that is edited, without an edit and with a few.

@@ -4,8 +4,8 @@ use crate::oracle::{
     same_as_compiled, same_extremes, same_joints, Extremes, Firmware, Random, Region,
 };
 use crate::support::{claim, exactly, file, files, folder, ignoring, import, legs, number};
+use crate::support::{Leg, Workspace};
 use orthocert::import::{klipper, Disk, ImportError, Imported};
-use orthocert_checker::claim::{Leg, Workspace};
 use std::path::PathBuf;
 
 /// A configuration on the disk, with what it includes.
@@ -280,7 +280,7 @@ fn a_linear_delta() {
     let top = "297.05+sqrt(333.0*333.0-174.75*174.75)-333.0+333.0\
                -sqrt(333.0*333.0-(174.75-(80))*(174.75-(80)))";
     assert_eq!(z[1], number(top));
-    assert!(claim.requirements.joint_range.is_none());
+    assert!(claim.joint_ranges().is_empty());
     let keys: Vec<&str> = imported.used.iter().map(|used| used.setting.key.as_str()).collect();
     assert!(keys.contains(&"[printer] delta_radius"), "{keys:?}");
     let taken: Vec<String> = imported.defaults.iter().map(ToString::to_string).collect();
@@ -305,7 +305,7 @@ fn the_body_comes_before_what_calibration_saved() {
     assert!(!anchor[0].is_exact() && !anchor[1].is_exact());
     let (x, y) =
         (174.75 * 209.87321f64.to_radians().cos(), 174.75 * 209.87321f64.to_radians().sin());
-    let mid = |q: &orthocert_checker::claim::Quantity| {
+    let mid = |q: &crate::support::Quantity| {
         q.min.as_rational().map(|r| {
             use num_traits::ToPrimitive;
             r.to_f64().unwrap_or(f64::NAN)

@@ -2,8 +2,8 @@
 
 use crate::configurations::{compare, Compared, Figures, Towers};
 use crate::support::{claim, exactly, file, ignoring, import, legs, number};
+use crate::support::{Leg, Workspace};
 use orthocert::import::{marlin, ImportError, Imported};
-use orthocert_checker::claim::{Leg, Workspace};
 
 /// src/module/delta.cpp, `forward_kinematics`.
 fn forward_kinematics(towers: &Towers, [z1, z2, z3]: [f64; 3]) -> [f64; 3] {

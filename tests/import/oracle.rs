@@ -4,16 +4,16 @@
 //! firmware, and the extremes of `rho` and `psi` over it, found from the firmware's kinematics alone,
 //! lie inside `bounds` and no farther in than 1e-4.
 
-use crate::support::{legs, Machine};
+use crate::support::{legs, Machine, Workspace};
 use nalgebra::Matrix3;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::exact::Exact;
-use orthocert::sample::{Place, Sampler};
 use orthocert::search::{Budget, Control};
 use orthocert::solver::extremes::{enclose, is_singular, Extreme as Bounded, NotEnclosed};
-use orthocert_checker::claim::{MachineClaim, Workspace};
-use orthocert_checker::model::Model;
+use orthocert::solver::sample::Sampler;
+use orthocert_kernel::machine::Joint;
+use orthocert_kernel::problem::Problem;
 use std::sync::atomic::AtomicBool;
 
 /// A firmware's kinematics; joint coordinates of arms are degrees.
@@ -47,10 +47,7 @@ impl Random {
 }
 
 fn float(x: &Exact) -> f64 {
-    let x = x.enclose(60, 200).expect("a number");
-    // With a scale of 60 the number is its fixed-point value times 2^60.
-    let text = |n: &num_bigint::BigInt| n.to_string().parse::<f64>().expect("a float");
-    (text(x.lo()) + text(x.hi())) / 2.0 * 2f64.powi(60 - 200)
+    x.below(200).and_then(|x| x.to_f64()).expect("a number")
 }
 
 /// A claim's workspace as a map from the unit cube.
@@ -62,7 +59,7 @@ pub struct Region {
 
 impl Region {
     /// Of a claim.
-    pub fn of(claim: &MachineClaim) -> Region {
+    pub fn of(claim: &Machine) -> Region {
         match &claim.workspace {
             Workspace::Box { min, max } => Region {
                 low: min.each_ref().map(float),
@@ -77,7 +74,6 @@ impl Region {
                     round: true,
                 }
             }
-            Workspace::Cube { .. } => panic!("a cube"),
         }
     }
 
@@ -101,26 +97,27 @@ impl Region {
 
 /// Compares the design's joint coordinates with the firmware's at `points` random points, and the
 /// firmware's forward kinematics with its inverse; returns how many were within reach.
-pub fn same_joints(
-    name: &str,
-    claim: &MachineClaim,
-    firmware: &dyn Firmware,
-    points: usize,
-) -> usize {
+pub fn same_joints(name: &str, claim: &Machine, firmware: &dyn Firmware, points: usize) -> usize {
     let region = Region::of(claim);
-    let model = Model::new(claim, 192).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let sampler = Sampler::new(claim, &model).expect("a sampler");
-    let unit = match legs(claim)[0].is_angular() {
-        true => 1.0,
-        false => (model.unit_exponent.expect("a unit") as f64).exp2(),
-    };
+    let problem = Problem::new(&claim.kernel).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let sampler = Sampler::new(&claim.kernel, &problem).expect("a sampler");
+    let unit = sampler.unit();
     let size = (0..3).map(|k| region.high[k].abs().max(region.low[k].abs())).fold(1.0, f64::max);
     let mut random = Random(1);
     let mut reached = 0;
     for _ in 0..points {
-        let (u, point) = region.at(random.three());
-        let values = sampler.at(&Place { u, t: vec![0.5; sampler.parameters()] });
-        let ours = values.reached.map(|reached| reached.rho.map(|rho| rho * unit));
+        let (_, point) = region.at(random.three());
+        let values = sampler.at_point(&point.map(|x| x / unit));
+        let ours = sampler.matrix(&values).map(|_| {
+            let rho = |i: usize| match problem.legs[i].rho.expect("a joint coordinate") {
+                Joint::Length(rho) => values.of(rho).expect("within reach") * unit,
+                Joint::Angle { cos, sin } => {
+                    let [cos, sin] = [cos, sin].map(|x| values.of(x).expect("within reach"));
+                    sin.atan2(cos).to_degrees()
+                }
+            };
+            std::array::from_fn::<f64, 3, _>(rho)
+        });
         let theirs = firmware.joints(point);
         let (Some(ours), Some(theirs)) = (ours, theirs) else {
             assert!(ours.is_none() == theirs.is_none(), "{name} {point:?} {ours:?} {theirs:?}");

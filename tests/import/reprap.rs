@@ -3,8 +3,9 @@
 use crate::configurations::{compare, sections, Compared, Figures, Towers};
 use crate::oracle::Firmware;
 use crate::support::{claim, exactly, file, files, ignoring, import, legs, number};
+use crate::support::{Leg, Workspace};
 use orthocert::import::{reprap, ImportError, Imported};
-use orthocert_checker::claim::{Leg, Workspace};
+use orthocert_kernel::claim::{Bound, Requirement};
 use std::collections::BTreeMap;
 
 /// `LinearDeltaKinematics::ForwardTransform`, without tilt.
@@ -282,8 +283,12 @@ fn a_rotary_delta_has_its_arms() {
         angles: [-149.0, -30.0, 90.0],
     };
     assert_eq!(crate::oracle::same_joints("config.g", &claim, &firmware, 300), 300);
-    let ranges = claim.requirements.joint_range.as_ref().expect("ranges");
-    assert!(ranges.iter().all(|range| range.max == Some(number("60"))));
+    let ranges = claim.joint_ranges();
+    let ends_at_60 = |range: &&Requirement| match &range.bound {
+        Bound::Within([_, max]) => max.to_string() == "60",
+        Bound::Min(_) | Bound::Max(_) | Bound::Holds => false,
+    };
+    assert!(!ranges.is_empty() && ranges.iter().all(ends_at_60));
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use crate::configurations::{compare, sections, Compared, Figures, Towers};
 use crate::oracle::{same_joints, Firmware};
 use crate::support::{claim, exactly, file, files, ignoring, import, legs, number};
+use crate::support::{Leg, Workspace};
 use orthocert::import::{smoothieware, ImportError, Imported};
-use orthocert_checker::claim::{Leg, Workspace};
 use std::collections::BTreeMap;
 
 /// `LinearDeltaSolution::actuator_to_cartesian`, without its rounding.

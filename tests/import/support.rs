@@ -3,7 +3,8 @@
 use orthocert::design::Design;
 use orthocert::exact::Exact;
 use orthocert::import::{Files, ImportError, Imported, Importer};
-use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity, Workspace};
+use orthocert_kernel::claim::{self as kernel, MachineClaim, Mechanism, Sign};
+use orthocert_kernel::number::Expression;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -53,46 +54,116 @@ pub fn claim(imported: &Imported) -> Machine {
     for sentence in told {
         assert!(squeezed(&comments).contains(&squeezed(&sentence)), "{sentence}\n{text}");
     }
-    let Claim::Kernel(kernel) = design.claim else { panic!("about a machine") };
-    Machine { rules: design.rules.expect("a machine of three legs"), kernel }
+    Machine::new(design.claim)
 }
 
-/// A claim about three legs, in both vocabularies.
+/// A claim about three legs, and its numbers as designs have them.
 #[derive(Debug)]
 pub struct Machine {
-    rules: MachineClaim,
+    pub legs: [Leg; 3],
+    pub workspace: Workspace,
     /// As it is decided.
-    pub kernel: orthocert_kernel::claim::MachineClaim,
+    pub kernel: MachineClaim,
+}
+
+/// Every value from one to the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    pub min: Exact,
+    pub max: Exact,
+}
+
+impl Quantity {
+    pub fn is_exact(&self) -> bool {
+        self.min == self.max
+    }
+}
+
+type Vector = [Quantity; 3];
+
+#[derive(Debug)]
+pub enum Leg {
+    Slider { anchor: Vector, length: Quantity },
+    Arm { anchor: Vector, arm: Quantity, length: Quantity, mode: Sign },
+}
+
+impl Leg {
+    pub fn is_angular(&self) -> bool {
+        matches!(self, Leg::Arm { .. })
+    }
+}
+
+#[derive(Debug, PartialEq)]
+pub enum Workspace {
+    Box { min: [Exact; 3], max: [Exact; 3] },
+    Cylinder { center: [Exact; 2], radius: Exact, z: [Exact; 2] },
+}
+
+fn exact(x: &Expression) -> Exact {
+    Exact::parse(&x.to_string(), 2100).expect("a number")
+}
+
+fn all<const N: usize>(x: &[Expression]) -> [Exact; N] {
+    std::array::from_fn(|k| exact(&x[k]))
+}
+
+fn quantity(x: &kernel::Quantity) -> Quantity {
+    match x {
+        kernel::Quantity::Exactly(x) => Quantity { min: exact(x), max: exact(x) },
+        kernel::Quantity::Between { min, max } => Quantity { min: exact(min), max: exact(max) },
+    }
+}
+
+fn vector(x: &[kernel::Quantity]) -> Vector {
+    std::array::from_fn(|k| quantity(&x[k]))
+}
+
+fn leg(leg: &kernel::Leg) -> Leg {
+    match leg {
+        kernel::Leg::Slider { anchor, length, .. } => {
+            Leg::Slider { anchor: vector(anchor), length: quantity(length) }
+        }
+        kernel::Leg::Arm { anchor, arm, length, mode, .. } => Leg::Arm {
+            anchor: vector(anchor),
+            arm: quantity(arm),
+            length: quantity(length),
+            mode: *mode,
+        },
+        other => panic!("{other:?}"),
+    }
 }
 
 impl Machine {
+    fn new(kernel: MachineClaim) -> Self {
+        let Mechanism::Translational(legs) = &kernel.mechanism else { panic!("{kernel:?}") };
+        let legs: Vec<Leg> = legs.iter().map(leg).collect();
+        let workspace = match &kernel.workspace {
+            kernel::Workspace::Box { min, max } => Workspace::Box { min: all(min), max: all(max) },
+            kernel::Workspace::Cylinder { center, radius, z } => {
+                Workspace::Cylinder { center: all(center), radius: exact(radius), z: all(z) }
+            }
+            kernel::Workspace::Cube { .. } => panic!("a cube"),
+        };
+        Machine { legs: legs.try_into().expect("three legs"), workspace, kernel }
+    }
+
     /// The same over a box.
     pub fn on_a_box(self, [min, max]: [[Exact; 3]; 2]) -> Self {
         let texts = |corner: &[Exact; 3]| corner.each_ref().map(ToString::to_string);
         let own = serde_json::json!({ "box": { "min": texts(&min), "max": texts(&max) } });
         let workspace = serde_json::from_value(own).expect("a box of the kernel");
-        let kernel = orthocert_kernel::claim::MachineClaim { workspace, ..self.kernel };
-        Machine {
-            rules: MachineClaim { workspace: Workspace::Box { min, max }, ..self.rules },
-            kernel,
-        }
+        Machine::new(MachineClaim { workspace, ..self.kernel })
     }
-}
 
-impl std::ops::Deref for Machine {
-    type Target = MachineClaim;
-
-    fn deref(&self) -> &MachineClaim {
-        &self.rules
+    /// The bounds on joint coordinates.
+    pub fn joint_ranges(&self) -> Vec<&kernel::Requirement> {
+        self.kernel.require.iter().filter(|own| own.quantity == "joint_range").collect()
     }
 }
 
 /// The legs of a translational machine.
-pub fn legs(claim: &MachineClaim) -> &[Leg; 3] {
-    match &claim.mechanism {
-        Mechanism::Translational(legs) => legs,
-        Mechanism::Orthoglide { .. } => panic!("an Orthoglide"),
-    }
+pub fn legs(claim: &Machine) -> &[Leg; 3] {
+    &claim.legs
 }
 
 /// An exact number.
@@ -102,5 +173,5 @@ pub fn number(text: &str) -> Exact {
 
 /// A quantity without tolerance.
 pub fn exactly(text: &str) -> Quantity {
-    Quantity::exactly(number(text))
+    Quantity { min: number(text), max: number(text) }
 }

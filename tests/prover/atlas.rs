@@ -6,10 +6,10 @@ use orthocert::atlas::{
     assemble, certify, decide, ends, grow, margin, waiting, Decision, Growing, Top,
 };
 use orthocert::design::AtlasDesign;
+use orthocert::exact::Exact;
 use orthocert::search::{Budget, Control};
 use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::number::Exact;
 use orthocert_kernel::atlas::{walk, AtlasCell, Part};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

@@ -1,34 +1,49 @@
-//! Mathematical tests of the prover: enclosures in doubles, the search, and verdicts against what
-//! is known in closed form. Random choices have fixed seeds.
+//! Mathematical tests of the prover: values in doubles, and verdicts against what is known in closed
+//! form. Random choices have fixed seeds.
 //!
 //! | module      | tests                                                                      |
 //! |-------------|----------------------------------------------------------------------------|
 //! | `atlas`     | maps against the closed form, and against single designs                   |
-//! | `intervals` | enclosures in doubles against the oracle and exact values                  |
-//! | `search`    | determinism, completeness of the tree, budgets                             |
-//! | `verdicts`  | stated verdicts of designs, sweeps over `psi_max`                          |
+//! | `oracle`    | values in doubles against those of another program                         |
+//! | `verdicts`  | sweeps over `psi_max` and over units of length                             |
 //! | `diagonal`  | cubes on the diagonal, decided in closed form, either side of the truth    |
 //! | `mutation`  | altered certificates are rejected, or still true                           |
 
 mod atlas;
 mod diagonal;
-mod intervals;
 mod mutation;
-mod search;
+mod oracle;
 mod verdicts;
 
-#[allow(dead_code, reason = "shared with the checker's tests, which use all of it")]
-#[path = "../../proofs/checker/tests/mathematics/machines.rs"]
-mod machines;
-#[allow(dead_code, reason = "shared with the checker's tests, which use all of it")]
-#[path = "../../proofs/checker/tests/mathematics/random.rs"]
-mod random;
-
+use orthocert::design::Design;
 use orthocert::search::{Budget, Control};
-use orthocert::verify::{verify, Answer, Verification};
+use orthocert::solver::{verify, Answer, Verification};
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::claim::MachineClaim;
+use orthocert_kernel::claim::MachineClaim;
 use std::sync::atomic::AtomicBool;
+
+/// The claim of a design's text.
+fn claim(text: &str) -> MachineClaim {
+    let design = Design::parse(text, "test").unwrap_or_else(|error| panic!("{error}"));
+    design.claim
+}
+
+/// An Orthoglide with these legs over the cube `[low, high]^3`, and bounds on psi.
+fn orthoglide(length: &str, [low, high]: [&str; 2], transmission: &str) -> MachineClaim {
+    claim(&format!(
+        "[mechanism]\nkind = \"orthoglide\"\nleg_length = \"{length}\"\n\
+         [workspace]\nmin = [\"{low}\", \"{low}\", \"{low}\"]\nmax = [\"{high}\", \"{high}\", \"{high}\"]\n\
+         [requirements]\ntransmission = {{ {transmission} }}\n"
+    ))
+}
+
+/// The paper's Orthoglide of a cube.
+fn cube(psi_max: &str, side: &str) -> MachineClaim {
+    claim(&format!(
+        "[mechanism]\nkind = \"orthoglide\"\n[workspace]\ncube = \"{side}\"\n\
+         [requirements]\ntransmission = {{ max = \"{psi_max}\" }}\n"
+    ))
+}
 
 /// Verifies with a budget of boxes alone.
 fn verified(claim: &MachineClaim, max_boxes: usize) -> Verification {
@@ -42,5 +57,16 @@ fn verdict(verification: &Verification) -> Option<Verdict> {
     match &verification.answer {
         Answer::Decided { certificate, .. } => Some(certificate.verdict),
         _ => None,
+    }
+}
+
+/// Numbers that are always the same.
+struct Random(u64);
+
+impl Random {
+    /// From `least` to `greatest`.
+    fn within(&mut self, least: i64, greatest: i64) -> i64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        least + ((self.0 >> 33) as i64) % (greatest - least + 1)
     }
 }

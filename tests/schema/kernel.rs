@@ -1,11 +1,10 @@
-//! The schema of the kernel's certificates: the instance of its document, every form of evidence, and
+//! The schema: the instance of the format's document, every form of evidence, and
 //! texts that are not of the shape.
 
 use super::objection;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Step, Tree, Verdict, Witness,
 };
-use orthocert_kernel::claim::RegionClaim;
 use orthocert_kernel::no_cube::NoCubeClaim;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::test::Multiplier;
@@ -13,7 +12,7 @@ use serde_json::Value;
 
 /// The certificate of the worked instance.
 fn instance() -> Certificate {
-    let document = include_str!("../../proofs/KERNEL.md");
+    let document = include_str!("../../proofs/FORMAT.md");
     let (_, rest) = document.split_once("```json\n").expect("an instance");
     let (text, _) = rest.split_once("```").expect("its end");
     Certificate::read(text).expect("canonical")
@@ -73,16 +72,11 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Failure::Singular(point.clone()),
     ];
     for fails in failures {
-        let node = Node { fails: Some(fails.clone()), ..Node::default() };
         let Claim::Machine(machine) = good.claim.clone() else { panic!("a machine") };
-        let no_cube = NoCubeClaim { machine: machine.clone(), side: number("2") };
+        let no_cube = NoCubeClaim { machine, side: number("2") };
         let moved = Node { fails: Some(fails.clone()), at: vec![-8, 0, 8], ..Node::default() };
         let proof = Proof::Tree(Tree { nodes: vec![moved], ..tree.clone() });
         holds(&Certificate { claim: Claim::NoCube(no_cube), proof, ..good.clone() });
-        let region = RegionClaim { machine, inner: number("0.5"), outer: number("1/3") };
-        let nodes = vec![node];
-        let proof = Proof::Tree(Tree { nodes, ..tree.clone() });
-        holds(&Certificate { claim: Claim::Region(region), proof, ..good.clone() });
         let machine = vec![number("10")];
         let witness = Witness { precision: 64, point: point.clone(), machine, fails };
         let proof = Proof::Witness(witness);
@@ -95,7 +89,7 @@ fn it_objects_to_what_is_not_of_the_shape() {
     let good = instance().to_text().expect("a text");
     for (defect, from, to) in [
         ("verdict of the other kind", r#""certified""#, r#""refuted""#),
-        ("requirements of the older rules", r#""require":["#, r#""requirements":["#),
+        ("requirements under another key", r#""require":["#, r#""requirements":["#),
         ("split by a name", r#""split":0"#, r#""split":"x""#),
         ("split of a seventh coordinate", r#""split":0"#, r#""split":6"#),
         ("split and failure", r#""split":0"#, r#""split":0,"fails":"reach""#),

@@ -56,18 +56,7 @@ pub fn evaluate<E: Enclosure>(
     slopes: Slopes<'_, E>,
     edges: &[[E::Number; 3]],
 ) -> Values<Slope<E::Number>> {
-    evaluate_parts(tape, None, parameters, slopes, edges)
-}
-
-/// The same of the entries that are needed alone, where it is said which.
-pub fn evaluate_parts<E: Enclosure>(
-    tape: &Tape,
-    needed: Option<&[bool]>,
-    parameters: &[E::Number],
-    slopes: Slopes<'_, E>,
-    edges: &[[E::Number; 3]],
-) -> Values<Slope<E::Number>> {
-    tape.run_parts(&slopes, needed, |op| match op {
+    tape.run(&slopes, |op| match op {
         Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
         Op::Parameter(j) => slopes.constant(parameters.get(j)?.clone()),
         _ => None,

@@ -2,7 +2,7 @@
 
 use crate::atlas::{AtlasCell, AtlasClaim};
 use crate::check::MOST_NODES;
-use crate::claim::{MachineClaim, RegionClaim};
+use crate::claim::MachineClaim;
 use crate::no_cube::NoCubeClaim;
 use crate::number::Expression;
 use crate::postulate::PostulateClaim;
@@ -40,8 +40,6 @@ pub struct Certificate {
 pub enum Claim {
     /// A machine over a workspace.
     Machine(MachineClaim),
-    /// Where in a box a claim holds.
-    Region(RegionClaim),
     /// No cube of some side fits, wherever its centre is in a box.
     NoCube(NoCubeClaim),
     /// The Q1/Q2 postulate.
@@ -58,6 +56,15 @@ pub enum Verdict {
     Certified,
     /// It is false.
     Refuted,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Certified => "certified",
+            Verdict::Refuted => "refuted",
+        })
+    }
 }
 
 /// The argument.

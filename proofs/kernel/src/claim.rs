@@ -23,20 +23,6 @@ pub struct MachineClaim {
     pub require: Vec<Requirement>,
 }
 
-/// "Of the box that is the workspace, the part at whose points the claim of `machine` holds, for
-/// every machine, has at least the share `inner`; the part at whose points it fails, for every
-/// machine, has at least the share `outer`."
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RegionClaim {
-    /// The machine, the box, and the requirements.
-    pub machine: MachineClaim,
-    /// Not negative.
-    pub inner: Expression,
-    /// Not negative.
-    pub outer: Expression,
-}
-
 /// A mechanism.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -4,6 +4,7 @@ use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::claim::Quantity;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::{Expression, Operator};
+use crate::slope::Slope;
 use crate::trig::{cos_sin, pi};
 use crate::vary;
 use num_bigint::BigInt;
@@ -97,10 +98,28 @@ fn of_all(number: &Expression, bits: u32) -> Option<Interval<BigInt>> {
 pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
     let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
     let working = bits.checked_add(guard)?;
-    let x = of_all(number, working)?;
     // x / 2^working / 2^scale 2^bits = x / 2^(guard + scale), with guard + scale >= 64.
-    let places = i64::from(guard) + scale;
-    Some(Interval { lo: x.lo >> places, hi: -(-x.hi >> places) })
+    Some(shifted(of_all(number, working)?, i64::from(guard) + scale))
+}
+
+/// The same in slopes, of `m` coordinates, of which a number's names are those at their `place`.
+pub(crate) fn sloped(
+    number: &Expression,
+    scale: i64,
+    bits: u32,
+    m: usize,
+    place: &impl Fn(usize) -> Option<usize>,
+) -> Option<Slope<Interval<BigInt>>> {
+    let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
+    let by = |x| shifted(x, i64::from(guard) + scale);
+    let x = vary::sloped(number, bits.checked_add(guard)?, m, place)?;
+    let (at_centre, range) = (by(x.at_centre), by(x.range));
+    Some(Slope { at_centre, range, slopes: x.slopes.map(by) })
+}
+
+/// `x / 2^places`, rounded outward.
+fn shifted(x: Interval<BigInt>, places: i64) -> Interval<BigInt> {
+    Interval { lo: x.lo >> places, hi: -(-x.hi >> places) }
 }
 
 impl Input {

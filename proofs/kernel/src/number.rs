@@ -359,7 +359,10 @@ impl Expression {
                 Some(Interval { lo, hi })
             }
             Expression::Name(inner) => name(inner),
-            Expression::Varying(range) => Some(range.enclose(arithmetic.bits())),
+            Expression::Varying(range) => {
+                let [_, range, _] = range.edge(arithmetic.bits());
+                Some(range)
+            }
             Expression::Neg(inner) => arithmetic.neg(&of(inner)?),
             Expression::Binary(operator, left, right) => {
                 let (left, right) = (of(left)?, of(right)?);

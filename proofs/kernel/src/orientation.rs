@@ -12,8 +12,8 @@
 use crate::claim::Orientation;
 use crate::compile::Builder;
 use crate::formula::{Formula, Tape, Vector};
-use crate::input::{number_error, ordered, shape_error, ClaimError, Input, Value};
-use crate::number::Expression;
+use crate::input::{binary, number_error, ordered, shape_error, ClaimError, Input, Value};
+use crate::number::{Expression, Operator};
 
 const PLACE: &str = "orientation";
 
@@ -84,6 +84,42 @@ pub(crate) fn chart(
             let (matrix, weight) = about(&mut builder.tape, 2, c[0]);
             Ok(Chart { matrix, weight, ends, g: None })
         }
+    }
+}
+
+/// Whether it is certain that no two rotations of a set differ by half a turn, and that each has its
+/// coordinates once.
+///
+/// **Lemma.** No two do if one of these holds: an angle is less than 90 degrees; tilt and torsion
+/// together are; a range spans less than 180; pitch is between -90 and 90, and the spans of roll and yaw
+/// together are less than 180. *Proof.* Let `d` be the angle of `R' R^T`, at most half a turn:
+/// `d(R S, R' S') <= d(R, R') + d(S, S')`. It is at most twice the angle; the span; and, as a rotation
+/// of the set of tilts is one by at most that about an axis in the plane, after one by the torsion about
+/// z, twice their sum. Of the last set `R` has the unit quaternion `q_z q_y q_x`. With half the
+/// differences of roll, pitch and yaw, `x`, `y`, `z`, and the mean `s` of both pitches,
+///
+/// ```text
+/// +-cos(d/2) = q . q' = cos x cos y cos z + sin x sin s sin z
+/// ```
+///
+/// `|s| + |y| < 90` is the greater pitch, so `|sin s| < cos y`; `|x| + |z| < 90`, so
+/// `|sin x sin z| < cos x cos z`: the sum is positive. ∎ Half-angle tangents are those of one rotation each, and so
+/// are roll, pitch and yaw there: `cos pitch > 0`.
+pub(crate) fn is_less_than_half_a_turn(orientation: &Orientation) -> bool {
+    let of = |operator, a: &Expression, b: &Expression| binary(operator, a, b);
+    let span = |[min, max]: &[Expression; 2]| of(Operator::Sub, max, min);
+    let below = |angle: &Expression, degrees: i64| {
+        ordered(PLACE, angle, &Expression::integer(degrees), true).is_ok()
+    };
+    match orientation {
+        Orientation::Angle(angle) => below(angle, 90),
+        Orientation::Tilt { tilt, torsion } => below(&of(Operator::Add, tilt, torsion), 90),
+        Orientation::RollPitchYaw { roll, pitch: [min, max], yaw } => {
+            below(&Expression::Neg(Box::new(min.clone())), 90)
+                && below(max, 90)
+                && below(&of(Operator::Add, &span(roll), &span(yaw)), 180)
+        }
+        Orientation::Range(ends) => below(&span(ends), 180),
     }
 }
 

@@ -8,13 +8,15 @@ use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{coordinates, Formula, Op, Tape};
 use crate::input::{
-    binary, enclosed, narrowed, number_error, ordered, positive, shape_error, ClaimError, Input,
-    Value, SIGN_BITS,
+    binary, enclosed, narrowed, number_error, ordered, positive, shape_error, sloped, ClaimError,
+    Input, Value, SIGN_BITS,
 };
 use crate::machine;
 use crate::number::{Expression, Operator};
 use crate::quantity::{self, Obligation, Test};
+use crate::slope::{Slope, MOST_COORDINATES};
 use crate::test::Row;
+use crate::vary;
 use num_bigint::BigInt;
 
 /// A claim, compiled.
@@ -49,6 +51,8 @@ pub struct Problem {
     pub cube_reached: Vec<Formula>,
     /// Quotients and roots of a user's formulas: defined where the claim is true.
     pub partial: Vec<Formula>,
+    /// The parameters of an atlas that are coordinates of slopes, after those of the workspace.
+    pub names: Vec<usize>,
 }
 
 /// The workspace's own inequality.
@@ -120,6 +124,7 @@ impl Problem {
             ),
             partial: std::mem::take(&mut builder.partial),
             cube_reached: Vec::new(),
+            names: Vec::new(),
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
@@ -127,7 +132,56 @@ impl Problem {
         problem.tape = builder.tape;
         problem.inputs = builder.inputs;
         problem.constants_are_defined()?;
+        problem.names = problem.coordinates_of_names();
         Ok(problem)
+    }
+
+    /// The parameters in the quantities, but for tolerances, if there are not too many, and all that is
+    /// to be shown is of each point and machine by itself: tests of accuracy compare machines, and
+    /// bodies and orientations no atlas has.
+    fn coordinates_of_names(&self) -> Vec<usize> {
+        let mut names = Vec::new();
+        for input in &self.inputs {
+            if let Value::Quantity(Quantity::Exactly(x)) = &input.value {
+                vary::parameters(x, &mut names);
+            }
+        }
+        names.sort_unstable();
+        names.dedup();
+        let other = |o: &Obligation| matches!(o.test, Test::Accuracy(_) | Test::Apart(_));
+        if self.dimension() + names.len() > MOST_COORDINATES
+            || !self.orientation.is_empty()
+            || self.obligations.iter().any(other)
+        {
+            names.clear();
+        }
+        names
+    }
+
+    /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
+    /// are in it.
+    pub(crate) fn sloped<Z: Integer>(
+        &self,
+        number: &Expression,
+        scale: i64,
+        bits: u32,
+    ) -> Option<Slope<Interval<Z>>> {
+        let m = self.dimension();
+        let place = |parameter| Some(m + self.names.iter().position(|&own| own == parameter)?);
+        let x = sloped(number, scale, bits, m + self.names.len(), &place)?;
+        let slopes = x.slopes.iter().map(narrowed).collect::<Option<Vec<_>>>()?.try_into().ok()?;
+        Some(Slope { at_centre: narrowed(&x.at_centre)?, range: narrowed(&x.range)?, slopes })
+    }
+
+    /// The slopes of each quantity with such names; `None` of all else.
+    pub fn varying<Z: Integer>(&self, bits: u32) -> Vec<Option<Slope<Interval<Z>>>> {
+        let slope = |input: &Input| match &input.value {
+            Value::Quantity(Quantity::Exactly(x)) if !self.names.is_empty() && x.varies() => {
+                self.sloped(x, input.scale, bits)
+            }
+            _ => None,
+        };
+        self.inputs.iter().map(slope).collect()
     }
 
     /// Whether what depends on no coordinate is defined, for every machine: directions are not zero,
@@ -138,8 +192,17 @@ impl Problem {
             Op::Parameter(j) => parameters.get(j).cloned(),
             _ => None,
         });
-        let defined = self.tape.constants().into_iter().all(|f| values.of(f).is_some());
-        defined.then_some(()).ok_or_else(|| number_error("mechanism", "defined for every machine"))
+        let undefined = self.tape.constants().into_iter().find(|&f| values.of(f).is_none());
+        undefined.map_or(Ok(()), |f| {
+            // Named after the first number that it is made of.
+            let made_of = self.tape.parts(&[f]).into_iter().zip(self.tape.ops());
+            let first = made_of.filter(|(is_part, _)| *is_part).find_map(|(_, op)| match op {
+                Op::Parameter(j) => self.inputs.get(*j),
+                _ => None,
+            });
+            let place = first.map_or("mechanism", |input| &input.place);
+            Err(number_error(place, "such that all is defined for every machine"))
+        })
     }
 
     /// The work of a step: the tape's entries, and what a test does for all signs, vertices and signs of
@@ -227,11 +290,13 @@ impl Problem {
                     let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
                     all.copied().chain([weight]).collect()
                 }
+                Test::OneToOne(rows) => {
+                    rows.iter().flat_map(|row| row.a.iter().chain([&row.d])).copied().collect()
+                }
                 Test::AtLeast(f) => vec![*f],
                 // These have no form for control points.
                 Test::Beyond(..)
                 | Test::Least(..)
-                | Test::OneToOne(_)
                 | Test::Solve(_)
                 | Test::Accuracy(_)
                 | Test::Apart(_)

@@ -4,7 +4,7 @@ use crate::certificate::{Failure, Verdict, Witness};
 use crate::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation,
 };
-use crate::claim::{Quantity, RegionClaim, Requirement, Turning, Workspace};
+use crate::claim::{Quantity, Requirement, Turning, Workspace};
 use crate::formula::{Formula, Op, Tape};
 use crate::machine::Joint;
 use crate::number::Expression;
@@ -29,27 +29,6 @@ pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::
     orientation(&mut out, claim)?;
     bodies(&mut out, claim)?;
     requirements(&mut out, claim)?;
-    Ok(out)
-}
-
-/// What an accepted region establishes.
-///
-/// # Errors
-/// Only if the formatter fails.
-pub fn region(claim: &RegionClaim) -> Result<String, fmt::Error> {
-    let RegionClaim { machine: claim, inner, outer } = claim;
-    let mut out = String::new();
-    writeln!(
-        out,
-        "Let a point be good if all of the following holds, and bad if some of it fails"
-    )?;
-    writeln!(out, "whichever of the machines it is.")?;
-    machine(&mut out, claim)?;
-    workspace(&mut out, claim)?;
-    bodies(&mut out, claim)?;
-    requirements(&mut out, claim)?;
-    writeln!(out, "It is proved: of the box's volume, the good points have at least the share")?;
-    writeln!(out, "{inner}, and the bad points at least the share {outer}.")?;
     Ok(out)
 }
 

@@ -186,7 +186,7 @@ pub fn sigma_min<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
-        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
+        rest.is_some_and(|rest| is_lower(e, &rows, &rest, evidence))
     })
 }
 
@@ -201,27 +201,34 @@ pub fn full_rank<E: Enclosure>(
     rows: &[Row<Formula>],
     evidence: &Multiplier,
 ) -> bool {
-    let Some(zero) = over.slopes.arithmetic.integer(0) else { return false };
+    let e = over.slopes.arithmetic;
+    let Some(zero) = e.integer(0) else { return false };
     over.at_vertices(rows, |v, rows| {
         let without_d = |row| Row { d: zero.clone(), ..row };
         let rows: Vec<_> = rows.into_iter().map(without_d).collect();
         let rest = over.less_inside(zero.clone(), v);
-        rest.is_some_and(|rest| is_lower(&over.slopes, &rows, &rest, evidence))
+        rest.is_some_and(|rest| is_lower(e, &rows, &rest, evidence))
     })
 }
 
 /// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite.
 fn is_lower<E: Enclosure>(
-    &Slopes { arithmetic: e, m }: &Slopes<'_, E>,
+    e: &E,
     rows: &[Row<E::Number>],
     rest: &E::Number,
     evidence: &Multiplier,
 ) -> bool {
+    let m = width(rows);
     let matrix = || {
         let terms = rows.iter().zip(&evidence.y);
         terms.fold(scalar(e, m, rest), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
     };
     evidence.is_of(rows.len(), m) && matrix().is_some_and(|t| is_positive_definite(e, t))
+}
+
+/// The columns of `A`.
+fn width<N>(rows: &[Row<N>]) -> usize {
+    rows.first().map_or(0, |row| row.a.len())
 }
 
 /// `c I`.
@@ -265,7 +272,7 @@ pub fn sigma_max<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
-        let start = bound.and_then(|bound| scalar(e, over.slopes.m, &bound));
+        let start = bound.and_then(|bound| scalar(e, width(&rows), &bound));
         // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
         let rest = rows.iter().fold(start, |rest, row| {
             let [least, _] = e.ends(&row.d);

@@ -4,7 +4,7 @@
 //! that is certain, an order, an enclosure. Only what is the same expression is the same number.
 
 use crate::arithmetic::Arithmetic;
-use crate::cell::Cell;
+use crate::atlas::MOST_PARAMETERS;
 use crate::certificate::{Failure, Witness};
 use crate::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Quantity,
@@ -29,11 +29,22 @@ pub struct Range {
 }
 
 impl Range {
-    /// Rounded outward to `bits` fractional bits.
-    pub(crate) fn enclose(&self, bits: u32) -> Interval<BigInt> {
+    /// Its centre `c`, itself, and its half-width `h`, each rounded outward to `bits` fractional bits.
+    ///
+    /// A value is `c + lambda h` with the exact `c` and `h`: its `lambda` is the same with any number of
+    /// bits. Were `c` and `h` the rounded ones, slopes of inputs with different units would be of
+    /// different `lambda`.
+    pub(crate) fn edge(&self, bits: u32) -> [Interval<BigInt>; 3] {
         let [least, greatest] = &self.ends;
-        let lo = (least.numer() << bits).div_floor(least.denom());
-        Interval { lo, hi: -(-greatest.numer() << bits).div_floor(greatest.denom()) }
+        // Over twice the common denominator.
+        let whole = (least.denom() * greatest.denom()) << 1u32;
+        let lo = least.numer() * greatest.denom();
+        let hi = greatest.numer() * least.denom();
+        let (centre, half) = (&lo + &hi, &hi - &lo);
+        [[&centre, &centre], [&(&lo << 1u32), &(&hi << 1u32)], [&half, &half]].map(|[lo, hi]| {
+            let lo = (lo << bits).div_floor(&whole);
+            Interval { lo, hi: -(-hi << bits).div_floor(&whole) }
+        })
     }
 }
 
@@ -60,33 +71,32 @@ pub(crate) fn vary(x: &mut Expression, ranges: &[Range]) {
 ///
 /// `None` where it is not certainly defined for all of them; a root of what may be zero is not.
 pub(crate) fn enclose(x: &Expression, bits: u32) -> Option<Interval<BigInt>> {
-    let arithmetic = Fixed::new(bits);
-    let mut edges = Vec::new();
-    ranges(x, &mut edges);
-    let whole = edges.iter().map(|range| {
-        range.as_ref().map_or_else(|| Interval::point(BigInt::from(0)), |range| range.enclose(bits))
-    });
-    let edges = Cell(whole.collect()).edges()?;
-    let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
-    Some(slope(x, &slopes, &edges)?.range)
+    let place = |parameter| (parameter < MOST_PARAMETERS).then_some(parameter);
+    Some(sloped(x, bits, MOST_PARAMETERS, &place)?.range)
 }
 
-/// The ranges of an expression, by their parameters.
-fn ranges(x: &Expression, found: &mut Vec<Option<Range>>) {
+/// A number's slopes in `m` coordinates, of which names are those that `place` says of their parameters;
+/// `None` where a name has none, or the number is not certainly defined for all values.
+pub(crate) fn sloped(
+    x: &Expression,
+    bits: u32,
+    m: usize,
+    place: &impl Fn(usize) -> Option<usize>,
+) -> Option<Slope<Number>> {
+    slope(x, &Slopes { arithmetic: &Fixed::new(bits), m }, place)
+}
+
+/// Adds the parameters that an expression's names stand for.
+pub(crate) fn parameters(x: &Expression, found: &mut Vec<usize>) {
     match x {
         Expression::Literal { .. } | Expression::Name(_) => {}
-        Expression::Varying(range) => {
-            if found.len() <= range.parameter {
-                found.resize(range.parameter + 1, None);
-            }
-            found[range.parameter] = Some((**range).clone());
-        }
+        Expression::Varying(range) => found.push(range.parameter),
         Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-            ranges(inner, found);
+            parameters(inner, found);
         }
         Expression::Binary(_, left, right) => {
-            ranges(left, found);
-            ranges(right, found);
+            parameters(left, found);
+            parameters(right, found);
         }
     }
 }
@@ -96,14 +106,14 @@ type Number = Interval<BigInt>;
 fn slope(
     x: &Expression,
     slopes: &Slopes<'_, Fixed<BigInt>>,
-    edges: &[[Number; 3]],
+    place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Number>> {
-    let of = |x: &Expression| slope(x, slopes, edges);
+    let of = |x: &Expression| slope(x, slopes, place);
     let found = match x {
         _ if !x.varies() => slopes.constant(x.enclose(slopes.arithmetic, &|_| None)?),
         Expression::Literal { .. } | Expression::Name(_) => None,
         Expression::Varying(range) => {
-            slopes.coordinate(range.parameter, edges.get(range.parameter)?.clone())
+            slopes.coordinate(place(range.parameter)?, range.edge(slopes.arithmetic.bits()))
         }
         Expression::Neg(inner) => slopes.neg(&of(inner)?),
         Expression::Binary(operator, left, right) => {

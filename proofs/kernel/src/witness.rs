@@ -8,11 +8,12 @@ use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Op, Values};
+use crate::formula::{Formula, Op, Values};
 use crate::input::{binary, ordered, sign, ClaimError};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
+use crate::slope::Slopes;
 use num_bigint::BigInt;
 use std::borrow::Cow;
 use std::fmt;
@@ -132,11 +133,37 @@ pub fn check(
             at.opposite(&other)
         }
     };
-    if violated {
+    if violated || fails_by_names(problem, witness) == Some(true) {
         Ok(())
     } else {
         Err(WitnessError::NotViolated)
     }
+}
+
+/// Whether a witness over a cell of an atlas fails in slopes in the names, in which its point is
+/// enclosed also: what several numbers share cancels. What is asked of two points is not seen.
+fn fails_by_names(problem: &Problem, witness: &Witness) -> Option<bool> {
+    if problem.names.is_empty() {
+        return None;
+    }
+    let bits = witness.precision;
+    let arithmetic = Fixed::<BigInt>::new(bits);
+    let slopes = Slopes { arithmetic: &arithmetic, m: problem.dimension() + problem.names.len() };
+    let parameters = problem.parameters(bits, &witness.machine).ok()?;
+    let varying = problem.varying(bits);
+    let values = problem.tape.run(&slopes, |op| match op {
+        Op::Coordinate(k) => {
+            let x = witness.point.get(k)?;
+            let fixed = || slopes.constant(problem.point(std::slice::from_ref(x), bits)?.pop()?);
+            problem.sloped(x, problem.scale, bits).or_else(fixed)
+        }
+        Op::Parameter(j) => match varying.get(j)? {
+            Some(slope) => Some(slope.clone()),
+            None => slopes.constant(parameters.get(j)?.clone()),
+        },
+        _ => None,
+    });
+    Some(fails_throughout(problem, slopes, &values, &witness.fails))
 }
 
 /// Whether a point is certainly in a workspace whose box has these corners. What is said of its
@@ -177,22 +204,27 @@ impl<'a> AtPoint<'a> {
             point,
             parameters,
         };
-        if at.is_turned() {
+        if at.is_turned(&at.point, |g| at.values.of(g)) {
             Ok(at)
         } else {
             Err(WitnessError::Outside)
         }
     }
 
-    /// Whether coordinates of orientation are certainly those of one of the claim.
-    fn is_turned(&self) -> bool {
-        let c = self.point.iter().skip(self.problem.corners[0].len());
+    /// Whether coordinates of orientation, of a point or a box, are certainly those of the claim's;
+    /// `value` encloses its inequality there.
+    fn is_turned<'v>(
+        &self,
+        point: &[Number],
+        value: impl Fn(Formula) -> Option<&'v Number>,
+    ) -> bool {
+        let c = point.iter().skip(self.problem.corners[0].len());
         let bits = self.arithmetic.bits();
         let in_box = c.zip(&self.problem.orientation).all(|(c, [min, max])| {
             let ends = min.enclose(bits, None).zip(max.enclose(bits, None));
             ends.is_some_and(|(min, max)| min.hi <= c.lo && c.hi <= max.lo)
         });
-        let g = self.problem.turned.map(|g| self.values.of(g));
+        let g = self.problem.turned.map(value);
         in_box && g.is_none_or(|g| g.is_some_and(|g| self.arithmetic.is_nonnegative(g)))
     }
 

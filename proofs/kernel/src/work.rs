@@ -5,15 +5,16 @@
 //! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
 //! it.
 
-use crate::certificate::{Node, Tree};
+use crate::certificate::{Evidence, Node, Tree};
 use crate::check::Rejected;
 use crate::formula::Op;
 use crate::input::{Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
+use crate::slope::MOST_COORDINATES;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
-pub const WORK_A_BYTE: usize = 96;
+pub const WORK_A_BYTE: usize = 192;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 
@@ -102,11 +103,15 @@ fn words(precision: u32) -> usize {
 pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
     let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
     let nodes = tree.nodes.iter().filter(is_evaluated).count();
-    let steps: usize = tree.nodes.iter().map(|node| node.by.len()).sum();
-    let each = weight(problem) * (2 + 3 * problem.dimension());
+    let all = || tree.nodes.iter().flat_map(|node| &node.by);
+    // No matrices, nor formulas but the workspace's own.
+    let outside = all().filter(|step| step.1 == Evidence::Outside).count();
+    let steps = all().count() - outside;
+    let each = weight(problem) * (2 + 3 * (problem.dimension() + problem.names.len()));
     let all = nodes
         .saturating_mul(each)
         .saturating_add(steps.saturating_mul(of_step(problem)))
+        .saturating_add(outside.saturating_mul(1 << (2 + MOST_COORDINATES)))
         .saturating_add(of_angles(problem));
     all.saturating_mul(words(tree.precision)).saturating_add(4 * tree.nodes.len())
 }
@@ -114,8 +119,8 @@ pub(crate) fn of_tree(problem: &Problem, tree: &Tree) -> usize {
 /// Matrices at every vertex, and their own sign vertices.
 fn of_step(problem: &Problem) -> usize {
     let (m, n) = (problem.dimension(), problem.legs.len());
-    let vertices = 1usize << m;
-    problem.work() + vertices * (4 * n * m * m + vertices * m * m * m) / 4
+    let (vertices, signs) = (1usize << (m + problem.names.len()), 1usize << m);
+    problem.work() + vertices * (4 * n * m * m + signs * m * m * m) / 4
 }
 
 /// What a witness costs.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::design::{ReadError, MAX_FILE};
+use orthocert_kernel::claim as kernel;
 use std::path::{Path, PathBuf};
 
 fn designs() -> PathBuf {
@@ -45,10 +46,11 @@ fn every_design_of_another_kind_is_read() {
 #[test]
 fn relaxed_bounds_are_exact_expressions() {
     let design = Design::read(&designs().join("orthoglide-relaxed-1e-9.toml")).unwrap();
-    let claim = design.rules.unwrap();
-    let transmission = claim.requirements.transmission.unwrap();
-    assert_eq!(transmission.max, Some(number("2.000000002")));
-    assert_eq!(transmission.min, Some(number("1000000000/2000000002")));
+    let bounds: Vec<_> = design.claim.require.iter().map(|own| &own.bound).collect();
+    let number =
+        |text: &str| orthocert_kernel::number::Expression::try_from(text.to_owned()).unwrap();
+    let (min, max) = (number("500000000/1000000001"), number("2.000000002"));
+    assert_eq!(bounds, [&kernel::Bound::Min(min), &kernel::Bound::Max(max)]);
 }
 
 #[test]

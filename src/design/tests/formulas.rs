@@ -32,7 +32,7 @@ transmission = { max = 20 }
 #[test]
 fn a_mechanism_by_formulas() {
     let design = Design::parse(FORMULAS, "test.toml").unwrap();
-    assert_eq!(design.claim, Claim::Kernel(kernel(FORMULAS)));
+    assert_eq!(design.claim, kernel(FORMULAS));
     assert_eq!(
         shown(FORMULAS)["mechanism"]["formulas"],
         json!({

@@ -97,19 +97,12 @@ transmission = { max = 3 }
 
 /// The claim that a design is read into, in the form of certificates; what the kernel makes of it is
 /// left out.
-pub(super) fn claim(text: &str) -> Claim {
+pub(super) fn kernel(text: &str) -> kernel::MachineClaim {
     let tree = toml::de::DeTable::parse(text).unwrap();
     let document = document::Document { file: "test.toml", text, names: document::Names::None };
     let description = crate::design::description(&document.root(tree.get_ref()));
     let description = description.unwrap_or_else(|error| panic!("{error}\n{text}"));
-    description.kernel().map(Claim::Kernel).expect("short numbers")
-}
-
-pub(super) fn kernel(text: &str) -> kernel::MachineClaim {
-    match claim(text) {
-        Claim::Kernel(claim) => claim,
-        other => panic!("{other:?}\n{text}"),
-    }
+    description.kernel().expect("short numbers")
 }
 
 pub(super) fn shown(text: &str) -> Value {
@@ -175,6 +168,8 @@ fn a_hexapod_and_its_orientations() {
         let text = with(SPATIAL, &[(15, &format!("orientation = {written}"))]);
         assert_eq!(shown(&text)["orientation"], expected, "{written}");
     }
+    let one_to_one = shown(&with(SPATIAL, &[(17, "one_to_one = true")]));
+    assert_eq!(one_to_one["require"], json!([{ "quantity": "one_to_one", "end": "holds" }]));
     let cylinder = with(
         SPATIAL,
         &[(13, "cylinder = { center = [0, 1], radius = 4, z = [16, 24] }"), (14, "")],
@@ -395,6 +390,5 @@ fn the_order_of_keys_does_not_matter() {
 fn the_kernel_takes_what_it_knows() {
     let fourth = "[[mechanism.legs]]\ndrive = \"strut\"\nanchor = [3, 3, -3]\n[workspace]";
     let design = Design::parse(&with(STRUTS, &[(13, fourth)]), "test.toml").unwrap();
-    assert!(matches!(design.claim, Claim::Kernel(_)));
     assert_eq!(design.sources.position("mechanism.legs[4]").unwrap().line, 13);
 }

@@ -2,7 +2,7 @@
 
 use super::refused::row;
 use super::*;
-use orthocert_checker::claim::{AtLeast, AtMost, JointSpeed, Range, WorkingMode, Workspace};
+use crate::design::leg::WorkingMode;
 use Defect::{
     Claim as WholeClaim, Conflict, MissingKey, NotANumber, OutOfDomain, Reversed, Tolerance,
     UnknownKey, UnknownWord, WrongType,
@@ -21,8 +21,7 @@ fn arms_are_read_one_by_one() {
     assert_eq!(*mode, WorkingMode::Plus);
     let (center, z) = ([number("0"), number("1")], [number("-14"), number("-12")]);
     assert_eq!(claim.workspace, Workspace::Cylinder { center, radius: number("3"), z });
-    let range = Range { min: Some(number("-45")), max: Some(number("120")) };
-    assert_eq!(claim.requirements.joint_range, Some([range.clone(), range.clone(), range]));
+    assert_eq!(claim.of("joint_range"), ["within -45 120"]);
 }
 
 #[test]
@@ -34,7 +33,7 @@ fn struts_and_planar_legs_are_read_one_by_one() {
     };
     assert_eq!((&anchor[0], &platform[0]), (&exactly("2"), &exactly("1")));
     assert!(second.iter().all(|x| *x == exactly("0")));
-    assert_eq!(claim.requirements.conditioning, Some(AtMost { max: number("30") }));
+    assert_eq!(claim.demands, ["conditioning max 30"]);
     let claim = read(&with(PLANES, &[(5, "direction = [\"1 ± 0.1\", 0, 0]")]));
     let [Leg::Planar { direction }, ..] = legs(&claim) else { panic!("{claim:?}") };
     assert_eq!(direction[0], between("0.9", "1.1"));
@@ -56,13 +55,17 @@ fn every_requirement_is_read() {
                leg_angle = { max = 90 }\n\
                joint_speed = { tool = 1200, max = 2000 }";
     for text in [with(LEGS, &[(26, all)]), with(CUBE, &[(8, all)])] {
-        let requirements = read(&text).requirements;
-        assert_eq!(requirements.conditioning, Some(AtMost { max: number("3") }));
-        assert_eq!(requirements.serial_margin, Some(AtLeast { min: number("1/5") }));
-        assert_eq!(requirements.parallel_margin, Some(AtLeast { min: number("1/10") }));
-        assert_eq!(requirements.leg_angle, Some(AtMost { max: number("90") }));
-        let speed = JointSpeed { tool: number("1200"), max: number("2000") };
-        assert_eq!(requirements.joint_speed, Some(speed));
+        let mut demands = read(&text).demands;
+        demands.sort();
+        let expected = [
+            "conditioning max 3",
+            "joint_speed tool=1200 max 2000",
+            "leg_angle max 90",
+            "parallel_margin min 1/10",
+            "serial_margin min 1/5",
+            "transmission max 2",
+        ];
+        assert_eq!(demands, expected);
     }
     for alone in all.lines().skip(1) {
         read(&with(LEGS, &[(26, alone)]));
@@ -234,6 +237,6 @@ fn expressions_with_errors_name_leg_key_and_place() {
 fn claims_refused_as_a_whole_are_of_that_class() {
     let far_too_wide = "axis = [\"0 ± 5\", -1, \"0 ± 5\"]";
     let error = refuse(&with(ARMS, &[(6, far_too_wide)]));
-    assert_eq!((error.defect(), error.position().line), (WholeClaim, 1), "{error}");
-    assert!(error.found().contains("leg 1"), "{error}");
+    assert_eq!((error.defect(), error.position().line), (WholeClaim, 6), "{error}");
+    assert_eq!(error.key(), "mechanism.legs[1].axis", "{error}");
 }

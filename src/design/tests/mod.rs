@@ -12,8 +12,9 @@ mod refused_numbers;
 mod variable;
 
 use super::{document, Defect, Design, DesignError};
+use crate::design::description::{Bound, Demand, Mechanism, Workspace};
+use crate::design::leg::{Leg, Quantity};
 use crate::exact::Exact;
-use orthocert_checker::claim::{Claim, Leg, MachineClaim, Mechanism, Quantity};
 
 /// An Orthoglide on a box.
 const BOX: &str = r#"title = "box"
@@ -153,12 +154,56 @@ fn with(design: &str, changes: &[(usize, &str)]) -> String {
     design.lines().enumerate().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn read(text: &str) -> MachineClaim {
-    match Design::parse(text, "test.toml") {
-        Ok(Design { rules: Some(claim), .. }) => claim,
-        Ok(design) => panic!("{:?}", design.claim),
-        Err(error) => panic!("{error}\n{text}"),
+/// What a design says: legs as they are written, or the offset of the paper's Orthoglide.
+#[derive(Debug)]
+struct Said {
+    legs: Vec<Leg>,
+    offset: Option<Exact>,
+    workspace: Workspace,
+    /// `quantity[leg] given=.. end bound`, one a demand.
+    demands: Vec<String>,
+}
+
+impl Said {
+    /// The demands on a quantity.
+    fn of(&self, quantity: &str) -> Vec<&str> {
+        let own = self.demands.iter().filter_map(|demand| demand.strip_prefix(quantity));
+        own.map(str::trim_start).collect()
     }
+}
+
+fn demand(demand: &Demand) -> String {
+    let mut out = demand.quantity.to_owned();
+    if let Some(leg) = demand.leg {
+        out += &format!("[{leg}]");
+    }
+    for (name, numbers) in &demand.given {
+        let numbers: Vec<String> = numbers.iter().map(Exact::to_string).collect();
+        out += &format!(" {name}={}", numbers.join(","));
+    }
+    out + &match &demand.bound {
+        Bound::Min(min) => format!(" min {min}"),
+        Bound::Max(max) => format!(" max {max}"),
+        Bound::Within([min, max]) => format!(" within {min} {max}"),
+        Bound::Holds => " holds".to_owned(),
+    }
+}
+
+fn read(text: &str) -> Said {
+    if let Err(error) = Design::parse(text, "test.toml") {
+        panic!("{error}\n{text}");
+    }
+    let text = text.trim_start_matches('\u{feff}');
+    let tree = toml::de::DeTable::parse(text).unwrap();
+    let document = document::Document { file: "test.toml", text, names: document::Names::None };
+    let said = super::description(&document.root(tree.get_ref())).unwrap();
+    let (legs, offset) = match said.mechanism {
+        Mechanism::Legs { legs, .. } => (legs.into_iter().map(|leg| leg.drive).collect(), None),
+        Mechanism::OfCube { offset } => (Vec::new(), Some(offset)),
+        Mechanism::Formulas(_) => panic!("formulas: {text}"),
+    };
+    let demands = said.demands.iter().map(demand).collect();
+    Said { legs, offset, workspace: said.workspace, demands }
 }
 
 fn refuse(text: &str) -> DesignError {
@@ -180,11 +225,8 @@ fn exactly(text: &str) -> Quantity {
     Quantity::exactly(number(text))
 }
 
-fn legs(claim: &MachineClaim) -> &[Leg; 3] {
-    match &claim.mechanism {
-        Mechanism::Translational(legs) => legs,
-        other => panic!("{other:?}"),
-    }
+fn legs(said: &Said) -> &[Leg; 3] {
+    said.legs.as_slice().try_into().unwrap()
 }
 
 /// One defect: lines changed, and what the one message has to say.

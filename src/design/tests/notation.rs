@@ -159,7 +159,7 @@ fn where_no_tolerance_may_stand_the_same_texts_are_numbers() {
         match meaning {
             Exactly(value) if !text.contains('±') => {
                 let claim = read(&design);
-                let orthocert_checker::claim::Workspace::Box { max, .. } = claim.workspace else {
+                let Workspace::Box { max, .. } = claim.workspace else {
                     panic!("no box");
                 };
                 assert_eq!(max[0], exactly(value).max, "{text}");

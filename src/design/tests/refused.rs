@@ -1,9 +1,6 @@
 //! Every class of bad structure: keys, types, words, conflicts, syntax.
 
 use super::*;
-use crate::design::document::{Document, Names};
-use crate::design::refusal::ill_formed;
-use orthocert_checker::claim::ClaimError;
 use Defect::{
     Conflict, MissingKey, OutOfDomain, Reversed, Syntax, Tolerance, UnknownKey, UnknownWord,
     WrongType,
@@ -280,27 +277,6 @@ fn deep_nesting_is_refused_without_recursion() {
         let error = refuse(&text);
         assert_eq!(error.position().line, 1, "{error}");
         check_message(&error, &text);
-    }
-}
-
-#[test]
-fn a_claim_refused_as_a_whole_points_to_the_table_at_fault() {
-    let tree = toml::de::DeTable::parse(LEGS).unwrap();
-    let root = Document { file: "test.toml", text: LEGS, names: Names::None }.root(tree.get_ref());
-    for (error, line) in [
-        (ClaimError::Reversed("leg 2: length".into()), 1),
-        (ClaimError::Reversed("workspace along x".into()), 22),
-        (ClaimError::NoBound("joint_range of leg 1".into()), 25),
-        (ClaimError::NotPositive("transmission.min".into()), 25),
-        (ClaimError::EmptyTransmission, 25),
-        (ClaimError::CubeNeedsOrthoglide, 22),
-        (ClaimError::ZeroDirection("leg 1".into()), 1),
-    ] {
-        let refused = ill_formed(&root, &error);
-        assert_eq!(refused.defect(), Defect::Claim);
-        assert_eq!(refused.found(), error.to_string());
-        assert_eq!(refused.position().line, line, "{refused}");
-        check_message(&refused, LEGS);
     }
 }
 

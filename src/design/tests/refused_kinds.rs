@@ -6,7 +6,8 @@ use super::*;
 use crate::design::refusal::refused;
 use orthocert_kernel::input::ClaimError;
 use Defect::{
-    Conflict, MissingKey, OutOfDomain, Reversed, Tolerance, UnknownKey, UnknownWord, WrongType,
+    Claim, Conflict, MissingKey, OutOfDomain, Reversed, Tolerance, UnknownKey, UnknownWord,
+    WrongType,
 };
 
 #[test]
@@ -136,6 +137,8 @@ fn requirements_that_only_the_kernel_knows() {
             "requirements.joint_force.tool", MissingKey, "no such key", "{ tool = 100, max = 250 }"),
         row!("not one to one", LEGS, [(26, "one_to_one = false")], 26, "requirements.one_to_one",
             OutOfDomain, "the boolean false", "true, or no such key"),
+        row!("one to one of half a turn", SPATIAL, [(15, "orientation = { angle = 90 }"), (17, "one_to_one = true")], 17,
+            "requirements.one_to_one", Claim, "not well formed", "differ by less than half a turn"),
         row!("one to one by a number", LEGS, [(26, "one_to_one = 1")], 26, "requirements.one_to_one",
             WrongType, "1", "true, or no such key"),
         row!("accuracy without an error", LEGS, [(26, "accuracy = { max = 1 }")], 26,

@@ -34,7 +34,13 @@ pub(super) fn machine(settings: &mut Settings) -> Result<Machine, ImportError> {
         "The workspace above the height at which the firmware narrows it to a cone: a design has \
          cylinders, no cones.",
     );
-    Ok(Machine { title: "Linear Delta", legs, workspace, requirements: FACTORS.to_owned() })
+    Ok(Machine {
+        title: "Linear Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements: FACTORS.to_owned(),
+    })
 }
 
 /// The cylinder of the full radius, `DeltaKinematics.check_move`.

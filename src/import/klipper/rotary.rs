@@ -42,7 +42,13 @@ pub(super) fn machine(settings: &mut Settings) -> Result<Machine, ImportError> {
          cylinders, no cones.",
     );
     let requirements = factors_per_radian(&upper[0]);
-    Ok(Machine { title: "Rotary Delta", legs, workspace, requirements })
+    Ok(Machine {
+        title: "Rotary Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements,
+    })
 }
 
 /// The cylinder of the full radius, `RotaryDeltaKinematics.check_move`.

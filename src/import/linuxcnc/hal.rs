@@ -11,11 +11,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The modules whose pins are followed.
-pub(super) const MODULES: [&str; 3] = ["lineardeltakins", "rotarydeltakins", "tripodkins"];
+pub(super) const MODULES: [&str; 4] =
+    ["lineardeltakins", "rotarydeltakins", "tripodkins", "genhexkins"];
 /// Components that only read the pins which draw a machine.
-const READERS: [&str; 2] = ["lineardelta.", "rotarydelta."];
+const READERS: [&str; 3] = ["lineardelta.", "rotarydelta.", "hexagui."];
 /// Programs of LinuxCNC that set no pin of a kinematics module, nor run such as might.
-const PROGRAMS: [&str; 31] = [
+const PROGRAMS: [&str; 33] = [
+    "hexagui",
+    "hexagui.py",
     "lineardelta",
     "lineardelta.py",
     "rotarydelta",
@@ -327,7 +330,37 @@ const PINS: [&str; 9] = [
 /// Whether a name is one of a kinematics module's without being a pin of it, or is quoted: the firmware
 /// refuses it.
 fn is_no_pin(name: &str) -> bool {
-    name.contains(['\'', '"']) || (is_geometry(name) && !PINS.contains(&name))
+    name.contains(['\'', '"'])
+        || (is_geometry(name) && !PINS.contains(&name) && !is_of_a_hexapod(name))
+}
+
+/// Whether a pin is one of `genhexkins`.
+fn is_of_a_hexapod(name: &str) -> bool {
+    const OTHERS: [&str; 15] = [
+        "spindle-offset",
+        "tool-offset",
+        "screw-lead",
+        "convergence-criterion",
+        "limit-iterations",
+        "max-error",
+        "last-iterations",
+        "max-iterations",
+        "fwd-kins-fail",
+        "x",
+        "y",
+        "z",
+        "a",
+        "b",
+        "c",
+    ];
+    let Some(name) = name.strip_prefix("genhexkins.") else { return false };
+    let parts: Vec<&str> = name.split('.').collect();
+    let strut = |n: &str| matches!(n, "0" | "1" | "2" | "3" | "4" | "5");
+    match parts[..] {
+        ["base" | "platform" | "base-n" | "platform-n", n, "x" | "y" | "z"] => strut(n),
+        ["correction", n] => strut(n),
+        _ => OTHERS.contains(&name),
+    }
 }
 
 /// Most levels of `source`.

@@ -1,6 +1,7 @@
 //! The machines of src/emc/kinematics, from the pins of their modules.
 
 use super::hal::{Hal, MODULES};
+use super::hexapod::hexapod;
 use crate::import::settings::Settings;
 use crate::import::toml::{
     cylinder, factors_per_radian, less, polar, slider, strut, Arm, Machine, Number, FACTORS,
@@ -20,8 +21,15 @@ pub(super) fn machine(settings: &mut Settings, hal: &mut Hal) -> Result<Machine,
     let other = |found: &str| ImportError::OtherMachine {
         file: named.file.clone(),
         found: found.to_owned(),
-        expected: "lineardeltakins, rotarydeltakins, tripodkins",
+        expected: "lineardeltakins, rotarydeltakins, tripodkins, genhexkins",
     };
+    if module == "pentakins" {
+        return Err(settings.refused(
+            "pentakins has five struts on rings about the spindle, each strut in a plane through its \
+             axis, and five coordinates: no leg of a design is one of these; kind = \"formulas\" takes \
+             the lengths as formulas",
+        ));
+    }
     let Some(module) = MODULES.into_iter().find(|known| *known == module) else {
         return Err(other(module));
     };
@@ -34,12 +42,13 @@ pub(super) fn machine(settings: &mut Settings, hal: &mut Hal) -> Result<Machine,
     match module {
         "lineardeltakins" => linear_delta(settings, hal),
         "rotarydeltakins" => rotary_delta(settings, hal),
+        "genhexkins" => hexapod(settings, hal, &named),
         _ => tripod(settings, hal),
     }
 }
 
 /// A pin's value; where nothing sets it, the module's default.
-fn pin(
+pub(super) fn pin(
     settings: &mut Settings,
     hal: &mut Hal,
     name: &str,
@@ -80,7 +89,10 @@ fn length(
 }
 
 /// `MIN_LIMIT` and `MAX_LIMIT` of a section, if both are given.
-fn limits(settings: &mut Settings, section: &str) -> Result<Option<[Number; 2]>, ImportError> {
+pub(super) fn limits(
+    settings: &mut Settings,
+    section: &str,
+) -> Result<Option<[Number; 2]>, ImportError> {
     let mut limit = |end: &str| {
         let became = match section.starts_with("AXIS") {
             true => "an end of the workspace",
@@ -92,14 +104,18 @@ fn limits(settings: &mut Settings, section: &str) -> Result<Option<[Number; 2]>,
 }
 
 /// The box of the axes' limits, if all are given.
-fn axes(settings: &mut Settings) -> Result<Option<[[Number; 2]; 3]>, ImportError> {
+pub(super) fn axes(settings: &mut Settings) -> Result<Option<[[Number; 2]; 3]>, ImportError> {
     let mut axis = |name: &str| limits(settings, &format!("AXIS_{name}"));
     let (x, y, z) = (axis("X")?, axis("Y")?, axis("Z")?);
     Ok(x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]))
 }
 
 /// The workspace: the box of the axes' limits, or a guess.
-fn workspace(settings: &mut Settings, axes: Option<&[[Number; 2]; 3]>, guess: String) -> String {
+pub(super) fn workspace(
+    settings: &mut Settings,
+    axes: Option<&[[Number; 2]; 3]>,
+    guess: String,
+) -> String {
     let Some(axes) = axes else {
         settings.note(
             "The workspace: MIN_LIMIT and MAX_LIMIT of AXIS_X, AXIS_Y and AXIS_Z are not all given, \
@@ -114,14 +130,15 @@ fn workspace(settings: &mut Settings, axes: Option<&[[Number; 2]; 3]>, guess: St
 }
 
 /// The joints' limits, if all are given.
-fn joint_range(settings: &mut Settings) -> Result<String, ImportError> {
+pub(super) fn joint_range(settings: &mut Settings, joints: usize) -> Result<String, ImportError> {
     let mut ranges = String::new();
-    for joint in 0..3 {
+    for joint in 0..joints {
         let Some([min, max]) = limits(settings, &format!("JOINT_{joint}"))? else {
-            settings.note(
-                "The joints' ranges: MIN_LIMIT and MAX_LIMIT of JOINT_0 to JOINT_2 are not all \
+            settings.note(format!(
+                "The joints' ranges: MIN_LIMIT and MAX_LIMIT of JOINT_0 to JOINT_{} are not all \
                  given.",
-            );
+                joints - 1
+            ));
             return Ok(String::new());
         };
         ranges.push_str(&format!("  {{ min = {}, max = {} }},\n", min.text, max.text));
@@ -142,8 +159,14 @@ fn linear_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     let axes = axes(settings)?;
     let guess = cylinder(&format!("{}/2", radius.text), ["0", "0"]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{FACTORS}{}", joint_range(settings)?);
-    Ok(Machine { title: "Linear Delta", legs, workspace, requirements })
+    let requirements = format!("{FACTORS}{}", joint_range(settings, 3)?);
+    Ok(Machine {
+        title: "Linear Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements,
+    })
 }
 
 fn rotary_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError> {
@@ -180,8 +203,14 @@ fn rotary_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     let low = format!("-{}", shin.text);
     let guess = cylinder(&format!("{}/4", thigh.text), [&low, &low]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{}{}", factors_per_radian(&thigh), joint_range(settings)?);
-    Ok(Machine { title: "Rotary Delta", legs, workspace, requirements })
+    let requirements = format!("{}{}", factors_per_radian(&thigh), joint_range(settings, 3)?);
+    Ok(Machine {
+        title: "Rotary Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements,
+    })
 }
 
 fn tripod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError> {
@@ -206,6 +235,12 @@ fn tripod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError
     let high = format!("({}+{}+{})/2", at[0], at[1], at[2]);
     let guess = cylinder(&format!("{}/10", at[2]), [&high, &high]);
     let workspace = workspace(settings, axes.as_ref(), guess);
-    let requirements = format!("{FACTORS}{}", joint_range(settings)?);
-    Ok(Machine { title: "Tripod", legs, workspace, requirements })
+    let requirements = format!("{FACTORS}{}", joint_range(settings, 3)?);
+    Ok(Machine {
+        title: "Tripod",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements,
+    })
 }

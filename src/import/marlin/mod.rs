@@ -407,7 +407,8 @@ impl Header<'_> {
         }
         Ok(Machine {
             title: "Linear Delta",
-            legs,
+            kind: "translational",
+            legs: legs.into(),
             workspace: cylinder(&radius.text, [&low.text, &high.text]),
             requirements: FACTORS.to_owned(),
         })

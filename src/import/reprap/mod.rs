@@ -143,7 +143,8 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
     settings.note("The carriages' lower ends: the firmware knows of none.");
     Ok(Machine {
         title: "Linear Delta",
-        legs,
+        kind: "translational",
+        legs: legs.into(),
         workspace: cylinder(&print.text, [&low.text, &high]),
         requirements: FACTORS.to_owned(),
     })
@@ -198,7 +199,8 @@ fn rotary(settings: &mut Settings) -> Result<Machine, ImportError> {
     );
     Ok(Machine {
         title: "Rotary Delta",
-        legs,
+        kind: "translational",
+        legs: legs.into(),
         workspace: cylinder(&print.text, [&low.text, &high.text]),
         requirements: format!("{}{range}", factors_per_radian(&arms[0])),
     })

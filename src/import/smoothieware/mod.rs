@@ -96,7 +96,13 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
         Some(workspace) => workspace,
         None => unlimited_linear(settings, &towers, &radius)?,
     };
-    Ok(Machine { title: "Linear Delta", legs, workspace, requirements: FACTORS.to_owned() })
+    Ok(Machine {
+        title: "Linear Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements: FACTORS.to_owned(),
+    })
 }
 
 /// Where the firmware has no limits: a cylinder that the carriages' endstops leave, of a radius that
@@ -266,5 +272,11 @@ fn rotary(settings: &mut Settings) -> Result<Machine, ImportError> {
     };
     settings.note("The arms' ranges: the firmware knows of none but where it homes.");
     let requirements = factors_per_radian(&arm);
-    Ok(Machine { title: "Rotary Delta", legs, workspace, requirements })
+    Ok(Machine {
+        title: "Rotary Delta",
+        kind: "translational",
+        legs: legs.into(),
+        workspace,
+        requirements,
+    })
 }

@@ -9,7 +9,7 @@ mod verdicts;
 use super::sample::{Place, Quality, Sampler};
 use super::*;
 use machines::*;
-use orthocert_kernel::certificate::{Failure, Proof as Proven};
+use orthocert_kernel::certificate::Failure;
 use orthocert_kernel::claim::{Bound, Requirement};
 use orthocert_kernel::number::Expression;
 use std::sync::atomic::AtomicBool;

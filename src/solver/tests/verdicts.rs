@@ -72,7 +72,7 @@ fn failure(claim: &MachineClaim) -> (Failure, Vec<Expression>) {
     let (certificate, accepted) = decided(claim);
     assert_eq!(accepted.verdict, Verdict::Refuted);
     match certificate.proof {
-        Proof::Kernel(Proven::Witness(witness)) => (witness.fails, witness.point),
+        Proof::Witness(witness) => (witness.fails, witness.point),
         other => panic!("{other:?}"),
     }
 }
@@ -127,7 +127,7 @@ fn tolerances() {
     assert_eq!(accepted.verdict, Verdict::Certified);
     let (certificate, accepted) = decided(&lengths("303", "318"));
     assert_eq!(accepted.verdict, Verdict::Refuted);
-    let Proof::Kernel(Proven::Witness(witness)) = certificate.proof else { panic!("a witness") };
+    let Proof::Witness(witness) = certificate.proof else { panic!("a witness") };
     assert_eq!(witness.machine.len(), 3);
 }
 
@@ -154,6 +154,61 @@ fn budgets_end_a_search() {
     // What is open and what is closed make up the root.
     let share = |open: &Open| (-f64::from(open.depth)).exp2();
     assert!(undecided.open.iter().map(share).sum::<f64>() <= 1.0);
+}
+
+#[test]
+fn deadlines_and_cancellation_leave_everything_open() {
+    let claim = beyond(&linear_delta(CYLINDER), 1e-4);
+    let problem = Problem::new(&claim).expect("a claim");
+    let prover = Prover::new(&problem).expect("numbers");
+    let now = Some(std::time::Instant::now());
+    for (cancelled, deadline, stop) in [(true, None, Stop::Cancelled), (false, now, Stop::Time)] {
+        let cancel = AtomicBool::new(cancelled);
+        let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+        let budget = Budget { max_boxes: 1000, deadline };
+        let whole = Branch::whole(&prover);
+        let found = search(&prover, &whole, Ends::default(), budget, &mut control);
+        let Outcome { waiting, boxes, stop: found, .. } = found.expect("the root");
+        assert_eq!((found, boxes), (stop, 0));
+        assert_eq!(waiting, [(0, whole)]);
+    }
+}
+
+#[test]
+fn progress_never_falls_and_ends_at_the_whole() {
+    let claim = beyond(&linear_delta(CYLINDER), 1e-2);
+    let cancel = AtomicBool::new(false);
+    let mut seen = Vec::new();
+    let mut note = |progress: crate::search::Progress| seen.push(progress);
+    let mut control = Control { cancel: &cancel, progress: &mut note };
+    let budget = Budget { max_boxes: 10_000, deadline: None };
+    let boxes = verify(&claim, budget, &mut control).expect("a claim").boxes;
+    assert!(seen.windows(2).all(|w| w[0].boxes < w[1].boxes && w[0].closed <= w[1].closed));
+    let last = seen.last().expect("some progress");
+    assert!(last.boxes == boxes && (last.closed - 1.0).abs() < 1e-12);
+}
+
+/// Where a search of parts stops, the paths lead to the open boxes of the tree.
+#[test]
+fn the_parts_of_a_tree_are_where_it_goes_on() {
+    let claim = beyond(&linear_delta(CYLINDER), 1e-2);
+    let cancel = AtomicBool::new(false);
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    let top = top(&claim, 8, &mut control).expect("a claim").expect("not refuted");
+    assert!(top.waiting.len() >= 8);
+    let mut paths = vec![Vec::new()];
+    let mut untried = Vec::new();
+    for (at, node) in top.nodes.iter().enumerate() {
+        let path: Vec<(usize, bool)> = paths.pop().expect("a node of the tree");
+        match node.split {
+            Some(k) => paths.extend([true, false].map(|upper| [&path[..], &[(k, upper)]].concat())),
+            None if node.by.is_empty() => untried.push((at, path)),
+            None => {}
+        }
+    }
+    let waiting = top.waiting.iter();
+    let waiting: Vec<_> = waiting.map(|(at, branch)| (*at, branch.path.clone())).collect();
+    assert!(waiting.iter().all(|one| untried.contains(one)));
 }
 
 #[test]

@@ -1,12 +1,15 @@
-//! Good certificates of the rules with any number of edits, each of any value: a byte chooses the certificate,
+//! Good certificates with any number of edits, each of any value: a byte chooses the certificate,
 //! two or three the place and the edit.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use orthocert::exact::Exact;
+use num_rational::BigRational;
+use orthocert::solver::number;
+use orthocert_checker::certificate::Certificate;
 use orthocert_fuzz::edits::{edits, paths};
 use orthocert_fuzz::examine;
 use orthocert_fuzz::reader::Reader;
+use orthocert_kernel::number::Expression;
 use serde_json::{json, Value};
 
 macro_rules! certificates {
@@ -28,9 +31,9 @@ fn moved(value: &Value, bytes: &mut Reader<'_>) -> Option<Value> {
     if let Some(n) = value.as_i64() {
         return Some(json!(n.checked_add(by.checked_mul(1 << bytes.below(24))?)?));
     }
-    let number = Exact::parse_canonical(value.as_str()?).ok()?;
-    let step = Exact::integer(by).over(Exact::integer(1 << bytes.below(48))).ok()?;
-    Some(json!(number.plus(step).ok()?.to_string()))
+    let value = Expression::try_from(value.as_str()?.to_owned()).ok()?.rational()?;
+    let step = BigRational::new(by.into(), (1_i64 << bytes.below(48)).into());
+    Some(json!(number(&(value + step))?.to_string()))
 }
 
 fuzz_target!(|bytes: &[u8]| {
@@ -47,10 +50,10 @@ fuzz_target!(|bytes: &[u8]| {
         let other = if bytes.byte() < 128 {
             moved(value, &mut bytes)
         } else {
-            let mut all = edits(path, value);
+            let mut all = edits(value);
             // Edits of the root, and copies of copies, only make a text longer.
             let chosen = (!all.is_empty() && !path.is_empty()).then(|| bytes.below(all.len()));
-            chosen.map(|chosen| all.swap_remove(chosen).1)
+            chosen.map(|chosen| all.swap_remove(chosen))
         };
         if let Some(other) = other {
             *certificate.pointer_mut(path).expect("a path of the document") = other;
@@ -59,5 +62,8 @@ fuzz_target!(|bytes: &[u8]| {
             return;
         }
     }
-    examine(certificate.to_string().as_bytes());
+    // In the one order that a certificate has.
+    if let Ok(certificate) = serde_json::from_value::<Certificate>(certificate) {
+        examine(certificate.to_text().expect("a text").as_bytes());
+    }
 });

@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
-use orthocert_checker::certificate::{Verdict, MAX_BYTES};
+use orthocert_checker::certificate::{Verdict, MOST_BYTES};
 use orthocert_checker::paving::{self, Extent};
 use orthocert_checker::shown::{lines, Shown};
 use orthocert_checker::{check, file, read, statement};
@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     }
     let path = Path::new(path);
     let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
+    let limit = MOST_BYTES as u64 + 1;
     let file = file::reader(path).and_then(|mut file| {
         Read::by_ref(&mut file).take(limit).read_to_end(&mut bytes)?;
         Ok(file)

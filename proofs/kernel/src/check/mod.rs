@@ -3,11 +3,10 @@
 mod corner;
 mod inside;
 mod own;
-mod region;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::atlas;
-use crate::cell::{evaluate, evaluate_parts, Cell, Vertex};
+use crate::cell::{Cell, Vertex};
 use crate::certificate::{
     Certificate, Claim, Evidence, Node, Proof, Step, Tree, Verdict, PRECISIONS,
 };
@@ -30,7 +29,6 @@ use crate::test::{
 };
 use crate::witness::{self, fails_throughout, WitnessError};
 use num_bigint::BigInt;
-use region::region_holds;
 use std::fmt;
 
 /// Most nodes of a tree.
@@ -75,7 +73,7 @@ pub enum Rejected {
     },
     /// A leaf on which the claim does not certainly fail as it says.
     Holds(usize),
-    /// The leaves do not have the shares that are claimed.
+    /// The shares of an atlas are not those of its cells.
     Shares,
     /// Of an atlas, a cell, counted from zero, and why it is not as it says.
     Cell(usize, Box<Rejected>),
@@ -103,7 +101,7 @@ impl fmt::Display for Rejected {
             Rejected::Holds(node) => {
                 write!(f, "node {node}: it does not certainly fail throughout")
             }
-            Rejected::Shares => write!(f, "the leaves do not have the shares that are claimed"),
+            Rejected::Shares => write!(f, "the cells do not have the shares that are claimed"),
             Rejected::Cell(cell, why) => write!(f, "cell {cell}: {why}"),
             Rejected::Witness(e) => write!(f, "the witness shows nothing: {e}"),
         }
@@ -119,14 +117,6 @@ impl std::error::Error for Rejected {}
 pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
         (Claim::Machine(claim), verdict, proof) => check_machine(claim, verdict, proof),
-        (Claim::Region(region), Verdict::Certified, Proof::Tree(tree)) => {
-            let problem = compiled(&region.machine)?;
-            in_words_or_any_size(
-                tree.precision,
-                || region_holds::<i64>(&problem, region, tree),
-                || region_holds::<BigInt>(&problem, region, tree),
-            )
-        }
         (Claim::NoCube(claim), verdict, proof) => check_no_cube(claim, verdict, proof),
         (Claim::Postulate(claim), verdict, proof) => check_postulate(claim, verdict, proof),
         (Claim::Atlas(claim), Verdict::Certified, Proof::Atlas(cells)) => {
@@ -261,7 +251,8 @@ pub(crate) fn walk<Z: Integer>(
     let arithmetic = Fixed::<Z>::new(bits);
     let parameters = problem.parameters(bits, &[]).map_err(Rejected::Claim)?;
     let checker = Checker::new(problem, &arithmetic, parameters, problem.tight(bits))
-        .with_chords(tree.chords.clone());
+        .with_chords(tree.chords.clone())
+        .with_varying(problem.varying(bits));
     let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
     let steps = tree.nodes.iter().filter(is_evaluated).count();
     let work = steps.saturating_mul(problem.work()).saturating_add(checker.work_at_controls(tree));
@@ -283,7 +274,7 @@ pub(crate) fn walk<Z: Integer>(
                     no_cube::moved(&arithmetic, edges, &node.at, unit).ok_or(Rejected::Holds(at))?
                 }
             };
-            let slopes = Slopes { arithmetic: &arithmetic, m: edges.len() };
+            let slopes = checker.slopes(edges.len());
             if !fails_throughout(problem, slopes, &checker.evaluate(&edges), failure) {
                 return Err(Rejected::Holds(at));
             }
@@ -333,6 +324,8 @@ pub struct Checker<'a, E: Enclosure> {
     problem: &'a Problem,
     arithmetic: &'a E,
     parameters: Vec<E::Number>,
+    /// Of an atlas, the parameters that have slopes in its names.
+    varying: Vec<Option<Slope<E::Number>>>,
     /// `q_1` and `q_2` of the paper's cube.
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
@@ -372,6 +365,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             problem,
             arithmetic,
             parameters,
+            varying: Vec::new(),
             tight,
             rows,
             divided,
@@ -388,6 +382,24 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         Checker { chords, ..self }
     }
 
+    /// With parameters whose slopes in the names of an atlas are known.
+    ///
+    /// **Lemma (names).** Let names be coordinates as those of the workspace are: a cell is then one of
+    /// points and values, and the lemmas of slopes and vertices hold of it. What a test shows at the
+    /// vertices holds at each point for the machine of each value, so of each machine at all points: no
+    /// test compares machines, and what is of a whole tree (`Y` of chords) is the same for all values. ∎
+    /// The workspace's own inequality is concave for each machine, not in names (`radius^2`): see the
+    /// tangent.
+    #[must_use]
+    pub fn with_varying(self, varying: Vec<Option<Slope<E::Number>>>) -> Self {
+        Checker { varying, ..self }
+    }
+
+    /// The arithmetic of slopes in `m` coordinates, and in names.
+    pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
+        Slopes { arithmetic: self.arithmetic, m: m + self.problem.names.len() }
+    }
+
     /// What it was given.
     pub fn parameters(&self) -> &[E::Number] {
         &self.parameters
@@ -395,8 +407,24 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// The formulas over a cell.
     pub fn evaluate(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
-        let slopes = Slopes { arithmetic: self.arithmetic, m: edges.len() };
-        evaluate(&self.problem.tape, &self.parameters, slopes, edges)
+        self.values(None, edges)
+    }
+
+    /// The same of the entries that are needed alone, where it is said which.
+    fn values(
+        &self,
+        needed: Option<&[bool]>,
+        edges: &[[E::Number; 3]],
+    ) -> Values<Slope<E::Number>> {
+        let slopes = self.slopes(edges.len());
+        self.problem.tape.run_parts(&slopes, needed, |op| match op {
+            Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
+            Op::Parameter(j) => match self.varying.get(j) {
+                Some(Some(slope)) => Some(slope.clone()),
+                _ => slopes.constant(self.parameters.get(j)?.clone()),
+            },
+            _ => None,
+        })
     }
 
     fn discharge(
@@ -406,7 +434,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         open: &mut [bool],
     ) -> Result<(), Rejected> {
         let values = self.evaluate(place.edges);
-        let slopes = Slopes { arithmetic: self.arithmetic, m: place.edges.len() };
+        let slopes = self.slopes(place.edges.len());
         let over = Over { slopes, values: &values, controls: None, inside: None };
         for Step(obligation, evidence) in &node.by {
             let (node, obligation) = (at, *obligation);
@@ -478,6 +506,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, rows, *c, (y, mu))
             }
+            (Test::OneToOne(rows), Evidence::Chords) => {
+                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
+            }
             (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
                 at_least_there(over, *f)
             }
@@ -491,9 +522,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 sigma_min(over, rows, &constant(kappa), y)
-            }
-            (Test::OneToOne(rows), Evidence::Chords) => {
-                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
             }
             (Test::Solve(test), Evidence::Lower(y)) => solve(over, test, y),
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
@@ -554,7 +582,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         c_squared: Formula,
         (y, mu): (&Multiplier, &[i64]),
     ) -> bool {
-        let terms = if over.controls.is_some() { 0 } else { over.slopes.m };
+        let terms = if over.controls.is_some() { 0 } else { self.problem.dimension() };
         let Some((first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
             return false;
         };

@@ -16,13 +16,13 @@
 //!
 //! [`sigma_min`]: crate::test::sigma_min
 
-use super::{evaluate_parts, Checker, Place};
+use super::{Checker, Place};
 use crate::arithmetic::Enclosure;
 use crate::certificate::{Evidence, Failure};
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::{Slope, Slopes};
+use crate::slope::Slope;
 use crate::test::{Multiplier, Over, Row};
 use crate::witness::fails_throughout;
 
@@ -68,9 +68,7 @@ pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
 impl<E: Enclosure> Checker<'_, E> {
     /// The formulas over a cell that own evidence, and own failures, are made of.
     pub fn evaluate_own(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
-        let slopes = Slopes { arithmetic: self.arithmetic, m: edges.len() };
-        let (tape, needed) = (&self.problem.tape, self.needed.as_deref());
-        evaluate_parts(tape, needed, &self.parameters, slopes, edges)
+        self.values(self.needed.as_deref(), edges)
     }
 
     /// Whether a test holds on a cell by its own evidence.
@@ -125,8 +123,7 @@ impl<E: Enclosure> Checker<'_, E> {
 
     /// Whether the claim fails so at every point of a cell, for every machine.
     pub fn fails(&self, values: &Values<Slope<E::Number>>, m: usize, failure: &Failure) -> bool {
-        let slopes = Slopes { arithmetic: self.arithmetic, m };
-        fails_throughout(self.problem, slopes, values, failure)
+        fails_throughout(self.problem, self.slopes(m), values, failure)
     }
 
     /// Whether an obligation fails so in its own directions: of singular values those of the centre; or,

@@ -27,6 +27,8 @@ pub struct Leg {
     pub eta_squared: Option<Formula>,
     /// The platform end `P + d`, of a leg with two ends.
     pub tip: Option<Vector>,
+    /// The base end of a strut.
+    pub anchor: Option<Vector>,
     /// The couple that the leg constrains, not normalised, and the square of its length; where one is
     /// claimed.
     pub couple: Option<Row<Formula>>,
@@ -167,7 +169,8 @@ fn leg(
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
     let rho = Some(rho);
-    Leg { row, divided, scaled: None, rho, length, eta_squared, tip: None, couple: None }
+    let (tip, anchor, couple) = (None, None, None);
+    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, anchor, couple }
 }
 
 /// The couple that a strut with universal joints constrains whose axis in the base, and on the platform,
@@ -208,6 +211,6 @@ pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
 pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
     let row = Row { a, d: tape.integer(1) };
     let divided = row.clone();
-    let (rho, length, eta_squared, tip, couple) = (None, None, None, None, None);
-    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, couple }
+    let (rho, length, eta_squared, tip, anchor, couple) = (None, None, None, None, None, None);
+    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, anchor, couple }
 }

@@ -104,7 +104,7 @@ impl Motion {
         let joint = tape.plus(&self.position, &r);
         let w = tape.minus(&joint, a);
         let mut leg = super::strut(tape, &w);
-        leg.tip = Some(joint);
+        (leg.tip, leg.anchor) = (Some(joint), Some(*a));
         let from_base = match &self.turn {
             Some(_) => tape.minus(&self.position, a),
             None => w,

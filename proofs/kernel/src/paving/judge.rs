@@ -9,7 +9,6 @@ use crate::check::{Checker, Place};
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::Slopes;
 use crate::test::Over;
 use num_bigint::BigInt;
 
@@ -182,7 +181,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
             false => self.checker.evaluate_own(&edges),
         };
         let m = edges.len();
-        let slopes = Slopes { arithmetic: self.arithmetic, m };
+        let slopes = self.checker.slopes(m);
         let over = Over { slopes, values: &values, controls: None, inside: None };
         let place = Place { edges: &edges, touches: [false; 2] };
         let shown = |obligation: usize, evidence: Option<&_>| {

@@ -1,5 +1,5 @@
 //! Pavings: a search box cut into cells, each shown to be within or outside the region where a
-//! claim holds, or left undecided. `KERNEL.md` is normative.
+//! claim holds, or left undecided. `FORMAT.md` is normative.
 //!
 //! | module     | holds                                                                 |
 //! |------------|-----------------------------------------------------------------------|

@@ -35,9 +35,10 @@ pub fn solve<E: Enclosure>(over: &Over<'_, E>, test: &Solve, evidence: &Multipli
         let below = below_square(over, &test.a, v, evidence)?;
         Some(bordered(below, &b, square))
     };
-    test.b.len() == test.a.len()
-        && evidence.is_of(test.a.len(), over.slopes.m)
-        && test.a.len() == over.slopes.m
+    let n = test.a.len();
+    test.b.len() == n
+        && evidence.is_of(n, n)
+        && test.a.iter().all(|row| row.len() == n)
         && Vertex::all(over.slopes.m).all(|v| matrix(v).is_some_and(|t| is_positive_definite(e, t)))
 }
 

@@ -12,7 +12,8 @@ use crate::problem::Problem;
 use crate::slope::{Slope, Slopes};
 use crate::test::Multiplier;
 
-/// Whether a box is in the workspace, which is convex, and the point is not in the box.
+/// Whether a box is in the workspace, which is convex, and the point is not in the box. Of orientations
+/// that is decided with the formulas over it.
 ///
 /// # Errors
 /// If that is not certain.
@@ -56,6 +57,8 @@ impl AtPoint<'_> {
     /// where `Y F(x) = 0`. And `Y` is regular: `I - Y S H^-1`, of a norm less than one by the sums of its
     /// rows weighted by `h`, makes `Y S H^-1` regular. ∎
     ///
+    /// It is a pose of the workspace, and another one than this point: each has its coordinates once.
+    ///
     /// Of angles `F_i` is `sin(theta - theta_P)`, zero with a positive cosine only where they are equal up
     /// to whole turns.
     pub(super) fn has_the_joints_of(
@@ -80,6 +83,10 @@ impl AtPoint<'_> {
         let edges: Vec<_> = least.iter().zip(&greatest).map(edge).collect::<Option<_>>()?;
         let slopes = Slopes { arithmetic: e, m };
         let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
+        let ranges: Vec<Number> = edges.iter().map(|[_, range, _]| range.clone()).collect();
+        if !self.is_turned(&ranges, |g| values.of(g).map(|g| &g.range)) {
+            return None;
+        }
         let here = |f| slopes.constant(self.values.of(f)?.clone());
         let off = |leg: &Leg| match leg.rho? {
             Joint::Length(rho) => slopes.sub(values.of(rho)?, &here(rho)?),

@@ -1,7 +1,9 @@
 //! Maps of parameters: certified, refuted and undecided cells, and what is rejected.
 
 use crate::prover::Prover;
-use orthocert_kernel::atlas::{check_part, statement, walk, AtlasCell, AtlasClaim, Part};
+use orthocert_kernel::atlas::{
+    check_cell, check_part, statement, walk, AtlasCell, AtlasClaim, Part,
+};
 use orthocert_kernel::certificate::{
     Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
@@ -412,6 +414,74 @@ fn numbers_are_decided_for_every_value() {
         check(&certificate(claim(&clash), vec![AtlasCell::Undecided])),
         Err(Rejected::Claim(_))
     ));
+}
+
+/// What two numbers share cancels between them; what they do not share does not.
+#[test]
+fn a_name_is_one_number_wherever_it_stands() {
+    let with = |joint: &str, parameters: &str, bound: &str| {
+        let require = format!(r#"[{{"quantity":"transmission","end":"max","bound":"{bound}"}}]"#);
+        let text = plain(["0", "1"], r#""1""#, "1")
+            .replace(r#"["a","1"]"#, parameters)
+            .replace("a*x", joint)
+            .replace(r#""require":[]"#, &format!(r#""require":{require}"#));
+        certified(&text)
+    };
+    let same = r#"["a","2+p"],["b","1+p"]"#;
+    let other = r#"["a","2+p"],["b","1+q"]"#;
+    with("a*x-b*x", same, "1.01").expect("a - b = 1");
+    assert!(with("a*x-b*x", other, "1.01").is_err());
+    assert!(with("a*x-b*x", same, "1").is_err());
+    with("a*x/b", r#"["a","4+p/64"],["b","4+p/64"]"#, "1.001").expect("a/b = 1");
+    assert!(with("a*x/b", r#"["a","4+p/64"],["b","4+q/64"]"#, "1.001").is_err());
+    // psi is up to 1/(1 - 1/8).
+    with("a*x", r#"["a","1-p/8"]"#, "8/7+1/1000").expect("up to 8/7");
+    assert!(with("a*x", r#"["a","1-p/8"]"#, "8/7-1/1000").is_err());
+}
+
+/// Cells of linear Deltas whose guides' radius and workspace have names are certified only where all of
+/// them are good, by their own formulas at single points.
+#[test]
+fn certified_cells_hold_good_machines_alone() {
+    let legs = [("0", "r"), ("-r*sqrt(3)/2", "-r/2"), ("r*sqrt(3)/2", "-r/2")].map(|(x, y)| {
+        format!(
+            r#"{{"drive":"slider","direction":["0","0","1"],"anchor":["{x}","{y}","0"],"platform":["0","0","0"],"length":"1","mode":"-"}}"#
+        )
+    });
+    let text = format!(
+        r#"{{"parameters":[{{"name":"r","min":"0.3","max":"0.6"}},{{"name":"s","min":"0.02","max":"0.3"}}],"machine":{{"mechanism":{{"translational":[{}]}},"workspace":{{"cylinder":{{"center":["0","s/10"],"radius":"s","z":["0","1"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"2"}},{{"quantity":"transmission","end":"min","bound":"1/2"}}]}},"certified":"0","refuted":"0"}}"#,
+        legs.join(",")
+    );
+    let own = claim(&text);
+    let (mut certified, mut closest) = (0, f64::INFINITY);
+    for number in 0..64 {
+        let part = [(number % 8, 3), (number / 8, 3)];
+        let over = own.over(&part).expect("parameters");
+        let problem = Problem::new(&over).expect("well formed");
+        let Some(tree) = Prover::new(&problem).tree(60) else { continue };
+        check_cell(&own, &part, &AtlasCell::Certified(tree)).expect("accepted");
+        certified += 1;
+        let at = |k: usize, end: u64, [min, max]: [f64; 2]| {
+            min + (max - min) * (part[k].0 + end) as f64 / 8.0
+        };
+        for sample in 0..4 * 24 {
+            let (r, s) = (at(0, sample & 1, [0.3, 0.6]), at(1, sample >> 1 & 1, [0.02, 0.3]));
+            let turn = std::f64::consts::TAU * (sample >> 2) as f64 / 24.0;
+            let (x, y) = (s * turn.cos(), s / 10.0 + s * turn.sin());
+            let row = |leg: usize| {
+                let angle = std::f64::consts::TAU * (0.25 + leg as f64 / 3.0);
+                let (u, v) = (x - r * angle.cos(), y - r * angle.sin());
+                let w = (1.0 - u * u - v * v).sqrt();
+                [u / w, v / w, -1.0]
+            };
+            let m = nalgebra::Matrix3::from_fn(|i, j| row(i)[j]);
+            let xi = m.singular_values();
+            let room = (xi.min() - 0.5).min(2.0 - xi.max());
+            assert!(room > -1e-9, "{part:?}: {r} {s} {x} {y}: {xi}");
+            closest = closest.min(room);
+        }
+    }
+    assert!(certified > 8 && closest < 0.1, "{certified} {closest}");
 }
 
 /// The enclosure of a number over a cell has its values there.

@@ -9,7 +9,7 @@ use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::TABLE;
 use orthocert_kernel::slope::MOST_COORDINATES;
 
-const DOCUMENT: &str = include_str!("../../../KERNEL.md");
+const DOCUMENT: &str = include_str!("../../../FORMAT.md");
 
 /// The certificate of the worked instance.
 fn instance() -> Certificate {

@@ -15,7 +15,7 @@ use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::slope::Slope;
 use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Row};
 
@@ -60,7 +60,13 @@ impl<'a> Prover<'a> {
         let checker = Checker::new(problem, &Rough, parameters.clone(), tight);
         let mut prover = Prover { problem, checker, parameters, root, chords: None };
         prover.chords = prover.common();
-        prover.checker = prover.checker.with_chords(prover.chords.clone());
+        let slope = |x: Slope<Interval<BigInt>>| Slope {
+            at_centre: double(&x.at_centre, 96),
+            range: double(&x.range, 96),
+            slopes: x.slopes.map(|x| double(&x, 96)),
+        };
+        let varying = problem.varying(96).into_iter().map(|x| x.map(slope)).collect();
+        prover.checker = prover.checker.with_chords(prover.chords.clone()).with_varying(varying);
         prover
     }
 
@@ -105,7 +111,8 @@ impl<'a> Prover<'a> {
             }
             Some(a)
         };
-        let at: Vec<DMatrix<f64>> = self.grid(5).iter().filter_map(|x| matrix(x)).collect();
+        let at: Vec<DMatrix<f64>> =
+            self.grid(if m > 3 { 2 } else { 5 }).iter().filter_map(|x| matrix(x)).collect();
         let mean = at.iter().fold(DMatrix::zeros(rows.len(), m), |sum, a| sum + a);
         let mut y = mean.pseudo_inverse(1e-9).ok()?.transpose().normalize();
         let (mut best, mut value) = (y.clone(), f64::MIN);
@@ -329,6 +336,7 @@ impl<'a> Prover<'a> {
             }
             Test::SigmaMin(kappa) => starts(number(kappa).sqrt()).map(Evidence::Lower).collect(),
             Test::SigmaMax(_) | Test::AtLeast(_) => vec![Evidence::Test],
+            Test::OneToOne(_) => vec![Evidence::Chords],
             Test::Conditioning(c) => {
                 let mu = self.between(over, number(c))?;
                 let terms = vec![(mu * f64::from(PLACES).exp2()) as i64];
@@ -422,7 +430,7 @@ impl<'a> Prover<'a> {
                 cell.edges()?.iter().map(|e| [pair(&e[0]), pair(&e[1]), pair(&e[2])]).collect();
             let place = Place { edges: &edges, touches: cell.touches(&self.root) };
             let values = self.checker.evaluate(&edges);
-            let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+            let slopes = self.checker.slopes(edges.len());
             let over = Over { slopes, values: &values, controls: None, inside: None };
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
             if cut && self.checker.is_outside(&over, &place) {
@@ -491,7 +499,7 @@ impl<'a> Prover<'a> {
         let edges: Vec<[Pair; 3]> = cell.iter().map(edge).collect();
         let place = Place { edges: &edges, touches: [false; 2] };
         let values = self.checker.evaluate(&edges);
-        let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
+        let slopes = self.checker.slopes(edges.len());
         let over = Over { slopes, values: &values, controls: None, inside: None };
         self.checker.is_outside(&over, &place)
     }

@@ -141,7 +141,7 @@ fn of_bodies_and_of_what_is_given() {
             "that are not fixed to each other >= 2",
             "|P' - P| <= 0.05, joint_error = 0.01",
             "exactly one position",
-            "no two points of the workspace have the same joint coordinates (",
+            "no two poses of the workspace have the same joint coordinates (",
             "where of body 4 and body 3 clearance is violated",
         ],
     );

@@ -1,0 +1,141 @@
+//! `orthocert summary`.
+
+use super::effort::Effort;
+use super::{input, print, Failure, Format, Status};
+use num_rational::BigRational;
+use num_traits::Signed;
+use orthocert::report::text::headline_of;
+use orthocert::report::Outcome;
+use orthocert::solver::extremes::{loosest, NotEnclosed};
+use orthocert::solver::{number, verify};
+use orthocert::summary::{summary, text, Question};
+use orthocert_kernel::claim::Orientation;
+use orthocert_kernel::number::Expression;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Boxes after which a width is given up for a looser one; a third of that for each coordinate of
+/// orientation.
+const BOXES: u64 = 5_000;
+
+/// Its flags.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The verdict is that of the design's own requirements, and so is the exit code. Then follow the strokes of
+the joints, the transmission factors, what the options ask for, and every quantity that the design
+requires: never beyond the certified value, and somewhere as far as the other one, which is certified,
+too. \"Seen\" is sampled, not certified. `verify` writes the certificate of the verdict, `bounds -o` those of
+quantities.
+
+Units are those of the design: V is in lengths per unit of time, F in forces, A in lengths per unit of
+time squared; joint speeds and accelerations of arms are in degrees.")]
+pub struct Arguments {
+    /// The design file; without it, the prototype of the paper
+    #[arg(value_name = "DESIGN.toml")]
+    design: Option<PathBuf>,
+    /// The tool's greatest speed: how fast joints have to be
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    speed: Option<String>,
+    /// The greatest force on the platform: how strong joints have to be
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    force: Option<String>,
+    /// The tool's greatest acceleration, at a speed of up to V or, without --speed, at rest
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    acceleration: Option<String>,
+    /// Relative distance of the two values of a quantity, looser where no proof is found [default: 0.001;
+    /// of platforms that turn 0.01]
+    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    gap: Option<String>,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// Runs it.
+pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let effort = &arguments.effort;
+    let asked = |option, text: &Option<String>, example| {
+        text.as_deref().map(|text| positive(option, text, example)).transpose()
+    };
+    let speed = asked("--speed", &arguments.speed, "1200")?;
+    let force = asked("--force", &arguments.force, "100")?;
+    let acceleration = asked("--acceleration", &arguments.acceleration, "14000")?;
+    let gap = arguments.gap.as_deref().map(gap).transpose()?;
+    let budget = effort.budget(started)?;
+    let design = input::design(arguments.design.as_deref())?;
+    let claim = &design.claim;
+    let turns = claim.orientation.is_some();
+    let boxes = match &claim.orientation {
+        None => BOXES,
+        Some(Orientation::Range(_)) => BOXES / 3,
+        Some(_) => BOXES / 27,
+    };
+    let of_widths = effort.budget_or(boxes, started)?;
+    effort.start_threads()?;
+    let of_size = || BigRational::new(1.into(), if turns { 100 } else { 1000 }.into());
+    let key = "mechanism.characteristic_length";
+    let question = Question {
+        speed,
+        force,
+        acceleration,
+        one_unit: !turns || design.sources.position(key).is_some(),
+        gap: gap.unwrap_or_else(of_size),
+    };
+    let found = effort.run(|control| verify(claim, budget, control)).map_err(Failure::input)?;
+    if found.is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
+    if effort.quiet && effort.format == Format::Text {
+        let verdict = found
+            .decided()
+            .map_or(Outcome::Undecided, |(_, accepted)| Outcome::Decided(accepted.verdict));
+        let name = arguments.design.as_ref().map(|path| path.to_string_lossy());
+        let name = design.title.as_deref().or(name.as_deref()).unwrap_or_default();
+        print::answer(&(headline_of(verdict, name, print::style()) + "\n"))?;
+        return Ok(status(verdict));
+    }
+    let summary =
+        effort.run(|control| summary(claim, &found, &question, of_widths, started, control));
+    let summary = summary.map_err(|error| match error {
+        NotEnclosed::Cancelled => Failure::Interrupted,
+        error => Failure::input(error),
+    })?;
+    let mut summary = summary.ok_or_else(|| {
+        Failure::Input("the design's numbers exceed what can be reported".to_owned())
+    })?;
+    summary.title.clone_from(&design.title);
+    summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());
+    match effort.format {
+        Format::Json => print::json(&summary)?,
+        Format::Text => print::answer(&text::text(&summary, print::style()))?,
+    }
+    Ok(status(summary.verdict))
+}
+
+fn status(verdict: Outcome) -> Status {
+    match verdict {
+        Outcome::Decided(verdict) => Status::Decided(verdict),
+        Outcome::Undecided => Status::Undecided,
+    }
+}
+
+/// The positive number that an option's value is.
+fn positive(option: &str, text: &str, example: &str) -> Result<Expression, Failure> {
+    let found = input::number(option, text)?;
+    let found = found.as_rational().filter(|x| x.is_positive()).and_then(number);
+    found.ok_or_else(|| {
+        let text: String = text.chars().take(60).collect();
+        let accepted = format!("a rational number greater than 0, such as {example}");
+        Failure::Input(format!("{option}: found \"{text}\"; accepted: {accepted}"))
+    })
+}
+
+fn gap(text: &str) -> Result<BigRational, Failure> {
+    let found = input::number("--gap", text)?;
+    let least = BigRational::new(1.into(), 1_000_000_000.into());
+    let found = found.as_rational().filter(|x| **x >= least && **x <= loosest());
+    found.cloned().ok_or_else(|| {
+        let text: String = text.chars().take(60).collect();
+        Failure::Input(format!("--gap: found \"{text}\"; accepted: a number from 1e-9 to 0.1"))
+    })
+}

@@ -1,0 +1,132 @@
+//! The angles that a joint takes: a certified sector in which all of them are, up to whole turns.
+
+use super::extremes::{loosest, of_one_width, rounded, NotEnclosed};
+use super::refute::number;
+use super::sample::{Place, Quality, Sampler, Worst};
+use super::value::{alone, Bounded};
+use super::{proof, refutation};
+use crate::search::{Budget, Control};
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
+use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
+use orthocert_kernel::problem::Problem;
+use std::collections::BTreeMap;
+use std::sync::atomic::Ordering;
+
+/// Finest step of the search for the ends.
+const FINEST: i32 = 30;
+/// How often a wider sector may turn up.
+const ROUNDS: usize = 8;
+/// Degrees by which a sector is at least wide, and short of half a turn.
+const LEAST: f64 = 1e-6;
+
+/// A sector of angles, in degrees.
+#[derive(Clone, Debug)]
+pub struct Sector {
+    /// Every angle is within these, up to whole turns (certified by a tree).
+    pub certified: [BigRational; 2],
+    /// Some angle is beyond these (certified by a witness each), where one was found.
+    pub reached: [Option<BigRational>; 2],
+    /// The width of both enclosures relative to that of the sector.
+    pub width: BigRational,
+}
+
+/// Encloses the angles of the joint of a leg, counted from zero.
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn enclose(
+    claim: &MachineClaim,
+    leg: usize,
+    relative: &BigRational,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Sector, NotEnclosed> {
+    let seen = seen(claim, leg)?;
+    let [lo, hi] = seen.map(BigRational::from_f64);
+    let (lo, hi) = lo.zip(hi).ok_or(NotEnclosed::Undecided)?;
+    let third = BigRational::new(1.into(), 3.into());
+    let mut width = relative.clone();
+    while width <= loosest() {
+        let step = &width * (&hi - &lo);
+        let (inward, outward) = (&step * &third, &step * (&third + &third));
+        let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];
+        let outer = within(claim, leg, &certified).ok_or(NotEnclosed::Undecided)?;
+        let budget = of_one_width(budget, &Problem::new(&outer)?);
+        if proof(&outer, budget, control).is_ok() {
+            let [least, greatest] = certified.clone();
+            let beyond = |ends: [&BigRational; 2]| {
+                let claim = within(claim, leg, &ends.map(BigRational::clone))?;
+                Problem::new(&claim).ok()?;
+                refutation(&claim)
+            };
+            let inner = [rounded(&(&lo + &inward), &step), rounded(&(&hi - &inward), &step)];
+            let ends = [[&inner[0], &greatest], [&least, &inner[1]]];
+            let found = ends.map(|ends| beyond(ends).is_some());
+            let [one, other] = inner.clone();
+            let reached = [found[0].then_some(one), found[1].then_some(other)];
+            return Ok(Sector { certified, reached, width });
+        }
+        if control.cancel.load(Ordering::Relaxed) {
+            return Err(NotEnclosed::Cancelled);
+        }
+        width *= BigRational::from_integer(2.into());
+    }
+    Err(NotEnclosed::Undecided)
+}
+
+/// "The angle is within these degrees", and nothing else.
+fn within(claim: &MachineClaim, leg: usize, ends: &[BigRational; 2]) -> Option<MachineClaim> {
+    let bound = Bound::Within([number(&ends[0])?, number(&ends[1])?]);
+    let (quantity, given) = ("joint_range".to_owned(), BTreeMap::new());
+    Some(alone(claim, vec![Requirement { quantity, leg: Some(leg + 1), given, bound }]))
+}
+
+/// The least and the greatest angle found, in degrees, in the turn about that at the centre.
+fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
+    let ends = [0, 90].map(|degrees| BigRational::from_integer(degrees.into()));
+    let mut asked = within(claim, leg, &ends).ok_or(NotEnclosed::Undecided)?;
+    let (mut middle, mut lo, mut hi) = (None, f64::INFINITY, f64::NEG_INFINITY);
+    for _ in 0..ROUNDS {
+        let problem = Problem::new(&asked)?;
+        let sampler = Sampler::new(&asked, &problem)?;
+        let bounded = Bounded { requirement: asked.require[0].clone(), leg: Some(leg) };
+        let angle = |place: &Place| bounded.value(&asked, &problem, &sampler, place);
+        let mut places = Vec::new();
+        let about = match middle {
+            Some(angle) => {
+                let worst = sampler.worst_values(FINEST).into_iter();
+                let own = worst.filter(|found: &Worst| {
+                    matches!(found.quality, Quality::Obligation(at)
+                        if problem.obligations[at].requirement == Some(0))
+                });
+                places.extend(own.map(|found| found.place));
+                angle
+            }
+            None => {
+                places = sampler.grid();
+                angle(&sampler.centre()).ok_or(NotEnclosed::Singular)?
+            }
+        };
+        middle = Some(about);
+        let before = (lo, hi);
+        for place in &places {
+            let turned = angle(place).ok_or(NotEnclosed::Singular)? - about;
+            let turned = about + turned - 360.0 * (turned / 360.0).round();
+            (lo, hi) = (lo.min(turned), hi.max(turned));
+        }
+        if hi - lo < LEAST {
+            (lo, hi) = (lo - LEAST, hi + LEAST);
+        }
+        if hi - lo > 180.0 - LEAST {
+            return Err(NotEnclosed::Undecided);
+        }
+        if before.0 - lo <= 1e-9 * (hi - lo) && hi - before.1 <= 1e-9 * (hi - lo) {
+            break;
+        }
+        let ends = [lo, hi].map(|x| BigRational::from_f64(x).and_then(|x| number(&x)));
+        let [Some(min), Some(max)] = ends else { return Err(NotEnclosed::Undecided) };
+        asked.require[0].bound = Bound::Within([min, max]);
+    }
+    Ok([lo, hi])
+}
