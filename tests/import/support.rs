@@ -84,6 +84,7 @@ type Vector = [Quantity; 3];
 #[derive(Debug)]
 pub enum Leg {
     Slider { anchor: Vector, length: Quantity },
+    Strut,
     Arm { anchor: Vector, arm: Quantity, length: Quantity, mode: Sign },
 }
 
@@ -129,7 +130,8 @@ fn leg(leg: &kernel::Leg) -> Leg {
             length: quantity(length),
             mode: *mode,
         },
-        other => panic!("{other:?}"),
+        kernel::Leg::Strut { .. } => Leg::Strut,
+        kernel::Leg::Planar { .. } => panic!("no firmware has it: {leg:?}"),
     }
 }
 
