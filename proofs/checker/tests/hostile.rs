@@ -71,6 +71,24 @@ fn the_size_limit_is_exact() {
     assert_eq!(read(padded(MOST_BYTES + 1).as_bytes()), Err(Rejected::TooLarge(MOST_BYTES + 1)));
 }
 
+/// Powers of powers are undefined before they are long: what is made of them costs little.
+#[test]
+fn numbers_do_not_grow_without_end() {
+    let sums = |x: &str, n: usize| -> String {
+        let all = (0..n).map(|i| format!(r#",["e{}","e{i}+{x}"]"#, i + 1));
+        format!(r#"["e0","{x}"]"#) + &all.collect::<String>()
+    };
+    let text = |x: &str| {
+        format!(
+            r#"{{"format":"orthocert/2","claim":{{"machine":{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[],"definitions":[["a","x^64"],["b","a^64"],["c","b^22"],{}],"joints":[{{"row":["e200"]}}]}}}},"workspace":{{"box":{{"min":["2"],"max":["2.5"]}}}},"require":[]}}}},"verdict":"certified","proof":{{"tree":{{"precision":64,"nodes":[{{"by":[[0,{{"rank":{{"y":[[1]],"places":0}}}}]]}}]}}}},"provenance":{{"tool":"hand","version":"1"}}}}
+"#,
+            sums(x, 200)
+        )
+    };
+    assert!(read(text("x").as_bytes()).and_then(|c| check(&c)).is_ok());
+    assert!(matches!(rejection(&text("c")), Rejected::Kernel(_)));
+}
+
 /// Resident memory of a check of the most wasteful files that are read at all.
 #[cfg(target_os = "linux")]
 #[test]

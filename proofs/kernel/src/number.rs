@@ -386,14 +386,15 @@ impl Expression {
             }
             Expression::Sqrt(inner) => {
                 let radicand = of(inner)?;
-                if inner.rational().is_some_and(|x| x.is_negative()) {
-                    return None;
+                if arithmetic.is_positive(&radicand) {
+                    return arithmetic.sqrt(&radicand);
                 }
                 if radicand.lo.is_negative() && inner.varies() {
                     return None;
                 }
-                if arithmetic.is_positive(&radicand) {
-                    return arithmetic.sqrt(&radicand);
+                // Dear to ask, and never so of what is enclosed by positive numbers.
+                if inner.rational().is_some_and(|x| x.is_negative()) {
+                    return None;
                 }
                 let zero = BigInt::zero();
                 match radicand.hi.cmp(&zero) {

@@ -406,7 +406,7 @@ impl<'a> Prover<'a> {
             }
             Test::Conditioning(c) => {
                 let mu = self.between(over, number(c))?;
-                let mut terms = vec![0; over.slopes.m + 1];
+                let mut terms = vec![0; self.problem.dimension() + 1];
                 terms[0] = (mu * f64::from(PLACES).exp2()) as i64;
                 let starts = self.own_starts(over, Form::Plain, mu.sqrt());
                 tried.extend(starts.into_iter().map(|y| Evidence::Conditioning(y, terms.clone())));
