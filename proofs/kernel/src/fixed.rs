@@ -48,8 +48,8 @@ pub trait Integer: Clone + Ord {
     fn word(&self) -> Option<i64>;
 }
 
-/// Most bits of an end, as of numbers: more than any claim needs, and a bound on what an operation costs.
-const MOST_BITS: u64 = 1 << 13;
+/// Most bits of an end: more than any claim needs, and a bound on what an operation costs.
+const MOST_BITS: u64 = 1 << 14;
 
 fn moderate(x: BigInt) -> Option<BigInt> {
     (x.bits() <= MOST_BITS).then_some(x)
