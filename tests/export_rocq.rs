@@ -88,11 +88,18 @@ const FOUR: &str = include_str!("../proofs/rocq/instances/FourSliders.cert.json"
 
 #[test]
 fn machines_are_written_as_the_instances_of_the_formal_development() {
-    for name in ["FourSliders", "StrutsAndPlane", "OrthoglideTolerance", "LinearDelta"] {
-        let file = |end: &str| format!("proofs/rocq/instances/{name}{end}");
-        let certificate = std::fs::read_to_string(file(".cert.json")).expect("committed");
+    let instances = "proofs/rocq/instances";
+    for (name, from) in [
+        ("FourSliders", format!("{instances}/FourSliders")),
+        ("StrutsAndPlane", format!("{instances}/StrutsAndPlane")),
+        ("OrthoglideTolerance", format!("{instances}/OrthoglideTolerance")),
+        ("LinearDelta", format!("{instances}/LinearDelta")),
+        ("DeltaSpeed", "proofs/certificates/delta-joint-speed".to_owned()),
+        ("DeltaMargin", "proofs/certificates/delta-parallel-margin".to_owned()),
+    ] {
+        let certificate = std::fs::read_to_string(format!("{from}.cert.json")).expect("committed");
         let text = exported(&certificate).expect("exported");
-        committed(&file(".v"), &text);
+        committed(&format!("{instances}/{name}.v"), &text);
         assert!(!statement(&text).contains("certificate"));
     }
 }
@@ -104,13 +111,16 @@ fn claims_of_the_kernel_that_its_formal_side_lacks_are_refused_with_what_is_miss
         assert_ne!(text, FOUR, "{from}");
         exported(&text)
     };
-    let margin = r#""quantity":"serial_margin""#;
-    let refused = replaced(r#""quantity":"joint_range""#, margin).expect_err("refused");
-    assert_eq!(refused, ExportError::Quantity("serial_margin"));
-    assert!(refused.to_string().contains("\"serial_margin\""));
+    let angle = r#""quantity":"leg_angle""#;
+    let range = r#""quantity":"joint_range","leg":1,"end":"min","bound":"200""#;
+    let refused =
+        replaced(range, &format!(r#"{angle},"end":"max","bound":"80""#)).expect_err("refused");
+    assert_eq!(refused, ExportError::Quantity("leg_angle"));
+    assert!(refused.to_string().contains("\"leg_angle\""));
     let cylinder = r#""cylinder":{"center":["0","0"],"radius":"60","z":["0","200"]}"#;
     let workspace = r#""box":{"min":["-60","-60","0"],"max":["60","60","200"]}"#;
-    assert_eq!(replaced(workspace, cylinder), Err(ExportError::NotABox));
+    let text = replaced(workspace, cylinder).expect("exported");
+    assert!(text.contains("Cylinder (0 // 1) (0 // 1) (60 // 1) (Within (0 // 1) (200 // 1))"));
     let step = r#"[2,"test"]"#;
     assert_eq!(replaced(step, r#"[2,"cube"]"#), Err(ExportError::Evidence("cube")));
     assert_eq!(replaced(r#","split":1}"#, "}"), Err(ExportError::NotATree));

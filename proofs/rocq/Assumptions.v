@@ -6,8 +6,8 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Machine Problem Faces.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane.
+From Orthocert.kernel Require Machine Problem Faces Witness Closed Certificate.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -118,3 +118,16 @@ Check StrutsAndPlane.certified.
 Print Assumptions StrutsAndPlane.certified.
 Check kernel.Check.check_all_open.
 Print Assumptions kernel.Check.check_all_open.
+Check DeltaSpeed.certified.
+Print Assumptions DeltaSpeed.certified.
+Check DeltaMargin.certified.
+Print Assumptions DeltaMargin.certified.
+
+(** ** Certificates as files: what the program accepts *)
+
+Check kernel.Witness.refute_sound.
+Print Assumptions kernel.Witness.refute_sound.
+Check kernel.Closed.check_closed_sound.
+Print Assumptions kernel.Closed.check_closed_sound.
+Check kernel.Certificate.verify_sound.
+Print Assumptions kernel.Certificate.verify_sound.

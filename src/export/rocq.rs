@@ -16,8 +16,8 @@ pub use postulate::postulate;
 /// What is exported.
 const ONLY: &str =
     "the postulate is exported, and of machines, certified claims about sliders, struts and \
-     planar legs that do not turn the platform, a box, transmission and ranges of joints that are \
-     lengths";
+     planar legs that do not turn the platform, over a box or a cylinder, of transmission, ranges of \
+     joints that are lengths, joint speeds, condition numbers and margins to singularities";
 
 /// Why a certificate is not exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,9 +38,9 @@ pub enum ExportError {
     /// It is about cubes that do not fit.
     #[error("the claim is that no cube fits; {ONLY}")]
     NoCube,
-    /// The workspace is not a box.
-    #[error("the workspace is not a box; {ONLY}")]
-    NotABox,
+    /// It is about the paper's cube.
+    #[error("the claim is about the paper's cube, of which Closed.v has the theorem; {ONLY}")]
+    Cube,
     /// The claim bounds this quantity.
     #[error("the claim bounds \"{0}\", which the formal kernel lacks; {ONLY}")]
     Quantity(&'static str),

@@ -19,6 +19,7 @@
 //! | `legend`        | their rules                                                    |
 //! | `evidence`      | requirements, the counterexample, where the proof worked hardest |
 //! | `recheck`       | how to check again, and the digests                            |
+//! | `verified`      | the formally verified checker, with the certificate            |
 //! | `svg`           | views of space and parts of figures                            |
 //! | [`paving`]      | the page of a paving                                           |
 //!
@@ -42,6 +43,7 @@ mod sections;
 mod shape;
 mod subdivision;
 pub(crate) mod svg;
+mod verified;
 mod words;
 
 use crate::digest::policy_source;
@@ -55,6 +57,7 @@ use orthocert_checker::Accepted;
 use orthocert_kernel::certificate::Claim;
 use scene::{corners_of_cube, first_slice, of_nothing, of_postulate, slice, Scene};
 use serde_json::{json, Value};
+use verified::{verified, Verified, PROGRAM};
 
 pub use recheck::{checker_sha256, CHECKER_COMMAND};
 pub use svg::Picture;
@@ -69,6 +72,7 @@ const SCRIPT: &str = concat!(
     include_str!("script/view.js"),
     include_str!("script/space.js"),
     include_str!("script/region.js"),
+    include_str!("script/reprove.js"),
     include_str!("script/start.js"),
 );
 
@@ -222,6 +226,7 @@ impl<'a> Page<'a> {
             sections: &self.sections(),
             provenance: &self.certificate.provenance,
             data: &self.data(),
+            verified: Some(verified(self.certificate, self.file.bytes)),
         }
         .html()
     }
@@ -286,6 +291,8 @@ struct Framed<'a> {
     provenance: &'a Provenance,
     /// What the script works on.
     data: &'a Value,
+    /// How a certificate is proved again in the page.
+    verified: Option<Verified>,
 }
 
 impl Framed<'_> {
@@ -294,10 +301,16 @@ impl Framed<'_> {
         let style = format!("{}{}", include_str!("page.css"), include_str!("figure.css"));
         let sections: String = self.sections.iter().map(|(_, _, text)| text.as_str()).collect();
         let Provenance { tool, version } = self.provenance;
+        let none = Verified::NONE;
+        let Verified { note, scripts } = self.verified.as_ref().unwrap_or(&none);
+        let mut policy = policy_source(SCRIPT);
+        if !scripts.is_empty() {
+            policy = format!("{policy} {}", policy_source(PROGRAM));
+        }
         filled(
             FRAME,
             &[
-                ("script-policy", &policy_source(SCRIPT)),
+                ("script-policy", &policy),
                 ("style-policy", &policy_source(&style)),
                 ("style", &style),
                 ("script", SCRIPT),
@@ -306,6 +319,8 @@ impl Framed<'_> {
                 ("verdict", self.verdict),
                 ("headline", &xml(self.headline)),
                 ("meaning", self.meaning),
+                ("verified-note", note),
+                ("verified-scripts", scripts),
                 ("contents", &contents(self.sections)),
                 ("sections", &sections),
                 ("version", env!("CARGO_PKG_VERSION")),

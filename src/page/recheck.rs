@@ -130,7 +130,8 @@ fn of(kind: &str, codes: &str, file_name: &str, certificate: &[u8], version: &st
          <h3>3. The checker accepts it</h3>\
          <pre>cargo run --release -p orthocert-checker -- {file}</pre>\
          <p>or, where orthocert is installed, <code>orthocert check {file}</code>. {codes} It prints the claim in words: \
-         compare it with the one above. The theorems and the format are in <code>proofs/README.md</code> and \
+         compare it with the one above. <code>orthocert-verified {file}</code>, where it is built, is the formally verified \
+         checker, for the claims that it covers: <code>proofs/rocq/README.md</code>. The theorems and the format are in <code>proofs/README.md</code> and \
          <code>proofs/FORMAT.md</code>.</p></section>\n",
         command = xml(CHECKER_COMMAND),
         version = xml(version),

@@ -36,11 +36,11 @@ Definition leg_4 : drive :=
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))
     (Within (3329 // 10) (3331 // 10)) false).
 
-Definition box : tolerances :=
-  Tolerances (Within ((-60) // 1) (60 // 1)) (Within ((-60) // 1) (60 // 1)) (Within (0 // 1) (200 // 1)).
+Definition the_workspace : region :=
+  Box (Tolerances (Within ((-60) // 1) (60 // 1)) (Within ((-60) // 1) (60 // 1)) (Within (0 // 1) (200 // 1))).
 
 Definition the_claim : claim :=
-  MakeClaim [leg_1; leg_2; leg_3; leg_4] box [(PsiMax (Over (6 // 1) (5 // 1))); (PsiMin (Over (9 // 1) (20 // 1))); (JointMin 0 (200 // 1))].
+  MakeClaim [leg_1; leg_2; leg_3; leg_4] the_workspace [(PsiMax (Over (6 // 1) (5 // 1))); (PsiMin (Over (9 // 1) (20 // 1))); (JointMin 0 (200 // 1))].
 
 (** The proof: a bisection tree, and what shows the requirements on its boxes. *)
 Definition certificate : tree :=
@@ -63,7 +63,7 @@ Definition certificate : tree :=
 Lemma checked : check_claim 52 the_claim (9) [(0); (0); (0); (0)]%Z certificate = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem certified : forall m P, is_machine the_claim m -> all_within box P ->
+Theorem certified : forall m P, is_machine the_claim m -> in_region the_workspace P ->
   Forall (reaches P) m /\
   (forall v, v <> vzero -> 0 < speed2 m P v) /\
   (forall v, (1 / value (Over (6 // 1) (5 // 1))) ^ 2 * norm2 v <= speed2 m P v) /\

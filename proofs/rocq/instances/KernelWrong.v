@@ -6,7 +6,7 @@
 From Coq Require Import ZArith NArith Reals List.
 From Orthocert Require Import Claim.
 From Orthocert.kernel Require Import Statement Check Problem Faces.
-From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2.
+From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta DeltaSpeed DeltaMargin PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 Definition step : Type := nat * evidence.
@@ -65,11 +65,11 @@ Proof. vm_compute. reflexivity. Qed.
 Example tests_exchanged : accepts (over [upper; PsiMax (Over (6 // 1) (5 // 1)); joint]) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 Example no_lower_bound : accepts (over []) (Leaf []) = false. Proof. vm_compute. reflexivity. Qed.
-Example legs_left_out : accepts (MakeClaim [leg_1; leg_2] box (require the_claim)) certificate = false.
+Example legs_left_out : accepts (MakeClaim [leg_1; leg_2] the_workspace (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 (** Out of reach: the rows are not regular. *)
 Example box_out_of_reach :
-  accepts (MakeClaim (legs the_claim) (Tolerances (Within (400 // 1) (410 // 1)) (ty box) (tz box)) [NotSingular])
+  accepts (MakeClaim (legs the_claim) (Box (Tolerances (Within (400 // 1) (410 // 1)) (ty (hull the_workspace)) (tz (hull the_workspace)))) [NotSingular])
     (first_leaf certificate) = false.
 Proof. vm_compute. reflexivity. Qed.
 End Sliders.
@@ -84,7 +84,7 @@ Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) cer
 Proof. vm_compute. reflexivity. Qed.
 (** A leg of length zero somewhere in the box: D is not positive there. *)
 Example through_a_base_joint :
-  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg box box] box (require the_claim)) certificate = false.
+  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg (hull the_workspace) (hull the_workspace)] the_workspace (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Struts.
 
@@ -100,6 +100,38 @@ Example lower_bound_tightened : accepts (between (1 // 2) (19 // 10)) certificat
 Example upper_bound_tightened : accepts (between (501 // 1000) (2 // 1)) certificate = false. Proof. vm_compute. reflexivity. Qed.
 Example of_another_machine : accepts LinearDelta.the_claim certificate = false. Proof. vm_compute. reflexivity. Qed.
 End Tolerance.
+
+Module Margin.
+Import DeltaMargin.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
+Local Notation about r b := (MakeClaim (legs the_claim) (Cylinder (0 // 1) (0 // 1) r (Within (0 // 1) (100 // 1))) [NotSingular; ParallelMargin b]).
+Definition never_negative (e : evidence) : evidence := match e with ByNegative => ByTest | e => e end.
+
+Example the_certificate : accepts (about (80 // 1) (6 // 10)) certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example first_leaf_removed : accepts the_claim (without_first certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example margin_raised : accepts (about (80 // 1) (7 // 10)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example radius_raised : accepts (about (90 // 1) (6 // 10)) certificate = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_sign : accepts the_claim (map_evidence never_negative certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example rank_of_zeros : accepts the_claim (map_evidence (fun e => match e with ByRank p Y => ByRank p (map (map (fun _ => 0%Z)) Y) | e => e end) certificate) = false.
+Proof. vm_compute. reflexivity. Qed.
+Example rank_for_a_bound : accepts (MakeClaim (legs the_claim) (workspace the_claim) [PsiMax (1000 // 1); ParallelMargin (6 // 10)]) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+End Margin.
+
+Module Speed.
+Import DeltaSpeed.
+Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
+(** Multiples of what is not negative in the workspace: of the other sign, and more. *)
+Definition with_mu (f : Z -> Z) (e : evidence) : evidence := match e with Inside i n p => Inside i (f n) p | e => e end.
+Definition all_outside (steps : list step) : list step := [(0%nat, Outside)].
+
+Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example all_cells_outside : accepts the_claim (map_steps all_outside certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example mu_negative : accepts the_claim (map_evidence (with_mu Z.opp) certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example mu_great : accepts the_claim (map_evidence (with_mu (Z.mul 4096)) certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example in_a_box : accepts (MakeClaim (legs the_claim) (Box (hull (workspace the_claim))) (require the_claim)) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+End Speed.
 
 (** Of the first leaf, which touches the corner, another step. *)
 Fixpoint first_by (e : evidence) (t : tree) : tree :=

@@ -29,11 +29,11 @@ Definition leg_3 : drive :=
     (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))
     (Within (3113 // 10) (3117 // 10)) true).
 
-Definition box : tolerances :=
-  Tolerances (Within ((-366) // 5) (634 // 5)) (Within ((-366) // 5) (634 // 5)) (Within ((-366) // 5) (634 // 5)).
+Definition the_workspace : region :=
+  Box (Tolerances (Within ((-366) // 5) (634 // 5)) (Within ((-366) // 5) (634 // 5)) (Within ((-366) // 5) (634 // 5))).
 
 Definition the_claim : claim :=
-  MakeClaim [leg_1; leg_2; leg_3] box [(PsiMax (2 // 1)); (PsiMin (Over (1 // 1) (2 // 1)))].
+  MakeClaim [leg_1; leg_2; leg_3] the_workspace [(PsiMax (2 // 1)); (PsiMin (Over (1 // 1) (2 // 1)))].
 
 (** The proof: a bisection tree, and what shows the requirements on its boxes. *)
 Definition certificate : tree :=
@@ -70,7 +70,7 @@ Definition certificate : tree :=
 Lemma checked : check_claim 52 the_claim (9) [(0); (0); (0)]%Z certificate = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem certified : forall m P, is_machine the_claim m -> all_within box P ->
+Theorem certified : forall m P, is_machine the_claim m -> in_region the_workspace P ->
   Forall (reaches P) m /\
   (forall v, v <> vzero -> 0 < speed2 m P v) /\
   (forall v, (1 / value (2 // 1)) ^ 2 * norm2 v <= speed2 m P v) /\

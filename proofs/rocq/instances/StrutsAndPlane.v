@@ -27,11 +27,11 @@ Definition leg_4 : drive :=
   PlanarLeg
     (Tolerances (exactly (1 // 1)) (exactly (2 // 1)) (Within (199 // 100) (201 // 100))).
 
-Definition box : tolerances :=
-  Tolerances (Within ((-40) // 1) (40 // 1)) (Within ((-40) // 1) (40 // 1)) (Within (180 // 1) (240 // 1)).
+Definition the_workspace : region :=
+  Box (Tolerances (Within ((-40) // 1) (40 // 1)) (Within ((-40) // 1) (40 // 1)) (Within (180 // 1) (240 // 1))).
 
 Definition the_claim : claim :=
-  MakeClaim [leg_1; leg_2; leg_3; leg_4] box [(PsiMax (Over (23 // 1) (20 // 1))); (PsiMin (Over (2 // 1) (3 // 1))); (JointMax 3 (250 // 1))].
+  MakeClaim [leg_1; leg_2; leg_3; leg_4] the_workspace [(PsiMax (Over (23 // 1) (20 // 1))); (PsiMin (Over (2 // 1) (3 // 1))); (JointMax 3 (250 // 1))].
 
 (** The proof: a bisection tree, and what shows the requirements on its boxes. *)
 Definition certificate : tree :=
@@ -42,7 +42,7 @@ Definition certificate : tree :=
 Lemma checked : check_claim 52 the_claim (9) [(0); (0); (0); (1)]%Z certificate = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem certified : forall m P, is_machine the_claim m -> all_within box P ->
+Theorem certified : forall m P, is_machine the_claim m -> in_region the_workspace P ->
   Forall (reaches P) m /\
   (forall v, v <> vzero -> 0 < speed2 m P v) /\
   (forall v, (1 / value (Over (23 // 1) (20 // 1))) ^ 2 * norm2 v <= speed2 m P v) /\

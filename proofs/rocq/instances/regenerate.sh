@@ -9,3 +9,5 @@ orthocert=${1:-$here/../../../target/release/orthocert}
 for name in OrthoglideTolerance LinearDelta FourSliders StrutsAndPlane PostulateAll PostulateUpTo2; do
     "$orthocert" export rocq "$here/$name.cert.json" -o "$here/$name.v"
 done
+"$orthocert" export rocq "$here/../../certificates/delta-joint-speed.cert.json" -o "$here/DeltaSpeed.v"
+"$orthocert" export rocq "$here/../../certificates/delta-parallel-margin.cert.json" -o "$here/DeltaMargin.v"

@@ -69,13 +69,14 @@ Proof. exact (point_sound bits). Qed.
 
 Lemma coords_from_hold : forall cell x, Forall2 contains cell x ->
   exists lambda, length lambda = length cell /\ Forall (fun t => -1 <= t <= 1) lambda /\
+    Forall2 (fun a p => snd p - centre_of a = IZR (half a) / unit * fst p) cell (combine lambda x) /\
     forall before k, holds bits (before ++ lambda) (nth k (coords_from (length before) cell) none)
       (nth k (map centre_of cell) 0) (nth k x 0).
 Proof.
   induction 1 as [| a y cell x h hs IH].
-  - exists []. split; [reflexivity |]. split; [constructor |]. intros before [| k]; cbn; apply none_holds.
-  - destruct IH as [l [e [hl IH]]]. destruct (half_sound a y h) as [t [ht E]]. exists (t :: l).
-    split; [cbn; congruence |]. split; [constructor; assumption |].
+  - exists []. split; [reflexivity |]. split; [constructor |]. split; [constructor |]. intros before [| k]; cbn; apply none_holds.
+  - destruct IH as [l [e [hl [hd IH]]]]. destruct (half_sound a y h) as [t [ht E]]. exists (t :: l).
+    split; [cbn; congruence |]. split; [constructor; assumption |]. split; [constructor; [exact E | exact hd] |].
     intros before [| k]; cbn [coords_from map nth].
     + split; [apply exact_in |]. split; [exact h |].
       exists (repeat 0 (length before) ++ [IZR (half a) / unit]). split.

@@ -17,16 +17,25 @@ Inductive face := Q1 | Q2.
 Inductive evidence :=
   | ByTest | ByDivided
   | ByLower (places : N) (Y : list (list Z)) | ByLowerDivided (places : N) (Y : list (list Z))
+  | ByRank (places : N) (Y : list (list Z))
+  (* condition numbers: [mu] at the centre, and its slopes *)
+  | ByConditioning (places : N) (Y : list (list Z)) (mu : list Z)
+  (* of what is far from zero: that it is negative *)
+  | ByNegative
   (* of the postulate: see Faces.v *)
-  | ByCorner (f : face) | ByMirror.
+  | ByCorner (f : face) | ByMirror
+  (* less a multiple, [n] over [2^places], of what is not negative in the workspace *)
+  | Inside (e : evidence) (n : Z) (places : N)
+  (* no point of the workspace is in the cell *)
+  | Outside.
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
   | Leaf (by_ : list (nat * evidence))
   | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
 
-(** kappa^2, k^2, and the place of a formula. *)
-Inductive test := SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | AtLeast (f : nat).
+(** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative. *)
+Inductive test := SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat) | Either (f g : nat).
 
 Section Precision.
 Variable bits : positive.
@@ -64,15 +73,51 @@ Fixpoint rows_over (values : list (option slope)) (r : rows nat) : option (rows 
 Definition over_rows (values : list (option slope)) (r : rows nat) (holds : rows slope -> bool) : bool :=
   match rows_over values r with Some s => holds s | None => false end.
 
-Definition shows (values : list (option slope)) (m : nat) (t : test) (e : evidence) : bool :=
+(** Of a curved workspace: what is not negative at its points in a cell. *)
+Variable inside : list fixed -> option slope.
+
+(** A bound raised, or lowered, by what is not negative: the S-procedure. *)
+Definition raised (less : option slope) (k : slope) : slope := match less with Some t => total k t | None => k end.
+Definition lowered (less : option slope) (k : slope) : slope := match less with Some t => difference k t | None => k end.
+
+Definition is_sign (values : list (option slope)) (m : nat) (less : option slope) (f : nat) : bool :=
+  match nth f values None with
+  | Some s => match less with None => (0 <=? lo (range s))%Z | Some t => sign_there m (difference s t) end
+  | None => false
+  end.
+
+(** [mu] over [2^places], as a slope. *)
+Definition mu_slope (places : N) (mu : list Z) : slope :=
+  let entry n := Arithmetic.dyadic n places (Fixed.integer bits 1) in
+  match mu with n :: ns => Slope (entry n) zero (map entry ns) | [] => constant zero end.
+Definition conditioned (m : nat) (less : option slope) (c2 : fixed) (places : N) (Y : list (list Z)) (mu : slope) (r : rows slope) : bool :=
+  positive_there m mu && sigma_min m (raised less mu) places Y r && sigma_max m (lowered less (multiple bits c2 mu)) r.
+
+Definition shows (values : list (option slope)) (m : nat) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
-  | SigmaMin low, ByLower places Y => over_rows values whole (sigma_min m low places Y)
-  | SigmaMin low, ByLowerDivided places Y => over_rows values divided (sigma_min m low places Y)
-  | SigmaMax high, ByTest => over_rows values whole (sigma_max m high)
-  | SigmaMax high, ByDivided => over_rows values divided (sigma_max m high)
-  | AtLeast f, ByTest => match nth f values None with Some s => (0 <=? lo (range s))%Z | None => false end
+  | SigmaMin low, ByLower places Y => over_rows values whole (sigma_min m (raised less (constant low)) places Y)
+  | SigmaMin low, ByLowerDivided places Y => over_rows values divided (sigma_min m (raised less (constant low)) places Y)
+  | SigmaMin low, ByRank places Y =>
+      match less with None => (lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (full_rank m places Y) | Some _ => false end
+  | SigmaMax high, ByTest => over_rows values whole (sigma_max m (lowered less (constant high)))
+  | SigmaMax high, ByDivided => over_rows values divided (sigma_max m (lowered less (constant high)))
+  | Conditioning c2, ByConditioning places Y mu => over_rows values whole (conditioned m less c2 places Y (mu_slope places mu))
+  | AtLeast f, ByTest | Either f _, ByTest | Either _ f, ByNegative => is_sign values m less f
   | _, _ => false
   end.
+
+Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
+  match e with
+  | Inside e n places =>
+      match inside cell with
+      | Some tangent => (0 <=? n)%Z && shows values (length cell) (Some (dyadic_slope n places tangent)) t e
+      | None => false
+      end
+  | _ => shows values (length cell) None t e
+  end.
+
+Definition is_outside (cell : list fixed) : bool :=
+  match inside cell with Some tangent => negative_there (length cell) tangent | None => false end.
 
 (** ** The tree; [open] has the tests that are not discharged yet *)
 
@@ -83,18 +128,19 @@ Fixpoint clear (i : nat) (open : list bool) : list bool :=
   | b :: l, S j => b :: clear j l
   end.
 
-Fixpoint discharge (values : list (option slope)) (m : nat) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+Fixpoint discharge (values : list (option slope)) (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   match steps with
   | [] => Some open
+  | (_, Outside) :: rest => if is_outside cell then discharge values cell rest (map (fun _ => false) open) else None
   | (i, e) :: rest =>
       match nth i open false, nth_error tests i with
-      | true, Some t => if shows values m t e then discharge values m rest (clear i open) else None
+      | true, Some t => if shows_on values cell t e then discharge values cell rest (clear i open) else None
       | _, _ => None
       end
   end.
 
 Definition steps_on (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with [] => Some open | _ => discharge (evaluate cell) (length cell) steps open end.
+  match steps with [] => Some open | _ => discharge (evaluate cell) cell steps open end.
 
 Fixpoint check (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
@@ -123,13 +169,18 @@ Definition of_rows (x : list R) (bound : rows R -> Prop) : Prop :=
   exists r, (r = map_rows formula_at whole \/ r = map_rows formula_at divided) /\ regular x r /\
     bound (map_rows (value x theta) r).
 
+Definition is_nonneg (x : list R) (f : nat) : Prop := defined x theta (formula_at f) /\ 0 <= value x theta (formula_at f).
+
 Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   match t with
   | SigmaMin low => of_rows x (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v ->
       kappa2 * dot v v < energy r v)
   | SigmaMax high => of_rows x (fun r => forall k2 v, contains high k2 -> length v = m -> nonzero v ->
       energy r v < k2 * dot v v)
-  | AtLeast f => defined x theta (formula_at f) /\ 0 <= value x theta (formula_at f)
+  | Conditioning c2 => of_rows x (fun r => forall c u v, contains c2 c -> length u = m -> length v = m -> nonzero u -> nonzero v ->
+      energy r u * dot v v < c * energy r v * dot u u)
+  | AtLeast f => is_nonneg x f
+  | Either f g => is_nonneg x f \/ is_nonneg x g
   end.
 
 Section Cell.
@@ -195,26 +246,130 @@ Proof.
   eapply H; eassumption.
 Qed.
 
-Lemma shows_sound : forall t e, shows values (length cell) t e = true -> holds (length cell) x t.
+(** What is subtracted is not negative at [x]. *)
+Definition harmless (less : option slope) : Prop :=
+  match less with Some t => exists e, entry_in bits t e /\ 0 <= at_lambda lambda e | None => True end.
+
+Lemma raised_in : forall less k e, harmless less -> entry_in bits k e ->
+  exists e', entry_in bits (raised less k) e' /\ at_lambda lambda e <= at_lambda lambda e'.
 Proof.
-  rewrite <- lambda_length. intros t e h. destruct t as [low | high | f], e as [| | places Y | places Y | |];
+  intros [t |] k e h he; cbn [raised harmless] in *; [| exists e; split; [exact he | lra]].
+  destruct h as [d [hd p]]. destruct (total_in bits _ _ _ _ he hd) as [e' [h1 h2]]. exists e'. rewrite h2. split; [exact h1 | lra].
+Qed.
+
+Lemma lowered_in : forall less k e, harmless less -> entry_in bits k e ->
+  exists e', entry_in bits (lowered less k) e' /\ at_lambda lambda e' <= at_lambda lambda e.
+Proof.
+  intros [t |] k e h he; cbn [lowered harmless] in *; [| exists e; split; [exact he | lra]].
+  destruct h as [d [hd p]]. destruct (difference_in bits _ _ _ _ he hd) as [e' [h1 h2]]. exists e'. rewrite h2. split; [exact h1 | lra].
+Qed.
+
+Lemma dot_self : forall v, 0 <= dot v v.
+Proof. induction v as [| a v IH]; cbn [dot]; [lra |]. pose proof (Rle_0_sqr a) as p. unfold Rsqr in p. lra. Qed.
+
+Lemma energy_nonneg : forall r v, positive_D r -> 0 <= energy r v.
+Proof.
+  intros r v. induction 1 as [| [a d] q h1 _ IH]; cbn [energy snd] in *; [lra |].
+  assert (0 <= dot a v ^ 2 / d) by (apply Rmult_le_pos; [apply pow2_ge_0 | apply Rlt_le, Rinv_0_lt_compat, h1]). lra.
+Qed.
+
+Lemma is_sign_sound : forall less f, harmless less -> is_sign values (length lambda) less f = true -> is_nonneg x f.
+Proof.
+  intros less f hs h. unfold is_sign in h. destruct (nth f values None) as [s |] eqn:n; [| discriminate].
+  destruct (entry_exists f s n) as [d [c [e [k1 k2]]]]. split; [exact d |]. destruct less as [t |].
+  - destruct hs as [e' [h1 p]]. destruct (difference_in bits _ _ _ _ k1 h1) as [d' [g1 g2]].
+    pose proof (sign_there_sound bits _ _ _ h g1 lambda_in) as q. rewrite g2 in q. rewrite k2. lra.
+  - apply Z.leb_le in h. exact (contains_nonneg bits _ _ h c).
+Qed.
+
+Lemma mu_slope_in : forall places mu, exists e, entry_in bits (mu_slope places mu) e.
+Proof.
+  assert (E : forall n places, contains (Arithmetic.dyadic n places (Fixed.integer bits 1)) (IZR n / IZR (2 ^ Z.of_N places) * 1))
+    by (intros; apply Arithmetic.dyadic_sound, Fixed.integer_sound).
+  intros places [| n ns]; [exists (0, []); apply constant_in, zero_sound |].
+  exists (IZR n / IZR (2 ^ Z.of_N places) * 1, map (fun n => IZR n / IZR (2 ^ Z.of_N places) * 1) ns).
+  split; [apply E |]. cbn [mu_slope slopes snd]. induction ns; cbn; constructor; auto.
+Qed.
+
+Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
+Proof.
+  rewrite <- lambda_length. intros less t e hs h.
+  destruct t as [low | high | c2 | f | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | |];
     cbn [shows holds] in *; try discriminate.
-  1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros; eapply sigma_min_sound; eassumption.
-  1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros; eapply sigma_max_sound; eassumption.
-  destruct (nth f values None) as [s |] eqn:n; [| discriminate]. apply Z.leb_le in h.
-  destruct (entry_exists f s n) as [d [c _]]. split; [exact d |]. exact (contains_nonneg bits _ _ h c).
+  1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
+    destruct (raised_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
+    pose proof (sigma_min_sound bits _ _ _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
+    rewrite at_constant in le; pose proof (dot_self v);
+    apply Rle_lt_trans with (2 := S), Rmult_le_compat_r; assumption.
+  - destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2].
+    apply Z.eqb_eq in z1, z2. eapply over_rows_sound; [| exact h |]; [auto |]. cbn beta.
+    intros s es sm rel pos kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2.
+    pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
+    eapply full_rank_sound; eassumption.
+  - eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos k2 v hk len nz;
+    destruct (lowered_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
+    pose proof (sigma_max_sound bits _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
+    rewrite at_constant in le; pose proof (dot_self v);
+    apply Rlt_le_trans with (1 := S), Rmult_le_compat_r; assumption.
+  - eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos k2 v hk len nz;
+    destruct (lowered_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
+    pose proof (sigma_max_sound bits _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
+    rewrite at_constant in le; pose proof (dot_self v);
+    apply Rlt_le_trans with (1 := S), Rmult_le_compat_r; assumption.
+  - eapply over_rows_sound; [| exact h |]; [auto |]. cbn beta. intros s es sm rel pos c u v hc lu lv nu nv.
+    unfold conditioned in sm. apply andb_true_iff in sm as [sm s3]. apply andb_true_iff in sm as [s1 s2].
+    destruct (mu_slope_in places mu) as [q hq]. pose proof (positive_there_sound bits _ _ _ s1 hq lambda_in) as p.
+    destruct (raised_in less _ _ hs hq) as [e1 [h1 le1]].
+    destruct (multiple_in bits _ _ _ _ hc hq) as [q' [hq' eq']]. destruct (lowered_in less _ _ hs hq') as [e2 [h2 le2]].
+    rewrite eq' in le2.
+    pose proof (sigma_min_sound bits _ _ _ _ _ _ _ _ s2 h1 rel lambda_in lv nv pos) as A.
+    pose proof (sigma_max_sound bits _ _ _ _ _ _ s3 h2 rel lambda_in lu nu pos) as B.
+    pose proof (energy_nonneg _ u pos) as E0. set (M := map_rows (at_lambda lambda) es) in *. clearbody M.
+    set (a := at_lambda lambda q) in *. set (b := at_lambda lambda e1) in *. set (d := at_lambda lambda e2) in *.
+    clearbody a b d. unfold nonzero in nu, nv. set (U := dot u u) in *. set (V := dot v v) in *. clearbody U V.
+    assert (c0 : 0 < c).
+    { apply Rnot_le_lt. intro n. assert (c * a <= 0) by nra. assert (d <= 0) by lra. nra. }
+    assert (B' : energy M u < c * a * U) by (apply Rlt_le_trans with (1 := B); apply Rmult_le_compat_r; lra).
+    assert (A' : a * V < energy M v) by (apply Rle_lt_trans with (2 := A); apply Rmult_le_compat_r; lra).
+    apply Rlt_trans with (c * a * U * V); [apply Rmult_lt_compat_r; assumption |].
+    replace (c * a * U * V) with (c * U * (a * V)) by ring. replace (c * energy M v * U) with (c * U * energy M v) by ring.
+    apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
+  - eapply is_sign_sound; eassumption.
+  - left. eapply is_sign_sound; eassumption.
+  - right. eapply is_sign_sound; eassumption.
 Qed.
 End Cell.
 
-Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x ->
-  shows (evaluate cell) (length cell) t e = true -> holds (length cell) x t.
+(** [allowed x]: in the workspace. *)
+Variable allowed : list R -> Prop.
+Hypothesis inside_sound : forall cell lambda x t, inside cell = Some t -> length lambda = length cell -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
+  exists e, entry_in bits t e /\ 0 <= at_lambda lambda e.
+
+Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x ->
+  shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
 Proof.
-  intros cell x t e hx h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam C]]].
+  intros cell x t e hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]].
   specialize (C []). cbn [app length] in C.
   pose proof (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C
     (params_hold bits lambda params theta theta_in) tape) as S.
-  apply (shows_sound cell x lambda el hlam) with e; [| exact h].
-  intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S].
+  assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
+  { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
+    intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
+  destruct e as [| | | | | | | | | e' n places |]; try (apply (K None _ I h)).
+  cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
+  refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
+  destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
+  apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
+  apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p].
+Qed.
+
+Lemma outside_none : forall cell x, Forall2 contains cell x -> allowed x -> is_outside cell = true -> False.
+Proof.
+  intros cell x hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd _]]]].
+  unfold is_outside in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate].
+  destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. rewrite <- el in h.
+  pose proof (negative_there_sound bits _ _ _ h h1 hlam). lra.
 Qed.
 
 (** Every test that is not open holds. *)
@@ -227,26 +382,31 @@ Proof.
   destruct (IH j open h); auto.
 Qed.
 
-Lemma steps_on_sound : forall cell x steps open rest, Forall2 contains cell x -> steps_on cell steps open = Some rest ->
+Lemma steps_on_sound : forall cell x steps open rest, Forall2 contains cell x -> allowed x -> steps_on cell steps open = Some rest ->
   done (length cell) x open -> done (length cell) x rest.
 Proof.
-  intros cell x steps open rest hx h.
-  assert (h' : discharge (evaluate cell) (length cell) steps open = Some rest) by (destruct steps; exact h).
+  intros cell x steps open rest hx ok h.
+  assert (h' : discharge (evaluate cell) cell steps open = Some rest) by (destruct steps; exact h).
   clear h. revert open h'.
   induction steps as [| [i e] steps IH]; intros open h D; cbn [discharge] in h; [injection h as <-; exact D |].
-  destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
-  destruct (shows (evaluate cell) (length cell) t e) eqn:s; [| discriminate]. apply (IH _ h).
-  intros j u nj o. destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')].
-  rewrite n in nj. injection nj as <-. exact (evaluate_holds cell x t e hx s).
+  assert (Other : match nth i open false, nth_error tests i with
+    | true, Some t => if shows_on (evaluate cell) cell t e then discharge (evaluate cell) cell steps (clear i open) else None
+    | _, _ => None end = Some rest -> done (length cell) x rest).
+  { clear h. intro h. destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
+    destruct (shows_on (evaluate cell) cell t e) eqn:s; [| discriminate]. apply (IH _ h).
+    intros j u nj o. destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')].
+    rewrite n in nj. injection nj as <-. exact (evaluate_holds cell x t e hx ok s). }
+  destruct e; try exact (Other h). destruct (is_outside cell) eqn:o; [| discriminate].
+  destruct (outside_none cell x hx ok o).
 Qed.
 
 (** Soundness: where the tree is accepted, every test holds at every point of the cell. *)
-Theorem check_sound : forall tr cell x open, check cell open tr = true -> Forall2 contains cell x ->
+Theorem check_sound : forall tr cell x open, check cell open tr = true -> Forall2 contains cell x -> allowed x ->
   done (length cell) x open -> forall t, In t tests -> holds (length cell) x t.
 Proof.
-  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx D t ht; cbn [check] in h;
+  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx ok D t ht; cbn [check] in h;
     destruct (steps_on cell steps open) as [rest |] eqn:s; try discriminate;
-    pose proof (steps_on_sound cell x steps open rest hx s D) as D'.
+    pose proof (steps_on_sound cell x steps open rest hx ok s D) as D'.
   - destruct (In_nth_error _ _ ht) as [i n]. apply (D' i t n). rewrite forallb_forall in h.
     destruct (nth_in_or_default i rest false) as [m | ->]; [| reflexivity].
     apply h in m. destruct (nth i rest false); [discriminate | reflexivity].
@@ -254,16 +414,16 @@ Proof.
     destruct (halves k cell) as [a b]. cbn [fst snd] in *.
     destruct (check a rest lower) eqn:ha; [| discriminate].
     destruct c as [c | c].
-    + rewrite <- La in *. exact (IHl a x rest ha c D' t ht).
-    + rewrite <- Lb in *. exact (IHu b x rest h c D' t ht).
+    + rewrite <- La in *. exact (IHl a x rest ha c ok D' t ht).
+    + rewrite <- Lb in *. exact (IHu b x rest h c ok D' t ht).
 Qed.
 
 Definition all_open : list bool := map (fun _ => true) tests.
 
-Corollary check_all_open : forall tr cell x, check cell all_open tr = true -> Forall2 contains cell x ->
+Corollary check_all_open : forall tr cell x, check cell all_open tr = true -> Forall2 contains cell x -> allowed x ->
   forall t, In t tests -> holds (length cell) x t.
 Proof.
-  intros tr cell x h hx. apply (check_sound tr cell x all_open h hx).
+  intros tr cell x h hx ok. apply (check_sound tr cell x all_open h hx ok).
   intros i t n o. exfalso. unfold all_open in o.
   rewrite (nth_indep _ false true) in o.
   - rewrite (map_nth (fun _ => true) tests (SigmaMin zero) i) in o. discriminate.

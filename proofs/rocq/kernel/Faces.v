@@ -223,7 +223,7 @@ Lemma definite_sound : forall cell y z kappa, shows cell ByTest = true -> Forall
 Proof.
   intros cell y z kappa h hx a b c. destruct cell as [| ? [| ? [| ? [| ? ?]]]]; try discriminate. cbn [shows] in h.
   rewrite <- entries_value. set (cell := [f0; f1; f2]) in *.
-  destruct (coords_from_hold bits cell _ hx) as [lambda [el [hlam C]]]. specialize (C []). cbn [app length] in C.
+  destruct (coords_from_hold bits cell _ hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
   pose proof (evaluate_sound bits lambda hlam [y; z; kappa] (map (centre_of bits) cell) [] _ _ C
     (params_hold bits lambda [] [] (Forall2_nil _)) tape) as E.
   destruct (definite_at_sound lambda [y; z; kappa] (map (centre_of bits) cell) _

@@ -23,7 +23,8 @@ Definition point : evec := EVec (F (Coord 0)) (F (Coord 1)) (F (Coord 2)).
 
 (** ** Drives, by w from the base joint to the platform's *)
 
-Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula }.
+(** [f_length]: of sliders. *)
+Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula; f_length : option formula }.
 
 Definition signed (mode : bool) (a : formula) : formula := if mode then a else opposite a.
 
@@ -32,12 +33,12 @@ Definition slider_formulas (w n : evec) (len : formula) (mode : bool) : leg_form
   let r := map2 minus w (scaled along n) in
   let d := minus (square len) (product r r) in
   let eta := signed mode (root d) in
-  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta).
+  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta) (Some len).
 
 Definition strut_formulas (w : evec) : leg_formulas :=
-  let d := product w w in let len := root d in LegFormulas w d (divided_by w len) len.
+  let d := product w w in let len := root d in LegFormulas w d (divided_by w len) len None.
 
-Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w).
+Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w) None.
 
 (** ** Meaning *)
 
@@ -80,7 +81,9 @@ Definition represents (f : leg_formulas) (l : leg) : Prop :=
   (0 < value (f_D f) -> reaches P l /\ forall v, Vec3.dot (vvalue (f_A f)) v ^ 2 / value (f_D f) = Vec3.dot (row l P) v ^ 2) /\
   (Forall defined (list_of (f_divided f)) -> reaches P l) /\
   vvalue (f_divided f) = row l P /\ value (f_joint f) = joint l P /\
-  (forall k, l = Guided k -> value (f_D f) = leg_length k ^ 2 - norm2 (r k P)).
+  (reaches P l -> 0 < value (f_D f)) /\
+  (forall len, f_length f = Some len -> exists k, l = Guided k /\ value len = leg_length k /\
+    (0 < value (f_D f) -> value (f_D f) = eta k P ^ 2) /\ vvalue (f_A f) = leg_vector k P).
 
 Lemma value_signed : forall (mode : bool) a, value (signed mode a) = (if mode then 1 else -1) * value a.
 Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
@@ -102,10 +105,10 @@ Proof.
   assert (N : value eeta <> 0 -> 0 < s l P).
   { rewrite E. unfold eta. intro h. destruct (sqrt_pos (leg_length l ^ 2 - norm2 (r l P))) as [p | z]; [exact p |].
     exfalso. apply h. unfold s. rewrite <- z. ring. }
-  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
-  - intro h. split; [exact (T h) |]. intro v.
-    assert (Q : value ed = eta l P ^ 2).
-    { unfold eta. rewrite Rpow_mult_distr, hm, (s_squared l P (T h)), D. destruct mode; ring. }
+  assert (Sq : 0 < value ed -> value ed = eta l P ^ 2).
+  { intro h. unfold eta. rewrite Rpow_mult_distr, hm, (s_squared l P (T h)), D. destruct mode; ring. }
+  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
+  - intro h. split; [exact (T h) |]. intro v. pose proof (Sq h) as Q.
     rewrite vvalue_plus, vvalue_scaled, R, E, hn, Q. unfold Jinv_row. rewrite Q in h.
     assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
     clear - H. generalize dependent (eta l P). intros a a0. generalize (r l P) (axis l). intros q n.
@@ -114,7 +117,10 @@ Proof.
     apply defined_plus in h1. destruct h1 as [_ h1]. exact (defined_over _ _ _ _ h1).
   - rewrite vvalue_plus, vvalue_divided, R, E, hn. reflexivity.
   - rewrite value_minus, value_product, hn, hw, E. reflexivity.
-  - intros k h. injection h as <-. exact D.
+  - intro h. rewrite D. unfold s in h. destruct (Rlt_le_dec 0 (leg_length l ^ 2 - norm2 (r l P))) as [p | n]; [exact p |].
+    rewrite sqrt_neg_0 in h by exact n. lra.
+  - intros len h. injection h as <-. exists l. split; [reflexivity |]. split; [exact hl |]. split; [exact Sq |].
+    rewrite vvalue_plus, vvalue_scaled, R, E, hn. symmetry. apply leg_vector_eq.
 Qed.
 
 Lemma strut_represents : forall ew base platform, vvalue ew = span base platform P ->
@@ -122,7 +128,7 @@ Lemma strut_represents : forall ew base platform, vvalue ew = span base platform
 Proof.
   intros ew base platform hw. unfold strut_formulas. cbn zeta.
   assert (D : value (product ew ew) = norm2 (span base platform P)) by (rewrite value_product, hw, norm2_dot; reflexivity).
-  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
+  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
   - rewrite D, hw. intro h. split; [exact h |]. intro v. unfold normalised.
     assert (E : forall a u, Vec3.dot (vscale a u) v = a * Vec3.dot u v) by (intros; unfold Vec3.dot; cbn; ring).
     rewrite E, Rpow_mult_distr. pose proof (sqrt_lt_R0 _ h) as s0. rewrite pow_inv.
@@ -134,6 +140,7 @@ Proof.
     exfalso. apply h1. rewrite <- z. apply sqrt_0.
   - rewrite vvalue_divided, value_root, D, hw. reflexivity.
   - rewrite value_root, D. reflexivity.
+  - rewrite D. auto.
   - discriminate.
 Qed.
 
@@ -141,11 +148,12 @@ Lemma planar_represents : forall ew en n, vvalue ew = P -> vvalue en = normalise
   represents (planar_formulas ew en) (Plane n).
 Proof.
   intros ew en n hw hn. unfold planar_formulas.
-  split; [| split; [| split; [| split]]]; cbn [f_A f_D f_divided f_joint reaches row joint].
+  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
   - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
   - intros _. exact I.
   - exact hn.
   - rewrite value_product, hn, hw. reflexivity.
+  - intros _. cbn. lra.
   - discriminate.
 Qed.
 
@@ -208,7 +216,7 @@ Qed.
 
 Lemma resized_same : forall l,
   row (resized c l) (vscale c P) = row l P /\ joint (resized c l) (vscale c P) = c * joint l P /\
-  (reaches (vscale c P) (resized c l) -> reaches P l).
+  (reaches (vscale c P) (resized c l) <-> reaches P l).
 Proof.
   intros [l | base platform | n]; cbn [resized row joint reaches].
   - assert (S : s (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l)) (vscale c P)
@@ -223,12 +231,25 @@ Proof.
         f_equal; field; repeat split; try tauto; lra.
     + unfold rho, eta, w. rewrite S. cbn [axis base_point platform_offset working_mode].
       unfold vsub, vadd, vscale, Vec3.dot. cbn [vx vy vz]. ring.
-    + rewrite S. intro h. apply Rmult_lt_reg_l with c; lra.
+    + rewrite S. split; intro h; [apply Rmult_lt_reg_l with c; lra | apply Rmult_lt_0_compat; assumption].
   - assert (W : span (vscale c base) (vscale c platform) (vscale c P) = vscale c (span base platform P))
       by (unfold span, vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
     rewrite W, norm2_scale. split; [apply normalised_resized, c_pos |].
-    split; [apply sqrt_resized, c_pos |]. intro h. pose proof (pow_lt c 2 c_pos). apply Rmult_lt_reg_l with (c ^ 2); lra.
-  - split; [reflexivity |]. split; [| auto]. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
+    split; [apply sqrt_resized, c_pos |]. pose proof (pow_lt c 2 c_pos).
+    split; intro h; [apply Rmult_lt_reg_l with (c ^ 2); lra | apply Rmult_lt_0_compat; assumption].
+  - split; [reflexivity |]. split; [| tauto]. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
+Qed.
+Lemma guided_resized : forall l k, resized c l = Guided k -> exists k', l = Guided k' /\ leg_length k = c * leg_length k' /\
+  eta k (vscale c P) = c * eta k' P /\ leg_vector k (vscale c P) = vscale c (leg_vector k' P).
+Proof.
+  intros [l | |] k h; try discriminate. cbn [resized] in h. injection h as <-. exists l. split; [reflexivity |]. split; [reflexivity |].
+  assert (E : eta (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l)) (vscale c P)
+      = c * eta l P).
+  { unfold eta, s. rewrite r_resized. cbn [leg_length working_mode]. rewrite norm2_scale.
+    replace ((c * leg_length l) ^ 2 - c ^ 2 * norm2 (r l P)) with (c ^ 2 * (leg_length l ^ 2 - norm2 (r l P))) by ring.
+    rewrite sqrt_resized by exact c_pos. ring. }
+  split; [exact E |]. rewrite !leg_vector_eq, E, r_resized. cbn [axis]. generalize (r l P) (axis l) (eta l P). intros a b t.
+  unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring.
 Qed.
 End Resized.
 

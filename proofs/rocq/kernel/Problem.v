@@ -153,6 +153,8 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | NotSingular => (exactly (0 // 1), 0%Z)
   | PsiMax b | PsiMin b => (exactly (Over (1 // 1) b), 0%Z)
   | JointMin _ b | JointMax _ b => (exactly b, s)
+  | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
+  | ConditionMax b | SerialMargin _ b | ParallelMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
 
@@ -165,18 +167,41 @@ Qed.
 Lemma bounds_within : forall s rs, Forall2 scaled_within (map (bound_of s) rs) (map (bound_value s) rs).
 Proof. induction rs; cbn [map]; constructor; auto using bound_within. Qed.
 
-(** What is not to be negative; [j] is the bound's place among the parameters. *)
-Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : option formula :=
+Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
+Definition determinant (a b c : evec) : formula :=
+  plus (minus (times (ex a) (minor (ey b) (ez b) (ey c) (ez c))) (times (ey a) (minor (ex b) (ez b) (ex c) (ez c))))
+    (times (ez a) (minor (ex b) (ey b) (ex c) (ey c))).
+
+(** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
+    bound's place among the parameters. *)
+Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : list formula :=
   let b := quantity (bound_of s r) j in
+  let of_leg i (g : leg_formulas -> list formula) := match nth_error fs i with Some f => g f | None => [] end in
   match r with
-  | JointMin i _ => option_map (fun f => minus (f_joint f) b) (nth_error fs i)
-  | JointMax i _ => option_map (fun f => minus b (f_joint f)) (nth_error fs i)
-  | _ => None
+  | JointMin i _ => of_leg i (fun f => [minus (f_joint f) b])
+  | JointMax i _ => of_leg i (fun f => [minus b (f_joint f)])
+  | JointSpeed i _ _ => of_leg i (fun f => let a := f_A f in
+      [minus (minus (minus (times (square b) (f_D f)) (square (ex a))) (square (ey a))) (square (ez a))])
+  | SerialMargin i _ => of_leg i (fun f =>
+      match f_length f with Some len => [minus (f_D f) (times (square b) (square len))] | None => [] end)
+  | ParallelMargin _ =>
+      match fs with
+      | [f; g; h] =>
+          match f_length f, f_length g, f_length h with
+          | Some l1, Some l2, Some l3 =>
+              let d := determinant (f_A f) (f_A g) (f_A h) in
+              let least := times (times (times b l1) l2) l3 in
+              [minus d least; opposite (plus d least)]
+          | _, _, _ => []
+          end
+      | _ => []
+      end
+  | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat) (rs : list requirement) : list formula :=
   match rs with
   | [] => []
-  | r :: rs' => match range_formula fs s j r with Some f => [f] | None => [] end ++ range_formulas fs s (S j) rs'
+  | r :: rs' => range_formula fs s j r ++ range_formulas fs s (S j) rs'
   end.
 
 Section Precision.
@@ -188,13 +213,84 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
   | NotSingular => Some (SigmaMin zero)
   | PsiMax _ => option_map (fun a => SigmaMin (sqr bits a)) (enclose_parameter bits (bound_of s r))
   | PsiMin _ => option_map (fun a => SigmaMax (sqr bits a)) (enclose_parameter bits (bound_of s r))
-  | JointMin _ _ | JointMax _ _ => option_map (fun f => AtLeast (place f)) (range_formula fs s j r)
+  | ConditionMax _ => option_map (fun a => Conditioning (sqr bits a)) (enclose_parameter bits (bound_of s r))
+  | _ => match range_formula fs s j r with
+         | [f] => Some (AtLeast (place f))
+         | [f; g] => Some (Either (place f) (place g))
+         | _ => None
+         end
   end.
 Fixpoint tests_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j : nat) (rs : list requirement) : list (option test) :=
   match rs with [] => [] | r :: rs' => test_of place fs s j r :: tests_of place fs s (S j) rs' end.
 
 Definition is_lower (r : requirement) : bool := match r with NotSingular | PsiMax _ => true | _ => false end.
 Definition entries (r : rows formula) : list formula := flat_map (fun p => fst p ++ [snd p]) r.
+
+(** ** The workspace *)
+
+(** A box around it. *)
+Definition hull (w : region) : tolerances :=
+  match w with
+  | Box edges => edges
+  | Cylinder x y r height => Tolerances (Within (Minus x r) (Plus x r)) (Within (Minus y r) (Plus y r)) height
+  end.
+
+Lemma hull_sound : forall w P, in_region w P -> all_within (hull w) P.
+Proof.
+  intros [edges | x y r height] P h; [exact h |]. destruct h as [h [r0 hz]].
+  assert (B : forall a b, a ^ 2 + b ^ 2 <= Claim.value r ^ 2 -> - Claim.value r <= a <= Claim.value r).
+  { intros a b k. pose proof (pow2_ge_0 b). split; apply Rnot_lt_le; intro n; nra. }
+  pose proof (B _ _ h) as X. rewrite Rplus_comm in h. pose proof (B _ _ h) as Y.
+  unfold all_within, within. cbn [hull tx ty tz least greatest Claim.value].
+  split; [lra |]. split; [lra | exact hz].
+Qed.
+
+(** The tangent of R^2 - (x - x_0)^2 - (y - y_0)^2, a concave function, at the centre of a cell. *)
+Definition tangent (w : region) (s : Z) (cell : list fixed) : option slope :=
+  match w, cell with
+  | Cylinder x y r _, [X; Y; _] =>
+      match enclose_scaled bits s x, enclose_scaled bits s y, enclose_scaled bits s r with
+      | Some x, Some y, Some r =>
+          let dx := sub (Fixed (midpoint X) (midpoint X)) x in
+          let dy := sub (Fixed (midpoint Y) (midpoint Y)) y in
+          Some (Slope (sub (sub (sqr bits r) (sqr bits dx)) (sqr bits dy)) zero
+            [mul bits (neg (add dx dx)) (Fixed (half X) (half X)); mul bits (neg (add dy dy)) (Fixed (half Y) (half Y))])
+      | _, _, _ => None
+      end
+  | _, _ => None
+  end.
+
+Lemma tangent_sound : forall w s P, in_region w P -> forall cell lambda t, tangent w s cell = Some t ->
+  length lambda = length cell ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell
+    (combine lambda (coordinates (vscale (/ two_to s) P))) ->
+  exists e, entry_in bits t e /\ 0 <= at_lambda lambda e.
+Proof.
+  intros w s P hP cell lambda t h len hd. unfold tangent in h. destruct w as [| x y r height]; [discriminate |].
+  destruct cell as [| X [| Y [| Z [|]]]]; try discriminate.
+  destruct (enclose_scaled bits s x) as [ix |] eqn:e1; [| discriminate].
+  destruct (enclose_scaled bits s y) as [iy |] eqn:e2; [| discriminate].
+  destruct (enclose_scaled bits s r) as [ir |] eqn:e3; [| discriminate]. injection h as <-.
+  destruct lambda as [| lx [| ly [| lz [|]]]]; try discriminate. clear len.
+  apply enclose_scaled_sound in e1, e2, e3. destruct hP as [hP _]. pose proof (two_to_pos s) as s0.
+  unfold coordinates in hd. cbn [combine vscale vx vy vz] in hd.
+  inversion hd as [| ? ? ? ? hx hd1]. inversion hd1 as [| ? ? ? ? hy _]. subst. clear hd hd1. cbn [fst snd] in hx, hy.
+  set (k := / two_to s) in *. assert (k0 : 0 < k) by (apply Rinv_0_lt_compat, s0). unfold Rdiv in e1, e2, e3. fold k in e1, e2, e3.
+  set (cx := centre_of bits X) in *. set (cy := centre_of bits Y) in *.
+  set (dx := cx - Claim.value x * k). set (dy := cy - Claim.value y * k). set (R := Claim.value r * k).
+  set (hX := IZR (half X) / unit_R bits) in *. set (hY := IZR (half Y) / unit_R bits) in *.
+  assert (Dx : contains (sub (Fixed (midpoint X) (midpoint X)) ix) dx) by (apply sub_sound; [apply point_sound | exact e1]).
+  assert (Dy : contains (sub (Fixed (midpoint Y) (midpoint Y)) iy) dy) by (apply sub_sound; [apply point_sound | exact e2]).
+  exists (R ^ 2 - dx ^ 2 - dy ^ 2, [- (dx + dx) * hX; - (dy + dy) * hY]). split; [split |].
+  - cbn [at_c fst]. apply sub_sound; [apply sub_sound |]; apply sqr_sound; assumption.
+  - cbn [slopes snd]. constructor; [| constructor; [| constructor]]; (apply mul_sound; [apply neg_sound, add_sound; assumption | apply point_sound]).
+  - unfold at_lambda. cbn [fst snd dot].
+    assert (G : (vx P - Claim.value x) ^ 2 * k ^ 2 + (vy P - Claim.value y) ^ 2 * k ^ 2 <= R ^ 2).
+    { unfold R. rewrite Rpow_mult_distr. pose proof (pow_lt k 2 k0). nra. }
+    assert (Ex : (vx P - Claim.value x) * k = dx + hX * lx) by (unfold dx; rewrite <- hx; ring).
+    assert (Ey : (vy P - Claim.value y) * k = dy + hY * ly) by (unfold dy; rewrite <- hy; ring).
+    rewrite <- !Rpow_mult_distr, Ex, Ey in G. pose proof (pow2_ge_0 (hX * lx)). pose proof (pow2_ge_0 (hY * ly)). nra.
+Qed.
 
 (** The whole check: formulas, a tape that stands for them, enclosures, the tree.
     [s], [ds], the tape and the tree are evidence. *)
@@ -208,11 +304,11 @@ Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
     if existsb is_lower (require c) then
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c))),
-            all_some (map (enclose_parameter bits) (three (workspace c) s)),
+            all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
             all_some (tests_of (place found) fs s n (require c)) with
       | Some params, Some box, Some tests =>
           check bits tape (map_rows (place found) (whole_rows fs)) (map_rows (place found) (divided_rows fs))
-            params tests box (all_open tests) t
+            params tests (tangent (workspace c) s) box (all_open tests) t
       | _, _, _ => false
       end
     else false
@@ -321,7 +417,7 @@ Qed.
 Variable j : nat.
 Variable r : requirement.
 Hypothesis bound_at : nth j theta 0 = bound_value s r.
-Hypothesis range_found : forall f, range_formula fs s j r = Some f -> formula_at tape (found f) = f.
+Hypothesis range_found : forall f, In f (range_formula fs s j r) -> formula_at tape (found f) = f.
 Variable t : test.
 Hypothesis is_test : test_of found fs s j r = Some t.
 Hypothesis test_holds : Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) theta 3 x t.
@@ -339,7 +435,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ test_holds) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -355,49 +451,149 @@ Proof.
       rewrite speed2_zero. unfold norm2, vzero. cbn. lra.
 Qed.
 
+Hypothesis reached : Forall (reaches P) m.
+
+Lemma nonneg_of : forall f, In f (range_formula fs s j r) -> is_nonneg tape theta x (found f) -> 0 <= value x theta f.
+Proof. intros f i [_ h]. rewrite (range_found f i) in h. exact h. Qed.
+
+Lemma bound_here : value x theta (quantity (bound_of s r) j) = bound_value s r.
+Proof. exact (quantity_value _ _ x theta j (bound_within s r) bound_at). Qed.
+
+(** Of leg [i]: its formulas stand for the leg in the unit of the check. *)
+Lemma leg_at : forall i g, nth_error fs i = Some g ->
+  exists l, nth_error m i = Some l /\ represents Q theta g (resized ratio l) /\ reaches P l.
+Proof.
+  intros i g n. destruct (represents_nth _ _ _ _ _ _ represented n) as [l' [k R]].
+  rewrite nth_error_map in k. destruct (nth_error m i) as [l |] eqn:n0; [| discriminate]. injection k as <-.
+  exists l. split; [reflexivity |]. split; [exact R |]. rewrite Forall_forall in reached.
+  apply reached, (nth_error_In _ _ n0).
+Qed.
+
+Lemma ratio_pos : 0 < ratio.
+Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
+
+(** The requirements that one formula decides: [f], which is not negative. *)
+Lemma sign_fulfilled : forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
+Proof.
+  pose proof ratio_pos as r0. pose proof bound_here as B.
+  intros f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+    try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
+      destruct R0 as [R1 [_ [_ [J [R2 R3]]]]]); cbn [fulfils].
+  - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
+    destruct (resized_same ratio P r0 l) as [_ [e _]]. rewrite e in h. unfold bound_value in h. cbn in h.
+    fold ratio in h. unfold Rdiv in h. fold ratio in h. apply Rmult_le_reg_l with ratio; [exact r0 | lra].
+  - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
+    destruct (resized_same ratio P r0 l) as [_ [e _]]. rewrite e in h. unfold bound_value in h. cbn in h.
+    unfold Rdiv in h. fold ratio in h. apply Rmult_le_reg_l with ratio; [exact r0 | lra].
+  - injection E as <-. exists l. split; [exact n0 |]. intros v hv.
+    destruct (resized_same ratio P r0 l) as [er [_ eq]]. assert (D : 0 < value x theta (f_D g)) by (apply R2, eq, re).
+    destruct (R1 D) as [_ hr]. specialize (hr v). rewrite er in hr. rewrite <- hr.
+    rewrite !value_minus, value_times, !value_square, B in h. set (A := vvalue Q theta (f_A g)) in *.
+    replace (value x theta (ex (f_A g))) with (vx A) in h by reflexivity.
+    replace (value x theta (ey (f_A g))) with (vy A) in h by reflexivity.
+    replace (value x theta (ez (f_A g))) with (vz A) in h by reflexivity.
+    set (k := bound_value s (JointSpeed i tool b)) in *. set (d := value x theta (f_D g)) in *.
+    assert (K : k ^ 2 * Claim.value tool ^ 2 <= Claim.value b ^ 2).
+    { unfold k, bound_value. cbn [bound_of fst snd exactly greatest Claim.value]. rewrite two_to_0.
+      destruct (Req_dec (Claim.value tool) 0) as [z | z].
+      - rewrite z. pose proof (pow2_ge_0 (Claim.value b)). replace (0 ^ 2) with 0 by ring. lra.
+      - apply Req_le. field. exact z. }
+    clearbody k d. assert (C : Vec3.dot A v ^ 2 <= norm2 A * norm2 v).
+    { pose proof (lagrange A v) as La. pose proof (norm2_nonneg (cross A v)). lra. }
+    assert (N : norm2 A <= k ^ 2 * d) by (unfold norm2; lra).
+    pose proof (norm2_nonneg v) as V0. pose proof (pow2_ge_0 k) as K0.
+    apply Rle_trans with (k ^ 2 * norm2 v); [| apply Rle_trans with (2 := K); apply Rmult_le_compat_l; assumption].
+    apply Rmult_le_reg_r with d; [exact D |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l, Rmult_1_r by lra.
+    apply Rle_trans with (1 := C). replace (k ^ 2 * norm2 v * d) with (k ^ 2 * d * norm2 v) by ring.
+    apply Rmult_le_compat_r; assumption.
+  - destruct (f_length g) as [len |] eqn:el; [| discriminate]. injection E as <-.
+    destruct (R3 len eq_refl) as [k [e1 [e2 [e3 _]]]]. destruct (guided_resized ratio P r0 l k e1) as [k' [-> [g1 [g2 _]]]].
+    exists k'. split; [exact n0 |]. assert (D : 0 < value x theta (f_D g)) by (apply R2, (resized_same ratio P r0 _), re).
+    rewrite value_minus, value_times, !value_square, B, e2, (e3 D), g1, g2 in h. unfold bound_value in h. cbn in h.
+    replace (two_to 0) with 1 in h by reflexivity. unfold Rdiv in h. rewrite Rinv_1, Rmult_1_r in h.
+    apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. nra.
+  - destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
+    destruct (f_length f1), (f_length f2), (f_length f3); discriminate.
+Qed.
+
+Lemma cons_related : forall (A B : Type) (R : A -> B -> Prop) a b u v, Forall2 R (a :: u) (b :: v) -> R a b /\ Forall2 R u v.
+Proof. intros A B R a b u v h. inversion h. auto. Qed.
+
+Lemma determinant_value : forall a b c, value x theta (determinant a b c)
+  = det (Mat (vvalue Q theta a) (vvalue Q theta b) (vvalue Q theta c)).
+Proof.
+  intros. unfold determinant, minor. rewrite !value_plus, !value_minus, !value_times, !value_minus, !value_times.
+  unfold det, Vec3.dot, cross, vvalue. cbn [row1 row2 row3 vx vy vz]. ring.
+Qed.
+
+Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
+Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
+
+Lemma margin_fulfilled : forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
+Proof.
+  pose proof ratio_pos as r0. pose proof bound_here as B.
+  intros f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+    try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
+  pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
+  destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
+  destruct (f_length f3) as [len3 |] eqn:q3; [| discriminate]. injection E as <- <-.
+  destruct m as [| m1 [| m2 [| m3 [| m4 rest]]]]; cbn [map] in R0;
+    try (apply related_length in R0; discriminate).
+  apply cons_related in R0 as [H1 R0]. apply cons_related in R0 as [H2 R0]. apply cons_related in R0 as [H3 _].
+  destruct H1 as [_ [_ [_ [_ [_ H1]]]]]. destruct H2 as [_ [_ [_ [_ [_ H2]]]]]. destruct H3 as [_ [_ [_ [_ [_ H3]]]]].
+  destruct (H1 _ q1) as [k1 [a1 [b1 [_ c1]]]]. destruct (H2 _ q2) as [k2 [a2 [b2 [_ c2]]]]. destruct (H3 _ q3) as [k3 [a3 [b3 [_ c3]]]].
+  destruct (guided_resized ratio P r0 _ _ a1) as [p1 [-> [g1 [_ v1]]]].
+  destruct (guided_resized ratio P r0 _ _ a2) as [p2 [-> [g2 [_ v2]]]].
+  destruct (guided_resized ratio P r0 _ _ a3) as [p3 [-> [g3 [_ v3]]]].
+  exists p1, p2, p3. split; [reflexivity |].
+  rewrite value_opposite, value_minus, value_plus, determinant_value, !value_times, B, b1, b2, b3, g1, g2, g3, c1, c2, c3, v1, v2, v3, det_scaled in h.
+  unfold A_matrix. cbn [leg1 leg2 leg3]. unfold bound_value in h. cbn in h.
+  replace (two_to 0) with 1 in h by reflexivity. unfold Rdiv in h. rewrite Rinv_1, Rmult_1_r in h.
+  set (d := det _) in *. set (L := Claim.value b * leg_length p1 * leg_length p2 * leg_length p3).
+  assert (K : Claim.value b * (ratio * leg_length p1) * (ratio * leg_length p2) * (ratio * leg_length p3) = ratio ^ 3 * L) by (unfold L; ring).
+  pose proof (pow_lt ratio 3 r0) as t0. clearbody d L. destruct h as [h | h].
+  - apply Rle_trans with d; [| apply Rle_abs]. apply Rmult_le_reg_l with (ratio ^ 3); [exact t0 |]. cbn [pow] in *. lra.
+  - apply Rle_trans with (- d); [| rewrite <- Rabs_Ropp; apply Rle_abs]. apply Rmult_le_reg_l with (ratio ^ 3); [exact t0 |]. cbn [pow] in *. lra.
+Qed.
+
 Lemma fulfilled : fulfils m P r.
 Proof.
-  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0.
-  assert (Bound : forall b i, r = JointMin i b \/ r = JointMax i b ->
-    value x theta (quantity (bound_of s r) j) = ratio * Claim.value b).
-  { intros b i e. rewrite (quantity_value _ _ x theta j (bound_within s r) bound_at). unfold bound_value, ratio.
-    destruct e as [-> | ->]; cbn; unfold Rdiv; ring. }
+  pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
+  pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF.
+  assert (Sign : match range_formula fs s j r with
+      | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t -> fulfils m P r).
+  { intro E. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
+    - apply (SF f eq_refl), (NN f); [left; reflexivity | exact H].
+    - apply (MF f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
+      + left. reflexivity.
+      + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b]; try discriminate; cbn [test_of] in is_test.
-  - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection is_test as <-.
-    destruct (of_rows_speed _ test_holds) as [h1 [e [h2 h3]]]. intro v.
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [test_of] in T; try exact (Sign T).
+  - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
+    destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
     rewrite <- h3, norm2_dot, <- dot_coordinates.
     apply (h2 _ (coordinates v) (kappa_enclosed (PsiMin b) b a eq_refl E) eq_refl (nonzero_coordinates v nz)).
-  - destruct (range_formula fs s j (JointMin i b)) as [f |] eqn:E; [| discriminate]. injection is_test as <-.
-    destruct test_holds as [_ h]. rewrite (range_found f eq_refl) in h. cbn [range_formula] in E.
-    destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]. injection E as <-.
-    destruct (represents_nth _ _ _ _ _ _ represented n) as [l [k [_ [_ [_ [J _]]]]]].
-    rewrite nth_error_map in k. destruct (nth_error m i) as [l0 |] eqn:n0; [| discriminate]. injection k as <-.
-    exists l0. split; [exact n0 |]. pose proof (Bound b i (or_introl eq_refl)) as K. cbn [bound_of] in K.
-    rewrite value_minus, J, K in h.
-    destruct (resized_same ratio P r0 l0) as [_ [e _]]. rewrite e in h.
-    apply Rmult_le_reg_l with ratio; [exact r0 | lra].
-  - destruct (range_formula fs s j (JointMax i b)) as [f |] eqn:E; [| discriminate]. injection is_test as <-.
-    destruct test_holds as [_ h]. rewrite (range_found f eq_refl) in h. cbn [range_formula] in E.
-    destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]. injection E as <-.
-    destruct (represents_nth _ _ _ _ _ _ represented n) as [l [k [_ [_ [_ [J _]]]]]].
-    rewrite nth_error_map in k. destruct (nth_error m i) as [l0 |] eqn:n0; [| discriminate]. injection k as <-.
-    exists l0. split; [exact n0 |]. pose proof (Bound b i (or_intror eq_refl)) as K. cbn [bound_of] in K.
-    rewrite value_minus, J, K in h.
-    destruct (resized_same ratio P r0 l0) as [_ [e _]]. rewrite e in h.
-    apply Rmult_le_reg_l with ratio; [exact r0 | lra].
+  - destruct (enclose_parameter bits (bound_of s (ConditionMax b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
+    destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intros u v. cbn [fulfils].
+    destruct (vzero_dec u) as [-> | nu]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |].
+    destruct (vzero_dec v) as [-> | nv]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
+    assert (C : contains (sqr bits a) (Claim.value b ^ 2)).
+    { apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (ConditionMax b))) as K.
+      unfold bound_value in K. cbn in K. unfold two_to in K. cbn in K. unfold Rdiv in K. rewrite Rinv_1, Rmult_1_r in K. exact K. }
+    pose proof (h2 _ (coordinates u) (coordinates v) C eq_refl eq_refl (nonzero_coordinates u nu) (nonzero_coordinates v nv)) as Z.
+    rewrite !h3, !dot_coordinates, <- !norm2_dot in Z. lra.
 Qed.
 End Accepted.
 
 (** Every requirement has its test, and its bound its place. *)
 Lemma requirement_at : forall place fs s rs n r, In r rs -> exists k,
   nth_error rs k = Some r /\ In (test_of place fs s (n + k) r) (tests_of place fs s n rs) /\
-  forall f, range_formula fs s (n + k) r = Some f -> In f (range_formulas fs s n rs).
+  forall f, In f (range_formula fs s (n + k) r) -> In f (range_formulas fs s n rs).
 Proof.
   intros place fs s rs. induction rs as [| q rs IH]; intros n r i; [contradiction |]. destruct i as [-> | i].
   - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |].
-    intros f e. cbn [range_formulas]. rewrite e. left. reflexivity.
+    intros f e. cbn [range_formulas]. apply in_or_app. left. exact e.
   - destruct (IH (S n) r i) as [k [h1 [h2 h3]]]. exists (S k). rewrite <- Nat.add_succ_comm. split; [exact h1 |].
     split; [right; exact h2 |]. intros f e. cbn [range_formulas]. apply in_or_app. right. exact (h3 f e).
 Qed.
@@ -412,7 +608,7 @@ Proof.
   destruct (forallb _ needed) eqn:found; [| discriminate].
   destruct (existsb is_lower (require c)) eqn:low; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c)))) as [params |] eqn:ep; [| discriminate].
-  destruct (all_some (map (enclose_parameter bits) (three (workspace c) s))) as [box |] eqn:eb; [| discriminate].
+  destruct (all_some (map (enclose_parameter bits) (three (hull (workspace c)) s))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (tests_of _ fs s n (require c))) as [tests |] eqn:et; [| discriminate].
   assert (Found : forall e, In e needed -> formula_at tape (place (formulas tape) e) = e).
   { rewrite forallb_forall in found. intros e i. apply same_sound, found, i. }
@@ -420,9 +616,13 @@ Proof.
   set (tb := map (bound_value s) (require c)).
   pose proof (bounds_within s (require c)) as B. fold tb in B.
   pose proof (enclosed_all _ _ _ ep (Forall2_app L B)) as T.
-  pose proof (enclosed_all _ _ _ eb (three_within (workspace c) s P hP)) as X.
+  pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
-  pose proof (check_all_open bits tape _ _ params tests (th ++ tb) T t box _ h X) as H. rewrite three_of_them in H.
+  pose proof (check_all_open bits tape _ _ params tests (tangent (workspace c) s) (th ++ tb) T
+    (fun y => y = coordinates (vscale (/ two_to s) P))
+    (fun cell lambda y q e l a d => tangent_sound (workspace c) s P hP cell lambda q e l (eq_ind y (fun z => Forall2
+      (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda z)) d _ a))
+    t box _ h X eq_refl) as H. rewrite three_of_them in H.
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
   assert (ln : length th = n) by (symmetry; apply (related_length _ _ _ _ _ L)).
   assert (W : forall e, In e (entries (whole_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
@@ -430,7 +630,7 @@ Proof.
   assert (V : forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e)
     by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
   assert (Each : forall r, In r (require c) -> exists k u, nth (n + k) (th ++ tb) 0 = bound_value s r /\
-    (forall f, range_formula fs s (n + k) r = Some f -> formula_at tape (place (formulas tape) f) = f) /\
+    (forall f, In f (range_formula fs s (n + k) r) -> formula_at tape (place (formulas tape) f) = f) /\
     test_of (place (formulas tape)) fs s (n + k) r = Some u /\
     Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs))
       (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
@@ -444,6 +644,6 @@ Proof.
   destruct (lower_fulfilled c s ds m P (th ++ tb) tape R W V (n + k0) r0 E1 E2 u0 E3 E4 l0) as [h1 [h2 _]].
   split; [exact h1 |]. split; [exact h2 |]. apply Forall_forall. intros r i.
   destruct (Each r i) as [k [u [F1 [F2 [F3 F4]]]]].
-  exact (fulfilled c s ds m P (th ++ tb) tape R W V (n + k) r F1 F2 u F3 F4).
+  exact (fulfilled c s ds m P (th ++ tb) tape R W V (n + k) r F1 F2 u F3 F4 h1).
 Qed.
 End Precision.

@@ -67,13 +67,29 @@ Definition is_leg_of (d : drive) (l : leg) : Prop :=
   | _, _ => False
   end.
 
+(** Of points of the platform: a box, or a cylinder parallel to z. *)
+Inductive region :=
+  | Box (edges : tolerances)
+  | Cylinder (center_x center_y radius : number) (height : tolerance).
+
+Definition in_region (w : region) (P : vec) : Prop :=
+  match w with
+  | Box edges => all_within edges P
+  | Cylinder x y radius height =>
+      (vx P - value x) ^ 2 + (vy P - value y) ^ 2 <= value radius ^ 2 /\ 0 <= value radius /\ within height (vz P)
+  end.
+
 (** Legs are counted from zero. *)
 Inductive requirement :=
   | NotSingular
   | PsiMax (b : number) | PsiMin (b : number)          (* velocity transmission factors *)
-  | JointMin (leg : nat) (b : number) | JointMax (leg : nat) (b : number).
+  | JointMin (leg : nat) (b : number) | JointMax (leg : nat) (b : number)
+  | JointSpeed (leg : nat) (tool b : number)           (* of no velocity of the platform up to [tool] *)
+  | ConditionMax (b : number)                          (* sigma_max / sigma_min *)
+  | SerialMargin (leg : nat) (b : number)              (* |eta| / L, of sliders *)
+  | ParallelMargin (b : number).                       (* |det A| / (L_1 L_2 L_3), of three sliders *)
 
-Record claim := MakeClaim { legs : list drive; workspace : tolerances; require : list requirement }.
+Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
 (** [m] is one of the machines that the claim is about. *)
 Definition is_machine (c : claim) (m : list leg) : Prop := Forall2 is_leg_of (legs c) m.
@@ -88,6 +104,12 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | PsiMin b => forall v, speed2 m P v <= (1 / value b) ^ 2 * norm2 v
   | JointMin i b => exists l, nth_error m i = Some l /\ value b <= joint l P
   | JointMax i b => exists l, nth_error m i = Some l /\ joint l P <= value b
+  | JointSpeed i tool b => exists l, nth_error m i = Some l /\
+      forall v, norm2 v <= value tool ^ 2 -> dot (row l P) v ^ 2 <= value b ^ 2
+  | ConditionMax b => forall u v, speed2 m P u * norm2 v <= value b ^ 2 * (speed2 m P v * norm2 u)
+  | SerialMargin i b => exists k, nth_error m i = Some (Guided k) /\ (value b * leg_length k) ^ 2 <= eta k P ^ 2
+  | ParallelMargin b => exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\
+      value b * leg_length l1 * leg_length l2 * leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P))
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)
@@ -95,4 +117,4 @@ Definition meets (c : claim) (m : list leg) (P : vec) : Prop :=
   Forall (reaches P) m /\ injective m P /\ Forall (fulfils m P) (require c).
 
 Definition holds (c : claim) : Prop :=
-  forall m P, is_machine c m -> all_within (workspace c) P -> meets c m P.
+  forall m P, is_machine c m -> in_region (workspace c) P -> meets c m P.

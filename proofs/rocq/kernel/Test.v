@@ -87,6 +87,19 @@ Proof.
     assert (0 <= (1 - t) / 2 * g (-1 :: l)) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
+(** The same, where the vertices may be zero. *)
+Lemma vertices_decide_weakly : forall lambda (g : list R -> R), Forall (fun t => -1 <= t <= 1) lambda ->
+  (forall before t after, g (before ++ t :: after)
+     = (1 + t) / 2 * g (before ++ 1 :: after) + (1 - t) / 2 * g (before ++ -1 :: after)) ->
+  (forall s, length s = length lambda -> 0 <= g (map corner s)) -> 0 <= g lambda.
+Proof.
+  intros lambda g hl affine h. apply Rnot_lt_le. intro n.
+  assert (p : 0 < g lambda + - g lambda); [| lra].
+  apply (vertices_decide lambda (fun l => g l + - g lambda) hl).
+  - intros. rewrite affine. field.
+  - intros s e. specialize (h s e). lra.
+Qed.
+
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
@@ -221,29 +234,44 @@ Proof.
 Qed.
 End Lower.
 
-Definition sigma_min (m : nat) (kappa2 : fixed) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
-  at_vertices m r (fun i =>
-    let t := lower_triangle places Y i (repeat [neg kappa2] m) in
-    if Nat.eqb (length t) m then is_positive_definite t else false).
+(** A bound may differ from vertex to vertex: it is a slope, as if it were the D of a row before the others. *)
+Definition with_bound (k : slope) (r : rows slope) : rows slope := ([], k) :: r.
+
+Lemma with_bound_rel : forall k e r es, entry_in k e -> rows_rel entry_in r es ->
+  rows_rel entry_in (with_bound k r) (([], e) :: es).
+Proof. intros. constructor; [split; [constructor | assumption] | assumption]. Qed.
+
+Definition sigma_min (m : nat) (k : slope) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
+  at_vertices m (with_bound k r) (fun i =>
+    match i with
+    | (_, kappa2) :: i' =>
+        let t := lower_triangle places Y i' (repeat [neg kappa2] m) in
+        if Nat.eqb (length t) m then is_positive_definite t else false
+    | [] => false
+    end).
 
 Lemma diagonal_in : forall a c n, contains a c -> triangle_in bits (repeat [a] n) (diagonal n c).
 Proof. intros a c n h. unfold diagonal, triangle_in. induction n; cbn [repeat]; constructor; auto. Qed.
 
-Theorem sigma_min_sound : forall kappa2 places Y r es lambda k2 v,
-  sigma_min (length lambda) kappa2 places Y r = true -> contains kappa2 k2 ->
+Theorem sigma_min_sound : forall k places Y r es e lambda v,
+  sigma_min (length lambda) k places Y r = true -> entry_in k e ->
   rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
   length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
-  k2 * dot v v < energy (map_rows (at_lambda lambda) es) v.
+  at_lambda lambda e * dot v v < energy (map_rows (at_lambda lambda) es) v.
 Proof.
-  intros kappa2 places Y r es lambda k2 v h hk hr hl e nz hp.
+  intros k places Y r es e lambda v h hk hr hl len nz hp.
   pose proof (lower_energy places Y _ v hp) as q.
-  enough (0 < - (k2 * dot v v) + form (lower_weights places Y v) (map_rows (at_lambda lambda) es) v) by lra.
-  apply (at_vertices_sound _ _ _ _ _ _ _ h hr hl). intros i s t hs. cbn zeta in t.
-  destruct (Nat.eqb_spec (length (lower_triangle places Y i (repeat [neg kappa2] (length lambda)))) (length lambda)) as [l | l];
+  pose proof (at_vertices_sound _ _ _ _ ((0, - dot v v) :: lower_weights places Y v) 0 v h (with_bound_rel _ _ _ _ hk hr) hl) as V.
+  rewrite map_rows_cons in V. cbn [form] in V.
+  enough (0 < 0 + (0 * dot (map (at_lambda lambda) []) v + - dot v v * at_lambda lambda e + form (lower_weights places Y v)
+    (map_rows (at_lambda lambda) es) v)) by lra.
+  apply V. intros i s t hs. destruct hs as [| [a0 d] [b0 k2] i s [_ hd] hs]; [discriminate |]. cbn [snd] in hd. cbn zeta in t.
+  destruct (Nat.eqb_spec (length (lower_triangle places Y i (repeat [neg d] (length lambda)))) (length lambda)) as [l | l];
     [| discriminate].
-  destruct (lower_triangle_sound places Y i s _ _ v hs (diagonal_in _ _ (length lambda) (neg_sound bits _ _ hk))) as [T [hT le]].
+  destruct (lower_triangle_sound places Y i s _ _ v hs (diagonal_in _ _ (length lambda) (neg_sound bits _ _ hd))) as [T [hT le]].
   pose proof (is_positive_definite_sound bits _ T t hT v) as P.
-  rewrite <- e, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hT) in l. specialize (P ltac:(congruence) nz). lra.
+  rewrite <- len, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hT) in l. specialize (P ltac:(congruence) nz).
+  cbn [form]. lra.
 Qed.
 
 (** ** sigma_max: [[D, A], [A^T, k^2 I]], the D_i eliminated first *)
@@ -276,11 +304,15 @@ Proof.
     assert (g * x ^ 2 <= e * x ^ 2) by (apply Rmult_le_compat_r; [apply pow2_ge_0 | exact le]). lra.
 Qed.
 
-Definition sigma_max (m : nat) (k2 : fixed) (r : rows slope) : bool :=
-  at_vertices m r (fun i =>
-    match upper_triangle i (repeat [k2] m) with
-    | Some t => if Nat.eqb (length t) m then is_positive_definite t else false
-    | None => false
+Definition sigma_max (m : nat) (k : slope) (r : rows slope) : bool :=
+  at_vertices m (with_bound k r) (fun i =>
+    match i with
+    | (_, k2) :: i' =>
+        match upper_triangle i' (repeat [k2] m) with
+        | Some t => if Nat.eqb (length t) m then is_positive_definite t else false
+        | None => false
+        end
+    | [] => false
     end).
 
 Lemma upper_energy : forall r v, positive_D r -> exists w, form (upper_weights w) r v = - energy r v.
@@ -289,20 +321,172 @@ Proof.
   exists (- (dot a v / d) :: w). cbn [upper_weights map form energy snd] in *. fold (upper_weights w). rewrite IH. field. lra.
 Qed.
 
-Theorem sigma_max_sound : forall k2 r es lambda c v,
-  sigma_max (length lambda) k2 r = true -> contains k2 c ->
+Theorem sigma_max_sound : forall k r es e lambda v,
+  sigma_max (length lambda) k r = true -> entry_in k e ->
   rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
   length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
-  energy (map_rows (at_lambda lambda) es) v < c * dot v v.
+  energy (map_rows (at_lambda lambda) es) v < at_lambda lambda e * dot v v.
 Proof.
-  intros k2 r es lambda c v h hk hr hl e nz hp. destruct (upper_energy _ v hp) as [w E].
-  enough (0 < c * dot v v + form (upper_weights w) (map_rows (at_lambda lambda) es) v) by lra.
-  apply (at_vertices_sound _ _ _ _ _ _ _ h hr hl). intros i s t hs.
-  destruct (upper_triangle i (repeat [k2] (length lambda))) as [T |] eqn:u; [| discriminate].
+  intros k r es e lambda v h hk hr hl len nz hp. destruct (upper_energy _ v hp) as [w E].
+  pose proof (at_vertices_sound _ _ _ _ ((0, dot v v) :: upper_weights w) 0 v h (with_bound_rel _ _ _ _ hk hr) hl) as V.
+  rewrite map_rows_cons in V. cbn [form] in V.
+  enough (0 < 0 + (0 * dot (map (at_lambda lambda) []) v + dot v v * at_lambda lambda e + form (upper_weights w)
+    (map_rows (at_lambda lambda) es) v)) by lra.
+  apply V. intros i s t hs. destruct hs as [| [a0 d] [b0 k2] i s [_ hd] hs]; [discriminate |]. cbn [snd] in hd.
+  destruct (upper_triangle i (repeat [d] (length lambda))) as [T |] eqn:u; [| discriminate].
   destruct (Nat.eqb_spec (length T) (length lambda)) as [l | l]; [| discriminate].
-  destruct (upper_triangle_sound i s _ _ v T hs (diagonal_in _ _ (length lambda) hk) u) as [U [hU le]].
+  destruct (upper_triangle_sound i s _ _ v T hs (diagonal_in _ _ (length lambda) hd) u) as [U [hU le]].
   pose proof (is_positive_definite_sound bits _ U t hU v) as P.
-  specialize (le w). rewrite <- e, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hU) in l.
-  specialize (P ltac:(congruence) nz). lra.
+  specialize (le w). rewrite <- len, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hU) in l.
+  specialize (P ltac:(congruence) nz). cbn [form]. lra.
+Qed.
+
+(** ** Full rank: Y^T A + A^T Y, with no D *)
+
+Definition without_D (z : slope) (r : rows slope) : rows slope := map (fun p => (fst p, z)) r.
+Definition full_rank (m : nat) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
+  sigma_min m (Slope zero zero []) places Y (without_D (Slope zero zero []) r).
+
+Lemma rank_energy : forall places Y r v, positive_D r ->
+  0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v -> 0 < energy r v.
+Proof.
+  intros places Y r v h. assert (N : forall r, positive_D r -> 0 <= energy r v).
+  { induction 1 as [| [a d] q h1 _ IH]; cbn [energy snd] in *; [lra |].
+    assert (0 <= dot a v ^ 2 / d) by (apply Rmult_le_pos; [apply pow2_ge_0 | apply Rlt_le, Rinv_0_lt_compat, h1]). lra. }
+  revert Y. induction h as [| [a d] r h1 h IH]; intros [| y Y] p; cbn [lower_weights map form energy fst snd] in *; try lra.
+  specialize (N r h). destruct (Req_dec (dot a v) 0) as [z | z].
+  - rewrite z in *. set (s := dot (map (Y_value places) y) v) in *. change (map _ Y) with (lower_weights places Y v) in p.
+    clearbody s. rewrite !Rmult_0_r, !Rplus_0_l in p. specialize (IH Y). replace (0 ^ 2 / d) with 0 by (unfold Rdiv; ring).
+    specialize (IH p). lra.
+  - assert (0 < dot a v ^ 2 / d); [| lra]. apply Rdiv_lt_0_compat; [| exact h1].
+    rewrite <- Rsqr_pow2. apply Rlt_0_sqr, z.
+Qed.
+
+Theorem full_rank_sound : forall places Y r es lambda v,
+  full_rank (length lambda) places Y r = true ->
+  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
+  length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
+  0 < energy (map_rows (at_lambda lambda) es) v.
+Proof.
+  intros places Y r es lambda v h hr hl len nz hp. apply (rank_energy places Y _ v hp).
+  assert (Z : entry_in (Slope zero zero []) (0, [])) by (split; [apply zero_sound | constructor]).
+  set (es0 := map (fun p => (fst p, (0, [] : list R))) es).
+  assert (R0 : rows_rel entry_in (without_D (Slope zero zero []) r) es0)
+    by (eapply map_related; [| exact hr]; intros a b [k _]; split; [exact k | exact Z]).
+  assert (E : map_rows (at_lambda lambda) es0 = map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)).
+  { unfold es0, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. unfold at_lambda at 2. cbn. f_equal. ring. }
+  pose proof (at_vertices_sound _ _ _ _ ((0, - dot v v) :: lower_weights places Y v) 0 v h (with_bound_rel _ _ _ _ Z R0) hl) as V.
+  rewrite map_rows_cons, E in V. cbn [form] in V.
+  enough (0 < 0 + (0 * dot (map (at_lambda lambda) []) v + - dot v v * at_lambda lambda (0, []) + form (lower_weights places Y v)
+    (map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)) v)) by (replace (at_lambda lambda (0, [])) with 0 in H by (unfold at_lambda; cbn; ring);
+      rewrite Rmult_0_l, Rmult_0_r, !Rplus_0_l in H; exact H).
+  apply V. intros i s t hs. destruct hs as [| [a0 d] [b0 k2] i s [_ hd] hs]; [discriminate |]. cbn [snd] in hd. cbn zeta in t.
+  destruct (Nat.eqb_spec (length (lower_triangle places Y i (repeat [neg d] (length lambda)))) (length lambda)) as [l | l];
+    [| discriminate].
+  destruct (lower_triangle_sound places Y i s _ _ v hs (diagonal_in _ _ (length lambda) (neg_sound bits _ _ hd))) as [T [hT le]].
+  pose proof (is_positive_definite_sound bits _ T t hT v) as P.
+  rewrite <- len, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hT) in l. specialize (P ltac:(congruence) nz).
+  cbn [form]. lra.
+Qed.
+
+(** ** A sign at the vertices *)
+
+Definition sign_there (m : nat) (f : slope) : bool := forallb (fun s => (0 <=? lo (at_vertex s f))%Z) (signs m).
+
+Theorem sign_there_sound : forall f e lambda, sign_there (length lambda) f = true -> entry_in f e ->
+  Forall (fun t => -1 <= t <= 1) lambda -> 0 <= at_lambda lambda e.
+Proof.
+  intros f e lambda h he hl. unfold sign_there in h. rewrite forallb_forall in h.
+  apply (vertices_decide_weakly lambda (fun l => at_lambda l e) hl).
+  - intros before t after. apply at_lambda_affine.
+  - intros s len. apply (contains_nonneg bits (at_vertex s f)).
+    + apply Z.leb_le, h. rewrite <- len. apply signs_all.
+    + apply at_vertex_sound, he.
+Qed.
+
+Definition positive_there (m : nat) (f : slope) : bool := forallb (fun s => (0 <? lo (at_vertex s f))%Z) (signs m).
+
+Theorem positive_there_sound : forall f e lambda, positive_there (length lambda) f = true -> entry_in f e ->
+  Forall (fun t => -1 <= t <= 1) lambda -> 0 < at_lambda lambda e.
+Proof.
+  intros f e lambda h he hl. unfold positive_there in h. rewrite forallb_forall in h.
+  apply (vertices_decide lambda (fun l => at_lambda l e) hl).
+  - intros before t after. apply at_lambda_affine.
+  - intros s len. apply (contains_positive bits (at_vertex s f)).
+    + apply Z.ltb_lt, h. rewrite <- len. apply signs_all.
+    + apply at_vertex_sound, he.
+Qed.
+
+(** Negative at the vertices, and so not to be found. *)
+Definition negative_there (m : nat) (f : slope) : bool := forallb (fun s => (hi (at_vertex s f) <? 0)%Z) (signs m).
+
+Theorem negative_there_sound : forall f e lambda, negative_there (length lambda) f = true -> entry_in f e ->
+  Forall (fun t => -1 <= t <= 1) lambda -> at_lambda lambda e < 0.
+Proof.
+  intros f e lambda h he hl. unfold negative_there in h. rewrite forallb_forall in h.
+  enough (0 < - at_lambda lambda e) by lra.
+  apply (vertices_decide lambda (fun l => - at_lambda l e) hl).
+  - intros before t after. rewrite at_lambda_affine. field.
+  - intros s len. specialize (h s). rewrite <- len in h. specialize (h (signs_all s)). apply Z.ltb_lt in h.
+    destruct (at_vertex_sound s f e he) as [_ u]. pose proof (unit_R_pos bits). apply IZR_lt in h.
+    assert (at_lambda (map corner s) e * unit_R bits < 0) by lra. nra.
+Qed.
+
+(** ** Sums of slopes as functions of lambda *)
+
+Definition dyadic_slope (n : Z) (places : N) (t : slope) : slope :=
+  Slope (dyadic n places (at_c t)) (range t) (map (dyadic n places) (slopes t)).
+Definition total (f t : slope) : slope :=
+  Slope (add (at_c f) (at_c t)) (range f) (merge (fun a => a) (fun b => b) add (slopes f) (slopes t)).
+Definition multiple (a : fixed) (t : slope) : slope := Slope (mul bits a (at_c t)) (range t) (map (mul bits a) (slopes t)).
+Definition difference (f t : slope) : slope :=
+  Slope (sub (at_c f) (at_c t)) (range f) (merge (fun a => a) neg sub (slopes f) (slopes t)).
+
+Lemma dyadic_in : forall n places t e, entry_in t e ->
+  exists e', entry_in (dyadic_slope n places t) e' /\ forall l, at_lambda l e' = IZR n / IZR (2 ^ Z.of_N places) * at_lambda l e.
+Proof.
+  intros n places t [y u] [h1 h2]. set (q := IZR n / IZR (2 ^ Z.of_N places)). exists (q * y, map (Rmult q) u). split.
+  - split; [apply dyadic_sound, h1 |]. cbn [dyadic_slope slopes snd] in *. eapply map_related; [| exact h2].
+    intros a x h. apply dyadic_sound, h.
+  - intro l. unfold at_lambda. cbn [fst snd]. rewrite dot_map. ring.
+Qed.
+
+Lemma multiple_in : forall a x t e, contains a x -> entry_in t e ->
+  exists e', entry_in (multiple a t) e' /\ forall l, at_lambda l e' = x * at_lambda l e.
+Proof.
+  intros a x t [y u] h [h1 h2]. exists (x * y, map (Rmult x) u). split.
+  - split; [apply mul_sound; assumption |]. cbn [multiple slopes snd] in *. eapply map_related; [| exact h2].
+    intros b z k. apply mul_sound; assumption.
+  - intro l. unfold at_lambda. cbn [fst snd]. rewrite dot_map. ring.
+Qed.
+
+Lemma total_in : forall f t e d, entry_in f e -> entry_in t d ->
+  exists e', entry_in (total f t) e' /\ forall l, at_lambda l e' = at_lambda l e + at_lambda l d.
+Proof.
+  intros f t [y u] [z w] [h1 h2] [k1 k2]. exists (y + z, comb 1 1 u w). split.
+  - split; [apply add_sound; assumption |]. cbn [total slopes snd] in *.
+    eapply (merge_related _ _ _ _ _ _ contains contains contains); try eassumption.
+    + intros a x h. rewrite Rmult_1_l. exact h.
+    + intros a x h. rewrite Rmult_1_l. exact h.
+    + intros a x b x' h k. rewrite !Rmult_1_l. apply add_sound; assumption.
+  - intro l. unfold at_lambda. cbn [fst snd]. rewrite dot_comb. ring.
+Qed.
+
+Lemma constant_in : forall a x, contains a x -> entry_in (constant a) (x, []).
+Proof. intros a x h. split; [exact h | constructor]. Qed.
+
+Lemma at_constant : forall l x, at_lambda l (x, []) = x.
+Proof. intros. unfold at_lambda. cbn. ring. Qed.
+
+Lemma difference_in : forall f t e d, entry_in f e -> entry_in t d ->
+  exists e', entry_in (difference f t) e' /\ forall l, at_lambda l e' = at_lambda l e - at_lambda l d.
+Proof.
+  intros f t [y u] [z w] [h1 h2] [k1 k2]. exists (y - z, comb 1 (-1) u w). split.
+  - split; [apply sub_sound; assumption |]. cbn [difference slopes snd] in *.
+    eapply (merge_related _ _ _ _ _ _ contains contains contains); try eassumption.
+    + intros a x h. rewrite Rmult_1_l. exact h.
+    + intros a x h. replace (-1 * x) with (- x) by ring. apply neg_sound, h.
+    + intros a x b x' h k. replace (1 * x + -1 * x') with (x - x') by ring. apply sub_sound; assumption.
+  - intro l. unfold at_lambda. cbn [fst snd]. rewrite dot_comb. ring.
 Qed.
 End Precision.

@@ -47,23 +47,20 @@ pub(super) fn kernel(claim: &MachineClaim, proof: &Proof) -> Result<String, Expo
     let Mechanism::Translational(legs) = &claim.mechanism else {
         return Err(ExportError::NotTranslational);
     };
-    let Workspace::Box { min, max } = &claim.workspace else {
-        return Err(ExportError::NotABox);
-    };
     let problem = Problem::new(claim).map_err(|_| ExportError::NotWellFormed)?;
     let mut out = String::from(HEADER);
     for (number, leg) in legs.iter().enumerate() {
         let _ = writeln!(out, "Definition leg_{} : drive :=\n  {}.\n", number + 1, drive(leg)?);
     }
-    let edges: Vec<String> = min.iter().zip(max).map(|(min, max)| between(min, max)).collect();
-    let _ = writeln!(out, "Definition box : tolerances :=\n  Tolerances {}.\n", edges.join(" "));
+    let _ =
+        writeln!(out, "Definition the_workspace : region :=\n  {}.\n", region(&claim.workspace)?);
     let stated = |obligation: &Obligation| stated(claim, obligation);
     let stated = problem.obligations.iter().map(stated).collect::<Result<Vec<_>, _>>()?;
     let requirements: Vec<&str> = stated.iter().map(|stated| &*stated.requirement).collect();
     let names: Vec<String> = (1..=legs.len()).map(|leg| format!("leg_{leg}")).collect();
     let _ = writeln!(
         out,
-        "Definition the_claim : claim :=\n  MakeClaim [{}] box [{}].\n",
+        "Definition the_claim : claim :=\n  MakeClaim [{}] the_workspace [{}].\n",
         names.join("; "),
         requirements.join("; ")
     );
@@ -108,7 +105,7 @@ fn theorem(out: &mut String, tree: &Tree, units: &str, stated: &[Stated]) {
     let _ = write!(
         out,
         "Lemma checked : {check} = true.\nProof. vm_cast_no_check (eq_refl true). Qed.\n\n\
-         Theorem certified : forall m P, is_machine the_claim m -> all_within box P ->\n  \
+         Theorem certified : forall m P, is_machine the_claim m -> in_region the_workspace P ->\n  \
          Forall (reaches P) m /\\\n  (forall v, v <> vzero -> 0 < speed2 m P v){sentences}.\n\
          Proof.\n  intros m P hm hP.\n  \
          destruct (check_claim_sound _ _ _ _ _ checked m P hm hP) as [reached [regular met]].\n  \
@@ -124,6 +121,21 @@ fn theorem(out: &mut String, tree: &Tree, units: &str, stated: &[Stated]) {
         }
     };
     let _ = writeln!(out, "{uses}.\nQed.");
+}
+
+fn region(workspace: &Workspace) -> Result<String, ExportError> {
+    match workspace {
+        Workspace::Box { min, max } => {
+            let edge = |(min, max)| between(min, max);
+            let edges: Vec<String> = min.iter().zip(max).map(edge).collect();
+            Ok(format!("Box (Tolerances {})", edges.join(" ")))
+        }
+        Workspace::Cylinder { center: [x, y], radius, z: [bottom, top] } => {
+            let [x, y, radius] = [x, y, radius].map(number);
+            Ok(format!("Cylinder {x} {y} {radius} {}", between(bottom, top)))
+        }
+        Workspace::Cube { .. } => Err(ExportError::Cube),
+    }
 }
 
 fn drive(leg: &Leg) -> Result<String, ExportError> {
@@ -149,7 +161,7 @@ fn stated(claim: &MachineClaim, obligation: &Obligation) -> Result<Stated, Expor
     let Some(requirement) = obligation.requirement else {
         return Ok(Stated { requirement: "NotSingular".to_owned(), sentence: None });
     };
-    let Requirement { quantity, bound, .. } =
+    let Requirement { quantity, bound, given, .. } =
         claim.require.get(requirement).ok_or(ExportError::NotATree)?;
     let leg = obligation.leg.unwrap_or(0);
     let joint =
@@ -172,6 +184,39 @@ fn stated(claim: &MachineClaim, obligation: &Obligation) -> Result<Stated, Expor
         ("joint_range", Bound::Max(b)) => {
             let b = number(b);
             (format!("(JointMax {leg} {b})"), joint(format!("joint l P <= value {b}")))
+        }
+        ("joint_speed", Bound::Max(b)) => {
+            let tool = given
+                .get("tool")
+                .and_then(|tool| tool.first())
+                .ok_or(ExportError::NotWellFormed)?;
+            let (b, tool) = (number(b), number(tool));
+            let slow = format!(
+                "forall v, norm2 v <= value {tool} ^ 2 -> dot (row l P) v ^ 2 <= value {b} ^ 2"
+            );
+            (format!("(JointSpeed {leg} {tool} {b})"), joint(slow))
+        }
+        ("conditioning", Bound::Max(b)) => {
+            let b = number(b);
+            let even = format!(
+                "(forall u v, speed2 m P u * norm2 v <= value {b} ^ 2 * (speed2 m P v * norm2 u))"
+            );
+            (format!("(ConditionMax {b})"), Some(even))
+        }
+        ("serial_margin", Bound::Min(b)) => {
+            let b = number(b);
+            let far = format!(
+                "(exists k, nth_error m {leg} = Some (Guided k) /\\ (value {b} * leg_length k) ^ 2 <= eta k P ^ 2)"
+            );
+            (format!("(SerialMargin {leg} {b})"), Some(far))
+        }
+        ("parallel_margin", Bound::Min(b)) => {
+            let b = number(b);
+            let far = format!(
+                "(exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\\ value {b} * leg_length l1 * leg_length l2 * \
+                 leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P)))"
+            );
+            (format!("(ParallelMargin {b})"), Some(far))
         }
         (key, _) => {
             let known = TABLE.iter().find(|quantity| quantity.key == key);
@@ -270,27 +315,38 @@ pub(super) fn node(
     Ok(())
 }
 
-fn step(Step(obligation, evidence): &Step) -> Result<String, ExportError> {
-    let evidence = match evidence {
+fn step(Step(obligation, step): &Step) -> Result<String, ExportError> {
+    Ok(format!("({obligation}, {})", evidence(step)?))
+}
+
+fn evidence(step: &Evidence) -> Result<String, ExportError> {
+    Ok(match step {
         Evidence::Test => "ByTest".to_owned(),
         Evidence::Divided => "ByDivided".to_owned(),
         Evidence::Lower(y) => format!("ByLower {}", multiplier(y)),
         Evidence::LowerDivided(y) => format!("ByLowerDivided {}", multiplier(y)),
+        Evidence::Rank(y) => format!("ByRank {}", multiplier(y)),
+        Evidence::Conditioning(y, mu) => {
+            format!("ByConditioning {} {}%Z", multiplier(y), integers(mu))
+        }
+        Evidence::Negative => "ByNegative".to_owned(),
         Evidence::Corner(Corner::Q1) => "ByCorner Q1".to_owned(),
         Evidence::Corner(Corner::Q2) => "ByCorner Q2".to_owned(),
         Evidence::Mirror => "ByMirror".to_owned(),
+        Evidence::Outside => "Outside".to_owned(),
+        Evidence::Inside(inner, n, places) => {
+            format!("Inside ({}) ({n})%Z {places}", evidence(inner)?)
+        }
         other => return Err(ExportError::Evidence(other.name())),
-    };
-    Ok(format!("({obligation}, {evidence})"))
+    })
+}
+
+fn integers(row: &[i64]) -> String {
+    let row: Vec<String> = row.iter().map(|y| format!("({y})")).collect();
+    format!("[{}]", row.join("; "))
 }
 
 fn multiplier(y: &Multiplier) -> String {
-    let rows: Vec<String> =
-        y.y.iter()
-            .map(|row| {
-                let row: Vec<String> = row.iter().map(|y| format!("({y})")).collect();
-                format!("[{}]", row.join("; "))
-            })
-            .collect();
+    let rows: Vec<String> = y.y.iter().map(|row| integers(row)).collect();
     format!("{} [{}]%Z", y.places, rows.join("; "))
 }

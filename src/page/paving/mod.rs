@@ -162,6 +162,7 @@ impl<'a> PavingPage<'a> {
             sections: &self.sections(),
             provenance: &certificate::Provenance { tool, version },
             data: &data,
+            verified: None,
         }
         .html()
     }

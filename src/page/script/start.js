@@ -20,6 +20,7 @@ const start = () => {
   });
   preferred.addEventListener("change", say);
   say();
+  startReproof();
 };
 
 start();

@@ -1,0 +1,472 @@
+(** * Refutations by a machine and a point, and claims that are about something
+
+    A witness is one machine and one point in exact numbers.  What a
+    requirement says of it is again a number, built by the functions of
+    Statement.v on expressions instead of reals, and enclosed (Number.v).
+
+    The same test of membership, at the least ends of all tolerances, shows that
+    a certified claim is about at least one machine and one point. *)
+
+From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
+From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
+From Orthocert.kernel Require Import Statement Arithmetic Number Machine Problem.
+Import ListNotations.
+Local Open Scope R_scope.
+
+(** ** Comparing numbers *)
+
+Fixpoint same (x y : number) : bool :=
+  match x, y with
+  | Ratio n d, Ratio n' d' => (n =? n')%Z && (d =? d')%positive
+  | Plus a b, Plus a' b' | Minus a b, Minus a' b' | Times a b, Times a' b' | Over a b, Over a' b' => same a a' && same b b'
+  | Root a, Root a' => same a a'
+  | _, _ => false
+  end.
+
+Lemma same_sound : forall x y, same x y = true -> x = y.
+Proof.
+  induction x; destruct y; cbn [same]; intro h; try discriminate;
+    try (apply andb_true_iff in h as [h k]; f_equal; auto); [| | f_equal; auto].
+  - apply Z.eqb_eq, h.
+  - apply Pos.eqb_eq, k.
+Qed.
+
+(** The number, where it has no roots. *)
+Fixpoint rational (x : number) : option Q :=
+  let both f a b := match rational a, rational b with Some p, Some q => f p q | _, _ => None end in
+  match x with
+  | Ratio n d => Some (n # d)%Q
+  | Plus a b => both (fun p q => Some (Qplus p q)) a b
+  | Minus a b => both (fun p q => Some (Qminus p q)) a b
+  | Times a b => both (fun p q => Some (Qmult p q)) a b
+  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
+  | Root _ => None
+  end.
+
+Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
+Proof.
+  induction x as [n d | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a _]; intros q h; cbn [rational] in h; [| | | | | discriminate];
+    try (destruct (rational a) as [p |]; [| discriminate]; destruct (rational b) as [r |]; [| discriminate];
+      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
+  - injection h as <-. reflexivity.
+  - injection h as <-. symmetry. apply Q2R_plus.
+  - injection h as <-. symmetry. apply Q2R_minus.
+  - injection h as <-. symmetry. apply Q2R_mult.
+  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
+    intro e. apply Qeq_bool_iff in e. congruence.
+Qed.
+
+Section Precision.
+Variable bits : positive.
+
+(** [0 <= x], or [0 < x]. *)
+Definition certainly (strictly : bool) (x : number) : bool :=
+  match rational x with
+  | Some q => if strictly then negb (Qle_bool q 0) else Qle_bool 0 q
+  | None => match enclose bits x with Some a => if strictly then (0 <? lo a)%Z else (0 <=? lo a)%Z | None => false end
+  end.
+
+Lemma positive_sound : forall x, certainly true x = true -> 0 < value x.
+Proof.
+  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
+  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qlt_Rlt, Qnot_le_lt.
+    intro l. apply Qle_bool_iff in l. rewrite l in h. discriminate.
+  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.ltb_lt in h.
+    exact (contains_positive bits _ _ h (enclose_sound bits _ _ e)).
+Qed.
+
+Lemma nonneg_sound : forall x, certainly false x = true -> 0 <= value x.
+Proof.
+  intros x h. unfold certainly in h. destruct (rational x) as [q |] eqn:r.
+  - rewrite (rational_sound _ _ r). replace 0 with (Q2R 0) by (unfold Q2R; cbn; lra). apply Qle_Rle, Qle_bool_iff, h.
+  - destruct (enclose bits x) as [a |] eqn:e; [| discriminate]. apply Z.leb_le in h.
+    exact (contains_nonneg bits _ _ h (enclose_sound bits _ _ e)).
+Qed.
+
+Definition below (x y : number) : bool := same x y || certainly false (Minus y x).
+
+Lemma below_sound : forall x y, below x y = true -> value x <= value y.
+Proof.
+  intros x y h. apply orb_true_iff in h as [h | h]; [apply same_sound in h; subst; lra |].
+  apply nonneg_sound in h. cbn [value] in h. lra.
+Qed.
+
+(** ** Vectors of numbers *)
+
+Record numbers := Numbers { nx : number; ny : number; nz : number }.
+Definition values (a : numbers) : vec := Vec (value (nx a)) (value (ny a)) (value (nz a)).
+
+Definition each2 (f : number -> number -> number) (a b : numbers) : numbers :=
+  Numbers (f (nx a) (nx b)) (f (ny a) (ny b)) (f (nz a) (nz b)).
+Definition scaled (k : number) (a : numbers) : numbers := Numbers (Times k (nx a)) (Times k (ny a)) (Times k (nz a)).
+Definition product (a b : numbers) : number := Plus (Plus (Times (nx a) (nx b)) (Times (ny a) (ny b))) (Times (nz a) (nz b)).
+Definition unit_of (a : numbers) : numbers := scaled (Over (1 // 1) (Root (product a a))) a.
+
+Lemma values_plus : forall a b, values (each2 Plus a b) = vadd (values a) (values b).
+Proof. reflexivity. Qed.
+Lemma values_minus : forall a b, values (each2 Minus a b) = vsub (values a) (values b).
+Proof. reflexivity. Qed.
+Lemma values_scaled : forall k a, values (scaled k a) = vscale (value k) (values a).
+Proof. reflexivity. Qed.
+Lemma value_product : forall a b, value (product a b) = dot (values a) (values b).
+Proof. reflexivity. Qed.
+Lemma value_square : forall a, value (product a a) = norm2 (values a).
+Proof. intro a. rewrite norm2_dot. reflexivity. Qed.
+Lemma values_unit : forall a, values (unit_of a) = normalised (values a).
+Proof.
+  intro a. unfold unit_of, normalised. rewrite values_scaled. f_equal. cbn [value]. rewrite value_square.
+  generalize (sqrt (norm2 (values a))). intro x. unfold Rdiv. rewrite Rinv_1. ring.
+Qed.
+
+(** ** A machine *)
+
+Inductive exact_leg :=
+  | ExactSlider (direction anchor platform : numbers) (length : number) (mode : bool)
+  | ExactStrut (anchor platform : numbers)
+  | ExactPlanar (direction : numbers).
+
+Definition leg_of (l : exact_leg) : Statement.leg :=
+  match l with
+  | ExactSlider d a p len m => Guided (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1))
+  | ExactStrut a p => Extensible (values a) (values p)
+  | ExactPlanar d => Plane (values d)
+  end.
+
+Definition part (t : tolerance) (x : number) : bool := below (least t) x && below x (greatest t).
+Definition parts (t : tolerances) (a : numbers) : bool := part (tx t) (nx a) && part (ty t) (ny a) && part (tz t) (nz a).
+
+Lemma part_sound : forall t x, part t x = true -> within t (value x).
+Proof. intros t x h. apply andb_true_iff in h as [h k]. split; apply below_sound; assumption. Qed.
+Lemma parts_sound : forall t a, parts t a = true -> all_within t (values a).
+Proof.
+  intros t a h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h j].
+  split; [| split]; apply part_sound; assumption.
+Qed.
+
+Definition is_exact (d : drive) (l : exact_leg) : bool :=
+  match d, l with
+  | SliderLeg c, ExactSlider d a p len m =>
+      parts (direction c) d && certainly true (product d d) && parts (anchor c) a && parts (platform c) p
+      && part (length c) len && certainly true len && Bool.eqb (mode c) m
+  | StrutLeg a p, ExactStrut a' p' => parts a a' && parts p p'
+  | PlanarLeg d, ExactPlanar d' => parts d d' && certainly true (product d' d')
+  | _, _ => false
+  end.
+
+Lemma normalised_norm : forall v, 0 < norm2 v -> norm2 (normalised v) = 1.
+Proof.
+  intros v h. unfold normalised. rewrite norm2_scale. pose proof (sqrt_lt_R0 _ h) as p.
+  rewrite <- Rsqr_pow2, Rsqr_inv' , Rsqr_sqrt by lra. field. lra.
+Qed.
+
+Lemma is_exact_sound : forall d l, is_exact d l = true -> is_leg_of d (leg_of l) /\ well_formed_leg (leg_of l).
+Proof.
+  intros [c | a p | n] [d' a' p' len m | a' p' | n'] h; cbn [is_exact] in h; try discriminate;
+    cbn [is_leg_of leg_of well_formed_leg].
+  - do 6 (apply andb_true_iff in h as [h ?]). match goal with k : Bool.eqb _ _ = true |- _ => apply Bool.eqb_prop in k; subst m end.
+    repeat match goal with
+    | k : parts _ _ = true |- _ => apply parts_sound in k
+    | k : part _ _ = true |- _ => apply part_sound in k
+    | k : certainly true _ = true |- _ => apply positive_sound in k
+    end.
+    rewrite value_square in *. split.
+    + unfold is_leg. cbn [axis base_point platform_offset leg_length working_mode].
+      split; [exists (values d'); split; [assumption | reflexivity] | auto].
+    + unfold well_formed. cbn [axis leg_length working_mode]. split; [apply normalised_norm; assumption |].
+      split; [assumption |]. destruct (mode c); auto.
+  - apply andb_true_iff in h as [h k]. split; [split; apply parts_sound; assumption | exact I].
+  - apply andb_true_iff in h as [h H]. apply positive_sound in H. rewrite value_square in H. split; [apply parts_sound; exact h |].
+    intro z. rewrite z in H. unfold norm2, vzero in H. cbn in H. lra.
+Qed.
+
+Fixpoint is_one_of (ds : list drive) (ls : list exact_leg) : bool :=
+  match ds, ls with
+  | [], [] => true
+  | d :: ds', l :: ls' => is_exact d l && is_one_of ds' ls'
+  | _, _ => false
+  end.
+
+(** A machine of the claim that can be built, at a point of its workspace. *)
+Definition is_in (w : region) (P : numbers) : bool :=
+  match w with
+  | Box edges => parts edges P
+  | Cylinder x y r height =>
+      let dx := Minus (nx P) x in let dy := Minus (ny P) y in
+      certainly false (Minus (Minus (Times r r) (Times dx dx)) (Times dy dy)) && certainly false r && part height (nz P)
+  end.
+
+Lemma is_in_sound : forall w P, is_in w P = true -> in_region w (values P).
+Proof.
+  intros [edges | x y r height] P h; [apply parts_sound, h |]. cbn [is_in] in h. cbv zeta in h.
+  apply andb_true_iff in h as [h hz]. apply andb_true_iff in h as [h r0]. apply nonneg_sound in h, r0. apply part_sound in hz.
+  cbn [value] in h. cbn [in_region values vx vy vz]. split; [nra |]. split; assumption.
+Qed.
+
+Definition admits (c : claim) (ls : list exact_leg) (P : numbers) : bool := is_one_of (legs c) ls && is_in (workspace c) P.
+Definition is_about (c : claim) (m : list Statement.leg) (P : vec) : Prop :=
+  is_machine c m /\ Forall well_formed_leg m /\ in_region (workspace c) P.
+
+Lemma admits_sound : forall c ls P, admits c ls P = true -> is_about c (map leg_of ls) (values P).
+Proof.
+  intros c ls P h. apply andb_true_iff in h as [h p]. unfold is_about, is_machine. apply is_in_sound in p.
+  assert (K : forall ds ls, is_one_of ds ls = true -> Forall2 is_leg_of ds (map leg_of ls) /\ Forall well_formed_leg (map leg_of ls)).
+  { induction ds as [| d ds IH]; intros [| l k] e; cbn [is_one_of map] in *; try discriminate; [split; constructor |].
+    apply andb_true_iff in e as [e1 e2]. destruct (IH k e2), (is_exact_sound d l e1). split; constructor; assumption. }
+  destruct (K _ _ h). tauto.
+Qed.
+
+(** ** What a claim says of one machine at one point, in numbers *)
+
+Definition nspan (a p P : numbers) : numbers := each2 Minus (each2 Plus P p) a.
+Definition across (d a p P : numbers) : numbers :=
+  let w := nspan a p P in each2 Minus w (scaled (product (unit_of d) w) (unit_of d)).
+Definition clearance2 (d a p : numbers) (len : number) (P : numbers) : number :=
+  let r := across d a p P in Minus (Times len len) (product r r).
+Definition signed_root (m : bool) (x : number) : number := if m then Root x else Minus (0 // 1) (Root x).
+
+Definition nrow (l : exact_leg) (P : numbers) : numbers :=
+  match l with
+  | ExactSlider d a p len m =>
+      each2 Plus (unit_of d) (scaled (Over (1 // 1) (signed_root m (clearance2 d a p len P))) (across d a p P))
+  | ExactStrut a p => unit_of (nspan a p P)
+  | ExactPlanar d => unit_of d
+  end.
+Definition njoint (l : exact_leg) (P : numbers) : number :=
+  match l with
+  | ExactSlider d a p len m => Minus (product (unit_of d) (nspan a p P)) (signed_root m (clearance2 d a p len P))
+  | ExactStrut a p => Root (product (nspan a p P) (nspan a p P))
+  | ExactPlanar d => product (unit_of d) P
+  end.
+(** The leg reaches the point where this is positive. *)
+Definition reserve (l : exact_leg) (P : numbers) : option number :=
+  match l with
+  | ExactSlider d a p len m => Some (clearance2 d a p len P)
+  | ExactStrut a p => Some (product (nspan a p P) (nspan a p P))
+  | ExactPlanar _ => None
+  end.
+
+Lemma values_across : forall d a p len m P,
+  values (across d a p P) = r (Leg (normalised (values d)) (values a) (values p) len m) (values P).
+Proof.
+  intros. unfold across. cbv zeta. rewrite values_minus, values_scaled, value_product, values_unit. reflexivity.
+Qed.
+
+Lemma value_clearance2 : forall d a p len m P,
+  value (clearance2 d a p len P) = value len ^ 2 - norm2 (r (Leg (normalised (values d)) (values a) (values p) (value len) m) (values P)).
+Proof.
+  intros. unfold clearance2. cbv zeta. cbn [value]. rewrite value_square, (values_across d a p (value len) m P). ring.
+Qed.
+
+Lemma value_signed_root : forall d a p len m P,
+  value (signed_root m (clearance2 d a p len P))
+  = eta (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1)) (values P).
+Proof.
+  intros d a p len m P. unfold eta, s. cbn [leg_length working_mode].
+  rewrite <- (value_clearance2 d a p len (if m then 1 else -1) P).
+  destruct m; cbn [signed_root value]; unfold Rdiv; rewrite ?Rmult_0_l; ring.
+Qed.
+
+Lemma values_row : forall l P, values (nrow l P) = row (leg_of l) (values P).
+Proof.
+  intros [d a p len m | a p | d] P; cbn [nrow row leg_of].
+  - rewrite values_plus, values_scaled, values_unit. cbn [value].
+    rewrite value_signed_root, (values_across d a p (value len) (if m then 1 else -1) P). unfold Jinv_row. cbn [axis].
+    f_equal. f_equal. unfold Rdiv. rewrite Rinv_1. ring.
+  - rewrite values_unit. reflexivity.
+  - apply values_unit.
+Qed.
+
+Lemma value_joint : forall l P, value (njoint l P) = joint (leg_of l) (values P).
+Proof.
+  intros [d a p len m | a p | d] P; cbn [njoint joint leg_of].
+  - cbn [value]. rewrite value_product, value_signed_root, values_unit. reflexivity.
+  - cbn [value]. rewrite value_square. reflexivity.
+  - rewrite value_product, values_unit. reflexivity.
+Qed.
+
+Lemma reserve_sound : forall l P x, reserve l P = Some x -> value x <= 0 -> ~ reaches (values P) (leg_of l).
+Proof.
+  intros [d a p len m | a p | d] P x h n; cbn [reserve] in h; [| | discriminate]; injection h as <-; cbn [reaches leg_of].
+  - rewrite (value_clearance2 d a p len (if m then 1 else -1) P) in n. unfold s. cbn [leg_length].
+    rewrite sqrt_neg_0 by exact n. lra.
+  - rewrite value_square in n. change (values (nspan a p P)) with (span (values a) (values p) (values P)) in n. lra.
+Qed.
+
+(** |M v|^2 *)
+Definition nspeed2 (ls : list exact_leg) (P v : numbers) : number :=
+  fold_right (fun l sum => Plus (Times (product (nrow l P) v) (product (nrow l P) v)) sum) (0 // 1) ls.
+
+Lemma value_speed2 : forall ls P v, value (nspeed2 ls P v) = speed2 (map leg_of ls) (values P) (values v).
+Proof.
+  intros ls P v. induction ls as [| l ls IH]; cbn [nspeed2 speed2 map fold_right value]; [lra |].
+  unfold nspeed2, speed2 in IH. rewrite IH, value_product, values_row. ring.
+Qed.
+
+(** ** Refutations *)
+
+Definition integers (v : Z * Z * Z) : numbers := let '(a, b, c) := v in Numbers (a // 1) (b // 1) (c // 1).
+
+Inductive failure :=
+  | OutOfReach
+  (* of a requirement, in directions where it is about all *)
+  | Fails (number : nat) (u v : Z * Z * Z)
+  (* of a requirement, in the direction of a leg's row *)
+  | FailsAlong (number leg : nat).
+
+(** The determinant of the rows of A of sliders, n + r/eta times eta, and their lengths. *)
+Definition nvector (l : exact_leg) (P : numbers) : option (numbers * number) :=
+  match l with
+  | ExactSlider d a p len m =>
+      Some (each2 Plus (across d a p P) (scaled (signed_root m (clearance2 d a p len P)) (unit_of d)), len)
+  | _ => None
+  end.
+Definition ndet (a b c : numbers) : number :=
+  product a (Numbers (Minus (Times (ny b) (nz c)) (Times (nz b) (ny c))) (Minus (Times (nz b) (nx c)) (Times (nx b) (nz c)))
+    (Minus (Times (nx b) (ny c)) (Times (ny b) (nx c)))).
+
+Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : bool :=
+  let bound b := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u) in
+  let of i f := match nth_error ls i with Some l => certainly true (f l) | None => false end in
+  match r with
+  | NotSingular => false
+  | PsiMax b => certainly true (Minus (bound b) (nspeed2 ls P u))
+  | PsiMin b => certainly true (Minus (nspeed2 ls P u) (bound b))
+  | JointMin i b => of i (fun l => Minus b (njoint l P))
+  | JointMax i b => of i (fun l => Minus (njoint l P) b)
+  (* the fastest is along the row: tool |row| > b *)
+  | JointSpeed i tool b => of i (fun l => Minus (Times (Times tool tool) (product (nrow l P) (nrow l P))) (Times b b))
+  | ConditionMax b =>
+      certainly true (Minus (Times (nspeed2 ls P u) (product v v)) (Times (Times b b) (Times (nspeed2 ls P v) (product u u))))
+  | SerialMargin i b =>
+      match nth_error ls i with
+      | Some (ExactSlider d a p len m as l) => let e := signed_root m (clearance2 d a p len P) in
+          certainly true (Minus (Times (Times b len) (Times b len)) (Times e e))
+      | _ => false
+      end
+  | ParallelMargin b =>
+      match ls with
+      | [k1; k2; k3] =>
+          match nvector k1 P, nvector k2 P, nvector k3 P with
+          | Some (v1, l1), Some (v2, l2), Some (v3, l3) =>
+              let least := Times (Times (Times b l1) l2) l3 in let d := ndet v1 v2 v3 in
+              certainly true (Minus least d) && certainly true (Plus least d)
+          | _, _, _ => false
+          end
+      | _ => false
+      end
+  end.
+
+Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
+  admits c ls P &&
+  match f with
+  | OutOfReach => existsb (fun l => match reserve l P with Some x => certainly false (Minus (0 // 1) x) | None => false end) ls
+  | Fails i u v => match nth_error (require c) i with Some r => fails ls P (integers u) (integers v) r | None => false end
+  | FailsAlong i leg =>
+      match nth_error (require c) i, nth_error ls leg with Some r, Some l => fails ls P (nrow l P) (nrow l P) r | _, _ => false end
+  end.
+
+Lemma value_eta : forall d a p len (m : bool) P, value (signed_root m (clearance2 d a p len P))
+  = eta (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1)) (values P).
+Proof. exact value_signed_root. Qed.
+
+Lemma nvector_sound : forall l P v len, nvector l P = Some (v, len) ->
+  exists k, leg_of l = Guided k /\ values v = leg_vector k (values P) /\ value len = leg_length k.
+Proof.
+  intros [d a p len m | |] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
+  eexists. split; [reflexivity |]. split; [| reflexivity].
+  rewrite values_plus, values_scaled, values_unit, value_eta, leg_vector_eq,
+    (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
+Qed.
+
+Lemma value_ndet : forall a b c, value (ndet a b c) = det (Mat (values a) (values b) (values c)).
+Proof. intros. unfold ndet. rewrite value_product. unfold det, cross, dot, values. cbn [vx vy vz nx ny nz value row1 row2 row3]. ring. Qed.
+
+Lemma fails_sound : forall ls P u v r, fails ls P u v r = true -> ~ fulfils (map leg_of ls) (values P) r.
+Proof.
+  intros ls P u v r h F.
+  assert (B : forall b, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u)) = (1 / value b) ^ 2 * norm2 (values u)).
+  { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
+  assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
+  { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; cbn [fails fulfils] in *; [discriminate | | | | | | | |].
+  - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
+    set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
+  - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
+    set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
+  - destruct F as [l [n j]]. destruct (At i l n) as [k [e ->]]. rewrite e in h.
+    apply positive_sound in h. cbn [value] in h. rewrite value_joint in h. lra.
+  - destruct F as [l [n j]]. destruct (At i l n) as [k [e ->]]. rewrite e in h.
+    apply positive_sound in h. cbn [value] in h. rewrite value_joint in h. lra.
+  - destruct F as [l [n j]]. destruct (At i l n) as [k [e ->]]. rewrite e in h.
+    apply positive_sound in h. cbn [value] in h. rewrite value_square, values_row in h.
+    set (q := row (leg_of k) (values P)) in *. set (t := value tool) in *. set (y := value b) in *. clearbody q t y.
+    destruct (Req_dec (norm2 q) 0) as [z | z].
+    + rewrite z in h. pose proof (Rle_0_sqr y) as p. unfold Rsqr in p. lra.
+    + pose proof (norm2_nonneg q) as p. assert (n0 : 0 < norm2 q) by lra. pose proof (sqrt_lt_R0 _ n0) as s0.
+      specialize (j (vscale (t / sqrt (norm2 q)) q)).
+      assert (S : sqrt (norm2 q) ^ 2 = norm2 q) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+      assert (N : norm2 (vscale (t / sqrt (norm2 q)) q) = t ^ 2).
+      { rewrite norm2_scale. unfold Rdiv. rewrite Rpow_mult_distr, pow_inv, S. field. lra. }
+      rewrite N in j. specialize (j (Rle_refl _)).
+      assert (D : dot q (vscale (t / sqrt (norm2 q)) q) = t / sqrt (norm2 q) * norm2 q).
+      { rewrite norm2_dot. unfold dot, vscale. cbn [vx vy vz]. ring. }
+      rewrite D in j. replace ((t / sqrt (norm2 q) * norm2 q) ^ 2) with (t ^ 2 * norm2 q) in j.
+      * nra.
+      * rewrite Rpow_mult_distr. unfold Rdiv. rewrite Rpow_mult_distr, pow_inv, S. field. lra.
+  - apply positive_sound in h. cbn [value] in h. rewrite !value_speed2, !value_square in h.
+    specialize (F (values u) (values v)). nra.
+  - destruct F as [k [n j]]. destruct (At i _ n) as [l [e e']]. rewrite e in h. destruct l as [d a p len m | |]; try discriminate.
+    cbn [leg_of] in e'. injection e' as ->. cbv zeta in h. apply positive_sound in h. cbn [value] in h.
+    rewrite value_eta in h. cbn [leg_length] in j. nra.
+  - destruct F as [k1 [k2 [k3 [e j]]]]. destruct ls as [| x1 [| x2 [| x3 [| x4 rest]]]]; try discriminate. cbn [map] in e.
+    injection e as a1 a2 a3.
+    destruct (nvector x1 P) as [[v1 l1] |] eqn:q1; [| discriminate]. destruct (nvector x2 P) as [[v2 l2] |] eqn:q2; [| discriminate].
+    destruct (nvector x3 P) as [[v3 l3] |] eqn:q3; [| discriminate].
+    destruct (nvector_sound _ _ _ _ q1) as [g1 [b1 [c1 d1]]], (nvector_sound _ _ _ _ q2) as [g2 [b2 [c2 d2]]], (nvector_sound _ _ _ _ q3) as [g3 [b3 [c3 d3]]].
+    rewrite a1 in b1. rewrite a2 in b2. rewrite a3 in b3. injection b1 as <-. injection b2 as <-. injection b3 as <-.
+    cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2. cbn [value] in h1, h2.
+    rewrite value_ndet, c1, c2, c3, d1, d2, d3 in h1, h2. unfold A_matrix in j. cbn [leg1 leg2 leg3] in j.
+    set (z := det _) in *. clearbody z. unfold Rabs in j. destruct (Rcase_abs z); lra.
+Qed.
+
+(** A machine of the claim that can be built does not meet it at some point of the workspace. *)
+Theorem refute_sound : forall c ls P f, refute c ls P f = true -> exists m P, is_about c m P /\ ~ meets c m P.
+Proof.
+  intros c ls P f h. apply andb_true_iff in h as [a h]. exists (map leg_of ls), (values P).
+  split; [apply admits_sound, a |]. intros [reached [_ met]]. destruct f as [| i u v | i leg].
+  - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
+    apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
+    rewrite Forall_forall in reached. apply reached, in_map, il.
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound _ _ _ _ _ h).
+    rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
+    apply (fails_sound _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+Qed.
+
+(** ** A claim that is about something *)
+
+Definition leasts (t : tolerances) : numbers := Numbers (least (tx t)) (least (ty t)) (least (tz t)).
+Definition least_leg (d : drive) : exact_leg :=
+  match d with
+  | SliderLeg c => ExactSlider (leasts (direction c)) (leasts (anchor c)) (leasts (platform c)) (least (length c)) (mode c)
+  | StrutLeg a p => ExactStrut (leasts a) (leasts p)
+  | PlanarLeg d => ExactPlanar (leasts d)
+  end.
+Definition some_point (w : region) : numbers :=
+  match w with Box edges => leasts edges | Cylinder x y _ height => Numbers x y (least height) end.
+Definition is_inhabited (c : claim) : bool := admits c (map least_leg (legs c)) (some_point (workspace c)).
+
+Lemma inhabited : forall c, is_inhabited c = true -> exists m P, is_about c m P.
+Proof. intros c h. eexists; eexists. apply admits_sound, h. Qed.
+End Precision.
+
+(** A certified claim holds, and there is a machine and a point that it is about. *)
+Definition certify (exact bits : positive) (c : claim) (s : Z) (ds : list Z) (t : Check.tree) : bool :=
+  is_inhabited exact c && check_claim bits c s ds t.
+
+Theorem certify_sound : forall exact bits c s ds t, certify exact bits c s ds t = true ->
+  Statement.holds c /\ exists m P, is_about c m P.
+Proof.
+  intros exact bits c s ds t h. apply andb_true_iff in h as [i h].
+  split; [exact (check_claim_sound bits c s ds t h) | exact (inhabited exact c i)].
+Qed.

@@ -1,0 +1,52 @@
+//Provides: oc_add const
+function oc_add(a, b) { return a + b; }
+//Provides: oc_sub const
+function oc_sub(a, b) { return a - b; }
+//Provides: oc_mul const
+function oc_mul(a, b) { return a * b; }
+//Provides: oc_neg const
+function oc_neg(a) { return -a; }
+//Provides: oc_abs const
+function oc_abs(a) { return a < 0 ? -a : a; }
+//Provides: oc_eq const
+function oc_eq(a, b) { return a == b ? 1 : 0; }
+//Provides: oc_le const
+function oc_le(a, b) { return a <= b ? 1 : 0; }
+//Provides: oc_lt const
+function oc_lt(a, b) { return a < b ? 1 : 0; }
+//Provides: oc_compare const
+function oc_compare(a, b) { return a < b ? -1 : a > b ? 1 : 0; }
+//Provides: oc_sign const
+function oc_sign(a) { return a < 0 ? -1 : a > 0 ? 1 : 0; }
+//Provides: oc_of_int const
+function oc_of_int(n) { return globalThis.BigInt(n); }
+// A number of 32 bits, or an error: nothing is cut off.
+//Provides: oc_to_int
+function oc_to_int(a) {
+  if (a > 0x7fffffff || a < -0x80000000) throw new globalThis.Error("a number of more than 32 bits");
+  return globalThis.Number(a);
+}
+//Provides: oc_emod const
+//Requires: oc_abs
+function oc_emod(a, b) { var r = a % b; return r < 0 ? r + oc_abs(b) : r; }
+//Provides: oc_ediv const
+//Requires: oc_emod
+function oc_ediv(a, b) { return (a - oc_emod(a, b)) / b; }
+//Provides: oc_shl const
+function oc_shl(a, n) { return a << globalThis.BigInt(n); }
+// The floor, also of negative numbers.
+//Provides: oc_shr const
+function oc_shr(a, n) { return a >> globalThis.BigInt(n); }
+// The floor of the root: Newton's steps from a power of two above it decrease to it.
+//Provides: oc_sqrt const
+function oc_sqrt(a) {
+  if (a < 0) throw new globalThis.Error("a root of a negative number");
+  if (a < 2) return a;
+  var one = globalThis.BigInt(1);
+  var x = one << globalThis.BigInt((a.toString(16).length * 4 + 1) / 2 | 0), y;
+  for (;;) {
+    y = (x + a / x) >> one;
+    if (y >= x) return x;
+    x = y;
+  }
+}

@@ -1,0 +1,12 @@
+(* orthocert_verify(text): "CERTIFIED", "REFUTED", "REJECTED" or "NOT COVERED: why". *)
+let verdict text =
+  match Reader.verdict text with
+  | Certified -> "CERTIFIED"
+  | Refuted -> "REFUTED"
+  | Rejected -> "REJECTED"
+  | Not_known why -> "NOT COVERED: " ^ why
+  | exception _ -> "REJECTED"
+
+let () =
+  Js_of_ocaml.Js.export "orthocert_verify"
+    (Js_of_ocaml.Js.wrap_callback (fun text -> Js_of_ocaml.Js.bytestring (verdict (Js_of_ocaml.Js.to_bytestring text))))
