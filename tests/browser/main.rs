@@ -254,11 +254,58 @@ fn a_refutation_is_marked_and_hostile_text_stays_text() {
     browser.open(&page);
     assert_eq!(browser.text("h1"), hostile);
     assert_eq!(browser.evaluate("typeof window.hacked"), "undefined");
-    assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 2);
+    assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 4);
     assert!(browser.text("svg.design").contains("counterexample"));
     assert!(browser.text("#counterexample").contains("psi_i, at most 2"));
     assert!(browser.text(".verdict").contains("REFUTED"));
     assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+/// A page proves its claim again when it is opened, with the formally verified checker; one whose
+/// certificate was edited says that it is rejected.
+#[test]
+fn a_page_proves_its_claim_again() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = Folder::new();
+    // Waits until the page has said something.
+    let state = "new Promise((done) => { const look = () => { const s = \
+                 document.getElementById('reproved').dataset.state; s ? done(s) : setTimeout(look, 10); }; look(); })";
+    for (name, verdict) in [
+        ("orthoglide-prototype", "CERTIFIED"),
+        ("linear-delta-klipper-cylinder", "CERTIFIED"),
+        ("delta-joint-speed", "CERTIFIED"),
+        ("postulate-all", "CERTIFIED"),
+        ("delta-conditioning-refuted", "REFUTED"),
+        ("star-singular", "REFUTED"),
+    ] {
+        let page = folder.report_of_committed(name, &[]);
+        browser.open(&page);
+        assert_eq!(browser.evaluate(state), "accepted", "{name}");
+        assert!(
+            browser.text("#reproved").starts_with("This page proved its claim again"),
+            "{name}"
+        );
+        assert!(browser.text(".verdict").contains(verdict), "{name}");
+        assert_eq!(browser.complaints(), Vec::<String>::new(), "{name}");
+        assert!(std::fs::metadata(&page).unwrap().len() < 600_000, "{name}");
+    }
+    // One digit of the claim is another; so is one of the proof.
+    for (from, to) in
+        [(r#"\"bound\":\"1.4\""#, r#"\"bound\":\"1.3\""#), (r#"\"places\":2"#, r#"\"places\":1"#)]
+    {
+        let page = folder.report_of_committed("linear-delta-klipper-cylinder", &[]);
+        let text = std::fs::read_to_string(&page).unwrap();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(&page, text.replacen(from, to, 1)).unwrap();
+        browser.open(&page);
+        assert_eq!(browser.evaluate(state), "rejected", "{from}");
+        assert!(browser.text(".verdict strong").contains("REJECTED"));
+        kept("edited", "rejected", &browser.screenshot());
+    }
+    let page = folder.report_of_committed("hexapod-linuxcnc", &[]);
+    browser.open(&page);
+    assert!(browser.text("#reproved").contains("not covered by the formally verified checker"));
+    assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 2);
 }
 
 /// More than 8,000 boxes: small enough to send, and quick to turn.
