@@ -1,0 +1,248 @@
+"""Certified workspace verification of parallel machines.
+
+    import orthocert as oc
+    design = oc.Design.of(
+        title="A printer",
+        mechanism=oc.linear_delta(radius="174.75", arm=333),
+        workspace={"cylinder": {"center": [0, 0], "radius": 80, "z": [0, 200]}},
+        requirements={"transmission": {"min": "1/2", "max": "3/2"}},
+    )
+    oc.verify(design)                 # certified, refuted, or undecided; with the certificate
+    oc.limit(design, "workspace.cylinder.radius", gap="1e-3").upper.certified
+
+Every function runs the program `orthocert`, which the package brings, and answers as it does: verdicts are those of
+its exact checker, and errors its own sentences. Functions take a `Design`, a file's path, TOML text, or a dictionary.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Mapping, Optional, Union
+
+from ._answers import (
+    Bound,
+    Bounds,
+    Check,
+    Counterexample,
+    Limit,
+    Paving,
+    Report,
+    Requirement,
+    Side,
+    Summary,
+    Value,
+    Verification,
+    _exact,
+    _point,
+)
+from ._design import Design, Number, _plain, arm, as_design, folder_of, linear_delta, planar, plus_minus, slider, strut
+from ._program import DesignError, OrthocertError, Progress, Unfinished, answer, program, run
+
+AnyDesign = Union[Design, str, Path, Mapping[str, Any]]
+
+__all__ = [
+    "Bound", "Bounds", "Check", "Counterexample", "Design", "DesignError", "Limit", "OrthocertError", "Paving",
+    "Report", "Requirement", "Side", "Summary", "Unfinished", "Value", "Verification", "arm", "bounds", "check",
+    "limit", "linear_delta", "pave", "planar", "plus_minus", "program", "report", "slider", "strut", "summary",
+    "verify", "version",
+]  # fmt: skip
+
+
+def version() -> str:
+    """The program's version."""
+    return run(["--version"])[1].split()[-1]
+
+
+def _flags(**options: Optional[Any]) -> list[str]:
+    """`max_boxes=100` as `--max-boxes 100`, and so on; what is None is left out."""
+    flags: list[str] = []
+    for name, value in options.items():
+        if value is True:
+            flags.append("--" + name.replace("_", "-"))
+        elif value is not None and value is not False:
+            flags += ["--" + name.replace("_", "-"), _plain(value)]
+    return flags
+
+
+def _counterexample(found: Optional[Mapping[str, Any]]) -> Optional[Counterexample]:
+    if not found:
+        return None
+    return Counterexample(found["violated"], found["value"], _point(found.get("point")), found.get("machine"))
+
+
+def verify(
+    design: AnyDesign,
+    *,
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    figure: bool = True,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Verification:
+    """Proves or refutes a design. `timeout` is in seconds; `figure` draws the machine for notebooks."""
+    flags = _flags(max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["verify", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+        written = found.get("certificate")
+        certificate = (folder / written["path"]).read_bytes() if written else None
+        drawing = ""
+        if figure and written:
+            run(["report", written["path"], "--svg", "figures"], folder=folder, cancel=cancel)
+            svg = folder / "figures" / "design.svg"
+            drawing = svg.read_text(encoding="utf-8") if svg.is_file() else ""
+    requirements = tuple(
+        Requirement(
+            r["requirement"], r["bound"], r.get("worst_found"), tuple(r["at"]) if r.get("at") else None, r.get("unit")
+        )
+        for r in found.get("requirements", [])
+    )
+    return Verification(
+        found["verdict"], found.get("title"), tuple(found.get("coordinates", ())), requirements,
+        _counterexample(found.get("counterexample")), found.get("boxes_tried", 0), found["seconds"], certificate, found, drawing,
+    )  # fmt: skip
+
+
+def bounds(
+    design: AnyDesign,
+    *,
+    relative: Number = "1e-6",
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Bounds:
+    """The extremes of every quantity of a design, enclosed to a relative width."""
+    flags = _flags(relative=relative, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["bounds", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    every = tuple(
+        Bound(
+            b["quantity"], b["end"], _exact(b.get("min")), _exact(b.get("max")), _point(b.get("point")), b.get("unit")
+        )
+        for b in found["bounds"]
+    )
+    return Bounds(every, found)
+
+
+def limit(
+    design: AnyDesign,
+    key: str,
+    *,
+    gap: Number = "1e-6",
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Limit:
+    """How far one number of a design can go, by its dotted key; `gap` is relative."""
+    flags = _flags(gap=gap, max_boxes=max_boxes, timeout=timeout, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["limit", file.name, key, *flags], folder=folder, progress=progress, cancel=cancel)
+
+    def value(end: Optional[Mapping[str, Any]]) -> Optional[Fraction]:
+        return Fraction(end["value"]) if end else None
+
+    sides = tuple(
+        Side(
+            s["side"],
+            value(s["certified"]),
+            value(s["refuted"]),
+            _counterexample(s["limited_by"]),
+            (s["ends"] or {}).get("reason"),
+        )
+        for s in found["limits"]
+    )
+    return Limit(found["key"], found["own"], sides, found)
+
+
+def summary(
+    design: AnyDesign,
+    *,
+    speed: Optional[Number] = None,
+    force: Optional[Number] = None,
+    acceleration: Optional[Number] = None,
+    max_boxes: Optional[int] = None,
+    timeout: Optional[Number] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Summary:
+    """What a designer reads first: strokes, speeds, forces and accelerations of the joints for those of the tool."""
+    flags = _flags(
+        speed=speed, force=force, acceleration=acceleration, max_boxes=max_boxes, timeout=timeout, threads=threads
+    )
+    with folder_of(as_design(design)) as (folder, file):
+        found = answer(["summary", file.name, *flags], folder=folder, progress=progress, cancel=cancel)
+    values = tuple(
+        Value(v["words"], v["quantity"], v["end"], _exact(v.get("certified")), _exact(v.get("reached")), v.get("unit"))
+        for v in found.get("values", [])
+    )
+    return Summary(found["verdict"], found.get("title"), found.get("nearest"), values, found)
+
+
+def pave(
+    design: AnyDesign,
+    *,
+    volume_gap: Optional[Number] = None,
+    precision: Optional[Number] = None,
+    max_boxes: Optional[int] = None,
+    threads: Optional[int] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Paving:
+    """Cuts the workspace into cells where all requirements hold, where some fails, and the rest."""
+    flags = _flags(volume_gap=volume_gap, precision=precision, max_boxes=max_boxes, threads=threads)
+    with folder_of(as_design(design)) as (folder, file):
+        output = ["-o", "result.paving"]
+        found = answer(["pave", file.name, *output, *flags], folder=folder, progress=progress, cancel=cancel)
+        data = (folder / "result.paving").read_bytes()
+    inner, outer, undecided = (Fraction(found[part]["share"]) for part in ("inner", "outer", "boundary"))
+    return Paving(inner, outer, undecided, Fraction(found["inner"]["volume"]), data, found)
+
+
+def _certificate(certificate: Union[Verification, Paving, bytes, str, Path]) -> bytes:
+    if isinstance(certificate, Verification):
+        if certificate.certificate is None:
+            raise ValueError("an undecided design has no certificate")
+        return certificate.certificate
+    if isinstance(certificate, Paving):
+        return certificate.file
+    return certificate if isinstance(certificate, bytes) else Path(certificate).read_bytes()
+
+
+def check(
+    certificate: Union[Verification, Paving, bytes, str, Path],
+    *,
+    design: Optional[AnyDesign] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[threading.Event] = None,
+) -> Check:
+    """Re-proves a certificate or a paving in exact arithmetic; with `design`, also that it is about that one."""
+    data = _certificate(certificate)
+    with folder_of(as_design(design) if design is not None else Design("")) as (folder, file):
+        (folder / "a.cert.json").write_bytes(data)
+        of = ["--design", file.name] if design is not None else []
+        code, out = run(
+            ["check", "a.cert.json", *of, "--format", "json"],
+            folder=folder, progress=progress, cancel=cancel, accepted=(0, 1, 5),
+        )  # fmt: skip
+    found = json.loads(out)
+    return Check(
+        code != 5, found.get("verdict"), found.get("statement"), found.get("reason") or found.get("error"), found
+    )
+
+
+def report(certificate: Union[Verification, Paving, bytes, str, Path], *, title: Optional[str] = None) -> Report:
+    """The page about a certificate or a paving."""
+    data = _certificate(certificate)
+    with folder_of(Design("")) as (folder, _):
+        name = "a.cert.json" if data.startswith(b'{"format":"orthocert/') else "a.paving"
+        (folder / name).write_bytes(data)
+        run(["report", name, "-o", "a.html", *_flags(title=title)], folder=folder)
+        return Report((folder / "a.html").read_text(encoding="utf-8"))
