@@ -96,6 +96,7 @@ fn machines_are_written_as_the_instances_of_the_formal_development() {
         ("LinearDelta", format!("{instances}/LinearDelta")),
         ("DeltaSpeed", "proofs/certificates/delta-joint-speed".to_owned()),
         ("DeltaMargin", "proofs/certificates/delta-parallel-margin".to_owned()),
+        ("UpuAxes", "proofs/certificates/upu-base-axes".to_owned()),
     ] {
         let certificate = std::fs::read_to_string(format!("{from}.cert.json")).expect("committed");
         let text = exported(&certificate).expect("exported");

@@ -7,7 +7,7 @@ From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
 From Orthocert.kernel Require Machine Problem Faces Witness Closed Certificate.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -120,6 +120,8 @@ Check kernel.Check.check_all_open.
 Print Assumptions kernel.Check.check_all_open.
 Check DeltaSpeed.certified.
 Print Assumptions DeltaSpeed.certified.
+Check UpuAxes.certified.
+Print Assumptions UpuAxes.certified.
 Check DeltaMargin.certified.
 Print Assumptions DeltaMargin.certified.
 

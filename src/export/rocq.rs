@@ -17,7 +17,8 @@ pub use postulate::postulate;
 const ONLY: &str =
     "the postulate is exported, and of machines, certified claims about sliders, struts and \
      planar legs that do not turn the platform, over a box or a cylinder, of transmission, ranges of \
-     joints that are lengths, joint speeds, condition numbers and margins to singularities";
+     joints that are lengths, joint speeds, condition numbers, one stiffness of all joints, and margins \
+     to singularities";
 
 /// Why a certificate is not exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -32,8 +33,8 @@ pub enum ExportError {
     /// The platform turns, or the mechanism is given by formulas.
     #[error("the platform turns, or the mechanism is given by formulas; {ONLY}")]
     NotTranslational,
-    /// A leg is an arm, or a strut that keeps the platform from turning.
-    #[error("a leg is an arm, or a strut with a base axis; {ONLY}")]
+    /// A leg is an arm.
+    #[error("a leg is an arm; {ONLY}")]
     Drive,
     /// It is about cubes that do not fit.
     #[error("the claim is that no cube fits; {ONLY}")]

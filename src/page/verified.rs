@@ -16,13 +16,15 @@ pub const PROGRAM: &str = include_str!("../../proofs/rocq/program/verified.js");
 pub const MOST_BYTES: usize = 1 << 16;
 
 /// Quantities that the formal development knows.
-const QUANTITIES: [&str; 6] = [
+const QUANTITIES: [&str; 8] = [
     "transmission",
     "joint_range",
     "joint_speed",
     "conditioning",
     "serial_margin",
     "parallel_margin",
+    "stiffness",
+    "constraint_margin",
 ];
 
 /// What of the verified checker is in a page.
@@ -84,12 +86,13 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
     let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
     let is_known = |key: &str| QUANTITIES.contains(&key);
     let is_leg = |leg: &Leg| match leg {
-        Leg::Slider { .. } | Leg::Strut { base_axis: None, .. } | Leg::Planar { .. } => true,
-        Leg::Strut { .. } | Leg::Arm { .. } => false,
+        Leg::Slider { .. } | Leg::Strut { .. } | Leg::Planar { .. } => true,
+        Leg::Arm { .. } => false,
     };
     let is_required = require.iter().all(|requirement| {
         is_known(&requirement.quantity)
             && matches!(requirement.bound, Bound::Min(_) | Bound::Max(_))
+            && requirement.given.values().all(|given| given.len() == 1)
     });
     let is_mechanism = match (mechanism, workspace) {
         (Mechanism::Orthoglide { .. }, Workspace::Cube { .. }) => {

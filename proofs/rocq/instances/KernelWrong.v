@@ -3,10 +3,11 @@
     Each example damages a certificate or a claim of this directory and shows
     that the check is then [false]: no instance could be closed with it. *)
 
-From Coq Require Import ZArith NArith Reals List.
+From Coq Require Import ZArith NArith Reals List String.
 From Orthocert Require Import Claim.
 From Orthocert.kernel Require Import Statement Check Problem Faces.
-From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta DeltaSpeed DeltaMargin PostulateAll PostulateUpTo2.
+From Orthocert.kernel Require Certificate.
+From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta DeltaSpeed DeltaMargin UpuAxes PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 Definition step : Type := nat * evidence.
@@ -84,7 +85,7 @@ Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) cer
 Proof. vm_compute. reflexivity. Qed.
 (** A leg of length zero somewhere in the box: D is not positive there. *)
 Example through_a_base_joint :
-  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg (hull the_workspace) (hull the_workspace)] the_workspace (require the_claim)) certificate = false.
+  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg (hull the_workspace) (hull the_workspace) None] the_workspace (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Struts.
 
@@ -133,6 +134,17 @@ Example in_a_box : accepts (MakeClaim (legs the_claim) (Box (hull (workspace the
 Proof. vm_compute. reflexivity. Qed.
 End Speed.
 
+Module Couples.
+Import UpuAxes.
+Local Notation accepts c t := (check_claim 52 c 8 [0; 0; 0]%Z t).
+
+Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
+Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example margin_raised : accepts (MakeClaim (legs the_claim) (workspace the_claim)
+  (map (fun r => match r with ConstraintMargin _ => ConstraintMargin (99 // 100) | r => r end) (require the_claim))) certificate = false.
+Proof. vm_compute. reflexivity. Qed.
+End Couples.
+
 (** Of the first leaf, which touches the corner, another step. *)
 Fixpoint first_by (e : evidence) (t : tree) : tree :=
   match t with Leaf _ => Leaf [(0%nat, e)] | Split b k l u => Split b k (first_by e l) u end.
@@ -179,3 +191,20 @@ Example corner_by_vertices : accepts (2 // 1) [first_by ByTest q1_high; q2_high]
 Example the_other_corner : accepts (2 // 1) [q1_high; first_by (ByCorner Q1) q2_high] = false. Proof. vm_compute. reflexivity. Qed.
 Example faces_exchanged : accepts (2 // 1) [q2_high; q1_high] = false. Proof. vm_compute. reflexivity. Qed.
 End PostulateForARange.
+
+(** The closed design is a theorem whatever its tree: but no string of the tree may end a string of the text, so
+    that what follows it would be read as another claim. *)
+Module Closed.
+Import Certificate.
+Local Open Scope string_scope.
+Local Notation two := (Literal (Decimal.D2 Decimal.Nil) Decimal.Nil).
+Definition closed (name : string) (least greatest : expression) : certificate :=
+  Certificate (Closed_ two two [Require_ Transmission None None false least; Require_ Transmission None None true greatest])
+    (Nodes 52 [Node [(1%nat, Plain name)] None]) "orthocert" "1".
+Local Notation half := (Binary Division (Literal (Decimal.D1 Decimal.Nil) Decimal.Nil) two).
+
+Example a_closed_design : accept (closed "cube" half two) = true. Proof. vm_compute. reflexivity. Qed.
+Example a_string_that_ends : accept (closed "cube""]]}]}},""claim"":{" half two) = false. Proof. vm_compute. reflexivity. Qed.
+Example psi_min_above : accept (closed "cube" two two) = false. Proof. vm_compute. reflexivity. Qed.
+Example another_text : verify "{}" (closed "cube" half two) = false. Proof. vm_compute. reflexivity. Qed.
+End Closed.

@@ -11,17 +11,20 @@ Local Open Scope R_scope.
 Definition leg_1 : drive :=
   StrutLeg
     (Tolerances (exactly (Times ((-150) // 1) (Root (3 // 1)))) (exactly ((-150) // 1)) (Within (Over ((-1) // 1) (10 // 1)) (Over (1 // 1) (10 // 1))))
-    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1))).
+    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1)))
+    None.
 
 Definition leg_2 : drive :=
   StrutLeg
     (Tolerances (exactly (Times (150 // 1) (Root (3 // 1)))) (exactly ((-150) // 1)) (exactly (0 // 1)))
-    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1))).
+    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1)))
+    None.
 
 Definition leg_3 : drive :=
   StrutLeg
     (Tolerances (exactly (0 // 1)) (exactly (300 // 1)) (exactly (0 // 1)))
-    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1))).
+    (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (10 // 1)))
+    None.
 
 Definition leg_4 : drive :=
   PlanarLeg

@@ -11,3 +11,4 @@ for name in OrthoglideTolerance LinearDelta FourSliders StrutsAndPlane Postulate
 done
 "$orthocert" export rocq "$here/../../certificates/delta-joint-speed.cert.json" -o "$here/DeltaSpeed.v"
 "$orthocert" export rocq "$here/../../certificates/delta-parallel-margin.cert.json" -o "$here/DeltaMargin.v"
+"$orthocert" export rocq "$here/../../certificates/upu-base-axes.cert.json" -o "$here/UpuAxes.v"

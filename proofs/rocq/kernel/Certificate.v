@@ -33,12 +33,12 @@ Arguments Triple {A}. Arguments first {A}. Arguments second {A}. Arguments third
 
 Inductive written_leg :=
   | Slider_ (direction anchor platform : triple quantity) (length : quantity) (mode : bool)
-  | Strut_ (anchor platform : triple quantity)
+  | Strut_ (anchor platform : triple quantity) (base_axis : option (triple quantity))
   | Planar_ (direction : triple quantity).
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_.
-(** [leg_] is counted from one; [tool_], of speeds, is that of the platform. *)
-Record written_requirement := Require_ { about_ : about; leg_ : option nat; tool_ : option expression; is_max : bool; bound_ : expression }.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_.
+(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, and the joints' stiffness, of stiffness. *)
+Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; is_max : bool; bound_ : expression }.
 
 Inductive written_region :=
   | Box_ (min max : triple expression)
@@ -121,19 +121,24 @@ Definition leg_text (l : written_leg) : text :=
   object match l with
   | Slider_ d a p len m => [field "drive" (quoted "slider"); field "direction" (vector d); field "anchor" (vector a);
       field "platform" (vector p); field "length" (quantity_text len); field "mode" (quoted (if m then "+" else "-"))]
-  | Strut_ a p => [field "drive" (quoted "strut"); field "anchor" (vector a); field "platform" (vector p)]
+  | Strut_ a p k => [field "drive" (quoted "strut"); field "anchor" (vector a); field "platform" (vector p)] ++
+      match k with Some k => [field "base_axis" (vector k)] | None => [] end
   | Planar_ d => [field "drive" (quoted "planar"); field "direction" (vector d)]
-  end.
+  end%list.
 
 Definition about_text (a : about) : string :=
   match a with
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
+  | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
   end.
 Definition requirement_text (r : written_requirement) : text :=
   object (field "quantity" (quoted (about_text (about_ r))) ::
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
-    match tool_ r with Some x => [field "given" (variant "tool" (array [number x]))] | None => [] end ++
+    match given_ r with
+    | Some x => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
+    | None => []
+    end ++
     [field "end" (quoted (if is_max r then "max" else "min")); field "bound" (number (bound_ r))])%list.
 
 Definition region_text (w : written_region) : text :=
@@ -200,6 +205,20 @@ Definition is_plain (s : string) : bool :=
   forallb (fun c => negb (c =? """")%char && negb (c =? "\")%char && Nat.leb 32 (nat_of_ascii c) && Nat.leb (nat_of_ascii c) 126)
     (list_ascii_of_string s).
 
+Fixpoint is_plain_step (s : step) : bool :=
+  match s with
+  | Plain name | Multiplied name _ _ => is_plain name
+  | Inside_ s _ _ => is_plain_step s
+  | AtCorner _ | Conditioned_ _ _ _ => true
+  end.
+(** Every string of the certificate is one: its text has no other shape than that of [print]. *)
+Definition is_plain_certificate (c : certificate) : bool :=
+  is_plain (tool c) && is_plain (version c) &&
+  match proof_ c with
+  | Nodes _ nodes => forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
+  | ByWitness _ _ _ _ => true
+  end.
+
 (** ** Meaning *)
 
 Fixpoint product_of (base : Claim.number) (n : nat) : Claim.number :=
@@ -222,7 +241,7 @@ Definition tolerances_of (t : triple quantity) : tolerances :=
 Definition drive_of (l : written_leg) : drive :=
   match l with
   | Slider_ d a p len m => SliderLeg (Slider (tolerances_of d) (tolerances_of a) (tolerances_of p) (tolerance_of len) m)
-  | Strut_ a p => StrutLeg (tolerances_of a) (tolerances_of p)
+  | Strut_ a p k => StrutLeg (tolerances_of a) (tolerances_of p) (option_map tolerances_of k)
   | Planar_ d => PlanarLeg (tolerances_of d)
   end.
 Definition region_of (w : written_region) : region :=
@@ -237,7 +256,7 @@ Definition psi_max_of (r : written_requirement) : list requirement :=
 Definition other_of (legs : nat) (r : written_requirement) : list requirement :=
   let b := denoted (bound_ r) in
   let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
-  match about_ r, is_max r, tool_ r with
+  match about_ r, is_max r, given_ r with
   | Transmission, true, _ => []
   | Transmission, false, _ => [PsiMin b]
   | JointRange, up, _ => each (fun i => if up then JointMax i b else JointMin i b)
@@ -246,11 +265,15 @@ Definition other_of (legs : nat) (r : written_requirement) : list requirement :=
   | Condition_, _, _ => [ConditionMax b]
   | Serial_, _, _ => each (fun i => SerialMargin i b)
   | Parallel_, _, _ => [ParallelMargin b]
+  | Stiffness_, _, Some joint => [Stiffness (denoted joint) b]
+  | Stiffness_, _, None => []
+  | Constraint_, _, _ => [ConstraintMargin b]
   end.
 (** The requirement has the keys and the end that it has to have. *)
 Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
-  match about_ r, is_max r, leg_ r, tool_ r with
+  match about_ r, is_max r, leg_ r, given_ r with
   | Transmission, _, None, None | Condition_, true, None, None | Parallel_, false, None, None => true
+  | Stiffness_, false, None, Some _ | Constraint_, false, None, None => true
   | JointRange, _, Some n, None | Serial_, false, Some n, None | Speed_, true, Some n, Some _ => Nat.leb 1 n && Nat.leb n legs
   | JointRange, _, None, None | Serial_, false, None, None | Speed_, true, None, Some _ => true
   | _, _, _, _ => false
@@ -303,9 +326,10 @@ Definition ends (t : tolerance) : list Claim.number := [least t; greatest t].
 Definition ends3 (t : tolerances) : list Claim.number := (ends (tx t) ++ ends (ty t) ++ ends (tz t))%list.
 Definition lengths_of (d : drive) : list Claim.number := match d with SliderLeg c => ends (Claim.length c) | _ => [] end.
 Definition places_of (d : drive) : list Claim.number :=
-  match d with SliderLeg c => (ends3 (anchor c) ++ ends3 (platform c))%list | StrutLeg a p => (ends3 a ++ ends3 p)%list | PlanarLeg _ => [] end.
+  match d with SliderLeg c => (ends3 (anchor c) ++ ends3 (platform c))%list | StrutLeg a p _ => (ends3 a ++ ends3 p)%list | PlanarLeg _ => [] end.
 Definition direction_order (d : drive) : Z :=
-  match d with SliderLeg c => order_of (ends3 (direction c)) | PlanarLeg n => order_of (ends3 n) | StrutLeg _ _ => 0%Z end.
+  match d with SliderLeg c => order_of (ends3 (direction c)) | PlanarLeg n => order_of (ends3 n) | StrutLeg _ _ (Some k) => order_of (ends3 k)
+  | StrutLeg _ _ None => 0%Z end.
 Definition length_order (ds : list drive) : Z :=
   let some := match flat_map lengths_of ds with [] => flat_map places_of ds | l => l end in
   (1 + order_of some)%Z.
@@ -367,7 +391,8 @@ Definition take_leg (w : written_leg) (l : list Claim.number) : exact_leg * list
   | Slider_ d a p len m =>
       let (d, l) := take3 d l in let (a, l) := take3 a l in let (p, l) := take3 p l in let (len, l) := take len l in
       (ExactSlider d a p len m, l)
-  | Strut_ a p => let (a, l) := take3 a l in let (p, l) := take3 p l in (ExactStrut a p, l)
+  | Strut_ a p k => let (a, l) := take3 a l in let (p, l) := take3 p l in
+      match k with Some k => let (k, l) := take3 k l in (ExactStrut a p (Some k), l) | None => (ExactStrut a p None, l) end
   | Planar_ d => let (d, l) := take3 d l in (ExactPlanar d, l)
   end.
 Fixpoint take_legs (ws : list written_leg) (l : list Claim.number) : list exact_leg * list Claim.number :=
@@ -389,7 +414,8 @@ Definition failure_of (f : violation) : option failure :=
 (** What the format asks of bounds. *)
 Definition is_bound (r : requirement) : bool :=
   match r with
-  | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b => certainly exact_bits true b
+  | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => certainly exact_bits true b
+  | Stiffness joint b => certainly exact_bits true joint && certainly exact_bits true b
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
   | NotSingular | JointMin _ _ | JointMax _ _ => true
@@ -398,7 +424,7 @@ Definition is_well_formed (ls : list written_leg) (rs : list written_requirement
   Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && forallb is_bound (require c).
 
 Definition accept (c : certificate) : bool :=
-  is_plain (tool c) && is_plain (version c) &&
+  is_plain_certificate c &&
   match subject_ c, proof_ c with
   | Machine_ ls w rs, Nodes bits nodes =>
       let k := claim_of ls w rs in
@@ -440,7 +466,9 @@ Qed.
 (** A text, and what was read from it. *)
 Definition verify (t : string) (c : certificate) : bool := String.eqb (String.concat "" (print c)) t && accept c.
 
-Theorem verify_sound : forall t c, verify t c = true -> t = String.concat "" (print c) /\ means c.
+Theorem verify_sound : forall t c, verify t c = true ->
+  t = String.concat "" (print c) /\ is_plain_certificate c = true /\ means c.
 Proof.
-  intros t c h. apply andb_true_iff in h as [e h]. apply String.eqb_eq in e. split; [symmetry; exact e | exact (accept_sound c h)].
+  intros t c h. apply andb_true_iff in h as [e h]. apply String.eqb_eq in e. split; [symmetry; exact e |].
+  split; [| exact (accept_sound c h)]. unfold accept in h. apply andb_true_iff in h as [p _]. exact p.
 Qed.

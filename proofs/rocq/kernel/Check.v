@@ -34,8 +34,11 @@ Inductive tree :=
   | Leaf (by_ : list (nat * evidence))
   | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
 
-(** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative. *)
-Inductive test := SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat) | Either (f g : nat).
+(** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
+    least singular value of other rows than those of the machine. *)
+Inductive test :=
+  | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
+  | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat).
 
 Section Precision.
 Variable bits : positive.
@@ -102,6 +105,7 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
   | SigmaMax high, ByTest => over_rows values whole (sigma_max m (lowered less (constant high)))
   | SigmaMax high, ByDivided => over_rows values divided (sigma_max m (lowered less (constant high)))
   | Conditioning c2, ByConditioning places Y mu => over_rows values whole (conditioned m less c2 places Y (mu_slope places mu))
+  | Least r low, ByLower places Y => over_rows values r (sigma_min m (raised less (constant low)) places Y)
   | AtLeast f, ByTest | Either f _, ByTest | Either _ f, ByNegative => is_sign values m less f
   | _, _ => false
   end.
@@ -165,9 +169,9 @@ Definition regular (x : list R) (r : rows formula) : Prop :=
   positive_D (map_rows (value x theta) r).
 
 (** [bound] holds of the rows' |M v|^2, for one of the two forms of the rows. *)
+Definition of_these (x : list R) (r : rows formula) (bound : rows R -> Prop) : Prop := regular x r /\ bound (map_rows (value x theta) r).
 Definition of_rows (x : list R) (bound : rows R -> Prop) : Prop :=
-  exists r, (r = map_rows formula_at whole \/ r = map_rows formula_at divided) /\ regular x r /\
-    bound (map_rows (value x theta) r).
+  exists r, (r = map_rows formula_at whole \/ r = map_rows formula_at divided) /\ of_these x r bound.
 
 Definition is_nonneg (x : list R) (f : nat) : Prop := defined x theta (formula_at f) /\ 0 <= value x theta (formula_at f).
 
@@ -180,6 +184,8 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   | Conditioning c2 => of_rows x (fun r => forall c u v, contains c2 c -> length u = m -> length v = m -> nonzero u -> nonzero v ->
       energy r u * dot v v < c * energy r v * dot u u)
   | AtLeast f => is_nonneg x f
+  | Least r low => of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v ->
+      kappa2 * dot v v < energy r v)
   | Either f g => is_nonneg x f \/ is_nonneg x g
   end.
 
@@ -234,16 +240,24 @@ Proof.
       rewrite map_rows_cons. rewrite <- H4, <- k2, <- k4. reflexivity.
 Qed.
 
+Lemma over_these_sound : forall r test (bound : rows R -> Prop), over_rows values r test = true ->
+  (forall s es, test s = true -> rows_rel (entry_in bits) s es ->
+     positive_D (map_rows (at_lambda lambda) es) -> bound (map_rows (at_lambda lambda) es)) ->
+  of_these x (map_rows formula_at r) bound.
+Proof.
+  intros r test bound h H. unfold over_rows in h. destruct (rows_over values r) as [s |] eqn:e; [| discriminate].
+  destruct (rows_over_sound r s e) as [reg [es [k1 k2]]]. split; [exact reg |]. destruct reg as [_ pos]. rewrite k2 in *.
+  eapply H; eassumption.
+Qed.
+
 Lemma over_rows_sound : forall r test (bound : rows R -> Prop),
   r = whole \/ r = divided -> over_rows values r test = true ->
   (forall s es, test s = true -> rows_rel (entry_in bits) s es ->
      positive_D (map_rows (at_lambda lambda) es) -> bound (map_rows (at_lambda lambda) es)) ->
   of_rows x bound.
 Proof.
-  intros r test bound which h H. unfold over_rows in h. destruct (rows_over values r) as [s |] eqn:e; [| discriminate].
-  destruct (rows_over_sound r s e) as [reg [es [k1 k2]]]. exists (map_rows formula_at r).
-  split; [destruct which; subst r; auto |]. split; [exact reg |]. destruct reg as [_ pos]. rewrite k2 in *.
-  eapply H; eassumption.
+  intros r test bound which h H. exists (map_rows formula_at r). split; [destruct which; subst r; auto |].
+  exact (over_these_sound r test bound h H).
 Qed.
 
 (** What is subtracted is not negative at [x]. *)
@@ -294,7 +308,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | |];
+  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | |];
     cbn [shows holds] in *; try discriminate.
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
     destruct (raised_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
@@ -335,6 +349,11 @@ Proof.
     replace (c * a * U * V) with (c * U * (a * V)) by ring. replace (c * energy M v * U) with (c * U * energy M v) by ring.
     apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
   - eapply is_sign_sound; eassumption.
+  - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos kappa2 v hk len nz.
+    destruct (raised_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]].
+    pose proof (sigma_min_sound bits _ _ _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S.
+    rewrite at_constant in le. pose proof (dot_self v).
+    apply Rle_lt_trans with (2 := S), Rmult_le_compat_r; assumption.
   - left. eapply is_sign_sound; eassumption.
   - right. eapply is_sign_sound; eassumption.
 Qed.

@@ -23,8 +23,8 @@ Definition point : evec := EVec (F (Coord 0)) (F (Coord 1)) (F (Coord 2)).
 
 (** ** Drives, by w from the base joint to the platform's *)
 
-(** [f_length]: of sliders. *)
-Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula; f_length : option formula }.
+(** [f_length]: of sliders; [f_couple]: of struts with a base axis. *)
+Record leg_formulas := LegFormulas { f_A : evec; f_D : formula; f_divided : evec; f_joint : formula; f_length : option formula; f_couple : option evec }.
 
 Definition signed (mode : bool) (a : formula) : formula := if mode then a else opposite a.
 
@@ -33,12 +33,13 @@ Definition slider_formulas (w n : evec) (len : formula) (mode : bool) : leg_form
   let r := map2 minus w (scaled along n) in
   let d := minus (square len) (product r r) in
   let eta := signed mode (root d) in
-  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta) (Some len).
+  LegFormulas (map2 plus r (scaled eta n)) d (map2 plus n (divided_by r eta)) (minus along eta) (Some len) None.
 
-Definition strut_formulas (w : evec) : leg_formulas :=
-  let d := product w w in let len := root d in LegFormulas w d (divided_by w len) len None.
+Definition strut_formulas (w : evec) (axis : option evec) : leg_formulas :=
+  let d := product w w in let len := root d in
+  LegFormulas w d (divided_by w len) len None (option_map (fun k => map2 minus w (scaled (product k w) k)) axis).
 
-Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w) None.
+Definition planar_formulas (w n : evec) : leg_formulas := LegFormulas n (integer 1) n (product n w) None None.
 
 (** ** Meaning *)
 
@@ -83,7 +84,8 @@ Definition represents (f : leg_formulas) (l : leg) : Prop :=
   vvalue (f_divided f) = row l P /\ value (f_joint f) = joint l P /\
   (reaches P l -> 0 < value (f_D f)) /\
   (forall len, f_length f = Some len -> exists k, l = Guided k /\ value len = leg_length k /\
-    (0 < value (f_D f) -> value (f_D f) = eta k P ^ 2) /\ vvalue (f_A f) = leg_vector k P).
+    (0 < value (f_D f) -> value (f_D f) = eta k P ^ 2) /\ vvalue (f_A f) = leg_vector k P) /\
+  (forall c, f_couple f = Some c -> couple_of l P = Some (vvalue c)).
 
 Lemma value_signed : forall (mode : bool) a, value (signed mode a) = (if mode then 1 else -1) * value a.
 Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
@@ -107,7 +109,7 @@ Proof.
     exfalso. apply h. unfold s. rewrite <- z. ring. }
   assert (Sq : 0 < value ed -> value ed = eta l P ^ 2).
   { intro h. unfold eta. rewrite Rpow_mult_distr, hm, (s_squared l P (T h)), D. destruct mode; ring. }
-  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
   - intro h. split; [exact (T h) |]. intro v. pose proof (Sq h) as Q.
     rewrite vvalue_plus, vvalue_scaled, R, E, hn, Q. unfold Jinv_row. rewrite Q in h.
     assert (H : eta l P <> 0) by (intro z; rewrite z in h; lra).
@@ -121,14 +123,15 @@ Proof.
     rewrite sqrt_neg_0 in h by exact n. lra.
   - intros len h. injection h as <-. exists l. split; [reflexivity |]. split; [exact hl |]. split; [exact Sq |].
     rewrite vvalue_plus, vvalue_scaled, R, E, hn. symmetry. apply leg_vector_eq.
+  - discriminate.
 Qed.
 
-Lemma strut_represents : forall ew base platform, vvalue ew = span base platform P ->
-  represents (strut_formulas ew) (Extensible base platform).
+Lemma strut_represents : forall ew base platform ek axis, vvalue ew = span base platform P ->
+  option_map vvalue ek = axis -> represents (strut_formulas ew ek) (Extensible base platform axis).
 Proof.
-  intros ew base platform hw. unfold strut_formulas. cbn zeta.
+  intros ew base platform ek axis hw hk. unfold strut_formulas. cbn zeta.
   assert (D : value (product ew ew) = norm2 (span base platform P)) by (rewrite value_product, hw, norm2_dot; reflexivity).
-  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
   - rewrite D, hw. intro h. split; [exact h |]. intro v. unfold normalised.
     assert (E : forall a u, Vec3.dot (vscale a u) v = a * Vec3.dot u v) by (intros; unfold Vec3.dot; cbn; ring).
     rewrite E, Rpow_mult_distr. pose proof (sqrt_lt_R0 _ h) as s0. rewrite pow_inv.
@@ -142,18 +145,21 @@ Proof.
   - rewrite value_root, D. reflexivity.
   - rewrite D. auto.
   - discriminate.
+  - intros c h. destruct ek as [k |]; [| discriminate]. cbn [option_map] in h, hk. injection h as <-. subst axis.
+    cbn [couple_of]. unfold couple. rewrite vvalue_minus, vvalue_scaled, value_product, hw. reflexivity.
 Qed.
 
 Lemma planar_represents : forall ew en n, vvalue ew = P -> vvalue en = normalised n ->
   represents (planar_formulas ew en) (Plane n).
 Proof.
   intros ew en n hw hn. unfold planar_formulas.
-  split; [| split; [| split; [| split; [| split]]]]; cbn [f_A f_D f_divided f_joint f_length reaches row joint].
+  split; [| split; [| split; [| split; [| split; [| split]]]]]; cbn [f_A f_D f_divided f_joint f_length f_couple reaches row joint].
   - intros _. split; [exact I |]. intro v. rewrite hn. cbn. field.
   - intros _. exact I.
   - exact hn.
   - rewrite value_product, hn, hw. reflexivity.
   - intros _. cbn. lra.
+  - discriminate.
   - discriminate.
 Qed.
 
@@ -187,7 +193,7 @@ End Point.
 Definition resized (c : R) (l : leg) : leg :=
   match l with
   | Guided l => Guided (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l))
-  | Extensible base platform => Extensible (vscale c base) (vscale c platform)
+  | Extensible base platform axis => Extensible (vscale c base) (vscale c platform) axis
   | Plane n => Plane n
   end.
 
@@ -218,7 +224,7 @@ Lemma resized_same : forall l,
   row (resized c l) (vscale c P) = row l P /\ joint (resized c l) (vscale c P) = c * joint l P /\
   (reaches (vscale c P) (resized c l) <-> reaches P l).
 Proof.
-  intros [l | base platform | n]; cbn [resized row joint reaches].
+  intros [l | base platform k | n]; cbn [resized row joint reaches].
   - assert (S : s (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l)) (vscale c P)
       = c * s l P).
     { unfold s. rewrite r_resized. cbn [leg_length]. rewrite norm2_scale, <- sqrt_resized by exact c_pos. f_equal. ring. }
@@ -239,10 +245,16 @@ Proof.
     split; intro h; [apply Rmult_lt_reg_l with (c ^ 2); lra | apply Rmult_lt_0_compat; assumption].
   - split; [reflexivity |]. split; [| tauto]. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
 Qed.
+Lemma couple_resized : forall l, couple_of (resized c l) (vscale c P) = option_map (vscale c) (couple_of l P).
+Proof.
+  intros [l | base platform [k |] | n]; try reflexivity. cbn [resized couple_of option_map]. f_equal. unfold couple, span.
+  unfold vsub, vadd, vscale, Vec3.dot. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
 Lemma guided_resized : forall l k, resized c l = Guided k -> exists k', l = Guided k' /\ leg_length k = c * leg_length k' /\
   eta k (vscale c P) = c * eta k' P /\ leg_vector k (vscale c P) = vscale c (leg_vector k' P).
 Proof.
-  intros [l | |] k h; try discriminate. cbn [resized] in h. injection h as <-. exists l. split; [reflexivity |]. split; [reflexivity |].
+  intros [l | ? ? ? | ?] k h; try discriminate. cbn [resized] in h. injection h as <-. exists l. split; [reflexivity |]. split; [reflexivity |].
   assert (E : eta (Leg (axis l) (vscale c (base_point l)) (vscale c (platform_offset l)) (c * leg_length l) (working_mode l)) (vscale c P)
       = c * eta l P).
   { unfold eta, s. rewrite r_resized. cbn [leg_length working_mode]. rewrite norm2_scale.
@@ -256,13 +268,13 @@ End Resized.
 (** ** Rows are derivatives: a guard on the model *)
 
 Definition well_formed_leg (l : leg) : Prop :=
-  match l with Guided l => well_formed l | Extensible _ _ => True | Plane n => n <> vzero end.
+  match l with Guided l => well_formed l | Extensible _ _ k => match k with Some k => norm2 k = 1 | None => True end | Plane n => n <> vzero end.
 
 (** Along any differentiable trajectory P(t), rho_i' = row_i . P'. *)
 Theorem row_is_derivative : forall l P t V, well_formed_leg l -> reaches (P t) l -> has_velocity P t V ->
   derivable_pt_lim (fun u => joint l (P u)) t (Vec3.dot (row l (P t)) V).
 Proof.
-  intros [l | base platform | n] P t V ok h hv; cbn [joint row reaches well_formed_leg] in *.
+  intros [l | base platform k | n] P t V ok h hv; cbn [joint row reaches well_formed_leg] in *.
   - apply joint_velocity; assumption.
   - set (f := fun u => norm2 (span base platform (P u))).
     assert (W : has_velocity (fun u => span base platform (P u)) t V)

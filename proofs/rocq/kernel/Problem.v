@@ -62,7 +62,7 @@ Qed.
 Definition layout (s d : Z) (dr : drive) : list parameter :=
   match dr with
   | SliderLeg c => three (direction c) d ++ three (anchor c) s ++ three (platform c) s ++ [(Claim.length c, s)]
-  | StrutLeg a p => three a s ++ three p s
+  | StrutLeg a p k => three a s ++ three p s ++ match k with Some k => three k d | None => [] end
   | PlanarLeg n => three n d
   end.
 
@@ -74,7 +74,8 @@ Definition drive_formulas (s d : Z) (dr : drive) (j : nat) : leg_formulas :=
   let q := numbered j (layout s d dr) in
   match dr with
   | SliderLeg c => slider_formulas (from_base (vector_at q 3) (vector_at q 6)) (unit_vector (vector_at q 0)) (nth 9 q (integer 0)) (mode c)
-  | StrutLeg _ _ => strut_formulas (from_base (vector_at q 0) (vector_at q 3))
+  | StrutLeg _ _ k => strut_formulas (from_base (vector_at q 0) (vector_at q 3))
+      (match k with Some _ => Some (unit_vector (vector_at q 6)) | None => None end)
   | PlanarLeg _ => planar_formulas point (unit_vector (vector_at q 0))
   end.
 
@@ -93,7 +94,7 @@ Lemma drive_represents : forall s d dr l, is_leg_of dr l -> exists th, Forall2 s
   forall P front back, represents P (front ++ th ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) l).
 Proof.
   intros s d dr l h. pose proof (Rinv_0_lt_compat _ (two_to_pos d)) as d0.
-  destruct dr as [c | a p | n], l as [k | base platform | normal]; cbn [is_leg_of] in h; try contradiction.
+  destruct dr as [c | a p ax | n], l as [k | base platform axis | normal]; cbn [is_leg_of] in h; try contradiction.
   - destruct h as [[u [hu ax]] [ha [hp [hl hm]]]].
     exists (coordinates (vscale (/ two_to d) u) ++ coordinates (vscale (/ two_to s) (base_point k))
       ++ coordinates (vscale (/ two_to s) (platform_offset k)) ++ [/ two_to s * leg_length k]).
@@ -108,13 +109,23 @@ Proof.
     + rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). cbn [axis]. rewrite ax. exact (normalised_resized (/ two_to d) u d0).
     + rewrite (value_at _ _ _ _ _ V). reflexivity.
     + exact hm.
-  - destruct h as [ha hp].
-    exists (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform)).
-    assert (L : Forall2 scaled_within (layout s d (StrutLeg a p)) (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform)))
-      by (apply Forall2_app; apply three_within; assumption).
+  - destruct h as [ha [hp hk]].
+    assert (Axis : exists t, Forall2 scaled_within match ax with Some k => three k d | None => [] end t /\
+      match ax with Some _ => axis = Some (normalised (Vec (nth 0 t 0) (nth 1 t 0) (nth 2 t 0))) | None => axis = None end).
+    { destruct ax as [k |], axis as [v |]; try contradiction; [| exists []; split; [constructor | reflexivity]].
+      destruct hk as [u [hu ->]]. exists (coordinates (vscale (/ two_to d) u)). split; [apply three_within, hu |].
+      cbn [coordinates nth]. f_equal. rewrite <- (normalised_resized (/ two_to d) u d0). reflexivity. }
+    destruct Axis as [t [ht ea]].
+    exists (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform) ++ t).
+    assert (L : Forall2 scaled_within (layout s d (StrutLeg a p ax))
+      (coordinates (vscale (/ two_to s) base) ++ coordinates (vscale (/ two_to s) platform) ++ t))
+      by (cbn [layout]; apply Forall2_app; [apply three_within; exact ha |]; apply Forall2_app; [apply three_within; exact hp | exact ht]).
     split; [exact L |]. intros P front back.
     pose proof (numbered_values _ _ (coordinates P) front back L) as V. cbn [drive_formulas resized].
-    apply strut_represents. rewrite vvalue_from_base, !(vvalue_at _ _ _ _ _ V). reflexivity.
+    apply strut_represents.
+    + rewrite vvalue_from_base, !(vvalue_at _ _ _ _ _ V). reflexivity.
+    + destruct ax as [k |]; cbn [option_map]; rewrite ea; [| reflexivity].
+      rewrite vvalue_unit, (vvalue_at _ _ _ _ _ V). reflexivity.
   - exists (coordinates (vscale (/ two_to d) normal)).
     assert (L : Forall2 scaled_within (layout s d (PlanarLeg n)) (coordinates (vscale (/ two_to d) normal)))
       by (apply three_within; assumption).
@@ -154,7 +165,8 @@ Definition bound_of (s : Z) (r : requirement) : parameter :=
   | PsiMax b | PsiMin b => (exactly (Over (1 // 1) b), 0%Z)
   | JointMin _ b | JointMax _ b => (exactly b, s)
   | JointSpeed _ tool b => (exactly (Over b tool), 0%Z)
-  | ConditionMax b | SerialMargin _ b | ParallelMargin b => (exactly b, 0%Z)
+  | Stiffness joint b => (exactly (Over b joint), 0%Z)
+  | ConditionMax b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => (exactly b, 0%Z)
   end.
 Definition bound_value (s : Z) (r : requirement) : R := Claim.value (greatest (fst (bound_of s r))) / two_to (snd (bound_of s r)).
 
@@ -171,6 +183,25 @@ Definition minor (p q r t : formula) : formula := minus (times p t) (times q r).
 Definition determinant (a b c : evec) : formula :=
   plus (minus (times (ex a) (minor (ey b) (ez b) (ey c) (ez c))) (times (ey a) (minor (ex b) (ez b) (ex c) (ez c))))
     (times (ez a) (minor (ex b) (ey b) (ex c) (ey c))).
+
+Definition entries (r : rows formula) : list formula := flat_map (fun p => fst p ++ [snd p]) r.
+
+(** Rows of which the least singular value has a bound. *)
+Definition stiff_rows (fs : list leg_formulas) (ratio : formula) : rows formula :=
+  map (fun f => (list_of (f_A f), times (f_D f) ratio)) fs.
+Fixpoint couple_rows (fs : list leg_formulas) : option (rows formula) :=
+  match fs with
+  | [] => Some []
+  | f :: fs' => match f_couple f, couple_rows fs' with Some c, Some r => Some ((list_of c, product c c) :: r) | _, _ => None end
+  end.
+Definition least_rows (fs : list leg_formulas) (s : Z) (j : nat) (r : requirement) : option (rows formula) :=
+  match r with
+  | Stiffness _ _ => Some (stiff_rows fs (quantity (bound_of s r) j))
+  | ConstraintMargin _ => couple_rows fs
+  | _ => None
+  end.
+
+Definition is_least (r : requirement) : bool := match r with Stiffness _ _ | ConstraintMargin _ => true | _ => false end.
 
 (** What is not to be negative: the formulas of one requirement, of which one has to be so.  [j] is the
     bound's place among the parameters. *)
@@ -196,6 +227,7 @@ Definition range_formula (fs : list leg_formulas) (s : Z) (j : nat) (r : require
           end
       | _ => []
       end
+  | Stiffness _ _ | ConstraintMargin _ => match least_rows fs s j r with Some rs => entries rs | None => [] end
   | NotSingular | PsiMax _ | PsiMin _ | ConditionMax _ => []
   end.
 Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat) (rs : list requirement) : list formula :=
@@ -214,6 +246,12 @@ Definition test_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j 
   | PsiMax _ => option_map (fun a => SigmaMin (sqr bits a)) (enclose_parameter bits (bound_of s r))
   | PsiMin _ => option_map (fun a => SigmaMax (sqr bits a)) (enclose_parameter bits (bound_of s r))
   | ConditionMax _ => option_map (fun a => Conditioning (sqr bits a)) (enclose_parameter bits (bound_of s r))
+  | Stiffness _ _ => option_map (fun rs => Least (map_rows place rs) (Fixed.integer bits 1)) (least_rows fs s j r)
+  | ConstraintMargin _ =>
+      match least_rows fs s j r, enclose_parameter bits (bound_of s r) with
+      | Some rs, Some a => Some (Least (map_rows place rs) (sqr bits a))
+      | _, _ => None
+      end
   | _ => match range_formula fs s j r with
          | [f] => Some (AtLeast (place f))
          | [f; g] => Some (Either (place f) (place g))
@@ -224,8 +262,6 @@ Fixpoint tests_of (place : formula -> nat) (fs : list leg_formulas) (s : Z) (j :
   match rs with [] => [] | r :: rs' => test_of place fs s j r :: tests_of place fs s (S j) rs' end.
 
 Definition is_lower (r : requirement) : bool := match r with NotSingular | PsiMax _ => true | _ => false end.
-Definition entries (r : rows formula) : list formula := flat_map (fun p => fst p ++ [snd p]) r.
-
 (** ** The workspace *)
 
 (** A box around it. *)
@@ -435,7 +471,7 @@ Qed.
 
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
-  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [test_of] in is_test.
+  intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [test_of] in is_test.
   - injection is_test as <-. destruct (of_rows_speed _ test_holds) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
@@ -473,12 +509,12 @@ Lemma ratio_pos : 0 < ratio.
 Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
 
 (** The requirements that one formula decides: [f], which is not negative. *)
-Lemma sign_fulfilled : forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
+Lemma sign_fulfilled : is_least r = false -> forall f, range_formula fs s j r = [f] -> 0 <= value x theta f -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [g |] eqn:n; [| discriminate]; destruct (leg_at i g n) as [l [n0 [R0 re]]];
-      destruct R0 as [R1 [_ [_ [J [R2 R3]]]]]); cbn [fulfils].
+      destruct R0 as [R1 [_ [_ [J [R2 [R3 _]]]]]]); cbn [fulfils].
   - injection E as <-. exists l. split; [exact n0 |]. rewrite value_minus, J, B in h.
     destruct (resized_same ratio P r0 l) as [_ [e _]]. rewrite e in h. unfold bound_value in h. cbn in h.
     fold ratio in h. unfold Rdiv in h. fold ratio in h. apply Rmult_le_reg_l with ratio; [exact r0 | lra].
@@ -529,10 +565,10 @@ Qed.
 Lemma det_scaled : forall k a b c, det (Mat (vscale k a) (vscale k b) (vscale k c)) = k ^ 3 * det (Mat a b c).
 Proof. intros. unfold det, Vec3.dot, cross, vscale. cbn [row1 row2 row3 vx vy vz]. ring. Qed.
 
-Lemma margin_fulfilled : forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
+Lemma margin_fulfilled : is_least r = false -> forall f g, range_formula fs s j r = [f; g] -> 0 <= value x theta f \/ 0 <= value x theta g -> fulfils m P r.
 Proof.
   pose proof ratio_pos as r0. pose proof bound_here as B.
-  intros f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
+  intros least f g E h. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [range_formula bound_of] in E, B;
     try (destruct (nth_error fs i) as [k |]; [| discriminate]; try discriminate; destruct (f_length k); discriminate).
   pose proof represented as R0. fold fs in R0. destruct fs as [| f1 [| f2 [| f3 [|]]]]; try discriminate.
   destruct (f_length f1) as [len1 |] eqn:q1; [| discriminate]. destruct (f_length f2) as [len2 |] eqn:q2; [| discriminate].
@@ -540,7 +576,7 @@ Proof.
   destruct m as [| m1 [| m2 [| m3 [| m4 rest]]]]; cbn [map] in R0;
     try (apply related_length in R0; discriminate).
   apply cons_related in R0 as [H1 R0]. apply cons_related in R0 as [H2 R0]. apply cons_related in R0 as [H3 _].
-  destruct H1 as [_ [_ [_ [_ [_ H1]]]]]. destruct H2 as [_ [_ [_ [_ [_ H2]]]]]. destruct H3 as [_ [_ [_ [_ [_ H3]]]]].
+  destruct H1 as [_ [_ [_ [_ [_ [H1 _]]]]]]. destruct H2 as [_ [_ [_ [_ [_ [H2 _]]]]]]. destruct H3 as [_ [_ [_ [_ [_ [H3 _]]]]]].
   destruct (H1 _ q1) as [k1 [a1 [b1 [_ c1]]]]. destruct (H2 _ q2) as [k2 [a2 [b2 [_ c2]]]]. destruct (H3 _ q3) as [k3 [a3 [b3 [_ c3]]]].
   destruct (guided_resized ratio P r0 _ _ a1) as [p1 [-> [g1 [_ v1]]]].
   destruct (guided_resized ratio P r0 _ _ a2) as [p2 [-> [g2 [_ v2]]]].
@@ -556,19 +592,82 @@ Proof.
   - apply Rle_trans with (- d); [| rewrite <- Rabs_Ropp; apply Rle_abs]. apply Rmult_le_reg_l with (ratio ^ 3); [exact t0 |]. cbn [pow] in *. lra.
 Qed.
 
+Lemma least_found : forall rs, least_rows fs s j r = Some rs -> map_rows (formula_at tape) (map_rows found rs) = rs.
+Proof.
+  intros rs e. apply (rows_found tape rs). intros f i. apply range_found.
+  destruct r; try discriminate; cbn [range_formula]; cbv zeta; rewrite e; exact i.
+Qed.
+
+Lemma stiff_energy : forall q l m0, 0 < value x theta q ->
+  Forall2 (represents Q theta) l (map (resized ratio) m0) -> Forall (reaches P) m0 -> forall v,
+  energy (map_rows (value x theta) (stiff_rows l q)) (coordinates v) = / value x theta q * speed2 m0 P v.
+Proof.
+  pose proof ratio_pos as r0. intros q l m0 q0 R0 RE v. revert m0 R0 RE. induction l as [| f l IH]; intros m0 R0 RE.
+  - destruct m0; [| inversion R0]. cbn. ring.
+  - destruct m0 as [| g m0]; [inversion R0 |]. apply cons_related in R0 as [R1 R0]. inversion RE as [| ? ? re RE']. subst.
+    destruct R1 as [R1 [_ [_ [_ [R2 _]]]]]. destruct (resized_same ratio P r0 g) as [er [_ eq]].
+    assert (D : 0 < value x theta (f_D f)) by (apply R2, eq, re). destruct (R1 D) as [_ hr]. specialize (hr v). rewrite er in hr.
+    change (stiff_rows (f :: l) q) with ((list_of (f_A f), times (f_D f) q) :: stiff_rows l q).
+    change (speed2 (g :: m0) P v) with (Vec3.dot (row g P) v ^ 2 + speed2 m0 P v).
+    rewrite map_rows_cons. cbn [energy fst snd].
+    rewrite (IH m0 R0 RE'), values_list, dot_coordinates, value_times, Rmult_plus_distr_l, <- hr. f_equal. field. lra.
+Qed.
+
+Lemma stiff_bound : forall q l m0, Forall2 (represents Q theta) l (map (resized ratio) m0) -> Forall (reaches P) m0 ->
+  positive_D (map_rows (value x theta) (stiff_rows l q)) -> forall v, v <> vzero ->
+  norm2 v < energy (map_rows (value x theta) (stiff_rows l q)) (coordinates v) -> value x theta q * norm2 v <= speed2 m0 P v.
+Proof.
+  intros q l m0 R0 RE pos v nz h. pose proof (norm2_pos v nz) as n0.
+  assert (q0 : 0 < value x theta q).
+  { destruct l as [| f l]; [cbn in h; lra |]. destruct m0 as [| g m0]; [inversion R0 |].
+    change (stiff_rows (f :: l) q) with ((list_of (f_A f), times (f_D f) q) :: stiff_rows l q) in pos.
+    rewrite map_rows_cons in pos. inversion pos as [| ? ? p1 _]. subst. cbn [snd] in p1. rewrite value_times in p1.
+    apply cons_related in R0 as [R1 _]. destruct R1 as [_ [_ [_ [_ [R2 _]]]]]. inversion RE as [| ? ? re _]. subst.
+    destruct (resized_same ratio P ratio_pos g) as [_ [_ eq]]. assert (D : 0 < value x theta (f_D f)) by (apply R2, eq, re).
+    apply Rmult_lt_reg_l with (value x theta (f_D f)); [exact D | lra]. }
+  rewrite (stiff_energy q l m0 q0 R0 RE) in h. apply Rlt_le.
+  apply Rmult_lt_reg_l with (/ value x theta q); [apply Rinv_0_lt_compat, q0 |].
+  rewrite <- Rmult_assoc, Rinv_l, Rmult_1_l by lra. exact h.
+Qed.
+
+Lemma couples_energy : forall l m0, Forall2 (represents Q theta) l (map (resized ratio) m0) ->
+  forall rs, couple_rows l = Some rs -> positive_D (map_rows (value x theta) rs) ->
+  exists cs, Forall2 (fun l c => couple_of l P = Some c /\ c <> vzero) m0 cs /\
+    forall v, energy (map_rows (value x theta) rs) (coordinates v) = fold_right (fun c sum => Vec3.dot (normalised c) v ^ 2 + sum) 0 cs.
+Proof.
+  pose proof ratio_pos as r0. induction l as [| f l IH]; intros m0 R0 rs e p.
+  - injection e as <-. destruct m0; [| inversion R0]. exists []. split; [constructor | reflexivity].
+  - destruct m0 as [| g m0]; [inversion R0 |]. apply cons_related in R0 as [R1 R0]. cbn [couple_rows] in e.
+    destruct (f_couple f) as [k |] eqn:ec; [| discriminate]. destruct (couple_rows l) as [rest |] eqn:el; [| discriminate].
+    injection e as <-. rewrite map_rows_cons in p. inversion p as [| ? ? p1 p2]. subst. cbn [snd] in p1.
+    destruct (IH m0 R0 rest eq_refl p2) as [cs [h1 h2]]. destruct R1 as [_ [_ [_ [_ [_ [_ R1]]]]]]. specialize (R1 k ec).
+    rewrite couple_resized in R1 by exact r0. destruct (couple_of g P) as [u |] eqn:eu; [| discriminate]. cbn [option_map] in R1.
+    assert (R1' : vscale ratio u = vvalue Q theta k) by congruence. clear R1. rename R1' into R1. rewrite value_product, <- norm2_dot, <- R1, norm2_scale in p1.
+    assert (u0 : u <> vzero) by (intro z; subst u; unfold norm2, vzero in p1; cbn in p1; lra).
+    exists (u :: cs). split; [constructor; [split; assumption | exact h1] |]. intro v.
+    rewrite map_rows_cons. cbn [energy fst snd fold_right]. rewrite h2. f_equal.
+    rewrite values_list, dot_coordinates, value_product, <- norm2_dot, <- R1, norm2_scale.
+    pose proof (norm2_pos u u0) as n0. pose proof (sqrt_lt_R0 _ n0) as s0.
+    assert (S : sqrt (norm2 u) ^ 2 = norm2 u) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+    assert (E1 : forall a, Vec3.dot (vscale a u) v = a * Vec3.dot u v) by (intro a; unfold Vec3.dot, vscale; cbn [vx vy vz]; ring).
+    unfold normalised. rewrite !E1, !Rpow_mult_distr, pow_inv, S. field. split; lra.
+Qed.
+
 Lemma fulfilled : fulfils m P r.
 Proof.
   pose proof is_test as T. pose proof test_holds as H. pose proof nonneg_of as NN.
-  pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF.
+  pose proof sign_fulfilled as SF. pose proof margin_fulfilled as MF. pose proof least_found as LF. pose proof bound_here as B.
+  pose proof (couples_energy fs m represented) as CE.
   assert (Sign : match range_formula fs s j r with
-      | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t -> fulfils m P r).
-  { intro E. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
-    - apply (SF f eq_refl), (NN f); [left; reflexivity | exact H].
-    - apply (MF f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
+      | [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end = Some t ->
+      is_least r = false -> fulfils m P r).
+  { intros E least. destruct (range_formula fs s j r) as [| f [| g [|]]]; try discriminate; injection E as <-; cbn [Check.holds] in H.
+    - apply (SF least f eq_refl), (NN f); [left; reflexivity | exact H].
+    - apply (MF least f g eq_refl). destruct H as [H | H]; [left | right]; (apply NN; [| exact H]).
       + left. reflexivity.
       + right. left. reflexivity. }
   destruct (is_lower r) eqn:low; [apply (lower_fulfilled low) |].
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; try discriminate; cbn [test_of] in T; try exact (Sign T).
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [test_of] in T; try exact (Sign T eq_refl).
   - destruct (enclose_parameter bits (bound_of s (PsiMin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
     destruct (of_rows_speed _ H) as [h1 [e [h2 h3]]]. intro v.
     destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |]. apply Rlt_le.
@@ -583,6 +682,25 @@ Proof.
       unfold bound_value in K. cbn in K. unfold two_to in K. cbn in K. unfold Rdiv in K. rewrite Rinv_1, Rmult_1_r in K. exact K. }
     pose proof (h2 _ (coordinates u) (coordinates v) C eq_refl eq_refl (nonzero_coordinates u nu) (nonzero_coordinates v nv)) as Z.
     rewrite !h3, !dot_coordinates, <- !norm2_dot in Z. lra.
+  - cbn [least_rows option_map bound_of] in T, LF, B. injection T as <-. cbn [Check.holds] in H. specialize (LF _ eq_refl). rewrite LF in H.
+    destruct H as [[_ pos] h]. set (q := quantity (exactly (Over b joint), 0%Z) j) in *.
+    assert (K : value x theta q = Claim.value b / Claim.value joint).
+    { rewrite B. unfold bound_value. cbn. change (two_to 0) with 1. unfold Rdiv at 1. rewrite Rinv_1. ring. }
+    cbn [fulfils]. intro v. destruct (vzero_dec v) as [-> | nz]; [rewrite speed2_zero; unfold norm2, vzero; cbn; lra |].
+    specialize (h 1 (coordinates v) ltac:(apply (Fixed.integer_sound bits 1)) eq_refl (nonzero_coordinates v nz)).
+    rewrite <- K. apply (stiff_bound q fs m represented reached pos v nz).
+    rewrite Rmult_1_l, dot_coordinates, <- norm2_dot in h. exact h.
+  - cbn [least_rows] in T, LF. destruct (couple_rows fs) as [rs |] eqn:er; [| discriminate].
+    destruct (enclose_parameter bits (bound_of s (ConstraintMargin b))) as [a |] eqn:E; [| discriminate]. injection T as <-.
+    cbn [Check.holds] in H. specialize (LF _ eq_refl). rewrite LF in H. destruct H as [[_ pos] h].
+    destruct (CE rs eq_refl pos) as [cs [h1 h2]]. exists cs. split; [exact h1 |]. intro v. rewrite <- h2.
+    assert (C : contains (sqr bits a) (Claim.value b ^ 2)).
+    { apply sqr_sound. pose proof (enclose_parameter_sound bits _ _ _ E (bound_within s (ConstraintMargin b))) as K.
+      unfold bound_value in K. cbn in K. unfold two_to in K. cbn in K. unfold Rdiv in K. rewrite Rinv_1, Rmult_1_r in K. exact K. }
+    destruct (vzero_dec v) as [-> | nz].
+    + rewrite h2. replace (norm2 vzero) with 0 by (unfold norm2, vzero; cbn; ring). rewrite Rmult_0_r.
+      clear. induction cs as [| c cs IH]; cbn [fold_right]; [lra |]. pose proof (pow2_ge_0 (Vec3.dot (normalised c) vzero)). lra.
+    + apply Rlt_le. rewrite norm2_dot, <- dot_coordinates. exact (h _ (coordinates v) C eq_refl (nonzero_coordinates v nz)).
 Qed.
 End Accepted.
 

@@ -16,7 +16,8 @@ Inductive leg :=
   (* of fixed length, on a linear guide *)
   | Guided (l : Kinematics.leg)
   (* extensible, from its base joint to the platform's at P + platform *)
-  | Extensible (base platform : vec)
+  (* and, of struts that keep the platform from turning, the unit vector of the joint axis in the base *)
+  | Extensible (base platform : vec) (axis : option vec)
   (* a plane that is moved along its normal, which may have any length but zero *)
   | Plane (normal : vec).
 
@@ -29,7 +30,7 @@ Definition span (base platform P : vec) : vec := vsub (vadd P platform) base.
 Definition joint (l : leg) (P : vec) : R :=
   match l with
   | Guided l => rho l P
-  | Extensible base platform => sqrt (norm2 (span base platform P))
+  | Extensible base platform _ => sqrt (norm2 (span base platform P))
   | Plane n => dot (normalised n) P
   end.
 
@@ -37,7 +38,7 @@ Definition joint (l : leg) (P : vec) : R :=
 Definition reaches (P : vec) (l : leg) : Prop :=
   match l with
   | Guided l => 0 < s l P
-  | Extensible base platform => 0 < norm2 (span base platform P)
+  | Extensible base platform _ => 0 < norm2 (span base platform P)
   | Plane _ => True
   end.
 
@@ -45,9 +46,14 @@ Definition reaches (P : vec) (l : leg) : Prop :=
 Definition row (l : leg) (P : vec) : vec :=
   match l with
   | Guided l => Jinv_row l P
-  | Extensible base platform => normalised (span base platform P)
+  | Extensible base platform _ => normalised (span base platform P)
   | Plane n => normalised n
   end.
+
+(** The couple that the leg constrains: the part of the leg orthogonal to the axis. *)
+Definition couple (axis w : vec) : vec := vsub w (vscale (dot axis w) axis).
+Definition couple_of (l : leg) (P : vec) : option vec :=
+  match l with Extensible base platform (Some axis) => Some (couple axis (span base platform P)) | _ => None end.
 
 (** |M v|^2 *)
 Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot (row l P) v ^ 2 + sum) 0 m.
@@ -56,13 +62,18 @@ Definition speed2 (m : list leg) (P v : vec) : R := fold_right (fun l sum => dot
 
 Inductive drive :=
   | SliderLeg (c : slider)
-  | StrutLeg (anchor platform : tolerances)
+  | StrutLeg (anchor platform : tolerances) (base_axis : option tolerances)
   | PlanarLeg (direction : tolerances).
 
 Definition is_leg_of (d : drive) (l : leg) : Prop :=
   match d, l with
   | SliderLeg c, Guided l => is_leg c l
-  | StrutLeg a p, Extensible base platform => all_within a base /\ all_within p platform
+  | StrutLeg a p k, Extensible base platform axis => all_within a base /\ all_within p platform /\
+      match k, axis with
+      | None, None => True
+      | Some k, Some axis => exists d, all_within k d /\ axis = normalised d
+      | _, _ => False
+      end
   | PlanarLeg d, Plane n => all_within d n
   | _, _ => False
   end.
@@ -87,7 +98,9 @@ Inductive requirement :=
   | JointSpeed (leg : nat) (tool b : number)           (* of no velocity of the platform up to [tool] *)
   | ConditionMax (b : number)                          (* sigma_max / sigma_min *)
   | SerialMargin (leg : nat) (b : number)              (* |eta| / L, of sliders *)
-  | ParallelMargin (b : number).                       (* |det A| / (L_1 L_2 L_3), of three sliders *)
+  | ParallelMargin (b : number)                        (* |det A| / (L_1 L_2 L_3), of three sliders *)
+  | Stiffness (joint b : number)                       (* M^T joint M, with rigid legs *)
+  | ConstraintMargin (b : number).                     (* sigma_min of the unit couples, of struts with an axis *)
 
 Record claim := MakeClaim { legs : list drive; workspace : region; require : list requirement }.
 
@@ -110,6 +123,9 @@ Definition fulfils (m : list leg) (P : vec) (r : requirement) : Prop :=
   | SerialMargin i b => exists k, nth_error m i = Some (Guided k) /\ (value b * leg_length k) ^ 2 <= eta k P ^ 2
   | ParallelMargin b => exists l1 l2 l3, m = [Guided l1; Guided l2; Guided l3] /\
       value b * leg_length l1 * leg_length l2 * leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P))
+  | Stiffness joint b => forall v, value b / value joint * norm2 v <= speed2 m P v
+  | ConstraintMargin b => exists cs, Forall2 (fun l c => couple_of l P = Some c /\ c <> vzero) m cs /\
+      forall v, value b ^ 2 * norm2 v <= fold_right (fun c sum => dot (normalised c) v ^ 2 + sum) 0 cs
   end.
 
 (** Every leg reaches [P], no singularity is there, and every requirement is met. *)

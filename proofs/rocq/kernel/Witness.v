@@ -122,13 +122,13 @@ Qed.
 
 Inductive exact_leg :=
   | ExactSlider (direction anchor platform : numbers) (length : number) (mode : bool)
-  | ExactStrut (anchor platform : numbers)
+  | ExactStrut (anchor platform : numbers) (base_axis : option numbers)
   | ExactPlanar (direction : numbers).
 
 Definition leg_of (l : exact_leg) : Statement.leg :=
   match l with
   | ExactSlider d a p len m => Guided (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1))
-  | ExactStrut a p => Extensible (values a) (values p)
+  | ExactStrut a p k => Extensible (values a) (values p) (option_map (fun k => normalised (values k)) k)
   | ExactPlanar d => Plane (values d)
   end.
 
@@ -148,7 +148,8 @@ Definition is_exact (d : drive) (l : exact_leg) : bool :=
   | SliderLeg c, ExactSlider d a p len m =>
       parts (direction c) d && certainly true (product d d) && parts (anchor c) a && parts (platform c) p
       && part (length c) len && certainly true len && Bool.eqb (mode c) m
-  | StrutLeg a p, ExactStrut a' p' => parts a a' && parts p p'
+  | StrutLeg a p k, ExactStrut a' p' k' => parts a a' && parts p p' &&
+      match k, k' with Some k, Some k' => parts k k' && certainly true (product k' k') | None, None => true | _, _ => false end
   | PlanarLeg d, ExactPlanar d' => parts d d' && certainly true (product d' d')
   | _, _ => false
   end.
@@ -161,7 +162,7 @@ Qed.
 
 Lemma is_exact_sound : forall d l, is_exact d l = true -> is_leg_of d (leg_of l) /\ well_formed_leg (leg_of l).
 Proof.
-  intros [c | a p | n] [d' a' p' len m | a' p' | n'] h; cbn [is_exact] in h; try discriminate;
+  intros [c | a p k | n] [d' a' p' len m | a' p' k' | n'] h; cbn [is_exact] in h; try discriminate;
     cbn [is_leg_of leg_of well_formed_leg].
   - do 6 (apply andb_true_iff in h as [h ?]). match goal with k : Bool.eqb _ _ = true |- _ => apply Bool.eqb_prop in k; subst m end.
     repeat match goal with
@@ -174,7 +175,10 @@ Proof.
       split; [exists (values d'); split; [assumption | reflexivity] | auto].
     + unfold well_formed. cbn [axis leg_length working_mode]. split; [apply normalised_norm; assumption |].
       split; [assumption |]. destruct (mode c); auto.
-  - apply andb_true_iff in h as [h k]. split; [split; apply parts_sound; assumption | exact I].
+  - apply andb_true_iff in h as [h hk]. apply andb_true_iff in h as [h g]. apply parts_sound in h, g.
+    destruct k as [k |], k' as [k' |]; try discriminate; cbn [option_map]; [| tauto].
+    apply andb_true_iff in hk as [hk n0]. apply parts_sound in hk. apply positive_sound in n0. rewrite value_square in n0.
+    split; [| apply normalised_norm, n0]. split; [exact h |]. split; [exact g |]. exists (values k'). split; [exact hk | reflexivity].
   - apply andb_true_iff in h as [h H]. apply positive_sound in H. rewrite value_square in H. split; [apply parts_sound; exact h |].
     intro z. rewrite z in H. unfold norm2, vzero in H. cbn in H. lra.
 Qed.
@@ -228,20 +232,20 @@ Definition nrow (l : exact_leg) (P : numbers) : numbers :=
   match l with
   | ExactSlider d a p len m =>
       each2 Plus (unit_of d) (scaled (Over (1 // 1) (signed_root m (clearance2 d a p len P))) (across d a p P))
-  | ExactStrut a p => unit_of (nspan a p P)
+  | ExactStrut a p _ => unit_of (nspan a p P)
   | ExactPlanar d => unit_of d
   end.
 Definition njoint (l : exact_leg) (P : numbers) : number :=
   match l with
   | ExactSlider d a p len m => Minus (product (unit_of d) (nspan a p P)) (signed_root m (clearance2 d a p len P))
-  | ExactStrut a p => Root (product (nspan a p P) (nspan a p P))
+  | ExactStrut a p _ => Root (product (nspan a p P) (nspan a p P))
   | ExactPlanar d => product (unit_of d) P
   end.
 (** The leg reaches the point where this is positive. *)
 Definition reserve (l : exact_leg) (P : numbers) : option number :=
   match l with
   | ExactSlider d a p len m => Some (clearance2 d a p len P)
-  | ExactStrut a p => Some (product (nspan a p P) (nspan a p P))
+  | ExactStrut a p _ => Some (product (nspan a p P) (nspan a p P))
   | ExactPlanar _ => None
   end.
 
@@ -268,7 +272,7 @@ Qed.
 
 Lemma values_row : forall l P, values (nrow l P) = row (leg_of l) (values P).
 Proof.
-  intros [d a p len m | a p | d] P; cbn [nrow row leg_of].
+  intros [d a p len m | a p k | d] P; cbn [nrow row leg_of].
   - rewrite values_plus, values_scaled, values_unit. cbn [value].
     rewrite value_signed_root, (values_across d a p (value len) (if m then 1 else -1) P). unfold Jinv_row. cbn [axis].
     f_equal. f_equal. unfold Rdiv. rewrite Rinv_1. ring.
@@ -278,7 +282,7 @@ Qed.
 
 Lemma value_joint : forall l P, value (njoint l P) = joint (leg_of l) (values P).
 Proof.
-  intros [d a p len m | a p | d] P; cbn [njoint joint leg_of].
+  intros [d a p len m | a p k | d] P; cbn [njoint joint leg_of].
   - cbn [value]. rewrite value_product, value_signed_root, values_unit. reflexivity.
   - cbn [value]. rewrite value_square. reflexivity.
   - rewrite value_product, values_unit. reflexivity.
@@ -286,7 +290,7 @@ Qed.
 
 Lemma reserve_sound : forall l P x, reserve l P = Some x -> value x <= 0 -> ~ reaches (values P) (leg_of l).
 Proof.
-  intros [d a p len m | a p | d] P x h n; cbn [reserve] in h; [| | discriminate]; injection h as <-; cbn [reaches leg_of].
+  intros [d a p len m | a p k | d] P x h n; cbn [reserve] in h; [| | discriminate]; injection h as <-; cbn [reaches leg_of].
   - rewrite (value_clearance2 d a p len (if m then 1 else -1) P) in n. unfold s. cbn [leg_length].
     rewrite sqrt_neg_0 by exact n. lra.
   - rewrite value_square in n. change (values (nspan a p P)) with (span (values a) (values p) (values P)) in n. lra.
@@ -324,6 +328,21 @@ Definition ndet (a b c : numbers) : number :=
   product a (Numbers (Minus (Times (ny b) (nz c)) (Times (nz b) (ny c))) (Minus (Times (nz b) (nx c)) (Times (nx b) (nz c)))
     (Minus (Times (nx b) (ny c)) (Times (ny b) (nx c)))).
 
+(** The couples that struts with a base axis constrain. *)
+Definition ncouple (l : exact_leg) (P : numbers) : option numbers :=
+  match l with
+  | ExactStrut a p (Some k) =>
+      let w := nspan a p P in Some (each2 Minus w (scaled (product (unit_of k) w) (unit_of k)))
+  | _ => None
+  end.
+Fixpoint ncouples (ls : list exact_leg) (P : numbers) : option (list numbers) :=
+  match ls with
+  | [] => Some []
+  | l :: ls' => match ncouple l P, ncouples ls' P with Some c, Some cs => Some (c :: cs) | _, _ => None end
+  end.
+Definition ncouples2 (cs : list numbers) (v : numbers) : number :=
+  fold_right (fun c sum => Plus (Times (product (unit_of c) v) (product (unit_of c) v)) sum) (0 // 1) cs.
+
 Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : bool :=
   let bound b := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u) in
   let of i f := match nth_error ls i with Some l => certainly true (f l) | None => false end in
@@ -354,6 +373,12 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | _ => false
       end
+  | Stiffness joint b => certainly true (Minus (Times (Over b joint) (product u u)) (nspeed2 ls P u))
+  | ConstraintMargin b =>
+      match ncouples ls P with
+      | Some cs => certainly true (Minus (Times (Times b b) (product u u)) (ncouples2 cs u))
+      | None => false
+      end
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -372,7 +397,7 @@ Proof. exact value_signed_root. Qed.
 Lemma nvector_sound : forall l P v len, nvector l P = Some (v, len) ->
   exists k, leg_of l = Guided k /\ values v = leg_vector k (values P) /\ value len = leg_length k.
 Proof.
-  intros [d a p len m | |] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
+  intros [d a p len m | ? ? ? | ?] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
   eexists. split; [reflexivity |]. split; [| reflexivity].
   rewrite values_plus, values_scaled, values_unit, value_eta, leg_vector_eq,
     (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
@@ -381,6 +406,28 @@ Qed.
 Lemma value_ndet : forall a b c, value (ndet a b c) = det (Mat (values a) (values b) (values c)).
 Proof. intros. unfold ndet. rewrite value_product. unfold det, cross, dot, values. cbn [vx vy vz nx ny nz value row1 row2 row3]. ring. Qed.
 
+Lemma ncouple_sound : forall l P c, ncouple l P = Some c -> couple_of (leg_of l) (values P) = Some (values c).
+Proof.
+  intros [| a p [k |] |] P c h; try discriminate. cbn [ncouple] in h. injection h as <-.
+  cbn [leg_of option_map couple_of]. f_equal. unfold couple. rewrite values_minus, values_scaled, value_product, values_unit. reflexivity.
+Qed.
+
+Lemma ncouples_sound : forall ls P ns cs, ncouples ls P = Some ns ->
+  Forall2 (fun l c => couple_of l (values P) = Some c /\ c <> vzero) (map leg_of ls) cs -> cs = map values ns.
+Proof.
+  induction ls as [| l ls IH]; intros P ns cs e h; cbn [ncouples map] in *.
+  - injection e as <-. inversion h. reflexivity.
+  - destruct (ncouple l P) as [c |] eqn:ec; [| discriminate]. destruct (ncouples ls P) as [r |] eqn:er; [| discriminate].
+    injection e as <-. inversion h as [| ? d ? ds [h1 _] h2]. subst. rewrite (ncouple_sound _ _ _ ec) in h1. cbn [map].
+    f_equal; [congruence | apply (IH P); [exact er | exact h2]].
+Qed.
+
+Lemma value_couples2 : forall cs v, value (ncouples2 cs v) = fold_right (fun c sum => dot (normalised c) (values v) ^ 2 + sum) 0 (map values cs).
+Proof.
+  intros cs v. induction cs as [| c cs IH]; [cbn; lra |]. cbn [ncouples2 map fold_right value]. unfold ncouples2 in IH.
+  rewrite IH, value_product, values_unit. ring.
+Qed.
+
 Lemma fails_sound : forall ls P u v r, fails ls P u v r = true -> ~ fulfils (map leg_of ls) (values P) r.
 Proof.
   intros ls P u v r h F.
@@ -388,7 +435,7 @@ Proof.
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
   { intros i l n. rewrite nth_error_map in n. destruct (nth_error ls i) as [k |]; [| discriminate]. injection n as <-. exists k. split; reflexivity. }
-  destruct r as [| b | b | i b | i b | i tool b | b | i b | b]; cbn [fails fulfils] in *; [discriminate | | | | | | | |].
+  destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; cbn [fails fulfils] in *; [discriminate | | | | | | | | | |].
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
     set (t := Times _ (product u u)) in *. clearbody t. cbn [value] in h. lra.
   - apply positive_sound in h. specialize (F (values u)). rewrite <- value_speed2, <- B in F.
@@ -415,7 +462,7 @@ Proof.
       * rewrite Rpow_mult_distr. unfold Rdiv. rewrite Rpow_mult_distr, pow_inv, S. field. lra.
   - apply positive_sound in h. cbn [value] in h. rewrite !value_speed2, !value_square in h.
     specialize (F (values u) (values v)). nra.
-  - destruct F as [k [n j]]. destruct (At i _ n) as [l [e e']]. rewrite e in h. destruct l as [d a p len m | |]; try discriminate.
+  - destruct F as [k [n j]]. destruct (At i _ n) as [l [e e']]. rewrite e in h. destruct l as [d a p len m | ? ? ? | ?]; try discriminate.
     cbn [leg_of] in e'. injection e' as ->. cbv zeta in h. apply positive_sound in h. cbn [value] in h.
     rewrite value_eta in h. cbn [leg_length] in j. nra.
   - destruct F as [k1 [k2 [k3 [e j]]]]. destruct ls as [| x1 [| x2 [| x3 [| x4 rest]]]]; try discriminate. cbn [map] in e.
@@ -427,6 +474,9 @@ Proof.
     cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2. cbn [value] in h1, h2.
     rewrite value_ndet, c1, c2, c3, d1, d2, d3 in h1, h2. unfold A_matrix in j. cbn [leg1 leg2 leg3] in j.
     set (z := det _) in *. clearbody z. unfold Rabs in j. destruct (Rcase_abs z); lra.
+  - apply positive_sound in h. cbn [value] in h. rewrite value_speed2, value_square in h. specialize (F (values u)). lra.
+  - destruct F as [cs [h1 h2]]. destruct (ncouples ls P) as [ns |] eqn:e; [| discriminate]. apply positive_sound in h. cbn [value] in h.
+    rewrite value_square, value_couples2, <- (ncouples_sound ls P ns cs e h1) in h. specialize (h2 (values u)). nra.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)
@@ -449,7 +499,7 @@ Definition leasts (t : tolerances) : numbers := Numbers (least (tx t)) (least (t
 Definition least_leg (d : drive) : exact_leg :=
   match d with
   | SliderLeg c => ExactSlider (leasts (direction c)) (leasts (anchor c)) (leasts (platform c)) (least (length c)) (mode c)
-  | StrutLeg a p => ExactStrut (leasts a) (leasts p)
+  | StrutLeg a p k => ExactStrut (leasts a) (leasts p) (option_map leasts k)
   | PlanarLeg d => ExactPlanar (leasts d)
   end.
 Definition some_point (w : region) : numbers :=

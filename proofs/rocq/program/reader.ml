@@ -140,8 +140,7 @@ let leg v =
   match string (get l "drive") with
   | "slider" ->
     Slider_ (vector "direction", vector "anchor", vector "platform", quantity (get l "length"), mode (get l "mode"))
-  | "strut" when find l "base_axis" = None -> Strut_ (vector "anchor", vector "platform")
-  | "strut" -> not_covered [ "a strut with a base axis" ]
+  | "strut" -> Strut_ (vector "anchor", vector "platform", optional (triple quantity) (find l "base_axis"))
   | "planar" -> Planar_ (vector "direction")
   | drive -> not_covered [ "the drive \""; drive; "\"" ]
 
@@ -154,15 +153,18 @@ let requirement v =
     | "conditioning" -> Condition_
     | "serial_margin" -> Serial_
     | "parallel_margin" -> Parallel_
+    | "stiffness" -> Stiffness_
+    | "constraint_margin" -> Constraint_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let is_max = match string (get l "end") with
     | "max" -> true
     | "min" -> false
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
-  let tool v = match members v with
-    | [ ("tool", Array [ x ]) ] -> number x
-    | _ -> not_covered [ "what a quantity is for" ] in
-  { about_; leg_ = optional count (find l "leg"); tool_ = optional tool (find l "given"); is_max; bound_ = number (get l "bound") }
+  let given v = match about_, members v with
+    | Speed_, [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
+    | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
+    | _ -> raise Malformed in
+  { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); is_max; bound_ = number (get l "bound") }
 
 let two f v = match array v with [ x; y ] -> (f x, f y) | _ -> raise Malformed
 

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(j){"use strict";var
-rM=typeof
-module==="object"&&module.exports||j,hK="Invalid_argument",da="precision",$='"',hJ="@[",eu=1255,hI="inside",ih="Fatal error: exception %s\n",hk=255,ie="(",ig=0x800,hj="tree",et="jsError",aX=0x8000,hH="%ni",iD="sqrt(",id=256,hG="offset",ic="obligation",cy="machine",hi="End_of_file",hF="strut",hh="center",es="Failure",iC="serial_margin",be=0xff,hg="\n",iB="outside",eJ="ENOENT",aj="0",ib="([^/]+)",eI=0xf,cx=128,er=-48,hf=0xdc00,hE="Sys_blocked_io",iA="fd ",he="given",ia="ENOTEMPTY",O=248,h$="bound",N="camlinternalFormat.ml",h_="Division_by_zero",iy="by",iz=1027,hd="Sys_error",hD="slider",hC="postulate",h9="proof",hB="%u",eH="mechanism",h8="row",hc="EEXIST",eG="%d",hb="Printexc.handle_uncaught_exception",hA="y",ha="lower",h7="cube",h6="buffer.ml",c$="int_of_string",eB=127,cw=1024,hz="@{",eN="e",g_=120,g$=103,hy=" : flags Open_rdonly and Open_wronly are not compatible",h5="orthocert/2",ix="reach",g9=512,aO="-",iw="witness",dc="platform",g8=0x7ff0,eM=": Not a directory",hx=" : file already exists",bY="min",eL="workspace",hw="claim",h4="split",bd=0xffffff,g7="0x",iu="nodes",iv="Out_of_memory",g6="psi_max",de=254,eK="index out of bounds",h3=100,g5="end",dh="_bigarr02",g4="%Li",h2=" : flags Open_text and Open_binary are not compatible",dd="drive",hv=", characters ",h1="lower_divided",it="cylinder",aY=0xffff,hu=12520,is="parallel_margin",eA="fails",eF="Unix.Unix_error",ir="infinity",c_="tool",eq="mkdir",cv=1000,g3="translational",h="",h0="Stack_overflow",ez="^",c9=": No such file or directory",hZ="places",hY="/static/",bX=0x3f,hX=-97,hW="Not_found",g2="planar",hV="mode",iq="joint_speed",ht="Match_failure",g1=", ",g0="transmission",c8="anchor",dg=252,hs="leg",bo=".",bc="+",eE="rmdir",ip=0xf0,hq="REJECTED",hr="%li",hU=1026,bZ="max",df="direction",hT="orthoglide",io="rank",im=-32,gY="Pervasives.do_at_exit",gZ="utf8",bb=" ",db="conditioning",eD="Fatal error: exception ",aP=0x80,gX="Undefined_recursive_module",ey=")",hS="length",il="quantity",hR="joint_range",gW="Q2",ex="nan",hQ="point",hp=0xe0,ik="corner",hn="z",ho=0xdfff,hO="version",hP="_",aN="/",eC="compare: functional value",ij="Assert_failure",hm="provenance",gU="radius",gV="%i",ew="require",hN="side",ii="format",ev="ENOTDIR",hM="Q1",hL="all",gT="box",hl=250;function
-e2(c,b,a){var
+r2=typeof
+module==="object"&&module.exports||j,hO="Invalid_argument",di="precision",ab='"',hN="@[",eB=1255,hM="inside",io="Fatal error: exception %s\n",hn=255,il="(",im=0x800,hm="tree",eA="jsError",aZ=0x8000,hL="%ni",iK="sqrt(",ik=256,hK="offset",ij="obligation",cE="machine",hl="End_of_file",hJ="strut",hk="center",ez="Failure",iJ="serial_margin",bg=0xff,hj="\n",iI="outside",hI="base_axis",eQ="ENOENT",aj="0",ii="([^/]+)",eP=0xf,cD=128,ey=-48,hi=0xdc00,hH="Sys_blocked_io",iH="fd ",hh="given",ih="ENOTEMPTY",Q=248,ig="bound",P="camlinternalFormat.ml",ie="Division_by_zero",iF="by",iG=1027,hg="Sys_error",hG="slider",hF="postulate",id="proof",hE="%u",eO="mechanism",ic="row",hf="EEXIST",eN="%d",he="Printexc.handle_uncaught_exception",hD="y",hd="lower",ib="cube",ia="buffer.ml",dh="int_of_string",eI=127,cC=1024,hC="@{",eU="e",hb=120,hc=103,hB=" : flags Open_rdonly and Open_wronly are not compatible",h$="orthocert/2",iE="reach",ha=512,aP="-",iD="witness",dk="platform",g$=0x7ff0,eT=": Not a directory",hA=" : file already exists",b4="min",eS="workspace",hz="claim",h_="split",bf=0xffffff,h9="joint",g_="0x",iB="nodes",iC="Out_of_memory",g9="psi_max",dm=254,eR="index out of bounds",h8=100,g8="end",dq="_bigarr02",g7="%Li",h7=" : flags Open_text and Open_binary are not compatible",dl="drive",hy=", characters ",h6="lower_divided",iA="cylinder",a0=0xffff,hx=12520,iz="parallel_margin",eH="fails",eM="Unix.Unix_error",iy="infinity",dg="tool",ex="mkdir",cB=1000,g6="translational",h="",h5="Stack_overflow",eG="^",df=": No such file or directory",h4="places",h3="/static/",b3=0x3f,h2=-97,h0="stiffness",h1="Not_found",g5="planar",hZ="mode",ix="joint_speed",hw="Match_failure",g4=", ",g3="transmission",de="anchor",dp=252,hv="leg",bt=".",be="+",eL="rmdir",iw=0xf0,ht="REJECTED",hu="%li",hY=1026,b5="max",dn="direction",hX="orthoglide",iv="rank",iu="constraint_margin",it=-32,g1="Pervasives.do_at_exit",g2="utf8",bd=" ",dj="conditioning",eK="Fatal error: exception ",aQ=0x80,g0="Undefined_recursive_module",eF=")",hW="length",is="quantity",hV="joint_range",gZ="Q2",eE="nan",hU="point",hs=0xe0,ir="corner",hq="z",hr=0xdfff,hS="version",hT="_",aO="/",eJ="compare: functional value",iq="Assert_failure",hp="provenance",gX="radius",gY="%i",eD="require",hR="side",ip="format",eC="ENOTDIR",hQ="Q1",hP="all",gW="box",ho=250;function
+e9(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=h;for(;0<a;b+=cw,a-=cw)e+=d.apply(null,c.slice(b,b+Math.min(a,cw)));return e}function
-di(b){if(j.Uint8Array)var
+e=h;for(;0<a;b+=cC,a-=cC)e+=d.apply(null,c.slice(b,b+Math.min(a,cC)));return e}function
+dr(b){if(j.Uint8Array)var
 c=new(j.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-bq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?e2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?e2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)di(b);var
+bv(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?e9(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?e9(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)dr(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bf(a){return a}function
-a1(a,b,c,d,e){bq(bf(a),b,c,d,e);return 0}function
-rF(b,a){throw[0,b,a]}function
-b4(b,a){if(b==0)return h;if(a.repeat)return a.repeat(b);var
+bh(a){return a}function
+a3(a,b,c,d,e){bv(bh(a),b,c,d,e);return 0}function
+rV(b,a){throw[0,b,a]}function
+b_(b,a){if(b==0)return h;if(a.repeat)return a.repeat(b);var
 d=h,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-b2(a){if(a.t==2)a.c+=b4(a.l-a.c.length,"\0");else
-a.c=e2(a.c,0,a.c.length);a.t=0}function
-i9(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>eB)return false;return true}else
+b8(a){if(a.t==2)a.c+=b_(a.l-a.c.length,"\0");else
+a.c=e9(a.c,0,a.c.length);a.t=0}function
+je(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>eI)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-e4(e){for(var
-k=h,c=h,g,f,i,a,b=0,j=e.length;b<j;b++){f=e.charCodeAt(b);if(f<aP){for(var
-d=b+1;d<j&&(f=e.charCodeAt(d))<aP;d++);if(d-b>g9){c.substr(0,1);k+=c;c=h;k+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==j)break;b=d}a=1;if(++b<j&&((i=e.charCodeAt(b))&-64)==cx){g=i+(f<<6);if(f<hp){a=g-0x3080;if(a<aP)a=1}else{a=2;if(++b<j&&((i=e.charCodeAt(b))&-64)==cx){g=i+(g<<6);if(f<ip){a=g-0xe2080;if(a<ig||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<j&&((i=e.charCodeAt(b))&-64)==cx&&f<0xf5){a=i-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>aY)c+=String.fromCharCode(0xd7c0+(a>>10),hf+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>cw){c.substr(0,1);k+=c;c=h}}return k+c}function
-aZ(c,a,b){this.t=c;this.c=a;this.l=b}aZ.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:b2(this);case
-0:if(i9(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};aZ.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return e4(a)};aZ.prototype.slice=function(){var
+e$(e){for(var
+k=h,c=h,g,f,i,a,b=0,j=e.length;b<j;b++){f=e.charCodeAt(b);if(f<aQ){for(var
+d=b+1;d<j&&(f=e.charCodeAt(d))<aQ;d++);if(d-b>ha){c.substr(0,1);k+=c;c=h;k+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==j)break;b=d}a=1;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD){g=i+(f<<6);if(f<hs){a=g-0x3080;if(a<aQ)a=1}else{a=2;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD){g=i+(g<<6);if(f<iw){a=g-0xe2080;if(a<im||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD&&f<0xf5){a=i-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>a0)c+=String.fromCharCode(0xd7c0+(a>>10),hi+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>cC){c.substr(0,1);k+=c;c=h}}return k+c}function
+a1(c,a,b){this.t=c;this.c=a;this.l=b}a1.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:b8(this);case
+0:if(je(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};a1.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return e$(a)};a1.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-aZ(this.t,a,this.l)};function
-iN(a){return new
-aZ(0,a,a.length)}function
-a(a){return iN(a)}function
-e0(c,b){rF(c,a(b))}var
-E=[0];function
-P(a){e0(E.Invalid_argument,a)}function
-iL(){P(eK)}function
-I(a,c,b){b&=be;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}di(a)}a.c[c]=b;return 0}function
-bA(b,a,c){if(a>>>0>=b.l)iL();return I(b,a,c)}function
-b1(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+a1(this.t,a,this.l)};function
+iU(a){return new
+a1(0,a,a.length)}function
+a(a){return iU(a)}function
+e7(c,b){rV(c,a(b))}var
+F=[0];function
+R(a){e7(F.Invalid_argument,a)}function
+iS(){R(eR)}function
+I(a,c,b){b&=bg;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}dr(a)}a.c[c]=b;return 0}function
+bI(b,a,c){if(a>>>0>=b.l)iS();return I(b,a,c)}function
+b7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bg(c,a){if(c.fun)return bg(c.fun,a);if(typeof
+bi(c,a){if(c.fun)return bi(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bg(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bi(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bg(c,d)}}function
-cz(){P(eK)}function
-iO(a,b){if(b>>>0>=a.length-1)cz();return a}function
-q7(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bi(a){a.t&6&&b2(a);return a.c}var
-rO=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-rN(a){if(rO)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bi(c,d)}}function
+cF(){R(eR)}function
+iV(a,b){if(b>>>0>=a.length-1)cF();return a}function
+rl(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bk(a){a.t&6&&b8(a);return a.c}var
+r4=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+r3(a){if(r4)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-eS(c){var
+eZ(c){var
 a=new(j.Float32Array)(1);a[0]=c;var
 b=new(j.Int32Array)(a.buffer);return b[0]|0}var
-iX=Math.pow(2,-24);function
-rD(a){throw a}function
-i4(){rD(E.Division_by_zero)}function
-i(b,c,a){this.lo=b&bd;this.mi=c&bd;this.hi=a&aY}i.prototype.caml_custom="_j";i.prototype.copy=function(){return new
+i4=Math.pow(2,-24);function
+rT(a){throw a}function
+i$(){rT(F.Division_by_zero)}function
+i(b,c,a){this.lo=b&bf;this.mi=c&bf;this.hi=a&a0}i.prototype.caml_custom="_j";i.prototype.copy=function(){return new
 i(this.lo,this.mi,this.hi)};i.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 i(b,c,d)};i.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 i(b,c,d)};i.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*iX|0)+this.mi*a.lo+this.lo*a.mi,d=(c*iX|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*i4|0)+this.mi*a.lo+this.lo*a.mi,d=(c*i4|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 i(b,c,d)};i.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};i.prototype.isNeg=function(){return this.hi<<16<0};i.prototype.and=function(a){return new
 i(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};i.prototype.or=function(a){return new
 i(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};i.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ i(this.hi>>a-48,0,0)};i.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 i(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-i(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&aY);return new
-i(this.hi<<16>>a-32,b,b)};i.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bd;this.lo=this.lo<<1&bd};i.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bd;this.mi=(this.mi>>>1|this.hi<<23)&bd;this.hi=this.hi>>>1};i.prototype.udivmod=function(e){var
+i(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&a0);return new
+i(this.hi<<16>>a-32,b,b)};i.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bf;this.lo=this.lo<<1&bf};i.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bf;this.mi=(this.mi>>>1|this.hi<<23)&bf;this.hi=this.hi>>>1};i.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 i(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};i.prototype.div=function(a){var
-b=this;if(a.isZero())i4();var
-d=b.hi^a.hi;if(b.hi&aX)b=b.neg();if(a.hi&aX)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&aX)c=c.neg();return c};i.prototype.mod=function(b){var
-a=this;if(b.isZero())i4();var
-d=a.hi;if(a.hi&aX)a=a.neg();if(b.hi&aX)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&aX)c=c.neg();return c};i.prototype.toInt=function(){return this.lo|this.mi<<24};i.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};i.prototype.toArray=function(){return[this.hi>>8,this.hi&be,this.mi>>16,this.mi>>8&be,this.mi&be,this.lo>>16,this.lo>>8&be,this.lo&be]};i.prototype.lo32=function(){return this.lo|(this.mi&be)<<24};i.prototype.hi32=function(){return this.mi>>>8&aY|this.hi<<16};function
-dm(b,c,a){return new
+b=this;if(a.isZero())i$();var
+d=b.hi^a.hi;if(b.hi&aZ)b=b.neg();if(a.hi&aZ)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&aZ)c=c.neg();return c};i.prototype.mod=function(b){var
+a=this;if(b.isZero())i$();var
+d=a.hi;if(a.hi&aZ)a=a.neg();if(b.hi&aZ)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&aZ)c=c.neg();return c};i.prototype.toInt=function(){return this.lo|this.mi<<24};i.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};i.prototype.toArray=function(){return[this.hi>>8,this.hi&bg,this.mi>>16,this.mi>>8&bg,this.mi&bg,this.lo>>16,this.lo>>8&bg,this.lo&bg]};i.prototype.lo32=function(){return this.lo|(this.mi&bg)<<24};i.prototype.hi32=function(){return this.mi>>>8&a0|this.hi<<16};function
+dv(b,c,a){return new
 i(b,c,a)}function
-dl(a){if(!isFinite(a)){if(isNaN(a))return dm(1,0,g8);return a>0?dm(0,0,g8):dm(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?aX:a>=0?0:aX;if(f)a=-a;var
-b=rN(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-hU)}else{a/=Math.pow(2,b-iz);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+du(a){if(!isFinite(a)){if(isNaN(a))return dv(1,0,g$);return a>0?dv(0,0,g$):dv(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?aZ:a>=0?0:aZ;if(f)a=-a;var
+b=r3(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-hY)}else{a/=Math.pow(2,b-iG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&eI|f|b<<4;return dm(g,e,c)}function
-cC(a){return a.toArray()}function
-iK(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==dh)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<aY)c.write(16,b.dims[a]);else{c.write(16,aY);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&eP|f|b<<4;return dv(g,e,c)}function
+cI(a){return a.toArray()}function
+iR(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==dq)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<a0)c.write(16,b.dims[a]);else{c.write(16,a0);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=cC(b.get(a));for(var
+e=cI(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=cC(dl(b.get(a)));for(var
+e=cI(du(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=eS(b.get(a));c.write(32,e)}break;case
+e=eZ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,eS(d[1]));c.write(32,eS(d[2]))}break;case
+d=b.get(a);c.write(32,eZ(d[1]));c.write(32,eZ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=cC(dl(f[1]));for(var
+f=b.get(a),e=cI(du(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=cC(dl(f[2]));for(var
+e=cI(du(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-iI(a){switch(a){case
+iP(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-q1(c,e){var
+rf(c,e){var
 b=j,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=j,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)P("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)R("Bigarray.create: unsupported kind");var
 d=new
-a(e*iI(c));return d}function
-eT(c){var
+a(e*iP(c));return d}function
+e0(c){var
 a=new(j.Int32Array)(1);a[0]=c;var
 b=new(j.Float32Array)(a.buffer);return b[0]}function
-cB(a){return new
+cH(a){return new
 i(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-eU(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&eI)==0?b&aX?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&eI);if(c>0){a+=16;a*=Math.pow(2,c-iz)}else
-a*=Math.pow(2,-hU);if(b&aX)a=-a;return a}function
-eO(b){var
+e1(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&eP)==0?b&aZ?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&eP);if(c>0){a+=16;a*=Math.pow(2,c-iG)}else
+a*=Math.pow(2,-hY);if(b&aZ)a=-a;return a}function
+eV(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)P("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-rg(b,a){return new
-i(b&bd,b>>>24&be|(a&aY)<<8,a>>>16&aY)}function
-eV(a){return a.hi32()}function
-eW(a){return a.lo32()}var
-q2=dh;function
-bp(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}bp.prototype.caml_custom=q2;bp.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)R("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+rw(b,a){return new
+i(b&bf,b>>>24&bg|(a&a0)<<8,a>>>16&a0)}function
+e2(a){return a.hi32()}function
+e3(a){return a.lo32()}var
+rg=dq;function
+bu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}bu.prototype.caml_custom=rg;bu.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))P("bigarray.js: invalid offset");if(this.dims.length!=b.length)P("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])cz();c=c*this.dims[a]+b[a]}else
+Array))R("bigarray.js: invalid offset");if(this.dims.length!=b.length)R("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])cF();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])cz();c=c*this.dims[a]+(b[a]-1)}return c};bp.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])cF();c=c*this.dims[a]+(b[a]-1)}return c};bu.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return rg(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return rw(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[de,e,c];default:return this.data[a]}};bp.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=eW(b);this.data[a*2+1]=eV(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[dm,e,c];default:return this.data[a]}};bu.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=e3(b);this.data[a*2+1]=e2(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};bp.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};bu.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=eW(b),e=eV(b);if(c==e)this.data.fill(c);else
+c=e3(b),e=e2(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};bp.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};bu.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-b0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b0.prototype=new
-bp();b0.prototype.offset=function(a){if(typeof
+b6(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b6.prototype=new
+bu();b6.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-P("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])cz();return a};b0.prototype.get=function(a){return this.data[a]};b0.prototype.set=function(a,b){this.data[a]=b;return 0};b0.prototype.fill=function(a){this.data.fill(a);return 0};function
-iG(c,d,a,b){var
-e=iI(c);if(eO(a)*e!=b.length)P("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-b0(c,d,a,b);return new
-bp(c,d,a,b)}function
-aQ(b){if(!E.Failure)E.Failure=[O,a(es),-3];e0(E.Failure,b)}function
-iH(b,v,r){var
-i=b.read32s();if(i<0||i>16)aQ("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&be,o=p>>8&1,h=[];if(r==dh)for(var
+R("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])cF();return a};b6.prototype.get=function(a){return this.data[a]};b6.prototype.set=function(a,b){this.data[a]=b;return 0};b6.prototype.fill=function(a){this.data.fill(a);return 0};function
+iN(c,d,a,b){var
+e=iP(c);if(eV(a)*e!=b.length)R("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+b6(c,d,a,b);return new
+bu(c,d,a,b)}function
+aR(b){if(!F.Failure)F.Failure=[Q,a(ez),-3];e7(F.Failure,b)}function
+iO(b,v,r){var
+i=b.read32s();if(i<0||i>16)aR("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bg,o=p>>8&1,h=[];if(r==dq)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==aY){var
-t=b.read32u(),u=b.read32u();if(t!=0)aQ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==a0){var
+t=b.read32u(),u=b.read32u();if(t!=0)aR("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=eO(h),f=q1(j,d),g=iG(j,o,h,f);switch(j){case
+d=eV(h),f=rf(j,d),g=iN(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)aQ("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)aR("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=cB(e);g.set(a,q)}break;case
+q=cH(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=eU(cB(e));g.set(a,k)}break;case
+k=e1(cH(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=eT(b.read32s());g.set(a,k)}break;case
+k=e0(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=eT(b.read32s()),l=eT(b.read32s());g.set(a,[de,m,l])}break;case
+m=e0(b.read32s()),l=e0(b.read32s());g.set(a,[dm,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=eU(cB(e));for(var
+m=e1(cH(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=eU(cB(e));g.set(a,[de,m,l])}break}v[0]=(4+i)*4;return iG(j,o,h,f)}function
-iF(a,b,c){return a.compare(b,c)}function
-i1(a,b){return Math.imul(a,b)}function
-bh(b,a){a=i1(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=i1(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-rc(a,b){a=bh(a,eW(b));a=bh(a,eV(b));return a}function
-iW(a,b){return rc(a,dl(b))}function
-iJ(c){var
-b=eO(c.dims),d=0;switch(c.kind){case
+l=e1(cH(e));g.set(a,[dm,m,l])}break}v[0]=(4+i)*4;return iN(j,o,h,f)}function
+iM(a,b,c){return a.compare(b,c)}function
+i8(a,b){return Math.imul(a,b)}function
+bj(b,a){a=i8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=i8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+rs(a,b){a=bj(a,e3(b));a=bj(a,e2(b));return a}function
+i3(a,b){return rs(a,du(b))}function
+iQ(c){var
+b=eV(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>id)b=id;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bh(d,e)}e=0;switch(b&3){case
+12:if(b>ik)b=ik;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bj(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bh(d,e)}break;case
+1:e|=c.data[a+0];d=bj(d,e)}break;case
 4:case
-5:if(b>cx)b=cx;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bh(d,e)}if((b&1)!=0)d=bh(d,c.data[a]);break;case
+5:if(b>cD)b=cD;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bj(d,e)}if((b&1)!=0)d=bj(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bh(d,c.data[a]);break;case
+a=0;a<b;a++)d=bj(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bh(d,c.data[a]);break;case
+a=0;a<b;a++)d=bj(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bh(d,c.data[a]);break;case
+a=0;a<b;a++)d=bj(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=iW(d,c.data[a]);break;case
+a=0;a<b;a++)d=i3(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=iW(d,c.data[a]);break}return d}function
-re(a,b){b[0]=4;return a.read32s()}function
-rA(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=i3(d,c.data[a]);break}return d}function
+ru(a,b){b[0]=4;return a.read32s()}function
+rQ(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:aQ("input_value: native integer value too large");default:aQ("input_value: ill-formed native integer")}}function
-rp(c,d){var
+2:aR("input_value: native integer value too large");default:aR("input_value: ill-formed native integer")}}function
+rF(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return cB(b)}function
-rl(e,d,b){var
-c=cC(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return cH(b)}function
+rB(e,d,b){var
+c=cI(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-rf(a,b,c){return a.compare(b)}function
-ri(a){return a.lo32()^a.hi32()}var
-iS={"_j":{deserialize:rp,serialize:rl,fixed_length:8,compare:rf,hash:ri},"_i":{deserialize:re,fixed_length:4},"_n":{deserialize:rA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return iH(a,b,"_bigarray")},serialize:iK,compare:iF,hash:iJ},"_bigarr02":{deserialize:function(a,b){return iH(a,b,dh)},serialize:iK,compare:iF,hash:iJ}};function
-eP(a){return iS[a.caml_custom]&&iS[a.caml_custom].compare}function
-iQ(f,c,d,e){var
-b=eP(c);if(b){var
+rv(a,b,c){return a.compare(b)}function
+ry(a){return a.lo32()^a.hi32()}var
+iZ={"_j":{deserialize:rF,serialize:rB,fixed_length:8,compare:rv,hash:ry},"_i":{deserialize:ru,fixed_length:4},"_n":{deserialize:rQ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return iO(a,b,"_bigarray")},serialize:iR,compare:iM,hash:iQ},"_bigarr02":{deserialize:function(a,b){return iO(a,b,dq)},serialize:iR,compare:iM,hash:iQ}};function
+eW(a){return iZ[a.caml_custom]&&iZ[a.caml_custom].compare}function
+iX(f,c,d,e){var
+b=eW(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-dn(a){return a
+dw(a){return a
 instanceof
-aZ}function
-eY(a){return dn(a)}function
-iR(a){if(typeof
-a==="number")return cv;else
-if(dn(a))return dg;else
-if(eY(a))return 1252;else
+a1}function
+e5(a){return dw(a)}function
+iY(a){if(typeof
+a==="number")return cB;else
+if(dw(a))return dp;else
+if(e5(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=hk){var
-b=a[0]|0;return b==de?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=hn){var
+b=a[0]|0;return b==dm?0:b}else
 if(a
 instanceof
-String)return hu;else
+String)return hx;else
 if(typeof
-a=="string")return hu;else
+a=="string")return hx;else
 if(a
 instanceof
-Number)return cv;else
-if(a&&a.caml_custom)return eu;else
+Number)return cB;else
+if(a&&a.caml_custom)return eB;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-rq(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-iM(a,b){a.t&6&&b2(a);b.t&6&&b2(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-rT(a,b){return iM(a,b)}function
-iP(a,b,d){var
+rG(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+iT(a,b){a.t&6&&b8(a);b.t&6&&b8(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+r9(a,b){return iT(a,b)}function
+iW(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=iR(a);if(f==hl){a=a[1];continue}var
-g=iR(b);if(g==hl){b=b[1];continue}if(f!==g){if(f==cv){if(g==eu)return iQ(a,b,-1,d);return-1}if(g==cv){if(f==eu)return iQ(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:P(eC);break;case
+f=iY(a);if(f==ho){a=a[1];continue}var
+g=iY(b);if(g==ho){b=b[1];continue}if(f!==g){if(f==cB){if(g==eB)return iX(a,b,-1,d);return-1}if(g==cB){if(f==eB)return iX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:R(eJ);break;case
 248:var
-c=rq(a[2],b[2]);if(c!=0)return c|0;break;case
-249:P(eC);break;case
-250:P("equal: got Forward_tag, should not happen");break;case
-251:P("equal: abstract value");break;case
+c=rG(a[2],b[2]);if(c!=0)return c|0;break;case
+249:R(eJ);break;case
+250:R("equal: got Forward_tag, should not happen");break;case
+251:R("equal: abstract value");break;case
 252:if(a!==b){var
-c=iM(a,b);if(c!=0)return c|0}break;case
-253:P("equal: got Double_tag, should not happen");break;case
-254:P("equal: got Double_array_tag, should not happen");break;case
-255:P("equal: got Custom_tag, should not happen");break;case
-1247:P(eC);break;case
+c=iT(a,b);if(c!=0)return c|0}break;case
+253:R("equal: got Double_tag, should not happen");break;case
+254:R("equal: got Double_array_tag, should not happen");break;case
+255:R("equal: got Custom_tag, should not happen");break;case
+1247:R(eJ);break;case
 1255:var
-i=eP(a);if(i!=eP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)P("compare: abstract value");var
+i=eW(a);if(i!=eW(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)R("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,237 +405,237 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bi(a),b=bi(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bk(a),b=bk(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-q8(a,b){return iP(a,b,true)}function
-q9(){return[0]}function
-K(a){if(a<0)P("Bytes.create");return new
-aZ(a?2:9,h,a)}function
-q$(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=h;a.t=2}else{a.c=b4(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)di(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-eZ(d){d=bi(d);var
-e=d.length;if(e>31)P("format_int: format too long");var
-a={justify:bc,signstyle:aO,filler:bb,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+rm(a,b){return iW(a,b,true)}function
+rn(){return[0]}function
+L(a){if(a<0)R("Bytes.create");return new
+a1(a?2:9,h,a)}function
+rp(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=h;a.t=2}else{a.c=b_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)dr(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+e6(d){d=bk(d);var
+e=d.length;if(e>31)R("format_int: format too long");var
+a={justify:be,signstyle:aP,filler:bd,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=aO;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aj;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-eQ(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=aO))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=h;if(b.justify==bc&&b.filler==bb)for(var
-d=e;d<b.width;d++)c+=bb;if(b.signedconv)if(b.sign<0)c+=aO;else
-if(b.signstyle!=aO)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aj;if(b.alternate&&b.base==16)c+=g7;if(b.justify==bc&&b.filler==aj)for(var
-d=e;d<b.width;d++)c+=aj;c+=f;if(b.justify==aO)for(var
-d=e;d<b.width;d++)c+=bb;return a(c)}function
-eR(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=aP;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aj;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+eX(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=aP))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=h;if(b.justify==be&&b.filler==bd)for(var
+d=e;d<b.width;d++)c+=bd;if(b.signedconv)if(b.sign<0)c+=aP;else
+if(b.signstyle!=aP)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aj;if(b.alternate&&b.base==16)c+=g_;if(b.justify==be&&b.filler==aj)for(var
+d=e;d<b.width;d++)c+=aj;c+=f;if(b.justify==aP)for(var
+d=e;d<b.width;d++)c+=bd;return a(c)}function
+eY(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bc)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aj);if(b>0)a=a+bo+new
+c=parseInt(a.toString().split(be)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aj);if(b>0)a=a+bt+new
 Array(b+1).join(aj);return a}else
 return a.toFixed(b)}}var
-a,e=eZ(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=ex;e.filler=bb}else
-if(!isFinite(c)){a="inf";e.filler=bb}else
+a,e=e6(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=eE;e.filler=bd}else
+if(!isFinite(c)){a="inf";e.filler=bd}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==eN)a=a.slice(0,b-1)+aj+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(eN),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bo)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==eN)a=a.slice(0,b-1)+aj+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==eU)a=a.slice(0,b-1)+aj+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(eU),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==eU)a=a.slice(0,b-1)+aj+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bo)b--;a=a.slice(0,b+1)}}break}return eQ(e,a)}function
-dj(e,c){if(bi(e)==eG)return a(h+c);var
-b=eZ(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)}}break}return eX(e,a)}function
+ds(e,c){if(bk(e)==eN)return a(h+c);var
+b=e6(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bb;var
-f=b.prec-d.length;if(f>0)d=b4(f,aj)+d}return eQ(b,d)}var
-rB=0;function
-dk(){return rB++}function
-rt(a){return a.toUtf16()}function
-cE(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bd;var
+f=b.prec-d.length;if(f>0)d=b_(f,aj)+d}return eX(b,d)}var
+rR=0;function
+dt(){return rR++}function
+rJ(a){return a.toUtf16()}function
+cK(){return typeof
 j.process!=="undefined"&&typeof
 j.process.versions!=="undefined"&&typeof
 j.process.versions.node!=="undefined"}function
-rP(){function
-a(a){if(a.charAt(0)===aN)return[h,a.substring(1)];return}function
+r5(){function
+a(a){if(a.charAt(0)===aO)return[h,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||h,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||h,f=a[2]||h;return[d,c.substring(d.length+f.length)]}return}return cE()&&j.process&&j.process.platform?j.process.platform==="win32"?b:a:a}var
-e7=rP();function
-i7(a){return a.slice(-1)!==aN?a+aN:a}if(cE()&&j.process&&j.process.cwd)var
-cA=j.process.cwd().replace(/\\/g,aN);else
+d=a[1]||h,f=a[2]||h;return[d,c.substring(d.length+f.length)]}return}return cK()&&j.process&&j.process.platform?j.process.platform==="win32"?b:a:a}var
+fc=r5();function
+jc(a){return a.slice(-1)!==aO?a+aO:a}if(cK()&&j.process&&j.process.cwd)var
+cG=j.process.cwd().replace(/\\/g,aO);else
 var
-cA="/static";cA=i7(cA);function
-ru(a){a=rt(a);if(!e7(a))a=cA+a;var
-e=e7(a),d=e[1].split(aN),b=[];for(var
+cG="/static";cG=jc(cG);function
+rK(a){a=rJ(a);if(!fc(a))a=cG+a;var
+e=fc(a),d=e[1].split(aO),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-rJ(e){for(var
-f=h,b=f,a,i,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<aP){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<aP;d++);if(d-c>g9){b.substr(0,1);f+=b;b=h;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<ig){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(aP|a&bX)}else
-if(a<0xd800||a>=ho)b+=String.fromCharCode(hp|a>>12,aP|a>>6&bX,aP|a&bX);else
-if(a>=0xdbff||c+1==g||(i=e.charCodeAt(c+1))<hf||i>ho)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+i-0x35fdc00;b+=String.fromCharCode(ip|a>>18,aP|a>>12&bX,aP|a>>6&bX,aP|a&bX)}if(b.length>cw){b.substr(0,1);f+=b;b=h}}return f+b}function
-q6(a){var
-b=9;if(!i9(a))b=8,a=rJ(a);return new
-aZ(b,a,a.length)}function
-aR(a){return q6(a)}var
-rS=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",hc,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",eJ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",ev,ia,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-bD(d,f,e,a){var
-b=rS.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,aR(f||h),aR(e||h)];return c}var
-i2={};function
-bB(a){return i2[a]}function
-bC(b,a){throw[0,b].concat(a)}function
-q5(a){return new
-aZ(4,a,a.length)}function
-t(a){e0(E.Sys_error,a)}function
-rE(a){t(a+c9)}function
-q4(b,a){if(a>>>0>=b.l)iL();return b1(b,a)}function
+rZ(e){for(var
+f=h,b=f,a,i,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<aQ){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<aQ;d++);if(d-c>ha){b.substr(0,1);f+=b;b=h;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<im){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(aQ|a&b3)}else
+if(a<0xd800||a>=hr)b+=String.fromCharCode(hs|a>>12,aQ|a>>6&b3,aQ|a&b3);else
+if(a>=0xdbff||c+1==g||(i=e.charCodeAt(c+1))<hi||i>hr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+i-0x35fdc00;b+=String.fromCharCode(iw|a>>18,aQ|a>>12&b3,aQ|a>>6&b3,aQ|a&b3)}if(b.length>cC){b.substr(0,1);f+=b;b=h}}return f+b}function
+rk(a){var
+b=9;if(!je(a))b=8,a=rZ(a);return new
+a1(b,a,a.length)}function
+aS(a){return rk(a)}var
+r8=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",hf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",eQ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",eC,ih,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+bL(d,f,e,a){var
+b=r8.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,aS(f||h),aS(e||h)];return c}var
+i9={};function
+bJ(a){return i9[a]}function
+bK(b,a){throw[0,b].concat(a)}function
+rj(a){return new
+a1(4,a,a.length)}function
+u(a){e7(F.Sys_error,a)}function
+rU(a){u(a+df)}function
+ri(b,a){if(a>>>0>=b.l)iS();return b7(b,a)}function
 av(a){return a.l}function
-iE(){}function
-V(a){this.data=a}V.prototype=new
-iE();V.prototype.truncate=function(a){var
-b=this.data;this.data=K(a|0);bq(b,0,this.data,0,a)};V.prototype.length=function(){return av(this.data)};V.prototype.write=function(b,d,g,a){var
+iL(){}function
+W(a){this.data=a}W.prototype=new
+iL();W.prototype.truncate=function(a){var
+b=this.data;this.data=L(a|0);bv(b,0,this.data,0,a)};W.prototype.length=function(){return av(this.data)};W.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=K(b+a),f=this.data;this.data=e;bq(f,0,this.data,0,c)}a1(d,g,this.data,b,a);return 0};V.prototype.read=function(c,a,d,b){var
-e=this.length();bq(this.data,c,a,d,b);return 0};V.prototype.read_one=function(a){return q4(this.data,a)};V.prototype.close=function(){};V.prototype.constructor=V;function
+e=L(b+a),f=this.data;this.data=e;bv(f,0,this.data,0,c)}a3(d,g,this.data,b,a);return 0};W.prototype.read=function(c,a,d,b){var
+e=this.length();bv(this.data,c,a,d,b);return 0};W.prototype.read_one=function(a){return ri(this.data,a)};W.prototype.close=function(){};W.prototype.constructor=W;function
 ak(b,a){this.content={};this.root=b;this.lookupFun=a}ak.prototype.nm=function(a){return this.root+a};ak.prototype.create_dir_if_needed=function(d){var
-c=d.split(aN),b=h;for(var
-a=0;a<c.length-1;a++){b+=c[a]+aN;if(this.content[b])continue;this.content[b]=Symbol("directory")}};ak.prototype.slash=function(a){return/\/$/.test(a)?a:a+aN};ak.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(aO),b=h;for(var
+a=0;a<c.length-1;a++){b+=c[a]+aO;if(this.content[b])continue;this.content[b]=Symbol("directory")}};ak.prototype.slash=function(a){return/\/$/.test(a)?a:a+aO};ak.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-V(bf(c[1]))}}};ak.prototype.exists=function(a){if(a==h)return 1;var
+W(bh(c[1]))}}};ak.prototype.exists=function(a){if(a==h)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};ak.prototype.mkdir=function(c,e,d){var
-b=d&&bB(eF);if(this.exists(c))if(b)bC(b,bD(hc,eq,this.nm(c)));else
-t(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||h;if(!this.exists(a))if(b)bC(b,bD(eJ,eq,this.nm(a)));else
-t(a+c9);if(!this.is_dir(a))if(b)bC(b,bD(ev,eq,this.nm(a)));else
-t(a+eM);this.create_dir_if_needed(this.slash(c))};ak.prototype.rmdir=function(a,f){var
-b=f&&bB(eF),c=a==h?h:this.slash(a),e=new
-RegExp(ez+c+ib);if(!this.exists(a))if(b)bC(b,bD(eJ,eE,this.nm(a)));else
-t(a+c9);if(!this.is_dir(a))if(b)bC(b,bD(ev,eE,this.nm(a)));else
-t(a+eM);for(var
+b=d&&bJ(eM);if(this.exists(c))if(b)bK(b,bL(hf,ex,this.nm(c)));else
+u(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||h;if(!this.exists(a))if(b)bK(b,bL(eQ,ex,this.nm(a)));else
+u(a+df);if(!this.is_dir(a))if(b)bK(b,bL(eC,ex,this.nm(a)));else
+u(a+eT);this.create_dir_if_needed(this.slash(c))};ak.prototype.rmdir=function(a,f){var
+b=f&&bJ(eM),c=a==h?h:this.slash(a),e=new
+RegExp(eG+c+ii);if(!this.exists(a))if(b)bK(b,bL(eQ,eL,this.nm(a)));else
+u(a+df);if(!this.is_dir(a))if(b)bK(b,bL(eC,eL,this.nm(a)));else
+u(a+eT);for(var
 d
 in
-this.content)if(d.match(e))if(b)bC(b,bD(ia,eE,this.nm(a)));else
-t(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)bK(b,bL(ih,eL,this.nm(a)));else
+u(this.nm(a)+": Directory not empty");delete
 this.content[c]};ak.prototype.readdir=function(a){var
-f=a==h?h:this.slash(a);if(!this.exists(a))t(a+c9);if(!this.is_dir(a))t(a+eM);var
+f=a==h?h:this.slash(a);if(!this.exists(a))u(a+df);if(!this.is_dir(a))u(a+eT);var
 g=new
-RegExp(ez+f+ib),d={},c=[];for(var
+RegExp(eG+f+ii),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};ak.prototype.is_dir=function(a){if(a==h)return true;var
 b=this.slash(a);return this.content[b]?1:0};ak.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};ak.prototype.open=function(a,b){if(b.rdonly&&b.wronly)t(this.nm(a)+hy);if(b.text&&b.binary)t(this.nm(a)+h2);this.lookup(a);if(this.content[a]){if(this.is_dir(a))t(this.nm(a)+" : is a directory");if(b.create&&b.excl)t(this.nm(a)+hx);var
+this.content[a];return b};ak.prototype.open=function(a,b){if(b.rdonly&&b.wronly)u(this.nm(a)+hB);if(b.text&&b.binary)u(this.nm(a)+h7);this.lookup(a);if(this.content[a]){if(this.is_dir(a))u(this.nm(a)+" : is a directory");if(b.create&&b.excl)u(this.nm(a)+hA);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-V(K(0));return this.content[a]}else
-rE(this.nm(a))};ak.prototype.register=function(c,a){var
-b;if(this.content[c])t(this.nm(c)+hx);if(dn(a))b=new
-V(a);if(eY(a))b=new
-V(bf(a));else
+W(L(0));return this.content[a]}else
+rU(this.nm(a))};ak.prototype.register=function(c,a){var
+b;if(this.content[c])u(this.nm(c)+hA);if(dw(a))b=new
+W(a);if(e5(a))b=new
+W(bh(a));else
 if(a
 instanceof
 Array)b=new
-V(q5(a));else
+W(rj(a));else
 if(typeof
 a==="string")b=new
-V(iN(a));else
+W(iU(a));else
 if(a.toString){var
-d=bf(aR(a.toString()));b=new
-V(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-t(this.nm(c)+" : registering file with invalid content type")};ak.prototype.constructor=ak;function
-m(a){return av(a)}function
-a3(b,a){return b1(b,a)}function
-q0(d){var
-c=m(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=a3(d,a);return b}function
-qZ(a){if(a.t!=4)di(a);return a.c}function
-a0(a){this.fs=require("fs");this.fd=a}a0.prototype=new
-iE();a0.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){t(a.toString())}};a0.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){t(a.toString())}};a0.prototype.write=function(f,b,c,e){var
-a=q0(b);if(!(a
+d=bh(aS(a.toString()));b=new
+W(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+u(this.nm(c)+" : registering file with invalid content type")};ak.prototype.constructor=ak;function
+n(a){return av(a)}function
+a5(b,a){return b7(b,a)}function
+re(d){var
+c=n(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=a5(d,a);return b}function
+rd(a){if(a.t!=4)dr(a);return a.c}function
+a2(a){this.fs=require("fs");this.fd=a}a2.prototype=new
+iL();a2.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){u(a.toString())}};a2.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){u(a.toString())}};a2.prototype.write=function(f,b,c,e){var
+a=re(b);if(!(a
 instanceof
 j.Uint8Array))a=new(j.Uint8Array)(a);var
-d=j.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){t(a.toString())}return 0};a0.prototype.read=function(g,d,c,f){var
-a=qZ(d);if(!(a
+d=j.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){u(a.toString())}return 0};a2.prototype.read=function(g,d,c,f){var
+a=rd(d);if(!(a
 instanceof
 j.Uint8Array))a=new(j.Uint8Array)(a);var
-e=j.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){t(a.toString())}for(var
-b=0;b<f;b++)bA(d,c+b,e[c+b]);return 0};a0.prototype.read_one=function(c){var
-b=new(j.Uint8Array)(1),a=j.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){t(a.toString())}return a[0]};a0.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){t(a.toString())}};a0.prototype.constructor=a0;function
-W(a){this.fs=require("fs");this.root=a}W.prototype.nm=function(a){return this.root+a};W.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};W.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};W.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};W.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){t(a.toString())}};W.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.open=function(f,c,g){var
+e=j.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){u(a.toString())}for(var
+b=0;b<f;b++)bI(d,c+b,e[c+b]);return 0};a2.prototype.read_one=function(c){var
+b=new(j.Uint8Array)(1),a=j.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){u(a.toString())}return a[0]};a2.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){u(a.toString())}};a2.prototype.constructor=a2;function
+X(a){this.fs=require("fs");this.root=a}X.prototype.nm=function(a){return this.root+a};X.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};X.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){u(a.toString())}};X.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-a0(d)}catch(a){this.raise_nodejs_error(a,g)}};W.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};W.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),gZ);return aR(a)}catch(a){this.raise_nodejs_error(a,c)}};W.prototype.raise_nodejs_error=function(a,d){var
-b=bB(eF);if(d&&b){var
-c=bD(a.code,a.syscall,a.path,a.errno);bC(b,c)}else
-t(a.toString())};W.prototype.stats_from_js=function(a){var
+a2(d)}catch(a){this.raise_nodejs_error(a,g)}};X.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),g2);return aS(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.raise_nodejs_error=function(a,d){var
+b=bJ(eM);if(d&&b){var
+c=bL(a.code,a.syscall,a.path,a.errno);bK(b,c)}else
+u(a.toString())};X.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};W.prototype.constructor=W;function
-iV(b){var
-a=e7(b);if(!a)return;return a[0]+aN}var
-dq=iV(cA)||aQ("unable to compute caml_root"),b5=[];if(cE())b5.push({path:dq,device:new
-W(dq)});else
-b5.push({path:dq,device:new
-ak(dq)});b5.push({path:hY,device:new
-ak(hY)});function
-jb(b){var
-g=ru(b),b=g.join(aN),f=i7(b),c;for(var
-e=0;e<b5.length;e++){var
-a=b5[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&cE()){var
-d=iV(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};X.prototype.constructor=X;function
+i2(b){var
+a=fc(b);if(!a)return;return a[0]+aO}var
+dy=i2(cG)||aR("unable to compute caml_root"),b$=[];if(cK())b$.push({path:dy,device:new
+X(dy)});else
+b$.push({path:dy,device:new
+ak(dy)});b$.push({path:h3,device:new
+ak(h3)});function
+ji(b){var
+g=rK(b),b=g.join(aO),f=jc(b),c;for(var
+e=0;e<b$.length;e++){var
+a=b$[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&cK()){var
+d=i2(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-W(d)};b5.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;t("no device found for "+f)}function
-q_(c,b){var
-a=jb(c);if(!a.device.register)aQ("cannot register file");a.device.register(a.rest,b);return 0}function
-i8(c,b){var
-c=a(c),b=a(b);return q_(c,b)}function
-rb(){var
+X(d)};b$.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;u("no device found for "+f)}function
+ro(c,b){var
+a=ji(c);if(!a.device.register)aR("cannot register file");a.device.register(a.rest,b);return 0}function
+jd(c,b){var
+c=a(c),b=a(b);return ro(c,b)}function
+rr(){var
 b=j.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)i8(b[a].name,b[a].content);j.jsoo_create_file=i8;j.caml_fs_tmp=[];return 0}function
-iU(){return[0]}function
-rd(a,c,l){if(!isFinite(a)){if(isNaN(a))return aR(ex);return aR(a>0?ir:"-infinity")}var
+a=0;a<b.length;a++)jd(b[a].name,b[a].content);j.jsoo_create_file=jd;j.caml_fs_tmp=[];return 0}function
+i1(){return[0]}function
+rt(a,c,l){if(!isFinite(a)){if(isNaN(a))return aS(eE);return aS(a>0?iy:"-infinity")}var
 j=a==0&&1/a==-Infinity?1:a>=0?0:1;if(j)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-k=d<0?h:bc,e=h;if(j)e=aO;else
+k=d<0?h:be,e=h;if(j)e=aP;else
 switch(l){case
-43:e=bc;break;case
-32:e=bb;break;default:break}if(c>=0&&c<13){var
+43:e=be;break;case
+32:e=bd;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-i=b.indexOf(bo);if(i<0)b+=bo+b4(c,aj);else{var
-f=i+1+c;if(b.length<f)b+=b4(f-b.length,aj);else
-b=b.substr(0,f)}}return aR(e+g7+b+"p"+k+d.toString(10))}function
-rk(a){return+a.isZero()}function
-rn(a){return new
-i(a&bd,a>>24&bd,a>>31&aY)}function
-ro(a){return a.toInt()}function
-rj(a){return+a.isNeg()}function
-rm(a){return a.neg()}function
-rh(g,c){var
-a=eZ(g);if(a.signedconv&&rj(c)){a.sign=-1;c=rm(c)}var
-b=h,i=rn(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(i);c=e.quotient;b=f.charAt(ro(e.modulus))+b}while(!rk(c));if(a.prec>=0){a.filler=bb;var
-d=a.prec-b.length;if(d>0)b=b4(d,aj)+b}return eQ(a,b)}function
-rC(c){var
-a=0,e=m(c),b=10,d=1;if(e>0)switch(a3(c,a)){case
+i=b.indexOf(bt);if(i<0)b+=bt+b_(c,aj);else{var
+f=i+1+c;if(b.length<f)b+=b_(f-b.length,aj);else
+b=b.substr(0,f)}}return aS(e+g_+b+"p"+k+d.toString(10))}function
+rA(a){return+a.isZero()}function
+rD(a){return new
+i(a&bf,a>>24&bf,a>>31&a0)}function
+rE(a){return a.toInt()}function
+rz(a){return+a.isNeg()}function
+rC(a){return a.neg()}function
+rx(g,c){var
+a=e6(g);if(a.signedconv&&rz(c)){a.sign=-1;c=rC(c)}var
+b=h,i=rD(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(i);c=e.quotient;b=f.charAt(rE(e.modulus))+b}while(!rA(c));if(a.prec>=0){a.filler=bd;var
+d=a.prec-b.length;if(d>0)b=b_(d,aj)+b}return eX(a,b)}function
+rS(c){var
+a=0,e=n(c),b=10,d=1;if(e>0)switch(a5(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&a3(c,a)==48)switch(a3(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&a5(c,a)==48)switch(a5(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -644,39 +644,39 @@ a=0,e=m(c),b=10,d=1;if(e>0)switch(a3(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-i3(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=122)return a-87;return-1}function
-eX(f){var
-h=rC(f),c=h[0],i=h[1],d=h[2],g=m(f),j=-1>>>0,e=c<g?a3(f,c):0,b=i3(e);if(b<0||b>=d)aQ(c$);var
-a=b;for(c++;c<g;c++){e=a3(f,c);if(e==95)continue;b=i3(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)aQ(c$)}if(c!=g)aQ(c$);a=i*a;if(d==10&&(a|0)!=a)aQ(c$);return a|0}function
-rs(d){return function(){var
+i_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=122)return a-87;return-1}function
+e4(f){var
+h=rS(f),c=h[0],i=h[1],d=h[2],g=n(f),j=-1>>>0,e=c<g?a5(f,c):0,b=i_(e);if(b<0||b>=d)aR(dh);var
+a=b;for(c++;c<g;c++){e=a5(f,c);if(e==95)continue;b=i_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)aR(dh)}if(c!=g)aR(dh);a=i*a;if(d==10&&(a|0)!=a)aR(dh);return a|0}function
+rI(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bg(d,c)}else
-return bg(d,[undefined])}}function
-rv(a,d){if(a<0)cz();var
+a=0;a<b;a++)c[a]=arguments[a];return bi(d,c)}else
+return bi(d,[undefined])}}function
+rL(a,d){if(a<0)cF();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-rw(){return 0}var
-a2=new
+rM(){return 0}var
+a4=new
 Array();function
-b3(c){var
-a=a2[c];if(!a.opened)t("Cannot flush a closed channel");if(!a.buffer||a.buffer==h)return 0;if(a.fd&&E.fds[a.fd]&&E.fds[a.fd].output){var
-b=E.fds[a.fd].output;switch(b.length){case
+b9(c){var
+a=a4[c];if(!a.opened)u("Cannot flush a closed channel");if(!a.buffer||a.buffer==h)return 0;if(a.fd&&F.fds[a.fd]&&F.fds[a.fd].output){var
+b=F.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=h;return 0}function
-i6(e,f){var
-b=a2[e],d=a(f),c=m(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-rK(a){var
-a=e4(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+jb(e,f){var
+b=a4[e],d=a(f),c=n(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+r0(a){var
+a=e$(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-rL(a){var
-a=e4(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+r1(a){var
+a=e$(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-dr(c,e,d,a){if(E.fds===undefined)E.fds=new
+dz(c,e,d,a){if(F.fds===undefined)F.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;E.fds[c]=b;if(!E.fd_last_idx||c>E.fd_last_idx)E.fd_last_idx=c;return c}function
-rU(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;F.fds[c]=b;if(!F.fd_last_idx||c>F.fd_last_idx)F.fd_last_idx=c;return c}function
+r_(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -686,365 +686,365 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)t(bi(c)+hy);if(a.text&&a.binary)t(bi(c)+h2);var
-d=jb(c),e=d.device.open(d.rest,a),f=E.fd_last_idx?E.fd_last_idx:0;return dr(f+1,i6,e,a)}dr(0,i6,new
-V(K(0)));dr(1,rL,new
-V(K(0)));dr(2,rK,new
-V(K(0)));function
-rx(a){var
-c=E.fds[a];if(c.flags.wronly)t(iA+a+" is writeonly");var
-d=null;if(a==0&&cE()){var
-e=require("fs");d=function(){return aR(e.readFileSync(0,gZ))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};a2[b.fd]=b;return b.fd}function
-iY(c){var
-b=E.fds[c];if(b.flags.rdonly)t(iA+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:h};a2[a.fd]=a;return a.fd}function
-ry(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)u(bk(c)+hB);if(a.text&&a.binary)u(bk(c)+h7);var
+d=ji(c),e=d.device.open(d.rest,a),f=F.fd_last_idx?F.fd_last_idx:0;return dz(f+1,jb,e,a)}dz(0,jb,new
+W(L(0)));dz(1,r1,new
+W(L(0)));dz(2,r0,new
+W(L(0)));function
+rN(a){var
+c=F.fds[a];if(c.flags.wronly)u(iH+a+" is writeonly");var
+d=null;if(a==0&&cK()){var
+e=require("fs");d=function(){return aS(e.readFileSync(0,g2))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};a4[b.fd]=b;return b.fd}function
+i5(c){var
+b=F.fds[c];if(b.flags.rdonly)u(iH+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:h};a4[a.fd]=a;return a.fd}function
+rO(){var
 b=0;for(var
-a=0;a<a2.length;a++)if(a2[a]&&a2[a].opened&&a2[a].out)b=[0,a2[a].fd,b];return b}function
-ad(a){return a}function
-rz(g,d,h,f){var
-b=a2[g];if(!b.opened)t("Cannot output to a closed channel");var
-a;if(h==0&&av(d)==f)a=d;else{a=K(f);bq(d,h,a,0,f)}var
-i=ad(a),c=bi(i),e=c.lastIndexOf(hg);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);b3(g);b.buffer+=c.substr(e+1)}return 0}function
-iZ(b,a,d,c){return rz(b,bf(a),d,c)}function
-i0(c,b){var
-d=a(String.fromCharCode(b));iZ(c,d,0,1);return 0}function
-cD(a,b){return+(iP(a,b,false)!=0)}function
-dp(a){if(a
+a=0;a<a4.length;a++)if(a4[a]&&a4[a].opened&&a4[a].out)b=[0,a4[a].fd,b];return b}function
+af(a){return a}function
+rP(g,d,h,f){var
+b=a4[g];if(!b.opened)u("Cannot output to a closed channel");var
+a;if(h==0&&av(d)==f)a=d;else{a=L(f);bv(d,h,a,0,f)}var
+i=af(a),c=bk(i),e=c.lastIndexOf(hj);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);b9(g);b.buffer+=c.substr(e+1)}return 0}function
+i6(b,a,d,c){return rP(b,bh(a),d,c)}function
+i7(c,b){var
+d=a(String.fromCharCode(b));i6(c,d,0,1);return 0}function
+cJ(a,b){return+(iW(a,b,false)!=0)}function
+dx(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(dn(a))return dg;else
-if(eY(a))return dg;else
+if(dw(a))return dp;else
+if(e5(a))return dp;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return hk;else
-return cv}function
-aI(b,c,a){if(a&&j.toplevelReloc)b=j.toplevelReloc(a);E[b+1]=c;if(a)E[a]=c}function
-e1(a,b){i2[bi(a)]=b;return 0}function
-q3(a,b){if(a===b)return 1;a.t&6&&b2(a);b.t&6&&b2(b);return a.c==b.c?1:0}function
-aD(a,b){return q3(a,b)}function
-rH(){P(eK)}function
-F(b,a){if(a>>>0>=m(b))rH();return a3(b,a)}function
+if(a&&a.caml_custom)return hn;else
+return cB}function
+aK(b,c,a){if(a&&j.toplevelReloc)b=j.toplevelReloc(a);F[b+1]=c;if(a)F[a]=c}function
+e8(a,b){i9[bk(a)]=b;return 0}function
+rh(a,b){if(a===b)return 1;a.t&6&&b8(a);b.t&6&&b8(b);return a.c==b.c?1:0}function
+aD(a,b){return rh(a,b)}function
+rX(){R(eR)}function
+G(b,a){if(a>>>0>=n(b))rX();return a5(b,a)}function
 l(a,b){return 1-aD(a,b)}function
-rI(){return 0x7FFFFFFF/4|0}function
-e3(a){var
+rY(){return 0x7FFFFFFF/4|0}function
+e_(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-X(b,a){return{joo_tramp:b,joo_args:a}}function
-i5(a){return a}function
-ds(a){if(a
+Y(b,a){return{joo_tramp:b,joo_args:a}}function
+ja(a){return a}function
+dA(a){if(a
 instanceof
 Array)return a;if(j.RangeError&&a
 instanceof
-j.RangeError&&a.message&&a.message.match(/maximum call stack/i))return i5(E.Stack_overflow);if(j.InternalError&&a
+j.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ja(F.Stack_overflow);if(j.InternalError&&a
 instanceof
-j.InternalError&&a.message&&a.message.match(/too much recursion/i))return i5(E.Stack_overflow);if(a
+j.InternalError&&a.message&&a.message.match(/too much recursion/i))return ja(F.Stack_overflow);if(a
 instanceof
-j.Error&&bB(et))return[0,bB(et),a];return[0,E.Failure,aR(String(a))]}function
-dt(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-rQ(a,b){return a<b?-1:a>b?1:0}function
-i_(c,b){var
-a=c%b;return a<0?a+dt(b):a}function
-e5(a,b){return(a-i_(a,b))/b}function
-Y(a,b){return a==b?1:0}function
-w(a,b){return a<=b?1:0}function
+j.Error&&bJ(eA))return[0,bJ(eA),a];return[0,F.Failure,aS(String(a))]}function
+dB(a){return a<0?-a:a}function
+B(a,b){return a+b}function
+r6(a,b){return a<b?-1:a>b?1:0}function
+jf(c,b){var
+a=c%b;return a<0?a+dB(b):a}function
+fa(a,b){return(a-jf(a,b))/b}function
+Z(a,b){return a==b?1:0}function
+x(a,b){return a<=b?1:0}function
 al(a,b){return a<b?1:0}function
 f(a,b){return a*b}function
-G(a){return-a}function
+H(a){return-a}function
 aw(a){return j.BigInt(a)}function
-i$(a,b){return a<<j.BigInt(b)}function
-ja(a,b){return a>>j.BigInt(b)}function
-a4(a){return a<0?-1:a>0?1:0}function
-rR(a){if(a<0)throw new(j.Error)("a root of a negative number");if(a<2)return a;var
+jg(a,b){return a<<j.BigInt(b)}function
+jh(a,b){return a>>j.BigInt(b)}function
+a6(a){return a<0?-1:a>0?1:0}function
+r7(a){if(a<0)throw new(j.Error)("a root of a negative number");if(a<2)return a;var
 d=j.BigInt(1),b=d<<j.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b6(a,b){return a-b}function
-e6(a){if(a>0x7fffffff||a<-0x80000000)throw new(j.Error)("a number of more than 32 bits");return j.Number(a)}function
-rr(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-ra(b){var
-a=h;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&rr(b[1]))var
+ca(a,b){return a-b}function
+fb(a){if(a>0x7fffffff||a<-0x80000000)throw new(j.Error)("a number of more than 32 bits");return j.Number(a)}function
+rH(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+rq(b){var
+a=h;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&rH(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ie;for(var
-d=f;d<e.length;d++){if(d>f)a+=g1;var
+f=2,e=b;a+=il;for(var
+d=f;d<e.length;d++){if(d>f)a+=g4;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-aZ)a+=$+c.toString()+$;else
+a1)a+=ab+c.toString()+ab;else
 if(typeof
-c=="string")a+=$+c.toString()+$;else
-a+=hP}a+=ey}else
-if(b[0]==O)a+=b[1];return a}function
-iT(a){if(a
+c=="string")a+=ab+c.toString()+ab;else
+a+=hT}a+=eF}else
+if(b[0]==Q)a+=b[1];return a}function
+i0(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==O)){var
-c=bB(hb);if(c)c(a,false);else{var
-d=ra(a),b=bB(gY);if(b)b(0);j.console.error(eD+d+hg)}}else
+Array&&(a[0]==0||a[0]==Q)){var
+c=bJ(he);if(c)c(a,false);else{var
+d=rq(a),b=bJ(g1);if(b)b(0);j.console.error(eK+d+hj)}}else
 throw a}function
-rG(){var
-a=j;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){iT(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)iT(a.error)})}rG();function
-d(a,b){return a.length==1?a(b):bg(a,[b])}function
-D(a,b,c){return a.length==2?a(b,c):bg(a,[b,c])}function
-ep(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bg(a,[b,c,d,e,f])}function
-qY(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bg(a,[b,c,d,e,f,g,h])}rb();var
-du=[O,a(iv),-1],fa=[O,a(hd),-2],e9=[O,a(es),-3],e8=[O,a(hK),-4],e_=[O,a(ht),-8],e$=[O,a(h0),-9],B=[O,a(ij),-11],fb=[O,a(gX),-12],qK=[4,0,0,0,[12,45,[4,0,0,0,0]]],dB=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(hv),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qL]]]]]]]]]]],qN=[0,[0,[0,[0,[0,0]]]]],qO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qN]]]]]]]]]]],qP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qO]]]]]]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qP]]]]]]]]]]],qR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qQ]]]]]]]]]]],qS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qR]]]]]]]]]]],qT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qS]]]]]]]]]]],qU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qT]]]]]]]]]]],qV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qU]]]]]]]]]]],qW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qV]]]]]]]]]]],qX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qW]]]]]]]]]]],gb=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],cY=[0,[0,[0,[0,0]]]];aI(11,fb,gX);aI(10,B,ij);aI(9,[O,a(hE),-10],hE);aI(8,e$,h0);aI(7,e_,ht);aI(6,[O,a(hW),-7],hW);aI(5,[O,a(h_),-6],h_);aI(4,[O,a(hi),-5],hi);aI(3,e8,hK);aI(2,e9,es);aI(1,fa,hd);aI(0,du,iv);var
-jg=a("%.12g"),jf=a(bo),jd=a("true"),je=a("false"),jh=a("\\\\"),ji=a("\\'"),jj=a("\\b"),jk=a("\\t"),jl=a("\\n"),jm=a("\\r"),jp=a("String.blit / Bytes.blit_string"),jo=a("Bytes.blit"),jn=a("String.sub / Bytes.sub"),jr=a(h),jq=a("String.concat"),js=a("Array.init"),jv=a("Buffer.add: cannot grow buffer"),ju=[0,a(h6),93,2],jt=[0,a(h6),94,2],jE=a("%c"),jF=a("%s"),jG=a(gV),jH=a(hr),jI=a(hH),jJ=a(g4),jK=a("%f"),jL=a("%B"),jM=a("%{"),jN=a("%}"),jO=a("%("),jP=a("%)"),jQ=a("%a"),jR=a("%t"),jS=a("%?"),jT=a("%r"),jU=a("%_r"),jV=[0,a(N),850,23],j6=[0,a(N),814,21],jY=[0,a(N),815,21],j7=[0,a(N),818,21],jZ=[0,a(N),819,21],j8=[0,a(N),822,19],j0=[0,a(N),823,19],j9=[0,a(N),826,22],j1=[0,a(N),827,22],j_=[0,a(N),831,30],j2=[0,a(N),832,30],j4=[0,a(N),836,26],jW=[0,a(N),837,26],j5=[0,a(N),846,28],jX=[0,a(N),847,28],j3=[0,a(N),851,23],lb=a(hB),k$=[0,a(N),1558,4],la=a("Printf: bad conversion %["),lc=[0,a(N),1626,39],ld=[0,a(N),1649,31],le=[0,a(N),1650,31],lf=a("Printf: bad conversion %_"),lg=a(hz),lh=a(hJ),li=a(hz),lj=a(hJ),k9=a(ex),k7=a("neg_infinity"),k8=a(ir),k6=a(bo),k1=[0,g$],kP=a("%+nd"),kQ=a("% nd"),kS=a("%+ni"),kT=a("% ni"),kU=a("%nx"),kV=a("%#nx"),kW=a("%nX"),kX=a("%#nX"),kY=a("%no"),kZ=a("%#no"),kO=a("%nd"),kR=a(hH),k0=a("%nu"),kC=a("%+ld"),kD=a("% ld"),kF=a("%+li"),kG=a("% li"),kH=a("%lx"),kI=a("%#lx"),kJ=a("%lX"),kK=a("%#lX"),kL=a("%lo"),kM=a("%#lo"),kB=a("%ld"),kE=a(hr),kN=a("%lu"),kp=a("%+Ld"),kq=a("% Ld"),ks=a("%+Li"),kt=a("% Li"),ku=a("%Lx"),kv=a("%#Lx"),kw=a("%LX"),kx=a("%#LX"),ky=a("%Lo"),kz=a("%#Lo"),ko=a("%Ld"),kr=a(g4),kA=a("%Lu"),kc=a("%+d"),kd=a("% d"),kf=a("%+i"),kg=a("% i"),kh=a("%x"),ki=a("%#x"),kj=a("%X"),kk=a("%#X"),kl=a("%o"),km=a("%#o"),kb=a(eG),ke=a(gV),kn=a(hB),jw=a("@]"),jx=a("@}"),jy=a("@?"),jz=a("@\n"),jA=a("@."),jB=a("@@"),jC=a("@%"),jD=a("@"),j$=a("CamlinternalFormat.Type_mismatch"),ln=a(h),lo=[0,[11,a(g1),[2,0,[2,0,0]]],a(", %s%s")],lN=[0,[11,a(eD),[2,0,[12,10,0]]],a(ih)],lO=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],lM=a("Fatal error: out of memory in uncaught exception handler"),lK=[0,[11,a(eD),[2,0,[12,10,0]]],a(ih)],lG=[0,[2,0,[12,10,0]],a("%s\n")],ly=a("Raised at"),lz=a("Re-raised at"),lA=a("Raised by primitive operation at"),lB=a("Called from"),lC=a(" (inlined)"),lE=a(h),lD=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(hv),qK]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],lF=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],lt=a("Out of memory"),lu=a("Stack overflow"),lv=a("Pattern matching failed"),lw=a("Assertion failed"),lx=a("Undefined recursive module"),lp=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],lq=a(h),lr=a(h),ls=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],lm=[0,[4,0,0,0,0],a(eG)],lk=[0,[3,0,0],a("%S")],ll=a(hP),lH=[0,a(h),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],lQ=a("Jsoo_runtime.Error.Exn"),lS=a("power"),l2=[0,0],l9=[0,0,0],l_=[0,0,0],l$=[0,0],ma=[0,0],mp=a(","),mH=[0,a(ey),0],mI=a(ie),mJ=a(bo),mK=[0,[0,[0,0]]],mL=a(aO),mM=a(ez),mN=[0,[0,[0,[0,[0,0]]]]],mO=[0,a(ey),0],mP=a(iD),nM=a(gW),nO=a(hM),nN=a(ik),nP=a(db),nQ=a(hI),oq=a("test"),or=[0,0],os=a("divided"),ot=[0,1],ou=a("mirror"),ov=[0,3],ow=a("negative"),ox=[0,2],oy=a(iB),oz=[0,4],oA=a(ha),oB=a(h1),oC=a(io),oD=[0,0],oE=[0,0],oF=[0,0],oN=a(h),oK=[0,[0,[0,[0,0]]]],oL=[0,[0,[0,[0,0]]]],oI=[0,[0,[0,0]]],oG=[0,0],om=[0,0,0],oj=[0,0],ok=[0,0],ol=[0,0],of=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qM]]]]]]]]]]],og=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,qX]]]]]]]]]]],n6=[0,a("\n"),0],n7=a(hO),n8=a(c_),n9=a(hm),n_=a(h9),n$=a("certified"),oe=a("refuted"),oa=a("verdict"),ob=a(hw),oc=a(h5),od=a(ii),nV=a(iu),nW=a(da),nX=a(hj),nY=a(ix),n4=a(ic),n5=a(h8),nZ=a(eA),n0=a(cy),n1=a(hQ),n2=a(da),n3=a(iw),nT=a(h4),nU=a(iy),nK=a(hZ),nL=a(hA),nu=a(ew),nv=a(eL),nw=a(g3),nx=a(eH),ny=a(cy),nz=a(ew),nA=a(hN),nB=a(h7),nC=a(eL),nD=a(hG),nE=a(hT),nF=a(eH),nG=a(cy),nJ=a(hL),nH=a(g6),nI=a(hC),nn=a(bZ),no=a(bY),np=a(gT),nq=a(hn),nr=a(gU),ns=a(hh),nt=a(it),nf=a(h$),ng=a(bZ),nm=a(bY),nh=a(g5),ni=a(c_),nj=a(he),nk=a(hs),nl=a(il),m$=a(g0),na=a(hR),nb=a(iq),nc=a(db),nd=a(iC),ne=a(is),mV=a(bc),m3=a(aO),mW=a(hV),mX=a(hS),mY=a(dc),mZ=a(c8),m0=a(df),m1=a(hD),m2=a(dd),m4=a(dc),m5=a(c8),m6=a(hF),m7=a(dd),m8=a(df),m9=a(g2),m_=a(dd),mS=a(bZ),mT=a(bY),mQ=[0,a($),0],mR=a($),mD=a(bc),mE=a(aO),mF=a("*"),mG=a(aN),mz=[0,[0,[0,0]]],mA=[0,[0,0]],mB=[0,0],mC=[0,[0,[0,[0,0]]]],my=[0,[0,[0,[0,[0,0]]]]],mw=a('":'),mx=a($),mu=[0,a($),0],mv=a($),ms=[0,a("}"),0],mt=a("{"),mq=[0,a("]"),0],mr=a("["),mn=[0,0],mk=[0,[0,[0,0]]],ml=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mi=[0,[0,0]],mj=[0,[0,[0,0]]],md=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],me=[0,[0,[0,[0,[0,[0,0]]]]]],mf=[0,[0,[0,0]]],mg=[0,[0,[0,0]]],mb=[0,[0,0]],mc=[0,0],l3=[0,0,0],l1=a(aj),l0=a(h),lZ=[0,[0,0]],lY=[0,0],lX=[1,0],lW=[0,0],lV=[0,0],lT=[1,0],lU=[1,0],p3=a(db),p4=a(ik),p5=a(hI),p6=a(ha),p7=a(h1),p8=a(io),p9=[0,a($),0],p_=a('the evidence "'),p$=a(hA),qa=a(hZ),qx=a(ii),qy=a(h5),qz=a(hw),qA=a(h9),qB=a(hm),qC=a(hO),qD=a(c_),qm=a(hj),qn=a(iw),qq=a(cy),qr=a(eA),qs=a(hQ),qt=a(da),qu=a(iu),qv=a(da),qo=[0,a($),0],qp=a('a proof of the kind "'),qh=a(ic),qi=a(ix),qj=a(h8),qk=[0,a($),0],ql=a('the failure "'),qd=a(eA),qe=[0,a("a leaf that fails"),0],qf=a(h4),qg=a(iy),qb=a(iB),qc=a(aj),p1=a(hM),p2=a(gW),pF=a(ew),pz=a(cy),pA=a(hC),pD=a(g6),pE=a(hL),pG=a(eH),pH=a(eL),pI=a("orientation"),pJ=a("bodies"),p0=[0,a("a platform that turns, or one with bodies,"),0],pK=a(hT),pL=a(g3),pO=a(gT),pP=a(it),pS=a(hh),pT=a(hn),pU=a(gU),pV=a(bZ),pW=a(bY),pQ=[0,a($),0],pR=a('the workspace "'),pX=a(h7),pY=a(hN),pZ=a(hG),pM=[0,a($),0],pN=a('the mechanism "'),pB=[0,a($),0],pC=a('a claim of the kind "'),pu=a(c_),pv=[0,a("what a quantity is for"),0],pg=a(il),ph=a(db),pi=a(hR),pj=a(iq),pk=a(is),pl=a(iC),pm=a(g0),pn=[0,a($),0],po=a('the quantity "'),pp=a(g5),pq=a(bZ),pr=a(bY),ps=[0,a($),0],pt=a('a bound "'),pw=a(h$),px=a(he),py=a(hs),o1=a(dd),o2=a(g2),o3=a(hD),o4=a(hF),o7=a("base_axis"),o8=a(dc),o9=a(c8),o_=[0,a("a strut with a base axis"),0],o$=a(hV),pa=a(hS),pb=a(dc),pc=a(c8),pd=a(df),pe=a(df),o5=[0,a($),0],o6=a('the drive "'),oZ=a(bc),o0=a(aO),oX=a(" is not covered by the verified checker"),oY=a(h),oV=a(bZ),oW=a(bY),oR=a(h),oS=a(iD),oT=a(h),oU=a(h),oQ=[1,0],oO=a("Reader.Malformed"),oP=a("Reader.Not_covered"),qF=a(hq),qG=a("CERTIFIED"),qH=a("REFUTED"),qI=a(hq),qJ=a("NOT COVERED: ");function
-A(a){if(typeof
+rW(){var
+a=j;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){i0(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)i0(a.error)})}rW();function
+d(a,b){return a.length==1?a(b):bi(a,[b])}function
+E(a,b,c){return a.length==2?a(b,c):bi(a,[b,c])}function
+ew(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bi(a,[b,c,d,e,f])}function
+rc(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bi(a,[b,c,d,e,f,g,h])}rr();var
+dC=[Q,a(iC),-1],fh=[Q,a(hg),-2],fe=[Q,a(ez),-3],fd=[Q,a(hO),-4],ff=[Q,a(hw),-8],fg=[Q,a(h5),-9],D=[Q,a(iq),-11],fi=[Q,a(g0),-12],q0=[4,0,0,0,[12,45,[4,0,0,0,0]]],dJ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(hy),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],q1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],q2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q1]]]]]]]]]]],q3=[0,[0,[0,[0,[0,0]]]]],q4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q3]]]]]]]]]]],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q4]]]]]]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q5]]]]]]]]]]],q7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q6]]]]]]]]]]],q8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q7]]]]]]]]]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q8]]]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q9]]]]]]]]]]],q$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q_]]]]]]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q$]]]]]]]]]]],rb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ra]]]]]]]]]]],gf=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],c4=[0,[0,[0,[0,0]]]];aK(11,fi,g0);aK(10,D,iq);aK(9,[Q,a(hH),-10],hH);aK(8,fg,h5);aK(7,ff,hw);aK(6,[Q,a(h1),-7],h1);aK(5,[Q,a(ie),-6],ie);aK(4,[Q,a(hl),-5],hl);aK(3,fd,hO);aK(2,fe,ez);aK(1,fh,hg);aK(0,dC,iC);var
+jn=a("%.12g"),jm=a(bt),jk=a("true"),jl=a("false"),jo=a("\\\\"),jp=a("\\'"),jq=a("\\b"),jr=a("\\t"),js=a("\\n"),jt=a("\\r"),jw=a("String.blit / Bytes.blit_string"),jv=a("Bytes.blit"),ju=a("String.sub / Bytes.sub"),jy=a(h),jx=a("String.concat"),jz=a("Array.init"),jC=a("Buffer.add: cannot grow buffer"),jB=[0,a(ia),93,2],jA=[0,a(ia),94,2],jL=a("%c"),jM=a("%s"),jN=a(gY),jO=a(hu),jP=a(hL),jQ=a(g7),jR=a("%f"),jS=a("%B"),jT=a("%{"),jU=a("%}"),jV=a("%("),jW=a("%)"),jX=a("%a"),jY=a("%t"),jZ=a("%?"),j0=a("%r"),j1=a("%_r"),j2=[0,a(P),850,23],kb=[0,a(P),814,21],j5=[0,a(P),815,21],kc=[0,a(P),818,21],j6=[0,a(P),819,21],kd=[0,a(P),822,19],j7=[0,a(P),823,19],ke=[0,a(P),826,22],j8=[0,a(P),827,22],kf=[0,a(P),831,30],j9=[0,a(P),832,30],j$=[0,a(P),836,26],j3=[0,a(P),837,26],ka=[0,a(P),846,28],j4=[0,a(P),847,28],j_=[0,a(P),851,23],li=a(hE),lg=[0,a(P),1558,4],lh=a("Printf: bad conversion %["),lj=[0,a(P),1626,39],lk=[0,a(P),1649,31],ll=[0,a(P),1650,31],lm=a("Printf: bad conversion %_"),ln=a(hC),lo=a(hN),lp=a(hC),lq=a(hN),le=a(eE),lc=a("neg_infinity"),ld=a(iy),lb=a(bt),k8=[0,hc],kW=a("%+nd"),kX=a("% nd"),kZ=a("%+ni"),k0=a("% ni"),k1=a("%nx"),k2=a("%#nx"),k3=a("%nX"),k4=a("%#nX"),k5=a("%no"),k6=a("%#no"),kV=a("%nd"),kY=a(hL),k7=a("%nu"),kJ=a("%+ld"),kK=a("% ld"),kM=a("%+li"),kN=a("% li"),kO=a("%lx"),kP=a("%#lx"),kQ=a("%lX"),kR=a("%#lX"),kS=a("%lo"),kT=a("%#lo"),kI=a("%ld"),kL=a(hu),kU=a("%lu"),kw=a("%+Ld"),kx=a("% Ld"),kz=a("%+Li"),kA=a("% Li"),kB=a("%Lx"),kC=a("%#Lx"),kD=a("%LX"),kE=a("%#LX"),kF=a("%Lo"),kG=a("%#Lo"),kv=a("%Ld"),ky=a(g7),kH=a("%Lu"),kj=a("%+d"),kk=a("% d"),km=a("%+i"),kn=a("% i"),ko=a("%x"),kp=a("%#x"),kq=a("%X"),kr=a("%#X"),ks=a("%o"),kt=a("%#o"),ki=a(eN),kl=a(gY),ku=a(hE),jD=a("@]"),jE=a("@}"),jF=a("@?"),jG=a("@\n"),jH=a("@."),jI=a("@@"),jJ=a("@%"),jK=a("@"),kg=a("CamlinternalFormat.Type_mismatch"),lu=a(h),lv=[0,[11,a(g4),[2,0,[2,0,0]]],a(", %s%s")],lU=[0,[11,a(eK),[2,0,[12,10,0]]],a(io)],lV=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],lT=a("Fatal error: out of memory in uncaught exception handler"),lR=[0,[11,a(eK),[2,0,[12,10,0]]],a(io)],lN=[0,[2,0,[12,10,0]],a("%s\n")],lF=a("Raised at"),lG=a("Re-raised at"),lH=a("Raised by primitive operation at"),lI=a("Called from"),lJ=a(" (inlined)"),lL=a(h),lK=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(hy),q0]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],lM=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],lA=a("Out of memory"),lB=a("Stack overflow"),lC=a("Pattern matching failed"),lD=a("Assertion failed"),lE=a("Undefined recursive module"),lw=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],lx=a(h),ly=a(h),lz=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],lt=[0,[4,0,0,0,0],a(eN)],lr=[0,[3,0,0],a("%S")],ls=a(hT),lO=[0,a(h),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],lX=a("Jsoo_runtime.Error.Exn"),lZ=a("power"),l9=[0,0],me=[0,0,0],mf=[0,0,0],mg=[0,0],mh=[0,0],mp=[0,0],mx=[0,0],mz=a(","),mR=[0,a(eF),0],mS=a(il),mT=a(bt),mU=[0,[0,[0,0]]],mV=a(aP),mW=a(eG),mX=[0,[0,[0,[0,[0,0]]]]],mY=[0,a(eF),0],mZ=a(iK),n0=a(gZ),n2=a(hQ),n1=a(ir),n3=a(dj),n4=a(hM),oE=a("test"),oF=[0,0],oG=a("divided"),oH=[0,1],oI=a("mirror"),oJ=[0,3],oK=a("negative"),oL=[0,2],oM=a(iI),oN=[0,4],oO=a(hd),oP=a(h6),oQ=a(iv),oR=[0,0],oS=[0,0],oT=[0,0],o1=a(h),oY=[0,[0,[0,[0,0]]]],oZ=[0,[0,[0,[0,0]]]],oW=[0,[0,[0,0]]],oU=[0,0],oA=[0,0,0],ox=[0,0],oy=[0,0],oz=[0,0],ot=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q2]]]]]]]]]]],ou=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rb]]]]]]]]]]],oi=[0,a("\n"),0],oj=a(hS),ok=a(dg),ol=a(hp),om=a(id),on=a("certified"),os=a("refuted"),oo=a("verdict"),op=a(hz),oq=a(h$),or=a(ip),n9=a(iB),n_=a(di),n$=a(hm),oa=a(iE),og=a(ij),oh=a(ic),ob=a(eH),oc=a(cE),od=a(hU),oe=a(di),of=a(iD),n7=a(h_),n8=a(iF),nY=a(h4),nZ=a(hD),nI=a(eD),nJ=a(eS),nK=a(g6),nL=a(eO),nM=a(cE),nN=a(eD),nO=a(hR),nP=a(ib),nQ=a(eS),nR=a(hK),nS=a(hX),nT=a(eO),nU=a(cE),nX=a(hP),nV=a(g9),nW=a(hF),nB=a(b5),nC=a(b4),nD=a(gW),nE=a(hq),nF=a(gX),nG=a(hk),nH=a(iA),ns=a(ig),nt=a(b5),nA=a(b4),nu=a(g8),nz=a(dg),nv=a(h9),nw=a(hh),nx=a(hv),ny=a(is),nk=a(g3),nl=a(hV),nm=a(ix),nn=a(dj),no=a(iJ),np=a(iz),nq=a(h0),nr=a(iu),m5=a(be),nb=a(aP),m6=a(hZ),m7=a(hW),m8=a(dk),m9=a(de),m_=a(dn),m$=a(hG),na=a(dl),nc=a(hI),nd=a(dk),ne=a(de),nf=a(hJ),ng=a(dl),nh=a(dn),ni=a(g5),nj=a(dl),m2=a(b5),m3=a(b4),m0=[0,a(ab),0],m1=a(ab),mN=a(be),mO=a(aP),mP=a("*"),mQ=a(aO),mJ=[0,[0,[0,0]]],mK=[0,[0,0]],mL=[0,0],mM=[0,[0,[0,[0,0]]]],mI=[0,[0,[0,[0,[0,0]]]]],mG=a('":'),mH=a(ab),mE=[0,a(ab),0],mF=a(ab),mC=[0,a("}"),0],mD=a("{"),mA=[0,a("]"),0],mB=a("["),mw=[0,0],mt=[0,[0,[0,0]]],mu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mr=[0,[0,0]],ms=[0,[0,[0,0]]],mk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ml=[0,[0,[0,[0,[0,[0,0]]]]]],mm=[0,[0,[0,0]]],mn=[0,[0,[0,[0,[0,[0,0]]]]]],mo=[0,[0,[0,0]]],mi=[0,[0,0]],mj=[0,0],l_=[0,0,0],l8=a(aj),l7=a(h),l6=[0,[0,0]],l5=[0,0],l4=[1,0],l3=[0,0],l2=[0,0],l0=[1,0],l1=[1,0],qh=a(dj),qi=a(ir),qj=a(hM),qk=a(hd),ql=a(h6),qm=a(iv),qn=[0,a(ab),0],qo=a('the evidence "'),qp=a(hD),qq=a(h4),qN=a(ip),qO=a(h$),qP=a(hz),qQ=a(id),qR=a(hp),qS=a(hS),qT=a(dg),qC=a(hm),qD=a(iD),qG=a(cE),qH=a(eH),qI=a(hU),qJ=a(di),qK=a(iB),qL=a(di),qE=[0,a(ab),0],qF=a('a proof of the kind "'),qx=a(ij),qy=a(iE),qz=a(ic),qA=[0,a(ab),0],qB=a('the failure "'),qt=a(eH),qu=[0,a("a leaf that fails"),0],qv=a(h_),qw=a(iF),qr=a(iI),qs=a(aj),qf=a(hQ),qg=a(gZ),pV=a(eD),pP=a(cE),pQ=a(hF),pT=a(g9),pU=a(hP),pW=a(eO),pX=a(eS),pY=a("orientation"),pZ=a("bodies"),qe=[0,a("a platform that turns, or one with bodies,"),0],p0=a(hX),p1=a(g6),p4=a(gW),p5=a(iA),p8=a(hk),p9=a(hq),p_=a(gX),p$=a(b5),qa=a(b4),p6=[0,a(ab),0],p7=a('the workspace "'),qb=a(ib),qc=a(hR),qd=a(hK),p2=[0,a(ab),0],p3=a('the mechanism "'),pR=[0,a(ab),0],pS=a('a claim of the kind "'),pK=a(h9),pL=[0,a("a stiffness for each joint"),0],pJ=a(dg),pt=a(is),pu=a(dj),pv=a(iu),pw=a(hV),px=a(ix),py=a(iz),pz=a(iJ),pA=a(h0),pB=a(g3),pC=[0,a(ab),0],pD=a('the quantity "'),pE=a(g8),pF=a(b5),pG=a(b4),pH=[0,a(ab),0],pI=a('a bound "'),pM=a(ig),pN=a(hh),pO=a(hv),pd=a(dl),pe=a(g5),pf=a(hG),pg=a(hJ),pj=a(hI),pk=a(dk),pl=a(de),pm=a(hZ),pn=a(hW),po=a(dk),pp=a(de),pq=a(dn),pr=a(dn),ph=[0,a(ab),0],pi=a('the drive "'),pb=a(be),pc=a(aP),o$=a(" is not covered by the verified checker"),pa=a(h),o9=a(b5),o_=a(b4),o5=a(h),o6=a(iK),o7=a(h),o8=a(h),o4=[1,0],o2=a("Reader.Malformed"),o3=a("Reader.Not_covered"),qV=a(ht),qW=a("CERTIFIED"),qX=a("REFUTED"),qY=a(ht),qZ=a("NOT COVERED: ");function
+C(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,A(a[1])];case
-1:return[1,A(a[1])];case
-2:return[2,A(a[1])];case
-3:return[3,A(a[1])];case
-4:return[4,A(a[1])];case
-5:return[5,A(a[1])];case
-6:return[6,A(a[1])];case
-7:return[7,A(a[1])];case
+0:return[0,C(a[1])];case
+1:return[1,C(a[1])];case
+2:return[2,C(a[1])];case
+3:return[3,C(a[1])];case
+4:return[4,C(a[1])];case
+5:return[5,C(a[1])];case
+6:return[6,C(a[1])];case
+7:return[7,C(a[1])];case
 8:var
-c=a[1];return[8,c,A(a[2])];case
+c=a[1];return[8,c,C(a[2])];case
 9:var
-b=a[1];return[9,b,b,A(a[3])];case
-10:return[10,A(a[1])];case
-11:return[11,A(a[1])];case
-12:return[12,A(a[1])];case
-13:return[13,A(a[1])];default:return[14,A(a[1])]}}function
-ae(a,b){if(typeof
+b=a[1];return[9,b,b,C(a[3])];case
+10:return[10,C(a[1])];case
+11:return[11,C(a[1])];case
+12:return[12,C(a[1])];case
+13:return[13,C(a[1])];default:return[14,C(a[1])]}}function
+ag(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ae(a[1],b)];case
-1:return[1,ae(a[1],b)];case
-2:return[2,ae(a[1],b)];case
-3:return[3,ae(a[1],b)];case
-4:return[4,ae(a[1],b)];case
-5:return[5,ae(a[1],b)];case
-6:return[6,ae(a[1],b)];case
-7:return[7,ae(a[1],b)];case
+0:return[0,ag(a[1],b)];case
+1:return[1,ag(a[1],b)];case
+2:return[2,ag(a[1],b)];case
+3:return[3,ag(a[1],b)];case
+4:return[4,ag(a[1],b)];case
+5:return[5,ag(a[1],b)];case
+6:return[6,ag(a[1],b)];case
+7:return[7,ag(a[1],b)];case
 8:var
-c=a[1];return[8,c,ae(a[2],b)];case
+c=a[1];return[8,c,ag(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,ae(a[3],b)];case
-10:return[10,ae(a[1],b)];case
-11:return[11,ae(a[1],b)];case
-12:return[12,ae(a[1],b)];case
-13:return[13,ae(a[1],b)];default:return[14,ae(a[1],b)]}}function
-x(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,ag(a[3],b)];case
+10:return[10,ag(a[1],b)];case
+11:return[11,ag(a[1],b)];case
+12:return[12,ag(a[1],b)];case
+13:return[13,ag(a[1],b)];default:return[14,ag(a[1],b)]}}function
+y(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,x(a[1],b)];case
-1:return[1,x(a[1],b)];case
+0:return[0,y(a[1],b)];case
+1:return[1,y(a[1],b)];case
 2:var
-c=a[1];return[2,c,x(a[2],b)];case
+c=a[1];return[2,c,y(a[2],b)];case
 3:var
-d=a[1];return[3,d,x(a[2],b)];case
+d=a[1];return[3,d,y(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,x(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,y(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,x(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,y(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,x(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,y(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,x(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,y(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,x(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,y(a[4],b)];case
 9:var
-t=a[1];return[9,t,x(a[2],b)];case
-10:return[10,x(a[1],b)];case
+t=a[1];return[9,t,y(a[2],b)];case
+10:return[10,y(a[1],b)];case
 11:var
-u=a[1];return[11,u,x(a[2],b)];case
+u=a[1];return[11,u,y(a[2],b)];case
 12:var
-v=a[1];return[12,v,x(a[2],b)];case
+v=a[1];return[12,v,y(a[2],b)];case
 13:var
-w=a[2],y=a[1];return[13,y,w,x(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,y(a[3],b)];case
 14:var
-z=a[2],A=a[1];return[14,A,z,x(a[3],b)];case
-15:return[15,x(a[1],b)];case
-16:return[16,x(a[1],b)];case
+z=a[2],A=a[1];return[14,A,z,y(a[3],b)];case
+15:return[15,y(a[1],b)];case
+16:return[16,y(a[1],b)];case
 17:var
-B=a[1];return[17,B,x(a[2],b)];case
+B=a[1];return[17,B,y(a[2],b)];case
 18:var
-C=a[1];return[18,C,x(a[2],b)];case
-19:return[19,x(a[1],b)];case
+C=a[1];return[18,C,y(a[2],b)];case
+19:return[19,y(a[1],b)];case
 20:var
-D=a[2],E=a[1];return[20,E,D,x(a[3],b)];case
+D=a[2],E=a[1];return[20,E,D,y(a[3],b)];case
 21:var
-F=a[1];return[21,F,x(a[2],b)];case
-22:return[22,x(a[1],b)];case
+F=a[1];return[21,F,y(a[2],b)];case
+22:return[22,y(a[1],b)];case
 23:var
-G=a[1];return[23,G,x(a[2],b)];default:var
-H=a[2],I=a[1];return[24,I,H,x(a[3],b)]}}function
-bj(a){throw[0,e8,a]}function
-cF(a){return 0<=a?a:-a|0}function
-Q(d,c){var
-a=m(d),e=m(c),b=K(a+e|0);a1(d,0,b,0,a);a1(c,0,b,a,e);return ad(b)}function
-jc(a){return a?jd:je}rx(0);iY(1);var
-a5=iY(2);function
-b7(b,a){return iZ(b,a,0,m(a))}function
-fc(a){b7(a5,a);i0(a5,10);return b3(a5)}function
-dv(b){function
+G=a[1];return[23,G,y(a[2],b)];default:var
+H=a[2],I=a[1];return[24,I,H,y(a[3],b)]}}function
+bl(a){throw[0,fd,a]}function
+cL(a){return 0<=a?a:-a|0}function
+S(d,c){var
+a=n(d),e=n(c),b=L(a+e|0);a3(d,0,b,0,a);a3(c,0,b,a,e);return af(b)}function
+jj(a){return a?jk:jl}rN(0);i5(1);var
+a7=i5(2);function
+cb(b,a){return i6(b,a,0,n(a))}function
+fj(a){cb(a7,a);i7(a7,10);return b9(a7)}function
+dD(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{b3(d)}catch(a){a=ds(a);if(a[1]!==fa)throw a;var
+c=a[2],d=a[1];try{b9(d)}catch(a){a=dA(a);if(a[1]!==fh)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(ry(0))}e1(a(gY),dv);var
-b8=(4*rI(0)|0)-1|0;function
-dw(c){var
+a=c;continue}return 0}}return a(rO(0))}e8(a(g1),dD);var
+cc=(4*rY(0)|0)-1|0;function
+dE(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 aE(b,a){if(a){var
 c=a[2],e=d(b,a[1]);return[0,e,aE(b,c)]}return 0}function
-br(a,c){var
-b=K(a);q$(b,0,a,c);return b}function
-fd(c,b,a){if(0<=b&&0<=a&&!((av(c)-a|0)<b)){var
-d=K(a);bq(c,b,d,0,a);return d}return bj(jn)}function
-fe(c,b,a){return ad(fd(c,b,a))}function
-ff(e,c,d,b,a){if(0<=a&&0<=c&&!((av(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return bq(e,c,d,b,a);return bj(jo)}function
-a6(e,c,d,b,a){if(0<=a&&0<=c&&!((m(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return a1(e,c,d,b,a);return bj(jp)}function
-aF(b,a){return ad(br(b,a))}function
-cG(c,b,a){return ad(fd(bf(c),b,a))}function
-fg(k,g){if(g){var
-h=m(k),c=0,b=g,q=0;for(;;){if(b){var
+bw(a,c){var
+b=L(a);rp(b,0,a,c);return b}function
+fk(c,b,a){if(0<=b&&0<=a&&!((av(c)-a|0)<b)){var
+d=L(a);bv(c,b,d,0,a);return d}return bl(ju)}function
+fl(c,b,a){return af(fk(c,b,a))}function
+fm(e,c,d,b,a){if(0<=a&&0<=c&&!((av(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return bv(e,c,d,b,a);return bl(jv)}function
+a8(e,c,d,b,a){if(0<=a&&0<=c&&!((n(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return a3(e,c,d,b,a);return bl(jw)}function
+aF(b,a){return af(bw(b,a))}function
+cM(c,b,a){return af(fk(bh(c),b,a))}function
+fn(k,g){if(g){var
+h=n(k),c=0,b=g,q=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(m(i)+h|0)+c|0,n=b[2],o=c<=j?j:bj(jq),c=o,b=n;continue}var
-l=m(i)+c|0}else
+j=(n(i)+h|0)+c|0,m=b[2],o=c<=j?j:bl(jx),c=o,b=m;continue}var
+l=n(i)+c|0}else
 var
 l=c;var
-f=K(l),e=q,d=g;for(;;){if(d){var
+f=L(l),e=q,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-p=d[2];a1(a,0,f,e,m(a));a1(k,0,f,e+m(a)|0,h);var
-e=(e+m(a)|0)+h|0,d=p;continue}a1(a,0,f,e,m(a))}return ad(f)}}}return jr}function
-fh(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(b8<b[1]){if(!((d+c|0)<=b8))throw[0,e9,jv];b[1]=b8}var
-e=K(b[1]);ff(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,B,jt]}throw[0,B,ju]}}function
-b9(a,c){var
-b=m(c),d=a[2]+b|0;if(a[3]<d)fh(a,b);a1(c,0,a[1],a[2],b);a[2]=d;return 0}function
-dx(a){return 5===a[2]?12:-6}function
-fi(a){return[0,0,K(a)]}function
-fj(a,h){var
+p=d[2];a3(a,0,f,e,n(a));a3(k,0,f,e+n(a)|0,h);var
+e=(e+n(a)|0)+h|0,d=p;continue}a3(a,0,f,e,n(a))}return af(f)}}}return jy}function
+fo(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cc<b[1]){if(!((d+c|0)<=cc))throw[0,fe,jC];b[1]=cc}var
+e=L(b[1]);fm(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,D,jA]}throw[0,D,jB]}}function
+cd(a,c){var
+b=n(c),d=a[2]+b|0;if(a[3]<d)fo(a,b);a3(c,0,a[1],a[2],b);a[2]=d;return 0}function
+dF(a){return 5===a[2]?12:-6}function
+fp(a){return[0,0,L(a)]}function
+fq(a,h){var
 b=av(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=K(i);ff(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=L(i);fm(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-bE(a,b){fj(a,1);bA(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-Z(a,c){var
-b=m(c);fj(a,b);a6(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-fk(a){return fe(a[2],0,a[1])}function
-fl(a){if(typeof
+bM(a,b){fq(a,1);bI(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+_(a,c){var
+b=n(c);fq(a,b);a8(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+fr(a){return fl(a[2],0,a[1])}function
+fs(a){if(typeof
 a==="number")switch(a){case
-0:return jw;case
-1:return jx;case
-2:return jy;case
-3:return jz;case
-4:return jA;case
-5:return jB;default:return jC}else
+0:return jD;case
+1:return jE;case
+2:return jF;case
+3:return jG;case
+4:return jH;case
+5:return jI;default:return jJ}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return Q(jD,aF(1,a[1]))}}function
-dy(b,c){var
+1:return a[1];default:return S(jK,aF(1,a[1]))}}function
+dG(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];Z(b,jE);var
+d=a[1];_(b,jL);var
 a=d;continue;case
 1:var
-e=a[1];Z(b,jF);var
+e=a[1];_(b,jM);var
 a=e;continue;case
 2:var
-f=a[1];Z(b,jG);var
+f=a[1];_(b,jN);var
 a=f;continue;case
 3:var
-g=a[1];Z(b,jH);var
+g=a[1];_(b,jO);var
 a=g;continue;case
 4:var
-h=a[1];Z(b,jI);var
+h=a[1];_(b,jP);var
 a=h;continue;case
 5:var
-i=a[1];Z(b,jJ);var
+i=a[1];_(b,jQ);var
 a=i;continue;case
 6:var
-j=a[1];Z(b,jK);var
+j=a[1];_(b,jR);var
 a=j;continue;case
 7:var
-k=a[1];Z(b,jL);var
+k=a[1];_(b,jS);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];Z(b,jM);dy(b,m);Z(b,jN);var
+l=a[2],m=a[1];_(b,jT);dG(b,m);_(b,jU);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];Z(b,jO);dy(b,o);Z(b,jP);var
+n=a[3],o=a[1];_(b,jV);dG(b,o);_(b,jW);var
 a=n;continue;case
 10:var
-p=a[1];Z(b,jQ);var
+p=a[1];_(b,jX);var
 a=p;continue;case
 11:var
-q=a[1];Z(b,jR);var
+q=a[1];_(b,jY);var
 a=q;continue;case
 12:var
-r=a[1];Z(b,jS);var
+r=a[1];_(b,jZ);var
 a=r;continue;case
 13:var
-s=a[1];Z(b,jT);var
+s=a[1];_(b,j0);var
 a=s;continue;default:var
-t=a[1];Z(b,jU);var
+t=a[1];_(b,j1);var
 a=t;continue}}function
-J(a){if(typeof
+K(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,J(a[1])];case
-1:return[1,J(a[1])];case
-2:return[2,J(a[1])];case
-3:return[3,J(a[1])];case
-4:return[4,J(a[1])];case
-5:return[5,J(a[1])];case
-6:return[6,J(a[1])];case
-7:return[7,J(a[1])];case
+0:return[0,K(a[1])];case
+1:return[1,K(a[1])];case
+2:return[2,K(a[1])];case
+3:return[3,K(a[1])];case
+4:return[4,K(a[1])];case
+5:return[5,K(a[1])];case
+6:return[6,K(a[1])];case
+7:return[7,K(a[1])];case
 8:var
-b=a[1];return[8,b,J(a[2])];case
+b=a[1];return[8,b,K(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,J(a[3])];case
-10:return[10,J(a[1])];case
-11:return[11,J(a[1])];case
-12:return[12,J(a[1])];case
-13:return[13,J(a[1])];default:return[14,J(a[1])]}}function
-_(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,K(a[3])];case
+10:return[10,K(a[1])];case
+11:return[11,K(a[1])];case
+12:return[12,K(a[1])];case
+13:return[13,K(a[1])];default:return[14,K(a[1])]}}function
+$(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=_(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){d(x,0);return 0};return[0,function(a){d(y,0);return 0},z,w,v];case
+b=$(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){d(x,0);return 0};return[0,function(a){d(y,0);return 0},z,w,v];case
 1:var
-c=_(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){d(C,0);return 0};return[0,function(a){d(D,0);return 0},E,B,A];case
+c=$(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){d(C,0);return 0};return[0,function(a){d(D,0);return 0},E,B,A];case
 2:var
-e=_(a[1]),F=e[4],G=e[3],H=e[2],I=e[1],K=function(a){d(H,0);return 0};return[0,function(a){d(I,0);return 0},K,G,F];case
+e=$(a[1]),F=e[4],G=e[3],H=e[2],I=e[1],J=function(a){d(H,0);return 0};return[0,function(a){d(I,0);return 0},J,G,F];case
 3:var
-f=_(a[1]),M=f[4],N=f[3],O=f[2],P=f[1],Q=function(a){d(O,0);return 0};return[0,function(a){d(P,0);return 0},Q,N,M];case
+f=$(a[1]),L=f[4],N=f[3],O=f[2],P=f[1],Q=function(a){d(O,0);return 0};return[0,function(a){d(P,0);return 0},Q,N,L];case
 4:var
-g=_(a[1]),R=g[4],S=g[3],T=g[2],U=g[1],V=function(a){d(T,0);return 0};return[0,function(a){d(U,0);return 0},V,S,R];case
+g=$(a[1]),R=g[4],S=g[3],T=g[2],U=g[1],V=function(a){d(T,0);return 0};return[0,function(a){d(U,0);return 0},V,S,R];case
 5:var
-h=_(a[1]),W=h[4],X=h[3],Y=h[2],Z=h[1],$=function(a){d(Y,0);return 0};return[0,function(a){d(Z,0);return 0},$,X,W];case
+h=$(a[1]),W=h[4],X=h[3],Y=h[2],Z=h[1],_=function(a){d(Y,0);return 0};return[0,function(a){d(Z,0);return 0},_,X,W];case
 6:var
-i=_(a[1]),aa=i[4],ab=i[3],ac=i[2],ad=i[1],ae=function(a){d(ac,0);return 0};return[0,function(a){d(ad,0);return 0},ae,ab,aa];case
+i=$(a[1]),aa=i[4],ab=i[3],ac=i[2],ad=i[1],ae=function(a){d(ac,0);return 0};return[0,function(a){d(ad,0);return 0},ae,ab,aa];case
 7:var
-j=_(a[1]),af=j[4],ag=j[3],ah=j[2],ai=j[1],aj=function(a){d(ah,0);return 0};return[0,function(a){d(ai,0);return 0},aj,ag,af];case
+j=$(a[1]),af=j[4],ag=j[3],ah=j[2],ai=j[1],aj=function(a){d(ah,0);return 0};return[0,function(a){d(ai,0);return 0},aj,ag,af];case
 8:var
-k=_(a[2]),ak=k[4],al=k[3],am=k[2],an=k[1],ao=function(a){d(am,0);return 0};return[0,function(a){d(an,0);return 0},ao,al,ak];case
+k=$(a[2]),ak=k[4],al=k[3],am=k[2],an=k[1],ao=function(a){d(am,0);return 0};return[0,function(a){d(an,0);return 0},ao,al,ak];case
 9:var
-ap=a[2],aq=a[1],l=_(a[3]),ar=l[4],as=l[3],at=l[2],au=l[1],m=_(L(J(aq),ap)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){d(av,0);d(ar,0);return 0},aA=function(a){d(as,0);d(aw,0);return 0},aB=function(a){d(ax,0);d(at,0);return 0};return[0,function(a){d(au,0);d(ay,0);return 0},aB,aA,az];case
+ap=a[2],aq=a[1],l=$(a[3]),ar=l[4],as=l[3],at=l[2],au=l[1],m=$(M(K(aq),ap)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){d(av,0);d(ar,0);return 0},aA=function(a){d(as,0);d(aw,0);return 0},aB=function(a){d(ax,0);d(at,0);return 0};return[0,function(a){d(au,0);d(ay,0);return 0},aB,aA,az];case
 10:var
-n=_(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){d(aE,0);return 0};return[0,function(a){d(aF,0);return 0},aG,aD,aC];case
+n=$(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){d(aE,0);return 0};return[0,function(a){d(aF,0);return 0},aG,aD,aC];case
 11:var
-o=_(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){d(aJ,0);return 0};return[0,function(a){d(aK,0);return 0},aL,aI,aH];case
+o=$(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){d(aJ,0);return 0};return[0,function(a){d(aK,0);return 0},aL,aI,aH];case
 12:var
-p=_(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){d(aO,0);return 0};return[0,function(a){d(aP,0);return 0},aQ,aN,aM];case
+p=$(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){d(aO,0);return 0};return[0,function(a){d(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=_(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){d(aR,0);return 0},aW=function(a){d(aS,0);return 0},aX=function(a){d(aT,0);return 0};return[0,function(a){d(aU,0);return 0},aX,aW,aV];default:var
-r=_(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){d(aY,0);return 0},a3=function(a){d(aZ,0);return 0},a4=function(a){d(a0,0);return 0};return[0,function(a){d(a1,0);return 0},a4,a3,a2]}}function
-L(c,b){var
+q=$(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){d(aR,0);return 0},aW=function(a){d(aS,0);return 0},aX=function(a){d(aT,0);return 0};return[0,function(a){d(aU,0);return 0},aX,aW,aV];default:var
+r=$(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){d(aY,0);return 0},a3=function(a){d(aZ,0);return 0},a4=function(a){d(a0,0);return 0};return[0,function(a){d(a1,0);return 0},a4,a3,a2]}}function
+M(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1055,12 +1055,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,B,jV]}else
+9:a=6;break;default:throw[0,D,j2]}else
 switch(c[0]){case
 0:var
 e=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,L(t,b[1])];case
+0:return[0,M(t,b[1])];case
 8:a=5;e=1;break;case
 9:a=6;e=1;break;case
 10:e=1;break;case
@@ -1071,7 +1071,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,L(u,b[1])];case
+1:return[1,M(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1083,7 +1083,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,L(v,b[1])];case
+2:return[2,M(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1095,7 +1095,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,L(w,b[1])];case
+3:return[3,M(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1107,7 +1107,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,L(x,b[1])];case
+4:return[4,M(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1119,7 +1119,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,L(y,b[1])];case
+5:return[5,M(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1131,7 +1131,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,L(z,b[1])];case
+6:return[6,M(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1143,7 +1143,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,L(A,b[1])];case
+7:return[7,M(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1152,44 +1152,44 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;default:l=1}if(l)a=7;break;case
 8:var
-m=0,C=c[2],D=c[1];if(typeof
+m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-E=b[1],F=L(C,b[2]);return[8,L(D,E),F];case
+E=b[1],F=M(B,b[2]);return[8,M(C,E),F];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,B,j4];break;case
+14:a=4;break;default:m=1}if(m)throw[0,D,j$];break;case
 9:var
 n=0,G=c[3],H=c[2],I=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-K=b[3],M=b[2],N=b[1],s=_(L(J(H),N)),O=s[4];d(s[2],0);d(O,0);return[9,I,M,L(G,K)];case
+J=b[3],L=b[2],N=b[1],s=$(M(K(H),N)),O=s[4];d(s[2],0);d(O,0);return[9,I,L,M(G,J)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,B,j5];break;case
+14:a=4;break;default:n=1}if(n)throw[0,D,ka];break;case
 10:var
 P=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,L(P,b[1])];throw[0,B,j6];case
+b!=="number"&&10===b[0])return[10,M(P,b[1])];throw[0,D,kb];case
 11:var
 o=0,Q=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,L(Q,b[1])];default:o=1}if(o)throw[0,B,j7];break;case
+11:return[11,M(Q,b[1])];default:o=1}if(o)throw[0,D,kc];break;case
 12:var
 p=0,R=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,L(R,b[1])];default:p=1}if(p)throw[0,B,j8];break;case
+12:return[12,M(R,b[1])];default:p=1}if(p)throw[0,D,kd];break;case
 13:var
 q=0,S=c[1];if(typeof
 b==="number")q=1;else
@@ -1197,7 +1197,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,L(S,b[1])];default:q=1}if(q)throw[0,B,j9];break;default:var
+13:return[13,M(S,b[1])];default:q=1}if(q)throw[0,D,ke];break;default:var
 r=0,T=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1205,25 +1205,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,L(T,b[1])];default:r=1}if(r)throw[0,B,j_]}switch(a){case
-0:throw[0,B,jY];case
-1:throw[0,B,jZ];case
-2:throw[0,B,j0];case
-3:throw[0,B,j1];case
-4:throw[0,B,j2];case
-5:throw[0,B,jW];case
-6:throw[0,B,jX];default:throw[0,B,j3]}}var
-R=[O,j$,dk(0)];function
-cH(b,a){if(typeof
+14:return[14,M(T,b[1])];default:r=1}if(r)throw[0,D,kf]}switch(a){case
+0:throw[0,D,j5];case
+1:throw[0,D,j6];case
+2:throw[0,D,j7];case
+3:throw[0,D,j8];case
+4:throw[0,D,j9];case
+5:throw[0,D,j3];case
+6:throw[0,D,j4];default:throw[0,D,j_]}}var
+T=[Q,kg,dt(0)];function
+cN(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw R}}function
-b_(e,b,d){var
-a=cH(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw T}}function
+ce(e,b,d){var
+a=cN(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw R}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw T}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 am(b,c,a){if(typeof
-b==="number")return[0,0,u(c,a)];else
+b==="number")return[0,0,v(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1251,14 +1251,14 @@ a!=="number"&&7===a[0]){var
 n=am(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],x=a[2],y=b[2];if(cD([0,b[1]],[0,o]))throw R;var
+o=a[1],x=a[2],y=b[2];if(cJ([0,b[1]],[0,o]))throw T;var
 p=am(y,c,x);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-e=a[2],f=a[1],z=a[3],B=b[3],C=b[2],D=b[1],E=[0,A(f)];if(cD([0,A(D)],E))throw R;var
-F=[0,A(e)];if(cD([0,A(C)],F))throw R;var
-q=_(L(J(f),e)),G=q[4];d(q[2],0);d(G,0);var
-r=am(A(B),c,z),H=r[2];return[0,[9,f,e,J(r[1])],H]}break;case
+e=a[2],f=a[1],z=a[3],A=b[3],B=b[2],D=b[1],E=[0,C(f)];if(cJ([0,C(D)],E))throw T;var
+F=[0,C(e)];if(cJ([0,C(B)],F))throw T;var
+q=$(M(K(f),e)),G=q[4];d(q[2],0);d(G,0);var
+r=am(C(A),c,z),H=r[2];return[0,[9,f,e,K(r[1])],H]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=am(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1267,86 +1267,86 @@ a!=="number"&&11===a[0]){var
 t=am(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-v=am(b[1],c,a[1]);return[0,[13,v[1]],v[2]]}break;case
+u=am(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-w=am(b[1],c,a[1]);return[0,[14,w[1]],w[2]]}break}throw R}function
-u(b,a){if(typeof
+w=am(b[1],c,a[1]);return[0,[14,w[1]],w[2]]}break}throw T}function
+v(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=u(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=v(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=u(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=v(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ad=b[2],v=cH(b[1],a),e=v[2],ae=v[1];if(typeof
+ad=b[2],u=cN(b[1],a),e=u[2],ae=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-w=u(ad,e[1]);return[0,[2,ae,w[1]],w[2]]}throw R;case
+w=v(ad,e[1]);return[0,[2,ae,w[1]],w[2]]}throw T;case
 3:var
-af=b[2],x=cH(b[1],a),f=x[2],ag=x[1];if(typeof
+af=b[2],x=cN(b[1],a),f=x[2],ag=x[1];if(typeof
 f!=="number"&&1===f[0]){var
-y=u(af,f[1]);return[0,[3,ag,y[1]],y[2]]}throw R;case
+y=v(af,f[1]);return[0,[3,ag,y[1]],y[2]]}throw T;case
 4:var
-ah=b[4],ai=b[1],g=b_(b[2],b[3],a),h=g[3],aj=g[1];if(typeof
+ah=b[4],ai=b[1],g=ce(b[2],b[3],a),h=g[3],aj=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-ak=g[2],z=u(ah,h[1]);return[0,[4,ai,aj,ak,z[1]],z[2]]}throw R;case
+ak=g[2],z=v(ah,h[1]);return[0,[4,ai,aj,ak,z[1]],z[2]]}throw T;case
 5:var
-al=b[4],an=b[1],i=b_(b[2],b[3],a),j=i[3],ap=i[1];if(typeof
+al=b[4],an=b[1],i=ce(b[2],b[3],a),j=i[3],ap=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-aq=i[2],B=u(al,j[1]);return[0,[5,an,ap,aq,B[1]],B[2]]}throw R;case
+aq=i[2],A=v(al,j[1]);return[0,[5,an,ap,aq,A[1]],A[2]]}throw T;case
 6:var
-ar=b[4],as=b[1],k=b_(b[2],b[3],a),l=k[3],at=k[1];if(typeof
+ar=b[4],as=b[1],k=ce(b[2],b[3],a),l=k[3],at=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-au=k[2],C=u(ar,l[1]);return[0,[6,as,at,au,C[1]],C[2]]}throw R;case
+au=k[2],B=v(ar,l[1]);return[0,[6,as,at,au,B[1]],B[2]]}throw T;case
 7:var
-av=b[4],aw=b[1],m=b_(b[2],b[3],a),n=m[3],ax=m[1];if(typeof
+av=b[4],aw=b[1],m=ce(b[2],b[3],a),n=m[3],ax=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-ay=m[2],D=u(av,n[1]);return[0,[7,aw,ax,ay,D[1]],D[2]]}throw R;case
+ay=m[2],D=v(av,n[1]);return[0,[7,aw,ax,ay,D[1]],D[2]]}throw T;case
 8:var
-az=b[4],aA=b[1],o=b_(b[2],b[3],a),p=o[3],aB=o[1];if(typeof
+az=b[4],aA=b[1],o=ce(b[2],b[3],a),p=o[3],aB=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aC=o[2],E=u(az,p[1]);return[0,[8,aA,aB,aC,E[1]],E[2]]}throw R;case
+aC=o[2],E=v(az,p[1]);return[0,[8,aA,aB,aC,E[1]],E[2]]}throw T;case
 9:var
-aD=b[2],F=cH(b[1],a),q=F[2],aE=F[1];if(typeof
+aD=b[2],F=cN(b[1],a),q=F[2],aE=F[1];if(typeof
 q!=="number"&&7===q[0]){var
-G=u(aD,q[1]);return[0,[9,aE,G[1]],G[2]]}throw R;case
+G=v(aD,q[1]);return[0,[9,aE,G[1]],G[2]]}throw T;case
 10:var
-H=u(b[1],a);return[0,[10,H[1]],H[2]];case
+H=v(b[1],a);return[0,[10,H[1]],H[2]];case
 11:var
-aF=b[1],I=u(b[2],a);return[0,[11,aF,I[1]],I[2]];case
+aF=b[1],I=v(b[2],a);return[0,[11,aF,I[1]],I[2]];case
 12:var
-aG=b[1],J=u(b[2],a);return[0,[12,aG,J[1]],J[2]];case
+aG=b[1],J=v(b[2],a);return[0,[12,aG,J[1]],J[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-K=a[1],aH=a[2],aI=b[3],aJ=b[1];if(cD([0,b[2]],[0,K]))throw R;var
-L=u(aI,aH);return[0,[13,aJ,K,L[1]],L[2]]}break;case
+K=a[1],aH=a[2],aI=b[3],aJ=b[1];if(cJ([0,b[2]],[0,K]))throw T;var
+L=v(aI,aH);return[0,[13,aJ,K,L[1]],L[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-M=a[1],aK=a[3],aL=b[3],aM=b[2],aN=b[1],aO=[0,A(M)];if(cD([0,A(aM)],aO))throw R;var
-N=u(aL,A(aK));return[0,[14,aN,M,N[1]],N[2]]}break;case
+M=a[1],aK=a[3],aL=b[3],aM=b[2],aN=b[1],aO=[0,C(M)];if(cJ([0,C(aM)],aO))throw T;var
+N=v(aL,C(aK));return[0,[14,aN,M,N[1]],N[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-O=u(b[1],a[1]);return[0,[15,O[1]],O[2]]}break;case
+O=v(b[1],a[1]);return[0,[15,O[1]],O[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-P=u(b[1],a[1]);return[0,[16,P[1]],P[2]]}break;case
+P=v(b[1],a[1]);return[0,[16,P[1]],P[2]]}break;case
 17:var
-aP=b[1],Q=u(b[2],a);return[0,[17,aP,Q[1]],Q[2]];case
+aP=b[1],Q=v(b[2],a);return[0,[17,aP,Q[1]],Q[2]];case
 18:var
-S=b[2],r=b[1];if(0===r[0]){var
-W=r[1],aT=W[2],X=u(W[1],a),aU=X[1],Y=u(S,X[2]);return[0,[18,[0,[0,aU,aT]],Y[1]],Y[2]]}var
-Z=r[1],aV=Z[2],_=u(Z[1],a),aW=_[1],$=u(S,_[2]);return[0,[18,[1,[0,aW,aV]],$[1]],$[2]];case
+R=b[2],r=b[1];if(0===r[0]){var
+W=r[1],aT=W[2],X=v(W[1],a),aU=X[1],Y=v(R,X[2]);return[0,[18,[0,[0,aU,aT]],Y[1]],Y[2]]}var
+Z=r[1],aV=Z[2],_=v(Z[1],a),aW=_[1],$=v(R,_[2]);return[0,[18,[1,[0,aW,aV]],$[1]],$[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-T=u(b[1],a[1]);return[0,[19,T[1]],T[2]]}break;case
+S=v(b[1],a[1]);return[0,[19,S[1]],S[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],U=u(b[3],a[1]);return[0,[20,aR,aQ,U[1]],U[2]]}break;case
+aQ=b[2],aR=b[1],U=v(b[3],a[1]);return[0,[20,aR,aQ,U[1]],U[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],V=u(b[2],a[1]);return[0,[21,aS,V[1]],V[2]]}break;case
+aS=b[1],V=v(b[2],a[1]);return[0,[21,aS,V[1]],V[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
@@ -1354,7 +1354,7 @@ c==="number")switch(c){case
 1:return ao(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-aa=u(d,a[1]);return[0,[23,2,aa[1]],aa[2]]}throw R;default:return ao(c,d,a)}else
+aa=v(d,a[1]);return[0,[23,2,aa[1]],aa[2]]}throw T;default:return ao(c,d,a)}else
 switch(c[0]){case
 0:return ao(c,d,a);case
 1:return ao(c,d,a);case
@@ -1367,62 +1367,62 @@ switch(c[0]){case
 8:return ao([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],ab=am(c[2],d,a),ac=ab[2];return[0,[23,[9,aX,ab[1]],ac[1]],ac[2]];case
-10:return ao(c,d,a);default:return ao(c,d,a)}}throw R}function
+10:return ao(c,d,a);default:return ao(c,d,a)}}throw T}function
 ao(d,c,b){var
-a=u(c,b);return[0,[23,d,a[1]],a[2]]}function
+a=v(c,b);return[0,[23,d,a[1]],a[2]]}function
 ap(k,g,a){var
-b=m(a),h=0<=g?k:0,d=cF(g);if(d<=b)return a;var
-l=2===h?48:32,c=br(d,l);switch(h){case
-0:a6(a,0,c,0,b);break;case
-1:a6(a,0,c,d-b|0,b);break;default:var
+b=n(a),h=0<=g?k:0,d=cL(g);if(d<=b)return a;var
+l=2===h?48:32,c=bw(d,l);switch(h){case
+0:a8(a,0,c,0,b);break;case
+1:a8(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==F(a,0)&&45!==F(a,0)&&32!==F(a,0)){e=1;i=1}if(!i){bA(c,0,F(a,0));a6(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){bI(c,0,G(a,0));a8(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===F(a,0)){var
-j=0;if(g_!==F(a,1)&&88!==F(a,1)){f=1;j=1}if(!j){bA(c,1,F(a,1));a6(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)a6(a,0,c,d-b|0,b)}}return ad(c)}function
-bF(k,b){var
-c=cF(k),a=m(b),d=F(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+hX>>>0))e=1}else
+f=0;if(1<b&&48===G(a,0)){var
+j=0;if(hb!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){bI(c,1,G(a,1));a8(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)a8(a,0,c,d-b|0,b)}}return af(c)}function
+bN(k,b){var
+c=cL(k),a=n(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+h2>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(g_===F(b,1)||88===F(b,1))j=1;if(j){var
-h=br(c+2|0,48);bA(h,1,F(b,1));a6(b,2,h,(c-a|0)+4|0,a-2|0);return ad(h)}}e=1;f=1;break;case
+j=0;if(hb===G(b,1)||88===G(b,1))j=1;if(j){var
+h=bw(c+2|0,48);bI(h,1,G(b,1));a8(b,2,h,(c-a|0)+4|0,a-2|0);return af(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=br(c+1|0,48);bA(g,0,d);a6(b,1,g,(c-a|0)+2|0,a-1|0);return ad(g)}}if(e&&a<c){var
-i=br(c,48);a6(b,0,i,c-a|0,a);return ad(i)}return b}function
-ka(k){var
-j=0,D=m(k);for(;;){if(D<=j)var
+g=bw(c+1|0,48);bI(g,0,d);a8(b,1,g,(c-a|0)+2|0,a-1|0);return af(g)}}if(e&&a<c){var
+i=bw(c,48);a8(b,0,i,c-a|0,a);return af(i)}return b}function
+kh(k){var
+j=0,D=n(k);for(;;){if(D<=j)var
 p=k;else{var
-o=a3(k,j)+im|0,q=0;if(59<o>>>0){if(33<o-61>>>0)q=1}else
+o=a5(k,j)+it|0,q=0;if(59<o>>>0){if(33<o-61>>>0)q=1}else
 if(2===o)q=1;if(!q){var
 j=j+1|0;continue}var
-e=bf(k),a=[0,0],u=av(e)-1|0,z=0;if(!(u<0)){var
+e=bh(k),a=[0,0],u=av(e)-1|0,z=0;if(!(u<0)){var
 i=z;for(;;){var
-f=b1(e,i),g=0;if(32<=f){var
+f=b7(e,i),g=0;if(32<=f){var
 l=f-34|0,r=0;if(58<l>>>0){if(93<=l)r=1}else
 if(56<l-1>>>0){g=1;r=1}if(!r){var
-n=1;g=2}}else
+m=1;g=2}}else
 if(11<=f){if(13===f)g=1}else
 if(8<=f)g=1;switch(g){case
 0:var
-n=4;break;case
+m=4;break;case
 1:var
-n=2;break}a[1]=a[1]+n|0;var
+m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(u!==i){var
 i=C;continue}break}}if(a[1]===av(e)){var
-s=av(e),t=K(s);bq(e,0,t,0,s);var
+s=av(e),t=L(s);bv(e,0,t,0,s);var
 w=t}else{var
-b=K(a[1]);a[1]=0;var
+b=L(a[1]);a[1]=0;var
 v=av(e)-1|0,A=0;if(!(v<0)){var
 h=A;for(;;){var
-c=b1(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(eB<=c)d=1;else
+c=b7(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(eI<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1432,16 +1432,16 @@ switch(c){case
 9:I(b,a[1],92);a[1]++;I(b,a[1],116);break;case
 10:I(b,a[1],92);a[1]++;I(b,a[1],110);break;case
 13:I(b,a[1],92);a[1]++;I(b,a[1],114);break;default:d=1}switch(d){case
-1:I(b,a[1],92);a[1]++;I(b,a[1],48+(c/h3|0)|0);a[1]++;I(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;I(b,a[1],48+(c%10|0)|0);break;case
+1:I(b,a[1],92);a[1]++;I(b,a[1],48+(c/h8|0)|0);a[1]++;I(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;I(b,a[1],48+(c%10|0)|0);break;case
 2:I(b,a[1],92);a[1]++;I(b,a[1],c);break;case
 3:I(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(v!==h){var
 h=B;continue}break}}var
 w=b}var
-p=ad(w)}var
-x=m(p),y=br(x+2|0,34);a1(p,0,y,1,x);return ad(y)}}function
-fm(d,f){var
-g=cF(f),e=k1[1];switch(d[2]){case
+p=af(w)}var
+x=n(p),y=bw(x+2|0,34);a3(p,0,y,1,x);return af(y)}}function
+ft(d,f){var
+g=cL(f),e=k8[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1449,7 +1449,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=g$;break;case
+b=hc;break;case
 4:var
 b=71;break;case
 5:var
@@ -1459,210 +1459,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=fi(16);bE(c,37);switch(d[1]){case
+c=fp(16);bM(c,37);switch(d[1]){case
 0:break;case
-1:bE(c,43);break;default:bE(c,32)}if(8<=d[2])bE(c,35);bE(c,46);Z(c,a(h+g));bE(c,b);return fk(c)}function
-cI(n,a){if(13<=n){var
-g=[0,0],h=m(a)-1|0,o=0;if(!(h<0)){var
-c=o;for(;;){if(!(9<a3(a,c)+er>>>0))g[1]++;var
+1:bM(c,43);break;default:bM(c,32)}if(8<=d[2])bM(c,35);bM(c,46);_(c,a(h+g));bM(c,b);return fr(c)}function
+cO(m,a){if(13<=m){var
+g=[0,0],h=n(a)-1|0,o=0;if(!(h<0)){var
+c=o;for(;;){if(!(9<a5(a,c)+ey>>>0))g[1]++;var
 r=c+1|0;if(h!==c){var
 c=r;continue}break}}var
-i=g[1],j=K(m(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){bA(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=m(a)-1|0,p=0;if(!(l<0)){var
+i=g[1],j=L(n(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){bI(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=n(a)-1|0,p=0;if(!(l<0)){var
 b=p;for(;;){var
-f=a3(a,b);if(9<f+er>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=a5(a,b);if(9<f+ey>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 q=b+1|0;if(l!==b){var
-b=q;continue}break}}return ad(j)}return a}function
-k2(b,c){switch(b){case
+b=q;continue}break}}return af(j)}return a}function
+k9(b,c){switch(b){case
 1:var
-a=kc;break;case
-2:var
-a=kd;break;case
-4:var
-a=kf;break;case
-5:var
-a=kg;break;case
-6:var
-a=kh;break;case
-7:var
-a=ki;break;case
-8:var
 a=kj;break;case
-9:var
+2:var
 a=kk;break;case
-10:var
-a=kl;break;case
-11:var
+4:var
 a=km;break;case
-0:case
-13:var
-a=kb;break;case
-3:case
-14:var
-a=ke;break;default:var
-a=kn}return cI(b,dj(a,c))}function
-k3(b,c){switch(b){case
-1:var
-a=kC;break;case
-2:var
-a=kD;break;case
-4:var
-a=kF;break;case
 5:var
-a=kG;break;case
+a=kn;break;case
 6:var
-a=kH;break;case
-7:var
-a=kI;break;case
-8:var
-a=kJ;break;case
-9:var
-a=kK;break;case
-10:var
-a=kL;break;case
-11:var
-a=kM;break;case
-0:case
-13:var
-a=kB;break;case
-3:case
-14:var
-a=kE;break;default:var
-a=kN}return cI(b,dj(a,c))}function
-k4(b,c){switch(b){case
-1:var
-a=kP;break;case
-2:var
-a=kQ;break;case
-4:var
-a=kS;break;case
-5:var
-a=kT;break;case
-6:var
-a=kU;break;case
-7:var
-a=kV;break;case
-8:var
-a=kW;break;case
-9:var
-a=kX;break;case
-10:var
-a=kY;break;case
-11:var
-a=kZ;break;case
-0:case
-13:var
-a=kO;break;case
-3:case
-14:var
-a=kR;break;default:var
-a=k0}return cI(b,dj(a,c))}function
-k5(b,c){switch(b){case
-1:var
-a=kp;break;case
-2:var
-a=kq;break;case
-4:var
-a=ks;break;case
-5:var
-a=kt;break;case
-6:var
-a=ku;break;case
-7:var
-a=kv;break;case
-8:var
-a=kw;break;case
-9:var
-a=kx;break;case
-10:var
-a=ky;break;case
-11:var
-a=kz;break;case
-0:case
-13:var
 a=ko;break;case
+7:var
+a=kp;break;case
+8:var
+a=kq;break;case
+9:var
+a=kr;break;case
+10:var
+a=ks;break;case
+11:var
+a=kt;break;case
+0:case
+13:var
+a=ki;break;case
 3:case
 14:var
-a=kr;break;default:var
-a=kA}return cI(b,rh(a,c))}function
-a7(c,i,b){function
+a=kl;break;default:var
+a=ku}return cO(b,ds(a,c))}function
+k_(b,c){switch(b){case
+1:var
+a=kJ;break;case
+2:var
+a=kK;break;case
+4:var
+a=kM;break;case
+5:var
+a=kN;break;case
+6:var
+a=kO;break;case
+7:var
+a=kP;break;case
+8:var
+a=kQ;break;case
+9:var
+a=kR;break;case
+10:var
+a=kS;break;case
+11:var
+a=kT;break;case
+0:case
+13:var
+a=kI;break;case
+3:case
+14:var
+a=kL;break;default:var
+a=kU}return cO(b,ds(a,c))}function
+k$(b,c){switch(b){case
+1:var
+a=kW;break;case
+2:var
+a=kX;break;case
+4:var
+a=kZ;break;case
+5:var
+a=k0;break;case
+6:var
+a=k1;break;case
+7:var
+a=k2;break;case
+8:var
+a=k3;break;case
+9:var
+a=k4;break;case
+10:var
+a=k5;break;case
+11:var
+a=k6;break;case
+0:case
+13:var
+a=kV;break;case
+3:case
+14:var
+a=kY;break;default:var
+a=k7}return cO(b,ds(a,c))}function
+la(b,c){switch(b){case
+1:var
+a=kw;break;case
+2:var
+a=kx;break;case
+4:var
+a=kz;break;case
+5:var
+a=kA;break;case
+6:var
+a=kB;break;case
+7:var
+a=kC;break;case
+8:var
+a=kD;break;case
+9:var
+a=kE;break;case
+10:var
+a=kF;break;case
+11:var
+a=kG;break;case
+0:case
+13:var
+a=kv;break;case
+3:case
+14:var
+a=ky;break;default:var
+a=kH}return cO(b,rx(a,c))}function
+a9(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return rd(b,i,a)}function
+a=32}return rt(b,i,a)}function
 r(c){var
-a=q7(b);return 3===a?b<0.?k7:k8:4<=a?k9:c}switch(c[2]){case
+a=rl(b);return 3===a?b<0.?lc:ld:4<=a?le:c}switch(c[2]){case
 5:var
-e=eR(fm(c,i),b),d=0,v=m(e);for(;;){if(d===v)var
+e=eY(ft(c,i),b),d=0,v=n(e);for(;;){if(d===v)var
 q=0;else{var
-k=F(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=G(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 q=1}var
-w=q?e:Q(e,k6);return r(w)}case
+w=q?e:S(e,lb);return r(w)}case
 6:return j(0);case
 7:var
-h=bf(j(0)),f=av(h);if(0===f)var
+h=bh(j(0)),f=av(h);if(0===f)var
 p=h;else{var
-n=K(f),o=f-1|0,s=0;if(!(o<0)){var
+m=L(f),o=f-1|0,s=0;if(!(o<0)){var
 a=s;for(;;){var
-g=b1(h,a),t=25<g+hX>>>0?g:g+im|0;I(n,a,t);var
+g=b7(h,a),t=25<g+h2>>>0?g:g+it|0;I(m,a,t);var
 u=a+1|0;if(o!==a){var
 a=u;continue}break}}var
-p=n}return ad(p);case
-8:return r(j(0));default:return eR(fm(c,i),b)}}function
-cu(e,F,E,C){var
-b=F,a=E,c=C;for(;;)if(typeof
+p=m}return af(p);case
+8:return r(j(0));default:return eY(ft(c,i),b)}}function
+cA(e,F,B,A){var
+b=F,a=B,c=A;for(;;)if(typeof
 c==="number")return d(b,a);else
 switch(c[0]){case
 0:var
-G=c[1];return function(c){return n(b,[5,a,c],G)};case
+G=c[1];return function(c){return o(b,[5,a,c],G)};case
 1:var
 H=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=jh;else
-if(eB<=c)e=1;else
+d=jo;else
+if(eI<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=ji;else
+d=jp;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=jj;break;case
+d=jq;break;case
 9:var
-d=jk;break;case
+d=jr;break;case
 10:var
-d=jl;break;case
+d=js;break;case
 13:var
-d=jm;break;default:e=1}switch(e){case
+d=jt;break;default:e=1}switch(e){case
 1:var
-f=K(4);I(f,0,92);I(f,1,48+(c/h3|0)|0);I(f,2,48+((c/10|0)%10|0)|0);I(f,3,48+(c%10|0)|0);var
-d=ad(f);break;case
+f=L(4);I(f,0,92);I(f,1,48+(c/h8|0)|0);I(f,2,48+((c/10|0)%10|0)|0);I(f,3,48+(c%10|0)|0);var
+d=af(f);break;case
 2:var
-g=K(1);I(g,0,c);var
-d=ad(g);break}var
-h=m(d),i=br(h+2|0,39);a1(d,0,i,1,h);return n(b,[4,a,ad(i)],H)};case
+g=L(1);I(g,0,c);var
+d=af(g);break}var
+h=n(d),i=bw(h+2|0,39);a3(d,0,i,1,h);return o(b,[4,a,af(i)],H)};case
 2:var
-L=c[2],M=c[1];return dz(b,a,L,M,function(a){return a});case
-3:return dz(b,a,c[2],c[1],ka);case
-4:return cJ(b,a,c[4],c[2],c[3],k2,c[1]);case
-5:return cJ(b,a,c[4],c[2],c[3],k3,c[1]);case
-6:return cJ(b,a,c[4],c[2],c[3],k4,c[1]);case
-7:return cJ(b,a,c[4],c[2],c[3],k5,c[1]);case
+J=c[2],M=c[1];return dH(b,a,J,M,function(a){return a});case
+3:return dH(b,a,c[2],c[1],kh);case
+4:return cP(b,a,c[4],c[2],c[3],k9,c[1]);case
+5:return cP(b,a,c[4],c[2],c[3],k_,c[1]);case
+6:return cP(b,a,c[4],c[2],c[3],k$,c[1]);case
+7:return cP(b,a,c[4],c[2],c[3],la,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return n(b,[4,a,a7(g,d,c)],h)}:function(c){return n(b,[4,a,a7(g,dx(g),c)],h)};var
-ae=i[1];return function(c){return n(b,[4,a,a7(g,ae,c)],h)}}else{if(0===j[0]){var
-o=j[2],p=j[1];if(typeof
-i==="number")return i?function(d,c){return n(b,[4,a,ap(p,o,a7(g,d,c))],h)}:function(c){return n(b,[4,a,ap(p,o,a7(g,dx(g),c))],h)};var
-af=i[1];return function(c){return n(b,[4,a,ap(p,o,a7(g,af,c))],h)}}var
+i==="number")return i?function(d,c){return o(b,[4,a,a9(g,d,c)],h)}:function(c){return o(b,[4,a,a9(g,dF(g),c)],h)};var
+ad=i[1];return function(c){return o(b,[4,a,a9(g,ad,c)],h)}}else{if(0===j[0]){var
+m=j[2],p=j[1];if(typeof
+i==="number")return i?function(d,c){return o(b,[4,a,ap(p,m,a9(g,d,c))],h)}:function(c){return o(b,[4,a,ap(p,m,a9(g,dF(g),c))],h)};var
+ae=i[1];return function(c){return o(b,[4,a,ap(p,m,a9(g,ae,c))],h)}}var
 q=j[1];if(typeof
-i==="number")return i?function(e,d,c){return n(b,[4,a,ap(q,e,a7(g,d,c))],h)}:function(d,c){return n(b,[4,a,ap(q,d,a7(g,dx(g),c))],h)};var
-ag=i[1];return function(d,c){return n(b,[4,a,ap(q,d,a7(g,ag,c))],h)}}case
-9:return dz(b,a,c[2],c[1],jc);case
+i==="number")return i?function(e,d,c){return o(b,[4,a,ap(q,e,a9(g,d,c))],h)}:function(d,c){return o(b,[4,a,ap(q,d,a9(g,dF(g),c))],h)};var
+ag=i[1];return function(d,c){return o(b,[4,a,ap(q,d,a9(g,ag,c))],h)}}case
+9:return dH(b,a,c[2],c[1],jj);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1670,51 +1670,51 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-N=c[3],O=c[2],r=fi(16);dy(r,O);var
-z=fk(r);return function(c){return n(b,[4,a,z],N)};case
+N=c[3],O=c[2],r=fp(16);dG(r,O);var
+z=fr(r);return function(c){return o(b,[4,a,z],N)};case
 14:var
 P=c[3],Q=c[2];return function(d){var
-e=d[1],c=u(e,A(J(Q)));if(typeof
-c[2]==="number")return n(b,a,x(c[1],P));throw R};case
+e=d[1],c=v(e,C(K(Q)));if(typeof
+c[2]==="number")return o(b,a,y(c[1],P));throw T};case
 15:var
-S=c[1];return function(d,c){return n(b,[6,a,function(a){return D(d,a,c)}],S)};case
+R=c[1];return function(d,c){return o(b,[6,a,function(a){return E(d,a,c)}],R)};case
 16:var
-T=c[1];return function(c){return n(b,[6,a,c],T)};case
+S=c[1];return function(c){return o(b,[6,a,c],S)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-U=c[2],V=l[1][1],W=0,b=function(b,c,d){return function(a){return n(c,[1,b,[0,a]],d)}}(a,b,U),a=W,c=V;continue}var
-Y=c[2],Z=l[1][1],_=0,b=function(b,c,d){return function(a){return n(c,[1,b,[1,a]],d)}}(a,b,Y),a=_,c=Z;continue;case
-19:throw[0,B,k$];case
+U=c[2],V=l[1][1],W=0,b=function(b,c,d){return function(a){return o(c,[1,b,[0,a]],d)}}(a,b,U),a=W,c=V;continue}var
+X=c[2],Z=l[1][1],_=0,b=function(b,c,d){return function(a){return o(c,[1,b,[1,a]],d)}}(a,b,X),a=_,c=Z;continue;case
+19:throw[0,D,lg];case
 20:var
-$=c[3],aa=[8,a,la];return function(a){return n(b,aa,$)};case
+$=c[3],aa=[8,a,lh];return function(a){return o(b,aa,$)};case
 21:var
-ab=c[2];return function(c){return n(b,[4,a,dj(lb,c)],ab)};case
+ab=c[2];return function(c){return o(b,[4,a,ds(li,c)],ab)};case
 22:var
-ac=c[1];return function(c){return n(b,[5,a,c],ac)};case
+ac=c[1];return function(c){return o(b,[5,a,c],ac)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-1:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-2:throw[0,B,lc];default:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f])}else
+0:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+1:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+2:throw[0,D,lj];default:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f])}else
 switch(k[0]){case
-0:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-1:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-2:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-3:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-4:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-5:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-6:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-7:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
-8:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);case
+0:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+1:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+2:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+3:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+4:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+5:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+6:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+7:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+8:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
 9:var
-y=k[2];return e<50?eo(e+1|0,b,a,y,f):X(eo,[0,b,a,y,f]);case
-10:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f]);default:return e<50?s(e+1|0,b,a,f):X(s,[0,b,a,f])}default:var
-t=c[3],v=c[1],w=d(c[2],0);return e<50?en(e+1|0,b,a,t,v,w):X(en,[0,b,a,t,v,w])}}function
-eo(e,d,c,a,b){if(typeof
-a==="number")return e<50?s(e+1|0,d,c,b):X(s,[0,d,c,b]);else
+x=k[2];return e<50?ev(e+1|0,b,a,x,f):Y(ev,[0,b,a,x,f]);case
+10:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);default:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f])}default:var
+s=c[3],u=c[1],w=d(c[2],0);return e<50?eu(e+1|0,b,a,s,u,w):Y(eu,[0,b,a,s,u,w])}}function
+ev(e,d,c,a,b){if(typeof
+a==="number")return e<50?t(e+1|0,d,c,b):Y(t,[0,d,c,b]);else
 switch(a[0]){case
 0:var
 f=a[1];return function(a){return ax(d,c,f,b)};case
@@ -1735,162 +1735,162 @@ m=a[1];return function(a){return ax(d,c,m,b)};case
 8:var
 n=a[2];return function(a){return ax(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=L(J(a[1]),p);return function(a){return ax(d,c,ae(q,o),b)};case
+o=a[3],p=a[2],q=M(K(a[1]),p);return function(a){return ax(d,c,ag(q,o),b)};case
 10:var
 r=a[1];return function(e,a){return ax(d,c,r,b)};case
 11:var
-t=a[1];return function(a){return ax(d,c,t,b)};case
+s=a[1];return function(a){return ax(d,c,s,b)};case
 12:var
 u=a[1];return function(a){return ax(d,c,u,b)};case
-13:throw[0,B,ld];default:throw[0,B,le]}}function
-s(d,b,e,a){var
-c=[8,e,lf];return d<50?cu(d+1|0,b,c,a):X(cu,[0,b,c,a])}function
-en(h,b,f,a,e,c){if(e){var
-i=e[1];return function(e){return k_(b,f,a,i,d(c,e))}}var
-g=[4,f,c];return h<50?cu(h+1|0,b,g,a):X(cu,[0,b,g,a])}function
-n(a,b,c){return e3(cu(0,a,b,c))}function
-ax(a,b,c,d){return e3(eo(0,a,b,c,d))}function
-k_(a,b,c,d,e){return e3(en(0,a,b,c,d,e))}function
-dz(f,e,c,a,b){if(typeof
-a==="number")return function(a){return n(f,[4,e,d(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return n(f,[4,e,ap(h,g,d(b,a))],c)}}var
-i=a[1];return function(g,a){return n(f,[4,e,ap(i,g,d(b,a))],c)}}}function
-cJ(f,e,d,g,c,b,a){if(typeof
+13:throw[0,D,lk];default:throw[0,D,ll]}}function
+t(d,b,e,a){var
+c=[8,e,lm];return d<50?cA(d+1|0,b,c,a):Y(cA,[0,b,c,a])}function
+eu(h,b,f,a,e,c){if(e){var
+i=e[1];return function(e){return lf(b,f,a,i,d(c,e))}}var
+g=[4,f,c];return h<50?cA(h+1|0,b,g,a):Y(cA,[0,b,g,a])}function
+o(a,b,c){return e_(cA(0,a,b,c))}function
+ax(a,b,c,d){return e_(ev(0,a,b,c,d))}function
+lf(a,b,c,d,e){return e_(eu(0,a,b,c,d,e))}function
+dH(f,e,c,a,b){if(typeof
+a==="number")return function(a){return o(f,[4,e,d(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return o(f,[4,e,ap(h,g,d(b,a))],c)}}var
+i=a[1];return function(g,a){return o(f,[4,e,ap(i,g,d(b,a))],c)}}}function
+cP(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return n(f,[4,e,bF(g,D(b,a,c))],d)}:function(c){return n(f,[4,e,D(b,a,c)],d)};var
-k=c[1];return function(c){return n(f,[4,e,bF(k,D(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return o(f,[4,e,bN(g,E(b,a,c))],d)}:function(c){return o(f,[4,e,E(b,a,c)],d)};var
+k=c[1];return function(c){return o(f,[4,e,bN(k,E(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return n(f,[4,e,ap(i,h,bF(g,D(b,a,c)))],d)}:function(c){return n(f,[4,e,ap(i,h,D(b,a,c))],d)};var
-l=c[1];return function(c){return n(f,[4,e,ap(i,h,bF(l,D(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return o(f,[4,e,ap(i,h,bN(g,E(b,a,c)))],d)}:function(c){return o(f,[4,e,ap(i,h,E(b,a,c))],d)};var
+l=c[1];return function(c){return o(f,[4,e,ap(i,h,bN(l,E(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return n(f,[4,e,ap(j,h,bF(g,D(b,a,c)))],d)}:function(g,c){return n(f,[4,e,ap(j,g,D(b,a,c))],d)};var
-m=c[1];return function(g,c){return n(f,[4,e,ap(j,g,bF(m,D(b,a,c)))],d)}}}function
-a8(b,f){var
+c==="number")return c?function(h,g,c){return o(f,[4,e,ap(j,h,bN(g,E(b,a,c)))],d)}:function(g,c){return o(f,[4,e,ap(j,g,E(b,a,c))],d)};var
+m=c[1];return function(g,c){return o(f,[4,e,ap(j,g,bN(m,E(b,a,c)))],d)}}}function
+a_(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=fl(a[2]);a8(b,g);return b7(b,h);case
+g=a[1],h=fs(a[2]);a_(b,g);return cb(b,h);case
 1:var
 c=a[2],e=a[1];if(0===c[0]){var
-i=c[1];a8(b,e);b7(b,lg);var
+i=c[1];a_(b,e);cb(b,ln);var
 a=i;continue}var
-j=c[1];a8(b,e);b7(b,lh);var
+j=c[1];a_(b,e);cb(b,lo);var
 a=j;continue;case
 6:var
-m=a[2];a8(b,a[1]);return d(m,b);case
-7:a8(b,a[1]);return b3(b);case
+m=a[2];a_(b,a[1]);return d(m,b);case
+7:a_(b,a[1]);return b9(b);case
 8:var
-n=a[2];a8(b,a[1]);return bj(n);case
+n=a[2];a_(b,a[1]);return bl(n);case
 2:case
 4:var
-k=a[2];a8(b,a[1]);return b7(b,k);default:var
-l=a[2];a8(b,a[1]);return i0(b,l)}}function
-bk(b,g){var
+k=a[2];a_(b,a[1]);return cb(b,k);default:var
+l=a[2];a_(b,a[1]);return i7(b,l)}}function
+bm(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=fl(a[2]);bk(b,h);return b9(b,i);case
+h=a[1],i=fs(a[2]);bm(b,h);return cd(b,i);case
 1:var
 e=a[2],f=a[1];if(0===e[0]){var
-j=e[1];bk(b,f);b9(b,li);var
+j=e[1];bm(b,f);cd(b,lp);var
 a=j;continue}var
-k=e[1];bk(b,f);b9(b,lj);var
+k=e[1];bm(b,f);cd(b,lq);var
 a=k;continue;case
 6:var
-n=a[2];bk(b,a[1]);return b9(b,d(n,0));case
+n=a[2];bm(b,a[1]);return cd(b,d(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bk(b,a[1]);return bj(o);case
+o=a[2];bm(b,a[1]);return bl(o);case
 2:case
 4:var
-l=a[2];bk(b,a[1]);return b9(b,l);default:var
-m=a[2];bk(b,a[1]);var
-c=b[2];if(b[3]<=c)fh(b,1);I(b[1],c,m);b[2]=c+1|0;return 0}}function
-fn(d,c){var
-a=c[1],b=0;return n(function(a){a8(d,a);return 0},b,a)}function
-dA(a){return fn(a5,a)}function
-aS(b){var
-a=b[1];return n(function(d){var
-e=64,b=b8<64?b8:e,c=K(b),a=[0,c,0,b,c];bk(a,d);return fe(a[1],0,a[2])},0,a)}var
-cK=[0,0];function
-dC(i,h){var
+l=a[2];bm(b,a[1]);return cd(b,l);default:var
+m=a[2];bm(b,a[1]);var
+c=b[2];if(b[3]<=c)fo(b,1);I(b[1],c,m);b[2]=c+1|0;return 0}}function
+fu(d,c){var
+a=c[1],b=0;return o(function(a){a_(d,a);return 0},b,a)}function
+dI(a){return fu(a7,a)}function
+aT(b){var
+a=b[1];return o(function(d){var
+e=64,b=cc<64?cc:e,c=L(b),a=[0,c,0,b,c];bm(a,d);return fl(a[1],0,a[2])},0,a)}var
+cQ=[0,0];function
+dK(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(dp(a)===dg)return d(aS(lk),a);if(dp(a)===253){var
-c=eR(jg,a),b=0,g=m(c);for(;;){if(g<=b)return Q(c,jf);var
-e=F(c,b),f=0;if(48<=e){if(!(58<=e))f=1}else
+a==="number"?1:0)){if(dx(a)===dp)return d(aT(lr),a);if(dx(a)===253){var
+c=eY(jn,a),b=0,g=n(c);for(;;){if(g<=b)return S(c,jm);var
+e=G(c,b),f=0;if(48<=e){if(!(58<=e))f=1}else
 if(45===e)f=1;if(f){var
-b=b+1|0;continue}return c}}return ll}return d(aS(lm),a)}function
-fo(b,a){if(b.length-1<=a)return ln;var
-c=fo(b,a+1|0),d=dC(b,a);return D(aS(lo),d,c)}function
-dD(a){function
+b=b+1|0;continue}return c}}return ls}return d(aT(lt),a)}function
+fv(b,a){if(b.length-1<=a)return lu;var
+c=fv(b,a+1|0),d=dK(b,a);return E(aT(lv),d,c)}function
+dL(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 e=0,c=d(h,a);e=1}catch(a){}if(e&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(cK[1]);if(h)return h[1];if(a===du)return lt;if(a===e$)return lu;if(a[1]===e_){var
-c=a[2],i=c[3],p=c[2],q=c[1];return ep(aS(dB),q,p,i,i+5|0,lv)}if(a[1]===B){var
-e=a[2],j=e[3],r=e[2],s=e[1];return ep(aS(dB),s,r,j,j+6|0,lw)}if(a[1]===fb){var
-f=a[2],k=f[3],t=f[2],u=f[1];return ep(aS(dB),u,t,k,k+6|0,lx)}if(0===dp(a)){var
+h=o(cQ[1]);if(h)return h[1];if(a===dC)return lA;if(a===fg)return lB;if(a[1]===ff){var
+c=a[2],i=c[3],p=c[2],q=c[1];return ew(aT(dJ),q,p,i,i+5|0,lC)}if(a[1]===D){var
+e=a[2],j=e[3],r=e[2],s=e[1];return ew(aT(dJ),s,r,j,j+6|0,lD)}if(a[1]===fi){var
+f=a[2],k=f[3],t=f[2],u=f[1];return ew(aT(dJ),u,t,k,k+6|0,lE)}if(0===dx(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=fo(a,2),m=dC(a,1),b=D(aS(lp),m,l);else
+l=fv(a,2),m=dK(a,1),b=E(aT(lw),m,l);else
 switch(g){case
 0:var
-b=lq;break;case
+b=lx;break;case
 1:var
-b=lr;break;default:var
-n=dC(a,1),b=d(aS(ls),n)}return Q(v,b)}return a[1]}function
-dE(t,s){var
-e=q9(s),g=e.length-1-1|0,p=0;if(!(g<0)){var
+b=ly;break;default:var
+n=dK(a,1),b=d(aT(lz),n)}return S(v,b)}return a[1]}function
+dM(t,s){var
+e=rn(s),g=e.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=iO(e,b)[1+b],f=function(a){return function(b){return b?0===a?ly:lz:0===a?lA:lB}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?lC:lE,l=a[2],m=a[7],n=f(a[1]),c=[0,qY(aS(lD),n,m,l,k,j,i,h)];else
+a=iV(e,b)[1+b],f=function(a){return function(b){return b?0===a?lF:lG:0===a?lH:lI}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?lJ:lL,l=a[2],m=a[7],n=f(a[1]),c=[0,rc(aT(lK),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,d(aS(lF),o)];if(c){var
-q=c[1];d(fn(t,lG),q)}var
+o=f(0),c=[0,d(aT(lM),o)];if(c){var
+q=c[1];d(fu(t,lN),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-fp(c){for(;;){var
-a=cK[1],d=[0,c,a],e=cK[1]===a?(cK[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-lI=lH.slice();function
-lJ(e,c){var
-f=dD(e);d(dA(lK),f);dE(a5,c);var
-a=rw(0);if(a<0){var
-b=cF(a);fc(iO(lI,b)[1+b])}return b3(a5)}var
-lL=[0];e1(a(hb),function(e,i){try{try{var
-b=i?lL:iU(0);try{dv(0)}catch(a){}try{var
-a=lJ(e,b),c=a}catch(a){a=ds(a);var
-g=dD(e);d(dA(lN),g);dE(a5,b);var
-h=dD(a);d(dA(lO),h);dE(a5,iU(0));var
-c=b3(a5)}var
-f=c}catch(a){a=ds(a);if(a!==du)throw a;var
-f=fc(lM)}return f}catch(a){return 0}});var
-fq=[O,lQ,dk(0)],dF=[0,fq,[0]],lP=dp(dF)===O?dF:dF[1];e1(a(et),lP);(function(a){throw a});var
-lR=j.Array;fp(function(a){return a[1]===fq?[0,aR(a[2].toString())]:0});fp(function(a){return a
+fw(c){for(;;){var
+a=cQ[1],d=[0,c,a],e=cQ[1]===a?(cQ[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+lP=lO.slice();function
+lQ(e,c){var
+f=dL(e);d(dI(lR),f);dM(a7,c);var
+a=rM(0);if(a<0){var
+b=cL(a);fj(iV(lP,b)[1+b])}return b9(a7)}var
+lS=[0];e8(a(he),function(e,i){try{try{var
+b=i?lS:i1(0);try{dD(0)}catch(a){}try{var
+a=lQ(e,b),c=a}catch(a){a=dA(a);var
+g=dL(e);d(dI(lU),g);dM(a7,b);var
+h=dL(a);d(dI(lV),h);dM(a7,i1(0));var
+c=b9(a7)}var
+f=c}catch(a){a=dA(a);if(a!==dC)throw a;var
+f=fj(lT)}return f}catch(a){return 0}});var
+fx=[Q,lX,dt(0)],dN=[0,fx,[0]],lW=dx(dN)===Q?dN:dN[1];e8(a(eA),lW);(function(a){throw a});var
+lY=j.Array;fw(function(a){return a[1]===fx?[0,aS(a[2].toString())]:0});fw(function(a){return a
 instanceof
-lR?0:[0,aR(a.toString())]});var
+lY?0:[0,aS(a.toString())]});var
 e=aw(0),b=aw(1);function
-y(a){return z(a,b)}function
-fr(b,a){return z(aw(b),a)}function
+z(a){return B(a,b)}function
+fy(b,a){return B(aw(b),a)}function
 c(b,a){return f(aw(b),a)}function
-aT(b,a){return[0,e5(b,a),i_(b,a)]}function
-dG(b,a){return w(b,a)?b:a}function
-bs(b,a){return w(b,a)?a:b}function
-b$(a){return a?0:1}function
-cL(b,a){var
+aU(b,a){return[0,fa(b,a),jf(b,a)]}function
+dO(b,a){return x(b,a)?b:a}function
+bx(b,a){return x(b,a)?a:b}function
+cf(a){return a?0:1}function
+bn(b,a){var
 c=a?[0,d(b,a[1])]:a;return c}function
 aq(a){var
 b=a?[0,aq(a[2])]:a;return b}function
-o(a,b){if(a){var
-c=o(a[2],b);return[0,a[1],c]}return b}function
-fs(a){return typeof
-a==="number"?0:[0,fs(a[1])]}function
-ft(d,c){var
+m(a,b){if(a){var
+c=m(a[2],b);return[0,a[1],c]}return b}function
+fz(a){return typeof
+a==="number"?0:[0,fz(a[1])]}function
+fA(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1913,9 +1913,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dH(a){return ft(a,0)}function
-fu(a){if(typeof
-a==="number")return lT;else
+dP(a){return fA(a,0)}function
+fB(a){if(typeof
+a==="number")return l0;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1925,204 +1925,204 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,fu(a[1])]}}function
-aK(a){if(typeof
-a==="number")return lU;else
+8:return[9,a[1]];default:return[0,fB(a[1])]}}function
+aM(a){if(typeof
+a==="number")return l1;else
 switch(a[0]){case
-0:return[1,aJ(a[1])];case
-1:return[3,aJ(a[1])];case
-2:return[5,aJ(a[1])];case
-3:return[7,aJ(a[1])];case
-4:return[9,aJ(a[1])];case
-5:return[1,aK(a[1])];case
-6:return[3,aK(a[1])];case
-7:return[5,aK(a[1])];case
-8:return[7,aK(a[1])];default:return[9,aK(a[1])]}}function
-aJ(a){if(typeof
+0:return[1,aL(a[1])];case
+1:return[3,aL(a[1])];case
+2:return[5,aL(a[1])];case
+3:return[7,aL(a[1])];case
+4:return[9,aL(a[1])];case
+5:return[1,aM(a[1])];case
+6:return[3,aM(a[1])];case
+7:return[5,aM(a[1])];case
+8:return[7,aM(a[1])];default:return[9,aM(a[1])]}}function
+aL(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,aJ(a[1])];case
-1:return[2,aJ(a[1])];case
-2:return[4,aJ(a[1])];case
-3:return[6,aJ(a[1])];case
-4:return[8,aJ(a[1])];case
-5:return[0,aK(a[1])];case
-6:return[2,aK(a[1])];case
-7:return[4,aK(a[1])];case
-8:return[6,aK(a[1])];default:return[8,aK(a[1])]}}function
-dI(a){return a?a[1]:a}function
-ca(b,a){return b?[0,ca(b[1],a)]:a}function
-fv(b,a){return b?a:a?0:1}function
-cM(d,c){var
+0:return[0,aL(a[1])];case
+1:return[2,aL(a[1])];case
+2:return[4,aL(a[1])];case
+3:return[6,aL(a[1])];case
+4:return[8,aL(a[1])];case
+5:return[0,aM(a[1])];case
+6:return[2,aM(a[1])];case
+7:return[4,aM(a[1])];case
+8:return[6,aM(a[1])];default:return[8,aM(a[1])]}}function
+dQ(a){return a?a[1]:a}function
+cg(b,a){return b?[0,cg(b[1],a)]:a}function
+fC(b,a){return b?a:a?0:1}function
+cR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-aU(d,c){var
+aV(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-fw(c,b,a){return c?d(b,fw(c[1],b,a)):a}function
-cN(a){if(w(a,b))return b;var
-c=aT(a,aw(2)),d=c[1];return Y(c[2],e)?y(cN(d)):y(cN(d))}function
-fx(c,i,h){var
-d=i,a=h;for(;;){if(w(d,b))return a;var
-f=aT(d,aw(2)),g=f[1];if(Y(f[2],e)){var
-d=g,a=D(c,a,a);continue}return D(c,a,fx(c,g,D(c,a,a)))}}function
-fy(a){return fx(ca,a,lW)}function
-a9(g,e){var
+fD(c,b,a){return c?d(b,fD(c[1],b,a)):a}function
+cS(a){if(x(a,b))return b;var
+c=aU(a,aw(2)),d=c[1];return Z(c[2],e)?z(cS(d)):z(cS(d))}function
+fE(c,i,h){var
+d=i,a=h;for(;;){if(x(d,b))return a;var
+f=aU(d,aw(2)),g=f[1];if(Z(f[2],e)){var
+d=g,a=E(c,a,a);continue}return E(c,a,fE(c,g,E(c,a,a)))}}function
+fF(a){return fE(cg,a,l3)}function
+a$(g,e){var
 a=g,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-h=f(c(2,y(c(2,c(2,b)))),d),a=a[1],d=h;continue;case
+h=f(c(2,z(c(2,c(2,b)))),d),a=a[1],d=h;continue;case
 1:var
-i=z(b,f(c(2,y(c(2,c(2,b)))),d)),a=a[1],d=i;continue;case
+i=B(b,f(c(2,z(c(2,c(2,b)))),d)),a=a[1],d=i;continue;case
 2:var
-j=f(c(2,y(c(2,c(2,b)))),d),k=z(c(2,b),j),a=a[1],d=k;continue;case
+j=f(c(2,z(c(2,c(2,b)))),d),k=B(c(2,b),j),a=a[1],d=k;continue;case
 3:var
-l=f(c(2,y(c(2,c(2,b)))),d),m=z(y(c(2,b)),l),a=a[1],d=m;continue;case
+l=f(c(2,z(c(2,c(2,b)))),d),m=B(z(c(2,b)),l),a=a[1],d=m;continue;case
 4:var
-n=f(c(2,y(c(2,c(2,b)))),d),o=z(c(2,c(2,b)),n),a=a[1],d=o;continue;case
+n=f(c(2,z(c(2,c(2,b)))),d),o=B(c(2,c(2,b)),n),a=a[1],d=o;continue;case
 5:var
-p=f(c(2,y(c(2,c(2,b)))),d),q=z(y(c(2,c(2,b))),p),a=a[1],d=q;continue;case
+p=f(c(2,z(c(2,c(2,b)))),d),q=B(z(c(2,c(2,b))),p),a=a[1],d=q;continue;case
 6:var
-r=f(c(2,y(c(2,c(2,b)))),d),s=z(c(2,y(c(2,b))),r),a=a[1],d=s;continue;case
+r=f(c(2,z(c(2,c(2,b)))),d),s=B(c(2,z(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=f(c(2,y(c(2,c(2,b)))),d),u=z(y(c(2,y(c(2,b)))),t),a=a[1],d=u;continue;case
+t=f(c(2,z(c(2,c(2,b)))),d),u=B(z(c(2,z(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=f(c(2,y(c(2,c(2,b)))),d),w=z(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=f(c(2,y(c(2,c(2,b)))),d),A=z(y(c(2,c(2,c(2,b)))),x),a=a[1],d=A;continue}}function
-dJ(a){if(w(a,b))return lX;var
-c=aT(a,aw(2)),d=c[1];return Y(c[2],e)?aJ(dJ(d)):aK(dJ(d))}function
-cO(a){return dH(dJ(a))}function
-fz(l,g){if(0<=a4(g)){var
-h=e6(g);if(0<=h){var
+v=f(c(2,z(c(2,c(2,b)))),d),w=B(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=f(c(2,z(c(2,c(2,b)))),d),y=B(z(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+dR(a){if(x(a,b))return l4;var
+c=aU(a,aw(2)),d=c[1];return Z(c[2],e)?aL(dR(d)):aM(dR(d))}function
+cT(a){return dP(dR(a))}function
+fG(l,g){if(0<=a6(g)){var
+h=fb(g);if(0<=h){var
 d=b,c=l,a=h;for(;;){if(0===a)return d;var
-i=a>>>1|0,j=f(c,c),k=1===(a&1)?f(d,c):d,d=k,c=j,a=i;continue}}return bj(lS)}return e}function
-fA(a){return 0<=a4(a)?a:e}function
-dK(a){var
-c=a4(a);return 0===c?b:0<c?a:b}function
-fB(m){var
+i=a>>>1|0,j=f(c,c),k=1===(a&1)?f(d,c):d,d=k,c=j,a=i;continue}}return bl(lZ)}return e}function
+fH(a){return 0<=a6(a)?a:e}function
+dS(a){var
+c=a6(a);return 0===c?b:0<c?a:b}function
+fI(m){var
 a=m;for(;;)if(typeof
 a==="number")return e;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return a9(a[1],b);case
+1:return a$(a[1],b);case
 2:var
-d=c(2,b);return a9(a[1],d);case
+d=c(2,b);return a$(a[1],d);case
 3:var
-f=y(c(2,b));return a9(a[1],f);case
+f=z(c(2,b));return a$(a[1],f);case
 4:var
-g=c(2,c(2,b));return a9(a[1],g);case
+g=c(2,c(2,b));return a$(a[1],g);case
 5:var
-h=y(c(2,c(2,b)));return a9(a[1],h);case
+h=z(c(2,c(2,b)));return a$(a[1],h);case
 6:var
-i=c(2,y(c(2,b)));return a9(a[1],i);case
+i=c(2,z(c(2,b)));return a$(a[1],i);case
 7:var
-j=y(c(2,y(c(2,b))));return a9(a[1],j);case
+j=z(c(2,z(c(2,b))));return a$(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return a9(a[1],k);default:var
-l=y(c(2,c(2,c(2,b))));return a9(a[1],l)}}function
-cP(b,a){var
-c=a4(a);return 0===c?e:1===c?e5(b,a):fr(-1,e5(fr(-1,b),a))}function
-fC(a){return 0<a4(a)?rR(a):e}function
-cb(b,c){var
-a=e6(c);return 0<=a?i$(b,a):ja(b,-a|0)}function
-bG(b,c){var
-a=e6(c);return 0<=a?ja(b,a):i$(b,-a|0)}function
-dL(b,a){return a?a[1]:b}function
-fD(a){var
+k=c(2,c(2,c(2,b)));return a$(a[1],k);default:var
+l=z(c(2,c(2,c(2,b))));return a$(a[1],l)}}function
+cU(b,a){var
+c=a6(a);return 0===c?e:1===c?fa(b,a):fy(-1,fa(fy(-1,b),a))}function
+fJ(a){return 0<a6(a)?r7(a):e}function
+ch(b,c){var
+a=fb(c);return 0<=a?jg(b,a):jh(b,-a|0)}function
+bO(b,c){var
+a=fb(c);return 0<=a?jh(b,a):jg(b,-a|0)}function
+dT(b,a){return a?a[1]:b}function
+fK(a){var
 b=a?a[2]:a;return b}function
 ay(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-bt(d,c){var
+by(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-fE(a){if(a){var
-b=[0,a[1],0];return o(fE(a[2]),b)}return a}function
+fL(a){if(a){var
+b=[0,a[1],0];return m(fL(a[2]),b)}return a}function
 k(b,a){if(a)var
 e=k(b,a[2]),c=[0,d(b,a[1]),e];else
 var
 c=a;return c}function
-bH(b,a){if(a){var
-c=bH(b,a[2]);return o(d(b,a[1]),c)}return a}function
-cQ(c,b,a){if(a){var
-d=cQ(c,b,a[2]);return D(c,a[1],d)}return b}function
-fF(f,e){var
+bP(b,a){if(a){var
+c=bP(b,a[2]);return m(d(b,a[1]),c)}return a}function
+ci(c,b,a){if(a){var
+d=ci(c,b,a[2]);return E(c,a[1],d)}return b}function
+fM(f,e){var
 a=e;for(;;){if(a){var
 b=d(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-aL(e,c){var
+az(e,c){var
 a=c;for(;;){if(a){var
 b=d(e,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fG(b,a){var
-c=a?[0,b,fG([0,b],a[1])]:a;return c}function
-cR(b,a){var
-c=a?[0,b,cR(b,a[1])]:a;return c}function
-fH(a){if(a){var
-d=fH(a[2]),g=f(c(2,b),d),h=a[1]?b:e;return z(h,g)}return e}function
-fI(j){function
+fN(b,a){var
+c=a?[0,b,fN([0,b],a[1])]:a;return c}function
+cV(b,a){var
+c=a?[0,b,cV(b,a[1])]:a;return c}function
+fO(a){if(a){var
+d=fO(a[2]),g=f(c(2,b),d),h=a[1]?b:e;return B(h,g)}return e}function
+fP(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=fH([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a4(b)?fy(b):0}function
-fJ(b,a){return w(f(b[1],a[2]),f(a[1],b[2]))}function
-fK(b,a){return[0,z(f(b[1],a[2]),f(a[1],b[2])),f(b[2],a[2])]}function
-fL(b,a){return[0,f(b[1],a[1]),f(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=fO([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?fF(b):0}function
+fQ(b,a){return x(f(b[1],a[2]),f(a[1],b[2]))}function
+fR(b,a){return[0,B(f(b[1],a[2]),f(a[1],b[2])),f(b[2],a[2])]}function
+fS(b,a){return[0,f(b[1],a[1]),f(b[2],a[2])]}function
 ar(a){if(typeof
-a==="number")return l0;else
+a==="number")return l7;else
 switch(a[0]){case
 0:var
-b=ar(a[1]);return Q(aF(1,48),b);case
+b=ar(a[1]);return S(aF(1,48),b);case
 1:var
-c=ar(a[1]);return Q(aF(1,49),c);case
+c=ar(a[1]);return S(aF(1,49),c);case
 2:var
-d=ar(a[1]);return Q(aF(1,50),d);case
+d=ar(a[1]);return S(aF(1,50),d);case
 3:var
-e=ar(a[1]);return Q(aF(1,51),e);case
+e=ar(a[1]);return S(aF(1,51),e);case
 4:var
-f=ar(a[1]);return Q(aF(1,52),f);case
+f=ar(a[1]);return S(aF(1,52),f);case
 5:var
-g=ar(a[1]);return Q(aF(1,53),g);case
+g=ar(a[1]);return S(aF(1,53),g);case
 6:var
-h=ar(a[1]);return Q(aF(1,54),h);case
+h=ar(a[1]);return S(aF(1,54),h);case
 7:var
-i=ar(a[1]);return Q(aF(1,55),i);case
+i=ar(a[1]);return S(aF(1,55),i);case
 8:var
-j=ar(a[1]);return Q(aF(1,56),j);default:var
-k=ar(a[1]);return Q(aF(1,57),k)}}function
-cc(a){return typeof
-a==="number"?l1:ar(a)}function
-cd(a){return fz(c(2,b),a)}function
-fM(b,a){return bG(a,b)}function
-fN(b,a){return G(bG(G(a),b))}function
-dM(b,a){return G(cP(G(b),a))}function
-dN(c,b){var
-a=cb(b,c);return[0,a,a]}function
-M(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-an(b,a){return[0,b6(b[1],a[2]),b6(b[2],a[1])]}function
-as(a){return[0,G(a[2]),G(a[1])]}function
-fO(d,c,b,a){if(w(e,d))return w(e,b)?[0,f(d,b),f(c,a)]:w(a,e)?[0,f(c,b),f(d,a)]:[0,f(c,b),f(c,a)];if(w(c,e))return w(e,b)?[0,f(d,a),f(c,b)]:w(a,e)?[0,f(c,a),f(d,b)]:[0,f(d,a),f(d,b)];if(w(e,b))return[0,f(d,a),f(c,a)];if(w(a,e))return[0,f(c,b),f(d,b)];var
-g=bs(f(d,b),f(c,a));return[0,dG(f(d,a),f(c,b)),g]}function
-S(c,b,a){var
-d=fO(b[1],b[2],a[1],a[2]),e=fN(c,d[2]);return[0,fM(c,d[1]),e]}function
-bl(b,a){var
-c=f(a[1],a[1]),d=f(a[2],a[2]),i=fN(b,bs(c,d)),h=0;if(al(a[1],e)&&al(e,a[2])){var
+j=ar(a[1]);return S(aF(1,56),j);default:var
+k=ar(a[1]);return S(aF(1,57),k)}}function
+cj(a){return typeof
+a==="number"?l8:ar(a)}function
+ck(a){return fG(c(2,b),a)}function
+fT(b,a){return bO(a,b)}function
+fU(b,a){return H(bO(H(a),b))}function
+dU(b,a){return H(cU(H(b),a))}function
+cW(c,b){var
+a=ch(b,c);return[0,a,a]}function
+N(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+an(b,a){return[0,ca(b[1],a[2]),ca(b[2],a[1])]}function
+as(a){return[0,H(a[2]),H(a[1])]}function
+fV(d,c,b,a){if(x(e,d))return x(e,b)?[0,f(d,b),f(c,a)]:x(a,e)?[0,f(c,b),f(d,a)]:[0,f(c,b),f(c,a)];if(x(c,e))return x(e,b)?[0,f(d,a),f(c,b)]:x(a,e)?[0,f(c,a),f(d,b)]:[0,f(d,a),f(d,b)];if(x(e,b))return[0,f(d,a),f(c,a)];if(x(a,e))return[0,f(c,b),f(d,b)];var
+g=bx(f(d,b),f(c,a));return[0,dO(f(d,a),f(c,b)),g]}function
+U(c,b,a){var
+d=fV(b[1],b[2],a[1],a[2]),e=fU(c,d[2]);return[0,fT(c,d[1]),e]}function
+ba(b,a){var
+c=f(a[1],a[1]),d=f(a[2],a[2]),i=fU(b,bx(c,d)),h=0;if(al(a[1],e)&&al(e,a[2])){var
 g=e;h=1}if(!h)var
-g=fM(b,dG(c,d));return[0,g,i]}function
-fP(b,a){var
-c=cb(cd(b),b),d=dM(c,a[1]);return[0,cP(c,a[2]),d]}function
-cS(b,a){if(al(e,a[1]))return[0,fP(b,a)];var
-c=al(a[2],e),d=c?[0,as(fP(b,as(a)))]:c;return d}function
-dO(g,c){var
+g=fT(b,dO(c,d));return[0,g,i]}function
+fW(b,a){var
+c=ch(ck(b),b),d=dU(c,a[1]);return[0,cU(c,a[2]),d]}function
+cX(b,a){if(al(e,a[1]))return[0,fW(b,a)];var
+c=al(a[2],e),d=c?[0,as(fW(b,as(a)))]:c;return d}function
+dV(g,c){var
 h=al(e,c[1]);if(h)var
-d=cb(c[2],g),a=fC(d),j=Y(f(a,a),d)?a:z(a,b),i=[0,[0,fC(cb(c[1],g)),j]];else
+d=ch(c[2],g),a=fJ(d),j=Z(f(a,a),d)?a:B(a,b),i=[0,[0,fJ(ch(c[1],g)),j]];else
 var
 i=h;return i}function
-fQ(b,a){switch(a[0]){case
+fX(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2136,137 +2136,137 @@ f=d(b,a[2]);return[6,d(b,a[1]),f];case
 7:var
 g=d(b,a[2]);return[7,d(b,a[1]),g];case
 8:return[8,d(b,a[1])];default:return[9,d(b,a[1])]}}function
-bu(j,i){var
+bz(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?cM(b[1],a[1]):0;case
-1:return 1===a[0]?cM(b[1],a[1]):0;case
-2:return 2===a[0]?Y(b[1],a[1]):0;case
+0:return 0===a[0]?cR(b[1],a[1]):0;case
+1:return 1===a[0]?cR(b[1],a[1]):0;case
+2:return 2===a[0]?Z(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bu(b[1],a[1]);if(e){var
+e=bz(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bu(b[1],a[1]);if(f){var
+f=bz(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bu(b[1],a[1]);if(g){var
+g=bz(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bu(b[1],a[1]);if(h){var
+h=bz(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-cT(b){var
+cY(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aV(c,b){var
-a=cT(b);return a?Y(c,a[1]):a}function
-ce(a){return al(dt(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+aW(c,b){var
+a=cY(b);return a?Z(c,a[1]):a}function
+cl(a){return al(dB(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 p(a){return[0,[2,a]]}function
-aa(b,a){if(aV(e,b))return a;if(aV(e,a))return b;var
-c=cT(b);if(c){var
-d=c[1],f=cT(a);if(f){var
-g=f[1];if(ce(d)&&ce(g))return p(z(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-dP(a){var
+ac(b,a){if(aW(e,b))return a;if(aW(e,a))return b;var
+c=cY(b);if(c){var
+d=c[1],f=cY(a);if(f){var
+g=f[1];if(cl(d)&&cl(g))return p(B(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+dW(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return ce(c)?p(G(c)):[0,[5,a]];case
+c=b[1];return cl(c)?p(H(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-T(b,a){return aV(e,a)?b:aV(e,b)?dP(a):[0,[4,b,a]]}function
-az(a){var
-c=cT(a);if(c){var
-b=c[1];return ce(b)?p(f(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-C(a,c){if(!aV(e,a)&&!aV(b,c)){if(!aV(e,c)&&!aV(b,a))return bu(a,c)?az(a):[0,[6,a,c]];return c}return a}function
-at(c,a){return aV(b,a)?c:[0,[7,c,a]]}function
-cf(a){return aV(b,a)?a:[0,[9,a]]}function
-cU(g,f,e,c){var
+O(b,a){return aW(e,a)?b:aW(e,b)?dW(a):[0,[4,b,a]]}function
+aA(a){var
+c=cY(a);if(c){var
+b=c[1];return cl(b)?p(f(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+A(a,c){if(!aW(e,a)&&!aW(b,c)){if(!aW(e,c)&&!aW(b,a))return bz(a,c)?aA(a):[0,[6,a,c]];return c}return a}function
+at(c,a){return aW(b,a)?c:[0,[7,c,a]]}function
+cm(a){return aW(b,a)?a:[0,[9,a]]}function
+cZ(g,f,e,c){var
 b=e,a=c;for(;;){if(b){var
-h=b[1],i=[0,d(f,fQ(function(b){return function(a){return ay(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dQ(b,a){if(a){if(bu(b,a[1]))return l2;var
-c=dQ(b,a[2]);return cL(function(a){return[0,a]},c)}return a}function
-bI(c,b){var
-a=dQ(b,c),d=a?a[1]:a;return d}function
-cV(d,a){if(dQ(d,a[1]))return a;var
+h=b[1],i=[0,d(f,fX(function(b){return function(a){return ay(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dX(b,a){if(a){if(bz(b,a[1]))return l9;var
+c=dX(b,a[2]);return bn(function(a){return[0,a]},c)}return a}function
+bQ(c,b){var
+a=dX(b,c),d=a?a[1]:a;return d}function
+c0(d,a){if(dX(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=cV(b[1],a);break;case
+c=c0(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=cV(b[1],a),c=cV(b[2],h)}var
-e=c[2],f=c[1],g=[0,fQ(function(a){return bI(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-fR(c){var
-b=c,a=l3;for(;;){if(b){var
-d=cV(b[1],a),b=b[2],a=d;continue}var
-e=a[1],f=k(function(a){return bI(e,a)},c);return[0,fE(a[2]),f]}}function
+h=c0(b[1],a),c=c0(b[2],h)}var
+e=c[2],f=c[1],g=[0,fX(function(a){return bQ(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+fY(c){var
+b=c,a=l_;for(;;){if(b){var
+d=c0(b[1],a),b=b[2],a=d;continue}var
+e=a[1],f=k(function(a){return bQ(e,a)},c);return[0,fL(a[2]),f]}}function
 aG(e,d,c,b,a){if(b){if(a){var
-f=aG(e,d,c,b[2],a[2]);return[0,D(c,b[1],a[1]),f]}return k(e,b)}return k(d,a)}function
-bJ(b,a){return bG(b,a)}function
-bK(a,c,b){if(w(e,a)){var
-d=b[1],g=G(bJ(G(f(a,b[2])),c));return[0,bJ(f(a,d),c),g]}var
-h=b[2],i=G(bJ(G(f(a,b[1])),c));return[0,bJ(f(a,h),c),i]}function
-dR(a){var
-c=G(bG(G(a[2]),b));return[0,bG(a[1],b),c]}function
-dS(c,b,a){var
-d=fO(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=al(f,e)?a[2]:a[1],i=dM(f,h),j=al(g,e)?a[1]:a[2];return[0,cP(g,j),i]}var
-aM=[0,e,e];function
-dT(a){return[0,a[1],a[1]]}function
-dU(a){return[0,a[2],a[2]]}function
-fS(a){return cQ(function(a,b){return z(bs(a[2],G(a[1])),b)},e,a)}function
-bL(b,c,a){var
-d=fS(a),e=dG(c[2],z(b[2],d)),f=fS(a);return[0,b,[0,bs(c[1],b6(b[1],f)),e],a]}function
-a_(a){return[0,a,a,0]}function
-dV(b,a){return a?d(b,a[1]):a}function
-cW(d,b,a){if(b){if(a)return D(d,b[1],a[1]);var
+f=aG(e,d,c,b[2],a[2]);return[0,E(c,b[1],a[1]),f]}return k(e,b)}return k(d,a)}function
+bR(b,a){return bO(b,a)}function
+bS(a,c,b){if(x(e,a)){var
+d=b[1],g=H(bR(H(f(a,b[2])),c));return[0,bR(f(a,d),c),g]}var
+h=b[2],i=H(bR(H(f(a,b[1])),c));return[0,bR(f(a,h),c),i]}function
+dY(a){var
+c=H(bO(H(a[2]),b));return[0,bO(a[1],b),c]}function
+dZ(c,b,a){var
+d=fV(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=al(f,e)?a[2]:a[1],i=dU(f,h),j=al(g,e)?a[1]:a[2];return[0,cU(g,j),i]}var
+aN=[0,e,e];function
+d0(a){return[0,a[1],a[1]]}function
+d1(a){return[0,a[2],a[2]]}function
+fZ(a){return ci(function(a,b){return B(bx(a[2],H(a[1])),b)},e,a)}function
+bT(b,c,a){var
+d=fZ(a),e=dO(c[2],B(b[2],d)),f=fZ(a);return[0,b,[0,bx(c[1],ca(b[1],f)),e],a]}function
+aX(a){return[0,a,a,0]}function
+d2(b,a){return a?d(b,a[1]):a}function
+c1(d,b,a){if(b){if(a)return E(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-dW(a,e,d){var
-c=a_(aM);return function(b){switch(b[0]){case
+d3(a,e,d){var
+c=aX(aN);return function(b){switch(b[0]){case
 0:return[0,ay(b[1],e,c)];case
 1:return[0,ay(b[1],d,c)];case
-2:return[0,a_(dN(a,b[1]))];case
+2:return[0,aX(cW(a,b[1]))];case
 3:var
-f=b[2],g=b[1];return cW(function(b,a){var
+f=b[2],g=b[1];return c1(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aG(function(a){return a},e,M,d,c),g=M(b[2],a[2]);return[0,bL(M(b[1],a[1]),g,f)]},g,f);case
+f=aG(function(a){return a},e,N,d,c),g=N(b[2],a[2]);return[0,bT(N(b[1],a[1]),g,f)]},g,f);case
 4:var
-h=b[2],i=b[1];return cW(function(b,a){var
-c=a[3],d=b[3],e=aG(function(a){return a},as,an,d,c),f=an(b[2],a[2]);return[0,bL(an(b[1],a[1]),f,e)]},i,h);case
+h=b[2],i=b[1];return c1(function(b,a){var
+c=a[3],d=b[3],e=aG(function(a){return a},as,an,d,c),f=an(b[2],a[2]);return[0,bT(an(b[1],a[1]),f,e)]},i,h);case
 5:var
-j=b[1];return dV(function(a){var
+j=b[1];return d2(function(a){var
 b=k(as,a[3]),c=as(a[2]);return[0,[0,as(a[1]),c,b]]},j);case
 6:var
-l=b[2],m=b[1];return cW(function(c,b){var
-d=M(b[2],b[1]),e=M(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return c1(function(c,b){var
+d=N(b[2],b[1]),e=N(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=S(a,e,b);return dR(M(S(a,d,c),f))}function
-i(b){return dR(S(a,e,b))}var
-j=aG(function(b){return dR(S(a,d,b))},i,h,g,f),k=S(a,c[2],b[2]);return[0,bL(S(a,c[1],b[1]),k,j)]},m,l);case
+f=U(a,e,b);return dY(N(U(a,d,c),f))}function
+i(b){return dY(U(a,e,b))}var
+j=aG(function(b){return dY(U(a,d,b))},i,h,g,f),k=U(a,c[2],b[2]);return[0,bT(U(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return cW(function(e,f){var
-b=cS(a,f[1]);if(b){var
-c=cS(a,f[2]);if(c)var
-g=c[1],d=S(a,e[1],b[1]),j=f[3],l=e[3],m=function(c,b){return an(c,S(a,d,b))},n=function(b){return as(S(a,d,b))},o=aG(function(a){return a},n,m,l,j),p=k(function(b){return S(a,g,b)},o),h=[0,bL(d,S(a,e[2],g),p)];else
+n=b[2],o=b[1];return c1(function(e,f){var
+b=cX(a,f[1]);if(b){var
+c=cX(a,f[2]);if(c)var
+g=c[1],d=U(a,e[1],b[1]),j=f[3],l=e[3],m=function(c,b){return an(c,U(a,d,b))},n=function(b){return as(U(a,d,b))},o=aG(function(a){return a},n,m,l,j),p=k(function(b){return U(a,g,b)},o),h=[0,bT(d,U(a,e[2],g),p)];else
 var
 h=c;var
 i=h}else
 var
 i=b;return i},o,n);case
 8:var
-p=b[1];return dV(function(b){var
-c=b[3],d=M(b[2],b[1]),e=k(function(b){return S(a,d,b)},c),f=bl(a,b[2]);return[0,bL(bl(a,b[1]),f,e)]},p);default:var
-q=b[1];return dV(function(e){var
-b=dO(a,e[1]);if(b){var
-f=b[1],c=dO(a,e[2]);if(c){var
-g=c[1],d=cS(a,M(g,f));if(d)var
-l=e[3],m=d[1],h=[0,bL(f,g,k(function(b){return S(a,m,b)},l))];else
+p=b[1];return d2(function(b){var
+c=b[3],d=N(b[2],b[1]),e=k(function(b){return U(a,d,b)},c),f=ba(a,b[2]);return[0,bT(ba(a,b[1]),f,e)]},p);default:var
+q=b[1];return d2(function(e){var
+b=dV(a,e[1]);if(b){var
+f=b[1],c=dV(a,e[2]);if(c){var
+g=c[1],d=cX(a,N(g,f));if(d)var
+l=e[3],m=d[1],h=[0,bT(f,g,k(function(b){return U(a,m,b)},l))];else
 var
 h=d;var
 i=h}else
@@ -2275,111 +2275,111 @@ i=c;var
 j=i}else
 var
 j=b;return j},q)}}}function
-l4(a){return a}function
-l5(a){return a}function
-l6(a,b){return aG(l5,l4,M,a,b)}function
-l7(a){return a}function
-l8(a){return a}function
-dX(b,a,c){if(a){var
+l$(a){return a}function
+ma(a){return a}function
+mb(a,b){return aG(ma,l$,N,a,b)}function
+mc(a){return a}function
+md(a){return a}function
+d4(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-f=dX(b,e,c[2]),g=c[1],h=function(c,a){return an(c,dS(d,a,b))},i=function(a){return as(dS(d,a,b))};return[0,aG(function(a){return a},i,h,g,a),f]}var
-j=dX(b,e,0);return[0,k(function(a){return as(dS(d,a,b))},a),j]}return c}function
-fT(a){if(a){var
+f=d4(b,e,c[2]),g=c[1],h=function(c,a){return an(c,dZ(d,a,b))},i=function(a){return as(dZ(d,a,b))};return[0,aG(function(a){return a},i,h,g,a),f]}var
+j=d4(b,e,0);return[0,k(function(a){return as(dZ(d,a,b))},a),j]}return c}function
+f0(a){if(a){var
 b=a[1];if(b)var
-c=b[1],d=al(e,c[1]),h=d?[0,dX(c,b[2],a[2])]:d,f=h;else
+c=b[1],d=al(e,c[1]),h=d?[0,d4(c,b[2],a[2])]:d,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-fU(f,e){var
+f1(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=fT(b);if(c){var
+c=f0(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-fV(d,b,a){if(b)if(a)var
-e=a[1],f=fV(d,b[2],a[2]),g=fv(d,b[1])?dT(e):dU(e),c=[0,g,f];else
+f2(d,b,a){if(b)if(a)var
+e=a[1],f=f2(d,b[2],a[2]),g=fC(d,b[1])?d0(e):d1(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-fW(a,b){if(a)if(b)var
-d=fW(a[2],b[2]),c=[0,fV(a[1],a,b[1]),d];else
+f3(a,b){if(a)if(b)var
+d=f3(a[2],b[2]),c=[0,f2(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bm(a){if(a){var
-b=a[1],c=bm(b),d=k(function(a){return[0,1,a]},c),e=bm(b);return o(k(function(a){return[0,0,a]},e),d)}return l9}function
-dY(a){var
-b=aq(a);if(fU(b,a))return 1;var
-c=bm(dI(b));return aL(function(c){return fU(b,fW([0,0,c],a))},c)}function
-dZ(a){function
+bo(a){if(a){var
+b=a[1],c=bo(b),d=k(function(a){return[0,1,a]},c),e=bo(b);return m(k(function(a){return[0,0,a]},e),d)}return me}function
+d5(a){var
+b=aq(a);if(f1(b,a))return 1;var
+c=bo(dQ(b));return az(function(c){return f1(b,f3([0,0,c],a))},c)}function
+cn(a){function
 b(b){var
 c=d(a,b[2]);return[0,k(a,b[1]),c]}return function(a){return k(b,a)}}function
-cg(h,e){var
+co(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?M(a,d):an(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-fX(c,b,a){var
-e=bm(c);return aL(function(c){return d(a,d(dZ(function(a){return cg(c,a)}),b))},e)}function
-fY(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return bK(c,z(h,b),a)},k=fY(h,j,i),l=function(c,b){var
-d=a(b,e);return M(a(f,c),d)},m=function(b){return a(b,e)},n=aG(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,M(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?N(a,d):an(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+f4(c,b,a){var
+e=bo(c);return az(function(c){return d(a,d(cn(function(a){return co(c,a)}),b))},e)}function
+f5(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return bS(c,B(h,b),a)},k=f5(h,j,i),l=function(c,b){var
+d=a(b,e);return N(a(f,c),d)},m=function(b){return a(b,e)},n=aG(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,N(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-fZ(b,a){return[0,[0,0,b],a]}function
-cX(f,b,e,o,a){function
+f6(b,a){return[0,[0,0,b],a]}function
+cp(f,b,e,o,a){function
 c(d){if(d){var
-p=cR([0,as(d[1][2]),0],f),c=o,b=d[2],a=p;for(;;){if(c&&b){var
-g=b[1],h=c[1],i=dU(g[2]),n=g[1],l=function(d){return function(a,b){var
-c=bK(b,e,d);return an(M(a,a),c)}}(i),m=function(b){return function(a){return as(bK(a,e,b))}}(i),q=aG(l8,l7,l6,a,fY(e,h,aG(function(a){return M(a,a)},m,l,n,h))),c=c[2],b=b[2],a=q;continue}var
-j=cM(aq(a),f);if(j)return dY(a);var
+p=cV([0,as(d[1][2]),0],f),c=o,b=d[2],a=p;for(;;){if(c&&b){var
+g=b[1],h=c[1],i=d1(g[2]),n=g[1],l=function(d){return function(a,b){var
+c=bS(b,e,d);return an(N(a,a),c)}}(i),m=function(b){return function(a){return as(bS(a,e,b))}}(i),q=aG(md,mc,mb,a,f5(e,h,aG(function(a){return N(a,a)},m,l,n,h))),c=c[2],b=b[2],a=q;continue}var
+j=cR(aq(a),f);if(j)return d5(a);var
 k=j;break}}else
 var
-k=d;return k}return fX(f,fZ(b,a),c)}function
-d0(f,b,a){function
+k=d;return k}return f4(f,f6(b,a),c)}function
+d6(f,b,a){function
 c(b){if(b){var
-m=cR([0,b[1][2],0],f),a=b[2],d=m;for(;;){if(a){var
-g=a[1],l=g[1],e=fT([0,[0,dT(g[2]),l],d]);if(e){var
+m=cV([0,b[1][2],0],f),a=b[2],d=m;for(;;){if(a){var
+g=a[1],l=g[1],e=f0([0,[0,d0(g[2]),l],d]);if(e){var
 a=a[2],d=e[1];continue}var
 c=e}else
 var
 c=[0,d];if(c){var
-h=c[1],i=cM(aq(h),f);if(i)return dY(h);var
+h=c[1],i=cR(aq(h),f);if(i)return d5(h);var
 j=i}else
 var
 j=c;var
 k=j;break}}else
 var
-k=b;return k}return fX(f,fZ(b,a),c)}function
-f0(a,b){var
+k=b;return k}return f4(f,f6(b,a),c)}function
+f7(a,b){var
 c=b[3],d=a[3],e=aG(function(a){return a},as,an,d,c),f=a[2];return[0,an(a[1],b[1]),f,e]}function
-a$(a){return bG(z(a[1],a[2]),b)}function
-bM(a){var
-b=a$(a);return b6(a[2],b)}function
-f1(c,b){if(b)var
-a=b[1],e=f1([0,c],b[2]),f=bM(a),g=[0,[0,bM(a),f],0],h=o(cR(aM,c),g),i=a$(a),d=[0,[0,[0,a$(a),i],a,h],e];else
+bb(a){return bO(B(a[1],a[2]),b)}function
+bU(a){var
+b=bb(a);return ca(a[2],b)}function
+f8(c,b){if(b)var
+a=b[1],e=f8([0,c],b[2]),f=bU(a),g=[0,[0,bU(a),f],0],h=m(cV(aN,c),g),i=bb(a),d=[0,[0,[0,bb(a),i],a,h],e];else
 var
 d=b;return d}function
-d1(d,b){if(b){var
+d7(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d1(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,a$(a),f],c],h=a$(a);return[0,[0,[0,a[1],h],c],g]}return l_}function
-f2(d,c,b,a){var
-e=k(a_,b);return cU(0,dW(d,f1(0,a),e),c,0)}function
-ch(a){if(a){var
+e=d7(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bb(a),f],c],h=bb(a);return[0,[0,[0,a[1],h],c],g]}return mf}function
+f9(d,c,b,a){var
+e=k(aX,b);return cZ(0,d3(d,f8(0,a),e),c,0)}function
+cq(a){if(a){var
 b=a[1];if(b)var
-c=ch(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=cq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return l$}function
-f3(b,a){if(a){var
-g=a[1],n=g[1],c=ch(k(function(a){return ay(a,b,0)},n));if(c){var
+d=b;return d}return mg}function
+f_(b,a){if(a){var
+g=a[1],n=g[1],c=cq(k(function(a){return ay(a,b,0)},n));if(c){var
 d=ay(g[2],b,0);if(d){var
-h=d[1],f=f3(b,a[2]);if(f)var
+h=d[1],f=f_(b,a[2]);if(f)var
 i=al(e,h[2][1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
 var
 j=f;var
@@ -2388,97 +2388,100 @@ var
 l=d;var
 m=l}else
 var
-m=c;return m}return ma}function
-bN(e,c,b){var
-a=f3(e,c);return a?d(b,a[1]):a}function
-d2(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aG(function(a){return a},f,M,e,d),h=a[2];return[0,M(a[1],c[1]),h,g]}return a}function
-d3(b,a){return b?f0(a,b[1]):a}function
-d4(h,g,b,f){var
+m=c;return m}return mh}function
+bA(e,c,b){var
+a=f_(e,c);return a?d(b,a[1]):a}function
+c2(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aG(function(a){return a},f,N,e,d),h=a[2];return[0,N(a[1],c[1]),h,g]}return a}function
+d8(b,a){return b?f7(a,b[1]):a}function
+d9(h,g,b,f){var
 a=ay(f,h,0);if(a){var
 c=a[1];if(b){var
-i=f0(c,b[1]),d=bm(g);return aL(function(a){return w(e,cg(a,i)[1])},d)}return w(e,c[2][1])}return a}function
-f4(l,i,o,f,c,d,g,a){switch(g[0]){case
+i=f7(c,b[1]),d=bo(g);return az(function(a){return x(e,co(a,i)[1])},d)}return x(e,c[2][1])}return a}function
+f$(l,i,o,f,c,d,g,a){switch(g[0]){case
 0:var
 j=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-v=a[2],w=a[1],x=d2(d,a_(j));return bN(f,i,function(a){return cX(c,x,w,v,a)});case
+v=a[2],w=a[1],x=c2(d,aX(j));return bA(f,i,function(a){return cp(c,x,w,v,a)});case
 1:var
-y=a[2],z=a[1],A=d2(d,a_(j));return bN(f,o,function(a){return cX(c,A,z,y,a)});case
+y=a[2],z=a[1],A=c2(d,aX(j));return bA(f,o,function(a){return cp(c,A,z,y,a)});case
 2:if(d)return 0;var
-p=Y(j[1],e),q=p?Y(j[2],e):p;if(q){var
-B=a[2],C=a[1];return bN(f,i,function(a){var
-b=[0,aM,aM,0];return cX(c,[0,aM,aM,0],C,B,k(function(a){return[0,a[1],b]},a))})}return q}return 0;case
+p=Z(j[1],e),q=p?Z(j[2],e):p;if(q){var
+B=a[2],C=a[1];return bA(f,i,function(a){var
+b=[0,aN,aN,0];return cp(c,[0,aN,aN,0],C,B,k(function(a){return[0,a[1],b]},a))})}return q}return 0;case
 1:var
 r=g[1];if(typeof
 a==="number"){if(1===a){var
-D=d3(d,a_(r));return bN(f,o,function(a){return d0(c,D,a)})}if(!a){var
-E=d3(d,a_(r));return bN(f,i,function(a){return d0(c,E,a)})}}return 0;case
+D=d8(d,aX(r));return bA(f,o,function(a){return d6(c,D,a)})}if(!a){var
+E=d8(d,aX(r));return bA(f,i,function(a){return d6(c,E,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-s=a[1],m=a[3],n=function(a){return bK(a,s,dN(l,b))};if(m)var
-u=k(n,m[2]),h=[0,n(m[1]),aM,u];else
+s=a[1],m=a[3],n=function(a){return bS(a,s,cW(l,b))};if(m)var
+u=k(n,m[2]),h=[0,n(m[1]),aN,u];else
 var
-h=a_(aM);var
-t=g[1],F=a[2];return bN(f,i,function(f){var
-g=bm(c),a=aL(function(a){return al(e,cg(a,h)[1])},g),b=a?cX(c,d2(d,h),s,F,f):a;if(b){var
-i=h[3],j=k(function(a){return S(l,t,a)},i),m=h[2];return d0(c,d3(d,[0,S(l,t,h[1]),m,j]),f)}return b})}return 0;case
+h=aX(aN);var
+t=g[1],F=a[2];return bA(f,i,function(f){var
+g=bo(c),a=az(function(a){return al(e,co(a,h)[1])},g),b=a?cp(c,c2(d,h),s,F,f):a;if(b){var
+i=h[3],j=k(function(a){return U(l,t,a)},i),m=h[2];return d6(c,d8(d,[0,U(l,t,h[1]),m,j]),f)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return d4(f,c,d,g[1]);return 0;default:if(typeof
+a==="number"&&!a)return d9(f,c,d,g[1]);return 0;case
+4:if(typeof
+a!=="number"&&0===a[0]){var
+G=a[2],H=a[1],I=c2(d,aX(g[2])),J=function(a){return cp(c,I,H,G,a)};return bA(f,g[1],J)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return d4(f,c,d,g[1]);case
-2:return d4(f,c,d,g[2])}return 0}}function
-f5(b,a){if(a){var
+0:return d9(f,c,d,g[1]);case
+2:return d9(f,c,d,g[2])}return 0}}function
+ga(b,a){if(a){var
 c=a[2];if(b){var
-e=f5(b[1],c);return[0,a[1],e]}var
+e=ga(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-f6(p,R,E,D,Q,P,C,c,B,A){if(B){var
-F=f2(p,R,Q,c),f=B,b=A;for(;;){if(f){var
+gb(p,R,E,D,Q,P,C,c,B,A){if(B){var
+F=f9(p,R,Q,c),f=B,b=A;for(;;){if(f){var
 t=f[1],a=t[2],m=t[1],u=f[2];if(typeof
 a==="number"&&4<=a){var
 l=d(C,c);if(l)var
-O=l[1],I=bm(aq(c)),n=aL(function(b){return function(a){return al(cg(a,b)[2],e)}}(O),I);else
+O=l[1],I=bo(aq(c)),n=az(function(b){return function(a){return al(co(a,b)[2],e)}}(O),I);else
 var
 n=l;if(n){var
 f=u,b=k(function(a){return 0},b);continue}return n}var
 v=ay(m,b,0);if(v){var
-o=bt(P,m);if(o){var
-x=o[1],G=0;if(typeof
+o=by(P,m);if(o){var
+w=o[1],G=0;if(typeof
 a==="number"||!(5===a[0]))G=1;else{var
 h=a[2],i=d(C,c),H=0;if(i){var
-q=w(e,h);if(q){var
-j=i[1],r=a[3],M=a[1],J=j[3],K=k(function(b,c){return function(a){return bK(b,c,a)}}(h,r),J),L=j[2],N=[0,[0,bK(h,r,j[1]),L,K]],g=f4(p,E,D,F,aq(c),N,x,M);H=1}else
+q=x(e,h);if(q){var
+j=i[1],r=a[3],M=a[1],J=j[3],K=k(function(b,c){return function(a){return bS(b,c,a)}}(h,r),J),L=j[2],N=[0,[0,bS(h,r,j[1]),L,K]],g=f$(p,E,D,F,aq(c),N,w,M);H=1}else
 var
 s=q}else
 var
 s=i;if(!H)var
 g=s}if(G)var
-g=f4(p,E,D,F,aq(c),0,x,a);if(g){var
-f=u,b=f5(m,b);continue}var
+g=f$(p,E,D,F,aq(c),0,w,a);if(g){var
+f=u,b=ga(m,b);continue}var
 y=g}else
 var
 y=o;var
 z=y}else
 var
 z=v;return z}return[0,b]}}return[0,A]}function
-f7(i,h,g,f,e,d,c,s,r,q){var
+gc(i,h,g,f,e,d,c,s,r,q){var
 b=s,j=r,a=q;for(;;){if(0===a[0]){var
-k=f6(i,h,g,f,e,d,c,b,a[1],j);return k?aL(b$,k[1]):k}var
-l=f6(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=d1(a[2],b),o=f7(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
+k=gb(i,h,g,f,e,d,c,b,a[1],j);return k?az(cf,k[1]):k}var
+l=gb(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=d7(a[2],b),o=gc(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
 b=n[2],j=m,a=a[4];continue}var
 p=o}else
 var
 p=l;return p}}function
 aH(a,b){switch(b[0]){case
 0:var
-n=b[2],m=cb(b[1],a),t=dM(m,n);return[0,[0,cP(m,n),t]];case
+n=b[2],m=ch(b[1],a),t=dU(m,n);return[0,[0,cU(m,n),t]];case
 1:var
 c=aH(a,b[1]);if(c)var
-d=aH(a,b[2]),u=d?[0,M(c[1],d[1])]:d,o=u;else
+d=aH(a,b[2]),u=d?[0,N(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
@@ -2488,89 +2491,89 @@ var
 p=e;return p;case
 3:var
 g=aH(a,b[1]);if(g)var
-h=aH(a,b[2]),w=h?[0,S(a,g[1],h[1])]:h,q=w;else
+h=aH(a,b[2]),w=h?[0,U(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
 i=aH(a,b[1]);if(i){var
 j=aH(a,b[2]);if(j)var
-k=cS(a,j[1]),x=k?[0,S(a,i[1],k[1])]:k,r=x;else
+k=cX(a,j[1]),x=k?[0,U(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=aH(a,b[1]);return l?dO(a,l[1]):l}}function
-f8(a){var
-d=bs(G(a),e);return dK(z(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),d))}function
-f9(a){return fA(z(f8(a),a))}function
-bv(f,a,e){var
-b=aH(z(f,f8(a)),e);if(b)var
-c=b[1],g=f9(a),h=G(bJ(G(c[2]),g)),i=f9(a),d=[0,[0,bJ(c[1],i),h]];else
+l=aH(a,b[1]);return l?dV(a,l[1]):l}}function
+gd(a){var
+d=bx(H(a),e);return dS(B(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),d))}function
+ge(a){return fH(B(gd(a),a))}function
+bB(f,a,e){var
+b=aH(B(f,gd(a)),e);if(b)var
+c=b[1],g=ge(a),h=H(bR(H(c[2]),g)),i=ge(a),d=[0,[0,bR(c[1],i),h]];else
 var
 d=b;return d}function
-ci(d,a){var
-b=bv(d,a[2],a[1][1]);if(b)var
-c=bv(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+bV(d,a){var
+b=bB(d,a[2],a[1][1]);if(b)var
+c=bB(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-f_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cj(c,b,a){var
-d=D(c,b[3],a[3]),e=D(c,b[2],a[2]);return[0,D(c,b[1],a[1]),e,d]}function
-f$(b,a){var
-c=C(b,a[3]),d=C(b,a[2]);return[0,C(b,a[1]),d,c]}function
-d5(b,a){var
+c3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bW(c,b,a){var
+d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
+d_(b,a){var
+c=A(b,a[3]),d=A(b,a[2]);return[0,A(b,a[1]),d,c]}function
+d$(b,a){var
 c=at(b[3],a),d=at(b[2],a);return[0,at(b[1],a),d,c]}function
-ck(b,a){var
-c=C(b[3],a[3]),d=C(b[2],a[2]);return aa(aa(C(b[1],a[1]),d),c)}function
-ga(a){return d5(a,cf(ck(a,a)))}function
-gc(a){return k(function(a){var
-b=a[2];return[0,f_(a[1]),b]},a)}function
-gd(a){return k(function(a){var
-c=p(b);return[0,f_(a[3]),c]},a)}function
-ge(m,r){var
+bC(b,a){var
+c=A(b[3],a[3]),d=A(b[2],a[2]);return ac(ac(A(b[1],a[1]),d),c)}function
+ea(a){return d$(a,cm(bC(a,a)))}function
+gg(a){return k(function(a){var
+b=a[2];return[0,c3(a[1]),b]},a)}function
+gh(a){return k(function(a){var
+c=p(b);return[0,c3(a[3]),c]},a)}function
+eb(m,r){var
 h=m[1],d=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(w(i,b))if(0===d[0]){var
-j=d[2],n=d[1];if(w(j,b)){var
-k=Y(c,n),l=k?ce(c):k;if(l)var
-o=Y(m[2],e),g=o||Y(c,e);else
+i=f[2],c=f[1];if(x(i,b))if(0===d[0]){var
+j=d[2],n=d[1];if(x(j,b)){var
+k=Z(c,n),l=k?cl(c):k;if(l)var
+o=Z(m[2],e),g=o||Z(c,e);else
 var
 g=l;var
 q=g?[0,c]:g,a=q}else
 var
-a=Y(aT(j,aw(2))[2],e)?0:0}else
+a=Z(aU(j,aw(2))[2],e)?0:0}else
 var
 a=0;else
 var
-a=Y(aT(i,aw(2))[2],e)?0:0}else
+a=Z(aU(i,aw(2))[2],e)?0:0}else
 var
 a=0;return a?p(a[1]):[0,[1,r]]}function
-gf(b,a){if(a)var
-d=gf([0,b],a[2]),c=[0,ge(a[1],b),d];else
+gi(b,a){if(a)var
+d=gi([0,b],a[2]),c=[0,eb(a[1],b),d];else
 var
 c=a;return c}function
-bw(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-d6(b,d,a){switch(a[0]){case
+bp(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+ec(b,d,a){switch(a[0]){case
 0:var
-c=a[1],e=[0,[0,c[4],b],0],f=o(bw(c[3],b),e),g=o(bw(c[2],b),f);return o(bw(c[1],d),g);case
+c=a[1],f=[0,[0,c[4],b],0],g=m(bp(c[3],b),f),h=m(bp(c[2],b),g);return m(bp(c[1],d),h);case
 1:var
-h=bw(a[2],b);return o(bw(a[1],b),h);default:return bw(a[1],d)}}function
-bO(b,a){var
-c=p(e),d=ay(ca(mb,a),b,c),f=p(e),g=ay(ca(mc,a),b,f);return[0,ay(a,b,p(e)),g,d]}function
-gg(b,a){return cj(T,cj(aa,gb,a),b)}function
-gh(c,b,a){if(a){var
-d=a[2],f=gh(c,fD(b),d),g=a[1];return o(d6(c,dL(e,b),g),f)}return a}function
-gi(l,k,g,v){if(g){var
-h=g[1],E=ca(v,aq(d6(l,dL(e,k),h))),F=g[2],G=gi(l,fD(k),F,E),a=gf(v,d6(l,dL(e,k),h));switch(h[0]){case
+e=a[3],i=e?bp(e[1],d):e,j=m(bp(a[2],b),i);return m(bp(a[1],b),j);default:return bp(a[1],d)}}function
+bD(b,a){var
+c=p(e),d=ay(cg(mi,a),b,c),f=p(e),g=ay(cg(mj,a),b,f);return[0,ay(a,b,p(e)),g,d]}function
+gj(b,a){return bW(O,bW(ac,gf,a),b)}function
+gk(c,b,a){if(a){var
+d=a[2],f=gk(c,fK(b),d),g=a[1];return m(ec(c,dT(e,b),g),f)}return a}function
+gl(l,k,h,w){if(h){var
+d=h[1],H=cg(w,aq(ec(l,dT(e,k),d))),I=h[2],J=gl(l,fK(k),I,H),a=gi(w,ec(l,dT(e,k),d));switch(d[0]){case
 0:var
-B=h[1][5],t=ay(md,a,p(e)),d=ga(bO(a,0)),C=bO(a,me),u=gg(bO(a,mf),C),n=ck(d,u),c=cj(T,u,f$(n,d)),x=ck(c,c),o=T(az(t),x),q=cf(o),i=B?q:dP(q),y=T(n,i),z=cj(aa,d,d5(c,i)),m=[0,cj(aa,c,f$(i,d)),o,z,y,[0,t]];break;case
+D=d[1][5],t=ay(mk,a,p(e)),g=ea(bD(a,0)),E=bD(a,ml),u=gj(bD(a,mm),E),n=bC(g,u),f=bW(O,u,d_(n,g)),y=bC(f,f),o=O(aA(t),y),q=cm(o),i=D?q:dW(q),z=O(n,i),A=bW(ac,g,d$(f,i)),m=[0,bW(ac,f,d_(i,g)),o,A,z,[0,t],0];break;case
 1:var
-D=bO(a,mg),f=gg(bO(a,0),D),r=ck(f,f),s=cf(r),m=[0,f,r,d5(f,s),s,0];break;default:var
-j=ga(bO(a,0)),A=ck(j,gb),m=[0,j,p(b),j,A,0]}var
-w=[0,m,G]}else
+v=d[3],F=v?[0,ea(bD(a,mn))]:v,G=bD(a,mo),c=gj(bD(a,0),G),r=bC(c,c),s=cm(r),B=bn(function(a){return bW(O,c,d_(bC(a,c),a))},F),m=[0,c,r,d$(c,s),s,0,B];break;default:var
+j=ea(bD(a,0)),C=bC(j,gf),m=[0,j,p(b),j,C,0,0]}var
+x=[0,m,J]}else
 var
-w=g;return w}function
-cl(j,a){if(typeof
+x=h;return x}function
+bE(k,a){if(typeof
 a==="number"){var
 c=[0,e,b];return[0,[0,c,c],e]}else
 switch(a[0]){case
@@ -2578,99 +2581,132 @@ switch(a[0]){case
 g=[4,a[3],a[2]];return[0,[0,g,g],e];case
 6:var
 i=a[2];return[0,[0,i,i],e];case
+8:var
+j=[4,a[2],a[1]];return[0,[0,j,j],e];case
 0:case
 1:var
 d=[4,[0,b,b],a[1]];return[0,[0,d,d],e];case
 2:case
 3:var
-f=a[2];return[0,[0,f,f],j];default:var
+f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],e]}}function
-d7(d,c,b,a){var
-e=C(c,b);return T(C(d,a),e)}function
-gj(d,H,G,a){var
-e=ge(cl(H,a),G),o=0;if(typeof
-a==="number")o=1;else
+ed(d,c,b,a){var
+e=A(c,b);return O(A(d,a),e)}function
+ee(a){return bP(function(a){return m(a[1],[0,a[2],0])},a)}function
+gm(a){if(a){var
+b=a[1][6];if(b){var
+c=b[1],d=gm(a[2]);if(d)var
+g=d[1],h=bC(c,c),e=[0,[0,[0,c3(c),h],g]];else
+var
+e=d;var
+f=e}else
+var
+f=b;return f}return mp}function
+ef(b,d,c,a){if(typeof
+a!=="number")switch(a[0]){case
+8:var
+e=eb(bE(d,a),c);return[0,k(function(a){var
+b=A(a[2],e);return[0,c3(a[1]),b]},b)];case
+9:return gm(b)}return 0}function
+gn(b,s,r,a){var
+e=eb(bE(s,a),r),p=0;if(typeof
+a==="number")p=1;else
 switch(a[0]){case
 2:var
-I=function(a){return[0,T(a[4],e),0]},g=I,f=a[1];break;case
+J=function(a){return[0,O(a[4],e),0]},g=J,f=a[1];break;case
 3:var
-J=function(a){return[0,T(e,a[4]),0]},g=J,f=a[1];break;case
+K=function(a){return[0,O(e,a[4]),0]},g=K,f=a[1];break;case
 4:var
-K=function(b){var
-a=b[1],c=az(a[3]),d=az(a[2]),f=az(a[1]),g=b[2];return[0,T(T(T(C(az(e),g),f),d),c),0]},g=K,f=a[1];break;case
-6:var
 L=function(b){var
+a=b[1],c=aA(a[3]),d=aA(a[2]),f=aA(a[1]),g=b[2];return[0,O(O(O(A(aA(e),g),f),d),c),0]},g=L,f=a[1];break;case
+6:var
+M=function(b){var
 a=b[5];if(a)var
-d=az(a[1]),f=C(az(e),d),c=[0,T(b[2],f),0];else
+d=aA(a[1]),f=A(aA(e),d),c=[0,O(b[2],f),0];else
 var
-c=a;return c},g=L,f=a[1];break;case
-7:if(d){var
-h=d[2];if(h){var
+c=a;return c},g=M,f=a[1];break;case
+7:if(b){var
+h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
-q=i[1],r=h[1],s=d[1],k=s[5];if(k){var
-l=r[5];if(l){var
-m=q[5];if(m)var
-b=q[1],c=r[1],n=s[1],A=d7(c[1],c[2],b[1],b[2]),B=C(n[3],A),D=d7(c[1],c[3],b[1],b[3]),E=C(n[2],D),F=d7(c[2],c[3],b[2],b[3]),p=aa(T(C(n[1],F),E),B),M=m[1],N=l[1],t=C(C(C(e,k[1]),N),M),O=[0,dP(aa(p,t)),0],u=[0,T(p,t),O];else
+t=i[1],u=h[1],v=b[1],k=v[5];if(k){var
+l=u[5];if(l){var
+m=t[5];if(m)var
+c=t[1],d=u[1],n=v[1],E=ed(d[1],d[2],c[1],c[2]),F=A(n[3],E),G=ed(d[1],d[3],c[1],c[3]),H=A(n[2],G),I=ed(d[2],d[3],c[2],c[3]),q=ac(O(A(n[1],I),H),F),N=m[1],P=l[1],w=A(A(A(e,k[1]),P),N),Q=[0,dW(ac(q,w)),0],x=[0,O(q,w),Q];else
 var
-u=m;var
-v=u}else
-var
-v=l;var
-w=v}else
-var
-w=k;var
-x=w}else
-var
-x=i;var
+x=m;var
 y=x}else
 var
-y=h;var
+y=l;var
 z=y}else
 var
-z=d;return z;default:o=1}if(o)return 0;var
-j=bt(d,f);return j?g(j[1]):j}function
-gk(d,c,b,a){if(a){var
-e=gk(d,c,[0,b],a[2]);return o(gj(d,c,b,a[1]),e)}return a}function
-gl(a,h,n,e,m,g){if(g){var
-t=gl(a,h,n,e,[0,m],g[2]),c=g[1];if(typeof
+z=k;var
+B=z}else
+var
+B=i;var
+C=B}else
+var
+C=h;var
+D=C}else
+var
+D=b;return D;case
+8:case
+9:var
+o=ef(b,s,r,a);return o?ee(o[1]):o;default:p=1}if(p)return 0;var
+j=by(b,f);return j?g(j[1]):j}function
+go(d,c,b,a){if(a){var
+e=go(d,c,[0,b],a[2]);return m(gn(d,c,b,a[1]),e)}return a}function
+gp(a,g,k,f,j,i){if(i){var
+B=gp(a,g,k,f,[0,j],i[2]),c=i[1];if(typeof
 c==="number")var
-b=[0,[0,aM]];else
+e=[0,[0,aN]];else
 switch(c[0]){case
 0:var
-p=ci(a,cl(e,c)),b=cL(function(b){return[0,bl(a,b)]},p);break;case
+u=bV(a,bE(f,c)),e=bn(function(b){return[0,ba(a,b)]},u);break;case
 1:var
-q=ci(a,cl(e,c)),b=cL(function(b){return[1,bl(a,b)]},q);break;case
+v=bV(a,bE(f,c)),e=bn(function(b){return[1,ba(a,b)]},v);break;case
 5:var
-s=ci(a,cl(e,c)),b=cL(function(b){return[2,bl(a,b)]},s);break;default:var
-f=gj(n,e,m,c),j=0;if(f){var
-i=f[2],k=f[1];if(i)if(i[2])var
-b=0;else
+x=bV(a,bE(f,c)),e=bn(function(b){return[2,ba(a,b)]},x);break;case
+8:var
+y=ef(k,f,j,c),e=bn(function(c){var
+e=cW(a,b);return[4,d(cn(g),c),e]},y);break;case
+9:var
+m=ef(k,f,j,c);if(m){var
+n=bV(a,bE(f,c));if(n)var
+z=ba(a,n[1]),A=m[1],r=[0,[4,d(cn(g),A),z]];else
 var
-r=d(h,i[1]),b=[0,[4,d(h,k),r]];else{var
-l=[0,[3,d(h,k)]];j=1}}else{var
-l=f;j=1}if(j)var
-b=l}var
-o=[0,b,t]}else
+r=n;var
+s=r}else
 var
-o=g;return o}function
-mh(a){if(typeof
-a!=="number"&&0!==a[0])return 0;return 1}function
-gm(a){return bH(function(a){return o(a[1],[0,a[2],0])},a)}var
-cZ=T(p(b),cY);function
-gn(e){var
-a=az(cZ);if(e)var
-f=C(p(c(2,b)),a),g=aa(p(c(2,c(2,b))),f),h=C(p(c(2,b)),a),d=at(aa(p(b),h),g);else
+s=m;var
+e=s;break;default:var
+h=gn(k,f,j,c),o=0;if(h){var
+l=h[2],p=h[1];if(l)if(l[2])var
+e=0;else
 var
-i=aa(p(c(2,b)),a),j=az(cY),d=at(aa(C(p(c(2,b)),j),a),i);return cf(d)}function
-go(d,c,a){if(d){var
-e=gn(c),f=aa(p(b),e),g=C(T(p(b),a),f);return T(p(b),g)}var
-h=p(b),i=gn(c),j=at(p(b),i);return T(C(a,aa(p(b),j)),h)}function
-bP(f,e,d,a){var
-g=az(a),h=az(d),i=T(T(p(c(2,b)),h),g),j=f?e?cZ:at(cZ,C(p(c(2,b)),cY)):at(cZ,p(c(2,b))),k=C(az(j),i);return cf(aa(p(b),k))}function
-gp(g,d){var
+w=d(g,l[1]),e=[0,[5,d(g,p),w]];else{var
+q=[0,[3,d(g,p)]];o=1}}else{var
+q=h;o=1}if(o)var
+e=q}var
+t=[0,e,B]}else
+var
+t=i;return t}function
+mq(a){if(typeof
+a!=="number"&&0!==a[0])return 0;return 1}var
+c5=O(p(b),c4);function
+gq(e){var
+a=aA(c5);if(e)var
+f=A(p(c(2,b)),a),g=ac(p(c(2,c(2,b))),f),h=A(p(c(2,b)),a),d=at(ac(p(b),h),g);else
+var
+i=ac(p(c(2,b)),a),j=aA(c4),d=at(ac(A(p(c(2,b)),j),a),i);return cm(d)}function
+gr(d,c,a){if(d){var
+e=gq(c),f=ac(p(b),e),g=A(O(p(b),a),f);return O(p(b),g)}var
+h=p(b),i=gq(c),j=at(p(b),i);return O(A(a,ac(p(b),j)),h)}function
+bX(f,e,d,a){var
+g=aA(a),h=aA(d),i=O(O(p(c(2,b)),h),g),j=f?e?c5:at(c5,A(p(c(2,b)),c4)):at(c5,p(c(2,b))),k=A(aA(j),i);return cm(ac(p(b),k))}function
+gs(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?M(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-d8(t,s,r){var
+e=b[2],f=c[1]?N(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+eg(t,s,r){var
 a=k(function(a){return ay(a,s,0)},t);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -2679,8 +2715,8 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-u=i[1],v=h[1],w=g[1],x=f[1];return aL(function(a){var
-c=d(a,u),e=d(a,v),f=d(a,w),b=d(a,x);return dY([0,[0,b,[0,f,[0,e,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},r)}var
+u=i[1],v=h[1],w=g[1],x=f[1];return az(function(a){var
+c=d(a,u),e=d(a,v),f=d(a,w),b=d(a,x);return d5([0,[0,b,[0,f,[0,e,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},r)}var
 j=i}else
 var
 j=e;var
@@ -2702,12 +2738,12 @@ p=f;var
 q=p}else
 var
 q=a;return q}function
-gq(f,i,d,c,h){var
-j=f?b:e,a=dN(i,j);function
+gt(f,i,d,c,h){var
+j=f?b:e,a=cW(i,j);function
 g(b){var
-c=f?dT(b):dU(b);return an(c,a)}var
-k=[0,a_(h),0],l=[0,[0,a,c,[0,aM,[0,g(c),0]]],k];return[0,[0,a,d,[0,g(d),0]],l]}function
-gr(r,f,q,p,e,o,n){if(o){var
+c=f?d0(b):d1(b);return an(c,a)}var
+k=[0,aX(h),0],l=[0,[0,a,c,[0,aN,[0,g(c),0]]],k];return[0,[0,a,d,[0,g(d),0]],l]}function
+gu(r,f,q,p,e,o,n){if(o){var
 y=o[1];if(y[1])return 0;if(o[2])return 0;if(n){var
 i=y[2],s=0;if(e){var
 g=e[2],b=0;if(g){var
@@ -2716,46 +2752,46 @@ a=0;b=1;c=1}else{var
 t=h[1],j=g[1],l=e[1],d=0;if(typeof
 i==="number")switch(i){case
 0:var
-A=k(cg,bm(mk)),a=d8(p,f2(f,q,0,e),A);b=1;c=1;d=1;break;case
+A=k(co,bo(mt)),a=eg(p,f9(f,q,0,e),A);b=1;c=1;d=1;break;case
 3:var
-a=w(j[2],l[1]);b=1;c=1;d=1;break}else
+a=x(j[2],l[1]);b=1;c=1;d=1;break}else
 if(4===i[0]){var
 m=i[1];if(r)if(m){var
-B=k(gp,ml),a=d8(p,cU(0,dW(f,gq(r,f,l,j,t),0),q,0),B);b=1;c=1;d=1}else{var
+B=k(gs,mu),a=eg(p,cZ(0,d3(f,gt(r,f,l,j,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=k(gp,mm),a=d8(p,cU(0,dW(f,gq(r,f,l,j,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=k(gs,mv),a=eg(p,cZ(0,d3(f,gt(r,f,l,j,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=h;if(!c)var
 v=u}else
 var
 v=g;if(!b){var
-x=v;s=1}}else{var
-x=e;s=1}if(s)var
-a=x;var
-z=a?mn:a}else
+w=v;s=1}}else{var
+w=e;s=1}if(s)var
+a=w;var
+z=a?mw:a}else
 var
 z=n;return z}return[0,n]}function
-gs(f,e,d,c,p,o,n){var
+gv(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=gr(f,e,d,c,b,a[1],g);return h?b$(h[1]):h}var
-i=gr(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d1(a[2],b),l=gs(f,e,d,c,k[1],j,a[3]);if(l){var
+h=gu(f,e,d,c,b,a[1],g);return h?cf(h[1]):h}var
+i=gu(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d7(a[2],b),l=gv(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-d9(a){return fz(c(2,b),b6(a,b))}function
-bQ(i,a,d,v,u){var
-l=a?b:G(b),f=p(l),g=go(a,d,mi),h=go(a,d,mj),m=at(g,bP(a,d,f,g)),n=[0,aa(at(h,bP(a,d,h,f)),m),0],o=at(f,bP(a,d,f,g)),q=[0,aa(at(h,bP(a,d,g,h)),o),n],r=at(f,bP(a,d,h,f)),s=[0,aa(at(g,bP(a,d,g,h)),r),q],t=a?d?p(c(2,b)):C(p(c(2,c(2,b))),cY):p(c(2,c(2,b))),j=fR([0,t,s]),k=[0,e,cd(i)];return gs(a,i,j[1],j[2],[0,k,[0,k,[0,v,0]]],1,u)}function
-gt(a,g,b){if(al(g,d9(a))){if(b){var
+eh(a){return fG(c(2,b),ca(a,b))}function
+bY(i,a,d,v,u){var
+l=a?b:H(b),f=p(l),g=gr(a,d,mr),h=gr(a,d,ms),m=at(g,bX(a,d,f,g)),n=[0,ac(at(h,bX(a,d,h,f)),m),0],o=at(f,bX(a,d,f,g)),q=[0,ac(at(h,bX(a,d,g,h)),o),n],r=at(f,bX(a,d,h,f)),s=[0,ac(at(g,bX(a,d,g,h)),r),q],t=a?d?p(c(2,b)):A(p(c(2,c(2,b))),c4):p(c(2,c(2,b))),j=fY([0,t,s]),k=[0,e,ck(i)];return gv(a,i,j[1],j[2],[0,k,[0,k,[0,v,0]]],1,u)}function
+gw(a,g,b){if(al(g,eh(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,d9(a)],v=cd(a),i=[0,d9(a),v],j=bQ(a,0,1,h,b[1]),k=j?bQ(a,0,0,i,c[1]):j;if(k){var
-l=bQ(a,1,1,h,d[1]);if(l)return bQ(a,1,0,i,e[1]);var
+h=[0,g,eh(a)],v=ck(a),i=[0,eh(a),v],j=bY(a,0,1,h,b[1]),k=j?bY(a,0,0,i,c[1]):j;if(k){var
+l=bY(a,1,1,h,d[1]);if(l)return bY(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -2772,356 +2808,400 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cd(a)],s=bQ(a,0,0,r,b[1]);if(s)return bQ(a,1,0,r,f[1]);var
+r=[0,g,ck(a)],s=bY(a,0,0,r,b[1]);if(s)return bY(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-cm(s,r){var
+cr(s,r){var
 c=s,a=r;for(;;)switch(c[0]){case
 0:if(0===a[0]){var
-k=Y(c[1],a[1]);if(k){var
-f=c[2],d=a[2];for(;;){if(w(f,b))return w(d,b)?1:Y(aT(d,aw(2))[2],e)?0:0;var
-i=aT(f,aw(2)),j=i[1];if(Y(i[2],e)){if(w(d,b))return 0;var
-g=aT(d,aw(2)),p=g[1];if(Y(g[2],e)){var
-f=j,d=p;continue}return 0}if(w(d,b))return 0;var
-h=aT(d,aw(2)),q=h[1];if(Y(h[2],e))return 0;var
+k=Z(c[1],a[1]);if(k){var
+f=c[2],d=a[2];for(;;){if(x(f,b))return x(d,b)?1:Z(aU(d,aw(2))[2],e)?0:0;var
+i=aU(f,aw(2)),j=i[1];if(Z(i[2],e)){if(x(d,b))return 0;var
+g=aU(d,aw(2)),p=g[1];if(Z(g[2],e)){var
+f=j,d=p;continue}return 0}if(x(d,b))return 0;var
+h=aU(d,aw(2)),q=h[1];if(Z(h[2],e))return 0;var
 f=j,d=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cm(c[1],a[1]);if(l){var
+l=cr(c[1],a[1]);if(l){var
 c=c[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cm(c[1],a[1]);if(m){var
+m=cr(c[1],a[1]);if(m){var
 c=c[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cm(c[1],a[1]);if(n){var
+n=cr(c[1],a[1]);if(n){var
 c=c[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cm(c[1],a[1]);if(o){var
+o=cr(c[1],a[1]);if(o){var
 c=c[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 c=c[1],a=a[1];continue}return 0}}function
-d_(a){switch(a[0]){case
+ei(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-k=a[2],l=a[1],g=k,d=l,c=function(b,a){return[0,fK(b,a)]};break;case
+k=a[2],l=a[1],g=k,d=l,c=function(b,a){return[0,fR(b,a)]};break;case
 2:var
-m=a[2],n=a[1],g=m,d=n,c=function(b,a){return[0,fK(b,[0,G(a[1]),a[2]])]};break;case
+m=a[2],n=a[1],g=m,d=n,c=function(b,a){return[0,fR(b,[0,H(a[1]),a[2]])]};break;case
 3:var
-o=a[2],p=a[1],g=o,d=p,c=function(b,a){return[0,fL(b,a)]};break;case
+o=a[2],p=a[1],g=o,d=p,c=function(b,a){return[0,fS(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,d=r,c=function(k,a){var
-d=rQ(f(a[1],b),f(e,a[2])),h=0===d?0:0<=d?2:1,i=h?0:1;if(i)return 0;var
-c=a[1],g=a4(c),j=0===g?[0,e,b]:0<g?[0,a[2],c]:[0,G(a[2]),G(c)];return[0,fL(k,j)]};break;default:return 0}var
-h=d_(d);if(h){var
-i=d_(g);if(i)return c(h[1],i[1]);var
+d=r6(f(a[1],b),f(e,a[2])),h=0===d?0:0<=d?2:1,i=h?0:1;if(i)return 0;var
+c=a[1],g=a6(c),j=0===g?[0,e,b]:0<g?[0,a[2],c]:[0,H(a[2]),H(c)];return[0,fS(k,j)]};break;default:return 0}var
+h=ei(d);if(h){var
+i=ei(g);if(i)return c(h[1],i[1]);var
 j=i}else
 var
 j=h;return j}function
-H(i,d,c){var
-f=d_(c);if(f){var
-g=f[1];return d?b$(fJ(g,[0,e,b])):fJ([0,e,b],g)}var
+w(i,d,c){var
+f=ei(c);if(f){var
+g=f[1];return d?cf(fQ(g,[0,e,b])):fQ([0,e,b],g)}var
 a=aH(i,c);if(a){var
-h=a[1];return d?al(e,h[1]):w(e,h[1])}return a}function
-gu(d,b,a){var
-c=cm(b,a);return c?c:H(d,0,[2,a,b])}function
-cn(c,b,a){var
-d=D(c,b[3],a[3]),e=D(c,b[2],a[2]);return[0,D(c,b[1],a[1]),e,d]}function
-c0(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-af(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-bn(a){return c0([4,[0,b,b],[5,af(a,a)]],a)}function
-co(c,b,a){var
-d=gu(c,b[1],a);return d?gu(c,a,b[2]):d}function
-bx(c,b,a){var
-d=co(c,b[1],a[1]),e=d?co(c,b[2],a[2]):d;return e?co(c,b[3],a[3]):e}function
-gv(a,B,C,i){var
-h=B[1],d=C;for(;;){if(h){if(d){var
-b=d[1],g=h[1];switch(g[0]){case
+h=a[1];return d?al(e,h[1]):x(e,h[1])}return a}function
+gx(d,b,a){var
+c=cr(b,a);return c?c:w(d,0,[2,a,b])}function
+bZ(c,b,a){var
+d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
+cs(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aI(a){return cs([4,[0,b,b],[5,J(a,a)]],a)}function
+ct(c,b,a){var
+d=gx(c,b[1],a);return d?gx(c,a,b[2]):d}function
+bq(c,b,a){var
+d=ct(c,b[1],a[1]),e=d?ct(c,b[2],a[2]):d;return e?ct(c,b[3],a[3]):e}function
+gy(a,L,N,j){var
+i=L[1],d=N;for(;;){if(i){if(d){var
+b=d[1],e=i[1];switch(e[0]){case
 0:var
-f=g[1];if(0===b[0])var
-n=b[4],j=b[1],o=bx(a,f[1],j),p=o?H(a,1,af(j,j)):o,q=p?bx(a,f[2],b[2]):p,r=q?bx(a,f[3],b[3]):q,s=r?co(a,f[4],n):r,t=s?H(a,1,n):s,c=t?fv(f[5],b[5]):t;else
+g=e[1];if(0===b[0])var
+q=b[4],k=b[1],r=bq(a,g[1],k),s=r?w(a,1,J(k,k)):r,t=s?bq(a,g[2],b[2]):s,u=t?bq(a,g[3],b[3]):t,v=u?ct(a,g[4],q):u,x=v?w(a,1,q):v,c=x?fC(g[5],b[5]):x;else
 var
 c=0;break;case
-1:if(1===b[0])var
-u=bx(a,g[1],b[1]),c=u?bx(a,g[2],b[2]):u;else
+1:var
+y=e[3];if(1===b[0]){var
+h=b[3],z=bq(a,e[1],b[1]),A=z?bq(a,e[2],b[2]):z,p=0;if(A)if(y){var
+M=0;if(h){var
+l=h[1],B=bq(a,y[1],l);if(B){var
+c=w(a,1,J(l,l));M=1}else
+var
+C=B}else
+var
+C=h;if(!M)var
+c=C}else
+if(h)var
+c=0;else{var
+D=1;p=1}else{var
+D=A;p=1}if(p)var
+c=D}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],v=bx(a,g[1],k),c=v?H(a,1,af(k,k)):v;else
+m=b[1],E=bq(a,e[1],m),c=E?w(a,1,J(m,m)):E;else
 var
 c=0}if(c){var
-h=h[2],d=d[2];continue}var
-w=c}else
+i=i[2],d=d[2];continue}var
+F=c}else
 var
-w=d;var
-m=w}else
+F=d;var
+o=F}else
 var
-m=d?0:1;if(m){var
-e=B[2];if(0===e[0])return bx(a,e[1],i);var
-l=e[3],x=[2,i[1],e[1]],y=[2,i[2],e[2]],z=H(a,0,[2,[2,[3,l,l],[3,x,x]],[3,y,y]]),A=z?H(a,0,l):z;return A?co(a,e[4],i[3]):A}return m}}function
-by(c,b,a){var
-d=cn(function(b,a){return[1,b,a]},a,b);return cn(function(b,a){return[2,b,a]},d,c)}function
-d$(a,e,d,c){var
-b=by(e,d,c),f=bn(a),g=c0(af(bn(a),b),f);return cn(function(b,a){return[2,b,a]},b,g)}function
-cp(f,e,d,a,c){var
-b=d$(f,e,d,c);return[2,[3,a,a],af(b,b)]}function
-c1(c,a){return c?[5,a]:[2,[0,e,b],[5,a]]}function
-bR(a,c){switch(a[0]){case
+o=d?0:1;if(o){var
+f=L[2];if(0===f[0])return bq(a,f[1],j);var
+n=f[3],G=[2,j[1],f[1]],H=[2,j[2],f[2]],I=w(a,0,[2,[2,[3,n,n],[3,G,G]],[3,H,H]]),K=I?w(a,0,n):I;return K?ct(a,f[4],j[3]):K}return o}}function
+br(c,b,a){var
+d=bZ(function(b,a){return[1,b,a]},a,b);return bZ(function(b,a){return[2,b,a]},d,c)}function
+ej(a,e,d,c){var
+b=br(e,d,c),f=aI(a),g=cs(J(aI(a),b),f);return bZ(function(b,a){return[2,b,a]},b,g)}function
+cu(f,e,d,a,c){var
+b=ej(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
+c6(c,a){return c?[5,a]:[2,[0,e,b],[5,a]]}function
+b0(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d$(d,f,e,c),h=cp(d,f,e,a[4],c),i=c0([4,[0,b,b],c1(a[5],h)],g),j=bn(d);return cn(function(b,a){return[1,b,a]},j,i);case
-1:return bn(by(a[1],a[2],c));default:return bn(a[1])}}function
-gw(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ej(d,f,e,c),h=cu(d,f,e,a[4],c),i=cs([4,[0,b,b],c6(a[5],h)],g),j=aI(d);return bZ(function(b,a){return[1,b,a]},j,i);case
+1:return aI(br(a[1],a[2],c));default:return aI(a[1])}}function
+gz(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cp(e,d,c,a[4],b),i=c1(a[5],h),j=by(d,c,b);return[2,af(bn(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cu(e,d,c,a[4],b),i=c6(a[5],h),j=br(d,c,b);return[2,J(aI(e),j),i];case
 1:var
-f=a[2],g=a[1],k=by(g,f,b);return[5,af(by(g,f,b),k)];default:return af(bn(a[1]),b)}}function
-c2(d,c,a){var
-f=[0,e,b];return cQ(function(b,d){var
-e=af(bR(b,c),a);return[1,[3,af(bR(b,c),a),e],d]},f,d)}function
-gx(a){var
+f=a[2],g=a[1],k=br(g,f,b);return[5,J(br(g,f,b),k)];default:return J(aI(a[1]),b)}}function
+cv(d,c,a){var
+f=[0,e,b];return ci(function(b,d){var
+e=J(b0(b,c),a);return[1,[3,J(b0(b,c),a),e],d]},f,d)}function
+gA(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ea(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=bn(b),h=cp(b,f,e,d,c),i=c0(c1(a[5],h),g),j=d$(b,f,e,c);return[0,[0,cn(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-gy(f,d,c,e,l,a){function
-v(a){return[3,[3,[4,[0,b,b],a],[4,[0,b,b],a]],af(e,e)]}if(typeof
+ek(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aI(b),h=cu(b,f,e,d,c),i=cs(c6(a[5],h),g),j=ej(b,f,e,c);return[0,[0,bZ(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+gB(d,i){if(d){var
+a=d[1];if(1===a[0]){var
+c=a[3];if(c)var
+f=c[1],g=br(a[1],a[2],i),k=aI(f),l=cs(J(aI(f),g),k),h=[0,bZ(function(b,a){return[2,b,a]},g,l)];else
+var
+h=c;var
+b=h}else
+var
+b=0;if(b)var
+e=gB(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+var
+j=b;return j}return mx}function
+gC(g,f,d,c,m,a){function
+y(a){return[3,[3,[4,[0,b,b],a],[4,[0,b,b],a]],J(c,c)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-O=c2(d,c,e);return H(f,1,[2,v(a[1]),O]);case
+U=cv(f,d,c);return w(g,1,[2,y(a[1]),U]);case
 1:var
-P=v(a[1]);return H(f,1,[2,c2(d,c,e),P]);case
+V=y(a[1]);return w(g,1,[2,cv(f,d,c),V]);case
 2:var
-Q=a[2],R=function(a){return[2,Q,gw(a,c)]},n=R,m=a[1];break;case
+W=a[2],X=function(a){return[2,W,gz(a,d)]},o=X,n=a[1];break;case
 3:var
-S=a[2],T=function(a){return[2,gw(a,c),S]},n=T,m=a[1];break;case
+Y=a[2],Z=function(a){return[2,gz(a,d),Y]},o=Z,n=a[1];break;case
 4:var
-w=a[3],x=a[2],U=function(a){var
-b=bR(a,c);return[2,[3,[3,x,x],af(bR(a,c),b)],[3,w,w]]},n=U,m=a[1];break;case
+z=a[3],A=a[2],_=function(a){var
+b=b0(a,d);return[2,[3,[3,A,A],J(b0(a,d),b)],[3,z,z]]},o=_,n=a[1];break;case
 5:var
-y=a[1],V=af(e,e),W=[3,[3,y,y],[3,c2(d,c,l),V]],X=af(l,l);return H(f,1,[2,[3,c2(d,c,e),X],W]);case
+B=a[1],$=J(c,c),aa=[3,[3,B,B],[3,cv(f,d,m),$]],ab=J(m,m);return w(g,1,[2,[3,cv(f,d,c),ab],aa]);case
 6:var
-z=a[2],p=bt(d,a[1]);if(p){var
-g=p[1];if(0===g[0]){var
-q=g[4],Y=cp(g[1],g[2],g[3],q,c),A=c1(g[5],Y);return H(f,1,[2,[3,[3,z,q],[3,z,q]],[3,A,A]])}var
-B=0}else
+C=a[2],q=by(f,a[1]);if(q){var
+h=q[1];if(0===h[0]){var
+r=h[4],ac=cu(h[1],h[2],h[3],r,d),D=c6(h[5],ac);return w(g,1,[2,[3,[3,C,r],[3,C,r]],[3,D,D]])}var
+E=0}else
 var
-B=p;return B;default:if(d){var
-j=d[2];if(j){var
-k=j[2];if(k){if(k[2])return 0;var
-r=ea(d[1],c);if(r){var
-C=r[1],s=ea(j[1],c);if(s){var
-D=s[1],t=ea(k[1],c);if(t){var
-E=t[1],F=[3,[3,[3,a[1],C[2]],D[2]],E[2]],h=E[1],i=D[1],u=af(C[1],[0,[2,[3,i[2],h[3]],[3,i[3],h[2]]],[2,[3,i[3],h[1]],[3,i[1],h[3]]],[2,[3,i[1],h[2]],[3,i[2],h[1]]]]),G=H(f,1,[2,F,u]);if(G)return H(f,1,[1,F,u]);var
-I=G}else
-var
-I=t;var
-J=I}else
-var
-J=s;var
-K=J}else
-var
-K=r;var
+E=q;return E;case
+7:if(f){var
+k=f[2];if(k){var
+l=k[2];if(l){if(l[2])return 0;var
+s=ek(f[1],d);if(s){var
+F=s[1],t=ek(k[1],d);if(t){var
+G=t[1],u=ek(l[1],d);if(u){var
+H=u[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=w(g,1,[2,I,x]);if(K)return w(g,1,[1,I,x]);var
 L=K}else
 var
-L=k;var
+L=u;var
 M=L}else
 var
-M=j;var
+M=t;var
 N=M}else
 var
-N=d;return N}var
-o=bt(d,m);return o?H(f,1,n(o[1])):o}function
-bz(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mo(a){switch(a[0]){case
+N=s;var
+O=N}else
+var
+O=l;var
+P=O}else
+var
+P=k;var
+Q=P}else
+var
+Q=f;return Q;case
+8:var
+ad=cv(f,d,c),ae=J(c,c);return w(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],v=gB(f,d);if(v){var
+af=v[1],S=[0,e,b],T=ci(function(a,b){var
+d=J(aI(a),c);return[1,[3,J(aI(a),c),d],b]},S,af);return w(g,1,[2,[3,[3,R,R],J(c,c)],T])}return v}var
+p=by(f,n);return p?w(g,1,o(p[1])):p}function
+bs(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+my(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bz(b[3]),f=bz(b[2]);return[0,bz(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bs(b[3]),f=bs(b[2]);return[0,bs(b[1]),f,e,d,c];case
 1:var
-g=bz(a[2]);return[1,bz(a[1]),g];default:return[2,bz(a[1])]}}function
-eb(a){if(a){var
-b=a[2],c=a[1];if(b)return o(c,[0,mp,eb(b)]);var
+g=bn(bs,a[3]),h=bs(a[2]);return[1,bs(a[1]),h,g];default:return[2,bs(a[1])]}}function
+el(a){if(a){var
+b=a[2],c=a[1];if(b)return m(c,[0,mz,el(b)]);var
 d=c}else
 var
 d=a;return d}function
-U(a){return[0,mr,o(eb(a),mq)]}function
-ab(a){return[0,mt,o(eb(a),ms)]}function
-au(a){return[0,mv,[0,a,mu]]}function
-g(b,a){return[0,Q(mx,Q(b,mw)),a]}function
-ac(b,a){return ab([0,g(b,a),0])}function
-bS(d){var
-b=d,a=lV,e=0;for(;;){if(b){var
-c=fu(a),b=b[1],a=c;continue}return[0,cc(dH(a)),e]}}function
-ec(a){return[0,cc(cO(a)),0]}function
-gz(a){var
-c=a4(a),f=0,b=0===c?lZ:0<c?[0,cO(a)]:[1,cO(G(a))];if(0===b[0])var
-d=cc(b[1]);else
+V(a){return[0,mB,m(el(a),mA)]}function
+ad(a){return[0,mD,m(el(a),mC)]}function
+au(a){return[0,mF,[0,a,mE]]}function
+g(b,a){return[0,S(mH,S(b,mG)),a]}function
+ae(b,a){return ad([0,g(b,a),0])}function
+b1(d){var
+b=d,a=l2,e=0;for(;;){if(b){var
+c=fB(a),b=b[1],a=c;continue}return[0,cj(dP(a)),e]}}function
+em(a){return[0,cj(cT(a)),0]}function
+gD(a){var
+c=a6(a),f=0,b=0===c?l6:0<c?[0,cT(a)]:[1,cT(H(a))];if(0===b[0])var
+d=cj(b[1]);else
 var
-e=cc(b[1]),d=Q(aF(1,45),e);return[0,d,f]}function
-gA(a){var
-b=0,c=0<a4(a)?cO(a):lY;return[0,cc(c),b]}function
-ed(a){switch(a[0]){case
-1:return mz;case
-2:return 2<=a[1]?mA:mB;case
-3:return mC;default:return my}}function
-c3(a){function
-b(b,a){return aU(b,ed(a))?c3(a):[0,mI,o(c3(a),mH)]}switch(a[0]){case
+e=cj(b[1]),d=S(aF(1,45),e);return[0,d,f]}function
+gE(a){var
+b=0,c=0<a6(a)?cT(a):l5;return[0,cj(c),b]}function
+en(a){switch(a[0]){case
+1:return mJ;case
+2:return 2<=a[1]?mK:mL;case
+3:return mM;default:return mI}}function
+c7(a){function
+b(b,a){return aV(b,en(a))?c7(a):[0,mS,m(c7(a),mR)]}switch(a[0]){case
 0:var
 d=a[2],e=a[1];if(typeof
 d==="number")return[0,ar(e),0];var
-f=[0,mJ,[0,ar(d),0]];return[0,ar(e),f];case
-1:return[0,mL,b(mK,a[1])];case
+f=[0,mT,[0,ar(d),0]];return[0,ar(e),f];case
+1:return[0,mV,b(mU,a[1])];case
 2:var
-g=a[3],h=b([0,ed(a)],g);switch(a[1]){case
+g=a[3],h=b([0,en(a)],g);switch(a[1]){case
 0:var
-c=mD;break;case
+c=mN;break;case
 1:var
-c=mE;break;case
+c=mO;break;case
 2:var
-c=mF;break;default:var
-c=mG}var
-i=a[2];return o(b(ed(a),i),[0,c,h]);case
+c=mP;break;default:var
+c=mQ}var
+i=a[2];return m(b(en(a),i),[0,c,h]);case
 3:var
-j=[0,mM,ec(a[2])];return o(b(mN,a[1]),j);default:return[0,mP,o(c3(a[1]),mO)]}}function
-ag(a){return[0,mR,o(c3(a),mQ)]}function
-ee(a){if(0===a[0])return ag(a[1]);var
-b=[0,g(mS,ag(a[2])),0];return ab([0,g(mT,ag(a[1])),b])}function
-ef(b,a){var
-c=[0,d(b,a[3]),0],e=[0,d(b,a[2]),c];return U([0,d(b,a[1]),e])}function
-mU(a){function
-b(a){return ef(ee,a)}switch(a[0]){case
+j=[0,mW,em(a[2])];return m(b(mX,a[1]),j);default:return[0,mZ,m(c7(a[1]),mY)]}}function
+ah(a){return[0,m1,m(c7(a),m0)]}function
+eo(a){if(0===a[0])return ah(a[1]);var
+b=[0,g(m2,ah(a[2])),0];return ad([0,g(m3,ah(a[1])),b])}function
+ep(b,a){var
+c=[0,d(b,a[3]),0],e=[0,d(b,a[2]),c];return V([0,d(b,a[1]),e])}function
+m4(a){function
+b(a){return ep(eo,a)}switch(a[0]){case
 0:var
-d=0,e=a[5]?mV:m3,f=[0,g(mW,au(e)),d],h=[0,g(mX,ee(a[4])),f],i=[0,g(mY,b(a[3])),h],j=[0,g(mZ,b(a[2])),i],k=[0,g(m0,b(a[1])),j],c=[0,g(m2,au(m1)),k];break;case
+e=0,f=a[5]?m5:nb,h=[0,g(m6,au(f)),e],i=[0,g(m7,eo(a[4])),h],j=[0,g(m8,b(a[3])),i],k=[0,g(m9,b(a[2])),j],l=[0,g(m_,b(a[1])),k],c=[0,g(na,au(m$)),l];break;case
 1:var
-l=[0,g(m4,b(a[2])),0],m=[0,g(m5,b(a[1])),l],c=[0,g(m7,au(m6)),m];break;default:var
-n=[0,g(m8,b(a[1])),0],c=[0,g(m_,au(m9)),n]}return ab(c)}function
-gB(b){var
-e=[0,g(nf,ag(b[5])),0],f=b[4]?ng:nm,h=[0,g(nh,au(f)),e],c=b[3],i=c?[0,g(nj,ac(ni,U([0,ag(c[1]),0]))),0]:c,j=o(i,h),d=b[2],k=d?[0,g(nk,bS(d[1])),0]:d,l=o(k,j);switch(b[1]){case
+d=a[3],n=d?[0,g(nc,b(d[1])),0]:d,o=[0,g(nd,b(a[2])),0],p=[0,g(ne,b(a[1])),o],c=m([0,g(ng,au(nf)),p],n);break;default:var
+q=[0,g(nh,b(a[1])),0],c=[0,g(nj,au(ni)),q]}return ad(c)}function
+gF(b){var
+f=[0,g(ns,ah(b[5])),0],h=b[4]?nt:nA,i=[0,g(nu,au(h)),f],c=b[3];if(c)var
+k=V([0,ah(c[1]),0]),j=0,l=6===b[1]?nv:nz,e=[0,g(nw,ae(l,k)),j];else
+var
+e=c;var
+n=m(e,i),d=b[2],o=d?[0,g(nx,b1(d[1])),0]:d,p=m(o,n);switch(b[1]){case
 0:var
-a=m$;break;case
+a=nk;break;case
 1:var
-a=na;break;case
+a=nl;break;case
 2:var
-a=nb;break;case
+a=nm;break;case
 3:var
-a=nc;break;case
+a=nn;break;case
 4:var
-a=nd;break;default:var
-a=ne}return ab([0,g(nl,au(a)),l])}function
-eg(a){return U(k(gz,a))}function
-gC(b,a){var
-c=[0,g(nK,gA(a)),0];return ab([0,g(nL,U(k(eg,b))),c])}function
-gD(a){switch(a[0]){case
+a=no;break;case
+5:var
+a=np;break;case
+6:var
+a=nq;break;default:var
+a=nr}return ad([0,g(ny,au(a)),p])}function
+eq(a){return V(k(gD,a))}function
+gG(b,a){var
+c=[0,g(nY,gE(a)),0];return ad([0,g(nZ,V(k(eq,b))),c])}function
+gH(a){switch(a[0]){case
 0:return au(a[1]);case
 1:var
-b=gC(a[2],a[3]);return ac(a[1],b);case
+b=gG(a[2],a[3]);return ae(a[1],b);case
 2:var
-c=a[1]?nM:nO;return ac(nN,au(c));case
+c=a[1]?n0:n2;return ae(n1,au(c));case
 3:var
-d=[0,eg(a[3]),0];return ac(nP,U([0,gC(a[1],a[2]),d]));default:var
-e=[0,gA(a[3]),0],f=[0,gz(a[2]),e];return ac(nQ,U([0,gD(a[1]),f]))}}function
-nR(a){var
-b=[0,gD(a[2]),0];return U([0,bS(a[1]),b])}function
-nS(c){var
-b=c[2],d=b?[0,g(nT,bS(b[1])),0]:b,a=c[1],e=a?[0,g(nU,U(k(nR,[0,a[1],a[2]]))),0]:a;return ab(o(e,d))}function
-gE(h){function
-i(a){return F(h,a)}var
-c=m(h);if(0===c)var
+d=[0,eq(a[3]),0];return ae(n3,V([0,gG(a[1],a[2]),d]));default:var
+e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return ae(n4,V([0,gH(a[1]),f]))}}function
+n5(a){var
+b=[0,gH(a[2]),0];return V([0,b1(a[1]),b])}function
+n6(c){var
+b=c[2],d=b?[0,g(n7,b1(b[1])),0]:b,a=c[1],e=a?[0,g(n8,V(k(n5,[0,a[1],a[2]]))),0]:a;return ad(m(e,d))}function
+er(h){function
+i(a){return G(h,a)}var
+c=n(h);if(0===c)var
 d=[0];else
 if(0<=c){var
-f=rv(c,i(0)),g=c-1|0,j=1;if(!(g<1)){var
+f=rL(c,i(0)),g=c-1|0,j=1;if(!(g<1)){var
 a=j;for(;;){f[1+a]=i(a);var
 k=a+1|0;if(g!==a){var
 a=k;continue}break}}var
 d=f}else
 var
-d=bj(js);var
+d=bl(jz);var
 b=d.length-1-1|0,e=0;for(;;){if(0<=b){var
-l=[0,d[1+b],e],b=b-1|0,e=l;continue}return aL(function(a){var
-b=b$(34===a?1:0),c=b?b$(92===a?1:0):b,d=c?aU(of,fI(a)):c;return d?aU(fI(a),og):d},e)}}function
-gF(a,b){return b?[3,gF(a,b[1]),a]:a}function
-v(a){switch(a[0]){case
+l=[0,d[1+b],e],b=b-1|0,e=l;continue}return az(function(a){var
+b=cf(34===a?1:0),c=b?cf(92===a?1:0):b,d=c?aV(ot,fP(a)):c;return d?aV(fP(a),ou):d},e)}}function
+gI(a,b){return b?[3,gI(a,b[1]),a]:a}function
+s(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,y(c(2,c(2,b)))),k=function(a){return f(j,a)},l=fw(fs(i),k,b);return[0,fB(ft(dH(a[1]),i)),l];case
+i=a[2],j=c(2,z(c(2,c(2,b)))),k=function(a){return f(j,a)},l=fD(fz(i),k,b);return[0,fI(fA(dP(a[1]),i)),l];case
 1:var
-d=v(a[1]);return 0===d[0]?[0,G(d[1]),d[2]]:[2,[0,e,b],d];case
+d=s(a[1]);return 0===d[0]?[0,H(d[1]),d[2]]:[2,[0,e,b],d];case
 2:var
-g=v(a[2]),h=v(a[3]);switch(a[1]){case
+g=s(a[2]),h=s(a[3]);switch(a[1]){case
 0:return[1,g,h];case
 1:return[2,g,h];case
 2:return[3,g,h];default:return[4,g,h]}case
 3:var
-m=dI(fy(a[2]));return gF(v(a[1]),m);default:return[5,v(a[1])]}}function
-cq(a){if(0===a[0]){var
-b=v(a[1]);return[0,b,b]}var
-c=v(a[2]);return[0,v(a[1]),c]}function
-bT(a){var
-b=cq(a[3]),c=cq(a[2]);return[0,cq(a[1]),c,b]}function
-oh(a){switch(a[0]){case
+m=dQ(fF(a[2]));return gI(s(a[1]),m);default:return[5,s(a[1])]}}function
+cw(a){if(0===a[0]){var
+b=s(a[1]);return[0,b,b]}var
+c=s(a[2]);return[0,s(a[1]),c]}function
+bF(a){var
+b=cw(a[3]),c=cw(a[2]);return[0,cw(a[1]),c,b]}function
+ov(a){switch(a[0]){case
 0:var
-b=a[5],c=cq(a[4]),d=bT(a[3]),e=bT(a[2]);return[0,[0,bT(a[1]),e,d,c,b]];case
+b=a[5],c=cw(a[4]),d=bF(a[3]),e=bF(a[2]);return[0,[0,bF(a[1]),e,d,c,b]];case
 1:var
-f=bT(a[2]);return[1,bT(a[1]),f];default:return[2,bT(a[1])]}}function
-oi(a){if(a[1])return 0;var
-b=a[4],c=b?[0,[0,v(a[5])],0]:b;return c}function
-eh(f,a,e){var
-u=aq(f),r=bH(function(b){var
-a=v(b[5]);switch(b[1]){case
+f=bn(bF,a[3]),g=bF(a[2]);return[1,bF(a[1]),g,f];default:return[2,bF(a[1])]}}function
+ow(a){if(a[1])return 0;var
+b=a[4],c=b?[0,[0,s(a[5])],0]:b;return c}function
+es(f,a,e){var
+v=aq(f),r=bP(function(b){var
+a=s(b[5]);switch(b[1]){case
 0:return b[4]?0:[0,[1,a],0];case
 1:var
 c=function(c){return b[4]?[3,c,a]:[2,c,a]};break;case
 2:var
 d=b[3];if(!d)return d;var
-g=d[1],c=function(b){return[4,b,v(g),a]};break;case
+h=d[1],c=function(b){return[4,b,s(h),a]};break;case
 3:return[0,[5,a],0];case
 4:var
-c=function(b){return[6,b,a]};break;default:return[0,[7,a],0]}var
-e=b[2],f=e?[0,dI(e[1]),0]:fG(0,u);return k(c,f)},e),c=bH(oi,e),s=c?[0,c[1],c[2]]:om,t=o(s,r);if(0===a[0])var
+c=function(b){return[6,b,a]};break;case
+5:return[0,[7,a],0];case
+6:var
+e=b[3],i=e?[0,[8,s(e[1]),a],0]:e;return i;default:return[0,[9,a],0]}var
+f=b[2],g=f?[0,dQ(f[1]),0]:fN(0,v);return k(c,g)},e),c=bP(ow,e),t=c?[0,c[1],c[2]]:oA,u=m(t,r);if(0===a[0])var
 h=a[2],i=a[1],b=function(a){var
-b=v(d(a,h));return[0,v(d(a,i)),b]},j=b(function(a){return a[3]}),l=b(function(a){return a[2]}),g=[0,[0,b(function(a){return a[1]}),l,j]];else
+b=s(d(a,h));return[0,s(d(a,i)),b]},j=b(function(a){return a[3]}),l=b(function(a){return a[2]}),g=[0,[0,b(function(a){return a[1]}),l,j]];else
 var
-m=v(a[5]),n=[0,v(a[4]),m],p=v(a[3]),q=v(a[2]),g=[1,v(a[1]),q,p,n];return[0,k(oh,f),g,t]}var
-ah=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-ei(h){var
-a=cQ(function(f,d){var
-a=aH(ah,f);if(a)var
-b=a[1],c=bs(dt(b[1]),dt(b[2]));else
+n=s(a[5]),o=[0,s(a[4]),n],p=s(a[3]),q=s(a[2]),g=[1,s(a[1]),q,p,o];return[0,k(ov,f),g,u]}var
+aa=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+c8(h){var
+a=ci(function(f,d){var
+a=aH(aa,f);if(a)var
+b=a[1],c=bx(dB(b[1]),dB(b[2]));else
 var
-c=e;return bs(c,d)},e,h);if(al(e,a)){var
-f=a4(a);if(0===f||!(0<f&&!w(a,b)))var
+c=e;return bx(c,d)},e,h);if(al(e,a)){var
+f=a6(a);if(0===f||!(0<f&&!x(a,b)))var
 g=e;else
 var
-c=aT(a,aw(2)),d=c[1],g=Y(c[2],e)?cN(d):cN(d);return b6(g,ah)}return e}function
-c4(a){return[0,a[1],[0,a[2],0]]}function
-bU(a){var
-b=c4(a[3]),c=o(c4(a[2]),b);return o(c4(a[1]),c)}function
-on(a){return 0===a[0]?c4(a[1][4]):0}function
-oo(a){switch(a[0]){case
+c=aU(a,aw(2)),d=c[1],g=Z(c[2],e)?cS(d):cS(d);return ca(g,aa)}return e}function
+c9(a){return[0,a[1],[0,a[2],0]]}function
+bG(a){var
+b=c9(a[3]),c=m(c9(a[2]),b);return m(c9(a[1]),c)}function
+oB(a){return 0===a[0]?c9(a[1][4]):0}function
+oC(a){switch(a[0]){case
 0:var
-b=a[1],c=bU(b[3]);return o(bU(b[2]),c);case
+b=a[1],c=bG(b[3]);return m(bG(b[2]),c);case
 1:var
-d=bU(a[2]);return o(bU(a[1]),d);default:return 0}}function
-op(a){switch(a[0]){case
-0:return ei(bU(a[1][1]));case
-1:return e;default:return ei(bU(a[1]))}}function
-gG(a){switch(a[0]){case
+d=bG(a[2]);return m(bG(a[1]),d);default:return 0}}function
+oD(a){switch(a[0]){case
+0:return c8(bG(a[1][1]));case
+1:var
+b=a[3];return b?c8(bG(b[1])):e;default:return c8(bG(a[1]))}}function
+gJ(a){switch(a[0]){case
 0:var
-b=a[1];if(aD(b,oq))return or;if(aD(b,os))return ot;if(aD(b,ou))return ov;if(aD(b,ow))return ox;var
-g=aD(b,oy),i=g?oz:g;return i;case
+b=a[1];if(aD(b,oE))return oF;if(aD(b,oG))return oH;if(aD(b,oI))return oJ;if(aD(b,oK))return oL;var
+g=aD(b,oM),i=g?oN:g;return i;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aD(e,oA))return[0,[0,c,d]];if(aD(e,oB))return[0,[1,c,d]];var
-h=aD(e,oC),j=h?[0,[2,c,d]]:h;return j;case
+c=a[3],d=a[2],e=a[1];if(aD(e,oO))return[0,[0,c,d]];if(aD(e,oP))return[0,[1,c,d]];var
+h=aD(e,oQ),j=h?[0,[2,c,d]]:h;return j;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];default:var
-f=gG(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k}}function
-gH(a){if(a){var
-d=a[1],b=gG(d[2]);if(b)var
-c=gH(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+f=gJ(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k}}function
+gK(a){if(a){var
+d=a[1],b=gJ(d[2]);if(b)var
+c=gK(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return oD}function
-c5(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=gH(g[1]);if(c){var
+e=b;return e}return oR}function
+c_(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=gK(g[1]);if(c){var
 k=c[1];if(h){var
-d=c5(j,i);if(d){var
-l=d[1],e=c5(j,l[2]);if(e)var
+d=c_(j,i);if(d){var
+l=d[1],e=c_(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -3136,47 +3216,52 @@ var
 f=a;else
 var
 f=b;return f}function
-ej(d,a){if(d){if(a){var
-b=c5(aq(a),a);if(b)var
-e=b[1],c=ej(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+et(d,a){if(d){if(a){var
+b=c_(aq(a),a);if(b)var
+e=b[1],c=et(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return oE}return a?0:oF}function
-c6(b,a){return 0===b[0]?[0,v(b[1]),a]:a?[0,a[1],a[2]]:[0,v(b[1]),0]}function
-bV(a,e){var
-b=c6(a[1],e),c=c6(a[2],b[2]),d=c6(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-gI(d,b){if(d){var
+f=b;return f}return oS}return a?0:oT}function
+c$(b,a){return 0===b[0]?[0,s(b[1]),a]:a?[0,a[1],a[2]]:[0,s(b[1]),0]}function
+bH(a,e){var
+b=c$(a[1],e),c=c$(a[2],b[2]),d=c$(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+gL(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bV(a[1],b),f=bV(a[2],e[2]),g=bV(a[3],f[2]),h=c6(a[4],g[2]),c=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bH(a[1],c),f=bH(a[2],e[2]),g=bH(a[3],f[2]),h=c$(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=bV(a[1],b),j=bV(a[2],i[2]),c=[0,[1,i[1],j[1]],j[2]];break;default:var
-k=bV(a[1],b),c=[0,[2,k[1]],k[2]]}var
-l=gI(d[2],c[2]);return[0,[0,c[1],l[1]],l[2]]}return[0,0,b]}function
-oH(a){if(typeof
+i=a[3],j=bH(a[1],c),k=j[1],l=bH(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bH(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+var
+b=[0,[1,k,n,0],m];break;default:var
+p=bH(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=gL(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+oV(a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
-c=H(ah,1,a[2]);return c?H(ah,1,a[3]):c;case
-5:return H(ah,1,[2,a[1],[0,b,b]]);case
-6:return H(ah,1,a[2]);case
+c=w(aa,1,a[2]);return c?w(aa,1,a[3]):c;case
+5:return w(aa,1,[2,a[1],[0,b,b]]);case
+6:return w(aa,1,a[2]);case
+8:var
+d=w(aa,1,a[1]);return d?w(aa,1,a[2]):d;case
 2:case
-3:break;default:return H(ah,1,a[1])}return 1}function
-gJ(c,f,e){var
-d=aU(oI,aq(c));if(d)var
-b=aq(c),a=aL(function(a){switch(a[1]){case
+3:break;default:return w(aa,1,a[1])}return 1}function
+gM(c,f,e){var
+d=aV(oW,aq(c));if(d)var
+b=aq(c),a=az(function(a){switch(a[1]){case
 0:return a[2]?0:a[3]?0:1;case
 1:var
 c=a[2];if(c){var
 d=c[1];if(a[3])return 0;var
-e=aU(oj,d);return e?aU(d,b):e}return a[3]?0:1;case
+e=aV(ox,d);return e?aV(d,b):e}return a[3]?0:1;case
 2:var
 f=a[4];if(f){var
 g=a[2];if(g){var
 h=g[1],i=a[3];if(i){var
-j=aU(ok,h);if(j)return aU(h,b);var
+j=aV(oy,h);if(j)return aV(h,b);var
 k=j}else
 var
 k=i;return k}var
-l=a[3],s=l?1:l,m=s}else
+l=a[3],t=l?1:l,m=t}else
 var
 m=f;return m;case
 3:var
@@ -3187,35 +3272,49 @@ o=n;return o;case
 4:if(a[4])return 0;var
 p=a[2];if(p){var
 q=p[1];if(a[3])return 0;var
-r=aU(ol,q);return r?aU(q,b):r}return a[3]?0:1;default:return a[4]?0:a[2]?0:a[3]?0:1}},f);else
+r=aV(oz,q);return r?aV(q,b):r}return a[3]?0:1;case
+6:if(a[4])return 0;if(a[2])return 0;var
+s=a[3],u=s?1:s;return u;default:return a[4]?0:a[2]?0:a[3]?0:1}},f);else
 var
-a=d;return a?aL(oH,e[3]):a}function
-oJ(l){var
-bb=gE(l[3]),bc=bb?gE(l[4]):bb;if(bc){var
-m=l[1];switch(m[0]){case
+a=d;return a?az(oV,e[3]):a}function
+oX(i){var
+a0=er(i[3]),a1=a0?er(i[4]):a0;if(a1){var
+a2=i[2];if(0===a2[0])var
+b9=a2[2],P=az(function(a){var
+b=a[1];return az(function(b){var
+a=b[2];for(;;)switch(a[0]){case
+4:var
+a=a[1];continue;case
+0:case
+1:return er(a[1]);default:return 1}},b)},b9);else
+var
+P=1}else
+var
+P=a1;if(P){var
+n=i[1];switch(n[0]){case
 0:var
-C=m[3],ao=m[2],s=m[1],t=l[2];if(0===t[0]){var
-bd=t[2],a=eh(s,ao,C),ap=c5(aq(bd),bd);if(ap){var
-be=ap[1];if(be[2])return 0;var
-bf=gJ(s,C,a);if(bf){var
-b8=be[1],bg=k(op,a[1]),bh=a[1],ad=bH(on,bh),b7=ad?[0,ad[1],ad[2]]:bH(oo,bh),f=z(b,ei(b7)),c=t[1],x=a[2],b4=0===x[0]?bz(x[1]):[0,x[1],x[2],x[4][1]],aV=gv(ah,a,k(mo,a[1]),b4);if(aV){var
-aD=gh(f,bg,a[1]),q=gi(f,bg,a[1],0),aE=aq(aD),bL=gk(q,f,aE,a[3]),bN=o(gm(gd(q)),bL),aF=o(gm(gc(q)),bN),aG=fR(aF)[1],bG=0,bJ=function(a){return[0,a]},w=cU(p(e),bJ,aG,bG),aH=aL(function(a){var
-b=p(e);return bu(ay(bI(w,a),w,b),a)},aF);if(aH){var
-aI=fF(mh,a[3]);if(aI){var
-bO=a[3],bP=o(aD,k(function(a){return cl(f,a)},bO)),W=ch(k(function(a){return ci(c,a)},bP));if(W){var
+D=n[3],ap=n[2],t=n[1],u=i[2];if(0===u[0]){var
+bg=u[2],a=es(t,ap,D),ar=c_(aq(bg),bg);if(ar){var
+bh=ar[1];if(bh[2])return 0;var
+bi=gM(t,D,a);if(bi){var
+cb=bh[1],bj=k(oD,a[1]),bk=a[1],ag=bP(oB,bk),ca=ag?[0,ag[1],ag[2]]:bP(oC,bk),f=B(b,c8(ca)),c=u[1],y=a[2],b8=0===y[0]?bs(y[1]):[0,y[1],y[2],y[4][1]],aW=gy(aa,a,k(my,a[1]),b8);if(aW){var
+aF=gk(f,bj,a[1]),q=gl(f,bj,a[1],0),aG=aq(aF),bM=go(q,f,aG,a[3]),bN=m(ee(gh(q)),bM),aH=m(ee(gg(q)),bN),aI=fY(aH)[1],bJ=0,bK=function(a){return[0,a]},x=cZ(p(e),bK,aI,bJ),aJ=az(function(a){var
+b=p(e);return bz(ay(bQ(x,a),x,b),a)},aH);if(aJ){var
+aK=fM(mq,a[3]);if(aK){var
+bO=a[3],bR=m(aF,k(function(a){return bE(f,a)},bO)),Y=cq(k(function(a){return bV(c,a)},bR));if(Y){var
 r=a[2];if(0===r[0])var
-aJ=r[1];else
+aL=r[1];else
 var
-E=r[3],aB=r[2],aC=r[1],aJ=[0,[0,[2,aC,E],[1,aC,E]],[0,[2,aB,E],[1,aB,E]],r[4]];var
-bQ=bw(aJ,f),X=ch(k(function(a){return ci(c,a)},bQ));if(X){var
-bS=a[3],Y=ch(gl(c,function(a){return bI(w,a)},q,f,aE,bS));if(Y){var
-aK=Y[1],bK=k(function(a){return 1},aK),F=a[2],bT=X[1],bU=function(e){if(0===F[0])return 0;if(e){var
+F=r[3],aD=r[2],aE=r[1],aL=[0,[0,[2,aE,F],[1,aE,F]],[0,[2,aD,F],[1,aD,F]],r[4]];var
+bS=bp(aL,f),Z=cq(k(function(a){return bV(c,a)},bS));if(Z){var
+bT=a[3],_=cq(gp(c,function(a){return bQ(x,a)},q,f,aG,bT));if(_){var
+aM=_[1],bL=k(function(a){return 1},aM),G=a[2],bW=Z[1],bX=function(e){if(0===G[0])return 0;if(e){var
 a=e[2];if(a){var
 g=a[2];if(g){if(g[2])return 0;var
-b=a[1],d=e[1],h=bv(c,f,F[1]);if(h){var
-i=bv(c,f,F[2]);if(i){var
-j=bv(c,f,F[3]);if(j)var
-s=h[1],t=a$(d),k=an([0,a$(d),t],s),u=i[1],v=a$(b),l=an([0,a$(b),v],u),w=bM(b),x=[0,bM(b),w],y=[0,S(c,as(M(l,l)),x),0],z=bM(d),A=[0,bM(d),z],B=[0,S(c,as(M(k,k)),A),y],C=bl(c,l),D=bl(c,k),m=[0,[0,an(an(bl(c,j[1]),D),C),aM,B]];else
+b=a[1],d=e[1],h=bB(c,f,G[1]);if(h){var
+i=bB(c,f,G[2]);if(i){var
+j=bB(c,f,G[3]);if(j)var
+s=h[1],t=bb(d),k=an([0,bb(d),t],s),u=i[1],v=bb(b),l=an([0,bb(b),v],u),w=bU(b),x=[0,bU(b),w],y=[0,U(c,as(N(l,l)),x),0],z=bU(d),A=[0,bU(d),z],B=[0,U(c,as(N(k,k)),A),y],C=ba(c,l),D=ba(c,k),m=[0,[0,an(an(ba(c,j[1]),D),C),aN,B]];else
 var
 m=j;var
 n=m}else
@@ -3232,183 +3331,183 @@ var
 q=a;var
 r=q}else
 var
-r=e;return r},bV=W[1],bW=gd(q),bX=d(dZ(function(a){return bI(w,a)}),bW),bY=gc(q);return f7(c,aG,d(dZ(function(a){return bI(w,a)}),bY),bX,bV,aK,bU,bT,bK,b8)}var
-aN=Y}else
+r=e;return r},bY=Y[1],bZ=gh(q),b1=d(cn(function(a){return bQ(x,a)}),bZ),b2=gg(q);return gc(c,aI,d(cn(function(a){return bQ(x,a)}),b2),b1,bY,aM,bX,bW,bL,cb)}var
+aO=_}else
 var
-aN=X;var
-aO=aN}else
+aO=Z;var
+aP=aO}else
 var
-aO=W;var
-Z=aO}else
+aP=Y;var
+$=aP}else
 var
-Z=aI}else
+$=aK}else
 var
-Z=aH;return Z}return aV}var
-bi=bf}else
+$=aJ;return $}return aW}var
+bl=bi}else
 var
-bi=ap;return bi}var
-O=t[2];if(O){var
-P=O[2];if(P){var
-Q=P[2];if(Q){if(Q[2])return 0;var
-bj=gI(s,k(v,t[3]));if(bj[2])return 0;var
-u=t[4];if(typeof
-u==="number")var
-g=oG;else
-if(0===u[0]){var
-ae=u[2],ag=u[1];if(ae){var
-G=ae[1],ax=0;if(G){var
-I=G[2],U=0;if(I){var
-J=I[2],V=0;if(J)if(J[2]){var
-g=0;U=1;V=1}else{var
-ai=J[1],aj=I[1],ak=G[1],am=ae[2];if(am){var
-K=am[1],bB=0;if(K){var
-L=K[2],bC=0;if(L){var
-N=L[2],bD=0;if(N)if(N[2]||am[2]){var
-g=0;U=1;V=1;bB=1;bC=1;bD=1}else
+bl=ar;return bl}var
+Q=u[2];if(Q){var
+R=Q[2];if(R){var
+S=R[2];if(S){if(S[2])return 0;var
+bm=gL(t,k(s,u[3]));if(bm[2])return 0;var
+v=u[4];if(typeof
+v==="number")var
+g=oU;else
+if(0===v[0]){var
+ah=v[2],ai=v[1];if(ah){var
+H=ah[1],aA=0;if(H){var
+I=H[2],W=0;if(I){var
+K=I[2],X=0;if(K)if(K[2]){var
+g=0;W=1;X=1}else{var
+aj=K[1],ak=I[1],am=H[1],ao=ah[2];if(ao){var
+L=ao[1],bD=0;if(L){var
+M=L[2],bF=0;if(M){var
+O=M[2],bG=0;if(O)if(O[2]||ao[2]){var
+g=0;W=1;X=1;bD=1;bF=1;bG=1}else
 var
-a5=[0,[0,ag,[0,[0,ak,aj],ai],[0,[0,K[1],L[1]],N[1]]]];else
+a9=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,L[1],M[1]],O[1]]]];else
 var
-a5=N;if(!bD)var
-a6=a5}else
+a9=O;if(!bG)var
+a_=a9}else
 var
-a6=L;if(!bC)var
-a7=a6}else
+a_=M;if(!bF)var
+a$=a_}else
 var
-a7=K;if(!bB){var
-g=a7;U=1;V=1}}else
+a$=L;if(!bD){var
+g=a$;W=1;X=1}}else
 var
-a8=[0,[0,ag,[0,[0,ak,aj],ai],[0,[0,ak,aj],ai]]]}else
+bc=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,am,ak],aj]]]}else
 var
-a8=J;if(!V)var
-a9=a8}else
+bc=K;if(!X)var
+bd=bc}else
 var
-a9=I;if(!U){var
-a_=a9;ax=1}}else{var
-a_=G;ax=1}if(ax)var
-g=a_}else
+bd=I;if(!W){var
+be=bd;aA=1}}else{var
+be=H;aA=1}if(aA)var
+g=be}else
 var
-ba=[0,[0,e,e],e],g=[0,[0,ag,ba,ba]]}else
+bf=[0,[0,e,e],e],g=[0,[0,ai,bf,bf]]}else
 var
-g=[0,[1,u[1],u[2]]];if(g){var
-bk=gJ(s,C,eh(s,ao,C));if(bk){var
-n=g[1],b9=v(Q[1]),b_=v(P[1]),i=[0,v(O[1]),b_,b9],D=bj[1],ar=eh(s,ao,C),aS=gv(ah,ar,D,i);if(aS)if(typeof
-n==="number")return fF(function(a){switch(a[0]){case
+g=[0,[1,v[1],v[2]]];if(g){var
+bn=gM(t,D,es(t,ap,D));if(bn){var
+o=g[1],cc=s(S[1]),cd=s(R[1]),j=[0,s(Q[1]),cd,cc],E=bm[1],at=es(t,ap,D),aT=gy(aa,at,E,j);if(aT)if(typeof
+o==="number")return fM(function(a){switch(a[0]){case
 0:var
-c=[0,cp(a[1],a[2],a[3],a[4],i)];break;case
+c=[0,cu(a[1],a[2],a[3],a[4],j)];break;case
 1:var
-d=a[2],f=a[1],g=by(f,d,i),c=[0,af(by(f,d,i),g)];break;default:var
-c=0}return c?H(ah,0,[2,[0,e,b],c[1]]):c},D);else{if(0===n[0]){var
-aa=bt(ar[3],n[1]);if(aa){var
-b0=aa[1],b1=gx(n[3]);return gy(ah,D,i,gx(n[2]),b1,b0)}return aa}var
-ab=bt(ar[3],n[1]);if(ab){var
-ac=bt(D,n[2]);if(ac){var
-aT=ac[1],b2=ab[1],b3=bR(aT,i);return gy(ah,D,i,bR(aT,i),b3,b2)}var
-aU=ac}else
+d=a[2],f=a[1],g=br(f,d,j),c=[0,J(br(f,d,j),g)];break;default:var
+c=0}return c?w(aa,0,[2,[0,e,b],c[1]]):c},E);else{if(0===o[0]){var
+ad=by(at[3],o[1]);if(ad){var
+b4=ad[1],b5=gA(o[3]);return gC(aa,E,j,gA(o[2]),b5,b4)}return ad}var
+ae=by(at[3],o[1]);if(ae){var
+af=by(E,o[2]);if(af){var
+aU=af[1],b6=ae[1],b7=b0(aU,j);return gC(aa,E,j,b0(aU,j),b7,b6)}var
+aV=af}else
 var
-aU=ab;return aU}return aS}var
-bm=bk}else
-var
-bm=g;var
-bn=bm}else
-var
-bn=Q;var
+aV=ae;return aV}return aT}var
 bo=bn}else
 var
-bo=P;var
-bp=bo}else
+bo=g;var
+bq=bo}else
 var
-bp=O;return bp;case
-1:if(0===l[2][0]){var
-R=m[3],az=0;if(R){var
-y=R[1],aZ=y[5],h=R[2];if(y[1]||y[2]||y[3])var
-j=0;else
-if(y[4]){var
-bE=0;if(h){var
+bq=S;var
+bt=bq}else
+var
+bt=R;var
+bu=bt}else
+var
+bu=Q;return bu;case
+1:if(0===i[2][0]){var
+T=n[3],aB=0;if(T){var
+z=T[1],a3=z[5],h=T[2];if(z[1]||z[2]||z[3])var
+l=0;else
+if(z[4]){var
+bH=0;if(h){var
 A=h[1];if(A[1]||A[2]||A[3]||A[4]||h[2]){var
-j=0;bE=1}else
+l=0;bH=1}else
 var
-b5=v(aZ),a0=[0,[0,v(A[5]),b5]]}else
+b_=s(a3),a4=[0,[0,s(A[5]),b_]]}else
 var
-a0=h;if(!bE)var
-j=a0}else{var
-aA=0;if(h){var
-B=h[1];if(B[1]||B[2]||B[3]){var
-j=0;aA=1}else{var
-a1=B[4],bF=0;if(a1)if(h[2]){var
-j=0;aA=1;bF=1}else
+a4=h;if(!bH)var
+l=a4}else{var
+aC=0;if(h){var
+C=h[1];if(C[1]||C[2]||C[3]){var
+l=0;aC=1}else{var
+a5=C[4],bI=0;if(a5)if(h[2]){var
+l=0;aC=1;bI=1}else
 var
-b6=v(B[5]),a2=[0,[0,v(aZ),b6]];else
+b$=s(C[5]),a6=[0,[0,s(a3),b$]];else
 var
-a2=a1;if(!bF)var
-a3=a2}}else
+a6=a5;if(!bI)var
+a7=a6}}else
 var
-a3=h;if(!aA){var
-a4=a3;az=1}}}else{var
-a4=R;az=1}if(az)var
-j=a4;if(j){var
-bq=j[1],br=bq[2],bs=bq[1],aW=H(ah,1,v(m[2])),aX=aW?H(ah,1,[2,br,[0,b,b]]):aW,aY=aX?H(ah,1,bs):aX;return aY?H(ah,0,[2,[4,[0,b,b],br],bs]):aY}return j}return 0;default:var
-bx=m[1];if(bx){var
-at=l[2];if(0===at[0]){var
-au=ej(oK,at[2]);if(au){var
-b$=au[1],bA=cq(bx[1])[2],T=at[1],_=bv(T,e,bA);if(_){var
-$=bv(T,e,[4,[0,b,b],bA]);if($){var
-bZ=_[1][1],aP=al(cd(T),bZ);if(aP)return gt(T,$[1][1],b$);var
-aQ=aP}else
-var
-aQ=$;var
+a7=h;if(!aC){var
+a8=a7;aB=1}}}else{var
+a8=T;aB=1}if(aB)var
+l=a8;if(l){var
+bv=l[1],bw=bv[2],bx=bv[1],aX=w(aa,1,s(n[2])),aY=aX?w(aa,1,[2,bw,[0,b,b]]):aX,aZ=aY?w(aa,1,bx):aY;return aZ?w(aa,0,[2,[4,[0,b,b],bw],bx]):aZ}return l}return 0;default:var
+bA=n[1];if(bA){var
+au=i[2];if(0===au[0]){var
+av=et(oY,au[2]);if(av){var
+ce=av[1],bC=cw(bA[1])[2],V=au[1],ab=bB(V,e,bC);if(ab){var
+ac=bB(V,e,[4,[0,b,b],bC]);if(ac){var
+b3=ab[1][1],aQ=al(ck(V),b3);if(aQ)return gw(V,ac[1][1],ce);var
 aR=aQ}else
 var
-aR=_;return aR}return au}return 0}var
-av=l[2];if(0===av[0]){var
-aw=ej(oL,av[2]);return aw?gt(av[1],e,aw[1]):aw}return 0}}return bc}var
-r=[O,oO,dk(0)],gK=[O,oP,dk(0)];function
-oM(O,e){var
-I=[0,g(n7,au(e[4])),0],J=[0,g(n9,ab([0,g(n8,au(e[3])),I])),0],c=e[2];if(0===c[0])var
-A=[0,g(nV,U(k(nS,c[2]))),0],m=ac(nX,ab([0,g(nW,ec(c[1])),A]));else{var
+aR=ac;var
+aS=aR}else
+var
+aS=ab;return aS}return av}return 0}var
+aw=i[2];if(0===aw[0]){var
+ax=et(oZ,aw[2]);return ax?gw(aw[1],e,ax[1]):ax}return 0}}return P}var
+q=[Q,o2,dt(0)],gN=[Q,o3,dt(0)];function
+o0(O,e){var
+I=[0,g(oj,au(e[4])),0],J=[0,g(ol,ad([0,g(ok,au(e[3])),I])),0],c=e[2];if(0===c[0])var
+A=[0,g(n9,V(k(n6,c[2]))),0],n=ae(n$,ad([0,g(n_,em(c[1])),A]));else{var
 d=c[4],f=c[3],B=0;if(typeof
 d==="number")var
-h=au(nY);else
+h=au(oa);else
 if(0===d[0])var
-G=[0,U(k(eg,d[2])),0],h=ac(n4,U([0,bS(d[1]),G]));else
+G=[0,V(k(eq,d[2])),0],h=ae(og,V([0,b1(d[1]),G]));else
 var
-H=[0,bS(d[2]),0],h=ac(n5,U([0,bS(d[1]),H]));var
-C=[0,g(nZ,h),B],D=f?[0,g(n0,U(k(ag,f))),0]:f,E=o(D,C),F=[0,g(n1,U(k(ag,c[2]))),0],m=ac(n3,ab(o([0,g(n2,ec(c[1])),F],E)))}var
-K=[0,g(n_,m),J],L=0===e[2][0]?n$:oe,M=[0,g(oa,au(L)),K],b=e[1];switch(b[0]){case
+H=[0,b1(d[2]),0],h=ae(oh,V([0,b1(d[1]),H]));var
+C=[0,g(ob,h),B],D=f?[0,g(oc,V(k(ah,f))),0]:f,E=m(D,C),F=[0,g(od,V(k(ah,c[2]))),0],n=ae(of,ad(m([0,g(oe,em(c[1])),F],E)))}var
+K=[0,g(om,n),J],L=0===e[2][0]?on:os,M=[0,g(oo,au(L)),K],b=e[1];switch(b[0]){case
 0:var
-u=[0,g(nu,U(k(gB,b[3]))),0],a=b[2];if(0===a[0])var
-p=[0,g(nn,ef(ag,a[2])),0],j=ac(np,ab([0,g(no,ef(ag,a[1])),p]));else
+u=[0,g(nI,V(k(gF,b[3]))),0],a=b[2];if(0===a[0])var
+p=[0,g(nB,ep(ah,a[2])),0],j=ae(nD,ad([0,g(nC,ep(ah,a[1])),p]));else
 var
-q=[0,ag(a[5]),0],r=[0,g(nq,U([0,ag(a[4]),q])),0],s=[0,g(nr,ag(a[3])),r],t=[0,ag(a[2]),0],j=ac(nt,ab([0,g(ns,U([0,ag(a[1]),t])),s]));var
-v=[0,g(nv,j),u],i=ac(ny,ab([0,g(nx,ac(nw,U(k(mU,b[1])))),v]));break;case
+q=[0,ah(a[5]),0],r=[0,g(nE,V([0,ah(a[4]),q])),0],s=[0,g(nF,ah(a[3])),r],t=[0,ah(a[2]),0],j=ae(nH,ad([0,g(nG,V([0,ah(a[1]),t])),s]));var
+v=[0,g(nJ,j),u],i=ae(nM,ad([0,g(nL,ae(nK,V(k(m4,b[1])))),v]));break;case
 1:var
-w=[0,g(nz,U(k(gB,b[3]))),0],x=[0,g(nC,ac(nB,ab([0,g(nA,ag(b[2])),0]))),w],i=ac(nG,ab([0,g(nF,ac(nE,ab([0,g(nD,ag(b[1])),0]))),x]));break;default:var
-l=b[1],y=0,z=l?ee(l[1]):au(nJ),i=ac(nI,ab([0,g(nH,z),y]))}var
-N=[0,g(ob,i),M],n=aD(fg(oN,o(ab([0,g(od,au(oc)),N]),n6)),O);return n?oJ(e):n}function
-ai(a){if(0===a[0])return a[1];throw r}function
-aA(a){if(1===a[0])return a[1];throw r}function
-ba(a){if(2===a[0])return a[1];throw r}function
-cr(a){if(3===a[0])return a[1];throw r}function
-aW(f,e){var
+w=[0,g(nN,V(k(gF,b[3]))),0],x=[0,g(nQ,ae(nP,ad([0,g(nO,ah(b[2])),0]))),w],i=ae(nU,ad([0,g(nT,ae(nS,ad([0,g(nR,ah(b[1])),0]))),x]));break;default:var
+l=b[1],y=0,z=l?eo(l[1]):au(nX),i=ae(nW,ad([0,g(nV,z),y]))}var
+N=[0,g(op,i),M],o=aD(fn(o1,m(ad([0,g(or,au(oq)),N]),oi)),O);return o?oX(e):o}function
+ai(a){if(0===a[0])return a[1];throw q}function
+aB(a){if(1===a[0])return a[1];throw q}function
+bc(a){if(2===a[0])return a[1];throw q}function
+cx(a){if(3===a[0])return a[1];throw q}function
+aY(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===q8(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===rm(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-q(c,b){var
-a=aW(c,b);if(a)return a[1];throw r}function
-ek(b,a){var
+r(c,b){var
+a=aY(c,b);if(a)return a[1];throw q}function
+da(b,a){var
 c=a?[0,d(b,a[1])]:a;return c}function
-cs(a){switch(a[0]){case
+cy(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],oQ]}throw r}function
-el(e,d){var
-a=aE(e,aA(d));if(a){var
+2:return[0,a[1],o4]}throw q}function
+db(e,d){var
+a=aE(e,aB(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw r}function
-c7(i){var
-f=bf(i),d=[0,0],e=av(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw q}function
+dc(i){var
+f=bh(i),d=[0,0],e=av(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=b1(f,c)+er|0;if(9<g>>>0)throw r;switch(g){case
+a=d[1],g=b7(f,c)+ey|0;if(9<g>>>0)throw q;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -3430,103 +3529,113 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-ct(a){return fB(c7(a))}function
-gL(b){var
-a=cr(b);return 45===F(a,0)?G(ct(cG(a,1,m(a)-1|0))):ct(a)}function
-gM(a){return dK(ct(cr(a)))}function
-gN(a){return fA(ct(cr(a)))}function
-bW(c){var
-a=cr(c);if(6<m(a))throw r;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(eX(a))}function
-gO(c){var
-g=m(c),a=[0,0];function
+cz(a){return fI(dc(a))}function
+gO(b){var
+a=cx(b);return 45===G(a,0)?H(cz(cM(a,1,n(a)-1|0))):cz(a)}function
+gP(a){return dS(cz(cx(a)))}function
+gQ(a){return fH(cz(cx(a)))}function
+b2(c){var
+a=cx(c);if(6<n(a))throw q;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(e4(a))}function
+gR(c){var
+g=n(c),a=[0,0];function
 b(d){var
-b=a[1]<g?1:0,e=b?F(c,a[1])===d?1:0:b;return e}function
+b=a[1]<g?1:0,e=b?G(c,a[1])===d?1:0:b;return e}function
 k(d){var
-b=a[1];for(;;){if(a[1]<g&&48<=F(c,a[1])&&!(57<F(c,a[1]))){a[1]++;continue}return cG(c,b,a[1]-b|0)}}function
-n(c){a[1]++;var
-e=d(c+1|0);if(b(41)){a[1]++;return e}throw r}function
-h(i){if(64<i)throw r;if(b(45)){a[1]++;return[1,h(i+1|0)]}if(b(40))var
-d=n(i);else{var
-u=0;if((a[1]+5|0)<=g&&aD(cG(c,a[1],5),oS)){a[1]=a[1]+4|0;var
-d=[4,n(i)]}else
+b=a[1];for(;;){if(a[1]<g&&48<=G(c,a[1])&&!(57<G(c,a[1]))){a[1]++;continue}return cM(c,b,a[1]-b|0)}}function
+m(c){a[1]++;var
+e=d(c+1|0);if(b(41)){a[1]++;return e}throw q}function
+h(i){if(64<i)throw q;if(b(45)){a[1]++;return[1,h(i+1|0)]}if(b(40))var
+d=m(i);else{var
+u=0;if((a[1]+5|0)<=g&&aD(cM(c,a[1],5),o6)){a[1]=a[1]+4|0;var
+d=[4,m(i)]}else
 u=1;if(u){var
-f=k(0),o=b(46),p=o?(a[1]++,[0,k(0)]):o,q=aD(f,oT);if(q)var
-s=q;else
+f=k(0),o=b(46),p=o?(a[1]++,[0,k(0)]):o,r=aD(f,o7);if(r)var
+s=r;else
 var
-t=1<m(f)?1:0,s=t?48===F(f,0)?1:0:t;if(s)throw r;if(p){var
-j=p[1],v=0;if(aD(j,oU)||48===F(j,m(j)-1|0))v=1;else
+t=1<n(f)?1:0,s=t?48===G(f,0)?1:0:t;if(s)throw q;if(p){var
+j=p[1],v=0;if(aD(j,o8)||48===G(j,n(j)-1|0))v=1;else
 var
-w=c7(j),d=[0,c7(f),w];if(v)throw r}else
+w=dc(j),d=[0,dc(f),w];if(v)throw q}else
 var
-d=[0,c7(f),0]}}if(b(94)){a[1]++;var
-e=k(0);if(l(e,oR)){if(!(2<m(e))&&2<=eX(e)&&!(64<eX(e)))return[3,d,dK(ct(e))];throw r}throw r}return d}function
+d=[0,dc(f),0]}}if(b(94)){a[1]++;var
+e=k(0);if(l(e,o5)){if(!(2<n(e))&&2<=e4(e)&&!(64<e4(e)))return[3,d,dS(cz(e))];throw q}throw q}return d}function
 e(d){var
 c=h(d);for(;;){if(b(42)){a[1]++;var
 c=[2,2,c,h(d)];continue}if(b(47)){a[1]++;var
 c=[2,3,c,h(d)];continue}return c}}function
-d(d){if(64<d)throw r;var
+d(d){if(64<d)throw q;var
 c=e(d);for(;;){if(b(43)){a[1]++;var
 c=[2,0,c,e(d)];continue}if(b(45)){a[1]++;var
 c=[2,1,c,e(d)];continue}return c}}var
-f=d(0);if(a[1]<g)throw r;return f}function
-aB(a){return gO(ba(a))}function
-em(a){if(2===a[0])return[0,gO(a[1])];var
-b=ai(a),c=aB(q(b,oV));return[1,aB(q(b,oW)),c]}function
-aC(a){throw[0,gK,Q(fg(oY,a),oX)]}function
-gP(g){var
+f=d(0);if(a[1]<g)throw q;return f}function
+aC(a){return gR(bc(a))}function
+dd(a){if(2===a[0])return[0,gR(a[1])];var
+b=ai(a),c=aC(r(b,o9));return[1,aC(r(b,o_)),c]}function
+aJ(a){throw[0,gN,S(fn(pa,a),o$)]}function
+gS(g){var
 b=ai(g);function
-a(a){return el(em,q(b,a))}var
-c=ba(q(b,o1));if(l(c,o2)){if(l(c,o3)){if(l(c,o4))return aC([0,o6,[0,c,o5]]);if(0===aW(b,o7)){var
-h=a(o8);return[1,a(o9),h]}return aC(o_)}var
-d=ba(q(b,o$));if(l(d,oZ)){var
-e=l(d,o0);if(e)throw r;var
+a(a){return db(dd,r(b,a))}var
+c=bc(r(b,pd));if(l(c,pe)){if(l(c,pf)){if(l(c,pg))return aJ([0,pi,[0,c,ph]]);var
+h=aY(b,pj),i=da(function(a){return db(dd,a)},h),j=a(pk);return[1,a(pl),j,i]}var
+d=bc(r(b,pm));if(l(d,pb)){var
+e=l(d,pc);if(e)throw q;var
 f=e}else
 var
 f=1;var
-i=em(q(b,pa)),j=a(pb),k=a(pc);return[0,a(pd),k,j,i,f]}return[2,a(pe)]}function
-pf(h){var
-c=ai(h),a=ba(q(c,pg));if(l(a,ph))if(l(a,pi))if(l(a,pj))if(l(a,pk))if(l(a,pl))var
-e=l(a,pm),b=e?aC([0,po,[0,a,pn]]):e;else
+k=dd(r(b,pn)),m=a(po),n=a(pp);return[0,a(pq),n,m,k,f]}return[2,a(pr)]}function
+ps(h){var
+c=ai(h),b=bc(r(c,pt));if(l(b,pu))if(l(b,pv))if(l(b,pw))if(l(b,px))if(l(b,py))if(l(b,pz))if(l(b,pA))var
+e=l(b,pB),a=e?aJ([0,pD,[0,b,pC]]):e;else
 var
-b=4;else
+a=6;else
 var
-b=5;else
+a=4;else
 var
-b=2;else
+a=5;else
 var
-b=1;else
+a=2;else
 var
-b=3;var
-d=ba(q(c,pp));if(l(d,pq))var
-f=l(d,pr),g=f?aC([0,pt,[0,d,ps]]):f;else
+a=1;else
+var
+a=7;else
+var
+a=3;var
+d=bc(r(c,pE));if(l(d,pF))var
+f=l(d,pG),g=f?aJ([0,pI,[0,d,pH]]):f;else
 var
 g=1;function
-i(e){var
-a=ai(e);if(a){var
-c=a[1];if(!l(c[1],pu)){var
-d=c[2];if(1===d[0]){var
-b=d[1];if(b&&!b[2]&&!a[2])return aB(b[1])}}}return aC(pv)}var
-j=aB(q(c,pw)),k=ek(i,aW(c,px));return[0,b,ek(bW,aW(c,py)),k,g,j]}function
-gQ(c,e){var
-a=aA(e);if(a){var
+i(m){var
+b=ai(m),e=0;if(2===a){if(b){var
+g=b[1];if(!l(g[1],pJ)){var
+h=g[2];if(1===h[0]){var
+c=h[1];if(c&&!c[2]&&!b[2]){var
+i=c[1];e=1}}}}}else
+if(6===a&&b){var
+j=b[1];if(!l(j[1],pK)){var
+k=j[2];if(1===k[0]){var
+d=k[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
+i=d[1];e=1;f=1}if(!f&&!b[2])return aJ(pL)}}}if(e)return aC(i);throw q}var
+j=aC(r(c,pM)),k=da(i,aY(c,pN));return[0,a,da(b2,aY(c,pO)),k,g,j]}function
+gT(c,e){var
+a=aB(e);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=d(c,b[1]);return[0,d(c,a[1]),f]}}throw r}function
-gR(a){return aE(gL,aA(a))}function
-gS(o,e){function
+f=d(c,b[1]);return[0,d(c,a[1]),f]}}throw q}function
+gU(a){return aE(gO,aB(a))}function
+gV(o,e){function
 p(c,b){var
-a=gR(b);if(dw(a)!==c)throw r;return a}switch(e[0]){case
+a=gU(b);if(dE(a)!==c)throw q;return a}switch(e[0]){case
 0:var
 b=e[1];if(b){var
-d=b[1],a=d[1],c=0;if(l(a,p3))if(l(a,p4))if(l(a,p5)){var
-y=0;if(l(a,p6)&&l(a,p7)&&l(a,p8))y=1;if(!y)if(b[2])c=1;else{var
+d=b[1],a=d[1],c=0;if(l(a,qh))if(l(a,qi))if(l(a,qj)){var
+y=0;if(l(a,qk)&&l(a,ql)&&l(a,qm))y=1;if(!y)if(b[2])c=1;else{var
 z=d[2],t=z,s=function(c,b){return[1,a,c,b]};c=2}}else{var
 w=d[2];if(1===w[0]){var
 f=w[1];if(f){var
 g=f[2];if(g){var
 h=g[2];if(h&&!h[2]){if(!b[2]){var
-C=gN(h[1]),D=gL(g[1]);return[4,gS(o,f[1]),D,C]}c=1}}}}}else{if(!b[2]){var
-k=ba(d[2]),m=l(k,p1);if(m){if(l(k,p2))throw r;var
+C=gQ(h[1]),D=gO(g[1]);return[4,gV(o,f[1]),D,C]}c=1}}}}}else{if(!b[2]){var
+k=bc(d[2]),m=l(k,qf);if(m){if(l(k,qg))throw q;var
 n=1}else
 var
 n=m;return[2,n]}c=1}else{var
@@ -3534,15 +3643,15 @@ x=d[2];if(1===x[0]){var
 i=x[1];if(i){var
 j=i[2];if(j&&!j[2])if(b[2])c=1;else{var
 E=j[1],F=i[1],t=F,s=function(b,a){return[3,b,a,p(4,E)]};c=2}}}}switch(c){case
-0:if(!b[2])return aC([0,p_,[0,a,p9]]);break;case
+0:if(!b[2])return aJ([0,qo,[0,a,qn]]);break;case
 1:break;default:var
-u=ai(t),A=aA(q(u,p$)),B=3,v=aE(function(a){return p(B,a)},A);if(dw(v)!==o)throw r;return s(v,gN(q(u,qa)))}}break;case
-2:return[0,e[1]]}throw r}function
-qw(f){var
-h=m(f),a=[0,0];function
-i(b){if(a[1]<h)return F(f,a[1]);throw r}function
-j(b){if(i(0)===b){a[1]++;return 0}throw r}function
-M(b,c){for(;;){if(a[1]<h&&d(c,F(f,a[1]))){a[1]++;continue}return cG(f,b,a[1]-b|0)}}function
+u=ai(t),A=aB(r(u,qp)),B=3,v=aE(function(a){return p(B,a)},A);if(dE(v)!==o)throw q;return s(v,gQ(r(u,qq)))}}break;case
+2:return[0,e[1]]}throw q}function
+qM(f){var
+h=n(f),a=[0,0];function
+i(b){if(a[1]<h)return G(f,a[1]);throw q}function
+j(b){if(i(0)===b){a[1]++;return 0}throw q}function
+M(b,c){for(;;){if(a[1]<h&&d(c,G(f,a[1]))){a[1]++;continue}return cM(f,b,a[1]-b|0)}}function
 N(d){j(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -3556,66 +3665,66 @@ g=[0,d(k,0),f];if(44===i(0)){a[1]++;var
 f=g;continue}j(e);var
 b=g,c=0;for(;;){if(b){var
 h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-t(c,k){if(64<c)throw r;var
+t(c,k){if(64<c)throw q;var
 b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
 e=93,f=c+1|0;return[1,O(function(a){return t(f,a)},e)]}if(123===b){a[1]++;var
 g=125;return[0,O(function(b){var
 a=N(0);j(58);return[0,a,t(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,N(0)];if(45===b)d=1}if(d){var
 h=a[1];a[1]++;return[3,M(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw r}var
-ab=t(0,0),P=a[1]<h?1:0,ac=P?10===F(f,a[1])?1:0:P;if(ac)a[1]++;if(a[1]<h)throw r;var
-p=ai(ab);if(l(ba(q(p,qx)),qy))throw r;var
-u=cs(q(p,qz)),v=u[1];if(l(v,pz))if(l(v,pA))var
-b=aC([0,pC,[0,v,pB]]);else{var
-w=q(ai(u[2]),pD),$=0;if(2===w[0]){var
-R=l(w[1],pE);if(!R){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw q}var
+ab=t(0,0),P=a[1]<h?1:0,ac=P?10===G(f,a[1])?1:0:P;if(ac)a[1]++;if(a[1]<h)throw q;var
+p=ai(ab);if(l(bc(r(p,qN)),qO))throw q;var
+u=cy(r(p,qP)),v=u[1];if(l(v,pP))if(l(v,pQ))var
+b=aJ([0,pS,[0,v,pR]]);else{var
+w=r(ai(u[2]),pT),$=0;if(2===w[0]){var
+R=l(w[1],pU);if(!R){var
 Q=R;$=1}}if(!$)var
-Q=[0,em(w)];var
+Q=[0,dd(w)];var
 b=[2,Q]}else{var
-c=ai(u[2]),x=function(a){return aE(pf,aA(q(c,pF)))},y=cs(q(c,pG)),e=cs(q(c,pH)),aa=0;if(0===aW(c,pI)&&0===aW(c,pJ)){var
-z=y[1],g=0;if(l(z,pK)){if(!l(z,pL)){var
-A=e[1],S=y[2];if(l(A,pO))if(l(A,pP)){var
-b=aC([0,pR,[0,A,pQ]]);g=1}else{var
-B=ai(e[2]),T=gQ(aB,q(B,pS)),U=gQ(aB,q(B,pT)),ad=x(0),ae=U[2],af=U[1],ag=aB(q(B,pU)),ah=[1,T[1],T[2],ag,af,ae],b=[0,aE(gP,aA(S)),ah,ad];g=1}else{var
-V=ai(e[2]),aj=el(aB,q(V,pV)),ak=[0,el(aB,q(V,pW)),aj],al=x(0),b=[0,aE(gP,aA(S)),ak,al];g=1}}}else
-if(!l(e[1],pX)){var
-am=x(0),an=aB(q(ai(e[2]),pY)),b=[1,aB(q(ai(y[2]),pZ)),an,am];g=1}if(!g)var
-b=aC([0,pN,[0,z,pM]])}else
+c=ai(u[2]),x=function(a){return aE(ps,aB(r(c,pV)))},y=cy(r(c,pW)),e=cy(r(c,pX)),aa=0;if(0===aY(c,pY)&&0===aY(c,pZ)){var
+z=y[1],g=0;if(l(z,p0)){if(!l(z,p1)){var
+A=e[1],S=y[2];if(l(A,p4))if(l(A,p5)){var
+b=aJ([0,p7,[0,A,p6]]);g=1}else{var
+B=ai(e[2]),T=gT(aC,r(B,p8)),U=gT(aC,r(B,p9)),ad=x(0),ae=U[2],af=U[1],ag=aC(r(B,p_)),ah=[1,T[1],T[2],ag,af,ae],b=[0,aE(gS,aB(S)),ah,ad];g=1}else{var
+V=ai(e[2]),aj=db(aC,r(V,p$)),ak=[0,db(aC,r(V,qa)),aj],al=x(0),b=[0,aE(gS,aB(S)),ak,al];g=1}}}else
+if(!l(e[1],qb)){var
+am=x(0),an=aC(r(ai(e[2]),qc)),b=[1,aC(r(ai(y[2]),qd)),an,am];g=1}if(!g)var
+b=aJ([0,p3,[0,z,p2]])}else
 aa=1;if(aa)var
-b=aC(p0)}var
-au=0===b[0]?dw(b[1]):3,I=cs(q(p,qA)),J=I[1];if(l(J,qm))if(l(J,qn))var
-L=aC([0,qp,[0,J,qo]]);else{var
-n=ai(I[2]),K=aW(n,qq),aq=K?aE(aB,aA(K[1])):K,C=cs(q(n,qr)),k=C[1],s=0;if(l(k,qh)){var
-W=l(k,qi);if(W){if(!l(k,qj)){var
+b=aJ(qe)}var
+au=0===b[0]?dE(b[1]):3,I=cy(r(p,qQ)),J=I[1];if(l(J,qC))if(l(J,qD))var
+L=aJ([0,qF,[0,J,qE]]);else{var
+m=ai(I[2]),K=aY(m,qG),aq=K?aE(aC,aB(K[1])):K,C=cy(r(m,qH)),k=C[1],s=0;if(l(k,qx)){var
+W=l(k,qy);if(W){if(!l(k,qz)){var
 X=C[2];if(1===X[0]){var
 D=X[1];if(D){var
 E=D[2];if(E&&!E[2]){var
-ao=bW(E[1]),o=[1,bW(D[1]),ao];s=1}}}}}else{var
+ao=b2(E[1]),o=[1,b2(D[1]),ao];s=1}}}}}else{var
 o=W;s=1}}else{var
 Y=C[2];if(1===Y[0]){var
-G=Y[1];if(G){var
-H=G[2];if(H&&!H[2]){var
-ap=aE(gR,aA(H[1])),o=[0,bW(G[1]),ap];s=1}}}}if(!s)var
-o=aC([0,ql,[0,k,qk]]);var
-ar=aE(aB,aA(q(n,qs))),L=[1,gM(q(n,qt)),ar,aq,o]}else
+F=Y[1];if(F){var
+H=F[2];if(H&&!H[2]){var
+ap=aE(gU,aB(H[1])),o=[0,b2(F[1]),ap];s=1}}}}if(!s)var
+o=aJ([0,qB,[0,k,qA]]);var
+ar=aE(aC,aB(r(m,qI))),L=[1,gP(r(m,qJ)),ar,aq,o]}else
 var
-Z=ai(I[2]),as=aA(q(Z,qu)),at=aE(function(f){var
-a=ai(f);if(0!==aW(a,qd))aC(qe);var
-d=ek(bW,aW(a,qf)),b=aW(a,qg);if(b)var
-e=aA(b[1]),c=aE(function(g){var
-b=aA(g);if(b){var
+Z=ai(I[2]),as=aB(r(Z,qK)),at=aE(function(f){var
+a=ai(f);if(0!==aY(a,qt))aJ(qu);var
+d=da(b2,aY(a,qv)),b=aY(a,qw);if(b)var
+e=aB(b[1]),c=aE(function(g){var
+b=aB(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],qb)){if(!a[2]){if(l(cr(e),qc))throw r;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],qr)){if(!a[2]){if(l(cx(e),qs))throw q;d=1}}else
 d=1;if(d&&!a[2]){var
-f=gS(au,c);return[0,bW(e),f]}}}throw r},e);else
+f=gV(au,c);return[0,b2(e),f]}}}throw q},e);else
 var
-c=b;return[0,c,d]},as),L=[0,gM(q(Z,qv)),at];var
-_=ai(q(p,qB)),av=ba(q(_,qC));return[0,b,L,ba(q(_,qD)),av]}function
-qE(c){try{try{var
-d=0,a=qw(c);d=1}catch(a){a=ds(a);if(a[1]===gK)var
-b=[0,a[2]];else{if(a!==r)throw a;var
+c=b;return[0,c,d]},as),L=[0,gP(r(Z,qL)),at];var
+_=ai(r(p,qR)),av=bc(r(_,qS));return[0,b,L,bc(r(_,qT)),av]}function
+qU(c){try{try{var
+d=0,a=qM(c);d=1}catch(a){a=dA(a);if(a[1]===gN)var
+b=[0,a[2]];else{if(a!==q)throw a;var
 b=2}}if(d)var
-b=oM(c,a)?0===a[2][0]?0:1:2}catch(a){return qF}if(typeof
+b=o0(c,a)?0===a[2][0]?0:1:2}catch(a){return qV}if(typeof
 b==="number")switch(b){case
-0:return qG;case
-1:return qH;default:return qI}return Q(qJ,b[1])}rM.orthocert_verify=rs(function(b){return bi(qE(a(b)))});dv(0);return}(globalThis));
+0:return qW;case
+1:return qX;default:return qY}return S(qZ,b[1])}r2.orthocert_verify=rI(function(b){return bk(qU(a(b)))});dD(0);return}(globalThis));

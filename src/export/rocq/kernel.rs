@@ -81,8 +81,9 @@ pub(super) fn kernel(claim: &MachineClaim, proof: &Proof) -> Result<String, Expo
 /// Binary orders of the units of lengths and of each leg's direction, as the kernel has them.
 fn units(problem: &Problem, legs: usize) -> String {
     let direction = |leg: usize| {
-        let place = format!("leg {}: direction.", leg + 1);
-        let input = problem.inputs.iter().find(|input| input.place.starts_with(&place));
+        let places = ["direction", "base_axis"].map(|key| format!("leg {}: {key}.", leg + 1));
+        let is_one = |place: &str| places.iter().any(|start| place.starts_with(start));
+        let input = problem.inputs.iter().find(|input| is_one(&input.place));
         input.map_or(0, |input| input.scale).to_string()
     };
     let directions: Vec<String> = (0..legs).map(|leg| format!("({})", direction(leg))).collect();
@@ -148,11 +149,15 @@ fn drive(leg: &Leg) -> Result<String, ExportError> {
             tolerance(length),
             *mode == Sign::Plus
         )),
-        Leg::Strut { anchor, platform, base_axis: None } => {
-            Ok(format!("StrutLeg\n    {}\n    {}", vector(anchor)?, vector(platform)?))
+        Leg::Strut { anchor, platform, base_axis } => {
+            let axis = match base_axis {
+                Some(axis) => format!("(Some {})", vector(axis)?),
+                None => "None".to_owned(),
+            };
+            Ok(format!("StrutLeg\n    {}\n    {}\n    {axis}", vector(anchor)?, vector(platform)?))
         }
         Leg::Planar { direction } => Ok(format!("PlanarLeg\n    {}", vector(direction)?)),
-        Leg::Strut { .. } | Leg::Arm { .. } => Err(ExportError::Drive),
+        Leg::Arm { .. } => Err(ExportError::Drive),
     }
 }
 
@@ -217,6 +222,22 @@ fn stated(claim: &MachineClaim, obligation: &Obligation) -> Result<Stated, Expor
                  leg_length l3 <= Rabs (det (A_matrix (Machine l1 l2 l3) P)))"
             );
             (format!("(ParallelMargin {b})"), Some(far))
+        }
+        ("stiffness", Bound::Min(b)) => {
+            let [joint] = given.get("joint").map_or(&[][..], |joint| joint) else {
+                return Err(ExportError::Quantity("stiffness"));
+            };
+            let (b, joint) = (number(b), number(joint));
+            let stiff = format!("(forall v, value {b} / value {joint} * norm2 v <= speed2 m P v)");
+            (format!("(Stiffness {joint} {b})"), Some(stiff))
+        }
+        ("constraint_margin", Bound::Min(b)) => {
+            let b = number(b);
+            let far = format!(
+                "(exists cs, Forall2 (fun l c => couple_of l P = Some c /\\ c <> vzero) m cs /\\ forall v, \
+                 value {b} ^ 2 * norm2 v <= fold_right (fun c sum => dot (normalised c) v ^ 2 + sum) 0 cs)"
+            );
+            (format!("(ConstraintMargin {b})"), Some(far))
         }
         (key, _) => {
             let known = TABLE.iter().find(|quantity| quantity.key == key);
