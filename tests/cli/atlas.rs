@@ -7,10 +7,15 @@ use std::path::Path;
 
 /// The Orthoglides of `tests/atlases`, at a coarse resolution.
 pub fn coarse() -> Folder {
+    map(4)
+}
+
+/// The same at any resolution: 1 for what does not depend on what is in the map.
+pub fn map(resolution: usize) -> Folder {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/atlases/orthoglide.toml");
     let text = fs::read_to_string(path).unwrap();
     let folder = Folder::new();
-    folder.write("map.toml", text.replace("resolution = 8", "resolution = 4"));
+    folder.write("map.toml", text.replace("resolution = 8", &format!("resolution = {resolution}")));
     folder
 }
 
@@ -58,9 +63,9 @@ fn a_map_is_written_with_everything_and_accepted() {
     );
 }
 
-/// The coarse map with the widest margin as its objective.
-pub fn widest() -> Folder {
-    let folder = coarse();
+/// A map with the widest margin as its objective.
+pub fn widest(resolution: usize) -> Folder {
+    let folder = map(resolution);
     let text = String::from_utf8(folder.read("map.toml")).unwrap();
     let objective = "objective = { maximise = \"side\" }";
     assert!(text.contains(objective));
@@ -70,7 +75,7 @@ pub fn widest() -> Folder {
 
 #[test]
 fn the_widest_margin_has_a_certificate_and_a_bound() {
-    let folder = widest();
+    let folder = widest(4);
     let report = json(&folder.run(&["atlas", "map.toml", "--format", "json"]).exits(0));
     let best = &report["best"];
     assert_eq!((&best["objective"], &best["at"]), (&"margin".into(), &["4", "1/10"].into()));
@@ -82,7 +87,7 @@ fn the_widest_margin_has_a_certificate_and_a_bound() {
     let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
     assert!(page.contains("class=\"iso\"") && page.contains("Lines of equal margin"));
     // Another objective leaves nothing of it.
-    folder.write("map.toml", coarse().read("map.toml"));
+    folder.write("map.toml", map(1).read("map.toml"));
     folder.run(&["atlas", "map.toml"]).exits(0);
     assert!(!folder.path("map.atlas/bound.cert.json").exists());
 }
@@ -98,7 +103,7 @@ fn margins_are_refused_where_there_are_none() {
 
 #[test]
 fn a_map_does_not_depend_on_the_threads() {
-    let folder = coarse();
+    let folder = map(3);
     for threads in ["1", "3"] {
         let run = ["atlas", "map.toml", "-o", threads, "--threads", threads, "--quiet"];
         folder.run(&run).exits(0).says(&["ATLAS", "certified", "refuted"]);
@@ -218,7 +223,7 @@ fn names_are_refused_in_ordinary_designs() {
 
 #[test]
 fn a_map_takes_the_place_of_a_map_only() {
-    let folder = coarse();
+    let folder = map(1);
     let refused = |name: &str| {
         let run = folder.run(&["atlas", "map.toml"]).exits(2);
         run.complains(&["map.atlas", &format!("found {name} in it"), "accepted: a new folder"]);
@@ -265,7 +270,7 @@ fn a_link_in_the_place_of_a_map_is_refused() {
 
 #[test]
 fn the_sums_of_a_map_are_those_of_its_files() {
-    let folder = coarse();
+    let folder = map(1);
     folder.run(&["atlas", "map.toml"]).exits(0);
     let sums = String::from_utf8(folder.read("map.atlas/SHA256SUMS")).unwrap();
     let mut listed = vec!["SHA256SUMS".to_owned()];

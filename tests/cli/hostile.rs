@@ -2,7 +2,7 @@
 //! and no name does anything but stand there.
 #![cfg(unix)]
 
-use crate::atlas::coarse;
+use crate::atlas::{coarse, map};
 use crate::junit;
 use crate::support::{Folder, Run};
 use orthocert_checker::shown::is_unseen;
@@ -316,7 +316,7 @@ fn names_do_nothing_in_any_commands_output() {
 fn names_and_titles_do_nothing_in_reports() {
     let folder = Folder::new();
     let stranger = "\u{ffff}\u{202e}</text> https://evil.example www.evil.example @name $x$ #1 ]]>";
-    let map = String::from_utf8(coarse().read("map.toml")).unwrap();
+    let map = String::from_utf8(map(1).read("map.toml")).unwrap();
     let label = format!("label = \"{}\"", &stranger[..20].replace('"', ""));
     let (before, after) = map.split_once("label = \"").unwrap();
     let (_, after) = after.split_once('"').unwrap();

@@ -8,20 +8,24 @@ use serde_json::{json, Value};
 use std::fs;
 use std::process::Stdio;
 
-const PRECISION: &str = "0.02";
+const PRECISION: &str = "0.05";
 
-/// A folder with the paving of one machine in `one`, and shards of the same job in `job`.
-fn split_of(design: &str, shards: &str) -> Folder {
+/// A folder with shards of a paving in `job`.
+fn split_of(design: &str, precision: &str, shards: &str) -> Folder {
     let folder = Folder::new();
     folder.write("d.toml", design);
-    folder.run(&["pave", "d.toml", "--precision", PRECISION, "-o", "one"]).exits(0);
-    split(&folder, shards);
+    let pave = ["--pave", "--precision", precision, "--shards", shards, "--out", "job"];
+    folder.run(&[&["split", "d.toml"][..], &pave].concat()).exits(0).says(&["SPLIT"]);
     folder
 }
 
-fn split(folder: &Folder, shards: &str) {
-    let pave = ["--pave", "--precision", PRECISION, "--shards", shards, "--out", "job"];
-    folder.run(&[&["split", "d.toml"][..], &pave].concat()).exits(0).says(&["SPLIT"]);
+fn split(shards: &str) -> Folder {
+    split_of(DESIGN, PRECISION, shards)
+}
+
+/// Makes the paving of one machine in `one`.
+fn one_machine(folder: &Folder, precision: &str) {
+    folder.run(&["pave", "d.toml", "--precision", precision, "-o", "one"]).exits(0);
 }
 
 fn run(folder: &Folder, shard: usize) -> Run {
@@ -29,7 +33,7 @@ fn run(folder: &Folder, shard: usize) -> Run {
 }
 
 fn done(shards: usize) -> Folder {
-    let folder = split_of(DESIGN, &shards.to_string());
+    let folder = split(&shards.to_string());
     (1..=shards).for_each(|shard| drop(run(&folder, shard).exits(0)));
     folder
 }
@@ -57,8 +61,14 @@ fn any_number_of_shards_makes_the_paving_of_one_machine() {
     // Not symmetric, with bounds of several kinds; and with cells left out by symmetry.
     let other = DESIGN.replace("min = [-0.7, -0.7, -0.7]", "min = [-0.6, -0.7, -0.7]");
     let other = other.replace("max = 2 }", "max = 2 }\n    conditioning = { max = 3 }");
-    for (design, shards) in [(DESIGN, 1), (DESIGN, 3), (&other, 7), (DESIGN, 60)] {
-        let folder = split_of(design, &shards.to_string());
+    for (design, precision, shards) in [
+        (DESIGN, PRECISION, 1),
+        (DESIGN, PRECISION, 3),
+        (&other, "0.1", 7),
+        (DESIGN, PRECISION, 60),
+    ] {
+        let folder = split_of(design, precision, &shards.to_string());
+        one_machine(&folder, precision);
         for shard in (1..=shards).rev() {
             run(&folder, shard).exits(0);
         }
@@ -86,6 +96,7 @@ fn the_answer_of_a_merge_has_the_facts_of_the_paving() {
 #[test]
 fn merges_at_the_same_time_do_not_disturb_each_other() {
     let folder = done(2);
+    one_machine(&folder, PRECISION);
     // What an earlier merge may have left, or somebody put there.
     folder.write("merged.merging", "of somebody else");
     let merge = || folder.command(&["merge", "job", "-o", "merged", "--threads", "1"]);
@@ -161,7 +172,7 @@ fn a_stopped_shard_goes_on_where_it_was() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_exit_4_and_the_rest_is_kept() {
-    let folder = split_of(DESIGN, "2");
+    let folder = split("2");
     let full = folder.run_on_a_full_disk(&["run-shard", "job/shard-0001.json"]).exits(4);
     full.complains(&["result-0001.nodes", "too large"]);
     assert!(!folder.path("job/result-0001.json").exists());
@@ -171,6 +182,7 @@ fn a_full_disk_is_exit_4_and_the_rest_is_kept() {
 #[test]
 fn what_is_missing_doubled_altered_or_foreign_is_named() {
     let folder = done(3);
+    one_machine(&folder, PRECISION);
     let nodes = |shard: usize| folder.path(&format!("job/result-{shard:04}.nodes"));
     let kept = fs::read(nodes(2)).unwrap();
     // Missing.
@@ -209,10 +221,7 @@ fn what_is_missing_doubled_altered_or_foreign_is_named() {
 
 #[test]
 fn results_of_another_precision_are_of_another_job() {
-    let (folder, other) = (done(2), Folder::new());
-    other.write("d.toml", DESIGN);
-    let coarse = ["--pave", "--precision", "0.05", "--shards", "2", "--out", "job"];
-    other.run(&[&["split", "d.toml"][..], &coarse].concat()).exits(0);
+    let (folder, other) = (done(2), split_of(DESIGN, "0.1", "2"));
     run(&other, 2).exits(0);
     for name in ["job/result-0002.json", "job/result-0002.nodes"] {
         folder.write(name, other.read(name));
@@ -274,7 +283,7 @@ fn a_merge_leaves_the_folder_of_the_shards_alone() {
 
 #[test]
 fn a_shard_in_the_place_of_its_own_files_is_refused() {
-    let folder = split_of(DESIGN, "1");
+    let folder = split("1");
     let shard = folder.read("job/shard-0001.json");
     for name in ["result-0001.json", "result-0001.part", "result-0001.nodes"] {
         folder.write(name, &shard);
@@ -286,7 +295,7 @@ fn a_shard_in_the_place_of_its_own_files_is_refused() {
 
 #[test]
 fn cells_that_the_paving_does_not_have_are_refused() {
-    let folder = split_of(DESIGN, "2");
+    let folder = split("2");
     let text = folder.read("job/shard-0001.json");
     let mut shard: Value = serde_json::from_slice(&text).unwrap();
     let malformed = "a cell that is not within the box";
@@ -323,7 +332,7 @@ fn bad_usage_is_refused() {
         folder.run(&arguments).exits(2).complains(&[complaint]);
         assert!(!folder.path("job").exists());
     }
-    split(&folder, "1");
+    let folder = split("1");
     run(&folder, 1).exits(0);
     let device = folder.run(&["merge", "job", "-o", "/dev/null"]).exits(2);
     device.complains(&["not a regular file"]);

@@ -1,20 +1,26 @@
 //! `split`, `run-shard`, `merge`, `submit`: the same as one machine, and nothing else.
 
-use crate::atlas::{coarse, widest};
+use crate::atlas::{map, widest};
 use crate::support::Folder;
 use orthocert::shard::{read_shard, sha256, Part, ShardResult, Task};
 use orthocert_kernel::certificate::Node;
 use std::fs;
 
-/// A folder with the map of one machine in `one`, and shards of the same job in `job`.
+/// A folder with shards of a map in `job`.
 fn split(shards: &str) -> Folder {
-    let folder = coarse();
+    let folder = map(3);
+    split_in(&folder, shards);
+    folder
+}
+
+fn split_in(folder: &Folder, shards: &str) {
+    let split = ["split", "map.toml", "--shards", shards, "--out", "job"];
+    folder.run(&split).exits(0).says(&["SPLIT"]);
+}
+
+/// Makes the map of one machine in `one`.
+fn one_machine(folder: &Folder) {
     folder.run(&["atlas", "map.toml", "-o", "one"]).exits(0);
-    folder
-        .run(&["split", "map.toml", "--shards", shards, "--out", "job"])
-        .exits(0)
-        .says(&["SPLIT"]);
-    folder
 }
 
 fn run(folder: &Folder, shard: usize) -> crate::support::Run {
@@ -23,8 +29,12 @@ fn run(folder: &Folder, shard: usize) -> crate::support::Run {
 
 fn done(shards: usize) -> Folder {
     let folder = split(&shards.to_string());
-    (1..=shards).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    run_all(&folder, shards);
     folder
+}
+
+fn run_all(folder: &Folder, shards: usize) {
+    (1..=shards).for_each(|shard| drop(run(folder, shard).exits(0)));
 }
 
 fn is_the_same(folder: &Folder) {
@@ -42,20 +52,26 @@ fn refused(folder: &Folder, code: i32, words: &[&str]) {
 
 #[test]
 fn any_number_of_shards_makes_the_map_of_one_machine() {
+    let folder = map(3);
+    one_machine(&folder);
     // More than there are cells: some shards have nothing to do.
-    for shards in [1, 3, 90] {
-        let folder = done(shards);
+    for shards in [1, 3, 12] {
+        split_in(&folder, &shards.to_string());
+        run_all(&folder, shards);
         folder.run(&["merge", "job", "-o", "merged"]).exits(0);
         is_the_same(&folder);
+        for made in ["job", "merged"] {
+            fs::remove_dir_all(folder.path(made)).unwrap();
+        }
     }
 }
 
 #[test]
 fn the_widest_margin_of_a_merged_map_is_that_of_one_machine() {
-    let folder = widest();
-    folder.run(&["atlas", "map.toml", "-o", "one"]).exits(0);
-    folder.run(&["split", "map.toml", "--shards", "2", "--out", "job"]).exits(0);
-    (1..=2).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    let folder = widest(3);
+    one_machine(&folder);
+    split_in(&folder, "2");
+    run_all(&folder, 2);
     folder.run(&["merge", "job", "-o", "merged", "--threads", "1"]).exits(0);
     is_the_same(&folder);
     assert!(folder.read("one/bound.cert.json") == folder.read("merged/bound.cert.json"));
@@ -68,7 +84,7 @@ fn a_proof_in_shards_is_the_certificate_of_one_machine() {
     let folder = Folder::with(&[&design]);
     folder.run(&["verify", &design]).exits(0);
     folder.run(&["split", &design, "--shards", "3", "--out", "job"]).exits(0);
-    (1..=3).for_each(|shard| drop(run(&folder, shard).exits(0)));
+    run_all(&folder, 3);
     folder.run(&["merge", "job", "-o", "merged.json"]).exits(0).says(&["CERTIFIED", "520"]);
     assert!(folder.read("merged.json") == folder.read(&format!("{name}.cert.json")));
 }
@@ -170,7 +186,7 @@ fn a_doubled_result_is_named() {
 
 #[test]
 fn a_result_of_another_job_is_named() {
-    let (folder, other) = (done(3), coarse());
+    let (folder, other) = (done(3), map(3));
     let text = String::from_utf8(other.read("map.toml")).unwrap();
     other.write("map.toml", text.replace("max = 4", "max = 5"));
     other.run(&["split", "map.toml", "--shards", "3", "--out", "job"]).exits(0);
@@ -195,22 +211,31 @@ fn a_result_of_another_split_is_named() {
 
 #[test]
 fn an_edited_file_is_named() {
-    let edit = |name: &str, from: &str, to: &str| {
-        let folder = done(3);
-        let text = String::from_utf8(folder.read(name)).unwrap();
+    let folder = done(3);
+    let edited = |name: &str, from: &str, to: &str, refused: &dyn Fn()| {
+        let whole = folder.read(name);
+        let text = String::from_utf8(whole.clone()).unwrap();
         assert!(text.contains(from), "{name}: {from}");
         folder.write(name, text.replacen(from, to, 1));
-        folder
+        refused();
+        folder.write(name, whole);
     };
-    let folder = edit("job/result-0001.json", "\"precision\":64", "\"precision\":96");
-    refused(&folder, 2, &["result-0001.json was altered"]);
-    let folder = edit("job/shard-0003.json", "\"boxes\":300", "\"boxes\":301");
-    refused(&folder, 2, &["shard-0003.json was altered"]);
-    run(&folder, 3).exits(2).complains(&["was altered"]);
-    let folder = edit("job/job.json", "\"resolution\":4", "\"resolution\":5");
-    refused(&folder, 2, &["job.json: was altered"]);
-    let folder = edit("job/result-0002.json", "}", "");
-    refused(&folder, 2, &["result-0002.json", "accepted: a result that orthocert run-shard wrote"]);
+    edited("job/result-0001.json", "\"precision\":64", "\"precision\":96", &|| {
+        refused(&folder, 2, &["result-0001.json was altered"]);
+    });
+    edited("job/shard-0003.json", "\"boxes\":300", "\"boxes\":301", &|| {
+        refused(&folder, 2, &["shard-0003.json was altered"]);
+        run(&folder, 3).exits(2).complains(&["was altered"]);
+    });
+    edited("job/job.json", "\"resolution\":3", "\"resolution\":5", &|| {
+        refused(&folder, 2, &["job.json: was altered"]);
+    });
+    edited("job/result-0002.json", "}", "", &|| {
+        let accepted = "accepted: a result that orthocert run-shard wrote";
+        refused(&folder, 2, &["result-0002.json", accepted]);
+    });
+    // As it was it is merged.
+    folder.run(&["merge", "job", "-o", "merged"]).exits(0);
 }
 
 #[test]
@@ -290,7 +315,7 @@ fn a_job_whose_texts_control_the_terminal_is_refused() {
     let found = "found a title or label with line breaks or control characters";
     let design = "orthoglide-tolerance.toml";
     let split = |place: &[&str]| {
-        let folder = if place[0] == "atlas" { coarse() } else { Folder::with(&[design]) };
+        let folder = if place[0] == "atlas" { map(2) } else { Folder::with(&[design]) };
         folder.write("d.toml", crate::paving::DESIGN);
         let what: &[&str] = match place[0] {
             "atlas" => &["map.toml"],
@@ -320,7 +345,7 @@ fn a_job_whose_texts_control_the_terminal_is_refused() {
 
 #[test]
 fn a_title_that_controls_the_terminal_makes_no_job() {
-    let folder = coarse();
+    let folder = map(1);
     let text = String::from_utf8(folder.read("map.toml")).unwrap();
     let rest: Vec<_> = text.lines().filter(|line| !line.starts_with("title")).collect();
     folder.write("bad.toml", format!("title = \"a\\u001b[2J\"\n{}", rest.join("\n")));
@@ -401,5 +426,6 @@ fn scripts_are_written_and_missing_engines_named() {
     submit("pbs", &[]).exits(2);
     // The folder with scripts in it is still the job's.
     folder.run(&["merge", "job", "-o", "merged"]).exits(0);
+    one_machine(&folder);
     is_the_same(&folder);
 }
