@@ -27,7 +27,7 @@ impl Sampler<'_> {
 
     fn worst_machine(&self, quality: Quality, finest: i32) -> Option<Worst> {
         let at = |place: Place| {
-            let margin = self.margin(quality, &self.at(&place));
+            let margin = self.margin_at(quality, &place);
             Worst { quality, place, margin }
         };
         let mut starts: Vec<Worst> = Vec::new();

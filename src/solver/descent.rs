@@ -21,7 +21,7 @@ impl Sampler<'_> {
     /// the workspace: a compass search for the point, and for the machine first the tolerances' ends.
     pub fn descend(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
         let (m, p) = (self.box_.len(), self.frees());
-        let margin = self.margin(quality, &self.at(start));
+        let margin = self.margin_at(quality, start);
         let mut worst = Worst { quality, place: start.clone(), margin };
         self.to_ends(&mut worst);
         self.compass(&mut worst, 0..m, 1..=COARSE.min(finest));
@@ -46,7 +46,7 @@ impl Sampler<'_> {
         if place == worst.place {
             return false;
         }
-        let margin = self.margin(worst.quality, &self.at(&place));
+        let margin = self.margin_at(worst.quality, &place);
         let worse = margin < worst.margin;
         if worse {
             (worst.place, worst.margin) = (place, margin);

@@ -116,6 +116,13 @@ impl Extreme {
     ///
     /// Joint coordinates have one a leg, all other quantities of legs the worst of all legs'.
     pub fn of(claim: &MachineClaim, legs: usize) -> Vec<Self> {
+        let mut all = Extreme::of_the_table(claim, legs);
+        all.retain(|extreme| extreme.is_of(claim));
+        all
+    }
+
+    /// The same, whether the claim's machines have them or not.
+    fn of_the_table(claim: &MachineClaim, legs: usize) -> Vec<Self> {
         let cube = matches!(claim.workspace, Workspace::Cube { .. });
         let table = TABLE.iter().filter(|q| !(cube && q.key == "transmission"));
         let mut all = Vec::new();
@@ -154,7 +161,6 @@ impl Extreme {
                 all.push(Extreme { bounded: Bounded { requirement, leg } });
             }
         }
-        all.retain(|extreme| extreme.is_of(claim));
         all
     }
 
@@ -165,8 +171,10 @@ impl Extreme {
                 && (own.leg.is_none() || own.leg == one.leg)
                 && std::mem::discriminant(&own.bound) == std::mem::discriminant(&one.bound)
         };
-        let mut all = Extreme::of(claim, legs);
-        all.retain(|one| claim.require.iter().any(|own| bounds(own, &one.bounded.requirement)));
+        let is_bounded =
+            |one: &Self| claim.require.iter().any(|own| bounds(own, &one.bounded.requirement));
+        let mut all = Extreme::of_the_table(claim, legs);
+        all.retain(|one| is_bounded(one) && one.is_of(claim));
         all
     }
 

@@ -9,6 +9,7 @@
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
 //! | [`sample`] | approximate values at single points and machines                            |
+//! | `needed`   | the formulas that each of them takes                                        |
 //! | `descent`, `adverse` | the worst of them                                                 |
 //! | `fails`    | how a claim fails at every point of a box                                   |
 //! | `same`     | two points with the same joint coordinates                                  |
@@ -29,6 +30,7 @@ pub(crate) mod evidence;
 pub mod extremes;
 pub(crate) mod fails;
 mod less;
+mod needed;
 mod propose;
 pub(crate) mod refute;
 mod rows;

@@ -4,6 +4,7 @@
 
 use super::doubles::{middle, pair, Pair, Single};
 use super::evidence::BITS;
+use super::needed::needed;
 use super::refute::approximate;
 use super::violation;
 use nalgebra::DMatrix;
@@ -13,7 +14,7 @@ use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::{ClaimError, Value};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::quantity::Test;
+use orthocert_kernel::quantity::{Obligation, Test};
 
 /// Points of a grid along each coordinate, by their number; beyond, its corners, the middles of its
 /// faces and its centre.
@@ -97,6 +98,8 @@ pub struct Sampler<'a> {
     varying: Vec<(usize, f64, Vec<f64>)>,
     /// Radicands that depend on the point.
     radicands: Vec<Formula>,
+    /// The entries of the tape that each quality needs.
+    needed: Vec<(Quality, Vec<bool>)>,
     sign: f64,
     /// Whether singular values are computed by [`violation::extremes`].
     quick: bool,
@@ -150,9 +153,11 @@ impl<'a> Sampler<'a> {
             free: free.map(|(j, _)| j).collect(),
             varying: varying.collect(),
             radicands: problem.tape.ops().iter().filter_map(radicand).collect(),
+            needed: Vec::new(),
             sign: 1.0,
             quick: false,
         };
+        sampler.needed = needed(problem, &sampler.radicands, &sampler.qualities());
         let centre = sampler.at(&sampler.centre());
         sampler.sign = sampler.determinant(&centre).unwrap_or(1.0).signum();
         Ok(sampler)
@@ -281,10 +286,15 @@ impl<'a> Sampler<'a> {
 
     /// The values of all formulas at a place.
     pub fn at(&self, place: &Place) -> At {
+        let is_accuracy = |o: &Obligation| matches!(o.test, Test::Accuracy(_));
+        self.at_parts(place, None, self.problem.obligations.iter().any(is_accuracy))
+    }
+
+    /// The values of what is needed at a place, also for the middle machine where that is asked for.
+    fn at_parts(&self, place: &Place, needed: Option<&[bool]>, nominal: bool) -> At {
         let mut parameters: Vec<f64> = self.parameters.iter().map(middle).collect();
         let point = self.point(&place.u);
-        let asked = self.problem.obligations.iter().any(|o| matches!(o.test, Test::Accuracy(_)));
-        let nominal = asked.then(|| self.values(&point, &parameters));
+        let nominal = nominal.then(|| self.values(&point, &parameters, needed));
         for (&j, t) in self.free.iter().zip(&place.t) {
             let (lo, hi) = self.parameters[j];
             parameters[j] = lo + t * (hi - lo);
@@ -294,18 +304,18 @@ impl<'a> Sampler<'a> {
             let terms = by.iter().zip(names).map(|(by, t)| by * (2.0 * t - 1.0));
             parameters[*j] = centre + terms.sum::<f64>();
         }
-        At { own: self.values(&point, &parameters), nominal }
+        At { own: self.values(&point, &parameters, needed), nominal }
     }
 
     /// The same at a point in the problem's unit, wherever it is, of the middle machine.
     pub fn at_point(&self, point: &[f64]) -> At {
         let parameters: Vec<f64> = self.parameters.iter().map(middle).collect();
-        let own = self.values(point, &parameters);
+        let own = self.values(point, &parameters, None);
         At { nominal: Some(own.clone()), own }
     }
 
-    fn values(&self, point: &[f64], parameters: &[f64]) -> Values<f64> {
-        self.problem.tape.run(&Single, |op| match op {
+    fn values(&self, point: &[f64], parameters: &[f64], needed: Option<&[bool]>) -> Values<f64> {
+        self.problem.tape.run_parts(&Single, needed, |op| match op {
             Op::Coordinate(k) => point.get(k).copied(),
             Op::Parameter(j) => parameters.get(j).copied(),
             _ => None,
@@ -370,18 +380,33 @@ impl<'a> Sampler<'a> {
 
     /// How far a quality is from being violated: negative where it is.
     pub fn margin(&self, quality: Quality, values: &At) -> f64 {
-        let reach = || {
-            let all = self.radicands.iter().filter_map(|&f| values.of(f));
-            all.fold(f64::INFINITY, f64::min)
-        };
+        self.defined(quality, values)
+            .unwrap_or_else(|| self.least_radicand(values).min(0.0) - UNDEFINED)
+    }
+
+    /// The same at a place; nothing else is computed there.
+    pub fn margin_at(&self, quality: Quality, place: &Place) -> f64 {
+        let needed = self.needed.iter().find(|(own, _)| *own == quality);
+        let is_accuracy = matches!(quality, Quality::Obligation(number)
+            if matches!(self.problem.obligations[number].test, Test::Accuracy(_)));
+        let values = self.at_parts(place, needed.map(|(_, needed)| needed.as_slice()), is_accuracy);
+        self.defined(quality, &values).unwrap_or_else(|| self.margin(quality, &self.at(place)))
+    }
+
+    fn least_radicand(&self, values: &At) -> f64 {
+        let all = self.radicands.iter().filter_map(|&f| values.of(f));
+        all.fold(f64::INFINITY, f64::min)
+    }
+
+    fn defined(&self, quality: Quality, values: &At) -> Option<f64> {
         let margin = match quality {
-            Quality::Reach => Some(reach()),
+            Quality::Reach => Some(self.least_radicand(values)),
             Quality::Determinant => self.determinant(values).map(|det| self.sign * det),
             Quality::Obligation(number) => {
                 self.margin_of(&self.problem.obligations[number].test, values)
             }
         };
-        margin.filter(|x| !x.is_nan()).unwrap_or_else(|| reach().min(0.0) - UNDEFINED)
+        margin.filter(|x| !x.is_nan())
     }
 
     fn margin_of(&self, test: &Test, values: &At) -> Option<f64> {

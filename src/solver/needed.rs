@@ -1,0 +1,129 @@
+//! Which entries of a problem's tape a quality is made of: a look at one of them need not run the
+//! others.
+
+use super::sample::Quality;
+use orthocert_kernel::arithmetic::Arithmetic;
+use orthocert_kernel::formula::Formula;
+use orthocert_kernel::machine::{Joint, Leg};
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::Row;
+use std::cell::RefCell;
+
+/// Numbers are the positions of entries in the tape; kept are the two that each one is made of.
+#[derive(Default)]
+struct Positions(RefCell<Vec<[Option<usize>; 2]>>);
+
+impl Positions {
+    fn next(&self, a: Option<&usize>, b: Option<&usize>) -> Option<usize> {
+        let mut all = self.0.borrow_mut();
+        all.push([a.copied(), b.copied()]);
+        Some(all.len() - 1)
+    }
+}
+
+impl Arithmetic for Positions {
+    type Number = usize;
+
+    fn integer(&self, _: i64) -> Option<usize> {
+        self.next(None, None)
+    }
+
+    fn add(&self, a: &usize, b: &usize) -> Option<usize> {
+        self.next(Some(a), Some(b))
+    }
+
+    fn sub(&self, a: &usize, b: &usize) -> Option<usize> {
+        self.next(Some(a), Some(b))
+    }
+
+    fn neg(&self, a: &usize) -> Option<usize> {
+        self.next(Some(a), None)
+    }
+
+    fn mul(&self, a: &usize, b: &usize) -> Option<usize> {
+        self.next(Some(a), Some(b))
+    }
+
+    fn div(&self, a: &usize, b: &usize) -> Option<usize> {
+        self.next(Some(a), Some(b))
+    }
+
+    fn sqr(&self, a: &usize) -> Option<usize> {
+        self.next(Some(a), None)
+    }
+
+    fn sqrt(&self, a: &usize) -> Option<usize> {
+        self.next(Some(a), None)
+    }
+}
+
+/// Of each of these qualities, for each entry of the tape up to the last one whether it is needed.
+pub fn needed(
+    problem: &Problem,
+    radicands: &[Formula],
+    qualities: &[Quality],
+) -> Vec<(Quality, Vec<bool>)> {
+    let positions = Positions::default();
+    let at = problem.tape.run(&positions, |_| positions.next(None, None));
+    let parts = positions.0.into_inner();
+    let entries = |quality: &Quality| {
+        let formulas = match quality {
+            Quality::Reach => radicands.to_vec(),
+            Quality::Determinant => {
+                problem.legs.iter().flat_map(|leg| leg.divided.a.iter().copied()).collect()
+            }
+            Quality::Obligation(number) => formulas(problem, &problem.obligations[*number].test),
+        };
+        let last = formulas.iter().filter_map(|f| at.of(*f)).max();
+        let mut needed = vec![false; last.map_or(0, |last| last + 1)];
+        formulas.iter().filter_map(|f| at.of(*f)).for_each(|&at| needed[at] = true);
+        for at in (0..needed.len()).rev().filter(|&at| at < parts.len()) {
+            if needed[at] {
+                parts[at].iter().flatten().for_each(|&part| needed[part] = true);
+            }
+        }
+        (*quality, needed)
+    };
+    qualities.iter().map(entries).collect()
+}
+
+/// What the margin of a test is computed from.
+fn formulas(problem: &Problem, test: &Test) -> Vec<Formula> {
+    fn rows<'r>(rows: impl Iterator<Item = &'r Row<Formula>>) -> Vec<Formula> {
+        rows.flat_map(|row| row.a.iter().chain([&row.d]).copied()).collect()
+    }
+    let legs = || rows(problem.legs.iter().map(|leg| &leg.row));
+    let with = |mut all: Vec<Formula>, other: &[Formula]| {
+        all.extend(other);
+        all
+    };
+    match test {
+        Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) => with(legs(), &[*f]),
+        Test::Least(least, kappa) => with(rows(least.iter()), &[*kappa]),
+        Test::OneToOne(_) => legs(),
+        Test::AtLeast(f) => vec![*f],
+        Test::Beyond(f, b) => vec![*f, *b],
+        Test::Solve(solve) => {
+            let all = solve.a.iter().flatten().chain(&solve.b).chain([&solve.square]);
+            all.copied().collect()
+        }
+        Test::Accuracy(test) => {
+            let joints = problem.legs.iter().flat_map(|leg: &Leg| match leg.rho {
+                None => Vec::new(),
+                Some(Joint::Length(rho)) => vec![rho],
+                Some(Joint::Angle { cos, sin }) => vec![cos, sin],
+            });
+            let errors = test.joints.iter().map(|(error, _)| *error);
+            let rows = test.rows.iter().flatten().copied();
+            rows.chain(errors).chain(joints).chain([test.distance]).collect()
+        }
+        Test::Apart(test) => {
+            with(test.ends.iter().flatten().flatten().copied().collect(), &[test.distance])
+        }
+        Test::Curvature(test) => {
+            let all = test.row.iter().chain(test.twice.iter().flatten());
+            with(all.copied().collect(), &[test.a, test.b])
+        }
+    }
+}
