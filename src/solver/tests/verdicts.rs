@@ -40,7 +40,7 @@ fn margins_need_few_formulas() {
         ..require(quantity, bound)
     };
     let (min, max) = (|| Bound::Min(claimed("1/2")), || Bound::Max(claimed("2")));
-    let all = vec![
+    let all = [
         one("transmission", min()),
         one("transmission", max()),
         one("conditioning", max()),
