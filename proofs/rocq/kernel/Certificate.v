@@ -420,8 +420,26 @@ Definition is_bound (r : requirement) : bool :=
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
   | NotSingular | JointMin _ _ | JointMax _ _ => true
   end.
+(** A quantity, leg and end stand once. *)
+Definition is_same (r q : written_requirement) : bool :=
+  (about_text (about_ r) =? about_text (about_ q)) && Bool.eqb (is_max r) (is_max q) &&
+  match leg_ r, leg_ q with Some n, Some m => Nat.eqb n m | None, None => true | _, _ => false end.
+Fixpoint is_each_once (rs : list written_requirement) : bool :=
+  match rs with [] => true | r :: rs' => negb (existsb (is_same r) rs') && is_each_once rs' end.
+
+(** The ends of a tolerance differ. *)
+Definition is_range (q : quantity) : bool :=
+  match q with One _ => true | Between a b => certainly exact_bits true (Minus (denoted b) (denoted a)) end.
+Definition three_of (t : triple quantity) : list quantity := [first t; second t; third t].
+Definition quantities_of (l : written_leg) : list quantity :=
+  match l with
+  | Slider_ d a p len _ => three_of d ++ three_of a ++ three_of p ++ [len]
+  | Strut_ a p k => three_of a ++ three_of p ++ match k with Some k => three_of k | None => [] end
+  | Planar_ d => three_of d
+  end%list.
+
 Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
-  Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && forallb is_bound (require c).
+  Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
@@ -443,7 +461,7 @@ Definition accept (c : certificate) : bool :=
       match closed_bounds rs with Some (least, greatest) => check_closed exact_bits (denoted side) least greatest | None => false end
   | Postulate_ None, Nodes bits nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits nodes =>
-      match trees_of 4 nodes with Some ts => check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
+      match trees_of 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
   | _, ByWitness _ _ _ _ => false
   end.
 
@@ -457,7 +475,7 @@ Proof.
     destruct (failure_of fails) as [f |]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_sound _ _ _ _ _ h).
   - destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
-  - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. split; [exact (check_postulate_greatest _ _ _ h) |].
+  - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
     exact (check_postulate_sound _ _ h L a e hL psi h1 P hP).

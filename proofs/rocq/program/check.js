@@ -114,7 +114,10 @@ try {
       else if (answer === right) count[answer === "REJECTED" ? "rejected" : "accepted"]++;
       // What is a theorem needs no tree.
       else if (right === "REJECTED" && isTheorem(texts[i])) count["by theorem"]++;
-      else if (answer === "REJECTED") count["of the exact checker alone"]++;
+      else if (answer === "REJECTED") {
+        count["of the exact checker alone"]++;
+        console.log(`accepted by orthocert-check alone: ${texts[i].trim()}`);
+      }
       else fail(`mutant: ${answer}, and ${right} by orthocert-check: ${texts[i]}`);
       if (i % 20 === 0 && verify(texts[i]) !== answer) fail(`mutant: ${answer} natively alone: ${texts[i]}`);
     });

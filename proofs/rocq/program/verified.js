@@ -4,19 +4,19 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(j){"use strict";var
-r2=typeof
-module==="object"&&module.exports||j,hO="Invalid_argument",di="precision",ab='"',hN="@[",eB=1255,hM="inside",io="Fatal error: exception %s\n",hn=255,il="(",im=0x800,hm="tree",eA="jsError",aZ=0x8000,hL="%ni",iK="sqrt(",ik=256,hK="offset",ij="obligation",cE="machine",hl="End_of_file",hJ="strut",hk="center",ez="Failure",iJ="serial_margin",bg=0xff,hj="\n",iI="outside",hI="base_axis",eQ="ENOENT",aj="0",ii="([^/]+)",eP=0xf,cD=128,ey=-48,hi=0xdc00,hH="Sys_blocked_io",iH="fd ",hh="given",ih="ENOTEMPTY",Q=248,ig="bound",P="camlinternalFormat.ml",ie="Division_by_zero",iF="by",iG=1027,hg="Sys_error",hG="slider",hF="postulate",id="proof",hE="%u",eO="mechanism",ic="row",hf="EEXIST",eN="%d",he="Printexc.handle_uncaught_exception",hD="y",hd="lower",ib="cube",ia="buffer.ml",dh="int_of_string",eI=127,cC=1024,hC="@{",eU="e",hb=120,hc=103,hB=" : flags Open_rdonly and Open_wronly are not compatible",h$="orthocert/2",iE="reach",ha=512,aP="-",iD="witness",dk="platform",g$=0x7ff0,eT=": Not a directory",hA=" : file already exists",b4="min",eS="workspace",hz="claim",h_="split",bf=0xffffff,h9="joint",g_="0x",iB="nodes",iC="Out_of_memory",g9="psi_max",dm=254,eR="index out of bounds",h8=100,g8="end",dq="_bigarr02",g7="%Li",h7=" : flags Open_text and Open_binary are not compatible",dl="drive",hy=", characters ",h6="lower_divided",iA="cylinder",a0=0xffff,hx=12520,iz="parallel_margin",eH="fails",eM="Unix.Unix_error",iy="infinity",dg="tool",ex="mkdir",cB=1000,g6="translational",h="",h5="Stack_overflow",eG="^",df=": No such file or directory",h4="places",h3="/static/",b3=0x3f,h2=-97,h0="stiffness",h1="Not_found",g5="planar",hZ="mode",ix="joint_speed",hw="Match_failure",g4=", ",g3="transmission",de="anchor",dp=252,hv="leg",bt=".",be="+",eL="rmdir",iw=0xf0,ht="REJECTED",hu="%li",hY=1026,b5="max",dn="direction",hX="orthoglide",iv="rank",iu="constraint_margin",it=-32,g1="Pervasives.do_at_exit",g2="utf8",bd=" ",dj="conditioning",eK="Fatal error: exception ",aQ=0x80,g0="Undefined_recursive_module",eF=")",hW="length",is="quantity",hV="joint_range",gZ="Q2",eE="nan",hU="point",hs=0xe0,ir="corner",hq="z",hr=0xdfff,hS="version",hT="_",aO="/",eJ="compare: functional value",iq="Assert_failure",hp="provenance",gX="radius",gY="%i",eD="require",hR="side",ip="format",eC="ENOTDIR",hQ="Q1",hP="all",gW="box",ho=250;function
-e9(c,b,a){var
+r6=typeof
+module==="object"&&module.exports||j,hR="Invalid_argument",dj="precision",ab='"',hQ="@[",eF=1255,hP="inside",ir="Fatal error: exception %s\n",hq=255,ip="(",iq=0x800,hp="tree",eE="jsError",aZ=0x8000,hO="%ni",iN="sqrt(",io=256,hN="offset",im="obligation",cG="machine",ho="End_of_file",hM="strut",hn="center",eD="Failure",iM="serial_margin",bg=0xff,hm="\n",iL="outside",hL="base_axis",eU="ENOENT",aj="0",il="([^/]+)",eT=0xf,cF=128,eC=-48,hl=0xdc00,hK="Sys_blocked_io",iK="fd ",hk="given",ik="ENOTEMPTY",Q=248,ij="bound",P="camlinternalFormat.ml",ii="Division_by_zero",iI="by",iJ=1027,hj="Sys_error",hJ="slider",hI="postulate",ih="proof",hH="%u",eS="mechanism",ig="row",hi="EEXIST",eR="%d",hh="Printexc.handle_uncaught_exception",hG="y",hg="lower",ie="cube",id="buffer.ml",di="int_of_string",eM=127,cE=1024,hF="@{",eY="e",he=120,hf=103,hE=" : flags Open_rdonly and Open_wronly are not compatible",ic="orthocert/2",iH="reach",hd=512,aP="-",iG="witness",dl="platform",hc=0x7ff0,eX=": Not a directory",hD=" : file already exists",b6="min",eW="workspace",hC="claim",ib="split",bf=0xffffff,ia="joint",hb="0x",iE="nodes",iF="Out_of_memory",ha="psi_max",dn=254,eV="index out of bounds",h$=100,g$="end",dr="_bigarr02",g_="%Li",h_=" : flags Open_text and Open_binary are not compatible",dm="drive",hB=", characters ",h9="lower_divided",iD="cylinder",a0=0xffff,hA=12520,iC="parallel_margin",eL="fails",eQ="Unix.Unix_error",iB="infinity",dh="tool",eB="mkdir",cD=1000,g9="translational",h="",h8="Stack_overflow",eK="^",dg=": No such file or directory",h7="places",h6="/static/",b5=0x3f,h5=-97,h3="stiffness",h4="Not_found",g8="planar",h2="mode",iA="joint_speed",hz="Match_failure",g7=", ",g6="transmission",df="anchor",dq=252,hy="leg",bt=".",be="+",eP="rmdir",iz=0xf0,hw="REJECTED",hx="%li",h1=1026,b7="max",dp="direction",h0="orthoglide",iy="rank",ix="constraint_margin",iw=-32,g4="Pervasives.do_at_exit",g5="utf8",bd=" ",dk="conditioning",eO="Fatal error: exception ",aQ=0x80,g3="Undefined_recursive_module",eJ=")",hZ="length",iv="quantity",hY="joint_range",g2="Q2",eI="nan",hX="point",hv=0xe0,iu="corner",ht="z",hu=0xdfff,hV="version",hW="_",aO="/",eN="compare: functional value",it="Assert_failure",hs="provenance",g0="radius",g1="%i",eH="require",hU="side",is="format",eG="ENOTDIR",hT="Q1",hS="all",gZ="box",hr=250;function
+fb(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=h;for(;0<a;b+=cC,a-=cC)e+=d.apply(null,c.slice(b,b+Math.min(a,cC)));return e}function
-dr(b){if(j.Uint8Array)var
+e=h;for(;0<a;b+=cE,a-=cE)e+=d.apply(null,c.slice(b,b+Math.min(a,cE)));return e}function
+ds(b){if(j.Uint8Array)var
 c=new(j.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-bv(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?e9(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?e9(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)dr(b);var
+bv(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?fb(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?fb(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ds(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -25,37 +25,37 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 bh(a){return a}function
 a3(a,b,c,d,e){bv(bh(a),b,c,d,e);return 0}function
-rV(b,a){throw[0,b,a]}function
-b_(b,a){if(b==0)return h;if(a.repeat)return a.repeat(b);var
+rZ(b,a){throw[0,b,a]}function
+ca(b,a){if(b==0)return h;if(a.repeat)return a.repeat(b);var
 d=h,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-b8(a){if(a.t==2)a.c+=b_(a.l-a.c.length,"\0");else
-a.c=e9(a.c,0,a.c.length);a.t=0}function
-je(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>eI)return false;return true}else
+b_(a){if(a.t==2)a.c+=ca(a.l-a.c.length,"\0");else
+a.c=fb(a.c,0,a.c.length);a.t=0}function
+jh(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>eM)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-e$(e){for(var
+fd(e){for(var
 k=h,c=h,g,f,i,a,b=0,j=e.length;b<j;b++){f=e.charCodeAt(b);if(f<aQ){for(var
-d=b+1;d<j&&(f=e.charCodeAt(d))<aQ;d++);if(d-b>ha){c.substr(0,1);k+=c;c=h;k+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==j)break;b=d}a=1;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD){g=i+(f<<6);if(f<hs){a=g-0x3080;if(a<aQ)a=1}else{a=2;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD){g=i+(g<<6);if(f<iw){a=g-0xe2080;if(a<im||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<j&&((i=e.charCodeAt(b))&-64)==cD&&f<0xf5){a=i-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>a0)c+=String.fromCharCode(0xd7c0+(a>>10),hi+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>cC){c.substr(0,1);k+=c;c=h}}return k+c}function
+d=b+1;d<j&&(f=e.charCodeAt(d))<aQ;d++);if(d-b>hd){c.substr(0,1);k+=c;c=h;k+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==j)break;b=d}a=1;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF){g=i+(f<<6);if(f<hv){a=g-0x3080;if(a<aQ)a=1}else{a=2;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF){g=i+(g<<6);if(f<iz){a=g-0xe2080;if(a<iq||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF&&f<0xf5){a=i-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>a0)c+=String.fromCharCode(0xd7c0+(a>>10),hl+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>cE){c.substr(0,1);k+=c;c=h}}return k+c}function
 a1(c,a,b){this.t=c;this.c=a;this.l=b}a1.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:b8(this);case
-0:if(je(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:b_(this);case
+0:if(jh(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};a1.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return e$(a)};a1.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return fd(a)};a1.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 a1(this.t,a,this.l)};function
-iU(a){return new
+iX(a){return new
 a1(0,a,a.length)}function
-a(a){return iU(a)}function
-e7(c,b){rV(c,a(b))}var
+a(a){return iX(a)}function
+e$(c,b){rZ(c,a(b))}var
 F=[0];function
-R(a){e7(F.Invalid_argument,a)}function
-iS(){R(eR)}function
-I(a,c,b){b&=bg;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}dr(a)}a.c[c]=b;return 0}function
-bI(b,a,c){if(a>>>0>=b.l)iS();return I(b,a,c)}function
-b7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+R(a){e$(F.Invalid_argument,a)}function
+iV(){R(eV)}function
+I(a,c,b){b&=bg;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ds(a)}a.c[c]=b;return 0}function
+bK(b,a,c){if(a>>>0>=b.l)iV();return I(b,a,c)}function
+b9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 bi(c,a){if(c.fun)return bi(c.fun,a);if(typeof
@@ -68,20 +68,20 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bi(c,d)}}function
-cF(){R(eR)}function
-iV(a,b){if(b>>>0>=a.length-1)cF();return a}function
-rl(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bk(a){a.t&6&&b8(a);return a.c}var
-r4=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-r3(a){if(r4)return Math.floor(Math.log2(a));var
+cH(){R(eV)}function
+iY(a,b){if(b>>>0>=a.length-1)cH();return a}function
+rp(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bk(a){a.t&6&&b_(a);return a.c}var
+r8=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+r7(a){if(r8)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-eZ(c){var
+e3(c){var
 a=new(j.Float32Array)(1);a[0]=c;var
 b=new(j.Int32Array)(a.buffer);return b[0]|0}var
-i4=Math.pow(2,-24);function
-rT(a){throw a}function
-i$(){rT(F.Division_by_zero)}function
+i7=Math.pow(2,-24);function
+rX(a){throw a}function
+jc(){rX(F.Division_by_zero)}function
 i(b,c,a){this.lo=b&bf;this.mi=c&bf;this.hi=a&a0}i.prototype.caml_custom="_j";i.prototype.copy=function(){return new
 i(this.lo,this.mi,this.hi)};i.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.neg=function(){var
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 i(b,c,d)};i.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 i(b,c,d)};i.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*i4|0)+this.mi*a.lo+this.lo*a.mi,d=(c*i4|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*i7|0)+this.mi*a.lo+this.lo*a.mi,d=(c*i7|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 i(b,c,d)};i.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};i.prototype.isNeg=function(){return this.hi<<16<0};i.prototype.and=function(a){return new
 i(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};i.prototype.or=function(a){return new
 i(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};i.prototype.xor=function(a){return new
@@ -109,22 +109,22 @@ i(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&a0);return new
 i(this.hi<<16>>a-32,b,b)};i.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bf;this.lo=this.lo<<1&bf};i.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bf;this.mi=(this.mi>>>1|this.hi<<23)&bf;this.hi=this.hi>>>1};i.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 i(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};i.prototype.div=function(a){var
-b=this;if(a.isZero())i$();var
+b=this;if(a.isZero())jc();var
 d=b.hi^a.hi;if(b.hi&aZ)b=b.neg();if(a.hi&aZ)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&aZ)c=c.neg();return c};i.prototype.mod=function(b){var
-a=this;if(b.isZero())i$();var
+a=this;if(b.isZero())jc();var
 d=a.hi;if(a.hi&aZ)a=a.neg();if(b.hi&aZ)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&aZ)c=c.neg();return c};i.prototype.toInt=function(){return this.lo|this.mi<<24};i.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};i.prototype.toArray=function(){return[this.hi>>8,this.hi&bg,this.mi>>16,this.mi>>8&bg,this.mi&bg,this.lo>>16,this.lo>>8&bg,this.lo&bg]};i.prototype.lo32=function(){return this.lo|(this.mi&bg)<<24};i.prototype.hi32=function(){return this.mi>>>8&a0|this.hi<<16};function
-dv(b,c,a){return new
+dw(b,c,a){return new
 i(b,c,a)}function
-du(a){if(!isFinite(a)){if(isNaN(a))return dv(1,0,g$);return a>0?dv(0,0,g$):dv(0,0,0xfff0)}var
+dv(a){if(!isFinite(a)){if(isNaN(a))return dw(1,0,hc);return a>0?dw(0,0,hc):dw(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?aZ:a>=0?0:aZ;if(f)a=-a;var
-b=r3(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-hY)}else{a/=Math.pow(2,b-iG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=r7(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-h1)}else{a/=Math.pow(2,b-iJ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&eP|f|b<<4;return dv(g,e,c)}function
-cI(a){return a.toArray()}function
-iR(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==dq)for(var
+g=a|0;c=c&eT|f|b<<4;return dw(g,e,c)}function
+cK(a){return a.toArray()}function
+iU(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==dr)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<a0)c.write(16,b.dims[a]);else{c.write(16,a0);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=cI(b.get(a));for(var
+e=cK(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=cI(du(b.get(a)));for(var
+e=cK(dv(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=eZ(b.get(a));c.write(32,e)}break;case
+e=e3(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,eZ(d[1]));c.write(32,eZ(d[2]))}break;case
+d=b.get(a);c.write(32,e3(d[1]));c.write(32,e3(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=cI(du(f[1]));for(var
+f=b.get(a),e=cK(dv(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=cI(du(f[2]));for(var
+e=cK(dv(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-iP(a){switch(a){case
+iS(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-rf(c,e){var
+rj(c,e){var
 b=j,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -180,42 +180,42 @@ b=j,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)R("Bigarray.create: unsupported kind");var
 d=new
-a(e*iP(c));return d}function
-e0(c){var
+a(e*iS(c));return d}function
+e4(c){var
 a=new(j.Int32Array)(1);a[0]=c;var
 b=new(j.Float32Array)(a.buffer);return b[0]}function
-cH(a){return new
+cJ(a){return new
 i(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-e1(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&eP)==0?b&aZ?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&eP);if(c>0){a+=16;a*=Math.pow(2,c-iG)}else
-a*=Math.pow(2,-hY);if(b&aZ)a=-a;return a}function
-eV(b){var
+e5(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&eT)==0?b&aZ?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&eT);if(c>0){a+=16;a*=Math.pow(2,c-iJ)}else
+a*=Math.pow(2,-h1);if(b&aZ)a=-a;return a}function
+eZ(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)R("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-rw(b,a){return new
+rA(b,a){return new
 i(b&bf,b>>>24&bg|(a&a0)<<8,a>>>16&a0)}function
-e2(a){return a.hi32()}function
-e3(a){return a.lo32()}var
-rg=dq;function
-bu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}bu.prototype.caml_custom=rg;bu.prototype.offset=function(b){var
+e6(a){return a.hi32()}function
+e7(a){return a.lo32()}var
+rk=dr;function
+bu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}bu.prototype.caml_custom=rk;bu.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))R("bigarray.js: invalid offset");if(this.dims.length!=b.length)R("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])cF();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])cH();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])cF();c=c*this.dims[a]+(b[a]-1)}return c};bu.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])cH();c=c*this.dims[a]+(b[a]-1)}return c};bu.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return rw(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return rA(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[dm,e,c];default:return this.data[a]}};bu.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=e3(b);this.data[a*2+1]=e2(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[dn,e,c];default:return this.data[a]}};bu.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=e7(b);this.data[a*2+1]=e6(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};bu.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=e3(b),e=e2(b);if(c==e)this.data.fill(c);else
+c=e7(b),e=e6(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-b6(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b6.prototype=new
-bu();b6.prototype.offset=function(a){if(typeof
+b8(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b8.prototype=new
+bu();b8.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-R("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])cF();return a};b6.prototype.get=function(a){return this.data[a]};b6.prototype.set=function(a,b){this.data[a]=b;return 0};b6.prototype.fill=function(a){this.data.fill(a);return 0};function
-iN(c,d,a,b){var
-e=iP(c);if(eV(a)*e!=b.length)R("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-b6(c,d,a,b);return new
+R("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])cH();return a};b8.prototype.get=function(a){return this.data[a]};b8.prototype.set=function(a,b){this.data[a]=b;return 0};b8.prototype.fill=function(a){this.data.fill(a);return 0};function
+iQ(c,d,a,b){var
+e=iS(c);if(eZ(a)*e!=b.length)R("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+b8(c,d,a,b);return new
 bu(c,d,a,b)}function
-aR(b){if(!F.Failure)F.Failure=[Q,a(ez),-3];e7(F.Failure,b)}function
-iO(b,v,r){var
+aR(b){if(!F.Failure)F.Failure=[Q,a(eD),-3];e$(F.Failure,b)}function
+iR(b,v,r){var
 i=b.read32s();if(i<0||i>16)aR("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bg,o=p>>8&1,h=[];if(r==dq)for(var
+p=b.read32s(),j=p&bg,o=p>>8&1,h=[];if(r==dr)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==a0){var
 t=b.read32u(),u=b.read32u();if(t!=0)aR("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=eV(h),f=rf(j,d),g=iN(j,o,h,f);switch(j){case
+d=eZ(h),f=rj(j,d),g=iQ(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,43 +282,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=cH(e);g.set(a,q)}break;case
+q=cJ(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=e1(cH(e));g.set(a,k)}break;case
+k=e5(cJ(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=e0(b.read32s());g.set(a,k)}break;case
+k=e4(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=e0(b.read32s()),l=e0(b.read32s());g.set(a,[dm,m,l])}break;case
+m=e4(b.read32s()),l=e4(b.read32s());g.set(a,[dn,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=e1(cH(e));for(var
+m=e5(cJ(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=e1(cH(e));g.set(a,[dm,m,l])}break}v[0]=(4+i)*4;return iN(j,o,h,f)}function
-iM(a,b,c){return a.compare(b,c)}function
-i8(a,b){return Math.imul(a,b)}function
-bj(b,a){a=i8(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=i8(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-rs(a,b){a=bj(a,e3(b));a=bj(a,e2(b));return a}function
-i3(a,b){return rs(a,du(b))}function
-iQ(c){var
-b=eV(c.dims),d=0;switch(c.kind){case
+l=e5(cJ(e));g.set(a,[dn,m,l])}break}v[0]=(4+i)*4;return iQ(j,o,h,f)}function
+iP(a,b,c){return a.compare(b,c)}function
+i$(a,b){return Math.imul(a,b)}function
+bj(b,a){a=i$(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=i$(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+rw(a,b){a=bj(a,e7(b));a=bj(a,e6(b));return a}function
+i6(a,b){return rw(a,dv(b))}function
+iT(c){var
+b=eZ(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ik)b=ik;var
+12:if(b>io)b=io;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bj(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=bj(d,e)}break;case
 4:case
-5:if(b>cD)b=cD;var
+5:if(b>cF)b=cF;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bj(d,e)}if((b&1)!=0)d=bj(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=bj(d,c.data[a]);break;case
@@ -329,75 +329,75 @@ a=0;a<b;a++)d=bj(d,c.data[a]);break;case
 a=0;a<b;a++)d=bj(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=i3(d,c.data[a]);break;case
+a=0;a<b;a++)d=i6(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=i3(d,c.data[a]);break}return d}function
-ru(a,b){b[0]=4;return a.read32s()}function
-rQ(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=i6(d,c.data[a]);break}return d}function
+ry(a,b){b[0]=4;return a.read32s()}function
+rU(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:aR("input_value: native integer value too large");default:aR("input_value: ill-formed native integer")}}function
-rF(c,d){var
+rJ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return cH(b)}function
-rB(e,d,b){var
-c=cI(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return cJ(b)}function
+rF(e,d,b){var
+c=cK(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-rv(a,b,c){return a.compare(b)}function
-ry(a){return a.lo32()^a.hi32()}var
-iZ={"_j":{deserialize:rF,serialize:rB,fixed_length:8,compare:rv,hash:ry},"_i":{deserialize:ru,fixed_length:4},"_n":{deserialize:rQ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return iO(a,b,"_bigarray")},serialize:iR,compare:iM,hash:iQ},"_bigarr02":{deserialize:function(a,b){return iO(a,b,dq)},serialize:iR,compare:iM,hash:iQ}};function
-eW(a){return iZ[a.caml_custom]&&iZ[a.caml_custom].compare}function
-iX(f,c,d,e){var
-b=eW(c);if(b){var
+rz(a,b,c){return a.compare(b)}function
+rC(a){return a.lo32()^a.hi32()}var
+i2={"_j":{deserialize:rJ,serialize:rF,fixed_length:8,compare:rz,hash:rC},"_i":{deserialize:ry,fixed_length:4},"_n":{deserialize:rU,fixed_length:4},"_bigarray":{deserialize:function(a,b){return iR(a,b,"_bigarray")},serialize:iU,compare:iP,hash:iT},"_bigarr02":{deserialize:function(a,b){return iR(a,b,dr)},serialize:iU,compare:iP,hash:iT}};function
+e0(a){return i2[a.caml_custom]&&i2[a.caml_custom].compare}function
+i0(f,c,d,e){var
+b=e0(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-dw(a){return a
+dx(a){return a
 instanceof
 a1}function
-e5(a){return dw(a)}function
-iY(a){if(typeof
-a==="number")return cB;else
-if(dw(a))return dp;else
-if(e5(a))return 1252;else
+e9(a){return dx(a)}function
+i1(a){if(typeof
+a==="number")return cD;else
+if(dx(a))return dq;else
+if(e9(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=hn){var
-b=a[0]|0;return b==dm?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=hq){var
+b=a[0]|0;return b==dn?0:b}else
 if(a
 instanceof
-String)return hx;else
+String)return hA;else
 if(typeof
-a=="string")return hx;else
+a=="string")return hA;else
 if(a
 instanceof
-Number)return cB;else
-if(a&&a.caml_custom)return eB;else
+Number)return cD;else
+if(a&&a.caml_custom)return eF;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-rG(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-iT(a,b){a.t&6&&b8(a);b.t&6&&b8(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-r9(a,b){return iT(a,b)}function
-iW(a,b,d){var
+rK(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+iW(a,b){a.t&6&&b_(a);b.t&6&&b_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sb(a,b){return iW(a,b)}function
+iZ(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=iY(a);if(f==ho){a=a[1];continue}var
-g=iY(b);if(g==ho){b=b[1];continue}if(f!==g){if(f==cB){if(g==eB)return iX(a,b,-1,d);return-1}if(g==cB){if(f==eB)return iX(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:R(eJ);break;case
+f=i1(a);if(f==hr){a=a[1];continue}var
+g=i1(b);if(g==hr){b=b[1];continue}if(f!==g){if(f==cD){if(g==eF)return i0(a,b,-1,d);return-1}if(g==cD){if(f==eF)return i0(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:R(eN);break;case
 248:var
-c=rG(a[2],b[2]);if(c!=0)return c|0;break;case
-249:R(eJ);break;case
+c=rK(a[2],b[2]);if(c!=0)return c|0;break;case
+249:R(eN);break;case
 250:R("equal: got Forward_tag, should not happen");break;case
 251:R("equal: abstract value");break;case
 252:if(a!==b){var
-c=iT(a,b);if(c!=0)return c|0}break;case
+c=iW(a,b);if(c!=0)return c|0}break;case
 253:R("equal: got Double_tag, should not happen");break;case
 254:R("equal: got Double_array_tag, should not happen");break;case
 255:R("equal: got Custom_tag, should not happen");break;case
-1247:R(eJ);break;case
+1247:R(eN);break;case
 1255:var
-i=eW(a);if(i!=eW(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)R("compare: abstract value");var
+i=e0(a);if(i!=e0(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)R("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -411,203 +411,203 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-rm(a,b){return iW(a,b,true)}function
-rn(){return[0]}function
+rq(a,b){return iZ(a,b,true)}function
+rr(){return[0]}function
 L(a){if(a<0)R("Bytes.create");return new
 a1(a?2:9,h,a)}function
-rp(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=h;a.t=2}else{a.c=b_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)dr(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-e6(d){d=bk(d);var
+rt(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=h;a.t=2}else{a.c=ca(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ds(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+e_(d){d=bk(d);var
 e=d.length;if(e>31)R("format_int: format too long");var
 a={justify:be,signstyle:aP,filler:bd,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=aP;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aj;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-eX(b,f){if(b.uppercase)f=f.toUpperCase();var
+e1(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=aP))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
 c=h;if(b.justify==be&&b.filler==bd)for(var
 d=e;d<b.width;d++)c+=bd;if(b.signedconv)if(b.sign<0)c+=aP;else
-if(b.signstyle!=aP)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aj;if(b.alternate&&b.base==16)c+=g_;if(b.justify==be&&b.filler==aj)for(var
+if(b.signstyle!=aP)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aj;if(b.alternate&&b.base==16)c+=hb;if(b.justify==be&&b.filler==aj)for(var
 d=e;d<b.width;d++)c+=aj;c+=f;if(b.justify==aP)for(var
 d=e;d<b.width;d++)c+=bd;return a(c)}function
-eY(i,c){function
+e2(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(be)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
 Array(c+1).join(aj);if(b>0)a=a+bt+new
 Array(b+1).join(aj);return a}else
 return a.toFixed(b)}}var
-a,e=e6(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=eE;e.filler=bd}else
+a,e=e_(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=eI;e.filler=bd}else
 if(!isFinite(c)){a="inf";e.filler=bd}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==eU)a=a.slice(0,b-1)+aj+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(eU),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==eU)a=a.slice(0,b-1)+aj+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==eY)a=a.slice(0,b-1)+aj+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(eY),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==eY)a=a.slice(0,b-1)+aj+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)}}break}return eX(e,a)}function
-ds(e,c){if(bk(e)==eN)return a(h+c);var
-b=e6(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)}}break}return e1(e,a)}function
+dt(e,c){if(bk(e)==eR)return a(h+c);var
+b=e_(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
 d=c.toString(b.base);if(b.prec>=0){b.filler=bd;var
-f=b.prec-d.length;if(f>0)d=b_(f,aj)+d}return eX(b,d)}var
-rR=0;function
-dt(){return rR++}function
-rJ(a){return a.toUtf16()}function
-cK(){return typeof
+f=b.prec-d.length;if(f>0)d=ca(f,aj)+d}return e1(b,d)}var
+rV=0;function
+du(){return rV++}function
+rN(a){return a.toUtf16()}function
+cM(){return typeof
 j.process!=="undefined"&&typeof
 j.process.versions!=="undefined"&&typeof
 j.process.versions.node!=="undefined"}function
-r5(){function
+r9(){function
 a(a){if(a.charAt(0)===aO)return[h,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||h,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||h,f=a[2]||h;return[d,c.substring(d.length+f.length)]}return}return cK()&&j.process&&j.process.platform?j.process.platform==="win32"?b:a:a}var
-fc=r5();function
-jc(a){return a.slice(-1)!==aO?a+aO:a}if(cK()&&j.process&&j.process.cwd)var
-cG=j.process.cwd().replace(/\\/g,aO);else
+d=a[1]||h,f=a[2]||h;return[d,c.substring(d.length+f.length)]}return}return cM()&&j.process&&j.process.platform?j.process.platform==="win32"?b:a:a}var
+fg=r9();function
+jf(a){return a.slice(-1)!==aO?a+aO:a}if(cM()&&j.process&&j.process.cwd)var
+cI=j.process.cwd().replace(/\\/g,aO);else
 var
-cG="/static";cG=jc(cG);function
-rK(a){a=rJ(a);if(!fc(a))a=cG+a;var
-e=fc(a),d=e[1].split(aO),b=[];for(var
+cI="/static";cI=jf(cI);function
+rO(a){a=rN(a);if(!fg(a))a=cI+a;var
+e=fg(a),d=e[1].split(aO),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-rZ(e){for(var
+r3(e){for(var
 f=h,b=f,a,i,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<aQ){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<aQ;d++);if(d-c>ha){b.substr(0,1);f+=b;b=h;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<im){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(aQ|a&b3)}else
-if(a<0xd800||a>=hr)b+=String.fromCharCode(hs|a>>12,aQ|a>>6&b3,aQ|a&b3);else
-if(a>=0xdbff||c+1==g||(i=e.charCodeAt(c+1))<hi||i>hr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+i-0x35fdc00;b+=String.fromCharCode(iw|a>>18,aQ|a>>12&b3,aQ|a>>6&b3,aQ|a&b3)}if(b.length>cC){b.substr(0,1);f+=b;b=h}}return f+b}function
-rk(a){var
-b=9;if(!je(a))b=8,a=rZ(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<aQ;d++);if(d-c>hd){b.substr(0,1);f+=b;b=h;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<iq){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(aQ|a&b5)}else
+if(a<0xd800||a>=hu)b+=String.fromCharCode(hv|a>>12,aQ|a>>6&b5,aQ|a&b5);else
+if(a>=0xdbff||c+1==g||(i=e.charCodeAt(c+1))<hl||i>hu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+i-0x35fdc00;b+=String.fromCharCode(iz|a>>18,aQ|a>>12&b5,aQ|a>>6&b5,aQ|a&b5)}if(b.length>cE){b.substr(0,1);f+=b;b=h}}return f+b}function
+ro(a){var
+b=9;if(!jh(a))b=8,a=r3(a);return new
 a1(b,a,a.length)}function
-aS(a){return rk(a)}var
-r8=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",hf,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",eQ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",eC,ih,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-bL(d,f,e,a){var
-b=r8.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+aS(a){return ro(a)}var
+sa=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",hi,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",eU,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",eG,ik,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+bN(d,f,e,a){var
+b=sa.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,aS(f||h),aS(e||h)];return c}var
-i9={};function
-bJ(a){return i9[a]}function
-bK(b,a){throw[0,b].concat(a)}function
-rj(a){return new
+ja={};function
+bL(a){return ja[a]}function
+bM(b,a){throw[0,b].concat(a)}function
+rn(a){return new
 a1(4,a,a.length)}function
-u(a){e7(F.Sys_error,a)}function
-rU(a){u(a+df)}function
-ri(b,a){if(a>>>0>=b.l)iS();return b7(b,a)}function
-av(a){return a.l}function
-iL(){}function
-W(a){this.data=a}W.prototype=new
-iL();W.prototype.truncate=function(a){var
-b=this.data;this.data=L(a|0);bv(b,0,this.data,0,a)};W.prototype.length=function(){return av(this.data)};W.prototype.write=function(b,d,g,a){var
+u(a){e$(F.Sys_error,a)}function
+rY(a){u(a+dg)}function
+rm(b,a){if(a>>>0>=b.l)iV();return b9(b,a)}function
+aw(a){return a.l}function
+iO(){}function
+X(a){this.data=a}X.prototype=new
+iO();X.prototype.truncate=function(a){var
+b=this.data;this.data=L(a|0);bv(b,0,this.data,0,a)};X.prototype.length=function(){return aw(this.data)};X.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=L(b+a),f=this.data;this.data=e;bv(f,0,this.data,0,c)}a3(d,g,this.data,b,a);return 0};W.prototype.read=function(c,a,d,b){var
-e=this.length();bv(this.data,c,a,d,b);return 0};W.prototype.read_one=function(a){return ri(this.data,a)};W.prototype.close=function(){};W.prototype.constructor=W;function
+e=L(b+a),f=this.data;this.data=e;bv(f,0,this.data,0,c)}a3(d,g,this.data,b,a);return 0};X.prototype.read=function(c,a,d,b){var
+e=this.length();bv(this.data,c,a,d,b);return 0};X.prototype.read_one=function(a){return rm(this.data,a)};X.prototype.close=function(){};X.prototype.constructor=X;function
 ak(b,a){this.content={};this.root=b;this.lookupFun=a}ak.prototype.nm=function(a){return this.root+a};ak.prototype.create_dir_if_needed=function(d){var
 c=d.split(aO),b=h;for(var
 a=0;a<c.length-1;a++){b+=c[a]+aO;if(this.content[b])continue;this.content[b]=Symbol("directory")}};ak.prototype.slash=function(a){return/\/$/.test(a)?a:a+aO};ak.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-W(bh(c[1]))}}};ak.prototype.exists=function(a){if(a==h)return 1;var
+X(bh(c[1]))}}};ak.prototype.exists=function(a){if(a==h)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};ak.prototype.mkdir=function(c,e,d){var
-b=d&&bJ(eM);if(this.exists(c))if(b)bK(b,bL(hf,ex,this.nm(c)));else
+b=d&&bL(eQ);if(this.exists(c))if(b)bM(b,bN(hi,eB,this.nm(c)));else
 u(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||h;if(!this.exists(a))if(b)bK(b,bL(eQ,ex,this.nm(a)));else
-u(a+df);if(!this.is_dir(a))if(b)bK(b,bL(eC,ex,this.nm(a)));else
-u(a+eT);this.create_dir_if_needed(this.slash(c))};ak.prototype.rmdir=function(a,f){var
-b=f&&bJ(eM),c=a==h?h:this.slash(a),e=new
-RegExp(eG+c+ii);if(!this.exists(a))if(b)bK(b,bL(eQ,eL,this.nm(a)));else
-u(a+df);if(!this.is_dir(a))if(b)bK(b,bL(eC,eL,this.nm(a)));else
-u(a+eT);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||h;if(!this.exists(a))if(b)bM(b,bN(eU,eB,this.nm(a)));else
+u(a+dg);if(!this.is_dir(a))if(b)bM(b,bN(eG,eB,this.nm(a)));else
+u(a+eX);this.create_dir_if_needed(this.slash(c))};ak.prototype.rmdir=function(a,f){var
+b=f&&bL(eQ),c=a==h?h:this.slash(a),e=new
+RegExp(eK+c+il);if(!this.exists(a))if(b)bM(b,bN(eU,eP,this.nm(a)));else
+u(a+dg);if(!this.is_dir(a))if(b)bM(b,bN(eG,eP,this.nm(a)));else
+u(a+eX);for(var
 d
 in
-this.content)if(d.match(e))if(b)bK(b,bL(ih,eL,this.nm(a)));else
+this.content)if(d.match(e))if(b)bM(b,bN(ik,eP,this.nm(a)));else
 u(this.nm(a)+": Directory not empty");delete
 this.content[c]};ak.prototype.readdir=function(a){var
-f=a==h?h:this.slash(a);if(!this.exists(a))u(a+df);if(!this.is_dir(a))u(a+eT);var
+f=a==h?h:this.slash(a);if(!this.exists(a))u(a+dg);if(!this.is_dir(a))u(a+eX);var
 g=new
-RegExp(eG+f+ii),d={},c=[];for(var
+RegExp(eK+f+il),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};ak.prototype.is_dir=function(a){if(a==h)return true;var
 b=this.slash(a);return this.content[b]?1:0};ak.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};ak.prototype.open=function(a,b){if(b.rdonly&&b.wronly)u(this.nm(a)+hB);if(b.text&&b.binary)u(this.nm(a)+h7);this.lookup(a);if(this.content[a]){if(this.is_dir(a))u(this.nm(a)+" : is a directory");if(b.create&&b.excl)u(this.nm(a)+hA);var
+this.content[a];return b};ak.prototype.open=function(a,b){if(b.rdonly&&b.wronly)u(this.nm(a)+hE);if(b.text&&b.binary)u(this.nm(a)+h_);this.lookup(a);if(this.content[a]){if(this.is_dir(a))u(this.nm(a)+" : is a directory");if(b.create&&b.excl)u(this.nm(a)+hD);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-W(L(0));return this.content[a]}else
-rU(this.nm(a))};ak.prototype.register=function(c,a){var
-b;if(this.content[c])u(this.nm(c)+hA);if(dw(a))b=new
-W(a);if(e5(a))b=new
-W(bh(a));else
+X(L(0));return this.content[a]}else
+rY(this.nm(a))};ak.prototype.register=function(c,a){var
+b;if(this.content[c])u(this.nm(c)+hD);if(dx(a))b=new
+X(a);if(e9(a))b=new
+X(bh(a));else
 if(a
 instanceof
 Array)b=new
-W(rj(a));else
+X(rn(a));else
 if(typeof
 a==="string")b=new
-W(iU(a));else
+X(iX(a));else
 if(a.toString){var
 d=bh(aS(a.toString()));b=new
-W(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+X(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 u(this.nm(c)+" : registering file with invalid content type")};ak.prototype.constructor=ak;function
-n(a){return av(a)}function
-a5(b,a){return b7(b,a)}function
-re(d){var
+n(a){return aw(a)}function
+a5(b,a){return b9(b,a)}function
+ri(d){var
 c=n(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=a5(d,a);return b}function
-rd(a){if(a.t!=4)dr(a);return a.c}function
+rh(a){if(a.t!=4)ds(a);return a.c}function
 a2(a){this.fs=require("fs");this.fd=a}a2.prototype=new
-iL();a2.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){u(a.toString())}};a2.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){u(a.toString())}};a2.prototype.write=function(f,b,c,e){var
-a=re(b);if(!(a
+iO();a2.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){u(a.toString())}};a2.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){u(a.toString())}};a2.prototype.write=function(f,b,c,e){var
+a=ri(b);if(!(a
 instanceof
 j.Uint8Array))a=new(j.Uint8Array)(a);var
 d=j.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){u(a.toString())}return 0};a2.prototype.read=function(g,d,c,f){var
-a=rd(d);if(!(a
+a=rh(d);if(!(a
 instanceof
 j.Uint8Array))a=new(j.Uint8Array)(a);var
 e=j.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){u(a.toString())}for(var
-b=0;b<f;b++)bI(d,c+b,e[c+b]);return 0};a2.prototype.read_one=function(c){var
+b=0;b<f;b++)bK(d,c+b,e[c+b]);return 0};a2.prototype.read_one=function(c){var
 b=new(j.Uint8Array)(1),a=j.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){u(a.toString())}return a[0]};a2.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){u(a.toString())}};a2.prototype.constructor=a2;function
-X(a){this.fs=require("fs");this.root=a}X.prototype.nm=function(a){return this.root+a};X.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};X.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){u(a.toString())}};X.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.open=function(f,c,g){var
+Y(a){this.fs=require("fs");this.root=a}Y.prototype.nm=function(a){return this.root+a};Y.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};Y.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){u(a.toString())}};Y.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-a2(d)}catch(a){this.raise_nodejs_error(a,g)}};X.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};X.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),g2);return aS(a)}catch(a){this.raise_nodejs_error(a,c)}};X.prototype.raise_nodejs_error=function(a,d){var
-b=bJ(eM);if(d&&b){var
-c=bL(a.code,a.syscall,a.path,a.errno);bK(b,c)}else
-u(a.toString())};X.prototype.stats_from_js=function(a){var
+a2(d)}catch(a){this.raise_nodejs_error(a,g)}};Y.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),g5);return aS(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.raise_nodejs_error=function(a,d){var
+b=bL(eQ);if(d&&b){var
+c=bN(a.code,a.syscall,a.path,a.errno);bM(b,c)}else
+u(a.toString())};Y.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};X.prototype.constructor=X;function
-i2(b){var
-a=fc(b);if(!a)return;return a[0]+aO}var
-dy=i2(cG)||aR("unable to compute caml_root"),b$=[];if(cK())b$.push({path:dy,device:new
-X(dy)});else
-b$.push({path:dy,device:new
-ak(dy)});b$.push({path:h3,device:new
-ak(h3)});function
-ji(b){var
-g=rK(b),b=g.join(aO),f=jc(b),c;for(var
-e=0;e<b$.length;e++){var
-a=b$[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&cK()){var
-d=i2(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};Y.prototype.constructor=Y;function
+i5(b){var
+a=fg(b);if(!a)return;return a[0]+aO}var
+dz=i5(cI)||aR("unable to compute caml_root"),cb=[];if(cM())cb.push({path:dz,device:new
+Y(dz)});else
+cb.push({path:dz,device:new
+ak(dz)});cb.push({path:h6,device:new
+ak(h6)});function
+jl(b){var
+g=rO(b),b=g.join(aO),f=jf(b),c;for(var
+e=0;e<cb.length;e++){var
+a=cb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&cM()){var
+d=i5(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-X(d)};b$.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;u("no device found for "+f)}function
-ro(c,b){var
-a=ji(c);if(!a.device.register)aR("cannot register file");a.device.register(a.rest,b);return 0}function
-jd(c,b){var
-c=a(c),b=a(b);return ro(c,b)}function
-rr(){var
+Y(d)};cb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;u("no device found for "+f)}function
+rs(c,b){var
+a=jl(c);if(!a.device.register)aR("cannot register file");a.device.register(a.rest,b);return 0}function
+jg(c,b){var
+c=a(c),b=a(b);return rs(c,b)}function
+rv(){var
 b=j.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)jd(b[a].name,b[a].content);j.jsoo_create_file=jd;j.caml_fs_tmp=[];return 0}function
-i1(){return[0]}function
-rt(a,c,l){if(!isFinite(a)){if(isNaN(a))return aS(eE);return aS(a>0?iy:"-infinity")}var
+a=0;a<b.length;a++)jg(b[a].name,b[a].content);j.jsoo_create_file=jg;j.caml_fs_tmp=[];return 0}function
+i4(){return[0]}function
+rx(a,c,l){if(!isFinite(a)){if(isNaN(a))return aS(eI);return aS(a>0?iB:"-infinity")}var
 j=a==0&&1/a==-Infinity?1:a>=0?0:1;if(j)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
@@ -618,21 +618,21 @@ switch(l){case
 32:e=bd;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-i=b.indexOf(bt);if(i<0)b+=bt+b_(c,aj);else{var
-f=i+1+c;if(b.length<f)b+=b_(f-b.length,aj);else
-b=b.substr(0,f)}}return aS(e+g_+b+"p"+k+d.toString(10))}function
-rA(a){return+a.isZero()}function
-rD(a){return new
+i=b.indexOf(bt);if(i<0)b+=bt+ca(c,aj);else{var
+f=i+1+c;if(b.length<f)b+=ca(f-b.length,aj);else
+b=b.substr(0,f)}}return aS(e+hb+b+"p"+k+d.toString(10))}function
+rE(a){return+a.isZero()}function
+rH(a){return new
 i(a&bf,a>>24&bf,a>>31&a0)}function
-rE(a){return a.toInt()}function
-rz(a){return+a.isNeg()}function
-rC(a){return a.neg()}function
-rx(g,c){var
-a=e6(g);if(a.signedconv&&rz(c)){a.sign=-1;c=rC(c)}var
-b=h,i=rD(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(i);c=e.quotient;b=f.charAt(rE(e.modulus))+b}while(!rA(c));if(a.prec>=0){a.filler=bd;var
-d=a.prec-b.length;if(d>0)b=b_(d,aj)+b}return eX(a,b)}function
-rS(c){var
+rI(a){return a.toInt()}function
+rD(a){return+a.isNeg()}function
+rG(a){return a.neg()}function
+rB(g,c){var
+a=e_(g);if(a.signedconv&&rD(c)){a.sign=-1;c=rG(c)}var
+b=h,i=rH(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(i);c=e.quotient;b=f.charAt(rI(e.modulus))+b}while(!rE(c));if(a.prec>=0){a.filler=bd;var
+d=a.prec-b.length;if(d>0)b=ca(d,aj)+b}return e1(a,b)}function
+rW(c){var
 a=0,e=n(c),b=10,d=1;if(e>0)switch(a5(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&a5(c,a)==48)switch(a5(c,a+1)){case
@@ -644,39 +644,39 @@ a=0,e=n(c),b=10,d=1;if(e>0)switch(a5(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-i_(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=122)return a-87;return-1}function
-e4(f){var
-h=rS(f),c=h[0],i=h[1],d=h[2],g=n(f),j=-1>>>0,e=c<g?a5(f,c):0,b=i_(e);if(b<0||b>=d)aR(dh);var
-a=b;for(c++;c<g;c++){e=a5(f,c);if(e==95)continue;b=i_(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)aR(dh)}if(c!=g)aR(dh);a=i*a;if(d==10&&(a|0)!=a)aR(dh);return a|0}function
-rI(d){return function(){var
+jb(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=122)return a-87;return-1}function
+e8(f){var
+h=rW(f),c=h[0],i=h[1],d=h[2],g=n(f),j=-1>>>0,e=c<g?a5(f,c):0,b=jb(e);if(b<0||b>=d)aR(di);var
+a=b;for(c++;c<g;c++){e=a5(f,c);if(e==95)continue;b=jb(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)aR(di)}if(c!=g)aR(di);a=i*a;if(d==10&&(a|0)!=a)aR(di);return a|0}function
+rM(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
 a=0;a<b;a++)c[a]=arguments[a];return bi(d,c)}else
 return bi(d,[undefined])}}function
-rL(a,d){if(a<0)cF();var
+rP(a,d){if(a<0)cH();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-rM(){return 0}var
+rQ(){return 0}var
 a4=new
 Array();function
-b9(c){var
+b$(c){var
 a=a4[c];if(!a.opened)u("Cannot flush a closed channel");if(!a.buffer||a.buffer==h)return 0;if(a.fd&&F.fds[a.fd]&&F.fds[a.fd].output){var
 b=F.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=h;return 0}function
-jb(e,f){var
+je(e,f){var
 b=a4[e],d=a(f),c=n(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-r0(a){var
-a=e$(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+r4(a){var
+a=fd(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-r1(a){var
-a=e$(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+r5(a){var
+a=fd(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-dz(c,e,d,a){if(F.fds===undefined)F.fds=new
+dA(c,e,d,a){if(F.fds===undefined)F.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;F.fds[c]=b;if(!F.fd_last_idx||c>F.fd_last_idx)F.fd_last_idx=c;return c}function
-r_(c,b,g){var
+sc(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -686,89 +686,89 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)u(bk(c)+hB);if(a.text&&a.binary)u(bk(c)+h7);var
-d=ji(c),e=d.device.open(d.rest,a),f=F.fd_last_idx?F.fd_last_idx:0;return dz(f+1,jb,e,a)}dz(0,jb,new
-W(L(0)));dz(1,r1,new
-W(L(0)));dz(2,r0,new
-W(L(0)));function
-rN(a){var
-c=F.fds[a];if(c.flags.wronly)u(iH+a+" is writeonly");var
-d=null;if(a==0&&cK()){var
-e=require("fs");d=function(){return aS(e.readFileSync(0,g2))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)u(bk(c)+hE);if(a.text&&a.binary)u(bk(c)+h_);var
+d=jl(c),e=d.device.open(d.rest,a),f=F.fd_last_idx?F.fd_last_idx:0;return dA(f+1,je,e,a)}dA(0,je,new
+X(L(0)));dA(1,r5,new
+X(L(0)));dA(2,r4,new
+X(L(0)));function
+rR(a){var
+c=F.fds[a];if(c.flags.wronly)u(iK+a+" is writeonly");var
+d=null;if(a==0&&cM()){var
+e=require("fs");d=function(){return aS(e.readFileSync(0,g5))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};a4[b.fd]=b;return b.fd}function
-i5(c){var
-b=F.fds[c];if(b.flags.rdonly)u(iH+c+" is readonly");var
+i8(c){var
+b=F.fds[c];if(b.flags.rdonly)u(iK+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:h};a4[a.fd]=a;return a.fd}function
-rO(){var
+rS(){var
 b=0;for(var
 a=0;a<a4.length;a++)if(a4[a]&&a4[a].opened&&a4[a].out)b=[0,a4[a].fd,b];return b}function
 af(a){return a}function
-rP(g,d,h,f){var
+rT(g,d,h,f){var
 b=a4[g];if(!b.opened)u("Cannot output to a closed channel");var
-a;if(h==0&&av(d)==f)a=d;else{a=L(f);bv(d,h,a,0,f)}var
-i=af(a),c=bk(i),e=c.lastIndexOf(hj);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);b9(g);b.buffer+=c.substr(e+1)}return 0}function
-i6(b,a,d,c){return rP(b,bh(a),d,c)}function
-i7(c,b){var
-d=a(String.fromCharCode(b));i6(c,d,0,1);return 0}function
-cJ(a,b){return+(iW(a,b,false)!=0)}function
-dx(a){if(a
+a;if(h==0&&aw(d)==f)a=d;else{a=L(f);bv(d,h,a,0,f)}var
+i=af(a),c=bk(i),e=c.lastIndexOf(hm);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);b$(g);b.buffer+=c.substr(e+1)}return 0}function
+i9(b,a,d,c){return rT(b,bh(a),d,c)}function
+i_(c,b){var
+d=a(String.fromCharCode(b));i9(c,d,0,1);return 0}function
+cL(a,b){return+(iZ(a,b,false)!=0)}function
+dy(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(dw(a))return dp;else
-if(e5(a))return dp;else
+if(dx(a))return dq;else
+if(e9(a))return dq;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return hn;else
-return cB}function
+if(a&&a.caml_custom)return hq;else
+return cD}function
 aK(b,c,a){if(a&&j.toplevelReloc)b=j.toplevelReloc(a);F[b+1]=c;if(a)F[a]=c}function
-e8(a,b){i9[bk(a)]=b;return 0}function
-rh(a,b){if(a===b)return 1;a.t&6&&b8(a);b.t&6&&b8(b);return a.c==b.c?1:0}function
-aD(a,b){return rh(a,b)}function
-rX(){R(eR)}function
-G(b,a){if(a>>>0>=n(b))rX();return a5(b,a)}function
-l(a,b){return 1-aD(a,b)}function
-rY(){return 0x7FFFFFFF/4|0}function
-e_(a){var
+fa(a,b){ja[bk(a)]=b;return 0}function
+rl(a,b){if(a===b)return 1;a.t&6&&b_(a);b.t&6&&b_(b);return a.c==b.c?1:0}function
+ax(a,b){return rl(a,b)}function
+r1(){R(eV)}function
+G(b,a){if(a>>>0>=n(b))r1();return a5(b,a)}function
+l(a,b){return 1-ax(a,b)}function
+r2(){return 0x7FFFFFFF/4|0}function
+fc(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-Y(b,a){return{joo_tramp:b,joo_args:a}}function
-ja(a){return a}function
-dA(a){if(a
+Z(b,a){return{joo_tramp:b,joo_args:a}}function
+jd(a){return a}function
+dB(a){if(a
 instanceof
 Array)return a;if(j.RangeError&&a
 instanceof
-j.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ja(F.Stack_overflow);if(j.InternalError&&a
+j.RangeError&&a.message&&a.message.match(/maximum call stack/i))return jd(F.Stack_overflow);if(j.InternalError&&a
 instanceof
-j.InternalError&&a.message&&a.message.match(/too much recursion/i))return ja(F.Stack_overflow);if(a
+j.InternalError&&a.message&&a.message.match(/too much recursion/i))return jd(F.Stack_overflow);if(a
 instanceof
-j.Error&&bJ(eA))return[0,bJ(eA),a];return[0,F.Failure,aS(String(a))]}function
-dB(a){return a<0?-a:a}function
+j.Error&&bL(eE))return[0,bL(eE),a];return[0,F.Failure,aS(String(a))]}function
+dC(a){return a<0?-a:a}function
 B(a,b){return a+b}function
-r6(a,b){return a<b?-1:a>b?1:0}function
-jf(c,b){var
-a=c%b;return a<0?a+dB(b):a}function
-fa(a,b){return(a-jf(a,b))/b}function
-Z(a,b){return a==b?1:0}function
+r_(a,b){return a<b?-1:a>b?1:0}function
+ji(c,b){var
+a=c%b;return a<0?a+dC(b):a}function
+fe(a,b){return(a-ji(a,b))/b}function
+_(a,b){return a==b?1:0}function
 x(a,b){return a<=b?1:0}function
 al(a,b){return a<b?1:0}function
 f(a,b){return a*b}function
 H(a){return-a}function
-aw(a){return j.BigInt(a)}function
-jg(a,b){return a<<j.BigInt(b)}function
-jh(a,b){return a>>j.BigInt(b)}function
+ay(a){return j.BigInt(a)}function
+jj(a,b){return a<<j.BigInt(b)}function
+jk(a,b){return a>>j.BigInt(b)}function
 a6(a){return a<0?-1:a>0?1:0}function
-r7(a){if(a<0)throw new(j.Error)("a root of a negative number");if(a<2)return a;var
+r$(a){if(a<0)throw new(j.Error)("a root of a negative number");if(a<2)return a;var
 d=j.BigInt(1),b=d<<j.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-ca(a,b){return a-b}function
-fb(a){if(a>0x7fffffff||a<-0x80000000)throw new(j.Error)("a number of more than 32 bits");return j.Number(a)}function
-rH(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-rq(b){var
-a=h;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&rH(b[1]))var
+cc(a,b){return a-b}function
+ff(a){if(a>0x7fffffff||a<-0x80000000)throw new(j.Error)("a number of more than 32 bits");return j.Number(a)}function
+rL(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+ru(b){var
+a=h;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&rL(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=il;for(var
-d=f;d<e.length;d++){if(d>f)a+=g4;var
+f=2,e=b;a+=ip;for(var
+d=f;d<e.length;d++){if(d>f)a+=g7;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
@@ -776,23 +776,23 @@ instanceof
 a1)a+=ab+c.toString()+ab;else
 if(typeof
 c=="string")a+=ab+c.toString()+ab;else
-a+=hT}a+=eF}else
+a+=hW}a+=eJ}else
 if(b[0]==Q)a+=b[1];return a}function
-i0(a){if(a
+i3(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==Q)){var
-c=bJ(he);if(c)c(a,false);else{var
-d=rq(a),b=bJ(g1);if(b)b(0);j.console.error(eK+d+hj)}}else
+c=bL(hh);if(c)c(a,false);else{var
+d=ru(a),b=bL(g4);if(b)b(0);j.console.error(eO+d+hm)}}else
 throw a}function
-rW(){var
-a=j;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){i0(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)i0(a.error)})}rW();function
+r0(){var
+a=j;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){i3(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)i3(a.error)})}r0();function
 d(a,b){return a.length==1?a(b):bi(a,[b])}function
 E(a,b,c){return a.length==2?a(b,c):bi(a,[b,c])}function
-ew(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bi(a,[b,c,d,e,f])}function
-rc(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bi(a,[b,c,d,e,f,g,h])}rr();var
-dC=[Q,a(iC),-1],fh=[Q,a(hg),-2],fe=[Q,a(ez),-3],fd=[Q,a(hO),-4],ff=[Q,a(hw),-8],fg=[Q,a(h5),-9],D=[Q,a(iq),-11],fi=[Q,a(g0),-12],q0=[4,0,0,0,[12,45,[4,0,0,0,0]]],dJ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(hy),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],q1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],q2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q1]]]]]]]]]]],q3=[0,[0,[0,[0,[0,0]]]]],q4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q3]]]]]]]]]]],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q4]]]]]]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q5]]]]]]]]]]],q7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q6]]]]]]]]]]],q8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q7]]]]]]]]]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q8]]]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q9]]]]]]]]]]],q$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q_]]]]]]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q$]]]]]]]]]]],rb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ra]]]]]]]]]]],gf=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],c4=[0,[0,[0,[0,0]]]];aK(11,fi,g0);aK(10,D,iq);aK(9,[Q,a(hH),-10],hH);aK(8,fg,h5);aK(7,ff,hw);aK(6,[Q,a(h1),-7],h1);aK(5,[Q,a(ie),-6],ie);aK(4,[Q,a(hl),-5],hl);aK(3,fd,hO);aK(2,fe,ez);aK(1,fh,hg);aK(0,dC,iC);var
-jn=a("%.12g"),jm=a(bt),jk=a("true"),jl=a("false"),jo=a("\\\\"),jp=a("\\'"),jq=a("\\b"),jr=a("\\t"),js=a("\\n"),jt=a("\\r"),jw=a("String.blit / Bytes.blit_string"),jv=a("Bytes.blit"),ju=a("String.sub / Bytes.sub"),jy=a(h),jx=a("String.concat"),jz=a("Array.init"),jC=a("Buffer.add: cannot grow buffer"),jB=[0,a(ia),93,2],jA=[0,a(ia),94,2],jL=a("%c"),jM=a("%s"),jN=a(gY),jO=a(hu),jP=a(hL),jQ=a(g7),jR=a("%f"),jS=a("%B"),jT=a("%{"),jU=a("%}"),jV=a("%("),jW=a("%)"),jX=a("%a"),jY=a("%t"),jZ=a("%?"),j0=a("%r"),j1=a("%_r"),j2=[0,a(P),850,23],kb=[0,a(P),814,21],j5=[0,a(P),815,21],kc=[0,a(P),818,21],j6=[0,a(P),819,21],kd=[0,a(P),822,19],j7=[0,a(P),823,19],ke=[0,a(P),826,22],j8=[0,a(P),827,22],kf=[0,a(P),831,30],j9=[0,a(P),832,30],j$=[0,a(P),836,26],j3=[0,a(P),837,26],ka=[0,a(P),846,28],j4=[0,a(P),847,28],j_=[0,a(P),851,23],li=a(hE),lg=[0,a(P),1558,4],lh=a("Printf: bad conversion %["),lj=[0,a(P),1626,39],lk=[0,a(P),1649,31],ll=[0,a(P),1650,31],lm=a("Printf: bad conversion %_"),ln=a(hC),lo=a(hN),lp=a(hC),lq=a(hN),le=a(eE),lc=a("neg_infinity"),ld=a(iy),lb=a(bt),k8=[0,hc],kW=a("%+nd"),kX=a("% nd"),kZ=a("%+ni"),k0=a("% ni"),k1=a("%nx"),k2=a("%#nx"),k3=a("%nX"),k4=a("%#nX"),k5=a("%no"),k6=a("%#no"),kV=a("%nd"),kY=a(hL),k7=a("%nu"),kJ=a("%+ld"),kK=a("% ld"),kM=a("%+li"),kN=a("% li"),kO=a("%lx"),kP=a("%#lx"),kQ=a("%lX"),kR=a("%#lX"),kS=a("%lo"),kT=a("%#lo"),kI=a("%ld"),kL=a(hu),kU=a("%lu"),kw=a("%+Ld"),kx=a("% Ld"),kz=a("%+Li"),kA=a("% Li"),kB=a("%Lx"),kC=a("%#Lx"),kD=a("%LX"),kE=a("%#LX"),kF=a("%Lo"),kG=a("%#Lo"),kv=a("%Ld"),ky=a(g7),kH=a("%Lu"),kj=a("%+d"),kk=a("% d"),km=a("%+i"),kn=a("% i"),ko=a("%x"),kp=a("%#x"),kq=a("%X"),kr=a("%#X"),ks=a("%o"),kt=a("%#o"),ki=a(eN),kl=a(gY),ku=a(hE),jD=a("@]"),jE=a("@}"),jF=a("@?"),jG=a("@\n"),jH=a("@."),jI=a("@@"),jJ=a("@%"),jK=a("@"),kg=a("CamlinternalFormat.Type_mismatch"),lu=a(h),lv=[0,[11,a(g4),[2,0,[2,0,0]]],a(", %s%s")],lU=[0,[11,a(eK),[2,0,[12,10,0]]],a(io)],lV=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],lT=a("Fatal error: out of memory in uncaught exception handler"),lR=[0,[11,a(eK),[2,0,[12,10,0]]],a(io)],lN=[0,[2,0,[12,10,0]],a("%s\n")],lF=a("Raised at"),lG=a("Re-raised at"),lH=a("Raised by primitive operation at"),lI=a("Called from"),lJ=a(" (inlined)"),lL=a(h),lK=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(hy),q0]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],lM=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],lA=a("Out of memory"),lB=a("Stack overflow"),lC=a("Pattern matching failed"),lD=a("Assertion failed"),lE=a("Undefined recursive module"),lw=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],lx=a(h),ly=a(h),lz=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],lt=[0,[4,0,0,0,0],a(eN)],lr=[0,[3,0,0],a("%S")],ls=a(hT),lO=[0,a(h),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],lX=a("Jsoo_runtime.Error.Exn"),lZ=a("power"),l9=[0,0],me=[0,0,0],mf=[0,0,0],mg=[0,0],mh=[0,0],mp=[0,0],mx=[0,0],mz=a(","),mR=[0,a(eF),0],mS=a(il),mT=a(bt),mU=[0,[0,[0,0]]],mV=a(aP),mW=a(eG),mX=[0,[0,[0,[0,[0,0]]]]],mY=[0,a(eF),0],mZ=a(iK),n0=a(gZ),n2=a(hQ),n1=a(ir),n3=a(dj),n4=a(hM),oE=a("test"),oF=[0,0],oG=a("divided"),oH=[0,1],oI=a("mirror"),oJ=[0,3],oK=a("negative"),oL=[0,2],oM=a(iI),oN=[0,4],oO=a(hd),oP=a(h6),oQ=a(iv),oR=[0,0],oS=[0,0],oT=[0,0],o1=a(h),oY=[0,[0,[0,[0,0]]]],oZ=[0,[0,[0,[0,0]]]],oW=[0,[0,[0,0]]],oU=[0,0],oA=[0,0,0],ox=[0,0],oy=[0,0],oz=[0,0],ot=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q2]]]]]]]]]]],ou=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rb]]]]]]]]]]],oi=[0,a("\n"),0],oj=a(hS),ok=a(dg),ol=a(hp),om=a(id),on=a("certified"),os=a("refuted"),oo=a("verdict"),op=a(hz),oq=a(h$),or=a(ip),n9=a(iB),n_=a(di),n$=a(hm),oa=a(iE),og=a(ij),oh=a(ic),ob=a(eH),oc=a(cE),od=a(hU),oe=a(di),of=a(iD),n7=a(h_),n8=a(iF),nY=a(h4),nZ=a(hD),nI=a(eD),nJ=a(eS),nK=a(g6),nL=a(eO),nM=a(cE),nN=a(eD),nO=a(hR),nP=a(ib),nQ=a(eS),nR=a(hK),nS=a(hX),nT=a(eO),nU=a(cE),nX=a(hP),nV=a(g9),nW=a(hF),nB=a(b5),nC=a(b4),nD=a(gW),nE=a(hq),nF=a(gX),nG=a(hk),nH=a(iA),ns=a(ig),nt=a(b5),nA=a(b4),nu=a(g8),nz=a(dg),nv=a(h9),nw=a(hh),nx=a(hv),ny=a(is),nk=a(g3),nl=a(hV),nm=a(ix),nn=a(dj),no=a(iJ),np=a(iz),nq=a(h0),nr=a(iu),m5=a(be),nb=a(aP),m6=a(hZ),m7=a(hW),m8=a(dk),m9=a(de),m_=a(dn),m$=a(hG),na=a(dl),nc=a(hI),nd=a(dk),ne=a(de),nf=a(hJ),ng=a(dl),nh=a(dn),ni=a(g5),nj=a(dl),m2=a(b5),m3=a(b4),m0=[0,a(ab),0],m1=a(ab),mN=a(be),mO=a(aP),mP=a("*"),mQ=a(aO),mJ=[0,[0,[0,0]]],mK=[0,[0,0]],mL=[0,0],mM=[0,[0,[0,[0,0]]]],mI=[0,[0,[0,[0,[0,0]]]]],mG=a('":'),mH=a(ab),mE=[0,a(ab),0],mF=a(ab),mC=[0,a("}"),0],mD=a("{"),mA=[0,a("]"),0],mB=a("["),mw=[0,0],mt=[0,[0,[0,0]]],mu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mr=[0,[0,0]],ms=[0,[0,[0,0]]],mk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ml=[0,[0,[0,[0,[0,[0,0]]]]]],mm=[0,[0,[0,0]]],mn=[0,[0,[0,[0,[0,[0,0]]]]]],mo=[0,[0,[0,0]]],mi=[0,[0,0]],mj=[0,0],l_=[0,0,0],l8=a(aj),l7=a(h),l6=[0,[0,0]],l5=[0,0],l4=[1,0],l3=[0,0],l2=[0,0],l0=[1,0],l1=[1,0],qh=a(dj),qi=a(ir),qj=a(hM),qk=a(hd),ql=a(h6),qm=a(iv),qn=[0,a(ab),0],qo=a('the evidence "'),qp=a(hD),qq=a(h4),qN=a(ip),qO=a(h$),qP=a(hz),qQ=a(id),qR=a(hp),qS=a(hS),qT=a(dg),qC=a(hm),qD=a(iD),qG=a(cE),qH=a(eH),qI=a(hU),qJ=a(di),qK=a(iB),qL=a(di),qE=[0,a(ab),0],qF=a('a proof of the kind "'),qx=a(ij),qy=a(iE),qz=a(ic),qA=[0,a(ab),0],qB=a('the failure "'),qt=a(eH),qu=[0,a("a leaf that fails"),0],qv=a(h_),qw=a(iF),qr=a(iI),qs=a(aj),qf=a(hQ),qg=a(gZ),pV=a(eD),pP=a(cE),pQ=a(hF),pT=a(g9),pU=a(hP),pW=a(eO),pX=a(eS),pY=a("orientation"),pZ=a("bodies"),qe=[0,a("a platform that turns, or one with bodies,"),0],p0=a(hX),p1=a(g6),p4=a(gW),p5=a(iA),p8=a(hk),p9=a(hq),p_=a(gX),p$=a(b5),qa=a(b4),p6=[0,a(ab),0],p7=a('the workspace "'),qb=a(ib),qc=a(hR),qd=a(hK),p2=[0,a(ab),0],p3=a('the mechanism "'),pR=[0,a(ab),0],pS=a('a claim of the kind "'),pK=a(h9),pL=[0,a("a stiffness for each joint"),0],pJ=a(dg),pt=a(is),pu=a(dj),pv=a(iu),pw=a(hV),px=a(ix),py=a(iz),pz=a(iJ),pA=a(h0),pB=a(g3),pC=[0,a(ab),0],pD=a('the quantity "'),pE=a(g8),pF=a(b5),pG=a(b4),pH=[0,a(ab),0],pI=a('a bound "'),pM=a(ig),pN=a(hh),pO=a(hv),pd=a(dl),pe=a(g5),pf=a(hG),pg=a(hJ),pj=a(hI),pk=a(dk),pl=a(de),pm=a(hZ),pn=a(hW),po=a(dk),pp=a(de),pq=a(dn),pr=a(dn),ph=[0,a(ab),0],pi=a('the drive "'),pb=a(be),pc=a(aP),o$=a(" is not covered by the verified checker"),pa=a(h),o9=a(b5),o_=a(b4),o5=a(h),o6=a(iK),o7=a(h),o8=a(h),o4=[1,0],o2=a("Reader.Malformed"),o3=a("Reader.Not_covered"),qV=a(ht),qW=a("CERTIFIED"),qX=a("REFUTED"),qY=a(ht),qZ=a("NOT COVERED: ");function
+eA(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bi(a,[b,c,d,e,f])}function
+rg(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bi(a,[b,c,d,e,f,g,h])}rv();var
+dD=[Q,a(iF),-1],fl=[Q,a(hj),-2],fi=[Q,a(eD),-3],fh=[Q,a(hR),-4],fj=[Q,a(hz),-8],fk=[Q,a(h8),-9],D=[Q,a(it),-11],fm=[Q,a(g3),-12],q4=[4,0,0,0,[12,45,[4,0,0,0,0]]],dK=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(hB),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q5]]]]]]]]]]],q7=[0,[0,[0,[0,[0,0]]]]],q8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q7]]]]]]]]]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q8]]]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q9]]]]]]]]]]],q$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q_]]]]]]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q$]]]]]]]]]]],rb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ra]]]]]]]]]]],rc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rb]]]]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rc]]]]]]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rd]]]]]]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,re]]]]]]]]]]],gh=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],c5=[0,[0,[0,[0,0]]]];aK(11,fm,g3);aK(10,D,it);aK(9,[Q,a(hK),-10],hK);aK(8,fk,h8);aK(7,fj,hz);aK(6,[Q,a(h4),-7],h4);aK(5,[Q,a(ii),-6],ii);aK(4,[Q,a(ho),-5],ho);aK(3,fh,hR);aK(2,fi,eD);aK(1,fl,hj);aK(0,dD,iF);var
+jq=a("%.12g"),jp=a(bt),jn=a("true"),jo=a("false"),jr=a("\\\\"),js=a("\\'"),jt=a("\\b"),ju=a("\\t"),jv=a("\\n"),jw=a("\\r"),jz=a("String.blit / Bytes.blit_string"),jy=a("Bytes.blit"),jx=a("String.sub / Bytes.sub"),jB=a(h),jA=a("String.concat"),jC=a("Array.init"),jF=a("Buffer.add: cannot grow buffer"),jE=[0,a(id),93,2],jD=[0,a(id),94,2],jO=a("%c"),jP=a("%s"),jQ=a(g1),jR=a(hx),jS=a(hO),jT=a(g_),jU=a("%f"),jV=a("%B"),jW=a("%{"),jX=a("%}"),jY=a("%("),jZ=a("%)"),j0=a("%a"),j1=a("%t"),j2=a("%?"),j3=a("%r"),j4=a("%_r"),j5=[0,a(P),850,23],ke=[0,a(P),814,21],j8=[0,a(P),815,21],kf=[0,a(P),818,21],j9=[0,a(P),819,21],kg=[0,a(P),822,19],j_=[0,a(P),823,19],kh=[0,a(P),826,22],j$=[0,a(P),827,22],ki=[0,a(P),831,30],ka=[0,a(P),832,30],kc=[0,a(P),836,26],j6=[0,a(P),837,26],kd=[0,a(P),846,28],j7=[0,a(P),847,28],kb=[0,a(P),851,23],ll=a(hH),lj=[0,a(P),1558,4],lk=a("Printf: bad conversion %["),lm=[0,a(P),1626,39],ln=[0,a(P),1649,31],lo=[0,a(P),1650,31],lp=a("Printf: bad conversion %_"),lq=a(hF),lr=a(hQ),ls=a(hF),lt=a(hQ),lh=a(eI),lf=a("neg_infinity"),lg=a(iB),le=a(bt),k$=[0,hf],kZ=a("%+nd"),k0=a("% nd"),k2=a("%+ni"),k3=a("% ni"),k4=a("%nx"),k5=a("%#nx"),k6=a("%nX"),k7=a("%#nX"),k8=a("%no"),k9=a("%#no"),kY=a("%nd"),k1=a(hO),k_=a("%nu"),kM=a("%+ld"),kN=a("% ld"),kP=a("%+li"),kQ=a("% li"),kR=a("%lx"),kS=a("%#lx"),kT=a("%lX"),kU=a("%#lX"),kV=a("%lo"),kW=a("%#lo"),kL=a("%ld"),kO=a(hx),kX=a("%lu"),kz=a("%+Ld"),kA=a("% Ld"),kC=a("%+Li"),kD=a("% Li"),kE=a("%Lx"),kF=a("%#Lx"),kG=a("%LX"),kH=a("%#LX"),kI=a("%Lo"),kJ=a("%#Lo"),ky=a("%Ld"),kB=a(g_),kK=a("%Lu"),km=a("%+d"),kn=a("% d"),kp=a("%+i"),kq=a("% i"),kr=a("%x"),ks=a("%#x"),kt=a("%X"),ku=a("%#X"),kv=a("%o"),kw=a("%#o"),kl=a(eR),ko=a(g1),kx=a(hH),jG=a("@]"),jH=a("@}"),jI=a("@?"),jJ=a("@\n"),jK=a("@."),jL=a("@@"),jM=a("@%"),jN=a("@"),kj=a("CamlinternalFormat.Type_mismatch"),lx=a(h),ly=[0,[11,a(g7),[2,0,[2,0,0]]],a(", %s%s")],lX=[0,[11,a(eO),[2,0,[12,10,0]]],a(ir)],lY=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],lW=a("Fatal error: out of memory in uncaught exception handler"),lU=[0,[11,a(eO),[2,0,[12,10,0]]],a(ir)],lQ=[0,[2,0,[12,10,0]],a("%s\n")],lI=a("Raised at"),lJ=a("Re-raised at"),lK=a("Raised by primitive operation at"),lL=a("Called from"),lM=a(" (inlined)"),lO=a(h),lN=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(hB),q4]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],lP=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],lD=a("Out of memory"),lE=a("Stack overflow"),lF=a("Pattern matching failed"),lG=a("Assertion failed"),lH=a("Undefined recursive module"),lz=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],lA=a(h),lB=a(h),lC=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],lw=[0,[4,0,0,0,0],a(eR)],lu=[0,[3,0,0],a("%S")],lv=a(hW),lR=[0,a(h),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],l0=a("Jsoo_runtime.Error.Exn"),l2=a("power"),ma=[0,0],mh=[0,0,0],mi=[0,0,0],mj=[0,0],mk=[0,0],ms=[0,0],mA=[0,0],mC=a(","),mU=[0,a(eJ),0],mV=a(ip),mW=a(bt),mX=[0,[0,[0,0]]],mY=a(aP),mZ=a(eK),m0=[0,[0,[0,[0,[0,0]]]]],m1=[0,a(eJ),0],m2=a(iN),n3=a(g2),n5=a(hT),n4=a(iu),n6=a(dk),n7=a(hP),oH=a("test"),oI=[0,0],oJ=a("divided"),oK=[0,1],oL=a("mirror"),oM=[0,3],oN=a("negative"),oO=[0,2],oP=a(iL),oQ=[0,4],oR=a(hg),oS=a(h9),oT=a(iy),oU=[0,0],oV=[0,0],oW=[0,0],o5=a(h),o2=[0,[0,[0,[0,0]]]],o3=[0,[0,[0,[0,0]]]],o0=[0,[0,[0,0]]],oX=[0,0],oD=[0,0,0],oA=[0,0],oB=[0,0],oC=[0,0],ow=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q6]]]]]]]]]]],ox=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rf]]]]]]]]]]],ol=[0,a("\n"),0],om=a(hV),on=a(dh),oo=a(hs),op=a(ih),oq=a("certified"),ov=a("refuted"),or=a("verdict"),os=a(hC),ot=a(ic),ou=a(is),oa=a(iE),ob=a(dj),oc=a(hp),od=a(iH),oj=a(im),ok=a(ig),oe=a(eL),of=a(cG),og=a(hX),oh=a(dj),oi=a(iG),n_=a(ib),n$=a(iI),n1=a(h7),n2=a(hG),nL=a(eH),nM=a(eW),nN=a(g9),nO=a(eS),nP=a(cG),nQ=a(eH),nR=a(hU),nS=a(ie),nT=a(eW),nU=a(hN),nV=a(h0),nW=a(eS),nX=a(cG),n0=a(hS),nY=a(ha),nZ=a(hI),nE=a(b7),nF=a(b6),nG=a(gZ),nH=a(ht),nI=a(g0),nJ=a(hn),nK=a(iD),nv=a(ij),nw=a(b7),nD=a(b6),nx=a(g$),nC=a(dh),ny=a(ia),nz=a(hk),nA=a(hy),nB=a(iv),nn=a(g6),no=a(hY),np=a(iA),nq=a(dk),nr=a(iM),ns=a(iC),nt=a(h3),nu=a(ix),m8=a(be),ne=a(aP),m9=a(h2),m_=a(hZ),m$=a(dl),na=a(df),nb=a(dp),nc=a(hJ),nd=a(dm),nf=a(hL),ng=a(dl),nh=a(df),ni=a(hM),nj=a(dm),nk=a(dp),nl=a(g8),nm=a(dm),m5=a(b7),m6=a(b6),m3=[0,a(ab),0],m4=a(ab),mQ=a(be),mR=a(aP),mS=a("*"),mT=a(aO),mM=[0,[0,[0,0]]],mN=[0,[0,0]],mO=[0,0],mP=[0,[0,[0,[0,0]]]],mL=[0,[0,[0,[0,[0,0]]]]],mJ=a('":'),mK=a(ab),mH=[0,a(ab),0],mI=a(ab),mF=[0,a("}"),0],mG=a("{"),mD=[0,a("]"),0],mE=a("["),mz=[0,0],mw=[0,[0,[0,0]]],mx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],my=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mu=[0,[0,0]],mv=[0,[0,[0,0]]],mn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],mo=[0,[0,[0,[0,[0,[0,0]]]]]],mp=[0,[0,[0,0]]],mq=[0,[0,[0,[0,[0,[0,0]]]]]],mr=[0,[0,[0,0]]],ml=[0,[0,0]],mm=[0,0],mb=[0,0,0],l$=a(aj),l_=a(h),l9=[0,[0,0]],l8=[0,0],l7=[1,0],l6=[0,0],l5=[0,0],l3=[1,0],l4=[1,0],ql=a(dk),qm=a(iu),qn=a(hP),qo=a(hg),qp=a(h9),qq=a(iy),qr=[0,a(ab),0],qs=a('the evidence "'),qt=a(hG),qu=a(h7),qR=a(is),qS=a(ic),qT=a(hC),qU=a(ih),qV=a(hs),qW=a(hV),qX=a(dh),qG=a(hp),qH=a(iG),qK=a(cG),qL=a(eL),qM=a(hX),qN=a(dj),qO=a(iE),qP=a(dj),qI=[0,a(ab),0],qJ=a('a proof of the kind "'),qB=a(im),qC=a(iH),qD=a(ig),qE=[0,a(ab),0],qF=a('the failure "'),qx=a(eL),qy=[0,a("a leaf that fails"),0],qz=a(ib),qA=a(iI),qv=a(iL),qw=a(aj),qj=a(hT),qk=a(g2),pZ=a(eH),pT=a(cG),pU=a(hI),pX=a(ha),pY=a(hS),p0=a(eS),p1=a(eW),p2=a("orientation"),p3=a("bodies"),qi=[0,a("a platform that turns, or one with bodies,"),0],p4=a(h0),p5=a(g9),p8=a(gZ),p9=a(iD),qa=a(hn),qb=a(ht),qc=a(g0),qd=a(b7),qe=a(b6),p_=[0,a(ab),0],p$=a('the workspace "'),qf=a(ie),qg=a(hU),qh=a(hN),p6=[0,a(ab),0],p7=a('the mechanism "'),pV=[0,a(ab),0],pW=a('a claim of the kind "'),pO=a(ia),pP=[0,a("a stiffness for each joint"),0],pN=a(dh),px=a(iv),py=a(dk),pz=a(ix),pA=a(hY),pB=a(iA),pC=a(iC),pD=a(iM),pE=a(h3),pF=a(g6),pG=[0,a(ab),0],pH=a('the quantity "'),pI=a(g$),pJ=a(b7),pK=a(b6),pL=[0,a(ab),0],pM=a('a bound "'),pQ=a(ij),pR=a(hk),pS=a(hy),ph=a(dm),pi=a(g8),pj=a(hJ),pk=a(hM),pn=a(hL),po=a(dl),pp=a(df),pq=a(h2),pr=a(hZ),ps=a(dl),pt=a(df),pu=a(dp),pv=a(dp),pl=[0,a(ab),0],pm=a('the drive "'),pf=a(be),pg=a(aP),pd=a(" is not covered by the verified checker"),pe=a(h),pb=a(b7),pc=a(b6),o9=a(h),o_=a(iN),o$=a(h),pa=a(h),o8=[1,0],o6=a("Reader.Malformed"),o7=a("Reader.Not_covered"),qZ=a(hw),q0=a("CERTIFIED"),q1=a("REFUTED"),q2=a(hw),q3=a("NOT COVERED: ");function
 C(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -876,121 +876,121 @@ F=a[1];return[21,F,y(a[2],b)];case
 23:var
 G=a[1];return[23,G,y(a[2],b)];default:var
 H=a[2],I=a[1];return[24,I,H,y(a[3],b)]}}function
-bl(a){throw[0,fd,a]}function
-cL(a){return 0<=a?a:-a|0}function
+bl(a){throw[0,fh,a]}function
+cN(a){return 0<=a?a:-a|0}function
 S(d,c){var
 a=n(d),e=n(c),b=L(a+e|0);a3(d,0,b,0,a);a3(c,0,b,a,e);return af(b)}function
-jj(a){return a?jk:jl}rN(0);i5(1);var
-a7=i5(2);function
-cb(b,a){return i6(b,a,0,n(a))}function
-fj(a){cb(a7,a);i7(a7,10);return b9(a7)}function
-dD(b){function
+jm(a){return a?jn:jo}rR(0);i8(1);var
+a7=i8(2);function
+cd(b,a){return i9(b,a,0,n(a))}function
+fn(a){cd(a7,a);i_(a7,10);return b$(a7)}function
+dE(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{b9(d)}catch(a){a=dA(a);if(a[1]!==fh)throw a;var
+c=a[2],d=a[1];try{b$(d)}catch(a){a=dB(a);if(a[1]!==fl)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(rO(0))}e8(a(g1),dD);var
-cc=(4*rY(0)|0)-1|0;function
-dE(c){var
+a=c;continue}return 0}}return a(rS(0))}fa(a(g4),dE);var
+ce=(4*r2(0)|0)-1|0;function
+dF(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 aE(b,a){if(a){var
 c=a[2],e=d(b,a[1]);return[0,e,aE(b,c)]}return 0}function
 bw(a,c){var
-b=L(a);rp(b,0,a,c);return b}function
-fk(c,b,a){if(0<=b&&0<=a&&!((av(c)-a|0)<b)){var
-d=L(a);bv(c,b,d,0,a);return d}return bl(ju)}function
-fl(c,b,a){return af(fk(c,b,a))}function
-fm(e,c,d,b,a){if(0<=a&&0<=c&&!((av(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return bv(e,c,d,b,a);return bl(jv)}function
-a8(e,c,d,b,a){if(0<=a&&0<=c&&!((n(e)-a|0)<c)&&0<=b&&!((av(d)-a|0)<b))return a3(e,c,d,b,a);return bl(jw)}function
+b=L(a);rt(b,0,a,c);return b}function
+fo(c,b,a){if(0<=b&&0<=a&&!((aw(c)-a|0)<b)){var
+d=L(a);bv(c,b,d,0,a);return d}return bl(jx)}function
+fp(c,b,a){return af(fo(c,b,a))}function
+fq(e,c,d,b,a){if(0<=a&&0<=c&&!((aw(e)-a|0)<c)&&0<=b&&!((aw(d)-a|0)<b))return bv(e,c,d,b,a);return bl(jy)}function
+a8(e,c,d,b,a){if(0<=a&&0<=c&&!((n(e)-a|0)<c)&&0<=b&&!((aw(d)-a|0)<b))return a3(e,c,d,b,a);return bl(jz)}function
 aF(b,a){return af(bw(b,a))}function
-cM(c,b,a){return af(fk(bh(c),b,a))}function
-fn(k,g){if(g){var
+cO(c,b,a){return af(fo(bh(c),b,a))}function
+fr(k,g){if(g){var
 h=n(k),c=0,b=g,q=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(n(i)+h|0)+c|0,m=b[2],o=c<=j?j:bl(jx),c=o,b=m;continue}var
+j=(n(i)+h|0)+c|0,m=b[2],o=c<=j?j:bl(jA),c=o,b=m;continue}var
 l=n(i)+c|0}else
 var
 l=c;var
 f=L(l),e=q,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 p=d[2];a3(a,0,f,e,n(a));a3(k,0,f,e+n(a)|0,h);var
-e=(e+n(a)|0)+h|0,d=p;continue}a3(a,0,f,e,n(a))}return af(f)}}}return jy}function
-fo(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cc<b[1]){if(!((d+c|0)<=cc))throw[0,fe,jC];b[1]=cc}var
-e=L(b[1]);fm(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,D,jA]}throw[0,D,jB]}}function
-cd(a,c){var
-b=n(c),d=a[2]+b|0;if(a[3]<d)fo(a,b);a3(c,0,a[1],a[2],b);a[2]=d;return 0}function
-dF(a){return 5===a[2]?12:-6}function
-fp(a){return[0,0,L(a)]}function
-fq(a,h){var
-b=av(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=L(i);fm(a[2],0,f,0,b);a[2]=f;var
+e=(e+n(a)|0)+h|0,d=p;continue}a3(a,0,f,e,n(a))}return af(f)}}}return jB}function
+fs(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(ce<b[1]){if(!((d+c|0)<=ce))throw[0,fi,jF];b[1]=ce}var
+e=L(b[1]);fq(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,D,jD]}throw[0,D,jE]}}function
+cf(a,c){var
+b=n(c),d=a[2]+b|0;if(a[3]<d)fs(a,b);a3(c,0,a[1],a[2],b);a[2]=d;return 0}function
+dG(a){return 5===a[2]?12:-6}function
+ft(a){return[0,0,L(a)]}function
+fu(a,h){var
+b=aw(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=L(i);fq(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-bM(a,b){fq(a,1);bI(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-_(a,c){var
-b=n(c);fq(a,b);a8(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-fr(a){return fl(a[2],0,a[1])}function
-fs(a){if(typeof
+bO(a,b){fu(a,1);bK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+$(a,c){var
+b=n(c);fu(a,b);a8(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+fv(a){return fp(a[2],0,a[1])}function
+fw(a){if(typeof
 a==="number")switch(a){case
-0:return jD;case
-1:return jE;case
-2:return jF;case
-3:return jG;case
-4:return jH;case
-5:return jI;default:return jJ}else
+0:return jG;case
+1:return jH;case
+2:return jI;case
+3:return jJ;case
+4:return jK;case
+5:return jL;default:return jM}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return S(jK,aF(1,a[1]))}}function
-dG(b,c){var
+1:return a[1];default:return S(jN,aF(1,a[1]))}}function
+dH(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];_(b,jL);var
+d=a[1];$(b,jO);var
 a=d;continue;case
 1:var
-e=a[1];_(b,jM);var
+e=a[1];$(b,jP);var
 a=e;continue;case
 2:var
-f=a[1];_(b,jN);var
+f=a[1];$(b,jQ);var
 a=f;continue;case
 3:var
-g=a[1];_(b,jO);var
+g=a[1];$(b,jR);var
 a=g;continue;case
 4:var
-h=a[1];_(b,jP);var
+h=a[1];$(b,jS);var
 a=h;continue;case
 5:var
-i=a[1];_(b,jQ);var
+i=a[1];$(b,jT);var
 a=i;continue;case
 6:var
-j=a[1];_(b,jR);var
+j=a[1];$(b,jU);var
 a=j;continue;case
 7:var
-k=a[1];_(b,jS);var
+k=a[1];$(b,jV);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];_(b,jT);dG(b,m);_(b,jU);var
+l=a[2],m=a[1];$(b,jW);dH(b,m);$(b,jX);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];_(b,jV);dG(b,o);_(b,jW);var
+n=a[3],o=a[1];$(b,jY);dH(b,o);$(b,jZ);var
 a=n;continue;case
 10:var
-p=a[1];_(b,jX);var
+p=a[1];$(b,j0);var
 a=p;continue;case
 11:var
-q=a[1];_(b,jY);var
+q=a[1];$(b,j1);var
 a=q;continue;case
 12:var
-r=a[1];_(b,jZ);var
+r=a[1];$(b,j2);var
 a=r;continue;case
 13:var
-s=a[1];_(b,j0);var
+s=a[1];$(b,j3);var
 a=s;continue;default:var
-t=a[1];_(b,j1);var
+t=a[1];$(b,j4);var
 a=t;continue}}function
 K(a){if(typeof
 a==="number")return 0;else
@@ -1011,39 +1011,39 @@ c=a[2],d=a[1];return[9,c,d,K(a[3])];case
 11:return[11,K(a[1])];case
 12:return[12,K(a[1])];case
 13:return[13,K(a[1])];default:return[14,K(a[1])]}}function
-$(a){if(typeof
+aa(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=$(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){d(x,0);return 0};return[0,function(a){d(y,0);return 0},z,w,v];case
+b=aa(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){d(x,0);return 0};return[0,function(a){d(y,0);return 0},z,w,v];case
 1:var
-c=$(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){d(C,0);return 0};return[0,function(a){d(D,0);return 0},E,B,A];case
+c=aa(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){d(C,0);return 0};return[0,function(a){d(D,0);return 0},E,B,A];case
 2:var
-e=$(a[1]),F=e[4],G=e[3],H=e[2],I=e[1],J=function(a){d(H,0);return 0};return[0,function(a){d(I,0);return 0},J,G,F];case
+e=aa(a[1]),F=e[4],G=e[3],H=e[2],I=e[1],J=function(a){d(H,0);return 0};return[0,function(a){d(I,0);return 0},J,G,F];case
 3:var
-f=$(a[1]),L=f[4],N=f[3],O=f[2],P=f[1],Q=function(a){d(O,0);return 0};return[0,function(a){d(P,0);return 0},Q,N,L];case
+f=aa(a[1]),L=f[4],N=f[3],O=f[2],P=f[1],Q=function(a){d(O,0);return 0};return[0,function(a){d(P,0);return 0},Q,N,L];case
 4:var
-g=$(a[1]),R=g[4],S=g[3],T=g[2],U=g[1],V=function(a){d(T,0);return 0};return[0,function(a){d(U,0);return 0},V,S,R];case
+g=aa(a[1]),R=g[4],S=g[3],T=g[2],U=g[1],V=function(a){d(T,0);return 0};return[0,function(a){d(U,0);return 0},V,S,R];case
 5:var
-h=$(a[1]),W=h[4],X=h[3],Y=h[2],Z=h[1],_=function(a){d(Y,0);return 0};return[0,function(a){d(Z,0);return 0},_,X,W];case
+h=aa(a[1]),W=h[4],X=h[3],Y=h[2],Z=h[1],_=function(a){d(Y,0);return 0};return[0,function(a){d(Z,0);return 0},_,X,W];case
 6:var
-i=$(a[1]),aa=i[4],ab=i[3],ac=i[2],ad=i[1],ae=function(a){d(ac,0);return 0};return[0,function(a){d(ad,0);return 0},ae,ab,aa];case
+i=aa(a[1]),$=i[4],ab=i[3],ac=i[2],ad=i[1],ae=function(a){d(ac,0);return 0};return[0,function(a){d(ad,0);return 0},ae,ab,$];case
 7:var
-j=$(a[1]),af=j[4],ag=j[3],ah=j[2],ai=j[1],aj=function(a){d(ah,0);return 0};return[0,function(a){d(ai,0);return 0},aj,ag,af];case
+j=aa(a[1]),af=j[4],ag=j[3],ah=j[2],ai=j[1],aj=function(a){d(ah,0);return 0};return[0,function(a){d(ai,0);return 0},aj,ag,af];case
 8:var
-k=$(a[2]),ak=k[4],al=k[3],am=k[2],an=k[1],ao=function(a){d(am,0);return 0};return[0,function(a){d(an,0);return 0},ao,al,ak];case
+k=aa(a[2]),ak=k[4],al=k[3],am=k[2],an=k[1],ao=function(a){d(am,0);return 0};return[0,function(a){d(an,0);return 0},ao,al,ak];case
 9:var
-ap=a[2],aq=a[1],l=$(a[3]),ar=l[4],as=l[3],at=l[2],au=l[1],m=$(M(K(aq),ap)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){d(av,0);d(ar,0);return 0},aA=function(a){d(as,0);d(aw,0);return 0},aB=function(a){d(ax,0);d(at,0);return 0};return[0,function(a){d(au,0);d(ay,0);return 0},aB,aA,az];case
+ap=a[2],aq=a[1],l=aa(a[3]),ar=l[4],as=l[3],at=l[2],au=l[1],m=aa(M(K(aq),ap)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){d(av,0);d(ar,0);return 0},aA=function(a){d(as,0);d(aw,0);return 0},aB=function(a){d(ax,0);d(at,0);return 0};return[0,function(a){d(au,0);d(ay,0);return 0},aB,aA,az];case
 10:var
-n=$(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){d(aE,0);return 0};return[0,function(a){d(aF,0);return 0},aG,aD,aC];case
+n=aa(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){d(aE,0);return 0};return[0,function(a){d(aF,0);return 0},aG,aD,aC];case
 11:var
-o=$(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){d(aJ,0);return 0};return[0,function(a){d(aK,0);return 0},aL,aI,aH];case
+o=aa(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){d(aJ,0);return 0};return[0,function(a){d(aK,0);return 0},aL,aI,aH];case
 12:var
-p=$(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){d(aO,0);return 0};return[0,function(a){d(aP,0);return 0},aQ,aN,aM];case
+p=aa(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){d(aO,0);return 0};return[0,function(a){d(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=$(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){d(aR,0);return 0},aW=function(a){d(aS,0);return 0},aX=function(a){d(aT,0);return 0};return[0,function(a){d(aU,0);return 0},aX,aW,aV];default:var
-r=$(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){d(aY,0);return 0},a3=function(a){d(aZ,0);return 0},a4=function(a){d(a0,0);return 0};return[0,function(a){d(a1,0);return 0},a4,a3,a2]}}function
+q=aa(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){d(aR,0);return 0},aW=function(a){d(aS,0);return 0},aX=function(a){d(aT,0);return 0};return[0,function(a){d(aU,0);return 0},aX,aW,aV];default:var
+r=aa(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){d(aY,0);return 0},a3=function(a){d(aZ,0);return 0},a4=function(a){d(a0,0);return 0};return[0,function(a){d(a1,0);return 0},a4,a3,a2]}}function
 M(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
@@ -1055,7 +1055,7 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,D,j2]}else
+9:a=6;break;default:throw[0,D,j5]}else
 switch(c[0]){case
 0:var
 e=0,t=c[1];if(typeof
@@ -1161,35 +1161,35 @@ E=b[1],F=M(B,b[2]);return[8,M(C,E),F];case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,D,j$];break;case
+14:a=4;break;default:m=1}if(m)throw[0,D,kc];break;case
 9:var
 n=0,G=c[3],H=c[2],I=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-J=b[3],L=b[2],N=b[1],s=$(M(K(H),N)),O=s[4];d(s[2],0);d(O,0);return[9,I,L,M(G,J)];case
+J=b[3],L=b[2],N=b[1],s=aa(M(K(H),N)),O=s[4];d(s[2],0);d(O,0);return[9,I,L,M(G,J)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,D,ka];break;case
+14:a=4;break;default:n=1}if(n)throw[0,D,kd];break;case
 10:var
 P=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,M(P,b[1])];throw[0,D,kb];case
+b!=="number"&&10===b[0])return[10,M(P,b[1])];throw[0,D,ke];case
 11:var
 o=0,Q=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,M(Q,b[1])];default:o=1}if(o)throw[0,D,kc];break;case
+11:return[11,M(Q,b[1])];default:o=1}if(o)throw[0,D,kf];break;case
 12:var
 p=0,R=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,M(R,b[1])];default:p=1}if(p)throw[0,D,kd];break;case
+12:return[12,M(R,b[1])];default:p=1}if(p)throw[0,D,kg];break;case
 13:var
 q=0,S=c[1];if(typeof
 b==="number")q=1;else
@@ -1197,7 +1197,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,M(S,b[1])];default:q=1}if(q)throw[0,D,ke];break;default:var
+13:return[13,M(S,b[1])];default:q=1}if(q)throw[0,D,kh];break;default:var
 r=0,T=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1205,20 +1205,20 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,M(T,b[1])];default:r=1}if(r)throw[0,D,kf]}switch(a){case
-0:throw[0,D,j5];case
-1:throw[0,D,j6];case
-2:throw[0,D,j7];case
-3:throw[0,D,j8];case
-4:throw[0,D,j9];case
-5:throw[0,D,j3];case
-6:throw[0,D,j4];default:throw[0,D,j_]}}var
-T=[Q,kg,dt(0)];function
-cN(b,a){if(typeof
+14:return[14,M(T,b[1])];default:r=1}if(r)throw[0,D,ki]}switch(a){case
+0:throw[0,D,j8];case
+1:throw[0,D,j9];case
+2:throw[0,D,j_];case
+3:throw[0,D,j$];case
+4:throw[0,D,ka];case
+5:throw[0,D,j6];case
+6:throw[0,D,j7];default:throw[0,D,kb]}}var
+T=[Q,kj,du(0)];function
+cP(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
 a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw T}}function
-ce(e,b,d){var
-a=cN(e,d);if(typeof
+cg(e,b,d){var
+a=cP(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
 c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw T}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
@@ -1251,13 +1251,13 @@ a!=="number"&&7===a[0]){var
 n=am(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],x=a[2],y=b[2];if(cJ([0,b[1]],[0,o]))throw T;var
+o=a[1],x=a[2],y=b[2];if(cL([0,b[1]],[0,o]))throw T;var
 p=am(y,c,x);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-e=a[2],f=a[1],z=a[3],A=b[3],B=b[2],D=b[1],E=[0,C(f)];if(cJ([0,C(D)],E))throw T;var
-F=[0,C(e)];if(cJ([0,C(B)],F))throw T;var
-q=$(M(K(f),e)),G=q[4];d(q[2],0);d(G,0);var
+e=a[2],f=a[1],z=a[3],A=b[3],B=b[2],D=b[1],E=[0,C(f)];if(cL([0,C(D)],E))throw T;var
+F=[0,C(e)];if(cL([0,C(B)],F))throw T;var
+q=aa(M(K(f),e)),G=q[4];d(q[2],0);d(G,0);var
 r=am(C(A),c,z),H=r[2];return[0,[9,f,e,K(r[1])],H]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
@@ -1281,35 +1281,35 @@ s=v(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 a!=="number"&&0===a[0]){var
 t=v(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ad=b[2],u=cN(b[1],a),e=u[2],ae=u[1];if(typeof
+ad=b[2],u=cP(b[1],a),e=u[2],ae=u[1];if(typeof
 e!=="number"&&1===e[0]){var
 w=v(ad,e[1]);return[0,[2,ae,w[1]],w[2]]}throw T;case
 3:var
-af=b[2],x=cN(b[1],a),f=x[2],ag=x[1];if(typeof
+af=b[2],x=cP(b[1],a),f=x[2],ag=x[1];if(typeof
 f!=="number"&&1===f[0]){var
 y=v(af,f[1]);return[0,[3,ag,y[1]],y[2]]}throw T;case
 4:var
-ah=b[4],ai=b[1],g=ce(b[2],b[3],a),h=g[3],aj=g[1];if(typeof
+ah=b[4],ai=b[1],g=cg(b[2],b[3],a),h=g[3],aj=g[1];if(typeof
 h!=="number"&&2===h[0]){var
 ak=g[2],z=v(ah,h[1]);return[0,[4,ai,aj,ak,z[1]],z[2]]}throw T;case
 5:var
-al=b[4],an=b[1],i=ce(b[2],b[3],a),j=i[3],ap=i[1];if(typeof
+al=b[4],an=b[1],i=cg(b[2],b[3],a),j=i[3],ap=i[1];if(typeof
 j!=="number"&&3===j[0]){var
 aq=i[2],A=v(al,j[1]);return[0,[5,an,ap,aq,A[1]],A[2]]}throw T;case
 6:var
-ar=b[4],as=b[1],k=ce(b[2],b[3],a),l=k[3],at=k[1];if(typeof
+ar=b[4],as=b[1],k=cg(b[2],b[3],a),l=k[3],at=k[1];if(typeof
 l!=="number"&&4===l[0]){var
 au=k[2],B=v(ar,l[1]);return[0,[6,as,at,au,B[1]],B[2]]}throw T;case
 7:var
-av=b[4],aw=b[1],m=ce(b[2],b[3],a),n=m[3],ax=m[1];if(typeof
+av=b[4],aw=b[1],m=cg(b[2],b[3],a),n=m[3],ax=m[1];if(typeof
 n!=="number"&&5===n[0]){var
 ay=m[2],D=v(av,n[1]);return[0,[7,aw,ax,ay,D[1]],D[2]]}throw T;case
 8:var
-az=b[4],aA=b[1],o=ce(b[2],b[3],a),p=o[3],aB=o[1];if(typeof
+az=b[4],aA=b[1],o=cg(b[2],b[3],a),p=o[3],aB=o[1];if(typeof
 p!=="number"&&6===p[0]){var
 aC=o[2],E=v(az,p[1]);return[0,[8,aA,aB,aC,E[1]],E[2]]}throw T;case
 9:var
-aD=b[2],F=cN(b[1],a),q=F[2],aE=F[1];if(typeof
+aD=b[2],F=cP(b[1],a),q=F[2],aE=F[1];if(typeof
 q!=="number"&&7===q[0]){var
 G=v(aD,q[1]);return[0,[9,aE,G[1]],G[2]]}throw T;case
 10:var
@@ -1320,11 +1320,11 @@ aF=b[1],I=v(b[2],a);return[0,[11,aF,I[1]],I[2]];case
 aG=b[1],J=v(b[2],a);return[0,[12,aG,J[1]],J[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-K=a[1],aH=a[2],aI=b[3],aJ=b[1];if(cJ([0,b[2]],[0,K]))throw T;var
+K=a[1],aH=a[2],aI=b[3],aJ=b[1];if(cL([0,b[2]],[0,K]))throw T;var
 L=v(aI,aH);return[0,[13,aJ,K,L[1]],L[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-M=a[1],aK=a[3],aL=b[3],aM=b[2],aN=b[1],aO=[0,C(M)];if(cJ([0,C(aM)],aO))throw T;var
+M=a[1],aK=a[3],aL=b[3],aM=b[2],aN=b[1],aO=[0,C(M)];if(cL([0,C(aM)],aO))throw T;var
 N=v(aL,C(aK));return[0,[14,aN,M,N[1]],N[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
@@ -1371,40 +1371,40 @@ aX=c[1],ab=am(c[2],d,a),ac=ab[2];return[0,[23,[9,aX,ab[1]],ac[1]],ac[2]];case
 ao(d,c,b){var
 a=v(c,b);return[0,[23,d,a[1]],a[2]]}function
 ap(k,g,a){var
-b=n(a),h=0<=g?k:0,d=cL(g);if(d<=b)return a;var
+b=n(a),h=0<=g?k:0,d=cN(g);if(d<=b)return a;var
 l=2===h?48:32,c=bw(d,l);switch(h){case
 0:a8(a,0,c,0,b);break;case
 1:a8(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){bI(c,0,G(a,0));a8(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){bK(c,0,G(a,0));a8(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
 f=0;if(1<b&&48===G(a,0)){var
-j=0;if(hb!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){bI(c,1,G(a,1));a8(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+j=0;if(he!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){bK(c,1,G(a,1));a8(a,2,c,(d-b|0)+2|0,b-2|0)}}else
 f=1;if(f)a8(a,0,c,d-b|0,b)}}return af(c)}function
-bN(k,b){var
-c=cL(k),a=n(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+h2>>>0))e=1}else
+bP(k,b){var
+c=cN(k),a=n(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+h5>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(hb===G(b,1)||88===G(b,1))j=1;if(j){var
-h=bw(c+2|0,48);bI(h,1,G(b,1));a8(b,2,h,(c-a|0)+4|0,a-2|0);return af(h)}}e=1;f=1;break;case
+j=0;if(he===G(b,1)||88===G(b,1))j=1;if(j){var
+h=bw(c+2|0,48);bK(h,1,G(b,1));a8(b,2,h,(c-a|0)+4|0,a-2|0);return af(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=bw(c+1|0,48);bI(g,0,d);a8(b,1,g,(c-a|0)+2|0,a-1|0);return af(g)}}if(e&&a<c){var
+g=bw(c+1|0,48);bK(g,0,d);a8(b,1,g,(c-a|0)+2|0,a-1|0);return af(g)}}if(e&&a<c){var
 i=bw(c,48);a8(b,0,i,c-a|0,a);return af(i)}return b}function
-kh(k){var
+kk(k){var
 j=0,D=n(k);for(;;){if(D<=j)var
 p=k;else{var
-o=a5(k,j)+it|0,q=0;if(59<o>>>0){if(33<o-61>>>0)q=1}else
+o=a5(k,j)+iw|0,q=0;if(59<o>>>0){if(33<o-61>>>0)q=1}else
 if(2===o)q=1;if(!q){var
 j=j+1|0;continue}var
-e=bh(k),a=[0,0],u=av(e)-1|0,z=0;if(!(u<0)){var
+e=bh(k),a=[0,0],u=aw(e)-1|0,z=0;if(!(u<0)){var
 i=z;for(;;){var
-f=b7(e,i),g=0;if(32<=f){var
+f=b9(e,i),g=0;if(32<=f){var
 l=f-34|0,r=0;if(58<l>>>0){if(93<=l)r=1}else
 if(56<l-1>>>0){g=1;r=1}if(!r){var
 m=1;g=2}}else
@@ -1415,14 +1415,14 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(u!==i){var
-i=C;continue}break}}if(a[1]===av(e)){var
-s=av(e),t=L(s);bv(e,0,t,0,s);var
+i=C;continue}break}}if(a[1]===aw(e)){var
+s=aw(e),t=L(s);bv(e,0,t,0,s);var
 w=t}else{var
 b=L(a[1]);a[1]=0;var
-v=av(e)-1|0,A=0;if(!(v<0)){var
+v=aw(e)-1|0,A=0;if(!(v<0)){var
 h=A;for(;;){var
-c=b7(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(eI<=c)d=1;else
+c=b9(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(eM<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1432,7 +1432,7 @@ switch(c){case
 9:I(b,a[1],92);a[1]++;I(b,a[1],116);break;case
 10:I(b,a[1],92);a[1]++;I(b,a[1],110);break;case
 13:I(b,a[1],92);a[1]++;I(b,a[1],114);break;default:d=1}switch(d){case
-1:I(b,a[1],92);a[1]++;I(b,a[1],48+(c/h8|0)|0);a[1]++;I(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;I(b,a[1],48+(c%10|0)|0);break;case
+1:I(b,a[1],92);a[1]++;I(b,a[1],48+(c/h$|0)|0);a[1]++;I(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;I(b,a[1],48+(c%10|0)|0);break;case
 2:I(b,a[1],92);a[1]++;I(b,a[1],c);break;case
 3:I(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(v!==h){var
@@ -1440,8 +1440,8 @@ h=B;continue}break}}var
 w=b}var
 p=af(w)}var
 x=n(p),y=bw(x+2|0,34);a3(p,0,y,1,x);return af(y)}}function
-ft(d,f){var
-g=cL(f),e=k8[1];switch(d[2]){case
+fx(d,f){var
+g=cN(f),e=k$[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1449,7 +1449,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=hc;break;case
+b=hf;break;case
 4:var
 b=71;break;case
 5:var
@@ -1459,160 +1459,160 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=fp(16);bM(c,37);switch(d[1]){case
+c=ft(16);bO(c,37);switch(d[1]){case
 0:break;case
-1:bM(c,43);break;default:bM(c,32)}if(8<=d[2])bM(c,35);bM(c,46);_(c,a(h+g));bM(c,b);return fr(c)}function
-cO(m,a){if(13<=m){var
+1:bO(c,43);break;default:bO(c,32)}if(8<=d[2])bO(c,35);bO(c,46);$(c,a(h+g));bO(c,b);return fv(c)}function
+cQ(m,a){if(13<=m){var
 g=[0,0],h=n(a)-1|0,o=0;if(!(h<0)){var
-c=o;for(;;){if(!(9<a5(a,c)+ey>>>0))g[1]++;var
+c=o;for(;;){if(!(9<a5(a,c)+eC>>>0))g[1]++;var
 r=c+1|0;if(h!==c){var
 c=r;continue}break}}var
-i=g[1],j=L(n(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){bI(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=n(a)-1|0,p=0;if(!(l<0)){var
+i=g[1],j=L(n(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){bK(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=n(a)-1|0,p=0;if(!(l<0)){var
 b=p;for(;;){var
-f=a5(a,b);if(9<f+ey>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=a5(a,b);if(9<f+eC>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 q=b+1|0;if(l!==b){var
 b=q;continue}break}}return af(j)}return a}function
-k9(b,c){switch(b){case
-1:var
-a=kj;break;case
-2:var
-a=kk;break;case
-4:var
-a=km;break;case
-5:var
-a=kn;break;case
-6:var
-a=ko;break;case
-7:var
-a=kp;break;case
-8:var
-a=kq;break;case
-9:var
-a=kr;break;case
-10:var
-a=ks;break;case
-11:var
-a=kt;break;case
-0:case
-13:var
-a=ki;break;case
-3:case
-14:var
-a=kl;break;default:var
-a=ku}return cO(b,ds(a,c))}function
-k_(b,c){switch(b){case
-1:var
-a=kJ;break;case
-2:var
-a=kK;break;case
-4:var
-a=kM;break;case
-5:var
-a=kN;break;case
-6:var
-a=kO;break;case
-7:var
-a=kP;break;case
-8:var
-a=kQ;break;case
-9:var
-a=kR;break;case
-10:var
-a=kS;break;case
-11:var
-a=kT;break;case
-0:case
-13:var
-a=kI;break;case
-3:case
-14:var
-a=kL;break;default:var
-a=kU}return cO(b,ds(a,c))}function
-k$(b,c){switch(b){case
-1:var
-a=kW;break;case
-2:var
-a=kX;break;case
-4:var
-a=kZ;break;case
-5:var
-a=k0;break;case
-6:var
-a=k1;break;case
-7:var
-a=k2;break;case
-8:var
-a=k3;break;case
-9:var
-a=k4;break;case
-10:var
-a=k5;break;case
-11:var
-a=k6;break;case
-0:case
-13:var
-a=kV;break;case
-3:case
-14:var
-a=kY;break;default:var
-a=k7}return cO(b,ds(a,c))}function
 la(b,c){switch(b){case
 1:var
-a=kw;break;case
+a=km;break;case
 2:var
-a=kx;break;case
+a=kn;break;case
 4:var
-a=kz;break;case
+a=kp;break;case
 5:var
-a=kA;break;case
+a=kq;break;case
 6:var
-a=kB;break;case
+a=kr;break;case
 7:var
-a=kC;break;case
+a=ks;break;case
 8:var
-a=kD;break;case
+a=kt;break;case
 9:var
-a=kE;break;case
+a=ku;break;case
 10:var
-a=kF;break;case
+a=kv;break;case
 11:var
-a=kG;break;case
+a=kw;break;case
 0:case
 13:var
-a=kv;break;case
+a=kl;break;case
 3:case
 14:var
-a=ky;break;default:var
-a=kH}return cO(b,rx(a,c))}function
+a=ko;break;default:var
+a=kx}return cQ(b,dt(a,c))}function
+lb(b,c){switch(b){case
+1:var
+a=kM;break;case
+2:var
+a=kN;break;case
+4:var
+a=kP;break;case
+5:var
+a=kQ;break;case
+6:var
+a=kR;break;case
+7:var
+a=kS;break;case
+8:var
+a=kT;break;case
+9:var
+a=kU;break;case
+10:var
+a=kV;break;case
+11:var
+a=kW;break;case
+0:case
+13:var
+a=kL;break;case
+3:case
+14:var
+a=kO;break;default:var
+a=kX}return cQ(b,dt(a,c))}function
+lc(b,c){switch(b){case
+1:var
+a=kZ;break;case
+2:var
+a=k0;break;case
+4:var
+a=k2;break;case
+5:var
+a=k3;break;case
+6:var
+a=k4;break;case
+7:var
+a=k5;break;case
+8:var
+a=k6;break;case
+9:var
+a=k7;break;case
+10:var
+a=k8;break;case
+11:var
+a=k9;break;case
+0:case
+13:var
+a=kY;break;case
+3:case
+14:var
+a=k1;break;default:var
+a=k_}return cQ(b,dt(a,c))}function
+ld(b,c){switch(b){case
+1:var
+a=kz;break;case
+2:var
+a=kA;break;case
+4:var
+a=kC;break;case
+5:var
+a=kD;break;case
+6:var
+a=kE;break;case
+7:var
+a=kF;break;case
+8:var
+a=kG;break;case
+9:var
+a=kH;break;case
+10:var
+a=kI;break;case
+11:var
+a=kJ;break;case
+0:case
+13:var
+a=ky;break;case
+3:case
+14:var
+a=kB;break;default:var
+a=kK}return cQ(b,rB(a,c))}function
 a9(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return rt(b,i,a)}function
+a=32}return rx(b,i,a)}function
 r(c){var
-a=rl(b);return 3===a?b<0.?lc:ld:4<=a?le:c}switch(c[2]){case
+a=rp(b);return 3===a?b<0.?lf:lg:4<=a?lh:c}switch(c[2]){case
 5:var
-e=eY(ft(c,i),b),d=0,v=n(e);for(;;){if(d===v)var
+e=e2(fx(c,i),b),d=0,v=n(e);for(;;){if(d===v)var
 q=0;else{var
 k=G(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 q=1}var
-w=q?e:S(e,lb);return r(w)}case
+w=q?e:S(e,le);return r(w)}case
 6:return j(0);case
 7:var
-h=bh(j(0)),f=av(h);if(0===f)var
+h=bh(j(0)),f=aw(h);if(0===f)var
 p=h;else{var
 m=L(f),o=f-1|0,s=0;if(!(o<0)){var
 a=s;for(;;){var
-g=b7(h,a),t=25<g+h2>>>0?g:g+it|0;I(m,a,t);var
+g=b9(h,a),t=25<g+h5>>>0?g:g+iw|0;I(m,a,t);var
 u=a+1|0;if(o!==a){var
 a=u;continue}break}}var
 p=m}return af(p);case
-8:return r(j(0));default:return eY(ft(c,i),b)}}function
-cA(e,F,B,A){var
+8:return r(j(0));default:return e2(fx(c,i),b)}}function
+cC(e,F,B,A){var
 b=F,a=B,c=A;for(;;)if(typeof
 c==="number")return d(b,a);else
 switch(c[0]){case
@@ -1621,48 +1621,48 @@ G=c[1];return function(c){return o(b,[5,a,c],G)};case
 1:var
 H=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=jo;else
-if(eI<=c)e=1;else
+d=jr;else
+if(eM<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=jp;else
+d=js;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=jq;break;case
+d=jt;break;case
 9:var
-d=jr;break;case
+d=ju;break;case
 10:var
-d=js;break;case
+d=jv;break;case
 13:var
-d=jt;break;default:e=1}switch(e){case
+d=jw;break;default:e=1}switch(e){case
 1:var
-f=L(4);I(f,0,92);I(f,1,48+(c/h8|0)|0);I(f,2,48+((c/10|0)%10|0)|0);I(f,3,48+(c%10|0)|0);var
+f=L(4);I(f,0,92);I(f,1,48+(c/h$|0)|0);I(f,2,48+((c/10|0)%10|0)|0);I(f,3,48+(c%10|0)|0);var
 d=af(f);break;case
 2:var
 g=L(1);I(g,0,c);var
 d=af(g);break}var
 h=n(d),i=bw(h+2|0,39);a3(d,0,i,1,h);return o(b,[4,a,af(i)],H)};case
 2:var
-J=c[2],M=c[1];return dH(b,a,J,M,function(a){return a});case
-3:return dH(b,a,c[2],c[1],kh);case
-4:return cP(b,a,c[4],c[2],c[3],k9,c[1]);case
-5:return cP(b,a,c[4],c[2],c[3],k_,c[1]);case
-6:return cP(b,a,c[4],c[2],c[3],k$,c[1]);case
-7:return cP(b,a,c[4],c[2],c[3],la,c[1]);case
+J=c[2],M=c[1];return dI(b,a,J,M,function(a){return a});case
+3:return dI(b,a,c[2],c[1],kk);case
+4:return cR(b,a,c[4],c[2],c[3],la,c[1]);case
+5:return cR(b,a,c[4],c[2],c[3],lb,c[1]);case
+6:return cR(b,a,c[4],c[2],c[3],lc,c[1]);case
+7:return cR(b,a,c[4],c[2],c[3],ld,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return o(b,[4,a,a9(g,d,c)],h)}:function(c){return o(b,[4,a,a9(g,dF(g),c)],h)};var
+i==="number")return i?function(d,c){return o(b,[4,a,a9(g,d,c)],h)}:function(c){return o(b,[4,a,a9(g,dG(g),c)],h)};var
 ad=i[1];return function(c){return o(b,[4,a,a9(g,ad,c)],h)}}else{if(0===j[0]){var
 m=j[2],p=j[1];if(typeof
-i==="number")return i?function(d,c){return o(b,[4,a,ap(p,m,a9(g,d,c))],h)}:function(c){return o(b,[4,a,ap(p,m,a9(g,dF(g),c))],h)};var
+i==="number")return i?function(d,c){return o(b,[4,a,ap(p,m,a9(g,d,c))],h)}:function(c){return o(b,[4,a,ap(p,m,a9(g,dG(g),c))],h)};var
 ae=i[1];return function(c){return o(b,[4,a,ap(p,m,a9(g,ae,c))],h)}}var
 q=j[1];if(typeof
-i==="number")return i?function(e,d,c){return o(b,[4,a,ap(q,e,a9(g,d,c))],h)}:function(d,c){return o(b,[4,a,ap(q,d,a9(g,dF(g),c))],h)};var
+i==="number")return i?function(e,d,c){return o(b,[4,a,ap(q,e,a9(g,d,c))],h)}:function(d,c){return o(b,[4,a,ap(q,d,a9(g,dG(g),c))],h)};var
 ag=i[1];return function(d,c){return o(b,[4,a,ap(q,d,a9(g,ag,c))],h)}}case
-9:return dH(b,a,c[2],c[1],jj);case
+9:return dI(b,a,c[2],c[1],jm);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1670,8 +1670,8 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-N=c[3],O=c[2],r=fp(16);dG(r,O);var
-z=fr(r);return function(c){return o(b,[4,a,z],N)};case
+N=c[3],O=c[2],r=ft(16);dH(r,O);var
+z=fv(r);return function(c){return o(b,[4,a,z],N)};case
 14:var
 P=c[3],Q=c[2];return function(d){var
 e=d[1],c=v(e,C(K(Q)));if(typeof
@@ -1685,212 +1685,212 @@ a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
 U=c[2],V=l[1][1],W=0,b=function(b,c,d){return function(a){return o(c,[1,b,[0,a]],d)}}(a,b,U),a=W,c=V;continue}var
-X=c[2],Z=l[1][1],_=0,b=function(b,c,d){return function(a){return o(c,[1,b,[1,a]],d)}}(a,b,X),a=_,c=Z;continue;case
-19:throw[0,D,lg];case
+X=c[2],Y=l[1][1],_=0,b=function(b,c,d){return function(a){return o(c,[1,b,[1,a]],d)}}(a,b,X),a=_,c=Y;continue;case
+19:throw[0,D,lj];case
 20:var
-$=c[3],aa=[8,a,lh];return function(a){return o(b,aa,$)};case
+$=c[3],aa=[8,a,lk];return function(a){return o(b,aa,$)};case
 21:var
-ab=c[2];return function(c){return o(b,[4,a,ds(li,c)],ab)};case
+ab=c[2];return function(c){return o(b,[4,a,dt(ll,c)],ab)};case
 22:var
 ac=c[1];return function(c){return o(b,[5,a,c],ac)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-1:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-2:throw[0,D,lj];default:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f])}else
+0:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+1:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+2:throw[0,D,lm];default:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f])}else
 switch(k[0]){case
-0:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-1:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-2:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-3:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-4:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-5:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-6:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-7:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
-8:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);case
+0:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+1:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+2:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+3:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+4:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+5:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+6:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+7:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+8:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
 9:var
-x=k[2];return e<50?ev(e+1|0,b,a,x,f):Y(ev,[0,b,a,x,f]);case
-10:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f]);default:return e<50?t(e+1|0,b,a,f):Y(t,[0,b,a,f])}default:var
-s=c[3],u=c[1],w=d(c[2],0);return e<50?eu(e+1|0,b,a,s,u,w):Y(eu,[0,b,a,s,u,w])}}function
-ev(e,d,c,a,b){if(typeof
-a==="number")return e<50?t(e+1|0,d,c,b):Y(t,[0,d,c,b]);else
+x=k[2];return e<50?ez(e+1|0,b,a,x,f):Z(ez,[0,b,a,x,f]);case
+10:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);default:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f])}default:var
+s=c[3],u=c[1],w=d(c[2],0);return e<50?ey(e+1|0,b,a,s,u,w):Z(ey,[0,b,a,s,u,w])}}function
+ez(e,d,c,a,b){if(typeof
+a==="number")return e<50?t(e+1|0,d,c,b):Z(t,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return ax(d,c,f,b)};case
+f=a[1];return function(a){return az(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return ax(d,c,g,b)};case
+g=a[1];return function(a){return az(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return ax(d,c,h,b)};case
+h=a[1];return function(a){return az(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return ax(d,c,i,b)};case
+i=a[1];return function(a){return az(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return ax(d,c,j,b)};case
+j=a[1];return function(a){return az(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return ax(d,c,k,b)};case
+k=a[1];return function(a){return az(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return ax(d,c,l,b)};case
+l=a[1];return function(a){return az(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return ax(d,c,m,b)};case
+m=a[1];return function(a){return az(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return ax(d,c,n,b)};case
+n=a[2];return function(a){return az(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=M(K(a[1]),p);return function(a){return ax(d,c,ag(q,o),b)};case
+o=a[3],p=a[2],q=M(K(a[1]),p);return function(a){return az(d,c,ag(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return ax(d,c,r,b)};case
+r=a[1];return function(e,a){return az(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return ax(d,c,s,b)};case
+s=a[1];return function(a){return az(d,c,s,b)};case
 12:var
-u=a[1];return function(a){return ax(d,c,u,b)};case
-13:throw[0,D,lk];default:throw[0,D,ll]}}function
+u=a[1];return function(a){return az(d,c,u,b)};case
+13:throw[0,D,ln];default:throw[0,D,lo]}}function
 t(d,b,e,a){var
-c=[8,e,lm];return d<50?cA(d+1|0,b,c,a):Y(cA,[0,b,c,a])}function
-eu(h,b,f,a,e,c){if(e){var
-i=e[1];return function(e){return lf(b,f,a,i,d(c,e))}}var
-g=[4,f,c];return h<50?cA(h+1|0,b,g,a):Y(cA,[0,b,g,a])}function
-o(a,b,c){return e_(cA(0,a,b,c))}function
-ax(a,b,c,d){return e_(ev(0,a,b,c,d))}function
-lf(a,b,c,d,e){return e_(eu(0,a,b,c,d,e))}function
-dH(f,e,c,a,b){if(typeof
+c=[8,e,lp];return d<50?cC(d+1|0,b,c,a):Z(cC,[0,b,c,a])}function
+ey(h,b,f,a,e,c){if(e){var
+i=e[1];return function(e){return li(b,f,a,i,d(c,e))}}var
+g=[4,f,c];return h<50?cC(h+1|0,b,g,a):Z(cC,[0,b,g,a])}function
+o(a,b,c){return fc(cC(0,a,b,c))}function
+az(a,b,c,d){return fc(ez(0,a,b,c,d))}function
+li(a,b,c,d,e){return fc(ey(0,a,b,c,d,e))}function
+dI(f,e,c,a,b){if(typeof
 a==="number")return function(a){return o(f,[4,e,d(b,a)],c)};else{if(0===a[0]){var
 g=a[2],h=a[1];return function(a){return o(f,[4,e,ap(h,g,d(b,a))],c)}}var
 i=a[1];return function(g,a){return o(f,[4,e,ap(i,g,d(b,a))],c)}}}function
-cP(f,e,d,g,c,b,a){if(typeof
+cR(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return o(f,[4,e,bN(g,E(b,a,c))],d)}:function(c){return o(f,[4,e,E(b,a,c)],d)};var
-k=c[1];return function(c){return o(f,[4,e,bN(k,E(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return o(f,[4,e,bP(g,E(b,a,c))],d)}:function(c){return o(f,[4,e,E(b,a,c)],d)};var
+k=c[1];return function(c){return o(f,[4,e,bP(k,E(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return o(f,[4,e,ap(i,h,bN(g,E(b,a,c)))],d)}:function(c){return o(f,[4,e,ap(i,h,E(b,a,c))],d)};var
-l=c[1];return function(c){return o(f,[4,e,ap(i,h,bN(l,E(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return o(f,[4,e,ap(i,h,bP(g,E(b,a,c)))],d)}:function(c){return o(f,[4,e,ap(i,h,E(b,a,c))],d)};var
+l=c[1];return function(c){return o(f,[4,e,ap(i,h,bP(l,E(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return o(f,[4,e,ap(j,h,bN(g,E(b,a,c)))],d)}:function(g,c){return o(f,[4,e,ap(j,g,E(b,a,c))],d)};var
-m=c[1];return function(g,c){return o(f,[4,e,ap(j,g,bN(m,E(b,a,c)))],d)}}}function
+c==="number")return c?function(h,g,c){return o(f,[4,e,ap(j,h,bP(g,E(b,a,c)))],d)}:function(g,c){return o(f,[4,e,ap(j,g,E(b,a,c))],d)};var
+m=c[1];return function(g,c){return o(f,[4,e,ap(j,g,bP(m,E(b,a,c)))],d)}}}function
 a_(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=fs(a[2]);a_(b,g);return cb(b,h);case
+g=a[1],h=fw(a[2]);a_(b,g);return cd(b,h);case
 1:var
 c=a[2],e=a[1];if(0===c[0]){var
-i=c[1];a_(b,e);cb(b,ln);var
+i=c[1];a_(b,e);cd(b,lq);var
 a=i;continue}var
-j=c[1];a_(b,e);cb(b,lo);var
+j=c[1];a_(b,e);cd(b,lr);var
 a=j;continue;case
 6:var
 m=a[2];a_(b,a[1]);return d(m,b);case
-7:a_(b,a[1]);return b9(b);case
+7:a_(b,a[1]);return b$(b);case
 8:var
 n=a[2];a_(b,a[1]);return bl(n);case
 2:case
 4:var
-k=a[2];a_(b,a[1]);return cb(b,k);default:var
-l=a[2];a_(b,a[1]);return i7(b,l)}}function
+k=a[2];a_(b,a[1]);return cd(b,k);default:var
+l=a[2];a_(b,a[1]);return i_(b,l)}}function
 bm(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=fs(a[2]);bm(b,h);return cd(b,i);case
+h=a[1],i=fw(a[2]);bm(b,h);return cf(b,i);case
 1:var
 e=a[2],f=a[1];if(0===e[0]){var
-j=e[1];bm(b,f);cd(b,lp);var
+j=e[1];bm(b,f);cf(b,ls);var
 a=j;continue}var
-k=e[1];bm(b,f);cd(b,lq);var
+k=e[1];bm(b,f);cf(b,lt);var
 a=k;continue;case
 6:var
-n=a[2];bm(b,a[1]);return cd(b,d(n,0));case
+n=a[2];bm(b,a[1]);return cf(b,d(n,0));case
 7:var
 a=a[1];continue;case
 8:var
 o=a[2];bm(b,a[1]);return bl(o);case
 2:case
 4:var
-l=a[2];bm(b,a[1]);return cd(b,l);default:var
+l=a[2];bm(b,a[1]);return cf(b,l);default:var
 m=a[2];bm(b,a[1]);var
-c=b[2];if(b[3]<=c)fo(b,1);I(b[1],c,m);b[2]=c+1|0;return 0}}function
-fu(d,c){var
+c=b[2];if(b[3]<=c)fs(b,1);I(b[1],c,m);b[2]=c+1|0;return 0}}function
+fy(d,c){var
 a=c[1],b=0;return o(function(a){a_(d,a);return 0},b,a)}function
-dI(a){return fu(a7,a)}function
+dJ(a){return fy(a7,a)}function
 aT(b){var
 a=b[1];return o(function(d){var
-e=64,b=cc<64?cc:e,c=L(b),a=[0,c,0,b,c];bm(a,d);return fl(a[1],0,a[2])},0,a)}var
-cQ=[0,0];function
-dK(i,h){var
+e=64,b=ce<64?ce:e,c=L(b),a=[0,c,0,b,c];bm(a,d);return fp(a[1],0,a[2])},0,a)}var
+cS=[0,0];function
+dL(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(dx(a)===dp)return d(aT(lr),a);if(dx(a)===253){var
-c=eY(jn,a),b=0,g=n(c);for(;;){if(g<=b)return S(c,jm);var
+a==="number"?1:0)){if(dy(a)===dq)return d(aT(lu),a);if(dy(a)===253){var
+c=e2(jq,a),b=0,g=n(c);for(;;){if(g<=b)return S(c,jp);var
 e=G(c,b),f=0;if(48<=e){if(!(58<=e))f=1}else
 if(45===e)f=1;if(f){var
-b=b+1|0;continue}return c}}return ls}return d(aT(lt),a)}function
-fv(b,a){if(b.length-1<=a)return lu;var
-c=fv(b,a+1|0),d=dK(b,a);return E(aT(lv),d,c)}function
-dL(a){function
+b=b+1|0;continue}return c}}return lv}return d(aT(lw),a)}function
+fz(b,a){if(b.length-1<=a)return lx;var
+c=fz(b,a+1|0),d=dL(b,a);return E(aT(ly),d,c)}function
+dM(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 e=0,c=d(h,a);e=1}catch(a){}if(e&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(cQ[1]);if(h)return h[1];if(a===dC)return lA;if(a===fg)return lB;if(a[1]===ff){var
-c=a[2],i=c[3],p=c[2],q=c[1];return ew(aT(dJ),q,p,i,i+5|0,lC)}if(a[1]===D){var
-e=a[2],j=e[3],r=e[2],s=e[1];return ew(aT(dJ),s,r,j,j+6|0,lD)}if(a[1]===fi){var
-f=a[2],k=f[3],t=f[2],u=f[1];return ew(aT(dJ),u,t,k,k+6|0,lE)}if(0===dx(a)){var
+h=o(cS[1]);if(h)return h[1];if(a===dD)return lD;if(a===fk)return lE;if(a[1]===fj){var
+c=a[2],i=c[3],p=c[2],q=c[1];return eA(aT(dK),q,p,i,i+5|0,lF)}if(a[1]===D){var
+e=a[2],j=e[3],r=e[2],s=e[1];return eA(aT(dK),s,r,j,j+6|0,lG)}if(a[1]===fm){var
+f=a[2],k=f[3],t=f[2],u=f[1];return eA(aT(dK),u,t,k,k+6|0,lH)}if(0===dy(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=fv(a,2),m=dK(a,1),b=E(aT(lw),m,l);else
+l=fz(a,2),m=dL(a,1),b=E(aT(lz),m,l);else
 switch(g){case
 0:var
-b=lx;break;case
+b=lA;break;case
 1:var
-b=ly;break;default:var
-n=dK(a,1),b=d(aT(lz),n)}return S(v,b)}return a[1]}function
-dM(t,s){var
-e=rn(s),g=e.length-1-1|0,p=0;if(!(g<0)){var
+b=lB;break;default:var
+n=dL(a,1),b=d(aT(lC),n)}return S(v,b)}return a[1]}function
+dN(t,s){var
+e=rr(s),g=e.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=iV(e,b)[1+b],f=function(a){return function(b){return b?0===a?lF:lG:0===a?lH:lI}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?lJ:lL,l=a[2],m=a[7],n=f(a[1]),c=[0,rc(aT(lK),n,m,l,k,j,i,h)];else
+a=iY(e,b)[1+b],f=function(a){return function(b){return b?0===a?lI:lJ:0===a?lK:lL}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?lM:lO,l=a[2],m=a[7],n=f(a[1]),c=[0,rg(aT(lN),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,d(aT(lM),o)];if(c){var
-q=c[1];d(fu(t,lN),q)}var
+o=f(0),c=[0,d(aT(lP),o)];if(c){var
+q=c[1];d(fy(t,lQ),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-fw(c){for(;;){var
-a=cQ[1],d=[0,c,a],e=cQ[1]===a?(cQ[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-lP=lO.slice();function
-lQ(e,c){var
-f=dL(e);d(dI(lR),f);dM(a7,c);var
-a=rM(0);if(a<0){var
-b=cL(a);fj(iV(lP,b)[1+b])}return b9(a7)}var
-lS=[0];e8(a(he),function(e,i){try{try{var
-b=i?lS:i1(0);try{dD(0)}catch(a){}try{var
-a=lQ(e,b),c=a}catch(a){a=dA(a);var
-g=dL(e);d(dI(lU),g);dM(a7,b);var
-h=dL(a);d(dI(lV),h);dM(a7,i1(0));var
-c=b9(a7)}var
-f=c}catch(a){a=dA(a);if(a!==dC)throw a;var
-f=fj(lT)}return f}catch(a){return 0}});var
-fx=[Q,lX,dt(0)],dN=[0,fx,[0]],lW=dx(dN)===Q?dN:dN[1];e8(a(eA),lW);(function(a){throw a});var
-lY=j.Array;fw(function(a){return a[1]===fx?[0,aS(a[2].toString())]:0});fw(function(a){return a
+fA(c){for(;;){var
+a=cS[1],d=[0,c,a],e=cS[1]===a?(cS[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+lS=lR.slice();function
+lT(e,c){var
+f=dM(e);d(dJ(lU),f);dN(a7,c);var
+a=rQ(0);if(a<0){var
+b=cN(a);fn(iY(lS,b)[1+b])}return b$(a7)}var
+lV=[0];fa(a(hh),function(e,i){try{try{var
+b=i?lV:i4(0);try{dE(0)}catch(a){}try{var
+a=lT(e,b),c=a}catch(a){a=dB(a);var
+g=dM(e);d(dJ(lX),g);dN(a7,b);var
+h=dM(a);d(dJ(lY),h);dN(a7,i4(0));var
+c=b$(a7)}var
+f=c}catch(a){a=dB(a);if(a!==dD)throw a;var
+f=fn(lW)}return f}catch(a){return 0}});var
+fB=[Q,l0,du(0)],dO=[0,fB,[0]],lZ=dy(dO)===Q?dO:dO[1];fa(a(eE),lZ);(function(a){throw a});var
+l1=j.Array;fA(function(a){return a[1]===fB?[0,aS(a[2].toString())]:0});fA(function(a){return a
 instanceof
-lY?0:[0,aS(a.toString())]});var
-e=aw(0),b=aw(1);function
+l1?0:[0,aS(a.toString())]});var
+e=ay(0),b=ay(1);function
 z(a){return B(a,b)}function
-fy(b,a){return B(aw(b),a)}function
-c(b,a){return f(aw(b),a)}function
-aU(b,a){return[0,fa(b,a),jf(b,a)]}function
-dO(b,a){return x(b,a)?b:a}function
+fC(b,a){return B(ay(b),a)}function
+c(b,a){return f(ay(b),a)}function
+aU(b,a){return[0,fe(b,a),ji(b,a)]}function
+dP(b,a){return x(b,a)?b:a}function
 bx(b,a){return x(b,a)?a:b}function
-cf(a){return a?0:1}function
+bQ(a){return a?0:1}function
 bn(b,a){var
 c=a?[0,d(b,a[1])]:a;return c}function
 aq(a){var
 b=a?[0,aq(a[2])]:a;return b}function
 m(a,b){if(a){var
 c=m(a[2],b);return[0,a[1],c]}return b}function
-fz(a){return typeof
-a==="number"?0:[0,fz(a[1])]}function
-fA(d,c){var
+fD(a){return typeof
+a==="number"?0:[0,fD(a[1])]}function
+fE(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1913,9 +1913,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dP(a){return fA(a,0)}function
-fB(a){if(typeof
-a==="number")return l0;else
+dQ(a){return fE(a,0)}function
+fF(a){if(typeof
+a==="number")return l3;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1925,9 +1925,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,fB(a[1])]}}function
+8:return[9,a[1]];default:return[0,fF(a[1])]}}function
 aM(a){if(typeof
-a==="number")return l1;else
+a==="number")return l4;else
 switch(a[0]){case
 0:return[1,aL(a[1])];case
 1:return[3,aL(a[1])];case
@@ -1950,23 +1950,23 @@ switch(a[0]){case
 6:return[2,aM(a[1])];case
 7:return[4,aM(a[1])];case
 8:return[6,aM(a[1])];default:return[8,aM(a[1])]}}function
-dQ(a){return a?a[1]:a}function
-cg(b,a){return b?[0,cg(b[1],a)]:a}function
-fC(b,a){return b?a:a?0:1}function
-cR(d,c){var
+dR(a){return a?a[1]:a}function
+ch(b,a){return b?[0,ch(b[1],a)]:a}function
+dS(b,a){return b?a:a?0:1}function
+ci(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 aV(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-fD(c,b,a){return c?d(b,fD(c[1],b,a)):a}function
-cS(a){if(x(a,b))return b;var
-c=aU(a,aw(2)),d=c[1];return Z(c[2],e)?z(cS(d)):z(cS(d))}function
-fE(c,i,h){var
+fG(c,b,a){return c?d(b,fG(c[1],b,a)):a}function
+cT(a){if(x(a,b))return b;var
+c=aU(a,ay(2)),d=c[1];return _(c[2],e)?z(cT(d)):z(cT(d))}function
+fH(c,i,h){var
 d=i,a=h;for(;;){if(x(d,b))return a;var
-f=aU(d,aw(2)),g=f[1];if(Z(f[2],e)){var
-d=g,a=E(c,a,a);continue}return E(c,a,fE(c,g,E(c,a,a)))}}function
-fF(a){return fE(cg,a,l3)}function
+f=aU(d,ay(2)),g=f[1];if(_(f[2],e)){var
+d=g,a=E(c,a,a);continue}return E(c,a,fH(c,g,E(c,a,a)))}}function
+fI(a){return fH(ch,a,l6)}function
 a$(g,e){var
 a=g,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -1990,17 +1990,17 @@ t=f(c(2,z(c(2,c(2,b)))),d),u=B(z(c(2,z(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=f(c(2,z(c(2,c(2,b)))),d),w=B(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=f(c(2,z(c(2,c(2,b)))),d),y=B(z(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-dR(a){if(x(a,b))return l4;var
-c=aU(a,aw(2)),d=c[1];return Z(c[2],e)?aL(dR(d)):aM(dR(d))}function
-cT(a){return dP(dR(a))}function
-fG(l,g){if(0<=a6(g)){var
-h=fb(g);if(0<=h){var
+dT(a){if(x(a,b))return l7;var
+c=aU(a,ay(2)),d=c[1];return _(c[2],e)?aL(dT(d)):aM(dT(d))}function
+cU(a){return dQ(dT(a))}function
+fJ(l,g){if(0<=a6(g)){var
+h=ff(g);if(0<=h){var
 d=b,c=l,a=h;for(;;){if(0===a)return d;var
-i=a>>>1|0,j=f(c,c),k=1===(a&1)?f(d,c):d,d=k,c=j,a=i;continue}}return bl(lZ)}return e}function
-fH(a){return 0<=a6(a)?a:e}function
-dS(a){var
+i=a>>>1|0,j=f(c,c),k=1===(a&1)?f(d,c):d,d=k,c=j,a=i;continue}}return bl(l2)}return e}function
+fK(a){return 0<=a6(a)?a:e}function
+dU(a){var
 c=a6(a);return 0===c?b:0<c?a:b}function
-fI(m){var
+fL(m){var
 a=m;for(;;)if(typeof
 a==="number")return e;else
 switch(a[0]){case
@@ -2022,107 +2022,107 @@ j=z(c(2,z(c(2,b))));return a$(a[1],j);case
 8:var
 k=c(2,c(2,c(2,b)));return a$(a[1],k);default:var
 l=z(c(2,c(2,c(2,b))));return a$(a[1],l)}}function
-cU(b,a){var
-c=a6(a);return 0===c?e:1===c?fa(b,a):fy(-1,fa(fy(-1,b),a))}function
-fJ(a){return 0<a6(a)?r7(a):e}function
-ch(b,c){var
-a=fb(c);return 0<=a?jg(b,a):jh(b,-a|0)}function
-bO(b,c){var
-a=fb(c);return 0<=a?jh(b,a):jg(b,-a|0)}function
-dT(b,a){return a?a[1]:b}function
-fK(a){var
+cV(b,a){var
+c=a6(a);return 0===c?e:1===c?fe(b,a):fC(-1,fe(fC(-1,b),a))}function
+fM(a){return 0<a6(a)?r$(a):e}function
+cj(b,c){var
+a=ff(c);return 0<=a?jj(b,a):jk(b,-a|0)}function
+bR(b,c){var
+a=ff(c);return 0<=a?jk(b,a):jj(b,-a|0)}function
+dV(b,a){return a?a[1]:b}function
+fN(a){var
 b=a?a[2]:a;return b}function
-ay(e,d,c){var
+aA(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 by(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-fL(a){if(a){var
-b=[0,a[1],0];return m(fL(a[2]),b)}return a}function
+fO(a){if(a){var
+b=[0,a[1],0];return m(fO(a[2]),b)}return a}function
 k(b,a){if(a)var
 e=k(b,a[2]),c=[0,d(b,a[1]),e];else
 var
 c=a;return c}function
-bP(b,a){if(a){var
-c=bP(b,a[2]);return m(d(b,a[1]),c)}return a}function
-ci(c,b,a){if(a){var
-d=ci(c,b,a[2]);return E(c,a[1],d)}return b}function
-fM(f,e){var
+bz(b,a){if(a){var
+c=bz(b,a[2]);return m(d(b,a[1]),c)}return a}function
+ck(c,b,a){if(a){var
+d=ck(c,b,a[2]);return E(c,a[1],d)}return b}function
+dW(f,e){var
 a=e;for(;;){if(a){var
 b=d(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-az(e,c){var
+ar(e,c){var
 a=c;for(;;){if(a){var
 b=d(e,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fN(b,a){var
-c=a?[0,b,fN([0,b],a[1])]:a;return c}function
-cV(b,a){var
-c=a?[0,b,cV(b,a[1])]:a;return c}function
-fO(a){if(a){var
-d=fO(a[2]),g=f(c(2,b),d),h=a[1]?b:e;return B(h,g)}return e}function
-fP(j){function
+fP(b,a){var
+c=a?[0,b,fP([0,b],a[1])]:a;return c}function
+cW(b,a){var
+c=a?[0,b,cW(b,a[1])]:a;return c}function
+fQ(a){if(a){var
+d=fQ(a[2]),g=f(c(2,b),d),h=a[1]?b:e;return B(h,g)}return e}function
+fR(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=fO([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?fF(b):0}function
-fQ(b,a){return x(f(b[1],a[2]),f(a[1],b[2]))}function
-fR(b,a){return[0,B(f(b[1],a[2]),f(a[1],b[2])),f(b[2],a[2])]}function
-fS(b,a){return[0,f(b[1],a[1]),f(b[2],a[2])]}function
-ar(a){if(typeof
-a==="number")return l7;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=fQ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?fI(b):0}function
+fS(b,a){return x(f(b[1],a[2]),f(a[1],b[2]))}function
+fT(b,a){return[0,B(f(b[1],a[2]),f(a[1],b[2])),f(b[2],a[2])]}function
+fU(b,a){return[0,f(b[1],a[1]),f(b[2],a[2])]}function
+as(a){if(typeof
+a==="number")return l_;else
 switch(a[0]){case
 0:var
-b=ar(a[1]);return S(aF(1,48),b);case
+b=as(a[1]);return S(aF(1,48),b);case
 1:var
-c=ar(a[1]);return S(aF(1,49),c);case
+c=as(a[1]);return S(aF(1,49),c);case
 2:var
-d=ar(a[1]);return S(aF(1,50),d);case
+d=as(a[1]);return S(aF(1,50),d);case
 3:var
-e=ar(a[1]);return S(aF(1,51),e);case
+e=as(a[1]);return S(aF(1,51),e);case
 4:var
-f=ar(a[1]);return S(aF(1,52),f);case
+f=as(a[1]);return S(aF(1,52),f);case
 5:var
-g=ar(a[1]);return S(aF(1,53),g);case
+g=as(a[1]);return S(aF(1,53),g);case
 6:var
-h=ar(a[1]);return S(aF(1,54),h);case
+h=as(a[1]);return S(aF(1,54),h);case
 7:var
-i=ar(a[1]);return S(aF(1,55),i);case
+i=as(a[1]);return S(aF(1,55),i);case
 8:var
-j=ar(a[1]);return S(aF(1,56),j);default:var
-k=ar(a[1]);return S(aF(1,57),k)}}function
-cj(a){return typeof
-a==="number"?l8:ar(a)}function
-ck(a){return fG(c(2,b),a)}function
-fT(b,a){return bO(a,b)}function
-fU(b,a){return H(bO(H(a),b))}function
-dU(b,a){return H(cU(H(b),a))}function
-cW(c,b){var
-a=ch(b,c);return[0,a,a]}function
+j=as(a[1]);return S(aF(1,56),j);default:var
+k=as(a[1]);return S(aF(1,57),k)}}function
+cl(a){return typeof
+a==="number"?l$:as(a)}function
+cm(a){return fJ(c(2,b),a)}function
+fV(b,a){return bR(a,b)}function
+fW(b,a){return H(bR(H(a),b))}function
+dX(b,a){return H(cV(H(b),a))}function
+cX(c,b){var
+a=cj(b,c);return[0,a,a]}function
 N(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-an(b,a){return[0,ca(b[1],a[2]),ca(b[2],a[1])]}function
-as(a){return[0,H(a[2]),H(a[1])]}function
-fV(d,c,b,a){if(x(e,d))return x(e,b)?[0,f(d,b),f(c,a)]:x(a,e)?[0,f(c,b),f(d,a)]:[0,f(c,b),f(c,a)];if(x(c,e))return x(e,b)?[0,f(d,a),f(c,b)]:x(a,e)?[0,f(c,a),f(d,b)]:[0,f(d,a),f(d,b)];if(x(e,b))return[0,f(d,a),f(c,a)];if(x(a,e))return[0,f(c,b),f(d,b)];var
-g=bx(f(d,b),f(c,a));return[0,dO(f(d,a),f(c,b)),g]}function
+an(b,a){return[0,cc(b[1],a[2]),cc(b[2],a[1])]}function
+at(a){return[0,H(a[2]),H(a[1])]}function
+fX(d,c,b,a){if(x(e,d))return x(e,b)?[0,f(d,b),f(c,a)]:x(a,e)?[0,f(c,b),f(d,a)]:[0,f(c,b),f(c,a)];if(x(c,e))return x(e,b)?[0,f(d,a),f(c,b)]:x(a,e)?[0,f(c,a),f(d,b)]:[0,f(d,a),f(d,b)];if(x(e,b))return[0,f(d,a),f(c,a)];if(x(a,e))return[0,f(c,b),f(d,b)];var
+g=bx(f(d,b),f(c,a));return[0,dP(f(d,a),f(c,b)),g]}function
 U(c,b,a){var
-d=fV(b[1],b[2],a[1],a[2]),e=fU(c,d[2]);return[0,fT(c,d[1]),e]}function
+d=fX(b[1],b[2],a[1],a[2]),e=fW(c,d[2]);return[0,fV(c,d[1]),e]}function
 ba(b,a){var
-c=f(a[1],a[1]),d=f(a[2],a[2]),i=fU(b,bx(c,d)),h=0;if(al(a[1],e)&&al(e,a[2])){var
+c=f(a[1],a[1]),d=f(a[2],a[2]),i=fW(b,bx(c,d)),h=0;if(al(a[1],e)&&al(e,a[2])){var
 g=e;h=1}if(!h)var
-g=fT(b,dO(c,d));return[0,g,i]}function
-fW(b,a){var
-c=ch(ck(b),b),d=dU(c,a[1]);return[0,cU(c,a[2]),d]}function
-cX(b,a){if(al(e,a[1]))return[0,fW(b,a)];var
-c=al(a[2],e),d=c?[0,as(fW(b,as(a)))]:c;return d}function
-dV(g,c){var
+g=fV(b,dP(c,d));return[0,g,i]}function
+fY(b,a){var
+c=cj(cm(b),b),d=dX(c,a[1]);return[0,cV(c,a[2]),d]}function
+cY(b,a){if(al(e,a[1]))return[0,fY(b,a)];var
+c=al(a[2],e),d=c?[0,at(fY(b,at(a)))]:c;return d}function
+dY(g,c){var
 h=al(e,c[1]);if(h)var
-d=ch(c[2],g),a=fJ(d),j=Z(f(a,a),d)?a:B(a,b),i=[0,[0,fJ(ch(c[1],g)),j]];else
+d=cj(c[2],g),a=fM(d),j=_(f(a,a),d)?a:B(a,b),i=[0,[0,fM(cj(c[1],g)),j]];else
 var
 i=h;return i}function
-fX(b,a){switch(a[0]){case
+fZ(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2136,137 +2136,137 @@ f=d(b,a[2]);return[6,d(b,a[1]),f];case
 7:var
 g=d(b,a[2]);return[7,d(b,a[1]),g];case
 8:return[8,d(b,a[1])];default:return[9,d(b,a[1])]}}function
-bz(j,i){var
+bA(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?cR(b[1],a[1]):0;case
-1:return 1===a[0]?cR(b[1],a[1]):0;case
-2:return 2===a[0]?Z(b[1],a[1]):0;case
+0:return 0===a[0]?ci(b[1],a[1]):0;case
+1:return 1===a[0]?ci(b[1],a[1]):0;case
+2:return 2===a[0]?_(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bz(b[1],a[1]);if(e){var
+e=bA(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bz(b[1],a[1]);if(f){var
+f=bA(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bz(b[1],a[1]);if(g){var
+g=bA(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bz(b[1],a[1]);if(h){var
+h=bA(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-cY(b){var
+cZ(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aW(c,b){var
-a=cY(b);return a?Z(c,a[1]):a}function
-cl(a){return al(dB(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=cZ(b);return a?_(c,a[1]):a}function
+cn(a){return al(dC(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 p(a){return[0,[2,a]]}function
 ac(b,a){if(aW(e,b))return a;if(aW(e,a))return b;var
-c=cY(b);if(c){var
-d=c[1],f=cY(a);if(f){var
-g=f[1];if(cl(d)&&cl(g))return p(B(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-dW(a){var
+c=cZ(b);if(c){var
+d=c[1],f=cZ(a);if(f){var
+g=f[1];if(cn(d)&&cn(g))return p(B(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+dZ(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return cl(c)?p(H(c)):[0,[5,a]];case
+c=b[1];return cn(c)?p(H(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-O(b,a){return aW(e,a)?b:aW(e,b)?dW(a):[0,[4,b,a]]}function
-aA(a){var
-c=cY(a);if(c){var
-b=c[1];return cl(b)?p(f(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-A(a,c){if(!aW(e,a)&&!aW(b,c)){if(!aW(e,c)&&!aW(b,a))return bz(a,c)?aA(a):[0,[6,a,c]];return c}return a}function
-at(c,a){return aW(b,a)?c:[0,[7,c,a]]}function
-cm(a){return aW(b,a)?a:[0,[9,a]]}function
-cZ(g,f,e,c){var
+O(b,a){return aW(e,a)?b:aW(e,b)?dZ(a):[0,[4,b,a]]}function
+aB(a){var
+c=cZ(a);if(c){var
+b=c[1];return cn(b)?p(f(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+A(a,c){if(!aW(e,a)&&!aW(b,c)){if(!aW(e,c)&&!aW(b,a))return bA(a,c)?aB(a):[0,[6,a,c]];return c}return a}function
+au(c,a){return aW(b,a)?c:[0,[7,c,a]]}function
+co(a){return aW(b,a)?a:[0,[9,a]]}function
+c0(g,f,e,c){var
 b=e,a=c;for(;;){if(b){var
-h=b[1],i=[0,d(f,fX(function(b){return function(a){return ay(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-dX(b,a){if(a){if(bz(b,a[1]))return l9;var
-c=dX(b,a[2]);return bn(function(a){return[0,a]},c)}return a}function
-bQ(c,b){var
-a=dX(b,c),d=a?a[1]:a;return d}function
-c0(d,a){if(dX(d,a[1]))return a;var
+h=b[1],i=[0,d(f,fZ(function(b){return function(a){return aA(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d0(b,a){if(a){if(bA(b,a[1]))return ma;var
+c=d0(b,a[2]);return bn(function(a){return[0,a]},c)}return a}function
+bS(c,b){var
+a=d0(b,c),d=a?a[1]:a;return d}function
+c1(d,a){if(d0(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=c0(b[1],a);break;case
+c=c1(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=c0(b[1],a),c=c0(b[2],h)}var
-e=c[2],f=c[1],g=[0,fX(function(a){return bQ(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-fY(c){var
-b=c,a=l_;for(;;){if(b){var
-d=c0(b[1],a),b=b[2],a=d;continue}var
-e=a[1],f=k(function(a){return bQ(e,a)},c);return[0,fL(a[2]),f]}}function
+h=c1(b[1],a),c=c1(b[2],h)}var
+e=c[2],f=c[1],g=[0,fZ(function(a){return bS(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+f0(c){var
+b=c,a=mb;for(;;){if(b){var
+d=c1(b[1],a),b=b[2],a=d;continue}var
+e=a[1],f=k(function(a){return bS(e,a)},c);return[0,fO(a[2]),f]}}function
 aG(e,d,c,b,a){if(b){if(a){var
 f=aG(e,d,c,b[2],a[2]);return[0,E(c,b[1],a[1]),f]}return k(e,b)}return k(d,a)}function
-bR(b,a){return bO(b,a)}function
-bS(a,c,b){if(x(e,a)){var
-d=b[1],g=H(bR(H(f(a,b[2])),c));return[0,bR(f(a,d),c),g]}var
-h=b[2],i=H(bR(H(f(a,b[1])),c));return[0,bR(f(a,h),c),i]}function
-dY(a){var
-c=H(bO(H(a[2]),b));return[0,bO(a[1],b),c]}function
-dZ(c,b,a){var
-d=fV(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=al(f,e)?a[2]:a[1],i=dU(f,h),j=al(g,e)?a[1]:a[2];return[0,cU(g,j),i]}var
+bT(b,a){return bR(b,a)}function
+bU(a,c,b){if(x(e,a)){var
+d=b[1],g=H(bT(H(f(a,b[2])),c));return[0,bT(f(a,d),c),g]}var
+h=b[2],i=H(bT(H(f(a,b[1])),c));return[0,bT(f(a,h),c),i]}function
+d1(a){var
+c=H(bR(H(a[2]),b));return[0,bR(a[1],b),c]}function
+d2(c,b,a){var
+d=fX(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=al(f,e)?a[2]:a[1],i=dX(f,h),j=al(g,e)?a[1]:a[2];return[0,cV(g,j),i]}var
 aN=[0,e,e];function
-d0(a){return[0,a[1],a[1]]}function
-d1(a){return[0,a[2],a[2]]}function
-fZ(a){return ci(function(a,b){return B(bx(a[2],H(a[1])),b)},e,a)}function
-bT(b,c,a){var
-d=fZ(a),e=dO(c[2],B(b[2],d)),f=fZ(a);return[0,b,[0,bx(c[1],ca(b[1],f)),e],a]}function
+d3(a){return[0,a[1],a[1]]}function
+d4(a){return[0,a[2],a[2]]}function
+f1(a){return ck(function(a,b){return B(bx(a[2],H(a[1])),b)},e,a)}function
+bV(b,c,a){var
+d=f1(a),e=dP(c[2],B(b[2],d)),f=f1(a);return[0,b,[0,bx(c[1],cc(b[1],f)),e],a]}function
 aX(a){return[0,a,a,0]}function
-d2(b,a){return a?d(b,a[1]):a}function
-c1(d,b,a){if(b){if(a)return E(d,b[1],a[1]);var
+d5(b,a){return a?d(b,a[1]):a}function
+c2(d,b,a){if(b){if(a)return E(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-d3(a,e,d){var
+d6(a,e,d){var
 c=aX(aN);return function(b){switch(b[0]){case
-0:return[0,ay(b[1],e,c)];case
-1:return[0,ay(b[1],d,c)];case
-2:return[0,aX(cW(a,b[1]))];case
+0:return[0,aA(b[1],e,c)];case
+1:return[0,aA(b[1],d,c)];case
+2:return[0,aX(cX(a,b[1]))];case
 3:var
-f=b[2],g=b[1];return c1(function(b,a){var
+f=b[2],g=b[1];return c2(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aG(function(a){return a},e,N,d,c),g=N(b[2],a[2]);return[0,bT(N(b[1],a[1]),g,f)]},g,f);case
+f=aG(function(a){return a},e,N,d,c),g=N(b[2],a[2]);return[0,bV(N(b[1],a[1]),g,f)]},g,f);case
 4:var
-h=b[2],i=b[1];return c1(function(b,a){var
-c=a[3],d=b[3],e=aG(function(a){return a},as,an,d,c),f=an(b[2],a[2]);return[0,bT(an(b[1],a[1]),f,e)]},i,h);case
+h=b[2],i=b[1];return c2(function(b,a){var
+c=a[3],d=b[3],e=aG(function(a){return a},at,an,d,c),f=an(b[2],a[2]);return[0,bV(an(b[1],a[1]),f,e)]},i,h);case
 5:var
-j=b[1];return d2(function(a){var
-b=k(as,a[3]),c=as(a[2]);return[0,[0,as(a[1]),c,b]]},j);case
+j=b[1];return d5(function(a){var
+b=k(at,a[3]),c=at(a[2]);return[0,[0,at(a[1]),c,b]]},j);case
 6:var
-l=b[2],m=b[1];return c1(function(c,b){var
+l=b[2],m=b[1];return c2(function(c,b){var
 d=N(b[2],b[1]),e=N(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=U(a,e,b);return dY(N(U(a,d,c),f))}function
-i(b){return dY(U(a,e,b))}var
-j=aG(function(b){return dY(U(a,d,b))},i,h,g,f),k=U(a,c[2],b[2]);return[0,bT(U(a,c[1],b[1]),k,j)]},m,l);case
+f=U(a,e,b);return d1(N(U(a,d,c),f))}function
+i(b){return d1(U(a,e,b))}var
+j=aG(function(b){return d1(U(a,d,b))},i,h,g,f),k=U(a,c[2],b[2]);return[0,bV(U(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return c1(function(e,f){var
-b=cX(a,f[1]);if(b){var
-c=cX(a,f[2]);if(c)var
-g=c[1],d=U(a,e[1],b[1]),j=f[3],l=e[3],m=function(c,b){return an(c,U(a,d,b))},n=function(b){return as(U(a,d,b))},o=aG(function(a){return a},n,m,l,j),p=k(function(b){return U(a,g,b)},o),h=[0,bT(d,U(a,e[2],g),p)];else
+n=b[2],o=b[1];return c2(function(e,f){var
+b=cY(a,f[1]);if(b){var
+c=cY(a,f[2]);if(c)var
+g=c[1],d=U(a,e[1],b[1]),j=f[3],l=e[3],m=function(c,b){return an(c,U(a,d,b))},n=function(b){return at(U(a,d,b))},o=aG(function(a){return a},n,m,l,j),p=k(function(b){return U(a,g,b)},o),h=[0,bV(d,U(a,e[2],g),p)];else
 var
 h=c;var
 i=h}else
 var
 i=b;return i},o,n);case
 8:var
-p=b[1];return d2(function(b){var
-c=b[3],d=N(b[2],b[1]),e=k(function(b){return U(a,d,b)},c),f=ba(a,b[2]);return[0,bT(ba(a,b[1]),f,e)]},p);default:var
-q=b[1];return d2(function(e){var
-b=dV(a,e[1]);if(b){var
-f=b[1],c=dV(a,e[2]);if(c){var
-g=c[1],d=cX(a,N(g,f));if(d)var
-l=e[3],m=d[1],h=[0,bT(f,g,k(function(b){return U(a,m,b)},l))];else
+p=b[1];return d5(function(b){var
+c=b[3],d=N(b[2],b[1]),e=k(function(b){return U(a,d,b)},c),f=ba(a,b[2]);return[0,bV(ba(a,b[1]),f,e)]},p);default:var
+q=b[1];return d5(function(e){var
+b=dY(a,e[1]);if(b){var
+f=b[1],c=dY(a,e[2]);if(c){var
+g=c[1],d=cY(a,N(g,f));if(d)var
+l=e[3],m=d[1],h=[0,bV(f,g,k(function(b){return U(a,m,b)},l))];else
 var
 h=d;var
 i=h}else
@@ -2275,111 +2275,111 @@ i=c;var
 j=i}else
 var
 j=b;return j},q)}}}function
-l$(a){return a}function
-ma(a){return a}function
-mb(a,b){return aG(ma,l$,N,a,b)}function
 mc(a){return a}function
 md(a){return a}function
-d4(b,a,c){if(a){var
+me(a,b){return aG(md,mc,N,a,b)}function
+mf(a){return a}function
+mg(a){return a}function
+d7(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-f=d4(b,e,c[2]),g=c[1],h=function(c,a){return an(c,dZ(d,a,b))},i=function(a){return as(dZ(d,a,b))};return[0,aG(function(a){return a},i,h,g,a),f]}var
-j=d4(b,e,0);return[0,k(function(a){return as(dZ(d,a,b))},a),j]}return c}function
-f0(a){if(a){var
+f=d7(b,e,c[2]),g=c[1],h=function(c,a){return an(c,d2(d,a,b))},i=function(a){return at(d2(d,a,b))};return[0,aG(function(a){return a},i,h,g,a),f]}var
+j=d7(b,e,0);return[0,k(function(a){return at(d2(d,a,b))},a),j]}return c}function
+f2(a){if(a){var
 b=a[1];if(b)var
-c=b[1],d=al(e,c[1]),h=d?[0,d4(c,b[2],a[2])]:d,f=h;else
+c=b[1],d=al(e,c[1]),h=d?[0,d7(c,b[2],a[2])]:d,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-f1(f,e){var
+f3(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=f0(b);if(c){var
+c=f2(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-f2(d,b,a){if(b)if(a)var
-e=a[1],f=f2(d,b[2],a[2]),g=fC(d,b[1])?d0(e):d1(e),c=[0,g,f];else
+f4(d,b,a){if(b)if(a)var
+e=a[1],f=f4(d,b[2],a[2]),g=dS(d,b[1])?d3(e):d4(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-f3(a,b){if(a)if(b)var
-d=f3(a[2],b[2]),c=[0,f2(a[1],a,b[1]),d];else
+f5(a,b){if(a)if(b)var
+d=f5(a[2],b[2]),c=[0,f4(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bo(a){if(a){var
-b=a[1],c=bo(b),d=k(function(a){return[0,1,a]},c),e=bo(b);return m(k(function(a){return[0,0,a]},e),d)}return me}function
-d5(a){var
-b=aq(a);if(f1(b,a))return 1;var
-c=bo(dQ(b));return az(function(c){return f1(b,f3([0,0,c],a))},c)}function
-cn(a){function
+b=a[1],c=bo(b),d=k(function(a){return[0,1,a]},c),e=bo(b);return m(k(function(a){return[0,0,a]},e),d)}return mh}function
+d8(a){var
+b=aq(a);if(f3(b,a))return 1;var
+c=bo(dR(b));return ar(function(c){return f3(b,f5([0,0,c],a))},c)}function
+cp(a){function
 b(b){var
 c=d(a,b[2]);return[0,k(a,b[1]),c]}return function(a){return k(b,a)}}function
-co(h,e){var
+cq(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?N(a,d):an(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-f4(c,b,a){var
-e=bo(c);return az(function(c){return d(a,d(cn(function(a){return co(c,a)}),b))},e)}function
-f5(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return bS(c,B(h,b),a)},k=f5(h,j,i),l=function(c,b){var
+f6(c,b,a){var
+e=bo(c);return ar(function(c){return d(a,d(cp(function(a){return cq(c,a)}),b))},e)}function
+f7(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return bU(c,B(h,b),a)},k=f7(h,j,i),l=function(c,b){var
 d=a(b,e);return N(a(f,c),d)},m=function(b){return a(b,e)},n=aG(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,N(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-f6(b,a){return[0,[0,0,b],a]}function
-cp(f,b,e,o,a){function
+f8(b,a){return[0,[0,0,b],a]}function
+cr(f,b,e,o,a){function
 c(d){if(d){var
-p=cV([0,as(d[1][2]),0],f),c=o,b=d[2],a=p;for(;;){if(c&&b){var
-g=b[1],h=c[1],i=d1(g[2]),n=g[1],l=function(d){return function(a,b){var
-c=bS(b,e,d);return an(N(a,a),c)}}(i),m=function(b){return function(a){return as(bS(a,e,b))}}(i),q=aG(md,mc,mb,a,f5(e,h,aG(function(a){return N(a,a)},m,l,n,h))),c=c[2],b=b[2],a=q;continue}var
-j=cR(aq(a),f);if(j)return d5(a);var
+p=cW([0,at(d[1][2]),0],f),c=o,b=d[2],a=p;for(;;){if(c&&b){var
+g=b[1],h=c[1],i=d4(g[2]),n=g[1],l=function(d){return function(a,b){var
+c=bU(b,e,d);return an(N(a,a),c)}}(i),m=function(b){return function(a){return at(bU(a,e,b))}}(i),q=aG(mg,mf,me,a,f7(e,h,aG(function(a){return N(a,a)},m,l,n,h))),c=c[2],b=b[2],a=q;continue}var
+j=ci(aq(a),f);if(j)return d8(a);var
 k=j;break}}else
 var
-k=d;return k}return f4(f,f6(b,a),c)}function
-d6(f,b,a){function
+k=d;return k}return f6(f,f8(b,a),c)}function
+d9(f,b,a){function
 c(b){if(b){var
-m=cV([0,b[1][2],0],f),a=b[2],d=m;for(;;){if(a){var
-g=a[1],l=g[1],e=f0([0,[0,d0(g[2]),l],d]);if(e){var
+m=cW([0,b[1][2],0],f),a=b[2],d=m;for(;;){if(a){var
+g=a[1],l=g[1],e=f2([0,[0,d3(g[2]),l],d]);if(e){var
 a=a[2],d=e[1];continue}var
 c=e}else
 var
 c=[0,d];if(c){var
-h=c[1],i=cR(aq(h),f);if(i)return d5(h);var
+h=c[1],i=ci(aq(h),f);if(i)return d8(h);var
 j=i}else
 var
 j=c;var
 k=j;break}}else
 var
-k=b;return k}return f4(f,f6(b,a),c)}function
-f7(a,b){var
-c=b[3],d=a[3],e=aG(function(a){return a},as,an,d,c),f=a[2];return[0,an(a[1],b[1]),f,e]}function
-bb(a){return bO(B(a[1],a[2]),b)}function
-bU(a){var
-b=bb(a);return ca(a[2],b)}function
-f8(c,b){if(b)var
-a=b[1],e=f8([0,c],b[2]),f=bU(a),g=[0,[0,bU(a),f],0],h=m(cV(aN,c),g),i=bb(a),d=[0,[0,[0,bb(a),i],a,h],e];else
+k=b;return k}return f6(f,f8(b,a),c)}function
+f9(a,b){var
+c=b[3],d=a[3],e=aG(function(a){return a},at,an,d,c),f=a[2];return[0,an(a[1],b[1]),f,e]}function
+bb(a){return bR(B(a[1],a[2]),b)}function
+bW(a){var
+b=bb(a);return cc(a[2],b)}function
+f_(c,b){if(b)var
+a=b[1],e=f_([0,c],b[2]),f=bW(a),g=[0,[0,bW(a),f],0],h=m(cW(aN,c),g),i=bb(a),d=[0,[0,[0,bb(a),i],a,h],e];else
 var
 d=b;return d}function
-d7(d,b){if(b){var
+d_(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d7(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bb(a),f],c],h=bb(a);return[0,[0,[0,a[1],h],c],g]}return mf}function
-f9(d,c,b,a){var
-e=k(aX,b);return cZ(0,d3(d,f8(0,a),e),c,0)}function
-cq(a){if(a){var
+e=d_(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bb(a),f],c],h=bb(a);return[0,[0,[0,a[1],h],c],g]}return mi}function
+f$(d,c,b,a){var
+e=k(aX,b);return c0(0,d6(d,f_(0,a),e),c,0)}function
+cs(a){if(a){var
 b=a[1];if(b)var
-c=cq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=cs(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return mg}function
-f_(b,a){if(a){var
-g=a[1],n=g[1],c=cq(k(function(a){return ay(a,b,0)},n));if(c){var
-d=ay(g[2],b,0);if(d){var
-h=d[1],f=f_(b,a[2]);if(f)var
+d=b;return d}return mj}function
+ga(b,a){if(a){var
+g=a[1],n=g[1],c=cs(k(function(a){return aA(a,b,0)},n));if(c){var
+d=aA(g[2],b,0);if(d){var
+h=d[1],f=ga(b,a[2]);if(f)var
 i=al(e,h[2][1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
 var
 j=f;var
@@ -2388,97 +2388,97 @@ var
 l=d;var
 m=l}else
 var
-m=c;return m}return mh}function
-bA(e,c,b){var
-a=f_(e,c);return a?d(b,a[1]):a}function
-c2(b,a){if(b){var
+m=c;return m}return mk}function
+bB(e,c,b){var
+a=ga(e,c);return a?d(b,a[1]):a}function
+c3(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aG(function(a){return a},f,N,e,d),h=a[2];return[0,N(a[1],c[1]),h,g]}return a}function
-d8(b,a){return b?f7(a,b[1]):a}function
-d9(h,g,b,f){var
-a=ay(f,h,0);if(a){var
+d$(b,a){return b?f9(a,b[1]):a}function
+ea(h,g,b,f){var
+a=aA(f,h,0);if(a){var
 c=a[1];if(b){var
-i=f7(c,b[1]),d=bo(g);return az(function(a){return x(e,co(a,i)[1])},d)}return x(e,c[2][1])}return a}function
-f$(l,i,o,f,c,d,g,a){switch(g[0]){case
+i=f9(c,b[1]),d=bo(g);return ar(function(a){return x(e,cq(a,i)[1])},d)}return x(e,c[2][1])}return a}function
+gb(l,i,o,f,c,d,g,a){switch(g[0]){case
 0:var
 j=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-v=a[2],w=a[1],x=c2(d,aX(j));return bA(f,i,function(a){return cp(c,x,w,v,a)});case
+v=a[2],w=a[1],x=c3(d,aX(j));return bB(f,i,function(a){return cr(c,x,w,v,a)});case
 1:var
-y=a[2],z=a[1],A=c2(d,aX(j));return bA(f,o,function(a){return cp(c,A,z,y,a)});case
+y=a[2],z=a[1],A=c3(d,aX(j));return bB(f,o,function(a){return cr(c,A,z,y,a)});case
 2:if(d)return 0;var
-p=Z(j[1],e),q=p?Z(j[2],e):p;if(q){var
-B=a[2],C=a[1];return bA(f,i,function(a){var
-b=[0,aN,aN,0];return cp(c,[0,aN,aN,0],C,B,k(function(a){return[0,a[1],b]},a))})}return q}return 0;case
+p=_(j[1],e),q=p?_(j[2],e):p;if(q){var
+B=a[2],C=a[1];return bB(f,i,function(a){var
+b=[0,aN,aN,0];return cr(c,[0,aN,aN,0],C,B,k(function(a){return[0,a[1],b]},a))})}return q}return 0;case
 1:var
 r=g[1];if(typeof
 a==="number"){if(1===a){var
-D=d8(d,aX(r));return bA(f,o,function(a){return d6(c,D,a)})}if(!a){var
-E=d8(d,aX(r));return bA(f,i,function(a){return d6(c,E,a)})}}return 0;case
+D=d$(d,aX(r));return bB(f,o,function(a){return d9(c,D,a)})}if(!a){var
+E=d$(d,aX(r));return bB(f,i,function(a){return d9(c,E,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-s=a[1],m=a[3],n=function(a){return bS(a,s,cW(l,b))};if(m)var
+s=a[1],m=a[3],n=function(a){return bU(a,s,cX(l,b))};if(m)var
 u=k(n,m[2]),h=[0,n(m[1]),aN,u];else
 var
 h=aX(aN);var
-t=g[1],F=a[2];return bA(f,i,function(f){var
-g=bo(c),a=az(function(a){return al(e,co(a,h)[1])},g),b=a?cp(c,c2(d,h),s,F,f):a;if(b){var
-i=h[3],j=k(function(a){return U(l,t,a)},i),m=h[2];return d6(c,d8(d,[0,U(l,t,h[1]),m,j]),f)}return b})}return 0;case
+t=g[1],F=a[2];return bB(f,i,function(f){var
+g=bo(c),a=ar(function(a){return al(e,cq(a,h)[1])},g),b=a?cr(c,c3(d,h),s,F,f):a;if(b){var
+i=h[3],j=k(function(a){return U(l,t,a)},i),m=h[2];return d9(c,d$(d,[0,U(l,t,h[1]),m,j]),f)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return d9(f,c,d,g[1]);return 0;case
+a==="number"&&!a)return ea(f,c,d,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-G=a[2],H=a[1],I=c2(d,aX(g[2])),J=function(a){return cp(c,I,H,G,a)};return bA(f,g[1],J)}return 0;default:if(typeof
+G=a[2],H=a[1],I=c3(d,aX(g[2])),J=function(a){return cr(c,I,H,G,a)};return bB(f,g[1],J)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return d9(f,c,d,g[1]);case
-2:return d9(f,c,d,g[2])}return 0}}function
-ga(b,a){if(a){var
+0:return ea(f,c,d,g[1]);case
+2:return ea(f,c,d,g[2])}return 0}}function
+gc(b,a){if(a){var
 c=a[2];if(b){var
-e=ga(b[1],c);return[0,a[1],e]}var
+e=gc(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-gb(p,R,E,D,Q,P,C,c,B,A){if(B){var
-F=f9(p,R,Q,c),f=B,b=A;for(;;){if(f){var
+gd(p,R,E,D,Q,P,C,c,B,A){if(B){var
+F=f$(p,R,Q,c),f=B,b=A;for(;;){if(f){var
 t=f[1],a=t[2],m=t[1],u=f[2];if(typeof
 a==="number"&&4<=a){var
 l=d(C,c);if(l)var
-O=l[1],I=bo(aq(c)),n=az(function(b){return function(a){return al(co(a,b)[2],e)}}(O),I);else
+O=l[1],I=bo(aq(c)),n=ar(function(b){return function(a){return al(cq(a,b)[2],e)}}(O),I);else
 var
 n=l;if(n){var
 f=u,b=k(function(a){return 0},b);continue}return n}var
-v=ay(m,b,0);if(v){var
+v=aA(m,b,0);if(v){var
 o=by(P,m);if(o){var
 w=o[1],G=0;if(typeof
 a==="number"||!(5===a[0]))G=1;else{var
 h=a[2],i=d(C,c),H=0;if(i){var
 q=x(e,h);if(q){var
-j=i[1],r=a[3],M=a[1],J=j[3],K=k(function(b,c){return function(a){return bS(b,c,a)}}(h,r),J),L=j[2],N=[0,[0,bS(h,r,j[1]),L,K]],g=f$(p,E,D,F,aq(c),N,w,M);H=1}else
+j=i[1],r=a[3],M=a[1],J=j[3],K=k(function(b,c){return function(a){return bU(b,c,a)}}(h,r),J),L=j[2],N=[0,[0,bU(h,r,j[1]),L,K]],g=gb(p,E,D,F,aq(c),N,w,M);H=1}else
 var
 s=q}else
 var
 s=i;if(!H)var
 g=s}if(G)var
-g=f$(p,E,D,F,aq(c),0,w,a);if(g){var
-f=u,b=ga(m,b);continue}var
+g=gb(p,E,D,F,aq(c),0,w,a);if(g){var
+f=u,b=gc(m,b);continue}var
 y=g}else
 var
 y=o;var
 z=y}else
 var
 z=v;return z}return[0,b]}}return[0,A]}function
-gc(i,h,g,f,e,d,c,s,r,q){var
+ge(i,h,g,f,e,d,c,s,r,q){var
 b=s,j=r,a=q;for(;;){if(0===a[0]){var
-k=gb(i,h,g,f,e,d,c,b,a[1],j);return k?az(cf,k[1]):k}var
-l=gb(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=d7(a[2],b),o=gc(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
+k=gd(i,h,g,f,e,d,c,b,a[1],j);return k?ar(bQ,k[1]):k}var
+l=gd(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=d_(a[2],b),o=ge(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
 b=n[2],j=m,a=a[4];continue}var
 p=o}else
 var
 p=l;return p}}function
 aH(a,b){switch(b[0]){case
 0:var
-n=b[2],m=ch(b[1],a),t=dU(m,n);return[0,[0,cU(m,n),t]];case
+n=b[2],m=cj(b[1],a),t=dX(m,n);return[0,[0,cV(m,n),t]];case
 1:var
 c=aH(a,b[1]);if(c)var
 d=aH(a,b[2]),u=d?[0,N(c[1],d[1])]:d,o=u;else
@@ -2497,83 +2497,83 @@ q=g;return q;case
 4:var
 i=aH(a,b[1]);if(i){var
 j=aH(a,b[2]);if(j)var
-k=cX(a,j[1]),x=k?[0,U(a,i[1],k[1])]:k,r=x;else
+k=cY(a,j[1]),x=k?[0,U(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=aH(a,b[1]);return l?dV(a,l[1]):l}}function
-gd(a){var
-d=bx(H(a),e);return dS(B(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),d))}function
-ge(a){return fH(B(gd(a),a))}function
-bB(f,a,e){var
-b=aH(B(f,gd(a)),e);if(b)var
-c=b[1],g=ge(a),h=H(bR(H(c[2]),g)),i=ge(a),d=[0,[0,bR(c[1],i),h]];else
+l=aH(a,b[1]);return l?dY(a,l[1]):l}}function
+gf(a){var
+d=bx(H(a),e);return dU(B(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),d))}function
+gg(a){return fK(B(gf(a),a))}function
+bC(f,a,e){var
+b=aH(B(f,gf(a)),e);if(b)var
+c=b[1],g=gg(a),h=H(bT(H(c[2]),g)),i=gg(a),d=[0,[0,bT(c[1],i),h]];else
 var
 d=b;return d}function
-bV(d,a){var
-b=bB(d,a[2],a[1][1]);if(b)var
-c=bB(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+bX(d,a){var
+b=bC(d,a[2],a[1][1]);if(b)var
+c=bC(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-c3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bW(c,b,a){var
+c4(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bY(c,b,a){var
 d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
-d_(b,a){var
+eb(b,a){var
 c=A(b,a[3]),d=A(b,a[2]);return[0,A(b,a[1]),d,c]}function
-d$(b,a){var
-c=at(b[3],a),d=at(b[2],a);return[0,at(b[1],a),d,c]}function
-bC(b,a){var
+ec(b,a){var
+c=au(b[3],a),d=au(b[2],a);return[0,au(b[1],a),d,c]}function
+bD(b,a){var
 c=A(b[3],a[3]),d=A(b[2],a[2]);return ac(ac(A(b[1],a[1]),d),c)}function
-ea(a){return d$(a,cm(bC(a,a)))}function
-gg(a){return k(function(a){var
-b=a[2];return[0,c3(a[1]),b]},a)}function
-gh(a){return k(function(a){var
-c=p(b);return[0,c3(a[3]),c]},a)}function
-eb(m,r){var
+ed(a){return ec(a,co(bD(a,a)))}function
+gi(a){return k(function(a){var
+b=a[2];return[0,c4(a[1]),b]},a)}function
+gj(a){return k(function(a){var
+c=p(b);return[0,c4(a[3]),c]},a)}function
+ee(m,r){var
 h=m[1],d=h[2],f=h[1];if(0===f[0]){var
 i=f[2],c=f[1];if(x(i,b))if(0===d[0]){var
 j=d[2],n=d[1];if(x(j,b)){var
-k=Z(c,n),l=k?cl(c):k;if(l)var
-o=Z(m[2],e),g=o||Z(c,e);else
+k=_(c,n),l=k?cn(c):k;if(l)var
+o=_(m[2],e),g=o||_(c,e);else
 var
 g=l;var
 q=g?[0,c]:g,a=q}else
 var
-a=Z(aU(j,aw(2))[2],e)?0:0}else
+a=_(aU(j,ay(2))[2],e)?0:0}else
 var
 a=0;else
 var
-a=Z(aU(i,aw(2))[2],e)?0:0}else
+a=_(aU(i,ay(2))[2],e)?0:0}else
 var
 a=0;return a?p(a[1]):[0,[1,r]]}function
-gi(b,a){if(a)var
-d=gi([0,b],a[2]),c=[0,eb(a[1],b),d];else
+gk(b,a){if(a)var
+d=gk([0,b],a[2]),c=[0,ee(a[1],b),d];else
 var
 c=a;return c}function
 bp(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-ec(b,d,a){switch(a[0]){case
+ef(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],g=m(bp(c[3],b),f),h=m(bp(c[2],b),g);return m(bp(c[1],d),h);case
 1:var
 e=a[3],i=e?bp(e[1],d):e,j=m(bp(a[2],b),i);return m(bp(a[1],b),j);default:return bp(a[1],d)}}function
-bD(b,a){var
-c=p(e),d=ay(cg(mi,a),b,c),f=p(e),g=ay(cg(mj,a),b,f);return[0,ay(a,b,p(e)),g,d]}function
-gj(b,a){return bW(O,bW(ac,gf,a),b)}function
-gk(c,b,a){if(a){var
-d=a[2],f=gk(c,fK(b),d),g=a[1];return m(ec(c,dT(e,b),g),f)}return a}function
-gl(l,k,h,w){if(h){var
-d=h[1],H=cg(w,aq(ec(l,dT(e,k),d))),I=h[2],J=gl(l,fK(k),I,H),a=gi(w,ec(l,dT(e,k),d));switch(d[0]){case
+bE(b,a){var
+c=p(e),d=aA(ch(ml,a),b,c),f=p(e),g=aA(ch(mm,a),b,f);return[0,aA(a,b,p(e)),g,d]}function
+gl(b,a){return bY(O,bY(ac,gh,a),b)}function
+gm(c,b,a){if(a){var
+d=a[2],f=gm(c,fN(b),d),g=a[1];return m(ef(c,dV(e,b),g),f)}return a}function
+gn(l,k,h,w){if(h){var
+d=h[1],H=ch(w,aq(ef(l,dV(e,k),d))),I=h[2],J=gn(l,fN(k),I,H),a=gk(w,ef(l,dV(e,k),d));switch(d[0]){case
 0:var
-D=d[1][5],t=ay(mk,a,p(e)),g=ea(bD(a,0)),E=bD(a,ml),u=gj(bD(a,mm),E),n=bC(g,u),f=bW(O,u,d_(n,g)),y=bC(f,f),o=O(aA(t),y),q=cm(o),i=D?q:dW(q),z=O(n,i),A=bW(ac,g,d$(f,i)),m=[0,bW(ac,f,d_(i,g)),o,A,z,[0,t],0];break;case
+D=d[1][5],t=aA(mn,a,p(e)),g=ed(bE(a,0)),E=bE(a,mo),u=gl(bE(a,mp),E),n=bD(g,u),f=bY(O,u,eb(n,g)),y=bD(f,f),o=O(aB(t),y),q=co(o),i=D?q:dZ(q),z=O(n,i),A=bY(ac,g,ec(f,i)),m=[0,bY(ac,f,eb(i,g)),o,A,z,[0,t],0];break;case
 1:var
-v=d[3],F=v?[0,ea(bD(a,mn))]:v,G=bD(a,mo),c=gj(bD(a,0),G),r=bC(c,c),s=cm(r),B=bn(function(a){return bW(O,c,d_(bC(a,c),a))},F),m=[0,c,r,d$(c,s),s,0,B];break;default:var
-j=ea(bD(a,0)),C=bC(j,gf),m=[0,j,p(b),j,C,0,0]}var
+v=d[3],F=v?[0,ed(bE(a,mq))]:v,G=bE(a,mr),c=gl(bE(a,0),G),r=bD(c,c),s=co(r),B=bn(function(a){return bY(O,c,eb(bD(a,c),a))},F),m=[0,c,r,ec(c,s),s,0,B];break;default:var
+j=ed(bE(a,0)),C=bD(j,gh),m=[0,j,p(b),j,C,0,0]}var
 x=[0,m,J]}else
 var
 x=h;return x}function
-bE(k,a){if(typeof
+bF(k,a){if(typeof
 a==="number"){var
 c=[0,e,b];return[0,[0,c,c],e]}else
 switch(a[0]){case
@@ -2590,26 +2590,26 @@ d=[4,[0,b,b],a[1]];return[0,[0,d,d],e];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],e]}}function
-ed(d,c,b,a){var
+eg(d,c,b,a){var
 e=A(c,b);return O(A(d,a),e)}function
-ee(a){return bP(function(a){return m(a[1],[0,a[2],0])},a)}function
-gm(a){if(a){var
+eh(a){return bz(function(a){return m(a[1],[0,a[2],0])},a)}function
+go(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=gm(a[2]);if(d)var
-g=d[1],h=bC(c,c),e=[0,[0,[0,c3(c),h],g]];else
+c=b[1],d=go(a[2]);if(d)var
+g=d[1],h=bD(c,c),e=[0,[0,[0,c4(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return mp}function
-ef(b,d,c,a){if(typeof
+f=b;return f}return ms}function
+ei(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=eb(bE(d,a),c);return[0,k(function(a){var
-b=A(a[2],e);return[0,c3(a[1]),b]},b)];case
-9:return gm(b)}return 0}function
-gn(b,s,r,a){var
-e=eb(bE(s,a),r),p=0;if(typeof
+e=ee(bF(d,a),c);return[0,k(function(a){var
+b=A(a[2],e);return[0,c4(a[1]),b]},b)];case
+9:return go(b)}return 0}function
+gp(b,s,r,a){var
+e=ee(bF(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
@@ -2618,11 +2618,11 @@ J=function(a){return[0,O(a[4],e),0]},g=J,f=a[1];break;case
 K=function(a){return[0,O(e,a[4]),0]},g=K,f=a[1];break;case
 4:var
 L=function(b){var
-a=b[1],c=aA(a[3]),d=aA(a[2]),f=aA(a[1]),g=b[2];return[0,O(O(O(A(aA(e),g),f),d),c),0]},g=L,f=a[1];break;case
+a=b[1],c=aB(a[3]),d=aB(a[2]),f=aB(a[1]),g=b[2];return[0,O(O(O(A(aB(e),g),f),d),c),0]},g=L,f=a[1];break;case
 6:var
 M=function(b){var
 a=b[5];if(a)var
-d=aA(a[1]),f=A(aA(e),d),c=[0,O(b[2],f),0];else
+d=aB(a[1]),f=A(aB(e),d),c=[0,O(b[2],f),0];else
 var
 c=a;return c},g=M,f=a[1];break;case
 7:if(b){var
@@ -2631,7 +2631,7 @@ i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],v=b[1],k=v[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=v[1],E=ed(d[1],d[2],c[1],c[2]),F=A(n[3],E),G=ed(d[1],d[3],c[1],c[3]),H=A(n[2],G),I=ed(d[2],d[3],c[2],c[3]),q=ac(O(A(n[1],I),H),F),N=m[1],P=l[1],w=A(A(A(e,k[1]),P),N),Q=[0,dW(ac(q,w)),0],x=[0,O(q,w),Q];else
+c=t[1],d=u[1],n=v[1],E=eg(d[1],d[2],c[1],c[2]),F=A(n[3],E),G=eg(d[1],d[3],c[1],c[3]),H=A(n[2],G),I=eg(d[2],d[3],c[2],c[3]),q=ac(O(A(n[1],I),H),F),N=m[1],P=l[1],w=A(A(A(e,k[1]),P),N),Q=[0,dZ(ac(q,w)),0],x=[0,O(q,w),Q];else
 var
 x=m;var
 y=x}else
@@ -2651,35 +2651,35 @@ var
 D=b;return D;case
 8:case
 9:var
-o=ef(b,s,r,a);return o?ee(o[1]):o;default:p=1}if(p)return 0;var
+o=ei(b,s,r,a);return o?eh(o[1]):o;default:p=1}if(p)return 0;var
 j=by(b,f);return j?g(j[1]):j}function
-go(d,c,b,a){if(a){var
-e=go(d,c,[0,b],a[2]);return m(gn(d,c,b,a[1]),e)}return a}function
-gp(a,g,k,f,j,i){if(i){var
-B=gp(a,g,k,f,[0,j],i[2]),c=i[1];if(typeof
+gq(d,c,b,a){if(a){var
+e=gq(d,c,[0,b],a[2]);return m(gp(d,c,b,a[1]),e)}return a}function
+gr(a,g,k,f,j,i){if(i){var
+B=gr(a,g,k,f,[0,j],i[2]),c=i[1];if(typeof
 c==="number")var
 e=[0,[0,aN]];else
 switch(c[0]){case
 0:var
-u=bV(a,bE(f,c)),e=bn(function(b){return[0,ba(a,b)]},u);break;case
+u=bX(a,bF(f,c)),e=bn(function(b){return[0,ba(a,b)]},u);break;case
 1:var
-v=bV(a,bE(f,c)),e=bn(function(b){return[1,ba(a,b)]},v);break;case
+v=bX(a,bF(f,c)),e=bn(function(b){return[1,ba(a,b)]},v);break;case
 5:var
-x=bV(a,bE(f,c)),e=bn(function(b){return[2,ba(a,b)]},x);break;case
+x=bX(a,bF(f,c)),e=bn(function(b){return[2,ba(a,b)]},x);break;case
 8:var
-y=ef(k,f,j,c),e=bn(function(c){var
-e=cW(a,b);return[4,d(cn(g),c),e]},y);break;case
+y=ei(k,f,j,c),e=bn(function(c){var
+e=cX(a,b);return[4,d(cp(g),c),e]},y);break;case
 9:var
-m=ef(k,f,j,c);if(m){var
-n=bV(a,bE(f,c));if(n)var
-z=ba(a,n[1]),A=m[1],r=[0,[4,d(cn(g),A),z]];else
+m=ei(k,f,j,c);if(m){var
+n=bX(a,bF(f,c));if(n)var
+z=ba(a,n[1]),A=m[1],r=[0,[4,d(cp(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 e=s;break;default:var
-h=gn(k,f,j,c),o=0;if(h){var
+h=gp(k,f,j,c),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 e=0;else
 var
@@ -2690,24 +2690,24 @@ e=q}var
 t=[0,e,B]}else
 var
 t=i;return t}function
-mq(a){if(typeof
+mt(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}var
-c5=O(p(b),c4);function
-gq(e){var
-a=aA(c5);if(e)var
-f=A(p(c(2,b)),a),g=ac(p(c(2,c(2,b))),f),h=A(p(c(2,b)),a),d=at(ac(p(b),h),g);else
+c6=O(p(b),c5);function
+gs(e){var
+a=aB(c6);if(e)var
+f=A(p(c(2,b)),a),g=ac(p(c(2,c(2,b))),f),h=A(p(c(2,b)),a),d=au(ac(p(b),h),g);else
 var
-i=ac(p(c(2,b)),a),j=aA(c4),d=at(ac(A(p(c(2,b)),j),a),i);return cm(d)}function
-gr(d,c,a){if(d){var
-e=gq(c),f=ac(p(b),e),g=A(O(p(b),a),f);return O(p(b),g)}var
-h=p(b),i=gq(c),j=at(p(b),i);return O(A(a,ac(p(b),j)),h)}function
-bX(f,e,d,a){var
-g=aA(a),h=aA(d),i=O(O(p(c(2,b)),h),g),j=f?e?c5:at(c5,A(p(c(2,b)),c4)):at(c5,p(c(2,b))),k=A(aA(j),i);return cm(ac(p(b),k))}function
-gs(g,d){var
+i=ac(p(c(2,b)),a),j=aB(c5),d=au(ac(A(p(c(2,b)),j),a),i);return co(d)}function
+gt(d,c,a){if(d){var
+e=gs(c),f=ac(p(b),e),g=A(O(p(b),a),f);return O(p(b),g)}var
+h=p(b),i=gs(c),j=au(p(b),i);return O(A(a,ac(p(b),j)),h)}function
+bZ(f,e,d,a){var
+g=aB(a),h=aB(d),i=O(O(p(c(2,b)),h),g),j=f?e?c6:au(c6,A(p(c(2,b)),c5)):au(c6,p(c(2,b))),k=A(aB(j),i);return co(ac(p(b),k))}function
+gu(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?N(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-eg(t,s,r){var
-a=k(function(a){return ay(a,s,0)},t);if(a){var
+ej(t,s,r){var
+a=k(function(a){return aA(a,s,0)},t);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -2715,8 +2715,8 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 e=c[2];if(e){var
 i=e[1];if(i){if(e[2])return 0;var
-u=i[1],v=h[1],w=g[1],x=f[1];return az(function(a){var
-c=d(a,u),e=d(a,v),f=d(a,w),b=d(a,x);return d5([0,[0,b,[0,f,[0,e,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},r)}var
+u=i[1],v=h[1],w=g[1],x=f[1];return ar(function(a){var
+c=d(a,u),e=d(a,v),f=d(a,w),b=d(a,x);return d8([0,[0,b,[0,f,[0,e,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},r)}var
 j=i}else
 var
 j=e;var
@@ -2738,12 +2738,12 @@ p=f;var
 q=p}else
 var
 q=a;return q}function
-gt(f,i,d,c,h){var
-j=f?b:e,a=cW(i,j);function
+gv(f,i,d,c,h){var
+j=f?b:e,a=cX(i,j);function
 g(b){var
-c=f?d0(b):d1(b);return an(c,a)}var
+c=f?d3(b):d4(b);return an(c,a)}var
 k=[0,aX(h),0],l=[0,[0,a,c,[0,aN,[0,g(c),0]]],k];return[0,[0,a,d,[0,g(d),0]],l]}function
-gu(r,f,q,p,e,o,n){if(o){var
+gw(r,f,q,p,e,o,n){if(o){var
 y=o[1];if(y[1])return 0;if(o[2])return 0;if(n){var
 i=y[2],s=0;if(e){var
 g=e[2],b=0;if(g){var
@@ -2752,16 +2752,16 @@ a=0;b=1;c=1}else{var
 t=h[1],j=g[1],l=e[1],d=0;if(typeof
 i==="number")switch(i){case
 0:var
-A=k(co,bo(mt)),a=eg(p,f9(f,q,0,e),A);b=1;c=1;d=1;break;case
+A=k(cq,bo(mw)),a=ej(p,f$(f,q,0,e),A);b=1;c=1;d=1;break;case
 3:var
 a=x(j[2],l[1]);b=1;c=1;d=1;break}else
 if(4===i[0]){var
 m=i[1];if(r)if(m){var
-B=k(gs,mu),a=eg(p,cZ(0,d3(f,gt(r,f,l,j,t),0),q,0),B);b=1;c=1;d=1}else{var
+B=k(gu,mx),a=ej(p,c0(0,d6(f,gv(r,f,l,j,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=k(gs,mv),a=eg(p,cZ(0,d3(f,gt(r,f,l,j,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=k(gu,my),a=ej(p,c0(0,d6(f,gv(r,f,l,j,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=h;if(!c)var
@@ -2771,27 +2771,27 @@ v=g;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-z=a?mw:a}else
+z=a?mz:a}else
 var
 z=n;return z}return[0,n]}function
-gv(f,e,d,c,p,o,n){var
+gx(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=gu(f,e,d,c,b,a[1],g);return h?cf(h[1]):h}var
-i=gu(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d7(a[2],b),l=gv(f,e,d,c,k[1],j,a[3]);if(l){var
+h=gw(f,e,d,c,b,a[1],g);return h?bQ(h[1]):h}var
+i=gw(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d_(a[2],b),l=gx(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-eh(a){return fG(c(2,b),ca(a,b))}function
-bY(i,a,d,v,u){var
-l=a?b:H(b),f=p(l),g=gr(a,d,mr),h=gr(a,d,ms),m=at(g,bX(a,d,f,g)),n=[0,ac(at(h,bX(a,d,h,f)),m),0],o=at(f,bX(a,d,f,g)),q=[0,ac(at(h,bX(a,d,g,h)),o),n],r=at(f,bX(a,d,h,f)),s=[0,ac(at(g,bX(a,d,g,h)),r),q],t=a?d?p(c(2,b)):A(p(c(2,c(2,b))),c4):p(c(2,c(2,b))),j=fY([0,t,s]),k=[0,e,ck(i)];return gv(a,i,j[1],j[2],[0,k,[0,k,[0,v,0]]],1,u)}function
-gw(a,g,b){if(al(g,eh(a))){if(b){var
+ek(a){return fJ(c(2,b),cc(a,b))}function
+b0(i,a,d,v,u){var
+l=a?b:H(b),f=p(l),g=gt(a,d,mu),h=gt(a,d,mv),m=au(g,bZ(a,d,f,g)),n=[0,ac(au(h,bZ(a,d,h,f)),m),0],o=au(f,bZ(a,d,f,g)),q=[0,ac(au(h,bZ(a,d,g,h)),o),n],r=au(f,bZ(a,d,h,f)),s=[0,ac(au(g,bZ(a,d,g,h)),r),q],t=a?d?p(c(2,b)):A(p(c(2,c(2,b))),c5):p(c(2,c(2,b))),j=f0([0,t,s]),k=[0,e,cm(i)];return gx(a,i,j[1],j[2],[0,k,[0,k,[0,v,0]]],1,u)}function
+gy(a,g,b){if(al(g,ek(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,eh(a)],v=ck(a),i=[0,eh(a),v],j=bY(a,0,1,h,b[1]),k=j?bY(a,0,0,i,c[1]):j;if(k){var
-l=bY(a,1,1,h,d[1]);if(l)return bY(a,1,0,i,e[1]);var
+h=[0,g,ek(a)],v=cm(a),i=[0,ek(a),v],j=b0(a,0,1,h,b[1]),k=j?b0(a,0,0,i,c[1]):j;if(k){var
+l=b0(a,1,1,h,d[1]);if(l)return b0(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -2808,75 +2808,75 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,ck(a)],s=bY(a,0,0,r,b[1]);if(s)return bY(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=b0(a,0,0,r,b[1]);if(s)return b0(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-cr(s,r){var
+ct(s,r){var
 c=s,a=r;for(;;)switch(c[0]){case
 0:if(0===a[0]){var
-k=Z(c[1],a[1]);if(k){var
-f=c[2],d=a[2];for(;;){if(x(f,b))return x(d,b)?1:Z(aU(d,aw(2))[2],e)?0:0;var
-i=aU(f,aw(2)),j=i[1];if(Z(i[2],e)){if(x(d,b))return 0;var
-g=aU(d,aw(2)),p=g[1];if(Z(g[2],e)){var
+k=_(c[1],a[1]);if(k){var
+f=c[2],d=a[2];for(;;){if(x(f,b))return x(d,b)?1:_(aU(d,ay(2))[2],e)?0:0;var
+i=aU(f,ay(2)),j=i[1];if(_(i[2],e)){if(x(d,b))return 0;var
+g=aU(d,ay(2)),p=g[1];if(_(g[2],e)){var
 f=j,d=p;continue}return 0}if(x(d,b))return 0;var
-h=aU(d,aw(2)),q=h[1];if(Z(h[2],e))return 0;var
+h=aU(d,ay(2)),q=h[1];if(_(h[2],e))return 0;var
 f=j,d=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cr(c[1],a[1]);if(l){var
+l=ct(c[1],a[1]);if(l){var
 c=c[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cr(c[1],a[1]);if(m){var
+m=ct(c[1],a[1]);if(m){var
 c=c[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cr(c[1],a[1]);if(n){var
+n=ct(c[1],a[1]);if(n){var
 c=c[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cr(c[1],a[1]);if(o){var
+o=ct(c[1],a[1]);if(o){var
 c=c[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 c=c[1],a=a[1];continue}return 0}}function
-ei(a){switch(a[0]){case
+el(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-k=a[2],l=a[1],g=k,d=l,c=function(b,a){return[0,fR(b,a)]};break;case
+k=a[2],l=a[1],g=k,d=l,c=function(b,a){return[0,fT(b,a)]};break;case
 2:var
-m=a[2],n=a[1],g=m,d=n,c=function(b,a){return[0,fR(b,[0,H(a[1]),a[2]])]};break;case
+m=a[2],n=a[1],g=m,d=n,c=function(b,a){return[0,fT(b,[0,H(a[1]),a[2]])]};break;case
 3:var
-o=a[2],p=a[1],g=o,d=p,c=function(b,a){return[0,fS(b,a)]};break;case
+o=a[2],p=a[1],g=o,d=p,c=function(b,a){return[0,fU(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,d=r,c=function(k,a){var
-d=r6(f(a[1],b),f(e,a[2])),h=0===d?0:0<=d?2:1,i=h?0:1;if(i)return 0;var
-c=a[1],g=a6(c),j=0===g?[0,e,b]:0<g?[0,a[2],c]:[0,H(a[2]),H(c)];return[0,fS(k,j)]};break;default:return 0}var
-h=ei(d);if(h){var
-i=ei(g);if(i)return c(h[1],i[1]);var
+d=r_(f(a[1],b),f(e,a[2])),h=0===d?0:0<=d?2:1,i=h?0:1;if(i)return 0;var
+c=a[1],g=a6(c),j=0===g?[0,e,b]:0<g?[0,a[2],c]:[0,H(a[2]),H(c)];return[0,fU(k,j)]};break;default:return 0}var
+h=el(d);if(h){var
+i=el(g);if(i)return c(h[1],i[1]);var
 j=i}else
 var
 j=h;return j}function
 w(i,d,c){var
-f=ei(c);if(f){var
-g=f[1];return d?cf(fQ(g,[0,e,b])):fQ([0,e,b],g)}var
+f=el(c);if(f){var
+g=f[1];return d?bQ(fS(g,[0,e,b])):fS([0,e,b],g)}var
 a=aH(i,c);if(a){var
 h=a[1];return d?al(e,h[1]):x(e,h[1])}return a}function
-gx(d,b,a){var
-c=cr(b,a);return c?c:w(d,0,[2,a,b])}function
-bZ(c,b,a){var
+gz(d,b,a){var
+c=ct(b,a);return c?c:w(d,0,[2,a,b])}function
+b1(c,b,a){var
 d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
-cs(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+cu(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aI(a){return cs([4,[0,b,b],[5,J(a,a)]],a)}function
-ct(c,b,a){var
-d=gx(c,b[1],a);return d?gx(c,a,b[2]):d}function
+aI(a){return cu([4,[0,b,b],[5,J(a,a)]],a)}function
+cv(c,b,a){var
+d=gz(c,b[1],a);return d?gz(c,a,b[2]):d}function
 bq(c,b,a){var
-d=ct(c,b[1],a[1]),e=d?ct(c,b[2],a[2]):d;return e?ct(c,b[3],a[3]):e}function
-gy(a,L,N,j){var
+d=cv(c,b[1],a[1]),e=d?cv(c,b[2],a[2]):d;return e?cv(c,b[3],a[3]):e}function
+gA(a,L,N,j){var
 i=L[1],d=N;for(;;){if(i){if(d){var
 b=d[1],e=i[1];switch(e[0]){case
 0:var
 g=e[1];if(0===b[0])var
-q=b[4],k=b[1],r=bq(a,g[1],k),s=r?w(a,1,J(k,k)):r,t=s?bq(a,g[2],b[2]):s,u=t?bq(a,g[3],b[3]):t,v=u?ct(a,g[4],q):u,x=v?w(a,1,q):v,c=x?fC(g[5],b[5]):x;else
+q=b[4],k=b[1],r=bq(a,g[1],k),s=r?w(a,1,J(k,k)):r,t=s?bq(a,g[2],b[2]):s,u=t?bq(a,g[3],b[3]):t,v=u?cv(a,g[4],q):u,x=v?w(a,1,q):v,c=x?dS(g[5],b[5]):x;else
 var
 c=0;break;case
 1:var
@@ -2908,72 +2908,72 @@ o=F}else
 var
 o=d?0:1;if(o){var
 f=L[2];if(0===f[0])return bq(a,f[1],j);var
-n=f[3],G=[2,j[1],f[1]],H=[2,j[2],f[2]],I=w(a,0,[2,[2,[3,n,n],[3,G,G]],[3,H,H]]),K=I?w(a,0,n):I;return K?ct(a,f[4],j[3]):K}return o}}function
+n=f[3],G=[2,j[1],f[1]],H=[2,j[2],f[2]],I=w(a,0,[2,[2,[3,n,n],[3,G,G]],[3,H,H]]),K=I?w(a,0,n):I;return K?cv(a,f[4],j[3]):K}return o}}function
 br(c,b,a){var
-d=bZ(function(b,a){return[1,b,a]},a,b);return bZ(function(b,a){return[2,b,a]},d,c)}function
-ej(a,e,d,c){var
-b=br(e,d,c),f=aI(a),g=cs(J(aI(a),b),f);return bZ(function(b,a){return[2,b,a]},b,g)}function
-cu(f,e,d,a,c){var
-b=ej(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-c6(c,a){return c?[5,a]:[2,[0,e,b],[5,a]]}function
-b0(a,c){switch(a[0]){case
+d=b1(function(b,a){return[1,b,a]},a,b);return b1(function(b,a){return[2,b,a]},d,c)}function
+em(a,e,d,c){var
+b=br(e,d,c),f=aI(a),g=cu(J(aI(a),b),f);return b1(function(b,a){return[2,b,a]},b,g)}function
+cw(f,e,d,a,c){var
+b=em(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
+c7(c,a){return c?[5,a]:[2,[0,e,b],[5,a]]}function
+b2(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ej(d,f,e,c),h=cu(d,f,e,a[4],c),i=cs([4,[0,b,b],c6(a[5],h)],g),j=aI(d);return bZ(function(b,a){return[1,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=em(d,f,e,c),h=cw(d,f,e,a[4],c),i=cu([4,[0,b,b],c7(a[5],h)],g),j=aI(d);return b1(function(b,a){return[1,b,a]},j,i);case
 1:return aI(br(a[1],a[2],c));default:return aI(a[1])}}function
-gz(a,b){switch(a[0]){case
+gB(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cu(e,d,c,a[4],b),i=c6(a[5],h),j=br(d,c,b);return[2,J(aI(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cw(e,d,c,a[4],b),i=c7(a[5],h),j=br(d,c,b);return[2,J(aI(e),j),i];case
 1:var
 f=a[2],g=a[1],k=br(g,f,b);return[5,J(br(g,f,b),k)];default:return J(aI(a[1]),b)}}function
-cv(d,c,a){var
-f=[0,e,b];return ci(function(b,d){var
-e=J(b0(b,c),a);return[1,[3,J(b0(b,c),a),e],d]},f,d)}function
-gA(a){var
+cx(d,c,a){var
+f=[0,e,b];return ck(function(b,d){var
+e=J(b2(b,c),a);return[1,[3,J(b2(b,c),a),e],d]},f,d)}function
+gC(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ek(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aI(b),h=cu(b,f,e,d,c),i=cs(c6(a[5],h),g),j=ej(b,f,e,c);return[0,[0,bZ(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-gB(d,i){if(d){var
+en(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aI(b),h=cw(b,f,e,d,c),i=cu(c7(a[5],h),g),j=em(b,f,e,c);return[0,[0,b1(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+gD(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=br(a[1],a[2],i),k=aI(f),l=cs(J(aI(f),g),k),h=[0,bZ(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=br(a[1],a[2],i),k=aI(f),l=cu(J(aI(f),g),k),h=[0,b1(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=gB(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=gD(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return mx}function
-gC(g,f,d,c,m,a){function
+j=b;return j}return mA}function
+gE(g,f,d,c,m,a){function
 y(a){return[3,[3,[4,[0,b,b],a],[4,[0,b,b],a]],J(c,c)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=cv(f,d,c);return w(g,1,[2,y(a[1]),U]);case
+U=cx(f,d,c);return w(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return w(g,1,[2,cv(f,d,c),V]);case
+V=y(a[1]);return w(g,1,[2,cx(f,d,c),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,gz(a,d)]},o=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,gB(a,d)]},o=X,n=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,gz(a,d),Y]},o=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,gB(a,d),Y]},o=Z,n=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=b0(a,d);return[2,[3,[3,A,A],J(b0(a,d),b)],[3,z,z]]},o=_,n=a[1];break;case
+b=b2(a,d);return[2,[3,[3,A,A],J(b2(a,d),b)],[3,z,z]]},o=_,n=a[1];break;case
 5:var
-B=a[1],$=J(c,c),aa=[3,[3,B,B],[3,cv(f,d,m),$]],ab=J(m,m);return w(g,1,[2,[3,cv(f,d,c),ab],aa]);case
+B=a[1],$=J(c,c),aa=[3,[3,B,B],[3,cx(f,d,m),$]],ab=J(m,m);return w(g,1,[2,[3,cx(f,d,c),ab],aa]);case
 6:var
 C=a[2],q=by(f,a[1]);if(q){var
 h=q[1];if(0===h[0]){var
-r=h[4],ac=cu(h[1],h[2],h[3],r,d),D=c6(h[5],ac);return w(g,1,[2,[3,[3,C,r],[3,C,r]],[3,D,D]])}var
+r=h[4],ac=cw(h[1],h[2],h[3],r,d),D=c7(h[5],ac);return w(g,1,[2,[3,[3,C,r],[3,C,r]],[3,D,D]])}var
 E=0}else
 var
 E=q;return E;case
 7:if(f){var
 k=f[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-s=ek(f[1],d);if(s){var
-F=s[1],t=ek(k[1],d);if(t){var
-G=t[1],u=ek(l[1],d);if(u){var
+s=en(f[1],d);if(s){var
+F=s[1],t=en(k[1],d);if(t){var
+G=t[1],u=en(l[1],d);if(u){var
 H=u[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=w(g,1,[2,I,x]);if(K)return w(g,1,[1,I,x]);var
 L=K}else
 var
@@ -2994,129 +2994,122 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=cv(f,d,c),ae=J(c,c);return w(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],v=gB(f,d);if(v){var
-af=v[1],S=[0,e,b],T=ci(function(a,b){var
+ad=cx(f,d,c),ae=J(c,c);return w(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],v=gD(f,d);if(v){var
+af=v[1],S=[0,e,b],T=ck(function(a,b){var
 d=J(aI(a),c);return[1,[3,J(aI(a),c),d],b]},S,af);return w(g,1,[2,[3,[3,R,R],J(c,c)],T])}return v}var
 p=by(f,n);return p?w(g,1,o(p[1])):p}function
 bs(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-my(a){switch(a[0]){case
+mB(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bs(b[3]),f=bs(b[2]);return[0,bs(b[1]),f,e,d,c];case
 1:var
 g=bn(bs,a[3]),h=bs(a[2]);return[1,bs(a[1]),h,g];default:return[2,bs(a[1])]}}function
-el(a){if(a){var
-b=a[2],c=a[1];if(b)return m(c,[0,mz,el(b)]);var
+eo(a){if(a){var
+b=a[2],c=a[1];if(b)return m(c,[0,mC,eo(b)]);var
 d=c}else
 var
 d=a;return d}function
-V(a){return[0,mB,m(el(a),mA)]}function
-ad(a){return[0,mD,m(el(a),mC)]}function
-au(a){return[0,mF,[0,a,mE]]}function
-g(b,a){return[0,S(mH,S(b,mG)),a]}function
+V(a){return[0,mE,m(eo(a),mD)]}function
+ad(a){return[0,mG,m(eo(a),mF)]}function
+av(a){return[0,mI,[0,a,mH]]}function
+g(b,a){return[0,S(mK,S(b,mJ)),a]}function
 ae(b,a){return ad([0,g(b,a),0])}function
-b1(d){var
-b=d,a=l2,e=0;for(;;){if(b){var
-c=fB(a),b=b[1],a=c;continue}return[0,cj(dP(a)),e]}}function
-em(a){return[0,cj(cT(a)),0]}function
-gD(a){var
-c=a6(a),f=0,b=0===c?l6:0<c?[0,cT(a)]:[1,cT(H(a))];if(0===b[0])var
-d=cj(b[1]);else
+b3(d){var
+b=d,a=l5,e=0;for(;;){if(b){var
+c=fF(a),b=b[1],a=c;continue}return[0,cl(dQ(a)),e]}}function
+ep(a){return[0,cl(cU(a)),0]}function
+gF(a){var
+c=a6(a),f=0,b=0===c?l9:0<c?[0,cU(a)]:[1,cU(H(a))];if(0===b[0])var
+d=cl(b[1]);else
 var
-e=cj(b[1]),d=S(aF(1,45),e);return[0,d,f]}function
-gE(a){var
-b=0,c=0<a6(a)?cT(a):l5;return[0,cj(c),b]}function
-en(a){switch(a[0]){case
-1:return mJ;case
-2:return 2<=a[1]?mK:mL;case
-3:return mM;default:return mI}}function
-c7(a){function
-b(b,a){return aV(b,en(a))?c7(a):[0,mS,m(c7(a),mR)]}switch(a[0]){case
+e=cl(b[1]),d=S(aF(1,45),e);return[0,d,f]}function
+gG(a){var
+b=0,c=0<a6(a)?cU(a):l8;return[0,cl(c),b]}function
+eq(a){switch(a[0]){case
+1:return mM;case
+2:return 2<=a[1]?mN:mO;case
+3:return mP;default:return mL}}function
+c8(a){function
+b(b,a){return aV(b,eq(a))?c8(a):[0,mV,m(c8(a),mU)]}switch(a[0]){case
 0:var
 d=a[2],e=a[1];if(typeof
-d==="number")return[0,ar(e),0];var
-f=[0,mT,[0,ar(d),0]];return[0,ar(e),f];case
-1:return[0,mV,b(mU,a[1])];case
+d==="number")return[0,as(e),0];var
+f=[0,mW,[0,as(d),0]];return[0,as(e),f];case
+1:return[0,mY,b(mX,a[1])];case
 2:var
-g=a[3],h=b([0,en(a)],g);switch(a[1]){case
+g=a[3],h=b([0,eq(a)],g);switch(a[1]){case
 0:var
-c=mN;break;case
+c=mQ;break;case
 1:var
-c=mO;break;case
+c=mR;break;case
 2:var
-c=mP;break;default:var
-c=mQ}var
-i=a[2];return m(b(en(a),i),[0,c,h]);case
+c=mS;break;default:var
+c=mT}var
+i=a[2];return m(b(eq(a),i),[0,c,h]);case
 3:var
-j=[0,mW,em(a[2])];return m(b(mX,a[1]),j);default:return[0,mZ,m(c7(a[1]),mY)]}}function
-ah(a){return[0,m1,m(c7(a),m0)]}function
-eo(a){if(0===a[0])return ah(a[1]);var
-b=[0,g(m2,ah(a[2])),0];return ad([0,g(m3,ah(a[1])),b])}function
-ep(b,a){var
+j=[0,mZ,ep(a[2])];return m(b(m0,a[1]),j);default:return[0,m2,m(c8(a[1]),m1)]}}function
+ah(a){return[0,m4,m(c8(a),m3)]}function
+er(a){if(0===a[0])return ah(a[1]);var
+b=[0,g(m5,ah(a[2])),0];return ad([0,g(m6,ah(a[1])),b])}function
+es(b,a){var
 c=[0,d(b,a[3]),0],e=[0,d(b,a[2]),c];return V([0,d(b,a[1]),e])}function
-m4(a){function
-b(a){return ep(eo,a)}switch(a[0]){case
+m7(a){function
+b(a){return es(er,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?m5:nb,h=[0,g(m6,au(f)),e],i=[0,g(m7,eo(a[4])),h],j=[0,g(m8,b(a[3])),i],k=[0,g(m9,b(a[2])),j],l=[0,g(m_,b(a[1])),k],c=[0,g(na,au(m$)),l];break;case
+e=0,f=a[5]?m8:ne,h=[0,g(m9,av(f)),e],i=[0,g(m_,er(a[4])),h],j=[0,g(m$,b(a[3])),i],k=[0,g(na,b(a[2])),j],l=[0,g(nb,b(a[1])),k],c=[0,g(nd,av(nc)),l];break;case
 1:var
-d=a[3],n=d?[0,g(nc,b(d[1])),0]:d,o=[0,g(nd,b(a[2])),0],p=[0,g(ne,b(a[1])),o],c=m([0,g(ng,au(nf)),p],n);break;default:var
-q=[0,g(nh,b(a[1])),0],c=[0,g(nj,au(ni)),q]}return ad(c)}function
-gF(b){var
-f=[0,g(ns,ah(b[5])),0],h=b[4]?nt:nA,i=[0,g(nu,au(h)),f],c=b[3];if(c)var
-k=V([0,ah(c[1]),0]),j=0,l=6===b[1]?nv:nz,e=[0,g(nw,ae(l,k)),j];else
+d=a[3],n=d?[0,g(nf,b(d[1])),0]:d,o=[0,g(ng,b(a[2])),0],p=[0,g(nh,b(a[1])),o],c=m([0,g(nj,av(ni)),p],n);break;default:var
+q=[0,g(nk,b(a[1])),0],c=[0,g(nm,av(nl)),q]}return ad(c)}function
+et(a){switch(a){case
+0:return nn;case
+1:return no;case
+2:return np;case
+3:return nq;case
+4:return nr;case
+5:return ns;case
+6:return nt;default:return nu}}function
+gH(a){var
+e=[0,g(nv,ah(a[5])),0],f=a[4]?nw:nD,h=[0,g(nx,av(f)),e],b=a[3];if(b)var
+j=V([0,ah(b[1]),0]),i=0,k=6===a[1]?ny:nC,d=[0,g(nz,ae(k,j)),i];else
 var
-e=c;var
-n=m(e,i),d=b[2],o=d?[0,g(nx,b1(d[1])),0]:d,p=m(o,n);switch(b[1]){case
-0:var
-a=nk;break;case
+d=b;var
+l=m(d,h),c=a[2],n=c?[0,g(nA,b3(c[1])),0]:c,o=m(n,l);return ad([0,g(nB,av(et(a[1]))),o])}function
+eu(a){return V(k(gF,a))}function
+gI(b,a){var
+c=[0,g(n1,gG(a)),0];return ad([0,g(n2,V(k(eu,b))),c])}function
+gJ(a){switch(a[0]){case
+0:return av(a[1]);case
 1:var
-a=nl;break;case
+b=gI(a[2],a[3]);return ae(a[1],b);case
 2:var
-a=nm;break;case
+c=a[1]?n3:n5;return ae(n4,av(c));case
 3:var
-a=nn;break;case
-4:var
-a=no;break;case
-5:var
-a=np;break;case
-6:var
-a=nq;break;default:var
-a=nr}return ad([0,g(ny,au(a)),p])}function
-eq(a){return V(k(gD,a))}function
-gG(b,a){var
-c=[0,g(nY,gE(a)),0];return ad([0,g(nZ,V(k(eq,b))),c])}function
-gH(a){switch(a[0]){case
-0:return au(a[1]);case
-1:var
-b=gG(a[2],a[3]);return ae(a[1],b);case
-2:var
-c=a[1]?n0:n2;return ae(n1,au(c));case
-3:var
-d=[0,eq(a[3]),0];return ae(n3,V([0,gG(a[1],a[2]),d]));default:var
-e=[0,gE(a[3]),0],f=[0,gD(a[2]),e];return ae(n4,V([0,gH(a[1]),f]))}}function
-n5(a){var
-b=[0,gH(a[2]),0];return V([0,b1(a[1]),b])}function
-n6(c){var
-b=c[2],d=b?[0,g(n7,b1(b[1])),0]:b,a=c[1],e=a?[0,g(n8,V(k(n5,[0,a[1],a[2]]))),0]:a;return ad(m(e,d))}function
-er(h){function
+d=[0,eu(a[3]),0];return ae(n6,V([0,gI(a[1],a[2]),d]));default:var
+e=[0,gG(a[3]),0],f=[0,gF(a[2]),e];return ae(n7,V([0,gJ(a[1]),f]))}}function
+n8(a){var
+b=[0,gJ(a[2]),0];return V([0,b3(a[1]),b])}function
+n9(c){var
+b=c[2],d=b?[0,g(n_,b3(b[1])),0]:b,a=c[1],e=a?[0,g(n$,V(k(n8,[0,a[1],a[2]]))),0]:a;return ad(m(e,d))}function
+ev(h){function
 i(a){return G(h,a)}var
 c=n(h);if(0===c)var
 d=[0];else
 if(0<=c){var
-f=rL(c,i(0)),g=c-1|0,j=1;if(!(g<1)){var
+f=rP(c,i(0)),g=c-1|0,j=1;if(!(g<1)){var
 a=j;for(;;){f[1+a]=i(a);var
 k=a+1|0;if(g!==a){var
 a=k;continue}break}}var
 d=f}else
 var
-d=bl(jz);var
+d=bl(jC);var
 b=d.length-1-1|0,e=0;for(;;){if(0<=b){var
-l=[0,d[1+b],e],b=b-1|0,e=l;continue}return az(function(a){var
-b=cf(34===a?1:0),c=b?cf(92===a?1:0):b,d=c?aV(ot,fP(a)):c;return d?aV(fP(a),ou):d},e)}}function
-gI(a,b){return b?[3,gI(a,b[1]),a]:a}function
+l=[0,d[1+b],e],b=b-1|0,e=l;continue}return ar(function(a){var
+b=bQ(34===a?1:0),c=b?bQ(92===a?1:0):b,d=c?aV(ow,fR(a)):c;return d?aV(fR(a),ox):d},e)}}function
+gK(a,b){return b?[3,gK(a,b[1]),a]:a}function
 s(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,z(c(2,c(2,b)))),k=function(a){return f(j,a)},l=fD(fz(i),k,b);return[0,fI(fA(dP(a[1]),i)),l];case
+i=a[2],j=c(2,z(c(2,c(2,b)))),k=function(a){return f(j,a)},l=fG(fD(i),k,b);return[0,fL(fE(dQ(a[1]),i)),l];case
 1:var
 d=s(a[1]);return 0===d[0]?[0,H(d[1]),d[2]]:[2,[0,e,b],d];case
 2:var
@@ -3125,21 +3118,21 @@ g=s(a[2]),h=s(a[3]);switch(a[1]){case
 1:return[2,g,h];case
 2:return[3,g,h];default:return[4,g,h]}case
 3:var
-m=dQ(fF(a[2]));return gI(s(a[1]),m);default:return[5,s(a[1])]}}function
-cw(a){if(0===a[0]){var
+m=dR(fI(a[2]));return gK(s(a[1]),m);default:return[5,s(a[1])]}}function
+cy(a){if(0===a[0]){var
 b=s(a[1]);return[0,b,b]}var
 c=s(a[2]);return[0,s(a[1]),c]}function
-bF(a){var
-b=cw(a[3]),c=cw(a[2]);return[0,cw(a[1]),c,b]}function
-ov(a){switch(a[0]){case
+bG(a){var
+b=cy(a[3]),c=cy(a[2]);return[0,cy(a[1]),c,b]}function
+oy(a){switch(a[0]){case
 0:var
-b=a[5],c=cw(a[4]),d=bF(a[3]),e=bF(a[2]);return[0,[0,bF(a[1]),e,d,c,b]];case
+b=a[5],c=cy(a[4]),d=bG(a[3]),e=bG(a[2]);return[0,[0,bG(a[1]),e,d,c,b]];case
 1:var
-f=bn(bF,a[3]),g=bF(a[2]);return[1,bF(a[1]),g,f];default:return[2,bF(a[1])]}}function
-ow(a){if(a[1])return 0;var
+f=bn(bG,a[3]),g=bG(a[2]);return[1,bG(a[1]),g,f];default:return[2,bG(a[1])]}}function
+oz(a){if(a[1])return 0;var
 b=a[4],c=b?[0,[0,s(a[5])],0]:b;return c}function
-es(f,a,e){var
-v=aq(f),r=bP(function(b){var
+ew(f,a,e){var
+v=aq(f),r=bz(function(b){var
 a=s(b[5]);switch(b[1]){case
 0:return b[4]?0:[0,[1,a],0];case
 1:var
@@ -3153,55 +3146,55 @@ c=function(b){return[6,b,a]};break;case
 5:return[0,[7,a],0];case
 6:var
 e=b[3],i=e?[0,[8,s(e[1]),a],0]:e;return i;default:return[0,[9,a],0]}var
-f=b[2],g=f?[0,dQ(f[1]),0]:fN(0,v);return k(c,g)},e),c=bP(ow,e),t=c?[0,c[1],c[2]]:oA,u=m(t,r);if(0===a[0])var
+f=b[2],g=f?[0,dR(f[1]),0]:fP(0,v);return k(c,g)},e),c=bz(oz,e),t=c?[0,c[1],c[2]]:oD,u=m(t,r);if(0===a[0])var
 h=a[2],i=a[1],b=function(a){var
 b=s(d(a,h));return[0,s(d(a,i)),b]},j=b(function(a){return a[3]}),l=b(function(a){return a[2]}),g=[0,[0,b(function(a){return a[1]}),l,j]];else
 var
-n=s(a[5]),o=[0,s(a[4]),n],p=s(a[3]),q=s(a[2]),g=[1,s(a[1]),q,p,o];return[0,k(ov,f),g,u]}var
-aa=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-c8(h){var
-a=ci(function(f,d){var
-a=aH(aa,f);if(a)var
-b=a[1],c=bx(dB(b[1]),dB(b[2]));else
+n=s(a[5]),o=[0,s(a[4]),n],p=s(a[3]),q=s(a[2]),g=[1,s(a[1]),q,p,o];return[0,k(oy,f),g,u]}var
+W=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+c9(h){var
+a=ck(function(f,d){var
+a=aH(W,f);if(a)var
+b=a[1],c=bx(dC(b[1]),dC(b[2]));else
 var
 c=e;return bx(c,d)},e,h);if(al(e,a)){var
 f=a6(a);if(0===f||!(0<f&&!x(a,b)))var
 g=e;else
 var
-c=aU(a,aw(2)),d=c[1],g=Z(c[2],e)?cS(d):cS(d);return ca(g,aa)}return e}function
-c9(a){return[0,a[1],[0,a[2],0]]}function
-bG(a){var
-b=c9(a[3]),c=m(c9(a[2]),b);return m(c9(a[1]),c)}function
-oB(a){return 0===a[0]?c9(a[1][4]):0}function
-oC(a){switch(a[0]){case
+c=aU(a,ay(2)),d=c[1],g=_(c[2],e)?cT(d):cT(d);return cc(g,W)}return e}function
+c_(a){return[0,a[1],[0,a[2],0]]}function
+bH(a){var
+b=c_(a[3]),c=m(c_(a[2]),b);return m(c_(a[1]),c)}function
+oE(a){return 0===a[0]?c_(a[1][4]):0}function
+oF(a){switch(a[0]){case
 0:var
-b=a[1],c=bG(b[3]);return m(bG(b[2]),c);case
+b=a[1],c=bH(b[3]);return m(bH(b[2]),c);case
 1:var
-d=bG(a[2]);return m(bG(a[1]),d);default:return 0}}function
-oD(a){switch(a[0]){case
-0:return c8(bG(a[1][1]));case
+d=bH(a[2]);return m(bH(a[1]),d);default:return 0}}function
+oG(a){switch(a[0]){case
+0:return c9(bH(a[1][1]));case
 1:var
-b=a[3];return b?c8(bG(b[1])):e;default:return c8(bG(a[1]))}}function
-gJ(a){switch(a[0]){case
+b=a[3];return b?c9(bH(b[1])):e;default:return c9(bH(a[1]))}}function
+gL(a){switch(a[0]){case
 0:var
-b=a[1];if(aD(b,oE))return oF;if(aD(b,oG))return oH;if(aD(b,oI))return oJ;if(aD(b,oK))return oL;var
-g=aD(b,oM),i=g?oN:g;return i;case
+b=a[1];if(ax(b,oH))return oI;if(ax(b,oJ))return oK;if(ax(b,oL))return oM;if(ax(b,oN))return oO;var
+g=ax(b,oP),i=g?oQ:g;return i;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aD(e,oO))return[0,[0,c,d]];if(aD(e,oP))return[0,[1,c,d]];var
-h=aD(e,oQ),j=h?[0,[2,c,d]]:h;return j;case
+c=a[3],d=a[2],e=a[1];if(ax(e,oR))return[0,[0,c,d]];if(ax(e,oS))return[0,[1,c,d]];var
+h=ax(e,oT),j=h?[0,[2,c,d]]:h;return j;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];default:var
-f=gJ(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k}}function
-gK(a){if(a){var
-d=a[1],b=gJ(d[2]);if(b)var
-c=gK(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+f=gL(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k}}function
+gM(a){if(a){var
+d=a[1],b=gL(d[2]);if(b)var
+c=gM(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return oR}function
-c_(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=gK(g[1]);if(c){var
+e=b;return e}return oU}function
+c$(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=gM(g[1]);if(c){var
 k=c[1];if(h){var
-d=c_(j,i);if(d){var
-l=d[1],e=c_(j,l[2]);if(e)var
+d=c$(j,i);if(d){var
+l=d[1],e=c$(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -3216,48 +3209,56 @@ var
 f=a;else
 var
 f=b;return f}function
-et(d,a){if(d){if(a){var
-b=c_(aq(a),a);if(b)var
-e=b[1],c=et(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+ex(d,a){if(d){if(a){var
+b=c$(aq(a),a);if(b)var
+e=b[1],c=ex(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return oS}return a?0:oT}function
-c$(b,a){return 0===b[0]?[0,s(b[1]),a]:a?[0,a[1],a[2]]:[0,s(b[1]),0]}function
-bH(a,e){var
-b=c$(a[1],e),c=c$(a[2],b[2]),d=c$(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-gL(d,c){if(d){var
+f=b;return f}return oV}return a?0:oW}function
+da(b,a){return 0===b[0]?[0,s(b[1]),a]:a?[0,a[1],a[2]]:[0,s(b[1]),0]}function
+bI(a,e){var
+b=da(a[1],e),c=da(a[2],b[2]),d=da(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+gN(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bH(a[1],c),f=bH(a[2],e[2]),g=bH(a[3],f[2]),h=c$(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bI(a[1],c),f=bI(a[2],e[2]),g=bI(a[3],f[2]),h=da(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bH(a[1],c),k=j[1],l=bH(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bH(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bI(a[1],c),k=j[1],l=bI(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bI(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bH(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=gL(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-oV(a){if(typeof
+p=bI(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=gN(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+oY(a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
-c=w(aa,1,a[2]);return c?w(aa,1,a[3]):c;case
-5:return w(aa,1,[2,a[1],[0,b,b]]);case
-6:return w(aa,1,a[2]);case
+c=w(W,1,a[2]);return c?w(W,1,a[3]):c;case
+5:return w(W,1,[2,a[1],[0,b,b]]);case
+6:return w(W,1,a[2]);case
 8:var
-d=w(aa,1,a[1]);return d?w(aa,1,a[2]):d;case
+d=w(W,1,a[1]);return d?w(W,1,a[2]):d;case
 2:case
-3:break;default:return w(aa,1,a[1])}return 1}function
-gM(c,f,e){var
-d=aV(oW,aq(c));if(d)var
-b=aq(c),a=az(function(a){switch(a[1]){case
+3:break;default:return w(W,1,a[1])}return 1}function
+gO(a){if(0===a[0])return 1;var
+b=s(a[1]);return w(W,1,[2,s(a[2]),b])}function
+bJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+oZ(a){switch(a[0]){case
+0:var
+c=[0,a[4],0],d=m(bJ(a[3]),c),e=m(bJ(a[2]),d);return m(bJ(a[1]),e);case
+1:var
+b=a[3],f=b?bJ(b[1]):b,g=m(bJ(a[2]),f);return m(bJ(a[1]),g);default:return bJ(a[1])}}function
+gP(b,h,m){var
+i=aV(o0,aq(b));if(i)var
+c=aq(b),d=ar(function(a){switch(a[1]){case
 0:return a[2]?0:a[3]?0:1;case
 1:var
-c=a[2];if(c){var
-d=c[1];if(a[3])return 0;var
-e=aV(ox,d);return e?aV(d,b):e}return a[3]?0:1;case
+b=a[2];if(b){var
+d=b[1];if(a[3])return 0;var
+e=aV(oA,d);return e?aV(d,c):e}return a[3]?0:1;case
 2:var
 f=a[4];if(f){var
 g=a[2];if(g){var
 h=g[1],i=a[3];if(i){var
-j=aV(oy,h);if(j)return aV(h,b);var
+j=aV(oB,h);if(j)return aV(h,c);var
 k=j}else
 var
 k=i;return k}var
@@ -3272,21 +3273,37 @@ o=n;return o;case
 4:if(a[4])return 0;var
 p=a[2];if(p){var
 q=p[1];if(a[3])return 0;var
-r=aV(oz,q);return r?aV(q,b):r}return a[3]?0:1;case
+r=aV(oC,q);return r?aV(q,c):r}return a[3]?0:1;case
 6:if(a[4])return 0;if(a[2])return 0;var
-s=a[3],u=s?1:s;return u;default:return a[4]?0:a[2]?0:a[3]?0:1}},f);else
+s=a[3],u=s?1:s;return u;default:return a[4]?0:a[2]?0:a[3]?0:1}},h);else
 var
-a=d;return a?az(oV,e[3]):a}function
-oX(i){var
-a0=er(i[3]),a1=a0?er(i[4]):a0;if(a1){var
+d=i;if(d){var
+a=h;for(;;){if(a){var
+f=a[2],l=a[1],g=bQ(dW(function(c){return function(a){var
+h=et(a[1]),d=ax(et(c[1]),h),e=d?dS(c[4],a[4]):d;if(e){var
+f=c[2];if(f){var
+b=a[2];return b?ci(f[1],b[1]):b}if(a[2])return 0;var
+g=1}else
+var
+g=e;return g}}(l),f));if(g){var
+a=f;continue}var
+j=g}else
+var
+j=1;var
+e=j;break}}else
+var
+e=d;var
+k=e?ar(gO,bz(oZ,b)):e;return k?ar(oY,m[3]):k}function
+o1(i){var
+a0=ev(i[3]),a1=a0?ev(i[4]):a0;if(a1){var
 a2=i[2];if(0===a2[0])var
-b9=a2[2],P=az(function(a){var
-b=a[1];return az(function(b){var
+ca=a2[2],P=ar(function(a){var
+b=a[1];return ar(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 4:var
 a=a[1];continue;case
 0:case
-1:return er(a[1]);default:return 1}},b)},b9);else
+1:return ev(a[1]);default:return 1}},b)},ca);else
 var
 P=1}else
 var
@@ -3294,27 +3311,27 @@ P=a1;if(P){var
 n=i[1];switch(n[0]){case
 0:var
 D=n[3],ap=n[2],t=n[1],u=i[2];if(0===u[0]){var
-bg=u[2],a=es(t,ap,D),ar=c_(aq(bg),bg);if(ar){var
-bh=ar[1];if(bh[2])return 0;var
-bi=gM(t,D,a);if(bi){var
-cb=bh[1],bj=k(oD,a[1]),bk=a[1],ag=bP(oB,bk),ca=ag?[0,ag[1],ag[2]]:bP(oC,bk),f=B(b,c8(ca)),c=u[1],y=a[2],b8=0===y[0]?bs(y[1]):[0,y[1],y[2],y[4][1]],aW=gy(aa,a,k(my,a[1]),b8);if(aW){var
-aF=gk(f,bj,a[1]),q=gl(f,bj,a[1],0),aG=aq(aF),bM=go(q,f,aG,a[3]),bN=m(ee(gh(q)),bM),aH=m(ee(gg(q)),bN),aI=fY(aH)[1],bJ=0,bK=function(a){return[0,a]},x=cZ(p(e),bK,aI,bJ),aJ=az(function(a){var
-b=p(e);return bz(ay(bQ(x,a),x,b),a)},aH);if(aJ){var
-aK=fM(mq,a[3]);if(aK){var
-bO=a[3],bR=m(aF,k(function(a){return bE(f,a)},bO)),Y=cq(k(function(a){return bV(c,a)},bR));if(Y){var
+bg=u[2],a=ew(t,ap,D),as=c$(aq(bg),bg);if(as){var
+bh=as[1];if(bh[2])return 0;var
+bi=gP(t,D,a);if(bi){var
+ce=bh[1],bj=k(oG,a[1]),bk=a[1],ag=bz(oE,bk),cd=ag?[0,ag[1],ag[2]]:bz(oF,bk),f=B(b,c9(cd)),c=u[1],y=a[2],b$=0===y[0]?bs(y[1]):[0,y[1],y[2],y[4][1]],aW=gA(W,a,k(mB,a[1]),b$);if(aW){var
+aF=gm(f,bj,a[1]),q=gn(f,bj,a[1],0),aG=aq(aF),bQ=gq(q,f,aG,a[3]),bR=m(eh(gj(q)),bQ),aH=m(eh(gi(q)),bR),aI=f0(aH)[1],bN=0,bO=function(a){return[0,a]},x=c0(p(e),bO,aI,bN),aJ=ar(function(a){var
+b=p(e);return bA(aA(bS(x,a),x,b),a)},aH);if(aJ){var
+aK=dW(mt,a[3]);if(aK){var
+bT=a[3],bU=m(aF,k(function(a){return bF(f,a)},bT)),Z=cs(k(function(a){return bX(c,a)},bU));if(Z){var
 r=a[2];if(0===r[0])var
 aL=r[1];else
 var
 F=r[3],aD=r[2],aE=r[1],aL=[0,[0,[2,aE,F],[1,aE,F]],[0,[2,aD,F],[1,aD,F]],r[4]];var
-bS=bp(aL,f),Z=cq(k(function(a){return bV(c,a)},bS));if(Z){var
-bT=a[3],_=cq(gp(c,function(a){return bQ(x,a)},q,f,aG,bT));if(_){var
-aM=_[1],bL=k(function(a){return 1},aM),G=a[2],bW=Z[1],bX=function(e){if(0===G[0])return 0;if(e){var
+bV=bp(aL,f),_=cs(k(function(a){return bX(c,a)},bV));if(_){var
+bY=a[3],$=cs(gr(c,function(a){return bS(x,a)},q,f,aG,bY));if($){var
+aM=$[1],bP=k(function(a){return 1},aM),G=a[2],bZ=_[1],b0=function(e){if(0===G[0])return 0;if(e){var
 a=e[2];if(a){var
 g=a[2];if(g){if(g[2])return 0;var
-b=a[1],d=e[1],h=bB(c,f,G[1]);if(h){var
-i=bB(c,f,G[2]);if(i){var
-j=bB(c,f,G[3]);if(j)var
-s=h[1],t=bb(d),k=an([0,bb(d),t],s),u=i[1],v=bb(b),l=an([0,bb(b),v],u),w=bU(b),x=[0,bU(b),w],y=[0,U(c,as(N(l,l)),x),0],z=bU(d),A=[0,bU(d),z],B=[0,U(c,as(N(k,k)),A),y],C=ba(c,l),D=ba(c,k),m=[0,[0,an(an(ba(c,j[1]),D),C),aN,B]];else
+b=a[1],d=e[1],h=bC(c,f,G[1]);if(h){var
+i=bC(c,f,G[2]);if(i){var
+j=bC(c,f,G[3]);if(j)var
+s=h[1],t=bb(d),k=an([0,bb(d),t],s),u=i[1],v=bb(b),l=an([0,bb(b),v],u),w=bW(b),x=[0,bW(b),w],y=[0,U(c,at(N(l,l)),x),0],z=bW(d),A=[0,bW(d),z],B=[0,U(c,at(N(k,k)),A),y],C=ba(c,l),D=ba(c,k),m=[0,[0,an(an(ba(c,j[1]),D),C),aN,B]];else
 var
 m=j;var
 n=m}else
@@ -3331,77 +3348,77 @@ var
 q=a;var
 r=q}else
 var
-r=e;return r},bY=Y[1],bZ=gh(q),b1=d(cn(function(a){return bQ(x,a)}),bZ),b2=gg(q);return gc(c,aI,d(cn(function(a){return bQ(x,a)}),b2),b1,bY,aM,bX,bW,bL,cb)}var
-aO=_}else
+r=e;return r},b1=Z[1],b3=gj(q),b4=d(cp(function(a){return bS(x,a)}),b3),b5=gi(q);return ge(c,aI,d(cp(function(a){return bS(x,a)}),b5),b4,b1,aM,b0,bZ,bP,ce)}var
+aO=$}else
 var
-aO=Z;var
+aO=_;var
 aP=aO}else
 var
-aP=Y;var
-$=aP}else
+aP=Z;var
+aa=aP}else
 var
-$=aK}else
+aa=aK}else
 var
-$=aJ;return $}return aW}var
+aa=aJ;return aa}return aW}var
 bl=bi}else
 var
-bl=ar;return bl}var
+bl=as;return bl}var
 Q=u[2];if(Q){var
 R=Q[2];if(R){var
 S=R[2];if(S){if(S[2])return 0;var
-bm=gL(t,k(s,u[3]));if(bm[2])return 0;var
+bm=gN(t,k(s,u[3]));if(bm[2])return 0;var
 v=u[4];if(typeof
 v==="number")var
-g=oU;else
+g=oX;else
 if(0===v[0]){var
 ah=v[2],ai=v[1];if(ah){var
-H=ah[1],aA=0;if(H){var
-I=H[2],W=0;if(I){var
-K=I[2],X=0;if(K)if(K[2]){var
-g=0;W=1;X=1}else{var
+H=ah[1],az=0;if(H){var
+I=H[2],X=0;if(I){var
+K=I[2],Y=0;if(K)if(K[2]){var
+g=0;X=1;Y=1}else{var
 aj=K[1],ak=I[1],am=H[1],ao=ah[2];if(ao){var
-L=ao[1],bD=0;if(L){var
-M=L[2],bF=0;if(M){var
-O=M[2],bG=0;if(O)if(O[2]||ao[2]){var
-g=0;W=1;X=1;bD=1;bF=1;bG=1}else
+L=ao[1],bI=0;if(L){var
+M=L[2],bJ=0;if(M){var
+O=M[2],bK=0;if(O)if(O[2]||ao[2]){var
+g=0;X=1;Y=1;bI=1;bJ=1;bK=1}else
 var
 a9=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,L[1],M[1]],O[1]]]];else
 var
-a9=O;if(!bG)var
+a9=O;if(!bK)var
 a_=a9}else
 var
-a_=M;if(!bF)var
+a_=M;if(!bJ)var
 a$=a_}else
 var
-a$=L;if(!bD){var
-g=a$;W=1;X=1}}else
+a$=L;if(!bI){var
+g=a$;X=1;Y=1}}else
 var
 bc=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,am,ak],aj]]]}else
 var
-bc=K;if(!X)var
+bc=K;if(!Y)var
 bd=bc}else
 var
-bd=I;if(!W){var
-be=bd;aA=1}}else{var
-be=H;aA=1}if(aA)var
+bd=I;if(!X){var
+be=bd;az=1}}else{var
+be=H;az=1}if(az)var
 g=be}else
 var
 bf=[0,[0,e,e],e],g=[0,[0,ai,bf,bf]]}else
 var
 g=[0,[1,v[1],v[2]]];if(g){var
-bn=gM(t,D,es(t,ap,D));if(bn){var
-o=g[1],cc=s(S[1]),cd=s(R[1]),j=[0,s(Q[1]),cd,cc],E=bm[1],at=es(t,ap,D),aT=gy(aa,at,E,j);if(aT)if(typeof
-o==="number")return fM(function(a){switch(a[0]){case
+bn=gP(t,D,ew(t,ap,D));if(bn){var
+o=g[1],cf=s(S[1]),cg=s(R[1]),j=[0,s(Q[1]),cg,cf],E=bm[1],au=ew(t,ap,D),aT=gA(W,au,E,j);if(aT)if(typeof
+o==="number")return dW(function(a){switch(a[0]){case
 0:var
-c=[0,cu(a[1],a[2],a[3],a[4],j)];break;case
+c=[0,cw(a[1],a[2],a[3],a[4],j)];break;case
 1:var
 d=a[2],f=a[1],g=br(f,d,j),c=[0,J(br(f,d,j),g)];break;default:var
-c=0}return c?w(aa,0,[2,[0,e,b],c[1]]):c},E);else{if(0===o[0]){var
-ad=by(at[3],o[1]);if(ad){var
-b4=ad[1],b5=gA(o[3]);return gC(aa,E,j,gA(o[2]),b5,b4)}return ad}var
-ae=by(at[3],o[1]);if(ae){var
+c=0}return c?w(W,0,[2,[0,e,b],c[1]]):c},E);else{if(0===o[0]){var
+ad=by(au[3],o[1]);if(ad){var
+b7=ad[1],b8=gC(o[3]);return gE(W,E,j,gC(o[2]),b8,b7)}return ad}var
+ae=by(au[3],o[1]);if(ae){var
 af=by(E,o[2]);if(af){var
-aU=af[1],b6=ae[1],b7=b0(aU,j);return gC(aa,E,j,b0(aU,j),b7,b6)}var
+aU=af[1],b9=ae[1],b_=b2(aU,j);return gE(W,E,j,b2(aU,j),b_,b9)}var
 aV=af}else
 var
 aV=ae;return aV}return aT}var
@@ -3422,92 +3439,96 @@ T=n[3],aB=0;if(T){var
 z=T[1],a3=z[5],h=T[2];if(z[1]||z[2]||z[3])var
 l=0;else
 if(z[4]){var
-bH=0;if(h){var
+bL=0;if(h){var
 A=h[1];if(A[1]||A[2]||A[3]||A[4]||h[2]){var
-l=0;bH=1}else
+l=0;bL=1}else
 var
-b_=s(a3),a4=[0,[0,s(A[5]),b_]]}else
+cb=s(a3),a4=[0,[0,s(A[5]),cb]]}else
 var
-a4=h;if(!bH)var
+a4=h;if(!bL)var
 l=a4}else{var
 aC=0;if(h){var
 C=h[1];if(C[1]||C[2]||C[3]){var
 l=0;aC=1}else{var
-a5=C[4],bI=0;if(a5)if(h[2]){var
-l=0;aC=1;bI=1}else
+a5=C[4],bM=0;if(a5)if(h[2]){var
+l=0;aC=1;bM=1}else
 var
-b$=s(C[5]),a6=[0,[0,s(a3),b$]];else
+cc=s(C[5]),a6=[0,[0,s(a3),cc]];else
 var
-a6=a5;if(!bI)var
+a6=a5;if(!bM)var
 a7=a6}}else
 var
 a7=h;if(!aC){var
 a8=a7;aB=1}}}else{var
 a8=T;aB=1}if(aB)var
 l=a8;if(l){var
-bv=l[1],bw=bv[2],bx=bv[1],aX=w(aa,1,s(n[2])),aY=aX?w(aa,1,[2,bw,[0,b,b]]):aX,aZ=aY?w(aa,1,bx):aY;return aZ?w(aa,0,[2,[4,[0,b,b],bw],bx]):aZ}return l}return 0;default:var
-bA=n[1];if(bA){var
-au=i[2];if(0===au[0]){var
-av=et(oY,au[2]);if(av){var
-ce=av[1],bC=cw(bA[1])[2],V=au[1],ab=bB(V,e,bC);if(ab){var
-ac=bB(V,e,[4,[0,b,b],bC]);if(ac){var
-b3=ab[1][1],aQ=al(ck(V),b3);if(aQ)return gw(V,ac[1][1],ce);var
+bv=l[1],bw=bv[2],bx=bv[1],aX=w(W,1,s(n[2])),aY=aX?w(W,1,[2,bw,[0,b,b]]):aX,aZ=aY?w(W,1,bx):aY;return aZ?w(W,0,[2,[4,[0,b,b],bw],bx]):aZ}return l}return 0;default:var
+bB=n[1];if(bB){var
+bD=bB[1],av=i[2];if(0===av[0]){var
+aw=ex(o2,av[2]);if(aw){var
+bE=gO(bD);if(bE){var
+ch=aw[1],bG=cy(bD)[2],V=av[1],ab=bC(V,e,bG);if(ab){var
+ac=bC(V,e,[4,[0,b,b],bG]);if(ac){var
+b6=ab[1][1],aQ=al(cm(V),b6);if(aQ)return gy(V,ac[1][1],ch);var
 aR=aQ}else
 var
 aR=ac;var
 aS=aR}else
 var
-aS=ab;return aS}return av}return 0}var
-aw=i[2];if(0===aw[0]){var
-ax=et(oZ,aw[2]);return ax?gw(aw[1],e,ax[1]):ax}return 0}}return P}var
-q=[Q,o2,dt(0)],gN=[Q,o3,dt(0)];function
-o0(O,e){var
-I=[0,g(oj,au(e[4])),0],J=[0,g(ol,ad([0,g(ok,au(e[3])),I])),0],c=e[2];if(0===c[0])var
-A=[0,g(n9,V(k(n6,c[2]))),0],n=ae(n$,ad([0,g(n_,em(c[1])),A]));else{var
+aS=ab;return aS}var
+bH=bE}else
+var
+bH=aw;return bH}return 0}var
+ax=i[2];if(0===ax[0]){var
+ay=ex(o3,ax[2]);return ay?gy(ax[1],e,ay[1]):ay}return 0}}return P}var
+q=[Q,o6,du(0)],gQ=[Q,o7,du(0)];function
+o4(O,e){var
+I=[0,g(om,av(e[4])),0],J=[0,g(oo,ad([0,g(on,av(e[3])),I])),0],c=e[2];if(0===c[0])var
+A=[0,g(oa,V(k(n9,c[2]))),0],n=ae(oc,ad([0,g(ob,ep(c[1])),A]));else{var
 d=c[4],f=c[3],B=0;if(typeof
 d==="number")var
-h=au(oa);else
+h=av(od);else
 if(0===d[0])var
-G=[0,V(k(eq,d[2])),0],h=ae(og,V([0,b1(d[1]),G]));else
+G=[0,V(k(eu,d[2])),0],h=ae(oj,V([0,b3(d[1]),G]));else
 var
-H=[0,b1(d[2]),0],h=ae(oh,V([0,b1(d[1]),H]));var
-C=[0,g(ob,h),B],D=f?[0,g(oc,V(k(ah,f))),0]:f,E=m(D,C),F=[0,g(od,V(k(ah,c[2]))),0],n=ae(of,ad(m([0,g(oe,em(c[1])),F],E)))}var
-K=[0,g(om,n),J],L=0===e[2][0]?on:os,M=[0,g(oo,au(L)),K],b=e[1];switch(b[0]){case
+H=[0,b3(d[2]),0],h=ae(ok,V([0,b3(d[1]),H]));var
+C=[0,g(oe,h),B],D=f?[0,g(of,V(k(ah,f))),0]:f,E=m(D,C),F=[0,g(og,V(k(ah,c[2]))),0],n=ae(oi,ad(m([0,g(oh,ep(c[1])),F],E)))}var
+K=[0,g(op,n),J],L=0===e[2][0]?oq:ov,M=[0,g(or,av(L)),K],b=e[1];switch(b[0]){case
 0:var
-u=[0,g(nI,V(k(gF,b[3]))),0],a=b[2];if(0===a[0])var
-p=[0,g(nB,ep(ah,a[2])),0],j=ae(nD,ad([0,g(nC,ep(ah,a[1])),p]));else
+u=[0,g(nL,V(k(gH,b[3]))),0],a=b[2];if(0===a[0])var
+p=[0,g(nE,es(ah,a[2])),0],j=ae(nG,ad([0,g(nF,es(ah,a[1])),p]));else
 var
-q=[0,ah(a[5]),0],r=[0,g(nE,V([0,ah(a[4]),q])),0],s=[0,g(nF,ah(a[3])),r],t=[0,ah(a[2]),0],j=ae(nH,ad([0,g(nG,V([0,ah(a[1]),t])),s]));var
-v=[0,g(nJ,j),u],i=ae(nM,ad([0,g(nL,ae(nK,V(k(m4,b[1])))),v]));break;case
+q=[0,ah(a[5]),0],r=[0,g(nH,V([0,ah(a[4]),q])),0],s=[0,g(nI,ah(a[3])),r],t=[0,ah(a[2]),0],j=ae(nK,ad([0,g(nJ,V([0,ah(a[1]),t])),s]));var
+v=[0,g(nM,j),u],i=ae(nP,ad([0,g(nO,ae(nN,V(k(m7,b[1])))),v]));break;case
 1:var
-w=[0,g(nN,V(k(gF,b[3]))),0],x=[0,g(nQ,ae(nP,ad([0,g(nO,ah(b[2])),0]))),w],i=ae(nU,ad([0,g(nT,ae(nS,ad([0,g(nR,ah(b[1])),0]))),x]));break;default:var
-l=b[1],y=0,z=l?eo(l[1]):au(nX),i=ae(nW,ad([0,g(nV,z),y]))}var
-N=[0,g(op,i),M],o=aD(fn(o1,m(ad([0,g(or,au(oq)),N]),oi)),O);return o?oX(e):o}function
+w=[0,g(nQ,V(k(gH,b[3]))),0],x=[0,g(nT,ae(nS,ad([0,g(nR,ah(b[2])),0]))),w],i=ae(nX,ad([0,g(nW,ae(nV,ad([0,g(nU,ah(b[1])),0]))),x]));break;default:var
+l=b[1],y=0,z=l?er(l[1]):av(n0),i=ae(nZ,ad([0,g(nY,z),y]))}var
+N=[0,g(os,i),M],o=ax(fr(o5,m(ad([0,g(ou,av(ot)),N]),ol)),O);return o?o1(e):o}function
 ai(a){if(0===a[0])return a[1];throw q}function
-aB(a){if(1===a[0])return a[1];throw q}function
+aC(a){if(1===a[0])return a[1];throw q}function
 bc(a){if(2===a[0])return a[1];throw q}function
-cx(a){if(3===a[0])return a[1];throw q}function
+cz(a){if(3===a[0])return a[1];throw q}function
 aY(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===rm(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===rq(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
 a=aY(c,b);if(a)return a[1];throw q}function
-da(b,a){var
+db(b,a){var
 c=a?[0,d(b,a[1])]:a;return c}function
-cy(a){switch(a[0]){case
+cA(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],o4]}throw q}function
-db(e,d){var
-a=aE(e,aB(d));if(a){var
+2:return[0,a[1],o8]}throw q}function
+dc(e,d){var
+a=aE(e,aC(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw q}function
-dc(i){var
-f=bh(i),d=[0,0],e=av(f)-1|0;if(!(e<0)){var
+dd(i){var
+f=bh(i),d=[0,0],e=aw(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=b7(f,c)+ey|0;if(9<g>>>0)throw q;switch(g){case
+a=d[1],g=b9(f,c)+eC|0;if(9<g>>>0)throw q;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -3529,37 +3550,37 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-cz(a){return fI(dc(a))}function
-gO(b){var
-a=cx(b);return 45===G(a,0)?H(cz(cM(a,1,n(a)-1|0))):cz(a)}function
-gP(a){return dS(cz(cx(a)))}function
-gQ(a){return fH(cz(cx(a)))}function
-b2(c){var
-a=cx(c);if(6<n(a))throw q;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(e4(a))}function
-gR(c){var
+cB(a){return fL(dd(a))}function
+gR(b){var
+a=cz(b);return 45===G(a,0)?H(cB(cO(a,1,n(a)-1|0))):cB(a)}function
+gS(a){return dU(cB(cz(a)))}function
+gT(a){return fK(cB(cz(a)))}function
+b4(c){var
+a=cz(c);if(6<n(a))throw q;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(e8(a))}function
+gU(c){var
 g=n(c),a=[0,0];function
 b(d){var
 b=a[1]<g?1:0,e=b?G(c,a[1])===d?1:0:b;return e}function
 k(d){var
-b=a[1];for(;;){if(a[1]<g&&48<=G(c,a[1])&&!(57<G(c,a[1]))){a[1]++;continue}return cM(c,b,a[1]-b|0)}}function
+b=a[1];for(;;){if(a[1]<g&&48<=G(c,a[1])&&!(57<G(c,a[1]))){a[1]++;continue}return cO(c,b,a[1]-b|0)}}function
 m(c){a[1]++;var
 e=d(c+1|0);if(b(41)){a[1]++;return e}throw q}function
 h(i){if(64<i)throw q;if(b(45)){a[1]++;return[1,h(i+1|0)]}if(b(40))var
 d=m(i);else{var
-u=0;if((a[1]+5|0)<=g&&aD(cM(c,a[1],5),o6)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=g&&ax(cO(c,a[1],5),o_)){a[1]=a[1]+4|0;var
 d=[4,m(i)]}else
 u=1;if(u){var
-f=k(0),o=b(46),p=o?(a[1]++,[0,k(0)]):o,r=aD(f,o7);if(r)var
+f=k(0),o=b(46),p=o?(a[1]++,[0,k(0)]):o,r=ax(f,o$);if(r)var
 s=r;else
 var
 t=1<n(f)?1:0,s=t?48===G(f,0)?1:0:t;if(s)throw q;if(p){var
-j=p[1],v=0;if(aD(j,o8)||48===G(j,n(j)-1|0))v=1;else
+j=p[1],v=0;if(ax(j,pa)||48===G(j,n(j)-1|0))v=1;else
 var
-w=dc(j),d=[0,dc(f),w];if(v)throw q}else
+w=dd(j),d=[0,dd(f),w];if(v)throw q}else
 var
-d=[0,dc(f),0]}}if(b(94)){a[1]++;var
-e=k(0);if(l(e,o5)){if(!(2<n(e))&&2<=e4(e)&&!(64<e4(e)))return[3,d,dS(cz(e))];throw q}throw q}return d}function
+d=[0,dd(f),0]}}if(b(94)){a[1]++;var
+e=k(0);if(l(e,o9)){if(!(2<n(e))&&2<=e8(e)&&!(64<e8(e)))return[3,d,dU(cB(e))];throw q}throw q}return d}function
 e(d){var
 c=h(d);for(;;){if(b(42)){a[1]++;var
 c=[2,2,c,h(d)];continue}if(b(47)){a[1]++;var
@@ -3569,24 +3590,24 @@ c=e(d);for(;;){if(b(43)){a[1]++;var
 c=[2,0,c,e(d)];continue}if(b(45)){a[1]++;var
 c=[2,1,c,e(d)];continue}return c}}var
 f=d(0);if(a[1]<g)throw q;return f}function
-aC(a){return gR(bc(a))}function
-dd(a){if(2===a[0])return[0,gR(a[1])];var
-b=ai(a),c=aC(r(b,o9));return[1,aC(r(b,o_)),c]}function
-aJ(a){throw[0,gN,S(fn(pa,a),o$)]}function
-gS(g){var
+aD(a){return gU(bc(a))}function
+de(a){if(2===a[0])return[0,gU(a[1])];var
+b=ai(a),c=aD(r(b,pb));return[1,aD(r(b,pc)),c]}function
+aJ(a){throw[0,gQ,S(fr(pe,a),pd)]}function
+gV(g){var
 b=ai(g);function
-a(a){return db(dd,r(b,a))}var
-c=bc(r(b,pd));if(l(c,pe)){if(l(c,pf)){if(l(c,pg))return aJ([0,pi,[0,c,ph]]);var
-h=aY(b,pj),i=da(function(a){return db(dd,a)},h),j=a(pk);return[1,a(pl),j,i]}var
-d=bc(r(b,pm));if(l(d,pb)){var
-e=l(d,pc);if(e)throw q;var
+a(a){return dc(de,r(b,a))}var
+c=bc(r(b,ph));if(l(c,pi)){if(l(c,pj)){if(l(c,pk))return aJ([0,pm,[0,c,pl]]);var
+h=aY(b,pn),i=db(function(a){return dc(de,a)},h),j=a(po);return[1,a(pp),j,i]}var
+d=bc(r(b,pq));if(l(d,pf)){var
+e=l(d,pg);if(e)throw q;var
 f=e}else
 var
 f=1;var
-k=dd(r(b,pn)),m=a(po),n=a(pp);return[0,a(pq),n,m,k,f]}return[2,a(pr)]}function
-ps(h){var
-c=ai(h),b=bc(r(c,pt));if(l(b,pu))if(l(b,pv))if(l(b,pw))if(l(b,px))if(l(b,py))if(l(b,pz))if(l(b,pA))var
-e=l(b,pB),a=e?aJ([0,pD,[0,b,pC]]):e;else
+k=de(r(b,pr)),m=a(ps),n=a(pt);return[0,a(pu),n,m,k,f]}return[2,a(pv)]}function
+pw(h){var
+c=ai(h),b=bc(r(c,px));if(l(b,py))if(l(b,pz))if(l(b,pA))if(l(b,pB))if(l(b,pC))if(l(b,pD))if(l(b,pE))var
+e=l(b,pF),a=e?aJ([0,pH,[0,b,pG]]):e;else
 var
 a=6;else
 var
@@ -3601,41 +3622,41 @@ var
 a=7;else
 var
 a=3;var
-d=bc(r(c,pE));if(l(d,pF))var
-f=l(d,pG),g=f?aJ([0,pI,[0,d,pH]]):f;else
+d=bc(r(c,pI));if(l(d,pJ))var
+f=l(d,pK),g=f?aJ([0,pM,[0,d,pL]]):f;else
 var
 g=1;function
 i(m){var
 b=ai(m),e=0;if(2===a){if(b){var
-g=b[1];if(!l(g[1],pJ)){var
+g=b[1];if(!l(g[1],pN)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!b[2]){var
 i=c[1];e=1}}}}}else
 if(6===a&&b){var
-j=b[1];if(!l(j[1],pK)){var
+j=b[1];if(!l(j[1],pO)){var
 k=j[2];if(1===k[0]){var
 d=k[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!b[2])return aJ(pL)}}}if(e)return aC(i);throw q}var
-j=aC(r(c,pM)),k=da(i,aY(c,pN));return[0,a,da(b2,aY(c,pO)),k,g,j]}function
-gT(c,e){var
-a=aB(e);if(a){var
+i=d[1];e=1;f=1}if(!f&&!b[2])return aJ(pP)}}}if(e)return aD(i);throw q}var
+j=aD(r(c,pQ)),k=db(i,aY(c,pR));return[0,a,db(b4,aY(c,pS)),k,g,j]}function
+gW(c,e){var
+a=aC(e);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=d(c,b[1]);return[0,d(c,a[1]),f]}}throw q}function
-gU(a){return aE(gO,aB(a))}function
-gV(o,e){function
+gX(a){return aE(gR,aC(a))}function
+gY(o,e){function
 p(c,b){var
-a=gU(b);if(dE(a)!==c)throw q;return a}switch(e[0]){case
+a=gX(b);if(dF(a)!==c)throw q;return a}switch(e[0]){case
 0:var
 b=e[1];if(b){var
-d=b[1],a=d[1],c=0;if(l(a,qh))if(l(a,qi))if(l(a,qj)){var
-y=0;if(l(a,qk)&&l(a,ql)&&l(a,qm))y=1;if(!y)if(b[2])c=1;else{var
+d=b[1],a=d[1],c=0;if(l(a,ql))if(l(a,qm))if(l(a,qn)){var
+y=0;if(l(a,qo)&&l(a,qp)&&l(a,qq))y=1;if(!y)if(b[2])c=1;else{var
 z=d[2],t=z,s=function(c,b){return[1,a,c,b]};c=2}}else{var
 w=d[2];if(1===w[0]){var
 f=w[1];if(f){var
 g=f[2];if(g){var
 h=g[2];if(h&&!h[2]){if(!b[2]){var
-C=gQ(h[1]),D=gO(g[1]);return[4,gV(o,f[1]),D,C]}c=1}}}}}else{if(!b[2]){var
-k=bc(d[2]),m=l(k,qf);if(m){if(l(k,qg))throw q;var
+C=gT(h[1]),D=gR(g[1]);return[4,gY(o,f[1]),D,C]}c=1}}}}}else{if(!b[2]){var
+k=bc(d[2]),m=l(k,qj);if(m){if(l(k,qk))throw q;var
 n=1}else
 var
 n=m;return[2,n]}c=1}else{var
@@ -3643,15 +3664,15 @@ x=d[2];if(1===x[0]){var
 i=x[1];if(i){var
 j=i[2];if(j&&!j[2])if(b[2])c=1;else{var
 E=j[1],F=i[1],t=F,s=function(b,a){return[3,b,a,p(4,E)]};c=2}}}}switch(c){case
-0:if(!b[2])return aJ([0,qo,[0,a,qn]]);break;case
+0:if(!b[2])return aJ([0,qs,[0,a,qr]]);break;case
 1:break;default:var
-u=ai(t),A=aB(r(u,qp)),B=3,v=aE(function(a){return p(B,a)},A);if(dE(v)!==o)throw q;return s(v,gQ(r(u,qq)))}}break;case
+u=ai(t),A=aC(r(u,qt)),B=3,v=aE(function(a){return p(B,a)},A);if(dF(v)!==o)throw q;return s(v,gT(r(u,qu)))}}break;case
 2:return[0,e[1]]}throw q}function
-qM(f){var
+qQ(f){var
 h=n(f),a=[0,0];function
 i(b){if(a[1]<h)return G(f,a[1]);throw q}function
 j(b){if(i(0)===b){a[1]++;return 0}throw q}function
-M(b,c){for(;;){if(a[1]<h&&d(c,G(f,a[1]))){a[1]++;continue}return cM(f,b,a[1]-b|0)}}function
+M(b,c){for(;;){if(a[1]<h&&d(c,G(f,a[1]))){a[1]++;continue}return cO(f,b,a[1]-b|0)}}function
 N(d){j(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -3673,58 +3694,58 @@ a=N(0);j(58);return[0,a,t(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2
 h=a[1];a[1]++;return[3,M(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw q}var
 ab=t(0,0),P=a[1]<h?1:0,ac=P?10===G(f,a[1])?1:0:P;if(ac)a[1]++;if(a[1]<h)throw q;var
-p=ai(ab);if(l(bc(r(p,qN)),qO))throw q;var
-u=cy(r(p,qP)),v=u[1];if(l(v,pP))if(l(v,pQ))var
-b=aJ([0,pS,[0,v,pR]]);else{var
-w=r(ai(u[2]),pT),$=0;if(2===w[0]){var
-R=l(w[1],pU);if(!R){var
+p=ai(ab);if(l(bc(r(p,qR)),qS))throw q;var
+u=cA(r(p,qT)),v=u[1];if(l(v,pT))if(l(v,pU))var
+b=aJ([0,pW,[0,v,pV]]);else{var
+w=r(ai(u[2]),pX),$=0;if(2===w[0]){var
+R=l(w[1],pY);if(!R){var
 Q=R;$=1}}if(!$)var
-Q=[0,dd(w)];var
+Q=[0,de(w)];var
 b=[2,Q]}else{var
-c=ai(u[2]),x=function(a){return aE(ps,aB(r(c,pV)))},y=cy(r(c,pW)),e=cy(r(c,pX)),aa=0;if(0===aY(c,pY)&&0===aY(c,pZ)){var
-z=y[1],g=0;if(l(z,p0)){if(!l(z,p1)){var
-A=e[1],S=y[2];if(l(A,p4))if(l(A,p5)){var
-b=aJ([0,p7,[0,A,p6]]);g=1}else{var
-B=ai(e[2]),T=gT(aC,r(B,p8)),U=gT(aC,r(B,p9)),ad=x(0),ae=U[2],af=U[1],ag=aC(r(B,p_)),ah=[1,T[1],T[2],ag,af,ae],b=[0,aE(gS,aB(S)),ah,ad];g=1}else{var
-V=ai(e[2]),aj=db(aC,r(V,p$)),ak=[0,db(aC,r(V,qa)),aj],al=x(0),b=[0,aE(gS,aB(S)),ak,al];g=1}}}else
-if(!l(e[1],qb)){var
-am=x(0),an=aC(r(ai(e[2]),qc)),b=[1,aC(r(ai(y[2]),qd)),an,am];g=1}if(!g)var
-b=aJ([0,p3,[0,z,p2]])}else
+c=ai(u[2]),x=function(a){return aE(pw,aC(r(c,pZ)))},y=cA(r(c,p0)),e=cA(r(c,p1)),aa=0;if(0===aY(c,p2)&&0===aY(c,p3)){var
+z=y[1],g=0;if(l(z,p4)){if(!l(z,p5)){var
+A=e[1],S=y[2];if(l(A,p8))if(l(A,p9)){var
+b=aJ([0,p$,[0,A,p_]]);g=1}else{var
+B=ai(e[2]),T=gW(aD,r(B,qa)),U=gW(aD,r(B,qb)),ad=x(0),ae=U[2],af=U[1],ag=aD(r(B,qc)),ah=[1,T[1],T[2],ag,af,ae],b=[0,aE(gV,aC(S)),ah,ad];g=1}else{var
+V=ai(e[2]),aj=dc(aD,r(V,qd)),ak=[0,dc(aD,r(V,qe)),aj],al=x(0),b=[0,aE(gV,aC(S)),ak,al];g=1}}}else
+if(!l(e[1],qf)){var
+am=x(0),an=aD(r(ai(e[2]),qg)),b=[1,aD(r(ai(y[2]),qh)),an,am];g=1}if(!g)var
+b=aJ([0,p7,[0,z,p6]])}else
 aa=1;if(aa)var
-b=aJ(qe)}var
-au=0===b[0]?dE(b[1]):3,I=cy(r(p,qQ)),J=I[1];if(l(J,qC))if(l(J,qD))var
-L=aJ([0,qF,[0,J,qE]]);else{var
-m=ai(I[2]),K=aY(m,qG),aq=K?aE(aC,aB(K[1])):K,C=cy(r(m,qH)),k=C[1],s=0;if(l(k,qx)){var
-W=l(k,qy);if(W){if(!l(k,qz)){var
+b=aJ(qi)}var
+au=0===b[0]?dF(b[1]):3,I=cA(r(p,qU)),J=I[1];if(l(J,qG))if(l(J,qH))var
+L=aJ([0,qJ,[0,J,qI]]);else{var
+m=ai(I[2]),K=aY(m,qK),aq=K?aE(aD,aC(K[1])):K,C=cA(r(m,qL)),k=C[1],s=0;if(l(k,qB)){var
+W=l(k,qC);if(W){if(!l(k,qD)){var
 X=C[2];if(1===X[0]){var
 D=X[1];if(D){var
 E=D[2];if(E&&!E[2]){var
-ao=b2(E[1]),o=[1,b2(D[1]),ao];s=1}}}}}else{var
+ao=b4(E[1]),o=[1,b4(D[1]),ao];s=1}}}}}else{var
 o=W;s=1}}else{var
 Y=C[2];if(1===Y[0]){var
 F=Y[1];if(F){var
 H=F[2];if(H&&!H[2]){var
-ap=aE(gU,aB(H[1])),o=[0,b2(F[1]),ap];s=1}}}}if(!s)var
-o=aJ([0,qB,[0,k,qA]]);var
-ar=aE(aC,aB(r(m,qI))),L=[1,gP(r(m,qJ)),ar,aq,o]}else
+ap=aE(gX,aC(H[1])),o=[0,b4(F[1]),ap];s=1}}}}if(!s)var
+o=aJ([0,qF,[0,k,qE]]);var
+ar=aE(aD,aC(r(m,qM))),L=[1,gS(r(m,qN)),ar,aq,o]}else
 var
-Z=ai(I[2]),as=aB(r(Z,qK)),at=aE(function(f){var
-a=ai(f);if(0!==aY(a,qt))aJ(qu);var
-d=da(b2,aY(a,qv)),b=aY(a,qw);if(b)var
-e=aB(b[1]),c=aE(function(g){var
-b=aB(g);if(b){var
+Z=ai(I[2]),as=aC(r(Z,qO)),at=aE(function(f){var
+a=ai(f);if(0!==aY(a,qx))aJ(qy);var
+d=db(b4,aY(a,qz)),b=aY(a,qA);if(b)var
+e=aC(b[1]),c=aE(function(g){var
+b=aC(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],qr)){if(!a[2]){if(l(cx(e),qs))throw q;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],qv)){if(!a[2]){if(l(cz(e),qw))throw q;d=1}}else
 d=1;if(d&&!a[2]){var
-f=gV(au,c);return[0,b2(e),f]}}}throw q},e);else
+f=gY(au,c);return[0,b4(e),f]}}}throw q},e);else
 var
-c=b;return[0,c,d]},as),L=[0,gP(r(Z,qL)),at];var
-_=ai(r(p,qR)),av=bc(r(_,qS));return[0,b,L,bc(r(_,qT)),av]}function
-qU(c){try{try{var
-d=0,a=qM(c);d=1}catch(a){a=dA(a);if(a[1]===gN)var
+c=b;return[0,c,d]},as),L=[0,gS(r(Z,qP)),at];var
+_=ai(r(p,qV)),av=bc(r(_,qW));return[0,b,L,bc(r(_,qX)),av]}function
+qY(c){try{try{var
+d=0,a=qQ(c);d=1}catch(a){a=dB(a);if(a[1]===gQ)var
 b=[0,a[2]];else{if(a!==q)throw a;var
 b=2}}if(d)var
-b=o0(c,a)?0===a[2][0]?0:1:2}catch(a){return qV}if(typeof
+b=o4(c,a)?0===a[2][0]?0:1:2}catch(a){return qZ}if(typeof
 b==="number")switch(b){case
-0:return qW;case
-1:return qX;default:return qY}return S(qZ,b[1])}r2.orthocert_verify=rI(function(b){return bk(qU(a(b)))});dD(0);return}(globalThis));
+0:return q0;case
+1:return q1;default:return q2}return S(q3,b[1])}r6.orthocert_verify=rM(function(b){return bk(qY(a(b)))});dE(0);return}(globalThis));
