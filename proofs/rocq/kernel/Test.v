@@ -253,14 +253,13 @@ Definition sigma_min (m : nat) (k : slope) (places : N) (Y : list (list Z)) (r :
 Lemma diagonal_in : forall a c n, contains a c -> triangle_in bits (repeat [a] n) (diagonal n c).
 Proof. intros a c n h. unfold diagonal, triangle_in. induction n; cbn [repeat]; constructor; auto. Qed.
 
-Theorem sigma_min_sound : forall k places Y r es e lambda v,
+(** What definite matrices at the vertices show, of rows with any D. *)
+Lemma sigma_min_form : forall k places Y r es e lambda v,
   sigma_min (length lambda) k places Y r = true -> entry_in k e ->
-  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
-  length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
-  at_lambda lambda e * dot v v < energy (map_rows (at_lambda lambda) es) v.
+  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda -> length v = length lambda -> nonzero v ->
+  at_lambda lambda e * dot v v < form (lower_weights places Y v) (map_rows (at_lambda lambda) es) v.
 Proof.
-  intros k places Y r es e lambda v h hk hr hl len nz hp.
-  pose proof (lower_energy places Y _ v hp) as q.
+  intros k places Y r es e lambda v h hk hr hl len nz.
   pose proof (at_vertices_sound _ _ _ _ ((0, - dot v v) :: lower_weights places Y v) 0 v h (with_bound_rel _ _ _ _ hk hr) hl) as V.
   rewrite map_rows_cons in V. cbn [form] in V.
   enough (0 < 0 + (0 * dot (map (at_lambda lambda) []) v + - dot v v * at_lambda lambda e + form (lower_weights places Y v)
@@ -272,6 +271,16 @@ Proof.
   pose proof (is_positive_definite_sound bits _ T t hT v) as P.
   rewrite <- len, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hT) in l. specialize (P ltac:(congruence) nz).
   cbn [form]. lra.
+Qed.
+
+Theorem sigma_min_sound : forall k places Y r es e lambda v,
+  sigma_min (length lambda) k places Y r = true -> entry_in k e ->
+  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
+  length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
+  at_lambda lambda e * dot v v < energy (map_rows (at_lambda lambda) es) v.
+Proof.
+  intros k places Y r es e lambda v h hk hr hl len nz hp. apply Rlt_le_trans with (2 := lower_energy places Y _ v hp).
+  eapply sigma_min_form; eassumption.
 Qed.
 
 (** ** sigma_max: [[D, A], [A^T, k^2 I]], the D_i eliminated first *)
@@ -375,18 +384,8 @@ Proof.
     by (eapply map_related; [| exact hr]; intros a b [k _]; split; [exact k | exact Z]).
   assert (E : map_rows (at_lambda lambda) es0 = map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)).
   { unfold es0, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. unfold at_lambda at 2. cbn. f_equal. ring. }
-  pose proof (at_vertices_sound _ _ _ _ ((0, - dot v v) :: lower_weights places Y v) 0 v h (with_bound_rel _ _ _ _ Z R0) hl) as V.
-  rewrite map_rows_cons, E in V. cbn [form] in V.
-  enough (0 < 0 + (0 * dot (map (at_lambda lambda) []) v + - dot v v * at_lambda lambda (0, []) + form (lower_weights places Y v)
-    (map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)) v)) by (replace (at_lambda lambda (0, [])) with 0 in H by (unfold at_lambda; cbn; ring);
-      rewrite Rmult_0_l, Rmult_0_r, !Rplus_0_l in H; exact H).
-  apply V. intros i s t hs. destruct hs as [| [a0 d] [b0 k2] i s [_ hd] hs]; [discriminate |]. cbn [snd] in hd. cbn zeta in t.
-  destruct (Nat.eqb_spec (length (lower_triangle places Y i (repeat [neg d] (length lambda)))) (length lambda)) as [l | l];
-    [| discriminate].
-  destruct (lower_triangle_sound places Y i s _ _ v hs (diagonal_in _ _ (length lambda) (neg_sound bits _ _ hd))) as [T [hT le]].
-  pose proof (is_positive_definite_sound bits _ T t hT v) as P.
-  rewrite <- len, quad_diagonal in le. rewrite (related_length _ _ _ _ _ hT) in l. specialize (P ltac:(congruence) nz).
-  cbn [form]. lra.
+  pose proof (sigma_min_form _ _ _ _ _ _ lambda v h Z R0 hl len nz) as F. rewrite E in F.
+  replace (at_lambda lambda (0, [])) with 0 in F by (unfold at_lambda; cbn; ring). rewrite Rmult_0_l in F. exact F.
 Qed.
 
 (** ** A sign at the vertices *)

@@ -390,16 +390,12 @@ Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) 
       match nth_error (require c) i, nth_error ls leg with Some r, Some l => fails ls P (nrow l P) (nrow l P) r | _, _ => false end
   end.
 
-Lemma value_eta : forall d a p len (m : bool) P, value (signed_root m (clearance2 d a p len P))
-  = eta (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1)) (values P).
-Proof. exact value_signed_root. Qed.
-
 Lemma nvector_sound : forall l P v len, nvector l P = Some (v, len) ->
   exists k, leg_of l = Guided k /\ values v = leg_vector k (values P) /\ value len = leg_length k.
 Proof.
   intros [d a p len m | ? ? ? | ?] P v n h; try discriminate. cbn [nvector] in h. injection h as <- <-.
   eexists. split; [reflexivity |]. split; [| reflexivity].
-  rewrite values_plus, values_scaled, values_unit, value_eta, leg_vector_eq,
+  rewrite values_plus, values_scaled, values_unit, value_signed_root, leg_vector_eq,
     (values_across d a p (value len) (if m then 1 else -1) P). reflexivity.
 Qed.
 
@@ -464,7 +460,7 @@ Proof.
     specialize (F (values u) (values v)). nra.
   - destruct F as [k [n j]]. destruct (At i _ n) as [l [e e']]. rewrite e in h. destruct l as [d a p len m | ? ? ? | ?]; try discriminate.
     cbn [leg_of] in e'. injection e' as ->. cbv zeta in h. apply positive_sound in h. cbn [value] in h.
-    rewrite value_eta in h. cbn [leg_length] in j. nra.
+    rewrite value_signed_root in h. cbn [leg_length] in j. nra.
   - destruct F as [k1 [k2 [k3 [e j]]]]. destruct ls as [| x1 [| x2 [| x3 [| x4 rest]]]]; try discriminate. cbn [map] in e.
     injection e as a1 a2 a3.
     destruct (nvector x1 P) as [[v1 l1] |] eqn:q1; [| discriminate]. destruct (nvector x2 P) as [[v2 l2] |] eqn:q2; [| discriminate].
