@@ -2,61 +2,11 @@
 //! others.
 
 use super::sample::Quality;
-use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::Row;
-use std::cell::RefCell;
-
-/// Numbers are the positions of entries in the tape; kept are the two that each one is made of.
-#[derive(Default)]
-struct Positions(RefCell<Vec<[Option<usize>; 2]>>);
-
-impl Positions {
-    fn next(&self, a: Option<&usize>, b: Option<&usize>) -> Option<usize> {
-        let mut all = self.0.borrow_mut();
-        all.push([a.copied(), b.copied()]);
-        Some(all.len() - 1)
-    }
-}
-
-impl Arithmetic for Positions {
-    type Number = usize;
-
-    fn integer(&self, _: i64) -> Option<usize> {
-        self.next(None, None)
-    }
-
-    fn add(&self, a: &usize, b: &usize) -> Option<usize> {
-        self.next(Some(a), Some(b))
-    }
-
-    fn sub(&self, a: &usize, b: &usize) -> Option<usize> {
-        self.next(Some(a), Some(b))
-    }
-
-    fn neg(&self, a: &usize) -> Option<usize> {
-        self.next(Some(a), None)
-    }
-
-    fn mul(&self, a: &usize, b: &usize) -> Option<usize> {
-        self.next(Some(a), Some(b))
-    }
-
-    fn div(&self, a: &usize, b: &usize) -> Option<usize> {
-        self.next(Some(a), Some(b))
-    }
-
-    fn sqr(&self, a: &usize) -> Option<usize> {
-        self.next(Some(a), None)
-    }
-
-    fn sqrt(&self, a: &usize) -> Option<usize> {
-        self.next(Some(a), None)
-    }
-}
 
 /// Of each of these qualities, for each entry of the tape up to the last one whether it is needed.
 pub fn needed(
@@ -64,10 +14,7 @@ pub fn needed(
     radicands: &[Formula],
     qualities: &[Quality],
 ) -> Vec<(Quality, Vec<bool>)> {
-    let positions = Positions::default();
-    let at = problem.tape.run(&positions, |_| positions.next(None, None));
-    let parts = positions.0.into_inner();
-    let entries = |quality: &Quality| {
+    let of = |quality: &Quality| {
         let formulas = match quality {
             Quality::Reach => radicands.to_vec(),
             Quality::Determinant => {
@@ -75,17 +22,9 @@ pub fn needed(
             }
             Quality::Obligation(number) => formulas(problem, &problem.obligations[*number].test),
         };
-        let last = formulas.iter().filter_map(|f| at.of(*f)).max();
-        let mut needed = vec![false; last.map_or(0, |last| last + 1)];
-        formulas.iter().filter_map(|f| at.of(*f)).for_each(|&at| needed[at] = true);
-        for at in (0..needed.len()).rev().filter(|&at| at < parts.len()) {
-            if needed[at] {
-                parts[at].iter().flatten().for_each(|&part| needed[part] = true);
-            }
-        }
-        (*quality, needed)
+        (*quality, problem.tape.parts(&formulas))
     };
-    qualities.iter().map(entries).collect()
+    qualities.iter().map(of).collect()
 }
 
 /// What the margin of a test is computed from.

@@ -304,7 +304,7 @@ impl Tape {
     }
 
     /// Of each entry, whether one of these is made of it.
-    pub(crate) fn parts(&self, of: &[Formula]) -> Vec<bool> {
+    pub fn parts(&self, of: &[Formula]) -> Vec<bool> {
         let mut needed = vec![false; of.iter().map(|f| f.0 + 1).max().unwrap_or(0)];
         of.iter().for_each(|f| needed[f.0] = true);
         for at in (0..needed.len()).rev() {
