@@ -124,9 +124,10 @@ impl<'a> Prover<'a> {
         let touches = |end: fn(&Pair) -> f64| {
             cell.iter().zip(&self.root).all(|(own, root)| end(own) == end(root))
         };
-        let place = Place { edges, touches: [touches(|x| x.0), touches(|x| x.1)] };
+        let place = Place::new(edges, [touches(|x| x.0), touches(|x| x.1)]);
         let slopes = self.checker.slopes(edges.len());
-        let formulas = test::Over { slopes, values, controls: None, inside: None };
+        let formulas =
+            test::Over { slopes, values, controls: None, inside: None, tolerances: None };
         then(&Over { prover: self, formulas: &formulas, place: &place })
     }
 }
@@ -220,7 +221,7 @@ impl Over<'_> {
 
     /// A formula at the centre.
     pub fn centre(&self, f: Formula) -> Option<f64> {
-        self.formulas.of(f).map(|slope| middle(&slope.at_centre))
+        self.formulas.own(f).map(|slope| middle(&slope.at_centre))
     }
 
     /// A formula somewhere. Bounds are not among the formulas at control points.
@@ -228,7 +229,7 @@ impl Over<'_> {
         match at {
             At::Centre => self.centre(f),
             At::Face(k, sign) => {
-                let slope = self.formulas.of(f)?;
+                let slope = self.formulas.own(f)?;
                 Some(middle(&slope.at_centre) + sign * middle(&slope.slopes[k]))
             }
             At::Vertex(v) => {

@@ -465,7 +465,7 @@ fn certify(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Attempt, NotEnclosed> {
-    let problem = Problem::new(claim)?;
+    let problem = Problem::new(claim)?.with_derivatives();
     let prover = Prover::new(&problem)?;
     let ends = Ends { hopeless: true, ..Ends::default() };
     let found = search(&prover, &Branch::whole(&prover), ends, budget, control);

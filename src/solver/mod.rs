@@ -5,6 +5,7 @@
 //! | `doubles`  | what proposals are computed in                                              |
 //! | `evidence` | a problem in doubles, over a box                                            |
 //! | `propose`  | evidence with which the kernel's tests hold on a box                        |
+//! | `apart`    | directions in which tolerances matter most                                  |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
@@ -22,6 +23,7 @@
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
 mod adverse;
+mod apart;
 mod chords;
 mod descent;
 mod directions;
@@ -61,6 +63,8 @@ pub const FINEST: i32 = 26;
 pub(crate) const PRECISIONS: [u32; 4] = [52, 80, 128, 256];
 /// Bits of a machine word's integer part, sign and what a test adds to its formulas' size.
 const GUARD: u32 = 9;
+/// Boxes after which tolerances are taken apart: certificates in ranges are shorter.
+const MOST_IN_RANGES: usize = 2000;
 /// Open boxes from whose centres a violation is looked for.
 const OPEN_CENTRES: usize = 64;
 
@@ -117,7 +121,15 @@ pub fn verify(
     if let Some(witness) = on_the_spot(claim, &problem, &sampler, &worst) {
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
-    let prover = Prover::new(&problem)?;
+    let derived = match in_ranges(&problem, budget, control) {
+        Ok(nodes) => {
+            let boxes = nodes.len();
+            let answer = accepted(claim, &Prover::new(&problem)?, nodes);
+            return Ok(Verification { answer, worst, boxes });
+        }
+        Err(derived) => derived,
+    };
+    let prover = Prover::new(&derived)?;
     let found = search(&prover, &Branch::whole(&prover), Ends::default(), budget, control)
         .expect("the root is a box of the tree");
     let boxes = found.boxes;
@@ -159,7 +171,7 @@ pub fn top(
     enough: usize,
     control: &mut Control<'_>,
 ) -> Result<Option<Outcome>, ClaimError> {
-    let problem = Problem::new(claim)?;
+    let problem = in_parts(claim, control)?;
     let sampler = Sampler::new(claim, &problem)?;
     let worst = sampler.worst_values(FINEST);
     if on_the_spot(claim, &problem, &sampler, &worst).is_some() {
@@ -181,7 +193,7 @@ pub fn below(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Outcome>, ClaimError> {
-    let problem = Problem::new(claim)?;
+    let problem = in_parts(claim, control)?;
     Ok(search(&Prover::new(&problem)?, branch, Ends::default(), budget, control))
 }
 
@@ -210,12 +222,41 @@ pub fn proof(
     control: &mut Control<'_>,
 ) -> Result<Box<Certificate>, Stop> {
     let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
+    let (problem, nodes) = match in_ranges(&problem, budget, control) {
+        Ok(nodes) => (problem, Some(nodes)),
+        Err(derived) => (derived, None),
+    };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
-    let found = from_root(&prover, budget, control)?;
+    let found = nodes.map_or_else(|| from_root(&prover, budget, control), Ok)?;
     match accepted(claim, &prover, found) {
         Answer::Decided { certificate, .. } => Ok(certificate),
         Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
     }
+}
+
+/// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
+fn in_ranges(
+    problem: &Problem,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Vec<Node>, Problem> {
+    let derived = problem.clone().with_derivatives();
+    if derived.derivatives.is_none() {
+        return Err(derived);
+    }
+    let budget = Budget { max_boxes: budget.max_boxes.min(MOST_IN_RANGES), ..budget };
+    let found = Prover::new(problem).map(|prover| from_root(&prover, budget, control));
+    found.ok().and_then(Result::ok).ok_or(derived)
+}
+
+/// The problem of a claim whose tree is grown in parts, the same for all of them.
+fn in_parts(claim: &MachineClaim, control: &mut Control<'_>) -> Result<Problem, ClaimError> {
+    let problem = Problem::new(claim)?;
+    let budget = Budget { max_boxes: usize::MAX, deadline: None };
+    Ok(match in_ranges(&problem, budget, control) {
+        Ok(_) => problem,
+        Err(derived) => derived,
+    })
 }
 
 /// The nodes of a tree on which nothing is open; why there are none, if not.

@@ -26,7 +26,8 @@ const OWN: [f64; 3] = [0.0, 0.3, 0.6];
 impl Over<'_> {
     /// Evidence with which a test holds.
     pub fn evidence(&self, test: &Test) -> Option<Evidence> {
-        self.at_controls(test).or_else(|| self.at_vertices(test))
+        let all_machines = self.at_controls(test).or_else(|| self.at_vertices(test));
+        all_machines.or_else(|| self.with_tolerances_apart(test))
     }
 
     /// At control points, of platforms that turn.
@@ -56,7 +57,7 @@ impl Over<'_> {
         found.map(|inner| Evidence::Control(Box::new(inner)))
     }
 
-    fn at_vertices(&self, test: &Test) -> Option<Evidence> {
+    pub(super) fn at_vertices(&self, test: &Test) -> Option<Evidence> {
         match test {
             Test::SigmaMin(kappa) => self
                 .lower(test, *kappa, Form::Plain)

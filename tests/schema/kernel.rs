@@ -51,6 +51,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Corner(Corner::Q1),
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,
+        Evidence::Tolerances(about(Evidence::Test), "-0+".to_owned(), vec![vec![-3, i64::MAX]]),
         Evidence::Inside(about(Evidence::Test), 1, 0),
         Evidence::Control(about(Evidence::Turned(about(Evidence::Test), 1, 63))),
     ];

@@ -93,6 +93,14 @@ pub struct Tree {
     pub nodes: Vec<Node>,
 }
 
+impl Tree {
+    /// Whether a step has tolerances apart.
+    pub fn takes_tolerances_apart(&self) -> bool {
+        let apart = |Step(_, by): &Step| matches!(by, Evidence::Tolerances(..));
+        self.nodes.iter().flat_map(|node| &node.by).any(apart)
+    }
+}
+
 /// Reads no more nodes than a tree may have: their memory is bounded while they are read, not after.
 fn few<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Node>, D::Error> {
     struct Few;
@@ -174,6 +182,9 @@ pub enum Evidence {
     Mirror,
     /// No point of the workspace is in the cell: every obligation at once.
     Outside,
+    /// The evidence for one machine of the tolerance, less what the others differ by: which one, and a
+    /// direction for each matrix.
+    Tolerances(Box<Evidence>, String, Vec<Vec<i64>>),
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
     Inside(Box<Evidence>, i64, u32),
     /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.
@@ -197,6 +208,7 @@ impl Evidence {
             Evidence::Accuracy(..) => "accuracy",
             Evidence::Direction(_) => "direction",
             Evidence::Negative => "negative",
+            Evidence::Tolerances(..) => "tolerances",
             Evidence::Cube => "cube",
             Evidence::Corner(_) => "corner",
             Evidence::Mirror => "mirror",

@@ -11,7 +11,7 @@ use crate::arithmetic::Arithmetic;
 use std::collections::HashMap;
 
 /// An entry of a [`Tape`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Formula(pub(crate) usize);
 
 /// What an entry is.

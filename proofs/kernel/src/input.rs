@@ -123,6 +123,11 @@ fn shifted(x: Interval<BigInt>, places: i64) -> Interval<BigInt> {
 }
 
 impl Input {
+    /// Whether it has a least and a greatest value.
+    pub fn has_two_ends(&self) -> bool {
+        matches!(self.value, Value::Quantity(Quantity::Between { .. }))
+    }
+
     /// Whether it has names that stand for ranges.
     pub fn varies(&self) -> bool {
         match &self.value {

@@ -15,9 +15,11 @@ use crate::machine;
 use crate::number::{Expression, Operator};
 use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
+use crate::test::tolerances::Derivatives;
 use crate::test::Row;
 use crate::vary;
 use num_bigint::BigInt;
+use std::collections::{BTreeSet, HashMap};
 
 /// A claim, compiled.
 #[derive(Clone, Debug)]
@@ -53,7 +55,12 @@ pub struct Problem {
     pub partial: Vec<Formula>,
     /// The parameters of an atlas that are coordinates of slopes, after those of the workspace.
     pub names: Vec<usize>,
+    /// The tape with the derivatives of tests by tolerances, where they are asked for.
+    pub derivatives: Option<(Tape, Derivatives)>,
 }
+
+/// Most derivatives by tolerances of all formulas and of what they are made of.
+const MOST_DERIVATIVES: usize = 1 << 17;
 
 /// The workspace's own inequality.
 #[derive(Clone, Debug)]
@@ -125,6 +132,7 @@ impl Problem {
             partial: std::mem::take(&mut builder.partial),
             cube_reached: Vec::new(),
             names: Vec::new(),
+            derivatives: None,
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
@@ -156,6 +164,40 @@ impl Problem {
             names.clear();
         }
         names
+    }
+
+    /// With the derivatives of tests by the quantities with two ends; as it is, where there are none of
+    /// these, where the platform turns, or where it takes too many operations.
+    #[must_use]
+    pub fn with_derivatives(self) -> Self {
+        let by = self.inputs.iter().enumerate().filter(|(_, input)| input.has_two_ends());
+        let by: Vec<Op> = by.map(|(j, _)| Op::Parameter(j)).collect();
+        if by.is_empty() || !self.orientation.is_empty() {
+            return self;
+        }
+        let rows = self.legs.iter().flat_map(|leg| leg.row.formulas());
+        let tests = self.obligations.iter().flat_map(|o| o.test.formulas());
+        let formulas: BTreeSet<Formula> = rows.chain(tests).collect();
+        let (mut tape, mut derivatives) = (self.tape.clone(), HashMap::new());
+        let (zero, mut spent) = (tape.integer(0), 0usize);
+        for formula in formulas {
+            let parts = tape.parts(&[formula]);
+            let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part).map(|(_, &op)| op);
+            let own: Vec<Op> = ops().filter(|op| by.contains(op)).collect();
+            spent = spent.saturating_add(own.len().saturating_mul(ops().count()));
+            if spent > MOST_DERIVATIVES {
+                return self;
+            }
+            let gradient = tape.gradient(formula, &own);
+            let mut each = Vec::new();
+            for (&n, &op) in gradient.numerators.iter().zip(&own).filter(|(&n, _)| n != zero) {
+                if let Op::Parameter(j) = op {
+                    each.push((j, tape.div(n, gradient.denominator)));
+                }
+            }
+            derivatives.insert(formula, each);
+        }
+        Problem { derivatives: Some((tape, derivatives)), ..self }
     }
 
     /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
@@ -211,7 +253,13 @@ impl Problem {
         let errors = self.obligations.iter().any(|o| matches!(o.test, quantity::Test::Accuracy(_)));
         let signs = if errors { 1 << (3 * self.dimension()) } else { 0 };
         // Formulas are evaluated a second time over the inflated cell.
-        self.tape.ops().len() * if errors { 2 } else { 1 } + signs
+        let once = self.tape.ops().len() * if errors { 2 } else { 1 } + signs;
+        // And of the middle machine, with derivatives, and at each vertex all changes of a matrix.
+        self.derivatives.as_ref().map_or(once, |(tape, all)| {
+            let changes: usize = all.values().map(Vec::len).sum();
+            let m = self.dimension();
+            once + tape.ops().len() + changes * (1 << m) * (m + 1)
+        })
     }
 
     /// The coordinates.

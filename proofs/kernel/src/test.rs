@@ -24,7 +24,9 @@ pub mod accuracy;
 pub mod apart;
 pub mod curvature;
 pub mod solve;
+pub mod tolerances;
 
+use self::tolerances::{less_changes, Change, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
@@ -40,6 +42,13 @@ pub struct Row<F> {
     pub a: Vec<F>,
     /// The square of the entry of `B`.
     pub d: F,
+}
+
+impl Row<Formula> {
+    /// Its formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = Formula> + '_ {
+        self.a.iter().copied().chain([self.d])
+    }
 }
 
 /// `Y = y / 2^places`.
@@ -79,7 +88,12 @@ pub struct Over<'a, E: Enclosure> {
     /// at the points of the workspace. *Proof.* With the weights of [`Vertex`], `f(x) - t(x)` is a convex
     /// combination of these, and `t(x) >= 0`. ∎
     pub inside: Option<Vec<E::Number>>,
+    /// Where values at vertices are those of one machine: how the others differ. `values` are of all.
+    pub tolerances: Option<&'a Tolerances<'a, E>>,
 }
+
+/// A row at a vertex, and what tolerances change of it.
+type Varied<N> = (Row<N>, Vec<Change<Row<N>>>);
 
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
@@ -90,6 +104,11 @@ impl<E: Enclosure> Over<'_, E> {
         self.values.of(formula)
     }
 
+    /// The value whose vertices are meant: where tolerances are apart, of the one machine.
+    pub fn own(&self, formula: Formula) -> Option<&Slope<E::Number>> {
+        self.tolerances.map_or(self.values, |tolerances| tolerances.machine).of(formula)
+    }
+
     /// The vertices, or control points.
     pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
         Vertex::first(self.controls.map_or(1 << self.slopes.m, Controls::len))
@@ -98,7 +117,7 @@ impl<E: Enclosure> Over<'_, E> {
     /// The value of a formula at a vertex, or control point.
     pub fn at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
         match self.controls {
-            None => vertex.value(&self.slopes, self.of(formula)?),
+            None => vertex.value(&self.slopes, self.own(formula)?),
             Some(controls) => controls.at(formula, vertex.index()).cloned(),
         }
     }
@@ -112,11 +131,15 @@ impl<E: Enclosure> Over<'_, E> {
     }
 
     /// The rows at a vertex.
-    fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Row<E::Number>>> {
+    fn rows(&self, rows: &[Row<Formula>], vertex: Vertex) -> Option<Vec<Varied<E::Number>>> {
         let value = |f: &Formula| self.at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
-            Some(Row { a, d: value(&row.d)? })
+            let formulas: Vec<Formula> = row.formulas().collect();
+            let split = |mut s: Vec<E::Number>| s.pop().map(|d| Row { a: s, d });
+            let changes = self.changes(&formulas, vertex)?.into_iter();
+            let changes = changes.map(|change| change.made(split));
+            Some((Row { a, d: value(&row.d)? }, changes.collect::<Option<_>>()?))
         };
         rows.iter().map(row).collect()
     }
@@ -133,7 +156,7 @@ impl<E: Enclosure> Over<'_, E> {
     fn at_vertices(
         &self,
         rows: &[Row<Formula>],
-        holds: impl Fn(Vertex, Vec<Row<E::Number>>) -> bool,
+        holds: impl Fn(Vertex, Vec<Varied<E::Number>>) -> bool,
     ) -> bool {
         let holds = |v| self.rows(rows, v).is_some_and(|rows| holds(v, rows));
         // No rows at all would have no singular value beyond any bound.
@@ -148,16 +171,23 @@ pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
 }
 
 /// **A sign.** `f >= 0` on the cell if its range is not negative anywhere. Not at control points, of which
-/// a slope knows nothing.
-pub fn at_least<E: Enclosure>(over: &Over<'_, E>, f: &Slope<E::Number>) -> bool {
+/// a slope knows nothing. `f` is made of the `parts`, each added or, where this says so, subtracted.
+pub fn at_least<E: Enclosure>(
+    over: &Over<'_, E>,
+    f: &Slope<E::Number>,
+    parts: &[(Formula, bool)],
+) -> bool {
     let e = over.slopes.arithmetic;
     if over.controls.is_some() {
         return false;
     }
-    if over.inside.is_none() {
+    if over.inside.is_none() && over.tolerances.is_none() {
         return e.is_nonnegative(&f.range);
     }
-    let holds = |v: Vertex| over.less_inside(v.value(&over.slopes, f)?, v);
+    let holds = |v: Vertex| {
+        let least = e.sub(&v.value(&over.slopes, f)?, &over.greatest_loss(parts, v)?)?;
+        over.less_inside(least, v)
+    };
     Vertex::all(over.slopes.m).all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
 }
 
@@ -186,7 +216,7 @@ pub fn sigma_min<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let rest = kappa_squared(v).and_then(|kappa| over.less_inside(e.neg(&kappa)?, v));
-        rest.is_some_and(|rest| is_lower(e, &rows, &rest, evidence))
+        rest.is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
     })
 }
 
@@ -205,30 +235,54 @@ pub fn full_rank<E: Enclosure>(
     let Some(zero) = e.integer(0) else { return false };
     over.at_vertices(rows, |v, rows| {
         let without_d = |row| Row { d: zero.clone(), ..row };
+        let without_d = |(row, changes): Varied<_>| {
+            let changes = changes.into_iter();
+            let changes =
+                changes.map(|Change { s, both_ways }| Change { s: without_d(s), both_ways });
+            (without_d(row), changes.collect())
+        };
         let rows: Vec<_> = rows.into_iter().map(without_d).collect();
         let rest = over.less_inside(zero.clone(), v);
-        rest.is_some_and(|rest| is_lower(e, &rows, &rest, evidence))
+        rest.is_some_and(|rest| is_lower(over, &rows, &rest, evidence))
     })
 }
 
-/// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite.
+/// Whether `Y^T A + A^T Y - Y^T D Y + rest I` is positive definite: for all machines, where tolerances
+/// are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of `2 A_i - D_i Y_i`.
 fn is_lower<E: Enclosure>(
-    e: &E,
-    rows: &[Row<E::Number>],
+    over: &Over<'_, E>,
+    rows: &[Varied<E::Number>],
     rest: &E::Number,
     evidence: &Multiplier,
 ) -> bool {
+    let e = over.slopes.arithmetic;
     let m = width(rows);
+    let (one, direction) = (e.integer(1), over.direction(<[_]>::first, m));
+    let term = |t: Triangle<E::Number>, (row, changes): &Varied<E::Number>, y: &[i64]| {
+        let t = added(e, t, row, (y, evidence.places))?;
+        if changes.is_empty() {
+            return Some(t);
+        }
+        let fixed = |&y: &i64| e.dyadic(y, evidence.places, one.as_ref()?);
+        let fixed: Vec<E::Number> = y.iter().map(fixed).collect::<Option<_>>()?;
+        let half = |row: Row<E::Number>| {
+            let z = residual(e, &row, &row.d, (y, evidence.places))?;
+            z.iter().map(|z| e.halve(z)).collect::<Option<Vec<_>>>()
+        };
+        let changes = changes.iter().map(|change| change.clone().made(half));
+        let changes: Vec<_> = changes.collect::<Option<_>>()?;
+        less_changes(e, t, &fixed, &changes, direction.as_ref()?)
+    };
     let matrix = || {
-        let terms = rows.iter().zip(&evidence.y);
-        terms.fold(scalar(e, m, rest), |t, (row, y)| added(e, t?, row, (y, evidence.places)))
+        let mut terms = rows.iter().zip(&evidence.y);
+        terms.try_fold(scalar(e, m, rest)?, |t, (row, y)| term(t, row, y))
     };
     evidence.is_of(rows.len(), m) && matrix().is_some_and(|t| is_positive_definite(e, t))
 }
 
 /// The columns of `A`.
-fn width<N>(rows: &[Row<N>]) -> usize {
-    rows.first().map_or(0, |row| row.a.len())
+fn width<N>(rows: &[Varied<N>]) -> usize {
+    rows.first().map_or(0, |(row, _)| row.a.len())
 }
 
 /// `c I`.
@@ -246,9 +300,7 @@ fn added<E: Enclosure>(
     (y, places): (&[i64], u32),
 ) -> Option<Triangle<E::Number>> {
     let [_, greatest] = e.ends(&row.d);
-    let residual =
-        |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, &greatest)?);
-    let z: Vec<E::Number> = row.a.iter().zip(y).map(residual).collect::<Option<_>>()?;
+    let z = residual(e, row, &greatest, (y, places))?;
     let half = |i: usize, j: usize| e.dyadic(*y.get(i)?, places + 1, z.get(j)?);
     for (i, entries) in t.iter_mut().enumerate() {
         for (entry, j) in entries.iter_mut().zip(i..) {
@@ -258,12 +310,24 @@ fn added<E: Enclosure>(
     Some(t)
 }
 
+/// `2 A_i - d Y_i`.
+fn residual<E: Enclosure>(
+    e: &E,
+    row: &Row<E::Number>,
+    d: &E::Number,
+    (y, places): (&[i64], u32),
+) -> Option<Vec<E::Number>> {
+    let entry = |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
+    row.a.iter().zip(y).map(entry).collect()
+}
+
 /// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
 /// `sigma_max(M) < k` on the cell.
 ///
 /// *Proof.* The matrix is affine in `(A, D)`, so it is positive definite at `x`, and with it its Schur
 /// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first, each at its lower
-/// end: the complement increases with them.
+/// end: the complement increases with them. Where tolerances are apart, row `i` changes the matrix by
+/// `e_i s^T + s e_i^T`, `s = (D_i/2, A_i)` of the change.
 pub fn sigma_max<E: Enclosure>(
     over: &Over<'_, E>,
     rows: &[Row<Formula>],
@@ -274,12 +338,40 @@ pub fn sigma_max<E: Enclosure>(
         let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
         let start = bound.and_then(|bound| scalar(e, width(&rows), &bound));
         // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        let rest = rows.iter().fold(start, |rest, row| {
+        let rest = rows.iter().fold(start, |rest, (row, changes)| {
             let [least, _] = e.ends(&row.d);
             let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
             bordered.extend(rest?);
+            if !changes.is_empty() {
+                bordered = less_changed_row(over, bordered, row, changes)?;
+            }
             eliminated(e, bordered)
         });
         rest.is_some_and(|rest| is_positive_definite(e, rest))
     })
+}
+
+/// `[[D_i, A_i], [A_i^T, ..]]` less what tolerances change of the row. The direction is `(u, v)`, where
+/// `u = -A_i . v/D_i` makes the form least.
+fn less_changed_row<E: Enclosure>(
+    over: &Over<'_, E>,
+    bordered: Triangle<E::Number>,
+    row: &Row<E::Number>,
+    changes: &[Change<Row<E::Number>>],
+) -> Option<Triangle<E::Number>> {
+    let e = over.slopes.arithmetic;
+    let (zero, one) = (e.integer(0)?, e.integer(1)?);
+    let mut direction = over.direction(<[_]>::last, row.a.len())?;
+    let mut terms = row.a.iter().zip(&direction);
+    let along = terms.try_fold(zero.clone(), |sum, (a, v)| e.add(&sum, &e.mul(a, v)?))?;
+    direction.insert(0, e.neg(&e.ratio(&along, &one, &row.d)?)?);
+    let mut fixed = vec![zero; row.a.len()];
+    fixed.insert(0, one);
+    let change = |Row { a: mut s, d }: Row<E::Number>| {
+        s.insert(0, e.halve(&d)?);
+        Some(s)
+    };
+    let changes = changes.iter().map(|own| own.clone().made(change));
+    let changes: Vec<_> = changes.collect::<Option<_>>()?;
+    less_changes(e, bordered, &fixed, &changes, &direction)
 }

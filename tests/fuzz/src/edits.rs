@@ -3,7 +3,7 @@
 use serde_json::{json, Value};
 
 /// Names that stand for something in some certificate.
-const NAMES: [&str; 44] = [
+const NAMES: [&str; 45] = [
     "certified",
     "refuted",
     "test",
@@ -19,6 +19,7 @@ const NAMES: [&str; 44] = [
     "conditioning",
     "accuracy",
     "direction",
+    "tolerances",
     "corner",
     "inside",
     "turned",

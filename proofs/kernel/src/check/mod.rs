@@ -3,6 +3,7 @@
 mod corner;
 mod inside;
 mod own;
+mod tolerances;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure};
 use crate::atlas;
@@ -30,6 +31,10 @@ use crate::test::{
 use crate::witness::{self, fails_throughout, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
+
+use tolerances::is_of_vertices;
+
+pub use tolerances::Place;
 
 /// Most nodes of a tree.
 pub const MOST_NODES: usize = 500_000;
@@ -138,6 +143,8 @@ pub fn check_machine(
     match (verdict, proof) {
         (Verdict::Certified, Proof::Tree(tree)) => {
             let problem = compiled(claim)?;
+            let problem =
+                if tree.takes_tolerances_apart() { problem.with_derivatives() } else { problem };
             in_words_or_any_size(
                 tree.precision,
                 || tree_holds::<i64>(&problem, tree),
@@ -264,7 +271,7 @@ pub(crate) fn walk<Z: Integer>(
     let step = |at: usize, node: &Node, cell: &Cell<Z>, open: &mut [bool]| {
         let edges = cell.edges().ok_or(Rejected::Shape(at))?;
         if !node.by.is_empty() {
-            let place = Place { edges: &edges, touches: cell.touches(&root) };
+            let place = Place::new(&edges, cell.touches(&root));
             checker.discharge(&place, (at, node), open)?;
         }
         if let Some(failure) = &node.fails {
@@ -337,14 +344,6 @@ pub struct Checker<'a, E: Enclosure> {
     chords: Option<Multiplier>,
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
-}
-
-/// Where a step is made.
-pub struct Place<'a, N> {
-    /// For each coordinate the cell's centre, range and half-width.
-    pub edges: &'a [[N; 3]],
-    /// Whether the cell touches the root's least, and its greatest corner.
-    pub touches: [bool; 2],
 }
 
 impl<'a, E: Enclosure> Checker<'a, E> {
@@ -435,7 +434,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Result<(), Rejected> {
         let values = self.evaluate(place.edges);
         let slopes = self.slopes(place.edges.len());
-        let over = Over { slopes, values: &values, controls: None, inside: None };
+        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
         for Step(obligation, evidence) in &node.by {
             let (node, obligation) = (at, *obligation);
             if *evidence == Evidence::Outside {
@@ -495,6 +494,11 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 let inside = self.inside(over, place, (*multiple, *places));
                 plain && self.shows_less(over, place, test, evidence, inside)
             }
+            (test, Evidence::Tolerances(evidence, ends, directions)) => {
+                let plain = is_of_vertices(test, evidence);
+                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
+                plain && self.apart(over, place, (ends, directions), then) == Some(true)
+            }
             (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
                 let zero = self.problem.tape.op(*kappa) == Op::Integer(0);
                 zero && self.is_defined(over) && full_rank(over, rows, y)
@@ -530,16 +534,20 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
-            (Test::AtLeast(f), Evidence::Test) => over.of(*f).is_some_and(|f| at_least(over, f)),
+            (Test::AtLeast(f), Evidence::Test) => {
+                over.own(*f).is_some_and(|own| at_least(over, own, &[(*f, false)]))
+            }
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
+                let negative = *evidence == Evidence::Negative;
                 let rest = || {
-                    let (f, b) = (over.of(*f)?, over.of(*b)?);
-                    match evidence {
-                        Evidence::Negative => over.slopes.neg(&over.slopes.add(f, b)?),
-                        _ => over.slopes.sub(f, b),
+                    let (f, b) = (over.own(*f)?, over.own(*b)?);
+                    match negative {
+                        true => over.slopes.neg(&over.slopes.add(f, b)?),
+                        false => over.slopes.sub(f, b),
                     }
                 };
-                rest().is_some_and(|rest| at_least(over, &rest))
+                let parts = [(*f, negative), (*b, true)];
+                rest().is_some_and(|rest| at_least(over, &rest, &parts))
             }
             _ => false,
         }
@@ -563,7 +571,8 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Option<bool> {
         let d = &over.of(test.distance)?.range;
         let values = self.evaluate(&inflated(self.arithmetic, place.edges, d)?);
-        let far = Over { values: &values, controls: None, inside: None, ..*over };
+        let slopes = over.slopes;
+        let far = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
         Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
     }
 

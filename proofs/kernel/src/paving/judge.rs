@@ -182,8 +182,8 @@ impl<'a, Z: Integer> Side<'a, Z> {
         };
         let m = edges.len();
         let slopes = self.checker.slopes(m);
-        let over = Over { slopes, values: &values, controls: None, inside: None };
-        let place = Place { edges: &edges, touches: [false; 2] };
+        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let place = Place::new(&edges, [false; 2]);
         let shown = |obligation: usize, evidence: Option<&_>| {
             let obligations = &subject.problem.obligations;
             let test = &obligations.get(obligation).ok_or(Flaw::Step(obligation))?.test;

@@ -95,6 +95,25 @@ pub enum Test {
     Curvature(Curvature),
 }
 
+impl Test {
+    /// What it says of rows and numbers at a point: all of it, but for that of whole cells.
+    pub(crate) fn formulas(&self) -> Vec<Formula> {
+        match self {
+            Test::AtLeast(f) => vec![*f],
+            Test::Beyond(f, b) => vec![*f, *b],
+            Test::Least(rows, _) => rows.iter().flat_map(Row::formulas).collect(),
+            Test::Solve(solve) => solve.a.iter().flatten().chain(&solve.b).copied().collect(),
+            Test::SigmaMin(_)
+            | Test::SigmaMax(_)
+            | Test::Conditioning(_)
+            | Test::OneToOne(_)
+            | Test::Accuracy(_)
+            | Test::Apart(_)
+            | Test::Curvature(_) => Vec::new(),
+        }
+    }
+}
+
 /// What is to be shown at every point of the workspace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obligation {

@@ -1,5 +1,6 @@
 //! Solutions of linear equations.
 
+use super::tolerances::less_changes;
 use super::{scalar, Multiplier, Over};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
@@ -25,15 +26,18 @@ pub struct Solve {
 /// positive definite too: `A A^T` is, and `c^2 - b^T (A A^T)^-1 b = c^2 - |A^-1 b|^2 > 0`. ∎ With
 /// `A_v A_v^T` in the place of its bound it would be unsound: the inverse of a convex combination may
 /// be greater than those of all its parts (`A = -1` and `1`).
+///
+/// Where tolerances are apart, row `i` of `(A, b)` changes `T` by `e_i s^T + s e_i^T`, `s = (Y a, b)` of
+/// the change `(a, b)`.
 pub fn solve<E: Enclosure>(over: &Over<'_, E>, test: &Solve, evidence: &Multiplier) -> bool {
     let e = over.slopes.arithmetic;
     let matrix = |v: Vertex| {
-        let at = |f: &Formula| v.value(&over.slopes, over.of(*f)?);
+        let at = |f: &Formula| over.at(*f, v);
         let b: Vec<E::Number> = test.b.iter().map(at).collect::<Option<_>>()?;
         let start = over.less_inside(e.integer(0)?, v)?;
         let square = e.add(&over.of(test.square)?.range, &start)?;
         let below = below_square(over, &test.a, v, evidence)?;
-        Some(bordered(below, &b, square))
+        less_changed(over, bordered(below, &b, square), test, (v, evidence))
     };
     let n = test.a.len();
     test.b.len() == n
@@ -53,7 +57,7 @@ pub(super) fn below_square<E: Enclosure>(
     let e = over.slopes.arithmetic;
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
     let residual = |(f, &y): (&Formula, &i64)| {
-        let a = vertex.value(&over.slopes, over.of(*f)?)?;
+        let a = over.at(*f, vertex)?;
         e.sub(&e.add(&a, &a)?, &e.dyadic(y, *places, &one)?)
     };
     let row = |(a, y): (&Vec<Formula>, &Vec<i64>)| a.iter().zip(y).map(residual).collect();
@@ -68,6 +72,38 @@ pub(super) fn below_square<E: Enclosure>(
         for (entry, (z_j, y_j)) in entries.iter_mut().zip(z.iter().zip(y).skip(i)) {
             *entry = e.add(entry, &e.add(&product(y_j, z_i)?, &product(y_i, z_j)?)?)?;
         }
+    }
+    Some(t)
+}
+
+/// `T` less what tolerances change of it.
+fn less_changed<E: Enclosure>(
+    over: &Over<'_, E>,
+    mut t: Triangle<E::Number>,
+    test: &Solve,
+    (vertex, Multiplier { y, places }): (Vertex, &Multiplier),
+) -> Option<Triangle<E::Number>> {
+    let e = over.slopes.arithmetic;
+    if over.tolerances.is_none() {
+        return Some(t);
+    }
+    let zero = e.integer(0)?;
+    let direction = over.direction(<[_]>::first, y.len() + 1)?;
+    for (i, (row, &b)) in test.a.iter().zip(&test.b).enumerate() {
+        let formulas: Vec<Formula> = row.iter().copied().chain([b]).collect();
+        let change = |mut s: Vec<E::Number>| {
+            let b = s.pop()?;
+            let along = |y: &Vec<i64>| {
+                let mut terms = y.iter().zip(&s);
+                terms.try_fold(zero.clone(), |sum, (&y, a)| e.add(&sum, &e.dyadic(y, *places, a)?))
+            };
+            y.iter().map(along).chain([Some(b)]).collect::<Option<Vec<_>>>()
+        };
+        let changes = over.changes(&formulas, vertex)?.into_iter().map(|own| own.made(change));
+        let changes: Vec<_> = changes.collect::<Option<_>>()?;
+        let mut fixed = vec![zero.clone(); y.len() + 1];
+        *fixed.get_mut(i)? = e.integer(1)?;
+        t = less_changes(e, t, &fixed, &changes, &direction)?;
     }
     Some(t)
 }

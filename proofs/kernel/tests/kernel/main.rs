@@ -27,6 +27,7 @@ mod rough;
 mod sampled;
 mod slopes;
 mod statements;
+mod tolerances;
 mod turned;
 mod turning;
 mod witnesses;

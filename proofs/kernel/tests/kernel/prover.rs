@@ -322,8 +322,36 @@ impl<'a> Prover<'a> {
                 return Some(Evidence::Control(Box::new(found)));
             }
         }
-        let proposals = self.proposals(over, test).unwrap_or_default();
-        proposals.into_iter().find_map(|evidence| self.shown(over, place, test, evidence))
+        let proposed = |over: &Over<'_, Rough>| {
+            let all = self.proposals(over, test).unwrap_or_default().into_iter();
+            all.filter_map(|evidence| self.shown(over, place, test, evidence)).next()
+        };
+        proposed(over).or_else(|| self.apart(over, place, &proposed))
+    }
+
+    /// What shows a test with tolerances apart, from any machine at ends of the tolerance or in their
+    /// middle, along axes and diagonals.
+    fn apart(
+        &self,
+        over: &Over<'_, Rough>,
+        place: &Place<'_, Pair>,
+        proposed: &dyn Fn(&Over<'_, Rough>) -> Option<Evidence>,
+    ) -> Option<Evidence> {
+        self.problem.derivatives.as_ref()?;
+        let quantities = self.problem.tolerances().count() as u32;
+        let digits = |n: usize, size: u32| (0..size).map(move |k| n / 3usize.pow(k) % 3);
+        let all = |size: u32| (0..3usize.pow(size)).map(move |n| digits(n, size));
+        let machines = all(quantities).map(|ends| ends.map(|k| ["-", "+", "0"][k]).collect());
+        for machine in machines.collect::<Vec<String>>() {
+            for direction in all(self.problem.dimension() as u32) {
+                let directions = [direction.map(|k| 16 * (k as i64 - 1)).collect::<Vec<_>>()];
+                let found = self.checker.apart(over, place, (&machine, &directions), proposed);
+                if let Some(found) = found.flatten() {
+                    return Some(Evidence::Tolerances(Box::new(found), machine, directions.into()));
+                }
+            }
+        }
+        None
     }
 
     /// What may show a test at control points.
@@ -428,10 +456,11 @@ impl<'a> Prover<'a> {
             let pair = |x: &Interval<i64>| (x.lo as f64 * scale, x.hi as f64 * scale);
             let edges: Vec<[Pair; 3]> =
                 cell.edges()?.iter().map(|e| [pair(&e[0]), pair(&e[1]), pair(&e[2])]).collect();
-            let place = Place { edges: &edges, touches: cell.touches(&self.root) };
+            let place = Place::new(&edges, cell.touches(&self.root));
             let values = self.checker.evaluate(&edges);
             let slopes = self.checker.slopes(edges.len());
-            let over = Over { slopes, values: &values, controls: None, inside: None };
+            let over =
+                Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
             if cut && self.checker.is_outside(&over, &place) {
                 nodes.push(Node { by: vec![Step(0, Evidence::Outside)], ..Node::default() });
@@ -497,10 +526,10 @@ impl<'a> Prover<'a> {
             [(centre, centre), (low, high), (half, half)]
         };
         let edges: Vec<[Pair; 3]> = cell.iter().map(edge).collect();
-        let place = Place { edges: &edges, touches: [false; 2] };
+        let place = Place::new(&edges, [false; 2]);
         let values = self.checker.evaluate(&edges);
         let slopes = self.checker.slopes(edges.len());
-        let over = Over { slopes, values: &values, controls: None, inside: None };
+        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
         self.checker.is_outside(&over, &place)
     }
 

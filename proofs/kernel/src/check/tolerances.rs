@@ -1,0 +1,109 @@
+//! Steps with tolerances apart.
+
+use super::Checker;
+use crate::arithmetic::Enclosure;
+use crate::certificate::Evidence;
+use crate::formula::{Op, Values};
+use crate::quantity::Test;
+use crate::slope::Slope;
+use crate::test::tolerances::{Step, Tolerances};
+use crate::test::Over;
+use std::cell::OnceCell;
+
+/// Where a step is made.
+pub struct Place<'a, N> {
+    /// For each coordinate the cell's centre, range and half-width.
+    pub edges: &'a [[N; 3]],
+    /// Whether the cell touches the root's least, and its greatest corner.
+    pub touches: [bool; 2],
+    /// The formulas of all machines, with their derivatives.
+    derived: OnceCell<Values<Slope<N>>>,
+}
+
+impl<'a, N> Place<'a, N> {
+    /// A cell with these edges.
+    pub fn new(edges: &'a [[N; 3]], touches: [bool; 2]) -> Self {
+        Place { edges, touches, derived: OnceCell::new() }
+    }
+}
+
+/// Whether the evidence for a test looks at nothing but formulas at vertices, and at the workspace's own
+/// inequality, which no tolerance changes.
+pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
+    use Evidence::{Conditioning, Inside, Lower, Negative, Rank};
+    match evidence {
+        Inside(inner, ..) => !matches!(**inner, Inside(..)) && is_of_vertices(test, inner),
+        Evidence::Test => matches!(test, Test::SigmaMax(_) | Test::AtLeast(_) | Test::Beyond(..)),
+        other => matches!(other, Lower(_) | Rank(_) | Conditioning(..) | Negative),
+    }
+}
+
+impl<E: Enclosure> Checker<'_, E> {
+    /// The formulas of all machines with their derivatives by tolerances, where there are some.
+    pub fn derived<'p>(
+        &self,
+        place: &'p Place<'_, E::Number>,
+    ) -> Option<&'p Values<Slope<E::Number>>> {
+        let (tape, _) = self.problem.derivatives.as_ref()?;
+        Some(place.derived.get_or_init(|| {
+            let slopes = self.slopes(place.edges.len());
+            tape.run(&slopes, |op| match op {
+                Op::Coordinate(k) => slopes.coordinate(k, place.edges.get(k)?.clone()),
+                Op::Parameter(j) => slopes.constant(self.parameters.get(j)?.clone()),
+                _ => None,
+            })
+        }))
+    }
+
+    /// What is so with tolerances apart, by the lemma of [`Tolerances`]. The one machine has the least
+    /// value of each quantity with two ends, the greatest or one in the middle, as its character of
+    /// `ends` says: `-`, `+` or `0`.
+    pub fn apart<T>(
+        &self,
+        over: &Over<'_, E>,
+        place: &Place<'_, E::Number>,
+        (ends, directions): (&str, &[Vec<i64>]),
+        then: impl FnOnce(&Over<'_, E>) -> T,
+    ) -> Option<T> {
+        if over.controls.is_some() || over.inside.is_some() || over.tolerances.is_some() {
+            return None;
+        }
+        let values = self.derived(place)?;
+        let (_, derivatives) = self.problem.derivatives.as_ref()?;
+        let mut named = ends.chars();
+        let zero = self.arithmetic.integer(0)?;
+        let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.has_two_ends()
+        {
+            true => step(self.arithmetic, x, named.next()?),
+            false => Some((x.clone(), Step { by: zero.clone(), both_ways: false })),
+        };
+        let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
+        let (starts, steps): (Vec<E::Number>, Vec<Step<E::Number>>) = all.into_iter().unzip();
+        let slopes = self.slopes(place.edges.len());
+        let machine = self.problem.tape.run(&slopes, |op| match op {
+            Op::Coordinate(k) => slopes.coordinate(k, place.edges.get(k)?.clone()),
+            Op::Parameter(j) => slopes.constant(starts.get(j)?.clone()),
+            _ => None,
+        });
+        let tolerances = Tolerances { machine: &machine, steps: &steps, derivatives, directions };
+        let over = Over { values, inside: None, tolerances: Some(&tolerances), ..*over };
+        named.next().is_none().then(|| then(&over))
+    }
+}
+
+/// Where a quantity of `[lo, hi]` begins, and how far it goes. In the middle from a `c <= (lo + hi)/2`,
+/// so that `hi - c` is not less than `c - lo`.
+fn step<E: Enclosure>(e: &E, x: &E::Number, end: char) -> Option<(E::Number, Step<E::Number>)> {
+    let [lo, hi] = e.ends(x);
+    let [_, all] = e.ends(&e.sub(&hi, &lo)?);
+    Some(match end {
+        '-' => (lo, Step { by: all, both_ways: false }),
+        '+' => (hi, Step { by: e.neg(&all)?, both_ways: false }),
+        '0' => {
+            let [middle, _] = e.ends(&e.halve(&e.add(&lo, &hi)?)?);
+            let [_, half] = e.ends(&e.sub(&hi, &middle)?);
+            (middle, Step { by: half, both_ways: true })
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,184 @@
+//! Tolerances apart: what is certified so is true of every machine, and nearer to the truth than ranges.
+
+use crate::arithmetic::Random;
+use crate::certificates::claim;
+use crate::prover::{certificate, Prover};
+use orthocert_kernel::certificate::{Certificate, Evidence, Node, Proof, Step, Tree, Verdict};
+use orthocert_kernel::check::check;
+use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::test::Multiplier;
+
+/// One joint, whose row is this formula of `a` and `b`, and `psi` at most so much.
+fn one_row(row: &str, [a, b]: [[&str; 2]; 2], bound: &str) -> MachineClaim {
+    let [a, b] = [a, b].map(|[min, max]| format!(r#"{{"min":"{min}","max":"{max}"}}"#));
+    claim(&format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[["a",{a}],["b",{b}]],"definitions":[],"joints":[{{"row":["{row}"]}}]}}}},"workspace":{{"box":{{"min":["0"],"max":["1"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"{bound}"}}]}}"#
+    ))
+}
+
+/// One joint coordinate of `x` and `a`, from 1 to 3, and how great it may be.
+fn one_rho(rho: &str, max: &str) -> MachineClaim {
+    claim(&format!(
+        r#"{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[["a",{{"min":"1","max":"3"}}]],"definitions":[],"joints":[{{"rho":"{rho}"}}]}}}},"workspace":{{"box":{{"min":["0"],"max":["1"]}}}},"require":[{{"quantity":"joint_range","leg":1,"end":"max","bound":"{max}"}}]}}"#
+    ))
+}
+
+/// Two sliders of length 10 at right angles, each guide off by up to 0.3.
+fn sliders(bound: &str) -> MachineClaim {
+    let leg = |[direction, anchor]: [&str; 2]| {
+        format!(
+            r#"{{"drive":"slider","direction":{direction},"anchor":{anchor},"platform":["0","0"],"length":"10","mode":"+"}}"#
+        )
+    };
+    let first = [r#"["1","0"]"#, r#"["0",{"min":"-0.3","max":"0.3"}]"#];
+    let second = [r#"["0","1"]"#, r#"[{"min":"-0.3","max":"0.3"},"0"]"#];
+    let legs = [first, second].map(leg).join(",");
+    claim(&format!(
+        r#"{{"mechanism":{{"planar":{{"legs":[{legs}]}}}},"workspace":{{"box":{{"min":["-1","-1"],"max":["2","2"]}}}},"require":[{{"quantity":"transmission","end":"max","bound":"{bound}"}}]}}"#
+    ))
+}
+
+/// A certificate with tolerances apart, if one of at most so many boxes is found, and accepted.
+fn apart(claim: &MachineClaim, most: usize) -> Option<Certificate> {
+    let problem = Problem::new(claim).expect("well formed").with_derivatives();
+    let tree = Prover::new(&problem).tree(most)?;
+    let found = certificate(claim, Verdict::Certified, Proof::Tree(tree));
+    check(&found).is_ok().then_some(found)
+}
+
+/// The same in ranges.
+fn in_ranges(claim: &MachineClaim, most: usize) -> bool {
+    Prover::new(&Problem::new(claim).expect("well formed")).tree(most).is_some()
+}
+
+#[test]
+fn what_a_number_shares_with_itself_cancels() {
+    // a - a^2/8 is from 1.44875 to 1.54875, in ranges from 1.34875; b only has to be named.
+    let (row, ends) = ("a-a^2/8+b*0", [["1.9", "2.1"]; 2]);
+    let own = |bound| one_row(row, ends, bound);
+    assert!(!in_ranges(&own("0.691"), 8));
+    let found = apart(&own("0.691"), 8).expect("true");
+    let printed = found.to_text().expect("a text");
+    assert!(printed.contains(r#"{"tolerances":[{"#), "{printed}");
+    assert_eq!(Certificate::read(&printed).as_ref(), Ok(&found));
+    assert!(apart(&own("0.69"), 8).is_none(), "false");
+    // Another number of the same range shares nothing.
+    assert!(apart(&one_row("a-b^2/8", ends, "0.7"), 8).is_none(), "false");
+    // Signs, exactly at the end where they are least.
+    assert!(!in_ranges(&one_rho("x-a+a^2/8", "0.126"), 8));
+    assert!(apart(&one_rho("x-a+a^2/8", "0.126"), 8).is_some());
+    assert!(apart(&one_rho("x-a+a^2/8", "0.124"), 8).is_none());
+}
+
+#[test]
+fn derivatives_are_of_all_machines() {
+    // At a = 0 nothing changes to first order; at its ends the row is 1.
+    for bound in ["0.6", "0.9", "0.999"] {
+        assert!(
+            apart(&one_row("2-a^2+b*0", [["-1", "1"], ["1", "3"]], bound), 8).is_none(),
+            "{bound}"
+        );
+    }
+    for max in ["0.8", "0.95"] {
+        // a (4 - a)/4 - x is 1 at a = 2, and 3/4 at both ends.
+        assert!(apart(&one_rho("a*(4-a)/4-x", max), 8).is_none(), "{max}");
+    }
+    assert!(apart(&one_rho("a*(4-a)/4-x", "1.6"), 8).is_some());
+}
+
+#[test]
+fn certified_bounds_hold_for_sampled_machines() {
+    // M = [[1, p], [q, 1]], p = (y - a)/sqrt(100 - (y - a)^2), q = (x - b)/sqrt(100 - (x - b)^2).
+    let psi = |[x, y]: [f64; 2], [a, b]: [f64; 2]| {
+        let [p, q] = [y - a, x - b].map(|off| off / (100.0 - off * off).sqrt());
+        let (trace, det) = (2.0 + p * p + q * q, 1.0 - p * q);
+        let least = 0.5 * (trace - (trace * trace - 4.0 * det * det).sqrt());
+        least.sqrt().recip()
+    };
+    let mut random = Random(7);
+    let mut part = |lo: f64, hi: f64| match random.below(3) {
+        0 => lo,
+        1 => hi,
+        _ => lo + (hi - lo) * random.below(1001) as f64 / 1000.0,
+    };
+    let mut worst = 0f64;
+    for _ in 0..20_000 {
+        let [x, y] = [part(-1.0, 2.0), part(-1.0, 2.0)];
+        worst = worst.max(psi([x, y], [part(-0.3, 0.3), part(-0.3, 0.3)]));
+    }
+    let at = |factor: f64| sliders(&format!("{:.6}", worst * factor));
+    assert!(apart(&at(1.0003), 400).is_some());
+    for factor in [0.9999, 0.999, 0.99] {
+        assert!(apart(&at(factor), 400).is_none(), "{factor}");
+    }
+}
+
+/// The same certificate with the evidence of one step changed: not accepted, whatever the change.
+#[test]
+fn nothing_else_goes_with_it() {
+    let own = one_row("a-a^2/8+b*0", [["1.9", "2.1"]; 2], "0.691");
+    let good = apart(&own, 8).expect("true");
+    let with = |own: &MachineClaim, change: &dyn Fn(&mut Evidence)| {
+        let Proof::Tree(mut tree) = good.proof.clone() else { panic!("a tree") };
+        let steps = tree.nodes.iter_mut().flat_map(|node| &mut node.by);
+        let mut apart = steps.filter(|Step(_, by)| matches!(by, Evidence::Tolerances(..)));
+        change(&mut apart.next().expect("one").1);
+        drop(apart);
+        check(&certificate(own, Verdict::Certified, Proof::Tree(tree))).is_ok()
+    };
+    assert!(with(&own, &|_| ()));
+    let replaced = |ends: fn(&str) -> String, directions: fn(&mut Vec<Vec<i64>>)| {
+        with(&own, &|evidence| {
+            let Evidence::Tolerances(_, own, all) = evidence else { panic!("one") };
+            *own = ends(own);
+            directions(all);
+        })
+    };
+    let same = |ends: &str| ends.to_owned();
+    assert!(!replaced(|ends| ends[1..].to_owned(), |_| ()), "too few ends");
+    assert!(!replaced(|ends| format!("{ends}0"), |_| ()), "too many ends");
+    assert!(!replaced(|_| "xx".to_owned(), |_| ()), "ends of no name");
+    assert!(!replaced(same, Vec::clear), "no direction");
+    assert!(!replaced(same, |all| all[0].push(1)), "too long a direction");
+    assert!(replaced(same, |all| all[0][0] = i64::MAX / 1_000_000), "any direction");
+    let wrapped = |wrap: fn(Box<Evidence>) -> Evidence| {
+        with(&own, &|evidence| *evidence = wrap(Box::new(evidence.clone())))
+    };
+    assert!(!wrapped(|inner| Evidence::Tolerances(inner, "00".to_owned(), vec![vec![1]])), "twice");
+    assert!(!wrapped(Evidence::Control), "at control points");
+    assert!(!wrapped(|inner| Evidence::Inside(inner, 0, 0)), "inside of nothing");
+    let inner = |new: fn() -> Evidence| {
+        with(&own, &|evidence| {
+            let Evidence::Tolerances(inner, ..) = evidence else { panic!("one") };
+            **inner = new();
+        })
+    };
+    let y = || Multiplier { y: vec![vec![3]], places: 1 };
+    assert!(!inner(|| Evidence::Test), "of another test");
+    assert!(
+        !inner(|| Evidence::LowerDivided(Multiplier { y: vec![vec![3]], places: 1 })),
+        "divided"
+    );
+    // Of a claim without tolerances there is nothing to take apart.
+    let exact = one_row("a-a^2/8+b*0", [["1.9", "2.1"]; 2], "0.691");
+    let text = serde_json::to_string(&exact)
+        .expect("a text")
+        .replace(r#"{"min":"1.9","max":"2.1"}"#, r#""2""#);
+    let exact = claim(&text);
+    assert!(!with(&exact, &|evidence| {
+        let Evidence::Tolerances(_, ends, _) = evidence else { panic!("one") };
+        ends.clear();
+    }));
+    let plain = |evidence: Evidence| {
+        let nodes = vec![Node { by: vec![Step(0, evidence)], ..Node::default() }];
+        let tree = Tree { precision: 52, chords: None, nodes };
+        check(&certificate(&exact, Verdict::Certified, Proof::Tree(tree))).is_ok()
+    };
+    assert!(plain(Evidence::Lower(y())));
+    assert!(!plain(Evidence::Tolerances(
+        Box::new(Evidence::Lower(y())),
+        String::new(),
+        vec![vec![1]]
+    )));
+}

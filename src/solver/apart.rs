@@ -1,0 +1,156 @@
+//! Tolerances apart: from which machine, and along which directions.
+
+use super::doubles::middle;
+use super::evidence::{At, Over};
+use super::rows::Rows;
+use nalgebra::{DVector, SymmetricEigen};
+use orthocert_kernel::cell::Vertex;
+use orthocert_kernel::certificate::Evidence;
+use orthocert_kernel::formula::Formula;
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::solve::Solve;
+use orthocert_kernel::test::{self, Row};
+use std::collections::BTreeMap;
+
+/// Greatest components of directions that are tried: the longer, the less is lost along them, and the
+/// more across them.
+const LENGTHS: [f64; 2] = [64.0, 8.0];
+
+/// Where a test is nearest to failing.
+struct Worst {
+    vertex: Vertex,
+    /// What matrices are least, or greatest, along.
+    directions: Vec<DVector<f64>>,
+    /// Nearly the derivatives by formulas of what the test wants positive; none where no one machine is
+    /// worse than all others.
+    weights: Vec<(Formula, f64)>,
+}
+
+impl Over<'_> {
+    /// Evidence with tolerances apart, where there are some: from the worst machine, as it seems, then
+    /// from that in the middle.
+    pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
+        self.problem().derivatives.as_ref()?;
+        let worst = self.worst(test)?;
+        let two_ends = self.problem().inputs.iter().filter(|input| input.has_two_ends());
+        let middle = "0".repeat(two_ends.count());
+        let machines = [self.worst_machine(&worst), Some(middle)];
+        let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
+        let all = machines.iter().flatten().flat_map(|ends| lengths.iter().map(move |l| (ends, l)));
+        all.into_iter().find_map(|(ends, length)| {
+            let in_integers = |w: &DVector<f64>| {
+                let scale = length / w.amax();
+                w.iter().map(|x| (x * scale).round() as i64).collect()
+            };
+            let directions: Vec<Vec<i64>> = worst.directions.iter().map(in_integers).collect();
+            let found = self.prover.checker.apart(
+                self.formulas,
+                self.place,
+                (ends, &directions),
+                |formulas| Over { formulas, ..*self }.at_vertices(test),
+            )??;
+            Some(Evidence::Tolerances(Box::new(found), ends.clone(), directions))
+        })
+    }
+
+    fn worst(&self, test: &Test) -> Option<Worst> {
+        let own: Vec<&Row<Formula>> = self.problem().legs.iter().map(|leg| &leg.row).collect();
+        match test {
+            Test::SigmaMin(_) => self.stretched(&own, false),
+            Test::SigmaMax(_) => self.stretched(&own, true),
+            Test::Conditioning(_) => {
+                let (least, most) = (self.stretched(&own, false)?, self.stretched(&own, true)?);
+                let directions = [least.directions, most.directions].concat();
+                Some(Worst { directions, weights: Vec::new(), ..least })
+            }
+            Test::Least(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), false),
+            Test::Solve(solve) => self.of_solution(solve),
+            Test::AtLeast(f) => self.of_sum(vec![(*f, 1.0)]),
+            Test::Beyond(f, b) => {
+                let sign = if self.centre(*f)? < 0.0 { -1.0 } else { 1.0 };
+                self.of_sum(vec![(*f, sign), (*b, -1.0)])
+            }
+            Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => None,
+        }
+    }
+
+    /// The vertex at which `M` stretches a direction least, or most, and that. Of
+    /// `|M v|^2 = sum_i (A_i . v)^2/D_i`, the derivatives are `2 (A_i . v) v_k/D_i` by `A_ik`, and
+    /// `-(A_i . v)^2/D_i^2` by `D_i`.
+    fn stretched(&self, rows: &[&Row<Formula>], most: bool) -> Option<Worst> {
+        let sign = if most { -1.0 } else { 1.0 };
+        let least = |vertex| {
+            let all: Rows = self.rows(rows.iter().copied(), At::Vertex(vertex))?;
+            let eigen = SymmetricEigen::new(all.square() * sign);
+            let k = eigen.eigenvalues.imin();
+            let direction = eigen.eigenvectors.column(k).into_owned();
+            Some((eigen.eigenvalues[k], vertex, direction, all))
+        };
+        let found = self.formulas.vertices().filter_map(least);
+        let (_, vertex, direction, all) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let along = &all.a * &direction;
+        let mut weights = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let part = along[i] / all.d[i];
+            let entry = |(&f, v): (&Formula, &f64)| (f, 2.0 * sign * part * v);
+            weights.extend(row.a.iter().zip(direction.iter()).map(entry));
+            weights.push((row.d, -sign * part * part));
+        }
+        (direction.amax() > 0.0).then_some(Worst { vertex, directions: vec![direction], weights })
+    }
+
+    /// `z = A^-1 b` is longest, along `(-(A A^T)^-1 b, 1)`. With `y = A^-T z` the derivatives of `-|z|^2`
+    /// are `2 y_i z_k` by `A_ik`, and `-2 y_i` by `b_i`.
+    fn of_solution(&self, solve: &Solve) -> Option<Worst> {
+        let longest = |vertex| {
+            let a = self.matrix(&solve.a, At::Vertex(vertex))?;
+            let b = solve.b.iter().map(|&b| self.at(b, At::Vertex(vertex)));
+            let b = DVector::from_vec(b.collect::<Option<_>>()?);
+            let z = a.clone().lu().solve(&b)?;
+            let y = a.transpose().lu().solve(&z)?;
+            Some((z.norm(), vertex, y, z))
+        };
+        let found = self.formulas.vertices().filter_map(longest);
+        let (_, vertex, y, z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut weights = Vec::new();
+        for (i, (row, &b)) in solve.a.iter().zip(&solve.b).enumerate() {
+            weights.extend(row.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y[i] * z)));
+            weights.push((b, -2.0 * y[i]));
+        }
+        let direction = (-y).push(1.0);
+        let finite = direction.iter().all(|x| x.is_finite());
+        finite.then_some(Worst { vertex, directions: vec![direction], weights })
+    }
+
+    /// The vertex at which a sum is least.
+    fn of_sum(&self, weights: Vec<(Formula, f64)>) -> Option<Worst> {
+        let value = |v| {
+            let term = |&(f, weight): &(Formula, f64)| Some(weight * self.at(f, At::Vertex(v))?);
+            Some((weights.iter().map(term).sum::<Option<f64>>()?, v))
+        };
+        let least = self.formulas.vertices().filter_map(value).min_by(|a, b| a.0.total_cmp(&b.0));
+        least.map(|(_, vertex)| Worst { vertex, directions: Vec::new(), weights })
+    }
+
+    /// The ends of all tolerances that make it worst.
+    fn worst_machine(&self, Worst { vertex, weights, .. }: &Worst) -> Option<String> {
+        let values = self.prover.checker.derived(self.place)?;
+        let (_, derivatives) = self.problem().derivatives.as_ref()?;
+        let over = test::Over { values, tolerances: None, inside: None, ..*self.formulas };
+        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
+        for (f, weight) in weights {
+            for (j, derivative) in derivatives.get(f)? {
+                let slope = middle(&vertex.value(&over.slopes, over.of(*derivative)?)?);
+                *slopes.entry(*j).or_default() += weight * slope;
+            }
+        }
+        let inputs = self.problem().inputs.iter().enumerate();
+        let two_ends = inputs.filter(|(_, input)| input.has_two_ends());
+        let end = |(j, _)| match slopes.get(&j) {
+            Some(slope) if *slope > 0.0 => '-',
+            Some(slope) if *slope < 0.0 => '+',
+            _ => '0',
+        };
+        (!slopes.is_empty()).then(|| two_ends.map(end).collect())
+    }
+}
