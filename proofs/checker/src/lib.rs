@@ -23,3 +23,9 @@ pub mod statement;
 
 pub use check::{check, check_part, read, size_of, trees, Accepted, Rejected, TreeSize};
 pub use orthocert_kernel::{certificate, paving};
+
+/// What `orthocert-check --help` prints.
+pub const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
+
+Re-proves an orthocert certificate or paving in exact arithmetic and prints what it establishes.
+exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
