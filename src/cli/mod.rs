@@ -19,6 +19,7 @@ mod input;
 mod interrupt;
 mod largest_cube;
 mod limit;
+mod man;
 mod merge;
 mod paper;
 mod pave;
@@ -120,6 +121,8 @@ enum Command {
     Export(export::Arguments),
     /// Print a completion script for a shell.
     Completions(completions::Arguments),
+    /// Write the manual pages, one a command, of what --help says.
+    Man(man::Arguments),
     /// Print the JSON schema of what the commands answer with --format json.
     Schema(schema::Arguments),
 }
@@ -292,5 +295,6 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Command::Export(arguments) => export::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
+        Command::Man(arguments) => man::run(arguments),
     }
 }

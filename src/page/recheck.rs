@@ -3,98 +3,26 @@
 use crate::decimal::grouped;
 use crate::digest::sha256;
 use crate::escape::{shell, xml};
+use orthocert_kernel::source::SOURCES;
 use std::fmt::Write;
 
 /// The command, in the folder `proofs`, whose answer is [`checker_sha256`].
 pub const CHECKER_COMMAND: &str =
-    "find checker/Cargo.toml checker/src kernel/Cargo.toml kernel/src -type f | LC_ALL=C sort | \
-     xargs sha256sum | sha256sum";
-
-macro_rules! checker_sources {
-    ($($path:literal),* $(,)?) => {
-        [$(($path, include_bytes!(concat!("../../proofs/", $path)))),*]
-    };
-}
+    "find checker/src kernel/src -type f | LC_ALL=C sort | xargs sha256sum | sha256sum";
 
 /// The sources of the checker and its kernel with which this program was built, in the order of their
 /// paths.
-const SOURCES: &[(&str, &[u8])] = &checker_sources![
-    "checker/Cargo.toml",
-    "checker/src/bin/orthocert-check.rs",
-    "checker/src/check.rs",
-    "checker/src/file.rs",
-    "checker/src/lib.rs",
-    "checker/src/shown.rs",
-    "checker/src/statement.rs",
-    "kernel/Cargo.toml",
-    "kernel/src/arithmetic.rs",
-    "kernel/src/atlas.rs",
-    "kernel/src/cell.rs",
-    "kernel/src/certificate.rs",
-    "kernel/src/check/corner.rs",
-    "kernel/src/check/inside.rs",
-    "kernel/src/check/mod.rs",
-    "kernel/src/check/own.rs",
-    "kernel/src/claim.rs",
-    "kernel/src/compile.rs",
-    "kernel/src/control.rs",
-    "kernel/src/cube.rs",
-    "kernel/src/definite.rs",
-    "kernel/src/fixed.rs",
-    "kernel/src/formula.rs",
-    "kernel/src/input.rs",
-    "kernel/src/lib.rs",
-    "kernel/src/machine/mod.rs",
-    "kernel/src/machine/motion.rs",
-    "kernel/src/no_cube.rs",
-    "kernel/src/number.rs",
-    "kernel/src/orientation.rs",
-    "kernel/src/paving/cell.rs",
-    "kernel/src/paving/code.rs",
-    "kernel/src/paving/judge.rs",
-    "kernel/src/paving/mod.rs",
-    "kernel/src/paving/reader.rs",
-    "kernel/src/paving/symmetry.rs",
-    "kernel/src/postulate.rs",
-    "kernel/src/problem.rs",
-    "kernel/src/quantity/accuracy.rs",
-    "kernel/src/quantity/base_joint.rs",
-    "kernel/src/quantity/clearance.rs",
-    "kernel/src/quantity/conditioning.rs",
-    "kernel/src/quantity/constraint_margin.rs",
-    "kernel/src/quantity/joint_acceleration.rs",
-    "kernel/src/quantity/joint_force.rs",
-    "kernel/src/quantity/joint_range.rs",
-    "kernel/src/quantity/joint_speed.rs",
-    "kernel/src/quantity/leg_angle.rs",
-    "kernel/src/quantity/mod.rs",
-    "kernel/src/quantity/one_to_one.rs",
-    "kernel/src/quantity/parallel_margin.rs",
-    "kernel/src/quantity/platform_joint.rs",
-    "kernel/src/quantity/serial_margin.rs",
-    "kernel/src/quantity/stiffness.rs",
-    "kernel/src/quantity/transmission.rs",
-    "kernel/src/slope.rs",
-    "kernel/src/statement.rs",
-    "kernel/src/test.rs",
-    "kernel/src/test/accuracy.rs",
-    "kernel/src/test/apart.rs",
-    "kernel/src/test/curvature.rs",
-    "kernel/src/test/solve.rs",
-    "kernel/src/trig.rs",
-    "kernel/src/vary.rs",
-    "kernel/src/witness.rs",
-    "kernel/src/witness/far.rs",
-    "kernel/src/witness/same.rs",
-    "kernel/src/witness/violated.rs",
-    "kernel/src/work.rs",
-];
+fn sources() -> impl Iterator<Item = (String, &'static [u8])> {
+    let checker = orthocert_checker::SOURCES.iter().map(|(path, bytes)| ("checker", path, *bytes));
+    let kernel = SOURCES.iter().map(|(path, bytes)| ("kernel", path, *bytes));
+    checker.chain(kernel).map(|(package, path, bytes)| (format!("{package}/src/{path}"), bytes))
+}
 
 /// The SHA-256 of the list of the SHA-256 of the checker's sources: one line a file, its digest, two
 /// blanks, its path, in the order of the paths' bytes.
 pub fn checker_sha256() -> String {
     let mut list = String::new();
-    for (path, bytes) in SOURCES {
+    for (path, bytes) in sources() {
         let _ = writeln!(list, "{}  {path}", sha256(bytes));
     }
     sha256(list.as_bytes())
@@ -164,12 +92,11 @@ mod tests {
     fn every_source_of_the_checker_is_in_the_digest() {
         let mut found = Vec::new();
         for name in ["checker", "kernel"] {
-            found.push(format!("{name}/Cargo.toml"));
             let under = format!("{name}/src");
             files(&proofs().join(&under), &under, &mut found);
         }
         found.sort();
-        let known: Vec<&str> = SOURCES.iter().map(|(path, _)| *path).collect();
+        let known: Vec<String> = sources().map(|(path, _)| path).collect();
         assert_eq!(known, found);
     }
 

@@ -1,4 +1,4 @@
-//! `design`, `init`, `completions`, help.
+//! `design`, `init`, `completions`, `man`, help.
 
 use crate::support::Folder;
 
@@ -81,6 +81,40 @@ fn completions_exist_for_every_shell() {
         run.says(&["orthocert", "verify", "max-boxes"]);
     }
     Folder::new().run(&["completions", "sh"]).exits(2);
+}
+
+#[test]
+fn every_command_has_a_manual_page_with_all_its_flags() {
+    let folder = Folder::new();
+    folder.run(&["man", "pages"]).exits(0);
+    let page = |name: &str| String::from_utf8(folder.read(&format!("pages/{name}.1"))).unwrap();
+    let all = help(&folder, &[]);
+    let lines = all.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let lines =
+        lines.take_while(|line| !line.is_empty()).filter_map(|line| line.strip_prefix("  "));
+    let commands: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
+    assert!(commands.len() > 20);
+    for command in commands.into_iter().filter(|name| !["", "help"].contains(name)) {
+        let text = page(&format!("orthocert-{command}"));
+        assert!(page("orthocert").contains(&format!("orthocert\\-{}(1)", roff(command))));
+        for word in help(&folder, &[command]).split_whitespace() {
+            let word =
+                word.trim_matches(|letter: char| !letter.is_ascii_alphanumeric() && letter != '-');
+            assert!(!word.starts_with("--") || text.contains(&roff(word)), "{command} {word}");
+        }
+        assert!(text.contains("undecided within the budget"), "{command}");
+    }
+    assert!(page("orthocert-export-vtk").contains("Quadrilaterals"));
+    assert!(page("orthocert-check").contains("orthocert\\-check CERT.json | PAVING"));
+}
+
+fn help(folder: &Folder, command: &[&str]) -> String {
+    folder.run(&[command, &["--help"]].concat()).exits(0).stdout
+}
+
+/// As manual pages spell it.
+fn roff(text: &str) -> String {
+    text.replace('-', "\\-")
 }
 
 #[test]

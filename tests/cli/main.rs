@@ -10,7 +10,7 @@
 //! | `batch`        | `verify` of many designs, and its reports                         |
 //! | `cache`        | certificates that are there are re-checked                        |
 //! | `audit`        | `check` of a folder, and `attest`                                 |
-//! | `calculator`   | `design`, `init`, `completions`, help                             |
+//! | `calculator`   | `design`, `init`, `completions`, `man`, help                      |
 //! | `paving`       | `pave` and `check` of pavings                                     |
 //! | `surface`      | `export vtk` and `export stl`                                     |
 //! | `largest_cube` | `largest-cube`                                                    |

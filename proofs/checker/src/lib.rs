@@ -23,3 +23,19 @@ pub mod statement;
 
 pub use check::{check, check_part, read, size_of, trees, Accepted, Rejected, TreeSize};
 pub use orthocert_kernel::{certificate, paving};
+
+/// What `orthocert-check --help` prints.
+pub const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
+
+Re-proves an orthocert certificate or paving in exact arithmetic and prints what it establishes.
+exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
+
+/// Every file of `src`, with its path there, in the order of the paths' bytes.
+pub const SOURCES: [(&str, &[u8]); 6] = [
+    ("bin/orthocert-check.rs", include_bytes!("bin/orthocert-check.rs")),
+    ("check.rs", include_bytes!("check.rs")),
+    ("file.rs", include_bytes!("file.rs")),
+    ("lib.rs", include_bytes!("lib.rs")),
+    ("shown.rs", include_bytes!("shown.rs")),
+    ("statement.rs", include_bytes!("statement.rs")),
+];

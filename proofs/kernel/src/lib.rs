@@ -28,6 +28,7 @@
 //! | [`atlas`]      | where in a box of parameters a claim holds, and where it fails    |
 //! | [`work`]       | what checking costs, estimated before it is done                 |
 //! | [`statement`]  | a claim in words, and its formulas                               |
+//! | [`source`]     | the sources of this crate                                        |
 
 #![forbid(unsafe_code)]
 
@@ -53,6 +54,7 @@ pub mod postulate;
 pub mod problem;
 pub mod quantity;
 pub mod slope;
+pub mod source;
 pub mod statement;
 pub mod test;
 pub mod trig;

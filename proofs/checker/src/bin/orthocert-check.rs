@@ -7,16 +7,11 @@
 use orthocert_checker::certificate::{Verdict, MOST_BYTES};
 use orthocert_checker::paving::{self, Extent};
 use orthocert_checker::shown::{lines, Shown};
-use orthocert_checker::{check, file, read, statement};
+use orthocert_checker::{check, file, read, statement, USAGE};
 use std::fmt::Display;
 use std::io::{BufRead, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
-
-const USAGE: &str = "usage: orthocert-check CERT.json | PAVING
-
-Re-proves an orthocert certificate or paving in exact arithmetic and prints what it establishes.
-exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
 
 fn main() -> ExitCode {
     let arguments: Vec<std::ffi::OsString> = std::env::args_os().skip(1).collect();
