@@ -6,6 +6,7 @@ use crate::solver::extremes::{enclose, Enclosed, Extreme};
 use crate::solver::value::Bounded;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use orthocert_kernel::quantity::Test;
 
 fn all(claim: &MachineClaim, wanted: &[&str], relative: (i64, i64)) -> Vec<(String, Enclosed)> {
     let legs = Problem::new(claim).expect("a claim").legs.len();
@@ -97,6 +98,41 @@ fn a_singular_machine_has_none() {
 }
 
 /// Values by definition are the bounds that are met with equality.
+#[test]
+fn tolerances_are_enclosed_to_second_order() {
+    // Thirty numbers with tolerances of 1e-4 or so; in ranges the widths are 1e-3 to 3e-2.
+    let file = "tests/designs/orthoglide-as-built.toml";
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let claim = crate::design::Design::read(&file).expect("a design").claim;
+    let wanted = ["psi-least", "psi-greatest", "rho-1-greatest", "parallel-margin", "joint-force"];
+    let found = all(&claim, &wanted, (1, 5_000));
+    assert_eq!(found.len(), wanted.len());
+    for (name, found) in &found {
+        assert!(found.width <= BigRational::new(1.into(), 2_500.into()), "{name}: {}", found.width);
+        let Proof::Tree(tree) = &found.certified.proof else { panic!("a tree") };
+        assert!(tree.takes_tolerances_apart(), "{name}");
+    }
+    // No machine is worse than what is certified, and some is nearly as bad.
+    let problem = Problem::new(&claim).expect("a claim");
+    let sampler = Sampler::new(&claim, &problem).expect("numbers");
+    let number = problem.obligations.iter().position(|o| matches!(o.test, Test::SigmaMin(_)));
+    let bounded = Bounded::of(&claim, &problem, number.expect("psi from above")).expect("psi");
+    let (_, psi) = found.iter().find(|(name, _)| name == "psi-greatest").expect("psi");
+    let outer = psi.outer.to_f64().expect("finite");
+    let (mut state, mut greatest) = (7u32, 0f64);
+    let mut part = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        [0.0, 1.0, f64::from(state) / f64::from(u32::MAX)][(state >> 13) as usize % 3]
+    };
+    for _ in 0..20_000 {
+        let mut place = sampler.centre();
+        place.u.iter_mut().chain(&mut place.t).for_each(|x| *x = part());
+        let value = bounded.value(&claim, &problem, &sampler, &place).expect("a value");
+        greatest = greatest.max(value);
+    }
+    assert!(greatest <= outer && greatest > 0.99 * outer, "{greatest} {outer}");
+}
+
 #[test]
 fn values_are_tight_bounds() {
     for claim in [orthoglide(r#"{"min":"311","max":"312"}"#, CUBE), rotary()] {
