@@ -6,25 +6,31 @@ use super::document::{Table, Value};
 use super::drive::axes;
 use super::error::{Defect, DesignError};
 use super::exactly;
+use super::independence::product;
 use super::number::{exact, not_negative, positive};
-use crate::exact::Exact;
+use crate::exact::{Exact, NumberErrorKind};
 use orthocert_kernel::claim::Body;
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;
 
 const ROD: &str =
     "{ radius = 8, trim = [20, 30] }: the rod's radius, and how far from the base joint it \
-                   begins and from the platform joint it ends";
+                   begins and from the platform joint it ends; of a parallelogram also spread = 80 and \
+                   axis = [0, 1, 0], how far apart its two rods are, and along what";
 const BODIES: &str = "[[mechanism.bodies]] tables with on, from, to and radius";
 const RADIUS: &str = "a radius greater than 0";
 
-/// What a leg says of its rod.
-pub(super) fn rod(leg: &Table<'_>, number: usize) -> Result<Option<Body>, DesignError> {
+/// What a leg says of its rod, or of the two rods of a parallelogram.
+pub(super) fn rods(
+    leg: &Table<'_>,
+    number: usize,
+    motion: Motion,
+) -> Result<Vec<Body>, DesignError> {
     let Some(value) = leg.find("rod") else {
-        return Ok(None);
+        return Ok(Vec::new());
     };
     let table = value.table(ROD)?;
-    table.only(&["radius", "trim"])?;
+    table.only(&["radius", "trim", "spread", "axis"])?;
     let radius = radius(&table)?;
     let trim = table.require("trim", "[20, 30], or [0, 0]: lengths from either joint")?;
     let [base, platform] = trim.elements("[20, 30]: lengths from either joint")?;
@@ -33,7 +39,35 @@ pub(super) fn rod(leg: &Table<'_>, number: usize) -> Result<Option<Body>, Design
         not_negative(value, &length, "a length from the joint")?;
         exactly::of(value, &length)
     };
-    Ok(Some(Body::Leg { leg: number, radius, trim: [end(&base)?, end(&platform)?] }))
+    let trim = [end(&base)?, end(&platform)?];
+    let with =
+        |offset| Body::Leg { leg: number, radius: radius.clone(), trim: trim.clone(), offset };
+    if table.find("spread").or(table.find("axis")).is_none() {
+        return Ok(vec![with(None)]);
+    }
+    let value =
+        table.require("spread", "80: how far apart the two rods of the parallelogram are")?;
+    let spread = exact(&value)?;
+    positive(&value, &spread, "a distance of two rods")?;
+    let axis =
+        axis(&table.require("axis", "[0, 1, 0]: along what the two rods are apart")?, motion)?;
+    let half = |sign: i64| offset(&spread, &axis, sign).map_err(|_| exactly::too_long(&value));
+    let written = |x: Vec<Exact>| -> Result<[Expression; 3], DesignError> {
+        let all = x.iter().map(|x| exactly::of(&value, x)).collect::<Result<Vec<_>, _>>()?;
+        all.try_into().map_err(|_| value.wrong_type("a rod in space"))
+    };
+    Ok(vec![with(Some(written(half(-1)?)?)), with(Some(written(half(1)?)?))])
+}
+
+/// Half of `spread` along an axis, or against it.
+fn offset(spread: &Exact, axis: &[Exact], sign: i64) -> Result<Vec<Exact>, NumberErrorKind> {
+    let mut square = Exact::integer(0);
+    for x in axis {
+        square = square.plus(product(x, x)?)?;
+    }
+    let half = product(spread, &Exact::integer(sign))?.over(Exact::integer(2))?;
+    let unit = half.over(square.root()?)?;
+    axis.iter().map(|x| product(&unit, x)).collect()
 }
 
 fn radius(table: &Table<'_>) -> Result<Expression, DesignError> {

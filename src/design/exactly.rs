@@ -31,7 +31,7 @@ pub(super) fn of(value: &Value<'_>, number: &Exact) -> Result<Expression, Design
     written(number).ok_or_else(|| too_long(value))
 }
 
-fn too_long(value: &Value<'_>) -> DesignError {
+pub(super) fn too_long(value: &Value<'_>) -> DesignError {
     let found = format!("{}, whose exact value is too long to be written", value.found());
     value.error(Defect::NotANumber, found, WITHIN_LIMITS)
 }

@@ -165,7 +165,7 @@ fn legs(table: &Table<'_>, motion: Motion) -> Result<Machine, DesignError> {
     for (i, value) in values.iter().enumerate() {
         legs.push(drive::leg(value, motion)?);
         let table = value.table("a [[mechanism.legs]] table")?;
-        bodies.extend(bodies::rod(&table, i + 1)?);
+        bodies.extend(bodies::rods(&table, i + 1, motion)?);
         demands.extend(bodies::joints(&table, i + 1, motion)?);
     }
     drive::one_unit(&values, &legs)?;

@@ -224,7 +224,7 @@ pub fn proof(
     let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
     let (problem, nodes) = match in_ranges(&problem, budget, control) {
         Ok(nodes) => (problem, Some(nodes)),
-        Err(derived) => (derived, None),
+        Err(derived) => (*derived, None),
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
     let found = nodes.map_or_else(|| from_root(&prover, budget, control), Ok)?;
@@ -239,8 +239,8 @@ fn in_ranges(
     problem: &Problem,
     budget: Budget,
     control: &mut Control<'_>,
-) -> Result<Vec<Node>, Problem> {
-    let derived = problem.clone().with_derivatives();
+) -> Result<Vec<Node>, Box<Problem>> {
+    let derived = Box::new(problem.clone().with_derivatives());
     if derived.derivatives.is_none() {
         return Err(derived);
     }
@@ -255,7 +255,7 @@ fn in_parts(claim: &MachineClaim, control: &mut Control<'_>) -> Result<Problem, 
     let budget = Budget { max_boxes: usize::MAX, deadline: None };
     Ok(match in_ranges(&problem, budget, control) {
         Ok(_) => problem,
-        Err(derived) => derived,
+        Err(derived) => *derived,
     })
 }
 

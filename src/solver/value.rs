@@ -7,6 +7,7 @@ use num_traits::FromPrimitive;
 use orthocert_kernel::claim::{
     Bound, MachineClaim, Mechanism, Orientation, Requirement, Workspace,
 };
+use orthocert_kernel::formula::Op;
 use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -186,6 +187,14 @@ impl Bounded {
                 ("clearance", Test::Apart(test)) => {
                     Some(bound + margin * at.of(test.distance)? * sampler.unit())
                 }
+                // Of a difference of squares.
+                ("clearance", Test::AtLeast(f)) => match problem.tape.op(*f) {
+                    Op::Sub(square, least) => {
+                        let room = at.of(square)?.max(0.0).sqrt() - at.of(least)?.sqrt();
+                        Some(bound + room * sampler.unit())
+                    }
+                    _ => None,
+                },
                 _ => None,
             }
         };

@@ -297,6 +297,9 @@ pub enum Body {
         radius: Expression,
         /// Not negative.
         trim: [Expression; 2],
+        /// By how much it is beside the leg: a bar of a parallelogram.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        offset: Option<[Expression; 3]>,
     },
     /// Fixed to the base.
     Base {

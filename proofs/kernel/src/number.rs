@@ -39,7 +39,7 @@ pub const MOST_POWER: u32 = 64;
 pub const MOST_NAME: usize = 32;
 
 /// An expression.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Expression {
     /// `digits / 10^places`; `digits` is no multiple of ten where `places > 0`.
@@ -64,7 +64,7 @@ pub enum Expression {
 }
 
 /// An operation on two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operator {
     /// `+`
     Add,

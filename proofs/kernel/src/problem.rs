@@ -278,15 +278,27 @@ impl Problem {
         machine: &[Expression],
     ) -> Result<Vec<Interval<Z>>, ClaimError> {
         let mut machine = machine.iter();
-        let enclose = |input: &Input| {
-            let value = match &input.value {
-                Value::Quantity(Quantity::Between { .. }) => machine.next(),
-                _ => None,
-            };
+        // Equal legs have equal numbers: each is enclosed once.
+        let mut known: HashMap<(&Expression, i64), Interval<Z>> = HashMap::new();
+        let mut enclose = |input: &Input| {
+            let value = if input.has_two_ends() { machine.next() } else { None };
             let x = input.enclose(bits, value);
             x.and_then(|x| narrowed(&x)).ok_or_else(|| number_error(&input.place, "a number"))
         };
-        self.inputs.iter().map(enclose).collect()
+        let mut all = Vec::with_capacity(self.inputs.len());
+        for input in &self.inputs {
+            let Value::Quantity(Quantity::Exactly(number)) = &input.value else {
+                all.push(enclose(input)?);
+                continue;
+            };
+            let x = match known.get(&(number, input.scale)) {
+                Some(x) => x.clone(),
+                None => enclose(input)?,
+            };
+            known.insert((number, input.scale), x.clone());
+            all.push(x);
+        }
+        Ok(all)
     }
 
     /// The toleranced inputs, in their order.

@@ -239,10 +239,14 @@ fn bodies(out: &mut String, claim: &MachineClaim) -> fmt::Result {
     for (i, body) in claim.bodies.iter().enumerate() {
         write!(out, "  body {}: all within ", i + 1)?;
         match body {
-            Body::Leg { leg, radius, trim: [first, last] } => writeln!(
-                out,
-                "{radius} of leg {leg}, from {first} after its base end to {last} before its platform end"
-            )?,
+            Body::Leg { leg, radius, trim: [first, last], offset } => {
+                let beside = offset.as_ref().map(|by| format!(" moved by ({})", list(by)));
+                let beside = beside.unwrap_or_default();
+                writeln!(
+                    out,
+                    "{radius} of leg {leg}{beside}, from {first} after its base end to {last} before its platform end"
+                )?;
+            }
             Body::Base { from, to, radius } => {
                 writeln!(out, "{radius} of the segment from ({}) to ({})", list(from), list(to))?;
             }

@@ -18,7 +18,7 @@ use num_integer::Integer as _;
 use num_rational::BigRational;
 
 /// A name, and the values that it stands for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Range {
     /// Which of the parameters it is, counted from zero.
     pub parameter: usize,
@@ -198,7 +198,9 @@ impl MachineClaim {
         }
         for body in bodies {
             match body {
-                Body::Leg { leg: _, radius, trim } => all.extend([radius].into_iter().chain(trim)),
+                Body::Leg { leg: _, radius, trim, offset } => {
+                    all.extend([radius].into_iter().chain(trim).chain(offset.iter_mut().flatten()));
+                }
                 Body::Base { from, to, radius } | Body::Platform { from, to, radius } => {
                     all.extend(from.iter_mut().chain(to).chain([radius]));
                 }

@@ -229,7 +229,7 @@ fn bodies_keep_their_distance() {
     let length = |x: f64| decimal(x);
     for leg in 1..=3 {
         let trim = [length(20.0), length(30.0)];
-        machine.bodies.push(Body::Leg { leg, radius: length(4.0), trim });
+        machine.bodies.push(Body::Leg { leg, radius: length(4.0), trim, offset: None });
     }
     let point = |x: f64, y: f64, z: f64| [length(x), length(y), length(z)];
     let (from, to) = (point(0.0, 0.0, -10.0), point(0.0, 0.0, -40.0));

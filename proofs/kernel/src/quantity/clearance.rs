@@ -2,7 +2,7 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::{Body, Mechanism};
-use crate::formula::Vector;
+use crate::formula::{Formula, Vector};
 use crate::input::{binary, ordered, positive, ClaimError};
 use crate::machine::Leg;
 use crate::number::{Expression, Operator};
@@ -12,7 +12,8 @@ pub(super) const CLEARANCE: Quantity = Quantity {
     key: "clearance",
     symbol: "the distance of any two of the bodies that are not fixed to each other",
     words:
-        "fixed to each other are two bodies on one leg, two on the base, and two on the platform",
+        "fixed to each other are two bodies on the base, two on the platform, and two on one leg, unless \
+         one is beside it: then the distance is that of the lines along them",
     of_legs: false,
     given: &[],
     tests,
@@ -26,6 +27,8 @@ struct Capsule<'a> {
     ends: [Vector; 2],
     radius: &'a Expression,
     fixed_to: FixedTo,
+    /// Beside the leg.
+    offset: Option<Vector>,
 }
 
 #[derive(PartialEq)]
@@ -42,6 +45,7 @@ enum FixedTo {
 /// the platform, whose distance does not change with the position. A rod and a body on the base or the
 /// platform that it is joined to are meant: where they touch by design, the trim ends the rod before
 /// that. Where trims are longer than the leg, the rod is still the segment between the two points.
+/// Two bodies of one leg, of which one or both are beside it, are parallel: see [`beside`].
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     context.without_rotation()?;
     let gap = context.least()?.clone();
@@ -56,12 +60,18 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     let all: Vec<Capsule<'_>> = all.collect::<Result<_, _>>()?;
     let mut tests = Vec::new();
     for (i, one) in all.iter().enumerate() {
-        let others = all.iter().enumerate().take(i);
-        for (j, other) in others.filter(|(_, other)| other.fixed_to != one.fixed_to) {
+        for (j, other) in all.iter().enumerate().take(i) {
+            let apart = other.fixed_to != one.fixed_to;
+            if !apart && one.offset.or(other.offset).is_none() {
+                continue;
+            }
             let radii = binary(Operator::Add, one.radius, other.radius);
             let distance = context.number(&binary(Operator::Add, &radii, &gap), 1);
             let (bodies, ends) = ([i + 1, j + 1], [one.ends, other.ends]);
-            tests.push(Test::Apart(Apart { bodies, ends, distance }));
+            tests.push(match one.fixed_to {
+                FixedTo::Leg(leg) if !apart => beside(context, leg, [one, other], distance)?,
+                _ => Test::Apart(Apart { bodies, ends, distance }),
+            });
         }
     }
     if tests.is_empty() {
@@ -74,8 +84,16 @@ fn capsule<'a>(context: &mut Context<'_>, body: &'a Body) -> Result<Capsule<'a>,
     let (Body::Leg { radius, .. } | Body::Base { radius, .. } | Body::Platform { radius, .. }) =
         body;
     positive(context.place, radius)?;
+    let mut beside = None;
     let (ends, fixed_to) = match body {
-        Body::Leg { leg, trim, .. } => (trimmed(context, *leg, trim)?, FixedTo::Leg(*leg)),
+        Body::Leg { leg, trim, offset, .. } => {
+            let mut ends = trimmed(context, *leg, trim)?;
+            if let Some(offset) = offset {
+                let offset = *beside.insert(at(context, offset));
+                ends = ends.map(|end| context.tape().plus(&end, &offset));
+            }
+            (ends, FixedTo::Leg(*leg))
+        }
         Body::Base { from, to, .. } => ([from, to].map(|end| at(context, end)), FixedTo::Base),
         Body::Platform { from, to, .. } => {
             let on_platform = |end| {
@@ -87,11 +105,40 @@ fn capsule<'a>(context: &mut Context<'_>, body: &'a Body) -> Result<Capsule<'a>,
             ([from, to].map(on_platform), FixedTo::Platform)
         }
     };
-    Ok(Capsule { ends, radius, fixed_to })
+    Ok(Capsule { ends, radius, fixed_to, offset: beside })
 }
 
 fn at(context: &mut Context<'_>, point: &[Expression; 3]) -> Vector {
     std::array::from_fn(|k| context.number(&point[k], 1))
+}
+
+/// A leg's platform end, length and vector.
+fn parts(context: &Context<'_>, leg: usize) -> Result<(Vector, Formula, Vector), ClaimError> {
+    let leg = leg.checked_sub(1).and_then(|leg| context.legs.get(leg));
+    let parts =
+        leg.and_then(|leg| Some((leg.tip?, leg.rod()?, leg.row.a.as_slice().try_into().ok()?)));
+    parts.map_or_else(|| context.refused("of a leg that there is, with two ends"), Ok)
+}
+
+/// `|d|^2 - (d . A)^2/L^2 - R^2 >= 0`, for two bodies along the leg's vector `A`, of length `L`, that are
+/// `d` beside each other: the lines along them have the distance
+/// `|d - (d . A) A/L^2| = sqrt(|d|^2 - (d . A)^2/L^2)`, and the bodies no smaller one.
+fn beside(
+    context: &mut Context<'_>,
+    leg: usize,
+    both: [&Capsule<'_>; 2],
+    distance: Formula,
+) -> Result<Test, ClaimError> {
+    let (_, length, a) = parts(context, leg)?;
+    let tape = context.tape();
+    let zero = tape.integer(0);
+    let [d, other] = both.map(|body| body.offset.unwrap_or([zero; 3]));
+    let d = tape.minus(&d, &other);
+    let (off, along) = (tape.norm_squared(&d), tape.dot(&d, &a));
+    let [distance, length, along] = [distance, length, along].map(|x| tape.sqr(x));
+    let along = tape.div(along, length);
+    let square = tape.sub(off, along);
+    Ok(Test::AtLeast(tape.sub(square, distance)))
 }
 
 /// From `C - A + (trim_1/L) A` to `C - (trim_2/L) A`, `C` the leg's platform end, `A` its vector.
@@ -103,13 +150,7 @@ fn trimmed(
     for trim in trim {
         ordered(context.place, &Expression::integer(0), trim, false)?;
     }
-    let leg = leg.checked_sub(1).and_then(|leg| context.legs.get(leg));
-    let parts =
-        leg.and_then(|leg| Some((leg.tip?, leg.rod()?, leg.row.a.as_slice().try_into().ok()?)));
-    let Some((tip, length, a)) = parts else {
-        return context.refused("of a leg that there is, with two ends");
-    };
-    let a: Vector = a;
+    let (tip, length, a) = parts(context, leg)?;
     let [from, to] = [&trim[0], &trim[1]].map(|trim| context.number(trim, 1));
     let tape = context.tape();
     let (from, to) = (tape.div(from, length), tape.div(to, length));
