@@ -1,11 +1,12 @@
 //! From an answer to a certificate on the disk: what all commands that prove have in common.
 
 use super::{input, Failure};
+pub use orthocert::decide::as_written;
 use orthocert::report::{CertificateFile, EarlierFile};
 use orthocert::solver::Verification;
 use orthocert::{digest, output};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::{read, Rejected};
+use orthocert_checker::read;
 use std::path::Path;
 
 /// A verdict, and the certificate of it as it is to be written.
@@ -30,16 +31,6 @@ pub fn decided(found: &mut Verification) -> Result<Option<Decision>, Failure> {
             found.object(objection);
             Ok(None)
         }
-    }
-}
-
-/// The text of a certificate, which reads back as the certificate.
-pub fn as_written(certificate: &Certificate) -> Result<String, Rejected> {
-    let text = certificate.to_text().map_err(|error| Rejected::Syntax(error.to_string()))?;
-    if read(text.as_bytes())? == *certificate {
-        Ok(text)
-    } else {
-        Err(Rejected::Syntax("it does not read back as it was written".to_owned()))
     }
 }
 

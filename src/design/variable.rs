@@ -13,6 +13,7 @@ use crate::decimal::{exact, terminating};
 use crate::exact::Exact;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
@@ -58,9 +59,48 @@ impl<'a> Variable<'a> {
         }
         let mut places: Vec<Range<usize>> = found.iter().map(|value| value.at.clone()).collect();
         places.sort_by_key(|at| at.start);
-        let size = size(&own).filter(|size| !size.is_zero());
-        let size = size.or_else(|| around(&root, &names)).unwrap_or_else(BigRational::one);
+        let size = size_of(&own, &root, key);
         Ok(Variable { text, places, own, tolerance, size })
+    }
+
+    /// Every number of a design file's text with its key, in the order of the text; where the same
+    /// number stands in all tables of an array, that of all of them. `file` is for messages only.
+    ///
+    /// # Errors
+    /// If the text is not TOML.
+    pub fn all(text: &'a str, file: &str) -> Result<Vec<(String, Self)>, DesignError> {
+        let document = Document { file, text, names: Names::None };
+        let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
+        let root = document.root(tree.get_ref());
+        let mut found = Vec::new();
+        for (name, value) in root.entries() {
+            numbers(&value, (name.to_owned(), None), &mut found);
+        }
+        let mut groups: BTreeMap<&str, Vec<&Found>> = BTreeMap::new();
+        for number in &found {
+            if let Some((key, _)) = &number.common {
+                groups.entry(key).or_default().push(number);
+            }
+        }
+        let variable = |key: &str, number: &Found, places| {
+            let (own, tolerance) = number.number.clone();
+            let size = size_of(&own, &root, key);
+            (key.to_owned(), Variable { text, places, own, tolerance, size })
+        };
+        // Of numbers that are one, the first is listed.
+        let listed = found.iter().filter_map(|number| match number.group(&groups) {
+            None => Some(variable(&number.key, number, vec![number.at.clone()])),
+            Some((key, all)) if all.first().is_some_and(|first| first.at == number.at) => {
+                Some(variable(key, number, all.iter().map(|one| one.at.clone()).collect()))
+            }
+            Some(_) => None,
+        });
+        Ok(listed.collect())
+    }
+
+    /// Where it stands in the text, in bytes.
+    pub fn places(&self) -> &[Range<usize>] {
+        &self.places
     }
 
     /// The number in the file: of a tolerance the middle.
@@ -177,8 +217,9 @@ impl<'d> Walk<'_, 'd> {
     fn accepted(&self, there: &[String]) -> String {
         let mut all = Vec::new();
         for (name, value) in self.root.entries() {
-            numbers(&value, name, &mut all);
+            numbers(&value, (name.to_owned(), None), &mut all);
         }
+        let all: Vec<String> = all.into_iter().map(|found| found.key).collect();
         // Without the tables that it is in, a key is meant as well as a misspelt one.
         let key = from_zero(self.key);
         let end = format!(".{key}");
@@ -235,22 +276,69 @@ fn is_inline(value: &Value<'_>) -> bool {
     written.starts_with('{') && written.ends_with('}')
 }
 
-/// The keys of all numbers below a value. The parser bounds the nesting, and with it this recursion.
-fn numbers(value: &Value<'_>, path: &str, keys: &mut Vec<String>) {
+/// A number that was found.
+struct Found {
+    key: String,
+    /// Its key with `*` for the outermost array of tables that it is in, and how many those are.
+    common: Option<(String, usize)>,
+    at: Range<usize>,
+    /// The number, of a tolerance the middle, and what stands after `±`.
+    number: (Exact, Option<String>),
+}
+
+impl Found {
+    /// The numbers that it is one with, and their key, where all tables have the same.
+    fn group<'a>(
+        &'a self,
+        groups: &'a BTreeMap<&str, Vec<&'a Found>>,
+    ) -> Option<(&'a str, &'a [&'a Found])> {
+        let (key, count) = self.common.as_ref()?;
+        let all = groups.get(key.as_str())?;
+        let one = all.len() == *count && all.iter().all(|other| other.number == self.number);
+        one.then_some((key, all))
+    }
+}
+
+/// All numbers below a value. The parser bounds the nesting, and with it this recursion.
+fn numbers(
+    value: &Value<'_>,
+    (key, common): (String, Option<(String, usize)>),
+    found: &mut Vec<Found>,
+) {
+    let below = |name: &str| {
+        let common = common.as_ref().map(|(key, count)| (dotted(key, name), *count));
+        (dotted(&key, name), common)
+    };
     match value.inner {
         DeValue::Table(_) => {
             for (name, value) in value.table("").map(|table| table.entries()).unwrap_or_default() {
-                numbers(&value, &dotted(path, name), keys);
+                numbers(&value, below(name), found);
             }
         }
         DeValue::Array(_) => {
-            for (i, value) in value.list("").unwrap_or_default().iter().enumerate() {
-                numbers(value, &dotted(path, &i.to_string()), keys);
+            let all = value.list("").unwrap_or_default();
+            let count = all.len();
+            for (i, value) in all.iter().enumerate() {
+                let (own, mut common) = below(&i.to_string());
+                if common.is_none() && matches!(value.inner, DeValue::Table(_)) {
+                    common = Some((dotted(&key, EVERY), count));
+                }
+                numbers(value, (own, common), found);
             }
         }
-        _ if centred(value).is_ok() => keys.push(path.to_owned()),
-        _ => {}
+        _ => {
+            if let Ok(number) = centred(value) {
+                found.push(Found { key, common, at: value.at.clone(), number });
+            }
+        }
     }
+}
+
+/// A size to measure changes of a number by.
+fn size_of(own: &Exact, root: &Table<'_>, key: &str) -> BigRational {
+    let names: Vec<&str> = key.split('.').collect();
+    let size = size(own).filter(|size| !size.is_zero());
+    size.or_else(|| around(root, &names)).unwrap_or_else(BigRational::one)
 }
 
 /// The size of the largest number in the innermost array or table about a key that has one other

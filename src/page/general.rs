@@ -78,6 +78,21 @@ pub fn names(claim: &MachineClaim) -> Vec<String> {
     position.chain(turned).map(ToString::to_string).collect()
 }
 
+fn mark(name: &str, at: Vec<f64>) -> Mark {
+    Mark { name: name.to_owned(), at }
+}
+
+/// The points of a counterexample.
+pub fn witnessed(witness: &kernel::Witness) -> Vec<Mark> {
+    let point = |x: &[Expression]| x.iter().map(double).collect::<Option<Vec<f64>>>();
+    let mut all: Vec<Mark> =
+        point(&witness.point).map(|at| mark("counterexample", at)).into_iter().collect();
+    if let kernel::Failure::Singular(other) = &witness.fails {
+        all.extend(point(other).map(|at| mark("P'", at)));
+    }
+    all
+}
+
 impl General<'_> {
     fn positions(&self) -> usize {
         positions(self.claim).unwrap_or(self.names.len())
@@ -96,21 +111,12 @@ impl General<'_> {
 
     /// The points of a counterexample, or the one with the least margin that was found.
     fn marks(&self, worst: &[Option<Worst>]) -> Vec<Mark> {
-        let point = |x: &[Expression]| x.iter().map(double).collect::<Option<Vec<f64>>>();
-        let mark = |name: &str, at| Mark { name: name.to_owned(), at };
         let Some(witness) = self.witness else {
             let found = self.critical(worst, None);
-            return found
-                .map(|(_, worst)| mark("least margin", worst.at.clone()))
-                .into_iter()
-                .collect();
+            let mark = |(_, worst): (usize, &Worst)| mark("least margin", worst.at.clone());
+            return found.map(mark).into_iter().collect();
         };
-        let mut all: Vec<Mark> =
-            point(&witness.point).map(|at| mark("counterexample", at)).into_iter().collect();
-        if let kernel::Failure::Singular(other) = &witness.fails {
-            all.extend(point(other).map(|at| mark("P'", at)));
-        }
-        all
+        witnessed(witness)
     }
 
     fn rows(&self, worst: &[Option<Worst>]) -> Vec<Row> {

@@ -52,9 +52,10 @@ pub use general::names as coordinates;
 use isomap::Scale;
 use legend::PATTERNS;
 use nominal::Nominal;
-use orthocert_checker::certificate::{Certificate, Provenance, Verdict};
+use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::Accepted;
 use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::claim::MachineClaim;
 use scene::{corners_of_cube, first_slice, of_nothing, of_postulate, slice, Scene};
 use serde_json::{json, Value};
 use verified::{verified, Verified, PROGRAM};
@@ -104,6 +105,16 @@ pub struct Page<'a> {
 struct Figures {
     design: Option<Picture>,
     subdivisions: Vec<Picture>,
+}
+
+/// The drawing of a claim's machine, with the counterexample where the proof is one; none of formulas,
+/// which do not say where the machine's parts are.
+pub fn machine(claim: &MachineClaim, proof: Option<&Proof>) -> Option<Picture> {
+    let marks = match proof {
+        Some(Proof::Witness(witness)) => general::witnessed(witness),
+        _ => Vec::new(),
+    };
+    Some(drawing::drawing(&shape::shape(claim)?, &marks))
 }
 
 impl<'a> Page<'a> {
@@ -186,6 +197,12 @@ impl<'a> Page<'a> {
         let Figures { design, subdivisions } = &self.figures;
         let maps = self.scene.slices.iter().flat_map(|slice| &slice.maps);
         design.iter().chain(maps).chain(subdivisions)
+    }
+
+    /// The HTML of the section with this anchor.
+    pub fn section(&self, anchor: &str) -> Option<String> {
+        let found = self.sections().into_iter().find(|(own, ..)| *own == anchor);
+        found.map(|(.., html)| html)
     }
 
     /// The HTML file.

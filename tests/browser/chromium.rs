@@ -175,10 +175,11 @@ impl Browser {
 
     /// Moves the pointer, presses or releases its button.
     pub fn pointer(&mut self, kind: &str, (x, y): (f64, f64), pressed: bool) {
+        let left = pressed || kind == "mouseReleased";
         self.call(
             "Input.dispatchMouseEvent",
             json!({
-                "type": kind, "x": x, "y": y, "button": if pressed { "left" } else { "none" },
+                "type": kind, "x": x, "y": y, "button": if left { "left" } else { "none" },
                 "buttons": u8::from(pressed), "clickCount": u8::from(kind != "mouseMoved"),
             }),
         );
@@ -190,6 +191,26 @@ impl Browser {
             self.call("Input.dispatchKeyEvent", json!({ "type": kind, "key": key, "code": key }));
         }
         self.settle();
+    }
+
+    /// Types a text into the focused element, as pasting does.
+    pub fn insert(&mut self, text: &str) {
+        self.call("Input.insertText", json!({ "text": text }));
+    }
+
+    /// A window of another size.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let size = json!({
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500,
+        });
+        self.call("Emulation.setDeviceMetricsOverride", size);
+        self.settle();
+    }
+
+    /// Where files go that pages give to keep.
+    pub fn keep_in(&mut self, folder: &Path) {
+        let to = json!({ "behavior": "allow", "downloadPath": folder });
+        self.call("Page.setDownloadBehavior", to);
     }
 
     /// Focuses an element.
@@ -241,7 +262,8 @@ impl Browser {
             }
             Some("Network.requestWillBeSent") => {
                 let url = event["params"]["request"]["url"].as_str().unwrap_or("");
-                (!url.starts_with("file://")).then(|| format!("asks for {url}"))
+                let is_own = ["file://", "blob:"].iter().any(|own| url.starts_with(own));
+                (!is_own).then(|| format!("asks for {url}"))
             }
             _ => None,
         };

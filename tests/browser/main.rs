@@ -5,6 +5,7 @@
 //! The screenshots that they take stay in the target folder, under `tmp/report`.
 
 mod chromium;
+mod desk;
 mod support;
 
 use chromium::Browser;

@@ -29,6 +29,19 @@ impl Folder {
         command.stdout(Stdio::null()).status().unwrap().code()
     }
 
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// What a command says on standard error, and its exit code.
+    pub fn said(&self, arguments: &[&str]) -> (String, Option<i32>) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_orthocert"));
+        command.current_dir(self.0.path()).args(arguments).stdin(Stdio::null());
+        let output = command.output().unwrap();
+        (String::from_utf8(output.stderr).unwrap(), output.status.code())
+    }
+
     /// The report of a committed certificate.
     pub fn report_of_committed(&self, name: &str, options: &[&str]) -> PathBuf {
         self.report_from("proofs/certificates", name, options)

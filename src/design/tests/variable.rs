@@ -148,3 +148,27 @@ fn a_tolerance_over_several_lines_is_refused_as_a_whole() {
     let end = variable(&apart, "mechanism.leg_length.max");
     assert!(end.with(&number("312")).contains("leg_length.max = \"312\""));
 }
+
+#[test]
+fn every_number_is_listed_with_its_key_and_its_places() {
+    let text = include_str!("../../../tests/designs/linear-delta-klipper-cylinder.toml");
+    let all = Variable::all(text, "design").unwrap();
+    let keys: Vec<&str> = all.iter().map(|(key, _)| key.as_str()).collect();
+    // One length of three legs, and of each direction the three coordinates that all have.
+    assert_eq!(keys.iter().filter(|key| key.ends_with("length")).count(), 1);
+    assert_eq!(keys.iter().filter(|key| key.contains("direction")).count(), 3);
+    assert_eq!(keys.iter().filter(|key| key.contains("anchor")).count(), 7);
+    for (key, listed) in &all {
+        let found = variable(text, key);
+        assert_eq!((found.own(), found.size()), (listed.own(), listed.size()), "{key}");
+        let value = number("1/8");
+        assert_eq!(found.with(&value), listed.with(&value), "{key}");
+    }
+    let length = &all.iter().find(|(key, _)| key == "mechanism.legs.*.length").unwrap().1;
+    assert_eq!(length.places().len(), 3);
+    assert!(length.places().iter().all(|at| &text[at.clone()] == "333"));
+    // Where one leg has another length, each has its own.
+    let text = text.replacen("length = 333", "length = 334", 1);
+    let all = Variable::all(&text, "design").unwrap();
+    assert_eq!(all.iter().filter(|(key, _)| key.ends_with("length")).count(), 3);
+}
