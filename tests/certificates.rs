@@ -26,11 +26,13 @@ use std::sync::atomic::AtomicBool;
 use Verdict::{Certified, Refuted};
 
 /// A committed certificate: `NAME.cert.json` is the answer to `tests/designs/NAME.toml`.
-const OF_DESIGNS: [(&str, Verdict); 16] = [
+const OF_DESIGNS: [(&str, Verdict); 18] = [
     ("orthoglide-prototype", Certified),
     ("orthoglide-relaxed-1-percent", Certified),
     ("orthoglide-tolerance", Certified),
     ("orthoglide-joint-range", Certified),
+    ("orthoglide-as-built-tight", Certified),
+    ("orthoglide-prototype-whole", Certified),
     ("linear-delta-klipper-cylinder", Certified),
     ("upu-struts", Certified),
     ("tripteron", Certified),

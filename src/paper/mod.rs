@@ -90,7 +90,7 @@ pub fn findings() -> Result<Vec<Finding>, NotEstablished> {
 }
 
 /// The order of the table.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 22] = [
     "leg-length",
     "corners",
     "base",
@@ -106,6 +106,8 @@ const ORDER: [&str; 20] = [
     "isotropy",
     "rounded-machine",
     "published-corners",
+    "motion",
+    "collisions",
     "ellipsoid",
     "appendix-roots",
     "appendix-count",

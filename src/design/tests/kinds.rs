@@ -305,6 +305,11 @@ fn rods_joints_and_bodies() {
             { "quantity": "platform_joint", "leg": 2, "given": { "axis": ["1", "0", "0"] }, "end": "max", "bound": "30" },
         ])
     );
+    // The two rods of a parallelogram, to either side along the axis.
+    let two = "anchor = [0, 2, 0]\nrod = { radius = 0.1, trim = [0.2, 0], spread = 10, axis = [0, 3, 4] }";
+    let claim = shown(&with(STRUTS, &[(9, two), (17, "clearance = { min = 0.05 }")]));
+    let rod = |offset: [&str; 3]| json!({ "on": "leg", "leg": 2, "radius": "0.1", "trim": ["0.2", "0"], "offset": offset });
+    assert_eq!(claim["bodies"], json!([rod(["0", "-3", "-4"]), rod(["0", "3", "4"])]));
     // Of joints alone, no requirement of the machine is needed.
     let alone = "anchor = [0, 2, 0]\nbase_joint = { axis = [0, 1, 0], max = 45 }";
     let claim = kernel(&with(STRUTS, &[(9, alone), (17, "")]));

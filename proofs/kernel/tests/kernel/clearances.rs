@@ -27,7 +27,7 @@ fn with_bodies(
     let length = |x: f64| number(x * part);
     for leg in 1..=3 {
         let trim = [length(20.0), length(trim)];
-        machine.bodies.push(Body::Leg { leg, radius: length(4.0), trim });
+        machine.bodies.push(Body::Leg { leg, radius: length(4.0), trim, offset: None });
     }
     let point = |x: f64, y: f64, z: f64| [length(x), length(y), length(z)];
     let [x, y, z] = tool;
@@ -92,6 +92,35 @@ fn clearance() {
     }
 }
 
+/// Two bars of a parallelogram, 40 to either side of a leg: `80 sqrt(1 - (A_y/L)^2)` from axis to axis.
+#[test]
+fn bars_of_a_parallelogram() {
+    let asked = Asked { quantity: "clearance", leg: None, given: &[], end: End::Min };
+    let mut machine = orthoglide();
+    for side in [-40.0, 40.0] {
+        let offset = Some([0.0, side, 0.0].map(number));
+        let trim = [0.0, 0.0].map(number);
+        machine.bodies.push(Body::Leg { leg: 1, radius: number(4.0), trim, offset });
+    }
+    let worst = 80.0 * (1.0 - (125.0 / 310.7f64).powi(2)).sqrt() - 8.0;
+    asked.is_decided(&machine, worst, 1, |problem| {
+        let at = [0.0, 125.0, 0.0].map(|x| x / (problem.scale as f64).exp2());
+        (at.to_vec(), Failure::Obligation(1, Vec::new()))
+    });
+    // A bar and the leg itself; two bodies on the leg itself have no distance to keep.
+    let rod = |offset| Body::Leg {
+        leg: 1,
+        radius: number(4.0),
+        trim: [number(0.0), number(0.0)],
+        offset,
+    };
+    machine.bodies[1] = rod(None);
+    assert!(certify(&asked.of(&machine, worst / 2.0 - 4.1), 4).is_some());
+    assert!(certify(&asked.of(&machine, worst / 2.0 - 3.9), 4).is_none());
+    machine.bodies[0] = rod(None);
+    assert!(Problem::new(&asked.of(&machine, 1.0)).is_err());
+}
+
 #[test]
 fn bodies_and_directions_that_show_nothing() {
     let machine = with_bodies(&linear_delta(SLAB), 1.0, [0.0, 0.0, -40.0], 130.0, 30.0);
@@ -129,6 +158,7 @@ fn bodies_and_directions_that_show_nothing() {
         leg,
         radius: number(radius),
         trim: trim.map(number),
+        offset: None,
     };
     type Change<'a> = &'a dyn Fn(&mut MachineClaim);
     let all: [(&str, Change<'_>); 8] = [
