@@ -232,6 +232,21 @@ fn block(mark: &str) -> String {
 }
 
 #[test]
+fn the_stories_of_the_guide_run() {
+    let text = fs::read_to_string(source("GUIDE.md")).unwrap();
+    let stories = text.split("\n## ").find(|part| part.starts_with("Five stories")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(source("tests"), folder.path().join("tests")).unwrap();
+    let programs = Path::new(BINARY).parent().unwrap();
+    let blocks: Vec<&str> = stories.split("```").skip(1).step_by(2).collect();
+    assert_eq!(blocks.len(), 5);
+    for line in blocks.iter().flat_map(|block| block.lines().skip(1)) {
+        let output = bash(folder.path(), line, Some(programs)).output().unwrap();
+        exits(&output, i32::from(line.ends_with("# refuted")));
+    }
+}
+
+#[test]
 fn the_gitlab_job_of_the_guide_runs() {
     let job = block("stage: test");
     let lines = job.lines().filter_map(|line| line.strip_prefix("    - "));
