@@ -30,7 +30,7 @@ impl Over<'_> {
     /// Evidence with tolerances apart, where there are some: from the worst machine, as it seems, then
     /// from that in the middle.
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
-        self.problem().derivatives.as_ref()?;
+        self.problem().derived.as_ref()?;
         let worst = self.worst(test)?;
         let two_ends = self.problem().inputs.iter().filter(|input| input.has_two_ends());
         let middle = "0".repeat(two_ends.count());
@@ -135,7 +135,7 @@ impl Over<'_> {
     /// The ends of all tolerances that make it worst.
     fn worst_machine(&self, Worst { vertex, weights, .. }: &Worst) -> Option<String> {
         let values = self.prover.checker.derived(self.place)?;
-        let (_, derivatives) = self.problem().derivatives.as_ref()?;
+        let derivatives = &self.problem().derived.as_ref()?.of;
         let over = test::Over { values, tolerances: None, inside: None, ..*self.formulas };
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         for (f, weight) in weights {

@@ -241,7 +241,7 @@ fn in_ranges(
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Box<Problem>> {
     let derived = Box::new(problem.clone().with_derivatives());
-    if derived.derivatives.is_none() {
+    if derived.derived.is_none() {
         return Err(derived);
     }
     let budget = Budget { max_boxes: budget.max_boxes.min(MOST_IN_RANGES), ..budget };

@@ -1,6 +1,7 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
+use crate::certificate::{Evidence, Node, Step};
 use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_LEGS};
 use crate::control::Control;
@@ -55,12 +56,29 @@ pub struct Problem {
     pub partial: Vec<Formula>,
     /// The parameters of an atlas that are coordinates of slopes, after those of the workspace.
     pub names: Vec<usize>,
-    /// The tape with the derivatives of tests by tolerances, where they are asked for.
-    pub derivatives: Option<(Tape, Derivatives)>,
+    /// The derivatives of tests by tolerances, where they are asked for.
+    pub derived: Option<Derived>,
+}
+
+/// A problem's derivatives by its quantities with two ends.
+#[derive(Clone, Debug)]
+pub struct Derived {
+    /// The problem's tape, and they.
+    pub tape: Tape,
+    /// Of each formula.
+    pub of: Derivatives,
+    /// For each obligation the work of what tolerances change of it.
+    work: Vec<usize>,
 }
 
 /// Most derivatives by tolerances of all formulas and of what they are made of.
 const MOST_DERIVATIVES: usize = 1 << 17;
+/// Most entries of a tape with these.
+const MOST_DERIVED: usize = 1 << 14;
+/// Most work of what they change of an obligation.
+const MOST_CHANGES: usize = 1 << 18;
+/// A step with tolerances apart counts so many times: a short text may ask for many.
+const WORK_APART: usize = 4;
 
 /// The workspace's own inequality.
 #[derive(Clone, Debug)]
@@ -132,7 +150,7 @@ impl Problem {
             partial: std::mem::take(&mut builder.partial),
             cube_reached: Vec::new(),
             names: Vec::new(),
-            derivatives: None,
+            derived: None,
             cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
         problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
@@ -170,15 +188,17 @@ impl Problem {
     /// these, where the platform turns, or where it takes too many operations.
     #[must_use]
     pub fn with_derivatives(self) -> Self {
+        let derived = if self.orientation.is_empty() { self.derivatives() } else { None };
+        Problem { derived, ..self }
+    }
+
+    fn derivatives(&self) -> Option<Derived> {
         let by = self.inputs.iter().enumerate().filter(|(_, input)| input.has_two_ends());
         let by: Vec<Op> = by.map(|(j, _)| Op::Parameter(j)).collect();
-        if by.is_empty() || !self.orientation.is_empty() {
-            return self;
-        }
-        let rows = self.legs.iter().flat_map(|leg| leg.row.formulas());
-        let tests = self.obligations.iter().flat_map(|o| o.test.formulas());
-        let formulas: BTreeSet<Formula> = rows.chain(tests).collect();
-        let (mut tape, mut derivatives) = (self.tape.clone(), HashMap::new());
+        let rows = self.obligations.iter().map(|own| own.test.rows(&self.legs));
+        let rows: Vec<Vec<Vec<Formula>>> = rows.collect();
+        let formulas: BTreeSet<Formula> = rows.iter().flatten().flatten().copied().collect();
+        let (mut tape, mut of) = (self.tape.clone(), HashMap::new());
         let (zero, mut spent) = (tape.integer(0), 0usize);
         for formula in formulas {
             let parts = tape.parts(&[formula]);
@@ -186,7 +206,7 @@ impl Problem {
             let own: Vec<Op> = ops().filter(|op| by.contains(op)).collect();
             spent = spent.saturating_add(own.len().saturating_mul(ops().count()));
             if spent > MOST_DERIVATIVES {
-                return self;
+                return None;
             }
             let gradient = tape.gradient(formula, &own);
             let mut each = Vec::new();
@@ -195,9 +215,35 @@ impl Problem {
                     each.push((j, tape.div(n, gradient.denominator)));
                 }
             }
-            derivatives.insert(formula, each);
+            of.insert(formula, each);
         }
-        Problem { derivatives: Some((tape, derivatives)), ..self }
+        let m = self.dimension();
+        let changes = |row: &Vec<Formula>| {
+            let all = row.iter().filter_map(|f| of.get(f)).flatten().map(|&(j, _)| j);
+            all.collect::<BTreeSet<usize>>().len()
+        };
+        let changes = |rows: &Vec<Vec<Formula>>| rows.iter().map(changes).sum::<usize>();
+        let work = rows.iter().map(|rows| (changes(rows) * (m + 2) * (m + 2)) << m);
+        let work: Vec<usize> = work.collect();
+        let few = tape.ops().len() <= MOST_DERIVED && work.iter().all(|&own| own <= MOST_CHANGES);
+        let few = few && !by.is_empty();
+        few.then_some(Derived { tape, of, work })
+    }
+
+    /// The work of a node's steps with tolerances apart, beside that of its formulas: all of these with
+    /// their derivatives, and for each step those of one machine, and at each vertex all changes.
+    pub(crate) fn work_apart(&self, node: &Node) -> usize {
+        let Some(derived) = &self.derived else { return 0 };
+        let own = |Step(obligation, evidence): &Step| match evidence {
+            Evidence::Tolerances(..) => {
+                let changes = derived.work.get(*obligation).copied().unwrap_or(0);
+                Some(changes.saturating_add(self.tape.ops().len()))
+            }
+            _ => None,
+        };
+        let steps: Vec<usize> = node.by.iter().filter_map(own).collect();
+        let all = if steps.is_empty() { 0 } else { derived.tape.ops().len() };
+        steps.into_iter().fold(all, usize::saturating_add).saturating_mul(WORK_APART)
     }
 
     /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
@@ -253,13 +299,7 @@ impl Problem {
         let errors = self.obligations.iter().any(|o| matches!(o.test, quantity::Test::Accuracy(_)));
         let signs = if errors { 1 << (3 * self.dimension()) } else { 0 };
         // Formulas are evaluated a second time over the inflated cell.
-        let once = self.tape.ops().len() * if errors { 2 } else { 1 } + signs;
-        // And of the middle machine, with derivatives, and at each vertex all changes of a matrix.
-        self.derivatives.as_ref().map_or(once, |(tape, all)| {
-            let changes: usize = all.values().map(Vec::len).sum();
-            let m = self.dimension();
-            once + tape.ops().len() + changes * (1 << m) * (m + 1)
-        })
+        self.tape.ops().len() * if errors { 2 } else { 1 } + signs
     }
 
     /// The coordinates.

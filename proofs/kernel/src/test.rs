@@ -26,7 +26,7 @@ pub mod curvature;
 pub mod solve;
 pub mod tolerances;
 
-use self::tolerances::{less_changes, Change, Tolerances};
+use self::tolerances::{less_changes, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
@@ -42,13 +42,6 @@ pub struct Row<F> {
     pub a: Vec<F>,
     /// The square of the entry of `B`.
     pub d: F,
-}
-
-impl Row<Formula> {
-    /// Its formulas.
-    pub fn formulas(&self) -> impl Iterator<Item = Formula> + '_ {
-        self.a.iter().copied().chain([self.d])
-    }
 }
 
 /// `Y = y / 2^places`.
@@ -93,7 +86,7 @@ pub struct Over<'a, E: Enclosure> {
 }
 
 /// A row at a vertex, and what tolerances change of it.
-type Varied<N> = (Row<N>, Vec<Change<Row<N>>>);
+type Varied<N> = (Row<N>, Vec<Row<N>>);
 
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
@@ -135,10 +128,9 @@ impl<E: Enclosure> Over<'_, E> {
         let value = |f: &Formula| self.at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
-            let formulas: Vec<Formula> = row.formulas().collect();
+            let formulas: Vec<Formula> = row.a.iter().copied().chain([row.d]).collect();
             let split = |mut s: Vec<E::Number>| s.pop().map(|d| Row { a: s, d });
-            let changes = self.changes(&formulas, vertex)?.into_iter();
-            let changes = changes.map(|change| change.made(split));
+            let changes = self.changes(&formulas, vertex)?.into_iter().map(split);
             Some((Row { a, d: value(&row.d)? }, changes.collect::<Option<_>>()?))
         };
         rows.iter().map(row).collect()
@@ -236,10 +228,7 @@ pub fn full_rank<E: Enclosure>(
     over.at_vertices(rows, |v, rows| {
         let without_d = |row| Row { d: zero.clone(), ..row };
         let without_d = |(row, changes): Varied<_>| {
-            let changes = changes.into_iter();
-            let changes =
-                changes.map(|Change { s, both_ways }| Change { s: without_d(s), both_ways });
-            (without_d(row), changes.collect())
+            (without_d(row), changes.into_iter().map(without_d).collect())
         };
         let rows: Vec<_> = rows.into_iter().map(without_d).collect();
         let rest = over.less_inside(zero.clone(), v);
@@ -265,11 +254,11 @@ fn is_lower<E: Enclosure>(
         }
         let fixed = |&y: &i64| e.dyadic(y, evidence.places, one.as_ref()?);
         let fixed: Vec<E::Number> = y.iter().map(fixed).collect::<Option<_>>()?;
-        let half = |row: Row<E::Number>| {
-            let z = residual(e, &row, &row.d, (y, evidence.places))?;
+        let half = |row: &Row<E::Number>| {
+            let z = residual(e, row, &row.d, (y, evidence.places))?;
             z.iter().map(|z| e.halve(z)).collect::<Option<Vec<_>>>()
         };
-        let changes = changes.iter().map(|change| change.clone().made(half));
+        let changes = changes.iter().map(half);
         let changes: Vec<_> = changes.collect::<Option<_>>()?;
         less_changes(e, t, &fixed, &changes, direction.as_ref()?)
     };
@@ -357,7 +346,7 @@ fn less_changed_row<E: Enclosure>(
     over: &Over<'_, E>,
     bordered: Triangle<E::Number>,
     row: &Row<E::Number>,
-    changes: &[Change<Row<E::Number>>],
+    changes: &[Row<E::Number>],
 ) -> Option<Triangle<E::Number>> {
     let e = over.slopes.arithmetic;
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
@@ -367,11 +356,10 @@ fn less_changed_row<E: Enclosure>(
     direction.insert(0, e.neg(&e.ratio(&along, &one, &row.d)?)?);
     let mut fixed = vec![zero; row.a.len()];
     fixed.insert(0, one);
-    let change = |Row { a: mut s, d }: Row<E::Number>| {
-        s.insert(0, e.halve(&d)?);
-        Some(s)
+    let change = |row: &Row<E::Number>| {
+        let first = std::iter::once(e.halve(&row.d));
+        first.chain(row.a.iter().cloned().map(Some)).collect::<Option<Vec<_>>>()
     };
-    let changes = changes.iter().map(|own| own.clone().made(change));
-    let changes: Vec<_> = changes.collect::<Option<_>>()?;
+    let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
     less_changes(e, bordered, &fixed, &changes, &direction)
 }

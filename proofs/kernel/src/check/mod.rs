@@ -32,7 +32,7 @@ use crate::witness::{self, fails_throughout, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
 
-use tolerances::is_of_vertices;
+use tolerances::{are_for, is_of_vertices};
 
 pub use tolerances::Place;
 
@@ -263,6 +263,9 @@ pub(crate) fn walk<Z: Integer>(
     let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
     let steps = tree.nodes.iter().filter(is_evaluated).count();
     let work = steps.saturating_mul(problem.work()).saturating_add(checker.work_at_controls(tree));
+    let work = work.saturating_add(
+        tree.nodes.iter().fold(0, |sum: usize, node| sum.saturating_add(problem.work_apart(node))),
+    );
     let work = work.saturating_mul(Z::WORK * (1 + bits as usize / 64));
     if tree.nodes.len() > MOST_NODES || work > MOST_WORK {
         return Err(Rejected::Work);
@@ -495,7 +498,8 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 plain && self.shows_less(over, place, test, evidence, inside)
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
-                let plain = is_of_vertices(test, evidence);
+                let plain =
+                    is_of_vertices(test, evidence) && are_for(directions, test, place.edges.len());
                 let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
                 plain && self.apart(over, place, (ends, directions), then) == Some(true)
             }

@@ -6,7 +6,7 @@ use crate::certificate::Evidence;
 use crate::formula::{Op, Values};
 use crate::quantity::Test;
 use crate::slope::Slope;
-use crate::test::tolerances::{Step, Tolerances};
+use crate::test::tolerances::Tolerances;
 use crate::test::Over;
 use std::cell::OnceCell;
 
@@ -27,6 +27,17 @@ impl<'a, N> Place<'a, N> {
     }
 }
 
+/// Whether these are directions for a test, of `m` coordinates, one for each matrix.
+pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
+    let expected = match test {
+        Test::AtLeast(_) | Test::Beyond(..) => vec![],
+        Test::Conditioning(_) => vec![m, m],
+        Test::Solve(solve) => vec![solve.a.len() + 1],
+        _ => vec![m],
+    };
+    directions.iter().map(Vec::len).eq(expected)
+}
+
 /// Whether the evidence for a test looks at nothing but formulas at vertices, and at the workspace's own
 /// inequality, which no tolerance changes.
 pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
@@ -44,7 +55,7 @@ impl<E: Enclosure> Checker<'_, E> {
         &self,
         place: &'p Place<'_, E::Number>,
     ) -> Option<&'p Values<Slope<E::Number>>> {
-        let (tape, _) = self.problem.derivatives.as_ref()?;
+        let tape = &self.problem.derived.as_ref()?.tape;
         Some(place.derived.get_or_init(|| {
             let slopes = self.slopes(place.edges.len());
             tape.run(&slopes, |op| match op {
@@ -69,16 +80,15 @@ impl<E: Enclosure> Checker<'_, E> {
             return None;
         }
         let values = self.derived(place)?;
-        let (_, derivatives) = self.problem.derivatives.as_ref()?;
+        let derivatives = &self.problem.derived.as_ref()?.of;
         let mut named = ends.chars();
-        let zero = self.arithmetic.integer(0)?;
         let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.has_two_ends()
         {
-            true => step(self.arithmetic, x, named.next()?),
-            false => Some((x.clone(), Step { by: zero.clone(), both_ways: false })),
+            true => start(self.arithmetic, x, named.next()?),
+            false => Some((x.clone(), Vec::new())),
         };
         let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
-        let (starts, steps): (Vec<E::Number>, Vec<Step<E::Number>>) = all.into_iter().unzip();
+        let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = all.into_iter().unzip();
         let slopes = self.slopes(place.edges.len());
         let machine = self.problem.tape.run(&slopes, |op| match op {
             Op::Coordinate(k) => slopes.coordinate(k, place.edges.get(k)?.clone()),
@@ -91,18 +101,19 @@ impl<E: Enclosure> Checker<'_, E> {
     }
 }
 
-/// Where a quantity of `[lo, hi]` begins, and how far it goes. In the middle from a `c <= (lo + hi)/2`,
+/// Where a quantity of `[lo, hi]` begins, and its steps. In the middle from a `c <= (lo + hi)/2`,
 /// so that `hi - c` is not less than `c - lo`.
-fn step<E: Enclosure>(e: &E, x: &E::Number, end: char) -> Option<(E::Number, Step<E::Number>)> {
+fn start<E: Enclosure>(e: &E, x: &E::Number, end: char) -> Option<(E::Number, Vec<E::Number>)> {
     let [lo, hi] = e.ends(x);
-    let [_, all] = e.ends(&e.sub(&hi, &lo)?);
+    let up_from = |low: &E::Number| Some(e.ends(&e.sub(&hi, low)?)[1].clone());
     Some(match end {
-        '-' => (lo, Step { by: all, both_ways: false }),
-        '+' => (hi, Step { by: e.neg(&all)?, both_ways: false }),
+        '-' => (lo.clone(), vec![up_from(&lo)?]),
+        '+' => (hi.clone(), vec![e.neg(&up_from(&lo)?)?]),
         '0' => {
             let [middle, _] = e.ends(&e.halve(&e.add(&lo, &hi)?)?);
-            let [_, half] = e.ends(&e.sub(&hi, &middle)?);
-            (middle, Step { by: half, both_ways: true })
+            let half = up_from(&middle)?;
+            let back = e.neg(&half)?;
+            (middle, vec![half, back])
         }
         _ => return None,
     })

@@ -96,20 +96,22 @@ pub enum Test {
 }
 
 impl Test {
-    /// What it says of rows and numbers at a point: all of it, but for that of whole cells.
-    pub(crate) fn formulas(&self) -> Vec<Formula> {
+    /// The formulas of each row of its matrix, or of its sign; none of tests of whole cells.
+    pub(crate) fn rows(&self, legs: &[Leg]) -> Vec<Vec<Formula>> {
+        let of = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect();
         match self {
-            Test::AtLeast(f) => vec![*f],
-            Test::Beyond(f, b) => vec![*f, *b],
-            Test::Least(rows, _) => rows.iter().flat_map(Row::formulas).collect(),
-            Test::Solve(solve) => solve.a.iter().flatten().chain(&solve.b).copied().collect(),
-            Test::SigmaMin(_)
-            | Test::SigmaMax(_)
-            | Test::Conditioning(_)
-            | Test::OneToOne(_)
-            | Test::Accuracy(_)
-            | Test::Apart(_)
-            | Test::Curvature(_) => Vec::new(),
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+                legs.iter().map(|leg| of(&leg.row)).collect()
+            }
+            Test::Least(rows, _) => rows.iter().map(of).collect(),
+            Test::Solve(Solve { a, b, .. }) => {
+                a.iter().zip(b).map(|(a, &b)| a.iter().copied().chain([b]).collect()).collect()
+            }
+            Test::AtLeast(f) => vec![vec![*f]],
+            Test::Beyond(f, b) => vec![vec![*f, *b]],
+            Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
+                Vec::new()
+            }
         }
     }
 }

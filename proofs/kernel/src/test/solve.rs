@@ -99,7 +99,7 @@ fn less_changed<E: Enclosure>(
             };
             y.iter().map(along).chain([Some(b)]).collect::<Option<Vec<_>>>()
         };
-        let changes = over.changes(&formulas, vertex)?.into_iter().map(|own| own.made(change));
+        let changes = over.changes(&formulas, vertex)?.into_iter().map(change);
         let changes: Vec<_> = changes.collect::<Option<_>>()?;
         let mut fixed = vec![zero.clone(); y.len() + 1];
         *fixed.get_mut(i)? = e.integer(1)?;

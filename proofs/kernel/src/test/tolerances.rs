@@ -14,81 +14,57 @@ use std::collections::{BTreeMap, HashMap};
 /// Derivatives of a formula, each by the parameter of this number.
 pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
 
-/// How a quantity differs from that of the one machine: by `lambda` times `by`.
-#[derive(Clone, Debug)]
-pub struct Step<N> {
-    /// The greatest difference.
-    pub by: N,
-    /// Whether `lambda` is in `[-1, 1]`; else in `[0, 1]`.
-    pub both_ways: bool,
-}
-
 /// How machines differ from one of them.
 ///
 /// **Lemma (tolerances).** Let `theta_0` be the one machine, and every other one
-/// `theta_j = theta_0j + lambda_j r_j`, with `lambda_j` as [`Step`] says. Let the formulas be defined on
-/// the cell for all of them. At every point `x` of the cell, for every machine and each formula `f`,
+/// `theta = theta_0 + sum_k lambda_k r_k e_j(k)`, `lambda_k` in `[0, 1]`: step `k` is of one quantity, of which there
+/// may be two, one each way. Let the formulas be defined on the cell for all machines of the tolerance, a box. At every
+/// point `x` of the cell, for every machine and each formula `f`,
 ///
 /// ```text
-/// f(x, theta) = sum_v w_v (f_v + sum_j lambda_j s_vj)
+/// f(x, theta) = sum_v w_v (f_v + sum_k lambda_k s_vk)
 /// ```
 ///
-/// with the weights `w_v` of [`Vertex`], `f_v` of `theta_0`, and `s_vj` in `r_j` times the vertex value of
-/// the derivative of `f` by `theta_j`, for some machine. *Proof.* By the mean value theorem
-/// `f(x, theta) - f(x, theta_0) = sum_j (theta_j - theta_0j) d_j f(x, theta')` with `theta'` between both.
-/// It may be another for each formula; the `lambda_j` are not, and the weights depend on `x` alone. ∎
+/// with the weights `w_v` of [`Vertex`], `f_v` of `theta_0`, and `s_vk` in `r_k` times the vertex value of
+/// the derivative of `f` by its quantity, for some machine. *Proof.* By the mean value theorem
+/// `f(x, theta) - f(x, theta_0) = sum_k lambda_k r_k d_j(k) f(x, theta')` with `theta'` between both.
+/// It may be another for each formula; the `lambda_k` are not, and the weights depend on `x` alone. ∎
 /// With derivatives of the one machine alone it would be unsound: `theta^2` has none at 0, and is 1 at
 /// the end of `[-1, 1]`.
 pub struct Tolerances<'a, E: Enclosure> {
     /// The formulas of the one machine.
     pub machine: &'a Values<Slope<E::Number>>,
-    /// For each parameter how it differs.
-    pub steps: &'a [Step<E::Number>],
+    /// For each parameter its steps `r_k`.
+    pub steps: &'a [Vec<E::Number>],
     /// The derivatives of the formulas that tests are made of, all of them.
     pub derivatives: &'a Derivatives,
     /// Directions, in which what is lost is least; any will do.
     pub directions: &'a [Vec<i64>],
 }
 
-/// What a quantity changes of some formulas, `s_vj` of each, and whether both ways.
-#[derive(Clone)]
-pub struct Change<T> {
-    /// Of each formula.
-    pub s: T,
-    /// Whether `lambda_j` is in `[-1, 1]`; else in `[0, 1]`.
-    pub both_ways: bool,
-}
-
-impl<T> Change<T> {
-    /// The same, of what is made of these.
-    pub(super) fn made<U>(self, make: impl FnOnce(T) -> Option<U>) -> Option<Change<U>> {
-        Some(Change { s: make(self.s)?, both_ways: self.both_ways })
-    }
-}
-
 impl<E: Enclosure> Over<'_, E> {
-    /// At a vertex, for each quantity on which one of the formulas depends what it changes of them, in
-    /// the order of parameters.
-    pub(super) fn changes(
-        &self,
-        formulas: &[Formula],
-        v: Vertex,
-    ) -> Option<Vec<Change<Vec<E::Number>>>> {
+    /// At a vertex, for each step of a quantity on which one of the formulas depends the `s_vk` of all of
+    /// them, in the order of parameters.
+    pub(super) fn changes(&self, formulas: &[Formula], v: Vertex) -> Option<Vec<Vec<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
-        let mut all: BTreeMap<usize, Change<Vec<E::Number>>> = BTreeMap::new();
+        let mut all: BTreeMap<usize, Vec<E::Number>> = BTreeMap::new();
         for (k, formula) in formulas.iter().enumerate() {
             // It is defined for all machines.
             self.of(*formula)?;
             for (j, derivative) in tolerances.derivatives.get(formula)? {
-                let Step { by, both_ways } = tolerances.steps.get(*j)?;
-                let change = e.mul(by, &v.value(&self.slopes, self.of(*derivative)?)?)?;
                 let zero = e.integer(0)?;
-                let none = || Change { s: vec![zero; formulas.len()], both_ways: *both_ways };
-                *all.entry(*j).or_insert_with(none).s.get_mut(k)? = change;
+                let own = all.entry(*j).or_insert_with(|| vec![zero; formulas.len()]);
+                *own.get_mut(k)? = v.value(&self.slopes, self.of(*derivative)?)?;
             }
         }
-        Some(all.into_values().collect())
+        let mut changes = Vec::new();
+        for (j, slopes) in all {
+            for step in tolerances.steps.get(j)? {
+                changes.push(slopes.iter().map(|s| e.mul(step, s)).collect::<Option<_>>()?);
+            }
+        }
+        Some(changes)
     }
 
     /// At a vertex, the most by which tolerances lessen a sum of formulas, some subtracted.
@@ -96,19 +72,18 @@ impl<E: Enclosure> Over<'_, E> {
         let e = self.slopes.arithmetic;
         let formulas: Vec<Formula> = parts.iter().map(|&(f, _)| f).collect();
         let zero = e.integer(0)?;
-        let changes = self.changes(&formulas, v)?;
-        changes.iter().try_fold(zero.clone(), |sum, Change { s, both_ways }| {
-            let mut terms = s.iter().zip(parts);
-            let own =
-                terms.try_fold(zero.clone(), |own, (s, &(_, subtracted))| match subtracted {
-                    true => e.sub(&own, s),
-                    false => e.add(&own, s),
+        self.changes(&formulas, v)?.iter().try_fold(zero.clone(), |sum, change| {
+            let mut terms = change.iter().zip(parts);
+            let less =
+                terms.try_fold(zero.clone(), |less, (s, &(_, subtracted))| match subtracted {
+                    true => e.add(&less, s),
+                    false => e.sub(&less, s),
                 })?;
-            let [_, less] = e.ends(&e.neg(&own)?);
-            match both_ways {
-                true => e.add(&sum, &e.magnitude(&own)?),
-                false if e.is_positive(&less) => e.add(&sum, &less),
-                false => Some(sum),
+            let [_, less] = e.ends(&less);
+            if e.is_positive(&less) {
+                e.add(&sum, &less)
+            } else {
+                Some(sum)
             }
         })
     }
@@ -124,15 +99,13 @@ impl<E: Enclosure> Over<'_, E> {
     }
 }
 
-/// `T` less, for each change `s` with some `tau > 0`, `tau s s^T + e e^T/tau` if both ways, else
-/// `p p^T/(2 tau)`, `p = tau s - e`.
+/// `T` less, for each change `s`, `p p^T/(2 tau)` with `p = tau s - e` and some `tau > 0`.
 ///
-/// **Lemma.** If this is positive definite for all `s` in their enclosures, so is
-/// `T + sum_j lambda_j (e s_j^T + s_j e^T)`. *Proof.* `tau s s^T + e e^T/tau +- (e s^T + s e^T)` is
-/// `z z^T`, `z = tau^(1/2) s +- tau^(-1/2) e`, so not negative; and neither is
-/// `p p^T/(2 tau) + (e s^T + s e^T) = (tau s + e)(tau s + e)^T/(2 tau)`. ∎ At each vertex; a convex
-/// combination is positive definite too. With half of the second it would be unsound: `T = 1`, `e = 1`,
-/// `s = -1`, `tau = 1`.
+/// **Lemma.** If this is positive definite for all `s_k` in their enclosures, so is
+/// `T + sum_k lambda_k (e s_k^T + s_k e^T)`, for all `lambda_k` in `[0, 1]`. *Proof.*
+/// `p p^T/(2 tau) + (e s^T + s e^T) = (tau s + e)(tau s + e)^T/(2 tau) >= 0`. ∎ At each vertex; a convex
+/// combination is positive definite too. What several rows change is taken off one after the other. With half of
+/// it, it would be unsound: `T = 3/2`, `e = 1`, `s = -1`, `tau = 1`.
 ///
 /// Along `w` nothing is lost but what has to be if `tau = |e . w|/|s . w|`, and anything may be where one
 /// of these is zero. So the 1-norms are added to both: the longer `w`, the less they count.
@@ -140,7 +113,7 @@ pub(super) fn less_changes<E: Enclosure>(
     e: &E,
     mut t: Triangle<E::Number>,
     fixed: &[E::Number],
-    changes: &[Change<Vec<E::Number>>],
+    changes: &[Vec<E::Number>],
     direction: &[E::Number],
 ) -> Option<Triangle<E::Number>> {
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
@@ -150,25 +123,20 @@ pub(super) fn less_changes<E: Enclosure>(
         x.iter().try_fold(e.magnitude(&along)?, |sum, x| e.add(&sum, &e.magnitude(x)?))
     };
     let of_fixed = size(fixed)?;
-    for Change { s, both_ways } in changes {
+    for s in changes {
         let of_change = size(s)?;
         // One of the two is zero: nothing is changed.
         if !e.is_positive(&of_change) || !e.is_positive(&of_fixed) {
             continue;
         }
         let [tau, _] = e.ends(&e.ratio(&of_fixed, &one, &of_change)?);
-        let inverse = e.recip(&tau)?;
-        let grown: Vec<E::Number> = s.iter().map(|s| e.mul(&tau, s)).collect::<Option<_>>()?;
-        let p = grown.iter().zip(fixed).map(|(s, x)| e.sub(s, x)).collect::<Option<Vec<_>>>()?;
-        for (i, row) in t.iter_mut().enumerate() {
-            for (entry, j) in row.iter_mut().zip(i..) {
-                let lost = if *both_ways {
-                    let of_fixed = e.mul(&inverse, &e.mul(fixed.get(i)?, fixed.get(j)?)?)?;
-                    e.add(&e.mul(grown.get(i)?, s.get(j)?)?, &of_fixed)?
-                } else {
-                    e.halve(&e.mul(&inverse, &e.mul(p.get(i)?, p.get(j)?)?)?)?
-                };
-                *entry = e.sub(entry, &lost)?;
+        let half = e.halve(&e.recip(&tau)?)?;
+        let p = |(s, x)| e.sub(&e.mul(&tau, s)?, x);
+        let p: Vec<E::Number> = s.iter().zip(fixed).map(p).collect::<Option<_>>()?;
+        for (row, (i, p_i)) in t.iter_mut().zip(p.iter().enumerate()) {
+            let part = e.mul(&half, p_i)?;
+            for (entry, p_j) in row.iter_mut().zip(&p[i..]) {
+                *entry = e.sub(entry, &e.mul(&part, p_j)?)?;
             }
         }
     }

@@ -326,7 +326,7 @@ impl<'a> Prover<'a> {
             let all = self.proposals(over, test).unwrap_or_default().into_iter();
             all.filter_map(|evidence| self.shown(over, place, test, evidence)).next()
         };
-        proposed(over).or_else(|| self.apart(over, place, &proposed))
+        proposed(over).or_else(|| self.apart(over, place, test, &proposed))
     }
 
     /// What shows a test with tolerances apart, from any machine at ends of the tolerance or in their
@@ -335,19 +335,27 @@ impl<'a> Prover<'a> {
         &self,
         over: &Over<'_, Rough>,
         place: &Place<'_, Pair>,
+        test: &Test,
         proposed: &dyn Fn(&Over<'_, Rough>) -> Option<Evidence>,
     ) -> Option<Evidence> {
-        self.problem.derivatives.as_ref()?;
+        self.problem.derived.as_ref()?;
         let quantities = self.problem.tolerances().count() as u32;
         let digits = |n: usize, size: u32| (0..size).map(move |k| n / 3usize.pow(k) % 3);
         let all = |size: u32| (0..3usize.pow(size)).map(move |n| digits(n, size));
         let machines = all(quantities).map(|ends| ends.map(|k| ["-", "+", "0"][k]).collect());
+        let along = |n| {
+            vec![digits(n, self.problem.dimension() as u32).map(|k| 16 * (k as i64 - 1)).collect()]
+        };
+        let some = 0..3usize.pow(self.problem.dimension() as u32);
+        let directions: Vec<Vec<Vec<i64>>> = some.map(along).chain([Vec::new()]).collect();
         for machine in machines.collect::<Vec<String>>() {
-            for direction in all(self.problem.dimension() as u32) {
-                let directions = [direction.map(|k| 16 * (k as i64 - 1)).collect::<Vec<_>>()];
-                let found = self.checker.apart(over, place, (&machine, &directions), proposed);
-                if let Some(found) = found.flatten() {
-                    return Some(Evidence::Tolerances(Box::new(found), machine, directions.into()));
+            for directions in &directions {
+                let found = self.checker.apart(over, place, (&machine, directions), proposed);
+                let Some(inner) = found.flatten() else { continue };
+                let found =
+                    Evidence::Tolerances(Box::new(inner), machine.clone(), directions.clone());
+                if self.checker.shows(over, place, test, &found) {
+                    return Some(found);
                 }
             }
         }
