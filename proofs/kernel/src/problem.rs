@@ -76,9 +76,7 @@ const MOST_DERIVATIVES: usize = 1 << 17;
 /// Most entries of a tape with these.
 const MOST_DERIVED: usize = 1 << 14;
 /// Most work of what they change of an obligation.
-const MOST_CHANGES: usize = 1 << 18;
-/// A step with tolerances apart counts so many times: a short text may ask for many.
-const WORK_APART: usize = 4;
+const MOST_CHANGES: usize = 1 << 16;
 
 /// The workspace's own inequality.
 #[derive(Clone, Debug)]
@@ -243,7 +241,7 @@ impl Problem {
         };
         let steps: Vec<usize> = node.by.iter().filter_map(own).collect();
         let all = if steps.is_empty() { 0 } else { derived.tape.ops().len() };
-        steps.into_iter().fold(all, usize::saturating_add).saturating_mul(WORK_APART)
+        steps.into_iter().fold(all, usize::saturating_add)
     }
 
     /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
