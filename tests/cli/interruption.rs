@@ -64,7 +64,7 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
 #[test]
 fn an_interrupted_limit_writes_nothing() {
     let folder = Folder::with(&[LONG]);
-    let arguments = ["limit", LONG, "mechanism.leg_length", "--gap", "1e-9", "--threads", "1"];
+    let arguments = ["limit", LONG, "mechanism.parameters.l", "--gap", "1e-9", "--threads", "1"];
     let mut command = folder.command(&arguments);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     wait_until_caught(&mut child, 2);

@@ -141,8 +141,7 @@ fn of_a_tolerance_the_middle_is_varied() {
 fn a_gap_that_is_not_reached_leaves_the_nearest_ends() {
     let design = "orthoglide-tolerance.toml";
     let folder = Folder::with(&[design]);
-    let all =
-        ["limit", design, "mechanism.leg_length", "--direction", "down", "--max-boxes", "100"];
+    let all = ["limit", design, "mechanism.leg_length", "--direction", "down", "--max-boxes", "30"];
     let run = folder.run(&all).exits(3);
     let run = run.says(&["lower limit", "more than asked for", "undecided 310.", "may help"]);
     assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
