@@ -126,8 +126,7 @@ impl<'a> Prover<'a> {
         };
         let place = Place::new(edges, [touches(|x| x.0), touches(|x| x.1)]);
         let slopes = self.checker.slopes(edges.len());
-        let formulas =
-            test::Over { slopes, values, controls: None, inside: None, tolerances: None };
+        let formulas = test::Over::new(slopes, values);
         then(&Over { prover: self, formulas: &formulas, place: &place })
     }
 }

@@ -269,8 +269,8 @@ pub(crate) fn by_formulas(
 
 /// Most entries of a tape that a user's formulas come to.
 const MOST_FORMULAS: usize = 1 << 14;
-/// Most derivatives of one formula and of all that it is made of.
-const MOST_DERIVATIVES: usize = 1 << 17;
+/// Most derivatives of one formula and of all that it is made of; by tolerances, of all formulas.
+pub(crate) const MOST_DERIVATIVES: usize = 1 << 17;
 
 pub(crate) fn few(builder: &Builder) -> Result<(), ClaimError> {
     fewer(builder.tape.ops().len(), MOST_FORMULAS)

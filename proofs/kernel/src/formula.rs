@@ -80,6 +80,15 @@ pub struct Gradient {
     pub denominator: Formula,
 }
 
+impl Gradient {
+    /// The derivatives themselves; the entry 0 stays.
+    pub fn quotients(&self, tape: &mut Tape) -> Vec<Formula> {
+        let zero = tape.integer(0);
+        let each = |&n: &Formula| if n == zero { n } else { tape.div(n, self.denominator) };
+        self.numerators.iter().map(each).collect()
+    }
+}
+
 impl Tape {
     /// The operations, each on earlier ones.
     pub fn ops(&self) -> &[Op] {

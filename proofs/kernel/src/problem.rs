@@ -3,7 +3,7 @@
 use crate::cell::Cell;
 use crate::certificate::{Evidence, Node, Step};
 use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
-use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_LEGS};
+use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
@@ -71,8 +71,6 @@ pub struct Derived {
     work: Vec<usize>,
 }
 
-/// Most derivatives by tolerances of all formulas and of what they are made of.
-const MOST_DERIVATIVES: usize = 1 << 17;
 /// Most entries of a tape with these.
 const MOST_DERIVED: usize = 1 << 14;
 /// Most work of what they change of an obligation.
@@ -193,6 +191,9 @@ impl Problem {
     fn derivatives(&self) -> Option<Derived> {
         let by = self.inputs.iter().enumerate().filter(|(_, input)| input.has_two_ends());
         let by: Vec<Op> = by.map(|(j, _)| Op::Parameter(j)).collect();
+        if by.is_empty() {
+            return None;
+        }
         let rows = self.obligations.iter().map(|own| own.test.rows(&self.legs));
         let rows: Vec<Vec<Vec<Formula>>> = rows.collect();
         let formulas: BTreeSet<Formula> = rows.iter().flatten().flatten().copied().collect();
@@ -207,13 +208,12 @@ impl Problem {
                 return None;
             }
             let gradient = tape.gradient(formula, &own);
-            let mut each = Vec::new();
-            for (&n, &op) in gradient.numerators.iter().zip(&own).filter(|(&n, _)| n != zero) {
-                if let Op::Parameter(j) = op {
-                    each.push((j, tape.div(n, gradient.denominator)));
-                }
-            }
-            of.insert(formula, each);
+            let each = own.into_iter().zip(gradient.quotients(&mut tape));
+            let each = each.filter_map(|(op, derivative)| match op {
+                Op::Parameter(j) if derivative != zero => Some((j, derivative)),
+                _ => None,
+            });
+            of.insert(formula, each.collect());
         }
         let m = self.dimension();
         let changes = |row: &Vec<Formula>| {
@@ -224,7 +224,6 @@ impl Problem {
         let work = rows.iter().map(|rows| (changes(rows) * (m + 2) * (m + 2)) << m);
         let work: Vec<usize> = work.collect();
         let few = tape.ops().len() <= MOST_DERIVED && work.iter().all(|&own| own <= MOST_CHANGES);
-        let few = few && !by.is_empty();
         few.then_some(Derived { tape, of, work })
     }
 

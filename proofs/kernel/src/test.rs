@@ -91,7 +91,11 @@ type Varied<N> = (Row<N>, Vec<Row<N>>);
 /// What a bound is at a vertex.
 pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
 
-impl<E: Enclosure> Over<'_, E> {
+impl<'a, E: Enclosure> Over<'a, E> {
+    /// Formulas at vertices, of all machines at once.
+    pub fn new(slopes: Slopes<'a, E>, values: &'a Values<Slope<E::Number>>) -> Self {
+        Over { slopes, values, controls: None, inside: None, tolerances: None }
+    }
     /// The value of a formula over the cell.
     pub fn of(&self, formula: Formula) -> Option<&Slope<E::Number>> {
         self.values.of(formula)
@@ -246,7 +250,7 @@ fn is_lower<E: Enclosure>(
 ) -> bool {
     let e = over.slopes.arithmetic;
     let m = width(rows);
-    let (one, direction) = (e.integer(1), over.direction(<[_]>::first, m));
+    let (one, direction) = (e.integer(1), over.direction(<[_]>::first));
     let term = |t: Triangle<E::Number>, (row, changes): &Varied<E::Number>, y: &[i64]| {
         let t = added(e, t, row, (y, evidence.places))?;
         if changes.is_empty() {
@@ -350,7 +354,7 @@ fn less_changed_row<E: Enclosure>(
 ) -> Option<Triangle<E::Number>> {
     let e = over.slopes.arithmetic;
     let (zero, one) = (e.integer(0)?, e.integer(1)?);
-    let mut direction = over.direction(<[_]>::last, row.a.len())?;
+    let mut direction = over.direction(<[_]>::last)?;
     let mut terms = row.a.iter().zip(&direction);
     let along = terms.try_fold(zero.clone(), |sum, (a, v)| e.add(&sum, &e.mul(a, v)?))?;
     direction.insert(0, e.neg(&e.ratio(&along, &one, &row.d)?)?);

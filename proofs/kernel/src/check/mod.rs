@@ -31,7 +31,6 @@ use crate::test::{
 use crate::witness::{self, fails_throughout, WitnessError};
 use num_bigint::BigInt;
 use std::fmt;
-
 use tolerances::{are_for, is_of_vertices};
 
 pub use tolerances::Place;
@@ -437,7 +436,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Result<(), Rejected> {
         let values = self.evaluate(place.edges);
         let slopes = self.slopes(place.edges.len());
-        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let over = Over::new(slopes, &values);
         for Step(obligation, evidence) in &node.by {
             let (node, obligation) = (at, *obligation);
             if *evidence == Evidence::Outside {
@@ -575,8 +574,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     ) -> Option<bool> {
         let d = &over.of(test.distance)?.range;
         let values = self.evaluate(&inflated(self.arithmetic, place.edges, d)?);
-        let slopes = over.slopes;
-        let far = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let far = Over::new(over.slopes, &values);
         Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
     }
 

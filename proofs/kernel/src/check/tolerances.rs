@@ -2,8 +2,9 @@
 
 use super::Checker;
 use crate::arithmetic::Enclosure;
+use crate::cell::evaluate;
 use crate::certificate::Evidence;
-use crate::formula::{Op, Values};
+use crate::formula::Values;
 use crate::quantity::Test;
 use crate::slope::Slope;
 use crate::test::tolerances::Tolerances;
@@ -57,12 +58,7 @@ impl<E: Enclosure> Checker<'_, E> {
     ) -> Option<&'p Values<Slope<E::Number>>> {
         let tape = &self.problem.derived.as_ref()?.tape;
         Some(place.derived.get_or_init(|| {
-            let slopes = self.slopes(place.edges.len());
-            tape.run(&slopes, |op| match op {
-                Op::Coordinate(k) => slopes.coordinate(k, place.edges.get(k)?.clone()),
-                Op::Parameter(j) => slopes.constant(self.parameters.get(j)?.clone()),
-                _ => None,
-            })
+            evaluate(tape, &self.parameters, self.slopes(place.edges.len()), place.edges)
         }))
     }
 
@@ -89,12 +85,7 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
         let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = all.into_iter().unzip();
-        let slopes = self.slopes(place.edges.len());
-        let machine = self.problem.tape.run(&slopes, |op| match op {
-            Op::Coordinate(k) => slopes.coordinate(k, place.edges.get(k)?.clone()),
-            Op::Parameter(j) => slopes.constant(starts.get(j)?.clone()),
-            _ => None,
-        });
+        let machine = evaluate(&self.problem.tape, &starts, over.slopes, place.edges);
         let tolerances = Tolerances { machine: &machine, steps: &steps, derivatives, directions };
         let over = Over { values, inside: None, tolerances: Some(&tolerances), ..*over };
         named.next().is_none().then(|| then(&over))

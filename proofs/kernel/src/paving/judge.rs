@@ -182,7 +182,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
         };
         let m = edges.len();
         let slopes = self.checker.slopes(m);
-        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let over = Over::new(slopes, &values);
         let place = Place::new(&edges, [false; 2]);
         let shown = |obligation: usize, evidence: Option<&_>| {
             let obligations = &subject.problem.obligations;

@@ -160,10 +160,7 @@ impl Context<'_> {
         few_derivatives(self.builder, f, by.len())?;
         let gradient = self.tape().gradient(f, by);
         few(self.builder)?;
-        let tape = self.tape();
-        let zero = tape.integer(0);
-        let each = |&n: &Formula| if n == zero { n } else { tape.div(n, gradient.denominator) };
-        Ok(gradient.numerators.iter().map(each).collect())
+        Ok(gradient.quotients(self.tape()))
     }
 
     fn input(&mut self, value: Value) -> Formula {

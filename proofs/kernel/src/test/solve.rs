@@ -88,7 +88,7 @@ fn less_changed<E: Enclosure>(
         return Some(t);
     }
     let zero = e.integer(0)?;
-    let direction = over.direction(<[_]>::first, y.len() + 1)?;
+    let direction = over.direction(<[_]>::first)?;
     for (i, (row, &b)) in test.a.iter().zip(&test.b).enumerate() {
         let formulas: Vec<Formula> = row.iter().copied().chain([b]).collect();
         let change = |mut s: Vec<E::Number>| {

@@ -88,13 +88,12 @@ impl<E: Enclosure> Over<'_, E> {
         })
     }
 
-    /// One of the directions, of `n` components.
+    /// One of the directions.
     pub(super) fn direction(
         &self,
         which: fn(&[Vec<i64>]) -> Option<&Vec<i64>>,
-        n: usize,
     ) -> Option<Vec<E::Number>> {
-        let direction = which(self.tolerances?.directions).filter(|own| own.len() == n)?;
+        let direction = which(self.tolerances?.directions)?;
         direction.iter().map(|&x| self.slopes.arithmetic.integer(x)).collect()
     }
 }

@@ -33,7 +33,7 @@ impl AtPoint<'_> {
         let slopes = Slopes { arithmetic: e, m: edges.len() };
         let edges = inflated(e, &edges, d)?;
         let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
-        let far = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let far = Over::new(slopes, &values);
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
         let spread = e.halve(&spread(&far, &test.rows).filter(|_| defined)?)?;
         let norm = |v: &[Number]| e.greatest_root(&self.square(v)?);

@@ -267,8 +267,7 @@ fn the_spread_of_rows_about_a_cell() {
             let edges = inflated(&Rough, &edges, &(d, d)).expect("edges");
             let values = prover.checker.evaluate(&edges);
             let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
-            let far =
-                Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+            let far = Over::new(slopes, &values);
             let bound = spread(&far, &rows).expect("defined").1 / d;
             let mut greatest = 0f64;
             for _ in 0..400 {

@@ -185,13 +185,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 let edges = cell.edges().expect("edges");
                 let values = exact.evaluate(&edges);
                 let slopes = Slopes { arithmetic: &fixed, m: edges.len() };
-                let over = Over {
-                    slopes,
-                    values: &values,
-                    controls: None,
-                    inside: None,
-                    tolerances: None,
-                };
+                let over = Over::new(slopes, &values);
                 let place = Place::new(&edges, [false; 2]);
                 assert!(!exact.is_outside(&over, &place), "{cell:?}");
                 for obligation in &problem.obligations {

@@ -467,8 +467,7 @@ impl<'a> Prover<'a> {
             let place = Place::new(&edges, cell.touches(&self.root));
             let values = self.checker.evaluate(&edges);
             let slopes = self.checker.slopes(edges.len());
-            let over =
-                Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+            let over = Over::new(slopes, &values);
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
             if cut && self.checker.is_outside(&over, &place) {
                 nodes.push(Node { by: vec![Step(0, Evidence::Outside)], ..Node::default() });
@@ -537,7 +536,7 @@ impl<'a> Prover<'a> {
         let place = Place::new(&edges, [false; 2]);
         let values = self.checker.evaluate(&edges);
         let slopes = self.checker.slopes(edges.len());
-        let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+        let over = Over::new(slopes, &values);
         self.checker.is_outside(&over, &place)
     }
 

@@ -232,7 +232,7 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     let mut rows: Vec<_> = (0..3).map(|k| Row { a: unit(k), d: one }).collect();
     let slopes = Slopes { arithmetic: &fixed, m: 3 };
     let values = tape.run(&slopes, |_: Op| None);
-    let over = Over { slopes, values: &values, controls: None, inside: None, tolerances: None };
+    let over = Over::new(slopes, &values);
     let kappa = |_| Some(Interval::point(1i64 << 28));
     let y = |rows: usize| Multiplier {
         y: (0..rows).map(|i| (0..3).map(|k| i64::from(i == k)).collect()).collect(),
