@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Machine Problem Faces Witness Closed Certificate.
+From Orthocert.kernel Require Machine Problem Faces Witness Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -131,5 +131,23 @@ Check kernel.Witness.refute_sound.
 Print Assumptions kernel.Witness.refute_sound.
 Check kernel.Closed.check_closed_sound.
 Print Assumptions kernel.Closed.check_closed_sound.
+Check kernel.Trig.cosine_sound.
+Print Assumptions kernel.Trig.cosine_sound.
+Check kernel.Arm.rod_closes.
+Print Assumptions kernel.Arm.rod_closes.
+Check kernel.Arm.angle_velocity.
+Print Assumptions kernel.Arm.angle_velocity.
+Check kernel.Arm.refute_arms_sound.
+Print Assumptions kernel.Arm.refute_arms_sound.
+Check kernel.Written.check_written_sound.
+Print Assumptions kernel.Written.check_written_sound.
+Check kernel.Turning.length_velocity.
+Print Assumptions kernel.Turning.length_velocity.
+Check kernel.Turning.refute_turning_sound.
+Print Assumptions kernel.Turning.refute_turning_sound.
+Check kernel.Control.controls_decide.
+Print Assumptions kernel.Control.controls_decide.
+Check kernel.Pose.check_turning_sound.
+Print Assumptions kernel.Pose.check_turning_sound.
 Check kernel.Certificate.verify_sound.
 Print Assumptions kernel.Certificate.verify_sound.

@@ -9,6 +9,7 @@
 
 From Coq Require Import ZArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
+From Orthocert.kernel Require Import Configuration Arm Written Turning Pose.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed.
 Import ListNotations.
 Local Open Scope list_scope.
@@ -19,13 +20,16 @@ Local Notation length := List.length.
 
 Inductive operator := Addition | Subtraction | Multiplication | Division.
 
-(** A number as it is written. *)
-Inductive expression :=
+(** A number as it is written, and a formula, in which names stand. *)
+Inductive term (N : Type) :=
   | Literal (whole decimals : Decimal.uint)
-  | Negative (x : expression)
-  | Binary (o : operator) (x y : expression)
-  | Power (x : expression) (n : positive)
-  | SquareRoot (x : expression).
+  | Name (n : N)
+  | Negative (x : term N)
+  | Binary (o : operator) (x y : term N)
+  | Power (x : term N) (n : positive)
+  | SquareRoot (x : term N).
+Arguments Literal {N}. Arguments Name {N}. Arguments Negative {N}. Arguments Binary {N}. Arguments Power {N}. Arguments SquareRoot {N}.
+Definition expression : Type := term Empty_set.
 
 Inductive quantity := One (x : expression) | Between (min max : expression).
 Record triple (A : Type) := Triple { first : A; second : A; third : A }.
@@ -36,17 +40,35 @@ Inductive written_leg :=
   | Strut_ (anchor platform : triple quantity) (base_axis : option (triple quantity))
   | Planar_ (direction : triple quantity).
 
+(** A rod on an arm; all legs of a machine, or none. *)
+Record written_arm := Arm_ {
+  axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
+  arm_ : quantity; rod_ : quantity; mode_ : bool }.
+
 Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, and the joints' stiffness, of stiffness. *)
-Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; is_max : bool; bound_ : expression }.
+Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
+Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
 
 Inductive written_region :=
   | Box_ (min max : triple expression)
   | Cylinder_ (center_x center_y radius bottom top : expression).
 
+(** Degrees. *)
+Inductive written_orientation :=
+  | Range_ (a b : expression)
+  | RollPitchYaw_ (roll pitch yaw : expression * expression).
+
 Inductive subject :=
   (* legs that do not turn the platform *)
   | Machine_ (legs : list written_leg) (workspace : written_region) (require : list written_requirement)
+  | Arms_ (arms : list written_arm) (workspace : written_region) (require : list written_requirement)
+  (* struts of a platform that turns: its joint in the base and on the platform, each of two numbers in the plane *)
+  | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (min max : list expression)
+      (orientation : written_orientation) (require : list written_requirement)
+  (* by formulas: names, and the rows of M of all joints *)
+  | Formulas_ (coordinates : list string) (parameters : list (string * quantity)) (definitions : list (string * term string))
+      (rows : list (list (term string))) (min max : list expression) (require : list written_requirement)
   (* the Orthoglide on the paper's cube *)
   | Closed_ (offset side : expression) (require : list written_requirement)
   (* [None]: every psi *)
@@ -57,7 +79,8 @@ Inductive step :=
   | Multiplied (name : string) (y : list (list Z)) (places : N)
   | AtCorner (f : face)
   | Conditioned_ (y : list (list Z)) (places : N) (mu : list Z)
-  | Inside_ (s : step) (n : Z) (places : N).
+  | Inside_ (s : step) (n : Z) (places : N)
+  | AtControls_ (s : step).
 Record node := Node { by_ : list (nat * step); split_ : option nat }.
 
 Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat).
@@ -88,30 +111,32 @@ Definition integer_text (n : Z) : text := [NilZero.string_of_int (Z.to_int n)].
 Definition places_text (n : N) : text := [NilZero.string_of_uint (N.to_uint n)].
 
 (** Section 3: how strong an expression holds its parts. *)
-Definition strength (x : expression) : nat :=
+Definition strength {N : Type} (x : term N) : nat :=
   match x with
   | Binary (Addition | Subtraction) _ _ => 1
   | Binary (Multiplication | Division) _ _ => 2
   | Negative _ => 3
   | Power _ _ => 4
-  | Literal _ _ | SquareRoot _ => 5
+  | Literal _ _ | Name _ | SquareRoot _ => 5
   end.
 Definition symbol (o : operator) : string :=
   match o with Addition => "+" | Subtraction => "-" | Multiplication => "*" | Division => "/" end.
 
-Fixpoint number_text (x : expression) : text :=
-  let part (enough : nat) (y : expression) :=
-    if Nat.leb enough (strength y) then number_text y else ("(" :: number_text y ++ [")"])%list in
+Fixpoint term_text {N : Type} (name : N -> string) (x : term N) : text :=
+  let part (enough : nat) (y : term N) :=
+    if Nat.leb enough (strength y) then term_text name y else ("(" :: term_text name y ++ [")"])%list in
   match x with
   | Literal w Decimal.Nil => [NilEmpty.string_of_uint w]
   | Literal w d => [NilEmpty.string_of_uint w; "."; NilEmpty.string_of_uint d]
+  | Name n => [name n]
   | Negative y => "-" :: part 3 y
   | Binary o y z => part (strength x) y ++ symbol o :: part (S (strength x)) z
   | Power y n => part 5 y ++ "^" :: positive_text n
-  | SquareRoot y => "sqrt(" :: number_text y ++ [")"]
+  | SquareRoot y => "sqrt(" :: term_text name y ++ [")"]
   end%list.
 
-Definition number (x : expression) : text := ("""" :: number_text x ++ [""""])%list.
+Definition number (x : expression) : text := ("""" :: term_text (fun n : Empty_set => match n with end) x ++ [""""])%list.
+Definition formula (x : term string) : text := ("""" :: term_text (fun n => n) x ++ [""""])%list.
 Definition quantity_text (q : quantity) : text :=
   match q with One x => number x | Between a b => object [field "min" (number a); field "max" (number b)] end.
 Definition triple_text {A : Type} (f : A -> text) (t : triple A) : text := array [f (first t); f (second t); f (third t)].
@@ -126,12 +151,21 @@ Definition leg_text (l : written_leg) : text :=
   | Planar_ d => [field "drive" (quoted "planar"); field "direction" (vector d)]
   end%list.
 
+Definition arm_text (l : written_arm) : text :=
+  let vector := triple_text quantity_text in
+  object [field "drive" (quoted "arm"); field "axis" (vector (axis_ l)); field "reference" (vector (reference_ l));
+    field "anchor" (vector (anchor_ l)); field "platform" (vector (platform_ l)); field "arm" (quantity_text (arm_ l));
+    field "length" (quantity_text (rod_ l)); field "mode" (quoted (if mode_ l then "+" else "-"))].
+
 Definition about_text (a : about) : string :=
   match a with
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
   end.
+Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
+Definition bound_text (e : written_end) : text :=
+  match e with AtLeast_ b | AtMost_ b => number b | Within_ a b => array [number a; number b] end.
 Definition requirement_text (r : written_requirement) : text :=
   object (field "quantity" (quoted (about_text (about_ r))) ::
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
@@ -139,7 +173,7 @@ Definition requirement_text (r : written_requirement) : text :=
     | Some x => [field "given" (variant (match about_ r with Stiffness_ => "joint" | _ => "tool" end) (array [number x]))]
     | None => []
     end ++
-    [field "end" (quoted (if is_max r then "max" else "min")); field "bound" (number (bound_ r))])%list.
+    [field "end" (quoted (end_text (end_ r))); field "bound" (bound_text (end_ r))])%list.
 
 Definition region_text (w : written_region) : text :=
   match w with
@@ -148,11 +182,39 @@ Definition region_text (w : written_region) : text :=
       [field "center" (array [number x; number y]); field "radius" (number r); field "z" (array [number bottom; number top])])
   end.
 
+Definition motion_text (k : motion) : string := match k with InPlane => "planar" | InSpace => "spatial" | AboutPoint => "spherical" end.
+Definition turning_strut_text (l : list quantity * list quantity) : text :=
+  let vector v := array (map quantity_text v) in
+  object [field "drive" (quoted "strut"); field "anchor" (vector (fst l)); field "platform" (vector (snd l))].
+Definition orientation_text (o : written_orientation) : text :=
+  let two a b := array [number a; number b] in
+  match o with
+  | Range_ a b => variant "range" (two a b)
+  | RollPitchYaw_ (a, b) (c, d) (e, f) => variant "roll_pitch_yaw" (object [field "roll" (two a b); field "pitch" (two c d); field "yaw" (two e f)])
+  end.
+
 Definition subject_text (s : subject) : text :=
   match s with
   | Machine_ legs w rs => variant "machine" (object
       [field "mechanism" (variant "translational" (array (map leg_text legs)));
        field "workspace" (region_text w);
+       field "require" (array (map requirement_text rs))])
+  | Arms_ legs w rs => variant "machine" (object
+      [field "mechanism" (variant "translational" (array (map arm_text legs)));
+       field "workspace" (region_text w);
+       field "require" (array (map requirement_text rs))])
+  | Turning_ k ls ell a b o rs => variant "machine" (object
+      [field "mechanism" (variant (motion_text k) (object
+         [field "legs" (array (map turning_strut_text ls)); field "characteristic_length" (number ell)]));
+       field "workspace" (variant "box" (object [field "min" (array (map number a)); field "max" (array (map number b))]));
+       field "orientation" (orientation_text o);
+       field "require" (array (map requirement_text rs))])
+  | Formulas_ xs ps ds rows a b rs => variant "machine" (object
+      [field "mechanism" (variant "formulas" (object
+         [field "coordinates" (array (map quoted xs)); field "parameters" (array (map (fun p => array [quoted (fst p); quantity_text (snd p)]) ps));
+          field "definitions" (array (map (fun d => array [quoted (fst d); formula (snd d)]) ds));
+          field "joints" (array (map (fun r => variant "row" (array (map formula r))) rows))]));
+       field "workspace" (variant "box" (object [field "min" (array (map number a)); field "max" (array (map number b))]));
        field "require" (array (map requirement_text rs))])
   | Closed_ offset side rs => variant "machine" (object
       [field "mechanism" (variant "orthoglide" (object [field "offset" (number offset)]));
@@ -173,6 +235,7 @@ Fixpoint evidence_text (s : step) : text :=
   | AtCorner f => variant "corner" (quoted (match f with Q1 => "Q1" | Q2 => "Q2" end))
   | Conditioned_ y places mu => variant "conditioning" (array [multiplier_text y places; integers_text mu])
   | Inside_ s n places => variant "inside" (array [evidence_text s; integer_text n; places_text places])
+  | AtControls_ s => variant "control" (evidence_text s)
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
 Definition node_text (n : node) : text :=
@@ -208,15 +271,82 @@ Definition is_plain (s : string) : bool :=
 Fixpoint is_plain_step (s : step) : bool :=
   match s with
   | Plain name | Multiplied name _ _ => is_plain name
-  | Inside_ s _ _ => is_plain_step s
+  | Inside_ s _ _ | AtControls_ s => is_plain_step s
   | AtCorner _ | Conditioned_ _ _ _ => true
   end.
-(** Every string of the certificate is one: its text has no other shape than that of [print]. *)
+(** Letters, digits and _, a letter first; [sqrt] is none. *)
+Definition is_name (s : string) : bool :=
+  let letter c := let n := nat_of_ascii c in Nat.leb 65 n && Nat.leb n 90 || Nat.leb 97 n && Nat.leb n 122 in
+  let digit c := let n := nat_of_ascii c in Nat.leb 48 n && Nat.leb n 57 in
+  match list_ascii_of_string s with
+  | [] => false
+  | c :: l => letter c && forallb (fun c => letter c || digit c || (c =? "_")%char) l && Nat.leb (length l) 31 && negb (s =? "sqrt")
+  end.
+Fixpoint are_names (x : term string) : bool :=
+  match x with
+  | Literal _ _ => true
+  | Name n => is_name n
+  | Negative y | Power y _ | SquareRoot y => are_names y
+  | Binary _ y z => are_names y && are_names z
+  end.
+
+(** Section 3: digits, no zero before others, no zero last of decimals; exponents from 2 to 64. Without digits
+    ["a--b"] would be [a - (-b)] and [(a - ) - b]. *)
+Fixpoint is_written {N : Type} (x : term N) : bool :=
+  match x with
+  | Literal w d =>
+      match w with Decimal.Nil => false | Decimal.D0 Decimal.Nil => true | Decimal.D0 _ => false | _ => true end &&
+      match Decimal.rev d with Decimal.D0 _ => false | _ => true end
+  | Name _ => true
+  | Negative y | SquareRoot y => is_written y
+  | Power y n => is_written y && Pos.leb 2 n && Pos.leb n 64
+  | Binary _ y z => is_written y && is_written z
+  end.
+
+Definition in_quantity (q : quantity) : list expression := match q with One x => [x] | Between a b => [a; b] end.
+Definition in_triple {A : Type} (t : triple A) : list A := [first t; second t; third t].
+Definition in_vector (t : triple quantity) : list expression := flat_map in_quantity (in_triple t).
+Definition in_leg (l : written_leg) : list expression :=
+  match l with
+  | Slider_ d a p len _ => in_vector d ++ in_vector a ++ in_vector p ++ in_quantity len
+  | Strut_ a p k => in_vector a ++ in_vector p ++ match k with Some k => in_vector k | None => [] end
+  | Planar_ d => in_vector d
+  end%list.
+Definition in_arm (l : written_arm) : list expression :=
+  (flat_map in_vector [axis_ l; reference_ l; anchor_ l; platform_ l] ++ flat_map in_quantity [arm_ l; rod_ l])%list.
+Definition in_region (w : written_region) : list expression :=
+  match w with Box_ a b => in_triple a ++ in_triple b | Cylinder_ x y r bottom top => [x; y; r; bottom; top] end%list.
+Definition in_orientation (o : written_orientation) : list expression :=
+  match o with Range_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] end.
+Definition in_requirement (r : written_requirement) : list expression :=
+  (match given_ r with Some x => [x] | None => [] end ++
+   match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] end)%list.
+Definition in_subject (s : subject) : list expression :=
+  match s with
+  | Machine_ ls w rs => flat_map in_leg ls ++ in_region w ++ flat_map in_requirement rs
+  | Arms_ ls w rs => flat_map in_arm ls ++ in_region w ++ flat_map in_requirement rs
+  | Turning_ _ ls ell a b o rs =>
+      flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: a ++ b ++ in_orientation o ++ flat_map in_requirement rs
+  | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
+  | Closed_ offset side rs => offset :: side :: flat_map in_requirement rs
+  | Postulate_ (Some q) => in_quantity q
+  | Postulate_ None => []
+  end%list.
+Definition is_precision (bits : positive) : bool := Pos.leb 32 bits && Pos.leb bits 1024.
+
+(** Every string of the certificate is one, every number is written as section 3 writes it, and precisions are
+    as section 7 has them: its text has no other shape than that of [print]. *)
 Definition is_plain_certificate (c : certificate) : bool :=
   is_plain (tool c) && is_plain (version c) &&
+  match subject_ c with
+  | Formulas_ xs ps ds rows _ _ _ =>
+      forallb is_name xs && forallb (fun p => is_name (fst p)) ps && forallb (fun d => is_name (fst d) && are_names (snd d) && is_written (snd d)) ds &&
+      forallb (forallb (fun x => are_names x && is_written x)) rows
+  | _ => true
+  end && forallb is_written (in_subject (subject_ c)) &&
   match proof_ c with
-  | Nodes _ nodes => forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
-  | ByWitness _ _ _ _ => true
+  | Nodes bits nodes => is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes
+  | ByWitness bits point machine _ => is_precision bits && forallb is_written (point ++ machine)%list
   end.
 
 (** ** Meaning *)
@@ -226,6 +356,7 @@ Fixpoint product_of (base : Claim.number) (n : nat) : Claim.number :=
 
 Fixpoint denoted (x : expression) : Claim.number :=
   match x with
+  | Name n => match n with end
   | Literal w d => Ratio (Z.of_uint (Decimal.app w d)) (Nat.iter (Decimal.nb_digits d) (Pos.mul 10) 1%positive)
   | Negative y => match denoted y with Ratio n d => Ratio (- n) d | k => Minus (0 // 1) k end
   | Binary o y z =>
@@ -252,30 +383,29 @@ Definition region_of (w : written_region) : region :=
 
 (** Obligations, section 9: a bound on psi from above takes the place of freedom from singularities. *)
 Definition psi_max_of (r : written_requirement) : list requirement :=
-  match about_ r, is_max r with Transmission, true => [PsiMax (denoted (bound_ r))] | _, _ => [] end.
+  match about_ r, end_ r with Transmission, AtMost_ b => [PsiMax (denoted b)] | _, _ => [] end.
 Definition other_of (legs : nat) (r : written_requirement) : list requirement :=
-  let b := denoted (bound_ r) in
   let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
-  match about_ r, is_max r, given_ r with
-  | Transmission, true, _ => []
-  | Transmission, false, _ => [PsiMin b]
-  | JointRange, up, _ => each (fun i => if up then JointMax i b else JointMin i b)
-  | Speed_, _, Some tool => each (fun i => JointSpeed i (denoted tool) b)
-  | Speed_, _, None => []
-  | Condition_, _, _ => [ConditionMax b]
-  | Serial_, _, _ => each (fun i => SerialMargin i b)
-  | Parallel_, _, _ => [ParallelMargin b]
-  | Stiffness_, _, Some joint => [Stiffness (denoted joint) b]
-  | Stiffness_, _, None => []
-  | Constraint_, _, _ => [ConstraintMargin b]
+  match about_ r, end_ r, given_ r with
+  | Transmission, AtLeast_ b, _ => [PsiMin (denoted b)]
+  | JointRange, AtLeast_ b, _ => each (fun i => JointMin i (denoted b))
+  | JointRange, AtMost_ b, _ => each (fun i => JointMax i (denoted b))
+  | Speed_, AtMost_ b, Some tool => each (fun i => JointSpeed i (denoted tool) (denoted b))
+  | Condition_, AtMost_ b, _ => [ConditionMax (denoted b)]
+  | Serial_, AtLeast_ b, _ => each (fun i => SerialMargin i (denoted b))
+  | Parallel_, AtLeast_ b, _ => [ParallelMargin (denoted b)]
+  | Stiffness_, AtLeast_ b, Some joint => [Stiffness (denoted joint) (denoted b)]
+  | Constraint_, AtLeast_ b, _ => [ConstraintMargin (denoted b)]
+  | _, _, _ => []
   end.
 (** The requirement has the keys and the end that it has to have. *)
 Definition is_shaped (legs : nat) (r : written_requirement) : bool :=
-  match about_ r, is_max r, leg_ r, given_ r with
-  | Transmission, _, None, None | Condition_, true, None, None | Parallel_, false, None, None => true
-  | Stiffness_, false, None, Some _ | Constraint_, false, None, None => true
-  | JointRange, _, Some n, None | Serial_, false, Some n, None | Speed_, true, Some n, Some _ => Nat.leb 1 n && Nat.leb n legs
-  | JointRange, _, None, None | Serial_, false, None, None | Speed_, true, None, Some _ => true
+  let is_leg n := Nat.leb 1 n && Nat.leb n legs in
+  match about_ r, end_ r, leg_ r, given_ r with
+  | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None | Parallel_, AtLeast_ _, None, None => true
+  | Stiffness_, AtLeast_ _, None, Some _ | Constraint_, AtLeast_ _, None, None => true
+  | JointRange, (AtLeast_ _ | AtMost_ _), Some n, None | Serial_, AtLeast_ _, Some n, None | Speed_, AtMost_ _, Some n, Some _ => is_leg n
+  | JointRange, (AtLeast_ _ | AtMost_ _), None, None | Serial_, AtLeast_ _, None, None | Speed_, AtMost_ _, None, Some _ => true
   | _, _, _, _ => false
   end.
 Definition obligations (legs : nat) (rs : list written_requirement) : list requirement :=
@@ -284,11 +414,68 @@ Definition obligations (legs : nat) (rs : list written_requirement) : list requi
 Definition claim_of (ls : list written_leg) (w : written_region) (rs : list written_requirement) : claim :=
   MakeClaim (map drive_of ls) (region_of w) (obligations (length ls) rs).
 
+(** The same of machines whose claims are those of Configuration.v; their joints are angles, or not. *)
+Definition factor_max_of (r : written_requirement) : list demand :=
+  match about_ r, end_ r with Transmission, AtMost_ b => [FactorMax (denoted b)] | _, _ => [] end.
+Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
+  let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
+  match about_ r, end_ r with
+  | Transmission, AtLeast_ b => [FactorMin (denoted b)]
+  | JointRange, AtLeast_ b => each (fun i => LengthMin i (denoted b))
+  | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
+  | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
+  | Condition_, AtMost_ b => [Conditioned (denoted b)]
+  | _, _ => []
+  end.
+Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
+  (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of legs) rs)%list.
+Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) : bool :=
+  match about_ r, end_ r, leg_ r, given_ r with
+  | Transmission, (AtLeast_ _ | AtMost_ _), None, None | Condition_, AtMost_ _, None, None => true
+  | JointRange, e, leg, None => Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end &&
+      match leg with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end
+  | _, _, _, _ => false
+  end.
+
+Fixpoint written_of (x : term string) : written :=
+  match x with
+  | Literal w d => Constant (denoted (Literal w d))
+  | Name n => Named n
+  | Negative y => Opposite (written_of y)
+  | Binary o y z =>
+      match o with Addition => Sum | Subtraction => Difference | Multiplication => Product | Division => Quotient end (written_of y) (written_of z)
+  | Power y n => Raised (written_of y) n
+  | SquareRoot y => RootOf (written_of y)
+  end.
+Definition written_claim_of (xs : list string) (ps : list (string * quantity)) (ds : list (string * term string))
+    (rows : list (list (term string))) (a b : list expression) (rs : list written_requirement) : written_claim :=
+  MakeWrittenClaim
+    (Mechanism xs (map (fun p => (fst p, tolerance_of (snd p))) ps) (map (fun d => (fst d, written_of (snd d))) ds) (map (map written_of) rows))
+    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands (length rows) rs).
+
+(** A vector whose last components are 0 where they are not written. *)
+Definition vector_of (l : list tolerance) : tolerances :=
+  let at_ k := nth k l (exactly (0 // 1)) in Tolerances (at_ 0%nat) (at_ 1%nat) (at_ 2%nat).
+Definition orientation_of (o : written_orientation) : orientations :=
+  let range p := Within (denoted (fst p)) (denoted (snd p)) in
+  match o with Range_ a b => TurnedBy (range (a, b)) | RollPitchYaw_ r p y => RollPitchYaw (range r) (range p) (range y) end.
+Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
+    (o : written_orientation) (rs : list written_requirement) : turning_claim :=
+  let vector v := vector_of (map tolerance_of v) in
+  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell)
+    (vector_of (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b))) (orientation_of o) (demands (length ls) rs).
+
+Definition arm_drive_of (l : written_arm) : arm_drive :=
+  ArmDrive (tolerances_of (axis_ l)) (tolerances_of (reference_ l)) (tolerances_of (anchor_ l)) (tolerances_of (platform_ l))
+    (tolerance_of (arm_ l)) (tolerance_of (rod_ l)) (mode_ l).
+Definition arm_claim_of (ls : list written_arm) (w : written_region) (rs : list written_requirement) : arm_claim :=
+  MakeArmClaim (map arm_drive_of ls) (region_of w) (demands (length ls) rs).
+
 (** The bounds on psi of the closed design, which asks for nothing else. *)
 Definition closed_bounds (rs : list written_requirement) : option (Claim.number * Claim.number) :=
   match rs with
-  | [Require_ Transmission None None false a; Require_ Transmission None None true b]
-  | [Require_ Transmission None None true b; Require_ Transmission None None false a] => Some (denoted a, denoted b)
+  | [Require_ Transmission None None (AtLeast_ a); Require_ Transmission None None (AtMost_ b)]
+  | [Require_ Transmission None None (AtMost_ b); Require_ Transmission None None (AtLeast_ a)] => Some (denoted a, denoted b)
   | _ => None
   end.
 
@@ -304,6 +491,15 @@ Definition means (c : certificate) : Prop :=
       Statement.holds (claim_of ls w rs) /\ exists m P, is_about (claim_of ls w rs) m P
   | Machine_ ls w rs, ByWitness _ _ _ _ =>
       exists m P, is_about (claim_of ls w rs) m P /\ ~ meets (claim_of ls w rs) m P
+  | Arms_ ls w rs, ByWitness _ _ _ _ => let c := arm_claim_of ls w rs in
+      exists m P, is_about_arms c m P /\ ~ Configuration.meets 3 (arms_at m P) (arm_demands c)
+  | Arms_ _ _ _, Nodes _ _ => False
+  | Turning_ k ls ell a b o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell a b o rs in
+      exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
+  | Turning_ k ls ell a b o rs, Nodes _ _ => let c := turning_claim_of k ls ell a b o rs in
+      turning_holds c /\ exists m P Q, is_about_struts c m P Q
+  | Formulas_ xs ps ds rows a b rs, Nodes _ _ => let c := written_claim_of xs ps ds rows a b rs in
+      written_holds c /\ exists theta x, is_about_written c theta x
   | Closed_ offset side rs, Nodes _ _ =>
       match closed_bounds rs with Some (least, greatest) => closed_design_holds (denoted side) least greatest (value (denoted offset)) | None => False end
   | Postulate_ None, Nodes _ _ => forall psi, 1 < psi -> postulate_for psi
@@ -312,7 +508,11 @@ Definition means (c : certificate) : Prop :=
   | _, ByWitness _ _ _ _ => False
   end.
 
-(** ** What is accepted.  Nothing below has to be read: [verify_sound] holds of it. *)
+(** ** What is accepted: [verify_sound] holds of it.
+
+    [means] takes a claim's shape for granted: requirements of the form of their quantity, legs counted from one, as many
+    numbers as there are coordinates, names given once. What [accept] demands of shapes, the functions [is_well_formed],
+    [are_well_formed_arms], [is_turning] and [are_well_formed_formulas], has to be read for that, and nothing else below. *)
 
 Local Close Scope R_scope.
 
@@ -345,6 +545,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
   | AtCorner f => Some (ByCorner f)
   | Conditioned_ y places mu => Some (ByConditioning places y mu)
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
+  | AtControls_ s => option_map AtControls (evidence_of s)
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   match l with
@@ -401,6 +602,16 @@ Fixpoint take_legs (ws : list written_leg) (l : list Claim.number) : list exact_
   | w :: ws' => let (e, l) := take_leg w l in let (es, l) := take_legs ws' l in (e :: es, l)
   end.
 
+Definition take_arm (w : written_arm) (l : list Claim.number) : exact_arm * list Claim.number :=
+  let (k, l) := take3 (axis_ w) l in let (x, l) := take3 (reference_ w) l in let (a, l) := take3 (anchor_ w) l in
+  let (p, l) := take3 (platform_ w) l in let (r, l) := take (arm_ w) l in let (rod, l) := take (rod_ w) l in
+  (ExactArm k x a p r rod (mode_ w), l).
+Fixpoint take_arms (ws : list written_arm) (l : list Claim.number) : list exact_arm * list Claim.number :=
+  match ws with
+  | [] => ([], l)
+  | w :: ws' => let (e, l) := take_arm w l in let (es, l) := take_arms ws' l in (e :: es, l)
+  end.
+
 Definition failure_of (f : violation) : option failure :=
   match f with
   | Reach => Some OutOfReach
@@ -411,25 +622,53 @@ Definition failure_of (f : violation) : option failure :=
   | Row i leg => Some (FailsAlong i leg)
   end.
 
+Fixpoint take_list (v : list quantity) (l : list Claim.number) : list Claim.number * list Claim.number :=
+  match v with
+  | [] => ([], l)
+  | q :: v' => let (x, l) := take q l in let (xs, l) := take_list v' l in (x :: xs, l)
+  end.
+Definition numbers_of (l : list Claim.number) : numbers :=
+  let at_ k := nth k l (0 // 1) in Numbers (at_ 0%nat) (at_ 1%nat) (at_ 2%nat).
+Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim.number) : list exact_strut * list Claim.number :=
+  match ws with
+  | [] => ([], l)
+  | (a, p) :: ws' => let (a, l) := take_list a l in let (p, l) := take_list p l in let (es, l) := take_struts ws' l in
+      (StrutNumbers (numbers_of a) (numbers_of p) :: es, l)
+  end.
+
+Definition nfailure_of (f : violation) : nfailure :=
+  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
+
 (** What the format asks of bounds. *)
+Definition is_number : Claim.number -> bool := Witness.is_number exact_bits.
 Definition is_bound (r : requirement) : bool :=
   match r with
   | PsiMax b | PsiMin b | SerialMargin _ b | ParallelMargin b | ConstraintMargin b => certainly exact_bits true b
   | Stiffness joint b => certainly exact_bits true joint && certainly exact_bits true b
   | JointSpeed _ tool b => certainly exact_bits true tool && certainly exact_bits true b
   | ConditionMax b => certainly exact_bits true (Minus b (1 // 1))
-  | NotSingular | JointMin _ _ | JointMax _ _ => true
+  | JointMin _ b | JointMax _ b => is_number b
+  | NotSingular => true
+  end.
+Definition is_demand_bound (d : demand) : bool :=
+  match d with
+  | FactorMax b | FactorMin b => certainly exact_bits true b
+  | Conditioned b => certainly exact_bits true (Minus b (1 // 1))
+  | AngleWithin _ a b => certainly exact_bits true (Minus b a) && certainly exact_bits true (Minus (Plus a (180 // 1)) b)
+      && certainly exact_bits false (Plus a (360 // 1)) && certainly exact_bits false (Minus (360 // 1) b)
+  | LengthMin _ b | LengthMax _ b => is_number b
+  | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
 Definition is_same (r q : written_requirement) : bool :=
-  (about_text (about_ r) =? about_text (about_ q)) && Bool.eqb (is_max r) (is_max q) &&
+  (about_text (about_ r) =? about_text (about_ q)) && (end_text (end_ r) =? end_text (end_ q)) &&
   match leg_ r, leg_ q with Some n, Some m => Nat.eqb n m | None, None => true | _, _ => false end.
 Fixpoint is_each_once (rs : list written_requirement) : bool :=
   match rs with [] => true | r :: rs' => negb (existsb (is_same r) rs') && is_each_once rs' end.
 
-(** The ends of a tolerance differ. *)
+(** It has a value, and the ends of a tolerance differ. *)
 Definition is_range (q : quantity) : bool :=
-  match q with One _ => true | Between a b => certainly exact_bits true (Minus (denoted b) (denoted a)) end.
+  match q with One x => is_number (denoted x) | Between a b => certainly exact_bits true (Minus (denoted b) (denoted a)) end.
 Definition three_of (t : triple quantity) : list quantity := [first t; second t; third t].
 Definition quantities_of (l : written_leg) : list quantity :=
   match l with
@@ -438,8 +677,39 @@ Definition quantities_of (l : written_leg) : list quantity :=
   | Planar_ d => three_of d
   end%list.
 
+Definition quantities_of_arm (l : written_arm) : list quantity :=
+  (three_of (axis_ l) ++ three_of (reference_ l) ++ three_of (anchor_ l) ++ three_of (platform_ l) ++ [arm_ l; rod_ l])%list.
+Definition are_well_formed_arms (ls : list written_arm) (rs : list written_requirement) : bool :=
+  Nat.leb 3 (length ls) && forallb (is_demand true (length ls)) rs && is_each_once rs &&
+  forallb is_range (flat_map quantities_of_arm ls) && forallb is_demand_bound (demands (length ls) rs).
+
+(** Numbers of a vector of the legs, and of the platform's point. *)
+Definition places_in (k : motion) : nat := match k with InPlane => 2 | _ => 3 end.
+Definition places_of_point (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
+Definition is_angle_range (t : tolerance) : bool :=
+  certainly exact_bits true (Plus (180 // 1) (least t)) && below exact_bits (least t) (greatest t) && certainly exact_bits true (Minus (180 // 1) (greatest t)).
+Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
+    (o : written_orientation) (rs : list written_requirement) : bool :=
+  let is_vector v := Nat.eqb (length v) (places_in k) && forallb is_range v in
+  forallb (fun l => is_vector (fst l) && is_vector (snd l)) ls && Nat.leb (dimension k) (length ls) && Nat.leb (length ls) 12 &&
+  certainly exact_bits true (denoted ell) && Nat.eqb (length a) (places_of_point k) && Nat.eqb (length b) (places_of_point k) &&
+  forallb (fun p => below exact_bits (denoted (fst p)) (denoted (snd p))) (combine a b) &&
+  match k, orientation_of o with
+  | InPlane, TurnedBy t => is_angle_range t
+  | (InSpace | AboutPoint), RollPitchYaw x y z => is_angle_range x && is_angle_range y && is_angle_range z
+  | _, _ => false
+  end && forallb (is_demand false (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
+
 Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
   Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
+
+(** Nodes are halved along coordinates that there are. *)
+Definition splits_below (n : nat) (nodes : list node) : bool :=
+  forallb (fun x => match split_ x with Some k => Nat.ltb k n | None => true end) nodes.
+
+Definition are_well_formed_formulas (ps : list (string * quantity)) (rows : list (list (term string))) (a b : list expression) (rs : list written_requirement) : bool :=
+  Nat.eqb (length a) (length b) && forallb (is_demand false (length rows)) rs && is_each_once rs &&
+  forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands (length rows) rs).
 
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
@@ -457,7 +727,35 @@ Definition accept (c : certificate) : bool :=
           refute exact_bits (claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
       | _, _, _ => false
       end
-  | Closed_ _ side rs, Nodes _ _ =>
+  | Arms_ ls w rs, ByWitness bits point machine fails =>
+      match point, take_arms ls (map denoted machine) with
+      | [x; y; z], (m, []) => are_well_formed_arms ls rs &&
+          refute_arms exact_bits (arm_claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) (nfailure_of fails)
+      | _, _ => false
+      end
+  | Arms_ _ _ _, Nodes _ _ => false
+  | Turning_ k ls ell a b o rs, ByWitness bits point machine fails =>
+      let point := map denoted point in
+      let n := places_of_point k in
+      match take_struts ls (map denoted machine) with
+      | (m, []) => is_turning k ls ell a b o rs &&
+          refute_turning exact_bits (turning_claim_of k ls ell a b o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of fails)
+      | _ => false
+      end
+  | Turning_ k ls ell a b o rs, Nodes bits nodes =>
+      let c := turning_claim_of k ls ell a b o rs in
+      match tree_of (length nodes) nodes with
+      | Some (t, []) => is_turning k ls ell a b o rs && splits_below (dimension k) nodes &&
+          certify_turning exact_bits bits c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
+      | _ => false
+      end
+  | Formulas_ xs ps ds rows a b rs, Nodes bits nodes =>
+      match tree_of (length nodes) nodes with
+      | Some (t, []) => are_well_formed_formulas ps rows a b rs && splits_below (length xs) nodes &&
+          certify_written exact_bits bits (written_claim_of xs ps ds rows a b rs) t
+      | _ => false
+      end
+  | Closed_ offset side rs, Nodes _ _ => is_number (denoted offset) &&
       match closed_bounds rs with Some (least, greatest) => check_closed exact_bits (denoted side) least greatest | None => false end
   | Postulate_ None, Nodes bits nodes => match trees_of 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits nodes =>
@@ -468,13 +766,22 @@ Definition accept (c : certificate) : bool :=
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w rs | offset side rs | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
+  destruct s as [ls w rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
   - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_sound _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_legs _ _) as [m [|]]; [| discriminate].
     destruct (failure_of fails) as [f |]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_sound _ _ _ _ _ h).
-  - destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
+  - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_arms _ _) as [m [|]]; [| discriminate].
+    apply andb_true_iff in h as [_ h].
+    exact (refute_arms_sound _ _ _ _ _ h).
+  - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+    exact (certify_turning_sound _ _ _ _ _ h).
+  - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
+    exact (refute_turning_sound _ _ _ _ _ _ h).
+  - destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+    exact (certify_written_sound _ _ _ _ h).
+  - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.

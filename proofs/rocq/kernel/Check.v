@@ -27,7 +27,9 @@ Inductive evidence :=
   (* less a multiple, [n] over [2^places], of what is not negative in the workspace *)
   | Inside (e : evidence) (n : Z) (places : N)
   (* no point of the workspace is in the cell *)
-  | Outside.
+  | Outside
+  (* of polynomials: at control points (Pose.v) *)
+  | AtControls (e : evidence).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -47,6 +49,8 @@ Local Notation contains := (contains bits).
 Variable tape : list (op nat).
 (** A and D of the machine, and the same divided by B. *)
 Variables whole divided : rows nat.
+(** Formulas that have to be defined besides, where singularities are excluded: those that a user gives. *)
+Variable partial : list nat.
 Variable params : list fixed.
 Variable tests : list test.
 
@@ -76,6 +80,9 @@ Fixpoint rows_over (values : list (option slope)) (r : rows nat) : option (rows 
 Definition over_rows (values : list (option slope)) (r : rows nat) (holds : rows slope -> bool) : bool :=
   match rows_over values r with Some s => holds s | None => false end.
 
+Definition are_defined (values : list (option slope)) : bool :=
+  forallb (fun f => match nth f values None with Some _ => true | None => false end) partial.
+
 (** Of a curved workspace: what is not negative at its points in a cell. *)
 Variable inside : list fixed -> option slope.
 
@@ -98,9 +105,9 @@ Definition conditioned (m : nat) (less : option slope) (c2 : fixed) (places : N)
 
 Definition shows (values : list (option slope)) (m : nat) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
-  | SigmaMin low, ByLower places Y => over_rows values whole (sigma_min m (raised less (constant low)) places Y)
-  | SigmaMin low, ByLowerDivided places Y => over_rows values divided (sigma_min m (raised less (constant low)) places Y)
-  | SigmaMin low, ByRank places Y =>
+  | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min m (raised less (constant low)) places Y)
+  | SigmaMin low, ByLowerDivided places Y => are_defined values && over_rows values divided (sigma_min m (raised less (constant low)) places Y)
+  | SigmaMin low, ByRank places Y => are_defined values &&
       match less with None => (lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (full_rank m places Y) | Some _ => false end
   | SigmaMax high, ByTest => over_rows values whole (sigma_max m (lowered less (constant high)))
   | SigmaMax high, ByDivided => over_rows values divided (sigma_max m (lowered less (constant high)))
@@ -177,8 +184,8 @@ Definition is_nonneg (x : list R) (f : nat) : Prop := defined x theta (formula_a
 
 Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   match t with
-  | SigmaMin low => of_rows x (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v ->
-      kappa2 * dot v v < energy r v)
+  | SigmaMin low => Forall (fun f => defined x theta (formula_at f)) partial /\
+      of_rows x (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> kappa2 * dot v v < energy r v)
   | SigmaMax high => of_rows x (fun r => forall k2 v, contains high k2 -> length v = m -> nonzero v ->
       energy r v < k2 * dot v v)
   | Conditioning c2 => of_rows x (fun r => forall c u v, contains c2 c -> length u = m -> length v = m -> nonzero u -> nonzero v ->
@@ -260,6 +267,12 @@ Proof.
   exact (over_these_sound r test bound h H).
 Qed.
 
+Lemma are_defined_sound : are_defined values = true -> Forall (fun f => defined x theta (formula_at f)) partial.
+Proof.
+  unfold are_defined. rewrite forallb_forall, Forall_forall. intros h f i. specialize (h f i).
+  destruct (nth f values None) as [s |] eqn:e; [| discriminate]. exact (proj1 (entry_exists f s e)).
+Qed.
+
 (** What is subtracted is not negative at [x]. *)
 Definition harmless (less : option slope) : Prop :=
   match less with Some t => exists e, entry_in bits t e /\ 0 <= at_lambda lambda e | None => True end.
@@ -308,8 +321,9 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | |];
+  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | | |];
     cbn [shows holds] in *; try discriminate.
+  1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
     destruct (raised_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
     pose proof (sigma_min_sound bits _ _ _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
@@ -375,7 +389,7 @@ Proof.
   assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
   { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-  destruct e as [| | | | | | | | | e' n places |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | |]; try (apply (K None _ I h)).
   cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
   refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
   destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.

@@ -343,7 +343,7 @@ Definition check_claim (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
             all_some (tests_of (place found) fs s n (require c)) with
       | Some params, Some box, Some tests =>
-          check bits tape (map_rows (place found) (whole_rows fs)) (map_rows (place found) (divided_rows fs))
+          check bits tape (map_rows (place found) (whole_rows fs)) (map_rows (place found) (divided_rows fs)) []
             params tests (tangent (workspace c) s) box (all_open tests) t
       | _, _, _ => false
       end
@@ -456,7 +456,7 @@ Hypothesis bound_at : nth j theta 0 = bound_value s r.
 Hypothesis range_found : forall f, In f (range_formula fs s j r) -> formula_at tape (found f) = f.
 Variable t : test.
 Hypothesis is_test : test_of found fs s j r = Some t.
-Hypothesis test_holds : Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) theta 3 x t.
+Hypothesis test_holds : Check.holds bits tape (map_rows found (whole_rows fs)) (map_rows found (divided_rows fs)) [] theta 3 x t.
 
 Lemma two_to_0 : two_to 0 = 1.
 Proof. reflexivity. Qed.
@@ -472,12 +472,12 @@ Qed.
 Lemma lower_fulfilled : is_lower r = true -> Forall (reaches P) m /\ injective m P /\ fulfils m P r.
 Proof.
   intro low. destruct r as [| b | b | i b | i b | i tool b | b | i b | b | joint b | b]; try discriminate; cbn [test_of] in is_test.
-  - injection is_test as <-. destruct (of_rows_speed _ test_holds) as [h1 [e [h2 h3]]].
+  - injection is_test as <-. destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (I : injective m P).
     { intros v nz. rewrite <- h3. specialize (h2 0 (coordinates v) (zero_sound bits) eq_refl (nonzero_coordinates v nz)). lra. }
     split; [exact h1 |]. split; exact I.
   - destruct (enclose_parameter bits (bound_of s (PsiMax b))) as [a |] eqn:E; [| discriminate]. injection is_test as <-.
-    destruct (of_rows_speed _ test_holds) as [h1 [e [h2 h3]]].
+    destruct (of_rows_speed _ (proj2 test_holds)) as [h1 [e [h2 h3]]].
     assert (B : forall v, v <> vzero -> (1 / Claim.value b) ^ 2 * norm2 v < speed2 m P v).
     { intros v nz. rewrite <- h3, norm2_dot, <- dot_coordinates.
       apply (h2 _ (coordinates v) (kappa_enclosed (PsiMax b) b a eq_refl E) eq_refl (nonzero_coordinates v nz)). }
@@ -736,7 +736,7 @@ Proof.
   pose proof (enclosed_all _ _ _ ep (Forall2_app L B)) as T.
   pose proof (enclosed_all _ _ _ eb (three_within (hull (workspace c)) s P (hull_sound _ _ hP))) as X.
   assert (three_of_them : length box = 3%nat) by (rewrite (related_length _ _ _ _ _ X); reflexivity).
-  pose proof (check_all_open bits tape _ _ params tests (tangent (workspace c) s) (th ++ tb) T
+  pose proof (check_all_open bits tape _ _ _ params tests (tangent (workspace c) s) (th ++ tb) T
     (fun y => y = coordinates (vscale (/ two_to s) P))
     (fun cell lambda y q e l a d => tangent_sound (workspace c) s P hP cell lambda q e l (eq_ind y (fun z => Forall2
       (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda z)) d _ a))
@@ -750,7 +750,7 @@ Proof.
   assert (Each : forall r, In r (require c) -> exists k u, nth (n + k) (th ++ tb) 0 = bound_value s r /\
     (forall f, In f (range_formula fs s (n + k) r) -> formula_at tape (place (formulas tape) f) = f) /\
     test_of (place (formulas tape)) fs s (n + k) r = Some u /\
-    Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs))
+    Check.holds bits tape (map_rows (place (formulas tape)) (whole_rows fs)) (map_rows (place (formulas tape)) (divided_rows fs)) []
       (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) u).
   { intros r i. destruct (requirement_at (place (formulas tape)) fs s (require c) n r i) as [k [h1 [h2 h3]]].
     destruct (all_some_in _ _ _ _ et h2) as [u [e2 iu]]. exists k, u. split; [| split; [| split]].

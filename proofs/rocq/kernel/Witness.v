@@ -83,11 +83,14 @@ Proof.
     exact (contains_nonneg bits _ _ h (enclose_sound bits _ _ e)).
 Qed.
 
-Definition below (x y : number) : bool := same x y || certainly false (Minus y x).
+(** A number without an enclosure is none: division is total here, and so is the root. *)
+Definition is_number (x : number) : bool := match enclose bits x with Some _ => true | None => false end.
+
+Definition below (x y : number) : bool := same x y && is_number x || certainly false (Minus y x).
 
 Lemma below_sound : forall x y, below x y = true -> value x <= value y.
 Proof.
-  intros x y h. apply orb_true_iff in h as [h | h]; [apply same_sound in h; subst; lra |].
+  intros x y h. apply orb_true_iff in h as [h | h]; [apply andb_true_iff in h as [h _]; apply same_sound in h; subst; lra |].
   apply nonneg_sound in h. cbn [value] in h. lra.
 Qed.
 

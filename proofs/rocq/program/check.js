@@ -70,6 +70,33 @@ files.forEach((file, i) => {
 });
 console.log(`${covered} of ${files.length} certificates are covered, with one answer of all three`);
 
+// What is no number, or beyond a limit, though nothing depends on it: refused by all three.
+const plane = (x, y, z) => `{"drive":"planar","direction":["${x}","${y}","${z}"]}`;
+const undefined_ = (x) => `{"format":"orthocert/2","claim":{"machine":{"mechanism":{"translational":[${plane(1, 0, 0)},` +
+  `${plane(0, 1, 0)},${plane(0, 0, 1)}]},"workspace":{"box":{"min":["${x}","0","0"],"max":["${x}","0","0"]}},` +
+  `"require":[{"quantity":"transmission","end":"min","bound":"2"}]}},"verdict":"refuted","proof":{"witness":{"precision":64,` +
+  `"point":["${x}","0","0"],"fails":{"obligation":[1,[[1,1,1]]]}}},"provenance":{"tool":"t","version":"1"}}\n`;
+const wrong = [undefined_("1/0"), undefined_("sqrt(-1)")];
+for (const [name, from, to] of [
+  ["orthoglide-prototype", '"offset":"0"', '"offset":"1/0"'],
+  ["orthoglide-prototype", '"offset":"0"', '"offset":"sqrt(-1)"'],
+  ["tripteron", /"precision":\d+/, '"precision":8'],
+  ["tripteron", /"precision":\d+/, '"precision":5000'],
+]) {
+  const file = files.find((file) => path.basename(file, ".cert.json") === name);
+  const text = file && fs.readFileSync(file, "latin1");
+  if (!text || text.replace(from, to) === text) fail(`${name} is not there, or has no ${from}`);
+  else wrong.push(text.replace(from, to));
+}
+const aside = fs.mkdtempSync(path.join(os.tmpdir(), "wrong-"));
+wrong.forEach((text, i) => {
+  const file = path.join(aside, `${i}.json`);
+  fs.writeFileSync(file, text);
+  const all = [verify(text), natively([file])[0], exactly(file)];
+  if (all.some((answer) => answer !== "REJECTED")) fail(`${all}: ${text}`);
+});
+fs.rmSync(aside, { recursive: true });
+
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {
   const certificate = JSON.parse(text);

@@ -81,7 +81,8 @@ let count v =
   nat (int_of_string s)
 
 (* Numbers: section 3 of FORMAT.md *)
-let expression text =
+let is_letter c = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
+let term name text =
   let n = String.length text and at = ref 0 in
   let is c = !at < n && text.[!at] = c in
   let digits () =
@@ -115,7 +116,11 @@ let expression text =
   and atom depth =
     if is '(' then parenthesised depth
     else if !at + 5 <= n && String.sub text !at 5 = "sqrt(" then (at := !at + 4; SquareRoot (parenthesised depth))
-    else
+    else if !at < n && is_letter text.[!at] then begin
+      let from = !at in
+      while !at < n && (is_letter text.[!at] || text.[!at] = '_' || (text.[!at] >= '0' && text.[!at] <= '9')) do incr at done;
+      Name (name (String.sub text from (!at - from)))
+    end else
       let whole = digits () in
       let decimals = if is '.' then (incr at; Some (digits ())) else None in
       if whole = "" || (String.length whole > 1 && whole.[0] = '0') then raise Malformed;
@@ -125,6 +130,8 @@ let expression text =
       | Some d -> Literal (decimal whole, decimal d) in
   let x = sum 0 in
   if !at < n then raise Malformed else x
+let expression text = term (fun _ -> raise Malformed) text
+let formula v = term (fun name -> name) (string v)
 
 let number v = expression (string v)
 let quantity = function
@@ -143,6 +150,15 @@ let leg v =
   | "strut" -> Strut_ (vector "anchor", vector "platform", optional (triple quantity) (find l "base_axis"))
   | "planar" -> Planar_ (vector "direction")
   | drive -> not_covered [ "the drive \""; drive; "\"" ]
+let is_arm v = match members v with ("drive", String "arm") :: _ -> true | _ -> false
+let arm v =
+  let l = members v in
+  if not (is_arm v) then raise Malformed;
+  let vector key = triple quantity (get l key) in
+  { axis_ = vector "axis"; reference_ = vector "reference"; anchor_ = vector "anchor"; platform_ = vector "platform";
+    arm_ = quantity (get l "arm"); rod_ = quantity (get l "length"); mode_ = mode (get l "mode") }
+
+let two f v = match array v with [ x; y ] -> (f x, f y) | _ -> raise Malformed
 
 let requirement v =
   let l = members v in
@@ -156,17 +172,32 @@ let requirement v =
     | "stiffness" -> Stiffness_
     | "constraint_margin" -> Constraint_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
-  let is_max = match string (get l "end") with
-    | "max" -> true
-    | "min" -> false
+  let bound () = get l "bound" in
+  let end_ = match string (get l "end") with
+    | "max" -> AtMost_ (number (bound ()))
+    | "min" -> AtLeast_ (number (bound ()))
+    | "within" -> let a, b = two number (bound ()) in Within_ (a, b)
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
     | Speed_, [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
-  { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); is_max; bound_ = number (get l "bound") }
+  { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
-let two f v = match array v with [ x; y ] -> (f x, f y) | _ -> raise Malformed
+(* Of machines of Configuration.v. *)
+let demand v =
+  let r = requirement v in
+  match r.about_ with
+  | Transmission | JointRange | Condition_ -> r
+  | _ -> not_covered [ "this quantity of such a mechanism" ]
+
+let region (kind, v) =
+  let l = members v in
+  match kind with
+  | "box" -> Box_ (triple number (get l "min"), triple number (get l "max"))
+  | _ ->
+    let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
+    Cylinder_ (x, y, number (get l "radius"), bottom, top)
 
 let subject v =
   match variant v with
@@ -175,36 +206,65 @@ let subject v =
     let l = members v in
     let require () = List.map requirement (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
-     | _ when find l "orientation" <> None || find l "bodies" <> None -> not_covered [ "a platform that turns, or one with bodies," ]
-     | ("translational", legs), ("box", box) ->
-       let box = members box in
-       let region = Box_ (triple number (get box "min"), triple number (get box "max")) in
-       Machine_ (List.map leg (array legs), region, require ())
-     | ("translational", legs), ("cylinder", cylinder) ->
-       let l = members cylinder in
-       let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
-       Machine_ (List.map leg (array legs), Cylinder_ (x, y, number (get l "radius"), bottom, top), require ())
+     | _ when find l "bodies" <> None -> not_covered [ "a machine with bodies" ]
+     | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
+       let t = members t and w = members w in
+       if workspace <> "box" then not_covered [ "the workspace \""; workspace; "\" of a platform that turns" ];
+       let ell = match find t "characteristic_length" with
+         | Some v -> number v
+         | None -> not_covered [ "the mechanism \""; kind; "\" that does not turn" ] in
+       let strut v =
+         let l = members v in
+         let vector key = List.map quantity (array (get l key)) in
+         match string (get l "drive"), find l "base_axis" with
+         | "strut", None -> (vector "anchor", vector "platform")
+         | drive, _ -> not_covered [ "the drive \""; drive; "\" of such a platform" ] in
+       let orientation = match variant (get l "orientation") with
+         | "range", v -> let a, b = two number v in Range_ (a, b)
+         | "roll_pitch_yaw", v ->
+           let range key = two number (get (members v) key) in
+           RollPitchYaw_ (range "roll", range "pitch", range "yaw")
+         | name, _ -> not_covered [ "the orientation \""; name; "\"" ] in
+       let motion = match kind with "planar" -> InPlane | "spatial" -> InSpace | _ -> AboutPoint in
+       Turning_ (motion, List.map strut (array (get t "legs")), ell, List.map number (array (get w "min")),
+         List.map number (array (get w "max")), orientation, List.map demand (array (get l "require")))
+     | _ when find l "orientation" <> None -> raise Malformed
+     | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
+       let legs = array legs and region = region workspace in
+       if List.exists is_arm legs then Arms_ (List.map arm legs, region, List.map demand (array (get l "require")))
+       else Machine_ (List.map leg legs, region, require ())
+     | ("formulas", f), ("box", box) ->
+       let f = members f and box = members box in
+       let pairs item v = List.map (fun v -> match array v with [ name; x ] -> (string name, item x) | _ -> raise Malformed) (array v) in
+       let row v = match members v with
+         | [ ("row", row) ] -> List.map formula (array row)
+         | [ ("rho", _) ] -> not_covered [ "a joint by its coordinate" ]
+         | _ -> raise Malformed in
+       Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), pairs formula (get f "definitions"),
+         List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
+         List.map demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
        Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require ())
-     | ("translational", _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
+     | (("translational" | "formulas"), _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
      | (mechanism, _), _ -> not_covered [ "the mechanism \""; mechanism; "\"" ])
   | claim, _ -> not_covered [ "a claim of the kind \""; claim; "\"" ]
 
 (* Proofs *)
 let integers v = List.map integer (array v)
 let face v = match string v with "Q1" -> Q1 | "Q2" -> Q2 | s -> raise Malformed
-(* [n] legs: so many rows of three entries. *)
-let rec evidence n v =
+(* [n] legs: so many rows of [m] entries. *)
+let rec evidence (n, m as shape) v =
   let row length v = let l = integers v in if List.length l <> length then raise Malformed else l in
   let multiplier f v =
     let l = members v in
-    let y = List.map (row 3) (array (get l "y")) in
+    let y = List.map (row m) (array (get l "y")) in
     if List.length y <> n then raise Malformed else f y (places (get l "places")) in
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
-  | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence n e, integer k, places p)
-  | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row 4 mu)) y
+  | Object [ ("control", ((String "test" | Object [ ("lower", _) ]) as e)) ] -> AtControls_ (evidence shape e)
+  | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
+  | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row (m + 1) mu)) y
   | Object [ (("lower" | "lower_divided" | "rank") as name, y) ] -> multiplier (fun y places -> Multiplied (name, y, places)) y
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
@@ -234,14 +294,26 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
+let is_at_controls (_, s) = match s with AtControls_ _ -> true | _ -> false
+
 let certificate text =
   let l = members (parse text) in
   (match string (get l "format") with
    | "orthocert/2" -> ()
    | format -> raise Malformed);
   let subject_ = subject (get l "claim") in
-  let legs = match subject_ with Machine_ (legs, _, _) -> List.length legs | Closed_ _ | Postulate_ _ -> 3 in
-  let proof_ = proof legs (get l "proof") in
+  let shape = match subject_ with
+    | Machine_ (legs, _, _) -> (List.length legs, 3)
+    | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
+    | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
+    | Arms_ _ | Closed_ _ | Postulate_ _ -> (3, 3) in
+  let proof_ = proof shape (get l "proof") in
+  (match subject_, proof_ with
+   | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
+   | Turning_ _, Nodes (_, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
+     not_covered [ "a step of a platform that turns that is not at control points" ]
+   | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
+   | _ -> ());
   let p = members (get l "provenance") in
   { subject_; proof_; tool = string (get p "tool"); version = string (get p "version") }
 

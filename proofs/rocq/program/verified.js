@@ -3,129 +3,129 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(j){"use strict";var
-r6=typeof
-module==="object"&&module.exports||j,hR="Invalid_argument",dj="precision",ab='"',hQ="@[",eF=1255,hP="inside",ir="Fatal error: exception %s\n",hq=255,ip="(",iq=0x800,hp="tree",eE="jsError",aZ=0x8000,hO="%ni",iN="sqrt(",io=256,hN="offset",im="obligation",cG="machine",ho="End_of_file",hM="strut",hn="center",eD="Failure",iM="serial_margin",bg=0xff,hm="\n",iL="outside",hL="base_axis",eU="ENOENT",aj="0",il="([^/]+)",eT=0xf,cF=128,eC=-48,hl=0xdc00,hK="Sys_blocked_io",iK="fd ",hk="given",ik="ENOTEMPTY",Q=248,ij="bound",P="camlinternalFormat.ml",ii="Division_by_zero",iI="by",iJ=1027,hj="Sys_error",hJ="slider",hI="postulate",ih="proof",hH="%u",eS="mechanism",ig="row",hi="EEXIST",eR="%d",hh="Printexc.handle_uncaught_exception",hG="y",hg="lower",ie="cube",id="buffer.ml",di="int_of_string",eM=127,cE=1024,hF="@{",eY="e",he=120,hf=103,hE=" : flags Open_rdonly and Open_wronly are not compatible",ic="orthocert/2",iH="reach",hd=512,aP="-",iG="witness",dl="platform",hc=0x7ff0,eX=": Not a directory",hD=" : file already exists",b6="min",eW="workspace",hC="claim",ib="split",bf=0xffffff,ia="joint",hb="0x",iE="nodes",iF="Out_of_memory",ha="psi_max",dn=254,eV="index out of bounds",h$=100,g$="end",dr="_bigarr02",g_="%Li",h_=" : flags Open_text and Open_binary are not compatible",dm="drive",hB=", characters ",h9="lower_divided",iD="cylinder",a0=0xffff,hA=12520,iC="parallel_margin",eL="fails",eQ="Unix.Unix_error",iB="infinity",dh="tool",eB="mkdir",cD=1000,g9="translational",h="",h8="Stack_overflow",eK="^",dg=": No such file or directory",h7="places",h6="/static/",b5=0x3f,h5=-97,h3="stiffness",h4="Not_found",g8="planar",h2="mode",iA="joint_speed",hz="Match_failure",g7=", ",g6="transmission",df="anchor",dq=252,hy="leg",bt=".",be="+",eP="rmdir",iz=0xf0,hw="REJECTED",hx="%li",h1=1026,b7="max",dp="direction",h0="orthoglide",iy="rank",ix="constraint_margin",iw=-32,g4="Pervasives.do_at_exit",g5="utf8",bd=" ",dk="conditioning",eO="Fatal error: exception ",aQ=0x80,g3="Undefined_recursive_module",eJ=")",hZ="length",iv="quantity",hY="joint_range",g2="Q2",eI="nan",hX="point",hv=0xe0,iu="corner",ht="z",hu=0xdfff,hV="version",hW="_",aO="/",eN="compare: functional value",it="Assert_failure",hs="provenance",g0="radius",g1="%i",eH="require",hU="side",is="format",eG="ENOTDIR",hT="Q1",hS="all",gZ="box",hr=250;function
-fb(c,b,a){var
+a.prototype._T_}}(Object));(function(u){"use strict";var
+yb=typeof
+module==="object"&&module.exports||u,gm="spatial",kk="Invalid_argument",eo="precision",ad='"',kj="@[",f9=1255,ki="inside",kV="Fatal error: exception %s\n",jN=255,kh="yaw",kT="(",kU=0x800,jL="range",jM="tree",f8="jsError",bh=0x8000,kf='the mechanism "',kg="%ni",lk="sqrt(",kS=256,ke="offset",kR="obligation",b4="machine",jK="End_of_file",eq="strut",jJ="center",ey="arm",f7="Failure",li="serial_margin",lj="parameters",bJ=0xff,jI="\n",lh="outside",ge="base_axis",gl="ENOENT",lg=122,aF="0",kQ="([^/]+)",gk=0xf,dw=128,f6=-48,jH=0xdc00,kd="Sys_blocked_io",lf="fd ",jG="given",kP="ENOTEMPTY",ak=248,kO="bound",aj="camlinternalFormat.ml",kN="Division_by_zero",ld="by",le=1027,jF="Sys_error",kc="slider",kb="postulate",kM="proof",ka="%u",cO="mechanism",eu="row",jE="EEXIST",j$="roll_pitch_yaw",gj="%d",jD="Printexc.handle_uncaught_exception",j_="y",f5="lower",j9="within",kL="cube",kK="buffer.ml",en="int_of_string",kJ="control",j8="definitions",gd=127,dv=1024,j7="@{",gq="e",jB=120,jC=103,j6=" : flags Open_rdonly and Open_wronly are not compatible",kI="orthocert/2",lc="reach",jA=512,a0="-",lb="witness",b1="platform",jz=0x7ff0,jy="pitch",gp=": Not a directory",j5=" : file already exists",bj="min",cP="workspace",j4="claim",kH="split",la="legs",bI=0xffffff,kG="joint",jw="formulas",jx="0x",j3='the workspace "',kF="roll",k_="nodes",k$="Out_of_memory",jv="psi_max",go="orientation",et=254,gn="index out of bounds",kE=100,ju="end",ex="_bigarr02",jt="%Li",kD=" : flags Open_text and Open_binary are not compatible",b2="drive",kC="coordinates",j2=", characters ",kB="lower_divided",j1="joints",k9="cylinder",bl=0xffff,j0=12520,jZ="axis",k8="parallel_margin",js='the drive "',gc="fails",gi="Unix.Unix_error",k7="infinity",em="tool",f4="mkdir",du=1000,f3="translational",s="",kA="Stack_overflow",k6="characteristic_length",gb="^",el=": No such file or directory",kz="places",ky="/static/",cN=0x3f,kx=-97,kv="stiffness",kw="Not_found",dt="planar",es="mode",k5="joint_speed",jY="Match_failure",jr=", ",jq="transmission",b0="anchor",ew=252,jX="leg",b3=".",bi="+",gh="rmdir",k4=0xf0,k3="spherical",jW="verified.ml",jU="REJECTED",jV="%li",ku=1026,bk="max",ev="direction",kt="orthoglide",k2="rank",k1="constraint_margin",k0=-32,jo="Pervasives.do_at_exit",jp="utf8",ks="test",bG=" ",ep="conditioning",gg="Fatal error: exception ",a9=0x80,jn="Undefined_recursive_module",ga=")",er="length",kZ="quantity",kr="joint_range",jm="Q2",f$="nan",jT="reference",kq="point",jS=0xe0,kY="corner",jQ="z",jR=0xdfff,ko="version",kp="_",a8="/",gf="compare: functional value",kX="Assert_failure",jP="provenance",jk="radius",jl="%i",bH="require",kn="side",kW="format",f_="ENOTDIR",km="Q1",kl="all",ci="box",jO=250;function
+gG(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=h;for(;0<a;b+=cE,a-=cE)e+=d.apply(null,c.slice(b,b+Math.min(a,cE)));return e}function
-ds(b){if(j.Uint8Array)var
-c=new(j.Uint8Array)(b.l);else
+e=s;for(;0<a;b+=dv,a-=dv)e+=d.apply(null,c.slice(b,b+Math.min(a,dv)));return e}function
+ez(b){if(u.Uint8Array)var
+c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-bv(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?fb(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?fb(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ds(b);var
+b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ez(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bh(a){return a}function
-a3(a,b,c,d,e){bv(bh(a),b,c,d,e);return 0}function
-rZ(b,a){throw[0,b,a]}function
-ca(b,a){if(b==0)return h;if(a.repeat)return a.repeat(b);var
-d=h,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-b_(a){if(a.t==2)a.c+=ca(a.l-a.c.length,"\0");else
-a.c=fb(a.c,0,a.c.length);a.t=0}function
-jh(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>eM)return false;return true}else
+bK(a){return a}function
+bo(a,b,c,d,e){b6(bK(a),b,c,d,e);return 0}function
+x6(b,a){throw[0,b,a]}function
+cU(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+cS(a){if(a.t==2)a.c+=cU(a.l-a.c.length,"\0");else
+a.c=gG(a.c,0,a.c.length);a.t=0}function
+lQ(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gd)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-fd(e){for(var
-k=h,c=h,g,f,i,a,b=0,j=e.length;b<j;b++){f=e.charCodeAt(b);if(f<aQ){for(var
-d=b+1;d<j&&(f=e.charCodeAt(d))<aQ;d++);if(d-b>hd){c.substr(0,1);k+=c;c=h;k+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==j)break;b=d}a=1;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF){g=i+(f<<6);if(f<hv){a=g-0x3080;if(a<aQ)a=1}else{a=2;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF){g=i+(g<<6);if(f<iz){a=g-0xe2080;if(a<iq||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<j&&((i=e.charCodeAt(b))&-64)==cF&&f<0xf5){a=i-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>a0)c+=String.fromCharCode(0xd7c0+(a>>10),hl+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>cE){c.substr(0,1);k+=c;c=h}}return k+c}function
-a1(c,a,b){this.t=c;this.c=a;this.l=b}a1.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:b_(this);case
-0:if(jh(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};a1.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return fd(a)};a1.prototype.slice=function(){var
+gI(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a9){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jA){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(f<<6);if(f<jS){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(g<<6);if(f<k4){a=g-0xe2080;if(a<kU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bl)c+=String.fromCharCode(0xd7c0+(a>>10),jH+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dv){c.substr(0,1);j+=c;c=s}}return j+c}function
+bm(c,a,b){this.t=c;this.c=a;this.l=b}bm.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:cS(this);case
+0:if(lQ(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bm.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return gI(a)};bm.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-a1(this.t,a,this.l)};function
-iX(a){return new
-a1(0,a,a.length)}function
-a(a){return iX(a)}function
-e$(c,b){rZ(c,a(b))}var
-F=[0];function
-R(a){e$(F.Invalid_argument,a)}function
-iV(){R(eV)}function
-I(a,c,b){b&=bg;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ds(a)}a.c[c]=b;return 0}function
-bK(b,a,c){if(a>>>0>=b.l)iV();return I(b,a,c)}function
-b9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bm(this.t,a,this.l)};function
+lu(a){return new
+bm(0,a,a.length)}function
+a(a){return lu(a)}function
+gE(c,b){x6(c,a(b))}var
+Z=[0];function
+al(a){gE(Z.Invalid_argument,a)}function
+ls(){al(gn)}function
+$(a,c,b){b&=bJ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ez(a)}a.c[c]=b;return 0}function
+cj(b,a,c){if(a>>>0>=b.l)ls();return $(b,a,c)}function
+cR(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bi(c,a){if(c.fun)return bi(c.fun,a);if(typeof
+bL(c,a){if(c.fun)return bL(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bi(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bL(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bi(c,d)}}function
-cH(){R(eV)}function
-iY(a,b){if(b>>>0>=a.length-1)cH();return a}function
-rp(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bk(a){a.t&6&&b_(a);return a.c}var
-r8=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-r7(a){if(r8)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bL(c,d)}}function
+dx(){al(gn)}function
+lv(a,b){if(b>>>0>=a.length-1)dx();return a}function
+xw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bN(a){a.t&6&&cS(a);return a.c}var
+yd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+yc(a){if(yd)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-e3(c){var
-a=new(j.Float32Array)(1);a[0]=c;var
-b=new(j.Int32Array)(a.buffer);return b[0]|0}var
-i7=Math.pow(2,-24);function
-rX(a){throw a}function
-jc(){rX(F.Division_by_zero)}function
-i(b,c,a){this.lo=b&bf;this.mi=c&bf;this.hi=a&a0}i.prototype.caml_custom="_j";i.prototype.copy=function(){return new
-i(this.lo,this.mi,this.hi)};i.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};i.prototype.neg=function(){var
+gw(c){var
+a=new(u.Float32Array)(1);a[0]=c;var
+b=new(u.Int32Array)(a.buffer);return b[0]|0}var
+lE=Math.pow(2,-24);function
+x4(a){throw a}function
+lL(){x4(Z.Division_by_zero)}function
+t(b,c,a){this.lo=b&bI;this.mi=c&bI;this.hi=a&bl}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-i(a,b,c)};i.prototype.add=function(a){var
+t(a,b,c)};t.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-i(b,c,d)};i.prototype.sub=function(a){var
+t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-i(b,c,d)};i.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*i7|0)+this.mi*a.lo+this.lo*a.mi,d=(c*i7|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-i(b,c,d)};i.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};i.prototype.isNeg=function(){return this.hi<<16<0};i.prototype.and=function(a){return new
-i(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};i.prototype.or=function(a){return new
-i(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};i.prototype.xor=function(a){return new
-i(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};i.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-i(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-i(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-i(0,0,this.lo<<a-48)};i.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-i(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-i(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-i(this.hi>>a-48,0,0)};i.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+t(b,c,d)};t.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*lE|0)+this.mi*a.lo+this.lo*a.mi,d=(c*lE|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
+t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
+t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
+t(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};t.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+t(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+t(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+t(0,0,this.lo<<a-48)};t.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+t(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+t(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-i(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-i(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&a0);return new
-i(this.hi<<16>>a-32,b,b)};i.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bf;this.lo=this.lo<<1&bf};i.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bf;this.mi=(this.mi>>>1|this.hi<<23)&bf;this.hi=this.hi>>>1};i.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bl);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bI;this.lo=this.lo<<1&bI};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bI;this.mi=(this.mi>>>1|this.hi<<23)&bI;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-i(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};i.prototype.div=function(a){var
-b=this;if(a.isZero())jc();var
-d=b.hi^a.hi;if(b.hi&aZ)b=b.neg();if(a.hi&aZ)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&aZ)c=c.neg();return c};i.prototype.mod=function(b){var
-a=this;if(b.isZero())jc();var
-d=a.hi;if(a.hi&aZ)a=a.neg();if(b.hi&aZ)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&aZ)c=c.neg();return c};i.prototype.toInt=function(){return this.lo|this.mi<<24};i.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};i.prototype.toArray=function(){return[this.hi>>8,this.hi&bg,this.mi>>16,this.mi>>8&bg,this.mi&bg,this.lo>>16,this.lo>>8&bg,this.lo&bg]};i.prototype.lo32=function(){return this.lo|(this.mi&bg)<<24};i.prototype.hi32=function(){return this.mi>>>8&a0|this.hi<<16};function
-dw(b,c,a){return new
-i(b,c,a)}function
-dv(a){if(!isFinite(a)){if(isNaN(a))return dw(1,0,hc);return a>0?dw(0,0,hc):dw(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?aZ:a>=0?0:aZ;if(f)a=-a;var
-b=r7(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-h1)}else{a/=Math.pow(2,b-iJ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
+b=this;if(a.isZero())lL();var
+d=b.hi^a.hi;if(b.hi&bh)b=b.neg();if(a.hi&bh)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bh)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())lL();var
+d=a.hi;if(a.hi&bh)a=a.neg();if(b.hi&bh)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bh)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bJ,this.mi>>16,this.mi>>8&bJ,this.mi&bJ,this.lo>>16,this.lo>>8&bJ,this.lo&bJ]};t.prototype.lo32=function(){return this.lo|(this.mi&bJ)<<24};t.prototype.hi32=function(){return this.mi>>>8&bl|this.hi<<16};function
+eD(b,c,a){return new
+t(b,c,a)}function
+eC(a){if(!isFinite(a)){if(isNaN(a))return eD(1,0,jz);return a>0?eD(0,0,jz):eD(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bh:a>=0?0:bh;if(f)a=-a;var
+b=yc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ku)}else{a/=Math.pow(2,b-le);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&eT|f|b<<4;return dw(g,e,c)}function
-cK(a){return a.toArray()}function
-iU(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==dr)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<a0)c.write(16,b.dims[a]);else{c.write(16,a0);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&gk|f|b<<4;return eD(g,e,c)}function
+dA(a){return a.toArray()}function
+lr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ex)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bl)c.write(16,b.dims[a]);else{c.write(16,bl);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,30 +142,30 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=cK(b.get(a));for(var
+e=dA(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=cK(dv(b.get(a)));for(var
+e=dA(eC(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=e3(b.get(a));c.write(32,e)}break;case
+e=gw(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,e3(d[1]));c.write(32,e3(d[2]))}break;case
+d=b.get(a);c.write(32,gw(d[1]));c.write(32,gw(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=cK(dv(f[1]));for(var
+f=b.get(a),e=dA(eC(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=cK(dv(f[2]));for(var
+e=dA(eC(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-iS(a){switch(a){case
+lp(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-rj(c,e){var
-b=j,a;switch(c){case
+xq(c,e){var
+b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -178,51 +178,51 @@ b=j,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)R("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)al("Bigarray.create: unsupported kind");var
 d=new
-a(e*iS(c));return d}function
-e4(c){var
-a=new(j.Int32Array)(1);a[0]=c;var
-b=new(j.Float32Array)(a.buffer);return b[0]}function
-cJ(a){return new
-i(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-e5(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&eT)==0?b&aZ?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&eT);if(c>0){a+=16;a*=Math.pow(2,c-iJ)}else
-a*=Math.pow(2,-h1);if(b&aZ)a=-a;return a}function
-eZ(b){var
+a(e*lp(c));return d}function
+gx(c){var
+a=new(u.Int32Array)(1);a[0]=c;var
+b=new(u.Float32Array)(a.buffer);return b[0]}function
+dz(a){return new
+t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+gy(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gk)==0?b&bh?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gk);if(c>0){a+=16;a*=Math.pow(2,c-le)}else
+a*=Math.pow(2,-ku);if(b&bh)a=-a;return a}function
+gr(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)R("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-rA(b,a){return new
-i(b&bf,b>>>24&bg|(a&a0)<<8,a>>>16&a0)}function
-e6(a){return a.hi32()}function
-e7(a){return a.lo32()}var
-rk=dr;function
-bu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}bu.prototype.caml_custom=rk;bu.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)al("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+xH(b,a){return new
+t(b&bI,b>>>24&bJ|(a&bl)<<8,a>>>16&bl)}function
+gz(a){return a.hi32()}function
+gA(a){return a.lo32()}var
+xr=ex;function
+b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=xr;b5.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))R("bigarray.js: invalid offset");if(this.dims.length!=b.length)R("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])cH();c=c*this.dims[a]+b[a]}else
+Array))al("bigarray.js: invalid offset");if(this.dims.length!=b.length)al("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dx();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])cH();c=c*this.dims[a]+(b[a]-1)}return c};bu.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dx();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return rA(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return xH(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[dn,e,c];default:return this.data[a]}};bu.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=e7(b);this.data[a*2+1]=e6(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[et,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gA(b);this.data[a*2+1]=gz(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};bu.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b5.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=e7(b),e=e6(b);if(c==e)this.data.fill(c);else
+c=gA(b),e=gz(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};bu.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b5.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-b8(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b8.prototype=new
-bu();b8.prototype.offset=function(a){if(typeof
+cQ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cQ.prototype=new
+b5();cQ.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-R("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])cH();return a};b8.prototype.get=function(a){return this.data[a]};b8.prototype.set=function(a,b){this.data[a]=b;return 0};b8.prototype.fill=function(a){this.data.fill(a);return 0};function
-iQ(c,d,a,b){var
-e=iS(c);if(eZ(a)*e!=b.length)R("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-b8(c,d,a,b);return new
-bu(c,d,a,b)}function
-aR(b){if(!F.Failure)F.Failure=[Q,a(eD),-3];e$(F.Failure,b)}function
-iR(b,v,r){var
-i=b.read32s();if(i<0||i>16)aR("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bg,o=p>>8&1,h=[];if(r==dr)for(var
+al("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dx();return a};cQ.prototype.get=function(a){return this.data[a]};cQ.prototype.set=function(a,b){this.data[a]=b;return 0};cQ.prototype.fill=function(a){this.data.fill(a);return 0};function
+ln(c,d,a,b){var
+e=lp(c);if(gr(a)*e!=b.length)al("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+cQ(c,d,a,b);return new
+b5(c,d,a,b)}function
+a_(b){if(!Z.Failure)Z.Failure=[ak,a(f7),-3];gE(Z.Failure,b)}function
+lo(b,v,r){var
+i=b.read32s();if(i<0||i>16)a_("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bJ,o=p>>8&1,h=[];if(r==ex)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==a0){var
-t=b.read32u(),u=b.read32u();if(t!=0)aR("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bl){var
+t=b.read32u(),u=b.read32u();if(t!=0)a_("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=eZ(h),f=rj(j,d),g=iQ(j,o,h,f);switch(j){case
+d=gr(h),f=xq(j,d),g=ln(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)aR("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)a_("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=cJ(e);g.set(a,q)}break;case
+q=dz(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=e5(cJ(e));g.set(a,k)}break;case
+k=gy(dz(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=e4(b.read32s());g.set(a,k)}break;case
+k=gx(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=e4(b.read32s()),l=e4(b.read32s());g.set(a,[dn,m,l])}break;case
+m=gx(b.read32s()),l=gx(b.read32s());g.set(a,[et,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=e5(cJ(e));for(var
+m=gy(dz(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=e5(cJ(e));g.set(a,[dn,m,l])}break}v[0]=(4+i)*4;return iQ(j,o,h,f)}function
-iP(a,b,c){return a.compare(b,c)}function
-i$(a,b){return Math.imul(a,b)}function
-bj(b,a){a=i$(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=i$(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-rw(a,b){a=bj(a,e7(b));a=bj(a,e6(b));return a}function
-i6(a,b){return rw(a,dv(b))}function
-iT(c){var
-b=eZ(c.dims),d=0;switch(c.kind){case
+l=gy(dz(e));g.set(a,[et,m,l])}break}v[0]=(4+i)*4;return ln(j,o,h,f)}function
+lm(a,b,c){return a.compare(b,c)}function
+lI(a,b){return Math.imul(a,b)}function
+bM(b,a){a=lI(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lI(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+xD(a,b){a=bM(a,gA(b));a=bM(a,gz(b));return a}function
+lD(a,b){return xD(a,eC(b))}function
+lq(c){var
+b=gr(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>io)b=io;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bj(d,e)}e=0;switch(b&3){case
+12:if(b>kS)b=kS;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bM(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bj(d,e)}break;case
+1:e|=c.data[a+0];d=bM(d,e)}break;case
 4:case
-5:if(b>cF)b=cF;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bj(d,e)}if((b&1)!=0)d=bj(d,c.data[a]);break;case
+5:if(b>dw)b=dw;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bM(d,e)}if((b&1)!=0)d=bM(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bj(d,c.data[a]);break;case
+a=0;a<b;a++)d=bM(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bj(d,c.data[a]);break;case
+a=0;a<b;a++)d=bM(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bj(d,c.data[a]);break;case
+a=0;a<b;a++)d=bM(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=i6(d,c.data[a]);break;case
+a=0;a<b;a++)d=lD(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=i6(d,c.data[a]);break}return d}function
-ry(a,b){b[0]=4;return a.read32s()}function
-rU(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=lD(d,c.data[a]);break}return d}function
+xF(a,b){b[0]=4;return a.read32s()}function
+x1(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:aR("input_value: native integer value too large");default:aR("input_value: ill-formed native integer")}}function
-rJ(c,d){var
+2:a_("input_value: native integer value too large");default:a_("input_value: ill-formed native integer")}}function
+xQ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return cJ(b)}function
-rF(e,d,b){var
-c=cK(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dz(b)}function
+xM(e,d,b){var
+c=dA(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-rz(a,b,c){return a.compare(b)}function
-rC(a){return a.lo32()^a.hi32()}var
-i2={"_j":{deserialize:rJ,serialize:rF,fixed_length:8,compare:rz,hash:rC},"_i":{deserialize:ry,fixed_length:4},"_n":{deserialize:rU,fixed_length:4},"_bigarray":{deserialize:function(a,b){return iR(a,b,"_bigarray")},serialize:iU,compare:iP,hash:iT},"_bigarr02":{deserialize:function(a,b){return iR(a,b,dr)},serialize:iU,compare:iP,hash:iT}};function
-e0(a){return i2[a.caml_custom]&&i2[a.caml_custom].compare}function
-i0(f,c,d,e){var
-b=e0(c);if(b){var
+xG(a,b,c){return a.compare(b)}function
+xJ(a){return a.lo32()^a.hi32()}var
+ly={"_j":{deserialize:xQ,serialize:xM,fixed_length:8,compare:xG,hash:xJ},"_i":{deserialize:xF,fixed_length:4},"_n":{deserialize:x1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lo(a,b,"_bigarray")},serialize:lr,compare:lm,hash:lq},"_bigarr02":{deserialize:function(a,b){return lo(a,b,ex)},serialize:lr,compare:lm,hash:lq}};function
+gt(a){return ly[a.caml_custom]&&ly[a.caml_custom].compare}function
+lw(f,c,d,e){var
+b=gt(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-dx(a){return a
+eE(a){return a
 instanceof
-a1}function
-e9(a){return dx(a)}function
-i1(a){if(typeof
-a==="number")return cD;else
-if(dx(a))return dq;else
-if(e9(a))return 1252;else
+bm}function
+gC(a){return eE(a)}function
+lx(a){if(typeof
+a==="number")return du;else
+if(eE(a))return ew;else
+if(gC(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=hq){var
-b=a[0]|0;return b==dn?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=jN){var
+b=a[0]|0;return b==et?0:b}else
 if(a
 instanceof
-String)return hA;else
+String)return j0;else
 if(typeof
-a=="string")return hA;else
+a=="string")return j0;else
 if(a
 instanceof
-Number)return cD;else
-if(a&&a.caml_custom)return eF;else
+Number)return du;else
+if(a&&a.caml_custom)return f9;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-rK(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-iW(a,b){a.t&6&&b_(a);b.t&6&&b_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sb(a,b){return iW(a,b)}function
-iZ(a,b,d){var
+xR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+lt(a,b){a.t&6&&cS(a);b.t&6&&cS(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+yh(a,b){return lt(a,b)}function
+gs(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=i1(a);if(f==hr){a=a[1];continue}var
-g=i1(b);if(g==hr){b=b[1];continue}if(f!==g){if(f==cD){if(g==eF)return i0(a,b,-1,d);return-1}if(g==cD){if(f==eF)return i0(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:R(eN);break;case
+f=lx(a);if(f==jO){a=a[1];continue}var
+g=lx(b);if(g==jO){b=b[1];continue}if(f!==g){if(f==du){if(g==f9)return lw(a,b,-1,d);return-1}if(g==du){if(f==f9)return lw(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:al(gf);break;case
 248:var
-c=rK(a[2],b[2]);if(c!=0)return c|0;break;case
-249:R(eN);break;case
-250:R("equal: got Forward_tag, should not happen");break;case
-251:R("equal: abstract value");break;case
+c=xR(a[2],b[2]);if(c!=0)return c|0;break;case
+249:al(gf);break;case
+250:al("equal: got Forward_tag, should not happen");break;case
+251:al("equal: abstract value");break;case
 252:if(a!==b){var
-c=iW(a,b);if(c!=0)return c|0}break;case
-253:R("equal: got Double_tag, should not happen");break;case
-254:R("equal: got Double_array_tag, should not happen");break;case
-255:R("equal: got Custom_tag, should not happen");break;case
-1247:R(eN);break;case
+c=lt(a,b);if(c!=0)return c|0}break;case
+253:al("equal: got Double_tag, should not happen");break;case
+254:al("equal: got Double_array_tag, should not happen");break;case
+255:al("equal: got Custom_tag, should not happen");break;case
+1247:al(gf);break;case
 1255:var
-i=e0(a);if(i!=e0(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)R("compare: abstract value");var
+i=gt(a);if(i!=gt(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)al("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,237 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bk(a),b=bk(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bN(a),b=bN(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-rq(a,b){return iZ(a,b,true)}function
-rr(){return[0]}function
-L(a){if(a<0)R("Bytes.create");return new
-a1(a?2:9,h,a)}function
-rt(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=h;a.t=2}else{a.c=ca(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ds(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-e_(d){d=bk(d);var
-e=d.length;if(e>31)R("format_int: format too long");var
-a={justify:be,signstyle:aP,filler:bd,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+xx(a,b){return gs(a,b,true)}function
+xy(){return[0]}function
+ae(a){if(a<0)al("Bytes.create");return new
+bm(a?2:9,s,a)}function
+lz(a,b){return+(gs(a,b,false)==0)}function
+xA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cU(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ez(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+gD(d){d=bN(d);var
+e=d.length;if(e>31)al("format_int: format too long");var
+a={justify:bi,signstyle:a0,filler:bG,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=aP;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aj;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-e1(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=aP))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=h;if(b.justify==be&&b.filler==bd)for(var
-d=e;d<b.width;d++)c+=bd;if(b.signedconv)if(b.sign<0)c+=aP;else
-if(b.signstyle!=aP)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aj;if(b.alternate&&b.base==16)c+=hb;if(b.justify==be&&b.filler==aj)for(var
-d=e;d<b.width;d++)c+=aj;c+=f;if(b.justify==aP)for(var
-d=e;d<b.width;d++)c+=bd;return a(c)}function
-e2(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a0;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aF;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+gu(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a0))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bi&&b.filler==bG)for(var
+d=e;d<b.width;d++)c+=bG;if(b.signedconv)if(b.sign<0)c+=a0;else
+if(b.signstyle!=a0)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aF;if(b.alternate&&b.base==16)c+=jx;if(b.justify==bi&&b.filler==aF)for(var
+d=e;d<b.width;d++)c+=aF;c+=f;if(b.justify==a0)for(var
+d=e;d<b.width;d++)c+=bG;return a(c)}function
+gv(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(be)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aj);if(b>0)a=a+bt+new
-Array(b+1).join(aj);return a}else
+c=parseInt(a.toString().split(bi)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aF);if(b>0)a=a+b3+new
+Array(b+1).join(aF);return a}else
 return a.toFixed(b)}}var
-a,e=e_(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=eI;e.filler=bd}else
-if(!isFinite(c)){a="inf";e.filler=bd}else
+a,e=gD(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=f$;e.filler=bG}else
+if(!isFinite(c)){a="inf";e.filler=bG}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==eY)a=a.slice(0,b-1)+aj+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(eY),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==eY)a=a.slice(0,b-1)+aj+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gq),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aj)b--;if(a.charAt(b)==bt)b--;a=a.slice(0,b+1)}}break}return e1(e,a)}function
-dt(e,c){if(bk(e)==eR)return a(h+c);var
-b=e_(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gu(e,a)}function
+eA(e,c){if(bN(e)==gj)return a(s+c);var
+b=gD(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bd;var
-f=b.prec-d.length;if(f>0)d=ca(f,aj)+d}return e1(b,d)}var
-rV=0;function
-du(){return rV++}function
-rN(a){return a.toUtf16()}function
-cM(){return typeof
-j.process!=="undefined"&&typeof
-j.process.versions!=="undefined"&&typeof
-j.process.versions.node!=="undefined"}function
-r9(){function
-a(a){if(a.charAt(0)===aO)return[h,a.substring(1)];return}function
+d=c.toString(b.base);if(b.prec>=0){b.filler=bG;var
+f=b.prec-d.length;if(f>0)d=cU(f,aF)+d}return gu(b,d)}var
+x2=0;function
+eB(){return x2++}function
+xU(a){return a.toUtf16()}function
+dC(){return typeof
+u.process!=="undefined"&&typeof
+u.process.versions!=="undefined"&&typeof
+u.process.versions.node!=="undefined"}function
+ye(){function
+a(a){if(a.charAt(0)===a8)return[s,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||h,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||h,f=a[2]||h;return[d,c.substring(d.length+f.length)]}return}return cM()&&j.process&&j.process.platform?j.process.platform==="win32"?b:a:a}var
-fg=r9();function
-jf(a){return a.slice(-1)!==aO?a+aO:a}if(cM()&&j.process&&j.process.cwd)var
-cI=j.process.cwd().replace(/\\/g,aO);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dC()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+gL=ye();function
+lO(a){return a.slice(-1)!==a8?a+a8:a}if(dC()&&u.process&&u.process.cwd)var
+dy=u.process.cwd().replace(/\\/g,a8);else
 var
-cI="/static";cI=jf(cI);function
-rO(a){a=rN(a);if(!fg(a))a=cI+a;var
-e=fg(a),d=e[1].split(aO),b=[];for(var
+dy="/static";dy=lO(dy);function
+xV(a){a=xU(a);if(!gL(a))a=dy+a;var
+e=gL(a),d=e[1].split(a8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-r3(e){for(var
-f=h,b=f,a,i,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<aQ){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<aQ;d++);if(d-c>hd){b.substr(0,1);f+=b;b=h;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<iq){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(aQ|a&b5)}else
-if(a<0xd800||a>=hu)b+=String.fromCharCode(hv|a>>12,aQ|a>>6&b5,aQ|a&b5);else
-if(a>=0xdbff||c+1==g||(i=e.charCodeAt(c+1))<hl||i>hu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+i-0x35fdc00;b+=String.fromCharCode(iz|a>>18,aQ|a>>12&b5,aQ|a>>6&b5,aQ|a&b5)}if(b.length>cE){b.substr(0,1);f+=b;b=h}}return f+b}function
-ro(a){var
-b=9;if(!jh(a))b=8,a=r3(a);return new
-a1(b,a,a.length)}function
-aS(a){return ro(a)}var
-sa=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",hi,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",eU,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",eG,ik,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-bN(d,f,e,a){var
-b=sa.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,aS(f||h),aS(e||h)];return c}var
-ja={};function
-bL(a){return ja[a]}function
-bM(b,a){throw[0,b].concat(a)}function
-rn(a){return new
-a1(4,a,a.length)}function
-u(a){e$(F.Sys_error,a)}function
-rY(a){u(a+dg)}function
-rm(b,a){if(a>>>0>=b.l)iV();return b9(b,a)}function
-aw(a){return a.l}function
-iO(){}function
-X(a){this.data=a}X.prototype=new
-iO();X.prototype.truncate=function(a){var
-b=this.data;this.data=L(a|0);bv(b,0,this.data,0,a)};X.prototype.length=function(){return aw(this.data)};X.prototype.write=function(b,d,g,a){var
+x_(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a9){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jA){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<kU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cN)}else
+if(a<0xd800||a>=jR)b+=String.fromCharCode(jS|a>>12,a9|a>>6&cN,a9|a&cN);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jH||h>jR)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(k4|a>>18,a9|a>>12&cN,a9|a>>6&cN,a9|a&cN)}if(b.length>dv){b.substr(0,1);f+=b;b=s}}return f+b}function
+xv(a){var
+b=9;if(!lQ(a))b=8,a=x_(a);return new
+bm(b,a,a.length)}function
+a$(a){return xv(a)}var
+yg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jE,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gl,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",f_,kP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cm(d,f,e,a){var
+b=yg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,a$(f||s),a$(e||s)];return c}var
+lJ={};function
+ck(a){return lJ[a]}function
+cl(b,a){throw[0,b].concat(a)}function
+xu(a){return new
+bm(4,a,a.length)}function
+F(a){gE(Z.Sys_error,a)}function
+x5(a){F(a+el)}function
+xt(b,a){if(a>>>0>=b.l)ls();return cR(b,a)}function
+aO(a){return a.l}function
+ll(){}function
+ap(a){this.data=a}ap.prototype=new
+ll();ap.prototype.truncate=function(a){var
+b=this.data;this.data=ae(a|0);b6(b,0,this.data,0,a)};ap.prototype.length=function(){return aO(this.data)};ap.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=L(b+a),f=this.data;this.data=e;bv(f,0,this.data,0,c)}a3(d,g,this.data,b,a);return 0};X.prototype.read=function(c,a,d,b){var
-e=this.length();bv(this.data,c,a,d,b);return 0};X.prototype.read_one=function(a){return rm(this.data,a)};X.prototype.close=function(){};X.prototype.constructor=X;function
-ak(b,a){this.content={};this.root=b;this.lookupFun=a}ak.prototype.nm=function(a){return this.root+a};ak.prototype.create_dir_if_needed=function(d){var
-c=d.split(aO),b=h;for(var
-a=0;a<c.length-1;a++){b+=c[a]+aO;if(this.content[b])continue;this.content[b]=Symbol("directory")}};ak.prototype.slash=function(a){return/\/$/.test(a)?a:a+aO};ak.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=ae(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bo(d,g,this.data,b,a);return 0};ap.prototype.read=function(c,a,d,b){var
+e=this.length();b6(this.data,c,a,d,b);return 0};ap.prototype.read_one=function(a){return xt(this.data,a)};ap.prototype.close=function(){};ap.prototype.constructor=ap;function
+aG(b,a){this.content={};this.root=b;this.lookupFun=a}aG.prototype.nm=function(a){return this.root+a};aG.prototype.create_dir_if_needed=function(d){var
+c=d.split(a8),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aG.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aG.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-X(bh(c[1]))}}};ak.prototype.exists=function(a){if(a==h)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};ak.prototype.mkdir=function(c,e,d){var
-b=d&&bL(eQ);if(this.exists(c))if(b)bM(b,bN(hi,eB,this.nm(c)));else
-u(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||h;if(!this.exists(a))if(b)bM(b,bN(eU,eB,this.nm(a)));else
-u(a+dg);if(!this.is_dir(a))if(b)bM(b,bN(eG,eB,this.nm(a)));else
-u(a+eX);this.create_dir_if_needed(this.slash(c))};ak.prototype.rmdir=function(a,f){var
-b=f&&bL(eQ),c=a==h?h:this.slash(a),e=new
-RegExp(eK+c+il);if(!this.exists(a))if(b)bM(b,bN(eU,eP,this.nm(a)));else
-u(a+dg);if(!this.is_dir(a))if(b)bM(b,bN(eG,eP,this.nm(a)));else
-u(a+eX);for(var
+ap(bK(c[1]))}}};aG.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aG.prototype.mkdir=function(c,e,d){var
+b=d&&ck(gi);if(this.exists(c))if(b)cl(b,cm(jE,f4,this.nm(c)));else
+F(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cl(b,cm(gl,f4,this.nm(a)));else
+F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,f4,this.nm(a)));else
+F(a+gp);this.create_dir_if_needed(this.slash(c))};aG.prototype.rmdir=function(a,f){var
+b=f&&ck(gi),c=a==s?s:this.slash(a),e=new
+RegExp(gb+c+kQ);if(!this.exists(a))if(b)cl(b,cm(gl,gh,this.nm(a)));else
+F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,gh,this.nm(a)));else
+F(a+gp);for(var
 d
 in
-this.content)if(d.match(e))if(b)bM(b,bN(ik,eP,this.nm(a)));else
-u(this.nm(a)+": Directory not empty");delete
-this.content[c]};ak.prototype.readdir=function(a){var
-f=a==h?h:this.slash(a);if(!this.exists(a))u(a+dg);if(!this.is_dir(a))u(a+eX);var
+this.content)if(d.match(e))if(b)cl(b,cm(kP,gh,this.nm(a)));else
+F(this.nm(a)+": Directory not empty");delete
+this.content[c]};aG.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))F(a+el);if(!this.is_dir(a))F(a+gp);var
 g=new
-RegExp(eK+f+il),d={},c=[];for(var
+RegExp(gb+f+kQ),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};ak.prototype.is_dir=function(a){if(a==h)return true;var
-b=this.slash(a);return this.content[b]?1:0};ak.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aG.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aG.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};ak.prototype.open=function(a,b){if(b.rdonly&&b.wronly)u(this.nm(a)+hE);if(b.text&&b.binary)u(this.nm(a)+h_);this.lookup(a);if(this.content[a]){if(this.is_dir(a))u(this.nm(a)+" : is a directory");if(b.create&&b.excl)u(this.nm(a)+hD);var
+this.content[a];return b};aG.prototype.open=function(a,b){if(b.rdonly&&b.wronly)F(this.nm(a)+j6);if(b.text&&b.binary)F(this.nm(a)+kD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))F(this.nm(a)+" : is a directory");if(b.create&&b.excl)F(this.nm(a)+j5);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-X(L(0));return this.content[a]}else
-rY(this.nm(a))};ak.prototype.register=function(c,a){var
-b;if(this.content[c])u(this.nm(c)+hD);if(dx(a))b=new
-X(a);if(e9(a))b=new
-X(bh(a));else
+ap(ae(0));return this.content[a]}else
+x5(this.nm(a))};aG.prototype.register=function(c,a){var
+b;if(this.content[c])F(this.nm(c)+j5);if(eE(a))b=new
+ap(a);if(gC(a))b=new
+ap(bK(a));else
 if(a
 instanceof
 Array)b=new
-X(rn(a));else
+ap(xu(a));else
 if(typeof
 a==="string")b=new
-X(iX(a));else
+ap(lu(a));else
 if(a.toString){var
-d=bh(aS(a.toString()));b=new
-X(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-u(this.nm(c)+" : registering file with invalid content type")};ak.prototype.constructor=ak;function
-n(a){return aw(a)}function
-a5(b,a){return b9(b,a)}function
-ri(d){var
-c=n(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=a5(d,a);return b}function
-rh(a){if(a.t!=4)ds(a);return a.c}function
-a2(a){this.fs=require("fs");this.fd=a}a2.prototype=new
-iO();a2.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){u(a.toString())}};a2.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){u(a.toString())}};a2.prototype.write=function(f,b,c,e){var
-a=ri(b);if(!(a
+d=bK(a$(a.toString()));b=new
+ap(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+F(this.nm(c)+" : registering file with invalid content type")};aG.prototype.constructor=aG;function
+y(a){return aO(a)}function
+bq(b,a){return cR(b,a)}function
+xp(d){var
+c=y(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=bq(d,a);return b}function
+xo(a){if(a.t!=4)ez(a);return a.c}function
+bn(a){this.fs=require("fs");this.fd=a}bn.prototype=new
+ll();bn.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){F(a.toString())}};bn.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){F(a.toString())}};bn.prototype.write=function(f,b,c,e){var
+a=xp(b);if(!(a
 instanceof
-j.Uint8Array))a=new(j.Uint8Array)(a);var
-d=j.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){u(a.toString())}return 0};a2.prototype.read=function(g,d,c,f){var
-a=rh(d);if(!(a
+u.Uint8Array))a=new(u.Uint8Array)(a);var
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){F(a.toString())}return 0};bn.prototype.read=function(g,d,c,f){var
+a=xo(d);if(!(a
 instanceof
-j.Uint8Array))a=new(j.Uint8Array)(a);var
-e=j.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){u(a.toString())}for(var
-b=0;b<f;b++)bK(d,c+b,e[c+b]);return 0};a2.prototype.read_one=function(c){var
-b=new(j.Uint8Array)(1),a=j.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){u(a.toString())}return a[0]};a2.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){u(a.toString())}};a2.prototype.constructor=a2;function
-Y(a){this.fs=require("fs");this.root=a}Y.prototype.nm=function(a){return this.root+a};Y.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};Y.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){u(a.toString())}};Y.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.open=function(f,c,g){var
+u.Uint8Array))a=new(u.Uint8Array)(a);var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){F(a.toString())}for(var
+b=0;b<f;b++)cj(d,c+b,e[c+b]);return 0};bn.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){F(a.toString())}return a[0]};bn.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){F(a.toString())}};bn.prototype.constructor=bn;function
+aq(a){this.fs=require("fs");this.root=a}aq.prototype.nm=function(a){return this.root+a};aq.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aq.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){F(a.toString())}};aq.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-a2(d)}catch(a){this.raise_nodejs_error(a,g)}};Y.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};Y.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),g5);return aS(a)}catch(a){this.raise_nodejs_error(a,c)}};Y.prototype.raise_nodejs_error=function(a,d){var
-b=bL(eQ);if(d&&b){var
-c=bN(a.code,a.syscall,a.path,a.errno);bM(b,c)}else
-u(a.toString())};Y.prototype.stats_from_js=function(a){var
+bn(d)}catch(a){this.raise_nodejs_error(a,g)}};aq.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),jp);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.raise_nodejs_error=function(a,d){var
+b=ck(gi);if(d&&b){var
+c=cm(a.code,a.syscall,a.path,a.errno);cl(b,c)}else
+F(a.toString())};aq.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};Y.prototype.constructor=Y;function
-i5(b){var
-a=fg(b);if(!a)return;return a[0]+aO}var
-dz=i5(cI)||aR("unable to compute caml_root"),cb=[];if(cM())cb.push({path:dz,device:new
-Y(dz)});else
-cb.push({path:dz,device:new
-ak(dz)});cb.push({path:h6,device:new
-ak(h6)});function
-jl(b){var
-g=rO(b),b=g.join(aO),f=jf(b),c;for(var
-e=0;e<cb.length;e++){var
-a=cb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&cM()){var
-d=i5(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aq.prototype.constructor=aq;function
+lC(b){var
+a=gL(b);if(!a)return;return a[0]+a8}var
+eG=lC(dy)||a_("unable to compute caml_root"),cV=[];if(dC())cV.push({path:eG,device:new
+aq(eG)});else
+cV.push({path:eG,device:new
+aG(eG)});cV.push({path:ky,device:new
+aG(ky)});function
+lV(b){var
+g=xV(b),b=g.join(a8),f=lO(b),c;for(var
+e=0;e<cV.length;e++){var
+a=cV[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dC()){var
+d=lC(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-Y(d)};cb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;u("no device found for "+f)}function
-rs(c,b){var
-a=jl(c);if(!a.device.register)aR("cannot register file");a.device.register(a.rest,b);return 0}function
-jg(c,b){var
-c=a(c),b=a(b);return rs(c,b)}function
-rv(){var
-b=j.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)jg(b[a].name,b[a].content);j.jsoo_create_file=jg;j.caml_fs_tmp=[];return 0}function
-i4(){return[0]}function
-rx(a,c,l){if(!isFinite(a)){if(isNaN(a))return aS(eI);return aS(a>0?iB:"-infinity")}var
-j=a==0&&1/a==-Infinity?1:a>=0?0:1;if(j)a=-a;var
+aq(d)};cV.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;F("no device found for "+f)}function
+xz(c,b){var
+a=lV(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
+lP(c,b){var
+c=a(c),b=a(b);return xz(c,b)}function
+xC(){var
+b=u.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)lP(b[a].name,b[a].content);u.jsoo_create_file=lP;u.caml_fs_tmp=[];return 0}function
+lB(){return[0]}function
+xE(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(f$);return a$(a>0?k7:"-infinity")}var
+i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-k=d<0?h:be,e=h;if(j)e=aP;else
-switch(l){case
-43:e=be;break;case
-32:e=bd;break;default:break}if(c>=0&&c<13){var
+j=d<0?s:bi,e=s;if(i)e=a0;else
+switch(k){case
+43:e=bi;break;case
+32:e=bG;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-i=b.indexOf(bt);if(i<0)b+=bt+ca(c,aj);else{var
-f=i+1+c;if(b.length<f)b+=ca(f-b.length,aj);else
-b=b.substr(0,f)}}return aS(e+hb+b+"p"+k+d.toString(10))}function
-rE(a){return+a.isZero()}function
-rH(a){return new
-i(a&bf,a>>24&bf,a>>31&a0)}function
-rI(a){return a.toInt()}function
-rD(a){return+a.isNeg()}function
-rG(a){return a.neg()}function
-rB(g,c){var
-a=e_(g);if(a.signedconv&&rD(c)){a.sign=-1;c=rG(c)}var
-b=h,i=rH(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(i);c=e.quotient;b=f.charAt(rI(e.modulus))+b}while(!rE(c));if(a.prec>=0){a.filler=bd;var
-d=a.prec-b.length;if(d>0)b=ca(d,aj)+b}return e1(a,b)}function
-rW(c){var
-a=0,e=n(c),b=10,d=1;if(e>0)switch(a5(c,a)){case
+h=b.indexOf(b3);if(h<0)b+=b3+cU(c,aF);else{var
+f=h+1+c;if(b.length<f)b+=cU(f-b.length,aF);else
+b=b.substr(0,f)}}return a$(e+jx+b+"p"+j+d.toString(10))}function
+xL(a){return+a.isZero()}function
+xO(a){return new
+t(a&bI,a>>24&bI,a>>31&bl)}function
+xP(a){return a.toInt()}function
+xK(a){return+a.isNeg()}function
+xN(a){return a.neg()}function
+xI(g,c){var
+a=gD(g);if(a.signedconv&&xK(c)){a.sign=-1;c=xN(c)}var
+b=s,h=xO(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(xP(e.modulus))+b}while(!xL(c));if(a.prec>=0){a.filler=bG;var
+d=a.prec-b.length;if(d>0)b=cU(d,aF)+b}return gu(a,b)}function
+x3(c){var
+a=0,e=y(c),b=10,d=1;if(e>0)switch(bq(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&a5(c,a)==48)switch(a5(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bq(c,a)==48)switch(bq(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -644,39 +645,39 @@ a=0,e=n(c),b=10,d=1;if(e>0)switch(a5(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-jb(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=122)return a-87;return-1}function
-e8(f){var
-h=rW(f),c=h[0],i=h[1],d=h[2],g=n(f),j=-1>>>0,e=c<g?a5(f,c):0,b=jb(e);if(b<0||b>=d)aR(di);var
-a=b;for(c++;c<g;c++){e=a5(f,c);if(e==95)continue;b=jb(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)aR(di)}if(c!=g)aR(di);a=i*a;if(d==10&&(a|0)!=a)aR(di);return a|0}function
-rM(d){return function(){var
+lK(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lg)return a-87;return-1}function
+gB(f){var
+h=x3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bq(f,c):0,b=lK(e);if(b<0||b>=d)a_(en);var
+a=b;for(c++;c<g;c++){e=bq(f,c);if(e==95)continue;b=lK(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(en)}if(c!=g)a_(en);a=i*a;if(d==10&&(a|0)!=a)a_(en);return a|0}function
+xT(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bi(d,c)}else
-return bi(d,[undefined])}}function
-rP(a,d){if(a<0)cH();var
+a=0;a<b;a++)c[a]=arguments[a];return bL(d,c)}else
+return bL(d,[undefined])}}function
+xW(a,d){if(a<0)dx();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-rQ(){return 0}var
-a4=new
+xX(){return 0}var
+bp=new
 Array();function
-b$(c){var
-a=a4[c];if(!a.opened)u("Cannot flush a closed channel");if(!a.buffer||a.buffer==h)return 0;if(a.fd&&F.fds[a.fd]&&F.fds[a.fd].output){var
-b=F.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=h;return 0}function
-je(e,f){var
-b=a4[e],d=a(f),c=n(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-r4(a){var
-a=fd(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+cT(c){var
+a=bp[c];if(!a.opened)F("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&Z.fds[a.fd]&&Z.fds[a.fd].output){var
+b=Z.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
+lN(e,f){var
+b=bp[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+x$(a){var
+a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-r5(a){var
-a=fd(a),b=j;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+ya(a){var
+a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-dA(c,e,d,a){if(F.fds===undefined)F.fds=new
+eH(c,e,d,a){if(Z.fds===undefined)Z.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;F.fds[c]=b;if(!F.fd_last_idx||c>F.fd_last_idx)F.fd_last_idx=c;return c}function
-sc(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;Z.fds[c]=b;if(!Z.fd_last_idx||c>Z.fd_last_idx)Z.fd_last_idx=c;return c}function
+yi(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -686,365 +687,377 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)u(bk(c)+hE);if(a.text&&a.binary)u(bk(c)+h_);var
-d=jl(c),e=d.device.open(d.rest,a),f=F.fd_last_idx?F.fd_last_idx:0;return dA(f+1,je,e,a)}dA(0,je,new
-X(L(0)));dA(1,r5,new
-X(L(0)));dA(2,r4,new
-X(L(0)));function
-rR(a){var
-c=F.fds[a];if(c.flags.wronly)u(iK+a+" is writeonly");var
-d=null;if(a==0&&cM()){var
-e=require("fs");d=function(){return aS(e.readFileSync(0,g5))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};a4[b.fd]=b;return b.fd}function
-i8(c){var
-b=F.fds[c];if(b.flags.rdonly)u(iK+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:h};a4[a.fd]=a;return a.fd}function
-rS(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)F(bN(c)+j6);if(a.text&&a.binary)F(bN(c)+kD);var
+d=lV(c),e=d.device.open(d.rest,a),f=Z.fd_last_idx?Z.fd_last_idx:0;return eH(f+1,lN,e,a)}eH(0,lN,new
+ap(ae(0)));eH(1,ya,new
+ap(ae(0)));eH(2,x$,new
+ap(ae(0)));function
+xY(a){var
+c=Z.fds[a];if(c.flags.wronly)F(lf+a+" is writeonly");var
+d=null;if(a==0&&dC()){var
+e=require("fs");d=function(){return a$(e.readFileSync(0,jp))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bp[b.fd]=b;return b.fd}function
+lF(c){var
+b=Z.fds[c];if(b.flags.rdonly)F(lf+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bp[a.fd]=a;return a.fd}function
+xZ(){var
 b=0;for(var
-a=0;a<a4.length;a++)if(a4[a]&&a4[a].opened&&a4[a].out)b=[0,a4[a].fd,b];return b}function
-af(a){return a}function
-rT(g,d,h,f){var
-b=a4[g];if(!b.opened)u("Cannot output to a closed channel");var
-a;if(h==0&&aw(d)==f)a=d;else{a=L(f);bv(d,h,a,0,f)}var
-i=af(a),c=bk(i),e=c.lastIndexOf(hm);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);b$(g);b.buffer+=c.substr(e+1)}return 0}function
-i9(b,a,d,c){return rT(b,bh(a),d,c)}function
-i_(c,b){var
-d=a(String.fromCharCode(b));i9(c,d,0,1);return 0}function
-cL(a,b){return+(iZ(a,b,false)!=0)}function
-dy(a){if(a
+a=0;a<bp.length;a++)if(bp[a]&&bp[a].opened&&bp[a].out)b=[0,bp[a].fd,b];return b}function
+aA(a){return a}function
+x0(g,d,h,f){var
+b=bp[g];if(!b.opened)F("Cannot output to a closed channel");var
+a;if(h==0&&aO(d)==f)a=d;else{a=ae(f);b6(d,h,a,0,f)}var
+i=aA(a),c=bN(i),e=c.lastIndexOf(jI);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cT(g);b.buffer+=c.substr(e+1)}return 0}function
+lG(b,a,d,c){return x0(b,bK(a),d,c)}function
+lH(c,b){var
+d=a(String.fromCharCode(b));lG(c,d,0,1);return 0}function
+dB(a,b){return+(gs(a,b,false)!=0)}function
+eF(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(dx(a))return dq;else
-if(e9(a))return dq;else
+if(eE(a))return ew;else
+if(gC(a))return ew;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return hq;else
-return cD}function
-aK(b,c,a){if(a&&j.toplevelReloc)b=j.toplevelReloc(a);F[b+1]=c;if(a)F[a]=c}function
-fa(a,b){ja[bk(a)]=b;return 0}function
-rl(a,b){if(a===b)return 1;a.t&6&&b_(a);b.t&6&&b_(b);return a.c==b.c?1:0}function
-ax(a,b){return rl(a,b)}function
-r1(){R(eV)}function
-G(b,a){if(a>>>0>=n(b))r1();return a5(b,a)}function
-l(a,b){return 1-ax(a,b)}function
-r2(){return 0x7FFFFFFF/4|0}function
-fc(a){var
+if(a&&a.caml_custom)return jN;else
+return du}function
+a1(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);Z[b+1]=c;if(a)Z[a]=c}function
+gF(a,b){lJ[bN(a)]=b;return 0}function
+xs(a,b){if(a===b)return 1;a.t&6&&cS(a);b.t&6&&cS(b);return a.c==b.c?1:0}function
+av(a,b){return xs(a,b)}function
+x8(){al(gn)}function
+G(b,a){if(a>>>0>=y(b))x8();return bq(b,a)}function
+k(a,b){return 1-av(a,b)}function
+x9(){return 0x7FFFFFFF/4|0}function
+gH(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-Z(b,a){return{joo_tramp:b,joo_args:a}}function
-jd(a){return a}function
-dB(a){if(a
+ar(b,a){return{joo_tramp:b,joo_args:a}}function
+lM(a){return a}function
+eI(a){if(a
 instanceof
-Array)return a;if(j.RangeError&&a
+Array)return a;if(u.RangeError&&a
 instanceof
-j.RangeError&&a.message&&a.message.match(/maximum call stack/i))return jd(F.Stack_overflow);if(j.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return lM(Z.Stack_overflow);if(u.InternalError&&a
 instanceof
-j.InternalError&&a.message&&a.message.match(/too much recursion/i))return jd(F.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return lM(Z.Stack_overflow);if(a
 instanceof
-j.Error&&bL(eE))return[0,bL(eE),a];return[0,F.Failure,aS(String(a))]}function
-dC(a){return a<0?-a:a}function
-B(a,b){return a+b}function
-r_(a,b){return a<b?-1:a>b?1:0}function
-ji(c,b){var
-a=c%b;return a<0?a+dC(b):a}function
-fe(a,b){return(a-ji(a,b))/b}function
-_(a,b){return a==b?1:0}function
-x(a,b){return a<=b?1:0}function
-al(a,b){return a<b?1:0}function
-f(a,b){return a*b}function
-H(a){return-a}function
-ay(a){return j.BigInt(a)}function
-jj(a,b){return a<<j.BigInt(b)}function
-jk(a,b){return a>>j.BigInt(b)}function
-a6(a){return a<0?-1:a>0?1:0}function
-r$(a){if(a<0)throw new(j.Error)("a root of a negative number");if(a<2)return a;var
-d=j.BigInt(1),b=d<<j.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-cc(a,b){return a-b}function
-ff(a){if(a>0x7fffffff||a<-0x80000000)throw new(j.Error)("a number of more than 32 bits");return j.Number(a)}function
-rL(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-ru(b){var
-a=h;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&rL(b[1]))var
+u.Error&&ck(f8))return[0,ck(f8),a];return[0,Z.Failure,a$(String(a))]}function
+eJ(a){return a<0?-a:a}function
+z(a,b){return a+b}function
+lR(a,b){return a<b?-1:a>b?1:0}function
+lS(c,b){var
+a=c%b;return a<0?a+eJ(b):a}function
+gJ(a,b){return(a-lS(a,b))/b}function
+as(a,b){return a==b?1:0}function
+B(a,b){return a<=b?1:0}function
+af(a,b){return a<b?1:0}function
+n(a,b){return a*b}function
+N(a){return-a}function
+aP(a){return u.BigInt(a)}function
+lT(a,b){return a<<u.BigInt(b)}function
+lU(a,b){return a>>u.BigInt(b)}function
+br(a){return a<0?-1:a>0?1:0}function
+yf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+b7(a,b){return a-b}function
+gK(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+xS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+xB(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&xS(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ip;for(var
-d=f;d<e.length;d++){if(d>f)a+=g7;var
+f=2,e=b;a+=kT;for(var
+d=f;d<e.length;d++){if(d>f)a+=jr;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-a1)a+=ab+c.toString()+ab;else
+bm)a+=ad+c.toString()+ad;else
 if(typeof
-c=="string")a+=ab+c.toString()+ab;else
-a+=hW}a+=eJ}else
-if(b[0]==Q)a+=b[1];return a}function
-i3(a){if(a
+c=="string")a+=ad+c.toString()+ad;else
+a+=kp}a+=ga}else
+if(b[0]==ak)a+=b[1];return a}function
+lA(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==Q)){var
-c=bL(hh);if(c)c(a,false);else{var
-d=ru(a),b=bL(g4);if(b)b(0);j.console.error(eO+d+hm)}}else
+Array&&(a[0]==0||a[0]==ak)){var
+c=ck(jD);if(c)c(a,false);else{var
+d=xB(a),b=ck(jo);if(b)b(0);u.console.error(gg+d+jI)}}else
 throw a}function
-r0(){var
-a=j;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){i3(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)i3(a.error)})}r0();function
-d(a,b){return a.length==1?a(b):bi(a,[b])}function
-E(a,b,c){return a.length==2?a(b,c):bi(a,[b,c])}function
-eA(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bi(a,[b,c,d,e,f])}function
-rg(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bi(a,[b,c,d,e,f,g,h])}rv();var
-dD=[Q,a(iF),-1],fl=[Q,a(hj),-2],fi=[Q,a(eD),-3],fh=[Q,a(hR),-4],fj=[Q,a(hz),-8],fk=[Q,a(h8),-9],D=[Q,a(it),-11],fm=[Q,a(g3),-12],q4=[4,0,0,0,[12,45,[4,0,0,0,0]]],dK=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(hB),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],q5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q5]]]]]]]]]]],q7=[0,[0,[0,[0,[0,0]]]]],q8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q7]]]]]]]]]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q8]]]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q9]]]]]]]]]]],q$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q_]]]]]]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q$]]]]]]]]]]],rb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ra]]]]]]]]]]],rc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rb]]]]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rc]]]]]]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rd]]]]]]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,re]]]]]]]]]]],gh=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],c5=[0,[0,[0,[0,0]]]];aK(11,fm,g3);aK(10,D,it);aK(9,[Q,a(hK),-10],hK);aK(8,fk,h8);aK(7,fj,hz);aK(6,[Q,a(h4),-7],h4);aK(5,[Q,a(ii),-6],ii);aK(4,[Q,a(ho),-5],ho);aK(3,fh,hR);aK(2,fi,eD);aK(1,fl,hj);aK(0,dD,iF);var
-jq=a("%.12g"),jp=a(bt),jn=a("true"),jo=a("false"),jr=a("\\\\"),js=a("\\'"),jt=a("\\b"),ju=a("\\t"),jv=a("\\n"),jw=a("\\r"),jz=a("String.blit / Bytes.blit_string"),jy=a("Bytes.blit"),jx=a("String.sub / Bytes.sub"),jB=a(h),jA=a("String.concat"),jC=a("Array.init"),jF=a("Buffer.add: cannot grow buffer"),jE=[0,a(id),93,2],jD=[0,a(id),94,2],jO=a("%c"),jP=a("%s"),jQ=a(g1),jR=a(hx),jS=a(hO),jT=a(g_),jU=a("%f"),jV=a("%B"),jW=a("%{"),jX=a("%}"),jY=a("%("),jZ=a("%)"),j0=a("%a"),j1=a("%t"),j2=a("%?"),j3=a("%r"),j4=a("%_r"),j5=[0,a(P),850,23],ke=[0,a(P),814,21],j8=[0,a(P),815,21],kf=[0,a(P),818,21],j9=[0,a(P),819,21],kg=[0,a(P),822,19],j_=[0,a(P),823,19],kh=[0,a(P),826,22],j$=[0,a(P),827,22],ki=[0,a(P),831,30],ka=[0,a(P),832,30],kc=[0,a(P),836,26],j6=[0,a(P),837,26],kd=[0,a(P),846,28],j7=[0,a(P),847,28],kb=[0,a(P),851,23],ll=a(hH),lj=[0,a(P),1558,4],lk=a("Printf: bad conversion %["),lm=[0,a(P),1626,39],ln=[0,a(P),1649,31],lo=[0,a(P),1650,31],lp=a("Printf: bad conversion %_"),lq=a(hF),lr=a(hQ),ls=a(hF),lt=a(hQ),lh=a(eI),lf=a("neg_infinity"),lg=a(iB),le=a(bt),k$=[0,hf],kZ=a("%+nd"),k0=a("% nd"),k2=a("%+ni"),k3=a("% ni"),k4=a("%nx"),k5=a("%#nx"),k6=a("%nX"),k7=a("%#nX"),k8=a("%no"),k9=a("%#no"),kY=a("%nd"),k1=a(hO),k_=a("%nu"),kM=a("%+ld"),kN=a("% ld"),kP=a("%+li"),kQ=a("% li"),kR=a("%lx"),kS=a("%#lx"),kT=a("%lX"),kU=a("%#lX"),kV=a("%lo"),kW=a("%#lo"),kL=a("%ld"),kO=a(hx),kX=a("%lu"),kz=a("%+Ld"),kA=a("% Ld"),kC=a("%+Li"),kD=a("% Li"),kE=a("%Lx"),kF=a("%#Lx"),kG=a("%LX"),kH=a("%#LX"),kI=a("%Lo"),kJ=a("%#Lo"),ky=a("%Ld"),kB=a(g_),kK=a("%Lu"),km=a("%+d"),kn=a("% d"),kp=a("%+i"),kq=a("% i"),kr=a("%x"),ks=a("%#x"),kt=a("%X"),ku=a("%#X"),kv=a("%o"),kw=a("%#o"),kl=a(eR),ko=a(g1),kx=a(hH),jG=a("@]"),jH=a("@}"),jI=a("@?"),jJ=a("@\n"),jK=a("@."),jL=a("@@"),jM=a("@%"),jN=a("@"),kj=a("CamlinternalFormat.Type_mismatch"),lx=a(h),ly=[0,[11,a(g7),[2,0,[2,0,0]]],a(", %s%s")],lX=[0,[11,a(eO),[2,0,[12,10,0]]],a(ir)],lY=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],lW=a("Fatal error: out of memory in uncaught exception handler"),lU=[0,[11,a(eO),[2,0,[12,10,0]]],a(ir)],lQ=[0,[2,0,[12,10,0]],a("%s\n")],lI=a("Raised at"),lJ=a("Re-raised at"),lK=a("Raised by primitive operation at"),lL=a("Called from"),lM=a(" (inlined)"),lO=a(h),lN=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(hB),q4]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],lP=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],lD=a("Out of memory"),lE=a("Stack overflow"),lF=a("Pattern matching failed"),lG=a("Assertion failed"),lH=a("Undefined recursive module"),lz=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],lA=a(h),lB=a(h),lC=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],lw=[0,[4,0,0,0,0],a(eR)],lu=[0,[3,0,0],a("%S")],lv=a(hW),lR=[0,a(h),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],l0=a("Jsoo_runtime.Error.Exn"),l2=a("power"),ma=[0,0],mh=[0,0,0],mi=[0,0,0],mj=[0,0],mk=[0,0],ms=[0,0],mA=[0,0],mC=a(","),mU=[0,a(eJ),0],mV=a(ip),mW=a(bt),mX=[0,[0,[0,0]]],mY=a(aP),mZ=a(eK),m0=[0,[0,[0,[0,[0,0]]]]],m1=[0,a(eJ),0],m2=a(iN),n3=a(g2),n5=a(hT),n4=a(iu),n6=a(dk),n7=a(hP),oH=a("test"),oI=[0,0],oJ=a("divided"),oK=[0,1],oL=a("mirror"),oM=[0,3],oN=a("negative"),oO=[0,2],oP=a(iL),oQ=[0,4],oR=a(hg),oS=a(h9),oT=a(iy),oU=[0,0],oV=[0,0],oW=[0,0],o5=a(h),o2=[0,[0,[0,[0,0]]]],o3=[0,[0,[0,[0,0]]]],o0=[0,[0,[0,0]]],oX=[0,0],oD=[0,0,0],oA=[0,0],oB=[0,0],oC=[0,0],ow=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,q6]]]]]]]]]]],ox=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,rf]]]]]]]]]]],ol=[0,a("\n"),0],om=a(hV),on=a(dh),oo=a(hs),op=a(ih),oq=a("certified"),ov=a("refuted"),or=a("verdict"),os=a(hC),ot=a(ic),ou=a(is),oa=a(iE),ob=a(dj),oc=a(hp),od=a(iH),oj=a(im),ok=a(ig),oe=a(eL),of=a(cG),og=a(hX),oh=a(dj),oi=a(iG),n_=a(ib),n$=a(iI),n1=a(h7),n2=a(hG),nL=a(eH),nM=a(eW),nN=a(g9),nO=a(eS),nP=a(cG),nQ=a(eH),nR=a(hU),nS=a(ie),nT=a(eW),nU=a(hN),nV=a(h0),nW=a(eS),nX=a(cG),n0=a(hS),nY=a(ha),nZ=a(hI),nE=a(b7),nF=a(b6),nG=a(gZ),nH=a(ht),nI=a(g0),nJ=a(hn),nK=a(iD),nv=a(ij),nw=a(b7),nD=a(b6),nx=a(g$),nC=a(dh),ny=a(ia),nz=a(hk),nA=a(hy),nB=a(iv),nn=a(g6),no=a(hY),np=a(iA),nq=a(dk),nr=a(iM),ns=a(iC),nt=a(h3),nu=a(ix),m8=a(be),ne=a(aP),m9=a(h2),m_=a(hZ),m$=a(dl),na=a(df),nb=a(dp),nc=a(hJ),nd=a(dm),nf=a(hL),ng=a(dl),nh=a(df),ni=a(hM),nj=a(dm),nk=a(dp),nl=a(g8),nm=a(dm),m5=a(b7),m6=a(b6),m3=[0,a(ab),0],m4=a(ab),mQ=a(be),mR=a(aP),mS=a("*"),mT=a(aO),mM=[0,[0,[0,0]]],mN=[0,[0,0]],mO=[0,0],mP=[0,[0,[0,[0,0]]]],mL=[0,[0,[0,[0,[0,0]]]]],mJ=a('":'),mK=a(ab),mH=[0,a(ab),0],mI=a(ab),mF=[0,a("}"),0],mG=a("{"),mD=[0,a("]"),0],mE=a("["),mz=[0,0],mw=[0,[0,[0,0]]],mx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],my=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],mu=[0,[0,0]],mv=[0,[0,[0,0]]],mn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],mo=[0,[0,[0,[0,[0,[0,0]]]]]],mp=[0,[0,[0,0]]],mq=[0,[0,[0,[0,[0,[0,0]]]]]],mr=[0,[0,[0,0]]],ml=[0,[0,0]],mm=[0,0],mb=[0,0,0],l$=a(aj),l_=a(h),l9=[0,[0,0]],l8=[0,0],l7=[1,0],l6=[0,0],l5=[0,0],l3=[1,0],l4=[1,0],ql=a(dk),qm=a(iu),qn=a(hP),qo=a(hg),qp=a(h9),qq=a(iy),qr=[0,a(ab),0],qs=a('the evidence "'),qt=a(hG),qu=a(h7),qR=a(is),qS=a(ic),qT=a(hC),qU=a(ih),qV=a(hs),qW=a(hV),qX=a(dh),qG=a(hp),qH=a(iG),qK=a(cG),qL=a(eL),qM=a(hX),qN=a(dj),qO=a(iE),qP=a(dj),qI=[0,a(ab),0],qJ=a('a proof of the kind "'),qB=a(im),qC=a(iH),qD=a(ig),qE=[0,a(ab),0],qF=a('the failure "'),qx=a(eL),qy=[0,a("a leaf that fails"),0],qz=a(ib),qA=a(iI),qv=a(iL),qw=a(aj),qj=a(hT),qk=a(g2),pZ=a(eH),pT=a(cG),pU=a(hI),pX=a(ha),pY=a(hS),p0=a(eS),p1=a(eW),p2=a("orientation"),p3=a("bodies"),qi=[0,a("a platform that turns, or one with bodies,"),0],p4=a(h0),p5=a(g9),p8=a(gZ),p9=a(iD),qa=a(hn),qb=a(ht),qc=a(g0),qd=a(b7),qe=a(b6),p_=[0,a(ab),0],p$=a('the workspace "'),qf=a(ie),qg=a(hU),qh=a(hN),p6=[0,a(ab),0],p7=a('the mechanism "'),pV=[0,a(ab),0],pW=a('a claim of the kind "'),pO=a(ia),pP=[0,a("a stiffness for each joint"),0],pN=a(dh),px=a(iv),py=a(dk),pz=a(ix),pA=a(hY),pB=a(iA),pC=a(iC),pD=a(iM),pE=a(h3),pF=a(g6),pG=[0,a(ab),0],pH=a('the quantity "'),pI=a(g$),pJ=a(b7),pK=a(b6),pL=[0,a(ab),0],pM=a('a bound "'),pQ=a(ij),pR=a(hk),pS=a(hy),ph=a(dm),pi=a(g8),pj=a(hJ),pk=a(hM),pn=a(hL),po=a(dl),pp=a(df),pq=a(h2),pr=a(hZ),ps=a(dl),pt=a(df),pu=a(dp),pv=a(dp),pl=[0,a(ab),0],pm=a('the drive "'),pf=a(be),pg=a(aP),pd=a(" is not covered by the verified checker"),pe=a(h),pb=a(b7),pc=a(b6),o9=a(h),o_=a(iN),o$=a(h),pa=a(h),o8=[1,0],o6=a("Reader.Malformed"),o7=a("Reader.Not_covered"),qZ=a(hw),q0=a("CERTIFIED"),q1=a("REFUTED"),q2=a(hw),q3=a("NOT COVERED: ");function
-C(a){if(typeof
+x7(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lA(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lA(a.error)})}x7();function
+e(a,b){return a.length==1?a(b):bL(a,[b])}function
+Y(a,b,c){return a.length==2?a(b,c):bL(a,[b,c])}function
+f2(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bL(a,[b,c,d,e,f])}function
+xn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bL(a,[b,c,d,e,f,g,h])}xC();var
+eK=[ak,a(k$),-1],gQ=[ak,a(jF),-2],gN=[ak,a(f7),-3],gM=[ak,a(kk),-4],gO=[ak,a(jY),-8],gP=[ak,a(kA),-9],P=[ak,a(kX),-11],gR=[ak,a(jn),-12],wr=[4,0,0,0,[12,45,[4,0,0,0,0]]],eQ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(j2),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],ws=[0,0],wt=[0,[0,[0,[0,0]]]],wu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wt]]]]]]]]]]],wv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wu]]]]]]]]]]],ww=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wv]]]]]]]]]]],wx=[0,[0,0]],wy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wx]]]]]]]]]]],wz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wy]]]]]]]]]]],wA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wz]]]]]]]]]]],wB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wA]]]]]]]]]]],wC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],wD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wC]]]]]]]]]]],wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wD]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wE]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wF]]]]]]]]]]],wH=[0,[0,0]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wH]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wI]]]]]]]]]]],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wJ]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wK]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wL]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wM]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wN]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wP]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wQ]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wR]]]]]]]]]]],wT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wS]]]]]]]]]]],wU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wT]]]]]]]]]]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wU]]]]]]]]]]],wW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wV]]]]]]]]]]],wX=[0,0],wY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wX]]]]]]]]]]],wZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wY]]]]]]]]]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wZ]]]]]]]]]]],w1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w0]]]]]]]]]]],w2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w1]]]]]]]]]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w2]]]]]]]]]]],w4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],xa=[0,[0,[0,[0,[0,0]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,0],xm=[0,[0,[0,[0,[0,0]]]]],fc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eb=[0,[0,[0,[0,0]]]];a1(11,gR,jn);a1(10,P,kX);a1(9,[ak,a(kd),-10],kd);a1(8,gP,kA);a1(7,gO,jY);a1(6,[ak,a(kw),-7],kw);a1(5,[ak,a(kN),-6],kN);a1(4,[ak,a(jK),-5],jK);a1(3,gM,kk);a1(2,gN,f7);a1(1,gQ,jF);a1(0,eK,k$);var
+l0=a("%.12g"),lZ=a(b3),lX=a("true"),lY=a("false"),l1=a("\\\\"),l2=a("\\'"),l3=a("\\b"),l4=a("\\t"),l5=a("\\n"),l6=a("\\r"),l9=a("String.blit / Bytes.blit_string"),l8=a("Bytes.blit"),l7=a("String.sub / Bytes.sub"),l$=a(s),l_=a("String.concat"),ma=a("Array.init"),md=a("Buffer.add: cannot grow buffer"),mc=[0,a(kK),93,2],mb=[0,a(kK),94,2],mm=a("%c"),mn=a("%s"),mo=a(jl),mp=a(jV),mq=a(kg),mr=a(jt),ms=a("%f"),mt=a("%B"),mu=a("%{"),mv=a("%}"),mw=a("%("),mx=a("%)"),my=a("%a"),mz=a("%t"),mA=a("%?"),mB=a("%r"),mC=a("%_r"),mD=[0,a(aj),850,23],mO=[0,a(aj),814,21],mG=[0,a(aj),815,21],mP=[0,a(aj),818,21],mH=[0,a(aj),819,21],mQ=[0,a(aj),822,19],mI=[0,a(aj),823,19],mR=[0,a(aj),826,22],mJ=[0,a(aj),827,22],mS=[0,a(aj),831,30],mK=[0,a(aj),832,30],mM=[0,a(aj),836,26],mE=[0,a(aj),837,26],mN=[0,a(aj),846,28],mF=[0,a(aj),847,28],mL=[0,a(aj),851,23],nV=a(ka),nT=[0,a(aj),1558,4],nU=a("Printf: bad conversion %["),nW=[0,a(aj),1626,39],nX=[0,a(aj),1649,31],nY=[0,a(aj),1650,31],nZ=a("Printf: bad conversion %_"),n0=a(j7),n1=a(kj),n2=a(j7),n3=a(kj),nR=a(f$),nP=a("neg_infinity"),nQ=a(k7),nO=a(b3),nJ=[0,jC],nx=a("%+nd"),ny=a("% nd"),nA=a("%+ni"),nB=a("% ni"),nC=a("%nx"),nD=a("%#nx"),nE=a("%nX"),nF=a("%#nX"),nG=a("%no"),nH=a("%#no"),nw=a("%nd"),nz=a(kg),nI=a("%nu"),nk=a("%+ld"),nl=a("% ld"),nn=a("%+li"),no=a("% li"),np=a("%lx"),nq=a("%#lx"),nr=a("%lX"),ns=a("%#lX"),nt=a("%lo"),nu=a("%#lo"),nj=a("%ld"),nm=a(jV),nv=a("%lu"),m9=a("%+Ld"),m_=a("% Ld"),na=a("%+Li"),nb=a("% Li"),nc=a("%Lx"),nd=a("%#Lx"),ne=a("%LX"),nf=a("%#LX"),ng=a("%Lo"),nh=a("%#Lo"),m8=a("%Ld"),m$=a(jt),ni=a("%Lu"),mW=a("%+d"),mX=a("% d"),mZ=a("%+i"),m0=a("% i"),m1=a("%x"),m2=a("%#x"),m3=a("%X"),m4=a("%#X"),m5=a("%o"),m6=a("%#o"),mV=a(gj),mY=a(jl),m7=a(ka),me=a("@]"),mf=a("@}"),mg=a("@?"),mh=a("@\n"),mi=a("@."),mj=a("@@"),mk=a("@%"),ml=a("@"),mT=a("CamlinternalFormat.Type_mismatch"),n7=a(s),n8=[0,[11,a(jr),[2,0,[2,0,0]]],a(", %s%s")],ov=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],ow=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],ou=a("Fatal error: out of memory in uncaught exception handler"),os=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],oo=[0,[2,0,[12,10,0]],a("%s\n")],og=a("Raised at"),oh=a("Re-raised at"),oi=a("Raised by primitive operation at"),oj=a("Called from"),ok=a(" (inlined)"),om=a(s),ol=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(j2),wr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],on=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],ob=a("Out of memory"),oc=a("Stack overflow"),od=a("Pattern matching failed"),oe=a("Assertion failed"),of=a("Undefined recursive module"),n9=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],n_=a(s),n$=a(s),oa=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],n6=[0,[4,0,0,0,0],a(gj)],n4=[0,[3,0,0],a("%S")],n5=a(kp),op=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oy=a("Jsoo_runtime.Error.Exn"),oA=a("power"),oK=[0,0],oL=[0,[0,0]],oM=[0,[0,0]],oT=[0,0],o0=[0,0,0],o1=[0,0,0],o2=[0,0],o3=[0,0],o$=[0,0],pb=[0,0],pl=[0,0,0],pm=[0,0],pn=[0,0],pz=[0,[0,[0,0]]],pH=a(","),pZ=[0,a(ga),0],p0=a(kT),p1=a(b3),p2=[0,[0,[0,0]]],p3=a(a0),p4=a(gb),p5=[0,[0,[0,[0,[0,0]]]]],p6=[0,a(ga),0],p7=a(lk),r2=a(jm),r4=a(km),r3=a(kY),r5=a(ep),r6=a(ki),r7=a(kJ),sI=[0,a(jW),6459,12],sW=a(ks),sX=[0,0],sY=a("divided"),sZ=[0,1],s0=a("mirror"),s1=[0,3],s2=a("negative"),s3=[0,2],s4=a(lh),s5=[0,4],s6=a(f5),s7=a(kB),s8=a(k2),s9=[0,0],s_=[0,0],s$=[0,0],tr=a(s),to=[0,[0,[0,[0,0]]]],tp=[0,[0,[0,[0,0]]]],tm=[0,[0,[0,0]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ws]]]]]]]]]]],tj=[0,[0,0]],tk=[0,[0,[0,0]]],th=[0,[0,[0,0]]],ti=[0,[0,0]],tg=[0,[0,[0,0]]],tb=[0,[0,0]],tc=[0,0],ta=[0,0],sQ=[0,[0,0]],sR=[0,0],sP=[0,0],sO=[0,0,0],sM=[0,0,0],sL=[0,0],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ww]]]]]]]]]]],sD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wB]]]]]]]]]]],sy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wG]]]]]]]]]]],sz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wO]]]]]]]]]]],sA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wW]]]]]]]]]]],sB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],sE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],sF=a("sqrt"),sw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],sx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],sl=[0,a("\n"),0],sm=a(ko),sn=a(em),so=a(jP),sp=a(kM),sq=a("certified"),sv=a("refuted"),sr=a("verdict"),ss=a(j4),st=a(kI),su=a(kW),sa=a(k_),sb=a(eo),sc=a(jM),sd=a(lc),sj=a(kR),sk=a(eu),se=a(gc),sf=a(b4),sg=a(kq),sh=a(eo),si=a(lb),r_=a(kH),r$=a(ld),r0=a(kz),r1=a(j_),rH=a(eu),ri=a(bH),rj=a(cP),rk=a(f3),rl=a(cO),rm=a(b4),rn=a(bH),ro=a(cP),rp=a(f3),rq=a(cO),rr=a(b4),rs=a(bH),rt=a(go),ru=a(bk),rv=a(bj),rw=a(ci),rx=a(cP),ry=a(k6),rz=a(la),rA=a(cO),rB=a(b4),rC=a(bH),rD=a(bk),rE=a(bj),rF=a(ci),rG=a(cP),rI=a(j1),rJ=a(j8),rK=a(lj),rL=a(kC),rM=a(jw),rN=a(cO),rO=a(b4),rP=a(bH),rQ=a(kn),rR=a(kL),rS=a(cP),rT=a(ke),rU=a(kt),rV=a(cO),rW=a(b4),rZ=a(kl),rX=a(jv),rY=a(kb),rc=a(jL),rd=a(kh),re=a(jy),rf=a(kF),rg=a(j$),q_=a(b1),q$=a(b0),ra=a(eq),rb=a(b2),q6=a(dt),q7=a(gm),q8=a(k3),qZ=a(bk),q0=a(bj),q1=a(ci),q2=a(jQ),q3=a(jk),q4=a(jJ),q5=a(k9),qS=a(kO),qT=a(ju),qY=a(em),qU=a(kG),qV=a(jG),qW=a(jX),qX=a(kZ),qP=a(bj),qQ=a(bk),qR=a(j9),qH=a(jq),qI=a(kr),qJ=a(k5),qK=a(ep),qL=a(li),qM=a(k8),qN=a(kv),qO=a(k1),qw=a(bi),qG=a(a0),qx=a(es),qy=a(er),qz=a(ey),qA=a(b1),qB=a(b0),qC=a(jT),qD=a(jZ),qE=a(ey),qF=a(b2),qe=a(bi),qm=a(a0),qf=a(es),qg=a(er),qh=a(b1),qi=a(b0),qj=a(ev),qk=a(kc),ql=a(b2),qn=a(ge),qo=a(b1),qp=a(b0),qq=a(eq),qr=a(b2),qs=a(ev),qt=a(dt),qu=a(b2),qb=a(bk),qc=a(bj),p$=[0,a(ad),0],qa=a(ad),p9=[0,a(jW),5848,36],p8=[0,a(ad),0],p_=a(ad),pV=a(bi),pW=a(a0),pX=a("*"),pY=a(a8),pQ=[0,[0,[0,[0,[0,0]]]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pT=[0,0],pU=[0,[0,[0,[0,0]]]],pO=a('":'),pP=a(ad),pM=[0,a(ad),0],pN=a(ad),pK=[0,a("}"),0],pL=a("{"),pI=[0,a("]"),0],pJ=a("["),pG=[0,0],pD=[0,[0,[0,0]]],pE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],px=[0,[0,0]],py=[0,[0,[0,0]]],pv=[0,[0,[0,0]]],pw=[0,[0,0]],po=[0,[0,0]],pp=[0,0],pq=[0,[0,0]],pr=[0,0],ps=[0,0],pt=[0,[0,0]],pu=[0,[0,0]],pk=[0,[0,[0,0]]],pj=[0,[0,[0,[0,[0,[0,0]]]]]],pg=[0,0],ph=[0,[0,[0,[0,[0,[0,0]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],pe=[0,[0,[0,0]]],o6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],o7=[0,[0,[0,[0,[0,[0,0]]]]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,[0,[0,[0,0]]]]]],o_=[0,[0,[0,0]]],o4=[0,[0,0]],o5=[0,0],oU=[0,0,0],oP=[0,0],oQ=[0,[0,0]],oR=[0,0],oS=[0,[0,0]],oN=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],oJ=a(aF),oI=a(s),oH=[0,[0,0]],oG=[0,0],oF=[1,0],oE=[0,0],oD=[0,0],oB=[1,0],oC=[1,0],vC=a(ep),vD=a(kJ),vE=a(kY),vF=a(ki),vG=a(f5),vH=a(kB),vI=a(k2),vN=a(f5),vO=a(ks),vJ=[0,a(ad),0],vK=a('the evidence "'),vL=a(j_),vM=a(kz),wa=a(kW),wb=a(kI),wc=a(j4),wk=[0,3,3],wd=a(kM),wh=[0,a('the drive "arm" in a claim that is certified'),0],wi=[0,a("a step of a platform that turns that is not at control points"),0],wj=[0,a("a mechanism by formulas in a claim that is refuted"),0],we=a(jP),wf=a(ko),wg=a(em),v0=a(jM),v1=a(lb),v4=a(b4),v5=a(gc),v6=a(kq),v7=a(eo),v8=a(k_),v9=a(eo),v2=[0,a(ad),0],v3=a('a proof of the kind "'),vV=a(kR),vW=a(lc),vX=a(eu),vY=[0,a(ad),0],vZ=a('the failure "'),vR=a(gc),vS=[0,a("a leaf that fails"),0],vT=a(kH),vU=a(ld),vP=a(lh),vQ=a(aF),vA=a(km),vB=a(jm),vc=a(b2),vd=a(ge),ve=a(eq),vh=a(b1),vi=a(b0),vf=[0,a('" of such a platform'),0],vg=a(js),u0=a("rho"),u1=a(eu),u2=[0,a("a joint by its coordinate"),0],uE=a(bH),uy=a(b4),uz=a(kb),uC=a(jv),uD=a(kl),uF=a(cO),uG=a(cP),uH=a("bodies"),vz=[0,a("a machine with bodies"),0],uI=a(dt),uJ=a(gm),uK=a(k3),uL=a(go),uM=a(jw),uN=a(kt),uO=a(f3),uR=a(ci),uS=a(k9),uV=a(bH),uW=a(kL),uX=a(kn),uY=a(ke),uZ=a(ci),u3=a(bH),u4=a(bk),u5=a(bj),u6=a(j1),u7=a(j8),u8=a(lj),u9=a(kC),uP=[0,a(ad),0],uQ=a(kf),u_=a(ci),u$=[0,a('" of a platform that turns'),0],va=a(j3),vb=a(k6),vx=[0,a('" that does not turn'),0],vy=a(kf),vj=a(go),vk=a(jL),vl=a(j$),vu=a(kh),vv=a(jy),vw=a(kF),vm=[0,a(ad),0],vn=a('the orientation "'),vo=a(dt),vp=a(gm),vq=a(bH),vr=a(bk),vs=a(bj),vt=a(la),uT=[0,a(ad),0],uU=a(j3),uA=[0,a(ad),0],uB=a('a claim of the kind "'),ur=a(ci),uv=a(bk),uw=a(bj),us=a(jJ),ut=a(jQ),uu=a(jk),uq=[0,a("this quantity of such a mechanism"),0],um=a(kG),un=[0,a("a stiffness for each joint"),0],ul=a(em),ue=a(kO),t5=a(kZ),t6=a(ep),t7=a(k1),t8=a(kr),t9=a(k5),t_=a(k8),t$=a(li),ua=a(kv),ub=a(jq),uc=[0,a(ad),0],ud=a('the quantity "'),uf=a(ju),ug=a(bk),uh=a(bj),ui=a(j9),uj=[0,a(ad),0],uk=a('a bound "'),uo=a(jG),up=a(jX),tY=a(es),tZ=a(er),t0=a(ey),t1=a(b1),t2=a(b0),t3=a(jT),t4=a(jZ),tV=a(b2),tW=a(ey),tG=a(b2),tH=a(dt),tI=a(kc),tJ=a(eq),tM=a(ge),tN=a(b1),tO=a(b0),tP=a(es),tQ=a(er),tR=a(b1),tS=a(b0),tT=a(ev),tU=a(ev),tK=[0,a(ad),0],tL=a(js),tD=a(bi),tE=a(a0),tB=a(" is not covered by the verified checker"),tC=a(s),tz=a(bk),tA=a(bj),tv=a(s),tw=a(lk),tx=a(s),ty=a(s),tu=[1,0],ts=a("Reader.Malformed"),tt=a("Reader.Not_covered"),wm=a(jU),wn=a("CERTIFIED"),wo=a("REFUTED"),wp=a(jU),wq=a("NOT COVERED: ");function
+V(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,C(a[1])];case
-1:return[1,C(a[1])];case
-2:return[2,C(a[1])];case
-3:return[3,C(a[1])];case
-4:return[4,C(a[1])];case
-5:return[5,C(a[1])];case
-6:return[6,C(a[1])];case
-7:return[7,C(a[1])];case
+0:return[0,V(a[1])];case
+1:return[1,V(a[1])];case
+2:return[2,V(a[1])];case
+3:return[3,V(a[1])];case
+4:return[4,V(a[1])];case
+5:return[5,V(a[1])];case
+6:return[6,V(a[1])];case
+7:return[7,V(a[1])];case
 8:var
-c=a[1];return[8,c,C(a[2])];case
+c=a[1];return[8,c,V(a[2])];case
 9:var
-b=a[1];return[9,b,b,C(a[3])];case
-10:return[10,C(a[1])];case
-11:return[11,C(a[1])];case
-12:return[12,C(a[1])];case
-13:return[13,C(a[1])];default:return[14,C(a[1])]}}function
-ag(a,b){if(typeof
+b=a[1];return[9,b,b,V(a[3])];case
+10:return[10,V(a[1])];case
+11:return[11,V(a[1])];case
+12:return[12,V(a[1])];case
+13:return[13,V(a[1])];default:return[14,V(a[1])]}}function
+aB(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,ag(a[1],b)];case
-1:return[1,ag(a[1],b)];case
-2:return[2,ag(a[1],b)];case
-3:return[3,ag(a[1],b)];case
-4:return[4,ag(a[1],b)];case
-5:return[5,ag(a[1],b)];case
-6:return[6,ag(a[1],b)];case
-7:return[7,ag(a[1],b)];case
+0:return[0,aB(a[1],b)];case
+1:return[1,aB(a[1],b)];case
+2:return[2,aB(a[1],b)];case
+3:return[3,aB(a[1],b)];case
+4:return[4,aB(a[1],b)];case
+5:return[5,aB(a[1],b)];case
+6:return[6,aB(a[1],b)];case
+7:return[7,aB(a[1],b)];case
 8:var
-c=a[1];return[8,c,ag(a[2],b)];case
+c=a[1];return[8,c,aB(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,ag(a[3],b)];case
-10:return[10,ag(a[1],b)];case
-11:return[11,ag(a[1],b)];case
-12:return[12,ag(a[1],b)];case
-13:return[13,ag(a[1],b)];default:return[14,ag(a[1],b)]}}function
-y(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aB(a[3],b)];case
+10:return[10,aB(a[1],b)];case
+11:return[11,aB(a[1],b)];case
+12:return[12,aB(a[1],b)];case
+13:return[13,aB(a[1],b)];default:return[14,aB(a[1],b)]}}function
+O(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,y(a[1],b)];case
-1:return[1,y(a[1],b)];case
+0:return[0,O(a[1],b)];case
+1:return[1,O(a[1],b)];case
 2:var
-c=a[1];return[2,c,y(a[2],b)];case
+c=a[1];return[2,c,O(a[2],b)];case
 3:var
-d=a[1];return[3,d,y(a[2],b)];case
+d=a[1];return[3,d,O(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,y(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,O(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,y(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,O(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,y(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,O(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,y(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,O(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,y(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,O(a[4],b)];case
 9:var
-t=a[1];return[9,t,y(a[2],b)];case
-10:return[10,y(a[1],b)];case
+t=a[1];return[9,t,O(a[2],b)];case
+10:return[10,O(a[1],b)];case
 11:var
-u=a[1];return[11,u,y(a[2],b)];case
+u=a[1];return[11,u,O(a[2],b)];case
 12:var
-v=a[1];return[12,v,y(a[2],b)];case
+v=a[1];return[12,v,O(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,y(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,O(a[3],b)];case
 14:var
-z=a[2],A=a[1];return[14,A,z,y(a[3],b)];case
-15:return[15,y(a[1],b)];case
-16:return[16,y(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,O(a[3],b)];case
+15:return[15,O(a[1],b)];case
+16:return[16,O(a[1],b)];case
 17:var
-B=a[1];return[17,B,y(a[2],b)];case
+A=a[1];return[17,A,O(a[2],b)];case
 18:var
-C=a[1];return[18,C,y(a[2],b)];case
-19:return[19,y(a[1],b)];case
+B=a[1];return[18,B,O(a[2],b)];case
+19:return[19,O(a[1],b)];case
 20:var
-D=a[2],E=a[1];return[20,E,D,y(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,O(a[3],b)];case
 21:var
-F=a[1];return[21,F,y(a[2],b)];case
-22:return[22,y(a[1],b)];case
+E=a[1];return[21,E,O(a[2],b)];case
+22:return[22,O(a[1],b)];case
 23:var
-G=a[1];return[23,G,y(a[2],b)];default:var
-H=a[2],I=a[1];return[24,I,H,y(a[3],b)]}}function
-bl(a){throw[0,fh,a]}function
-cN(a){return 0<=a?a:-a|0}function
-S(d,c){var
-a=n(d),e=n(c),b=L(a+e|0);a3(d,0,b,0,a);a3(c,0,b,a,e);return af(b)}function
-jm(a){return a?jn:jo}rR(0);i8(1);var
-a7=i8(2);function
-cd(b,a){return i9(b,a,0,n(a))}function
-fn(a){cd(a7,a);i_(a7,10);return b$(a7)}function
-dE(b){function
+F=a[1];return[23,F,O(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,O(a[3],b)]}}function
+bO(a){throw[0,gM,a]}function
+dD(a){return 0<=a?a:-a|0}function
+am(d,c){var
+a=y(d),e=y(c),b=ae(a+e|0);bo(d,0,b,0,a);bo(c,0,b,a,e);return aA(b)}function
+lW(a){return a?lX:lY}xY(0);lF(1);var
+bs=lF(2);function
+cW(b,a){return lG(b,a,0,y(a))}function
+gS(a){cW(bs,a);lH(bs,10);return cT(bs)}function
+eL(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{b$(d)}catch(a){a=dB(a);if(a[1]!==fl)throw a;var
+c=a[2],d=a[1];try{cT(d)}catch(a){a=eI(a);if(a[1]!==gQ)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(rS(0))}fa(a(g4),dE);var
-ce=(4*r2(0)|0)-1|0;function
-dF(c){var
+a=c;continue}return 0}}return a(xZ(0))}gF(a(jo),eL);var
+cX=(4*x9(0)|0)-1|0;function
+cn(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-aE(b,a){if(a){var
-c=a[2],e=d(b,a[1]);return[0,e,aE(b,c)]}return 0}function
-bw(a,c){var
-b=L(a);rt(b,0,a,c);return b}function
-fo(c,b,a){if(0<=b&&0<=a&&!((aw(c)-a|0)<b)){var
-d=L(a);bv(c,b,d,0,a);return d}return bl(jx)}function
-fp(c,b,a){return af(fo(c,b,a))}function
-fq(e,c,d,b,a){if(0<=a&&0<=c&&!((aw(e)-a|0)<c)&&0<=b&&!((aw(d)-a|0)<b))return bv(e,c,d,b,a);return bl(jy)}function
-a8(e,c,d,b,a){if(0<=a&&0<=c&&!((n(e)-a|0)<c)&&0<=b&&!((aw(d)-a|0)<b))return a3(e,c,d,b,a);return bl(jz)}function
-aF(b,a){return af(bw(b,a))}function
-cO(c,b,a){return af(fo(bh(c),b,a))}function
-fr(k,g){if(g){var
-h=n(k),c=0,b=g,q=0;for(;;){if(b){var
+R(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,R(b,c)]}return 0}function
+gT(d,c){var
+a=c;for(;;){if(a){var
+f=a[2],b=e(d,a[1]);if(b){var
+a=f;continue}return b}return 1}}function
+b8(a,c){var
+b=ae(a);xA(b,0,a,c);return b}function
+gU(c,b,a){if(0<=b&&0<=a&&!((aO(c)-a|0)<b)){var
+d=ae(a);b6(c,b,d,0,a);return d}return bO(l7)}function
+gV(c,b,a){return aA(gU(c,b,a))}function
+gW(e,c,d,b,a){if(0<=a&&0<=c&&!((aO(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return b6(e,c,d,b,a);return bO(l8)}function
+bt(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return bo(e,c,d,b,a);return bO(l9)}function
+aT(b,a){return aA(b8(b,a))}function
+cY(c,b,a){return aA(gU(bK(c),b,a))}function
+gX(k,g){if(g){var
+h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(n(i)+h|0)+c|0,m=b[2],o=c<=j?j:bl(jA),c=o,b=m;continue}var
-l=n(i)+c|0}else
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bO(l_),c=n,b=m;continue}var
+l=y(i)+c|0}else
 var
 l=c;var
-f=L(l),e=q,d=g;for(;;){if(d){var
+f=ae(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-p=d[2];a3(a,0,f,e,n(a));a3(k,0,f,e+n(a)|0,h);var
-e=(e+n(a)|0)+h|0,d=p;continue}a3(a,0,f,e,n(a))}return af(f)}}}return jB}function
-fs(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(ce<b[1]){if(!((d+c|0)<=ce))throw[0,fi,jF];b[1]=ce}var
-e=L(b[1]);fq(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,D,jD]}throw[0,D,jE]}}function
-cf(a,c){var
-b=n(c),d=a[2]+b|0;if(a[3]<d)fs(a,b);a3(c,0,a[1],a[2],b);a[2]=d;return 0}function
-dG(a){return 5===a[2]?12:-6}function
-ft(a){return[0,0,L(a)]}function
-fu(a,h){var
-b=aw(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=L(i);fq(a[2],0,f,0,b);a[2]=f;var
+o=d[2];bo(a,0,f,e,y(a));bo(k,0,f,e+y(a)|0,h);var
+e=(e+y(a)|0)+h|0,d=o;continue}bo(a,0,f,e,y(a))}return aA(f)}}}return l$}function
+gY(b,c){if(0===b)return[0];if(0<=b){var
+d=xW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+a=g;for(;;){d[1+a]=e(c,a);var
+h=a+1|0;if(f!==a){var
+a=h;continue}break}}return d}return bO(ma)}function
+gZ(c){var
+a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
+d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
+g0(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cX<b[1]){if(!((d+c|0)<=cX))throw[0,gN,md];b[1]=cX}var
+e=ae(b[1]);gW(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,P,mb]}throw[0,P,mc]}}function
+cZ(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)g0(a,b);bo(c,0,a[1],a[2],b);a[2]=d;return 0}function
+eM(a){return 5===a[2]?12:-6}function
+g1(a){return[0,0,ae(a)]}function
+g2(a,h){var
+b=aO(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ae(i);gW(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-bO(a,b){fu(a,1);bK(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-$(a,c){var
-b=n(c);fu(a,b);a8(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-fv(a){return fp(a[2],0,a[1])}function
-fw(a){if(typeof
+co(a,b){g2(a,1);cj(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+at(a,c){var
+b=y(c);g2(a,b);bt(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+g3(a){return gV(a[2],0,a[1])}function
+g4(a){if(typeof
 a==="number")switch(a){case
-0:return jG;case
-1:return jH;case
-2:return jI;case
-3:return jJ;case
-4:return jK;case
-5:return jL;default:return jM}else
+0:return me;case
+1:return mf;case
+2:return mg;case
+3:return mh;case
+4:return mi;case
+5:return mj;default:return mk}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return S(jN,aF(1,a[1]))}}function
-dH(b,c){var
+1:return a[1];default:return am(ml,aT(1,a[1]))}}function
+eN(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];$(b,jO);var
+d=a[1];at(b,mm);var
 a=d;continue;case
 1:var
-e=a[1];$(b,jP);var
+e=a[1];at(b,mn);var
 a=e;continue;case
 2:var
-f=a[1];$(b,jQ);var
+f=a[1];at(b,mo);var
 a=f;continue;case
 3:var
-g=a[1];$(b,jR);var
+g=a[1];at(b,mp);var
 a=g;continue;case
 4:var
-h=a[1];$(b,jS);var
+h=a[1];at(b,mq);var
 a=h;continue;case
 5:var
-i=a[1];$(b,jT);var
+i=a[1];at(b,mr);var
 a=i;continue;case
 6:var
-j=a[1];$(b,jU);var
+j=a[1];at(b,ms);var
 a=j;continue;case
 7:var
-k=a[1];$(b,jV);var
+k=a[1];at(b,mt);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];$(b,jW);dH(b,m);$(b,jX);var
+l=a[2],m=a[1];at(b,mu);eN(b,m);at(b,mv);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];$(b,jY);dH(b,o);$(b,jZ);var
+n=a[3],o=a[1];at(b,mw);eN(b,o);at(b,mx);var
 a=n;continue;case
 10:var
-p=a[1];$(b,j0);var
+p=a[1];at(b,my);var
 a=p;continue;case
 11:var
-q=a[1];$(b,j1);var
+q=a[1];at(b,mz);var
 a=q;continue;case
 12:var
-r=a[1];$(b,j2);var
+r=a[1];at(b,mA);var
 a=r;continue;case
 13:var
-s=a[1];$(b,j3);var
+s=a[1];at(b,mB);var
 a=s;continue;default:var
-t=a[1];$(b,j4);var
+t=a[1];at(b,mC);var
 a=t;continue}}function
-K(a){if(typeof
+ab(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,K(a[1])];case
-1:return[1,K(a[1])];case
-2:return[2,K(a[1])];case
-3:return[3,K(a[1])];case
-4:return[4,K(a[1])];case
-5:return[5,K(a[1])];case
-6:return[6,K(a[1])];case
-7:return[7,K(a[1])];case
+0:return[0,ab(a[1])];case
+1:return[1,ab(a[1])];case
+2:return[2,ab(a[1])];case
+3:return[3,ab(a[1])];case
+4:return[4,ab(a[1])];case
+5:return[5,ab(a[1])];case
+6:return[6,ab(a[1])];case
+7:return[7,ab(a[1])];case
 8:var
-b=a[1];return[8,b,K(a[2])];case
+b=a[1];return[8,b,ab(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,K(a[3])];case
-10:return[10,K(a[1])];case
-11:return[11,K(a[1])];case
-12:return[12,K(a[1])];case
-13:return[13,K(a[1])];default:return[14,K(a[1])]}}function
-aa(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ab(a[3])];case
+10:return[10,ab(a[1])];case
+11:return[11,ab(a[1])];case
+12:return[12,ab(a[1])];case
+13:return[13,ab(a[1])];default:return[14,ab(a[1])]}}function
+au(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=aa(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){d(x,0);return 0};return[0,function(a){d(y,0);return 0},z,w,v];case
+b=au(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=aa(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){d(C,0);return 0};return[0,function(a){d(D,0);return 0},E,B,A];case
+c=au(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-e=aa(a[1]),F=e[4],G=e[3],H=e[2],I=e[1],J=function(a){d(H,0);return 0};return[0,function(a){d(I,0);return 0},J,G,F];case
+d=au(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=aa(a[1]),L=f[4],N=f[3],O=f[2],P=f[1],Q=function(a){d(O,0);return 0};return[0,function(a){d(P,0);return 0},Q,N,L];case
+f=au(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=aa(a[1]),R=g[4],S=g[3],T=g[2],U=g[1],V=function(a){d(T,0);return 0};return[0,function(a){d(U,0);return 0},V,S,R];case
+g=au(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=aa(a[1]),W=h[4],X=h[3],Y=h[2],Z=h[1],_=function(a){d(Y,0);return 0};return[0,function(a){d(Z,0);return 0},_,X,W];case
+h=au(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=aa(a[1]),$=i[4],ab=i[3],ac=i[2],ad=i[1],ae=function(a){d(ac,0);return 0};return[0,function(a){d(ad,0);return 0},ae,ab,$];case
+i=au(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ac=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ac,_,Z];case
 7:var
-j=aa(a[1]),af=j[4],ag=j[3],ah=j[2],ai=j[1],aj=function(a){d(ah,0);return 0};return[0,function(a){d(ai,0);return 0},aj,ag,af];case
+j=au(a[1]),ad=j[4],ae=j[3],af=j[2],ah=j[1],ai=function(a){e(af,0);return 0};return[0,function(a){e(ah,0);return 0},ai,ae,ad];case
 8:var
-k=aa(a[2]),ak=k[4],al=k[3],am=k[2],an=k[1],ao=function(a){d(am,0);return 0};return[0,function(a){d(an,0);return 0},ao,al,ak];case
+k=au(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
 9:var
-ap=a[2],aq=a[1],l=aa(a[3]),ar=l[4],as=l[3],at=l[2],au=l[1],m=aa(M(K(aq),ap)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){d(av,0);d(ar,0);return 0},aA=function(a){d(as,0);d(aw,0);return 0},aB=function(a){d(ax,0);d(at,0);return 0};return[0,function(a){d(au,0);d(ay,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=au(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=au(ag(ab(ap),ao)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){e(av,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(aw,0);return 0},aB=function(a){e(ax,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ay,0);return 0},aB,aA,az];case
 10:var
-n=aa(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){d(aE,0);return 0};return[0,function(a){d(aF,0);return 0},aG,aD,aC];case
+n=au(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=aa(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){d(aJ,0);return 0};return[0,function(a){d(aK,0);return 0},aL,aI,aH];case
+o=au(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=aa(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){d(aO,0);return 0};return[0,function(a){d(aP,0);return 0},aQ,aN,aM];case
+p=au(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=aa(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){d(aR,0);return 0},aW=function(a){d(aS,0);return 0},aX=function(a){d(aT,0);return 0};return[0,function(a){d(aU,0);return 0},aX,aW,aV];default:var
-r=aa(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){d(aY,0);return 0},a3=function(a){d(aZ,0);return 0},a4=function(a){d(a0,0);return 0};return[0,function(a){d(a1,0);return 0},a4,a3,a2]}}function
-M(c,b){var
+q=au(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=au(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+ag(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1055,23 +1068,23 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,D,j5]}else
+9:a=6;break;default:throw[0,P,mD]}else
 switch(c[0]){case
 0:var
-e=0,t=c[1];if(typeof
+d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,M(t,b[1])];case
-8:a=5;e=1;break;case
-9:a=6;e=1;break;case
-10:e=1;break;case
-11:a=1;e=1;break;case
-12:a=2;e=1;break;case
-13:a=3;e=1;break;case
-14:a=4;e=1;break}if(!e)a=7;break;case
+0:return[0,ag(t,b[1])];case
+8:a=5;d=1;break;case
+9:a=6;d=1;break;case
+10:d=1;break;case
+11:a=1;d=1;break;case
+12:a=2;d=1;break;case
+13:a=3;d=1;break;case
+14:a=4;d=1;break}if(!d)a=7;break;case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,M(u,b[1])];case
+1:return[1,ag(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1083,7 +1096,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,M(v,b[1])];case
+2:return[2,ag(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1095,7 +1108,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,M(w,b[1])];case
+3:return[3,ag(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1107,7 +1120,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,M(x,b[1])];case
+4:return[4,ag(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1119,7 +1132,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,M(y,b[1])];case
+5:return[5,ag(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1131,7 +1144,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,M(z,b[1])];case
+6:return[6,ag(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1143,7 +1156,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,M(A,b[1])];case
+7:return[7,ag(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,257 +1169,257 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-E=b[1],F=M(B,b[2]);return[8,M(C,E),F];case
+D=b[1],E=ag(B,b[2]);return[8,ag(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,D,kc];break;case
+14:a=4;break;default:m=1}if(m)throw[0,P,mM];break;case
 9:var
-n=0,G=c[3],H=c[2],I=c[1];if(typeof
+n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-J=b[3],L=b[2],N=b[1],s=aa(M(K(H),N)),O=s[4];d(s[2],0);d(O,0);return[9,I,L,M(G,J)];case
+I=b[3],J=b[2],K=b[1],s=au(ag(ab(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ag(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,D,kd];break;case
+14:a=4;break;default:n=1}if(n)throw[0,P,mN];break;case
 10:var
-P=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,M(P,b[1])];throw[0,D,ke];case
+M=c[1];if(typeof
+b!=="number"&&10===b[0])return[10,ag(M,b[1])];throw[0,P,mO];case
 11:var
-o=0,Q=c[1];if(typeof
+o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,M(Q,b[1])];default:o=1}if(o)throw[0,D,kf];break;case
+11:return[11,ag(N,b[1])];default:o=1}if(o)throw[0,P,mP];break;case
 12:var
-p=0,R=c[1];if(typeof
+p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,M(R,b[1])];default:p=1}if(p)throw[0,D,kg];break;case
+12:return[12,ag(O,b[1])];default:p=1}if(p)throw[0,P,mQ];break;case
 13:var
-q=0,S=c[1];if(typeof
+q=0,Q=c[1];if(typeof
 b==="number")q=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,M(S,b[1])];default:q=1}if(q)throw[0,D,kh];break;default:var
-r=0,T=c[1];if(typeof
+13:return[13,ag(Q,b[1])];default:q=1}if(q)throw[0,P,mR];break;default:var
+r=0,R=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,M(T,b[1])];default:r=1}if(r)throw[0,D,ki]}switch(a){case
-0:throw[0,D,j8];case
-1:throw[0,D,j9];case
-2:throw[0,D,j_];case
-3:throw[0,D,j$];case
-4:throw[0,D,ka];case
-5:throw[0,D,j6];case
-6:throw[0,D,j7];default:throw[0,D,kb]}}var
-T=[Q,kj,du(0)];function
-cP(b,a){if(typeof
+14:return[14,ag(R,b[1])];default:r=1}if(r)throw[0,P,mS]}switch(a){case
+0:throw[0,P,mG];case
+1:throw[0,P,mH];case
+2:throw[0,P,mI];case
+3:throw[0,P,mJ];case
+4:throw[0,P,mK];case
+5:throw[0,P,mE];case
+6:throw[0,P,mF];default:throw[0,P,mL]}}var
+an=[ak,mT,eB(0)];function
+dE(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw T}}function
-cg(e,b,d){var
-a=cP(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw an}}function
+c0(e,b,d){var
+a=dE(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw T}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-am(b,c,a){if(typeof
-b==="number")return[0,0,v(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw an}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aH(b,c,a){if(typeof
+b==="number")return[0,0,H(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=am(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aH(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=am(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aH(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=am(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aH(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=am(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aH(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=am(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aH(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=am(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aH(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=am(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aH(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=am(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aH(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],x=a[2],y=b[2];if(cL([0,b[1]],[0,o]))throw T;var
-p=am(y,c,x);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(dB([0,b[1]],[0,o]))throw an;var
+p=aH(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-e=a[2],f=a[1],z=a[3],A=b[3],B=b[2],D=b[1],E=[0,C(f)];if(cL([0,C(D)],E))throw T;var
-F=[0,C(e)];if(cL([0,C(B)],F))throw T;var
-q=aa(M(K(f),e)),G=q[4];d(q[2],0);d(G,0);var
-r=am(C(A),c,z),H=r[2];return[0,[9,f,e,K(r[1])],H]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,V(f)];if(dB([0,V(B)],C))throw an;var
+D=[0,V(d)];if(dB([0,V(A)],D))throw an;var
+q=au(ag(ab(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aH(V(z),c,y),F=r[2];return[0,[9,f,d,ab(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=am(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aH(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=am(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aH(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=am(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aH(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-w=am(b[1],c,a[1]);return[0,[14,w[1]],w[2]]}break}throw T}function
-v(b,a){if(typeof
+v=aH(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw an}function
+H(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=v(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=H(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=v(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=H(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ad=b[2],u=cP(b[1],a),e=u[2],ae=u[1];if(typeof
+ac=b[2],u=dE(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-w=v(ad,e[1]);return[0,[2,ae,w[1]],w[2]]}throw T;case
+v=H(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw an;case
 3:var
-af=b[2],x=cP(b[1],a),f=x[2],ag=x[1];if(typeof
+ae=b[2],w=dE(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-y=v(af,f[1]);return[0,[3,ag,y[1]],y[2]]}throw T;case
+x=H(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw an;case
 4:var
-ah=b[4],ai=b[1],g=cg(b[2],b[3],a),h=g[3],aj=g[1];if(typeof
+ag=b[4],ah=b[1],g=c0(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-ak=g[2],z=v(ah,h[1]);return[0,[4,ai,aj,ak,z[1]],z[2]]}throw T;case
+aj=g[2],y=H(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw an;case
 5:var
-al=b[4],an=b[1],i=cg(b[2],b[3],a),j=i[3],ap=i[1];if(typeof
+ak=b[4],al=b[1],i=c0(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-aq=i[2],A=v(al,j[1]);return[0,[5,an,ap,aq,A[1]],A[2]]}throw T;case
+ao=i[2],z=H(ak,j[1]);return[0,[5,al,am,ao,z[1]],z[2]]}throw an;case
 6:var
-ar=b[4],as=b[1],k=cg(b[2],b[3],a),l=k[3],at=k[1];if(typeof
+ap=b[4],aq=b[1],k=c0(b[2],b[3],a),l=k[3],ar=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-au=k[2],B=v(ar,l[1]);return[0,[6,as,at,au,B[1]],B[2]]}throw T;case
+as=k[2],A=H(ap,l[1]);return[0,[6,aq,ar,as,A[1]],A[2]]}throw an;case
 7:var
-av=b[4],aw=b[1],m=cg(b[2],b[3],a),n=m[3],ax=m[1];if(typeof
+at=b[4],au=b[1],m=c0(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-ay=m[2],D=v(av,n[1]);return[0,[7,aw,ax,ay,D[1]],D[2]]}throw T;case
+aw=m[2],B=H(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw an;case
 8:var
-az=b[4],aA=b[1],o=cg(b[2],b[3],a),p=o[3],aB=o[1];if(typeof
+ax=b[4],ay=b[1],o=c0(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aC=o[2],E=v(az,p[1]);return[0,[8,aA,aB,aC,E[1]],E[2]]}throw T;case
+aA=o[2],C=H(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw an;case
 9:var
-aD=b[2],F=cP(b[1],a),q=F[2],aE=F[1];if(typeof
+aB=b[2],D=dE(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-G=v(aD,q[1]);return[0,[9,aE,G[1]],G[2]]}throw T;case
+E=H(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw an;case
 10:var
-H=v(b[1],a);return[0,[10,H[1]],H[2]];case
+F=H(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aF=b[1],I=v(b[2],a);return[0,[11,aF,I[1]],I[2]];case
+aD=b[1],G=H(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aG=b[1],J=v(b[2],a);return[0,[12,aG,J[1]],J[2]];case
+aE=b[1],I=H(b[2],a);return[0,[12,aE,I[1]],I[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-K=a[1],aH=a[2],aI=b[3],aJ=b[1];if(cL([0,b[2]],[0,K]))throw T;var
-L=v(aI,aH);return[0,[13,aJ,K,L[1]],L[2]]}break;case
+J=a[1],aF=a[2],aG=b[3],aI=b[1];if(dB([0,b[2]],[0,J]))throw an;var
+K=H(aG,aF);return[0,[13,aI,J,K[1]],K[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-M=a[1],aK=a[3],aL=b[3],aM=b[2],aN=b[1],aO=[0,C(M)];if(cL([0,C(aM)],aO))throw T;var
-N=v(aL,C(aK));return[0,[14,aN,M,N[1]],N[2]]}break;case
+L=a[1],aJ=a[3],aK=b[3],aM=b[2],aN=b[1],aO=[0,V(L)];if(dB([0,V(aM)],aO))throw an;var
+M=H(aK,V(aJ));return[0,[14,aN,L,M[1]],M[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-O=v(b[1],a[1]);return[0,[15,O[1]],O[2]]}break;case
+N=H(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-P=v(b[1],a[1]);return[0,[16,P[1]],P[2]]}break;case
+O=H(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
 17:var
-aP=b[1],Q=v(b[2],a);return[0,[17,aP,Q[1]],Q[2]];case
+aP=b[1],P=H(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
-R=b[2],r=b[1];if(0===r[0]){var
-W=r[1],aT=W[2],X=v(W[1],a),aU=X[1],Y=v(R,X[2]);return[0,[18,[0,[0,aU,aT]],Y[1]],Y[2]]}var
-Z=r[1],aV=Z[2],_=v(Z[1],a),aW=_[1],$=v(R,_[2]);return[0,[18,[1,[0,aW,aV]],$[1]],$[2]];case
+Q=b[2],r=b[1];if(0===r[0]){var
+U=r[1],aT=U[2],W=H(U[1],a),aU=W[1],X=H(Q,W[2]);return[0,[18,[0,[0,aU,aT]],X[1]],X[2]]}var
+Y=r[1],aV=Y[2],Z=H(Y[1],a),aW=Z[1],_=H(Q,Z[2]);return[0,[18,[1,[0,aW,aV]],_[1]],_[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-S=v(b[1],a[1]);return[0,[19,S[1]],S[2]]}break;case
+R=H(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],U=v(b[3],a[1]);return[0,[20,aR,aQ,U[1]],U[2]]}break;case
+aQ=b[2],aR=b[1],S=H(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],V=v(b[2],a[1]);return[0,[21,aS,V[1]],V[2]]}break;case
+aS=b[1],T=H(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return ao(c,d,a);case
-1:return ao(c,d,a);case
+0:return aL(c,d,a);case
+1:return aL(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-aa=v(d,a[1]);return[0,[23,2,aa[1]],aa[2]]}throw T;default:return ao(c,d,a)}else
+$=H(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw an;default:return aL(c,d,a)}else
 switch(c[0]){case
-0:return ao(c,d,a);case
-1:return ao(c,d,a);case
-2:return ao(c,d,a);case
-3:return ao(c,d,a);case
-4:return ao(c,d,a);case
-5:return ao(c,d,a);case
-6:return ao(c,d,a);case
-7:return ao(c,d,a);case
-8:return ao([8,c[1],c[2]],d,a);case
+0:return aL(c,d,a);case
+1:return aL(c,d,a);case
+2:return aL(c,d,a);case
+3:return aL(c,d,a);case
+4:return aL(c,d,a);case
+5:return aL(c,d,a);case
+6:return aL(c,d,a);case
+7:return aL(c,d,a);case
+8:return aL([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],ab=am(c[2],d,a),ac=ab[2];return[0,[23,[9,aX,ab[1]],ac[1]],ac[2]];case
-10:return ao(c,d,a);default:return ao(c,d,a)}}throw T}function
-ao(d,c,b){var
-a=v(c,b);return[0,[23,d,a[1]],a[2]]}function
-ap(k,g,a){var
-b=n(a),h=0<=g?k:0,d=cN(g);if(d<=b)return a;var
-l=2===h?48:32,c=bw(d,l);switch(h){case
-0:a8(a,0,c,0,b);break;case
-1:a8(a,0,c,d-b|0,b);break;default:var
+aX=c[1],aa=aH(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
+10:return aL(c,d,a);default:return aL(c,d,a)}}throw an}function
+aL(d,c,b){var
+a=H(c,b);return[0,[23,d,a[1]],a[2]]}function
+aM(k,g,a){var
+b=y(a),h=0<=g?k:0,d=dD(g);if(d<=b)return a;var
+l=2===h?48:32,c=b8(d,l);switch(h){case
+0:bt(a,0,c,0,b);break;case
+1:bt(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){bK(c,0,G(a,0));a8(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){cj(c,0,G(a,0));bt(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
 f=0;if(1<b&&48===G(a,0)){var
-j=0;if(he!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){bK(c,1,G(a,1));a8(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)a8(a,0,c,d-b|0,b)}}return af(c)}function
-bP(k,b){var
-c=cN(k),a=n(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+h5>>>0))e=1}else
+j=0;if(jB!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){cj(c,1,G(a,1));bt(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bt(a,0,c,d-b|0,b)}}return aA(c)}function
+cp(k,b){var
+c=dD(k),a=y(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kx>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(he===G(b,1)||88===G(b,1))j=1;if(j){var
-h=bw(c+2|0,48);bK(h,1,G(b,1));a8(b,2,h,(c-a|0)+4|0,a-2|0);return af(h)}}e=1;f=1;break;case
+j=0;if(jB===G(b,1)||88===G(b,1))j=1;if(j){var
+h=b8(c+2|0,48);cj(h,1,G(b,1));bt(b,2,h,(c-a|0)+4|0,a-2|0);return aA(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=bw(c+1|0,48);bK(g,0,d);a8(b,1,g,(c-a|0)+2|0,a-1|0);return af(g)}}if(e&&a<c){var
-i=bw(c,48);a8(b,0,i,c-a|0,a);return af(i)}return b}function
-kk(k){var
-j=0,D=n(k);for(;;){if(D<=j)var
-p=k;else{var
-o=a5(k,j)+iw|0,q=0;if(59<o>>>0){if(33<o-61>>>0)q=1}else
-if(2===o)q=1;if(!q){var
+g=b8(c+1|0,48);cj(g,0,d);bt(b,1,g,(c-a|0)+2|0,a-1|0);return aA(g)}}if(e&&a<c){var
+i=b8(c,48);bt(b,0,i,c-a|0,a);return aA(i)}return b}function
+mU(k){var
+j=0,D=y(k);for(;;){if(D<=j)var
+o=k;else{var
+n=bq(k,j)+k0|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bh(k),a=[0,0],u=aw(e)-1|0,z=0;if(!(u<0)){var
+e=bK(k),a=[0,0],t=aO(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=b9(e,i),g=0;if(32<=f){var
-l=f-34|0,r=0;if(58<l>>>0){if(93<=l)r=1}else
-if(56<l-1>>>0){g=1;r=1}if(!r){var
+f=cR(e,i),g=0;if(32<=f){var
+l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
+if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
 if(11<=f){if(13===f)g=1}else
 if(8<=f)g=1;switch(g){case
@@ -1414,34 +1427,34 @@ if(8<=f)g=1;switch(g){case
 m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
-C=i+1|0;if(u!==i){var
-i=C;continue}break}}if(a[1]===aw(e)){var
-s=aw(e),t=L(s);bv(e,0,t,0,s);var
-w=t}else{var
-b=L(a[1]);a[1]=0;var
-v=aw(e)-1|0,A=0;if(!(v<0)){var
+C=i+1|0;if(t!==i){var
+i=C;continue}break}}if(a[1]===aO(e)){var
+r=aO(e),s=ae(r);b6(e,0,s,0,r);var
+v=s}else{var
+b=ae(a[1]);a[1]=0;var
+u=aO(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=b9(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(eM<=c)d=1;else
+c=cR(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gd<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:I(b,a[1],92);a[1]++;I(b,a[1],98);break;case
-9:I(b,a[1],92);a[1]++;I(b,a[1],116);break;case
-10:I(b,a[1],92);a[1]++;I(b,a[1],110);break;case
-13:I(b,a[1],92);a[1]++;I(b,a[1],114);break;default:d=1}switch(d){case
-1:I(b,a[1],92);a[1]++;I(b,a[1],48+(c/h$|0)|0);a[1]++;I(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;I(b,a[1],48+(c%10|0)|0);break;case
-2:I(b,a[1],92);a[1]++;I(b,a[1],c);break;case
-3:I(b,a[1],c);break}a[1]++;var
-B=h+1|0;if(v!==h){var
+8:$(b,a[1],92);a[1]++;$(b,a[1],98);break;case
+9:$(b,a[1],92);a[1]++;$(b,a[1],116);break;case
+10:$(b,a[1],92);a[1]++;$(b,a[1],110);break;case
+13:$(b,a[1],92);a[1]++;$(b,a[1],114);break;default:d=1}switch(d){case
+1:$(b,a[1],92);a[1]++;$(b,a[1],48+(c/kE|0)|0);a[1]++;$(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;$(b,a[1],48+(c%10|0)|0);break;case
+2:$(b,a[1],92);a[1]++;$(b,a[1],c);break;case
+3:$(b,a[1],c);break}a[1]++;var
+B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
-w=b}var
-p=af(w)}var
-x=n(p),y=bw(x+2|0,34);a3(p,0,y,1,x);return af(y)}}function
-fx(d,f){var
-g=cN(f),e=k$[1];switch(d[2]){case
+v=b}var
+o=aA(v)}var
+w=y(o),x=b8(w+2|0,34);bo(o,0,x,1,w);return aA(x)}}function
+g5(d,f){var
+g=dD(f),e=nJ[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1449,7 +1462,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=hf;break;case
+b=jC;break;case
 4:var
 b=71;break;case
 5:var
@@ -1459,210 +1472,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=ft(16);bO(c,37);switch(d[1]){case
+c=g1(16);co(c,37);switch(d[1]){case
 0:break;case
-1:bO(c,43);break;default:bO(c,32)}if(8<=d[2])bO(c,35);bO(c,46);$(c,a(h+g));bO(c,b);return fv(c)}function
-cQ(m,a){if(13<=m){var
-g=[0,0],h=n(a)-1|0,o=0;if(!(h<0)){var
-c=o;for(;;){if(!(9<a5(a,c)+eC>>>0))g[1]++;var
-r=c+1|0;if(h!==c){var
-c=r;continue}break}}var
-i=g[1],j=L(n(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){bK(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=n(a)-1|0,p=0;if(!(l<0)){var
-b=p;for(;;){var
-f=a5(a,b);if(9<f+eC>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
-q=b+1|0;if(l!==b){var
-b=q;continue}break}}return af(j)}return a}function
-la(b,c){switch(b){case
+1:co(c,43);break;default:co(c,32)}if(8<=d[2])co(c,35);co(c,46);at(c,a(s+g));co(c,b);return g3(c)}function
+dF(m,a){if(13<=m){var
+g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
+c=n;for(;;){if(!(9<bq(a,c)+f6>>>0))g[1]++;var
+q=c+1|0;if(h!==c){var
+c=q;continue}break}}var
+i=g[1],j=ae(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cj(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+b=o;for(;;){var
+f=bq(a,b);if(9<f+f6>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+p=b+1|0;if(l!==b){var
+b=p;continue}break}}return aA(j)}return a}function
+nK(b,c){switch(b){case
 1:var
-a=km;break;case
+a=mW;break;case
 2:var
-a=kn;break;case
+a=mX;break;case
 4:var
-a=kp;break;case
+a=mZ;break;case
 5:var
-a=kq;break;case
+a=m0;break;case
 6:var
-a=kr;break;case
+a=m1;break;case
 7:var
-a=ks;break;case
+a=m2;break;case
 8:var
-a=kt;break;case
+a=m3;break;case
 9:var
-a=ku;break;case
+a=m4;break;case
 10:var
-a=kv;break;case
+a=m5;break;case
 11:var
-a=kw;break;case
+a=m6;break;case
 0:case
 13:var
-a=kl;break;case
+a=mV;break;case
 3:case
 14:var
-a=ko;break;default:var
-a=kx}return cQ(b,dt(a,c))}function
-lb(b,c){switch(b){case
+a=mY;break;default:var
+a=m7}return dF(b,eA(a,c))}function
+nL(b,c){switch(b){case
 1:var
-a=kM;break;case
+a=nk;break;case
 2:var
-a=kN;break;case
+a=nl;break;case
 4:var
-a=kP;break;case
+a=nn;break;case
 5:var
-a=kQ;break;case
+a=no;break;case
 6:var
-a=kR;break;case
+a=np;break;case
 7:var
-a=kS;break;case
+a=nq;break;case
 8:var
-a=kT;break;case
+a=nr;break;case
 9:var
-a=kU;break;case
+a=ns;break;case
 10:var
-a=kV;break;case
+a=nt;break;case
 11:var
-a=kW;break;case
+a=nu;break;case
 0:case
 13:var
-a=kL;break;case
+a=nj;break;case
 3:case
 14:var
-a=kO;break;default:var
-a=kX}return cQ(b,dt(a,c))}function
-lc(b,c){switch(b){case
+a=nm;break;default:var
+a=nv}return dF(b,eA(a,c))}function
+nM(b,c){switch(b){case
 1:var
-a=kZ;break;case
+a=nx;break;case
 2:var
-a=k0;break;case
+a=ny;break;case
 4:var
-a=k2;break;case
+a=nA;break;case
 5:var
-a=k3;break;case
+a=nB;break;case
 6:var
-a=k4;break;case
+a=nC;break;case
 7:var
-a=k5;break;case
+a=nD;break;case
 8:var
-a=k6;break;case
+a=nE;break;case
 9:var
-a=k7;break;case
+a=nF;break;case
 10:var
-a=k8;break;case
+a=nG;break;case
 11:var
-a=k9;break;case
+a=nH;break;case
 0:case
 13:var
-a=kY;break;case
+a=nw;break;case
 3:case
 14:var
-a=k1;break;default:var
-a=k_}return cQ(b,dt(a,c))}function
-ld(b,c){switch(b){case
+a=nz;break;default:var
+a=nI}return dF(b,eA(a,c))}function
+nN(b,c){switch(b){case
 1:var
-a=kz;break;case
+a=m9;break;case
 2:var
-a=kA;break;case
+a=m_;break;case
 4:var
-a=kC;break;case
+a=na;break;case
 5:var
-a=kD;break;case
+a=nb;break;case
 6:var
-a=kE;break;case
+a=nc;break;case
 7:var
-a=kF;break;case
+a=nd;break;case
 8:var
-a=kG;break;case
+a=ne;break;case
 9:var
-a=kH;break;case
+a=nf;break;case
 10:var
-a=kI;break;case
+a=ng;break;case
 11:var
-a=kJ;break;case
+a=nh;break;case
 0:case
 13:var
-a=ky;break;case
+a=m8;break;case
 3:case
 14:var
-a=kB;break;default:var
-a=kK}return cQ(b,rB(a,c))}function
-a9(c,i,b){function
+a=m$;break;default:var
+a=ni}return dF(b,xI(a,c))}function
+bu(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return rx(b,i,a)}function
-r(c){var
-a=rp(b);return 3===a?b<0.?lf:lg:4<=a?lh:c}switch(c[2]){case
+a=32}return xE(b,i,a)}function
+q(c){var
+a=xw(b);return 3===a?b<0.?nP:nQ:4<=a?nR:c}switch(c[2]){case
 5:var
-e=e2(fx(c,i),b),d=0,v=n(e);for(;;){if(d===v)var
-q=0;else{var
+e=gv(g5(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+p=0;else{var
 k=G(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
-q=1}var
-w=q?e:S(e,le);return r(w)}case
+p=1}var
+v=p?e:am(e,nO);return q(v)}case
 6:return j(0);case
 7:var
-h=bh(j(0)),f=aw(h);if(0===f)var
-p=h;else{var
-m=L(f),o=f-1|0,s=0;if(!(o<0)){var
-a=s;for(;;){var
-g=b9(h,a),t=25<g+h5>>>0?g:g+iw|0;I(m,a,t);var
-u=a+1|0;if(o!==a){var
-a=u;continue}break}}var
-p=m}return af(p);case
-8:return r(j(0));default:return e2(fx(c,i),b)}}function
-cC(e,F,B,A){var
-b=F,a=B,c=A;for(;;)if(typeof
-c==="number")return d(b,a);else
+h=bK(j(0)),f=aO(h);if(0===f)var
+o=h;else{var
+m=ae(f),n=f-1|0,r=0;if(!(n<0)){var
+a=r;for(;;){var
+g=cR(h,a),s=25<g+kx>>>0?g:g+k0|0;$(m,a,s);var
+t=a+1|0;if(n!==a){var
+a=t;continue}break}}var
+o=m}return aA(o);case
+8:return q(j(0));default:return gv(g5(c,i),b)}}function
+ds(d,x,w,v){var
+b=x,a=w,c=v;for(;;)if(typeof
+c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-G=c[1];return function(c){return o(b,[5,a,c],G)};case
+z=c[1];return function(c){return A(b,[5,a,c],z)};case
 1:var
-H=c[1];return function(c){var
+B=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=jr;else
-if(eM<=c)e=1;else
+d=l1;else
+if(gd<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=js;else
+d=l2;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=jt;break;case
+d=l3;break;case
 9:var
-d=ju;break;case
+d=l4;break;case
 10:var
-d=jv;break;case
+d=l5;break;case
 13:var
-d=jw;break;default:e=1}switch(e){case
+d=l6;break;default:e=1}switch(e){case
 1:var
-f=L(4);I(f,0,92);I(f,1,48+(c/h$|0)|0);I(f,2,48+((c/10|0)%10|0)|0);I(f,3,48+(c%10|0)|0);var
-d=af(f);break;case
+f=ae(4);$(f,0,92);$(f,1,48+(c/kE|0)|0);$(f,2,48+((c/10|0)%10|0)|0);$(f,3,48+(c%10|0)|0);var
+d=aA(f);break;case
 2:var
-g=L(1);I(g,0,c);var
-d=af(g);break}var
-h=n(d),i=bw(h+2|0,39);a3(d,0,i,1,h);return o(b,[4,a,af(i)],H)};case
+g=ae(1);$(g,0,c);var
+d=aA(g);break}var
+h=y(d),i=b8(h+2|0,39);bo(d,0,i,1,h);return A(b,[4,a,aA(i)],B)};case
 2:var
-J=c[2],M=c[1];return dI(b,a,J,M,function(a){return a});case
-3:return dI(b,a,c[2],c[1],kk);case
-4:return cR(b,a,c[4],c[2],c[3],la,c[1]);case
-5:return cR(b,a,c[4],c[2],c[3],lb,c[1]);case
-6:return cR(b,a,c[4],c[2],c[3],lc,c[1]);case
-7:return cR(b,a,c[4],c[2],c[3],ld,c[1]);case
+C=c[2],D=c[1];return eO(b,a,C,D,function(a){return a});case
+3:return eO(b,a,c[2],c[1],mU);case
+4:return dG(b,a,c[4],c[2],c[3],nK,c[1]);case
+5:return dG(b,a,c[4],c[2],c[3],nL,c[1]);case
+6:return dG(b,a,c[4],c[2],c[3],nM,c[1]);case
+7:return dG(b,a,c[4],c[2],c[3],nN,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return o(b,[4,a,a9(g,d,c)],h)}:function(c){return o(b,[4,a,a9(g,dG(g),c)],h)};var
-ad=i[1];return function(c){return o(b,[4,a,a9(g,ad,c)],h)}}else{if(0===j[0]){var
-m=j[2],p=j[1];if(typeof
-i==="number")return i?function(d,c){return o(b,[4,a,ap(p,m,a9(g,d,c))],h)}:function(c){return o(b,[4,a,ap(p,m,a9(g,dG(g),c))],h)};var
-ae=i[1];return function(c){return o(b,[4,a,ap(p,m,a9(g,ae,c))],h)}}var
-q=j[1];if(typeof
-i==="number")return i?function(e,d,c){return o(b,[4,a,ap(q,e,a9(g,d,c))],h)}:function(d,c){return o(b,[4,a,ap(q,d,a9(g,dG(g),c))],h)};var
-ag=i[1];return function(d,c){return o(b,[4,a,ap(q,d,a9(g,ag,c))],h)}}case
-9:return dI(b,a,c[2],c[1],jm);case
+i==="number")return i?function(d,c){return A(b,[4,a,bu(g,d,c)],h)}:function(c){return A(b,[4,a,bu(g,eM(g),c)],h)};var
+_=i[1];return function(c){return A(b,[4,a,bu(g,_,c)],h)}}else{if(0===j[0]){var
+m=j[2],n=j[1];if(typeof
+i==="number")return i?function(d,c){return A(b,[4,a,aM(n,m,bu(g,d,c))],h)}:function(c){return A(b,[4,a,aM(n,m,bu(g,eM(g),c))],h)};var
+aa=i[1];return function(c){return A(b,[4,a,aM(n,m,bu(g,aa,c))],h)}}var
+o=j[1];if(typeof
+i==="number")return i?function(e,d,c){return A(b,[4,a,aM(o,e,bu(g,d,c))],h)}:function(d,c){return A(b,[4,a,aM(o,d,bu(g,eM(g),c))],h)};var
+ac=i[1];return function(d,c){return A(b,[4,a,aM(o,d,bu(g,ac,c))],h)}}case
+9:return eO(b,a,c[2],c[1],lW);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1670,227 +1683,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-N=c[3],O=c[2],r=ft(16);dH(r,O);var
-z=fv(r);return function(c){return o(b,[4,a,z],N)};case
+F=c[3],G=c[2],p=g1(16);eN(p,G);var
+u=g3(p);return function(c){return A(b,[4,a,u],F)};case
 14:var
-P=c[3],Q=c[2];return function(d){var
-e=d[1],c=v(e,C(K(Q)));if(typeof
-c[2]==="number")return o(b,a,y(c[1],P));throw T};case
+I=c[3],J=c[2];return function(d){var
+e=d[1],c=H(e,V(ab(J)));if(typeof
+c[2]==="number")return A(b,a,O(c[1],I));throw an};case
 15:var
-R=c[1];return function(d,c){return o(b,[6,a,function(a){return E(d,a,c)}],R)};case
+K=c[1];return function(d,c){return A(b,[6,a,function(a){return Y(d,a,c)}],K)};case
 16:var
-S=c[1];return function(c){return o(b,[6,a,c],S)};case
+L=c[1];return function(c){return A(b,[6,a,c],L)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-U=c[2],V=l[1][1],W=0,b=function(b,c,d){return function(a){return o(c,[1,b,[0,a]],d)}}(a,b,U),a=W,c=V;continue}var
-X=c[2],Y=l[1][1],_=0,b=function(b,c,d){return function(a){return o(c,[1,b,[1,a]],d)}}(a,b,X),a=_,c=Y;continue;case
-19:throw[0,D,lj];case
+M=c[2],N=l[1][1],Q=0,b=function(b,c,d){return function(a){return A(c,[1,b,[0,a]],d)}}(a,b,M),a=Q,c=N;continue}var
+R=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return A(c,[1,b,[1,a]],d)}}(a,b,R),a=T,c=S;continue;case
+19:throw[0,P,nT];case
 20:var
-$=c[3],aa=[8,a,lk];return function(a){return o(b,aa,$)};case
+U=c[3],W=[8,a,nU];return function(a){return A(b,W,U)};case
 21:var
-ab=c[2];return function(c){return o(b,[4,a,dt(ll,c)],ab)};case
+X=c[2];return function(c){return A(b,[4,a,eA(nV,c)],X)};case
 22:var
-ac=c[1];return function(c){return o(b,[5,a,c],ac)};case
+Z=c[1];return function(c){return A(b,[5,a,c],Z)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-1:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-2:throw[0,D,lm];default:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f])}else
+0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+2:throw[0,P,nW];default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}else
 switch(k[0]){case
-0:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-1:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-2:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-3:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-4:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-5:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-6:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-7:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
-8:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);case
+0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+2:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+3:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+4:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+5:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+6:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+7:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+8:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
 9:var
-x=k[2];return e<50?ez(e+1|0,b,a,x,f):Z(ez,[0,b,a,x,f]);case
-10:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f]);default:return e<50?t(e+1|0,b,a,f):Z(t,[0,b,a,f])}default:var
-s=c[3],u=c[1],w=d(c[2],0);return e<50?ey(e+1|0,b,a,s,u,w):Z(ey,[0,b,a,s,u,w])}}function
-ez(e,d,c,a,b){if(typeof
-a==="number")return e<50?t(e+1|0,d,c,b):Z(t,[0,d,c,b]);else
+t=k[2];return d<50?f1(d+1|0,b,a,t,f):ar(f1,[0,b,a,t,f]);case
+10:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?f0(d+1|0,b,a,q,r,s):ar(f0,[0,b,a,q,r,s])}}function
+f1(e,d,c,a,b){if(typeof
+a==="number")return e<50?E(e+1|0,d,c,b):ar(E,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return az(d,c,f,b)};case
+f=a[1];return function(a){return aQ(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return az(d,c,g,b)};case
+g=a[1];return function(a){return aQ(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return az(d,c,h,b)};case
+h=a[1];return function(a){return aQ(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return az(d,c,i,b)};case
+i=a[1];return function(a){return aQ(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return az(d,c,j,b)};case
+j=a[1];return function(a){return aQ(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return az(d,c,k,b)};case
+k=a[1];return function(a){return aQ(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return az(d,c,l,b)};case
+l=a[1];return function(a){return aQ(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return az(d,c,m,b)};case
+m=a[1];return function(a){return aQ(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return az(d,c,n,b)};case
+n=a[2];return function(a){return aQ(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=M(K(a[1]),p);return function(a){return az(d,c,ag(q,o),b)};case
+o=a[3],p=a[2],q=ag(ab(a[1]),p);return function(a){return aQ(d,c,aB(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return az(d,c,r,b)};case
+r=a[1];return function(e,a){return aQ(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return az(d,c,s,b)};case
+s=a[1];return function(a){return aQ(d,c,s,b)};case
 12:var
-u=a[1];return function(a){return az(d,c,u,b)};case
-13:throw[0,D,ln];default:throw[0,D,lo]}}function
-t(d,b,e,a){var
-c=[8,e,lp];return d<50?cC(d+1|0,b,c,a):Z(cC,[0,b,c,a])}function
-ey(h,b,f,a,e,c){if(e){var
-i=e[1];return function(e){return li(b,f,a,i,d(c,e))}}var
-g=[4,f,c];return h<50?cC(h+1|0,b,g,a):Z(cC,[0,b,g,a])}function
-o(a,b,c){return fc(cC(0,a,b,c))}function
-az(a,b,c,d){return fc(ez(0,a,b,c,d))}function
-li(a,b,c,d,e){return fc(ey(0,a,b,c,d,e))}function
-dI(f,e,c,a,b){if(typeof
-a==="number")return function(a){return o(f,[4,e,d(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return o(f,[4,e,ap(h,g,d(b,a))],c)}}var
-i=a[1];return function(g,a){return o(f,[4,e,ap(i,g,d(b,a))],c)}}}function
-cR(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return aQ(d,c,t,b)};case
+13:throw[0,P,nX];default:throw[0,P,nY]}}function
+E(d,b,e,a){var
+c=[8,e,nZ];return d<50?ds(d+1|0,b,c,a):ar(ds,[0,b,c,a])}function
+f0(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return nS(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?ds(h+1|0,b,g,a):ar(ds,[0,b,g,a])}function
+A(a,b,c){return gH(ds(0,a,b,c))}function
+aQ(a,b,c,d){return gH(f1(0,a,b,c,d))}function
+nS(a,b,c,d,e){return gH(f0(0,a,b,c,d,e))}function
+eO(f,d,c,a,b){if(typeof
+a==="number")return function(a){return A(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return A(f,[4,d,aM(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return A(f,[4,d,aM(i,g,e(b,a))],c)}}}function
+dG(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return o(f,[4,e,bP(g,E(b,a,c))],d)}:function(c){return o(f,[4,e,E(b,a,c)],d)};var
-k=c[1];return function(c){return o(f,[4,e,bP(k,E(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return A(f,[4,e,cp(g,Y(b,a,c))],d)}:function(c){return A(f,[4,e,Y(b,a,c)],d)};var
+k=c[1];return function(c){return A(f,[4,e,cp(k,Y(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return o(f,[4,e,ap(i,h,bP(g,E(b,a,c)))],d)}:function(c){return o(f,[4,e,ap(i,h,E(b,a,c))],d)};var
-l=c[1];return function(c){return o(f,[4,e,ap(i,h,bP(l,E(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return A(f,[4,e,aM(i,h,cp(g,Y(b,a,c)))],d)}:function(c){return A(f,[4,e,aM(i,h,Y(b,a,c))],d)};var
+l=c[1];return function(c){return A(f,[4,e,aM(i,h,cp(l,Y(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return o(f,[4,e,ap(j,h,bP(g,E(b,a,c)))],d)}:function(g,c){return o(f,[4,e,ap(j,g,E(b,a,c))],d)};var
-m=c[1];return function(g,c){return o(f,[4,e,ap(j,g,bP(m,E(b,a,c)))],d)}}}function
-a_(b,f){var
+c==="number")return c?function(h,g,c){return A(f,[4,e,aM(j,h,cp(g,Y(b,a,c)))],d)}:function(g,c){return A(f,[4,e,aM(j,g,Y(b,a,c))],d)};var
+m=c[1];return function(g,c){return A(f,[4,e,aM(j,g,cp(m,Y(b,a,c)))],d)}}}function
+bv(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=fw(a[2]);a_(b,g);return cd(b,h);case
+g=a[1],h=g4(a[2]);bv(b,g);return cW(b,h);case
 1:var
-c=a[2],e=a[1];if(0===c[0]){var
-i=c[1];a_(b,e);cd(b,lq);var
+c=a[2],d=a[1];if(0===c[0]){var
+i=c[1];bv(b,d);cW(b,n0);var
 a=i;continue}var
-j=c[1];a_(b,e);cd(b,lr);var
+j=c[1];bv(b,d);cW(b,n1);var
 a=j;continue;case
 6:var
-m=a[2];a_(b,a[1]);return d(m,b);case
-7:a_(b,a[1]);return b$(b);case
+m=a[2];bv(b,a[1]);return e(m,b);case
+7:bv(b,a[1]);return cT(b);case
 8:var
-n=a[2];a_(b,a[1]);return bl(n);case
+n=a[2];bv(b,a[1]);return bO(n);case
 2:case
 4:var
-k=a[2];a_(b,a[1]);return cd(b,k);default:var
-l=a[2];a_(b,a[1]);return i_(b,l)}}function
-bm(b,g){var
+k=a[2];bv(b,a[1]);return cW(b,k);default:var
+l=a[2];bv(b,a[1]);return lH(b,l)}}function
+bP(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=fw(a[2]);bm(b,h);return cf(b,i);case
+h=a[1],i=g4(a[2]);bP(b,h);return cZ(b,i);case
 1:var
-e=a[2],f=a[1];if(0===e[0]){var
-j=e[1];bm(b,f);cf(b,ls);var
+d=a[2],f=a[1];if(0===d[0]){var
+j=d[1];bP(b,f);cZ(b,n2);var
 a=j;continue}var
-k=e[1];bm(b,f);cf(b,lt);var
+k=d[1];bP(b,f);cZ(b,n3);var
 a=k;continue;case
 6:var
-n=a[2];bm(b,a[1]);return cf(b,d(n,0));case
+n=a[2];bP(b,a[1]);return cZ(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bm(b,a[1]);return bl(o);case
+o=a[2];bP(b,a[1]);return bO(o);case
 2:case
 4:var
-l=a[2];bm(b,a[1]);return cf(b,l);default:var
-m=a[2];bm(b,a[1]);var
-c=b[2];if(b[3]<=c)fs(b,1);I(b[1],c,m);b[2]=c+1|0;return 0}}function
-fy(d,c){var
-a=c[1],b=0;return o(function(a){a_(d,a);return 0},b,a)}function
-dJ(a){return fy(a7,a)}function
-aT(b){var
-a=b[1];return o(function(d){var
-e=64,b=ce<64?ce:e,c=L(b),a=[0,c,0,b,c];bm(a,d);return fp(a[1],0,a[2])},0,a)}var
-cS=[0,0];function
-dL(i,h){var
+l=a[2];bP(b,a[1]);return cZ(b,l);default:var
+m=a[2];bP(b,a[1]);var
+c=b[2];if(b[3]<=c)g0(b,1);$(b[1],c,m);b[2]=c+1|0;return 0}}function
+g6(d,c){var
+a=c[1],b=0;return A(function(a){bv(d,a);return 0},b,a)}function
+eP(a){return g6(bs,a)}function
+ba(b){var
+a=b[1];return A(function(d){var
+e=64,b=cX<64?cX:e,c=ae(b),a=[0,c,0,b,c];bP(a,d);return gV(a[1],0,a[2])},0,a)}var
+dH=[0,0];function
+eR(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(dy(a)===dq)return d(aT(lu),a);if(dy(a)===253){var
-c=e2(jq,a),b=0,g=n(c);for(;;){if(g<=b)return S(c,jp);var
-e=G(c,b),f=0;if(48<=e){if(!(58<=e))f=1}else
-if(45===e)f=1;if(f){var
-b=b+1|0;continue}return c}}return lv}return d(aT(lw),a)}function
-fz(b,a){if(b.length-1<=a)return lx;var
-c=fz(b,a+1|0),d=dL(b,a);return E(aT(ly),d,c)}function
-dM(a){function
+a==="number"?1:0)){if(eF(a)===ew)return e(ba(n4),a);if(eF(a)===253){var
+c=gv(l0,a),b=0,g=y(c);for(;;){if(g<=b)return am(c,lZ);var
+d=G(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+if(45===d)f=1;if(f){var
+b=b+1|0;continue}return c}}return n5}return e(ba(n6),a)}function
+g7(b,a){if(b.length-1<=a)return n7;var
+c=g7(b,a+1|0),d=eR(b,a);return Y(ba(n8),d,c)}function
+eS(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
-e=0,c=d(h,a);e=1}catch(a){}if(e&&c)return[0,c[1]];var
+d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(cS[1]);if(h)return h[1];if(a===dD)return lD;if(a===fk)return lE;if(a[1]===fj){var
-c=a[2],i=c[3],p=c[2],q=c[1];return eA(aT(dK),q,p,i,i+5|0,lF)}if(a[1]===D){var
-e=a[2],j=e[3],r=e[2],s=e[1];return eA(aT(dK),s,r,j,j+6|0,lG)}if(a[1]===fm){var
-f=a[2],k=f[3],t=f[2],u=f[1];return eA(aT(dK),u,t,k,k+6|0,lH)}if(0===dy(a)){var
+h=o(dH[1]);if(h)return h[1];if(a===eK)return ob;if(a===gP)return oc;if(a[1]===gO){var
+c=a[2],i=c[3],p=c[2],q=c[1];return f2(ba(eQ),q,p,i,i+5|0,od)}if(a[1]===P){var
+d=a[2],j=d[3],r=d[2],s=d[1];return f2(ba(eQ),s,r,j,j+6|0,oe)}if(a[1]===gR){var
+f=a[2],k=f[3],t=f[2],u=f[1];return f2(ba(eQ),u,t,k,k+6|0,of)}if(0===eF(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=fz(a,2),m=dL(a,1),b=E(aT(lz),m,l);else
+l=g7(a,2),m=eR(a,1),b=Y(ba(n9),m,l);else
 switch(g){case
 0:var
-b=lA;break;case
+b=n_;break;case
 1:var
-b=lB;break;default:var
-n=dL(a,1),b=d(aT(lC),n)}return S(v,b)}return a[1]}function
-dN(t,s){var
-e=rr(s),g=e.length-1-1|0,p=0;if(!(g<0)){var
+b=n$;break;default:var
+n=eR(a,1),b=e(ba(oa),n)}return am(v,b)}return a[1]}function
+eT(t,s){var
+d=xy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=iY(e,b)[1+b],f=function(a){return function(b){return b?0===a?lI:lJ:0===a?lK:lL}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?lM:lO,l=a[2],m=a[7],n=f(a[1]),c=[0,rg(aT(lN),n,m,l,k,j,i,h)];else
+a=lv(d,b)[1+b],f=function(a){return function(b){return b?0===a?og:oh:0===a?oi:oj}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?ok:om,l=a[2],m=a[7],n=f(a[1]),c=[0,xn(ba(ol),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,d(aT(lP),o)];if(c){var
-q=c[1];d(fy(t,lQ),q)}var
+o=f(0),c=[0,e(ba(on),o)];if(c){var
+q=c[1];e(g6(t,oo),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-fA(c){for(;;){var
-a=cS[1],d=[0,c,a],e=cS[1]===a?(cS[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-lS=lR.slice();function
-lT(e,c){var
-f=dM(e);d(dJ(lU),f);dN(a7,c);var
-a=rQ(0);if(a<0){var
-b=cN(a);fn(iY(lS,b)[1+b])}return b$(a7)}var
-lV=[0];fa(a(hh),function(e,i){try{try{var
-b=i?lV:i4(0);try{dE(0)}catch(a){}try{var
-a=lT(e,b),c=a}catch(a){a=dB(a);var
-g=dM(e);d(dJ(lX),g);dN(a7,b);var
-h=dM(a);d(dJ(lY),h);dN(a7,i4(0));var
-c=b$(a7)}var
-f=c}catch(a){a=dB(a);if(a!==dD)throw a;var
-f=fn(lW)}return f}catch(a){return 0}});var
-fB=[Q,l0,du(0)],dO=[0,fB,[0]],lZ=dy(dO)===Q?dO:dO[1];fa(a(eE),lZ);(function(a){throw a});var
-l1=j.Array;fA(function(a){return a[1]===fB?[0,aS(a[2].toString())]:0});fA(function(a){return a
+g8(c){for(;;){var
+a=dH[1],d=[0,c,a],e=dH[1]===a?(dH[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+oq=op.slice();function
+or(d,c){var
+f=eS(d);e(eP(os),f);eT(bs,c);var
+a=xX(0);if(a<0){var
+b=dD(a);gS(lv(oq,b)[1+b])}return cT(bs)}var
+ot=[0];gF(a(jD),function(d,i){try{try{var
+b=i?ot:lB(0);try{eL(0)}catch(a){}try{var
+a=or(d,b),c=a}catch(a){a=eI(a);var
+g=eS(d);e(eP(ov),g);eT(bs,b);var
+h=eS(a);e(eP(ow),h);eT(bs,lB(0));var
+c=cT(bs)}var
+f=c}catch(a){a=eI(a);if(a!==eK)throw a;var
+f=gS(ou)}return f}catch(a){return 0}});var
+g9=[ak,oy,eB(0)],eU=[0,g9,[0]],ox=eF(eU)===ak?eU:eU[1];gF(a(f8),ox);(function(a){throw a});var
+oz=u.Array;g8(function(a){return a[1]===g9?[0,a$(a[2].toString())]:0});g8(function(a){return a
 instanceof
-l1?0:[0,aS(a.toString())]});var
-e=ay(0),b=ay(1);function
-z(a){return B(a,b)}function
-fC(b,a){return B(ay(b),a)}function
-c(b,a){return f(ay(b),a)}function
-aU(b,a){return[0,fe(b,a),ji(b,a)]}function
-dP(b,a){return x(b,a)?b:a}function
-bx(b,a){return x(b,a)?a:b}function
-bQ(a){return a?0:1}function
-bn(b,a){var
-c=a?[0,d(b,a[1])]:a;return c}function
-aq(a){var
-b=a?[0,aq(a[2])]:a;return b}function
-m(a,b){if(a){var
-c=m(a[2],b);return[0,a[1],c]}return b}function
-fD(a){return typeof
-a==="number"?0:[0,fD(a[1])]}function
-fE(d,c){var
+oz?0:[0,a$(a.toString())]});var
+d=aP(0),c=aP(1);function
+j(a){return z(a,c)}function
+g_(b,a){return z(aP(b),a)}function
+b(b,a){return n(aP(b),a)}function
+bb(b,a){return[0,gJ(b,a),lS(b,a)]}function
+eV(b,a){return B(b,a)?b:a}function
+b9(b,a){return B(b,a)?a:b}function
+aU(a){return a?0:1}function
+aw(b,a){var
+c=a?[0,e(b,a[1])]:a;return c}function
+dI(a){return a[1]}function
+eW(a){return a[2]}function
+l(a){var
+b=a?[0,l(a[2])]:a;return b}function
+g(a,b){if(a){var
+c=g(a[2],b);return[0,a[1],c]}return b}function
+g$(a){return typeof
+a==="number"?0:[0,g$(a[1])]}function
+ha(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1913,9 +1928,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dQ(a){return fE(a,0)}function
-fF(a){if(typeof
-a==="number")return l3;else
+dJ(a){return ha(a,0)}function
+hb(a){if(typeof
+a==="number")return oB;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1925,722 +1940,803 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,fF(a[1])]}}function
-aM(a){if(typeof
-a==="number")return l4;else
+8:return[9,a[1]];default:return[0,hb(a[1])]}}function
+a3(a){if(typeof
+a==="number")return oC;else
 switch(a[0]){case
-0:return[1,aL(a[1])];case
-1:return[3,aL(a[1])];case
-2:return[5,aL(a[1])];case
-3:return[7,aL(a[1])];case
-4:return[9,aL(a[1])];case
-5:return[1,aM(a[1])];case
-6:return[3,aM(a[1])];case
-7:return[5,aM(a[1])];case
-8:return[7,aM(a[1])];default:return[9,aM(a[1])]}}function
-aL(a){if(typeof
+0:return[1,a2(a[1])];case
+1:return[3,a2(a[1])];case
+2:return[5,a2(a[1])];case
+3:return[7,a2(a[1])];case
+4:return[9,a2(a[1])];case
+5:return[1,a3(a[1])];case
+6:return[3,a3(a[1])];case
+7:return[5,a3(a[1])];case
+8:return[7,a3(a[1])];default:return[9,a3(a[1])]}}function
+a2(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,aL(a[1])];case
-1:return[2,aL(a[1])];case
-2:return[4,aL(a[1])];case
-3:return[6,aL(a[1])];case
-4:return[8,aL(a[1])];case
-5:return[0,aM(a[1])];case
-6:return[2,aM(a[1])];case
-7:return[4,aM(a[1])];case
-8:return[6,aM(a[1])];default:return[8,aM(a[1])]}}function
-dR(a){return a?a[1]:a}function
-ch(b,a){return b?[0,ch(b[1],a)]:a}function
-dS(b,a){return b?a:a?0:1}function
-ci(d,c){var
+0:return[0,a2(a[1])];case
+1:return[2,a2(a[1])];case
+2:return[4,a2(a[1])];case
+3:return[6,a2(a[1])];case
+4:return[8,a2(a[1])];case
+5:return[0,a3(a[1])];case
+6:return[2,a3(a[1])];case
+7:return[4,a3(a[1])];case
+8:return[6,a3(a[1])];default:return[8,a3(a[1])]}}function
+c1(a){return a?a[1]:a}function
+W(b,a){return b?[0,W(b[1],a)]:a}function
+c2(a,b){return a?W(b,c2(a[1],b)):a}function
+dK(b,a){return b?a:a?0:1}function
+aC(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-aV(d,c){var
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-fG(c,b,a){return c?d(b,fG(c[1],b,a)):a}function
-cT(a){if(x(a,b))return b;var
-c=aU(a,ay(2)),d=c[1];return _(c[2],e)?z(cT(d)):z(cT(d))}function
-fH(c,i,h){var
-d=i,a=h;for(;;){if(x(d,b))return a;var
-f=aU(d,ay(2)),g=f[1];if(_(f[2],e)){var
-d=g,a=E(c,a,a);continue}return E(c,a,fH(c,g,E(c,a,a)))}}function
-fI(a){return fH(ch,a,l6)}function
-a$(g,e){var
-a=g,d=e;for(;;)if(typeof
+hc(b,a){return _([0,b],a)}function
+hd(c){var
+a=c;for(;;){if(a){var
+b=a[1];if(b){var
+a=b[1];continue}return b}return 1}}function
+eX(c,b,a){return c?e(b,eX(c[1],b,a)):a}function
+he(a){if(a)var
+b=a[1],d=b?[0,he(b[1])]:b,c=d;else
+var
+c=a;return c}function
+dL(a){if(B(a,c))return c;var
+b=bb(a,aP(2)),e=b[1];return as(b[2],d)?j(dL(e)):j(dL(e))}function
+dM(c,b){var
+a=lR(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hf(b,i,h){var
+e=i,a=h;for(;;){if(B(e,c))return a;var
+f=bb(e,aP(2)),g=f[1];if(as(f[2],d)){var
+e=g,a=Y(b,a,a);continue}return Y(b,a,hf(b,g,Y(b,a,a)))}}function
+c3(a){return hf(W,a,oE)}function
+eY(a){return a?j(eY(a[1])):c}function
+bw(f,e){var
+a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-h=f(c(2,z(c(2,c(2,b)))),d),a=a[1],d=h;continue;case
+g=n(b(2,j(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-i=B(b,f(c(2,z(c(2,c(2,b)))),d)),a=a[1],d=i;continue;case
+h=z(c,n(b(2,j(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-j=f(c(2,z(c(2,c(2,b)))),d),k=B(c(2,b),j),a=a[1],d=k;continue;case
+i=n(b(2,j(b(2,b(2,c)))),d),k=z(b(2,c),i),a=a[1],d=k;continue;case
 3:var
-l=f(c(2,z(c(2,c(2,b)))),d),m=B(z(c(2,b)),l),a=a[1],d=m;continue;case
+l=n(b(2,j(b(2,b(2,c)))),d),m=z(j(b(2,c)),l),a=a[1],d=m;continue;case
 4:var
-n=f(c(2,z(c(2,c(2,b)))),d),o=B(c(2,c(2,b)),n),a=a[1],d=o;continue;case
+o=n(b(2,j(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),o),a=a[1],d=p;continue;case
 5:var
-p=f(c(2,z(c(2,c(2,b)))),d),q=B(z(c(2,c(2,b))),p),a=a[1],d=q;continue;case
+q=n(b(2,j(b(2,b(2,c)))),d),r=z(j(b(2,b(2,c))),q),a=a[1],d=r;continue;case
 6:var
-r=f(c(2,z(c(2,c(2,b)))),d),s=B(c(2,z(c(2,b))),r),a=a[1],d=s;continue;case
+s=n(b(2,j(b(2,b(2,c)))),d),t=z(b(2,j(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-t=f(c(2,z(c(2,c(2,b)))),d),u=B(z(c(2,z(c(2,b)))),t),a=a[1],d=u;continue;case
+u=n(b(2,j(b(2,b(2,c)))),d),v=z(j(b(2,j(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-v=f(c(2,z(c(2,c(2,b)))),d),w=B(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=f(c(2,z(c(2,c(2,b)))),d),y=B(z(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-dT(a){if(x(a,b))return l7;var
-c=aU(a,ay(2)),d=c[1];return _(c[2],e)?aL(dT(d)):aM(dT(d))}function
-cU(a){return dQ(dT(a))}function
-fJ(l,g){if(0<=a6(g)){var
-h=ff(g);if(0<=h){var
-d=b,c=l,a=h;for(;;){if(0===a)return d;var
-i=a>>>1|0,j=f(c,c),k=1===(a&1)?f(d,c):d,d=k,c=j,a=i;continue}}return bl(l2)}return e}function
-fK(a){return 0<=a6(a)?a:e}function
-dU(a){var
-c=a6(a);return 0===c?b:0<c?a:b}function
-fL(m){var
-a=m;for(;;)if(typeof
-a==="number")return e;else
+w=n(b(2,j(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=n(b(2,j(b(2,b(2,c)))),d),A=z(j(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+eZ(a){if(B(a,c))return oF;var
+b=bb(a,aP(2)),e=b[1];return as(b[2],d)?a2(eZ(e)):a3(eZ(e))}function
+dN(a){return dJ(eZ(a))}function
+hg(k,f){if(0<=br(f)){var
+g=gK(f);if(0<=g){var
+e=c,b=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bO(oA)}return d}function
+hh(a){return 0<=br(a)?a:d}function
+e0(a){var
+b=br(a);return 0===b?c:0<b?a:c}function
+hi(n){var
+a=n;for(;;)if(typeof
+a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return a$(a[1],b);case
+1:return bw(a[1],c);case
 2:var
-d=c(2,b);return a$(a[1],d);case
+e=b(2,c);return bw(a[1],e);case
 3:var
-f=z(c(2,b));return a$(a[1],f);case
+f=j(b(2,c));return bw(a[1],f);case
 4:var
-g=c(2,c(2,b));return a$(a[1],g);case
+g=b(2,b(2,c));return bw(a[1],g);case
 5:var
-h=z(c(2,c(2,b)));return a$(a[1],h);case
+h=j(b(2,b(2,c)));return bw(a[1],h);case
 6:var
-i=c(2,z(c(2,b)));return a$(a[1],i);case
+i=b(2,j(b(2,c)));return bw(a[1],i);case
 7:var
-j=z(c(2,z(c(2,b))));return a$(a[1],j);case
+k=j(b(2,j(b(2,c))));return bw(a[1],k);case
 8:var
-k=c(2,c(2,c(2,b)));return a$(a[1],k);default:var
-l=z(c(2,c(2,c(2,b))));return a$(a[1],l)}}function
-cV(b,a){var
-c=a6(a);return 0===c?e:1===c?fe(b,a):fC(-1,fe(fC(-1,b),a))}function
-fM(a){return 0<a6(a)?r$(a):e}function
-cj(b,c){var
-a=ff(c);return 0<=a?jj(b,a):jk(b,-a|0)}function
-bR(b,c){var
-a=ff(c);return 0<=a?jk(b,a):jj(b,-a|0)}function
-dV(b,a){return a?a[1]:b}function
-fN(a){var
+l=b(2,b(2,b(2,c)));return bw(a[1],l);default:var
+m=j(b(2,b(2,b(2,c))));return bw(a[1],m)}}function
+bQ(b,a){var
+c=br(a);return 0===c?d:1===c?gJ(b,a):g_(-1,gJ(g_(-1,b),a))}function
+hj(a){return 0<br(a)?yf(a):d}function
+c4(b,c){var
+a=gK(c);return 0<=a?lT(b,a):lU(b,-a|0)}function
+cq(b,c){var
+a=gK(c);return 0<=a?lU(b,a):lT(b,-a|0)}function
+e1(b,a){return a?a[1]:b}function
+hk(a){var
 b=a?a[2]:a;return b}function
-aA(e,d,c){var
+L(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-by(d,c){var
+aV(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-fO(a){if(a){var
-b=[0,a[1],0];return m(fO(a[2]),b)}return a}function
-k(b,a){if(a)var
-e=k(b,a[2]),c=[0,d(b,a[1]),e];else
+hl(a){if(a){var
+b=[0,a[1],0];return g(hl(a[2]),b)}return a}function
+f(b,a){if(a)var
+d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-bz(b,a){if(a){var
-c=bz(b,a[2]);return m(d(b,a[1]),c)}return a}function
-ck(c,b,a){if(a){var
-d=ck(c,b,a[2]);return E(c,a[1],d)}return b}function
-dW(f,e){var
-a=e;for(;;){if(a){var
-b=d(f,a[1]);if(!b){var
+C(b,a){if(a){var
+c=C(b,a[2]);return g(e(b,a[1]),c)}return a}function
+cr(c,b,a){if(a){var
+d=cr(c,b,a[2]);return Y(c,a[1],d)}return b}function
+bx(f,d){var
+a=d;for(;;){if(a){var
+b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-ar(e,c){var
+p(d,c){var
 a=c;for(;;){if(a){var
-b=d(e,a[1]);if(b){var
+b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-fP(b,a){var
-c=a?[0,b,fP([0,b],a[1])]:a;return c}function
-cW(b,a){var
-c=a?[0,b,cW(b,a[1])]:a;return c}function
-fQ(a){if(a){var
-d=fQ(a[2]),g=f(c(2,b),d),h=a[1]?b:e;return B(h,g)}return e}function
-fR(j){function
-a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=fQ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?fI(b):0}function
-fS(b,a){return x(f(b[1],a[2]),f(a[1],b[2]))}function
-fT(b,a){return[0,B(f(b[1],a[2]),f(a[1],b[2])),f(b[2],a[2])]}function
-fU(b,a){return[0,f(b[1],a[1]),f(b[2],a[2])]}function
-as(a){if(typeof
-a==="number")return l_;else
-switch(a[0]){case
-0:var
-b=as(a[1]);return S(aF(1,48),b);case
-1:var
-c=as(a[1]);return S(aF(1,49),c);case
-2:var
-d=as(a[1]);return S(aF(1,50),d);case
-3:var
-e=as(a[1]);return S(aF(1,51),e);case
-4:var
-f=as(a[1]);return S(aF(1,52),f);case
-5:var
-g=as(a[1]);return S(aF(1,53),g);case
-6:var
-h=as(a[1]);return S(aF(1,54),h);case
-7:var
-i=as(a[1]);return S(aF(1,55),i);case
-8:var
-j=as(a[1]);return S(aF(1,56),j);default:var
-k=as(a[1]);return S(aF(1,57),k)}}function
-cl(a){return typeof
-a==="number"?l$:as(a)}function
-cm(a){return fJ(c(2,b),a)}function
-fV(b,a){return bR(a,b)}function
-fW(b,a){return H(bR(H(a),b))}function
-dX(b,a){return H(cV(H(b),a))}function
-cX(c,b){var
-a=cj(b,c);return[0,a,a]}function
-N(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-an(b,a){return[0,cc(b[1],a[2]),cc(b[2],a[1])]}function
-at(a){return[0,H(a[2]),H(a[1])]}function
-fX(d,c,b,a){if(x(e,d))return x(e,b)?[0,f(d,b),f(c,a)]:x(a,e)?[0,f(c,b),f(d,a)]:[0,f(c,b),f(c,a)];if(x(c,e))return x(e,b)?[0,f(d,a),f(c,b)]:x(a,e)?[0,f(c,a),f(d,b)]:[0,f(d,a),f(d,b)];if(x(e,b))return[0,f(d,a),f(c,a)];if(x(a,e))return[0,f(c,b),f(d,b)];var
-g=bx(f(d,b),f(c,a));return[0,dP(f(d,a),f(c,b)),g]}function
-U(c,b,a){var
-d=fX(b[1],b[2],a[1],a[2]),e=fW(c,d[2]);return[0,fV(c,d[1]),e]}function
-ba(b,a){var
-c=f(a[1],a[1]),d=f(a[2],a[2]),i=fW(b,bx(c,d)),h=0;if(al(a[1],e)&&al(e,a[2])){var
-g=e;h=1}if(!h)var
-g=fV(b,dP(c,d));return[0,g,i]}function
-fY(b,a){var
-c=cj(cm(b),b),d=dX(c,a[1]);return[0,cV(c,a[2]),d]}function
-cY(b,a){if(al(e,a[1]))return[0,fY(b,a)];var
-c=al(a[2],e),d=c?[0,at(fY(b,at(a)))]:c;return d}function
-dY(g,c){var
-h=al(e,c[1]);if(h)var
-d=cj(c[2],g),a=fM(d),j=_(f(a,a),d)?a:B(a,b),i=[0,[0,fM(cj(c[1],g)),j]];else
-var
-i=h;return i}function
-fZ(b,a){switch(a[0]){case
-0:return[0,a[1]];case
-1:return[1,a[1]];case
-2:return[2,a[1]];case
-3:var
-c=d(b,a[2]);return[3,d(b,a[1]),c];case
-4:var
-e=d(b,a[2]);return[4,d(b,a[1]),e];case
-5:return[5,d(b,a[1])];case
-6:var
-f=d(b,a[2]);return[6,d(b,a[1]),f];case
-7:var
-g=d(b,a[2]);return[7,d(b,a[1]),g];case
-8:return[8,d(b,a[1])];default:return[9,d(b,a[1])]}}function
-bA(j,i){var
-d=j,c=i;for(;;){var
-a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?ci(b[1],a[1]):0;case
-1:return 1===a[0]?ci(b[1],a[1]):0;case
-2:return 2===a[0]?_(b[1],a[1]):0;case
-3:if(3===a[0]){var
-e=bA(b[1],a[1]);if(e){var
-d=b[2],c=a[2];continue}return e}return 0;case
-4:if(4===a[0]){var
-f=bA(b[1],a[1]);if(f){var
-d=b[2],c=a[2];continue}return f}return 0;case
-5:if(5===a[0]){var
-d=b[1],c=a[1];continue}return 0;case
-6:if(6===a[0]){var
-g=bA(b[1],a[1]);if(g){var
-d=b[2],c=a[2];continue}return g}return 0;case
-7:if(7===a[0]){var
-h=bA(b[1],a[1]);if(h){var
-d=b[2],c=a[2];continue}return h}return 0;case
-8:if(8===a[0]){var
-d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
-d=b[1],c=a[1];continue}return 0}}}function
-cZ(b){var
-a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aW(c,b){var
-a=cZ(b);return a?_(c,a[1]):a}function
-cn(a){return al(dC(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
-p(a){return[0,[2,a]]}function
-ac(b,a){if(aW(e,b))return a;if(aW(e,a))return b;var
-c=cZ(b);if(c){var
-d=c[1],f=cZ(a);if(f){var
-g=f[1];if(cn(d)&&cn(g))return p(B(d,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-dZ(a){var
-b=a[1];switch(b[0]){case
-2:var
-c=b[1];return cn(c)?p(H(c)):[0,[5,a]];case
-5:return b[1];default:return[0,[5,a]]}}function
-O(b,a){return aW(e,a)?b:aW(e,b)?dZ(a):[0,[4,b,a]]}function
-aB(a){var
-c=cZ(a);if(c){var
-b=c[1];return cn(b)?p(f(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-A(a,c){if(!aW(e,a)&&!aW(b,c)){if(!aW(e,c)&&!aW(b,a))return bA(a,c)?aB(a):[0,[6,a,c]];return c}return a}function
-au(c,a){return aW(b,a)?c:[0,[7,c,a]]}function
-co(a){return aW(b,a)?a:[0,[9,a]]}function
-c0(g,f,e,c){var
-b=e,a=c;for(;;){if(b){var
-h=b[1],i=[0,d(f,fZ(function(b){return function(a){return aA(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-d0(b,a){if(a){if(bA(b,a[1]))return ma;var
-c=d0(b,a[2]);return bn(function(a){return[0,a]},c)}return a}function
-bS(c,b){var
-a=d0(b,c),d=a?a[1]:a;return d}function
-c1(d,a){if(d0(d,a[1]))return a;var
-b=d[1];switch(b[0]){case
-5:case
-8:case
-9:var
-c=c1(b[1],a);break;case
-0:case
-1:case
-2:var
-c=a;break;default:var
-h=c1(b[1],a),c=c1(b[2],h)}var
-e=c[2],f=c[1],g=[0,fZ(function(a){return bS(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-f0(c){var
-b=c,a=mb;for(;;){if(b){var
-d=c1(b[1],a),b=b[2],a=d;continue}var
-e=a[1],f=k(function(a){return bS(e,a)},c);return[0,fO(a[2]),f]}}function
-aG(e,d,c,b,a){if(b){if(a){var
-f=aG(e,d,c,b[2],a[2]);return[0,E(c,b[1],a[1]),f]}return k(e,b)}return k(d,a)}function
-bT(b,a){return bR(b,a)}function
-bU(a,c,b){if(x(e,a)){var
-d=b[1],g=H(bT(H(f(a,b[2])),c));return[0,bT(f(a,d),c),g]}var
-h=b[2],i=H(bT(H(f(a,b[1])),c));return[0,bT(f(a,h),c),i]}function
-d1(a){var
-c=H(bR(H(a[2]),b));return[0,bR(a[1],b),c]}function
-d2(c,b,a){var
-d=fX(c[1],c[2],b[1],b[2]),f=d[2],g=d[1],h=al(f,e)?a[2]:a[1],i=dX(f,h),j=al(g,e)?a[1]:a[2];return[0,cV(g,j),i]}var
-aN=[0,e,e];function
-d3(a){return[0,a[1],a[1]]}function
-d4(a){return[0,a[2],a[2]]}function
-f1(a){return ck(function(a,b){return B(bx(a[2],H(a[1])),b)},e,a)}function
-bV(b,c,a){var
-d=f1(a),e=dP(c[2],B(b[2],d)),f=f1(a);return[0,b,[0,bx(c[1],cc(b[1],f)),e],a]}function
-aX(a){return[0,a,a,0]}function
-d5(b,a){return a?d(b,a[1]):a}function
-c2(d,b,a){if(b){if(a)return E(d,b[1],a[1]);var
-c=a}else
-var
-c=b;return c}function
-d6(a,e,d){var
-c=aX(aN);return function(b){switch(b[0]){case
-0:return[0,aA(b[1],e,c)];case
-1:return[0,aA(b[1],d,c)];case
-2:return[0,aX(cX(a,b[1]))];case
-3:var
-f=b[2],g=b[1];return c2(function(b,a){var
-c=a[3],d=b[3];function
-e(a){return a}var
-f=aG(function(a){return a},e,N,d,c),g=N(b[2],a[2]);return[0,bV(N(b[1],a[1]),g,f)]},g,f);case
-4:var
-h=b[2],i=b[1];return c2(function(b,a){var
-c=a[3],d=b[3],e=aG(function(a){return a},at,an,d,c),f=an(b[2],a[2]);return[0,bV(an(b[1],a[1]),f,e)]},i,h);case
-5:var
-j=b[1];return d5(function(a){var
-b=k(at,a[3]),c=at(a[2]);return[0,[0,at(a[1]),c,b]]},j);case
-6:var
-l=b[2],m=b[1];return c2(function(c,b){var
-d=N(b[2],b[1]),e=N(c[2],c[1]),f=b[3],g=c[3];function
-h(c,b){var
-f=U(a,e,b);return d1(N(U(a,d,c),f))}function
-i(b){return d1(U(a,e,b))}var
-j=aG(function(b){return d1(U(a,d,b))},i,h,g,f),k=U(a,c[2],b[2]);return[0,bV(U(a,c[1],b[1]),k,j)]},m,l);case
-7:var
-n=b[2],o=b[1];return c2(function(e,f){var
-b=cY(a,f[1]);if(b){var
-c=cY(a,f[2]);if(c)var
-g=c[1],d=U(a,e[1],b[1]),j=f[3],l=e[3],m=function(c,b){return an(c,U(a,d,b))},n=function(b){return at(U(a,d,b))},o=aG(function(a){return a},n,m,l,j),p=k(function(b){return U(a,g,b)},o),h=[0,bV(d,U(a,e[2],g),p)];else
-var
-h=c;var
-i=h}else
-var
-i=b;return i},o,n);case
-8:var
-p=b[1];return d5(function(b){var
-c=b[3],d=N(b[2],b[1]),e=k(function(b){return U(a,d,b)},c),f=ba(a,b[2]);return[0,bV(ba(a,b[1]),f,e)]},p);default:var
-q=b[1];return d5(function(e){var
-b=dY(a,e[1]);if(b){var
-f=b[1],c=dY(a,e[2]);if(c){var
-g=c[1],d=cY(a,N(g,f));if(d)var
-l=e[3],m=d[1],h=[0,bV(f,g,k(function(b){return U(a,m,b)},l))];else
-var
-h=d;var
-i=h}else
-var
-i=c;var
-j=i}else
-var
-j=b;return j},q)}}}function
-mc(a){return a}function
-md(a){return a}function
-me(a,b){return aG(md,mc,N,a,b)}function
-mf(a){return a}function
-mg(a){return a}function
-d7(b,a,c){if(a){var
-e=a[2],d=a[1];if(c){var
-f=d7(b,e,c[2]),g=c[1],h=function(c,a){return an(c,d2(d,a,b))},i=function(a){return at(d2(d,a,b))};return[0,aG(function(a){return a},i,h,g,a),f]}var
-j=d7(b,e,0);return[0,k(function(a){return at(d2(d,a,b))},a),j]}return c}function
-f2(a){if(a){var
-b=a[1];if(b)var
-c=b[1],d=al(e,c[1]),h=d?[0,d7(c,b[2],a[2])]:d,f=h;else
-var
-f=b;var
-g=f}else
-var
-g=a;return g}function
-f3(f,e){var
-a=f,b=e;for(;;){if(b){if(a){var
-c=f2(b);if(c){var
-a=a[1],b=c[1];continue}var
-d=c}else
-var
-d=a;return d}return 1}}function
-f4(d,b,a){if(b)if(a)var
-e=a[1],f=f4(d,b[2],a[2]),g=dS(d,b[1])?d3(e):d4(e),c=[0,g,f];else
+cs(b,a){if(b)if(a)var
+d=cs(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-f5(a,b){if(a)if(b)var
-d=f5(a[2],b[2]),c=[0,f4(a[1],a,b[1]),d];else
+hm(b,a){if(b)if(a)var
+d=hm(b[1],a[2]),c=[0,a[1],d];else
 var
-c=b;else
+c=a;else
 var
-c=a;return c}function
-bo(a){if(a){var
-b=a[1],c=bo(b),d=k(function(a){return[0,1,a]},c),e=bo(b);return m(k(function(a){return[0,0,a]},e),d)}return mh}function
-d8(a){var
-b=aq(a);if(f3(b,a))return 1;var
-c=bo(dR(b));return ar(function(c){return f3(b,f5([0,0,c],a))},c)}function
-cp(a){function
-b(b){var
-c=d(a,b[2]);return[0,k(a,b[1]),c]}return function(a){return k(b,a)}}function
-cq(h,e){var
-c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?N(a,d):an(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-f6(c,b,a){var
-e=bo(c);return ar(function(c){return d(a,d(cp(function(a){return cq(c,a)}),b))},e)}function
-f7(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return bU(c,B(h,b),a)},k=f7(h,j,i),l=function(c,b){var
-d=a(b,e);return N(a(f,c),d)},m=function(b){return a(b,e)},n=aG(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,N(a(f,e),o),n],k];else
-var
-g=c;else
-var
-g=d;return g}function
-f8(b,a){return[0,[0,0,b],a]}function
-cr(f,b,e,o,a){function
-c(d){if(d){var
-p=cW([0,at(d[1][2]),0],f),c=o,b=d[2],a=p;for(;;){if(c&&b){var
-g=b[1],h=c[1],i=d4(g[2]),n=g[1],l=function(d){return function(a,b){var
-c=bU(b,e,d);return an(N(a,a),c)}}(i),m=function(b){return function(a){return at(bU(a,e,b))}}(i),q=aG(mg,mf,me,a,f7(e,h,aG(function(a){return N(a,a)},m,l,n,h))),c=c[2],b=b[2],a=q;continue}var
-j=ci(aq(a),f);if(j)return d8(a);var
-k=j;break}}else
-var
-k=d;return k}return f6(f,f8(b,a),c)}function
-d9(f,b,a){function
-c(b){if(b){var
-m=cW([0,b[1][2],0],f),a=b[2],d=m;for(;;){if(a){var
-g=a[1],l=g[1],e=f2([0,[0,d3(g[2]),l],d]);if(e){var
-a=a[2],d=e[1];continue}var
-c=e}else
-var
-c=[0,d];if(c){var
-h=c[1],i=ci(aq(h),f);if(i)return d8(h);var
-j=i}else
-var
-j=c;var
-k=j;break}}else
-var
-k=b;return k}return f6(f,f8(b,a),c)}function
-f9(a,b){var
-c=b[3],d=a[3],e=aG(function(a){return a},at,an,d,c),f=a[2];return[0,an(a[1],b[1]),f,e]}function
-bb(a){return bR(B(a[1],a[2]),b)}function
-bW(a){var
-b=bb(a);return cc(a[2],b)}function
-f_(c,b){if(b)var
-a=b[1],e=f_([0,c],b[2]),f=bW(a),g=[0,[0,bW(a),f],0],h=m(cW(aN,c),g),i=bb(a),d=[0,[0,[0,bb(a),i],a,h],e];else
-var
-d=b;return d}function
-d_(d,b){if(b){var
-c=b[2],a=b[1];if(d){var
-e=d_(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bb(a),f],c],h=bb(a);return[0,[0,[0,a[1],h],c],g]}return mi}function
-f$(d,c,b,a){var
-e=k(aX,b);return c0(0,d6(d,f_(0,a),e),c,0)}function
-cs(a){if(a){var
-b=a[1];if(b)var
-c=cs(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return mj}function
-ga(b,a){if(a){var
-g=a[1],n=g[1],c=cs(k(function(a){return aA(a,b,0)},n));if(c){var
-d=aA(g[2],b,0);if(d){var
-h=d[1],f=ga(b,a[2]);if(f)var
-i=al(e,h[2][1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
-var
-j=f;var
-l=j}else
-var
-l=d;var
-m=l}else
-var
-m=c;return m}return mk}function
-bB(e,c,b){var
-a=ga(e,c);return a?d(b,a[1]):a}function
-c3(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aG(function(a){return a},f,N,e,d),h=a[2];return[0,N(a[1],c[1]),h,g]}return a}function
-d$(b,a){return b?f9(a,b[1]):a}function
-ea(h,g,b,f){var
-a=aA(f,h,0);if(a){var
-c=a[1];if(b){var
-i=f9(c,b[1]),d=bo(g);return ar(function(a){return x(e,cq(a,i)[1])},d)}return x(e,c[2][1])}return a}function
-gb(l,i,o,f,c,d,g,a){switch(g[0]){case
+c=b;return c}function
+c5(b,a){var
+c=a?[0,b,c5([0,b],a[1])]:a;return c}function
+ct(b,a){var
+c=a?[0,b,ct(b,a[1])]:a;return c}function
+hn(a){if(a){var
+e=hn(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+dO(j){function
+a(a){return 0!==(j&1<<a)?1:0}var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hn([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<br(b)?c3(b):0}function
+ho(c,b){var
+a=lR(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hp(b,a){return B(n(b[1],a[2]),n(a[1],b[2]))}function
+hq(b,a){return[0,z(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
+hr(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
+aN(a){if(typeof
+a==="number")return oI;else
+switch(a[0]){case
 0:var
-j=g[1];if(typeof
-a!=="number")switch(a[0]){case
+b=aN(a[1]);return am(aT(1,48),b);case
+1:var
+c=aN(a[1]);return am(aT(1,49),c);case
+2:var
+d=aN(a[1]);return am(aT(1,50),d);case
+3:var
+e=aN(a[1]);return am(aT(1,51),e);case
+4:var
+f=aN(a[1]);return am(aT(1,52),f);case
+5:var
+g=aN(a[1]);return am(aT(1,53),g);case
+6:var
+h=aN(a[1]);return am(aT(1,54),h);case
+7:var
+i=aN(a[1]);return am(aT(1,55),i);case
+8:var
+j=aN(a[1]);return am(aT(1,56),j);default:var
+k=aN(a[1]);return am(aT(1,57),k)}}function
+c6(a){return typeof
+a==="number"?oJ:aN(a)}function
+b_(a){return hg(b(2,c),a)}function
+hs(b,a){return cq(a,b)}function
+ht(b,a){return N(cq(N(a),b))}function
+dP(b,a){return N(bQ(N(b),a))}function
+by(c,b){var
+a=c4(b,c);return[0,a,a]}function
+S(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+ah(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
+aD(a){return[0,N(a[2]),N(a[1])]}function
+hu(e,c,b,a){if(B(d,e))return B(d,b)?[0,n(e,b),n(c,a)]:B(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(B(c,d))return B(d,b)?[0,n(e,a),n(c,b)]:B(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(B(d,b))return[0,n(e,a),n(c,a)];if(B(a,d))return[0,n(c,b),n(e,b)];var
+f=b9(n(e,b),n(c,a));return[0,eV(n(e,a),n(c,b)),f]}function
+D(c,b,a){var
+d=hu(b[1],b[2],a[1],a[2]),e=ht(c,d[2]);return[0,hs(c,d[1]),e]}function
+ax(b,a){var
+c=n(a[1],a[1]),e=n(a[2],a[2]),h=ht(b,b9(c,e)),g=0;if(af(a[1],d)&&af(d,a[2])){var
+f=d;g=1}if(!g)var
+f=hs(b,eV(c,e));return[0,f,h]}function
+hv(b,a){var
+c=c4(b_(b),b),d=dP(c,a[1]);return[0,bQ(c,a[2]),d]}function
+cu(b,a){if(af(d,a[1]))return[0,hv(b,a)];var
+c=af(a[2],d),e=c?[0,aD(hv(b,aD(a)))]:c;return e}function
+dQ(f,b){var
+g=af(d,b[1]);if(g)var
+e=c4(b[2],f),a=hj(e),i=as(n(a,a),e)?a:z(a,c),h=[0,[0,hj(c4(b[1],f)),i]];else
+var
+h=g;return h}function
+aW(e,d,c,b,a){if(b){if(a){var
+g=aW(e,d,c,b[2],a[2]);return[0,Y(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bR(b,a){return cq(b,a)}function
+cv(a,c,b){if(B(d,a)){var
+e=b[1],f=N(bR(N(n(a,b[2])),c));return[0,bR(n(a,e),c),f]}var
+g=b[2],h=N(bR(N(n(a,b[1])),c));return[0,bR(n(a,g),c),h]}function
+dR(a){var
+b=N(cq(N(a[2]),c));return[0,cq(a[1],c),b]}function
+e2(c,b,a){var
+e=hu(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=af(f,d)?a[2]:a[1],i=dP(f,h),j=af(g,d)?a[1]:a[2];return[0,bQ(g,j),i]}var
+aE=[0,d,d];function
+e3(a){return[0,a[1],a[1]]}function
+e4(a){return[0,a[2],a[2]]}function
+ay(a,b){switch(b[0]){case
 0:var
-v=a[2],w=a[1],x=c3(d,aX(j));return bB(f,i,function(a){return cr(c,x,w,v,a)});case
+n=b[2],m=c4(b[1],a),t=dP(m,n);return[0,[0,bQ(m,n),t]];case
 1:var
-y=a[2],z=a[1],A=c3(d,aX(j));return bB(f,o,function(a){return cr(c,A,z,y,a)});case
-2:if(d)return 0;var
-p=_(j[1],e),q=p?_(j[2],e):p;if(q){var
-B=a[2],C=a[1];return bB(f,i,function(a){var
-b=[0,aN,aN,0];return cr(c,[0,aN,aN,0],C,B,k(function(a){return[0,a[1],b]},a))})}return q}return 0;case
-1:var
-r=g[1];if(typeof
-a==="number"){if(1===a){var
-D=d$(d,aX(r));return bB(f,o,function(a){return d9(c,D,a)})}if(!a){var
-E=d$(d,aX(r));return bB(f,i,function(a){return d9(c,E,a)})}}return 0;case
-2:if(typeof
-a!=="number"&&3===a[0]){var
-s=a[1],m=a[3],n=function(a){return bU(a,s,cX(l,b))};if(m)var
-u=k(n,m[2]),h=[0,n(m[1]),aN,u];else
-var
-h=aX(aN);var
-t=g[1],F=a[2];return bB(f,i,function(f){var
-g=bo(c),a=ar(function(a){return al(e,cq(a,h)[1])},g),b=a?cr(c,c3(d,h),s,F,f):a;if(b){var
-i=h[3],j=k(function(a){return U(l,t,a)},i),m=h[2];return d9(c,d$(d,[0,U(l,t,h[1]),m,j]),f)}return b})}return 0;case
-3:if(typeof
-a==="number"&&!a)return ea(f,c,d,g[1]);return 0;case
-4:if(typeof
-a!=="number"&&0===a[0]){var
-G=a[2],H=a[1],I=c3(d,aX(g[2])),J=function(a){return cr(c,I,H,G,a)};return bB(f,g[1],J)}return 0;default:if(typeof
-a==="number"&&!(3<=a))switch(a){case
-0:return ea(f,c,d,g[1]);case
-2:return ea(f,c,d,g[2])}return 0}}function
-gc(b,a){if(a){var
-c=a[2];if(b){var
-e=gc(b[1],c);return[0,a[1],e]}var
-d=[0,0,c]}else
-var
-d=a;return d}function
-gd(p,R,E,D,Q,P,C,c,B,A){if(B){var
-F=f$(p,R,Q,c),f=B,b=A;for(;;){if(f){var
-t=f[1],a=t[2],m=t[1],u=f[2];if(typeof
-a==="number"&&4<=a){var
-l=d(C,c);if(l)var
-O=l[1],I=bo(aq(c)),n=ar(function(b){return function(a){return al(cq(a,b)[2],e)}}(O),I);else
-var
-n=l;if(n){var
-f=u,b=k(function(a){return 0},b);continue}return n}var
-v=aA(m,b,0);if(v){var
-o=by(P,m);if(o){var
-w=o[1],G=0;if(typeof
-a==="number"||!(5===a[0]))G=1;else{var
-h=a[2],i=d(C,c),H=0;if(i){var
-q=x(e,h);if(q){var
-j=i[1],r=a[3],M=a[1],J=j[3],K=k(function(b,c){return function(a){return bU(b,c,a)}}(h,r),J),L=j[2],N=[0,[0,bU(h,r,j[1]),L,K]],g=gb(p,E,D,F,aq(c),N,w,M);H=1}else
-var
-s=q}else
-var
-s=i;if(!H)var
-g=s}if(G)var
-g=gb(p,E,D,F,aq(c),0,w,a);if(g){var
-f=u,b=gc(m,b);continue}var
-y=g}else
-var
-y=o;var
-z=y}else
-var
-z=v;return z}return[0,b]}}return[0,A]}function
-ge(i,h,g,f,e,d,c,s,r,q){var
-b=s,j=r,a=q;for(;;){if(0===a[0]){var
-k=gd(i,h,g,f,e,d,c,b,a[1],j);return k?ar(bQ,k[1]):k}var
-l=gd(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=d_(a[2],b),o=ge(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
-b=n[2],j=m,a=a[4];continue}var
-p=o}else
-var
-p=l;return p}}function
-aH(a,b){switch(b[0]){case
-0:var
-n=b[2],m=cj(b[1],a),t=dX(m,n);return[0,[0,cV(m,n),t]];case
-1:var
-c=aH(a,b[1]);if(c)var
-d=aH(a,b[2]),u=d?[0,N(c[1],d[1])]:d,o=u;else
+c=ay(a,b[1]);if(c)var
+d=ay(a,b[2]),u=d?[0,S(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=aH(a,b[1]);if(e)var
-f=aH(a,b[2]),v=f?[0,an(e[1],f[1])]:f,p=v;else
+e=ay(a,b[1]);if(e)var
+f=ay(a,b[2]),v=f?[0,ah(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=aH(a,b[1]);if(g)var
-h=aH(a,b[2]),w=h?[0,U(a,g[1],h[1])]:h,q=w;else
+g=ay(a,b[1]);if(g)var
+h=ay(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=aH(a,b[1]);if(i){var
-j=aH(a,b[2]);if(j)var
-k=cY(a,j[1]),x=k?[0,U(a,i[1],k[1])]:k,r=x;else
+i=ay(a,b[1]);if(i){var
+j=ay(a,b[2]);if(j)var
+k=cu(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=aH(a,b[1]);return l?dY(a,l[1]):l}}function
-gf(a){var
-d=bx(H(a),e);return dU(B(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),d))}function
-gg(a){return fK(B(gf(a),a))}function
-bC(f,a,e){var
-b=aH(B(f,gf(a)),e);if(b)var
-c=b[1],g=gg(a),h=H(bT(H(c[2]),g)),i=gg(a),d=[0,[0,bT(c[1],i),h]];else
+l=ay(a,b[1]);return l?dQ(a,l[1]):l}}function
+hw(a){var
+e=b9(N(a),d);return e0(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hx(a){return hh(z(hw(a),a))}function
+b$(f,a,e){var
+b=ay(z(f,hw(a)),e);if(b)var
+c=b[1],g=hx(a),h=N(bR(N(c[2]),g)),i=hx(a),d=[0,[0,bR(c[1],i),h]];else
 var
 d=b;return d}function
-bX(d,a){var
-b=bC(d,a[2],a[1][1]);if(b)var
-c=bC(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aX(d,a){var
+b=b$(d,a[2],a[1][1]);if(b)var
+c=b$(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-c4(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bY(c,b,a){var
-d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
-eb(b,a){var
-c=A(b,a[3]),d=A(b,a[2]);return[0,A(b,a[1]),d,c]}function
-ec(b,a){var
-c=au(b[3],a),d=au(b[2],a);return[0,au(b[1],a),d,c]}function
-bD(b,a){var
-c=A(b[3],a[3]),d=A(b[2],a[2]);return ac(ac(A(b[1],a[1]),d),c)}function
-ed(a){return ec(a,co(bD(a,a)))}function
-gi(a){return k(function(a){var
-b=a[2];return[0,c4(a[1]),b]},a)}function
-gj(a){return k(function(a){var
-c=p(b);return[0,c4(a[3]),c]},a)}function
-ee(m,r){var
-h=m[1],d=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(x(i,b))if(0===d[0]){var
-j=d[2],n=d[1];if(x(j,b)){var
-k=_(c,n),l=k?cn(c):k;if(l)var
-o=_(m[2],e),g=o||_(c,e);else
+hy(b,a){var
+c=N(bR(N(a[2]),b));return[0,bR(a[1],b),c]}function
+e5(b,a){var
+c=dP(b[2],a);return[0,bQ(b[1],a),c]}function
+e6(a,f,b){if(b){var
+d=b[1],g=e6(a,f,d),h=g[2],i=eY(W(c2(oL,d),oK)),j=n(eY(c2(oM,d)),i),e=e5(D(a,g[1],f),j),k=hd(b)?S(h,e):ah(h,e);return[0,e,k]}var
+l=by(a,c);return[0,by(a,c),l]}function
+hz(f){var
+g=c3(f),e=oN[1],b=g,c=0,a=e;for(;;){if(b){var
+d=b[1];if(a){var
+b=d,a=a[1];continue}var
+b=d,c=[0,c],a=e;continue}return W(oO,c)}}function
+hA(a,d){var
+g=b_(a),h=n(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
+i=e6(a,d,c2(oQ,W(hz(a),oP)))[2][2],f=[0,[0,e6(a,d,W(c2(oS,hz(a)),oR))[2][1],i]];else
+var
+f=e;return f}function
+hB(i){function
+a(h){var
+m=bQ(b_(i),h),g=c3(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,bQ(f,a)),l=N(bQ(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(j(b(2,j(b(2,j(b(2,j(b(2,b(2,j(b(2,j(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(j(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
+hC(e,a){var
+f=B(d,a);if(f){var
+g=b(2,b(2,c));return hA(e,e5(ax(e,[0,a,a]),g))}return f}function
+hD(a,d){var
+b=ax(a,d),e=by(a,c);return ah(S(b,b),e)}function
+dS(o,u){var
+h=ay(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hB(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),k=z(hB(a),r),f=hC(a,i);if(f){var
+g=hC(a,k);if(g)var
+l=af(d,f[1][1]),m=l?af(g[1][2],d):l,n=m?[0,[0,i,k]]:m;else
+var
+n=g;var
+e=n}else
+var
+e=f;if(e)var
+s=b(2,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))))),t=hA(a,ax(a,e5(D(a,v,e[1]),s))),p=aw(function(b){return hD(a,hD(a,b))},t);else
+var
+p=e;var
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return aw(function(a){return hy(w,a)},p)}return h}function
+e7(d,a){return dS(d,[2,a,[0,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))),c]])}function
+dT(b,a){switch(a[0]){case
+0:return[0,a[1]];case
+1:return[1,a[1]];case
+2:return[2,a[1]];case
+3:var
+c=e(b,a[2]);return[3,e(b,a[1]),c];case
+4:var
+d=e(b,a[2]);return[4,e(b,a[1]),d];case
+5:return[5,e(b,a[1])];case
+6:var
+f=e(b,a[2]);return[6,e(b,a[1]),f];case
+7:var
+g=e(b,a[2]);return[7,e(b,a[1]),g];case
+8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
+bz(j,i){var
+d=j,c=i;for(;;){var
+a=c[1],b=d[1];switch(b[0]){case
+0:return 0===a[0]?aC(b[1],a[1]):0;case
+1:return 1===a[0]?aC(b[1],a[1]):0;case
+2:return 2===a[0]?as(b[1],a[1]):0;case
+3:if(3===a[0]){var
+e=bz(b[1],a[1]);if(e){var
+d=b[2],c=a[2];continue}return e}return 0;case
+4:if(4===a[0]){var
+f=bz(b[1],a[1]);if(f){var
+d=b[2],c=a[2];continue}return f}return 0;case
+5:if(5===a[0]){var
+d=b[1],c=a[1];continue}return 0;case
+6:if(6===a[0]){var
+g=bz(b[1],a[1]);if(g){var
+d=b[2],c=a[2];continue}return g}return 0;case
+7:if(7===a[0]){var
+h=bz(b[1],a[1]);if(h){var
+d=b[2],c=a[2];continue}return h}return 0;case
+8:if(8===a[0]){var
+d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
+d=b[1],c=a[1];continue}return 0}}}function
+dU(b){var
+a=b[1];return 2===a[0]?[0,a[1]]:0}function
+bc(c,b){var
+a=dU(b);return a?as(c,a[1]):a}function
+c7(a){return af(eJ(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+r(a){return[0,[2,a]]}function
+T(b,a){if(bc(d,b))return a;if(bc(d,a))return b;var
+c=dU(b);if(c){var
+e=c[1],f=dU(a);if(f){var
+g=f[1];if(c7(e)&&c7(g))return r(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ca(a){var
+b=a[1];switch(b[0]){case
+2:var
+c=b[1];return c7(c)?r(N(c)):[0,[5,a]];case
+5:return b[1];default:return[0,[5,a]]}}function
+I(b,a){return bc(d,a)?b:bc(d,b)?ca(a):[0,[4,b,a]]}function
+ao(a){var
+c=dU(a);if(c){var
+b=c[1];return c7(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bc(d,a)&&!bc(c,b)){if(!bc(d,b)&&!bc(c,a))return bz(a,b)?ao(a):[0,[6,a,b]];return b}return a}function
+aI(b,a){return bc(c,a)?b:[0,[7,b,a]]}function
+cw(a){return bc(c,a)?a:[0,[9,a]]}function
+c8(g,f,d,c){var
+b=d,a=c;for(;;){if(b){var
+h=b[1],i=[0,e(f,dT(function(b){return function(a){return L(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+cx(a){var
+b=0;function
+c(a){return[0,a]}return c8(r(d),c,a,b)}function
+e8(b,a){if(a){if(bz(b,a[1]))return oT;var
+c=e8(b,a[2]);return aw(function(a){return[0,a]},c)}return a}function
+bS(c,b){var
+a=e8(b,c),d=a?a[1]:a;return d}function
+dV(d,a){if(e8(d,a[1]))return a;var
+b=d[1];switch(b[0]){case
+5:case
+8:case
+9:var
+c=dV(b[1],a);break;case
+0:case
+1:case
+2:var
+c=a;break;default:var
+h=dV(b[1],a),c=dV(b[2],h)}var
+e=c[2],f=c[1],g=[0,dT(function(a){return bS(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dW(c){var
+b=c,a=oU;for(;;){if(b){var
+d=dV(b[1],a),b=b[2],a=d;continue}var
+e=a[1],g=f(function(a){return bS(e,a)},c);return[0,hl(a[2]),g]}}function
+hE(a){return cr(function(a,b){return z(b9(a[2],N(a[1])),b)},d,a)}function
+cy(b,c,a){var
+d=hE(a),e=eV(c[2],z(b[2],d)),f=hE(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
+bd(a){return[0,a,a,0]}function
+e9(b,a){return a?e(b,a[1]):a}function
+dX(d,b,a){if(b){if(a)return Y(d,b[1],a[1]);var
+c=a}else
+var
+c=b;return c}function
+e_(a,e,d){var
+c=bd(aE);return function(b){switch(b[0]){case
+0:return[0,L(b[1],e,c)];case
+1:return[0,L(b[1],d,c)];case
+2:return[0,bd(by(a,b[1]))];case
+3:var
+g=b[2],h=b[1];return dX(function(b,a){var
+c=a[3],d=b[3];function
+e(a){return a}var
+f=aW(function(a){return a},e,S,d,c),g=S(b[2],a[2]);return[0,cy(S(b[1],a[1]),g,f)]},h,g);case
+4:var
+i=b[2],j=b[1];return dX(function(b,a){var
+c=a[3],d=b[3],e=aW(function(a){return a},aD,ah,d,c),f=ah(b[2],a[2]);return[0,cy(ah(b[1],a[1]),f,e)]},j,i);case
+5:var
+k=b[1];return e9(function(a){var
+b=f(aD,a[3]),c=aD(a[2]);return[0,[0,aD(a[1]),c,b]]},k);case
+6:var
+l=b[2],m=b[1];return dX(function(c,b){var
+d=S(b[2],b[1]),e=S(c[2],c[1]),f=b[3],g=c[3];function
+h(c,b){var
+f=D(a,e,b);return dR(S(D(a,d,c),f))}function
+i(b){return dR(D(a,e,b))}var
+j=aW(function(b){return dR(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cy(D(a,c[1],b[1]),k,j)]},m,l);case
+7:var
+n=b[2],o=b[1];return dX(function(e,g){var
+b=cu(a,g[1]);if(b){var
+c=cu(a,g[2]);if(c)var
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return ah(c,D(a,d,b))},n=function(b){return aD(D(a,d,b))},o=aW(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cy(d,D(a,e[2],h),p)];else
+var
+i=c;var
+j=i}else
+var
+j=b;return j},o,n);case
+8:var
+p=b[1];return e9(function(b){var
+c=b[3],d=S(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ax(a,b[2]);return[0,cy(ax(a,b[1]),g,e)]},p);default:var
+q=b[1];return e9(function(e){var
+b=dQ(a,e[1]);if(b){var
+g=b[1],c=dQ(a,e[2]);if(c){var
+h=c[1],d=cu(a,S(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cy(g,h,f(function(b){return D(a,m,b)},l))];else
+var
+i=d;var
+j=i}else
+var
+j=c;var
+k=j}else
+var
+k=b;return k},q)}}}function
+oV(a){return a}function
+oW(a){return a}function
+oX(a,b){return aW(oW,oV,S,a,b)}function
+oY(a){return a}function
+oZ(a){return a}function
+e$(b,a,c){if(a){var
+e=a[2],d=a[1];if(c){var
+g=e$(b,e,c[2]),h=c[1],i=function(c,a){return ah(c,e2(d,a,b))},j=function(a){return aD(e2(d,a,b))};return[0,aW(function(a){return a},j,i,h,a),g]}var
+k=e$(b,e,0);return[0,f(function(a){return aD(e2(d,a,b))},a),k]}return c}function
+hF(a){if(a){var
+b=a[1];if(b)var
+c=b[1],e=af(d,c[1]),h=e?[0,e$(c,b[2],a[2])]:e,f=h;else
+var
+f=b;var
+g=f}else
+var
+g=a;return g}function
+hG(f,e){var
+a=f,b=e;for(;;){if(b){if(a){var
+c=hF(b);if(c){var
+a=a[1],b=c[1];continue}var
+d=c}else
+var
+d=a;return d}return 1}}function
+hH(d,b,a){if(b)if(a)var
+e=a[1],f=hH(d,b[2],a[2]),g=dK(d,b[1])?e3(e):e4(e),c=[0,g,f];else
+var
+c=a;else
+var
+c=b;return c}function
+hI(a,b){if(a)if(b)var
+d=hI(a[2],b[2]),c=[0,hH(a[1],a,b[1]),d];else
+var
+c=b;else
+var
+c=a;return c}function
+bT(a){if(a){var
+b=a[1],c=bT(b),d=f(function(a){return[0,1,a]},c),e=bT(b);return g(f(function(a){return[0,0,a]},e),d)}return o0}function
+dY(a){var
+b=l(a);if(hG(b,a))return 1;var
+c=bT(c1(b));return p(function(c){return hG(b,hI([0,0,c],a))},c)}function
+bU(a){function
+b(b){var
+c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
+c9(h,e){var
+c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
+d=b[1],f=b[2],g=c[1]?S(a,d):ah(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hJ(c,b,a){var
+d=bT(c);return p(function(c){return e(a,e(bU(function(a){return c9(c,a)}),b))},d)}function
+hK(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return cv(b,z(h,c),a)},k=hK(h,j,i),l=function(c,b){var
+d=a(b,e);return S(a(f,c),d)},m=function(b){return a(b,e)},n=aW(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,S(a(f,e),o),n],k];else
+var
+g=b;else
+var
+g=d;return g}function
+hL(d,l,k,j){var
+c=l,b=k,a=j;for(;;){if(c){if(b){var
+e=b[1],f=c[1],g=e4(e[2]),m=e[1],h=function(e){return function(a,b){var
+c=cv(b,d,e);return ah(S(a,a),c)}}(g),i=function(b){return function(a){return aD(cv(a,d,b))}}(g),n=aW(oZ,oY,oX,a,hK(d,f,aW(function(a){return S(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
+hM(b,a){return[0,[0,0,b],a]}function
+c_(b,c,g,f,a){function
+d(a){if(a){var
+h=ct([0,aD(a[1][2]),0],b),c=hL(g,f,a[2],h),d=aC(l(c),b);if(d)return dY(c);var
+e=d}else
+var
+e=a;return e}return hJ(b,hM(c,a),d)}function
+hN(f,e){var
+a=f,b=e;for(;;){if(a){var
+d=a[1],g=d[1],c=hF([0,[0,e3(d[2]),g],b]);if(c){var
+a=a[2],b=c[1];continue}return c}return[0,b]}}function
+fa(b,c,a){function
+d(a){if(a){var
+h=ct([0,a[1][2],0],b),c=hN(a[2],h);if(c){var
+d=c[1],e=aC(l(d),b);if(e)return dY(d);var
+f=e}else
+var
+f=c;var
+g=f}else
+var
+g=a;return g}return hJ(b,hM(c,a),d)}function
+hO(a,b){var
+c=b[3],d=a[3],e=aW(function(a){return a},aD,ah,d,c),f=a[2];return[0,ah(a[1],b[1]),f,e]}function
+dZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bV(c,b,a){var
+d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
+d0(b,a){var
+c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
+d1(b,a){var
+c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
+aJ(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return T(T(v(b[1],a[1]),d),c)}function
+fb(a){return d1(a,cw(aJ(a,a)))}function
+hP(a){return f(function(a){var
+b=a[2];return[0,dZ(a[1]),b]},a)}function
+hQ(a){return f(function(a){var
+b=r(c);return[0,dZ(a[3]),b]},a)}function
+bA(a){return cq(z(a[1],a[2]),c)}function
+cz(a){var
+b=bA(a);return b7(a[2],b)}function
+hR(c,b){if(b)var
+a=b[1],e=hR([0,c],b[2]),f=cz(a),h=[0,[0,cz(a),f],0],i=g(ct(aE,c),h),j=bA(a),d=[0,[0,[0,bA(a),j],a,i],e];else
+var
+d=b;return d}function
+d2(d,b){if(b){var
+c=b[2],a=b[1];if(d){var
+e=d2(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bA(a),f],c],h=bA(a);return[0,[0,[0,a[1],h],c],g]}return o1}function
+hS(d,c,b,a){var
+e=f(bd,b);return c8(0,e_(d,hR(0,a),e),c,0)}function
+aY(a){if(a){var
+b=a[1];if(b)var
+c=aY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return o2}function
+hT(b,a){if(a){var
+h=a[1],n=h[1],c=aY(f(function(a){return L(a,b,0)},n));if(c){var
+e=L(h[2],b,0);if(e){var
+i=e[1],g=hT(b,a[2]);if(g)var
+j=af(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+var
+k=g;var
+l=k}else
+var
+l=e;var
+m=l}else
+var
+m=c;return m}return o3}function
+cb(d,c,b){var
+a=hT(d,c);return a?e(b,a[1]):a}function
+fd(a,b){return p(function(c){var
+a=L(c,b,0),d=a?1:a;return d},a)}function
+d3(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aW(function(a){return a},f,S,e,d),h=a[2];return[0,S(a[1],c[1]),h,g]}return a}function
+fe(b,a){return b?hO(a,b[1]):a}function
+ff(h,g,b,f){var
+a=L(f,h,0);if(a){var
+c=a[1];if(b){var
+i=hO(c,b[1]),e=bT(g);return p(function(a){return B(d,c9(a,i)[1])},e)}return B(d,c[2][1])}return a}function
+hU(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+0:var
+k=h[1];if(typeof
+a!=="number")switch(a[0]){case
+0:var
+r=fd(l,b);if(r){var
+B=a[2],C=a[1],E=d3(g,bd(k));return cb(b,j,function(a){return c_(e,E,C,B,a)})}return r;case
+1:var
+s=fd(l,b);if(s){var
+F=a[2],G=a[1],H=d3(g,bd(k));return cb(b,q,function(a){return c_(e,H,G,F,a)})}return s;case
+2:var
+t=fd(l,b);if(t){if(g)return 0;var
+u=as(k[1],d),v=u?as(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cb(b,j,function(a){var
+b=[0,aE,aE,0];return c_(e,[0,aE,aE,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+w=v}else
+var
+w=t;return w}return 0;case
+1:var
+x=h[1];if(typeof
+a==="number"){if(1===a){var
+K=fe(g,bd(x));return cb(b,q,function(a){return fa(e,K,a)})}if(!a){var
+L=fe(g,bd(x));return cb(b,j,function(a){return fa(e,L,a)})}}return 0;case
+2:if(typeof
+a!=="number"&&3===a[0]){var
+y=a[1],n=a[3],o=function(a){return cv(a,y,by(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),aE,A];else
+var
+i=bd(aE);var
+z=h[1],M=a[2];return cb(b,j,function(c){var
+h=bT(e),a=p(function(a){return af(d,c9(a,i)[1])},h),b=a?c_(e,d3(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fa(e,fe(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
+3:if(typeof
+a==="number"&&!a)return ff(b,e,g,h[1]);return 0;case
+4:if(typeof
+a!=="number"&&0===a[0]){var
+N=a[2],O=a[1],P=d3(g,bd(h[2])),Q=function(a){return c_(e,P,O,N,a)};return cb(b,h[1],Q)}return 0;default:if(typeof
+a==="number"&&!(3<=a))switch(a){case
+0:return ff(b,e,g,h[1]);case
+2:return ff(b,e,g,h[2])}return 0}}function
+fg(b,a){if(a){var
+c=a[2];if(b){var
+e=fg(b[1],c);return[0,a[1],e]}var
+d=[0,0,c]}else
+var
+d=a;return d}function
+hV(r,V,H,G,F,U,T,E,c,D,C){if(D){var
+I=hS(r,V,U,c),g=D,b=C;for(;;){if(g){var
+v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+a==="number"&&4<=a){var
+m=e(E,c);if(m)var
+S=m[1],M=bT(l(c)),o=p(function(b){return function(a){return af(c9(a,b)[2],d)}}(S),M);else
+var
+o=m;if(o){var
+g=w,b=f(function(a){return 0},b);continue}return o}var
+x=L(n,b,0);if(x){var
+q=aV(T,n);if(q){var
+y=q[1],J=0;if(typeof
+a==="number"||!(5===a[0]))J=1;else{var
+i=a[2],j=e(E,c),K=0;if(j){var
+s=B(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return cv(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,cv(i,t,k[1]),P,O]],h=hU(r,H,G,F,I,l(c),R,y,Q);K=1}else
+var
+u=s}else
+var
+u=j;if(!K)var
+h=u}if(J)var
+h=hU(r,H,G,F,I,l(c),0,y,a);if(h){var
+g=w,b=fg(n,b);continue}var
+z=h}else
+var
+z=q;var
+A=z}else
+var
+A=x;return A}return[0,b]}}return[0,C]}function
+fh(j,i,h,g,f,e,d,c,u,t,s){var
+b=u,k=t,a=s;for(;;){if(0===a[0]){var
+l=hV(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
+m=hV(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d2(a[2],b),q=fh(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+b=o[2],k=n,a=a[4];continue}var
+r=q}else
+var
+r=m;return r}}function
+hW(a){return f(function(a){return 1},a)}function
+cA(m,q){var
+h=m[1],e=h[2],f=h[1];if(0===f[0]){var
+i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(B(j,c)){var
+k=as(b,n),l=k?c7(b):k;if(l)var
+o=as(m[2],d),g=o||as(b,d);else
 var
 g=l;var
-q=g?[0,c]:g,a=q}else
+p=g?[0,b]:g,a=p}else
 var
-a=_(aU(j,ay(2))[2],e)?0:0}else
+a=as(bb(j,aP(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=_(aU(i,ay(2))[2],e)?0:0}else
+a=as(bb(i,aP(2))[2],d)?0:0}else
 var
-a=0;return a?p(a[1]):[0,[1,r]]}function
-gk(b,a){if(a)var
-d=gk([0,b],a[2]),c=[0,ee(a[1],b),d];else
+a=0;return a?r(a[1]):[0,[1,q]]}function
+d4(b,a){if(a)var
+d=d4([0,b],a[2]),c=[0,cA(a[1],b),d];else
 var
 c=a;return c}function
-bp(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-ef(b,d,a){switch(a[0]){case
+be(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fi(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],g=m(bp(c[3],b),f),h=m(bp(c[2],b),g);return m(bp(c[1],d),h);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(be(c[3],b),f),i=g(be(c[2],b),h);return g(be(c[1],d),i);case
 1:var
-e=a[3],i=e?bp(e[1],d):e,j=m(bp(a[2],b),i);return m(bp(a[1],b),j);default:return bp(a[1],d)}}function
-bE(b,a){var
-c=p(e),d=aA(ch(ml,a),b,c),f=p(e),g=aA(ch(mm,a),b,f);return[0,aA(a,b,p(e)),g,d]}function
-gl(b,a){return bY(O,bY(ac,gh,a),b)}function
-gm(c,b,a){if(a){var
-d=a[2],f=gm(c,fN(b),d),g=a[1];return m(ef(c,dV(e,b),g),f)}return a}function
-gn(l,k,h,w){if(h){var
-d=h[1],H=ch(w,aq(ef(l,dV(e,k),d))),I=h[2],J=gn(l,fN(k),I,H),a=gk(w,ef(l,dV(e,k),d));switch(d[0]){case
+e=a[3],j=e?be(e[1],d):e,k=g(be(a[2],b),j);return g(be(a[1],b),k);default:return be(a[1],d)}}function
+bB(b,a){var
+c=r(d),e=L(W(o4,a),b,c),f=r(d),g=L(W(o5,a),b,f);return[0,L(a,b,r(d)),g,e]}function
+hX(b,a){return bV(I,bV(T,fc,a),b)}function
+hY(c,b,a){if(a){var
+e=a[2],f=hY(c,hk(b),e),h=a[1];return g(fi(c,e1(d,b),h),f)}return a}function
+hZ(m,k,h,x){if(h){var
+e=h[1],J=W(x,l(fi(m,e1(d,k),e))),K=h[2],M=hZ(m,hk(k),K,J),a=d4(x,fi(m,e1(d,k),e));switch(e[0]){case
 0:var
-D=d[1][5],t=aA(mn,a,p(e)),g=ed(bE(a,0)),E=bE(a,mo),u=gl(bE(a,mp),E),n=bD(g,u),f=bY(O,u,eb(n,g)),y=bD(f,f),o=O(aB(t),y),q=co(o),i=D?q:dZ(q),z=O(n,i),A=bY(ac,g,ec(f,i)),m=[0,bY(ac,f,eb(i,g)),o,A,z,[0,t],0];break;case
+E=e[1][5],u=L(o6,a,r(d)),g=fb(bB(a,0)),F=bB(a,o7),v=hX(bB(a,o8),F),o=aJ(g,v),f=bV(I,v,d0(o,g)),z=aJ(f,f),p=I(ao(u),z),q=cw(p),i=E?q:ca(q),A=I(o,i),B=bV(T,g,d1(f,i)),n=[0,bV(T,f,d0(i,g)),p,B,A,[0,u],0];break;case
 1:var
-v=d[3],F=v?[0,ed(bE(a,mq))]:v,G=bE(a,mr),c=gl(bE(a,0),G),r=bD(c,c),s=co(r),B=bn(function(a){return bY(O,c,eb(bD(a,c),a))},F),m=[0,c,r,ec(c,s),s,0,B];break;default:var
-j=ed(bE(a,0)),C=bD(j,gh),m=[0,j,p(b),j,C,0,0]}var
-x=[0,m,J]}else
+w=e[3],G=w?[0,fb(bB(a,o9))]:w,H=bB(a,o_),b=hX(bB(a,0),H),s=aJ(b,b),t=cw(s),C=aw(function(a){return bV(I,b,d0(aJ(a,b),a))},G),n=[0,b,s,d1(b,t),t,0,C];break;default:var
+j=fb(bB(a,0)),D=aJ(j,fc),n=[0,j,r(c),j,D,0,0]}var
+y=[0,n,M]}else
 var
-x=h;return x}function
-bF(k,a){if(typeof
+y=h;return y}function
+cc(k,a){if(typeof
 a==="number"){var
-c=[0,e,b];return[0,[0,c,c],e]}else
+b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
 4:var
-g=[4,a[3],a[2]];return[0,[0,g,g],e];case
+g=[4,a[3],a[2]];return[0,[0,g,g],d];case
 6:var
-i=a[2];return[0,[0,i,i],e];case
+i=a[2];return[0,[0,i,i],d];case
 8:var
-j=[4,a[2],a[1]];return[0,[0,j,j],e];case
+j=[4,a[2],a[1]];return[0,[0,j,j],d];case
 0:case
 1:var
-d=[4,[0,b,b],a[1]];return[0,[0,d,d],e];case
+e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 2:case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
-h=a[1];return[0,[0,h,h],e]}}function
-eg(d,c,b,a){var
-e=A(c,b);return O(A(d,a),e)}function
-eh(a){return bz(function(a){return m(a[1],[0,a[2],0])},a)}function
-go(a){if(a){var
+h=a[1];return[0,[0,h,h],d]}}function
+fj(d,c,b,a){var
+e=v(c,b);return I(v(d,a),e)}function
+cB(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
+h0(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=go(a[2]);if(d)var
-g=d[1],h=bD(c,c),e=[0,[0,[0,c4(c),h],g]];else
+c=b[1],d=h0(a[2]);if(d)var
+g=d[1],h=aJ(c,c),e=[0,[0,[0,dZ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return ms}function
-ei(b,d,c,a){if(typeof
+f=b;return f}return o$}function
+fk(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=ee(bF(d,a),c);return[0,k(function(a){var
-b=A(a[2],e);return[0,c4(a[1]),b]},b)];case
-9:return go(b)}return 0}function
-gp(b,s,r,a){var
-e=ee(bF(s,a),r),p=0;if(typeof
+e=cA(cc(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,dZ(a[1]),b]},b)];case
+9:return h0(b)}return 0}function
+h1(b,s,r,a){var
+e=cA(cc(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
-J=function(a){return[0,O(a[4],e),0]},g=J,f=a[1];break;case
+K=function(a){return[0,I(a[4],e),0]},g=K,f=a[1];break;case
 3:var
-K=function(a){return[0,O(e,a[4]),0]},g=K,f=a[1];break;case
+L=function(a){return[0,I(e,a[4]),0]},g=L,f=a[1];break;case
 4:var
-L=function(b){var
-a=b[1],c=aB(a[3]),d=aB(a[2]),f=aB(a[1]),g=b[2];return[0,O(O(O(A(aB(e),g),f),d),c),0]},g=L,f=a[1];break;case
-6:var
 M=function(b){var
+a=b[1],c=ao(a[3]),d=ao(a[2]),f=ao(a[1]),g=b[2];return[0,I(I(I(v(ao(e),g),f),d),c),0]},g=M,f=a[1];break;case
+6:var
+N=function(b){var
 a=b[5];if(a)var
-d=aB(a[1]),f=A(aB(e),d),c=[0,O(b[2],f),0];else
+d=ao(a[1]),f=v(ao(e),d),c=[0,I(b[2],f),0];else
 var
-c=a;return c},g=M,f=a[1];break;case
+c=a;return c},g=N,f=a[1];break;case
 7:if(b){var
 h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
-t=i[1],u=h[1],v=b[1],k=v[5];if(k){var
+t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=v[1],E=eg(d[1],d[2],c[1],c[2]),F=A(n[3],E),G=eg(d[1],d[3],c[1],c[3]),H=A(n[2],G),I=eg(d[2],d[3],c[2],c[3]),q=ac(O(A(n[1],I),H),F),N=m[1],P=l[1],w=A(A(A(e,k[1]),P),N),Q=[0,dZ(ac(q,w)),0],x=[0,O(q,w),Q];else
+c=t[1],d=u[1],n=w[1],E=fj(d[1],d[2],c[1],c[2]),F=v(n[3],E),G=fj(d[1],d[3],c[1],c[3]),H=v(n[2],G),J=fj(d[2],d[3],c[2],c[3]),q=T(I(v(n[1],J),H),F),O=m[1],P=l[1],x=v(v(v(e,k[1]),P),O),Q=[0,ca(T(q,x)),0],y=[0,I(q,x),Q];else
 var
-x=m;var
-y=x}else
-var
-y=l;var
+y=m;var
 z=y}else
 var
-z=k;var
-B=z}else
+z=l;var
+A=z}else
+var
+A=k;var
+B=A}else
 var
 B=i;var
 C=B}else
@@ -2651,147 +2747,776 @@ var
 D=b;return D;case
 8:case
 9:var
-o=ei(b,s,r,a);return o?eh(o[1]):o;default:p=1}if(p)return 0;var
-j=by(b,f);return j?g(j[1]):j}function
-gq(d,c,b,a){if(a){var
-e=gq(d,c,[0,b],a[2]);return m(gp(d,c,b,a[1]),e)}return a}function
-gr(a,g,k,f,j,i){if(i){var
-B=gr(a,g,k,f,[0,j],i[2]),c=i[1];if(typeof
-c==="number")var
-e=[0,[0,aN]];else
-switch(c[0]){case
+o=fk(b,s,r,a);return o?cB(o[1]):o;default:p=1}if(p)return 0;var
+j=aV(b,f);return j?g(j[1]):j}function
+h2(d,c,b,a){if(a){var
+e=h2(d,c,[0,b],a[2]);return g(h1(d,c,b,a[1]),e)}return a}function
+h3(a,g,k,f,j,i){if(i){var
+B=h3(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+b==="number")var
+d=[0,[0,aE]];else
+switch(b[0]){case
 0:var
-u=bX(a,bF(f,c)),e=bn(function(b){return[0,ba(a,b)]},u);break;case
+u=aX(a,cc(f,b)),d=aw(function(b){return[0,ax(a,b)]},u);break;case
 1:var
-v=bX(a,bF(f,c)),e=bn(function(b){return[1,ba(a,b)]},v);break;case
+v=aX(a,cc(f,b)),d=aw(function(b){return[1,ax(a,b)]},v);break;case
 5:var
-x=bX(a,bF(f,c)),e=bn(function(b){return[2,ba(a,b)]},x);break;case
+x=aX(a,cc(f,b)),d=aw(function(b){return[2,ax(a,b)]},x);break;case
 8:var
-y=ei(k,f,j,c),e=bn(function(c){var
-e=cX(a,b);return[4,d(cp(g),c),e]},y);break;case
+y=fk(k,f,j,b),d=aw(function(b){var
+d=by(a,c);return[4,e(bU(g),b),d]},y);break;case
 9:var
-m=ei(k,f,j,c);if(m){var
-n=bX(a,bF(f,c));if(n)var
-z=ba(a,n[1]),A=m[1],r=[0,[4,d(cp(g),A),z]];else
+m=fk(k,f,j,b);if(m){var
+n=aX(a,cc(f,b));if(n)var
+z=ax(a,n[1]),A=m[1],r=[0,[4,e(bU(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
-e=s;break;default:var
-h=gp(k,f,j,c),o=0;if(h){var
+d=s;break;default:var
+h=h1(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
-e=0;else
+d=0;else
 var
-w=d(g,l[1]),e=[0,[5,d(g,p),w]];else{var
-q=[0,[3,d(g,p)]];o=1}}else{var
+w=e(g,l[1]),d=[0,[5,e(g,p),w]];else{var
+q=[0,[3,e(g,p)]];o=1}}else{var
 q=h;o=1}if(o)var
-e=q}var
-t=[0,e,B]}else
+d=q}var
+t=[0,d,B]}else
 var
 t=i;return t}function
-mt(a){if(typeof
-a!=="number"&&0!==a[0])return 0;return 1}var
-c6=O(p(b),c5);function
-gs(e){var
-a=aB(c6);if(e)var
-f=A(p(c(2,b)),a),g=ac(p(c(2,c(2,b))),f),h=A(p(c(2,b)),a),d=au(ac(p(b),h),g);else
+pa(a){if(typeof
+a!=="number"&&0!==a[0])return 0;return 1}function
+cd(s,r){var
+b=s,a=r;for(;;)switch(b[0]){case
+0:if(0===a[0]){var
+k=as(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:as(bb(e,aP(2))[2],d)?0:0;var
+i=bb(f,aP(2)),j=i[1];if(as(i[2],d)){if(B(e,c))return 0;var
+g=bb(e,aP(2)),p=g[1];if(as(g[2],d)){var
+f=j,e=p;continue}return 0}if(B(e,c))return 0;var
+h=bb(e,aP(2)),q=h[1];if(as(h[2],d))return 0;var
+f=j,e=q;continue}}return k}return 0;case
+1:if(1===a[0]){var
+l=cd(b[1],a[1]);if(l){var
+b=b[2],a=a[2];continue}return l}return 0;case
+2:if(2===a[0]){var
+m=cd(b[1],a[1]);if(m){var
+b=b[2],a=a[2];continue}return m}return 0;case
+3:if(3===a[0]){var
+n=cd(b[1],a[1]);if(n){var
+b=b[2],a=a[2];continue}return n}return 0;case
+4:if(4===a[0]){var
+o=cd(b[1],a[1]);if(o){var
+b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
+b=b[1],a=a[1];continue}return 0}}function
+d5(a){switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
+1:var
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hq(b,a)]};break;case
+2:var
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hq(b,[0,N(a[1]),a[2]])]};break;case
+3:var
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hr(b,a)]};break;case
+4:var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ho(a,[0,d,c]))return 0;var
+b=a[1],e=br(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,N(a[2]),N(b)];return[0,hr(g,f)]};break;default:return 0}var
+g=d5(e);if(g){var
+h=d5(f);if(h)return b(g[1],h[1]);var
+i=h}else
 var
-i=ac(p(c(2,b)),a),j=aB(c5),d=au(ac(A(p(c(2,b)),j),a),i);return co(d)}function
-gt(d,c,a){if(d){var
-e=gs(c),f=ac(p(b),e),g=A(O(p(b),a),f);return O(p(b),g)}var
-h=p(b),i=gs(c),j=au(p(b),i);return O(A(a,ac(p(b),j)),h)}function
-bZ(f,e,d,a){var
-g=aB(a),h=aB(d),i=O(O(p(c(2,b)),h),g),j=f?e?c6:au(c6,A(p(c(2,b)),c5)):au(c6,p(c(2,b))),k=A(aB(j),i);return co(ac(p(b),k))}function
-gu(g,d){var
-c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?N(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-ej(t,s,r){var
-a=k(function(a){return aA(a,s,0)},t);if(a){var
-f=a[1];if(f){var
-b=a[2];if(b){var
-g=b[1];if(g){var
-c=b[2];if(c){var
-h=c[1];if(h){var
-e=c[2];if(e){var
-i=e[1];if(i){if(e[2])return 0;var
-u=i[1],v=h[1],w=g[1],x=f[1];return ar(function(a){var
-c=d(a,u),e=d(a,v),f=d(a,w),b=d(a,x);return d8([0,[0,b,[0,f,[0,e,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},r)}var
+i=g;return i}function
+o(i,e,b){var
+f=d5(b);if(f){var
+g=f[1];return e?aU(hp(g,[0,d,c])):hp([0,d,c],g)}var
+a=ay(i,b);if(a){var
+h=a[1];return e?af(d,h[1]):B(d,h[1])}return a}function
+h4(c,b){var
+a=ay(c,b),d=a?1:a;return d}function
+bW(c,a,b){var
+d=cd(a,b),e=d?h4(c,a):d;return e?e:o(c,0,[2,b,a])}function
+aR(c,b,a){var
+d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
+a4(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+az(a){return a4([4,[0,c,c],[5,J(a,a)]],a)}function
+ce(c,b,a){var
+d=bW(c,b[1],a);return d?bW(c,a,b[2]):d}function
+aK(c,b,a){var
+d=ce(c,b[1],a[1]),e=d?ce(c,b[2],a[2]):d;return e?ce(c,b[3],a[3]):e}function
+h5(c,a,b){if(0===a[0])return aK(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?ce(c,a[4],b[3]):h}function
+h6(a,D,G,F){var
+h=D[1],d=G;for(;;){if(h){if(d){var
+b=d[1],e=h[1];switch(e[0]){case
+0:var
+f=e[1];if(0===b[0])var
+n=b[4],i=b[1],p=aK(a,f[1],i),q=p?o(a,1,J(i,i)):p,r=q?aK(a,f[2],b[2]):q,s=r?aK(a,f[3],b[3]):r,t=s?ce(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dK(f[5],b[5]):u;else
+var
+c=0;break;case
+1:var
+v=e[3];if(1===b[0]){var
+g=b[3],w=aK(a,e[1],b[1]),x=w?aK(a,e[2],b[2]):w,m=0;if(x)if(v){var
+E=0;if(g){var
+j=g[1],y=aK(a,v[1],j);if(y){var
+c=o(a,1,J(j,j));E=1}else
+var
+z=y}else
+var
+z=g;if(!E)var
+c=z}else
+if(g)var
+c=0;else{var
+A=1;m=1}else{var
+A=x;m=1}if(m)var
+c=A}else
+var
+c=0;break;default:if(2===b[0])var
+k=b[1],B=aK(a,e[1],k),c=B?o(a,1,J(k,k)):B;else
+var
+c=0}if(c){var
+h=h[2],d=d[2];continue}var
+C=c}else
+var
+C=d;var
+l=C}else
+var
+l=d?0:1;return l?h5(a,D[2],F):l}}function
+bC(c,b,a){var
+d=aR(function(b,a){return[1,b,a]},a,b);return aR(function(b,a){return[2,b,a]},d,c)}function
+fl(a,e,d,c){var
+b=bC(e,d,c),f=az(a),g=a4(J(az(a),b),f);return aR(function(b,a){return[2,b,a]},b,g)}function
+c$(f,e,d,a,c){var
+b=fl(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
+da(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cC(a,b){switch(a[0]){case
+0:var
+e=a[3],f=a[2],d=a[1],g=fl(d,f,e,b),h=c$(d,f,e,a[4],b),i=a4([4,[0,c,c],da(a[5],h)],g),j=az(d);return aR(function(b,a){return[1,b,a]},j,i);case
+1:return az(bC(a[1],a[2],b));default:return az(a[1])}}function
+h7(a,b){switch(a[0]){case
+0:var
+c=a[3],d=a[2],e=a[1],h=c$(e,d,c,a[4],b),i=da(a[5],h),j=bC(d,c,b);return[2,J(az(e),j),i];case
+1:var
+f=a[2],g=a[1],k=bC(g,f,b);return[5,J(bC(g,f,b),k)];default:return J(az(a[1]),b)}}function
+db(e,b,a){var
+f=[0,d,c];return cr(function(c,d){var
+e=J(cC(c,b),a);return[1,[3,J(cC(c,b),a),e],d]},f,e)}function
+h8(a){var
+b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
+fm(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=az(b),h=c$(b,f,e,d,c),i=a4(da(a[5],h),g),j=fl(b,f,e,c);return[0,[0,aR(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+h9(d,i){if(d){var
+a=d[1];if(1===a[0]){var
+c=a[3];if(c)var
+f=c[1],g=bC(a[1],a[2],i),k=az(f),l=a4(J(az(f),g),k),h=[0,aR(function(b,a){return[2,b,a]},g,l)];else
+var
+h=c;var
+b=h}else
+var
+b=0;if(b)var
+e=h9(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+var
+j=b;return j}return pb}function
+h_(g,f,e,b,m,a){function
+y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
+a==="number")return 0;else
+switch(a[0]){case
+0:var
+U=db(f,e,b);return o(g,1,[2,y(a[1]),U]);case
+1:var
+V=y(a[1]);return o(g,1,[2,db(f,e,b),V]);case
+2:var
+W=a[2],X=function(a){return[2,W,h7(a,e)]},p=X,n=a[1];break;case
+3:var
+Y=a[2],Z=function(a){return[2,h7(a,e),Y]},p=Z,n=a[1];break;case
+4:var
+z=a[3],A=a[2],_=function(a){var
+b=cC(a,e);return[2,[3,[3,A,A],J(cC(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
+5:var
+B=a[1],$=J(b,b),aa=[3,[3,B,B],[3,db(f,e,m),$]],ab=J(m,m);return o(g,1,[2,[3,db(f,e,b),ab],aa]);case
+6:var
+C=a[2],r=aV(f,a[1]);if(r){var
+h=r[1];if(0===h[0]){var
+s=h[4],ac=c$(h[1],h[2],h[3],s,e),D=da(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+E=0}else
+var
+E=r;return E;case
+7:if(f){var
+k=f[2];if(k){var
+l=k[2];if(l){if(l[2])return 0;var
+t=fm(f[1],e);if(t){var
+F=t[1],u=fm(k[1],e);if(u){var
+G=u[1],v=fm(l[1],e);if(v){var
+H=v[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,I,x]);if(K)return o(g,1,[1,I,x]);var
+L=K}else
+var
+L=v;var
+M=L}else
+var
+M=u;var
+N=M}else
+var
+N=t;var
+O=N}else
+var
+O=l;var
+P=O}else
+var
+P=k;var
+Q=P}else
+var
+Q=f;return Q;case
+8:var
+ad=db(f,e,b),ae=J(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=h9(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cr(function(a,c){var
+d=J(az(a),b);return[1,[3,J(az(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],J(b,b)],T])}return w}var
+q=aV(f,n);return q?o(g,1,p(q[1])):q}function
+bX(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+pc(a){switch(a[0]){case
+0:var
+b=a[1],c=b[5],d=b[4][1],e=bX(b[3]),f=bX(b[2]);return[0,bX(b[1]),f,e,d,c];case
+1:var
+g=aw(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
+cD(b,a){if(b){if(a){var
+e=cD(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+h$(a,l,k,f){var
+b=ay(a,l);if(b){var
+c=ay(a,k);if(c){var
+d=dS(a,f);if(d){var
+e=e7(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,ah(D(a,c[1],d[1]),m)];else
+var
+g=e;var
+h=g}else
+var
+h=d;var
+i=h}else
+var
+i=c;var
 j=i}else
 var
-j=e;var
-l=j}else
+j=b;return j}function
+ia(f,B,r,A,a,e){function
+s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cD(a,a)]}var
+C=r[1];function
+g(b){var
+a=[0,d,c];return cr(function(a,c){var
+d=cD(a,b);return[1,[3,cD(a,b),d],c]},a,C)}var
+t=p(function(a){return aC(l(a),B)},a);if(t){if(typeof
+e==="number")return 0;else
+switch(e[0]){case
+0:if(a){if(a[2])return 0;var
+u=a[1],D=g(u);return o(f,1,[2,s(e[1],u),D])}return a;case
+1:if(a){if(a[2])return 0;var
+v=a[1],E=s(e[1],v);return o(f,1,[2,g(v),E])}return a;case
+2:if(a)return 0;var
+F=e[2],G=function(a){if(typeof
+a!=="number"&&0===a[0])return o(f,1,[2,F,a[1]]);return 0},k=G,i=e[1];break;case
+3:if(a)return 0;var
+H=e[2],I=function(a){if(typeof
+a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},k=I,i=e[1];break;case
+4:if(a)return 0;var
+w=e[3],x=e[2],J=function(a){if(typeof
+a!=="number"&&1===a[0]){var
+h=a[2],i=a[1],k=o(f,0,[2,[1,x,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],w]);if(k){if(A){var
+e=h$(f,i,h,x);return e?af(e[1][2],d):e}var
+g=h$(f,i,h,w);return g?af(d,g[1][1]):g}return k}return 0},k=J,i=e[1];break;default:if(a){var
+h=a[2];if(h){if(h[2])return 0;var
+n=h[1],q=a[1],y=e[1],K=cD(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cD(n,n);return o(f,1,[2,[3,g(q),M],L])}var
+z=h}else
 var
-l=h;var
+z=a;return z}var
+m=aV(r[2],i);return m?k(m[1]):m}return t}function
+ib(h,g){var
+c=h,b=g;for(;;){if(b){var
+d=b[2],a=b[1];if(typeof
+a!=="number"&&4===a[0]){if(c){var
+f=c[1];if(f){var
+c=f[1],b=d;continue}return[0,[0,[4,a[1],a[2],a[3]],0]]}return[0,[0,a,1]]}if(c){var
+c=c[1],b=d;continue}var
+e=[0,[0,a,1]]}else
+var
+e=b;return e}}function
+pd(a){return f(function(a){return[0,a,c]},a)}function
+ic(e,l,b,k,a){if(typeof
+a==="number"){var
+q=b[3];return bx(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=ib(a[1],k);if(g){var
+m=g[1],r=m[1],s=f(pd,a[2]);return ia(e,l,b,m[2],s,r)}return g}var
+h=ib(a[1],k);if(h){var
+n=h[1],i=n[1];if(typeof
+i!=="number"&&1===i[0]){var
+j=aV(b[1],a[2]);return j?ia(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+p=0}else
+var
+p=h;return p}}function
+fn(a){var
+b=az(a[1]),c=a4(J(b,a[2]),b),d=a[2];return aR(function(b,a){return[2,b,a]},d,c)}function
+fo(a){return az(fn(a))}function
+id(c){var
+a=fo(c),b=az(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fp(a,b){return bC(a[3],a[4],b)}function
+fq(a,b){var
+c=fp(a,b);return J(fo(a),c)}function
+fr(a,b){var
+c=fp(a,b);return J(id(a),c)}function
+ie(a,b){var
+c=fp(a,b);return J(az(a[1]),c)}function
+fs(b,a){var
+c=fr(b,a),d=fq(b,a);return[1,[3,d,d],[3,c,c]]}function
+ft(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=ie(a,d);return[4,[1,fs(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+ig(a,b){var
+f=a[5],c=[2,ft(a,b),f],d=ie(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fu(a,b){var
+c=ig(a,b);return da(a[7],c)}function
+ih(b,a){var
+c=fs(b,a),d=fr(b,a),e=[3,fu(b,a),d],f=fq(b,a);return[4,[1,[3,ft(b,a),f],e],c]}function
+ii(b,a){var
+c=fs(b,a),d=fq(b,a),e=[3,fu(b,a),d],f=fr(b,a);return[4,[2,[3,ft(b,a),f],e],c]}function
+bf(c){var
+a=c;for(;;)switch(a[0]){case
+0:var
+b=a[1];return[0,[0,[0,b,b],d],0];case
+1:return 0;case
+2:case
+7:case
+8:var
+a=a[1];continue;default:var
+e=bf(a[2]);return g(bf(a[1]),e)}}function
+bg(e,a,b){switch(a[0]){case
+0:var
+p=a[1];return cA([0,[0,p,p],d],b);case
+1:var
+s=a[1],g=e,t=r(d);for(;;){if(g){var
+m=g[1];if(lz(m[1],s))return m[2];var
+g=g[2];continue}return t}case
+2:return ca(bg(e,a[1],b));case
+3:var
+i=a[2],f=a[1],h=T;break;case
+4:var
+i=a[2],f=a[1],h=I;break;case
+5:var
+i=a[2],f=a[1],h=v;break;case
+6:var
+i=a[2],f=a[1],h=aI;break;case
+7:var
+j=c3(a[2]),k=bg(e,a[1],b);if(j){if(j[1]){var
+n=ao(k),q=function(a){return v(a,n)},o=eX(c1(he(j)),q,n);return hd(j)?o:v(o,k)}return k}return r(c);default:return cw(bg(e,a[1],b))}var
+u=bg(e,i,W(b,l(bf(f))));return h(bg(e,f,b),u)}function
+cf(c,f,b){var
+a=f;for(;;)switch(a[0]){case
+6:var
+e=a[1],j=W(b,l(bf(e))),k=cf(c,a[2],j),m=g(cf(c,e,b),k);return[0,bg(c,a,b),m];case
+8:var
+n=cf(c,a[1],b);return[0,bg(c,a,b),n];case
+2:case
+7:var
+a=a[1];continue;case
+0:case
+1:return 0;default:var
+d=a[1],h=W(b,l(bf(d))),i=cf(c,a[2],h);return g(cf(c,d,b),i)}}function
+ij(c,a,b){if(a){var
+e=a[1],d=e[2],f=W(b,l(bf(d))),h=a[2],i=bg(c,d,b),j=ij([0,[0,e[1],i],c],h,f);return g(cf(c,d,b),j)}return a}function
+dc(a){return C(bf,a)}function
+ik(c,a,b){if(a)var
+d=a[1],f=W(b,l(bf(d))),g=ik(c,a[2],f),e=[0,bg(c,d,b),g];else
+var
+e=a;return e}function
+il(c,a,b){if(a){var
+d=a[1],e=W(b,l(bf(d))),f=il(c,a[2],e);return g(cf(c,d,b),f)}return a}function
+im(c,a,b){if(a)var
+d=a[1],f=W(b,l(dc(d))),g=im(c,a[2],f),e=[0,ik(c,d,b),g];else
+var
+e=a;return e}function
+io(c,a,b){if(a){var
+d=a[1],e=W(b,l(dc(d))),f=io(c,a[2],e);return g(il(c,d,b),f)}return a}function
+ip(a){return f(function(a){return[0,a[2],d]},a)}function
+iq(a){var
+c=d4(0,ip(a[2])),d=c5(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cs(f(dI,a[2]),c);return g(cs(a[1],e),b)}function
+pf(a){if(typeof
+a!=="number"&&0!==a[0])return 0;return 1}function
+fv(b,d){var
+a=d;for(;;)switch(a[0]){case
+0:return 1;case
+1:var
+e=a[1];return bx(function(a){return av(e,a)},b);case
+2:case
+7:case
+8:var
+a=a[1];continue;default:var
+c=fv(b,a[1]);if(c){var
+a=a[2];continue}return c}}function
+d6(a){return 1===a?pj:pk}function
+ir(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+is(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fw(a,c,b){var
+d=[3,ir(a),b],e=[1,[3,is(a),c],d],f=[3,is(a),b];return[0,[2,[3,ir(a),c],f],e]}function
+it(c,a){var
+b=fw(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iu(h,b,a){if(0===h[0])return b?b[2]?a:it(b[1],a):a;if(b){var
+c=b[2];if(c){var
+d=c[2];if(d){if(d[2])return a;var
+e=fw(b[1],a[2],a[3]),g=e[1],f=fw(c[1],e[2],a[1]);return it(d[1],[0,f[2],g,f[1]])}return a}return a}return a}function
+fx(d,c,b,a){var
+e=a[1],f=iu(d,c,a[2]),g=aR(function(b,a){return[1,b,a]},b,f);return aR(function(b,a){return[2,b,a]},g,e)}function
+iv(b){var
+a=d5(b);return a?ho(a[1],[0,d,c]):a}function
+iw(a,m,j,i){if(iv(i)){var
+q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
+f=ay(a,j);if(f){var
+g=dS(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=e7(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),k=[0,ah(h[1],p)];else
+var
+k=h;var
+l=k}else
+var
+l=g;var
+e=l}else
+var
+e=f;if(e){var
+n=e[1];return m?B(d,n[1]):B(n[2],d)}return e}function
+d7(b,a,c){var
+d=bW(b,a[1],a[2]),e=d?iw(b,0,c,a[1]):d;return e?iw(b,1,c,a[2]):e}function
+dd(b,d){var
+a=d[1];if(8===a[0]){var
+c=a[1][1];return 0===c[0]?[0,[0,W(b,c[1])]]:[0,dT(function(a){return dd(b,a)},a)]}return[0,dT(function(a){return dd(b,a)},a)]}function
+de(d,b,h){var
+c=h;for(;;){var
+a=c[1];switch(a[0]){case
+0:var
+e=a[1],f=aU(aC(e,b));return f?aU(aC(e,W(d,b))):f;case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+c=a[1];continue;default:var
+g=de(d,b,a[1]);if(g){var
+c=a[2];continue}return g}}}function
+df(c,b,m){var
+d=m;for(;;){var
+a=d[1];switch(a[0]){case
+5:var
+d=a[1];continue;case
+6:var
+f=a[2],g=a[1],h=de(c,b,g),i=h?df(c,b,f):h;if(i)var
+j=i;else{var
+k=df(c,b,g);if(k)return de(c,b,f);var
+j=k}return j;case
+7:var
+l=df(c,b,a[1]);return l?de(c,b,a[2]):l;case
+3:case
+4:var
+e=df(c,b,a[1]);if(e){var
+d=a[2];continue}return e;case
+8:case
+9:return de(c,b,a[1]);default:return 1}}}function
+ix(c,e){var
+b=e;for(;;){var
+a=b[1];switch(a[0]){case
+0:return hc(a[1],c);case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+d=ix(c,a[1]);if(d){var
+b=a[2];continue}return d}}}function
+iy(c,e){if(e){var
+k=iy(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,ax(c,b)],0],h=D(c,a,b),i=[0,[0,dR(S(a,b)),h],g],j=[0,[0,a,ax(c,a)],i];return C(function(a){return f(function(b){return[0,a,b]},k)},j)}return pl}function
+dg(b,a){return a?e(b,a[1]):a}function
+d8(c,b,a){return dg(function(b){return dg(e(c,b),a)},b)}function
+iz(d,a){if(a){var
+b=L(a[1],d,0);if(b)var
+c=iz(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return pm}function
+fy(b,a){if(a){var
+g=a[1],c=iz(b,g[1]);if(c){var
+e=L(g[2],b,0);if(e){var
+h=e[1],f=fy(b,a[2]);if(f)var
+i=af(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
+var
+j=f;var
+k=j}else
+var
+k=e;var
+l=k}else
+var
+l=c;return l}return pn}function
+iA(c,a){var
+b=aC(l(a),c);return b?dY(a):b}function
+iB(c,U,T,R,k,Q,w,v){if(w){var
+V=iy(c,Q),n=f(function(a){var
+d=f(eW,a),b=0,n=g(f(dI,a),d);return c8(0,function(a){switch(a[0]){case
+0:return[0,L(a[1],n,aE)];case
+1:return[0,L(a[1],T,aE)];case
+2:return[0,by(c,a[1])];case
+3:var
+b=a[2],d=a[1];return d8(function(b,a){return[0,S(b,a)]},d,b);case
+4:var
+e=a[2],f=a[1];return d8(function(b,a){return[0,ah(b,a)]},f,e);case
+5:var
+g=a[1];return dg(function(a){return[0,aD(a)]},g);case
+6:var
+h=a[2],i=a[1];return d8(function(b,a){return[0,D(c,b,a)]},i,h);case
+7:var
+j=a[2],k=a[1];return d8(function(b,a){var
+d=cu(c,a);return aw(function(a){return D(c,b,a)},d)},k,j);case
+8:var
+l=a[1];return dg(function(a){return[0,ax(c,a)]},l);default:var
+m=a[1];return dg(function(a){return dQ(c,a)},m)}},U,b)},V),j=w,i=v;for(;;){if(j){var
+r=j[1],l=r[1],s=L(l,i,0);if(s){var
+m=aV(R,l);if(m){var
+b=r[2],e=m[1];switch(e[0]){case
+0:var
+x=0;if(typeof
+b==="number"||!(6===b[0]))x=1;else{var
+h=b[1],y=0;if(typeof
+h!=="number"&&0===h[0]){var
+F=e[3],G=e[2],H=e[1],I=h[2],J=h[1],a=p(function(g,h,i,j,l){return function(e){var
+a=fy(e,i);if(a){var
+b=L(h,e,0);if(b){var
+f=ct([0,aD(D(c,g,b[1])),0],k);return iA(k,hL(l,j,a[1],f))}var
+d=b}else
+var
+d=a;return d}}(F,G,H,I,J),n);y=1}if(!y)var
+a=0}if(x)var
+a=0;break;case
+1:var
+z=0;if(typeof
+b==="number"||!(6===b[0]))z=1;else{var
+o=b[1],A=0;if(typeof
+o==="number"&&!o){var
+K=e[3],M=e[2],N=e[1],a=p(function(i,j,l){return function(g){var
+a=fy(g,l);if(a){var
+b=L(j,g,0);if(b){var
+h=ct([0,D(c,i,b[1]),0],k),d=hN(a[1],h);if(d)return iA(k,d[1]);var
+e=d}else
+var
+e=b;var
+f=e}else
+var
+f=a;return f}}(K,M,N),n);A=1}if(!A)var
+a=0}if(z)var
+a=0;break;default:var
+C=0;if(typeof
+b==="number"||!(6===b[0]))C=1;else{var
+q=b[1],E=0;if(typeof
+q==="number"&&!q){var
+O=e[1],a=p(function(c){return function(b){var
+a=L(c,b,0);return a?B(d,a[1][1]):a}}(O),n);E=1}if(!E)var
+a=0}if(C)var
+a=0}if(a){var
+P=fg(l,i),j=j[2],i=P;continue}var
+t=a}else
+var
+t=m;var
+u=t}else
+var
+u=s;return u}return[0,i]}}return[0,v]}function
+iC(g,f,e,d,c,r,q,o){var
+b=r,h=q,a=o;for(;;){if(0===a[0]){var
+i=iB(g,f,e,d,c,b,a[1],h);return i?p(aU,i[1]):i}var
+j=iB(g,f,e,d,c,b,a[1],h);if(j){var
+k=j[1],l=d2(a[2],b),m=iC(g,f,e,d,c,l[1],k,a[3]);if(m){var
+b=l[2],h=k,a=a[4];continue}var
+n=m}else
+var
+n=j;return n}}function
+dh(a){var
+b=ao(a);return T(r(c),b)}function
+d9(i,g){var
+h=dh(g),j=ao(g),e=I(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,ca(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ca(f),a,e]]:[0,[0,h,a,a],[0,a,e,ca(f)],[0,a,f,e]]}function
+iD(b,a){function
+c(b){var
+c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
+d(a){var
+b=aJ(a,c(function(a){return a[3]})),d=aJ(a,c(function(a){return a[2]}));return[0,aJ(a,c(function(a){return a[1]})),d,b]}var
+f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
+fz(d,a){var
+e=ao(a),f=v(v(r(b(2,c)),a),d);return T(I(ao(d),f),e)}function
+fA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],[0,a[3],0]]]}function
+d_(b,a){var
+c=be(a[2],b);return g(be(a[1],b),c)}function
+iE(q,k,p,t,o,j,s){if(j){var
+u=j[1],w=d4(s,d_(o,u)),P=W(s,l(d_(o,u))),Q=iE(q,k,p,t,o,j[2],P),i=bB(w,pz),m=bB(w,0);switch(q){case
+0:var
+g=[0,pw,pv,r(d)];break;case
+1:var
+g=fc;break;default:var
+F=r(d),G=r(d),g=[0,r(d),G,F]}var
+e=bV(I,g,m),y=aJ(k[3],i),z=aJ(k[2],i),a=[0,aJ(k[1],i),z,y],H=fz(g[3],m[3]),J=fz(g[2],m[2]),K=fz(g[1],m[1]),L=T(T(T(aJ(i,i),K),J),H),M=aJ(a,e),N=v(r(b(2,c)),M),O=T(v(p,L),N),A=v(a[2],e[1]),B=I(v(a[1],e[2]),A),C=v(a[1],e[3]),D=I(v(a[3],e[1]),C),E=v(a[3],e[2]),f=d1([0,I(v(a[2],e[3]),E),D,B],t),h=bV(T,d0(p,e),a);switch(q){case
+0:var
+n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+1:var
+n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,n,O],Q]}else
+var
+x=j;return x}function
+iF(a,d){if(iv(d))return[0,aE];var
+e=dS(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=e7(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=S(by(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cu(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return aw(function(d){var
+e=D(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hy(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+g=f}else
+var
+g=e;return g}function
+iG(d,a){var
+e=o(d,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]):e}function
+iH(f,a){if(typeof
+a!=="number")switch(a[0]){case
+2:case
+3:var
+e=a[2];return[0,[0,e,e],f]}var
+b=[0,d,c];return[0,[0,b,b],d]}function
+fB(e,d,m,l,k,a){var
+f=v(ao(cA(iH(l,a),k)),m);if(typeof
+a!=="number")switch(a[0]){case
+2:var
+b=aV(d,a[1]);if(b)var
+g=o(e,0,a[2]),h=g?[0,I(b[1][2],f)]:g;else
+var
+h=b;return h;case
+3:var
+c=aV(d,a[1]);if(c)var
+i=o(e,0,a[2]),j=i?[0,I(f,c[1][2])]:i;else
+var
+j=c;return j}return 0}function
+iI(h,a,g,f,m,l,j){if(j){var
+w=iI(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
+b==="number")var
+q=e(a,f),i=[0,[0,e(bU(a),g),q,aE]];else
+switch(b[0]){case
+0:var
+r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
+1:var
+t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
+2:var
+u=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},u);break;case
+3:var
+v=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},v);break;default:var
+i=0}if(n)var
+s=aX(h,[0,[0,k,k],d]),i=aw(function(b){var
+c=ax(h,b),d=e(a,f);return o(e(bU(a),g),d,c)},s);var
+p=[0,i,w]}else
+var
+p=j;return p}function
+iJ(h,f,e,d,c,a){if(a){var
+i=iJ(h,f,e,d,[0,c],a[2]),b=fB(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
+pA(a){if(typeof
+a!=="number"&&0!==a[0])return 0;return 1}function
+d$(a){var
+b=cd(a[1],[0,d,c]);return b?cd(a[2],[0,d,c]):b}function
+ea(b,a){return bW(b,a[1],a[2])}function
+fC(b,a){var
+c=ea(b,a[1]),d=c?ea(b,a[2]):c;return d?ea(b,a[3]):d}var
+ec=I(r(c),eb);function
+iK(e){var
+a=ao(ec);if(e)var
+f=v(r(b(2,c)),a),g=T(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aI(T(r(c),h),g);else
+var
+i=T(r(b(2,c)),a),j=ao(eb),d=aI(T(v(r(b(2,c)),j),a),i);return cw(d)}function
+iL(d,b,a){if(d){var
+e=iK(b),f=T(r(c),e),g=v(I(r(c),a),f);return I(r(c),g)}var
+h=r(c),i=iK(b),j=aI(r(c),i);return I(v(a,T(r(c),j)),h)}function
+cE(f,e,d,a){var
+g=ao(a),h=ao(d),i=I(I(r(b(2,c)),h),g),j=f?e?ec:aI(ec,v(r(b(2,c)),eb)):aI(ec,r(b(2,c))),k=v(ao(j),i);return cw(T(r(c),k))}function
+iM(g,d){var
+c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
+e=b[2],f=c[1]?S(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+fD(u,t,s){var
+a=f(function(a){return L(a,t,0)},u);if(a){var
+g=a[1];if(g){var
+b=a[2];if(b){var
+h=b[1];if(h){var
+c=b[2];if(c){var
+i=c[1];if(i){var
+d=c[2];if(d){var
+j=d[1];if(j){if(d[2])return 0;var
+v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return dY([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+k=j}else
+var
+k=d;var
+l=k}else
+var
+l=i;var
 m=l}else
 var
 m=c;var
 n=m}else
 var
-n=g;var
+n=h;var
 o=n}else
 var
 o=b;var
-p=o}else
+q=o}else
 var
-p=f;var
-q=p}else
+q=g;var
+r=q}else
 var
-q=a;return q}function
-gv(f,i,d,c,h){var
-j=f?b:e,a=cX(i,j);function
+r=a;return r}function
+iN(f,i,e,b,h){var
+j=f?c:d,a=by(i,j);function
 g(b){var
-c=f?d3(b):d4(b);return an(c,a)}var
-k=[0,aX(h),0],l=[0,[0,a,c,[0,aN,[0,g(c),0]]],k];return[0,[0,a,d,[0,g(d),0]],l]}function
-gw(r,f,q,p,e,o,n){if(o){var
-y=o[1];if(y[1])return 0;if(o[2])return 0;if(n){var
-i=y[2],s=0;if(e){var
-g=e[2],b=0;if(g){var
-h=g[2],c=0;if(h)if(h[2]){var
+c=f?e3(b):e4(b);return ah(c,a)}var
+k=[0,bd(h),0],l=[0,[0,a,b,[0,aE,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+iO(r,g,q,p,e,o,n){if(o){var
+x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
+j=x[2],s=0;if(e){var
+h=e[2],b=0;if(h){var
+i=h[2],c=0;if(i)if(i[2]){var
 a=0;b=1;c=1}else{var
-t=h[1],j=g[1],l=e[1],d=0;if(typeof
-i==="number")switch(i){case
+t=i[1],k=h[1],l=e[1],d=0;if(typeof
+j==="number")switch(j){case
 0:var
-A=k(cq,bo(mw)),a=ej(p,f$(f,q,0,e),A);b=1;c=1;d=1;break;case
+z=f(c9,bT(pD)),a=fD(p,hS(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=x(j[2],l[1]);b=1;c=1;d=1;break}else
-if(4===i[0]){var
-m=i[1];if(r)if(m){var
-B=k(gu,mx),a=ej(p,c0(0,d6(f,gv(r,f,l,j,t),0),q,0),B);b=1;c=1;d=1}else{var
+a=B(k[2],l[1]);b=1;c=1;d=1;break}else
+if(4===j[0]){var
+m=j[1];if(r)if(m){var
+A=f(iM,pE),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=k(gu,my),a=ej(p,c0(0,d6(f,gv(r,f,l,j,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=f(iM,pF),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
-u=h;if(!c)var
+u=i;if(!c)var
 v=u}else
 var
-v=g;if(!b){var
+v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-z=a?mz:a}else
+y=a?pG:a}else
 var
-z=n;return z}return[0,n]}function
-gx(f,e,d,c,p,o,n){var
+y=n;return y}return[0,n]}function
+iP(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=gw(f,e,d,c,b,a[1],g);return h?bQ(h[1]):h}var
-i=gw(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d_(a[2],b),l=gx(f,e,d,c,k[1],j,a[3]);if(l){var
+h=iO(f,e,d,c,b,a[1],g);return h?aU(h[1]):h}var
+i=iO(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d2(a[2],b),l=iP(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-ek(a){return fJ(c(2,b),cc(a,b))}function
-b0(i,a,d,v,u){var
-l=a?b:H(b),f=p(l),g=gt(a,d,mu),h=gt(a,d,mv),m=au(g,bZ(a,d,f,g)),n=[0,ac(au(h,bZ(a,d,h,f)),m),0],o=au(f,bZ(a,d,f,g)),q=[0,ac(au(h,bZ(a,d,g,h)),o),n],r=au(f,bZ(a,d,h,f)),s=[0,ac(au(g,bZ(a,d,g,h)),r),q],t=a?d?p(c(2,b)):A(p(c(2,c(2,b))),c5):p(c(2,c(2,b))),j=f0([0,t,s]),k=[0,e,cm(i)];return gx(a,i,j[1],j[2],[0,k,[0,k,[0,v,0]]],1,u)}function
-gy(a,g,b){if(al(g,ek(a))){if(b){var
+fE(a){return hg(b(2,c),b7(a,c))}function
+cF(i,a,e,w,u){var
+l=a?c:N(c),f=r(l),g=iL(a,e,pB),h=iL(a,e,pC),m=aI(g,cE(a,e,f,g)),n=[0,T(aI(h,cE(a,e,h,f)),m),0],o=aI(f,cE(a,e,f,g)),p=[0,T(aI(h,cE(a,e,g,h)),o),n],q=aI(f,cE(a,e,h,f)),s=[0,T(aI(g,cE(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eb):r(b(2,b(2,c))),j=dW([0,t,s]),k=[0,d,b_(i)];return iP(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+iQ(a,g,b){if(af(g,fE(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,ek(a)],v=cm(a),i=[0,ek(a),v],j=b0(a,0,1,h,b[1]),k=j?b0(a,0,0,i,c[1]):j;if(k){var
-l=b0(a,1,1,h,d[1]);if(l)return b0(a,1,0,i,e[1]);var
+h=[0,g,fE(a)],v=b_(a),i=[0,fE(a),v],j=cF(a,0,1,h,b[1]),k=j?cF(a,0,0,i,c[1]):j;if(k){var
+l=cF(a,1,1,h,d[1]);if(l)return cF(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -2808,393 +3533,367 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=b0(a,0,0,r,b[1]);if(s)return b0(a,1,0,r,f[1]);var
+r=[0,g,b_(a)],s=cF(a,0,0,r,b[1]);if(s)return cF(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-ct(s,r){var
-c=s,a=r;for(;;)switch(c[0]){case
-0:if(0===a[0]){var
-k=_(c[1],a[1]);if(k){var
-f=c[2],d=a[2];for(;;){if(x(f,b))return x(d,b)?1:_(aU(d,ay(2))[2],e)?0:0;var
-i=aU(f,ay(2)),j=i[1];if(_(i[2],e)){if(x(d,b))return 0;var
-g=aU(d,ay(2)),p=g[1];if(_(g[2],e)){var
-f=j,d=p;continue}return 0}if(x(d,b))return 0;var
-h=aU(d,ay(2)),q=h[1];if(_(h[2],e))return 0;var
-f=j,d=q;continue}}return k}return 0;case
-1:if(1===a[0]){var
-l=ct(c[1],a[1]);if(l){var
-c=c[2],a=a[2];continue}return l}return 0;case
-2:if(2===a[0]){var
-m=ct(c[1],a[1]);if(m){var
-c=c[2],a=a[2];continue}return m}return 0;case
-3:if(3===a[0]){var
-n=ct(c[1],a[1]);if(n){var
-c=c[2],a=a[2];continue}return n}return 0;case
-4:if(4===a[0]){var
-o=ct(c[1],a[1]);if(o){var
-c=c[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
-c=c[1],a=a[1];continue}return 0}}function
-el(a){switch(a[0]){case
-0:return[0,[0,a[1],a[2]]];case
-1:var
-k=a[2],l=a[1],g=k,d=l,c=function(b,a){return[0,fT(b,a)]};break;case
-2:var
-m=a[2],n=a[1],g=m,d=n,c=function(b,a){return[0,fT(b,[0,H(a[1]),a[2]])]};break;case
-3:var
-o=a[2],p=a[1],g=o,d=p,c=function(b,a){return[0,fU(b,a)]};break;case
-4:var
-q=a[2],r=a[1],g=q,d=r,c=function(k,a){var
-d=r_(f(a[1],b),f(e,a[2])),h=0===d?0:0<=d?2:1,i=h?0:1;if(i)return 0;var
-c=a[1],g=a6(c),j=0===g?[0,e,b]:0<g?[0,a[2],c]:[0,H(a[2]),H(c)];return[0,fU(k,j)]};break;default:return 0}var
-h=el(d);if(h){var
-i=el(g);if(i)return c(h[1],i[1]);var
-j=i}else
-var
-j=h;return j}function
-w(i,d,c){var
-f=el(c);if(f){var
-g=f[1];return d?bQ(fS(g,[0,e,b])):fS([0,e,b],g)}var
-a=aH(i,c);if(a){var
-h=a[1];return d?al(e,h[1]):x(e,h[1])}return a}function
-gz(d,b,a){var
-c=ct(b,a);return c?c:w(d,0,[2,a,b])}function
-b1(c,b,a){var
-d=E(c,b[3],a[3]),e=E(c,b[2],a[2]);return[0,E(c,b[1],a[1]),e,d]}function
-cu(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aI(a){return cu([4,[0,b,b],[5,J(a,a)]],a)}function
-cv(c,b,a){var
-d=gz(c,b[1],a);return d?gz(c,a,b[2]):d}function
-bq(c,b,a){var
-d=cv(c,b[1],a[1]),e=d?cv(c,b[2],a[2]):d;return e?cv(c,b[3],a[3]):e}function
-gA(a,L,N,j){var
-i=L[1],d=N;for(;;){if(i){if(d){var
-b=d[1],e=i[1];switch(e[0]){case
-0:var
-g=e[1];if(0===b[0])var
-q=b[4],k=b[1],r=bq(a,g[1],k),s=r?w(a,1,J(k,k)):r,t=s?bq(a,g[2],b[2]):s,u=t?bq(a,g[3],b[3]):t,v=u?cv(a,g[4],q):u,x=v?w(a,1,q):v,c=x?dS(g[5],b[5]):x;else
-var
-c=0;break;case
-1:var
-y=e[3];if(1===b[0]){var
-h=b[3],z=bq(a,e[1],b[1]),A=z?bq(a,e[2],b[2]):z,p=0;if(A)if(y){var
-M=0;if(h){var
-l=h[1],B=bq(a,y[1],l);if(B){var
-c=w(a,1,J(l,l));M=1}else
-var
-C=B}else
-var
-C=h;if(!M)var
-c=C}else
-if(h)var
-c=0;else{var
-D=1;p=1}else{var
-D=A;p=1}if(p)var
-c=D}else
-var
-c=0;break;default:if(2===b[0])var
-m=b[1],E=bq(a,e[1],m),c=E?w(a,1,J(m,m)):E;else
-var
-c=0}if(c){var
-i=i[2],d=d[2];continue}var
-F=c}else
-var
-F=d;var
-o=F}else
-var
-o=d?0:1;if(o){var
-f=L[2];if(0===f[0])return bq(a,f[1],j);var
-n=f[3],G=[2,j[1],f[1]],H=[2,j[2],f[2]],I=w(a,0,[2,[2,[3,n,n],[3,G,G]],[3,H,H]]),K=I?w(a,0,n):I;return K?cv(a,f[4],j[3]):K}return o}}function
-br(c,b,a){var
-d=b1(function(b,a){return[1,b,a]},a,b);return b1(function(b,a){return[2,b,a]},d,c)}function
-em(a,e,d,c){var
-b=br(e,d,c),f=aI(a),g=cu(J(aI(a),b),f);return b1(function(b,a){return[2,b,a]},b,g)}function
-cw(f,e,d,a,c){var
-b=em(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-c7(c,a){return c?[5,a]:[2,[0,e,b],[5,a]]}function
-b2(a,c){switch(a[0]){case
-0:var
-e=a[3],f=a[2],d=a[1],g=em(d,f,e,c),h=cw(d,f,e,a[4],c),i=cu([4,[0,b,b],c7(a[5],h)],g),j=aI(d);return b1(function(b,a){return[1,b,a]},j,i);case
-1:return aI(br(a[1],a[2],c));default:return aI(a[1])}}function
-gB(a,b){switch(a[0]){case
-0:var
-c=a[3],d=a[2],e=a[1],h=cw(e,d,c,a[4],b),i=c7(a[5],h),j=br(d,c,b);return[2,J(aI(e),j),i];case
-1:var
-f=a[2],g=a[1],k=br(g,f,b);return[5,J(br(g,f,b),k)];default:return J(aI(a[1]),b)}}function
-cx(d,c,a){var
-f=[0,e,b];return ck(function(b,d){var
-e=J(b2(b,c),a);return[1,[3,J(b2(b,c),a),e],d]},f,d)}function
-gC(a){var
-c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-en(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aI(b),h=cw(b,f,e,d,c),i=cu(c7(a[5],h),g),j=em(b,f,e,c);return[0,[0,b1(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-gD(d,i){if(d){var
-a=d[1];if(1===a[0]){var
-c=a[3];if(c)var
-f=c[1],g=br(a[1],a[2],i),k=aI(f),l=cu(J(aI(f),g),k),h=[0,b1(function(b,a){return[2,b,a]},g,l)];else
-var
-h=c;var
-b=h}else
-var
-b=0;if(b)var
-e=gD(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
-var
-j=b;return j}return mA}function
-gE(g,f,d,c,m,a){function
-y(a){return[3,[3,[4,[0,b,b],a],[4,[0,b,b],a]],J(c,c)]}if(typeof
-a==="number")return 0;else
-switch(a[0]){case
-0:var
-U=cx(f,d,c);return w(g,1,[2,y(a[1]),U]);case
-1:var
-V=y(a[1]);return w(g,1,[2,cx(f,d,c),V]);case
-2:var
-W=a[2],X=function(a){return[2,W,gB(a,d)]},o=X,n=a[1];break;case
-3:var
-Y=a[2],Z=function(a){return[2,gB(a,d),Y]},o=Z,n=a[1];break;case
-4:var
-z=a[3],A=a[2],_=function(a){var
-b=b2(a,d);return[2,[3,[3,A,A],J(b2(a,d),b)],[3,z,z]]},o=_,n=a[1];break;case
-5:var
-B=a[1],$=J(c,c),aa=[3,[3,B,B],[3,cx(f,d,m),$]],ab=J(m,m);return w(g,1,[2,[3,cx(f,d,c),ab],aa]);case
-6:var
-C=a[2],q=by(f,a[1]);if(q){var
-h=q[1];if(0===h[0]){var
-r=h[4],ac=cw(h[1],h[2],h[3],r,d),D=c7(h[5],ac);return w(g,1,[2,[3,[3,C,r],[3,C,r]],[3,D,D]])}var
-E=0}else
-var
-E=q;return E;case
-7:if(f){var
-k=f[2];if(k){var
-l=k[2];if(l){if(l[2])return 0;var
-s=en(f[1],d);if(s){var
-F=s[1],t=en(k[1],d);if(t){var
-G=t[1],u=en(l[1],d);if(u){var
-H=u[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=w(g,1,[2,I,x]);if(K)return w(g,1,[1,I,x]);var
-L=K}else
-var
-L=u;var
-M=L}else
-var
-M=t;var
-N=M}else
-var
-N=s;var
-O=N}else
-var
-O=l;var
-P=O}else
-var
-P=k;var
-Q=P}else
-var
-Q=f;return Q;case
-8:var
-ad=cx(f,d,c),ae=J(c,c);return w(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],v=gD(f,d);if(v){var
-af=v[1],S=[0,e,b],T=ck(function(a,b){var
-d=J(aI(a),c);return[1,[3,J(aI(a),c),d],b]},S,af);return w(g,1,[2,[3,[3,R,R],J(c,c)],T])}return v}var
-p=by(f,n);return p?w(g,1,o(p[1])):p}function
-bs(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mB(a){switch(a[0]){case
-0:var
-b=a[1],c=b[5],d=b[4][1],e=bs(b[3]),f=bs(b[2]);return[0,bs(b[1]),f,e,d,c];case
-1:var
-g=bn(bs,a[3]),h=bs(a[2]);return[1,bs(a[1]),h,g];default:return[2,bs(a[1])]}}function
-eo(a){if(a){var
-b=a[2],c=a[1];if(b)return m(c,[0,mC,eo(b)]);var
+fF(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,pH,fF(b)]);var
 d=c}else
 var
 d=a;return d}function
-V(a){return[0,mE,m(eo(a),mD)]}function
-ad(a){return[0,mG,m(eo(a),mF)]}function
-av(a){return[0,mI,[0,a,mH]]}function
-g(b,a){return[0,S(mK,S(b,mJ)),a]}function
-ae(b,a){return ad([0,g(b,a),0])}function
-b3(d){var
-b=d,a=l5,e=0;for(;;){if(b){var
-c=fF(a),b=b[1],a=c;continue}return[0,cl(dQ(a)),e]}}function
-ep(a){return[0,cl(cU(a)),0]}function
-gF(a){var
-c=a6(a),f=0,b=0===c?l9:0<c?[0,cU(a)]:[1,cU(H(a))];if(0===b[0])var
-d=cl(b[1]);else
+w(a){return[0,pJ,g(fF(a),pI)]}function
+M(a){return[0,pL,g(fF(a),pK)]}function
+ai(a){return[0,pN,[0,a,pM]]}function
+h(b,a){return[0,am(pP,am(b,pO)),a]}function
+K(b,a){return M([0,h(b,a),0])}function
+cG(d){var
+b=d,a=oD,e=0;for(;;){if(b){var
+c=hb(a),b=b[1],a=c;continue}return[0,c6(dJ(a)),e]}}function
+fG(a){return[0,c6(dN(a)),0]}function
+iR(a){var
+c=br(a),f=0,b=0===c?oH:0<c?[0,dN(a)]:[1,dN(N(a))];if(0===b[0])var
+d=c6(b[1]);else
 var
-e=cl(b[1]),d=S(aF(1,45),e);return[0,d,f]}function
-gG(a){var
-b=0,c=0<a6(a)?cU(a):l8;return[0,cl(c),b]}function
-eq(a){switch(a[0]){case
-1:return mM;case
-2:return 2<=a[1]?mN:mO;case
-3:return mP;default:return mL}}function
-c8(a){function
-b(b,a){return aV(b,eq(a))?c8(a):[0,mV,m(c8(a),mU)]}switch(a[0]){case
+e=c6(b[1]),d=am(aT(1,45),e);return[0,d,f]}function
+iS(a){var
+b=0,c=0<br(a)?dN(a):oG;return[0,c6(c),b]}function
+fH(a){switch(a[0]){case
+2:return pR;case
+3:return 2<=a[1]?pS:pT;case
+4:return pU;default:return pQ}}function
+di(b,a){function
+c(c,a){return _(c,fH(a))?di(b,a):[0,p0,g(di(b,a),pZ)]}switch(a[0]){case
 0:var
-d=a[2],e=a[1];if(typeof
-d==="number")return[0,as(e),0];var
-f=[0,mW,[0,as(d),0]];return[0,as(e),f];case
-1:return[0,mY,b(mX,a[1])];case
-2:var
-g=a[3],h=b([0,eq(a)],g);switch(a[1]){case
-0:var
-c=mQ;break;case
-1:var
-c=mR;break;case
-2:var
-c=mS;break;default:var
-c=mT}var
-i=a[2];return m(b(eq(a),i),[0,c,h]);case
+f=a[2],h=a[1];if(typeof
+f==="number")return[0,aN(h),0];var
+i=[0,p1,[0,aN(f),0]];return[0,aN(h),i];case
+1:return[0,e(b,a[1]),0];case
+2:return[0,p3,c(p2,a[1])];case
 3:var
-j=[0,mZ,ep(a[2])];return m(b(m0,a[1]),j);default:return[0,m2,m(c8(a[1]),m1)]}}function
-ah(a){return[0,m4,m(c8(a),m3)]}function
-er(a){if(0===a[0])return ah(a[1]);var
-b=[0,g(m5,ah(a[2])),0];return ad([0,g(m6,ah(a[1])),b])}function
-es(b,a){var
-c=[0,d(b,a[3]),0],e=[0,d(b,a[2]),c];return V([0,d(b,a[1]),e])}function
-m7(a){function
-b(a){return es(er,a)}switch(a[0]){case
+j=a[3],k=c([0,fH(a)],j);switch(a[1]){case
 0:var
-e=0,f=a[5]?m8:ne,h=[0,g(m9,av(f)),e],i=[0,g(m_,er(a[4])),h],j=[0,g(m$,b(a[3])),i],k=[0,g(na,b(a[2])),j],l=[0,g(nb,b(a[1])),k],c=[0,g(nd,av(nc)),l];break;case
+d=pV;break;case
 1:var
-d=a[3],n=d?[0,g(nf,b(d[1])),0]:d,o=[0,g(ng,b(a[2])),0],p=[0,g(nh,b(a[1])),o],c=m([0,g(nj,av(ni)),p],n);break;default:var
-q=[0,g(nk,b(a[1])),0],c=[0,g(nm,av(nl)),q]}return ad(c)}function
-et(a){switch(a){case
-0:return nn;case
-1:return no;case
-2:return np;case
-3:return nq;case
-4:return nr;case
-5:return ns;case
-6:return nt;default:return nu}}function
-gH(a){var
-e=[0,g(nv,ah(a[5])),0],f=a[4]?nw:nD,h=[0,g(nx,av(f)),e],b=a[3];if(b)var
-j=V([0,ah(b[1]),0]),i=0,k=6===a[1]?ny:nC,d=[0,g(nz,ae(k,j)),i];else
-var
-d=b;var
-l=m(d,h),c=a[2],n=c?[0,g(nA,b3(c[1])),0]:c,o=m(n,l);return ad([0,g(nB,av(et(a[1]))),o])}function
-eu(a){return V(k(gF,a))}function
-gI(b,a){var
-c=[0,g(n1,gG(a)),0];return ad([0,g(n2,V(k(eu,b))),c])}function
-gJ(a){switch(a[0]){case
-0:return av(a[1]);case
-1:var
-b=gI(a[2],a[3]);return ae(a[1],b);case
+d=pW;break;case
 2:var
-c=a[1]?n3:n5;return ae(n4,av(c));case
-3:var
-d=[0,eu(a[3]),0];return ae(n6,V([0,gI(a[1],a[2]),d]));default:var
-e=[0,gG(a[3]),0],f=[0,gF(a[2]),e];return ae(n7,V([0,gJ(a[1]),f]))}}function
-n8(a){var
-b=[0,gJ(a[2]),0];return V([0,b3(a[1]),b])}function
-n9(c){var
-b=c[2],d=b?[0,g(n_,b3(b[1])),0]:b,a=c[1],e=a?[0,g(n$,V(k(n8,[0,a[1],a[2]]))),0]:a;return ad(m(e,d))}function
-ev(h){function
-i(a){return G(h,a)}var
-c=n(h);if(0===c)var
-d=[0];else
-if(0<=c){var
-f=rP(c,i(0)),g=c-1|0,j=1;if(!(g<1)){var
-a=j;for(;;){f[1+a]=i(a);var
-k=a+1|0;if(g!==a){var
-a=k;continue}break}}var
-d=f}else
-var
-d=bl(jC);var
-b=d.length-1-1|0,e=0;for(;;){if(0<=b){var
-l=[0,d[1+b],e],b=b-1|0,e=l;continue}return ar(function(a){var
-b=bQ(34===a?1:0),c=b?bQ(92===a?1:0):b,d=c?aV(ow,fR(a)):c;return d?aV(fR(a),ox):d},e)}}function
-gK(a,b){return b?[3,gK(a,b[1]),a]:a}function
-s(a){switch(a[0]){case
-0:var
-i=a[2],j=c(2,z(c(2,c(2,b)))),k=function(a){return f(j,a)},l=fG(fD(i),k,b);return[0,fL(fE(dQ(a[1]),i)),l];case
-1:var
-d=s(a[1]);return 0===d[0]?[0,H(d[1]),d[2]]:[2,[0,e,b],d];case
-2:var
-g=s(a[2]),h=s(a[3]);switch(a[1]){case
-0:return[1,g,h];case
-1:return[2,g,h];case
-2:return[3,g,h];default:return[4,g,h]}case
-3:var
-m=dR(fI(a[2]));return gK(s(a[1]),m);default:return[5,s(a[1])]}}function
-cy(a){if(0===a[0]){var
-b=s(a[1]);return[0,b,b]}var
-c=s(a[2]);return[0,s(a[1]),c]}function
-bG(a){var
-b=cy(a[3]),c=cy(a[2]);return[0,cy(a[1]),c,b]}function
-oy(a){switch(a[0]){case
-0:var
-b=a[5],c=cy(a[4]),d=bG(a[3]),e=bG(a[2]);return[0,[0,bG(a[1]),e,d,c,b]];case
-1:var
-f=bn(bG,a[3]),g=bG(a[2]);return[1,bG(a[1]),g,f];default:return[2,bG(a[1])]}}function
-oz(a){if(a[1])return 0;var
-b=a[4],c=b?[0,[0,s(a[5])],0]:b;return c}function
-ew(f,a,e){var
-v=aq(f),r=bz(function(b){var
-a=s(b[5]);switch(b[1]){case
-0:return b[4]?0:[0,[1,a],0];case
-1:var
-c=function(c){return b[4]?[3,c,a]:[2,c,a]};break;case
-2:var
-d=b[3];if(!d)return d;var
-h=d[1],c=function(b){return[4,b,s(h),a]};break;case
-3:return[0,[5,a],0];case
+d=pX;break;default:var
+d=pY}var
+l=a[2];return g(c(fH(a),l),[0,d,k]);case
 4:var
-c=function(b){return[6,b,a]};break;case
-5:return[0,[7,a],0];case
+m=[0,p4,fG(a[2])];return g(c(p5,a[1]),m);default:return[0,p7,g(di(b,a[1]),p6)]}}function
+U(a){return[0,p_,g(di(function(a){throw[0,P,p9]},a),p8)]}function
+iT(a){return[0,qa,g(di(function(a){return a},a),p$)]}function
+bY(a){if(0===a[0])return U(a[1]);var
+b=[0,h(qb,U(a[2])),0];return M([0,h(qc,U(a[1])),b])}function
+ed(b,a){var
+c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
+qd(a){function
+b(a){return ed(bY,a)}switch(a[0]){case
+0:var
+e=0,f=a[5]?qe:qm,i=[0,h(qf,ai(f)),e],j=[0,h(qg,bY(a[4])),i],k=[0,h(qh,b(a[3])),j],l=[0,h(qi,b(a[2])),k],m=[0,h(qj,b(a[1])),l],c=[0,h(ql,ai(qk)),m];break;case
+1:var
+d=a[3],n=d?[0,h(qn,b(d[1])),0]:d,o=[0,h(qo,b(a[2])),0],p=[0,h(qp,b(a[1])),o],c=g([0,h(qr,ai(qq)),p],n);break;default:var
+q=[0,h(qs,b(a[1])),0],c=[0,h(qu,ai(qt)),q]}return M(c)}function
+qv(a){function
+b(a){return ed(bY,a)}var
+c=0,d=a[7]?qw:qG,e=[0,h(qx,ai(d)),c],f=[0,h(qy,bY(a[6])),e],g=[0,h(qz,bY(a[5])),f],i=[0,h(qA,b(a[4])),g],j=[0,h(qB,b(a[3])),i],k=[0,h(qC,b(a[2])),j],l=[0,h(qD,b(a[1])),k];return M([0,h(qF,ai(qE)),l])}function
+fI(a){switch(a){case
+0:return qH;case
+1:return qI;case
+2:return qJ;case
+3:return qK;case
+4:return qL;case
+5:return qM;case
+6:return qN;default:return qO}}function
+fJ(a){switch(a[0]){case
+0:return qP;case
+1:return qQ;default:return qR}}function
+dj(a){var
+b=a[4],j=0;if(2===b[0])var
+i=[0,U(b[2]),0],e=w([0,U(b[1]),i]);else
+var
+e=U(b[1]);var
+k=[0,h(qS,e),j],l=[0,h(qT,ai(fJ(a[4]))),k],c=a[3];if(c)var
+n=w([0,U(c[1]),0]),m=0,o=6===a[1]?qU:qY,f=[0,h(qV,K(o,n)),m];else
+var
+f=c;var
+p=g(f,l),d=a[2],q=d?[0,h(qW,cG(d[1])),0]:d,r=g(q,p);return M([0,h(qX,ai(fI(a[1]))),r])}function
+iU(a){if(0===a[0]){var
+b=[0,h(qZ,ed(U,a[2])),0];return K(q1,M([0,h(q0,ed(U,a[1])),b]))}var
+c=[0,U(a[5]),0],d=[0,h(q2,w([0,U(a[4]),c])),0],e=[0,h(q3,U(a[3])),d],f=[0,U(a[2]),0];return K(q5,M([0,h(q4,w([0,U(a[1]),f])),e]))}function
+q9(a){function
+b(a){return w(f(bY,a))}var
+c=[0,h(q_,b(a[2])),0],d=[0,h(q$,b(a[1])),c];return M([0,h(rb,ai(ra)),d])}function
+rh(a){switch(a[0]){case
+0:var
+n=[0,h(ri,w(f(dj,a[3]))),0],o=[0,h(rj,iU(a[2])),n];return K(rm,M([0,h(rl,K(rk,w(f(qd,a[1])))),o]));case
+1:var
+p=[0,h(rn,w(f(dj,a[3]))),0],q=[0,h(ro,iU(a[2])),p];return K(rr,M([0,h(rq,K(rp,w(f(qv,a[1])))),q]));case
+2:var
+r=[0,h(rs,w(f(dj,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,U(a),0];return w([0,U(b),c])};if(0===b[0])var
+j=K(rc,c(b[1],b[2]));else
+var
+e=b[3],g=b[2],i=b[1],l=[0,h(rd,c(e[1],e[2])),0],m=[0,h(re,c(g[1],g[2])),l],j=K(rg,M([0,h(rf,c(i[1],i[2])),m]));var
+s=[0,h(rt,j),r],t=[0,h(ru,w(f(U,a[5]))),0],u=[0,h(rx,K(rw,M([0,h(rv,w(f(U,a[4]))),t]))),s],v=[0,h(ry,U(a[3])),0],x=M([0,h(rz,w(f(q9,a[2]))),v]);switch(a[1]){case
+0:var
+d=q6;break;case
+1:var
+d=q7;break;default:var
+d=q8}return K(rB,M([0,h(rA,K(d,x)),u]));case
+3:var
+y=[0,h(rC,w(f(dj,a[7]))),0],z=[0,h(rD,w(f(U,a[6]))),0],A=[0,h(rG,K(rF,M([0,h(rE,w(f(U,a[5]))),z]))),y],B=0,C=a[4],D=[0,h(rI,w(f(function(a){return K(rH,w(f(iT,a)))},C))),B],E=a[3],F=[0,h(rJ,w(f(function(a){var
+b=[0,iT(a[2]),0];return w([0,ai(a[1]),b])},E))),D],G=a[2],H=[0,h(rK,w(f(function(a){var
+b=[0,bY(a[2]),0];return w([0,ai(a[1]),b])},G))),F];return K(rO,M([0,h(rN,K(rM,M([0,h(rL,w(f(ai,a[1]))),H]))),A]));case
+4:var
+I=[0,h(rP,w(f(dj,a[3]))),0],J=[0,h(rS,K(rR,M([0,h(rQ,U(a[2])),0]))),I];return K(rW,M([0,h(rV,K(rU,M([0,h(rT,U(a[1])),0]))),J]));default:var
+k=a[1],L=0,N=k?bY(k[1]):ai(rZ);return K(rY,M([0,h(rX,N),L]))}}function
+fK(a){return w(f(iR,a))}function
+iV(b,a){var
+c=[0,h(r0,iS(a)),0];return M([0,h(r1,w(f(fK,b))),c])}function
+fL(a){switch(a[0]){case
+0:return ai(a[1]);case
+1:var
+b=iV(a[2],a[3]);return K(a[1],b);case
+2:var
+c=a[1]?r2:r4;return K(r3,ai(c));case
+3:var
+d=[0,fK(a[3]),0];return K(r5,w([0,iV(a[1],a[2]),d]));case
+4:var
+e=[0,iS(a[3]),0],f=[0,iR(a[2]),e];return K(r6,w([0,fL(a[1]),f]));default:return K(r7,fL(a[1]))}}function
+r8(a){var
+b=[0,fL(a[2]),0];return w([0,cG(a[1]),b])}function
+r9(c){var
+b=c[2],d=b?[0,h(r_,cG(b[1])),0]:b,a=c[1],e=a?[0,h(r$,w(f(r8,[0,a[1],a[2]]))),0]:a;return M(g(e,d))}function
+fM(a){var
+b=gZ(gY(y(a),function(b){return G(a,b)}));return p(function(a){var
+b=aU(34===a?1:0),c=b?aU(92===a?1:0):b,d=c?_(sw,dO(a)):c;return d?_(dO(a),sx):d},b)}function
+ee(b){function
+c(f){var
+a=dO(f),b=_(sy,a),c=b?_(a,sz):b;if(c)var
+d=c;else{var
+e=_(sA,a);if(e)return _(a,sB);var
+d=e}return d}var
+a=gZ(gY(y(b),function(a){return G(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?p(function(a){var
+b=c(a);if(b)var
+d=b;else
+var
+e=dO(a),f=_(sC,e),h=f?_(e,sD):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?_(l(d),sE):f;if(g)return aU(av(b,sF));var
+h=g}else
+var
+h=a;return h}function
+fN(c){var
+a=c;for(;;)switch(a[0]){case
+0:return 1;case
+1:return ee(a[1]);case
+3:var
+b=fN(a[2]);if(b){var
+a=a[3];continue}return b;default:var
+a=a[1];continue}}function
+cH(m){var
+a=m;for(;;)switch(a[0]){case
+0:var
+e=a[1];if(typeof
+e==="number")var
+d=0;else
+if(0===e[0])var
+h=typeof
+e[1]==="number"?1:0,d=h?1:h;else
+var
+d=1;if(d){var
+f=dJ(a[2]);if(typeof
+f!=="number"&&0===f[0])return 0;var
+g=1}else
+var
+g=d;return g;case
+1:return 1;case
+3:var
+i=cH(a[2]);if(i){var
+a=a[3];continue}return i;case
+4:var
+j=a[2],k=cH(a[1]),l=k?dM(b(2,c),j):k;return l?dM(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+a=a[1];continue}}function
+cI(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+fO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bZ(a){return C(cI,fO(a))}function
+sG(a){switch(a[0]){case
+0:var
+c=cI(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
+1:var
+b=a[3],f=b?bZ(b[1]):b,h=g(bZ(a[2]),f);return g(bZ(a[1]),h);default:return bZ(a[1])}}function
+sH(a){var
+b=C(cI,[0,a[5],[0,a[6],0]]);return g(C(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+iW(a){if(0===a[0]){var
+b=fO(a[2]);return g(fO(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+dk(c){var
+a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
+iX(a){var
+d=dM(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dM(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+iY(a,b){return b?[3,iY(a,b[1]),a]:a}function
+i(a){switch(a[0]){case
+0:var
+h=a[2],k=b(2,j(b(2,b(2,c)))),l=function(a){return n(k,a)},m=eX(g$(h),l,c);return[0,hi(ha(dJ(a[1]),h)),m];case
+1:throw[0,P,sI];case
+2:var
+e=i(a[1]);return 0===e[0]?[0,N(e[1]),e[2]]:[2,[0,d,c],e];case
+3:var
+f=i(a[2]),g=i(a[3]);switch(a[1]){case
+0:return[1,f,g];case
+1:return[2,f,g];case
+2:return[3,f,g];default:return[4,f,g]}case
+4:var
+o=c1(c3(a[2]));return iY(i(a[1]),o);default:return[5,i(a[1])]}}function
+bD(a){if(0===a[0]){var
+b=i(a[1]);return[0,b,b]}var
+c=i(a[2]);return[0,i(a[1]),c]}function
+a5(a){var
+b=bD(a[3]),c=bD(a[2]);return[0,bD(a[1]),c,b]}function
+sJ(a){switch(a[0]){case
+0:var
+b=a[5],c=bD(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
+1:var
+f=aw(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
+iZ(a){if(0===a[0]){var
+c=a[2],d=a[1],b=function(a){var
+b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
+h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
+sK(a){if(a[1])return 0;var
+b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
+fP(c,j,b){var
+x=l(c),d=C(function(a){switch(a[1]){case
+0:var
+g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
+1:var
+c=a[4];switch(c[0]){case
+0:var
+q=c[1],b=function(a){return[2,a,i(q)]};break;case
+1:var
+s=c[1],b=function(a){return[3,a,i(s)]};break;default:return 0}break;case
+2:var
+j=a[4];if(1!==j[0])return 0;var
+d=a[3],t=j[1];if(!d)return d;var
+u=d[1],b=function(a){var
+b=i(t);return[4,a,i(u),b]};break;case
+3:var
+k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
+4:var
+l=a[4];if(0!==l[0])return 0;var
+v=l[1],b=function(a){return[6,a,i(v)]};break;case
+5:var
+m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
 6:var
-e=b[3],i=e?[0,[8,s(e[1]),a],0]:e;return i;default:return[0,[9,a],0]}var
-f=b[2],g=f?[0,dR(f[1]),0]:fP(0,v);return k(c,g)},e),c=bz(oz,e),t=c?[0,c[1],c[2]]:oD,u=m(t,r);if(0===a[0])var
-h=a[2],i=a[1],b=function(a){var
-b=s(d(a,h));return[0,s(d(a,i)),b]},j=b(function(a){return a[3]}),l=b(function(a){return a[2]}),g=[0,[0,b(function(a){return a[1]}),l,j]];else
+n=a[4];if(0===n[0]){var
+e=a[3];if(e)var
+w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
 var
-n=s(a[5]),o=[0,s(a[4]),n],p=s(a[3]),q=s(a[2]),g=[1,s(a[1]),q,p,o];return[0,k(oy,f),g,u]}var
-W=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-c9(h){var
-a=ck(function(f,d){var
-a=aH(W,f);if(a)var
-b=a[1],c=bx(dC(b[1]),dC(b[2]));else
-var
-c=e;return bx(c,d)},e,h);if(al(e,a)){var
-f=a6(a);if(0===f||!(0<f&&!x(a,b)))var
-g=e;else
-var
-c=aU(a,ay(2)),d=c[1],g=_(c[2],e)?cT(d):cT(d);return cc(g,W)}return e}function
-c_(a){return[0,a[1],[0,a[2],0]]}function
-bH(a){var
-b=c_(a[3]),c=m(c_(a[2]),b);return m(c_(a[1]),c)}function
-oE(a){return 0===a[0]?c_(a[1][4]):0}function
-oF(a){switch(a[0]){case
+o=e;return o}return 0;default:var
+p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0}var
+h=a[2],r=h?[0,c1(h[1]),0]:c5(0,x);return f(b,r)},b),a=C(sK,b),e=a?[0,a[1],a[2]]:sM,h=g(e,d),k=iZ(j);return[0,f(sJ,c),k,h]}function
+sN(a){if(a[1])return 0;var
+b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
+cJ(n,b){var
+c=C(function(b){switch(b[1]){case
 0:var
-b=a[1],c=bH(b[3]);return m(bH(b[2]),c);case
+d=b[4];return 0===d[0]?[0,[1,i(d[1])],0]:0;case
 1:var
-d=bH(a[2]);return m(bH(a[1]),d);default:return 0}}function
-oG(a){switch(a[0]){case
-0:return c9(bH(a[1][1]));case
-1:var
-b=a[3];return b?c9(bH(b[1])):e;default:return c9(bH(a[1]))}}function
-gL(a){switch(a[0]){case
+a=b[4];switch(a[0]){case
 0:var
-b=a[1];if(ax(b,oH))return oI;if(ax(b,oJ))return oK;if(ax(b,oL))return oM;if(ax(b,oN))return oO;var
-g=ax(b,oP),i=g?oQ:g;return i;case
+h=a[1],c=function(a){return[2,a,i(h)]};break;case
 1:var
-c=a[3],d=a[2],e=a[1];if(ax(e,oR))return[0,[0,c,d]];if(ax(e,oS))return[0,[1,c,d]];var
-h=ax(e,oT),j=h?[0,[2,c,d]]:h;return j;case
+k=a[1],c=function(a){return[3,a,i(k)]};break;default:var
+l=a[2],m=a[1],c=function(a){var
+b=i(l);return[4,a,i(m),b]}}var
+e=b[2],j=e?[0,c1(e[1]),0]:c5(0,n);return f(c,j);case
+3:var
+g=b[4];return 1===g[0]?[0,[5,i(g[1])],0]:0;default:return 0}},b),a=C(sN,b),d=a?[0,a[1],a[2]]:sO;return g(d,c)}function
+fQ(h,g,a){switch(a[1]){case
+0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
+1:if(a[3])return 0;var
+i=2===a[4][0]?1:0,b=dK(h,i);if(b){var
+c=a[2];if(c){var
+d=c[1],e=_(sP,d);return e?_(d,g):e}var
+f=1}else
+var
+f=b;return f;case
+3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
+cg(a){switch(a[0]){case
+0:return[0,i([0,a[1],a[2]])];case
+1:return[1,a[1]];case
+2:return[2,cg(a[1])];case
+3:var
+b=cg(a[2]),c=cg(a[3]);switch(a[1]){case
+0:return[3,b,c];case
+1:return[4,b,c];case
+2:return[5,b,c];default:return[6,b,c]}case
+4:var
+d=a[2];return[7,cg(a[1]),d];default:return[8,cg(a[1])]}}function
+i0(b){function
+a(e){var
+a=[0,d,c];return L(e,b,[0,a,a])}var
+e=a(sQ),f=a(sR);return[0,a(0),f,e]}function
+fR(a){function
+b(a){var
+b=i(a[2]);return[0,i(a[1]),b]}if(0===a[0])return[0,b([0,a[1],a[2]])];var
+c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c]}function
+i1(j,a,h,g,e,d,c){function
+b(a){return i0(f(bD,a))}var
+k=cJ(l(a),c),m=fR(d),n=cs(g,e),o=i0(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
+sS(a){var
+b=a[7],c=bD(a[6]),d=bD(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+dl(h){var
+a=cr(function(f,e){var
+a=ay(m,f);if(a)var
+b=a[1],c=b9(eJ(b[1]),eJ(b[2]));else
+var
+c=d;return b9(c,e)},d,h);if(af(d,a)){var
+f=br(a);if(0===f||!(0<f&&!B(a,c)))var
+g=d;else
+var
+b=bb(a,aP(2)),e=b[1],g=as(b[2],d)?dL(e):dL(e);return b7(g,m)}return d}function
+ef(a){return[0,a[1],[0,a[2],0]]}function
+bE(a){var
+b=ef(a[3]),c=g(ef(a[2]),b);return g(ef(a[1]),c)}function
+sT(a){return 0===a[0]?ef(a[1][4]):0}function
+sU(a){switch(a[0]){case
+0:var
+b=a[1],c=bE(b[3]);return g(bE(b[2]),c);case
+1:var
+d=bE(a[2]);return g(bE(a[1]),d);default:return 0}}function
+sV(a){switch(a[0]){case
+0:return dl(bE(a[1][1]));case
+1:var
+b=a[3];return b?dl(bE(b[1])):d;default:return dl(bE(a[1]))}}function
+fS(a){switch(a[0]){case
+0:var
+b=a[1];if(av(b,sW))return sX;if(av(b,sY))return sZ;if(av(b,s0))return s1;if(av(b,s2))return s3;var
+g=av(b,s4),i=g?s5:g;return i;case
+1:var
+c=a[3],d=a[2],e=a[1];if(av(e,s6))return[0,[0,c,d]];if(av(e,s7))return[0,[1,c,d]];var
+h=av(e,s8),j=h?[0,[2,c,d]]:h;return j;case
 2:return[0,[4,a[1]]];case
-3:return[0,[3,a[2],a[1],a[3]]];default:var
-f=gL(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k}}function
-gM(a){if(a){var
-d=a[1],b=gL(d[2]);if(b)var
-c=gM(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+3:return[0,[3,a[2],a[1],a[3]]];case
+4:var
+f=fS(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k;default:var
+l=fS(a[1]);return aw(function(a){return[6,a]},l)}}function
+i2(a){if(a){var
+d=a[1],b=fS(d[2]);if(b)var
+c=i2(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return oU}function
-c$(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=gM(g[1]);if(c){var
+e=b;return e}return s9}function
+cK(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=i2(g[1]);if(c){var
 k=c[1];if(h){var
-d=c$(j,i);if(d){var
-l=d[1],e=c$(j,l[2]);if(e)var
+d=cK(j,i);if(d){var
+l=d[1],e=cK(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -3209,326 +3908,641 @@ var
 f=a;else
 var
 f=b;return f}function
-ex(d,a){if(d){if(a){var
-b=c$(aq(a),a);if(b)var
-e=b[1],c=ex(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+fT(d,a){if(d){if(a){var
+b=cK(l(a),a);if(b)var
+e=b[1],c=fT(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return oV}return a?0:oW}function
-da(b,a){return 0===b[0]?[0,s(b[1]),a]:a?[0,a[1],a[2]]:[0,s(b[1]),0]}function
-bI(a,e){var
-b=da(a[1],e),c=da(a[2],b[2]),d=da(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-gN(d,c){if(d){var
+f=b;return f}return s_}return a?0:s$}function
+ch(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+a6(a,e){var
+b=ch(a[1],e),c=ch(a[2],b[2]),d=ch(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+i3(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=bI(a[1],c),f=bI(a[2],e[2]),g=bI(a[3],f[2]),h=da(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=ch(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=bI(a[1],c),k=j[1],l=bI(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=bI(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=a6(a[1],c),k=j[1],l=a6(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=a6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=bI(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=gN(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-oY(a){if(typeof
-a!=="number")switch(a[0]){case
+p=a6(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=i3(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+i4(b,i){if(b){var
+a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=ch(a[5],f[2]),h=ch(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=i4(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+fU(a,b){if(a){var
+c=ch(a[1],b),d=fU(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+fV(b){function
+a(a){return L(a,b,[0,d,c])}var
+e=a(tb),f=a(tc);return[0,a(0),f,e]}function
+i5(a,b){if(a){var
+c=a[1],d=fU(c[1],b),e=fU(c[2],d[2]),f=i5(a[2],e[2]),g=f[2],h=f[1],i=fV(e[1]);return[0,[0,[0,fV(d[1]),i],h],g]}return[0,0,b]}function
+i6(a){return typeof
+a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
+eg(a){return h4(m,a)}function
+td(a){if(typeof
+a==="number")return 1;else
+switch(a[0]){case
 4:var
-c=w(W,1,a[2]);return c?w(W,1,a[3]):c;case
-5:return w(W,1,[2,a[1],[0,b,b]]);case
-6:return w(W,1,a[2]);case
+b=o(m,1,a[2]);return b?o(m,1,a[3]):b;case
+5:return o(m,1,[2,a[1],[0,c,c]]);case
+6:return o(m,1,a[2]);case
 8:var
-d=w(W,1,a[1]);return d?w(W,1,a[2]):d;case
+d=o(m,1,a[1]);return d?o(m,1,a[2]):d;case
 2:case
-3:break;default:return w(W,1,a[1])}return 1}function
-gO(a){if(0===a[0])return 1;var
-b=s(a[1]);return w(W,1,[2,s(a[2]),b])}function
-bJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-oZ(a){switch(a[0]){case
-0:var
-c=[0,a[4],0],d=m(bJ(a[3]),c),e=m(bJ(a[2]),d);return m(bJ(a[1]),e);case
-1:var
-b=a[3],f=b?bJ(b[1]):b,g=m(bJ(a[2]),f);return m(bJ(a[1]),g);default:return bJ(a[1])}}function
-gP(b,h,m){var
-i=aV(o0,aq(b));if(i)var
-c=aq(b),d=ar(function(a){switch(a[1]){case
-0:return a[2]?0:a[3]?0:1;case
-1:var
-b=a[2];if(b){var
-d=b[1];if(a[3])return 0;var
-e=aV(oA,d);return e?aV(d,c):e}return a[3]?0:1;case
-2:var
-f=a[4];if(f){var
-g=a[2];if(g){var
-h=g[1],i=a[3];if(i){var
-j=aV(oB,h);if(j)return aV(h,c);var
-k=j}else
+3:return eg(a[2]);default:return o(m,1,a[1])}}function
+fW(a){if(typeof
+a==="number")return 1;else
+switch(a[0]){case
+4:var
+d=a[3],e=a[2],f=o(m,1,[2,d,e]),g=f?o(m,1,[2,[1,e,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(m,0,[1,e,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c]]):g;return h?o(m,0,[2,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c],d]):h;case
+5:return o(m,1,[2,a[1],[0,c,c]]);case
+0:case
+1:return o(m,1,a[1]);default:return eg(a[2])}}function
+eh(d){var
+a=d;for(;;){if(a){var
+b=a[2],e=a[1],c=aU(bx(function(d){return function(a){var
+h=fI(a[1]),e=av(fI(d[1]),h);if(e)var
+i=fJ(a[4]),b=av(fJ(d[4]),i);else
 var
-k=i;return k}var
-l=a[3],t=l?1:l,m=t}else
-var
-m=f;return m;case
-3:var
-n=a[4];if(n){if(a[2])return 0;if(a[3])return 0;var
-o=1}else
-var
-o=n;return o;case
-4:if(a[4])return 0;var
-p=a[2];if(p){var
-q=p[1];if(a[3])return 0;var
-r=aV(oC,q);return r?aV(q,c):r}return a[3]?0:1;case
-6:if(a[4])return 0;if(a[2])return 0;var
-s=a[3],u=s?1:s;return u;default:return a[4]?0:a[2]?0:a[3]?0:1}},h);else
-var
-d=i;if(d){var
-a=h;for(;;){if(a){var
-f=a[2],l=a[1],g=bQ(dW(function(c){return function(a){var
-h=et(a[1]),d=ax(et(c[1]),h),e=d?dS(c[4],a[4]):d;if(e){var
-f=c[2];if(f){var
-b=a[2];return b?ci(f[1],b[1]):b}if(a[2])return 0;var
+b=e;if(b){var
+f=d[2];if(f){var
+c=a[2];return c?aC(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
-g=e;return g}}(l),f));if(g){var
-a=f;continue}var
-j=g}else
-var
-j=1;var
-e=j;break}}else
-var
-e=d;var
-k=e?ar(gO,bz(oZ,b)):e;return k?ar(oY,m[3]):k}function
-o1(i){var
-a0=ev(i[3]),a1=a0?ev(i[4]):a0;if(a1){var
-a2=i[2];if(0===a2[0])var
-ca=a2[2],P=ar(function(a){var
-b=a[1];return ar(function(b){var
-a=b[2];for(;;)switch(a[0]){case
-4:var
-a=a[1];continue;case
-0:case
-1:return ev(a[1]);default:return 1}},b)},ca);else
-var
-P=1}else
-var
-P=a1;if(P){var
-n=i[1];switch(n[0]){case
+g=b;return g}}(e),b));if(c){var
+a=b;continue}return c}return 1}}function
+dm(a){if(0===a[0])return eg(i(a[1]));var
+b=i(a[1]);return o(m,1,[2,i(a[2]),b])}function
+a7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+te(a){switch(a[0]){case
 0:var
-D=n[3],ap=n[2],t=n[1],u=i[2];if(0===u[0]){var
-bg=u[2],a=ew(t,ap,D),as=c$(aq(bg),bg);if(as){var
-bh=as[1];if(bh[2])return 0;var
-bi=gP(t,D,a);if(bi){var
-ce=bh[1],bj=k(oG,a[1]),bk=a[1],ag=bz(oE,bk),cd=ag?[0,ag[1],ag[2]]:bz(oF,bk),f=B(b,c9(cd)),c=u[1],y=a[2],b$=0===y[0]?bs(y[1]):[0,y[1],y[2],y[4][1]],aW=gA(W,a,k(mB,a[1]),b$);if(aW){var
-aF=gm(f,bj,a[1]),q=gn(f,bj,a[1],0),aG=aq(aF),bQ=gq(q,f,aG,a[3]),bR=m(eh(gj(q)),bQ),aH=m(eh(gi(q)),bR),aI=f0(aH)[1],bN=0,bO=function(a){return[0,a]},x=c0(p(e),bO,aI,bN),aJ=ar(function(a){var
-b=p(e);return bA(aA(bS(x,a),x,b),a)},aH);if(aJ){var
-aK=dW(mt,a[3]);if(aK){var
-bT=a[3],bU=m(aF,k(function(a){return bF(f,a)},bT)),Z=cs(k(function(a){return bX(c,a)},bU));if(Z){var
-r=a[2];if(0===r[0])var
-aL=r[1];else
+c=[0,a[4],0],d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e);case
+1:var
+b=a[3],f=b?a7(b[1]):b,h=g(a7(a[2]),f);return g(a7(a[1]),h);default:return a7(a[1])}}function
+tf(a){var
+b=[0,a[5],[0,a[6],0]],c=g(a7(a[4]),b),d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e)}function
+fX(a){switch(a){case
+0:return tj;case
+1:return tk;default:return 0}}function
+ei(a){var
+f=a[1],d=o(m,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],f]),e=d?bW(m,a[1],a[2]):d;if(e){var
+g=a[2];return o(m,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],g])}return e}function
+i7(b,a,B,r,q,n,e){function
+s(a){var
+d=b?th:ti,c=aC(l(a),d);return c?p(dm,a):c}var
+t=p(function(a){var
+b=s(a[1]);return b?s(a[2]):b},a);if(t)var
+C=l(a),f=_(d6(b),C);else
 var
-F=r[3],aD=r[2],aE=r[1],aL=[0,[0,[2,aE,F],[1,aE,F]],[0,[2,aD,F],[1,aD,F]],r[4]];var
-bV=bp(aL,f),_=cs(k(function(a){return bX(c,a)},bV));if(_){var
-bY=a[3],$=cs(gr(c,function(a){return bS(x,a)},q,f,aG,bY));if($){var
-aM=$[1],bP=k(function(a){return 1},aM),G=a[2],bZ=_[1],b0=function(e){if(0===G[0])return 0;if(e){var
-a=e[2];if(a){var
-g=a[2];if(g){if(g[2])return 0;var
-b=a[1],d=e[1],h=bC(c,f,G[1]);if(h){var
-i=bC(c,f,G[2]);if(i){var
-j=bC(c,f,G[3]);if(j)var
-s=h[1],t=bb(d),k=an([0,bb(d),t],s),u=i[1],v=bb(b),l=an([0,bb(b),v],u),w=bW(b),x=[0,bW(b),w],y=[0,U(c,at(N(l,l)),x),0],z=bW(d),A=[0,bW(d),z],B=[0,U(c,at(N(k,k)),A),y],C=ba(c,l),D=ba(c,k),m=[0,[0,an(an(ba(c,j[1]),D),C),aN,B]];else
+f=t;var
+u=f?_(l(a),tl):f,v=u?o(m,1,i(B)):u;if(v)var
+D=fX(b),g=aC(l(r),D);else
 var
-m=j;var
+g=v;if(g)var
+E=fX(b),h=aC(l(q),E);else
+var
+h=g;if(h)var
+F=cs(r,q),j=p(function(a){var
+b=i(a[2]);return bW(m,i(a[1]),b)},F);else
+var
+j=h;if(j)if(b){var
+c=fR(n);if(0===c[0])var
+w=0;else
+var
+y=ei(c[1]),z=y?ei(c[2]):y,w=z?ei(c[3]):z;var
+d=w}else
+var
+A=fR(n),I=0===A[0]?ei(A[1]):0,d=I;else
+var
+d=j;if(d)var
+G=l(a),H=0,k=p(function(a){return fQ(H,G,a)},e);else
+var
+k=d;var
+x=k?eh(e):k;return x?p(fW,cJ(l(a),e)):x}function
+i8(a,c,g){var
+d=_(tm,l(a));if(d)var
+m=l(a),b=p(function(a){switch(a[1]){case
+0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
+1:if(2===a[4][0])return 0;var
+c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
+b=c[1];break;case
+2:if(1!==a[4][0])return 0;var
+e=a[2];if(!e){var
+g=a[3],j=g?1:g;return j}var
+f=a[3];if(!f)return f;var
+b=e[1];break;case
+3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;case
+4:if(0!==a[4][0])return 0;var
+h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
+b=h[1];break;case
+6:if(0===a[4][0]){if(a[2])return 0;var
+i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
+d=_(sL,b);return d?_(b,m):d},c);else
+var
+b=d;var
+e=b?eh(c):b,f=e?p(dm,C(te,a)):e;return f?p(td,g[3]):f}function
+i9(b,a){return p(function(c){var
+a=c[2];return a?hc(a[1],b):1},a)}function
+tn(s){var
+eS=fM(s[3]),eT=eS?fM(s[4]):eS;if(eT){var
+aj=s[1];if(3===aj[0]){var
+eX=p(ee,aj[1]);if(eX)var
+hD=aj[2],co=p(function(a){return ee(a[1])},hD);else
+var
+co=eX;if(co)var
+hE=aj[3],cp=p(function(a){var
+b=ee(a[1]),c=b?fN(a[2]):b;return c?cH(a[2]):c},hE);else
+var
+cp=co;if(cp)var
+hF=aj[4],hG=function(a){var
+b=fN(a);return b?cH(a):b},cl=p(function(a){return p(hG,a)},hF);else
+var
+cl=cp}else
+var
+cl=1;var
+cm=cl}else
+var
+cm=eT;if(cm){var
+h=s[1];switch(h[0]){case
+0:var
+hn=C(dk,h[3]),ho=g(iW(h[2]),hn),U=g(C(sG,h[1]),ho);break;case
+1:var
+hp=C(dk,h[3]),hq=g(iW(h[2]),hp),U=g(C(sH,h[1]),hq);break;case
+2:var
+hr=C(dk,h[7]),T=h[6];if(0===T[0])var
+eR=[0,T[1],[0,T[2],0]];else
+var
+eO=T[3],eP=T[2],eQ=T[1],eR=[0,eQ[1],[0,eQ[2],[0,eP[1],[0,eP[2],[0,eO[1],[0,eO[2],0]]]]]];var
+hs=g(eR,hr),ht=g(h[5],hs),hu=g(h[4],ht),hv=[0,h[3],hu],hw=h[2],U=g(C(function(a){return C(cI,g(a[1],a[2]))},hw),hv);break;case
+3:var
+hx=C(dk,h[7]),hy=g(h[6],hx),hz=g(h[5],hy),hA=h[2],U=g(C(function(a){return cI(a[2])},hA),hz);break;case
+4:var
+hB=C(dk,h[3]),U=[0,h[1],[0,h[2],hB]];break;default:var
+ck=h[1],U=ck?cI(ck[1]):ck}var
+cn=p(cH,U)}else
+var
+cn=cm;if(cn){var
+V=s[2];if(0===V[0]){var
+eU=iX(V[1]);if(eU)var
+hC=V[2],ak=p(function(a){var
+b=a[1];return p(function(b){var
+a=b[2];for(;;)switch(a[0]){case
+0:case
+1:return fM(a[1]);case
+4:case
+5:var
+a=a[1];continue;default:return 1}},b)},hC);else
+var
+ak=eU}else
+var
+eV=iX(V[1]),ak=eV?p(cH,g(V[2],V[3])):eV}else
+var
+ak=cn;if(ak){var
+a=s[1];switch(a[0]){case
+0:var
+al=a[3],cL=a[2],X=a[1],Y=s[2];if(0===Y[0]){var
+fe=Y[2],n=fP(X,cL,al),cM=cK(l(fe),fe);if(cM){var
+ff=cM[1];if(ff[2])return 0;var
+fg=i8(X,al,n);if(fg){var
+hX=ff[1],fi=f(sV,n[1]),fj=n[1],ct=C(sT,fj),hO=ct?[0,ct[1],ct[2]]:C(sU,fj),x=z(c,dl(hO)),u=Y[1],ac=n[2],gu=0===ac[0]?bX(ac[1]):[0,ac[1],ac[2],ac[4][1]],dq=h6(m,n,f(pc,n[1]),gu);if(dq){var
+c6=hY(x,fi,n[1]),O=hZ(x,fi,n[1],0),c7=l(c6),gc=h2(O,x,c7,n[3]),gd=g(cB(hQ(O)),gc),c8=g(cB(hP(O)),gd),c9=dW(c8)[1],ab=cx(c9),c_=p(function(a){var
+b=r(d);return bz(L(bS(ab,a),ab,b),a)},c8);if(c_){var
+da=bx(pa,n[3]);if(da){var
+ge=n[3],gf=g(c6,f(function(a){return cc(x,a)},ge)),bq=aY(f(function(a){return aX(u,a)},gf));if(bq){var
+P=n[2];if(0===P[0])var
+db=P[1];else
+var
+ap=P[3],c3=P[2],c4=P[1],db=[0,[0,[2,c4,ap],[1,c4,ap]],[0,[2,c3,ap],[1,c3,ap]],P[4]];var
+gg=be(db,x),br=aY(f(function(a){return aX(u,a)},gg));if(br){var
+gh=n[3],bs=aY(h3(u,function(a){return bS(ab,a)},O,x,c7,gh));if(bs){var
+de=bs[1],gi=hW(de),aq=n[2],gj=br[1],gk=function(d){if(0===aq[0])return 0;if(d){var
+a=d[2];if(a){var
+e=a[2];if(e){if(e[2])return 0;var
+b=a[1],c=d[1],f=b$(u,x,aq[1]);if(f){var
+g=b$(u,x,aq[2]);if(g){var
+h=b$(u,x,aq[3]);if(h)var
+q=f[1],r=bA(c),i=ah([0,bA(c),r],q),s=g[1],t=bA(b),j=ah([0,bA(b),t],s),v=cz(b),w=[0,cz(b),v],y=[0,D(u,aD(S(j,j)),w),0],z=cz(c),A=[0,cz(c),z],B=[0,D(u,aD(S(i,i)),A),y],C=ax(u,j),E=ax(u,i),k=[0,[0,ah(ah(ax(u,h[1]),E),C),aE,B]];else
+var
+k=h;var
+l=k}else
+var
+l=g;var
+m=l}else
+var
+m=f;var
 n=m}else
 var
-n=i;var
+n=e;var
 o=n}else
 var
-o=h;var
+o=a;var
 p=o}else
 var
-p=g;var
-q=p}else
+p=d;return p},gl=bq[1],gm=0,gn=hQ(O),go=e(bU(function(a){return bS(ab,a)}),gn),gp=hP(O);return fh(u,c9,e(bU(function(a){return bS(ab,a)}),gp),go,gm,gl,de,gk,gj,gi,hX)}var
+dg=bs}else
 var
-q=a;var
-r=q}else
+dg=br;var
+di=dg}else
 var
-r=e;return r},b1=Z[1],b3=gj(q),b4=d(cp(function(a){return bS(x,a)}),b3),b5=gi(q);return ge(c,aI,d(cp(function(a){return bS(x,a)}),b5),b4,b1,aM,b0,bZ,bP,ce)}var
-aO=$}else
+di=bq;var
+bt=di}else
 var
-aO=_;var
-aP=aO}else
+bt=da}else
 var
-aP=Z;var
-aa=aP}else
+bt=c_;return bt}return dq}var
+fk=fg}else
 var
-aa=aK}else
+fk=cM;return fk}var
+a1=Y[2];if(a1){var
+a2=a1[2];if(a2){var
+a3=a2[2];if(a3){if(a3[2])return 0;var
+fl=i3(X,f(i,Y[3]));if(fl[2])return 0;var
+Z=Y[4];if(typeof
+Z==="number")var
+y=ta;else
+if(0===Z[0]){var
+cu=Z[2],cv=Z[1];if(cu){var
+aQ=cu[1],cX=0;if(aQ){var
+aS=aQ[2],bn=0;if(aS){var
+aT=aS[2],bo=0;if(aT)if(aT[2]){var
+y=0;bn=1;bo=1}else{var
+cw=aT[1],cy=aS[1],cD=aQ[1],cE=cu[2];if(cE){var
+aW=cE[1],f$=0;if(aW){var
+aZ=aW[2],ga=0;if(aZ){var
+a0=aZ[2],gb=0;if(a0)if(a0[2]||cE[2]){var
+y=0;bn=1;bo=1;f$=1;ga=1;gb=1}else
 var
-aa=aJ;return aa}return aW}var
-bl=bi}else
+e3=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,aW[1],aZ[1]],a0[1]]]];else
 var
-bl=as;return bl}var
-Q=u[2];if(Q){var
-R=Q[2];if(R){var
-S=R[2];if(S){if(S[2])return 0;var
-bm=gN(t,k(s,u[3]));if(bm[2])return 0;var
-v=u[4];if(typeof
-v==="number")var
-g=oX;else
-if(0===v[0]){var
-ah=v[2],ai=v[1];if(ah){var
-H=ah[1],az=0;if(H){var
-I=H[2],X=0;if(I){var
-K=I[2],Y=0;if(K)if(K[2]){var
-g=0;X=1;Y=1}else{var
-aj=K[1],ak=I[1],am=H[1],ao=ah[2];if(ao){var
-L=ao[1],bI=0;if(L){var
-M=L[2],bJ=0;if(M){var
-O=M[2],bK=0;if(O)if(O[2]||ao[2]){var
-g=0;X=1;Y=1;bI=1;bJ=1;bK=1}else
+e3=a0;if(!gb)var
+e4=e3}else
 var
-a9=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,L[1],M[1]],O[1]]]];else
+e4=aZ;if(!ga)var
+e5=e4}else
 var
-a9=O;if(!bK)var
-a_=a9}else
+e5=aW;if(!f$){var
+y=e5;bn=1;bo=1}}else
 var
-a_=M;if(!bJ)var
-a$=a_}else
+e6=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,cD,cy],cw]]]}else
 var
-a$=L;if(!bI){var
-g=a$;X=1;Y=1}}else
+e6=aT;if(!bo)var
+e7=e6}else
 var
-bc=[0,[0,ai,[0,[0,am,ak],aj],[0,[0,am,ak],aj]]]}else
+e7=aS;if(!bn){var
+e8=e7;cX=1}}else{var
+e8=aQ;cX=1}if(cX)var
+y=e8}else
 var
-bc=K;if(!Y)var
-bd=bc}else
+e9=[0,[0,d,d],d],y=[0,[0,cv,e9,e9]]}else
 var
-bd=I;if(!X){var
-be=bd;az=1}}else{var
-be=H;az=1}if(az)var
-g=be}else
-var
-bf=[0,[0,e,e],e],g=[0,[0,ai,bf,bf]]}else
-var
-g=[0,[1,v[1],v[2]]];if(g){var
-bn=gP(t,D,ew(t,ap,D));if(bn){var
-o=g[1],cf=s(S[1]),cg=s(R[1]),j=[0,s(Q[1]),cg,cf],E=bm[1],au=ew(t,ap,D),aT=gA(W,au,E,j);if(aT)if(typeof
-o==="number")return dW(function(a){switch(a[0]){case
+y=[0,[1,Z[1],Z[2]]];if(y){var
+fm=i8(X,al,fP(X,cL,al));if(fm){var
+M=y[1],h0=i(a3[1]),h1=i(a2[1]),G=[0,i(a1[1]),h1,h0],am=fl[1],cN=fP(X,cL,al),dj=h6(m,cN,am,G);if(dj)if(typeof
+M==="number")return bx(function(a){switch(a[0]){case
 0:var
-c=[0,cw(a[1],a[2],a[3],a[4],j)];break;case
+b=[0,c$(a[1],a[2],a[3],a[4],G)];break;case
 1:var
-d=a[2],f=a[1],g=br(f,d,j),c=[0,J(br(f,d,j),g)];break;default:var
-c=0}return c?w(W,0,[2,[0,e,b],c[1]]):c},E);else{if(0===o[0]){var
-ad=by(au[3],o[1]);if(ad){var
-b7=ad[1],b8=gC(o[3]);return gE(W,E,j,gC(o[2]),b8,b7)}return ad}var
-ae=by(au[3],o[1]);if(ae){var
-af=by(E,o[2]);if(af){var
-aU=af[1],b9=ae[1],b_=b2(aU,j);return gE(W,E,j,b2(aU,j),b_,b9)}var
-aV=af}else
+e=a[2],f=a[1],g=bC(f,e,G),b=[0,J(bC(f,e,G),g)];break;default:var
+b=0}return b?o(m,0,[2,[0,d,c],b[1]]):b},am);else{if(0===M[0]){var
+bu=aV(cN[3],M[1]);if(bu){var
+gq=bu[1],gr=h8(M[3]);return h_(m,am,G,h8(M[2]),gr,gq)}return bu}var
+bv=aV(cN[3],M[1]);if(bv){var
+bw=aV(am,M[2]);if(bw){var
+dn=bw[1],gs=bv[1],gt=cC(dn,G);return h_(m,am,G,cC(dn,G),gt,gs)}var
+dp=bw}else
 var
-aV=ae;return aV}return aT}var
-bo=bn}else
+dp=bv;return dp}return dj}var
+fp=fm}else
 var
-bo=g;var
-bq=bo}else
+fp=y;var
+fq=fp}else
 var
-bq=S;var
-bt=bq}else
+fq=a3;var
+fr=fq}else
 var
-bt=R;var
-bu=bt}else
+fr=a2;var
+fs=fr}else
 var
-bu=Q;return bu;case
-1:if(0===i[2][0]){var
-T=n[3],aB=0;if(T){var
-z=T[1],a3=z[5],h=T[2];if(z[1]||z[2]||z[3])var
-l=0;else
-if(z[4]){var
-bL=0;if(h){var
-A=h[1];if(A[1]||A[2]||A[3]||A[4]||h[2]){var
-l=0;bL=1}else
+fs=a1;return fs;case
+1:var
+a5=a[3],N=a[1],a6=s[2];if(0===a6[0])return 0;var
+a7=a6[2];if(a7){var
+a8=a7[2];if(a8){var
+a9=a8[2];if(a9){if(a9[2])return 0;var
+ft=i4(N,f(i,a6[3]));if(ft[2])return 0;var
+e_=_(tg,l(N));if(e_)var
+hR=l(N),hS=1,cF=p(function(a){return fQ(hS,hR,a)},a5);else
 var
-cb=s(a3),a4=[0,[0,s(A[5]),cb]]}else
+cF=e_;var
+e$=cF?eh(a5):cF,fa=e$?p(dm,C(tf,N)):e$,fw=fa?p(fW,cJ(l(N),a5)):fa;if(fw){var
+h4=i6(a6[4]),h7=i(a9[1]),h9=i(a8[1]),H=[0,i(a7[1]),h9,h7],a_=ft[1],h$=a[2],hK=cJ(l(N),a5),hL=iZ(h$),ar=f(sS,N),Q=a_;for(;;){if(ar){if(Q){var
+q=Q[1],K=ar[1],dr=aK(m,K[1],q[1]),ds=dr?aK(m,K[2],q[2]):dr,dt=ds?aK(m,K[3],q[3]):ds,du=dt?aK(m,K[4],q[4]):dt,dv=du?ce(m,K[5],q[5]):du,dw=dv?ce(m,K[6],q[6]):dv,dx=dw?o(m,1,q[5]):dw,dy=dx?o(m,1,q[6]):dx,dz=dy?o(m,1,J(q[1],q[1])):dy;if(dz)var
+gv=fn(q),by=o(m,1,J(fn(q),gv));else
 var
-a4=h;if(!bL)var
-l=a4}else{var
-aC=0;if(h){var
-C=h[1];if(C[1]||C[2]||C[3]){var
-l=0;aC=1}else{var
-a5=C[4],bM=0;if(a5)if(h[2]){var
-l=0;aC=1;bM=1}else
+by=dz;var
+dA=by?dK(K[7],q[7]):by;if(dA){var
+ar=ar[2],Q=Q[2];continue}var
+dB=dA}else
 var
-cc=s(C[5]),a6=[0,[0,s(a3),cc]];else
+dB=Q;var
+bB=dB}else
 var
-a6=a5;if(!bM)var
-a7=a6}}else
+bB=Q?0:1;var
+dC=bB?h5(m,hL,H):bB;if(dC){var
+gw=f(function(a){return ig(a,H)},a_),gx=f(function(a){var
+b=ii(a,H);return[1,ih(a,H),b]},a_);return ic(m,pe,[0,f(function(a){var
+d=id(a),e=a4(ii(a,H),d),f=fo(a),g=a4(ih(a,H),f),h=aR(function(b,a){return[1,b,a]},g,e),i=a4(a[5],h),j=a[3],k=aR(function(b,a){return[1,b,a]},j,i),l=a[4],m=aR(function(b,a){return[1,b,a]},H,l),n=aR(function(b,a){return[2,b,a]},m,k),o=fu(a,H),b=a4([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a_),gx,gw],hK,h4)}return dC}}var
+fy=fw}else
 var
-a7=h;if(!aC){var
-a8=a7;aB=1}}}else{var
-a8=T;aB=1}if(aB)var
-l=a8;if(l){var
-bv=l[1],bw=bv[2],bx=bv[1],aX=w(W,1,s(n[2])),aY=aX?w(W,1,[2,bw,[0,b,b]]):aX,aZ=aY?w(W,1,bx):aY;return aZ?w(W,0,[2,[4,[0,b,b],bw],bx]):aZ}return l}return 0;default:var
-bB=n[1];if(bB){var
-bD=bB[1],av=i[2];if(0===av[0]){var
-aw=ex(o2,av[2]);if(aw){var
-bE=gO(bD);if(bE){var
-ch=aw[1],bG=cy(bD)[2],V=av[1],ab=bC(V,e,bG);if(ab){var
-ac=bC(V,e,[4,[0,b,b],bG]);if(ac){var
-b6=ab[1][1],aQ=al(cm(V),b6);if(aQ)return gy(V,ac[1][1],ch);var
-aR=aQ}else
+fy=a9;var
+fz=fy}else
 var
-aR=ac;var
-aS=aR}else
+fz=a8;var
+fB=fz}else
 var
-aS=ab;return aS}var
-bH=bE}else
+fB=a7;return fB;case
+2:var
+a$=a[7],ba=a[6],bb=a[5],bc=a[4],bd=a[3],an=a[2],$=a[1],aa=s[2];if(0===aa[0]){var
+cO=aa[2],j=i1($,an,bd,bc,bb,ba,a$),cP=cK(l(cO),cO);if(cP){var
+fD=cP[1];if(fD[2])return 0;var
+fE=i7($,an,bd,bc,bb,ba,a$),fF=fE?i9(d6($),cO):fE;if(fF){var
+ia=fD[1],ib=j[2],A=z(c,dl(C(function(a){var
+b=bE(a[2]);return g(bE(a[1]),b)},ib))),w=aa[1],hj=j[2],eG=p(function(a){var
+b=fC(m,a[1]);return b?fC(m,a[2]):b},hj),eH=eG?fC(m,j[4]):eG;if(eH)var
+hk=fA(j[5]),ch=p(function(a){return ea(m,a)},hk);else
 var
-bH=aw;return bH}return 0}var
-ax=i[2];if(0===ax[0]){var
-ay=ex(o3,ax[2]);return ay?gy(ax[1],e,ay[1]):ay}return 0}}return P}var
-q=[Q,o6,du(0)],gQ=[Q,o7,du(0)];function
-o4(O,e){var
-I=[0,g(om,av(e[4])),0],J=[0,g(oo,ad([0,g(on,av(e[3])),I])),0],c=e[2];if(0===c[0])var
-A=[0,g(oa,V(k(n9,c[2]))),0],n=ae(oc,ad([0,g(ob,ep(c[1])),A]));else{var
-d=c[4],f=c[3],B=0;if(typeof
-d==="number")var
-h=av(od);else
-if(0===d[0])var
-G=[0,V(k(eu,d[2])),0],h=ae(oj,V([0,b3(d[1]),G]));else
-var
-H=[0,b3(d[2]),0],h=ae(ok,V([0,b3(d[1]),H]));var
-C=[0,g(oe,h),B],D=f?[0,g(of,V(k(ah,f))),0]:f,E=m(D,C),F=[0,g(og,V(k(ah,c[2]))),0],n=ae(oi,ad(m([0,g(oh,ep(c[1])),F],E)))}var
-K=[0,g(op,n),J],L=0===e[2][0]?oq:ov,M=[0,g(or,av(L)),K],b=e[1];switch(b[0]){case
+ch=eH;if(ch){var
+ag=j[1],E=d6(ag),eo=j[3],g8=[0,[0,[0,eo,eo],A],0],g9=j[2],ep=g(C(function(a){return d_(A,a)},g9),g8),eq=l(ep),g_=j[2],g$=l(C(function(a){return d_(A,a)},g_)),er=j[3],ha=cA([0,[0,er,er],A],g$);switch(ag){case
 0:var
-u=[0,g(nL,V(k(gH,b[3]))),0],a=b[2];if(0===a[0])var
-p=[0,g(nE,es(ah,a[2])),0],j=ae(nG,ad([0,g(nF,es(ah,a[1])),p]));else
-var
-q=[0,ah(a[5]),0],r=[0,g(nH,V([0,ah(a[4]),q])),0],s=[0,g(nI,ah(a[3])),r],t=[0,ah(a[2]),0],j=ae(nK,ad([0,g(nJ,V([0,ah(a[1]),t])),s]));var
-v=[0,g(nM,j),u],i=ae(nP,ad([0,g(nO,ae(nN,V(k(m7,b[1])))),v]));break;case
+b1=px;break;case
 1:var
-w=[0,g(nQ,V(k(gH,b[3]))),0],x=[0,g(nT,ae(nS,ad([0,g(nR,ah(b[2])),0]))),w],i=ae(nX,ad([0,g(nW,ae(nV,ad([0,g(nU,ah(b[1])),0]))),x]));break;default:var
-l=b[1],y=0,z=l?er(l[1]):av(n0),i=ae(nZ,ad([0,g(nY,z),y]))}var
-N=[0,g(os,i),M],o=ax(fr(o5,m(ad([0,g(ou,av(ot)),N]),ol)),O);return o?o1(e):o}function
-ai(a){if(0===a[0])return a[1];throw q}function
-aC(a){if(1===a[0])return a[1];throw q}function
-bc(a){if(2===a[0])return a[1];throw q}function
-cz(a){if(3===a[0])return a[1];throw q}function
-aY(f,e){var
+b1=py;break;default:var
+b1=0}var
+hb=j[5],B=function(a){return[0,[0,W(b1,a)]]};if(0===hb[0])var
+g2=dh(B(0)),b2=[0,d9(po,B(0)),g2];else
+var
+g3=dh(B(0)),g4=v(dh(B(pp)),g3),g5=v(dh(B(pq)),g4),g6=d9(0,B(0)),g7=iD(d9(ps,B(pr)),g6),b2=[0,iD(d9(pu,B(pt)),g7),g5];var
+aJ=b2[2],b3=iE(ag,b2[1],aJ,ha,A,j[2],0),hc=[0,aJ,iJ(w,b3,aJ,A,eq,j[6])],b4=g(cB(b3),hc),aL=dW(f(function(a){return dd(E,a)},b4))[1],es=function(a){var
+b=dd(E,a);return bS(cx(aL),b)},et=p(function(a){var
+b=dd(E,a),c=r(d),e=cx(aL);return bz(L(es(a),e,c),b)},b4),eu=et?p(function(a){return ix(E,a)},b4):et,ev=eu?bx(pA,j[6]):eu;if(ev){var
+aM=j[4];switch(ag){case
+0:var
+b5=d$(aM[3]);break;case
+1:var
+b5=1;break;default:var
+em=d$(aM[1]),en=em?d$(aM[2]):em,b5=en?d$(aM[3]):en}var
+b6=b5}else
+var
+b6=ev;var
+ew=b6?o(w,1,j[3]):b6;if(ew)var
+hd=fA(j[5]),b7=p(function(a){var
+b=iG(w,a[1]);return b?iG(w,a[2]):b},hd);else
+var
+b7=ew;if(b7){var
+he=j[6],hf=g(ep,f(function(a){return iH(A,a)},he)),b8=aY(f(function(a){return aX(w,a)},hf));if(b8){var
+ai=j[4];switch(ag){case
+0:var
+b9=[0,ai[1],[0,ai[2],0]];break;case
+1:var
+b9=[0,ai[1],[0,ai[2],[0,ai[3],0]]];break;default:var
+b9=0}var
+ca=aY(f(function(a){return aX(w,[0,a,A])},b9));if(ca){var
+ex=ca[1],hg=fA(j[5]),cb=aY(f(function(d){var
+a=iF(w,d[1]);if(a)var
+b=iF(w,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+var
+c=a;return c},hg));if(cb){var
+ey=cb[1],cd=aY(iI(w,es,b3,aJ,A,eq,j[6]));if(cd){var
+cf=cd[1],ez=aC(l(g(ex,ey)),E),eA=ez?p(function(a){if(2===a[0])var
+b=[0,a[1],0];else
+var
+e=a[1],c=C(function(a){return g(a[1],[0,a[2],0])},e),b=[0,a[2],c];return p(function(c){var
+a=c5(0,E);return p(function(b){var
+a=r(d);return df(E,b,L(c,cx(aL),a))},a)},b)},cf):ez;if(eA){var
+hh=f(function(a){return 1},cf),hi=g(ex,ey);return iC(w,aL,b8[1],cf,E,hi,hh,ia)}var
+eB=eA}else
+var
+eB=cd;var
+eC=eB}else
+var
+eC=cb;var
+eD=eC}else
+var
+eD=ca;var
+eE=eD}else
+var
+eE=b8;var
+eF=eE}else
+var
+eF=b7;return eF}return ch}var
+fG=fF}else
+var
+fG=cP;return fG}var
+fH=f(i,aa[2]),fI=fX($),fJ=i5(an,f(i,aa[3]));if(fJ[2])return 0;var
+fK=i7($,an,bd,bc,bb,ba,a$);if(fK){var
+bp=fI,k=fH,ie=i6(aa[4]);for(;;){if(bp&&k){var
+bp=bp[1],k=k[2];continue}var
+bh=fV(hm(fI,fH)),bi=fJ[1],I=i1($,an,bd,bc,bb,ba,a$),aG=I[2],R=bi;for(;;){if(aG){if(R){var
+ed=R[1],ef=aG[1],ei=aK(m,ef[1],ed[1]),ej=ei?aK(m,ef[2],ed[2]):ei;if(ej){var
+aG=aG[2],R=R[2];continue}var
+ek=ej}else
+var
+ek=R;var
+bZ=ek}else
+var
+bZ=R?0:1;var
+el=bZ?aK(m,I[4],bh):bZ;if(el){var
+ae=I[5];if(0===ae[0])var
+aH=k?k[2]?0:d7(m,ae[1],k[1]):k;else{var
+cY=0;if(k){var
+aB=k[2],cZ=0;if(aB){var
+aF=aB[2],c0=0;if(aF)if(aF[2]){var
+aH=0;cZ=1;c0=1}else{var
+d4=d7(m,ae[1],k[1]),d5=d4?d7(m,ae[2],aB[1]):d4;if(d5){var
+aH=d7(m,ae[3],aF[1]);cZ=1;c0=1}else
+var
+d8=d5}else
+var
+d8=aF;if(!c0)var
+eb=d8}else
+var
+eb=aB;if(!cZ){var
+ec=eb;cY=1}}else{var
+ec=k;cY=1}if(cY)var
+aH=ec}var
+b0=aH}else
+var
+b0=el;if(b0){var
+aI=I[5],gZ=I[6],g0=I[3],g1=I[1],d3=function(a){var
+b=fx(aI,k,bh,a);return J(fx(aI,k,bh,a),b)},gW=f(d3,bi),gX=f(function(a){return[0,[5,d3(a)]]},bi),gY=[0,f(function(e){var
+a=az(fx(aI,k,bh,e)),d=iu(aI,k,e[2]),b=a4([4,[0,c,c],g0],[0,[2,[3,d[2],a[3]],[3,d[3],a[2]]],[2,[3,d[3],a[1]],[3,d[1],a[3]]],[2,[3,d[1],a[2]],[3,d[2],a[1]]]]);switch(g1){case
+0:return[0,a[1],[0,a[2],[0,b[3],0]]];case
+1:return[0,a[1],[0,a[2],[0,a[3],[0,b[1],[0,b[2],[0,b[3],0]]]]]];default:return[0,b[1],[0,b[2],[0,b[3],0]]]}},bi),gX,gW];return ic(m,d6(I[1]),gY,gZ,ie)}return b0}}}return fK;case
+3:var
+bj=a[7],fL=a[6],fO=a[5],bk=a[4],fR=a[2],fS=a[1],cQ=s[2];if(0===cQ[0]){var
+cR=cQ[2],cS=cK(l(cR),cR);if(cS){var
+fU=cS[1];if(fU[2])return 0;var
+hT=l(fL),fb=aC(l(fO),hT);if(fb)var
+hU=l(bk),hV=0,cG=p(function(a){return fQ(hV,hU,a)},bj);else
+var
+cG=fb;var
+fc=cG?eh(bj):cG,fd=fc?p(function(a){return dm(a[2])},fR):fc,fY=fd?p(fW,cJ(l(bk),bj)):fd,fZ=fY?i9(l(fS),cR):fY;if(fZ){var
+ik=fU[1],il=a[3],eY=cJ(l(bk),bj),hH=cs(fO,fL),cq=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},hH),hI=f(function(a){return f(cg,a)},bk),hJ=f(function(a){var
+b=cg(a[2]);return[0,a[1],b]},il),b=[0,fS,f(function(a){var
+b=bD(a[2]);return[0,a[1],b]},fR),hJ,hI],ao=cQ[1],gQ=f(dI,b[2]),bP=g(b[1],gQ),aA=l(b[1]),dV=_(pg,aA),dX=dV?_(aA,ph):dV,dY=dX?_(aA,l(b[4])):dX,dZ=dY?_(l(b[4]),pi):dY;if(dZ)var
+gR=b[4],bQ=p(function(a){return aC(l(a),aA)},gR);else
+var
+bQ=dZ;if(bQ){var
+ay=bP;for(;;){if(ay){var
+dT=ay[2],gP=ay[1],dU=aU(bx(function(b){return function(a){return lz(b,a)}}(gP),dT));if(dU){var
+ay=dT;continue}var
+d0=dU}else
+var
+d0=1;var
+bR=d0;break}}else
+var
+bR=bQ;if(bR){var
+au=bP,at=b[3];for(;;){if(at){var
+dP=at[1],dQ=dP[1],dR=aU(bx(function(b){return function(a){return av(b,a)}}(dQ),au)),dS=dR?fv(au,dP[2]):dR;if(dS){var
+au=[0,dQ,au],at=at[2];continue}var
+d1=dS}else
+var
+d1=1;var
+bT=d1;break}}else
+var
+bT=bR;if(bT)var
+gS=b[4],gT=g(f(dI,b[3]),bP),gU=function(a){return fv(gT,a)},bV=p(function(a){return p(gU,a)},gS);else
+var
+bV=bT;if(bV)var
+gV=b[2],bY=p(function(a){return bW(m,a[2][1],a[2][2])},gV);else
+var
+bY=bV;var
+d2=bY?p(function(a){return bW(m,a[1],a[2])},cq):bY;if(d2){var
+gE=l(b[1]),bG=l(b[2]),dF=W(bG,l(dc(f(eW,b[3])))),gF=b[3],ad=iq(b),as=gF,bF=bG;for(;;){if(as){var
+dD=as[1],dE=dD[2],gy=W(bF,l(bf(dE))),gz=as[2],gA=bg(ad,dE,bF),ad=[0,[0,dD[1],gA],ad],as=gz,bF=gy;continue}var
+gG=im(ad,b[4],dF),bH=f(function(a){return[0,a,r(c)]},gG),gH=io(ad,b[4],dF),gI=b[3],bI=g(ij(iq(b),gI,bG),gH),bJ=dW(g(cB(bH),bI))[1],gJ=cx(bJ),bK=function(a){return bS(gJ,a)},dG=e(bU(bK),bH),dH=aC(l(cq),gE);if(dH)var
+gK=g(cB(bH),bI),bL=p(function(a){var
+b=r(d),c=cx(bJ);return bz(L(bK(a),c,b),a)},gK);else
+var
+bL=dH;var
+dJ=bL?bx(pf,eY):bL;if(dJ){var
+gB=C(dc,b[4]),gC=g(dc(f(eW,b[3])),gB),gD=g(ip(b[2]),gC),bM=aY(f(function(a){return aX(ao,a)},gD));if(bM){var
+bN=aY(f(function(a){return aX(ao,[0,a,d])},cq));if(bN){var
+bO=aY(f(function(a){if(typeof
+a==="number")return[0,[0,aE]];else
+switch(a[0]){case
+0:var
+f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
+1:var
+h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
+5:var
+i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
+g=aX(ao,[0,[0,b,b],d]);return aw(function(a){return e(ax(ao,a))},g)},eY));if(bO){var
+dL=bO[1],gL=hW(dL),gM=bN[1],gN=function(a){return 0},gO=bM[1];return fh(ao,bJ,dG,dG,f(bK,bI),gO,dL,gN,gM,gL,ik)}var
+dM=bO}else
+var
+dM=bN;var
+dN=dM}else
+var
+dN=bM;var
+dO=dN}else
+var
+dO=dJ;return dO}}return d2}var
+f0=fZ}else
+var
+f0=cS;return f0}return 0;case
+4:if(0===s[2][0]){var
+f1=eg(i(a[1]));if(f1){var
+bl=a[3];if(bl){var
+aN=bl[1],cr=aN[4],F=bl[2];if(aN[1]||aN[2]||aN[3])var
+t=0;else
+switch(cr[0]){case
+0:var
+c1=0;if(F){var
+aO=F[1],eZ=aO[4];if(aO[1]||aO[2]||aO[3])var
+t=0;else
+if(1===eZ[0])if(F[2])var
+t=0;else
+var
+hM=i(eZ[1]),t=[0,[0,i(cr[1]),hM]];else{var
+e0=0;c1=1}}else{var
+e0=F;c1=1}if(c1)var
+t=e0;break;case
+1:var
+c2=0;if(F){var
+aP=F[1],e1=aP[4];if(aP[1]||aP[2]||aP[3])var
+t=0;else
+if(0===e1[0])if(F[2])var
+t=0;else
+var
+hN=i(cr[1]),t=[0,[0,i(e1[1]),hN]];else{var
+e2=0;c2=1}}else{var
+e2=F;c2=1}if(c2)var
+t=e2;break;default:var
+t=0}}else
+var
+t=bl;if(t){var
+f2=t[1],f3=f2[2],f4=f2[1],eL=o(m,1,i(a[2])),eM=eL?o(m,1,[2,f3,[0,c,c]]):eL,eN=eM?o(m,1,f4):eM;return eN?o(m,0,[2,[4,[0,c,c],f3],f4]):eN}var
+f5=t}else
+var
+f5=f1;return f5}return 0;default:var
+f6=a[1];if(f6){var
+f7=f6[1],cT=s[2];if(0===cT[0]){var
+cU=fT(to,cT[2]);if(cU){var
+f8=dm(f7);if(f8){var
+ir=cU[1],f9=bD(f7)[2],bm=cT[1],ci=b$(bm,d,f9);if(ci){var
+cj=b$(bm,d,[4,[0,c,c],f9]);if(cj){var
+hl=ci[1][1],eI=af(b_(bm),hl);if(eI)return iQ(bm,cj[1][1],ir);var
+eJ=eI}else
+var
+eJ=cj;var
+eK=eJ}else
+var
+eK=ci;return eK}var
+f_=f8}else
+var
+f_=cU;return f_}return 0}var
+cV=s[2];if(0===cV[0]){var
+cW=fT(tp,cV[2]);return cW?iQ(cV[1],d,cW[1]):cW}return 0}}return ak}var
+x=[ak,ts,eB(0)],i_=[ak,tt,eB(0)];function
+tq(z,c){var
+s=[0,h(sm,ai(c[4])),0],t=[0,h(so,M([0,h(sn,ai(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sa,w(f(r9,a[2]))),0],i=K(sc,M([0,h(sb,fG(a[1])),k]));else{var
+b=a[4],d=a[3],l=0;if(typeof
+b==="number")var
+e=ai(sd);else
+if(0===b[0])var
+q=[0,w(f(fK,b[2])),0],e=K(sj,w([0,cG(b[1]),q]));else
+var
+r=[0,cG(b[2]),0],e=K(sk,w([0,cG(b[1]),r]));var
+m=[0,h(se,e),l],n=d?[0,h(sf,w(f(U,d))),0]:d,o=g(n,m),p=[0,h(sg,w(f(U,a[2]))),0],i=K(si,M(g([0,h(sh,fG(a[1])),p],o)))}var
+u=[0,h(sp,i),t],v=0===c[2][0]?sq:sv,x=[0,h(sr,ai(v)),u],y=[0,h(ss,rh(c[1])),x],j=av(gX(tr,g(M([0,h(su,ai(st)),y]),sl)),z);return j?tn(c):j}function
+X(a){if(0===a[0])return a[1];throw x}function
+Q(a){if(1===a[0])return a[1];throw x}function
+aS(a){if(2===a[0])return a[1];throw x}function
+dn(a){if(3===a[0])return a[1];throw x}function
+aZ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===rq(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===xx(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-r(c,b){var
-a=aY(c,b);if(a)return a[1];throw q}function
-db(b,a){var
-c=a?[0,d(b,a[1])]:a;return c}function
-cA(a){switch(a[0]){case
+q(c,b){var
+a=aZ(c,b);if(a)return a[1];throw x}function
+ej(b,a){var
+c=a?[0,e(b,a[1])]:a;return c}function
+cL(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],o8]}throw q}function
-dc(e,d){var
-a=aE(e,aC(d));if(a){var
+2:return[0,a[1],tu]}throw x}function
+dp(e,d){var
+a=R(e,Q(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw q}function
-dd(i){var
-f=bh(i),d=[0,0],e=aw(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
+ek(i){var
+f=bK(i),d=[0,0],e=aO(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=b9(f,c)+eC|0;if(9<g>>>0)throw q;switch(g){case
+a=d[1],g=cR(f,c)+f6|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -3550,64 +4564,87 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-cB(a){return fL(dd(a))}function
-gR(b){var
-a=cz(b);return 45===G(a,0)?H(cB(cO(a,1,n(a)-1|0))):cB(a)}function
-gS(a){return dU(cB(cz(a)))}function
-gT(a){return fK(cB(cz(a)))}function
-b4(c){var
-a=cz(c);if(6<n(a))throw q;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(e8(a))}function
-gU(c){var
-g=n(c),a=[0,0];function
-b(d){var
-b=a[1]<g?1:0,e=b?G(c,a[1])===d?1:0:b;return e}function
-k(d){var
-b=a[1];for(;;){if(a[1]<g&&48<=G(c,a[1])&&!(57<G(c,a[1]))){a[1]++;continue}return cO(c,b,a[1]-b|0)}}function
-m(c){a[1]++;var
-e=d(c+1|0);if(b(41)){a[1]++;return e}throw q}function
-h(i){if(64<i)throw q;if(b(45)){a[1]++;return[1,h(i+1|0)]}if(b(40))var
-d=m(i);else{var
-u=0;if((a[1]+5|0)<=g&&ax(cO(c,a[1],5),o_)){a[1]=a[1]+4|0;var
-d=[4,m(i)]}else
+dq(a){return hi(ek(a))}function
+i$(b){var
+a=dn(b);return 45===G(a,0)?N(dq(cY(a,1,y(a)-1|0))):dq(a)}function
+ja(a){return e0(dq(dn(a)))}function
+jb(a){return hh(dq(dn(a)))}function
+cM(c){var
+a=dn(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gB(a))}function
+jc(a){var
+b=97<=a?1:0,c=b?a<=lg?1:0:b;if(c)var
+d=c;else
+var
+e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
+jd(A,b){var
+d=y(b),a=[0,0];function
+c(e){var
+c=a[1]<d?1:0,f=c?G(b,a[1])===e?1:0:c;return f}function
+m(e){var
+c=a[1];for(;;){if(a[1]<d&&48<=G(b,a[1])&&!(57<G(b,a[1]))){a[1]++;continue}return cY(b,c,a[1]-c|0)}}function
+n(b){a[1]++;var
+d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
+i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+f=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&av(cY(b,a[1],5),tw)){a[1]=a[1]+4|0;var
+f=[5,n(j)]}else
 u=1;if(u){var
-f=k(0),o=b(46),p=o?(a[1]++,[0,k(0)]):o,r=ax(f,o$);if(r)var
+v=0;if(a[1]<d&&jc(G(b,a[1]))){var
+o=a[1];for(;;){if(a[1]<d){var
+w=0;if(!jc(G(b,a[1]))&&95!==G(b,a[1])&&(!(48<=G(b,a[1]))||57<G(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,cY(b,o,a[1]-o|0))];break}}else
+v=1;if(v){var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=av(h,tx);if(r)var
 s=r;else
 var
-t=1<n(f)?1:0,s=t?48===G(f,0)?1:0:t;if(s)throw q;if(p){var
-j=p[1],v=0;if(ax(j,pa)||48===G(j,n(j)-1|0))v=1;else
+t=1<y(h)?1:0,s=t?48===G(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(av(l,ty)||48===G(l,y(l)-1|0))z=1;else
 var
-w=dd(j),d=[0,dd(f),w];if(v)throw q}else
+B=ek(l),f=[0,ek(h),B];if(z)throw x}else
 var
-d=[0,dd(f),0]}}if(b(94)){a[1]++;var
-e=k(0);if(l(e,o9)){if(!(2<n(e))&&2<=e8(e)&&!(64<e8(e)))return[3,d,dU(cB(e))];throw q}throw q}return d}function
-e(d){var
-c=h(d);for(;;){if(b(42)){a[1]++;var
-c=[2,2,c,h(d)];continue}if(b(47)){a[1]++;var
-c=[2,3,c,h(d)];continue}return c}}function
-d(d){if(64<d)throw q;var
-c=e(d);for(;;){if(b(43)){a[1]++;var
-c=[2,0,c,e(d)];continue}if(b(45)){a[1]++;var
-c=[2,1,c,e(d)];continue}return c}}var
-f=d(0);if(a[1]<g)throw q;return f}function
-aD(a){return gU(bc(a))}function
-de(a){if(2===a[0])return[0,gU(a[1])];var
-b=ai(a),c=aD(r(b,pb));return[1,aD(r(b,pc)),c]}function
-aJ(a){throw[0,gQ,S(fr(pe,a),pd)]}function
-gV(g){var
-b=ai(g);function
-a(a){return dc(de,r(b,a))}var
-c=bc(r(b,ph));if(l(c,pi)){if(l(c,pj)){if(l(c,pk))return aJ([0,pm,[0,c,pl]]);var
-h=aY(b,pn),i=db(function(a){return dc(de,a)},h),j=a(po);return[1,a(pp),j,i]}var
-d=bc(r(b,pq));if(l(d,pf)){var
-e=l(d,pg);if(e)throw q;var
-f=e}else
-var
-f=1;var
-k=de(r(b,pr)),m=a(ps),n=a(pt);return[0,a(pu),n,m,k,f]}return[2,a(pv)]}function
-pw(h){var
-c=ai(h),b=bc(r(c,px));if(l(b,py))if(l(b,pz))if(l(b,pA))if(l(b,pB))if(l(b,pC))if(l(b,pD))if(l(b,pE))var
-e=l(b,pF),a=e?aJ([0,pH,[0,b,pG]]):e;else
+f=[0,ek(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(k(g,tv)){if(!(2<y(g))&&2<=gB(g)&&!(64<gB(g)))return[4,f,e0(dq(g))];throw x}throw x}return f}function
+f(d){var
+b=i(d);for(;;){if(c(42)){a[1]++;var
+b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
+b=[3,3,b,i(d)];continue}return b}}function
+g(d){if(64<d)throw x;var
+b=f(d);for(;;){if(c(43)){a[1]++;var
+b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
+b=[3,1,b,f(d)];continue}return b}}var
+h=g(0);if(a[1]<d)throw x;return h}function
+je(a){return jd(function(a){throw x},a)}function
+jf(a){var
+b=aS(a);return jd(function(a){return a},b)}function
+aa(a){return je(aS(a))}function
+bF(a){if(2===a[0])return[0,je(a[1])];var
+b=X(a),c=aa(q(b,tz));return[1,aa(q(b,tA)),c]}function
+ac(a){throw[0,i_,am(gX(tC,a),tB)]}function
+jg(c){var
+a=aS(c);if(k(a,tD)){var
+b=k(a,tE);if(b)throw x;return b}return 1}function
+tF(d){var
+b=X(d);function
+a(a){return dp(bF,q(b,a))}var
+c=aS(q(b,tG));if(k(c,tH)){if(k(c,tI)){if(k(c,tJ))return ac([0,tL,[0,c,tK]]);var
+e=aZ(b,tM),f=ej(function(a){return dp(bF,a)},e),g=a(tN);return[1,a(tO),g,f]}var
+h=jg(q(b,tP)),i=bF(q(b,tQ)),j=a(tR),l=a(tS);return[0,a(tT),l,j,i,h]}return[2,a(tU)]}function
+jh(d){var
+a=X(d);if(a){var
+b=a[1];if(!k(b[1],tV)){var
+c=b[2];if(2===c[0]&&!k(c[1],tW))return 1}}return 0}function
+tX(c){var
+a=X(c);if(1-jh(c))throw x;function
+b(b){return dp(bF,q(a,b))}var
+d=jg(q(a,tY)),e=bF(q(a,tZ)),f=bF(q(a,t0)),g=b(t1),h=b(t2),i=b(t3);return[0,b(t4),i,h,g,f,e,d]}function
+dr(c,d){var
+a=Q(d);if(a){var
+b=a[2];if(b&&!b[2]){var
+f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
+ji(i){var
+c=X(i),b=aS(q(c,t5));if(k(b,t6))if(k(b,t7))if(k(b,t8))if(k(b,t9))if(k(b,t_))if(k(b,t$))if(k(b,ua))var
+g=k(b,ub),a=g?ac([0,ud,[0,b,uc]]):g;else
 var
 a=6;else
 var
@@ -3621,131 +4658,182 @@ a=1;else
 var
 a=7;else
 var
-a=3;var
-d=bc(r(c,pI));if(l(d,pJ))var
-f=l(d,pK),g=f?aJ([0,pM,[0,d,pL]]):f;else
+a=3;function
+f(a){return q(c,ue)}var
+d=aS(q(c,uf));if(k(d,ug))if(k(d,uh))if(k(d,ui))var
+e=ac([0,uk,[0,d,uj]]);else
 var
-g=1;function
-i(m){var
-b=ai(m),e=0;if(2===a){if(b){var
-g=b[1];if(!l(g[1],pN)){var
+h=dr(aa,f(0)),e=[2,h[1],h[2]];else
+var
+e=[0,aa(f(0))];else
+var
+e=[1,aa(f(0))];function
+j(m){var
+b=X(m),e=0;if(2===a){if(b){var
+g=b[1];if(!k(g[1],ul)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!b[2]){var
 i=c[1];e=1}}}}}else
 if(6===a&&b){var
-j=b[1];if(!l(j[1],pO)){var
-k=j[2];if(1===k[0]){var
-d=k[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!b[2])return aJ(pP)}}}if(e)return aD(i);throw q}var
-j=aD(r(c,pQ)),k=db(i,aY(c,pR));return[0,a,db(b4,aY(c,pS)),k,g,j]}function
-gW(c,e){var
-a=aC(e);if(a){var
-b=a[2];if(b&&!b[2]){var
-f=d(c,b[1]);return[0,d(c,a[1]),f]}}throw q}function
-gX(a){return aE(gR,aC(a))}function
-gY(o,e){function
-p(c,b){var
-a=gX(b);if(dF(a)!==c)throw q;return a}switch(e[0]){case
-0:var
-b=e[1];if(b){var
-d=b[1],a=d[1],c=0;if(l(a,ql))if(l(a,qm))if(l(a,qn)){var
-y=0;if(l(a,qo)&&l(a,qp)&&l(a,qq))y=1;if(!y)if(b[2])c=1;else{var
-z=d[2],t=z,s=function(c,b){return[1,a,c,b]};c=2}}else{var
-w=d[2];if(1===w[0]){var
-f=w[1];if(f){var
-g=f[2];if(g){var
-h=g[2];if(h&&!h[2]){if(!b[2]){var
-C=gT(h[1]),D=gR(g[1]);return[4,gY(o,f[1]),D,C]}c=1}}}}}else{if(!b[2]){var
-k=bc(d[2]),m=l(k,qj);if(m){if(l(k,qk))throw q;var
-n=1}else
+j=b[1];if(!k(j[1],um)){var
+l=j[2];if(1===l[0]){var
+d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
+i=d[1];e=1;f=1}if(!f&&!b[2])return ac(un)}}}if(e)return aa(i);throw x}var
+l=ej(j,aZ(c,uo));return[0,a,ej(cM,aZ(c,up)),l,e]}function
+fY(c){var
+a=ji(c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(uq)}function
+ux(U){var
+i=cL(U),j=i[1];if(k(j,uy)){if(k(j,uz))return ac([0,uB,[0,j,uA]]);var
+l=q(X(i[2]),uC),K=0;if(2===l[0]){var
+y=k(l[1],uD);if(!y){var
+w=y;K=1}}if(!K)var
+w=[0,bF(l)];return[5,w]}var
+c=X(i[2]);function
+z(a){return R(ji,Q(q(c,uE)))}var
+f=cL(q(c,uF)),a=cL(q(c,uG));if(0===aZ(c,uH)){var
+b=f[1];if(k(b,uI)&&k(b,uJ)&&k(b,uK)){if(0===aZ(c,uL)){if(k(b,uM)){var
+L=0;if(k(b,uN)){if(!k(b,uO)){var
+A=a[1],M=0;if(k(A,uR)&&k(A,uS)){L=1;M=1}if(!M){var
+m=Q(f[2]),d=X(a[2]);if(k(a[1],ur))var
+u=dr(aa,q(d,us)),v=dr(aa,q(d,ut)),O=v[2],P=v[1],S=aa(q(d,uu)),n=[1,u[1],u[2],S,P,O];else
 var
-n=m;return[2,n]}c=1}else{var
-x=d[2];if(1===x[0]){var
-i=x[1];if(i){var
-j=i[2];if(j&&!j[2])if(b[2])c=1;else{var
-E=j[1],F=i[1],t=F,s=function(b,a){return[3,b,a,p(4,E)]};c=2}}}}switch(c){case
-0:if(!b[2])return aJ([0,qs,[0,a,qr]]);break;case
+T=dp(aa,q(d,uv)),n=[0,dp(aa,q(d,uw)),T];var
+g=m;for(;;){if(g){var
+N=g[2],t=jh(g[1]);if(!t){var
+g=N;continue}var
+B=t}else
+var
+B=0;if(B){var
+V=R(fY,Q(q(c,uV)));return[1,R(tX,m),n,V]}var
+W=z(0);return[0,R(tF,m),n,W]}}}}else
+if(!k(a[1],uW)){var
+Y=z(0),Z=aa(q(X(a[2]),uX));return[4,aa(q(X(f[2]),uY)),Z,Y]}if(!L)return ac([0,uQ,[0,b,uP]])}else
+if(!k(a[1],uZ)){var
+h=X(f[2]),C=X(a[2]),D=function(c,a){var
+b=Q(a);return R(function(d){var
+a=Q(d);if(a){var
+b=a[2];if(b&&!b[2]){var
+f=e(c,b[1]);return[0,aS(a[1]),f]}}throw x},b)},_=function(d){var
+a=X(d);if(a){var
+b=a[1],c=b[1];if(k(c,u0)){if(!k(c,u1)&&!a[2])return R(jf,Q(b[2]))}else
+if(!a[2])return ac(u2)}throw x},$=R(fY,Q(q(c,u3))),ab=R(aa,Q(q(C,u4))),ad=R(aa,Q(q(C,u5))),ae=R(_,Q(q(h,u6))),af=D(jf,q(h,u7)),ag=D(bF,q(h,u8));return[3,R(aS,Q(q(h,u9))),ag,af,ae,ad,ab,$]}return ac([0,uU,[0,a[1],uT]])}throw x}var
+E=a[1],F=X(f[2]),G=X(a[2]);if(k(E,u_))ac([0,va,[0,E,u$]]);var
+H=aZ(F,vb),ah=H?aa(H[1]):ac([0,vy,[0,b,vx]]),ai=function(d){var
+a=X(d);function
+b(b){return R(bF,Q(q(a,b)))}var
+c=aS(q(a,vc)),e=aZ(a,vd);if(!k(c,ve)&&!e){var
+f=b(vh);return[0,b(vi),f]}return ac([0,vg,[0,c,vf]])},o=cL(q(c,vj)),p=o[1];if(k(p,vk))if(k(p,vl))var
+r=ac([0,vn,[0,p,vm]]);else
+var
+an=o[2],s=function(a){return dr(aa,q(X(an),a))},ao=s(vu),ap=s(vv),r=[1,s(vw),ap,ao];else
+var
+J=dr(aa,o[2]),r=[0,J[1],J[2]];var
+I=k(b,vo),aj=I?k(b,vp)?2:1:I,ak=R(fY,Q(q(c,vq))),al=R(aa,Q(q(G,vr))),am=R(aa,Q(q(G,vs)));return[2,aj,R(ai,Q(q(F,vt))),ah,am,al,r,ak]}return ac(vz)}function
+jj(a){return R(i$,Q(a))}function
+fZ(e,h){var
+t=e[2];function
+u(c,b){var
+a=jj(b);if(cn(a)!==c)throw x;return a}switch(h[0]){case
+0:var
+b=h[1];if(b){var
+d=b[1],a=d[1],c=0;if(k(a,vC))if(k(a,vD))if(k(a,vE))if(k(a,vF)){var
+C=0;if(k(a,vG)&&k(a,vH)&&k(a,vI))C=1;if(!C)if(b[2])c=1;else{var
+D=d[2],w=D,v=function(c,b){return[1,a,c,b]};c=2}}else{var
+A=d[2];if(1===A[0]){var
+i=A[1];if(i){var
+j=i[2];if(j){var
+l=j[2];if(l&&!l[2]){if(!b[2]){var
+G=jb(l[1]),H=i$(j[1]);return[4,fZ(e,i[1]),H,G]}c=1}}}}}else{if(!b[2]){var
+p=aS(d[2]),r=k(p,vA);if(r){if(k(p,vB))throw x;var
+s=1}else
+var
+s=r;return[2,s]}c=1}else{var
+f=d[2],g=0;switch(f[0]){case
+0:var
+m=f[1];if(!m||k(m[1][1],vN)||m[2])g=1;break;case
+2:if(k(f[1],vO))g=1;break;default:g=1}if(!g){if(!b[2])return[5,fZ(e,f)];c=1}}else{var
+B=d[2];if(1===B[0]){var
+n=B[1];if(n){var
+o=n[2];if(o&&!o[2])if(b[2])c=1;else{var
+I=o[1],J=n[1],w=J,v=function(b,a){return[3,b,a,u(t+1|0,I)]};c=2}}}}switch(c){case
+0:if(!b[2])return ac([0,vK,[0,a,vJ]]);break;case
 1:break;default:var
-u=ai(t),A=aC(r(u,qt)),B=3,v=aE(function(a){return p(B,a)},A);if(dF(v)!==o)throw q;return s(v,gT(r(u,qu)))}}break;case
-2:return[0,e[1]]}throw q}function
-qQ(f){var
-h=n(f),a=[0,0];function
-i(b){if(a[1]<h)return G(f,a[1]);throw q}function
-j(b){if(i(0)===b){a[1]++;return 0}throw q}function
-M(b,c){for(;;){if(a[1]<h&&d(c,G(f,a[1]))){a[1]++;continue}return cO(f,b,a[1]-b|0)}}function
-N(d){j(34);function
+y=X(w),E=Q(q(y,vL)),z=R(function(a){return u(t,a)},E),F=e[1];if(cn(z)!==F)throw x;return v(z,jb(q(y,vM)))}}break;case
+2:return[0,h[1]]}throw x}function
+v_(a){return 5===a[2][0]?1:0}function
+v$(d){var
+f=y(d),a=[0,0];function
+g(b){if(a[1]<f)return G(d,a[1]);throw x}function
+h(b){if(g(0)===b){a[1]++;return 0}throw x}function
+C(b,c){for(;;){if(a[1]<f&&e(c,G(d,a[1]))){a[1]++;continue}return cY(d,b,a[1]-b|0)}}function
+D(d){h(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=M(a[1],b);j(34);return c}function
-O(k,e){if(i(0)===e){a[1]++;return 0}var
+c=C(a[1],b);h(34);return c}function
+E(k,d){if(g(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-g=[0,d(k,0),f];if(44===i(0)){a[1]++;var
-f=g;continue}j(e);var
-b=g,c=0;for(;;){if(b){var
-h=[0,b[1],c],b=b[2],c=h;continue}return c}}}function
-t(c,k){if(64<c)throw q;var
-b=i(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,O(function(a){return t(f,a)},e)]}if(123===b){a[1]++;var
-g=125;return[0,O(function(b){var
-a=N(0);j(58);return[0,a,t(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,N(0)];if(45===b)d=1}if(d){var
-h=a[1];a[1]++;return[3,M(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw q}var
-ab=t(0,0),P=a[1]<h?1:0,ac=P?10===G(f,a[1])?1:0:P;if(ac)a[1]++;if(a[1]<h)throw q;var
-p=ai(ab);if(l(bc(r(p,qR)),qS))throw q;var
-u=cA(r(p,qT)),v=u[1];if(l(v,pT))if(l(v,pU))var
-b=aJ([0,pW,[0,v,pV]]);else{var
-w=r(ai(u[2]),pX),$=0;if(2===w[0]){var
-R=l(w[1],pY);if(!R){var
-Q=R;$=1}}if(!$)var
-Q=[0,de(w)];var
-b=[2,Q]}else{var
-c=ai(u[2]),x=function(a){return aE(pw,aC(r(c,pZ)))},y=cA(r(c,p0)),e=cA(r(c,p1)),aa=0;if(0===aY(c,p2)&&0===aY(c,p3)){var
-z=y[1],g=0;if(l(z,p4)){if(!l(z,p5)){var
-A=e[1],S=y[2];if(l(A,p8))if(l(A,p9)){var
-b=aJ([0,p$,[0,A,p_]]);g=1}else{var
-B=ai(e[2]),T=gW(aD,r(B,qa)),U=gW(aD,r(B,qb)),ad=x(0),ae=U[2],af=U[1],ag=aD(r(B,qc)),ah=[1,T[1],T[2],ag,af,ae],b=[0,aE(gV,aC(S)),ah,ad];g=1}else{var
-V=ai(e[2]),aj=dc(aD,r(V,qd)),ak=[0,dc(aD,r(V,qe)),aj],al=x(0),b=[0,aE(gV,aC(S)),ak,al];g=1}}}else
-if(!l(e[1],qf)){var
-am=x(0),an=aD(r(ai(e[2]),qg)),b=[1,aD(r(ai(y[2]),qh)),an,am];g=1}if(!g)var
-b=aJ([0,p7,[0,z,p6]])}else
-aa=1;if(aa)var
-b=aJ(qi)}var
-au=0===b[0]?dF(b[1]):3,I=cA(r(p,qU)),J=I[1];if(l(J,qG))if(l(J,qH))var
-L=aJ([0,qJ,[0,J,qI]]);else{var
-m=ai(I[2]),K=aY(m,qK),aq=K?aE(aD,aC(K[1])):K,C=cA(r(m,qL)),k=C[1],s=0;if(l(k,qB)){var
-W=l(k,qC);if(W){if(!l(k,qD)){var
-X=C[2];if(1===X[0]){var
-D=X[1];if(D){var
-E=D[2];if(E&&!E[2]){var
-ao=b4(E[1]),o=[1,b4(D[1]),ao];s=1}}}}}else{var
-o=W;s=1}}else{var
-Y=C[2];if(1===Y[0]){var
-F=Y[1];if(F){var
-H=F[2];if(H&&!H[2]){var
-ap=aE(gX,aC(H[1])),o=[0,b4(F[1]),ap];s=1}}}}if(!s)var
-o=aJ([0,qF,[0,k,qE]]);var
-ar=aE(aD,aC(r(m,qM))),L=[1,gS(r(m,qN)),ar,aq,o]}else
+i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
+f=i;continue}h(d);var
+b=i,c=0;for(;;){if(b){var
+j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
+p(c,k){if(64<c)throw x;var
+b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,E(function(a){return p(f,a)},e)]}if(123===b){a[1]++;var
+i=125;return[0,E(function(b){var
+a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
+j=a[1];a[1]++;return[3,C(j,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
+M=p(0,0),F=a[1]<f?1:0,N=F?10===G(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=X(M);if(k(aS(q(m,wa)),wb))throw x;var
+b=ux(q(m,wc));switch(b[0]){case
+0:var
+n=[0,cn(b[1]),3];break;case
+2:var
+Z=1===b[1]?6:3,n=[0,cn(b[2]),Z];break;case
+3:var
+_=cn(b[1]),n=[0,cn(b[4]),_];break;default:var
+n=wk}var
+w=cL(q(m,wd)),z=w[1];if(k(z,v0))if(k(z,v1))var
+c=ac([0,v3,[0,z,v2]]);else{var
+j=X(w[2]),A=aZ(j,v4),S=A?R(aa,Q(A[1])):A,r=cL(q(j,v5)),i=r[1],o=0;if(k(i,vV)){var
+H=k(i,vW);if(H){if(!k(i,vX)){var
+I=r[2];if(1===I[0]){var
+s=I[1];if(s){var
+t=s[2];if(t&&!t[2]){var
+O=cM(t[1]),l=[1,cM(s[1]),O];o=1}}}}}else{var
+l=H;o=1}}else{var
+J=r[2];if(1===J[0]){var
+u=J[1];if(u){var
+v=u[2];if(v&&!v[2]){var
+P=R(jj,Q(v[1])),l=[0,cM(u[1]),P];o=1}}}}if(!o)var
+l=ac([0,vZ,[0,i,vY]]);var
+T=R(aa,Q(q(j,v6))),c=[1,ja(q(j,v7)),T,S,l]}else
 var
-Z=ai(I[2]),as=aC(r(Z,qO)),at=aE(function(f){var
-a=ai(f);if(0!==aY(a,qx))aJ(qy);var
-d=db(b4,aY(a,qz)),b=aY(a,qA);if(b)var
-e=aC(b[1]),c=aE(function(g){var
-b=aC(g);if(b){var
+K=X(w[2]),U=Q(q(K,v8)),V=R(function(f){var
+a=X(f);if(0!==aZ(a,vR))ac(vS);var
+d=ej(cM,aZ(a,vT)),b=aZ(a,vU);if(b)var
+e=Q(b[1]),c=R(function(g){var
+b=Q(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!l(c[1],qv)){if(!a[2]){if(l(cz(e),qw))throw q;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],vP)){if(!a[2]){if(k(dn(e),vQ))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=gY(au,c);return[0,b4(e),f]}}}throw q},e);else
+f=fZ(n,c);return[0,cM(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},as),L=[0,gS(r(Z,qP)),at];var
-_=ai(r(p,qV)),av=bc(r(_,qW));return[0,b,L,bc(r(_,qX)),av]}function
-qY(c){try{try{var
-d=0,a=qQ(c);d=1}catch(a){a=dB(a);if(a[1]===gQ)var
-b=[0,a[2]];else{if(a!==q)throw a;var
+c=b;return[0,c,d]},U),c=[0,ja(q(K,v9)),V];var
+B=0;switch(b[0]){case
+1:if(0===c[0]){ac(wh);B=1}break;case
+2:if(0===c[0]){var
+Y=c[2];if(!gT(function(a){return gT(v_,a[1])},Y)){ac(wi);B=1}}break;case
+3:if(1===c[0]){ac(wj);B=1}break}var
+L=X(q(m,we)),W=aS(q(L,wf));return[0,b,c,aS(q(L,wg)),W]}function
+wl(c){try{try{var
+d=0,a=v$(c);d=1}catch(a){a=eI(a);if(a[1]===i_)var
+b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=o4(c,a)?0===a[2][0]?0:1:2}catch(a){return qZ}if(typeof
+b=tq(c,a)?0===a[2][0]?0:1:2}catch(a){return wm}if(typeof
 b==="number")switch(b){case
-0:return q0;case
-1:return q1;default:return q2}return S(q3,b[1])}r6.orthocert_verify=rM(function(b){return bk(qY(a(b)))});dE(0);return}(globalThis));
+0:return wn;case
+1:return wo;default:return wp}return am(wq,b[1])}yb.orthocert_verify=xT(function(b){return bN(wl(a(b)))});eL(0);return}(globalThis));

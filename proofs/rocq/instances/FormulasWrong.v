@@ -1,0 +1,78 @@
+(** * Wrong certificates of platforms that turn, and of mechanisms by formulas, are refused; so are misread texts *)
+
+From Coq Require Import ZArith NArith List String Decimal.
+From Orthocert Require Import Claim.
+From Orthocert.kernel Require Import Check Configuration Written Turning Pose.
+From Orthocert.kernel Require Certificate.
+Import ListNotations.
+
+(** The 3-RPR of certificates/planar-3-rpr.cert.json, with two of its requirements. *)
+Module Planar.
+Local Open Scope Z_scope.
+Definition root3 (n : Z) : number := Times (n // 1) (Root (3 // 1)).
+Definition vector (x y : number) : tolerances := Tolerances (exactly x) (exactly y) (exactly (0 // 1)).
+Definition claim (psi length : number) : turning_claim :=
+  MakeTurningClaim InPlane
+    [(vector (0 // 1) (400 // 1), vector (root3 50) (50 // 1));
+     (vector (root3 (-200)) (-200 // 1), vector (root3 (-50)) (50 // 1));
+     (vector (root3 200) (-200 // 1), vector (0 // 1) (-100 // 1))]
+    (100 // 1)
+    (Tolerances (Within (-50 // 1) (50 // 1)) (Within (-50 // 1) (50 // 1)) (exactly (0 // 1)))
+    (TurnedBy (Within (-20 // 1) (20 // 1)))
+    [FactorMax psi; LengthMax 0 length].
+Definition Y := [[0; -1; -1]; [1; 1; -1]; [-1; 0; -1]].
+Definition by_lower (Y : list (list Z)) : nat * evidence := (0%nat, AtControls (ByLower 0%N Y)).
+Definition by_test : nat * evidence := (1%nat, AtControls ByTest).
+Definition accepts (c : turning_claim) (steps : list (nat * evidence)) : bool := check_turning 52 c 9 (Leaf steps).
+Local Notation right := (claim (11 // 10) (480 // 1)).
+
+Example as_it_is : accepts right [by_lower Y; by_test] = true. Proof. vm_compute. reflexivity. Qed.
+Example psi_tighter : accepts (claim (1 // 1) (480 // 1)) [by_lower Y; by_test] = false. Proof. vm_compute. reflexivity. Qed.
+Example shorter : accepts (claim (11 // 10) (450 // 1)) [by_lower Y; by_test] = false. Proof. vm_compute. reflexivity. Qed.
+Example another_Y : accepts right [by_lower [[0; -1; -1]; [1; 1; 1]; [-1; 0; -1]]; by_test] = false. Proof. vm_compute. reflexivity. Qed.
+Example without_a_step : accepts right [by_lower Y] = false. Proof. vm_compute. reflexivity. Qed.
+Example not_at_controls : accepts right [(0%nat, ByLower 0%N Y); by_test] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_the_other_test : accepts right [(0%nat, AtControls ByTest); by_test] = false. Proof. vm_compute. reflexivity. Qed.
+End Planar.
+
+(** One joint whose rate is 1 + x^2 times that of x, for x from 1 to 2. *)
+Module Formulas.
+Local Open Scope string_scope.
+Local Notation x := (Named "x").
+Local Notation one := (Constant (1 // 1)).
+Definition claim (definitions : list (string * written)) (entry : written) : written_claim :=
+  MakeWrittenClaim (Mechanism ["x"] [] definitions [[entry]]) [Within (1 // 1) (2 // 1)] [Nonsingular].
+Definition accepts (c : written_claim) : bool := certify_written 512 52 c (Leaf [(0%nat, ByLower 0%N [[1%Z]])]).
+Local Notation rate := (Sum one (Raised x 2)).
+
+Example as_it_is : accepts (claim [] rate) = true. Proof. vm_compute. reflexivity. Qed.
+Example zero_rate : accepts (claim [] (Difference x x)) = false. Proof. vm_compute. reflexivity. Qed.
+(** What is not used has to be defined, though a product with 0 is written as 0. *)
+Example divisor_zero : accepts (claim [("y", Quotient one (Difference x x))] rate) = false. Proof. vm_compute. reflexivity. Qed.
+Example times_zero : accepts (claim [] (Sum rate (Product (Constant (0 // 1)) (Quotient one (Difference x x))))) = false. Proof. vm_compute. reflexivity. Qed.
+Example radicand_negative : accepts (claim [("y", RootOf (Difference x (Constant (3 // 1))))] rate) = false. Proof. vm_compute. reflexivity. Qed.
+Example no_such_name : accepts (claim [] (Sum rate (Named "y"))) = false. Proof. vm_compute. reflexivity. Qed.
+Example a_name_twice : accepts (claim [("x", one)] rate) = false. Proof. vm_compute. reflexivity. Qed.
+End Formulas.
+
+(** One joint with the row -2 x, x from 1 to 2: the text ["2*-x"] has one reading, whatever a reader makes of it. *)
+Module Texts.
+Import Certificate.
+Local Open Scope string_scope.
+Definition digit (d : uint) : term string := Literal d Nil.
+Definition certificate (row : term string) : certificate :=
+  Certificate (Formulas_ ["x"] [] [] [[row]] [Literal (D1 Nil) Nil] [Literal (D2 Nil) Nil]
+    [Require_ Transmission None None (AtLeast_ (Literal (D0 Nil) (D2 Nil)))])
+    (Nodes 52 [Node [(0%nat, Multiplied "lower" [[(-1)%Z]] 0); (1%nat, Plain "test")] None]) "t" "1".
+Definition right := certificate (Binary Multiplication (digit (D2 Nil)) (Negative (Name "x"))).
+(** [(2 * ) - x]: a number without digits. *)
+Definition misread := certificate (Binary Subtraction (Binary Multiplication (digit (D2 Nil)) (digit Nil)) (Name "x")).
+Definition text := String.concat "" (print right).
+
+Example one_text : String.concat "" (print misread) = text. Proof. vm_compute. reflexivity. Qed.
+Example as_it_is : verify text right = true. Proof. vm_compute. reflexivity. Qed.
+Example without_digits : verify text misread = false. Proof. vm_compute. reflexivity. Qed.
+Example a_zero_before : is_written (digit (D0 (D5 Nil))) = false. Proof. reflexivity. Qed.
+Example a_zero_last : is_written (Literal (N := string) (D5 Nil) (D1 (D0 Nil))) = false. Proof. reflexivity. Qed.
+Example to_the_first : is_written (Power (Name "x") 1) = false. Proof. reflexivity. Qed.
+End Texts.

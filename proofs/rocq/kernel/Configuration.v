@@ -1,0 +1,219 @@
+(** * Mechanisms by their Jacobian: what is asked of a machine at a point
+
+    For machines whose claims are not those of Statement.v: the rows of M = J^-1
+    are lists, as many entries as the platform has coordinates. *)
+
+From Coq Require Import ZArith Reals Lra Lia List Bool.
+From Orthocert Require Import Fixed Claim.
+From Orthocert.kernel Require Import Linear Arithmetic Number Trig Witness.
+Import ListNotations.
+Local Open Scope R_scope.
+Local Notation length := Datatypes.length.
+
+Inductive coordinate :=
+  | Length (rho : R)
+  (* by its cosine and sine *)
+  | Angle (cosine sine : R)
+  (* of a joint that is given by its row of M alone *)
+  | Unknown.
+
+(** A machine at a point. [reached]: all is defined there, and no leg is serially singular. *)
+Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; reached : Prop }.
+
+(** |M v|^2 *)
+Definition speed2 (M : list (list R)) (v : list R) : R := fold_right (fun row sum => dot row v ^ 2 + sum) 0 M.
+
+(** Joints are counted from zero. *)
+Inductive demand :=
+  | Nonsingular
+  | FactorMax (b : number) | FactorMin (b : number)    (* velocity transmission factors *)
+  | LengthMin (joint : nat) (b : number) | LengthMax (joint : nat) (b : number)
+  | AngleWithin (joint : nat) (a b : number)           (* degrees, up to whole turns *)
+  | Conditioned (b : number).                          (* sigma_max / sigma_min *)
+
+(** No motion of the platform, of [n] coordinates, leaves all joints at rest. *)
+Definition injective (n : nat) (c : configuration) : Prop :=
+  forall v, length v = n -> nonzero v -> 0 < speed2 (jacobian c) v.
+
+Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
+  match d with
+  | Nonsingular => injective n c
+  | FactorMax b => forall v, length v = n -> (1 / value b) ^ 2 * dot v v <= speed2 (jacobian c) v
+  | FactorMin b => forall v, length v = n -> speed2 (jacobian c) v <= (1 / value b) ^ 2 * dot v v
+  | LengthMin i b => exists rho, nth_error (joints c) i = Some (Length rho) /\ value b <= rho
+  | LengthMax i b => exists rho, nth_error (joints c) i = Some (Length rho) /\ rho <= value b
+  | AngleWithin i a b => exists angle, value a <= angle <= value b /\
+      nth_error (joints c) i = Some (Angle (cos (in_degrees angle)) (sin (in_degrees angle)))
+  | Conditioned b => forall u v, length u = n -> length v = n ->
+      speed2 (jacobian c) u * dot v v <= value b ^ 2 * (speed2 (jacobian c) v * dot u u)
+  end.
+
+Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
+  reached c /\ injective n c /\ Forall (fulfils n c) ds.
+
+(** ** In exact numbers: what fails *)
+
+Inductive ncoordinate := NLength (rho : number) | NAngle (cosine sine : number) | NUnknown.
+(** [reserves]: where it is reached, these are positive. *)
+Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; reserves : list number }.
+
+Definition coordinate_of (x : ncoordinate) : coordinate :=
+  match x with NLength x => Length (value x) | NAngle c s => Angle (value c) (value s) | NUnknown => Unknown end.
+Definition stands_for (n : nconfiguration) (c : configuration) : Prop :=
+  jacobian c = map (map value) (njacobian n) /\ joints c = map coordinate_of (njoints n) /\
+  (reached c -> Forall (fun x => 0 < value x) (reserves n)).
+
+Fixpoint ndot (u v : list number) : number :=
+  match u, v with a :: u', b :: v' => Plus (Times a b) (ndot u' v') | _, _ => 0 // 1 end.
+Definition nspeed2 (M : list (list number)) (v : list number) : number :=
+  fold_right (fun row sum => Plus (Times (ndot row v) (ndot row v)) sum) (0 // 1) M.
+
+Lemma zero_value : value (0 // 1) = 0.
+Proof. cbn. lra. Qed.
+
+Lemma value_ndot : forall u v, value (ndot u v) = dot (map value u) (map value v).
+Proof. induction u as [| a u IH]; intros [| b v]; cbn [ndot map dot]; rewrite ?zero_value; try reflexivity. cbn [value]. rewrite IH. reflexivity. Qed.
+
+Lemma value_nspeed2 : forall M v, value (nspeed2 M v) = speed2 (map (map value) M) (map value v).
+Proof.
+  intros M v. induction M as [| row M IH]; [exact zero_value |]. cbn [nspeed2 speed2 map fold_right value].
+  unfold nspeed2, speed2 in IH. rewrite IH, value_ndot. ring.
+Qed.
+
+Section Precision.
+Variable bits : positive.
+Local Notation certainly := (certainly bits).
+
+(** sin (angle - end) is not negative at the least end, and sin (end - angle) at the greatest. *)
+Definition before (c s : number) (degrees : number) : option fixed :=
+  match enclose bits c, enclose bits s, cosine bits degrees, sine bits degrees with
+  | Some c, Some s, Some c', Some s' => Some (sub (mul bits s c') (mul bits c s'))
+  | _, _, _, _ => None
+  end.
+Definition is_negative (a : option fixed) : bool := match a with Some a => (hi a <? 0)%Z | None => false end.
+Definition is_positive (a : option fixed) : bool := match a with Some a => (0 <? lo a)%Z | None => false end.
+
+Lemma before_sound : forall c s d a, before c s d = Some a ->
+  contains bits a (value s * cos (in_degrees (value d)) - value c * sin (in_degrees (value d))).
+Proof.
+  intros c s d a h. unfold before in h. destruct (enclose bits c) as [c1 |] eqn:e1; [| discriminate].
+  destruct (enclose bits s) as [s1 |] eqn:e2; [| discriminate]. destruct (cosine bits d) as [c2 |] eqn:e3; [| discriminate].
+  destruct (sine bits d) as [s2 |] eqn:e4; [| discriminate].
+  assert (E : sub (mul bits s1 c2) (mul bits c1 s2) = a) by congruence. subst a.
+  apply sub_sound; apply mul_sound; auto using enclose_sound, cosine_sound, sine_sound.
+Qed.
+
+(** Of angles less than half a turn, [least] or the greatest end. *)
+Definition beyond (least : bool) (x : ncoordinate) (a b : number) : bool :=
+  match x with
+  | NAngle c s => certainly false (Minus (Plus a (180 // 1)) b) &&
+      (if least then is_negative (before c s a) else is_positive (before c s b))
+  | _ => false
+  end.
+
+(** [vs]: directions, where the demand is about all. *)
+Definition fails (n : nat) (c : nconfiguration) (least : bool) (vs : list (list number)) (d : demand) : bool :=
+  let bound b u := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u) in
+  let speed := nspeed2 (njacobian c) in
+  let of i f := match nth_error (njoints c) i with Some x => f x | None => false end in
+  forallb (fun v => Nat.eqb (length v) n) vs &&
+  match d, vs with
+  | FactorMax b, [u] => certainly true (Minus (bound b u) (speed u))
+  | FactorMin b, [u] => certainly true (Minus (speed u) (bound b u))
+  | LengthMin i b, [] => of i (fun x => match x with NLength x => certainly true (Minus b x) | _ => false end)
+  | LengthMax i b, [] => of i (fun x => match x with NLength x => certainly true (Minus x b) | _ => false end)
+  | AngleWithin i a b, [] => of i (fun x => beyond least x a b)
+  | Conditioned b, [u; v] =>
+      certainly true (Minus (Times (speed u) (ndot v v)) (Times (Times b b) (Times (speed v) (ndot u u))))
+  | _, _ => false
+  end.
+
+Lemma beyond_sound : forall least x a b angle, beyond least x a b = true -> value a <= angle <= value b ->
+  coordinate_of x <> Angle (cos (in_degrees angle)) (sin (in_degrees angle)).
+Proof.
+  intros least [r | c s |] a b angle h [h1 h2] e; try discriminate. cbn [coordinate_of] in e. injection e as ec es.
+  cbn [beyond] in h. apply andb_true_iff in h as [w h]. apply nonneg_sound in w. cbn [value] in w. pose proof PI_RGT_0.
+  pose proof (unit_R_pos bits).
+  assert (S : forall x, 0 <= x <= 180 -> 0 <= sin (in_degrees x)).
+  { intros x [p q]. apply sin_ge_0; unfold in_degrees; [nra |]. apply Rmult_le_reg_r with 180; [lra |]. field_simplify. nra. }
+  assert (D : forall x y, in_degrees (x - y) = in_degrees x - in_degrees y) by (intros; unfold in_degrees; field).
+  destruct least.
+  - destruct (before c s a) as [f |] eqn:ef; [| discriminate]. apply before_sound in ef. apply Z.ltb_lt, IZR_lt in h.
+    rewrite ec, es, <- sin_minus, <- D in ef. pose proof (S (angle - value a) ltac:(lra)). destruct ef. nra.
+  - destruct (before c s b) as [f |] eqn:ef; [| discriminate]. apply before_sound in ef. apply Z.ltb_lt in h.
+    pose proof (contains_positive bits _ _ h ef) as P. rewrite ec, es, <- sin_minus, <- D in P.
+    pose proof (S (value b - angle) ltac:(lra)) as Q. rewrite D, sin_minus in Q. rewrite D, sin_minus in P. lra.
+Qed.
+
+Lemma fails_sound : forall n c k least vs d, stands_for c k -> fails n c least vs d = true -> ~ fulfils n k d.
+Proof.
+  intros n c k least vs d [J [X _]] h F. unfold fails in h. cbv zeta in h.
+  apply andb_true_iff in h as [hv h]. rewrite forallb_forall in hv.
+  assert (Of : forall v, In v vs -> length (map value v) = n) by (intros v i; rewrite map_length; apply Nat.eqb_eq, hv, i).
+  assert (B : forall b u, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u)) = (1 / value b) ^ 2 * dot (map value u) (map value u)).
+  { intros b u. cbn [value]. rewrite value_ndot. replace (1 / 1) with 1 by field. ring. }
+  assert (At : forall i x, nth_error (joints k) i = Some x -> exists y, nth_error (njoints c) i = Some y /\ x = coordinate_of y).
+  { intros i x e. rewrite X, nth_error_map in e. destruct (nth_error (njoints c) i) as [y |]; [| discriminate].
+    injection e as <-. exists y. split; reflexivity. }
+  destruct d as [| b | b | i b | i b | i a b | b]; cbn [fulfils] in F; [discriminate | | | | | |];
+    destruct vs as [| u [| v [| w vs]]]; try discriminate.
+  - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
+    set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.
+  - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
+    set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.
+  - destruct F as [r [e l]]. destruct (At i _ e) as [y [e' q]]. rewrite e' in h. destruct y; try discriminate.
+    injection q as ->. apply positive_sound in h. cbn [value] in h. lra.
+  - destruct F as [r [e l]]. destruct (At i _ e) as [y [e' q]]. rewrite e' in h. destruct y; try discriminate.
+    injection q as ->. apply positive_sound in h. cbn [value] in h. lra.
+  - destruct F as [angle [l e]]. destruct (At i _ e) as [y [e' q]]. rewrite e' in h.
+    exact (beyond_sound _ _ _ _ _ h l (eq_sym q)).
+  - apply positive_sound in h. cbn [value] in h. rewrite !value_nspeed2, !value_ndot, <- J in h.
+    specialize (F _ _ (Of u ltac:(left; reflexivity)) (Of v ltac:(right; left; reflexivity))). nra.
+Qed.
+
+(** Of the test [number] of the demands, where one that has two ends has two tests, the demand, and whether it is its first. *)
+Fixpoint test_at (number : nat) (ds : list demand) {struct ds} : option (demand * bool) :=
+  match ds, number with
+  | [], _ => None
+  | d :: _, O => Some (d, true)
+  | AngleWithin i a b :: _, S O => Some (AngleWithin i a b, false)
+  | AngleWithin _ _ _ :: ds', S (S k) => test_at k ds'
+  | _ :: ds', S k => test_at k ds'
+  end.
+
+Lemma test_at_in : forall ds k d b, test_at k ds = Some (d, b) -> In d ds.
+Proof.
+  fix IH 1. intros [| d ds] k e b h; [destruct k; discriminate |].
+  destruct d, k as [| [| k]]; cbn [test_at] in h; try (injection h as <- _; left; reflexivity); right; exact (IH ds _ _ _ h).
+Qed.
+
+Inductive nfailure :=
+  | NOutOfReach
+  | NFails (test : nat) (directions : list (list Z))
+  (* in the direction of a row of M *)
+  | NFailsAlong (test row : nat).
+
+Definition integers_of (l : list Z) : list number := map (fun k => k // 1) l.
+Definition refutes (n : nat) (c : nconfiguration) (ds : list demand) (f : nfailure) : bool :=
+  match f with
+  | NOutOfReach => existsb (fun x => certainly false (Minus (0 // 1) x)) (reserves c)
+  | NFails k vs => match test_at k ds with Some (d, least) => fails n c least (map integers_of vs) d | None => false end
+  | NFailsAlong k i =>
+      match test_at k ds, nth_error (njacobian c) i with
+      | Some (FactorMin b, least), Some row => fails n c least [row] (FactorMin b)
+      | _, _ => false
+      end
+  end.
+
+Theorem refutes_sound : forall n c k ds f, stands_for c k -> refutes n c ds f = true -> ~ meets n k ds.
+Proof.
+  intros n c k ds f st h [re [_ met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i]; cbn [refutes] in h.
+  - apply existsb_exists in h as [x [i h]]. apply nonneg_sound in h. cbn [value] in h.
+    destruct st as [_ [_ R]]. specialize (R re). rewrite Forall_forall in R. specialize (R x i). lra.
+  - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate].
+    exact (fails_sound _ _ _ _ _ _ st h (met d (test_at_in _ _ _ _ e))).
+  - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate]. destruct d; try discriminate.
+    destruct (nth_error _ i); [| discriminate].
+    exact (fails_sound _ _ _ _ _ _ st h (met _ (test_at_in _ _ _ _ e))).
+Qed.
+End Precision.
