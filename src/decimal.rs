@@ -170,6 +170,17 @@ pub fn readable(x: &Exact) -> String {
     }
 }
 
+/// An exact number for people, never on its other side: itself where that is a decimal of so many digits,
+/// sign and point, and three more; else rounded outward.
+pub fn outward(x: &Exact, digits: u32, toward: Toward) -> String {
+    let Some(x) = x.as_rational() else { return x.to_string() };
+    let short = digits + 3;
+    match terminating(x, short).filter(|text| text.len() <= short as usize) {
+        Some(text) => text,
+        None => rounded(x, digits, toward),
+    }
+}
+
 /// An exact number in full: as a decimal, if it is one of at most forty places.
 pub fn exact(x: &Exact) -> String {
     let decimal = x.as_rational().and_then(|x| terminating(x, EXACT_PLACES));

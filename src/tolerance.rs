@@ -52,6 +52,11 @@ pub enum Kind {
     Arm,
 }
 
+/// How many legs a mechanism is given by.
+pub fn legs_of(mechanism: &Mechanism) -> usize {
+    legs(mechanism).len()
+}
+
 impl Kind {
     /// All of them.
     pub const ALL: [Kind; 7] = [
@@ -140,13 +145,15 @@ impl fmt::Display for Kind {
 pub struct Scheme {
     /// The kinds, and their weights.
     pub weights: Vec<(Kind, BigRational)>,
+    /// Of this leg alone, counted from zero; else of all.
+    pub leg: Option<usize>,
 }
 
 impl Scheme {
     /// Every one of these kinds by `t`.
     pub fn common(kinds: &[Kind]) -> Self {
         let one = BigRational::from_integer(1.into());
-        Scheme { weights: kinds.iter().map(|&kind| (kind, one.clone())).collect() }
+        Scheme { weights: kinds.iter().map(|&kind| (kind, one.clone())).collect(), leg: None }
     }
 
     /// The claim about every machine of which the named parameters lie within `t` times their
@@ -161,7 +168,9 @@ impl Scheme {
             | Mechanism::Spherical(Turning { legs, .. }) => legs,
             Mechanism::Orthoglide { .. } | Mechanism::Formulas(_) => return None,
         };
-        for (kind, quantity) in legs.iter_mut().flat_map(parameters) {
+        let wanted = |leg: usize| self.leg.is_none_or(|own| own == leg);
+        let legs = legs.iter_mut().enumerate().filter(|(leg, _)| wanted(*leg));
+        for (kind, quantity) in legs.flat_map(|(_, leg)| parameters(leg)) {
             if let Some((_, weight)) = self.weights.iter().find(|(own, _)| *own == kind) {
                 *quantity = around(quantity, &(weight * t))?;
             }

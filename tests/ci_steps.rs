@@ -163,7 +163,7 @@ fn the_action_builds_proves_and_reports() {
     let cargo = tools(&[(
         "cargo",
         &format!(
-            "test \"$*\" = 'build --release --locked --bin orthocert'\ntest -f .cargo/config.toml\n\
+            "test \"$*\" = 'build --release --locked --bin orthocert'\ntest -f action.yml\n\
              mkdir -p \"$CARGO_TARGET_DIR/release\"\n\
              ln -s {BINARY} \"$CARGO_TARGET_DIR/release/orthocert\"\ntouch {}",
             seen.display()
@@ -243,6 +243,17 @@ fn the_stories_of_the_guide_run() {
     for line in blocks.iter().flat_map(|block| block.lines().skip(1)) {
         let output = bash(folder.path(), line, Some(programs)).output().unwrap();
         exits(&output, i32::from(line.ends_with("# refuted")));
+    }
+    // The guide's figures are those that the commands write.
+    for (figure, written) in [
+        ("printer", "printer/design"),
+        ("stroke", "printer/critical-1"),
+        ("mill", "whole/design"),
+        ("factor", "whole/psi-3"),
+    ] {
+        let kept = fs::read(source(&format!(".github/guide/{figure}.svg"))).unwrap();
+        let made = fs::read(folder.path().join(format!("{written}.svg"))).unwrap();
+        assert!(kept == made, "{figure}.svg is not {written}.svg");
     }
 }
 

@@ -3,10 +3,11 @@
 use crate::escape::xml;
 use std::fmt::Write;
 
-const STYLE: &str = "body { font: 16px/1.45 sans-serif; max-width: 60em; margin: 2em auto; \
-padding: 0 1em; color: #222 } svg { max-width: 100%; height: auto } \
-pre { white-space: pre-wrap } @media (prefers-color-scheme: dark) { \
-html { background: #0f1318 } body { color: #e6eaf0 } } td, th { text-align: left; padding: .15em 1.2em .15em 0 }";
+/// That of certificates' pages, with what a map needs of its own.
+const STYLE: &str = concat!(
+    include_str!("../page/page.css"),
+    "#map svg { max-width: 100%; height: auto; background: #fff; border-radius: 6px }\n"
+);
 
 /// What the lines of equal margin are.
 const LINES: &str =
@@ -24,18 +25,20 @@ pub fn page(
     let title = xml(title);
     let lines = if has_lines { LINES } else { "" };
     let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
-         <style>{STYLE}</style>\n<h1>{title}</h1>\n{svg}{lines}<table>\n"
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>{STYLE}</style>\n<header><p class=\"kicker\">Workspace verification</p>\
+         <h1>{title}</h1></header>\n<main><section><dl class=\"signed\">"
     );
     for (name, value) in facts {
         let (name, value) = (xml(name), xml(value));
-        let _ = writeln!(out, "<tr><th>{name}</th><td>{value}</td></tr>");
+        let _ = write!(out, "<dt>{name}</dt><dd>{value}</dd>");
     }
     let _ = writeln!(
         out,
-        "</table>\n<h2>What is proved</h2>\n<pre>{}</pre>",
+        "</dl></section>\n<section id=\"map\">{svg}{lines}</section>\n\
+         <section><h2>What is proved</h2>\n<pre>{}</pre></section></main>\n</html>",
         xml(statement.trim_end())
     );
-    out.push_str("</html>\n");
     out
 }

@@ -105,7 +105,7 @@ impl Files<'_> {
 
 /// All cells of a design's map.
 fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
-    let mut bar = Bar::new(quiet);
+    let mut bar = Bar::new("", quiet);
     let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
     let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
     let grown = atlas::grow(&mut growing, design.whole(), None);

@@ -3,15 +3,17 @@
 use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
-use orthocert::decimal::{rounded, Toward};
+use orthocert::decimal::{approximate, outward, rounded, Toward};
+use orthocert::design::Design;
 use orthocert::exact::Exact;
 use orthocert::output;
-use orthocert::report::{exactly, CertificateFile};
+use orthocert::report::text::{duration, wrap, WIDTH};
+use orthocert::report::{exactly, point_text, pose_text, CertificateFile};
 use orthocert::search::Budget;
 use orthocert::solver::extremes::{
     enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
 };
-use orthocert::solver::value::with_unit;
+use orthocert::solver::value::{coordinates, in_length, listed, with_unit};
 use orthocert_checker::certificate::{Certificate, Proof};
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::machine::Leg;
@@ -21,14 +23,14 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Significant digits beyond those that the width leaves certain.
-const GUARD_DIGITS: u32 = 2;
-
-/// Width of the column of quantities: "joint/tool speed, deg/length".
-const WIDEST: usize = 28;
+/// Significant digits of ends: two more than the narrowest width leaves certain.
+const DIGITS: u32 = 14;
+/// Significant digits of places.
+const PLACE_DIGITS: u32 = 6;
 
 /// Boxes after which a width is given up for a looser one: what closes at all mostly closes in a
-/// few hundred; the condition number of the rotary Delta takes 40,000.
+/// few hundred; the condition number of the rotary Delta takes 40,000. A third of that for each coordinate
+/// of orientation.
 const BOXES: u64 = 100_000;
 
 /// Its flags.
@@ -89,12 +91,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;
     }
     effort.start_threads()?;
-    let budget = effort.budget_or(BOXES, started)?;
     let claim = &design.claim;
+    let budget = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
     let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
-        Format::Json => print::json(&serde_json::json!({ "bounds": rows }))?,
-        Format::Text => print::answer(&text(&rows, started))?,
+        Format::Json => match design.unit {
+            Some(unit) => print::json(&serde_json::json!({ "bounds": rows, "length_unit": unit }))?,
+            None => print::json(&serde_json::json!({ "bounds": rows }))?,
+        },
+        Format::Text => print::answer(&text(&rows, &design, &relative, effort.quiet, started))?,
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
     Ok(if complete { Status::Done } else { Status::Undecided })
@@ -113,13 +118,19 @@ fn rows(
     };
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
-    let singular = effort.run(|control| is_singular(claim, budget, control)).map_err(failure)?;
+    let singular = effort
+        .run("singularities", |control| is_singular(claim, budget, control))
+        .map_err(failure)?;
     let mut rows = exact_rows(claim);
-    for extreme in Extreme::of(claim, problem.legs.len()) {
+    let extremes = Extreme::of(claim, problem.legs.len());
+    let all = extremes.len();
+    for (number, extreme) in extremes.into_iter().enumerate() {
         let found = if singular {
             Err(NotEnclosed::Singular)
         } else {
-            effort.run(|control| enclose(claim, &extreme, relative, budget, control))
+            let end = if extreme.is_greatest() { "greatest" } else { "least" };
+            let task = format!("{} of {all}, {end} {}", number + 1, extreme.quantity());
+            effort.run(&task, |control| enclose(claim, &extreme, relative, budget, control))
         };
         let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
         match found {
@@ -215,40 +226,106 @@ fn witness_point(certificate: &Certificate) -> Option<Vec<Exact>> {
     }
 }
 
-fn text(rows: &[Row], started: Instant) -> String {
-    let mut out = "Every extreme lies between its two decimals: one is refuted by a witness as a\n\
-         bound, the other is certified.\n\n"
-        .to_owned();
-    let _ = writeln!(
-        out,
-        "  {:<WIDEST$} {:<8} {:<17} {:<17} {:>7}",
-        "quantity", "extreme", "from", "to", "width"
-    );
-    for row in rows {
-        let quantity = with_unit(&row.quantity, row.unit);
-        let _ = write!(out, "  {quantity:<WIDEST$} {:<8} ", row.end);
-        match (&row.min, &row.max, &row.not_enclosed) {
-            (Some(min), Some(max), _) => {
-                let (min, max) = (shown(min, Toward::Below), shown(max, Toward::Above));
-                let width = row.relative.as_deref().unwrap_or_default();
-                let mark = if row.wide { " *" } else { "" };
-                let _ = writeln!(out, "{min:<17} {max:<17} {width:>7}{mark}");
-            }
-            (_, _, reason) => {
-                let _ = writeln!(out, "{}", reason.as_deref().unwrap_or("not enclosed"));
-            }
-        }
-    }
-    if rows.iter().any(|row| row.wide) {
-        out += "\n  * wider than asked for: no narrower proof was found\n";
-    }
-    let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
-    out
+/// A line of the table: rows that say the same, each with its name.
+struct Line<'a> {
+    names: Vec<&'a str>,
+    row: &'a Row,
+    from: String,
+    to: String,
 }
 
-fn shown(x: &Exact, toward: Toward) -> String {
-    match x.as_rational() {
-        Some(x) => rounded(x, 12 + GUARD_DIGITS, toward),
-        None => x.to_string(),
+/// The lines: joints with the same ends share one.
+fn lines(rows: &[Row]) -> Vec<Line<'_>> {
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    for row in rows {
+        let end = |x: &Option<Exact>, toward| x.as_ref().map(|x| outward(x, DIGITS, toward));
+        let from = end(&row.min, Toward::Below).unwrap_or_default();
+        let to = end(&row.max, Toward::Above).unwrap_or_default();
+        let same = |line: &&mut Line<'_>| {
+            let own = (&line.from, &line.to, line.row.end, line.row.unit);
+            own == (&from, &to, row.end, row.unit) && !from.is_empty() && row.unit.is_some()
+        };
+        match lines.iter_mut().find(same) {
+            Some(line) => line.names.push(&row.quantity),
+            None => lines.push(Line { names: vec![&row.quantity], row, from, to }),
+        }
     }
+    lines
+}
+
+/// The table, where each extreme is reached, and what its columns are.
+fn text(
+    rows: &[Row],
+    design: &Design,
+    asked: &BigRational,
+    quiet: bool,
+    started: Instant,
+) -> String {
+    let coordinates = coordinates(&design.claim);
+    let lines = lines(rows);
+    let name = |line: &Line<'_>| {
+        let name = with_unit(&listed(&line.names), line.row.unit);
+        in_length(&name, line.row.unit, design.unit)
+    };
+    let names: Vec<String> = lines.iter().map(name).collect();
+    let width = |title: &str, texts: &mut dyn Iterator<Item = &str>| {
+        texts.map(|text| text.chars().count()).max().unwrap_or(0).max(title.len())
+    };
+    let first = width("quantity", &mut names.iter().map(String::as_str));
+    let second = width("from", &mut lines.iter().map(|line| line.from.as_str()));
+    let third = width("to", &mut lines.iter().map(|line| line.to.as_str()));
+    let mut out = String::new();
+    let mut line = |[name, extreme, from, to, at]: [&str; 5], wide: Option<&str>| {
+        let mut values = format!("  {name:first$}  {extreme:8}  {from:second$}  {to:third$}");
+        if let Some(width) = wide {
+            let _ = write!(values, "  * width {width}");
+        }
+        let text = match values.chars().count() + 2 + at.chars().count() {
+            0..=WIDTH => format!("{values}  {at}"),
+            _ if at.is_empty() => values,
+            _ => {
+                let mut place = String::new();
+                wrap(&mut place, &format!("at {at}"), 6);
+                format!("{}\n{}", values.trim_end(), place.trim_end())
+            }
+        };
+        let _ = writeln!(out, "{}", text.trim_end());
+    };
+    if !quiet {
+        line(["quantity", "extreme", "from", "to", "at"], None);
+    }
+    for (own, name) in lines.iter().zip(&names) {
+        let row = own.row;
+        if let Some(reason) = &row.not_enclosed {
+            line([name, row.end, reason, "", ""], None);
+            continue;
+        }
+        let point = row.point.iter().flatten().map(approximate).collect::<Option<Vec<f64>>>();
+        let point = point.filter(|point| !point.is_empty() && !quiet);
+        let at = point.map_or_else(String::new, |point| {
+            match coordinates.iter().any(|name| name.contains("tan(") || name.starts_with("c_")) {
+                true => pose_text(&point, &coordinates, PLACE_DIGITS),
+                false => point_text(&point, PLACE_DIGITS),
+            }
+        });
+        let wide = row.relative.as_deref().filter(|_| row.wide);
+        line([name, row.end, &own.from, &own.to, &at], wide);
+    }
+    if quiet {
+        return out;
+    }
+    out.push('\n');
+    if rows.iter().any(|row| row.not_enclosed.is_none()) {
+        let asked = rounded(asked, 2, Toward::Above);
+        let text = format!(
+            "An extreme lies between its two decimals, relatively {asked} apart or less: one is refuted, \
+             as a bound, at the place named, the other is certified."
+        );
+        wrap(&mut out, &text, 2);
+    }
+    if rows.iter().any(|row| row.wide) {
+        wrap(&mut out, "* wider than asked for: no narrower proof was found", 2);
+    }
+    let _ = writeln!(out, "\n  {}", duration(started.elapsed().as_secs_f64()));
+    out
 }

@@ -211,7 +211,10 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
     match arguments.format {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
-            print::diagnostic(&format!("{}: REJECTED: {reason}", arguments.certificate.shown()))
+            let path = &arguments.certificate;
+            let is_design = path.extension().is_some_and(|extension| extension == "toml");
+            let hint = if is_design { "; `orthocert verify` reads designs" } else { "" };
+            print::diagnostic(&format!("{}: REJECTED: {reason}{hint}", path.shown()))
         }
     }
     Ok(Status::Rejected)

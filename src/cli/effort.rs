@@ -7,6 +7,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 use orthocert::search::{Budget, Control};
 use orthocert_kernel::check::MOST_NODES;
+use orthocert_kernel::claim::{MachineClaim, Orientation};
 use std::time::{Duration, Instant};
 
 /// Boxes tried by default.
@@ -59,9 +60,10 @@ impl Effort {
         start_threads(self.threads)
     }
 
-    /// Runs a search that can be interrupted and shows its progress.
-    pub fn run<T>(&self, search: impl FnOnce(&mut Control<'_>) -> T) -> T {
-        let mut bar = Bar::new(self.quiet);
+    /// Runs searches that can be interrupted and shows their progress, under a name where the command
+    /// does other work, too.
+    pub fn run<T>(&self, task: &str, search: impl FnOnce(&mut Control<'_>) -> T) -> T {
+        let mut bar = Bar::new(task, self.quiet);
         let mut progress = |now| bar.show(now);
         let found =
             search(&mut Control { cancel: interrupt::cancelled(), progress: &mut progress });
@@ -89,6 +91,15 @@ impl Work {
     /// Starts the threads that were asked for.
     pub fn start_threads(&self) -> Result<(), Failure> {
         start_threads(self.threads)
+    }
+}
+
+/// Of so many boxes a third for each coordinate of orientation, where boxes take longer.
+pub fn boxes_of(claim: &MachineClaim, boxes: u64) -> u64 {
+    match &claim.orientation {
+        None => boxes,
+        Some(Orientation::Range(_)) => boxes / 3,
+        Some(_) => boxes / 27,
     }
 }
 

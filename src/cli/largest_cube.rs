@@ -2,14 +2,14 @@
 
 use super::{certify, effort::Effort, input, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
-use orthocert::decimal::{readable, significant};
+use orthocert::decimal::{grouped, readable, significant};
 use orthocert::design::{written, Design};
 use orthocert::exact::Exact;
 use orthocert::largest_cube::{cube_of_side, largest_cube, Bracket};
 use orthocert::output;
-use orthocert::report::CertificateFile;
+use orthocert::report::text::{duration, labelled, verbatim};
+use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_checker::shown::Shown;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
 use serde::Serialize;
@@ -60,6 +60,11 @@ struct Answer {
     /// `(max - min) / min`.
     #[serde(skip_serializing_if = "Option::is_none")]
     gap: Option<f64>,
+    /// What fails first in the cube of side `max` about the same centre.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limited_by: Option<Counterexample>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_unit: Option<&'static str>,
     certificates: Vec<CertificateFile>,
     seconds: f64,
 }
@@ -78,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(target)?;
     }
     effort.start_threads()?;
-    let found = effort.run(|control| match &side {
+    let found = effort.run("", |control| match &side {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });
@@ -94,6 +99,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let answer = Answer {
         title: design.title.clone(),
         gap: reached(&bracket),
+        limited_by: bracket.fails.as_deref().and_then(counterexample),
+        length_unit: design.unit,
         min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
         centre: bracket.inside.map(|inside| inside.centre.map(Exact::Rational)),
         max: bracket.too_large.map(|too_large| too_large.side),
@@ -177,27 +184,34 @@ impl Arguments {
 
 fn text(answer: &Answer, quiet: bool) -> String {
     let number = |x: &Exact| readable(x);
+    let unit = answer.length_unit.map(|unit| format!(" {unit}")).unwrap_or_default();
     let mut out = match (&answer.min, &answer.max) {
         (Some(min), Some(max)) => {
-            format!("largest cube: side between {} and {}\n", exactly(min), exactly(max))
+            format!("largest cube: side between {} and {}{unit}\n", exactly(min), exactly(max))
         }
-        (Some(min), None) => format!("a cube of side {} fits\n", exactly(min)),
-        (None, Some(max)) => format!("no cube of side {} fits\n", exactly(max)),
+        (Some(min), None) => format!("a cube of side {}{unit} fits\n", exactly(min)),
+        (None, Some(max)) => format!("no cube of side {}{unit} fits\n", exactly(max)),
         (None, None) => "undecided: no cube is certified, and no side is excluded\n".to_owned(),
     };
     if quiet {
         return out;
     }
+    out.push('\n');
+    if let Some(found) = &answer.limited_by {
+        labelled(&mut out, "limited by", &found.limit());
+        let at: Vec<String> = found.point.iter().map(readable).collect();
+        labelled(&mut out, "at", &format!("({})", at.join(", ")));
+    }
     if let Some([x, y, z]) = &answer.centre {
-        let _ = write!(out, "\n  centre ({}, {}, {})", number(x), number(y), number(z));
+        labelled(&mut out, "centre", &format!("({}, {}, {})", number(x), number(y), number(z)));
     }
     if let Some(gap) = answer.gap {
-        let _ = write!(out, "\n  gap {}", significant(gap, 3));
+        labelled(&mut out, "gap", &significant(gap, 3));
     }
-    for certificate in &answer.certificates {
-        let _ = write!(out, "\n  {} ({} bytes)", Shown(&certificate.path), certificate.bytes);
+    for CertificateFile { path, bytes, .. } in &answer.certificates {
+        verbatim(&mut out, "certificate", &format!("{path} ({} bytes)", grouped(*bytes as u64)));
     }
-    let _ = writeln!(out, "\n  {} s", significant(answer.seconds, 3));
+    let _ = writeln!(out, "\n  {}", duration(answer.seconds));
     out
 }
 

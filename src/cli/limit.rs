@@ -9,7 +9,7 @@ use orthocert::exact::Exact;
 use orthocert::limit::Side;
 use orthocert::limit::{limits, Decided, DesignFamily, Direction, Family, Limit, Place, Question};
 use orthocert::output;
-use orthocert::report::{CertificateFile, Outcome};
+use orthocert::report::{machine_of_witness, CertificateFile, Outcome};
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_checker::shown::Shown;
 use serde::Serialize;
@@ -155,15 +155,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         deadline: budget.deadline,
     };
     let variable = &variable;
-    let own =
-        effort.run(|control| DesignFamily { variable, budget, control }.decide(&design.claim));
+    let own = effort.run("own value", |control| {
+        DesignFamily { variable, budget, control }.decide(&design.claim)
+    });
     let own = own.map_err(explain)?;
     let verdict = own.as_ref().map(|(verdict, _)| *verdict);
     let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
     let found = effort
-        .run(|control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
+        .run("", |control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
     let limits = found.map_err(explain)?;
     let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
     let answer = Answer {
@@ -348,7 +349,10 @@ fn limit(out: &mut String, row: &Row) {
         let missed = if row.gap_reached { "" } else { ", more than asked for" };
         line(out, "gap", &format!("{gap}{missed}"));
     }
-    if let (Some(place), Some(_)) = (&row.limited_by, &row.gap) {
+    // Without a gap, where even the value nearest to a certified one fails, if there is any.
+    if let Some(place) =
+        row.limited_by.as_ref().filter(|_| row.gap.is_some() || row.certified.is_none())
+    {
         self::place(out, place);
     }
     match &row.undecided {
@@ -372,17 +376,18 @@ fn limit(out: &mut String, row: &Row) {
 
 /// The requirement that limits, and where.
 fn place(out: &mut String, place: &Place) {
-    line(out, "limited by", &place.violated);
+    line(out, "limited by", &place.limit);
     if let Some(value) = &place.value {
         line(out, "value there", value);
     }
-    line(out, "at", &format!("({})", place.point.join(", ")));
+    match &place.pose {
+        Some(pose) => line(out, "at", pose),
+        None => line(out, "at", &format!("({})", place.point.join(", "))),
+    }
     if !place.other_point.is_empty() {
         line(out, "and at", &format!("({})", place.other_point.join(", ")));
     }
-    for (parameter, value) in &place.machine {
-        line(out, "", &format!("{parameter} = {value}"));
-    }
+    machine_of_witness(out, &place.settings, false);
 }
 
 /// A label and what it says, in as many lines as that takes.

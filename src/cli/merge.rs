@@ -128,7 +128,7 @@ fn proved(
         Format::Text if work.quiet => {
             print::answer(&(text::headline(&report, print::style()) + "\n"))?;
         }
-        Format::Text => print::answer(&text::report(&report, print::style()))?,
+        Format::Text => print::answer(&text::report(&report, print::style(), false))?,
     }
     Ok(status)
 }

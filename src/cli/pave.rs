@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         ));
     }
     effort::start_threads(arguments.threads)?;
-    let mut bar = Bar::new(arguments.quiet);
+    let mut bar = Bar::new("", arguments.quiet);
     let mut progress = |now| bar.show(now);
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut progress };
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };

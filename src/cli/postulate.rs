@@ -44,7 +44,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     parts(&claim).map_err(|error| arguments.refused(&error))?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
-    let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
+    let mut found =
+        effort.run("", |control| prove(&claim, budget, control)).map_err(Failure::input)?;
     let decision = certify::decided(&mut found)?;
     let report = PostulateReport::new(&claim, &found, started.elapsed());
     let mut report = report.ok_or(Failure::Interrupted)?;
@@ -83,7 +84,12 @@ impl Arguments {
             }
         };
         let text: String = text.chars().take(60).collect();
-        Failure::Input(format!("{flag}: found \"{text}\": {error}; accepted: {accepted}"))
+        // What the kernel says of a range says nothing of one number.
+        let why = match self.psi {
+            Some(_) => String::new(),
+            None => format!(": {error}"),
+        };
+        Failure::Input(format!("{flag}: found \"{text}\"{why}; accepted: {accepted}"))
     }
 
     fn psi_max(&self) -> Result<PsiMax, Failure> {

@@ -70,6 +70,7 @@ impl Task<'_> {
             Failure::Input("the design's numbers exceed what can be reported".to_owned())
         })?;
         report.title.clone_from(&self.design.title);
+        report.length_unit = self.design.unit;
         report.design = self.file.map(|path| path.to_string_lossy().into_owned());
         match file {
             Some((file, cached)) => {

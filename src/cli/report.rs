@@ -1,16 +1,17 @@
 //! `orthocert report`.
 
+use super::check::{examine, is_of};
 use super::input::{self, Begun};
 use super::{interrupt, print, Failure, Format, Status};
 use orthocert::decimal::grouped;
+use orthocert::design::Design;
 use orthocert::digest::sha256;
 use orthocert::output;
 use orthocert::page::paving::{PavingPage, DEPTH};
 use orthocert::page::{File, Page, Picture};
 use orthocert::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
-use orthocert_checker::certificate::Verdict;
+use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_checker::shown::{Named, Shown};
-use orthocert_checker::{check, read};
 use orthocert_kernel::paving::{self, is_paving, Accepted, Extent, Reader, Share, Subject};
 use serde::Serialize;
 use std::fs;
@@ -23,10 +24,15 @@ pub struct Arguments {
     /// The certificate, or a paving
     #[arg(value_name = "CERT.json|PAVING")]
     certificate: PathBuf,
-    /// Where the report is written [default: NAME.report.html beside NAME.cert.json or NAME.paving]
+    /// Where the report is written [default: NAME.report.html beside NAME.cert.json,
+    /// NAME.paving.report.html beside NAME.paving]
     #[arg(short, long, value_name = "REPORT.html")]
     output: Option<PathBuf>,
-    /// The report's title [default: the certificate's name]
+    /// The design that the certificate is about, for its title and unit of lengths; another's is
+    /// refused [default: NAME.toml beside NAME.cert.json, if it is that design]
+    #[arg(long, value_name = "DESIGN.toml")]
+    design: Option<PathBuf>,
+    /// The report's title [default: the design's, or the certificate's name]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
     /// Also write every figure as an SVG file into this folder, which is made if it is not there
@@ -76,10 +82,16 @@ struct Written {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let path = &arguments.certificate;
+    let design = arguments.design.as_deref().map(Design::read).transpose();
+    let design = design.map_err(Failure::input)?;
     let begun = Begun::new(path)?;
     let target = arguments.target()?;
     output::probe(&target)?;
     if is_paving(&begun.start) {
+        if arguments.design.is_some() {
+            let refused = "--design: found a paving; accepted: a certificate";
+            return Err(Failure::Input(refused.to_owned()));
+        }
         let mut bytes = Vec::new();
         begun.whole().take(MAX_PAVING + 1).read_to_end(&mut bytes).map_err(|error| {
             Failure::Input(format!("{}: cannot be read: {error}", path.shown()))
@@ -91,14 +103,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         return of_paving(arguments, &bytes, &target);
     }
     let bytes = begun.start;
-    let checked = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
-    let (accepted, certificate) = match checked {
-        Ok(checked) => checked,
-        Err(reason) => return reject(arguments, &reason.to_string()),
+    let (certificate, accepted) = match examine(&bytes, design.as_ref()) {
+        Ok(examined) => examined,
+        Err(reason) => return reject(arguments, &reason),
     };
+    let design = design.or_else(|| arguments.design_beside(&certificate));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let file = File { name: &name, bytes: &bytes };
-    let page = Page::new(&certificate, &accepted, file, arguments.title.as_deref());
+    let title = arguments.title.as_deref().or(design.as_ref().and_then(|own| own.title.as_deref()));
+    let unit = design.as_ref().and_then(|own| own.unit);
+    let page = Page::new(&certificate, &accepted, file, title, unit);
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;
@@ -179,6 +193,14 @@ impl Arguments {
         self.certificate.shown()
     }
 
+    /// The design beside the certificate, if the certificate is about it.
+    fn design_beside(&self, certificate: &Certificate) -> Option<Design> {
+        let name = self.certificate.file_name()?.to_str()?.strip_suffix(".cert.json")?;
+        let path = self.certificate.with_file_name(format!("{name}.toml"));
+        let design = path.is_file().then(|| Design::read(&path).ok())??;
+        is_of(certificate, &design).then_some(design)
+    }
+
     /// Writes the page, and the figures that are asked for.
     fn write(
         &self,
@@ -189,6 +211,7 @@ impl Arguments {
         let mut files = Vec::new();
         let mut write = |folder: Option<&Path>, path: &Path, bytes: &[u8]| -> Result<(), Failure> {
             input::apart(path, std::slice::from_ref(&self.certificate))?;
+            input::apart(path, self.design.as_slice())?;
             match folder {
                 Some(folder) => output::write_below(folder, path, bytes)?,
                 None => output::write(path, bytes)?,
@@ -227,13 +250,12 @@ impl Arguments {
     }
 }
 
-/// `NAME.report.html` beside `NAME.cert.json` or `NAME.paving`.
+/// `NAME.report.html` beside `NAME.cert.json`, `NAME.paving.report.html` beside `NAME.paving`.
 fn beside(certificate: &Path) -> PathBuf {
     let name = certificate.file_name().unwrap_or_default();
     let mut report = match name.to_str() {
         Some(text) => {
             let text = text.strip_suffix(".json").unwrap_or(text);
-            let text = text.strip_suffix(".paving").unwrap_or(text);
             text.strip_suffix(".cert").unwrap_or(text).into()
         }
         None => name.to_owned(),
@@ -252,7 +274,7 @@ mod tests {
             ("a.cert.json", "a.report.html"),
             ("x/y/delta.v2.json", "x/y/delta.v2.report.html"),
             ("x/plain", "x/plain.report.html"),
-            ("x/region.paving", "x/region.report.html"),
+            ("x/region.paving", "x/region.paving.report.html"),
         ] {
             assert_eq!(beside(Path::new(certificate)), Path::new(report));
         }

@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         )));
     }
     arguments.work.start_threads()?;
-    let mut bar = Bar::new(arguments.work.quiet);
+    let mut bar = Bar::new("", arguments.work.quiet);
     let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
     let cancel = interrupt::cancelled();
     let ran = shard::run(&arguments.file, &shard, &answers, cancel, &mut done);

@@ -3,11 +3,12 @@
 use super::{certify, effort, input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use orthocert::decimal::{exact, rounded, terminating, Toward};
+use orthocert::decimal::{exact, outward, readable, rounded, Toward};
 use orthocert::exact::Exact;
 use orthocert::frontier::{Bracket, Certified, NoAnswer};
 use orthocert::output;
-use orthocert::report::CertificateFile;
+use orthocert::report::text::{duration, labelled, verbatim, wrap};
+use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::size::{is_side, Family, Scope, Unknown};
 use orthocert_checker::certificate::Certificate;
 use serde::Serialize;
@@ -66,6 +67,11 @@ struct Answer {
     /// The cube's centre for the certified size.
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<[Exact; 3]>,
+    /// What fails first in a smaller machine, the cube placed so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limited_by: Option<Counterexample>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_unit: Option<&'static str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     certificates: Vec<CertificateFile>,
 }
@@ -85,16 +91,19 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;
     let family = Family::new(claim, &side, width).map_err(explain)?;
-    let found = effort.run(|control| family.smallest(width, budget, control)).map_err(explain)?;
-    let excluded =
-        effort.run(|control| family.excluded(width, budget, control)).map_err(explain)?;
+    let found = effort
+        .run("placement", |control| family.smallest(width, budget, control))
+        .map_err(explain)?;
+    let excluded = effort
+        .run("every placement", |control| family.excluded(width, budget, control))
+        .map_err(explain)?;
     let answer = answer(&family, (found, excluded), side, width, arguments)?;
+    let answer = Answer { length_unit: design.unit, ..answer };
     match effort.format {
         Format::Json => print::json(&answer)?,
-        Format::Text => print::answer(&text(&answer, started))?,
+        Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
-    let complete = answer.certified.is_some() && answer.refuted.is_some();
-    Ok(if complete { Status::Done } else { Status::Undecided })
+    Ok(if answer.gap_reached { Status::Done } else { Status::Undecided })
 }
 
 fn side(text: &str) -> Result<BigRational, Failure> {
@@ -142,15 +151,6 @@ pub fn gap_text(gap: &BigRational) -> String {
     rounded(gap, 2, Toward::Above)
 }
 
-/// A decimal in full, if it is one of at most so many digits; else rounded to them.
-pub fn shown(x: &Exact, digits: u32, toward: Toward) -> String {
-    let Some(value) = x.as_rational() else {
-        return x.to_string();
-    };
-    let short = terminating(value, digits).filter(|text| text.len() <= digits as usize + 2);
-    short.unwrap_or_else(|| rounded(value, digits, toward))
-}
-
 fn scope(scope: Scope) -> &'static str {
     match scope {
         Scope::Everywhere => "every axis-aligned placement",
@@ -175,6 +175,7 @@ fn answer(
     let excluded_for = family.scope().map(scope);
     let for_all = Bracket { refuted: excluded, ..found.clone() };
     let excluded = end(&for_all.refuted);
+    let limit = found.refuted.as_ref().and_then(|(_, certificate)| counterexample(certificate));
     let mut refuted_for = "this placement";
     if let (true, Some(all)) = (reaches(&for_all), excluded_for) {
         (found, refuted_for) = (for_all, all);
@@ -199,6 +200,8 @@ fn answer(
         excluded_for,
         centre_for_size_one: family.centre.clone().map(Exact::Rational),
         centre,
+        limited_by: limit,
+        length_unit: None,
         certificates,
     })
 }
@@ -220,65 +223,101 @@ fn stored(
         .collect()
 }
 
-fn text(answer: &Answer, started: Instant) -> String {
-    let (name, what) = match answer.unknown {
-        "leg_length" => ("leg length", "the leg length"),
-        _ => {
-            ("scale", "the scale of the whole machine, whose lengths and coordinates it multiplies")
+fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
+    let (name, what, unit) = match (answer.unknown, answer.length_unit) {
+        ("leg_length", unit) => ("leg length", "leg length", unit),
+        _ => (
+            "scale",
+            "scale of the whole machine, whose lengths and coordinates it multiplies",
+            None,
+        ),
+    };
+    let with_unit = |unit: Option<&str>| unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+    let cube = exact(&answer.cube) + &with_unit(answer.length_unit);
+    let unit = with_unit(unit);
+    let value = |size: &Exact, toward| outward(size, DIGITS, toward) + &unit;
+    // Of a refutation for one placement the first line says nothing: another may do.
+    let for_all = answer.excluded_for == Some(answer.refuted_for);
+    let excluded = if for_all { &answer.refuted } else { &answer.excluded };
+    let mut out = match (&answer.certified, excluded) {
+        (Some(size), Some(less)) => format!(
+            "smallest {name} for a cube of side {cube}: between {} and {}\n",
+            outward(less, DIGITS, Toward::Below),
+            value(size, Toward::Above)
+        ),
+        (Some(size), None) => {
+            format!(
+                "smallest {name} for a cube of side {cube}: at most {}\n",
+                value(size, Toward::Above)
+            )
         }
+        (None, Some(less)) => {
+            format!(
+                "smallest {name} for a cube of side {cube}: more than {}\n",
+                value(less, Toward::Below)
+            )
+        }
+        (None, None) => format!("undecided: no {name} is certified for a cube of side {cube}\n"),
     };
-    let cube = exact(&answer.cube);
-    let mut out = format!(
-        "The smallest machine for a cube of side {cube} with its edges along the axes,\nby {what}.\n\n"
-    );
-    let row = |out: &mut String, label: &str, value: &str, note: &str| {
-        let line = format!("  {label:<22} {value:<20} {note}");
-        let _ = writeln!(out, "{}", line.trim_end());
-    };
+    if quiet {
+        return out;
+    }
+    wrap(&mut out, &format!("The cube has its edges along the axes; sought was the {what}."), 0);
+    out.push('\n');
     match &answer.certified {
-        Some(size) => {
-            let value = shown(size, DIGITS, Toward::Above);
-            row(&mut out, &format!("{name}, certified"), &value, "");
-        }
-        None => row(&mut out, &format!("{name}, certified"), "none", "no proof was found"),
+        Some(size) => labelled(&mut out, "certified", &value(size, Toward::Above)),
+        None => labelled(&mut out, "certified", "none: no proof was found"),
     }
     match &answer.refuted {
         Some(size) => {
-            let value = shown(size, DIGITS, Toward::Below);
-            let note = format!("for {}", answer.refuted_for);
-            row(&mut out, &format!("{name}, refuted"), &value, &note);
+            let text = format!("{}, for {}", value(size, Toward::Below), answer.refuted_for);
+            labelled(&mut out, "refuted", &text);
         }
-        None => row(&mut out, &format!("{name}, refuted"), "none", "no point that fails was found"),
+        None => labelled(&mut out, "refuted", "none: no point that fails was found"),
     }
     if let (Some(size), Some(all)) = (&answer.excluded, answer.excluded_for) {
         if answer.refuted_for != all {
-            let value = shown(size, DIGITS, Toward::Below);
-            row(&mut out, &format!("{name}, excluded"), &value, &format!("for {all}"));
+            let text = format!("{}, for {all}", value(size, Toward::Below));
+            labelled(&mut out, "excluded", &text);
         }
     }
     if let Some(gap) = &answer.gap {
-        let _ = writeln!(out, "  {:<22} {gap}", "relative gap");
+        labelled(&mut out, "gap", gap);
+    }
+    if let Some(found) = &answer.limited_by {
+        labelled(&mut out, "limited by", &found.limit());
+        let at: Vec<String> = found.point.iter().map(readable).collect();
+        labelled(&mut out, "at", &format!("({})", at.join(", ")));
     }
     if let Some(centre) = &answer.centre {
-        let _ = writeln!(out, "  cube's centre, certified");
-        for (axis, x) in ["x", "y", "z"].iter().zip(centre) {
-            let _ = writeln!(out, "    {axis} = {}", exact(x));
-        }
+        let centre: Vec<String> = centre.iter().map(exact).collect();
+        labelled(&mut out, "centre", &format!("({}), of the certified cube", centre.join(", ")));
     }
-    out += "\n  The centre moves in proportion to the size. What is certified is for every greater\n  \
-              size too, what is refuted or excluded for every smaller one. Nothing is claimed of turned\n  \
-              cubes.\n";
-    out += match (answer.excluded_for, &answer.excluded) {
-        (Some(all), Some(_)) if answer.refuted_for == all => "",
-        (Some(_), Some(_)) => {
-            "  The refutation is for the cube placed so, the best place that was found; of other\n  \
-              places, the exclusion says what is proved.\n"
-        }
-        _ => {
-            "  The refutation is for the cube placed so, the best place that was found: that no\n  \
-              other place works is not proved.\n"
-        }
-    };
-    let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
+    for CertificateFile { path, bytes, .. } in &answer.certificates {
+        verbatim(&mut out, "certificate", &format!("{path} ({bytes} bytes)"));
+    }
+    out.push('\n');
+    wrap(
+        &mut out,
+        "The centre moves in proportion to the size. What is certified is for every greater size too, \
+         what is refuted or excluded for every smaller one. Nothing is claimed of turned cubes.",
+        2,
+    );
+    match (answer.excluded_for, &answer.excluded) {
+        (Some(all), Some(_)) if answer.refuted_for == all => {}
+        (Some(_), Some(_)) => wrap(
+            &mut out,
+            "The refutation is for the cube placed so, the best place that was found; of other places, \
+             the exclusion says what is proved.",
+            2,
+        ),
+        _ => wrap(
+            &mut out,
+            "The refutation is for the cube placed so, the best place that was found: that no other \
+             place works is not proved.",
+            2,
+        ),
+    }
+    let _ = writeln!(out, "\n  {}", duration(started.elapsed().as_secs_f64()));
     out
 }

@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let folder = &arguments.out;
     empty(folder)?;
     arguments.work.start_threads()?;
-    let mut bar = Bar::new(arguments.work.quiet);
+    let mut bar = Bar::new("", arguments.work.quiet);
     let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
     let count = usize::try_from(arguments.shards).unwrap_or(1);
     let split = shard::split(&task, count, interrupt::cancelled(), &mut done);

@@ -1,6 +1,6 @@
 //! `orthocert summary`.
 
-use super::effort::Effort;
+use super::effort::{self, Effort};
 use super::{input, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -9,7 +9,6 @@ use orthocert::report::Outcome;
 use orthocert::solver::extremes::{loosest, NotEnclosed};
 use orthocert::solver::{number, verify};
 use orthocert::summary::{summary, text, Question};
-use orthocert_kernel::claim::Orientation;
 use orthocert_kernel::number::Expression;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -65,12 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let design = input::design(arguments.design.as_deref())?;
     let claim = &design.claim;
     let turns = claim.orientation.is_some();
-    let boxes = match &claim.orientation {
-        None => BOXES,
-        Some(Orientation::Range(_)) => BOXES / 3,
-        Some(_) => BOXES / 27,
-    };
-    let of_widths = effort.budget_or(boxes, started)?;
+    let of_widths = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
     effort.start_threads()?;
     let of_size = || BigRational::new(1.into(), if turns { 100 } else { 1000 }.into());
     let key = "mechanism.characteristic_length";
@@ -81,7 +75,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         one_unit: !turns || design.sources.position(key).is_some(),
         gap: gap.unwrap_or_else(of_size),
     };
-    let found = effort.run(|control| verify(claim, budget, control)).map_err(Failure::input)?;
+    let found =
+        effort.run("verdict", |control| verify(claim, budget, control)).map_err(Failure::input)?;
     if found.is_cancelled() {
         return Err(Failure::Interrupted);
     }
@@ -94,8 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         print::answer(&(headline_of(verdict, name, print::style()) + "\n"))?;
         return Ok(status(verdict));
     }
-    let summary =
-        effort.run(|control| summary(claim, &found, &question, of_widths, started, control));
+    let summary = effort.run("quantities", |control| {
+        summary(claim, &found, &question, of_widths, started, control)
+    });
     let summary = summary.map_err(|error| match error {
         NotEnclosed::Cancelled => Failure::Interrupted,
         error => Failure::input(error),
@@ -104,6 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Failure::Input("the design's numbers exceed what can be reported".to_owned())
     })?;
     summary.title.clone_from(&design.title);
+    summary.length_unit = design.unit;
     summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());
     match effort.format {
         Format::Json => print::json(&summary)?,

@@ -1,18 +1,19 @@
 //! `orthocert tolerance`.
 
-use super::size::{explain, file, gap, gap_text, shown};
+use super::size::{explain, file, gap, gap_text};
 use super::{effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use orthocert::decimal::{exact, Toward};
+use orthocert::decimal::{exact, outward, Toward};
 use orthocert::design::Design;
 use orthocert::exact::Exact;
 use orthocert::frontier::Bracket;
 use orthocert::output;
+use orthocert::report::text::{duration, wrap, WIDTH};
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
 use orthocert::search::Budget;
 use orthocert::solver::{proof, refutation};
-use orthocert::tolerance::{widest, Kind, Scheme};
+use orthocert::tolerance::{legs_of, widest, Kind, Scheme};
 use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use serde::Serialize;
@@ -26,6 +27,9 @@ use std::time::Instant;
 /// hundred, or in a few times as many as without tolerances.
 const BOXES: (usize, usize) = (2_000, 4);
 
+/// Significant digits of tolerances.
+const DIGITS: u32 = 6;
+
 /// Its flags.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -37,11 +41,14 @@ pub struct Arguments {
     #[arg(long, value_name = "KIND,...", value_delimiter = ',')]
     on: Vec<String>,
     /// Relative distance of the certified and the refuted tolerance to stop at
-    #[arg(long, value_name = "WIDTH", default_value = "1e-3", allow_hyphen_values = true)]
+    #[arg(long, value_name = "WIDTH", default_value = "0.1", allow_hyphen_values = true)]
     gap: String,
     /// Time for each row of the answer [default: no limit]: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     each: Option<String>,
+    /// Widen the parameters of one leg at a time, too, and rank the legs
+    #[arg(long)]
+    by_leg: bool,
     /// Write the certificates of both ends into this folder, which exists
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -65,6 +72,9 @@ enum Measure {
 #[derive(Serialize)]
 struct Row {
     on: Vec<&'static str>,
+    /// The leg whose parameters these are, counted from one; else those of all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    leg: Option<usize>,
     measure: Measure,
     /// For [`Measure::Share`]: the tolerance of each kind at share 1.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -112,7 +122,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         let own = each.and_then(|each| Instant::now().checked_add(each));
         let deadline = [budget.deadline, own].into_iter().flatten().min();
         let budget = Budget { deadline, ..budget };
-        let found = effort.run(|control| widest(claim, scheme, width, budget, control));
+        let found =
+            effort.run(&words(scheme), |control| widest(claim, scheme, width, budget, control));
         let out_of_time = deadline.is_some_and(|deadline| Instant::now() >= deadline);
         found.map(|found| (found, out_of_time)).map_err(explain)
     };
@@ -126,17 +137,33 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         rows.push(row(&scheme, measure, found, width, arguments)?);
     }
     if mixed(&kinds) && weights.len() == kinds.len() {
-        let scheme = Scheme { weights };
+        let scheme = Scheme { weights, leg: None };
         let found = bracket(&scheme)?;
         rows.push(row(&scheme, Measure::Share, found, width, arguments)?);
+    }
+    if arguments.by_leg {
+        for kind in &kinds {
+            let mut of_legs = Vec::new();
+            for leg in 0..legs_of(&claim.mechanism) {
+                let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
+                let found = bracket(&scheme)?;
+                of_legs.push(row(&scheme, measure(kind.is_direction()), found, width, arguments)?);
+            }
+            // The leg that allows least first.
+            let least = |row: &Row| {
+                row.certified.as_ref().and_then(Exact::as_rational).cloned().unwrap_or_default()
+            };
+            of_legs.sort_by_key(least);
+            rows.extend(of_legs);
+        }
     }
     match effort.format {
         Format::Json => print::json(&serde_json::json!({
             "nominal": "certified", "each": &arguments.each, "tolerances": rows,
         }))?,
-        Format::Text => print::answer(&text(&rows, arguments.each.as_deref(), started))?,
+        Format::Text => print::answer(&text(&rows, arguments, design.unit, started))?,
     }
-    let complete = rows.iter().all(|row| row.certified.is_some() && row.refuted.is_some());
+    let complete = rows.iter().all(|row| row.gap_reached);
     Ok(if complete { Status::Done } else { Status::Undecided })
 }
 
@@ -179,9 +206,23 @@ fn mixed(kinds: &[Kind]) -> bool {
     kinds.iter().any(|kind| kind.is_direction()) && kinds.iter().any(|kind| !kind.is_direction())
 }
 
+/// What a scheme widens.
+fn words(scheme: &Scheme) -> String {
+    let names: Vec<&str> = scheme.weights.iter().map(|(kind, _)| kind.name()).collect();
+    let of = scheme.leg.map_or(String::new(), |leg| format!(" of leg {}", leg + 1));
+    names.join(", ") + &of
+}
+
+fn measure(direction: bool) -> Measure {
+    if direction {
+        Measure::Component
+    } else {
+        Measure::Length
+    }
+}
+
 /// Every kind alone, then all lengths and all directions by a common tolerance.
 fn schemes(kinds: &[Kind]) -> Vec<(Scheme, Measure)> {
-    let measure = |direction: bool| if direction { Measure::Component } else { Measure::Length };
     let alone = |kind: &Kind| (Scheme::common(&[*kind]), measure(kind.is_direction()));
     let mut all: Vec<(Scheme, Measure)> = kinds.iter().map(alone).collect();
     for direction in [false, true] {
@@ -205,7 +246,7 @@ fn nodes_or_status(
     let refuted = refutation(nominal);
     let counterexample = refuted.as_deref().and_then(counterexample);
     if refuted.is_none() {
-        let found = effort.run(|control| proof(nominal, budget, control));
+        let found = effort.run("nominal", |control| proof(nominal, budget, control));
         if interrupt::cancelled().load(Ordering::Relaxed) {
             return Err(Failure::Interrupted);
         }
@@ -261,6 +302,10 @@ fn row(
         (_, Measure::Component) => "directions".to_owned(),
         (_, Measure::Share) => "all".to_owned(),
     };
+    let stem = match scheme.leg {
+        Some(leg) => format!("{stem}-{}", leg + 1),
+        None => stem,
+    };
     let mut certificates = Vec::new();
     if let Some(folder) = &arguments.output {
         for (end, side) in [(&found.certified, "certified"), (&found.refuted, "refuted")] {
@@ -285,6 +330,7 @@ fn row(
     let reached = found.gap();
     Ok(Row {
         on: names,
+        leg: scheme.leg.map(|leg| leg + 1),
         measure,
         weights,
         certified: end(&found.certified),
@@ -297,60 +343,103 @@ fn row(
     })
 }
 
-fn text(rows: &[Row], each: Option<&str>, started: Instant) -> String {
-    let mut out = "Every parameter of the kinds named lies within ± t of its nominal value,\n\
-         independently of all others. The design is certified for the t on the left, and\n\
-         refuted, by one machine and point, for the t on the right.\n\n"
-        .to_owned();
-    let _ = writeln!(
-        out,
-        "  {:<24} {:<10} {:>12} {:>12} {:>9}",
-        "on", "t is a", "certified", "refuted", "gap"
-    );
-    for row in rows {
-        let name = match (&row.on[..], row.measure) {
-            ([name], _) => name,
-            (_, Measure::Length) => "all lengths, coordinates",
-            (_, Measure::Component) => "all directions",
-            (_, Measure::Share) => "all, at a common share",
-        };
-        let measure = match row.measure {
-            Measure::Length => "length",
-            Measure::Component => "component",
-            Measure::Share => "share",
-        };
-        let certified =
-            row.certified.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Below));
-        let refuted = row.refuted.as_ref().map_or("none".into(), |t| shown(t, 6, Toward::Above));
-        let gap = row.gap.as_deref().unwrap_or("-");
-        let mark = if row.out_of_time { " *" } else { "" };
+fn text(
+    rows: &[Row],
+    arguments: &Arguments,
+    unit: Option<&'static str>,
+    started: Instant,
+) -> String {
+    let name = |row: &Row| match (&row.on[..], row.measure, row.leg) {
+        ([name], _, Some(leg)) => format!("{name} of leg {leg}"),
+        ([name], ..) => (*name).to_owned(),
+        (_, Measure::Length, _) => "all lengths, coordinates".to_owned(),
+        (_, Measure::Component, _) => "all directions".to_owned(),
+        (_, Measure::Share, _) => "all, at a common share".to_owned(),
+    };
+    let measure = |row: &Row| match row.measure {
+        Measure::Length => unit.unwrap_or("length"),
+        Measure::Component => "component",
+        Measure::Share => "share",
+    };
+    let limit = |row: &Row| row.counterexample.as_ref().map_or(String::new(), |it| it.limit());
+    let names: Vec<String> =
+        rows.iter().map(|row| format!("{}, {}", name(row), measure(row))).collect();
+    let head = "widest tolerance ± t of";
+    let first = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let first = first.max(head.chars().count());
+    let mut out = String::new();
+    let quiet = arguments.effort.quiet;
+    if !quiet {
         let _ = writeln!(
             out,
-            "  {name:<24} {measure:<10} {certified:>12} {refuted:>12} {gap:>9}{mark}"
+            "  {head:first$} {:>9} {:>9} {:>7}  limited by",
+            "certified", "refuted", "gap"
         );
     }
-    if rows.iter().any(|row| row.out_of_time) {
-        out += "\n  * The time was up: with more of it the ends may be nearer to each other.\n";
+    for (row, name) in rows.iter().zip(&names) {
+        let end = |x: &Option<Exact>, toward| {
+            x.as_ref().map_or("not found".into(), |t| outward(t, DIGITS, toward))
+        };
+        let (certified, refuted) =
+            (end(&row.certified, Toward::Below), end(&row.refuted, Toward::Above));
+        let gap = row.gap.as_deref().unwrap_or("-");
+        let mark = if row.out_of_time { " *" } else { "" };
+        let line = format!("  {name:first$} {certified:>9} {refuted:>9} {gap:>7}{mark}");
+        let limit = limit(row);
+        let line = match line.chars().count() + 2 + limit.chars().count() {
+            0..=WIDTH => format!("{line}  {limit}"),
+            _ => format!("{line}\n      {limit}"),
+        };
+        let _ = writeln!(out, "{}", line.trim_end());
     }
-    if let Some(each) = each {
+    if quiet {
+        return out;
+    }
+    out.push('\n');
+    wrap(
+        &mut out,
+        "Every parameter of the kinds named lies within ± t of its nominal value, independently of all \
+         others. The design is certified for the t on the left, and refuted, by one machine and point, \
+         for the t on the right.",
+        2,
+    );
+    if rows.iter().any(|row| row.out_of_time) {
+        wrap(
+            &mut out,
+            "* The time was up: with more of it the ends may be nearer to each other.",
+            2,
+        );
+    }
+    if let Some(each) = &arguments.each {
         // Without a unit, seconds.
         let mut each: String = each.trim().chars().take(20).collect();
         if each.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
             each.push('s');
         }
-        let _ = writeln!(out, "\n  Each row had at most {each} of time.");
+        wrap(&mut out, &format!("Each row had at most {each} of time."), 2);
     }
     if rows.iter().any(|row| row.measure == Measure::Component) {
-        out += "\n  A direction's t is that of its components as the design writes them.\n";
+        wrap(
+            &mut out,
+            "A direction's t is that of its components as the design writes them: of a unit vector, \
+             0.001 is 1 mm per metre across it, or 0.0573 degrees.",
+            2,
+        );
     }
     if rows.iter().any(|row| row.measure == Measure::Share) {
-        out += "\n  The last row widens every kind by this share of its own certified t above.\n";
+        wrap(&mut out, "A share widens every kind by this part of its own certified t above.", 2);
     }
     if rows.iter().any(|row| row.refuted.is_some() && !row.gap_reached) {
-        out +=
-            "\n  Where the gap is wider than asked for, the tolerances between are undecided:\n  \
-                no proof was found, and no machine that fails.\n";
+        wrap(
+            &mut out,
+            "Where the gap is wider than asked for, the tolerances between are undecided: no proof was \
+             found, and no machine that fails; the exit code is 3 for that.",
+            2,
+        );
     }
-    let _ = writeln!(out, "\n  {:.1} s", started.elapsed().as_secs_f64());
+    if !arguments.by_leg {
+        wrap(&mut out, "--by-leg widens one leg at a time, and ranks the legs.", 2);
+    }
+    let _ = writeln!(out, "\n  {}", duration(started.elapsed().as_secs_f64()));
     out
 }

@@ -8,7 +8,7 @@ use orthocert::search::{Budget, Control};
 use orthocert::solver;
 use orthocert::solver::extremes::{enclose, Extreme};
 use orthocert_checker::shown::Named;
-use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::claim::{MachineClaim, Orientation};
 use orthocert_kernel::problem::Problem;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -34,6 +34,9 @@ pub struct Arguments {
     /// certificate is re-checked exactly
     #[arg(long)]
     reprove: bool,
+    /// Print every leg's row, every machine and every open region, with exact numbers
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(flatten)]
     batch: batch::Flags,
     #[command(flatten)]
@@ -42,7 +45,7 @@ pub struct Arguments {
 
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
-    let Arguments { designs, output, reprove, batch: flags, effort } = arguments;
+    let Arguments { designs, output, reprove, batch: flags, effort, .. } = arguments;
     match designs.as_slice() {
         [] if !flags.any() => single(arguments, None),
         [design] if !flags.any() && !design.is_dir() => single(arguments, Some(design)),
@@ -60,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failure> {
     let started = Instant::now();
-    let Arguments { output, reprove, effort, .. } = arguments;
+    let Arguments { output, reprove, verbose, effort, .. } = arguments;
     let budget = effort.budget(started)?;
     let design = input::design(path.map(PathBuf::as_path))?;
     let target = target(output.as_deref(), path.map(PathBuf::as_path))?;
@@ -75,7 +78,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         started,
     };
     let (mut report, status) =
-        task.run(|claim| effort.run(|control| solver::verify(claim, budget, control)))?;
+        task.run(|claim| effort.run("", |control| solver::verify(claim, budget, control)))?;
     if task.table {
         report.margins = margins(&report, &design.claim, effort);
     }
@@ -84,7 +87,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         Format::Text if effort.quiet => {
             print::answer(&(text::headline(&report, print::style()) + "\n"))?;
         }
-        Format::Text => print::answer(&text::report(&report, print::style()))?,
+        Format::Text => print::answer(&text::report(&report, print::style(), *verbose))?,
     }
     Ok(status)
 }
@@ -92,7 +95,9 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
 /// The certified margins of a certified design, where its proof was short.
 fn margins(report: &Report, claim: &MachineClaim, effort: &Effort) -> Vec<Margin> {
     let short = report.proof.as_ref().is_some_and(|proof| proof.nodes <= SHORT_PROOF);
-    if !short {
+    // In space, where a platform turns, margins take many times as long as the proof: `summary` has them.
+    let turns = claim.orientation.as_ref().is_some_and(|o| !matches!(o, Orientation::Range(_)));
+    if !short || turns {
         return Vec::new();
     }
     let budget = Budget { max_boxes: 4 * SHORT_PROOF, deadline: None };
@@ -101,7 +106,7 @@ fn margins(report: &Report, claim: &MachineClaim, effort: &Effort) -> Vec<Margin
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
     let enclosed = |extreme: Extreme| {
         let find = |control: &mut Control<'_>| enclose(claim, &extreme, &width, budget, control);
-        let found = effort.run(find).ok()?;
+        let found = effort.run("margins", find).ok()?;
         Some(Margin::of(&extreme, found.outer, angular))
     };
     let all = Extreme::required(claim, problem.legs.len());

@@ -5,7 +5,7 @@ use super::document::{Document, Names, Table, Value};
 use super::error::{Defect, DesignError, ReadError};
 use super::number::{exact, ordered};
 use super::refusal::compiled;
-use super::{exactly, mapped_claim, names, text_of, Design};
+use super::{exactly, mapped_claim, names, text_of, unit, Design};
 use crate::atlas::without_margin;
 use crate::exact::Exact;
 use num_rational::BigRational;
@@ -132,10 +132,15 @@ impl AtlasDesign {
         let document = Document { file, text, names: Names::None };
         let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
         let root = document.root(tree.get_ref());
-        let keys = ["title", "parameters", "atlas", "mechanism", "workspace", "requirements"];
+        let keys =
+            ["title", "unit", "parameters", "atlas", "mechanism", "workspace", "requirements"];
         root.only(&keys)?;
+        unit(&root)?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
-        let table = root.require("parameters", "a table [parameters]")?;
+        let table = root.require(
+            "parameters",
+            "a table [parameters]; a design without one is for `orthocert verify`",
+        )?;
         let (parameters, labels) = parameters(&table)?;
         let settings = root.require("atlas", "a table [atlas] with resolution and boxes")?;
         let settings = settings.table("a table [atlas]")?;

@@ -89,6 +89,11 @@ impl<'a> Document<'a> {
         let end = self.text.trim_end().len();
         let at = error.span().filter(|at| at.start < end).unwrap_or(end..end);
         let (what, expected) = match error.message().split_once(", expected ") {
+            _ if self.is_decimal_comma(at.start) => ("a comma in a number", "a point: 310.7"),
+            _ if self.text.trim_start().starts_with(r#"{"format":"#) => (
+                "a certificate",
+                "a design file (TOML text); `orthocert check` re-proves certificates",
+            ),
             Some((what @ "string values must be quoted", _)) => (what, QUOTED_VALUES),
             Some((what, expected)) => (what, expected),
             None if error.message() == "duplicate key" => (error.message(), "each key once"),
@@ -101,7 +106,18 @@ impl<'a> Document<'a> {
             snippet => format!("{}: {what}", quoted(snippet)),
         };
         let key = self.key_around(at.start);
+        let snippet = self.text.get(at.clone()).unwrap_or_default();
+        let ends = snippet.find(|c: char| c.is_alphabetic() || c == '\u{b0}');
+        let hint = ends.and_then(|ends| suggestion::without_unit(snippet, ends));
+        let hint = hint.map(|number| format!("; numbers carry no unit: {number}"));
+        let expected = expected.to_owned() + &hint.unwrap_or_default();
         self.error(at, (&key, Defect::Syntax), found, expected)
+    }
+
+    /// Whether a number of the text has a comma at `at`.
+    fn is_decimal_comma(&self, at: usize) -> bool {
+        let digit = |at: usize| self.text.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
+        self.text.as_bytes().get(at) == Some(&b',') && at > 0 && digit(at - 1) && digit(at + 1)
     }
 
     /// The key that the byte at `offset` seems to belong to, where the text is not TOML and can only
@@ -140,7 +156,7 @@ impl<'a> Table<'a> {
     pub fn lacks(&self, name: &str, accepted: impl Into<String>) -> DesignError {
         let key = self.path(name);
         let about = (key.as_str(), Defect::MissingKey);
-        self.document.error(self.at.clone(), about, "no such key", accepted)
+        self.document.error(self.at.clone(), about, "nothing: the key is missing", accepted)
     }
 
     /// Refuses every key that is not `accepted`, the first in the text first.
@@ -284,7 +300,11 @@ impl<'a> Value<'a> {
         let word = self.text(&accepted)?;
         let row = names.iter().position(|name| *name == word).and_then(|i| table.get(i));
         row.ok_or_else(|| {
-            let hint = suggestion::hint(word, &names, |name| format!("{name:?}"));
+            let known = suggestion::kind_of(word).filter(|kind| names.contains(kind));
+            let hint = match known {
+                Some(kind) => format!("; such a machine is of kind {kind:?}"),
+                None => suggestion::hint(word, &names, |name| format!("{name:?}")),
+            };
             self.error(Defect::UnknownWord, self.found(), format!("{accepted}{hint}"))
         })
     }

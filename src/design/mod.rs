@@ -63,6 +63,9 @@ use orthocert_kernel::claim as kernel;
 use std::path::Path;
 use toml::de::DeTable;
 
+/// The units of length that a design may name.
+pub const UNITS: [&str; 5] = ["um", "mm", "cm", "m", "in"];
+
 /// Most bytes of a design file.
 pub const MAX_FILE: u64 = 1 << 20;
 
@@ -71,6 +74,8 @@ pub const MAX_FILE: u64 = 1 << 20;
 pub struct Design {
     /// The title that the file gives it.
     pub title: Option<String>,
+    /// Its unit of length, one of [`UNITS`], for people: no number depends on it.
+    pub unit: Option<&'static str>,
     /// The claim, well formed and with a model
     /// ([`Problem`](orthocert_kernel::problem::Problem)).
     pub claim: kernel::MachineClaim,
@@ -89,14 +94,16 @@ impl Design {
         let document = Document { file: file_name, text, names: Names::None };
         let tree = DeTable::parse(text).map_err(|error| document.syntax_error(&error))?;
         let root = document.root(tree.get_ref());
-        root.only(&["title", "mechanism", "workspace", "requirements"])?;
+        let keys = ["title", "unit", "mechanism", "workspace", "requirements"];
+        root.only_here(&keys, |key| suggestion::file_with(key).map(str::to_owned))?;
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
+        let unit = unit(&root)?;
         let description = description(&root)?;
         let sources = Sources::of(text, tree.get_ref());
         let claim = description.kernel().ok_or_else(|| too_long(&root))?;
         refusal::compiled(&root, &claim)?;
         let title = title.map(str::to_owned);
-        Ok(Design { title, claim, sources })
+        Ok(Design { title, unit, claim, sources })
     }
 
     /// Reads a design file.
@@ -134,6 +141,7 @@ impl Design {
         };
         Design {
             title: Some("Orthoglide prototype".to_owned()),
+            unit: Some("mm"),
             claim: description.kernel().expect("short numbers"),
             sources: Sources::default(),
         }
@@ -146,6 +154,12 @@ pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {
         let valid = bytes.iter().take(error.valid_up_to());
         ReadError::NotUtf8(path.to_owned(), 1 + valid.filter(|&&b| b == b'\n').count())
     })
+}
+
+/// The unit of length that a file names.
+fn unit(root: &Table<'_>) -> Result<Option<&'static str>, DesignError> {
+    let unit = root.find("unit").map(|unit| unit.choose(&UNITS, |name| name).copied());
+    unit.transpose()
 }
 
 fn too_long(root: &Table<'_>) -> DesignError {

@@ -278,6 +278,10 @@ fn not_a_number(value: &Value<'_>, text: &str, error: &NumberError, accepted: &s
     let before = text.get(..error.at).unwrap_or(text);
     let at_character = NumberError { at: before.chars().count(), kind: error.kind.clone() };
     let found = format!("{} ({at_character})", value.found());
+    let accepted = match suggestion::without_unit(text, error.at) {
+        Some(number) => format!("{accepted}; numbers carry no unit: {number}"),
+        None => accepted.to_owned(),
+    };
     let at = value.place(text, before.len()..before.len() + 1);
     value.document.error(at, (&value.key, Defect::NotANumber), found, accepted)
 }

@@ -391,40 +391,27 @@ fn stiffness(
 }
 
 /// Joint coordinates within `joint_error` of those commanded put the platform within `max` of the
-/// position commanded and, where it turns, within `max_angle` of the orientation.
+/// position commanded.
 fn accuracy(
     value: &Value<'_>,
     machine: &Machine,
     key: &'static str,
 ) -> Result<Vec<Demand>, DesignError> {
-    let turns = machine.mechanism.coordinates()[1] > 0;
-    let accepted = match turns {
-        true => "{ joint_error = 0.01, max = 0.05, max_angle = 0.1 }, max_angle in degrees",
-        false => "{ joint_error = 0.01, max = 0.05 }",
-    };
+    if machine.mechanism.coordinates()[1] > 0 {
+        let accepted =
+            "accuracy of machines that do not turn their platform: of others it is not decided";
+        return Err(value.error(Defect::Conflict, value.found(), accepted));
+    }
+    let accepted = "{ joint_error = 0.01, max = 0.05 }";
     let table = value.table(accepted)?;
-    let keys: &[&str] =
-        if turns { &["joint_error", "max", "max_angle"] } else { &["joint_error", "max"] };
-    table.only_here(keys, |key| {
-        (key == "max_angle").then(|| "machines that turn their platform".to_owned())
-    })?;
+    table.only(&["joint_error", "max"])?;
     let error = table.require("joint_error", accepted)?;
     let joint_error = exact(&error)?;
     not_negative(&error, &joint_error, "an error of the joints")?;
-    let mut given = vec![("joint_error", vec![joint_error])];
+    let given = vec![("joint_error", vec![joint_error])];
     let bound = table.require("max", accepted)?;
     let max = exact(&bound)?;
     positive(&bound, &max, "a distance")?;
-    if turns {
-        let bound = table.require("max_angle", accepted)?;
-        let angle = exact(&bound)?;
-        let below = angle.compare(&Exact::integer(180)) == Some(Ordering::Less);
-        if bound.document.demands() && (angle.sign() != Some(1) || !below) {
-            let accepted = "an angle in degrees, greater than 0 and less than 180";
-            return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
-        }
-        given.push(("max_angle", vec![angle]));
-    }
     not_redundant(value, machine, key)?;
     Ok(vec![Demand { given, ..Demand::of(key, Bound::Max(max)) }])
 }
@@ -435,7 +422,7 @@ fn one_to_one(
     _: &Machine,
     key: &'static str,
 ) -> Result<Vec<Demand>, DesignError> {
-    let accepted = "true, or no such key";
+    let accepted = "true, or nothing: the key is missing";
     match value.inner {
         DeValue::Boolean(true) => Ok(vec![Demand::of(key, Bound::Holds)]),
         DeValue::Boolean(false) => Err(value.error(Defect::OutOfDomain, value.found(), accepted)),

@@ -1,4 +1,6 @@
-//! "Did you mean": the nearest accepted word to a misspelt one.
+//! "Did you mean": the nearest accepted word to a misspelt one, and what other slips seem to mean.
+
+use super::UNITS;
 
 /// `"; did you mean ...?"` for the word of `accepted` nearest to `word`, as `show` writes it; empty
 /// if none is near.
@@ -11,6 +13,46 @@ pub(super) fn hint(word: &str, accepted: &[&str], show: impl Fn(&str) -> String)
         Some((_, name)) => format!("; did you mean {}?", show(name)),
         None => String::new(),
     }
+}
+
+/// What a number with a unit behind it could be instead: `"333 mm"`, where it ceases to be a number at `at`.
+pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
+    let (number, unit) = (text.get(..at)?.trim_end(), text.get(at..)?.trim());
+    if number.is_empty() {
+        return None;
+    }
+    let unit = match unit {
+        "µm" | "μm" => "um",
+        unit => unit,
+    };
+    let title =
+        || format!(", and unit = {unit:?} above the tables to name the unit of all lengths");
+    match unit {
+        unit if UNITS.contains(&unit) => Some(format!("{number:?}{}", title())),
+        "deg" | "°" | "degrees" => Some(format!("{number:?}, in degrees where a key says so")),
+        _ => None,
+    }
+}
+
+/// What the machines of other names are here.
+pub(super) fn kind_of(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase().replace(['_', ' '], "-");
+    let is_of = |names: &[&str]| names.contains(&word.as_str());
+    if is_of(&["delta", "linear-delta", "rotary-delta", "tripod", "3-upu", "tripteron", "linapod"])
+    {
+        Some("translational")
+    } else if is_of(&["hexapod", "stewart", "gough-stewart", "stewart-platform", "hexaglide"]) {
+        Some("spatial")
+    } else if is_of(&["five-bar", "3-rpr", "3-rrr", "3-prr"]) {
+        Some("planar")
+    } else {
+        None
+    }
+}
+
+/// Which command reads the files that have such a table.
+pub(super) fn file_with(table: &str) -> Option<&'static str> {
+    matches!(table, "parameters" | "atlas").then_some("maps: `orthocert atlas` reads them")
 }
 
 /// Longest word, in characters, that is compared.

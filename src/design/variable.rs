@@ -157,7 +157,13 @@ impl<'d> Walk<'_, 'd> {
         let Some(value) = table.find(name) else {
             let there: Vec<String> =
                 table.entries().iter().map(|(name, _)| dotted(path, name)).collect();
-            return Err(table.lacks(name, self.accepted(&there)));
+            // Messages about files count elements from 1, in brackets.
+            let counted = name.split_once('[').and_then(|(stem, rest)| {
+                let number: usize = rest.strip_suffix(']')?.parse().ok()?;
+                Some(format!("; elements are counted from 0: {stem}.{}", number.checked_sub(1)?))
+            });
+            let accepted = self.accepted(&there) + &counted.unwrap_or_default();
+            return Err(table.lacks(name, accepted));
         };
         self.in_value(value, &dotted(path, name), rest)
     }

@@ -179,5 +179,5 @@ fn page(
     let certificate = read(bytes).map_err(|reason| reason.to_string())?;
     let accepted = check(&certificate).map_err(|reason| reason.to_string())?;
     let file = File { name: file, bytes };
-    Ok(then(&Page::new(&certificate, &accepted, file, Some(title))))
+    Ok(then(&Page::new(&certificate, &accepted, file, Some(title), None)))
 }

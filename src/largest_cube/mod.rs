@@ -14,7 +14,7 @@ use crate::arithmetic::at_most;
 use crate::frontier::{proof, NoAnswer};
 use crate::placement::{best_place, cube_about, Centres};
 use crate::search::{Budget, Control};
-use crate::solver::{approximate, number};
+use crate::solver::{self, approximate, number};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, Zero};
@@ -51,6 +51,8 @@ pub struct Bracket {
     pub inside: Option<Inside>,
     /// The least side that was excluded.
     pub too_large: Option<TooLarge>,
+    /// What fails in a cube of that side about the centre of the one that fits.
+    pub fails: Option<Box<Certificate>>,
 }
 
 /// Shares of the gap that are left between the place found and either bound, tried in turn. The
@@ -94,7 +96,12 @@ pub fn largest_cube(
         let excluded = exclude(claim, &side, budget, control)?;
         Ok(excluded.map(|certificate| TooLarge { side, certificate }))
     })?;
-    Ok(Bracket { inside, too_large })
+    let fails = match (&inside, &too_large) {
+        (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => cube_about(centre, side)
+            .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
+        _ => None,
+    };
+    Ok(Bracket { inside, too_large, fails })
 }
 
 /// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is

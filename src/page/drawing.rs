@@ -3,8 +3,11 @@
 use super::isomap::Mark;
 use super::legs::{add, dot, scaled, Numbers, Point, Shape};
 use super::svg::{Elements, Fitted, Picture, View};
+use crate::report::point_text;
 
 const SIZE: [f64; 2] = [720.0, 470.0];
+/// The viewer's angle above the horizon.
+const ELEVATION: f64 = 24.0;
 
 /// The elements of a drawing, and its names: these last, so that nothing is drawn over them.
 #[derive(Default)]
@@ -17,8 +20,8 @@ struct Layers {
 /// above.
 pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
     let p = machine.position;
-    let view = if machine.is_flat { View::from(-90.0, 90.0) } else { View::from(58.0, 24.0) };
     let count = machine.legs.len();
+    let view = if machine.is_flat { View::from(-90.0, 90.0) } else { apart(machine) };
     let guides: Vec<Option<[Point; 2]>> = (0..count).map(|i| guide(machine, i)).collect();
     let mut extent: Vec<Point> = machine.outline.rings.iter().flatten().copied().collect();
     extent.extend(guides.iter().flatten().flatten());
@@ -43,6 +46,7 @@ pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
     platform_body(&mut layers, machine, &fitted);
     let Layers { lines: mut out, names } = layers;
     out.raw(&names.0);
+    corners(&mut out, machine, &fitted);
     for mark in marks {
         let at = fitted.at(mark.position());
         out.dot("mark", at, 4.5);
@@ -55,6 +59,34 @@ pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
         attributes: String::new(),
         content: out.0,
     }
+}
+
+/// The view from the side in which the legs are farthest apart: their middles and their driven ends.
+fn apart(machine: &Shape) -> View {
+    const USUAL: f64 = 58.0;
+    const BETTER: f64 = 1.3;
+    let poses = (0..machine.legs.len()).filter_map(|i| machine.pose(i, machine.position));
+    let points: Vec<[Point; 2]> =
+        poses.map(|pose| [scaled(0.5, add(pose.driven, pose.platform)), pose.driven]).collect();
+    let least = |azimuth: f64| {
+        let view = View::from(azimuth, ELEVATION);
+        let seen: Vec<[[f64; 2]; 2]> = points.iter().map(|p| p.map(|p| view.seen(p))).collect();
+        let mut least = f64::INFINITY;
+        for (i, one) in seen.iter().enumerate() {
+            for other in &seen[..i] {
+                for k in 0..2 {
+                    least = least.min((one[k][0] - other[k][0]).hypot(one[k][1] - other[k][1]));
+                }
+            }
+        }
+        least
+    };
+    // Not along an axis, which would be a point.
+    let all =
+        [-75.0, 15.0].into_iter().flat_map(|first| (0..13).map(move |k| first + f64::from(5 * k)));
+    let best = all.max_by(|a, b| least(*a).total_cmp(&least(*b))).unwrap_or(USUAL);
+    let azimuth = if least(best) > BETTER * least(USUAL) { best } else { USUAL };
+    View::from(azimuth, ELEVATION)
 }
 
 /// The axes of the bodies, where the platform is.
@@ -93,6 +125,23 @@ fn workspace(out: &mut Elements, machine: &Shape, view: &View, fitted: &Fitted) 
             let class = if Some(a) == far || Some(b) == far { "hidden" } else { "edge" };
             out.line(class, fitted.at(corners[a]), fitted.at(corners[b]));
         }
+    }
+}
+
+/// The coordinates of two corners of a workspace with edges.
+fn corners(out: &mut Elements, machine: &Shape, fitted: &Fitted) {
+    if machine.outline.is_round {
+        return;
+    }
+    // The highest and the lowest in the picture, beside which nothing of the workspace is.
+    let all = machine.outline.rings.concat();
+    let height = |p: &&Point| fitted.at(**p)[1];
+    let least = all.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
+    let greatest = all.iter().min_by(|a, b| height(a).total_cmp(&height(b)));
+    let shown = if machine.is_flat { 2 } else { 3 };
+    for (corner, below) in least.zip(Some(16.0)).into_iter().chain(greatest.zip(Some(-9.0))) {
+        let [x, y] = fitted.at(*corner);
+        out.text("label leg-label middle", [x, y + below], &point_text(&corner[..shown], 4));
     }
 }
 

@@ -5,19 +5,23 @@ use super::evidence::{share, Row};
 use super::isomap::{map, Map, Mark, Plane, Scale, NODES};
 use super::legend::Legend;
 use super::mechanism;
-use super::sampled::{double, positions, Sampled, Sampler, Worst};
+use super::sampled::{positions, Sampled, Worst};
 use super::scene::{Scene, Slice};
-use super::shape::{all, shape};
+use super::shape::shape;
 use super::subdivision::{pairs, Root, Subdivision};
 use crate::decimal::significant;
+use crate::report::pose_text;
+use crate::report::text::machine;
+use crate::solver::approximate;
+use crate::solver::sample::At;
+use crate::solver::value::{coordinates, in_length};
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::no_cube::NoCubeClaim;
 use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
 use std::rc::Rc;
 
-/// Values beyond this are not drawn: their powers would exceed the doubles.
-const GREATEST: f64 = 1e60;
 /// Operations of a tape beyond which maps have coarser grids.
 const LONG: usize = 20_000;
 /// Nodes of those on either side.
@@ -28,26 +32,29 @@ const NOISE: f64 = 1e-9;
 /// A kernel claim in doubles.
 struct General<'a> {
     claim: &'a MachineClaim,
-    sampler: Option<Sampler>,
+    sampled: Option<Sampled<'a>>,
+    /// Names of coordinates, of orientations those of the chart.
     names: Vec<String>,
     witness: Option<&'a kernel::Witness>,
+    /// The unit of lengths.
+    length: Option<&'static str>,
 }
 
 /// What the figures and tables show.
-pub fn scene(claim: &MachineClaim, proof: &kernel::Proof) -> Scene {
+pub fn scene(claim: &MachineClaim, proof: &kernel::Proof, length: Option<&'static str>) -> Scene {
     let witness = match proof {
         kernel::Proof::Witness(witness) => Some(witness),
         kernel::Proof::Tree(_) | kernel::Proof::Atlas(_) => None,
     };
-    let sampler = Sampler::new(claim)
-        .filter(|sampler| sampler.root.iter().flatten().all(|x| x.abs() < GREATEST));
-    let of = General { claim, sampler, names: names(claim), witness };
-    let grid = of.sampler.as_ref().map(Sampler::grid).unwrap_or_default();
-    let worst = of.sampler.as_ref().map(|sampler| sampler.worst(&grid)).unwrap_or_default();
+    let problem = Problem::new(claim).ok();
+    let sampled = problem.as_ref().and_then(|problem| Sampled::new(claim, problem));
+    let of = General { claim, sampled, names: names(claim), witness, length };
+    let worst = of.sampled.as_ref().map(Sampled::worst).unwrap_or_default();
     let marks = of.marks(&worst);
     Scene {
         shape: shape(claim),
-        slices: of.slices(&grid, &worst),
+        slices: of.slices(&worst),
+        nearest: of.nearest(&worst),
         rows: of.rows(&worst),
         trees: vec![of.tree(proof)],
         marks,
@@ -56,8 +63,9 @@ pub fn scene(claim: &MachineClaim, proof: &kernel::Proof) -> Scene {
 
 /// What they show of a claim that no cube fits: the machine, and the boxes of the centres.
 pub fn of_centres(claim: &NoCubeClaim, proof: &kernel::Proof) -> Scene {
-    let mut scene = scene(&claim.machine, proof);
+    let mut scene = scene(&claim.machine, proof, None);
     scene.rows.clear();
+    scene.nearest = None;
     scene.marks.clear();
     for tree in &mut scene.trees {
         "the box of the centres".clone_into(&mut tree.name);
@@ -84,7 +92,7 @@ fn mark(name: &str, at: Vec<f64>) -> Mark {
 
 /// The points of a counterexample.
 pub fn witnessed(witness: &kernel::Witness) -> Vec<Mark> {
-    let point = |x: &[Expression]| x.iter().map(double).collect::<Option<Vec<f64>>>();
+    let point = |x: &[Expression]| x.iter().map(approximate).collect::<Option<Vec<f64>>>();
     let mut all: Vec<Mark> =
         point(&witness.point).map(|at| mark("counterexample", at)).into_iter().collect();
     if let kernel::Failure::Singular(other) = &witness.fails {
@@ -98,32 +106,40 @@ impl General<'_> {
         positions(self.claim).unwrap_or(self.names.len())
     }
 
-    /// The requirement of which the least margin was found.
-    fn critical<'w>(
-        &self,
-        worst: &'w [Option<Worst>],
-        but: Option<usize>,
-    ) -> Option<(usize, &'w Worst)> {
-        let found = worst.iter().enumerate().filter_map(|(i, w)| Some((i, w.as_ref()?)));
-        let others = found.filter(|(i, _)| Some(*i) != but);
-        others.min_by(|a, b| a.1.found.margin.total_cmp(&b.1.found.margin))
+    /// The requirement of which the least is left.
+    fn critical<'w>(&self, worst: &'w [Worst], but: Option<usize>) -> Option<&'w Worst> {
+        let others = worst.iter().filter(|worst| Some(worst.number) != but);
+        let left = |worst: &Worst| worst.left.unwrap_or(f64::INFINITY);
+        others.min_by(|a, b| left(a).total_cmp(&left(b)))
     }
 
-    /// The points of a counterexample, or the one with the least margin that was found.
-    fn marks(&self, worst: &[Option<Worst>]) -> Vec<Mark> {
+    /// The points of a counterexample, or the one where least is left to a bound.
+    fn marks(&self, worst: &[Worst]) -> Vec<Mark> {
         let Some(witness) = self.witness else {
             let found = self.critical(worst, None);
-            let mark = |(_, worst): (usize, &Worst)| mark("least margin", worst.at.clone());
+            let mark = |worst: &Worst| mark("nearest limit", worst.row.at.clone());
             return found.map(mark).into_iter().collect();
         };
         witnessed(witness)
     }
 
-    fn rows(&self, worst: &[Option<Worst>]) -> Vec<Row> {
+    /// The requirement of which the least is left, in a sentence.
+    fn nearest(&self, worst: &[Worst]) -> Option<String> {
+        let found = self.critical(worst, None)?;
+        let left = match found.left? {
+            left if left == f64::NEG_INFINITY => "exceeded without bound".to_owned(),
+            left if left < -NOISE => format!("exceeded by {}", share(-left)),
+            left => format!("{} left", share(left.max(0.0))),
+        };
+        let row = &found.row;
+        let name = in_length(&row.requirement, row.unit, self.length);
+        Some(format!("{name} {}: {left}, at {}", row.bound_text, self.place(&row.at)))
+    }
+
+    fn rows(&self, worst: &[Worst]) -> Vec<Row> {
         let row = |(number, requirement): (usize, &Requirement)| {
-            let worst = worst.get(number).and_then(Option::as_ref);
             let mut row = Row {
-                requirement: mechanism::quantity(requirement),
+                requirement: mechanism::short(requirement),
                 bound: mechanism::bound(requirement),
                 found: "\u{2013}".to_owned(),
                 is_violated: false,
@@ -131,47 +147,45 @@ impl General<'_> {
                 at: String::new(),
                 machine: String::new(),
             };
-            if let (Some(Worst { found, at, machine }), Some(sampler)) = (worst, &self.sampler) {
-                let leg = found.leg.map_or(String::new(), |leg| format!(", leg {}", leg + 1));
+            if let Some(Worst { row: own, leg, left, .. }) =
+                worst.iter().find(|worst| worst.number == number)
+            {
+                let leg = leg.map_or(String::new(), |leg| format!(", leg {leg}"));
                 let of = if requirement.leg.is_none() { leg } else { String::new() };
-                row.found = match found.value {
+                row.found = match own.worst_found {
+                    Some(value) if !value.is_finite() => "singular".to_owned(),
                     Some(value) => significant(value, 9) + &of,
-                    None => format!("slack {}{of}", significant(found.margin, 4)),
-                };
-                row.is_violated = found.margin < -NOISE;
-                row.margin = match found.value {
-                    Some(_) => share(found.margin),
+                    None if own.seems_violated => "out of reach".to_owned(),
                     None => "\u{2013}".to_owned(),
                 };
-                row.at = self.place(at);
-                let settings = sampler.settings(machine).into_iter();
-                let settings =
-                    settings.map(|(place, x)| format!("{place} = {}", significant(x, 9)));
-                row.machine = settings.collect::<Vec<_>>().join(", ");
+                let unit = match (own.unit, self.length) {
+                    (Some(unit), Some(length)) => Some(unit.replace("length", length)),
+                    (unit, None) => unit.filter(|unit| *unit == "deg").map(str::to_owned),
+                    (None, _) => None,
+                };
+                if let Some(unit) = unit {
+                    row.bound = format!("{} {unit}", row.bound);
+                }
+                row.is_violated = own.seems_violated;
+                let left = left.filter(|left| left.is_finite());
+                row.margin = left.map_or_else(|| "\u{2013}".to_owned(), share);
+                row.at = self.place(&own.at);
+                row.machine = machine(&own.machine);
             }
             row
         };
         self.claim.require.iter().enumerate().map(row).collect()
     }
 
-    /// A point in words.
+    /// A point in words, angles in degrees.
     fn place(&self, at: &[f64]) -> String {
-        // What the search left of a step about zero is none.
-        let step = |k: usize| {
-            let edge = self.sampler.as_ref().and_then(|s| s.root.get(k));
-            edge.map_or(0.0, |[lo, hi]| 1e-6 * (hi - lo))
-        };
-        let one = |(k, (name, x)): (usize, (&String, &f64))| {
-            let x = if x.abs() < step(k) { 0.0 } else { *x };
-            format!("{name} = {}", significant(x, 6))
-        };
-        self.names.iter().zip(at).enumerate().map(one).collect::<Vec<_>>().join(", ")
+        pose_text(at, &coordinates(self.claim), 6)
     }
 
     fn tree(&self, proof: &kernel::Proof) -> Subdivision {
         let m = self.names.len();
-        let root = match &self.sampler {
-            Some(sampler) => sampler.root.clone(),
+        let root = match &self.sampled {
+            Some(sampled) => sampled.root(),
             None => vec![[0.0, 1.0]; m],
         };
         let mut axes = self.names.clone();
@@ -189,69 +203,87 @@ impl General<'_> {
         let mut requirements = vec!["freedom from singularities".to_owned()];
         requirements.extend(self.claim.require.iter().map(mechanism::formula));
         let of = |obligation: usize| {
-            let requirement = self.sampler.as_ref().and_then(|s| s.requirement(obligation));
+            let requirement = self.sampled.as_ref().and_then(|s| s.requirement(obligation));
             requirement.map_or(0, |number| number + 1)
         };
         let (legend, nodes) = Legend::of_kernel(tree, requirements, &of);
-        let name = match self.sampler {
+        let name = match self.sampled {
             Some(_) => "the workspace",
             None => "the workspace, coordinates as parts of it",
         };
         Subdivision::new(name, root, &Rc::new(legend), &nodes)
     }
 
-    /// Maps over pairs of coordinates, the others in the middle, or where the counterexample is: of
-    /// the greatest psi, and of the other requirement of which the least margin was found.
-    fn slices(&self, grid: &[Vec<f64>], worst: &[Option<Worst>]) -> Vec<Slice> {
-        let Some(sampler) = &self.sampler else { return Vec::new() };
-        let nominal = sampler.nominal();
-        let sampled: Vec<Sampled> =
-            grid.iter().filter_map(|p| sampler.values(&nominal, p)).collect();
-        let m = sampler.root.len();
-        let greatest = |s: &Sampled| s.psi.last().copied().filter(|_| s.psi.len() == m);
+    /// Maps over pairs of coordinates, the others where the counterexample is, or where least is left to
+    /// a bound: of the greatest psi, and of the requirement, other than that on it, of which least is
+    /// left.
+    fn slices(&self, worst: &[Worst]) -> Vec<Slice> {
+        let Some(sampled) = &self.sampled else { return Vec::new() };
+        let m = self.names.len();
         let is_psi =
             |r: &Requirement| r.quantity == "transmission" && matches!(r.bound, Bound::Max(_));
         let of_psi = self.claim.require.iter().position(is_psi);
-        let critical = self.critical(worst, of_psi).map(|(number, _)| number);
         let mut functions: Vec<Function<'_>> = vec![Function {
             file: "psi",
             heading: "greatest \u{3c8}".to_owned(),
-            of: Box::new(greatest),
-            worst: Box::new(move |s| greatest(s).map(|psi| -psi)),
+            of: Box::new(|at| sampled.psi(at).map(|psi| (psi, -psi))),
         }];
+        let critical = self.critical(worst, of_psi).map(|worst| worst.number);
         if let Some((number, requirement)) =
             critical.and_then(|n| Some((n, self.claim.require.get(n)?)))
         {
             functions.push(Function {
                 file: "critical",
                 heading: mechanism::formula(requirement),
-                of: Box::new(move |s| s.of[number].map(|f| f.value.unwrap_or(f.margin))),
-                worst: Box::new(move |s| s.of[number].map(|f| f.margin)),
+                of: Box::new(move |at| sampled.value(number, at)),
             });
         }
-        let scales: Vec<Option<Scale>> = functions
-            .iter()
-            .map(|f| Scale::over(vec![sampled.iter().filter_map(|s| (f.of)(s)).collect()]))
-            .collect();
-        let point = self.witness.and_then(|w| w.point.iter().map(double).collect());
-        let base: Vec<f64> =
-            point.filter(|p: &Vec<f64>| p.len() == m).unwrap_or_else(|| sampler.middle());
+        let middle = || sampled.root().iter().map(|[lo, hi]| lo + (hi - lo) / 2.0).collect();
+        let point = match self.witness {
+            Some(witness) => witness.point.iter().map(approximate).collect(),
+            None => self.critical(worst, None).map(|worst| worst.row.at.clone()),
+        };
+        let base = point.filter(|p: &Vec<f64>| p.len() == m).unwrap_or_else(middle);
+        let marks = self.marks(worst);
         let all = pairs(m, self.positions().min(m)).into_iter().enumerate();
-        let slices =
-            all.map(|(i, pair)| self.slice(sampler, i, pair, &base, (&functions, &scales)));
+        let slices = all.map(|(i, pair)| self.slice(sampled, i, pair, (&base, &marks), &functions));
         slices.filter(|slice| !slice.maps.is_empty()).collect()
+    }
+
+    /// A coordinate as it is shown: of orientations, from the chart's tangent, in degrees.
+    fn shown(&self, k: usize, x: f64) -> f64 {
+        if self.is_turn(k) {
+            2.0 * x.atan().to_degrees()
+        } else {
+            x
+        }
+    }
+
+    /// The same back.
+    fn meant(&self, k: usize, x: f64) -> f64 {
+        if self.is_turn(k) {
+            (x / 2.0).to_radians().tan()
+        } else {
+            x
+        }
+    }
+
+    fn is_turn(&self, k: usize) -> bool {
+        self.claim.orientation.is_some() && k >= self.positions()
     }
 
     fn slice(
         &self,
-        sampler: &Sampler,
+        sampled: &Sampled<'_>,
         number: usize,
         [a, b]: [usize; 2],
-        base: &[f64],
-        (functions, scales): (&[Function<'_>], &[Option<Scale>]),
+        (base, marks): (&[f64], &[Mark]),
+        functions: &[Function<'_>],
     ) -> Slice {
-        let name = |k: usize| self.names.get(k).map_or("?", String::as_str);
-        let root = [sampler.root[a], sampler.root[b]];
+        let all = axes(self.claim);
+        let name = |k: usize| all.get(k).map_or("?", String::as_str);
+        let root = sampled.root();
+        let root = [a, b].map(|k| root[k].map(|x| self.shown(k, x)));
         let is_round =
             matches!(self.claim.workspace, Workspace::Cylinder { .. }) && [a, b] == [0, 1];
         let of_kind = |k: usize| k < self.positions();
@@ -260,44 +292,57 @@ impl General<'_> {
         let width = root.map(|[lo, hi]| hi - lo);
         let plane =
             Plane::new(root.map(|[lo, _]| lo), width, [name(a), name(b)], is_round, same_kind);
-        let nodes = if sampler.problem().tape.ops().len() > LONG { FEW_NODES } else { NODES };
-        let nominal = sampler.nominal();
-        let mut found: Vec<([f64; 2], Option<Sampled>)> = Vec::new();
+        let nodes = if sampled.operations() > LONG { FEW_NODES } else { NODES };
+        let mut found: Vec<([f64; 2], Option<At>)> = Vec::new();
         let out_of_reach = plane.field(nodes, |x, y| {
             let mut point = base.to_vec();
-            (point[a], point[b]) = (x, y);
-            found.push(([x, y], sampler.values(&nominal, &point)));
-            if found.last().is_some_and(|(_, s)| s.is_some()) {
+            (point[a], point[b]) = (self.meant(a, x), self.meant(b, y));
+            found.push(([x, y], sampled.at(&point)));
+            if found.last().is_some_and(|(_, at)| at.is_some()) {
                 -1.0
             } else {
                 1.0
             }
         });
-        let fixed = self.names.iter().zip(base).enumerate().filter(|(k, _)| *k != a && *k != b);
-        let fixed: Vec<String> =
-            fixed.map(|(_, (name, x))| format!("{name} = {}", significant(*x, 6))).collect();
-        let fixed = fixed.join(", ");
+        let fixed = all.iter().zip(base).enumerate().filter(|(k, _)| *k != a && *k != b);
+        let fixed: Vec<String> = fixed
+            .map(|(k, (name, x))| format!("{name} = {}", significant(self.shown(k, *x), 6)))
+            .collect();
+        let fixed = fixed.join("; ");
         let at = if fixed.is_empty() { String::new() } else { format!(" at {fixed}") };
+        let marks: Vec<(&str, [f64; 2])> = marks
+            .iter()
+            .take(1)
+            .filter_map(|mark| {
+                let [x, y] = [mark.at.get(a)?, mark.at.get(b)?];
+                Some((mark.name.as_str(), [self.shown(a, *x), self.shown(b, *y)]))
+            })
+            .collect();
         let mut maps = Vec::new();
         let mut legends = Vec::new();
-        for (function, scale) in functions.iter().zip(scales) {
-            let Some(scale) = scale else { continue };
-            let value = |s: &Option<Sampled>| s.as_ref().and_then(|s| (function.of)(s));
+        for function in functions {
+            let of = |at: &Option<At>| at.as_ref().and_then(|at| (function.of)(at));
+            let values: Vec<Option<(f64, f64)>> = found.iter().map(|(_, at)| of(at)).collect();
+            let known = values.iter().flatten().map(|(value, _)| *value).collect();
+            let Some(scale) = Scale::over(vec![known]) else { continue };
             let field = Field {
-                values: found.iter().map(|(_, s)| value(s).unwrap_or(f64::NAN)).collect(),
+                values: values.iter().map(|v| v.map_or(f64::NAN, |(value, _)| value)).collect(),
                 ..out_of_reach.clone()
             };
-            let rank = |s: &Option<Sampled>| s.as_ref().and_then(|s| (function.worst)(s));
-            let worst = found.iter().filter_map(|(at, s)| Some((rank(s)?, *at)));
-            let worst = worst.min_by(|a, b| a.0.total_cmp(&b.0));
-            let on_slice = |mark: &Mark| Some((mark.at.get(a).copied()?, mark.at.get(b).copied()?));
-            let marks = if self.witness.is_some() { self.marks(&[]) } else { Vec::new() };
-            let mut shown: Vec<(&str, [f64; 2])> = marks
-                .iter()
-                .take(1)
-                .filter_map(|mark| on_slice(mark).map(|(x, y)| (mark.name.as_str(), [x, y])))
-                .collect();
-            shown.extend(worst.filter(|_| marks.is_empty()).map(|(_, at)| ("worst here", at)));
+            let ranked =
+                found.iter().zip(&values).filter_map(|((at, _), v)| Some((v.as_ref()?.1, *at)));
+            let worst = ranked.min_by(|a, b| a.0.total_cmp(&b.0));
+            let mut shown = marks.clone();
+            let is_there = |at: &[f64; 2]| {
+                let off = marks.iter().flat_map(|(_, mark)| [mark[0] - at[0], mark[1] - at[1]]);
+                marks.iter().len() > 0
+                    && off.zip(width).all(|(off, width)| off.abs() <= 0.05 * width.abs())
+            };
+            shown.extend(
+                worst
+                    .filter(|(_, at)| self.witness.is_none() && !is_there(at))
+                    .map(|(_, at)| ("worst here", at)),
+            );
             maps.push(map(
                 &plane,
                 &Map {
@@ -316,22 +361,35 @@ impl General<'_> {
                     script: None,
                 },
             ));
-            legends.push((function.heading.clone(), scale.legend()));
+            legends.extend(scale.legends());
         }
         Slice { maps, legends, fixed }
     }
 }
 
-/// A number of what was sampled at a point.
-type Of<'a> = Box<dyn Fn(&Sampled) -> Option<f64> + 'a>;
+/// A number at a point, and how good it is: less is worse.
+type Of<'a> = Box<dyn Fn(&At) -> Option<(f64, f64)> + 'a>;
 
 /// What a map is of.
 struct Function<'a> {
     file: &'static str,
     heading: String,
     of: Of<'a>,
-    /// Less is worse.
-    worst: Of<'a>,
+}
+
+/// Names of the coordinates for people: of orientations angles in degrees, about an axis each twice the
+/// arc tangent of the chart's coordinate.
+fn axes(claim: &MachineClaim) -> Vec<String> {
+    let one = |name: String| match name.as_str() {
+        "c_x" => "about x, deg".to_owned(),
+        "c_y" => "about y, deg".to_owned(),
+        "c_z" => "about z, deg".to_owned(),
+        other => match other.strip_prefix("tan(").and_then(|rest| rest.strip_suffix("/2)")) {
+            Some(angle) => format!("{angle}, deg"),
+            None => name,
+        },
+    };
+    coordinates(claim).into_iter().map(one).collect()
 }
 
 /// The counterexample in a table: names and values.
@@ -340,37 +398,19 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
         let all: Vec<String> = x.iter().map(ToString::to_string).collect();
         format!("({})", all.join(", "))
     };
-    let sampler = Sampler::new(claim);
+    let problem = Problem::new(claim).ok();
+    let sampled = problem.as_ref().and_then(|problem| Sampled::new(claim, problem));
+    let found = sampled.as_ref().and_then(|sampled| sampled.counterexample(witness));
     let mut rows = Vec::new();
-    match &witness.fails {
-        kernel::Failure::Reach => rows.push((
-            "violated".to_owned(),
-            "a leg does not reach the point, or is serially singular there".to_owned(),
-        )),
-        kernel::Failure::Singular(_) => {
-            rows.push(("violated".to_owned(), "freedom from parallel singularities".to_owned()));
-        }
-        kernel::Failure::Same { .. } => {
-            rows.push(("violated".to_owned(), "one point for all joint coordinates".to_owned()));
-        }
-        kernel::Failure::Obligation(number, _) | kernel::Failure::Row(number, _) => {
-            let number = sampler.as_ref().and_then(|s| s.requirement(*number));
-            let requirement = number.and_then(|n| claim.require.get(n));
-            let what = requirement.map_or("freedom from singularities".to_owned(), |requirement| {
-                format!("{}, {}", mechanism::quantity(requirement), mechanism::bound(requirement))
-            });
-            rows.push(("violated".to_owned(), what));
-            let found = || {
-                let sampler = sampler.as_ref()?;
-                let machine = sampler.machine(&witness.machine)?;
-                sampler.values(&machine, &all(&witness.point)?)?.of.get(number?).copied()?
-            };
-            if let Some(value) = found().and_then(|found| found.value) {
-                rows.push(("value there, in floating point".to_owned(), significant(value, 9)));
-            }
-        }
+    if let Some(found) = &found {
+        rows.push(("violated".to_owned(), found.violated.clone()));
+        rows.push(("value there".to_owned(), found.value.clone()));
     }
-    rows.push((format!("at ({})", names(claim).join(", ")), list(&witness.point)));
+    rows.push((format!("at ({})", coordinates(claim).join(", ")), list(&witness.point)));
+    if claim.orientation.is_some() {
+        let at: Option<Vec<f64>> = witness.point.iter().map(approximate).collect();
+        rows.extend(at.map(|at| ("which is".to_owned(), pose_text(&at, &coordinates(claim), 6))));
+    }
     if let kernel::Failure::Singular(other) = &witness.fails {
         rows.push(("and, with the other sign of det M, at".to_owned(), list(other)));
     }
@@ -378,8 +418,8 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
         let between = format!("{} to {}", list(least), list(greatest));
         rows.push(("and, with the same joint coordinates, from".to_owned(), between));
     }
-    if let Some(sampler) = &sampler {
-        for ((place, _, _), x) in sampler.problem().tolerances().zip(&witness.machine) {
+    if let Some(problem) = &problem {
+        for ((place, _, _), x) in problem.tolerances().zip(&witness.machine) {
             rows.push((place.to_owned(), x.to_string()));
         }
     }

@@ -17,6 +17,8 @@ const WIDE: f64 = 30.0;
 /// A map's width and height, and the margins on the left, above, on the right and below.
 const SIZE: [f64; 2] = [300.0, 322.0];
 const MARGIN: [f64; 4] = [44.0, 30.0, 10.0, 40.0];
+/// Longest name beside an axis; others run along it.
+const SHORT_NAME: usize = 4;
 /// Shortest line that carries its level.
 const LABELLED: f64 = 34.0;
 /// Least distance of labels from each other, and from marks.
@@ -32,17 +34,14 @@ const COLOURS: [[f64; 3]; 7] = [
     [16.0, 40.0, 110.0],
 ];
 
-/// The colours that some maps have in common, and the levels of each.
+/// The colours of some maps, each with its own, and the levels of its lines.
 #[derive(Clone, Debug, Serialize)]
 pub struct Scale {
     /// Of each map.
     pub maps: Vec<Levels>,
-    /// Least and greatest value sampled in the workspace.
+    /// Of each map, the values of the first and the last colour.
     #[serde(skip)]
-    range: [f64; 2],
-    /// The values of the first and the last colour.
-    #[serde(skip)]
-    ends: [f64; 2],
+    ends: Vec<[f64; 2]>,
 }
 
 /// The lines of a map.
@@ -67,49 +66,47 @@ fn colour(t: f64) -> String {
 }
 
 impl Scale {
-    /// The scale for maps of which these values were sampled in the workspace; `None` where one has
-    /// none.
+    /// The scale for maps of which these values were sampled; `None` where one has none.
     pub fn over(mut found: Vec<Vec<f64>>) -> Option<Self> {
         found.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
-        let shown: Option<Vec<[f64; 2]>> = found.iter().map(|all| typical(all)).collect();
-        let shown = shown?;
-        let least = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::INFINITY, f64::min);
-        let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::NEG_INFINITY, f64::max);
-        let all = || found.iter().flatten().copied();
-        let range = [least(&mut all()), greatest(&mut all())];
-        let ends = [
-            least(&mut shown.iter().map(|ends| ends[0])),
-            greatest(&mut shown.iter().map(|ends| ends[1])),
-        ];
-        let maps = shown.into_iter().map(|shown| Levels::within(shown, ends)).collect();
-        Some(Scale { maps, range, ends })
+        let ends: Vec<[f64; 2]> = found.iter().map(|all| typical(all)).collect::<Option<_>>()?;
+        let maps = ends.iter().map(|ends| Levels::within(*ends)).collect();
+        Some(Scale { maps, ends })
     }
 
-    /// The colours and some of their values, as a strip.
-    pub fn legend(&self) -> String {
-        const PIECES: usize = 60;
-        let [low, high] = self.ends;
-        let width = 520.0 / PIECES as f64;
-        let mut out = Elements::default();
-        for k in 0..PIECES {
-            let (x, colour) = (10.0 + width * k as f64, colour((k as f64 + 0.5) / PIECES as f64));
-            out.raw(&format!(
-                "<rect x=\"{x:.2}\" y=\"4\" width=\"{:.2}\" height=\"12\" fill=\"{colour}\"/>",
-                width + 0.3
-            ));
-        }
-        for level in levels(low, high) {
-            let x = 10.0 + 520.0 * position(level, self.ends);
-            out.line("axis-line", [x, 16.0], [x, 19.0]);
-            out.text("tick middle", [x, 30.0], &significant(level, 6));
-        }
-        let [low, high] = self.range.map(|x| significant(x, 4));
-        format!(
-            "<div class=\"scale\"><svg class=\"figure\" viewBox=\"0 0 540 34\" role=\"img\"><title>Scale of the \
-             maps</title>{}</svg><span>In the whole workspace, sampled: from {low} to {high}</span></div>",
-            out.0
-        )
+    /// The colours of each map and some of their values, as a strip below it.
+    pub fn legends(&self) -> Vec<String> {
+        self.ends.iter().map(|ends| strip(*ends)).collect()
     }
+}
+
+/// The colours of a map, and some of their values.
+fn strip([low, high]: [f64; 2]) -> String {
+    const PIECES: usize = 40;
+    const LENGTH: f64 = 250.0;
+    const LABELS: usize = 6;
+    let width = LENGTH / PIECES as f64;
+    let mut out = Elements::default();
+    for k in 0..PIECES {
+        let (x, colour) = (25.0 + width * k as f64, colour((k as f64 + 0.5) / PIECES as f64));
+        out.raw(&format!(
+            "<rect x=\"{x:.2}\" y=\"4\" width=\"{:.2}\" height=\"10\" fill=\"{colour}\"/>",
+            width + 0.3
+        ));
+    }
+    let all = levels(low, high);
+    for level in all.iter().step_by(all.len().div_ceil(LABELS).max(1)) {
+        let x = 25.0 + LENGTH * position(*level, [low, high]);
+        out.line("axis-line", [x, 14.0], [x, 17.0]);
+        out.text("tick middle", [x, 28.0], &significant(*level, 6));
+    }
+    let svg = out.0;
+    format!(
+        "<svg class=\"figure scale\" viewBox=\"0 0 300 32\" role=\"img\"><title>Scale of the map above: \
+         from {} to {}</title>{svg}</svg>",
+        significant(low, 4),
+        significant(high, 4)
+    )
 }
 
 /// Where a value stands between the first and the last colour.
@@ -141,8 +138,9 @@ fn typical(sorted: &[f64]) -> Option<[f64; 2]> {
 }
 
 impl Levels {
-    /// The lines of a map whose values are within `shown`, colours being those of `ends`.
-    fn within([low, high]: [f64; 2], ends: [f64; 2]) -> Self {
+    /// The lines of a map whose values are within `ends`, and its colours.
+    fn within(ends: [f64; 2]) -> Self {
+        let [low, high] = ends;
         let levels = levels(low, high);
         let bounds: Vec<f64> = [&[low], &levels[..], &[high]].concat();
         let middle = |pair: &[f64]| colour(position((pair[0] + pair[1]) / 2.0, ends));
@@ -373,7 +371,12 @@ fn frame(out: &mut Elements, plane: &Plane) {
     out.text("axis middle", [x + w / 2.0, bottom + 15.0], &plane.names[0]);
     out.text("tick end", [x - 5.0, bottom], &significant(plane.least[1], 4));
     out.text("tick end", [x - 5.0, y + 9.0], &significant(far[1], 4));
-    out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], &plane.names[1]);
+    match plane.names[1].as_str() {
+        short if short.chars().count() <= SHORT_NAME => {
+            out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], short);
+        }
+        long => out.upright("axis middle", [x - 12.0, y + h / 2.0], long),
+    }
 }
 
 fn length(line: &[[f64; 2]]) -> f64 {

@@ -1,8 +1,8 @@
 //! A kernel claim in words and tables: machine, workspace, requirements, parameters.
 
-use super::sampled::double;
 use crate::decimal::significant;
 use crate::escape::xml;
+use crate::solver::approximate;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
 };
@@ -10,13 +10,16 @@ use orthocert_kernel::number::Expression;
 use orthocert_kernel::quantity::TABLE;
 use std::fmt::Write;
 
+/// Longest name of a requirement in a table.
+const SHORT: usize = 48;
+
 /// Longest text of a number that is shown whole; the statement has all of it.
 const LONGEST: usize = 24;
 
 /// A number as it is written, or, where that is long, about.
 pub fn number(x: &Expression) -> String {
     let text = x.to_string();
-    match double(x) {
+    match approximate(x) {
         Some(value) if text.len() > LONGEST => format!("about {}", significant(value, 9)),
         _ => text,
     }
@@ -161,6 +164,19 @@ pub fn quantity(requirement: &Requirement) -> String {
     }
     for (name, given) in &requirement.given {
         let _ = write!(out, ", {name} = {}", numbers(given));
+    }
+    out
+}
+
+/// The same where it is short, else by its key.
+pub fn short(requirement: &Requirement) -> String {
+    let words = quantity(requirement);
+    if words.chars().count() <= SHORT {
+        return words;
+    }
+    let mut out = requirement.quantity.replace('_', " ");
+    for (name, given) in &requirement.given {
+        let _ = write!(out, ", {} = {}", name.replace('_', " "), numbers(given));
     }
     out
 }

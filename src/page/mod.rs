@@ -93,6 +93,8 @@ pub struct Page<'a> {
     accepted: &'a Accepted,
     file: File<'a>,
     title: String,
+    /// The unit of lengths.
+    unit: Option<&'static str>,
     /// Three translating legs, and the scale of their maps; none where there is no single machine of
     /// them, or where its numbers exceed what doubles can show.
     machine: Option<(Nominal, Option<Scale>)>,
@@ -118,12 +120,14 @@ pub fn machine(claim: &MachineClaim, proof: Option<&Proof>) -> Option<Picture> {
 }
 
 impl<'a> Page<'a> {
-    /// The page of a certificate that the checker has accepted.
+    /// The page of a certificate that the checker has accepted; title and unit of lengths are the
+    /// design's, which no certificate has.
     pub fn new(
         certificate: &'a Certificate,
         accepted: &'a Accepted,
         file: File<'a>,
         title: Option<&str>,
+        unit: Option<&'static str>,
     ) -> Self {
         let of_cube;
         let machine_claim = match &certificate.claim {
@@ -134,23 +138,30 @@ impl<'a> Page<'a> {
             }
             Claim::Atlas(_) | Claim::NoCube(_) => None,
         };
-        let machine = machine_claim.and_then(Nominal::new).map(|mut machine| {
+        let mut machine = machine_claim.and_then(Nominal::new).map(|mut machine| {
             machine.slice = slice(&machine, &certificate.proof);
             let scale = machine.scale();
             (machine, scale)
         });
         let scene = match (&certificate.claim, &certificate.proof) {
             (Claim::Machine(claim), proof) => {
-                let mut scene = general::scene(claim, proof);
-                if let Some((machine, scale)) = &machine {
+                let mut scene = general::scene(claim, proof, unit);
+                if let Some((machine, scale)) = &mut machine {
+                    // Where the machine is nearest to a limit, but through Q1 of the paper's cube.
+                    let nearest = scene.marks.first().filter(|_| !machine.is_cube);
+                    if let Some(z) = nearest.and_then(|mark| mark.at.get(2)) {
+                        machine.slice = machine.part(2, *z);
+                    }
                     scene.marks.extend(corners_of_cube(machine));
                     let first =
                         scale.as_ref().map(|scale| first_slice(machine, scale, &scene.marks));
                     if first.is_some() {
                         // Those over every plane z = const are there.
                         for slice in &mut scene.slices {
-                            slice.maps.retain(|map| !map.name.starts_with("psi-"));
-                            slice.legends.retain(|(name, _)| !name.contains('\u{3c8}'));
+                            if slice.maps.first().is_some_and(|map| map.name.starts_with("psi-")) {
+                                slice.maps.remove(0);
+                                slice.legends.remove(0);
+                            }
                         }
                         scene.slices.retain(|slice| !slice.maps.is_empty());
                     }
@@ -170,6 +181,7 @@ impl<'a> Page<'a> {
             accepted,
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
+            unit,
             machine,
             scene,
             figures: Figures::default(),

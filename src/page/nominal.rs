@@ -93,6 +93,14 @@ impl Nominal {
         Scale::over(found)
     }
 
+    /// The part of the workspace's edge at which a coordinate is.
+    pub fn part(&self, axis: usize, x: f64) -> f64 {
+        match self.width[axis] {
+            width if width > 0.0 => ((x - self.least[axis]) / width).clamp(0.0, 1.0),
+            _ => self.slice,
+        }
+    }
+
     /// The maps of `psi_1`, `psi_2`, `psi_3` in the plane of the slice.
     pub fn maps(&self, scale: &Scale, marks: &[Mark]) -> Vec<Picture> {
         let Nominal { least, width, .. } = self;

@@ -5,11 +5,11 @@ use super::isomap::{Mark, Scale};
 use super::legend::Legend;
 use super::legs::Shape;
 use super::nominal::Nominal;
-use super::sampled::double;
 use super::shape::shape;
 use super::subdivision::{Root, Subdivision};
 use super::svg::Picture;
 use crate::decimal::significant;
+use crate::solver::approximate;
 use orthocert_checker::certificate::Proof;
 use orthocert_checker::trees as kernel_trees;
 use orthocert_kernel::certificate as kernel;
@@ -24,6 +24,8 @@ pub struct Scene {
     pub shape: Option<Shape>,
     /// What is mapped.
     pub slices: Vec<Slice>,
+    /// The requirement nearest to its limit, in a sentence.
+    pub nearest: Option<String>,
     /// What is required, with the worst values found.
     pub rows: Vec<Row>,
     /// What is marked in all figures.
@@ -37,8 +39,8 @@ pub struct Scene {
 pub struct Slice {
     /// The maps.
     pub maps: Vec<Picture>,
-    /// What scales are of, and the scales.
-    pub legends: Vec<(String, String)>,
+    /// The scale of each.
+    pub legends: Vec<String>,
     /// The other coordinates.
     pub fixed: String,
 }
@@ -57,17 +59,13 @@ pub fn of_postulate(
         _ => Vec::new(),
     };
     let shape = of_cube.and_then(shape);
-    Scene { shape, slices: slices.into_iter().collect(), rows: Vec::new(), trees, marks }
+    Scene { shape, slices: slices.into_iter().collect(), trees, marks, ..Scene::default() }
 }
 
 /// The first maps of the transmission factors.
 pub fn first_slice(machine: &Nominal, scale: &Scale, marks: &[Mark]) -> Slice {
     let z = significant(machine.point([0.0, 0.0, machine.slice])[2], 6);
-    Slice {
-        maps: machine.maps(scale, marks),
-        legends: vec![(String::new(), scale.legend())],
-        fixed: format!("z = {z}"),
-    }
+    Slice { maps: machine.maps(scale, marks), legends: scale.legends(), fixed: format!("z = {z}") }
 }
 
 /// `Q_1` and `Q_2`.
@@ -82,15 +80,11 @@ pub fn corners_of_cube(machine: &Nominal) -> Vec<Mark> {
 /// The plane of the first maps, as a part of the workspace's height: through `Q_1`, or through the
 /// counterexample.
 pub fn slice(machine: &Nominal, proof: &Proof) -> f64 {
-    let (least, width) = (machine.least[2], machine.width[2]);
     let z = match proof {
-        Proof::Witness(witness) => witness.point.get(2).and_then(double),
-        _ => machine.is_cube.then_some(least),
+        Proof::Witness(witness) => witness.point.get(2).and_then(approximate),
+        _ => machine.is_cube.then_some(machine.least[2]),
     };
-    match z {
-        Some(z) if width > 0.0 => ((z - least) / width).clamp(0.0, 1.0),
-        _ => machine.slice,
-    }
+    z.map_or(machine.slice, |z| machine.part(2, z))
 }
 
 /// The parts of a proof of the postulate: two faces of the cube, and the ranges of `kappa`.
@@ -107,7 +101,7 @@ fn faces(claim: &PostulateClaim, tree: &kernel::Tree) -> Vec<Subdivision> {
             kernel::Corner::Q1 => "x = q1",
             kernel::Corner::Q2 => "x = q2",
         };
-        let [low, high] = [&part.least, &part.greatest].map(|x| double(x).unwrap_or_default());
+        let [low, high] = [&part.least, &part.greatest].map(|x| approximate(x).unwrap_or_default());
         let half = if high > 0.5 { "kappa >= 1/2" } else { "kappa <= 1/2" };
         let name = format!("face {face}, {half}");
         let root = Root::new(["y", "z", "kappa"], [0.0, 0.0, low], [1.0, 1.0, high - low]);

@@ -58,6 +58,12 @@ impl Page<'_> {
             signed.extend([("machine", machine), ("workspace", workspace)]);
         }
         let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"signed\">".to_owned();
+        if let Some(nearest) = &self.scene.nearest {
+            signed.push(("nearest limit", nearest.clone()));
+        }
+        if let Some(unit) = self.unit {
+            signed.push(("lengths", format!("in {unit}")));
+        }
         for (name, value) in signed {
             let _ = write!(out, "<dt>{name}</dt><dd>{}</dd>", xml(&value));
         }
@@ -65,7 +71,7 @@ impl Page<'_> {
         if !self.scene.rows.is_empty() {
             out.push_str(&evidence::margins(&self.scene.rows));
         }
-        out + &self.facts() + "</section>\n"
+        out + "</section>\n"
     }
 
     /// The proof in numbers.
@@ -165,19 +171,19 @@ impl Page<'_> {
         let cube = self.machine.as_ref().map(|(machine, _)| machine).filter(|m| m.is_cube);
         let at = if cube.is_some() { " The first slice is the one through Q\u{2081}." } else { "" };
         let maps: String = maps.iter().map(Picture::inline).collect();
-        let legend: String = legends.iter().map(|(_, legend)| legend.as_str()).collect();
         format!(
             "<section id=\"maps\"><h2>Velocity transmission factors</h2>\
              <p>Lines of equal \u{3c8}<sub>1</sub> \u{2264} \u{3c8}<sub>2</sub> \u{2264} \u{3c8}<sub>3</sub> of the \
              nominal machine over a plane z = const, in floating point.{at} Hatched: out of reach of a leg.</p>\
              <div class=\"controls scripted\"><label for=\"slice\">z <input type=\"range\" id=\"slice\" min=\"0\" max=\"200\" step=\"1\"></label>\
              <output id=\"slice-value\" for=\"slice\"></output><button type=\"button\" id=\"slice-reset\">First slice</button></div>\
-             <figure><div class=\"maps\">{maps}</div>{legend}\
+             <figure><div class=\"maps\">{maps}</div><div class=\"maps legends\">{legends}</div>\
              <output class=\"readout scripted\" id=\"map-readout\" aria-live=\"polite\">Point at a map, or focus one and \
              move the cross with the arrow keys, to read the values there.</output>\
              <figcaption class=\"scripted\">Keys on a map: <kbd>\u{2190}</kbd> <kbd>\u{2192}</kbd> <kbd>\u{2191}</kbd> <kbd>\u{2193}</kbd> move the \
              cross (with <kbd>Shift</kbd> in large steps), <kbd>Page Up</kbd> <kbd>Page Down</kbd> move the slice.</figcaption>\
              <figcaption class=\"static\">{fixed}</figcaption></figure>{corners}</section>\n",
+            legends = legends.concat(),
             corners = cube.map(words::corners).unwrap_or_default(),
         )
     }
@@ -218,7 +224,7 @@ impl Page<'_> {
             out.push_str(&self.legend());
             out.push_str(&evidence::hardest(&self.scene.trees));
         }
-        out + "</section>\n"
+        out + &self.facts() + "</section>\n"
     }
 
     /// The rules that are used, with their colours, patterns and uses.
@@ -267,21 +273,20 @@ fn caption(tree: &Subdivision) -> String {
 /// The maps of a kernel claim.
 fn maps_of_slices(slices: &[Slice]) -> String {
     let mut out = "<section id=\"still\"><h2>Maps</h2><p>Lines of equal value of the nominal machine over \
-         two coordinates, the others in the middle of the workspace, or at the counterexample, in floating \
-         point: of the greatest \u{3c8}, and of the requirement, other than that on the greatest \u{3c8}, \
-         of which the least margin was found. Marked: the worst point of each map, or the counterexample. Hatched: outside the \
+         two coordinates, the others where the workspace is nearest to a limit, or at the counterexample, in \
+         floating point: of the greatest \u{3c8}, and of the requirement, other than that on the greatest \
+         \u{3c8}, of which least is left. Marked: that point, and the worst of each map. Hatched: outside the \
          workspace, or out of reach.</p>"
         .to_owned();
-    for Slice { maps, fixed, .. } in slices {
+    for Slice { maps, legends, fixed } in slices {
         let maps: String = maps.iter().map(Picture::inline).collect();
         let at = if fixed.is_empty() { String::new() } else { format!("at {}", xml(fixed)) };
         let _ = write!(
             out,
-            "<figure><div class=\"maps still\">{maps}</div><figcaption>{at}</figcaption></figure>"
+            "<figure><div class=\"maps still\">{maps}</div><div class=\"maps still legends\">{}</div>\
+             <figcaption>{at}</figcaption></figure>",
+            legends.concat()
         );
-    }
-    for (name, legend) in slices.first().iter().flat_map(|slice| &slice.legends) {
-        let _ = write!(out, "<h3>{}</h3>{legend}", xml(name));
     }
     out + "</section>\n"
 }

@@ -2,7 +2,7 @@
 
 use super::legs::{across, unit, Numbers, Outline, Point, Shape};
 use super::mechanism;
-use super::sampled::double;
+use crate::solver::approximate;
 use orthocert_kernel::claim::{
     Body, Leg, MachineClaim, Mechanism, Orientation, Quantity, Sign, Workspace,
 };
@@ -66,12 +66,12 @@ pub fn frame(claim: &MachineClaim) -> Option<(Point, Point)> {
     let (min, max) = match &claim.workspace {
         Workspace::Box { min, max } => (all(min)?, all(max)?),
         Workspace::Cylinder { center: [x, y], radius, z: [low, high] } => {
-            let (x, y, r) = (double(x)?, double(y)?, double(radius)?);
-            (vec![x - r, y - r, double(low)?], vec![x + r, y + r, double(high)?])
+            let (x, y, r) = (approximate(x)?, approximate(y)?, approximate(radius)?);
+            (vec![x - r, y - r, approximate(low)?], vec![x + r, y + r, approximate(high)?])
         }
         Workspace::Cube { side } => {
             let q1 = least_of_cube(claim)?;
-            (vec![q1; 3], vec![q1 + double(side)?; 3])
+            (vec![q1; 3], vec![q1 + approximate(side)?; 3])
         }
     };
     let coordinate = |all: &[f64], k: usize| all.get(k).copied().unwrap_or(0.0);
@@ -92,13 +92,13 @@ fn least_of_cube(claim: &MachineClaim) -> Option<f64> {
     let add = |x: Expression, y: &Expression| {
         Expression::Binary(Operator::Add, Box::new(x), Box::new(y.clone()))
     };
-    double(&add(add(base.clone(), offset), length))
+    approximate(&add(add(base.clone(), offset), length))
 }
 
 /// The rows of `R` in the middle of a set of orientations.
 fn rotation(orientation: Option<&Orientation>) -> Option<[Point; 3]> {
     let middle = |[min, max]: &[Expression; 2]| {
-        let degrees = (double(min)? + double(max)?) / 2.0;
+        let degrees = (approximate(min)? + approximate(max)?) / 2.0;
         Some(degrees.to_radians().sin_cos())
     };
     let still = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -121,12 +121,12 @@ fn rotation(orientation: Option<&Orientation>) -> Option<[Point; 3]> {
 
 /// Numbers of a claim as doubles.
 pub fn all(numbers: &[Expression]) -> Option<Vec<f64>> {
-    numbers.iter().map(double).collect()
+    numbers.iter().map(approximate).collect()
 }
 
 fn point(numbers: &[Expression; 3]) -> Option<Point> {
     let [x, y, z] = numbers;
-    Some([double(x)?, double(y)?, double(z)?])
+    Some([approximate(x)?, approximate(y)?, approximate(z)?])
 }
 
 /// A leg with every quantity in the middle of its tolerance; in the plane with `z = 0`, and motors
@@ -134,7 +134,7 @@ fn point(numbers: &[Expression; 3]) -> Option<Point> {
 fn numbers(leg: &Leg) -> Option<Numbers> {
     let middle = |q: &Quantity| {
         let [min, max] = q.ends();
-        let (min, max) = (double(min)?, double(max)?);
+        let (min, max) = (approximate(min)?, approximate(max)?);
         Some(min + (max - min) / 2.0)
     };
     let vector = |q: &[Quantity], absent: Point| -> Option<Point> {
@@ -260,6 +260,7 @@ mod tests {
         let scene = scene(
             &level,
             &kernel::Proof::Tree(kernel::Tree { precision: 52, chords: None, nodes: Vec::new() }),
+            None,
         );
         assert_eq!(scene.trees[0].axes.len(), scene.trees[0].least.len());
     }

@@ -165,6 +165,15 @@ impl Elements {
     }
 }
 
+impl Elements {
+    /// A text from below upward, its middle at a point.
+    pub fn upright(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        let text = xml(text);
+        let turn = format!("translate({x:.1} {y:.1}) rotate(-90)");
+        let _ = write!(self.0, "<text class=\"{class}\" transform=\"{turn}\">{text}</text>");
+    }
+}
+
 /// The `d` of a path through points.
 pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
     let mut d = String::with_capacity(points.len() * 12);

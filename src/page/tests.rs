@@ -10,7 +10,7 @@ fn with_page<T>(bytes: &[u8], title: Option<&str>, look: impl Fn(&Page<'_>) -> T
     let certificate = read(bytes).unwrap();
     let accepted = check(&certificate).unwrap();
     let file = File { name: "it's <b>.cert.json", bytes };
-    look(&Page::new(&certificate, &accepted, file, title))
+    look(&Page::new(&certificate, &accepted, file, title, Some("mm")))
 }
 
 #[test]
@@ -137,20 +137,22 @@ fn the_first_box_has_what_a_designer_signs() {
     let first = page.split("id=\"overview\"").nth(1).unwrap().split("</section>").next().unwrap();
     for text in [
         "<dt>verdict</dt><dd>certified</dd>",
+        "<dt>nearest limit</dt><dd>",
+        "<dt>lengths</dt><dd>in mm</dd>",
         "Every translational machine of four struts within one tolerance",
         "the box [-60, 60] \u{d7} [-60, 60] \u{d7} [150, 220]",
-        "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340</td>",
-        "joint speed; of arms, degrees per time: |row_i of M| tool, tool = 100",
+        "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340 mm</td>",
+        "<td>joint speed, tool = 100</td><td class=\"place\">at most",
     ] {
         assert!(first.contains(text), "{text}: {first}");
     }
     assert!(!first.contains("(violated)"));
     let page = with_page(&of_kernel("four-struts-refuted"), None, |page| page.html());
     assert!(page.contains("(violated)") && page.contains("<h2>Counterexample</h2>"));
-    assert!(page.contains("velocity transmission factors: psi_i, at most 0.8"));
+    assert!(page.contains("<td>greatest psi &lt;= 0.8</td>"));
     assert!(page.contains("<td>(60, 60, 220)</td>") && page.contains("<td>200.05</td>"));
     // The refuted value is worse than the bound, and is where the certificate says.
-    let value = page.split("value there, in floating point</th><td>").nth(1).unwrap();
+    let value = page.split("value there</th><td>greatest psi &gt;= ").nth(1).unwrap();
     let value: f64 = value.split('<').next().unwrap().parse().unwrap();
     assert!(value > 0.8 && value < 1.25, "{value}");
 }

@@ -5,8 +5,10 @@
 
 use crate::escape;
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::certificate::Claim;
-use orthocert_kernel::claim::{Bound, Leg, MachineClaim, Mechanism, Workspace};
+use orthocert_kernel::certificate::{Claim, Verdict};
+use orthocert_kernel::claim::{
+    Bound, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Turning, Workspace,
+};
 use serde_json::Value;
 
 /// The program: it defines `orthocert_verify(text)`.
@@ -46,7 +48,7 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
         note: format!("<p class=\"note\" id=\"reproved\">{why}</p>"),
         scripts: String::new(),
     };
-    if !is_covered(&certificate.claim) {
+    if !is_covered(&certificate.claim, certificate.verdict) {
         return apart(
             "Claims of this kind are not covered by the formally verified checker; the exact checker accepted \
              this one.",
@@ -74,10 +76,10 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
 }
 
 /// Whether the program reads claims of this kind. Where it does not read the proof, the page says so.
-fn is_covered(claim: &Claim) -> bool {
+fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
     match claim {
         Claim::Postulate(_) => true,
-        Claim::Machine(claim) => is_machine_covered(claim),
+        Claim::Machine(claim) => is_machine_covered(claim) || is_by_configuration(claim, verdict),
         Claim::NoCube(_) | Claim::Atlas(_) => false,
     }
 }
@@ -104,4 +106,35 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
         _ => false,
     };
     orientation.is_none() && bodies.is_empty() && is_required && is_mechanism
+}
+
+/// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds.
+fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
+    let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
+    let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
+    let is_strut = |leg: &Leg| matches!(leg, Leg::Strut { base_axis: None, .. });
+    let is_required = |key: &str| matches!(key, "transmission" | "conditioning" | "joint_range");
+    let is_chart = match orientation {
+        None => true,
+        Some(Orientation::Range(_) | Orientation::RollPitchYaw { .. }) => true,
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => false,
+    };
+    let is_mechanism = match (mechanism, workspace) {
+        (Mechanism::Translational(legs), Workspace::Box { .. } | Workspace::Cylinder { .. }) => {
+            verdict == Verdict::Refuted && legs.iter().all(is_arm)
+        }
+        (Mechanism::Formulas(formulas), Workspace::Box { .. }) => {
+            let is_row = |joint: &JointFormula| matches!(joint, JointFormula::Row(_));
+            verdict == Verdict::Certified && formulas.joints.iter().all(is_row)
+        }
+        (
+            Mechanism::Planar(Turning { legs, .. })
+            | Mechanism::Spatial(Turning { legs, .. })
+            | Mechanism::Spherical(Turning { legs, .. }),
+            Workspace::Box { .. },
+        ) => orientation.is_some() && legs.iter().all(is_strut),
+        _ => false,
+    };
+    let required = require.iter().all(|requirement| is_required(&requirement.quantity));
+    is_chart && bodies.is_empty() && is_mechanism && required
 }

@@ -129,12 +129,19 @@ fn asserted(claim: &Claim) -> Vec<String> {
                  there; <var>M</var>(<var>P</var>) has full column rank"
                     .to_owned(),
             ];
-            out.extend(
-                claim.require.iter().map(|requirement| xml(&mechanism::formula(requirement))),
-            );
+            out.extend(claim.require.iter().map(|own| symbols(&xml(&mechanism::formula(own)))));
             out
         }
     }
+}
+
+/// The table's symbols as the paper writes them.
+fn symbols(formula: &str) -> String {
+    let greek = [("psi_i", '\u{3c8}'), ("rho_i", '\u{3c1}'), ("eta_i", '\u{3b7}')];
+    let written = |text: String, (name, letter): (&str, char)| {
+        text.replace(name, &format!("{letter}<sub>i</sub>"))
+    };
+    greek.into_iter().fold(formula.to_owned(), written).replace("L_i", "<var>L</var><sub>i</sub>")
 }
 
 /// Definitions, as markup.

@@ -3,7 +3,7 @@
 use super::text::{labelled, verbatim, wrap};
 use super::CertificateFile;
 use crate::atlas::Standing;
-use crate::decimal::{boxes, counted, exact, grouped, percent, significant, Toward};
+use crate::decimal::{approximate, boxes, counted, exact, grouped, percent, significant, Toward};
 use crate::design::Parameter;
 use crate::exact::Exact;
 use num_rational::BigRational;
@@ -14,6 +14,9 @@ use std::fmt::Write;
 
 /// What the objective of the widest margin is called.
 pub const MARGIN: &str = "margin";
+
+/// What is as near to the end of a range, as a part of it, is at the end.
+const AT_END: f64 = 0.01;
 
 /// The report of an atlas.
 #[derive(Clone, Debug, Serialize)]
@@ -137,6 +140,26 @@ impl AtlasReport {
         self.parameters.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
     }
 
+    /// Which parameters of the best design lie at an end of their range, where a wider map may have a
+    /// better one.
+    fn hint(&self, at: &[Exact]) -> Option<String> {
+        let is_at_end = |(own, x): &(&Parameter, &Exact)| {
+            let [least, greatest] = [&own.min, &own.max].map(approximate);
+            let (Some(least), Some(greatest), Some(x)) = (least, greatest, approximate(x)) else {
+                return false;
+            };
+            (x - least).min(greatest - x) <= AT_END * (greatest - least)
+        };
+        let all = self.parameters.iter().zip(at).filter(is_at_end);
+        let names: Vec<&str> = all.map(|(own, _)| own.name.as_str()).collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "the best design lies at the end of the range of {}: a wider map may have a better one",
+                names.join(", ")
+            )
+        })
+    }
+
     /// What the map says, in rows of a name and a text, without what depends on the run.
     pub fn facts(&self) -> Vec<(String, String)> {
         let mut facts = vec![
@@ -151,6 +174,7 @@ impl AtlasReport {
                 text += &best.gap();
             }
             facts.push(("best".to_owned(), text));
+            facts.extend(self.hint(&best.at).map(|hint| ("hint".to_owned(), hint)));
         }
         for mark in &self.marks {
             let verdict = match mark.verdict {

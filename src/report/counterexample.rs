@@ -1,5 +1,6 @@
 //! A refutation's witness in words, with certified digits of the value that violates the claim.
 
+use crate::batch::requirement::SINGULARITY;
 use crate::exact::Exact;
 use serde::Serialize;
 
@@ -26,8 +27,19 @@ pub struct Counterexample {
     pub directions: Vec<Vec<i64>>,
 }
 
+impl Counterexample {
+    /// What ends there, in a few words: the requirement, and what it is where it is none of psi and its like.
+    pub fn limit(&self) -> String {
+        match self.rule {
+            SINGULARITY if self.other_point.is_none() => "reach: a leg ends here".to_owned(),
+            "joint-range" => format!("{}, an end stop", self.violated),
+            _ => self.violated.clone(),
+        }
+    }
+}
+
 /// The value that a witness gives to a parameter with a tolerance.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Setting {
     /// The leg, counted from one; none of a mechanism that its user gives.
     #[serde(skip_serializing_if = "Option::is_none")]

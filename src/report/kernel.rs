@@ -91,6 +91,12 @@ impl<'a> Facts<'a> {
         }
     }
 
+    /// The name of what is demanded of one leg, without the leg.
+    fn of_all(&self, quality: Quality) -> Option<String> {
+        let bounded = self.bounded(quality)?;
+        bounded.leg.map(|_| Bounded { leg: None, ..bounded }.name())
+    }
+
     /// A requirement in words: `greatest psi <= 2`.
     fn words(&self, quality: Quality) -> String {
         let (name, _, relation, sides) = self.demanded(quality);
@@ -124,6 +130,8 @@ impl<'a> Facts<'a> {
             let texts = |text: &dyn Fn(&Expression) -> String| sides.iter().map(text).collect();
             let row = Row {
                 requirement: requirement.clone(),
+                of_all: self.of_all(found.quality),
+                margin: found.margin,
                 unit,
                 bound_text: bound_text(relation, texts(&shown)),
                 bound: bound_text(relation, texts(&Expression::to_string)),
@@ -229,12 +237,15 @@ impl<'a> Facts<'a> {
             ">=" => (Toward::Above, "<="),
             "in" => {
                 let angle = value.map_or_else(String::new, |x| significant(x, *DIGITS.start()));
+                let name = name.split(',').next().unwrap_or(&name);
                 return Some(format!("{name} is about {angle} degrees, up to full turns"));
             }
             _ => return Some(format!("{name} fails")),
         };
         let bound = exactly(sides.first()?)?.below(256)?;
-        let value = BigRational::from_f64(value?)?;
+        let Some(value) = value.and_then(BigRational::from_f64) else {
+            return Some(format!("{name} has no bound: M is singular there"));
+        };
         let texts = PARTS.into_iter().flat_map(|part| {
             let part = BigRational::from_f64(part).unwrap_or_else(|| bound.clone());
             let x = &bound + (&value - &bound) * part;

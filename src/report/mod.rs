@@ -3,7 +3,9 @@
 
 pub mod atlas;
 mod counterexample;
+mod hint;
 mod kernel;
+mod machine;
 pub mod paving;
 mod place;
 mod postulate;
@@ -14,7 +16,8 @@ mod worst;
 
 pub use counterexample::{Counterexample, Setting};
 pub use kernel::{exactly, parameter, shown, Facts};
-pub use place::{point_text, FreeParameter};
+pub use machine::{machine_at_ends, machine_of_witness};
+pub use place::{point_text, pose_text, FreeParameter};
 pub use postulate::PostulateReport;
 pub use remains::{OpenRegion, OpenRequirement, Remains, WorstBox};
 pub use worst::Row;
@@ -58,6 +61,9 @@ pub struct Report {
     pub title: Option<String>,
     /// The design file, as it was named; `None` for the built-in prototype.
     pub design: Option<String>,
+    /// The unit of all lengths, as the design names it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<&'static str>,
     /// The names of the workspace's coordinates, in the order of places.
     pub coordinates: Vec<String>,
     /// The requirements, with the worst values found by sampling.
@@ -68,6 +74,9 @@ pub struct Report {
     /// The counterexample of a refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<Counterexample>,
+    /// What may have gone wrong in the design of a refuted claim.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hint: Option<String>,
     /// The size of a proof.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Size>,
@@ -178,10 +187,12 @@ impl Report {
             verdict: Outcome::Undecided,
             title: None,
             design: None,
+            length_unit: None,
             coordinates,
             requirements: Vec::new(),
             margins: Vec::new(),
             counterexample: None,
+            hint: None,
             proof: None,
             undecided: None,
             boxes_tried: boxes,
@@ -212,6 +223,8 @@ impl Report {
                 report.proof = Size::accepted(&certificate.proof, &accepted.size);
                 if let Proof::Witness(witness) = &certificate.proof {
                     report.counterexample = facts.counterexample(witness);
+                    let found = report.counterexample.as_ref();
+                    report.hint = found.and_then(|found| hint::hint(claim, found));
                 }
             }
             solver::Answer::Undecided(undecided) => {

@@ -1,12 +1,13 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
-use super::place::{point_text, FreeParameter};
+use super::place::{point_text, pose_text, positions, turn_text, FreeParameter};
 use super::{
-    CertificateFile, Counterexample, EarlierFile, Margin, Outcome, PostulateReport, Remains,
-    Report, Row, Size,
+    machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
+    PostulateReport, Remains, Report, Row, Size,
 };
 use crate::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
-use crate::solver::value::with_unit;
+use crate::exact::Exact;
+use crate::solver::value::{in_length, listed, with_unit};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Shown;
@@ -96,32 +97,52 @@ pub fn postulate(report: &PostulateReport, style: Style) -> String {
     out
 }
 
-/// The whole report.
-pub fn report(report: &Report, style: Style) -> String {
+/// The whole report; all that is known where `verbose`, else what answers the question.
+pub fn report(report: &Report, style: Style, verbose: bool) -> String {
     let mut out = headline(report, style);
     out.push('\n');
     let toleranced = report.requirements.iter().any(|row| !row.machine.is_empty());
     meaning(&mut out, report.verdict, toleranced);
     if let Some(counterexample) = &report.counterexample {
-        describe_counterexample(&mut out, counterexample, &report.coordinates);
+        describe_counterexample(&mut out, counterexample, &report.coordinates, verbose);
+    }
+    if let Some(hint) = &report.hint {
+        labelled(&mut out, "hint", hint);
     }
     if let Some(remains) = &report.undecided {
-        describe_remains(&mut out, remains, &report.coordinates);
+        describe_remains(&mut out, remains, &report.coordinates, verbose);
     }
     out.push('\n');
-    table(&mut out, &report.requirements, &report.coordinates);
+    table(&mut out, report, verbose);
     if !report.margins.is_empty() {
-        let margin = |m: &Margin| {
-            format!("{} {} {}", with_unit(&m.quantity, m.unit), m.relation, exact(&m.bound))
-        };
-        let margins: Vec<String> = report.margins.iter().map(margin).collect();
-        labelled(&mut out, "certified", &margins.join(", "));
+        labelled(&mut out, "certified", &margins(&report.margins, report.length_unit));
     }
     out.push('\n');
     let tried = (!report.cached).then_some(report.boxes_tried);
     effort(&mut out, report.proof.as_ref(), tried, report.seconds);
     files(&mut out, report);
     out
+}
+
+/// The certified margins, those of one bound together.
+fn margins(margins: &[Margin], length: Option<&str>) -> String {
+    let mut told: Vec<(&Margin, Vec<&str>)> = Vec::new();
+    for margin in margins {
+        let same = |(other, _): &&mut (&Margin, Vec<&str>)| {
+            let place = (other.relation, other.unit, &other.bound);
+            place == (margin.relation, margin.unit, &margin.bound)
+        };
+        match told.iter_mut().find(same) {
+            Some((_, names)) => names.push(&margin.quantity),
+            None => told.push((margin, vec![&margin.quantity])),
+        }
+    }
+    let text = |(margin, names): &(&Margin, Vec<&str>)| {
+        let name = with_unit(&listed(names), margin.unit);
+        let name = in_length(&name, margin.unit, length);
+        format!("{name} {} {}", margin.relation, exact(&margin.bound))
+    };
+    told.iter().map(text).collect::<Vec<_>>().join("; ")
 }
 
 /// What a verdict means, in words.
@@ -143,21 +164,64 @@ pub fn meaning(out: &mut String, verdict: Outcome, toleranced: bool) {
     wrap(out, meaning, 0);
 }
 
+/// The rows that are shown, each with its name: all of them, or of what is demanded of every leg alike
+/// the leg with the least margin.
+fn shown(rows: &[Row], verbose: bool) -> Vec<(String, &Row)> {
+    let mut shown: Vec<(&Row, usize)> = Vec::new();
+    for row in rows {
+        let alike = |(other, _): &&mut (&Row, usize)| {
+            row.of_all.is_some() && (&other.of_all, &other.bound) == (&row.of_all, &row.bound)
+        };
+        match shown.iter_mut().find(alike).filter(|_| !verbose) {
+            Some((worst, legs)) => {
+                *legs += 1;
+                if row.margin < worst.margin {
+                    *worst = row;
+                }
+            }
+            None => shown.push((row, 1)),
+        }
+    }
+    let name = |(row, legs): (&'_ Row, usize)| match legs {
+        1 => row.requirement.clone(),
+        legs => match row.requirement.split_once(", ") {
+            Some((name, unit)) => format!("{name} of {legs}, {unit}"),
+            None => format!("{} of {legs}", row.requirement),
+        },
+    };
+    shown.into_iter().map(|(row, legs)| (name((row, legs)), row)).collect()
+}
+
 /// The requirements and the worst values found.
-fn table(out: &mut String, rows: &[Row], coordinates: &[String]) {
-    let place = format!("at P = ({})", coordinates.join(", "));
+fn table(out: &mut String, report: &Report, verbose: bool) {
+    let Report { requirements: rows, coordinates, length_unit: length, .. } = report;
+    let names: Vec<&str> = positions(coordinates).collect();
+    let unit = length.filter(|_| !names.is_empty()).map(|unit| format!(", {unit}"));
+    let place = match names.is_empty() {
+        true => "at".to_owned(),
+        false => format!("at P = ({}){}", names.join(", "), unit.unwrap_or_default()),
+    };
     let head = ["requirement".to_owned(), "bound".to_owned(), "worst found".to_owned(), place];
-    let cells = |row: &Row| {
+    let cells = |(name, row): &(String, &Row)| {
         let value = match row.worst_found {
             Some(value) => significant(value, VALUE_DIGITS),
             None if row.bound_text == "holds" => String::new(),
             None => "out of reach".to_owned(),
         };
         let mark = if row.seems_violated { "! " } else { "" };
-        let requirement = format!("{mark}{}", row.requirement);
-        [requirement, row.bound_text.clone(), value, point_text(&row.at, PLACE_DIGITS)]
+        let requirement = format!("{mark}{}", in_length(name, row.unit, *length));
+        let place = match (names.len(), turn_text(&row.at, coordinates, PLACE_DIGITS)) {
+            (0, Some(turn)) => turn,
+            (_, None) => point_text(&row.at, PLACE_DIGITS),
+            (places, Some(turn)) => {
+                let place = row.at.get(..places).unwrap_or(&row.at);
+                format!("{}, {turn}", point_text(place, PLACE_DIGITS))
+            }
+        };
+        [requirement, row.bound_text.clone(), value, place]
     };
-    let body: Vec<[String; 4]> = rows.iter().map(cells).collect();
+    let rows_shown = shown(rows, verbose);
+    let body: Vec<[String; 4]> = rows_shown.iter().map(cells).collect();
     let width = |column: usize| {
         body.iter().chain([&head]).map(|row| row[column].chars().count()).max().unwrap_or(0)
     };
@@ -166,18 +230,24 @@ fn table(out: &mut String, rows: &[Row], coordinates: &[String]) {
         let [wa, wb, wc] = widths;
         let values = format!("  {a:wa$}  {b:wb$}  {c:wc$}");
         // A place that does not fit stands on a line of its own.
-        let separator = match values.chars().count() + 2 + d.chars().count() {
-            0..=WIDTH => "  ",
-            _ if d.starts_with("at ") => "\n      ",
-            _ => "\n      at ",
+        let text = match values.chars().count() + 2 + d.chars().count() {
+            0..=WIDTH => format!("{values}  {d}"),
+            _ if d.starts_with("at") => format!("{}\n      {d}", values.trim_end()),
+            _ => format!("{}\n      at {d}", values.trim_end()),
         };
-        let _ = writeln!(out, "{values}{separator}{d}");
+        let _ = writeln!(out, "{text}");
     };
     line(&head);
     for row in &body {
         line(row);
     }
-    machines(out, rows);
+    if verbose {
+        machines(out, rows);
+    } else if rows.iter().any(|row| !row.machine.is_empty()) {
+        out.push_str(
+            "  each found for a machine at the ends of its tolerances: --verbose names it\n",
+        );
+    }
     if rows.iter().any(|row| row.seems_violated) {
         out.push_str("  ! the value found is beyond its bound\n");
     }
@@ -222,38 +292,59 @@ pub fn machine(parameters: &[FreeParameter]) -> String {
 }
 
 /// A refutation's witness.
-pub fn describe_counterexample(out: &mut String, found: &Counterexample, coordinates: &[String]) {
+pub fn describe_counterexample(
+    out: &mut String,
+    found: &Counterexample,
+    coordinates: &[String],
+    verbose: bool,
+) {
     out.push('\n');
     labelled(out, "violated", &found.violated);
     labelled(out, "value there", &found.value);
-    point(out, "at P", &found.point, coordinates);
+    point(out, "at P", &found.point, coordinates, verbose);
     if let Some(other) = &found.other_point {
-        point(out, "and at P'", other, coordinates);
+        point(out, "and at P'", other, coordinates, verbose);
     }
-    for setting in &found.machine {
-        let leg = setting.leg.map(|leg| format!("leg {leg} ")).unwrap_or_default();
-        let label = format!("{leg}{}", setting.parameter);
-        labelled(out, &label, &exact(&setting.value));
-    }
+    machine_of_witness(out, &found.machine, verbose);
     let tuple = |v: &Vec<i64>| v.iter().map(i64::to_string).collect::<Vec<_>>().join(", ");
     let directions: Vec<String> =
         found.directions.iter().map(|v| format!("({})", tuple(v))).collect();
-    if !directions.is_empty() {
+    if !directions.is_empty() && verbose {
         labelled(out, "moving along", &directions.join(" and "));
     }
 }
 
-fn point(out: &mut String, label: &str, point: &[crate::exact::Exact], coordinates: &[String]) {
+/// A point of a witness: exact, but for how it is turned, and for what is long unless all is told.
+fn point(out: &mut String, label: &str, point: &[Exact], coordinates: &[String], verbose: bool) {
     let values: Vec<String> = point.iter().map(exact).collect();
-    if values.iter().all(|value| value.len() <= SHORT_COORDINATE) {
-        return labelled(out, label, &format!("({})", values.join(", ")));
-    }
-    for (name, value) in coordinates.iter().zip(&values) {
-        labelled(out, &format!("{label}, {name}"), value);
+    let approximate: Vec<f64> =
+        point.iter().map(|x| decimal::approximate(x).unwrap_or(f64::NAN)).collect();
+    let turn = turn_text(&approximate, coordinates, PLACE_DIGITS);
+    let short = values.iter().all(|value| value.len() <= SHORT_COORDINATE);
+    match turn {
+        None if short => labelled(out, label, &format!("({})", values.join(", "))),
+        Some(_) if !verbose => {
+            labelled(out, label, &pose_text(&approximate, coordinates, PLACE_DIGITS));
+        }
+        _ if !verbose => {
+            let text: Vec<String> = point.iter().map(decimal::readable).collect();
+            labelled(out, label, &format!("({})", text.join(", ")));
+        }
+        turn => {
+            for (name, value) in coordinates.iter().zip(&values) {
+                labelled(out, &format!("{label}, {name}"), value);
+            }
+            if let Some(turn) = turn {
+                labelled(out, "", &turn);
+            }
+        }
     }
 }
 
-fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String]) {
+/// Regions that are told unless all are asked for.
+const REGIONS: usize = 2;
+
+fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String], verbose: bool) {
     let number = |x: f64| significant(x, 3);
     out.push('\n');
     labelled(out, "why", &remains.reason);
@@ -278,14 +369,16 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String])
         extent(out, &worst.min, &worst.max, coordinates);
     }
     out.push_str("\n  regions (neighbouring boxes merged)\n");
-    for region in &remains.regions {
+    let told = if verbose { remains.regions.len() } else { REGIONS };
+    for region in remains.regions.iter().take(told) {
         let text = format!("{}, {} of the workspace", boxes(region.boxes), percent(region.share));
         wrap(out, &text, 4);
         extent(out, &region.min, &region.max, coordinates);
     }
-    let hidden = remains.region_count - remains.regions.len();
+    let hidden = remains.region_count - remains.regions.len().min(told);
     if hidden > 0 {
-        let _ = writeln!(out, "    and {} smaller ones", grouped(hidden as u64));
+        let how = if verbose { "" } else { ": --verbose" };
+        let _ = writeln!(out, "    and {} smaller ones{how}", grouped(hidden as u64));
     }
     for open in &remains.open {
         out.push('\n');

@@ -8,6 +8,12 @@ use serde::Serialize;
 pub struct Row {
     /// The requirement's name.
     pub requirement: String,
+    /// The same of all legs together, where it is one leg's.
+    #[serde(skip)]
+    pub of_all: Option<String>,
+    /// The margin of the value found, relative; negative where it is violated.
+    #[serde(skip)]
+    pub margin: f64,
     /// The unit of the bound and of the value, where they have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,

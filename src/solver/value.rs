@@ -44,9 +44,42 @@ pub fn unit(quantity: &str, angular: bool) -> Option<&'static str> {
 
 /// A quantity's name with its unit in a table, where the unit has an angle in it.
 pub fn with_unit(name: &str, unit: Option<&str>) -> String {
-    match unit.filter(|unit| !unit.starts_with("length") || unit.ends_with("rad")) {
+    match unit.filter(|unit| has_angle(unit)) {
         Some(unit) => format!("{name}, {unit}"),
         None => name.to_owned(),
+    }
+}
+
+/// Names one after the other; of joints that follow each other the first and the last.
+pub fn listed(names: &[&str]) -> String {
+    let number = |name: &str| {
+        let (stem, number) = name.rsplit_once('_')?;
+        Some((stem.to_owned(), number.parse::<usize>().ok()?))
+    };
+    let follow = |pair: &[&str]| match (number(pair[0]), number(pair[1])) {
+        (Some((stem, one)), Some((other, next))) => stem == other && next == one + 1,
+        _ => false,
+    };
+    match names {
+        [first, .., last] if names.len() > 2 && names.windows(2).all(follow) => {
+            format!("{first} to {last}")
+        }
+        names => names.join(", "),
+    }
+}
+
+fn has_angle(unit: &str) -> bool {
+    !unit.starts_with("length") || unit.ends_with("rad")
+}
+
+/// A name that [`with_unit`] made of `unit`, with the unit of length that the design names in it.
+pub fn in_length(name: &str, unit: Option<&str>, length: Option<&str>) -> String {
+    match (unit.filter(|unit| unit.contains("length")), length) {
+        (Some(unit), Some(length)) => {
+            let bare = name.strip_suffix(&format!(", {unit}")).unwrap_or(name);
+            format!("{bare}, {}", unit.replace("length", length))
+        }
+        _ => name.to_owned(),
     }
 }
 
@@ -89,6 +122,7 @@ impl Bounded {
         match (quantity.as_str(), number) {
             ("transmission", _) => format!("{end}psi"),
             ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
+            ("joint_range", None) => format!("{end}rho"),
             ("conditioning", _) => "condition number".to_owned(),
             (_, Some(leg)) => format!("{} {leg}", quantity.replace('_', " ")),
             (_, None) => quantity.replace('_', " "),
@@ -127,23 +161,31 @@ impl Bounded {
         place: &Place,
     ) -> Option<f64> {
         let values = sampler.at(place);
+        self.known(problem, sampler, &values).or_else(|| {
+            sampler.matrix(&values)?;
+            self.tight(claim, place)
+        })
+    }
+
+    /// The same without a search for such a bound; `None` where there would be one.
+    pub fn known(&self, problem: &Problem, sampler: &Sampler<'_>, values: &At) -> Option<f64> {
         let leg = self.leg.and_then(|leg| problem.legs.get(leg));
         let angular = problem.legs.iter().any(Leg::is_angular);
         match (self.requirement.quantity.as_str(), &self.requirement.bound) {
             ("transmission", bound) => {
-                let [least, greatest] = sampler.xi(&values)?;
+                let [least, greatest] = sampler.xi(values)?;
                 let unit = if angular { sampler.unit() } else { 1.0 };
                 Some(unit / if matches!(bound, Bound::Min(_)) { greatest } else { least })
             }
-            ("conditioning", _) => sampler.xi(&values).map(|[least, greatest]| greatest / least),
+            ("conditioning", _) => sampler.xi(values).map(|[least, greatest]| greatest / least),
             ("joint_range", _) => match leg?.rho? {
                 Joint::Length(rho) => Some(values.of(rho)? * sampler.unit()),
                 Joint::Angle { cos, sin } => {
                     Some(values.of(sin)?.atan2(values.of(cos)?).to_degrees())
                 }
             },
-            ("serial_margin", _) => cosine(leg?, &values),
-            ("leg_angle", _) => Some(cosine(leg?, &values)?.min(1.0).acos().to_degrees()),
+            ("serial_margin", _) => cosine(leg?, values),
+            ("leg_angle", _) => Some(cosine(leg?, values)?.min(1.0).acos().to_degrees()),
             ("joint_speed", _) => {
                 let tool = approximate(self.requirement.given.get("tool")?.first()?)?;
                 let unit = if angular { 1f64.to_degrees() / sampler.unit() } else { 1.0 };
@@ -152,14 +194,12 @@ impl Bounded {
                 Some((square / values.of(leg?.row.d)?).sqrt() * unit * tool)
             }
             (_, bound) => {
-                sampler.matrix(&values)?;
+                sampler.matrix(values)?;
                 let own = match bound {
                     Bound::Min(bound) | Bound::Max(bound) => approximate(bound),
                     Bound::Within(_) | Bound::Holds => None,
                 };
-                let by_margin =
-                    own.and_then(|bound| self.by_margin(bound, problem, sampler, &values));
-                by_margin.or_else(|| self.tight(claim, place))
+                self.by_margin(own?, problem, sampler, values)
             }
         }
     }

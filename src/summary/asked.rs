@@ -208,6 +208,9 @@ fn words(
             number("speed")
         ),
         "stiffness" => format!("stiffness, joints of {}", number("joint")),
+        "accuracy" if angular => {
+            format!("off by, joint errors up to {} deg", number("joint_error"))
+        }
         "accuracy" => format!("off by, joint errors up to {}", number("joint_error")),
         "conditioning" => "condition number of M".to_owned(),
         "serial_margin" => format!("|eta_i|/L_i{leg}"),

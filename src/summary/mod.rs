@@ -44,6 +44,9 @@ pub struct Summary {
     pub title: Option<String>,
     /// The design file, as it was named; `None` for the built-in prototype.
     pub design: Option<String>,
+    /// The unit of all lengths, as the design names it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<&'static str>,
     /// The names of the workspace's coordinates, in the order of places.
     pub coordinates: Vec<String>,
     /// The counterexample of a refutation.
@@ -190,6 +193,7 @@ pub fn summary(
         verdict: report.verdict,
         title: None,
         design: None,
+        length_unit: None,
         coordinates: report.coordinates,
         counterexample: report.counterexample,
         undecided: report.undecided.map(|remains| remains.reason),

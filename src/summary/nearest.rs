@@ -38,6 +38,9 @@ pub struct Nearest {
     pub margin_at_most: Option<Exact>,
     /// Requirements that may be as near.
     pub or: Vec<String>,
+    /// Those of which it is not known how near they come.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unknown: Vec<String>,
     /// The worst value that sampling has seen.
     pub worst_seen: Option<f64>,
     /// Where: not certified.
@@ -98,11 +101,12 @@ pub fn nearest(
         .iter()
         .filter(|other| first.greatest.as_ref().is_none_or(|most| other.least <= *most));
     let row = facts.rows(std::slice::from_ref(&first.seen)).pop()?;
-    let mut or: Vec<String> = Vec::new();
+    let (mut or, mut unknown): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     for other in as_near {
         let rows = facts.rows(std::slice::from_ref(&other.seen)).into_iter();
         let names = rows.map(|row| format!("{} {}", row.requirement, row.bound_text));
-        or.extend(names.filter(|name| !or.contains(name)).collect::<Vec<_>>());
+        let told = if other.greatest.is_some() { &mut or } else { &mut unknown };
+        told.extend(names.filter(|name| !told.contains(name)).collect::<Vec<_>>());
     }
     Some(Nearest {
         requirement: row.requirement,
@@ -112,6 +116,7 @@ pub fn nearest(
         margin_at_least: Exact::Rational(first.least.clone()),
         margin_at_most: first.greatest.clone().map(Exact::Rational),
         or,
+        unknown,
         worst_seen: row.worst_found,
         seen_at: row.at,
         machine: row.machine,

@@ -2,18 +2,16 @@
 
 use super::shares::named;
 use super::{Nearest, Shares, Summary, Value};
-use crate::decimal::{percent, rounded, significant, terminating, Toward};
+use crate::decimal::{outward, percent, rounded, significant, Toward};
 use crate::exact::Exact;
-use crate::report::text::{
-    describe_counterexample, headline_of, labelled, machine, meaning, wrap, Style,
-};
+use crate::report::text::{describe_counterexample, headline_of, labelled, meaning, wrap, Style};
+use crate::report::{machine_at_ends, pose_text};
+use crate::solver::value::in_length;
 use num_rational::BigRational;
 use num_traits::Signed;
 use std::fmt::Write;
 
-/// Longest number that stands as it is.
-const SHORT: usize = 9;
-/// Significant digits of a longer one.
+/// Significant digits of numbers that are longer.
 const DIGITS: u32 = 6;
 /// Digits of places, and of margins.
 const FEW: u32 = 4;
@@ -34,16 +32,16 @@ pub fn text(summary: &Summary, style: Style) -> String {
     out.push('\n');
     meaning(&mut out, summary.verdict, summary.toleranced);
     if let Some(counterexample) = &summary.counterexample {
-        describe_counterexample(&mut out, counterexample, &summary.coordinates);
+        describe_counterexample(&mut out, counterexample, &summary.coordinates, false);
     }
     if let Some(reason) = &summary.undecided {
         labelled(&mut out, "why", reason);
     }
     if let Some(found) = &summary.nearest {
         out.push('\n');
-        nearest(&mut out, found, &summary.coordinates);
+        nearest(&mut out, found, &summary.coordinates, summary.length_unit);
     }
-    table(&mut out, &summary.values);
+    table(&mut out, &summary.values, summary.length_unit);
     if let Some(found) = &summary.accuracy {
         shares(&mut out, found);
     }
@@ -57,7 +55,7 @@ pub fn text(summary: &Summary, style: Style) -> String {
     out
 }
 
-fn nearest(out: &mut String, found: &Nearest, coordinates: &[String]) {
+fn nearest(out: &mut String, found: &Nearest, coordinates: &[String], length: Option<&str>) {
     let part = |x: &Exact, toward| {
         let x = x.as_rational().cloned().unwrap_or_default();
         percent(&x, FEW - 1, toward)
@@ -84,14 +82,18 @@ fn nearest(out: &mut String, found: &Nearest, coordinates: &[String]) {
         ),
         (None, _) => format!("at least {} left", part(&found.margin_at_least, Toward::Below)),
     };
-    let name = format!("{} {}", found.requirement, found.bound_text);
-    labelled(out, "nearest limit", &format!("{name}: {margin}"));
+    let name = in_length(&found.requirement, found.unit, length);
+    let name = format!("{name} {}", found.bound_text);
+    let label = if found.unknown.is_empty() { "nearest limit" } else { "nearest known" };
+    labelled(out, label, &format!("{name}: {margin}"));
     let value = found.worst_seen.map(|x| format!("{} ", significant(x, DIGITS)));
-    let seen = format!("{}at {}", value.unwrap_or_default(), pose(&found.seen_at, coordinates));
+    let seen = format!(
+        "{}at {}",
+        value.unwrap_or_default(),
+        pose_text(&found.seen_at, coordinates, DIGITS)
+    );
     labelled(out, "seen", &seen);
-    if !found.machine.is_empty() {
-        labelled(out, "with", &machine(&found.machine));
-    }
+    machine_at_ends(out, &found.machine);
     if !found.or.is_empty() {
         let mut names: Vec<String> = found.or.iter().take(OTHERS).cloned().collect();
         match found.or.len() - names.len() {
@@ -100,43 +102,8 @@ fn nearest(out: &mut String, found: &Nearest, coordinates: &[String]) {
         }
         labelled(out, "or as near", &names.join(", "));
     }
-}
-
-/// A pose, its angles in degrees.
-fn pose(at: &[f64], coordinates: &[String]) -> String {
-    let number = |x: f64| significant(x, DIGITS);
-    let turned = |name: &str| name.starts_with("tan(") || name.starts_with("c_");
-    let all = || coordinates.iter().zip(at);
-    let (mut names, mut values) = (Vec::new(), Vec::new());
-    for (name, x) in all().filter(|(name, _)| !turned(name)) {
-        names.push(name.as_str());
-        values.push(number(*x));
-    }
-    let mut parts = match names.is_empty() {
-        true => Vec::new(),
-        false => vec![format!("({}) = ({})", names.join(", "), values.join(", "))],
-    };
-    for (name, x) in all().filter(|(name, _)| name.starts_with("tan(")) {
-        let angle = name.trim_start_matches("tan(").trim_end_matches("/2)");
-        parts.push(format!("{angle} = {} deg", number(2.0 * x.atan().to_degrees())));
-    }
-    let axis: Vec<f64> =
-        all().filter(|(name, _)| name.starts_with("c_")).map(|(_, x)| *x).collect();
-    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if length > 0.0 {
-        let unit: Vec<String> = axis.iter().map(|x| significant(x / length, FEW)).collect();
-        let angle = number(2.0 * length.atan().to_degrees());
-        parts.push(format!("turned by {angle} deg about ({})", unit.join(", ")));
-    }
-    parts.join(", ")
-}
-
-/// A number, rounded outward where it is long.
-fn outward(x: &Exact, toward: Toward) -> String {
-    let Some(x) = x.as_rational() else { return x.to_string() };
-    match terminating(x, SHORT as u32).filter(|text| text.len() <= SHORT) {
-        Some(text) => text,
-        None => rounded(x, DIGITS, toward),
+    if !found.unknown.is_empty() {
+        labelled(out, "not enclosed", &found.unknown.join(", "));
     }
 }
 
@@ -166,13 +133,13 @@ fn rows(values: &[Value]) -> Vec<Row> {
             reached,
         };
         let inner = |value: &Value| match (&value.reached, value.end) {
-            (Some(x), "least") => outward(x, Toward::Above),
-            (Some(x), _) => outward(x, Toward::Below),
+            (Some(x), "least") => outward(x, DIGITS, Toward::Above),
+            (Some(x), _) => outward(x, DIGITS, Toward::Below),
             (None, _) => "?".to_owned(),
         };
         let outer = |value: &Value| match (&value.certified, value.end) {
-            (Some(x), "least") => Ok(outward(x, Toward::Below)),
-            (Some(x), _) => Ok(outward(x, Toward::Above)),
+            (Some(x), "least") => Ok(outward(x, DIGITS, Toward::Below)),
+            (Some(x), _) => Ok(outward(x, DIGITS, Toward::Above)),
             (None, _) => Err(value.not_enclosed.clone().unwrap_or_default()),
         };
         rows.push(match (outer(first), second.map(|second| (outer(second), inner(second)))) {
@@ -195,7 +162,7 @@ fn rows(values: &[Value]) -> Vec<Row> {
     rows
 }
 
-fn table(out: &mut String, values: &[Value]) {
+fn table(out: &mut String, values: &[Value], length: Option<&str>) {
     // Joints with the same stroke are one row.
     let mut all: Vec<(Row, Vec<usize>)> = Vec::new();
     for row in rows(values) {
@@ -223,10 +190,12 @@ fn table(out: &mut String, values: &[Value]) {
             (!unit.starts_with("length") || unit.ends_with("rad"))
                 && !matches!(*unit, "force" | "torque")
         };
-        match row.unit.filter(is_told) {
+        let words = match row.unit.filter(is_told) {
             Some(unit) => format!("{words}, {unit}"),
             None => words,
-        }
+        };
+        // What the question gave in lengths per time is answered so.
+        in_length(&words, row.unit.filter(|unit| !unit.contains("time")), length)
     };
     let names: Vec<String> = all.iter().map(name).collect();
     let width = |texts: &mut dyn Iterator<Item = usize>| texts.max().unwrap_or(0);
@@ -237,12 +206,23 @@ fn table(out: &mut String, values: &[Value]) {
         let line = format!("  {name:first$}  {:second$}  {}", row.certified, row.reached);
         let _ = writeln!(out, "{}", line.trim_end());
     }
-    wrap(out, "Certified everywhere; and some pose is certified to reach the last column.", 2);
+    if values.iter().any(|value| value.certified.is_some()) {
+        let text = "What is certified holds everywhere; and some pose is certified to reach the last column.";
+        wrap(out, text, 2);
+    }
 }
 
 fn shares(out: &mut String, found: &Shares) {
     let Shares { alone, sum, together, not_enclosed } = found;
     out.push('\n');
+    if alone.is_empty() {
+        let names = not_enclosed.join(", ");
+        return wrap(
+            out,
+            &format!("off by: no bound was found with one deviation alone ({names})"),
+            2,
+        );
+    }
     wrap(
         out,
         "off by at most, with one deviation alone and all else exact; its part of their sum",

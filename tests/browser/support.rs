@@ -77,7 +77,7 @@ impl Folder {
         fs::write(self.0.path().join("region.toml"), design).unwrap();
         assert_eq!(self.run(&["pave", "region.toml", "--precision", edge, "--quiet"]), Some(0));
         assert_eq!(self.run(&["report", "region.paving"]), Some(0));
-        self.0.path().join("region.report.html")
+        self.0.path().join("region.paving.report.html")
     }
 
     /// The report about a machine of the oracle in a small box about one of its points; `None` if

@@ -173,7 +173,7 @@ fn bad_parameters_are_refused_with_a_sentence() {
     let with = |range: &str| format!("side = {{ {range},");
     refused(SIDE, &with("min = 1, max = \"0.1\""), &["parameters.side.max", "below the lower end"]);
     refused(SIDE, &with("min = 1, max = 1"), &["a max greater than min"]);
-    refused(SIDE, &with("min = 1"), &["parameters.side.max", "no such key"]);
+    refused(SIDE, &with("min = 1"), &["parameters.side.max", "nothing: the key is missing"]);
     refused(SIDE, &with("min = \"sqrt(2)/9\", max = 1"), &["a rational number"]);
     refused(SIDE, &with("min = 0, max = 1, step = 2"), &["parameters.side.step", "unknown key"]);
     let more = "a = { min = 1, max = 2 }\nb = { min = 1, max = 2 }\n";
@@ -206,10 +206,10 @@ fn designs_that_are_none_somewhere_in_the_box_are_refused() {
     refused("max = \"psi_max\"", "max = \"psi_max + foo\"", &["the name foo", "psi_max, side"]);
     refused("resolution = 4", "resolution = 0", &["atlas.resolution", "from 1 to 20"]);
     refused("resolution = 4", "resolution = 4.5", &["atlas.resolution", "a whole number"]);
-    refused("boxes = 300\n", "", &["atlas.boxes", "no such key"]);
+    refused("boxes = 300\n", "", &["atlas.boxes", "nothing: the key is missing"]);
     refused("{ maximise = \"side\" }", "{ maximise = \"size\" }", &["objective", "the name size"]);
     refused("side = \"1/sqrt", "size = \"1/sqrt", &["marks[1].size", "unknown key"]);
-    refused("leg_length = 1", "", &["leg_length", "no such key"]);
+    refused("leg_length = 1", "", &["leg_length", "nothing: the key is missing"]);
 }
 
 #[test]

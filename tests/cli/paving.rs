@@ -62,7 +62,7 @@ fn no_share_is_shown_that_is_more_than_certified() {
         let text = folder.run(&arguments).exits(0).stdout;
         let json = folder.run(&[&arguments[..], &["--format", "json"]].concat()).exits(0);
         folder.run(&["report", "d.paving"]).exits(0);
-        let page = String::from_utf8(folder.read("d.report.html")).unwrap();
+        let page = String::from_utf8(folder.read("d.paving.report.html")).unwrap();
         let overview = &page[page.find("what is proved of them").unwrap()..];
         let components = &page[page.find("Connected components</h2>").unwrap()..];
         let answer: Value = serde_json::from_str(&json.stdout).unwrap();

@@ -141,8 +141,8 @@ fn a_paving_gets_a_page_with_its_volume_and_region() {
     let volumes = paved.split(", gap").next().unwrap().strip_prefix("volume: ").unwrap();
     let run = folder.run(&["report", "d.paving", "--svg", "svg"]).exits(0);
     assert_eq!(run.stderr, "");
-    run.says(&["ACCEPTED: paving", "d.report.html", "svg/region.svg", "svg/slices.svg"]);
-    let page = String::from_utf8(folder.read("d.report.html")).unwrap();
+    run.says(&["ACCEPTED: paving", "d.paving.report.html", "svg/region.svg", "svg/slices.svg"]);
+    let page = String::from_utf8(folder.read("d.paving.report.html")).unwrap();
     assert!(page.contains(&format!("CERTIFIED: volume {volumes}")), "{volumes}");
     assert!(page.contains("All boxes of the paving are shown."));
     let digest: String =

@@ -22,8 +22,8 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
     let closed_form = 200.0 / (1.0 / 18f64.sqrt() + 1.0 / 6f64.sqrt());
     assert!((closed_form - 310.582854123025).abs() < 1e-9);
     let folder = Folder::with(&["orthoglide-312.toml"]);
-    for design in [&[][..], &["orthoglide-312.toml"]] {
-        for gap in [1e-3, 1e-6] {
+    for (design, gaps) in [(&[][..], [1e-3, 1e-6]), (&["orthoglide-312.toml"], [1e-2, 1e-3])] {
+        for gap in gaps {
             let gap_text = gap.to_string();
             let arguments = [design, &["--cube", "200", "--gap", &gap_text, "-o", "."]].concat();
             let value = sized(&folder, &arguments);
@@ -58,15 +58,15 @@ fn the_leg_length_of_the_paper_s_cube_is_enclosed() {
 #[test]
 fn the_centre_shown_is_the_one_that_is_certified() {
     let folder = Folder::new();
-    let run = folder.run(&["size", "--cube", "200", "--gap", "1e-9", "-o", "."]).exits(0);
+    let run = folder.run(&["size", "--cube", "200", "--gap", "1e-4", "-o", "."]).exits(0);
     let certificate: Value =
         serde_json::from_slice(&folder.read("size-certified.cert.json")).unwrap();
     let workspace = &certificate["claim"]["machine"]["workspace"]["box"];
     let exact = |x: &Value| Exact::parse(x.as_str().unwrap(), 1000).unwrap();
-    for (k, axis) in ["x", "y", "z"].iter().enumerate() {
-        let line =
-            run.stdout.lines().find_map(|line| line.trim().strip_prefix(axis)?.strip_prefix(" = "));
-        let shown = Exact::parse(line.unwrap(), 1000).unwrap();
+    let (_, centre) = run.stdout.split_once("\n  centre ").unwrap();
+    let centre = centre.trim_start().strip_prefix('(').unwrap().split_once(')').unwrap().0;
+    for (k, (axis, shown)) in ["x", "y", "z"].iter().zip(centre.split(',')).enumerate() {
+        let shown = Exact::parse(shown.trim(), 1000).unwrap();
         let sum = exact(&workspace["min"][k]).plus(exact(&workspace["max"][k])).unwrap();
         assert_eq!(shown.times(Exact::parse("2", 1000).unwrap()).unwrap(), sum, "{axis}");
     }
@@ -85,7 +85,7 @@ fn what_is_not_proved_of_every_placement_is_said() {
     assert_eq!((&value["excluded"], &value["excluded_for"]), (&Value::Null, &Value::Null));
     assert!(!folder.path("size-excluded.cert.json").exists());
     let text = folder.run(&["size", "corner.toml", "--cube", "100", "--gap", "1e-2"]).exits(0);
-    text.says(&["for this placement", "no other place works is not proved"]);
+    text.says(&[": at most ", "for this placement", "that no other place works is not proved"]);
 }
 
 #[test]
@@ -98,19 +98,31 @@ fn a_small_budget_leaves_a_looser_exclusion() {
     assert_eq!(value["excluded_for"], "every axis-aligned placement");
     let run = folder.run(&["size", "--cube", "200", "--max-boxes", "2000"]).exits(0);
     run.says(&[
-        "leg length, excluded",
+        "smallest leg length for a cube of side 200 mm: between 307",
+        "refuted       310.58273 mm, for this placement",
+        "excluded      307",
+        "limited by    greatest psi <= 2",
         "for every axis-aligned placement",
-        "the exclusion says what is proved",
-        "a cube of side 200 with its edges along the axes",
+        "what is proved",
+        "The cube has its edges along the axes",
         "Nothing is claimed of turned",
     ]);
+}
+
+/// One line, which answers.
+#[test]
+fn a_quiet_size_is_one_line() {
+    let folder = Folder::new();
+    let run = folder.run(&["size", "--cube", "200", "--gap", "1e-2", "-q"]).exits(0);
+    assert_eq!((run.stdout.lines().count(), run.stderr.as_str()), (1, ""), "{}", run.stdout);
+    run.says(&["smallest leg length for a cube of side 200 mm: between 309"]);
 }
 
 #[test]
 fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
     let folder = Folder::with(&["linear-delta-linuxcnc-box.toml"]);
     let scale = |side: &str| {
-        let arguments = ["linear-delta-linuxcnc-box.toml", "--cube", side, "--gap", "1e-3"];
+        let arguments = ["linear-delta-linuxcnc-box.toml", "--cube", side, "--gap", "1e-2"];
         let value = sized(&folder, &arguments);
         assert_eq!(value["unknown"], "scale");
         assert_eq!(
@@ -120,8 +132,8 @@ fn the_scale_of_a_machine_is_in_proportion_to_the_cube() {
         (number(&value["refuted"]), number(&value["certified"]))
     };
     let ((low, high), (twice_low, twice_high)) = (scale("100"), scale("200"));
-    assert!(low < high && high / low < 1.002);
-    assert!((twice_low / low - 2.0).abs() < 0.01 && (twice_high / high - 2.0).abs() < 0.01);
+    assert!(low < high && high / low < 1.02);
+    assert!((twice_low / low - 2.0).abs() < 0.05 && (twice_high / high - 2.0).abs() < 0.05);
 }
 
 #[test]

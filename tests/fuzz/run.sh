@@ -19,8 +19,6 @@ flags="--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-leve
 for what in inline-8bit-counters pc-table trace-compares; do
   flags="$flags -Cllvm-args=-sanitizer-coverage-$what"
 done
-# What .cargo/config.toml sets, which RUSTFLAGS replaces.
-[ "${host%%-*}" != x86_64 ] || flags="$flags -Ctarget-cpu=haswell"
 RUSTFLAGS=$flags cargo build --release --locked --quiet --target "$host" \
   --manifest-path "$here/Cargo.toml" --target-dir "$work/build"
 "$here/seeds.sh" "$work/corpus"

@@ -17,7 +17,7 @@ use serde_json::{json, Value};
 const NOISE: f64 = 1e-9;
 /// Larger certificates are not mutated, and of those that are, one mutant in so many is tried.
 const MOST_BYTES: usize = 2_100;
-const STRIDE: usize = 7;
+const STRIDE: usize = 19;
 
 fn certificate_of(claim: &MachineClaim) -> Value {
     match verified(claim, 10_000).answer {
@@ -228,5 +228,5 @@ fn mutants_of_the_committed_certificates_are_rejected_or_true() {
         }
     }
     println!("{judged} certificates: {rejected} mutants rejected, {accepted} true");
-    assert!(judged > 20 && rejected > 4_000 && accepted > 100, "{rejected} {accepted}");
+    assert!(judged > 20 && rejected > 2_000 && accepted > 100, "{rejected} {accepted}");
 }

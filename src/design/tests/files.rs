@@ -95,5 +95,6 @@ fn what_is_no_text_file_is_refused_by_name() {
     std::fs::write(&path, "[mechanism]\n").unwrap();
     let incomplete = Design::read(&path).unwrap_err();
     assert!(matches!(incomplete, ReadError::Design(_)));
-    assert!(message(incomplete).contains("design.toml:1:12: workspace: found no such key"));
+    assert!(message(incomplete)
+        .contains("design.toml:1:12: workspace: found nothing: the key is missing"));
 }

@@ -173,7 +173,7 @@ fn formulas_that_are_not_well_written() {
 fn mechanisms_that_are_not_well_described() {
     check(&[
         row!("no coordinates", FORMULAS, [(3, "")], 1, "mechanism.coordinates", MissingKey,
-            "no such key", "one to six names"),
+            "nothing: the key is missing", "one to six names"),
         row!("seven coordinates", FORMULAS, [(3, "coordinates = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\"]")],
             3, "mechanism.coordinates", WrongType, "an array of 7 elements", "one to six names"),
         row!("coordinate twice", FORMULAS, [(3, "coordinates = [\"x\", \"x\"]")], 3,
@@ -197,11 +197,11 @@ fn mechanisms_that_are_not_well_described() {
         row!("one joint", FORMULAS, [(12, ""), (13, ""), (9, ""), (6, "")], 10, "mechanism.joints", WrongType,
             "1 joints of 2 coordinates", "as many as coordinates"),
         row!("no joints", FORMULAS, [(10, ""), (11, ""), (12, ""), (13, "")], 1, "mechanism.joints",
-            MissingKey, "no such key", "with rho or row"),
+            MissingKey, "nothing: the key is missing", "with rho or row"),
         row!("rho and row", FORMULAS, [(11, "rho = \"x - s\"\nrow = [1, 0]")], 12,
             "mechanism.joints[1].row", Conflict, "a row, next to rho", "or row"),
         row!("neither", FORMULAS, [(11, "")], 10, "mechanism.joints[1].rho", MissingKey,
-            "no such key", "rho ="),
+            "nothing: the key is missing", "rho ="),
         row!("row of three", FORMULAS, [(11, "row = [1, 0, 0]")], 11, "mechanism.joints[1].row",
             WrongType, "an array of 3 elements", "2 formulas, one a coordinate"),
         row!("misspelt key", FORMULAS, [(11, "roh = \"x\"")], 11, "mechanism.joints[1].roh",

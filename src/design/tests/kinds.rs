@@ -335,16 +335,6 @@ fn couples_of_universal_joints() {
 }
 
 #[test]
-fn accuracy_of_a_platform_that_turns_has_an_angle() {
-    let line = "accuracy = { max_angle = 0.1, max = 0.05, joint_error = 0 }";
-    let given = json!({ "joint_error": ["0"], "max_angle": ["0.1"] });
-    assert_eq!(
-        shown(&with(SPATIAL, &[(17, line)]))["require"],
-        json!([{ "quantity": "accuracy", "given": given, "end": "max", "bound": "0.05" }])
-    );
-}
-
-#[test]
 fn a_unit_of_angles_is_needed_where_something_depends_on_it() {
     let text = with(SPATIAL, &[(3, ""), (17, "joint_range = { max = 40 }")]);
     assert_eq!(shown(&text)["mechanism"]["spatial"]["characteristic_length"], json!("1"));

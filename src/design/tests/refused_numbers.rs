@@ -163,7 +163,8 @@ fn a_message_reads_like_this() {
         error.to_string(),
         "test.toml:4:22: mechanism.leg_length: found \"310.25 mm\" (unexpected text at character 8); \
          accepted: a number or a tolerance: 310.25, \"1/3\", \"310.25 ± 0.02\", \
-         { min = 310.2, max = 310.3 }\n  \
+         { min = 310.2, max = 310.3 }; numbers carry no unit: \"310.25\", and unit = \"mm\" above the \
+         tables to name the unit of all lengths\n  \
          4 | leg_length = \"310.25 mm\"  # L\n    \
            |                      ^"
     );

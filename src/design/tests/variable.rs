@@ -124,11 +124,15 @@ fn keys_without_a_number_are_refused_with_what_there_is() {
         (BOX, "mechanism.kind", &["orthoglide", "a number"]),
         (BOX, "title", &["box", "a number"]),
         (BOX, "requirements.transmission", &["a table", "requirements.transmission.max"]),
-        (BOX, "", &["no such key", "mechanism"]),
-        (BOX, "mechanism.", &["no such key"]),
+        (BOX, "", &["nothing: the key is missing", "mechanism"]),
+        (BOX, "mechanism.", &["nothing: the key is missing"]),
         (LEGS, "mechanism.legs[2].length", &["did you mean mechanism.legs.1.length?"]),
         (LEGS, "mechanism.legs.3.length", &["none at 3", "mechanism.legs.2"]),
-        (LEGS, "mechanism.legs.*.platform.0", &["no such key", "mechanism.legs.1.anchor"]),
+        (
+            LEGS,
+            "mechanism.legs.*.platform.0",
+            &["nothing: the key is missing", "mechanism.legs.1.anchor"],
+        ),
         (LEGS, "mechanism.legs.0.mode", &["a number"]),
     ] {
         let message = refused(text, key).to_string();

@@ -19,6 +19,10 @@ const start = () => {
     say();
   });
   preferred.addEventListener("change", say);
+  // Nothing is folded away on paper.
+  window.addEventListener("beforeprint", () => {
+    document.querySelectorAll("details").forEach((details) => { details.open = true; });
+  });
   say();
   startReproof();
 };

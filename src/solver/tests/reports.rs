@@ -25,7 +25,7 @@ fn a_certified_claim() {
     let report = report(&claim, 1000);
     assert_eq!(objection(&report), None);
     assert_eq!(report.coordinates, ["x", "y"]);
-    let text = text::report(&report, text::Style::Plain);
+    let text = text::report(&report, text::Style::Plain, true);
     assert!(text.starts_with("CERTIFIED  design\n"), "{text}");
     assert!(text.contains("at P = (x, y)"), "{text}");
     let row = report.requirements.iter().find(|row| row.requirement == "greatest psi");
@@ -52,9 +52,12 @@ fn a_refuted_claim() {
     assert!(found.value.starts_with("greatest psi >= 1.9"), "{}", found.value);
     assert_eq!((found.point.len(), found.machine.len(), found.directions.len()), (3, 3, 1));
     assert_eq!((found.machine[0].leg, &*found.machine[0].parameter), (Some(1), "length"));
-    let text = text::report(&report, text::Style::Plain);
+    let text = text::report(&report, text::Style::Plain, true);
     assert!(text.contains("! greatest psi"), "{text}");
-    assert!(text.contains("leg 1 length"), "{text}");
+    assert!(text.contains("machine         leg 1   leg 2   leg 3\n"), "{text}");
+    let brief = text::report(&report, text::Style::Plain, false);
+    assert!(brief.contains("least rho_1 of 3") && !brief.contains("least rho_2"), "{brief}");
+    assert!(brief.lines().count() < text.lines().count(), "{brief}");
 }
 
 #[test]
@@ -65,7 +68,7 @@ fn an_undecided_claim() {
     assert!(remains.boxes > 0 && remains.share > 0.0 && remains.share <= 1.0);
     assert!(remains.regions.iter().all(|region| region.min.len() == 3));
     assert!(remains.regions.iter().map(|region| region.boxes).sum::<usize>() == remains.boxes);
-    let text = text::report(&report, text::Style::Plain);
+    let text = text::report(&report, text::Style::Plain, true);
     assert!(text.starts_with("UNDECIDED"), "{text}");
     assert!(text.contains("the budget of 10 boxes is used up"), "{text}");
 }
