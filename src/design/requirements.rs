@@ -86,8 +86,14 @@ pub(super) fn requirements(
 /// The first requirement that depends on the unit of `M`, in which a turning platform's velocity has
 /// two parts.
 pub(super) fn of_unit(demands: &[Demand]) -> Option<&'static str> {
-    const OF_UNIT: [&str; 5] =
-        ["transmission", "conditioning", "stiffness", "joint_speed", "joint_force"];
+    const OF_UNIT: [&str; 6] = [
+        "transmission",
+        "conditioning",
+        "stiffness",
+        "joint_speed",
+        "joint_acceleration",
+        "joint_force",
+    ];
     OF_UNIT.into_iter().find(|key| demands.iter().any(|demand| demand.quantity == *key))
 }
 

@@ -8,7 +8,6 @@ use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{self, Row};
 use std::collections::BTreeMap;
 
@@ -64,7 +63,7 @@ impl Over<'_> {
                 Some(Worst { directions, weights: Vec::new(), ..least })
             }
             Test::Least(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), false),
-            Test::Solve(solve) => self.of_solution(solve),
+            Test::Solve(solve) => self.of_solution(&own, solve.joint),
             Test::AtLeast(f) => self.of_sum(vec![(*f, 1.0)]),
             Test::Beyond(f, b) => {
                 let sign = if self.centre(*f)? < 0.0 { -1.0 } else { 1.0 };
@@ -99,27 +98,25 @@ impl Over<'_> {
         (direction.amax() > 0.0).then_some(Worst { vertex, directions: vec![direction], weights })
     }
 
-    /// `z = A^-1 b` is longest, along `(-(A A^T)^-1 b, 1)`. With `y = A^-T z` the derivatives of `-|z|^2`
-    /// are `2 y_i z_k` by `A_ik`, and `-2 y_i` by `b_i`.
-    fn of_solution(&self, solve: &Solve) -> Option<Worst> {
+    /// `z = A^-1 b`, `b = B_i e_i`, is longest, along `y = A^-T z`. The derivatives of `-|z|^2` are
+    /// `2 y_j z_k` by `A_jk`, and `-y_i/B_i` by `D_i`.
+    fn of_solution(&self, rows: &[&Row<Formula>], joint: usize) -> Option<Worst> {
         let longest = |vertex| {
-            let a = self.matrix(&solve.a, At::Vertex(vertex))?;
-            let b = solve.b.iter().map(|&b| self.at(b, At::Vertex(vertex)));
-            let b = DVector::from_vec(b.collect::<Option<_>>()?);
+            let Rows { a, d } = self.rows(rows.iter().copied(), At::Vertex(vertex))?;
+            let mut b = DVector::zeros(rows.len());
+            b[joint] = d[joint].sqrt();
             let z = a.clone().lu().solve(&b)?;
             let y = a.transpose().lu().solve(&z)?;
-            Some((z.norm(), vertex, y, z))
+            Some((z.norm(), vertex, (y, b[joint]), z))
         };
         let found = self.formulas.vertices().filter_map(longest);
-        let (_, vertex, y, z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let mut weights = Vec::new();
-        for (i, (row, &b)) in solve.a.iter().zip(&solve.b).enumerate() {
-            weights.extend(row.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y[i] * z)));
-            weights.push((b, -2.0 * y[i]));
+        let (_, vertex, (y, root), z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut weights = vec![(rows.get(joint)?.d, -y[joint] / root)];
+        for (row, y) in rows.iter().zip(y.iter()) {
+            weights.extend(row.a.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y * z)));
         }
-        let direction = (-y).push(1.0);
-        let finite = direction.iter().all(|x| x.is_finite());
-        finite.then_some(Worst { vertex, directions: vec![direction], weights })
+        let finite = root > 0.0 && y.iter().all(|x| x.is_finite()) && y.amax() > 0.0;
+        finite.then_some(Worst { vertex, directions: vec![y], weights })
     }
 
     /// The vertex at which a sum is least.

@@ -331,13 +331,12 @@ impl Over<'_> {
             all.map(|&f| self.along(f, k)).sum()
         };
         match test {
-            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                 self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
             }
             Test::Least(rows, _) | Test::OneToOne(rows) => self.rows_vary(rows.iter(), k),
             Test::AtLeast(f) => self.along(*f, k),
             Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
-            Test::Solve(solve) => sum(&mut solve.a.iter().flatten().chain(&solve.b)),
             Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
             Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
             Test::Curvature(test) => sum(&mut test.row.iter().chain(test.twice.iter().flatten())),

@@ -143,16 +143,12 @@ impl Over<'_> {
                 Some(least(self.rows(rows.iter(), at)?.symmetric(&y)))
             }
             (Test::Solve(solve), Evidence::Lower(y)) => {
-                let (a, y) = (self.matrix(&solve.a, at)?, matrix(y));
-                let t = &a * y.transpose();
-                let t = &t + t.transpose() - &y * y.transpose();
-                let n = t.nrows();
-                let mut bordered = t.resize(n + 1, n + 1, self.centre(solve.square)?);
-                for (i, &b) in solve.b.iter().enumerate() {
-                    let b = self.at(b, at)?;
-                    (bordered[(i, n)], bordered[(n, i)]) = (b, b);
-                }
-                Some(least(bordered))
+                let (rows, y) = (own()?, matrix(y));
+                let t = &rows.a * y.transpose();
+                let mut t = &t + t.transpose() - weight * &y * y.transpose();
+                let i = solve.joint;
+                t[(i, i)] -= self.centre(solve.square)? * rows.d[i];
+                Some(least(t))
             }
             (Test::AtLeast(f), _) => {
                 let low = self.formulas.at(*f, v)?;

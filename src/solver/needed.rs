@@ -43,10 +43,7 @@ fn formulas(problem: &Problem, test: &Test) -> Vec<Formula> {
         Test::OneToOne(_) => legs(),
         Test::AtLeast(f) => vec![*f],
         Test::Beyond(f, b) => vec![*f, *b],
-        Test::Solve(solve) => {
-            let all = solve.a.iter().flatten().chain(&solve.b).chain([&solve.square]);
-            all.copied().collect()
-        }
+        Test::Solve(solve) => with(legs(), &[solve.square]),
         Test::Accuracy(test) => {
             let joints = problem.legs.iter().flat_map(|leg: &Leg| match leg.rho {
                 None => Vec::new(),

@@ -33,9 +33,11 @@ impl Over<'_> {
     /// At control points, of platforms that turn.
     fn at_controls(&self, test: &Test) -> Option<Evidence> {
         let polynomial = match test {
-            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::OneToOne(_) => {
-                self.prover.is_scaled
-            }
+            Test::SigmaMin(_)
+            | Test::SigmaMax(_)
+            | Test::Conditioning(_)
+            | Test::OneToOne(_)
+            | Test::Solve(_) => self.prover.is_scaled,
             Test::AtLeast(_) => self.problem().weight.is_some(),
             _ => false,
         };
@@ -52,6 +54,7 @@ impl Over<'_> {
             Test::SigmaMin(kappa) => there.lower(test, *kappa, Form::Scaled),
             Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
             Test::OneToOne(_) => there.shown(test, Evidence::Chords),
+            Test::Solve(solve) => there.solution(test, solve),
             _ => there.shown(test, Evidence::Test),
         };
         found.map(|inner| Evidence::Control(Box::new(inner)))
@@ -171,14 +174,14 @@ impl Over<'_> {
         })
     }
 
-    /// `Y` for a solution `z` of `A z = b`: `A` at the centre, then between it and `b z^T/c^2`, which
-    /// loses nothing along `b`.
+    /// `Y` for the solution `z` of `A z = b`, `b = B_i e_i`: `A` at the centre, then between it and
+    /// `k^2 b z^T`, which loses nothing along `b`.
     fn solution(&self, test: &Test, solve: &Solve) -> Option<Evidence> {
-        let a = self.matrix(&solve.a, At::Centre)?;
-        let b: Option<Vec<f64>> = solve.b.iter().map(|&b| self.centre(b)).collect();
-        let b = DVector::from_vec(b?);
+        let Rows { a, d } = self.own(Form::Plain, At::Centre)?;
+        let mut b = DVector::zeros(a.nrows());
+        b[solve.joint] = d[solve.joint].sqrt();
         let z = a.clone().lu().solve(&b)?;
-        let own = &b * z.transpose() / self.centre(solve.square)?;
+        let own = &b * z.transpose() * self.centre(solve.square)?;
         let all = OWN.map(|part| &a * (1.0 - part) + &own * part);
         self.shortest_of(test, all, Evidence::Lower)
     }

@@ -121,7 +121,7 @@ pub(crate) fn directions(
             let m = violation::divided(at, rows.iter());
             each(m.and_then(|m| violation::singular(&m, false)))
         }
-        Test::Solve(solve) => each(violation::unsolved(at, solve)),
+        Test::Solve(solve) => each(violation::unsolved(at, &problem.legs, solve)),
         Test::Accuracy(test) => each(violation::far(at, &problem.legs, test)),
         Test::Curvature(test) => each(violation::curved(at, test).map(|(_, v)| v)),
         Test::Apart(test) => violation::between(at, test).map_or_else(Vec::new, |([s, t], _)| {

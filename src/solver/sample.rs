@@ -434,7 +434,8 @@ impl<'a> Sampler<'a> {
             // Of two points; what is told of one is how far it is from a singularity.
             Test::OneToOne(_) => self.xi(values)?[0],
             Test::Solve(solve) => {
-                1.0 - violation::solved(values, solve)?.norm() / root(&solve.square)?
+                let z = violation::solved(values, &self.problem.legs, solve)?;
+                1.0 - z.norm() * root(&solve.square)?
             }
             Test::Accuracy(test) => {
                 1.0 - violation::displaced(values, &self.problem.legs, test)?.norm()

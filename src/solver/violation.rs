@@ -81,15 +81,17 @@ pub fn singular(m: &DMatrix<f64>, greatest: bool) -> Option<DVector<f64>> {
     Some(svd.v_t?.row(at).transpose())
 }
 
-/// `A^-1 b`.
-pub fn solved(at: &At, solve: &Solve) -> Option<DVector<f64>> {
-    let b: Option<Vec<f64>> = solve.b.iter().map(|&f| at.of(f)).collect();
-    matrix(at, &solve.a)?.lu().solve(&DVector::from_vec(b?))
+/// `M^-1 e_i`.
+pub fn solved(at: &At, legs: &[Leg], solve: &Solve) -> Option<DVector<f64>> {
+    let mut unit = DVector::zeros(legs.len());
+    *unit.get_mut(solve.joint)? = 1.0;
+    divided(at, legs.iter().map(|leg| &leg.row))?.lu().solve(&unit)
 }
 
-/// `v = A^-T z` for `z = A^-1 b`: `v . b = |z|^2`, and `|A^T v| = |z|`.
-pub fn unsolved(at: &At, solve: &Solve) -> Option<DVector<f64>> {
-    matrix(at, &solve.a)?.transpose().lu().solve(&solved(at, solve)?)
+/// `v = A^-T z` for `z = M^-1 e_i`: `B_i v_i = |z|^2`, and `|A^T v| = |z|`.
+pub fn unsolved(at: &At, legs: &[Leg], solve: &Solve) -> Option<DVector<f64>> {
+    let a: Vec<Vec<Formula>> = legs.iter().map(|leg| leg.row.a.clone()).collect();
+    matrix(at, &a)?.transpose().lu().solve(&solved(at, legs, solve)?)
 }
 
 /// `M^-1 b/d` for the joint errors with which it is longest, to first order: `b_i` is what the joint of

@@ -126,7 +126,6 @@ fn why_not(claim: &MachineClaim, problem: &Problem, quantity: &str) -> String {
                           speeds become speeds, is not given"
                 .to_owned()
         }
-        _ if turns => "it is decided of platforms that do not turn".to_owned(),
         "joint_force" if joints != coordinates => format!(
             "static forces determine those of the joints where there are as many joints as \
              coordinates; here {joints} and {coordinates}"

@@ -139,8 +139,8 @@ fn machines_of_every_kind() {
     for (design, options, present, absent) in [
         (
             "planar-3-rpr.toml",
-            &["--speed", "100"][..],
-            &["joint_range", "transmission", "joint_speed"][..],
+            &["--speed", "100", "--force", "10", "--acceleration", "500"][..],
+            &["joint_range", "transmission", "joint_speed", "joint_force", "joint_acceleration"][..],
             "",
         ),
         (
@@ -152,8 +152,8 @@ fn machines_of_every_kind() {
         (
             "spherical-3-ups.toml",
             &["--force", "10"],
-            &["joint_range", "transmission"],
-            "joint force",
+            &["joint_range", "transmission", "joint_force"],
+            "",
         ),
         (
             "four-guides.toml",

@@ -324,7 +324,8 @@ impl Tape {
         needed
     }
 
-    /// The partial derivatives of `f` by coordinates and parameters.
+    /// The partial derivatives of `f` by coordinates and parameters, or by other entries, in which `f` is
+    /// then taken as a formula.
     ///
     /// With `f' = N/E` and `g' = K/F`:
     ///
@@ -342,9 +343,12 @@ impl Tape {
         for (at, needed) in needed.into_iter().enumerate() {
             let gradient = match self.ops[at] {
                 _ if !needed => unneeded.clone(),
-                own @ (Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_)) => {
+                own if by.contains(&own) => {
                     let entry = |&by: &Op| if by == own { one } else { zero };
                     Gradient { numerators: by.iter().map(entry).collect(), denominator: one }
+                }
+                Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => {
+                    Gradient { numerators: vec![zero; by.len()], denominator: one }
                 }
                 Op::Add(a, b) => self.combined((&known[a.0], one), (&known[b.0], one)),
                 Op::Sub(a, b) => {

@@ -12,7 +12,7 @@ use crate::input::{
     binary, enclosed, narrowed, number_error, ordered, positive, shape_error, sloped, ClaimError,
     Input, Value, SIGN_BITS,
 };
-use crate::machine;
+use crate::machine::{self, motion::Motion};
 use crate::number::{Expression, Operator};
 use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
@@ -31,6 +31,8 @@ pub struct Problem {
     pub inputs: Vec<Input>,
     /// The legs.
     pub legs: Vec<machine::Leg>,
+    /// How the platform moves.
+    pub(crate) motion: Motion,
     /// What is to be shown at every point.
     pub obligations: Vec<Obligation>,
     /// The workspace's least and greatest coordinates, divided by `2^scale`.
@@ -134,6 +136,7 @@ impl Problem {
             inputs: Vec::new(),
             legs,
             obligations: Vec::new(),
+            motion,
             corners,
             turned: chart.as_ref().and_then(|chart| chart.g),
             weight: chart.as_ref().map(|chart| chart.weight),
@@ -383,7 +386,7 @@ impl Problem {
         let Some(weight) = self.weight else { return Vec::new() };
         let own = |Obligation { test, .. }: &Obligation| {
             let mut wanted: Vec<Formula> = match test {
-                Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+                Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                     let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
                     all.copied().chain([weight]).collect()
                 }
@@ -394,7 +397,6 @@ impl Problem {
                 // These have no form for control points.
                 Test::Beyond(..)
                 | Test::Least(..)
-                | Test::Solve(_)
                 | Test::Accuracy(_)
                 | Test::Apart(_)
                 | Test::Curvature(_) => Vec::new(),

@@ -11,7 +11,7 @@
 //! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
 //! | [`full_rank`] | `sigma_min(M) > 0`; one to one | any `n x m` matrix `Y`; one for all cells |
 //! | [`sigma_max`] | `sigma_max(M) <= k` | |
-//! | [`solve`](solve::solve) | `\|A^-1 b\| <= c` | any `n x n` matrix `Y` |
+//! | [`solve`](solve::solve) | `\|M^-1 e_i\| <= 1/k` | any `n x n` matrix `Y` |
 //! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
 //! | [`apart`](apart::apart) | segments farther apart than `R` | an affine direction |
 //! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |

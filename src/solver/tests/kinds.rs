@@ -124,6 +124,25 @@ fn a_hexapod() {
 }
 
 #[test]
+fn what_platforms_that_turn_ask_of_their_joints() {
+    let hexapod = hexapod(r#"{"angle":"5"}"#);
+    let machines = [
+        ("3-RPR", three_rpr(), 0.02, [60, 400]),
+        ("about a point", spherical(TILT), 0.02, [60, 400]),
+        ("hexapod", hexapod, 0.1, [60, 400]),
+    ];
+    for (name, machine, part, [forces, accelerations]) in machines {
+        let force = ("joint_force", &[("tool", 3.0)][..]);
+        let leaves = on_both_sides(name, &machine, force, Bound::Max, part);
+        assert!(leaves <= forces, "{name} force: {leaves}");
+        let given = [("acceleration", 30.0), ("speed", 3.0)];
+        let acceleration = ("joint_acceleration", &given[..]);
+        let leaves = on_both_sides(name, &machine, acceleration, Bound::Max, part);
+        assert!(leaves <= accelerations, "{name} acceleration: {leaves}");
+    }
+}
+
+#[test]
 fn platforms_in_the_plane_and_about_a_point() {
     let machines = [
         ("3-RPR", three_rpr()),

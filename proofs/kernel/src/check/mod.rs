@@ -519,6 +519,10 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
                 at_least_there(over, *f)
             }
+            (Test::Solve(test), Evidence::Lower(y)) => {
+                let weight = |v| self.scaled(over, self.arithmetic.integer(1)?, v);
+                solve(over, rows, test, &weight, y)
+            }
             // What follows knows of vertices alone.
             _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
@@ -530,7 +534,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 sigma_min(over, rows, &constant(kappa), y)
             }
-            (Test::Solve(test), Evidence::Lower(y)) => solve(over, test, y),
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
                 self.accuracy(over, place, test, (y, *kappa)).unwrap_or(false)
             }

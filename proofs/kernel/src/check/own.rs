@@ -50,16 +50,15 @@ pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
             Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) | Test::AtLeast(f) => {
                 formulas.push(*f);
             }
+            Test::Solve(solve) => formulas.push(solve.square),
             Test::Beyond(f, b) => formulas.extend([*f, *b]),
             Test::Least(rows, f) => {
                 formulas.extend(rows.iter().flat_map(row));
                 formulas.push(*f);
             }
-            Test::OneToOne(_)
-            | Test::Solve(_)
-            | Test::Accuracy(_)
-            | Test::Apart(_)
-            | Test::Curvature(_) => return None,
+            Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
+                return None
+            }
         }
     }
     Some(problem.tape.parts(&formulas))
@@ -83,10 +82,10 @@ impl<E: Enclosure> Checker<'_, E> {
                     }
                 }
                 Test::Least(rows, _) => Evidence::Lower(self.own_multiplier(over, rows)?),
-                Test::Solve(solve) => {
+                Test::Solve(_) => {
                     let entry =
                         |f: &Formula| self.arithmetic.rounded(&over.of(*f)?.at_centre, PLACES);
-                    let rows = solve.a.iter().map(|row| row.iter().map(entry).collect());
+                    let rows = self.rows.iter().map(|row| row.a.iter().map(entry).collect());
                     let y = rows.collect::<Option<_>>()?;
                     Evidence::Lower(Multiplier { y, places: PLACES })
                 }

@@ -33,7 +33,6 @@ pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
     let expected = match test {
         Test::AtLeast(_) | Test::Beyond(..) => vec![],
         Test::Conditioning(_) => vec![m, m],
-        Test::Solve(solve) => vec![solve.a.len() + 1],
         _ => vec![m],
     };
     directions.iter().map(Vec::len).eq(expected)

@@ -27,6 +27,8 @@ pub struct Leg {
     pub eta_squared: Option<Formula>,
     /// The platform end `P + d`, of a leg with two ends.
     pub tip: Option<Vector>,
+    /// `d`, and `u = A/B` in space: the joint's rate is `u` times the velocity of that end.
+    pub driven: Option<[Vector; 2]>,
     /// The base end of a strut.
     pub anchor: Option<Vector>,
     /// The couple that the leg constrains, not normalised, and the square of its length; where one is
@@ -164,13 +166,13 @@ fn leg(
     tape: &mut Tape,
     row: Row<Formula>,
     divided: Vec<Formula>,
-    rho: Joint,
+    rho: impl Into<Option<Joint>>,
     (length, eta_squared): (Option<Formula>, Option<Formula>),
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
-    let rho = Some(rho);
-    let (tip, anchor, couple) = (None, None, None);
-    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, anchor, couple }
+    let rho = rho.into();
+    let (tip, driven, anchor, couple) = (None, None, None, None);
+    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, driven, anchor, couple }
 }
 
 /// The couple that a strut with universal joints constrains whose axis in the base, and on the platform,
@@ -210,7 +212,6 @@ pub fn joint(tape: &mut Tape, rho: Formula, m: usize) -> Leg {
 /// A joint by its row of `M` alone.
 pub fn row(tape: &mut Tape, a: Vec<Formula>) -> Leg {
     let row = Row { a, d: tape.integer(1) };
-    let divided = row.clone();
-    let (rho, length, eta_squared, tip, anchor, couple) = (None, None, None, None, None, None);
-    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, anchor, couple }
+    let divided = row.a.clone();
+    leg(tape, row, divided, None, (None, None))
 }

@@ -12,9 +12,10 @@
 //! point, the second part alone.
 
 use super::{Leg, Row};
-use crate::formula::{Formula, Tape, Vector};
+use crate::formula::{Formula, Op, Tape, Vector};
 
 /// How a platform moves.
+#[derive(Clone, Debug)]
 pub(crate) struct Motion {
     /// `P`.
     pub position: Vector,
@@ -25,6 +26,7 @@ pub(crate) struct Motion {
 }
 
 /// How a platform turns: `R = N/w`, `w >= 1`, of half-angle tangents.
+#[derive(Clone, Debug)]
 pub(crate) struct Turn {
     /// `N`, row by row.
     pub matrix: [Vector; 3],
@@ -70,6 +72,7 @@ impl Motion {
         let w = tape.minus(&joint, a);
         let mut leg = drive(tape, &w);
         leg.tip = Some(joint);
+        leg.driven = Vector::try_from(leg.divided.a.as_slice()).ok().map(|u| [r, u]);
         for row in [&mut leg.row, &mut leg.divided] {
             let u = Vector::try_from(row.a.as_slice()).ok()?;
             row.a = self.row(tape, &u, |tape, turn| turn.moment(tape, &r, &u));
@@ -112,6 +115,7 @@ impl Motion {
         leg.row.a = self.row(tape, &w, |tape, turn| turn.moment(tape, &r, &from_base));
         let (unit, length) = (leg.divided.a.clone(), leg.length);
         if let (Ok(unit), Some(length)) = (Vector::try_from(unit.as_slice()), length) {
+            leg.driven = Some([r, unit]);
             leg.divided.a = self.row(tape, &unit, |tape, turn| {
                 let from_base = from_base.map(|x| tape.div(x, length));
                 turn.moment(tape, &r, &from_base)
@@ -119,6 +123,67 @@ impl Motion {
         }
         leg.scaled = self.turn.as_ref().map(|turn| self.scaled(tape, turn, [&from_base, a, b]));
         leg
+    }
+
+    /// The upper triangle of `2 H`, with which the joint's acceleration is
+    /// `M_i . x' + x^T H x` for the twist `x = (v, ell omega)` and `x' = (a, ell alpha)`.
+    ///
+    /// ```text
+    /// 2 H = J^T (U + U^T) J + K    J x = v + omega x r    U = du/dC
+    /// K   = (u_k r_l + u_l r_k - 2 (u . r) [k = l])/ell^2 in components k, l of omega, 0 elsewhere
+    /// ```
+    ///
+    /// *Proof.* The leg's joint on the platform is `C = P + r`, with `C' = J x` and
+    /// `C'' = a + alpha x r + omega x (omega x r)`. The rate of the joint is `u . C'`
+    /// ([`Leg::driven`](super::Leg::driven)), and `u` depends on the pose through `C` alone, as the drive
+    /// does: its acceleration is `u . C'' + (U C') . C'`. Of that `u . (a + alpha x r)` is `M_i . x'`, and
+    /// `u . (omega x (omega x r)) = (u . omega)(r . omega) - (u . r) |omega|^2`. ∎ `H` is not the second
+    /// derivative by coordinates of orientation.
+    ///
+    /// `None` of a platform that does not turn, and where a component of `C` is a constant.
+    pub fn curved(
+        &self,
+        tape: &mut Tape,
+        [r, u]: &[Vector; 2],
+        tip: &Vector,
+    ) -> Option<Vec<Vec<Formula>>> {
+        let (zero, one, two) = (tape.integer(0), tape.integer(1), tape.integer(2));
+        let turn = self.turn.as_ref()?;
+        // In the plane nothing moves along z.
+        let moves = if self.velocity.len() == 2 { 2 } else { 3 };
+        let by: Vec<Op> = tip[..moves].iter().map(|&c| tape.op(c)).collect();
+        if by.iter().any(|op| matches!(op, Op::Integer(_) | Op::Parameter(_))) {
+            return None;
+        }
+        let unit = |k: usize| std::array::from_fn(|j| if j == k { one } else { zero });
+        let mut columns: Vec<Vector> = self.velocity.iter().map(|&k| unit(k)).collect();
+        for &k in turn.spin {
+            columns.push(tape.cross(&unit(k), r).map(|x| tape.div(x, turn.length)));
+        }
+        let gradient = |u: &Formula| tape.gradient(*u, &by).quotients(tape);
+        let slopes: Vec<Vec<Formula>> = u[..moves].iter().map(gradient).collect();
+        let mut images = vec![[zero; 3]; columns.len()];
+        for (image, column) in images.iter_mut().zip(&columns) {
+            for (j, k) in (0..moves).flat_map(|j| (0..moves).map(move |k| (j, k))) {
+                let both = tape.add(slopes[j][k], slopes[k][j]);
+                let part = tape.mul(both, column[k]);
+                image[j] = tape.add(image[j], part);
+            }
+        }
+        let (along, square) = (tape.dot(u, r), tape.sqr(turn.length));
+        let twice_along = tape.mul(two, along);
+        let spin = |i: usize| turn.spin.get(i.checked_sub(self.velocity.len())?).copied();
+        let mut entry = |i: usize, j: usize| {
+            let own = tape.dot(&columns[i], &images[j]);
+            let (Some(k), Some(l)) = (spin(i), spin(j)) else { return own };
+            let (p, q) = (tape.mul(u[k], r[l]), tape.mul(u[l], r[k]));
+            let both = tape.add(p, q);
+            let part = if k == l { tape.sub(both, twice_along) } else { both };
+            let part = tape.div(part, square);
+            tape.add(own, part)
+        };
+        let n = columns.len();
+        Some((0..n).map(|i| (i..n).map(|j| entry(i, j)).collect()).collect())
     }
 
     /// `w A` and `w D` of a strut.

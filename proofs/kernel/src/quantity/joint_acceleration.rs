@@ -1,6 +1,6 @@
 //! The joint acceleration that a platform's acceleration and speed ask for.
 
-use super::{Context, Quantity, Test};
+use super::{few, Context, Quantity, Test};
 use crate::formula::{coordinates, Formula};
 use crate::input::{binary, ordered, positive, ClaimError, Value};
 use crate::machine::{Joint, Leg};
@@ -11,7 +11,8 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
     key: "joint_acceleration",
     symbol: "|row_i of M| acceleration + |H_i| speed^2",
     words:
-        "joint acceleration, H_i the second derivatives of rho_i; of arms, degrees per time squared",
+        "joint acceleration, H_i the second derivatives of rho_i; of arms, degrees per time squared; where \
+         the platform turns, speed bounds |(v, ell omega)|, acceleration |(a, ell alpha)| of its motion",
     of_legs: true,
     given: &["acceleration", "speed"],
     tests,
@@ -26,9 +27,9 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
 /// strut    H = (I - u u^T)/l                  |M_i| = 1      |H| = 1/l
 /// ```
 ///
-/// so that a sign shows it; of others, `H` is the derivative of the row.
+/// so that a sign shows it; of others, `H` is the derivative of the row. Where the platform turns, `x'` and
+/// `x''` are `(v, ell omega)` and `(a, ell alpha)`, and `H` is [`Motion`](crate::machine::motion)'s.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    context.without_rotation()?;
     let max = context.greatest()?.clone();
     positive(context.place, &max)?;
     let zero = Expression::integer(0);
@@ -50,6 +51,18 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
     };
     let (a, b) = (over_max(&acceleration, 0), over_max(&square, 1));
     let one = context.tape().integer(1);
+    if context.claim.orientation.is_some() {
+        let motion = context.motion;
+        let curved = leg
+            .driven
+            .zip(leg.tip)
+            .map(|(driven, tip)| motion.curved(context.tape(), &driven, &tip));
+        let Some(twice) = curved.flatten() else {
+            return context.refused("of a leg that is driven");
+        };
+        few(context.builder)?;
+        return Ok(vec![Test::Curvature(Curvature { row: leg.divided.a.clone(), twice, a, b })]);
+    }
     let rest = match (leg.rho, leg.length, leg.eta_squared) {
         (Some(Joint::Length(_)), Some(length), Some(square)) => {
             let tape = context.tape();

@@ -9,32 +9,29 @@ use crate::test::solve::Solve;
 pub(super) const JOINT_FORCE: Quantity = Quantity {
     key: "joint_force",
     symbol: "|column i of M^-1| tool",
-    words: "joint force, of arms torque, by static forces up to the one given on the platform, in any direction",
+    words: "joint force, of arms torque, by static forces up to the one given on the platform, in any direction; \
+            where it turns, by forces F at P and couples C with |F|^2 + |C/ell|^2 up to its square",
     of_legs: true,
     given: &["tool"],
     tests,
 };
 
-/// `|z_i| <= max/tool` for `M z_i = e_i`, that is `A z_i = B_i e_i`, `B_i = sqrt(D_i)` up to a sign.
+/// `|z_i| <= 1/k` for `M z_i = e_i`, `k = tool/max`.
 ///
-/// *Proof.* By virtual work a force `F` on the platform is held by the joint forces `tau` with
-/// `F = M^T tau`, so `tau_i = e_i . M^-T F = z_i . F`, at most `|z_i| |F|`, and that for `F` along
+/// *Proof.* By virtual work a force `F` on the platform, where it turns `(F, C/ell)`, with the power
+/// `F . v + C . omega`, is held by the joint forces `tau` with `F = M^T tau`, so `tau_i = e_i . M^-T F = z_i . F`, at most `|z_i| |F|`, and that for `F` along
 /// `z_i`. ∎ With more joints than coordinates forces are not determined. Arms: `z_i` is a length.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    context.without_rotation()?;
     context.not_redundant()?;
     let max = context.greatest()?.clone();
     let tool = context.given("tool")?.clone();
     positive(context.place, &max)?;
     positive(context.place, &tool)?;
-    let Some(leg) = leg else { return context.refused("of a leg") };
-    let units = if context.is_angular() { 1 } else { 0 };
-    let ratio = context.number(&binary(Operator::Div, &max, &tool), units);
-    let legs = context.legs;
-    let tape = context.tape();
-    let (zero, square) = (tape.integer(0), tape.sqr(ratio));
-    let own = tape.sqrt(leg.row.d);
-    let entry = |other: &Leg| if std::ptr::eq(other, leg) { own } else { zero };
-    let a = legs.iter().map(|leg| leg.row.a.clone()).collect();
-    Ok(vec![Test::Solve(Solve { a, b: legs.iter().map(entry).collect(), square })])
+    let units = if context.is_angular() { -1 } else { 0 };
+    let k = context.number(&binary(Operator::Div, &tool, &max), units);
+    let joint =
+        context.legs.iter().position(|other| leg.is_some_and(|leg| std::ptr::eq(other, leg)));
+    let Some(joint) = joint else { return context.refused("of a leg") };
+    let square = context.tape().sqr(k);
+    Ok(vec![Test::Solve(Solve { joint, square })])
 }

@@ -23,7 +23,7 @@ use crate::claim::{Bound, MachineClaim, Requirement};
 use crate::compile::{few, few_derivatives, Builder};
 use crate::formula::{Formula, Op, Tape};
 use crate::input::{magnitude, number_error, shape_error, ClaimError, Value};
-use crate::machine::Leg;
+use crate::machine::{motion::Motion, Leg};
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::test::accuracy::Accuracy;
@@ -85,7 +85,7 @@ pub enum Test {
     Least(Vec<Row<Formula>>, Formula),
     /// `sym(Y^T A) > 0` at every point, for one `Y`.
     OneToOne(Vec<Row<Formula>>),
-    /// `|A^-1 b| <= c`.
+    /// `|M^-1 e_i| <= 1/k`.
     Solve(Solve),
     /// One position within `d`.
     Accuracy(Accuracy),
@@ -100,13 +100,10 @@ impl Test {
     pub(crate) fn rows(&self, legs: &[Leg]) -> Vec<Vec<Formula>> {
         let of = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect();
         match self {
-            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) => {
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                 legs.iter().map(|leg| of(&leg.row)).collect()
             }
             Test::Least(rows, _) => rows.iter().map(of).collect(),
-            Test::Solve(Solve { a, b, .. }) => {
-                a.iter().zip(b).map(|(a, &b)| a.iter().copied().chain([b]).collect()).collect()
-            }
             Test::AtLeast(f) => vec![vec![*f]],
             Test::Beyond(f, b) => vec![vec![*f, *b]],
             Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
@@ -132,6 +129,7 @@ pub(crate) struct Context<'a> {
     builder: &'a mut Builder,
     claim: &'a MachineClaim,
     legs: &'a [Leg],
+    motion: &'a Motion,
     weight: Option<Formula>,
     requirement: &'a Requirement,
     place: &'a str,
@@ -283,9 +281,9 @@ pub(crate) fn obligations(
             (true, None) => (0..legs.len()).map(Some).collect(),
         };
         for leg in which {
-            let weight = problem.weight;
+            let (motion, weight) = (&problem.motion, problem.weight);
             let place = place.as_str();
-            let mut context = Context { builder, claim, legs, weight, requirement, place };
+            let mut context = Context { builder, claim, legs, motion, weight, requirement, place };
             for test in (quantity.tests)(&mut context, leg.map(|leg| &legs[leg]))? {
                 all.push(Obligation { requirement: Some(number), leg, test });
             }

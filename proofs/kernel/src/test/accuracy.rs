@@ -1,10 +1,10 @@
 //! Where joint errors and tolerances put the platform.
 
-use super::solve::{below_square, bordered};
+use super::solve::below_square;
 use super::{Multiplier, Over};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
-use crate::definite::is_positive_definite;
+use crate::definite::{is_positive_definite, Triangle};
 use crate::formula::Formula;
 
 /// What the position error is at most `d`. All of it is in units of `d`.
@@ -89,9 +89,10 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, rows: &[Vec<Formula>]) -> Option<
 ///    For that `theta'` too, the derivative at `P` is the combination of its vertex values with the
 ///    weights `w_v` of [`Vertex`], which depend on `P` alone. So `|b_i| <= d sum_v w_v beta_vi`.
 /// 2. *First order.* The combination of the matrices with these weights has `M(P)` and
-///    `s_i sum_v w_v beta_vi` in it, so `|M(P)^-1 b'| < z` for every corner `b'` of a box that contains
-///    `b/d` ([`solve`](super::solve::solve)), and by convexity for `b/d`: `|M(P)^-1 b| < z d`. Likewise
-///    `M M^T > kappa^2 I`, so `psi = |M(P)^-1| < 1/kappa`.
+///    `b' = (s_i sum_v w_v beta_vi)` in it, and as `M M^T >= M Y^T + Y M^T - Y Y^T`,
+///    `[[M M^T, b'], [b'^T, z^2]]` is positive definite, and with it `z^2 - |M(P)^-1 b'|^2`: for every
+///    corner `b'` of a box that contains `b/d`, and by convexity for `b/d`, `|M(P)^-1 b| < z d`.
+///    Likewise `M M^T > kappa^2 I`, so `psi = |M(P)^-1| < 1/kappa`.
 /// 3. *Fixed point.* Let `F(u) = M(P)^-1 (b - (f(P + u) - f(P) - M(P) u))` on the ball `|u| <= d`, which
 ///    with all segments from `P` is in the inflated cell. `f(P + u) - f(P) - M(P) u =
 ///    int_0^1 (M(P + t u) - M(P)) u dt` is at most `Gamma |u|^2/2`, so
@@ -135,7 +136,11 @@ fn at_vertex<E: Enclosure>(
     (evidence, kappa_squared, square): (&Multiplier, &E::Number, &E::Number),
 ) -> Option<bool> {
     let e = over.slopes.arithmetic;
-    let below = below_square(over, &test.rows, v, evidence)?;
+    let at = |row: &Vec<Formula>| row.iter().map(|&f| over.at(f, v)).collect();
+    let rows: Vec<Vec<E::Number>> = test.rows.iter().map(at).collect::<Option<_>>()?;
+    let rows: Vec<&[E::Number]> = rows.iter().map(Vec::as_slice).collect();
+    let start = over.less_inside(e.integer(0)?, v)?;
+    let below = below_square(e, &rows, (&e.integer(1)?, &start), evidence)?;
     let square = over.less_inside(square.clone(), v)?;
     let mut least = below.clone();
     for row in &mut least {
@@ -164,4 +169,11 @@ fn at_vertex<E: Enclosure>(
         b.is_some_and(|b| is_positive_definite(e, bordered(below.clone(), &b, square.clone())))
     };
     Some(is_positive_definite(e, least) && (0..1usize << (beta.len() - 1)).all(definite))
+}
+
+/// `[[T, b], [b^T, c]]`.
+fn bordered<N: Clone>(mut t: Triangle<N>, b: &[N], c: N) -> Triangle<N> {
+    t.iter_mut().zip(b).for_each(|(row, b)| row.push(b.clone()));
+    t.push(vec![c]);
+    t
 }

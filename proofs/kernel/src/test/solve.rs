@@ -1,73 +1,81 @@
-//! Solutions of linear equations.
+//! Columns of the inverse of `M`.
 
 use super::tolerances::less_changes;
-use super::{scalar, Multiplier, Over};
+use super::{scalar, AtVertex, Over, Row, Varied};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::definite::{is_positive_definite, Triangle};
 use crate::formula::Formula;
+use crate::test::Multiplier;
 
-/// `|A^-1 b| <= c`, `A` with as many rows as columns.
+/// `|M^-1 e_i| <= 1/k`, `M` with as many rows as columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solve {
-    /// The rows of `A`.
-    pub a: Vec<Vec<Formula>>,
-    /// `b`.
-    pub b: Vec<Formula>,
-    /// `c^2`.
+    /// `i`, counted from zero.
+    pub joint: usize,
+    /// `k^2`.
     pub square: Formula,
 }
 
-/// **Solution.** If `T = [[A Y^T + Y A^T - Y Y^T, b], [b^T, c^2]]` is positive definite at the vertices,
-/// for any one matrix `Y`, then `A` is regular on the cell and `|A^-1 b| < c`.
+/// **Column of the inverse.** If `T = A Y^T + Y A^T - Y Y^T - k^2 D_i e_i e_i^T` is positive definite at
+/// the vertices, for any one matrix `Y`, then `M` is regular on the cell and `|M^-1 e_i| < 1/k`.
 ///
-/// *Proof.* `T` is affine in `(A, b)`, so it is positive definite at `x`. From
-/// `(A - Y)(A - Y)^T >= 0` follows `A A^T >= A Y^T + Y A^T - Y Y^T`, so `[[A A^T, b], [b^T, c^2]]` is
-/// positive definite too: `A A^T` is, and `c^2 - b^T (A A^T)^-1 b = c^2 - |A^-1 b|^2 > 0`. ∎ With
-/// `A_v A_v^T` in the place of its bound it would be unsound: the inverse of a convex combination may
-/// be greater than those of all its parts (`A = -1` and `1`).
+/// *Proof.* `T` is affine in `(A, D_i)`, so it is positive definite at `x`. From
+/// `(A - Y)(A - Y)^T >= 0` follows `A A^T >= A Y^T + Y A^T - Y Y^T`, so `A A^T - k^2 b b^T` is positive
+/// definite too, with `b = B_i e_i`: `A A^T` is, and `k^2 b^T (A A^T)^-1 b < 1`, where
+/// `b^T (A A^T)^-1 b = |A^-1 b|^2` and `A^-1 b = A^-1 B e_i = M^-1 e_i`. ∎ `T` decreases with `D_i`, which
+/// is taken at its upper end. With `A_v A_v^T` in the place of its bound it would be unsound: the inverse
+/// of a convex combination may be greater than those of all its parts (`A = -1` and `1`).
 ///
-/// Where tolerances are apart, row `i` of `(A, b)` changes `T` by `e_i s^T + s e_i^T`, `s = (Y a, b)` of
-/// the change `(a, b)`.
-pub fn solve<E: Enclosure>(over: &Over<'_, E>, test: &Solve, evidence: &Multiplier) -> bool {
+/// Of scaled rows `(w A, w D)` it is `w T = (w A) Y^T + Y (w A)^T - w Y Y^T - k^2 (w D_i) e_i e_i^T`, affine
+/// in them and in the weight `w`; else `w = 1`.
+///
+/// Where tolerances are apart, row `j` changes `T` by `e_j s^T + s e_j^T`, `s = Y a` of the change `(a, d)`,
+/// less `k^2 d/2` in component `i` if `j = i`.
+pub fn solve<E: Enclosure>(
+    over: &Over<'_, E>,
+    rows: &[Row<Formula>],
+    test: &Solve,
+    weight: AtVertex<'_, E::Number>,
+    evidence: &Multiplier,
+) -> bool {
     let e = over.slopes.arithmetic;
-    let matrix = |v: Vertex| {
-        let at = |f: &Formula| over.at(*f, v);
-        let b: Vec<E::Number> = test.b.iter().map(at).collect::<Option<_>>()?;
+    let matrix = |v: Vertex, rows: &[Varied<E::Number>]| {
         let start = over.less_inside(e.integer(0)?, v)?;
-        let square = e.add(&over.of(test.square)?.range, &start)?;
-        let below = below_square(over, &test.a, v, evidence)?;
-        less_changed(over, bordered(below, &b, square), test, (v, evidence))
+        let a: Vec<&[E::Number]> = rows.iter().map(|(row, _)| row.a.as_slice()).collect();
+        let mut t = below_square(e, &a, (&weight(v)?, &start), evidence)?;
+        let square = &over.of(test.square)?.range;
+        let [_, greatest] = e.ends(&rows.get(test.joint)?.0.d);
+        let own = t.get_mut(test.joint)?.first_mut()?;
+        *own = e.sub(own, &e.mul(square, &greatest)?)?;
+        less_changed(over, t, rows, (test.joint, square), evidence)
     };
-    let n = test.a.len();
-    test.b.len() == n
-        && evidence.is_of(n, n)
-        && test.a.iter().all(|row| row.len() == n)
-        && Vertex::all(over.slopes.m).all(|v| matrix(v).is_some_and(|t| is_positive_definite(e, t)))
+    let n = rows.len();
+    evidence.is_of(n, n)
+        && rows.iter().all(|row| row.a.len() == n)
+        && over.at_vertices(rows, |v, rows| {
+            matrix(v, &rows).is_some_and(|t| is_positive_definite(e, t))
+        })
 }
 
-/// `A Y^T + Y A^T - Y Y^T`, less the workspace's own inequality, at a vertex: as `(Y Z^T + Z Y^T)/2`,
-/// `Z = 2 A - Y`.
+/// `A Y^T + Y A^T - w Y Y^T + c I`, as `(Y Z^T + Z Y^T)/2 + c I`, `Z = 2 A - w Y`.
 pub(super) fn below_square<E: Enclosure>(
-    over: &Over<'_, E>,
-    a: &[Vec<Formula>],
-    vertex: Vertex,
+    e: &E,
+    a: &[&[E::Number]],
+    (weight, start): (&E::Number, &E::Number),
     Multiplier { y, places }: &Multiplier,
 ) -> Option<Triangle<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let (zero, one) = (e.integer(0)?, e.integer(1)?);
-    let residual = |(f, &y): (&Formula, &i64)| {
-        let a = over.at(*f, vertex)?;
-        e.sub(&e.add(&a, &a)?, &e.dyadic(y, *places, &one)?)
-    };
-    let row = |(a, y): (&Vec<Formula>, &Vec<i64>)| a.iter().zip(y).map(residual).collect();
+    let zero = e.integer(0)?;
+    let residual =
+        |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, *places, weight)?);
+    let row = |(a, y): (&&[E::Number], &Vec<i64>)| a.iter().zip(y).map(residual).collect();
     let z: Vec<Vec<E::Number>> = a.iter().zip(y).map(row).collect::<Option<_>>()?;
     let product = |y: &[i64], z: &[E::Number]| {
         y.iter()
             .zip(z)
             .try_fold(zero.clone(), |sum, (&y, z)| e.add(&sum, &e.dyadic(y, places + 1, z)?))
     };
-    let mut t = scalar(e, a.len(), &over.less_inside(zero.clone(), vertex)?)?;
+    let mut t = scalar(e, a.len(), start)?;
     for ((i, entries), (z_i, y_i)) in t.iter_mut().enumerate().zip(z.iter().zip(y)) {
         for (entry, (z_j, y_j)) in entries.iter_mut().zip(z.iter().zip(y).skip(i)) {
             *entry = e.add(entry, &e.add(&product(y_j, z_i)?, &product(y_i, z_j)?)?)?;
@@ -80,8 +88,9 @@ pub(super) fn below_square<E: Enclosure>(
 fn less_changed<E: Enclosure>(
     over: &Over<'_, E>,
     mut t: Triangle<E::Number>,
-    test: &Solve,
-    (vertex, Multiplier { y, places }): (Vertex, &Multiplier),
+    rows: &[Varied<E::Number>],
+    (joint, square): (usize, &E::Number),
+    Multiplier { y, places }: &Multiplier,
 ) -> Option<Triangle<E::Number>> {
     let e = over.slopes.arithmetic;
     if over.tolerances.is_none() {
@@ -89,28 +98,23 @@ fn less_changed<E: Enclosure>(
     }
     let zero = e.integer(0)?;
     let direction = over.direction(<[_]>::first)?;
-    for (i, (row, &b)) in test.a.iter().zip(&test.b).enumerate() {
-        let formulas: Vec<Formula> = row.iter().copied().chain([b]).collect();
-        let change = |mut s: Vec<E::Number>| {
-            let b = s.pop()?;
+    for (j, (_, changes)) in rows.iter().enumerate() {
+        let change = |Row { a, d }: &Row<E::Number>| {
             let along = |y: &Vec<i64>| {
-                let mut terms = y.iter().zip(&s);
+                let mut terms = y.iter().zip(a);
                 terms.try_fold(zero.clone(), |sum, (&y, a)| e.add(&sum, &e.dyadic(y, *places, a)?))
             };
-            y.iter().map(along).chain([Some(b)]).collect::<Option<Vec<_>>>()
+            let mut s: Vec<E::Number> = y.iter().map(along).collect::<Option<_>>()?;
+            if j == joint {
+                let own = s.get_mut(j)?;
+                *own = e.sub(own, &e.halve(&e.mul(square, d)?)?)?;
+            }
+            Some(s)
         };
-        let changes = over.changes(&formulas, vertex)?.into_iter().map(change);
-        let changes: Vec<_> = changes.collect::<Option<_>>()?;
-        let mut fixed = vec![zero.clone(); y.len() + 1];
-        *fixed.get_mut(i)? = e.integer(1)?;
+        let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
+        let mut fixed = vec![zero.clone(); y.len()];
+        *fixed.get_mut(j)? = e.integer(1)?;
         t = less_changes(e, t, &fixed, &changes, &direction)?;
     }
     Some(t)
-}
-
-/// `[[T, b], [b^T, c]]`.
-pub(super) fn bordered<N: Clone>(mut t: Triangle<N>, b: &[N], c: N) -> Triangle<N> {
-    t.iter_mut().zip(b).for_each(|(row, b)| row.push(b.clone()));
-    t.push(vec![c]);
-    t
 }

@@ -234,14 +234,17 @@ impl<A: Signs> At<'_, A> {
         e.add(&rest, &e.mul(of(test.b)?, &twice)?)
     }
 
-    /// `(v . b)^2 - c^2 |A^T v|^2`: positive only if no `z` with `A z = b` has `|z| <= c`, as then
-    /// `v . b = (A^T v) . z <= |A^T v| c`.
+    /// `k^2 D_i v_i^2 - |A^T v|^2`: positive only if no `z` with `M z = e_i`, that is `A z = B_i e_i`, has
+    /// `|z| <= 1/k`, as then `B_i v_i = (A^T v) . z <= |A^T v|/k`.
     pub(super) fn unsolved(&self, test: &Solve, v: &[i64]) -> Option<A::Number> {
         let e = &self.arithmetic;
-        let v = self.direction(v, test.b.len())?;
-        let along = self.dot(&self.all(&test.b)?, &v)?;
-        let image = self.square(&self.transposed(&test.a, &v)?)?;
-        e.sub(&e.sqr(&along)?, &e.mul(self.values.of(test.square)?, &image)?)
+        let legs = &self.problem.legs;
+        let v = self.direction(v, legs.len())?;
+        let d = self.values.of(legs.get(test.joint)?.row.d).filter(|d| e.surely_positive(d))?;
+        let along = e.mul(d, &e.sqr(v.get(test.joint)?)?)?;
+        let a: Vec<Vec<Formula>> = legs.iter().map(|leg| leg.row.a.clone()).collect();
+        let image = self.square(&self.transposed(&a, &v)?)?;
+        e.sub(&e.mul(self.values.of(test.square)?, &along)?, &image)
     }
 
     /// `n^2 R^2 - |n (p - q)|^2` for the points `p = p_1 + (s/n)(p_2 - p_1)` and

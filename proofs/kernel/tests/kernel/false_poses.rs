@@ -87,11 +87,27 @@ fn machine(kind: u64, random: &mut Random) -> Box<dyn Fn(&str) -> String> {
     }
 }
 
-/// `A_i/D_i` at a pose, scaled by a part of it: the best `Y` is near.
+/// `|H_1|` at a pose, by the formulas of an acceleration.
+fn curved(text: &str, x: &[f64]) -> f64 {
+    let stated = claim(text);
+    let problem = Problem::new(&stated).expect("a claim");
+    let prover = Prover::new(&problem);
+    let values = prover.values(x);
+    let of = |f| values.of(f).expect("defined").0;
+    let Some(Test::Curvature(test)) = problem.obligations.last().map(|own| &own.test) else {
+        panic!("an acceleration");
+    };
+    let n = test.row.len();
+    let entry = |i: usize, j: usize| 0.5 * of(test.twice[i.min(j)][i.abs_diff(j)]);
+    let h = nalgebra::SymmetricEigen::new(DMatrix::from_fn(n, n, entry));
+    of(test.b) * h.eigenvalues.amax()
+}
+
+/// `A_i/D_i` at a pose, of columns of the inverse `A_i`, scaled by a part of it: the best `Y` is near.
 fn multiplier(
     prover: &Prover<'_>,
     x: &[f64],
-    divided: bool,
+    (divided, column): (bool, bool),
     random: &mut Random,
 ) -> Option<Multiplier> {
     let values = prover.values(x);
@@ -99,7 +115,7 @@ fn multiplier(
     let scale = f64::from(PLACES).exp2() * part;
     let row = |leg: &orthocert_kernel::machine::Leg| {
         let row = if divided { &leg.divided } else { &leg.row };
-        let d = values.of(row.d)?.0;
+        let d = if column { 1.0 } else { values.of(row.d)?.0 };
         row.a.iter().map(|&a| Some((values.of(a)?.0 / d * scale) as i64)).collect::<Option<_>>()
     };
     let y = prover.problem.legs.iter().map(row).collect::<Option<_>>()?;
@@ -126,7 +142,7 @@ fn nested(plain: &Evidence, random: &mut Random) -> Evidence {
 #[test]
 fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
     let mut random = Random(77);
-    let (mut tried, mut shown) = (0, [0usize; 2]);
+    let (mut tried, mut shown, mut columns) = (0, [0usize; 2], [0usize; 3]);
     for round in 0..18 {
         let text = machine(round % 3, &mut random);
         let free = claim(&text(""));
@@ -149,6 +165,14 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
         let unit = (problem.scale as f64).exp2();
         let rho = prover.values(&x);
         let length = rho.of(problem.legs[0].length.expect("a strut")).expect("defined").0 * unit;
+        let acceleration = |bound: &str| {
+            format!(
+                r#"{{"quantity":"joint_acceleration","leg":1,"given":{{"acceleration":["0"],"speed":["1"]}},"end":"max","bound":"{bound}"}}"#
+            )
+        };
+        let curved = curved(&text(&acceleration("1")), &x);
+        let inverse = m.is_square().then(|| m.clone().try_inverse()).flatten();
+        let column = inverse.map(|inverse| inverse.column(0).norm());
         // `part < 1`: false at the pose; `part > 1`: true there, and shown on small cells.
         for part in [0.999, 1.3] {
             let require = format!(
@@ -159,6 +183,13 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 decimal(part * length),
                 decimal(length / part),
             );
+            let mut require = format!("{require},{}", acceleration(&decimal(part * curved)));
+            if let Some(column) = column {
+                require += &format!(
+                    r#",{{"quantity":"joint_force","leg":1,"given":{{"tool":["1"]}},"end":"max","bound":"{}"}}"#,
+                    decimal(part * column)
+                );
+            }
             if part < 1.0 && greatest / least < 1.002 {
                 continue;
             }
@@ -191,12 +222,14 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 for obligation in &problem.obligations {
                     for _ in 0..6 {
                         let divided = random.below(4) == 0;
-                        let Some(y) = multiplier(&prover, &x, divided, &mut random) else {
+                        let column = matches!(obligation.test, Test::Solve(_));
+                        let form = (divided && !column, column);
+                        let Some(y) = multiplier(&prover, &x, form, &mut random) else {
                             continue;
                         };
                         let plain = match &obligation.test {
                             Test::SigmaMin(_) if divided => Evidence::LowerDivided(y),
-                            Test::SigmaMin(_) => Evidence::Lower(y),
+                            Test::SigmaMin(_) | Test::Solve(_) => Evidence::Lower(y),
                             Test::SigmaMax(_) if divided => Evidence::Divided,
                             Test::Conditioning(_) => {
                                 let mu = least * least * f64::from(PLACES).exp2();
@@ -213,6 +246,9 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                         let at = usize::from(matches!(evidence, Evidence::Control(_)));
                         tried += 1;
                         shown[at] += usize::from(is);
+                        columns[at] += usize::from(is && column);
+                        columns[2] +=
+                            usize::from(is && matches!(obligation.test, Test::Curvature(_)));
                         assert!(!is || part > 1.0, "{} {evidence:?} {cell:?}", text(&require));
                     }
                 }
@@ -220,4 +256,5 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
         }
     }
     assert!(shown.iter().all(|&n| n > 100), "{tried} {shown:?}");
+    assert!(columns.iter().all(|&n| n > 10), "{columns:?}");
 }

@@ -1,5 +1,5 @@
-//! Rows in the twist against differences of the joint coordinate, of every motion and drive, by rotations
-//! that are computed with cosines and sines.
+//! Rows in the twist, and accelerations, against differences of the joint coordinate, of every motion and
+//! drive, by rotations that are computed with cosines and sines.
 
 use crate::arithmetic::Random;
 use crate::certificates::claim;
@@ -10,6 +10,7 @@ use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
+use orthocert_kernel::test::curvature::Curvature;
 
 type V = [f64; 3];
 type R = [V; 3];
@@ -163,6 +164,61 @@ const MOTIONS: [Motion; 6] = [
     },
 ];
 
+/// A motion from a pose, with these velocities and accelerations at time 0.
+struct Moved {
+    p: V,
+    r: R,
+    velocity: [V; 2],
+    acceleration: [V; 2],
+}
+
+impl Moved {
+    fn random(random: &mut Random, motion: &Motion, (p, r): (V, R)) -> Self {
+        let mut vector = |components: &[usize]| {
+            let mut v = [0.0; 3];
+            components.iter().for_each(|&k| v[k] = number(random, -1.0, 1.0));
+            v
+        };
+        let mut both = || [vector(motion.velocity), vector(motion.spin)];
+        Moved { p, r, velocity: both(), acceleration: both() }
+    }
+
+    fn at(&self, t: f64) -> (V, R) {
+        let [by, angles] = [0, 1].map(|i| {
+            [0, 1, 2].map(|k| self.velocity[i][k] * t + self.acceleration[i][k] * t * t / 2.0)
+        });
+        let angle = dot(angles, angles).sqrt();
+        let turned = match angle > 0.0 {
+            true => product(&about(angles.map(|x| x / angle), angle), &self.r),
+            false => self.r,
+        };
+        ([0, 1, 2].map(|k| self.p[k] + by[k]), turned)
+    }
+
+    /// `M_i . x' + x^T H x`, in the problem's unit.
+    fn asked(
+        &self,
+        motion: &Motion,
+        test: &Curvature,
+        of: impl Fn(Formula) -> f64,
+        unit: f64,
+    ) -> f64 {
+        let twist = |[linear, angular]: &[V; 2]| -> Vec<f64> {
+            let linear = motion.velocity.iter().map(|&k| linear[k] / unit);
+            linear.chain(motion.spin.iter().map(|&k| 1.5 / unit * angular[k])).collect()
+        };
+        let (x, x_dot) = (twist(&self.velocity), twist(&self.acceleration));
+        let first: f64 = test.row.iter().zip(&x_dot).map(|(&f, x)| of(f) * x).sum();
+        let mut twice = 0.0;
+        for (i, entries) in test.twice.iter().enumerate() {
+            for (j, &f) in (i..).zip(entries) {
+                twice += of(f) * x[i] * x[j] * if i == j { 1.0 } else { 2.0 };
+            }
+        }
+        first + twice / 2.0
+    }
+}
+
 /// A leg of a motion, its text and its numbers.
 fn leg(random: &mut Random, motion: &Motion, which: usize) -> (String, [V; 2], Drive) {
     let plane = motion.mechanism == "planar";
@@ -214,7 +270,7 @@ fn leg(random: &mut Random, motion: &Motion, which: usize) -> (String, [V; 2], D
 #[test]
 fn rows_are_derivatives_in_the_twist() {
     let mut random = Random(11);
-    let mut reached = 0;
+    let (mut reached, mut curved) = (0, 0);
     for round in 0..360 {
         let motion = &MOTIONS[round % MOTIONS.len()];
         let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
@@ -222,10 +278,13 @@ fn rows_are_derivatives_in_the_twist() {
         let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
         let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
         let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
-        let require = match which {
-            0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"}"#,
+        let stroke = match which {
+            0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"},"#,
             _ => "",
         };
+        let require = format!(
+            r#"{stroke}{{"quantity":"joint_acceleration","given":{{"acceleration":["1"],"speed":["1"]}},"end":"max","bound":"1"}}"#
+        );
         let corner = |x: &str| vec![format!("\"{x}\""); motion.velocity.len()].join(",");
         let claim = claim(&format!(
             r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{require}]}}"#,
@@ -295,6 +354,29 @@ fn rows_are_derivatives_in_the_twist() {
                     "{found} {expected}"
                 );
             }
+            let test = problem.obligations.iter().find_map(|o| match &o.test {
+                Test::Curvature(test) if o.leg == Some(i) => Some(test),
+                _ => None,
+            });
+            assert_eq!(test.is_some(), !motion.spin.is_empty() || which == 2);
+            if let Some(test) = test.filter(|_| !motion.spin.is_empty()) {
+                let moved = Moved::random(&mut random, motion, (p, r));
+                let at = |t: f64| moved.at(t);
+                let h = 1e-4;
+                let all = [-h, 0.0, h].map(|t| rho(at(t).0, &at(t).1));
+                if let [Some(before), Some(now), Some(after)] = all {
+                    let expected = (before - 2.0 * now + after) / (h * h);
+                    let found = moved.asked(motion, test, |f| of(f).expect("H"), unit);
+                    let found = if per == 1.0 { found * unit } else { found };
+                    if expected.abs() < 100.0 {
+                        assert!(
+                            (found - expected).abs() < 1e-3 * (1.0 + expected.abs()),
+                            "{found} {expected}"
+                        );
+                        curved += 1;
+                    }
+                }
+            }
             let d = of(own.row.d).expect("D");
             for (k, &a) in own.row.a.iter().enumerate() {
                 let quotient = of(a).expect("A").powi(2) / d;
@@ -315,7 +397,7 @@ fn rows_are_derivatives_in_the_twist() {
             reached += 1;
         }
     }
-    assert!(reached > 900, "{reached}");
+    assert!(reached > 900 && curved > 700, "{reached} {curved}");
 }
 
 #[test]

@@ -135,20 +135,22 @@ impl<'a> Prover<'a> {
         Some(Multiplier { y: (0..rows.len()).map(row).collect(), places: 14 })
     }
 
-    /// `Y` for a solution `z` of `A z = b`: `A` at the centre, then between it and `b z^T/c^2`, which
-    /// loses nothing along `b`.
+    /// `Y` for the solution `z` of `A z = b`, `b = B_i e_i`: `A` at the centre, then between it and
+    /// `k^2 b z^T`, which loses nothing along `b`.
     fn solutions(&self, over: &Over<'_, Rough>, test: &Solve) -> Vec<Multiplier> {
         let middle = |f: &Formula| over.of(*f).map(|f| (f.at_centre.0 + f.at_centre.1) / 2.0);
-        let n = test.b.len();
-        let all: Option<Vec<f64>> = test.a.iter().flatten().map(middle).collect();
-        let b: Option<Vec<f64>> = test.b.iter().map(middle).collect();
-        let (Some(a), Some(b), Some(square)) = (all, b, middle(&test.square)) else {
+        let rows = || self.problem.legs.iter().map(|leg| &leg.row);
+        let n = rows().count();
+        let all: Option<Vec<f64>> = rows().flat_map(|row| &row.a).map(middle).collect();
+        let d = self.problem.legs.get(test.joint).and_then(|leg| middle(&leg.row.d));
+        let (Some(a), Some(d), Some(square)) = (all, d, middle(&test.square)) else {
             return Vec::new();
         };
         let a = DMatrix::from_row_slice(n, n, &a);
-        let b = nalgebra::DVector::from_vec(b);
+        let mut b = nalgebra::DVector::zeros(n);
+        b[test.joint] = d.sqrt();
         let Some(z) = a.clone().lu().solve(&b) else { return Vec::new() };
-        let own = &b * z.transpose() / square;
+        let own = &b * z.transpose() * square;
         let with = |part: f64| {
             let y = (&a * (1.0 - part) + &own * part) * f64::from(PLACES).exp2();
             let row = |i| y.row(i).iter().map(|y: &f64| y.round() as i64).collect();
