@@ -16,10 +16,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant};
-
-/// How long an interrupted batch may take to write what it knows.
-const LAST_WORDS: Duration = Duration::from_secs(5);
+use std::time::Instant;
 
 /// The flags of a batch.
 #[derive(Debug, clap::Args)]
@@ -95,7 +92,7 @@ pub fn run(
     let planned = plan(arguments, flags.out.as_deref()).map_err(Failure::input)?;
     flags.probe(&planned)?;
     effort.start_threads()?;
-    interrupt::grant(LAST_WORDS);
+    interrupt::grant();
     let jobs: Arc<[Planned]> = planned.into();
     let work = {
         let budget = effort.clone();

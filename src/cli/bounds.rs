@@ -1,6 +1,6 @@
 //! `orthocert bounds`.
 
-use super::{certify, effort, input, print, Failure, Format, Status};
+use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::decimal::{approximate, outward, rounded, Toward};
@@ -93,6 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     effort.start_threads()?;
     let claim = &design.claim;
     let budget = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;
+    interrupt::grant();
     let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
         Format::Json => match design.unit {
@@ -100,6 +101,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             None => print::json(&serde_json::json!({ "bounds": rows }))?,
         },
         Format::Text => print::answer(&text(&rows, &design, &relative, effort.quiet, started))?,
+    }
+    if interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
     }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
     Ok(if complete { Status::Done } else { Status::Undecided })
@@ -140,9 +144,9 @@ fn rows(
                 row.enclosed((width, inner, outer), relative);
                 row.store(arguments, extreme.file_stem(), certificates)?;
             }
-            Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) => {
-                return Err(failure(error));
-            }
+            Err(error @ NotEnclosed::Claim(_)) => return Err(failure(error)),
+            // What was found before is told.
+            Err(NotEnclosed::Cancelled) => row.not_enclosed = Some("interrupted".to_owned()),
             Err(error) => row.not_enclosed = Some(error.to_string()),
         }
         rows.push(row);

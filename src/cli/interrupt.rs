@@ -40,11 +40,10 @@ pub fn is_cancelled() -> bool {
     CANCEL.load(Ordering::Relaxed)
 }
 
-/// Gives the work that long to end by itself: for a command that still has something to write, and
+/// Gives the work five seconds to end by itself: for a command that still has something to write, and
 /// that looks at [`cancelled`] all the time.
-pub fn grant(grace: Duration) {
-    let milliseconds = u64::try_from(grace.as_millis()).unwrap_or(u64::MAX);
-    GRACE.store(milliseconds, Ordering::Relaxed);
+pub fn grant() {
+    GRACE.store(5000, Ordering::Relaxed);
 }
 
 /// Says once that the command was interrupted; returns the exit code. From now on no file is begun,

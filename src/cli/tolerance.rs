@@ -128,40 +128,50 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         found.map(|found| (found, out_of_time)).map_err(explain)
     };
     let mut rows = Vec::new();
-    let mut weights = Vec::new();
-    for (scheme, measure) in schemes(&kinds) {
-        let found = bracket(&scheme)?;
-        if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.0.certified) {
-            weights.push((*kind, t.clone()));
+    let mut fill = || {
+        let mut weights = Vec::new();
+        for (scheme, measure) in schemes(&kinds) {
+            let found = bracket(&scheme)?;
+            if let ([(kind, _)], Some((t, _))) = (&scheme.weights[..], &found.0.certified) {
+                weights.push((*kind, t.clone()));
+            }
+            rows.push(row(&scheme, measure, found, width, arguments)?);
         }
-        rows.push(row(&scheme, measure, found, width, arguments)?);
-    }
-    if mixed(&kinds) && weights.len() == kinds.len() {
-        let scheme = Scheme { weights, leg: None };
-        let found = bracket(&scheme)?;
-        rows.push(row(&scheme, Measure::Share, found, width, arguments)?);
-    }
-    if arguments.by_leg {
-        for kind in &kinds {
-            let mut of_legs = Vec::new();
+        if mixed(&kinds) && weights.len() == kinds.len() {
+            let scheme = Scheme { weights, leg: None };
+            let found = bracket(&scheme)?;
+            rows.push(row(&scheme, Measure::Share, found, width, arguments)?);
+        }
+        for kind in kinds.iter().filter(|_| arguments.by_leg) {
+            let first = rows.len();
             for leg in 0..legs_of(&claim.mechanism) {
                 let scheme = Scheme { leg: Some(leg), ..Scheme::common(&[*kind]) };
                 let found = bracket(&scheme)?;
-                of_legs.push(row(&scheme, measure(kind.is_direction()), found, width, arguments)?);
+                rows.push(row(&scheme, measure(kind.is_direction()), found, width, arguments)?);
             }
             // The leg that allows least first.
             let least = |row: &Row| {
                 row.certified.as_ref().and_then(Exact::as_rational).cloned().unwrap_or_default()
             };
-            of_legs.sort_by_key(least);
-            rows.extend(of_legs);
+            rows[first..].sort_by_key(least);
         }
+        Ok(())
+    };
+    interrupt::grant();
+    let filled = fill();
+    // What was found before is told.
+    match filled {
+        Err(Failure::Interrupted) if !rows.is_empty() => {}
+        filled => filled?,
     }
     match effort.format {
         Format::Json => print::json(&serde_json::json!({
             "nominal": "certified", "each": &arguments.each, "tolerances": rows,
         }))?,
         Format::Text => print::answer(&text(&rows, arguments, design.unit, started))?,
+    }
+    if interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
     }
     let complete = rows.iter().all(|row| row.gap_reached);
     Ok(if complete { Status::Done } else { Status::Undecided })

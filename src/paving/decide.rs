@@ -384,6 +384,11 @@ impl<'a> Decider<'a> {
                 let local = Local::of(rows.iter(), |f| over.centre(f))?;
                 less(least(&local), bound(*kappa)?)
             }
+            Test::Greatest(rows, k) => {
+                let local = Local::of(rows.iter(), |f| over.centre(f))?;
+                let v = local.spectrum.greatest_direction();
+                less(local.stretched(over, v), bound(*k)?).times(-1.0)
+            }
             Test::AtLeast(f) => Margin::of(over, over.formulas.of(*f)?),
             Test::Beyond(f, b) => {
                 let (f, b) = (over.formulas.of(*f)?, over.formulas.of(*b)?);

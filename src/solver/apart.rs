@@ -63,6 +63,7 @@ impl Over<'_> {
                 Some(Worst { directions, weights: Vec::new(), ..least })
             }
             Test::Least(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), false),
+            Test::Greatest(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), true),
             Test::Solve(solve) => self.of_solution(&own, solve.joint),
             Test::AtLeast(f) => self.of_sum(vec![(*f, 1.0)]),
             Test::Beyond(f, b) => {

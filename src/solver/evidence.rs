@@ -334,7 +334,9 @@ impl Over<'_> {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                 self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
             }
-            Test::Least(rows, _) | Test::OneToOne(rows) => self.rows_vary(rows.iter(), k),
+            Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => {
+                self.rows_vary(rows.iter(), k)
+            }
             Test::AtLeast(f) => self.along(*f, k),
             Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
             Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),

@@ -136,7 +136,11 @@ impl Over<'_> {
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 let rows = self.rows(rows.iter(), at)?;
-                Some(least(rows.minorant(&matrix(y)) - unit(self.centre(*kappa)?)))
+                Some(least(rows.minorant(&matrix(y)) - unit(self.at(*kappa, at)?)))
+            }
+            (Test::Greatest(rows, k), Evidence::Test) => {
+                let rows = self.rows(rows.iter(), at)?;
+                Some(least(unit(self.at(*k, at)?) - rows.square()))
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
                 let y = matrix(self.prover.chords.as_ref()?);

@@ -39,7 +39,7 @@ fn formulas(problem: &Problem, test: &Test) -> Vec<Formula> {
     };
     match test {
         Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) => with(legs(), &[*f]),
-        Test::Least(least, kappa) => with(rows(least.iter()), &[*kappa]),
+        Test::Least(own, bound) | Test::Greatest(own, bound) => with(rows(own.iter()), &[*bound]),
         Test::OneToOne(_) => legs(),
         Test::AtLeast(f) => vec![*f],
         Test::Beyond(f, b) => vec![*f, *b],

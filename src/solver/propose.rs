@@ -37,7 +37,9 @@ impl Over<'_> {
             | Test::SigmaMax(_)
             | Test::Conditioning(_)
             | Test::OneToOne(_)
-            | Test::Solve(_) => self.prover.is_scaled,
+            | Test::Solve(_)
+            | Test::Least(..)
+            | Test::Greatest(..) => self.prover.is_scaled,
             Test::AtLeast(_) => self.problem().weight.is_some(),
             _ => false,
         };
@@ -55,6 +57,7 @@ impl Over<'_> {
             Test::Conditioning(c) => there.conditioning(test, *c, Form::Scaled),
             Test::OneToOne(_) => there.shown(test, Evidence::Chords),
             Test::Solve(solve) => there.solution(test, solve),
+            Test::Least(rows, kappa) => there.least(test, rows, *kappa),
             _ => there.shown(test, Evidence::Test),
         };
         found.map(|inner| Evidence::Control(Box::new(inner)))
@@ -74,6 +77,7 @@ impl Over<'_> {
             Test::Curvature(_) => self.shown(test, Evidence::Test),
             Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => self.least(test, rows, *kappa),
+            Test::Greatest(..) => self.shown(test, Evidence::Test),
             Test::OneToOne(_) => self.shown(test, Evidence::Chords),
             Test::Solve(solve) => self.solution(test, solve),
             Test::Accuracy(accuracy) => self.accuracy(test, accuracy),

@@ -117,9 +117,10 @@ pub(crate) fn directions(
         Test::Conditioning(_) => {
             one(own(true)).zip(one(own(false))).map(|(u, v)| vec![u, v]).collect()
         }
-        Test::Least(rows, _) => {
+        Test::Least(rows, _) | Test::Greatest(rows, _) => {
+            let greatest = matches!(test, Test::Greatest(..));
             let m = violation::divided(at, rows.iter());
-            each(m.and_then(|m| violation::singular(&m, false)))
+            each(m.and_then(|m| violation::singular(&m, greatest)))
         }
         Test::Solve(solve) => each(violation::unsolved(at, &problem.legs, solve)),
         Test::Accuracy(test) => each(violation::far(at, &problem.legs, test)),

@@ -431,6 +431,10 @@ impl<'a> Sampler<'a> {
                 let xi = violation::divided(values, rows.iter())?.singular_values();
                 xi.min() / root(kappa)? - 1.0
             }
+            Test::Greatest(rows, k) => {
+                let xi = violation::divided(values, rows.iter())?.singular_values();
+                1.0 - xi.max() / root(k)?
+            }
             // Of two points; what is told of one is how far it is from a singularity.
             Test::OneToOne(_) => self.xi(values)?[0],
             Test::Solve(solve) => {

@@ -62,6 +62,25 @@ fn an_interrupted_run_keeps_the_certificate_that_was_there() {
 }
 
 #[test]
+fn interrupted_bounds_tell_what_was_enclosed() {
+    let folder = Folder::new();
+    folder.write("d.toml", include_str!("../designs/kernel/hexapod-forces.toml"));
+    let mut command = folder.command(&["bounds", "d.toml", "-o", ".", "--relative", "0.1"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // One certificate of each side is there once the first row is.
+    while folder.names().len() < 3 {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it was interrupted");
+        sleep(Duration::from_millis(1));
+    }
+    send(&child, 2);
+    let run = Run::from(child.wait_with_output().unwrap()).exits(4);
+    assert!(run.stderr.contains("interrupted"), "{}", run.stderr);
+    let first = run.stdout.lines().find(|line| line.starts_with("  psi"));
+    assert!(first.is_some_and(|line| line.contains("least     0.4")), "{}", run.stdout);
+    run.says(&["joint force, force greatest interrupted"]);
+}
+
+#[test]
 fn an_interrupted_limit_writes_nothing() {
     let folder = Folder::with(&[LONG]);
     let arguments = ["limit", LONG, "mechanism.parameters.l", "--gap", "1e-9", "--threads", "1"];

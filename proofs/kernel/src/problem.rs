@@ -393,13 +393,15 @@ impl Problem {
                 Test::OneToOne(rows) => {
                     rows.iter().flat_map(|row| row.a.iter().chain([&row.d])).copied().collect()
                 }
+                Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
+                    let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
+                    all.copied().chain([*bound]).collect()
+                }
                 Test::AtLeast(f) => vec![*f],
                 // These have no form for control points.
-                Test::Beyond(..)
-                | Test::Least(..)
-                | Test::Accuracy(_)
-                | Test::Apart(_)
-                | Test::Curvature(_) => Vec::new(),
+                Test::Beyond(..) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
+                    Vec::new()
+                }
             };
             wanted.extend(self.turned);
             wanted.extend(self.inside.as_ref().map(|inside| inside.g));

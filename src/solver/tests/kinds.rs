@@ -127,7 +127,7 @@ fn a_hexapod() {
 fn what_platforms_that_turn_ask_of_their_joints() {
     let hexapod = hexapod(r#"{"angle":"5"}"#);
     let machines = [
-        ("3-RPR", three_rpr(), 0.02, [60, 400]),
+        ("3-RPR", three_rpr(), 0.02, [20, 400]),
         ("about a point", spherical(TILT), 0.02, [60, 400]),
         ("hexapod", hexapod, 0.1, [60, 400]),
     ];
@@ -135,6 +135,12 @@ fn what_platforms_that_turn_ask_of_their_joints() {
         let force = ("joint_force", &[("tool", 3.0)][..]);
         let leaves = on_both_sides(name, &machine, force, Bound::Max, part);
         assert!(leaves <= forces, "{name} force: {leaves}");
+        let speed = ("joint_speed", &[("tool", 3.0)][..]);
+        let leaves = on_both_sides(name, &machine, speed, Bound::Max, part);
+        assert!(leaves <= forces, "{name} speed: {leaves}");
+        let stiffness = ("stiffness", &[("joint", 50.0)][..]);
+        let leaves = on_both_sides(name, &machine, stiffness, Bound::Min, part);
+        assert!(leaves <= forces, "{name} stiffness: {leaves}");
         let given = [("acceleration", 30.0), ("speed", 3.0)];
         let acceleration = ("joint_acceleration", &given[..]);
         let leaves = on_both_sides(name, &machine, acceleration, Bound::Max, part);

@@ -523,6 +523,10 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 let weight = |v| self.scaled(over, self.arithmetic.integer(1)?, v);
                 solve(over, rows, test, &weight, y)
             }
+            (Test::Least(rows, kappa), Evidence::Lower(y)) => {
+                sigma_min(over, rows, &|v| over.at(*kappa, v), y)
+            }
+            (Test::Greatest(rows, k), Evidence::Test) => sigma_max(over, rows, &|v| over.at(*k, v)),
             // What follows knows of vertices alone.
             _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
@@ -531,9 +535,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
-            (Test::Least(rows, kappa), Evidence::Lower(y)) => {
-                sigma_min(over, rows, &constant(kappa), y)
-            }
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
                 self.accuracy(over, place, test, (y, *kappa)).unwrap_or(false)
             }

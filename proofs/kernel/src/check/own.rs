@@ -52,7 +52,7 @@ pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
             }
             Test::Solve(solve) => formulas.push(solve.square),
             Test::Beyond(f, b) => formulas.extend([*f, *b]),
-            Test::Least(rows, f) => {
+            Test::Least(rows, f) | Test::Greatest(rows, f) => {
                 formulas.extend(rows.iter().flat_map(row));
                 formulas.push(*f);
             }
@@ -98,7 +98,9 @@ impl<E: Enclosure> Checker<'_, E> {
                 Test::Conditioning(_) | Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) => {
                     return None
                 }
-                Test::SigmaMax(_) | Test::AtLeast(_) | Test::Curvature(_) => Evidence::Test,
+                Test::SigmaMax(_) | Test::Greatest(..) | Test::AtLeast(_) | Test::Curvature(_) => {
+                    Evidence::Test
+                }
             })
         };
         own().is_some_and(|evidence| self.shows(over, place, test, &evidence))
@@ -138,6 +140,7 @@ impl<E: Enclosure> Checker<'_, E> {
                     vec![direction(&self.rows, true)?, direction(&self.rows, false)?]
                 }
                 Test::Least(rows, _) => vec![direction(rows, false)?],
+                Test::Greatest(rows, _) => vec![direction(rows, true)?],
                 Test::AtLeast(_) | Test::Beyond(..) => Vec::new(),
                 Test::OneToOne(_)
                 | Test::Solve(_)

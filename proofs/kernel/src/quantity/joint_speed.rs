@@ -14,7 +14,8 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
     tests,
 };
 
-/// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
+/// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians. Of scaled rows
+/// it is `sigma_max^2 <= w k^2` of that row alone, which, unlike the square, has a form for control points.
 fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     let max = context.greatest()?.clone();
     let tool = context.given("tool")?.clone();
@@ -28,8 +29,13 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
     } else {
         context.number(&ratio, 0)
     };
+    let scaled = leg.scaled.clone().zip(context.weight);
     let tape = context.tape();
     let square = tape.sqr(k);
+    if let Some((row, weight)) = scaled {
+        let square = tape.mul(square, weight);
+        return Ok(vec![Test::Greatest(vec![row], square)]);
+    }
     let greatest = tape.mul(square, leg.row.d);
     let squares: Vec<_> = leg.row.a.iter().map(|&a| tape.sqr(a)).collect();
     let rest = squares.into_iter().fold(greatest, |rest, a| tape.sub(rest, a));

@@ -81,8 +81,10 @@ pub enum Test {
     AtLeast(Formula),
     /// `f >= b` everywhere, or `f <= -b` everywhere.
     Beyond(Formula, Formula),
-    /// `sigma_min >= kappa` of other rows than the machine's; of `kappa^2`.
+    /// `sigma_min >= kappa` of other rows than the machine's; of `kappa^2`, of scaled rows of `w kappa^2`.
     Least(Vec<Row<Formula>>, Formula),
+    /// `sigma_max <= k` of these; of `k^2` likewise.
+    Greatest(Vec<Row<Formula>>, Formula),
     /// `sym(Y^T A) > 0` at every point, for one `Y`.
     OneToOne(Vec<Row<Formula>>),
     /// `|M^-1 e_i| <= 1/k`.
@@ -103,7 +105,7 @@ impl Test {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
                 legs.iter().map(|leg| of(&leg.row)).collect()
             }
-            Test::Least(rows, _) => rows.iter().map(of).collect(),
+            Test::Least(rows, _) | Test::Greatest(rows, _) => rows.iter().map(of).collect(),
             Test::AtLeast(f) => vec![vec![*f]],
             Test::Beyond(f, b) => vec![vec![*f, *b]],
             Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
@@ -138,6 +140,16 @@ pub(crate) struct Context<'a> {
 impl Context<'_> {
     fn tape(&mut self) -> &mut Tape {
         &mut self.builder.tape
+    }
+
+    /// The rows for tests of other rows than the machine's, with their weight: scaled, where all legs
+    /// have such, and else those of `A`, with 1.
+    fn own_rows(&mut self) -> (Vec<Row<Formula>>, Formula) {
+        let scaled: Option<Vec<_>> = self.legs.iter().map(|leg| leg.scaled.clone()).collect();
+        scaled.zip(self.weight).unwrap_or_else(|| {
+            let rows = self.legs.iter().map(|leg| leg.row.clone());
+            (rows.collect(), self.builder.tape.integer(1))
+        })
     }
 
     /// A number of the requirement, divided by `2^(units scale)`: `units` of length.

@@ -4,7 +4,6 @@ use super::{Context, Quantity, Test};
 use crate::input::{binary, positive, ClaimError};
 use crate::machine::Leg;
 use crate::number::Operator;
-use crate::test::Row;
 
 pub(super) const STIFFNESS: Quantity = Quantity {
     key: "stiffness",
@@ -16,7 +15,7 @@ pub(super) const STIFFNESS: Quantity = Quantity {
 };
 
 /// `M^T diag(k) M >= b I`, for `b, k_i > 0`, is `sigma_min >= 1` of the rows `A_i` with `D_i b/k_i` in
-/// place of `D_i`, which are `sqrt(k_i/b)` times those of `M`. One `k`, or one a leg; of arms it is a
+/// place of `D_i`, which are `sqrt(k_i/b)` times those of `M`; scaled, `sigma_min^2 >= w`. One `k`, or one a leg; of arms it is a
 /// torque per radian.
 ///
 /// *Proof.* A displacement `x` of the platform displaces joint `i` by `M_i . x`, which it resists with
@@ -26,17 +25,14 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
     positive(context.place, &bound)?;
     let given = context.all_given("joint")?.to_vec();
     let units = if context.is_angular() { -2 } else { 0 };
-    let legs = context.legs;
-    if given.len() != 1 && given.len() != legs.len() {
+    let (mut rows, weight) = context.own_rows();
+    if given.len() != 1 && given.len() != rows.len() {
         return context.refused("given one number, or one a leg");
     }
-    let mut rows = Vec::new();
-    for (leg, k) in legs.iter().zip(given.iter().cycle()) {
+    for (row, k) in rows.iter_mut().zip(given.iter().cycle()) {
         positive(context.place, k)?;
         let ratio = context.number(&binary(Operator::Div, &bound, k), units);
-        let d = context.tape().mul(leg.row.d, ratio);
-        rows.push(Row { a: leg.row.a.clone(), d });
+        row.d = context.tape().mul(row.d, ratio);
     }
-    let one = context.tape().integer(1);
-    Ok(vec![Test::Least(rows, one)])
+    Ok(vec![Test::Least(rows, weight)])
 }

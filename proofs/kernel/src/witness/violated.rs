@@ -151,6 +151,13 @@ impl<A: Signs> At<'_, A> {
                 };
                 self.is_positive(rest())
             }
+            (Test::Greatest(rows, k), [v]) => {
+                let rest = || {
+                    let [length, image] = self.stretched(rows.iter(), v)?;
+                    e.sub(&image, &e.mul(of(k)?, &length)?)
+                };
+                self.is_positive(rest())
+            }
             (Test::Solve(test), [v]) => self.is_positive(self.unsolved(test, v)),
             (Test::Apart(test), [weights]) => self.is_positive(self.nearer(test, weights)),
             (Test::Curvature(test), [v]) => self.is_positive(self.curved(test, v)),

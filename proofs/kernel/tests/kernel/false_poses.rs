@@ -143,6 +143,7 @@ fn nested(plain: &Evidence, random: &mut Random) -> Evidence {
 fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
     let mut random = Random(77);
     let (mut tried, mut shown, mut columns) = (0, [0usize; 2], [0usize; 3]);
+    let mut others = [0usize; 2];
     for round in 0..18 {
         let text = machine(round % 3, &mut random);
         let free = claim(&text(""));
@@ -184,6 +185,12 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 decimal(length / part),
             );
             let mut require = format!("{require},{}", acceleration(&decimal(part * curved)));
+            let row = m.row(0).norm();
+            require += &format!(
+                r#",{{"quantity":"joint_speed","leg":1,"given":{{"tool":["1"]}},"end":"max","bound":"{}"}},{{"quantity":"stiffness","given":{{"joint":["2"]}},"end":"min","bound":"{}"}}"#,
+                decimal(part * row),
+                decimal(2.0 * least * least / part),
+            );
             if let Some(column) = column {
                 require += &format!(
                     r#",{{"quantity":"joint_force","leg":1,"given":{{"tool":["1"]}},"end":"max","bound":"{}"}}"#,
@@ -229,7 +236,9 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                         };
                         let plain = match &obligation.test {
                             Test::SigmaMin(_) if divided => Evidence::LowerDivided(y),
-                            Test::SigmaMin(_) | Test::Solve(_) => Evidence::Lower(y),
+                            Test::SigmaMin(_) | Test::Solve(_) | Test::Least(..) => {
+                                Evidence::Lower(y)
+                            }
                             Test::SigmaMax(_) if divided => Evidence::Divided,
                             Test::Conditioning(_) => {
                                 let mu = least * least * f64::from(PLACES).exp2();
@@ -247,6 +256,8 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                         tried += 1;
                         shown[at] += usize::from(is);
                         columns[at] += usize::from(is && column);
+                        let other = matches!(obligation.test, Test::Least(..) | Test::Greatest(..));
+                        others[at] += usize::from(is && other);
                         columns[2] +=
                             usize::from(is && matches!(obligation.test, Test::Curvature(_)));
                         assert!(!is || part > 1.0, "{} {evidence:?} {cell:?}", text(&require));
@@ -256,5 +267,6 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
         }
     }
     assert!(shown.iter().all(|&n| n > 100), "{tried} {shown:?}");
+    assert!(others.iter().all(|&n| n > 10), "{others:?}");
     assert!(columns.iter().all(|&n| n > 10), "{columns:?}");
 }

@@ -210,7 +210,7 @@ impl<'a> Prover<'a> {
             _ => form,
         };
         let rows = match test {
-            Test::Least(rows, _) => rows.clone(),
+            Test::Least(rows, _) | Test::Greatest(rows, _) => rows.clone(),
             _ => self.legs(form)?,
         };
         Some(match (test, evidence) {
@@ -436,7 +436,7 @@ impl<'a> Prover<'a> {
             ),
             Test::OneToOne(_) => tried.push(Evidence::Chords),
             Test::AtLeast(_) => tried.extend([Evidence::Test, Evidence::Cube]),
-            Test::Curvature(_) => tried.push(Evidence::Test),
+            Test::Curvature(_) | Test::Greatest(..) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => {
                 let starts = self.starts(over, rows, number(kappa).sqrt());
