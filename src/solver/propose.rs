@@ -151,7 +151,7 @@ impl Over<'_> {
     }
 
     /// `mu` half-way between what both bounds allow: at the centre, and, by differences, along each
-    /// coordinate; at control points at the centre alone.
+    /// coordinate, of scaled rows times the weight there.
     fn conditioning(&self, test: &Test, c_squared: Formula, form: Form) -> Option<Evidence> {
         let c = self.centre(c_squared)?.sqrt();
         let middle = |rows: Rows| {
@@ -159,10 +159,10 @@ impl Over<'_> {
             (0.5 * (xi.min() + xi.max() / c)).powi(2)
         };
         let mut mu = vec![middle(self.own(Form::Plain, At::Centre)?)];
-        let along = if form == Form::Scaled { 0 } else { self.m() };
-        for k in 0..along {
+        let weight = self.scale(form).powi(2);
+        for k in 0..self.m() {
             let at = |sign| self.own(Form::Plain, At::Face(k, sign)).map(middle);
-            mu.push(0.5 * (at(1.0)? - at(-1.0)?));
+            mu.push(0.5 * weight * (at(1.0)? - at(-1.0)?));
         }
         // As fine as what may stand between both bounds, `mu` and `c^2 mu`.
         let size = exponent(mu[0] * (1.0 - c.powi(-2)).clamp(f64::EPSILON, 0.5));

@@ -104,7 +104,8 @@ impl Control {
                 values.entry(f).or_default().push(at.of(*image).cloned());
             }
         }
-        Some(Controls { points, values })
+        let nodes = nodes.iter().map(Vec::len).collect();
+        Some(Controls { points, nodes, values })
     }
 }
 
@@ -112,6 +113,8 @@ impl Control {
 #[derive(Clone, Debug)]
 pub struct Controls<N> {
     points: usize,
+    /// How many nodes each coordinate has.
+    nodes: Vec<usize>,
     values: HashMap<Formula, Vec<Option<N>>>,
 }
 
@@ -120,6 +123,18 @@ impl<N> Controls<N> {
     #[allow(clippy::len_without_is_empty, reason = "there is one at least")]
     pub fn len(&self) -> usize {
         self.points
+    }
+
+    /// Where between the ends of its range, as -1, 0 and 1, control point `j` has coordinate `k`; `None` of a
+    /// coordinate that no formula has.
+    pub fn place(&self, k: usize, j: usize) -> Option<i64> {
+        let node = j / self.nodes.get(..k)?.iter().product::<usize>() % self.nodes.get(k)?;
+        match (self.nodes.get(k)?, node) {
+            (2, 0) | (3, 0) => Some(-1),
+            (3, 1) => Some(0),
+            (2, 1) | (3, 2) => Some(1),
+            _ => None,
+        }
     }
 
     /// Encloses `f_j`; `None` where it is not defined, or the formula has not the form.

@@ -324,8 +324,8 @@ impl Tape {
         needed
     }
 
-    /// The partial derivatives of `f` by coordinates and parameters, or by other entries, in which `f` is
-    /// then taken as a formula.
+    /// The partial derivatives of `f` by coordinates and parameters, or by other entries, of which `f` is
+    /// then taken as a function, all else held.
     ///
     /// With `f' = N/E` and `g' = K/F`:
     ///

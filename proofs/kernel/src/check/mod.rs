@@ -589,7 +589,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:
     /// `sigma_min^2 >= mu`, `sigma_max^2 <= c^2 mu` for the same convex combination `mu` of the `mu_v`.
-    /// At control points `mu_0` alone: they have no `v`, and `mu` times the weight has not their form.
+    /// At control points `mu_v = mu_0 w_v + sum_k t_vk mu_k`, where `t_vk` in `{-1, 0, 1}` is the place of the
+    /// coordinate's node between the ends of its range, and `w sigma_min^2 >= mu`, `w sigma_max^2 <= c^2 mu`
+    /// for the same convex combination: any other `mu_v` would do.
     fn conditioning(
         &self,
         over: &Over<'_, E>,
@@ -597,19 +599,30 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         c_squared: Formula,
         (y, mu): (&Multiplier, &[i64]),
     ) -> bool {
-        let terms = if over.controls.is_some() { 0 } else { self.problem.dimension() };
-        let Some((first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
+        let (e, terms) = (self.arithmetic, self.problem.dimension());
+        let Some((&first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
             return false;
         };
-        let mu = |v: Vertex| {
-            let mut terms = rest.iter().enumerate();
-            let n = terms.try_fold(*first, |sum, (k, &mu)| {
-                sum.checked_add(if v.has(k) { mu } else { mu.checked_neg()? })
-            });
-            self.arithmetic.dyadic(n.filter(|&n| n > 0)?, y.places, &self.arithmetic.integer(1)?)
+        let least = |v: Vertex| {
+            let place = |k: usize| match over.controls {
+                None => Some(if v.has(k) { 1 } else { -1 }),
+                Some(controls) => controls.place(k, v.index()),
+            };
+            let term = |sum: i64, (k, &mu): (usize, &i64)| match mu {
+                0 => Some(sum),
+                mu => sum.checked_add(mu.checked_mul(place(k)?)?),
+            };
+            let number = |n| e.dyadic(n, y.places, &e.integer(1)?);
+            match over.controls {
+                None => number(rest.iter().enumerate().try_fold(first, term).filter(|&n| n > 0)?),
+                Some(_) => {
+                    let own = self.scaled(over, number(first)?, v)?;
+                    let mu = e.add(&own, &number(rest.iter().enumerate().try_fold(0, term)?)?)?;
+                    e.is_positive(&mu).then_some(mu)
+                }
+            }
         };
-        let least = |v| self.scaled(over, mu(v)?, v);
-        let greatest = |v| self.arithmetic.mul(&over.of(c_squared)?.range, &least(v)?);
+        let greatest = |v| e.mul(&over.of(c_squared)?.range, &least(v)?);
         y.places < MOST_PLACES
             && sigma_min(over, rows, &least, y)
             && sigma_max(over, rows, &greatest)

@@ -140,7 +140,11 @@ impl Motion {
     /// `u . (omega x (omega x r)) = (u . omega)(r . omega) - (u . r) |omega|^2`. ∎ `H` is not the second
     /// derivative by coordinates of orientation.
     ///
-    /// `None` of a platform that does not turn, and where a component of `C` is a constant.
+    /// `U` is derived by the entries of `C`, wherever they occur in `u`. An entry of `u` that is also that
+    /// of `C_k` is `C_k` at every pose, and so along every motion, whatever it was built as. Two components
+    /// that are one entry are those of a joint at the centre of rotations about a point, where `J = 0`.
+    ///
+    /// `None` of a platform that does not turn, and where an entry of `C` is a number.
     pub fn curved(
         &self,
         tape: &mut Tape,

@@ -15,7 +15,7 @@ pub(super) const STIFFNESS: Quantity = Quantity {
 };
 
 /// `M^T diag(k) M >= b I`, for `b, k_i > 0`, is `sigma_min >= 1` of the rows `A_i` with `D_i b/k_i` in
-/// place of `D_i`, which are `sqrt(k_i/b)` times those of `M`; scaled, `sigma_min^2 >= w`. One `k`, or one a leg; of arms it is a
+/// place of `D_i`, which are `sqrt(k_i/b)` times those of `M`; scaled, `sigma_min^2 >= w`. One `k`, or one a leg; of arms `k` is a
 /// torque per radian.
 ///
 /// *Proof.* A displacement `x` of the platform displaces joint `i` by `M_i . x`, which it resists with

@@ -17,8 +17,9 @@ pub struct Solve {
     pub square: Formula,
 }
 
-/// **Column of the inverse.** If `T = A Y^T + Y A^T - Y Y^T - k^2 D_i e_i e_i^T` is positive definite at
-/// the vertices, for any one matrix `Y`, then `M` is regular on the cell and `|M^-1 e_i| < 1/k`.
+/// **Column of the inverse.** If all `D_j > 0` on the cell, and `T = A Y^T + Y A^T - Y Y^T - k^2 D_i e_i e_i^T`
+/// (with the workspace's own inequality, less `t_v I`) is positive definite at the vertices, for any one
+/// matrix `Y`, then `M` is regular on the cell and `|M^-1 e_i| < 1/k`.
 ///
 /// *Proof.* `T` is affine in `(A, D_i)`, so it is positive definite at `x`. From
 /// `(A - Y)(A - Y)^T >= 0` follows `A A^T >= A Y^T + Y A^T - Y Y^T`, so `A A^T - k^2 b b^T` is positive

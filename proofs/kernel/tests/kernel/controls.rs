@@ -80,6 +80,12 @@ fn values_lie_between_those_of_control_points_with_the_same_weights() {
                 let (lo, hi) = if factor < 0 { (&x.hi, &x.lo) } else { (&x.lo, &x.hi) };
                 sum = [&sum[0] + lo * factor, &sum[1] + hi * factor];
             }
+            for (k, cell) in cell.0.iter().enumerate().filter(|(_, cell)| cell.lo < cell.hi) {
+                let at = &controls.at(pool[k], j).expect("a coordinate").lo;
+                let twice: BigInt = at * 2 - &cell.lo - &cell.hi;
+                let place = BigInt::from(controls.place(k, j).expect("nodes"));
+                assert_eq!(twice, place * (&cell.hi - &cell.lo));
+            }
             range = Some(match range.take() {
                 None => sum,
                 Some([lo, hi]) => [lo.min(sum[0].clone()), hi.max(sum[1].clone())],

@@ -243,8 +243,9 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                             Test::Conditioning(_) => {
                                 let mu = least * least * f64::from(PLACES).exp2();
                                 let mut mu = vec![(mu * between(&mut random, 0.6, 1.0)) as i64];
-                                if random.below(2) == 0 {
-                                    mu.extend(vec![0; x.len()]);
+                                for _ in &x {
+                                    let most = mu[0] as f64 * between(&mut random, 0.0, 0.2);
+                                    mu.push((most * between(&mut random, -1.0, 1.0)) as i64);
                                 }
                                 Evidence::Conditioning(y, mu)
                             }

@@ -377,7 +377,8 @@ impl<'a> Prover<'a> {
             Test::OneToOne(_) => vec![Evidence::Chords],
             Test::Conditioning(c) => {
                 let mu = self.between(over, number(c))?;
-                let terms = vec![(mu * f64::from(PLACES).exp2()) as i64];
+                let mut terms = vec![0; self.problem.dimension() + 1];
+                terms[0] = (mu * f64::from(PLACES).exp2()) as i64;
                 let with = |y| Evidence::Conditioning(y, terms.clone());
                 starts(mu.sqrt()).map(with).collect()
             }
