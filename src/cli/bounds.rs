@@ -306,11 +306,9 @@ fn text(
         }
         let point = row.point.iter().flatten().map(approximate).collect::<Option<Vec<f64>>>();
         let point = point.filter(|point| !point.is_empty() && !quiet);
-        let at = point.map_or_else(String::new, |point| {
-            match coordinates.iter().any(|name| name.contains("tan(") || name.starts_with("c_")) {
-                true => pose_text(&point, &coordinates, PLACE_DIGITS),
-                false => point_text(&point, PLACE_DIGITS),
-            }
+        let at = point.map_or_else(String::new, |point| match design.claim.orientation.is_some() {
+            true => pose_text(&point, &coordinates, PLACE_DIGITS),
+            false => point_text(&point, PLACE_DIGITS),
         });
         let wide = row.relative.as_deref().filter(|_| row.wide);
         line([name, row.end, &own.from, &own.to, &at], wide);

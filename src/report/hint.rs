@@ -1,8 +1,9 @@
 //! What may have gone wrong in the design of a claim that is refuted.
 
-use super::{exactly, Counterexample};
+use super::Counterexample;
 use crate::batch::requirement::SINGULARITY;
-use crate::decimal::{approximate, significant};
+use crate::decimal::significant;
+use crate::solver::approximate;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_kernel::number::Expression;
 
@@ -33,14 +34,10 @@ pub fn hint(claim: &MachineClaim, found: &Counterexample) -> Option<String> {
     })
 }
 
-fn number(x: &Expression) -> Option<f64> {
-    approximate(&exactly(x)?)
-}
-
 /// How far a leg of fixed length reaches.
 fn reach(leg: &Leg) -> Option<f64> {
     let greatest = |x: &Quantity| match x {
-        Quantity::Exactly(x) | Quantity::Between { max: x, .. } => number(x),
+        Quantity::Exactly(x) | Quantity::Between { max: x, .. } => approximate(x),
     };
     match leg {
         Leg::Slider { length, .. } => greatest(length),
@@ -53,12 +50,14 @@ fn reach(leg: &Leg) -> Option<f64> {
 fn across(workspace: &Workspace) -> Option<f64> {
     let edges: Vec<f64> = match workspace {
         Workspace::Box { min, max } => {
-            let edge = |(min, max): (&Expression, &Expression)| Some(number(max)? - number(min)?);
+            let edge = |(min, max): (&Expression, &Expression)| {
+                Some(approximate(max)? - approximate(min)?)
+            };
             min.iter().zip(max).map(edge).collect::<Option<_>>()?
         }
         Workspace::Cylinder { radius, z, .. } => {
-            let across = 2.0 * number(radius)?;
-            vec![across, across, number(&z[1])? - number(&z[0])?]
+            let across = 2.0 * approximate(radius)?;
+            vec![across, across, approximate(&z[1])? - approximate(&z[0])?]
         }
         Workspace::Cube { .. } => return None,
     };

@@ -15,19 +15,14 @@ type Cell<'a> = (Option<usize>, &'a str, String);
 
 /// The machine of a witness.
 pub fn machine_of_witness(out: &mut String, machine: &[Setting], verbose: bool) {
-    let cell = |own: &Setting| (own.leg, own.parameter.clone(), readable(&own.value));
-    let cells: Vec<_> = machine.iter().map(cell).collect();
-    let cells = cells.iter().map(|(leg, name, value)| (*leg, name.as_str(), value.clone()));
-    told(out, &cells.collect::<Vec<_>>(), verbose);
+    let all = machine.iter().map(|s| (s.leg, s.parameter.as_str(), readable(&s.value)));
+    told(out, &all.collect::<Vec<_>>(), verbose);
 }
 
 /// The machine at which a value was seen.
 pub fn machine_at_ends(out: &mut String, machine: &[FreeParameter]) {
-    let cell =
-        |own: &FreeParameter| (own.leg, own.parameter.clone(), significant(own.value, DIGITS));
-    let cells: Vec<_> = machine.iter().map(cell).collect();
-    let cells = cells.iter().map(|(leg, name, value)| (*leg, name.as_str(), value.clone()));
-    told(out, &cells.collect::<Vec<_>>(), false);
+    let all = machine.iter().map(|p| (p.leg, p.parameter.as_str(), significant(p.value, DIGITS)));
+    told(out, &all.collect::<Vec<_>>(), false);
 }
 
 fn told(out: &mut String, cells: &[Cell<'_>], verbose: bool) {

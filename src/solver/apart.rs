@@ -62,8 +62,10 @@ impl Over<'_> {
                 let directions = [least.directions, most.directions].concat();
                 Some(Worst { directions, weights: Vec::new(), ..least })
             }
-            Test::Least(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), false),
-            Test::Greatest(rows, _) => self.stretched(&rows.iter().collect::<Vec<_>>(), true),
+            Test::Least(rows, _) | Test::Greatest(rows, _) => {
+                let most = matches!(test, Test::Greatest(..));
+                self.stretched(&rows.iter().collect::<Vec<_>>(), most)
+            }
             Test::Solve(solve) => self.of_solution(&own, solve.joint),
             Test::AtLeast(f) => self.of_sum(vec![(*f, 1.0)]),
             Test::Beyond(f, b) => {

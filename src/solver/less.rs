@@ -126,14 +126,10 @@ impl Over<'_> {
             }
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 let scale = (-f64::from(y.places)).exp2();
-                let place = |k: usize| match self.formulas.controls {
-                    None => Some(if v.has(k) { 1 } else { -1 }),
-                    Some(controls) => controls.place(k, v.index()),
-                };
                 let signed = mu.iter().enumerate().map(|(k, &mu)| match k.checked_sub(1) {
                     None => Some(mu as f64 * weight),
                     Some(_) if mu == 0 => Some(0.0),
-                    Some(k) => Some(place(k)? as f64 * mu as f64),
+                    Some(k) => Some(self.formulas.place(k, v)? as f64 * mu as f64),
                 });
                 let (mu, rows) = (scale * signed.sum::<Option<f64>>()?, own()?);
                 let lower = least(rows.minorant(&matrix(y)) - unit(mu));

@@ -232,12 +232,13 @@ pub(crate) fn ordered(
     max: &Expression,
     strictly: bool,
 ) -> Result<(), ClaimError> {
-    // The same number twice, as most are: whether it is defined.
-    let equal = min == max;
-    let differ = if equal { sign(max) } else { sign(&binary(Operator::Sub, max, min)) };
-    let [more, not_less] = differ.ok_or_else(|| number_error(place, "a number"))?;
-    let in_order = if equal { !strictly } else { more || (!strictly && not_less) };
-    if in_order {
+    // Of the same number twice, as most are, all that is asked is whether it is defined.
+    let difference = match min == max {
+        true => sign(max).map(|_| [false, true]),
+        false => sign(&binary(Operator::Sub, max, min)),
+    };
+    let [more, not_less] = difference.ok_or_else(|| number_error(place, "a number"))?;
+    if more || (!strictly && not_less) {
         Ok(())
     } else {
         Err(number_error(place, "a range whose end is not before its beginning"))

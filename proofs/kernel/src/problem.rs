@@ -384,19 +384,18 @@ impl Problem {
     /// Of each obligation of a platform that turns, the formulas that it needs at control points.
     pub(crate) fn controls(&self, rows: &[Row<Formula>]) -> Vec<(Test, Control)> {
         let Some(weight) = self.weight else { return Vec::new() };
+        let entries = |rows: &[Row<Formula>], other: Option<Formula>| -> Vec<Formula> {
+            rows.iter().flat_map(|row| row.a.iter().chain([&row.d]).copied()).chain(other).collect()
+        };
         let own = |Obligation { test, .. }: &Obligation| {
-            let mut wanted: Vec<Formula> = match test {
+            let mut wanted = match test {
                 Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                    let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
-                    all.copied().chain([weight]).collect()
-                }
-                Test::OneToOne(rows) => {
-                    rows.iter().flat_map(|row| row.a.iter().chain([&row.d])).copied().collect()
+                    entries(rows, Some(weight))
                 }
                 Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
-                    let all = rows.iter().flat_map(|row| row.a.iter().chain([&row.d]));
-                    all.copied().chain([*bound]).collect()
+                    entries(rows, Some(*bound))
                 }
+                Test::OneToOne(rows) => entries(rows, None),
                 Test::AtLeast(f) => vec![*f],
                 // These have no form for control points.
                 Test::Beyond(..) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {

@@ -119,6 +119,15 @@ impl<'a, E: Enclosure> Over<'a, E> {
         }
     }
 
+    /// Where between the ends of its range, as -1, 0 and 1, a vertex, or control point, has a coordinate;
+    /// `None` of one that no formula at control points has.
+    pub fn place(&self, k: usize, vertex: Vertex) -> Option<i64> {
+        match self.controls {
+            None => Some(if vertex.has(k) { 1 } else { -1 }),
+            Some(controls) => controls.place(k, vertex.index()),
+        }
+    }
+
     /// `x - t_v`.
     fn less_inside(&self, x: E::Number, vertex: Vertex) -> Option<E::Number> {
         match &self.inside {

@@ -650,6 +650,13 @@ Proof.
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
   destruct d as [| b | b | n b | n b | n b b' | b]; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
+  4-5: cbn [length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
+    cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
+    pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ eq_refl)) as FF;
+    match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end; clear H FF; rename G into H;
+    rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H; rewrite hw in H;
+    exists (strut_length l P Q); (split; [exact (Joint n l nl) |]); unfold strut_length; rewrite <- (sqrt_pow2 (Claim.value b) b0); apply sqrt_le_1_alt;
+    apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]; rewrite Rpow_mult_distr in H; lra.
   - exact INJ.
   - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
     cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. destruct (Lower _ _ K (pow2_ge_0 _) iu) as [_ G]. intros v lv.
@@ -658,20 +665,6 @@ Proof.
     cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. pose proof (HT _ iu) as H. cbn [test_holds] in H. intros v lv.
     unfold conf, struts_at. cbn [jacobian]. destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ v K lv nz) as [p q]. rewrite Rows in p, q. rewrite Weight, (proj2 (Speed p)) in q. apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
-  - cbn [length_sign] in *. destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits false b) eqn:b0; [| discriminate].
-    cbn [option_map] in pu. injection pu as <-. apply nonneg_sound in b0. destruct (Leg n A D nr) as [l [nl vD]].
-    pose proof (HT _ iu) as H. cbn [test_holds] in H. pose proof (Found _ (signs _ eq_refl)) as FF.
-    match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end. clear H FF. rename G into H.
-    rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H. rewrite hw in H.
-    exists (strut_length l P Q). split; [exact (Joint n l nl) |]. unfold strut_length. rewrite <- (sqrt_pow2 (Claim.value b) b0). apply sqrt_le_1_alt.
-    apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]. rewrite Rpow_mult_distr in H. lra.
-  - cbn [length_sign] in *. destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits false b) eqn:b0; [| discriminate].
-    cbn [option_map] in pu. injection pu as <-. apply nonneg_sound in b0. destruct (Leg n A D nr) as [l [nl vD]].
-    pose proof (HT _ iu) as H. cbn [test_holds] in H. pose proof (Found _ (signs _ eq_refl)) as FF.
-    match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end. clear H FF. rename G into H.
-    rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H. rewrite hw in H.
-    exists (strut_length l P Q). split; [exact (Joint n l nl) |]. unfold strut_length. rewrite <- (sqrt_pow2 (Claim.value b) b0). apply sqrt_le_1_alt.
-    apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]. rewrite Rpow_mult_distr in H. lra.
 Qed.
 End Precision.
 

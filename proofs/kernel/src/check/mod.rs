@@ -604,13 +604,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             return false;
         };
         let least = |v: Vertex| {
-            let place = |k: usize| match over.controls {
-                None => Some(if v.has(k) { 1 } else { -1 }),
-                Some(controls) => controls.place(k, v.index()),
-            };
             let term = |sum: i64, (k, &mu): (usize, &i64)| match mu {
                 0 => Some(sum),
-                mu => sum.checked_add(mu.checked_mul(place(k)?)?),
+                mu => sum.checked_add(mu.checked_mul(over.place(k, v)?)?),
             };
             let number = |n| e.dyadic(n, y.places, &e.integer(1)?);
             match over.controls {

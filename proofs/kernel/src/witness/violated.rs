@@ -119,21 +119,23 @@ impl<A: Signs> At<'_, A> {
         let e = &self.arithmetic;
         let of = |f: &Formula| self.values.of(*f);
         let stretched = |v: &[i64]| self.stretched(self.problem.legs.iter().map(|leg| &leg.row), v);
+        // kappa^2 |v|^2 - |M v|^2, and |M v|^2 - k^2 |v|^2.
+        let short = |found: Option<[A::Number; 2]>, kappa: &Formula| {
+            let [length, image] = found?;
+            e.sub(&e.mul(of(kappa)?, &length)?, &image)
+        };
+        let long = |found: Option<[A::Number; 2]>, k: &Formula| {
+            let [length, image] = found?;
+            e.sub(&image, &e.mul(of(k)?, &length)?)
+        };
         let positive = match (test, directions) {
-            // |M v|^2 < kappa^2 |v|^2.
-            (Test::SigmaMin(kappa), [v]) => {
-                let rest = || {
-                    let [length, image] = stretched(v)?;
-                    e.sub(&e.mul(of(kappa)?, &length)?, &image)
-                };
-                self.is_positive(rest())
+            (Test::SigmaMin(kappa), [v]) => self.is_positive(short(stretched(v), kappa)),
+            (Test::Least(rows, kappa), [v]) => {
+                self.is_positive(short(self.stretched(rows.iter(), v), kappa))
             }
-            (Test::SigmaMax(k), [v]) => {
-                let rest = || {
-                    let [length, image] = stretched(v)?;
-                    e.sub(&image, &e.mul(of(k)?, &length)?)
-                };
-                self.is_positive(rest())
+            (Test::SigmaMax(k), [v]) => self.is_positive(long(stretched(v), k)),
+            (Test::Greatest(rows, k), [v]) => {
+                self.is_positive(long(self.stretched(rows.iter(), v), k))
             }
             // |M u|^2 |v|^2 > c^2 |M v|^2 |u|^2.
             (Test::Conditioning(c), [u, v]) => {
@@ -141,20 +143,6 @@ impl<A: Signs> At<'_, A> {
                     let ([length, image], [other, small]) = (stretched(u)?, stretched(v)?);
                     let least = e.mul(of(c)?, &e.mul(&small, &length)?)?;
                     e.sub(&e.mul(&image, &other)?, &least)
-                };
-                self.is_positive(rest())
-            }
-            (Test::Least(rows, kappa), [v]) => {
-                let rest = || {
-                    let [length, image] = self.stretched(rows.iter(), v)?;
-                    e.sub(&e.mul(of(kappa)?, &length)?, &image)
-                };
-                self.is_positive(rest())
-            }
-            (Test::Greatest(rows, k), [v]) => {
-                let rest = || {
-                    let [length, image] = self.stretched(rows.iter(), v)?;
-                    e.sub(&image, &e.mul(of(k)?, &length)?)
                 };
                 self.is_positive(rest())
             }
