@@ -47,6 +47,14 @@ pub(super) fn rods(
     }
     let value =
         table.require("spread", "80: how far apart the two rods of the parallelogram are")?;
+    if motion.turns() {
+        let found = "two rods of a parallelogram, of a platform that turns";
+        return Err(value.error(
+            Defect::Conflict,
+            found,
+            "one rod a leg: two would hold the platform",
+        ));
+    }
     let spread = exact(&value)?;
     positive(&value, &spread, "a distance of two rods")?;
     let axis =

@@ -224,6 +224,12 @@ impl Bounded {
                 ("joint_force" | "accuracy" | "joint_acceleration", _) => {
                     Some(bound * (1.0 - margin))
                 }
+                // Of the cosine's multiple in the row.
+                ("base_joint" | "platform_joint", Test::Greatest(rows, along)) => {
+                    let a = rows.first()?.a.iter().map(|&a| Some(at.of(a)?.powi(2)));
+                    let across = a.sum::<Option<f64>>()?.sqrt() / bound.to_radians().cos();
+                    Some((at.of(*along)? / across).clamp(-1.0, 1.0).acos().to_degrees())
+                }
                 ("clearance", Test::Apart(test)) => {
                     Some(bound + margin * at.of(test.distance)? * sampler.unit())
                 }
@@ -240,6 +246,11 @@ impl Bounded {
         };
         let least = matches!(self.requirement.bound, Bound::Min(_));
         let worst = |a: f64, b: f64| if least { a.min(b) } else { a.max(b) };
+        // The sign that goes with an angle tells nothing of its own.
+        let is_sign = |own: &Obligation| matches!(own.test, Test::AtLeast(_));
+        let own: Vec<_> = own.collect();
+        let angles = self.requirement.quantity.ends_with("_joint") && own.len() > 1;
+        let own = own.into_iter().filter(|(_, own)| !(angles && is_sign(own)));
         own.map(value).collect::<Option<Vec<f64>>>()?.into_iter().reduce(worst)
     }
 

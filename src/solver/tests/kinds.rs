@@ -149,6 +149,47 @@ fn what_platforms_that_turn_ask_of_their_joints() {
 }
 
 #[test]
+fn joints_and_bodies_of_platforms_that_turn() {
+    let machines = [
+        ("3-RPR", three_rpr(), ["0", "-1"].as_slice(), 0.02, [4, 40]),
+        ("about a point", spherical(TILT), &["0", "0.3", "1"], 0.02, [8, 400]),
+        ("hexapod", hexapod(r#"{"angle":"5"}"#), &["0.2", "0.1", "1"], 0.02, [4, 400]),
+    ];
+    for (name, mut machine, axis, part, [angles, distances]) in machines {
+        let legs = if name == "hexapod" { 6 } else { 3 };
+        for leg in 1..=legs {
+            let (radius, trim) = (decimal(0.02), [decimal(0.2), decimal(0.1)]);
+            machine.bodies.push(Body::Leg { leg, radius, trim, offset: None });
+        }
+        let leaves = on_both_sides(name, &machine, ("clearance", &[]), Bound::Min, 0.1);
+        assert!(leaves <= distances, "{name} clearance: {leaves}");
+        machine.bodies.clear();
+        let axis: Vec<_> =
+            axis.iter().map(|x| (*x).to_owned().try_into().expect("a number")).collect();
+        for quantity in ["base_joint", "platform_joint"] {
+            let of = |axis: &[Expression], bound| {
+                let given = [("axis".to_owned(), axis.to_vec())].into();
+                let requirement = require(quantity, Bound::Max(decimal(bound)));
+                let require = vec![Requirement { given, leg: Some(1), ..requirement }];
+                MachineClaim { require, ..machine.clone() }
+            };
+            let found = worst(&of(&axis, worst(&of(&axis, 60.0))));
+            let (_, accepted) = decided(&of(&axis, found * (1.0 + part)));
+            assert_eq!(accepted.verdict, Verdict::Certified, "{name} {quantity} {found}");
+            println!("{name} {quantity} {found}: {} leaves", accepted.size.leaves);
+            assert!(accepted.size.leaves <= angles, "{name} {quantity}: {}", accepted.size.leaves);
+            let (_, accepted) = decided(&of(&axis, found * (1.0 - part)));
+            assert_eq!(accepted.verdict, Verdict::Refuted, "{name} {quantity}");
+            // The other way the leg points away, and squares are the same.
+            let other: Vec<Expression> =
+                axis.iter().map(|x| Expression::Neg(Box::new(x.clone()))).collect();
+            let (_, accepted) = decided(&of(&other, found));
+            assert_eq!(accepted.verdict, Verdict::Refuted, "{name} {quantity}");
+        }
+    }
+}
+
+#[test]
 fn platforms_in_the_plane_and_about_a_point() {
     let machines = [
         ("3-RPR", three_rpr()),

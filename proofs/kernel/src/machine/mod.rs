@@ -20,7 +20,9 @@ pub struct Leg {
     pub scaled: Option<Row<Formula>>,
     /// The joint coordinate; none where a claim gives the row alone.
     pub rho: Option<Joint>,
-    /// The length of the vector `A_i`, where it is that of a leg.
+    /// The vector `A_i` in space; none of joints that a claim gives.
+    pub vector: Option<Vector>,
+    /// Its length, where it is that of a leg.
     pub length: Option<Formula>,
     /// `eta_i^2`, of legs of fixed length: `eta_i` is the leg's component along the motion of its
     /// driven end.
@@ -29,8 +31,8 @@ pub struct Leg {
     pub tip: Option<Vector>,
     /// `d`, and `u = A/B` in space: the joint's rate is `u` times the velocity of that end.
     pub driven: Option<[Vector; 2]>,
-    /// The base end of a strut.
-    pub anchor: Option<Vector>,
+    /// The base end of a strut, and its platform end in the platform's frame.
+    pub ends: Option<[Vector; 2]>,
     /// The couple that the leg constrains, not normalised, and the square of its length; where one is
     /// claimed.
     pub couple: Option<Row<Formula>>,
@@ -170,9 +172,11 @@ fn leg(
     (length, eta_squared): (Option<Formula>, Option<Formula>),
 ) -> Leg {
     let divided = Row { a: divided, d: tape.integer(1) };
-    let rho = rho.into();
-    let (tip, driven, anchor, couple) = (None, None, None, None);
-    Leg { row, divided, scaled: None, rho, length, eta_squared, tip, driven, anchor, couple }
+    let (rho, vector) = (rho.into(), row.a.as_slice().try_into().ok());
+    let vector = vector.filter(|_| length.is_some());
+    let (tip, driven, ends, couple) = (None, None, None, None);
+    let scaled = None;
+    Leg { row, divided, scaled, rho, vector, length, eta_squared, tip, driven, ends, couple }
 }
 
 /// The couple that a strut with universal joints constrains whose axis in the base, and on the platform,

@@ -53,7 +53,7 @@ impl Turn {
 
 impl Motion {
     /// `R b`.
-    fn turned(&self, tape: &mut Tape, b: &Vector) -> Vector {
+    pub fn turned(&self, tape: &mut Tape, b: &Vector) -> Vector {
         match &self.turn {
             None => *b,
             Some(turn) => turn.scaled(tape, b).map(|x| tape.div(x, turn.weight)),
@@ -107,7 +107,7 @@ impl Motion {
         let joint = tape.plus(&self.position, &r);
         let w = tape.minus(&joint, a);
         let mut leg = super::strut(tape, &w);
-        (leg.tip, leg.anchor) = (Some(joint), Some(*a));
+        (leg.tip, leg.ends) = (Some(joint), Some([*a, *b]));
         let from_base = match &self.turn {
             Some(_) => tape.minus(&self.position, a),
             None => w,
@@ -123,6 +123,23 @@ impl Motion {
         }
         leg.scaled = self.turn.as_ref().map(|turn| self.scaled(tape, turn, [&from_base, a, b]));
         leg
+    }
+
+    /// `w` times the vector of a strut from `a` to the platform's joint `b`, in the base or in the
+    /// platform's frame, where it is `R^T (P - a) + b`: polynomials, of degree two at most in each
+    /// coordinate. `w` itself where the platform does not turn.
+    pub fn vector(&self, tape: &mut Tape, [a, b]: &[Vector; 2], on_platform: bool) -> Vector {
+        let from_base = tape.minus(&self.position, a);
+        let Some(turn) = &self.turn else { return tape.plus(&from_base, b) };
+        let (turned, still) = if on_platform { (&from_base, b) } else { (b, &from_base) };
+        let still = tape.scaled(turn.weight, still);
+        let turned = if on_platform {
+            let n = &turn.matrix;
+            [0, 1, 2].map(|k| tape.dot(&[n[0][k], n[1][k], n[2][k]], turned))
+        } else {
+            turn.scaled(tape, turned)
+        };
+        tape.plus(&still, &turned)
     }
 
     /// The upper triangle of `2 H`, with which the joint's acceleration is

@@ -1,10 +1,10 @@
 //! The angle between a leg and an axis of its joint in the base.
 
 use super::{Context, Quantity, Test};
-use crate::formula::Formula;
 use crate::input::{ordered, positive, ClaimError, Value};
 use crate::machine::Leg;
 use crate::number::Expression;
+use crate::test::Row;
 
 pub(super) const BASE_JOINT: Quantity = Quantity {
     key: "base_joint",
@@ -12,39 +12,58 @@ pub(super) const BASE_JOINT: Quantity = Quantity {
     words: "angle between the leg, from base to platform, and the axis in the base, degrees",
     of_legs: true,
     given: &["axis"],
-    tests,
+    tests: |context, leg| tests(context, leg, false),
 };
 
-/// `A . axis - cos(b) |axis| L >= 0`, for `0 < b <= 180`: the leg's vector `A`, from the base end, has
-/// the length `L > 0`, and cosines decrease. Of the cosine's enclosure the upper end decides in a proof
-/// and the lower end in a refutation, as of all that is enclosed. Squares would lose the sign, and let
-/// a leg pass that points the other way.
-pub(super) fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    context.without_rotation()?;
+/// `A . j - cos(b) |j| |A| >= 0` for the axis `j` and `0 < b <= 180`: the leg's vector `A`, from the base
+/// end, has a length greater than 0, and cosines decrease. Of the cosine's enclosure the upper end decides
+/// in a proof and the lower end in a refutation, as of all that is enclosed. Squares alone would lose the
+/// sign, and let a leg pass that points the other way.
+///
+/// Of struts of platforms that turn, and `b <= 90`, it is `f = U . j >= 0` and, if `b < 90`,
+/// `c^2 |U|^2 <= f^2` for `c = cos(b) |j|` and any positive multiple `U` of `A`. The second is
+/// `sigma_max <= sqrt(f)` of the one row `c U/sqrt(f)`: a test that is affine in `U`, and so decided at
+/// control points, where `w A` is a polynomial. With `|w A|^2` as another polynomial in place of the square
+/// of the vector there, it would be unsound.
+pub(super) fn tests(
+    context: &mut Context<'_>,
+    leg: Option<&Leg>,
+    on_platform: bool,
+) -> Result<Vec<Test>, ClaimError> {
     let bound = context.greatest()?.clone();
     positive(context.place, &bound)?;
     ordered(context.place, &bound, &Expression::integer(180), false)?;
-    let Some((leg, length)) = leg.and_then(|leg| Some((leg, leg.rod()?))) else {
+    let parts = leg.and_then(|leg| Some((leg.ends, leg.vector?, leg.rod()?)));
+    let Some((ends, vector, length)) = parts else {
         return context.refused("of a leg with two ends");
     };
     let axis = context.all_given("axis")?.to_vec();
-    if axis.len() != leg.row.a.len() {
-        return context.refused("given an axis with a number for each coordinate");
+    let (motion, turns) = (context.motion, context.claim.orientation.is_some());
+    let in_plane = motion.velocity.len() == 2;
+    if axis.len() != if in_plane { 2 } else { 3 } {
+        return context.refused("given an axis of two numbers in the plane, or three in space");
     }
-    let axis = context.direction(&axis)?;
-    let cos = context.input(Value::Cosine(bound));
+    let mut axis = context.direction(&axis)?;
+    let cos = context.input(Value::Cosine(bound.clone()));
     let tape = context.tape();
-    let zero = tape.integer(0);
-    let mut sum = |of: &[Formula]| {
-        let products = of.iter().zip(&axis);
-        products.fold(zero, |sum, (&a, &b)| {
-            let product = tape.mul(a, b);
-            tape.add(sum, product)
-        })
-    };
-    let (along, square) = (sum(&leg.row.a), sum(&axis));
+    axis.resize(3, tape.integer(0));
+    let axis = [axis[0], axis[1], axis[2]];
+    let square = tape.norm_squared(&axis);
     let norm = tape.sqrt(square);
     let least = tape.mul(cos, norm);
+    let at_most = |degrees, strict| ordered("", &bound, &Expression::integer(degrees), strict);
+    if let Some(ends) = ends.filter(|_| turns && at_most(90, false).is_ok()) {
+        let u = motion.vector(tape, &ends, on_platform);
+        let along = tape.dot(&u, &axis);
+        let mut tests = vec![Test::AtLeast(along)];
+        if at_most(90, true).is_ok() {
+            let a = tape.scaled(least, &u).to_vec();
+            tests.push(Test::Greatest(vec![Row { a, d: along }], along));
+        }
+        return Ok(tests);
+    }
+    let axis = if on_platform { motion.turned(tape, &axis) } else { axis };
+    let along = tape.dot(&vector, &axis);
     let least = tape.mul(least, length);
     Ok(vec![Test::AtLeast(tape.sub(along, least))])
 }

@@ -47,14 +47,16 @@ enum FixedTo {
 /// that. Where trims are longer than the leg, the rod is still the segment between the two points.
 /// Two bodies of one leg, of which one or both are beside it, are parallel: see [`beside`].
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    context.without_rotation()?;
     let gap = context.least()?.clone();
     ordered(context.place, &Expression::integer(0), &gap, false)?;
     let bodies = &context.claim.bodies;
-    let legs = &context.claim.mechanism;
-    let legs = matches!(legs, Mechanism::Translational(_) | Mechanism::Orthoglide { .. });
+    let legs = !matches!(context.claim.mechanism, Mechanism::Formulas(_));
     if !legs || bodies.len() > MOST_BODIES {
-        return context.refused("of legs in space, and of 24 bodies at most");
+        return context.refused("of legs with two ends, and of 24 bodies at most");
+    }
+    let is_single = |body: &Body| !matches!(body, Body::Leg { offset: Some(_), .. });
+    if context.claim.orientation.is_some() && !bodies.iter().all(is_single) {
+        return context.refused("of single rods, where the platform turns");
     }
     let all = bodies.iter().map(|body| capsule(context, body));
     let all: Vec<Capsule<'_>> = all.collect::<Result<_, _>>()?;
@@ -97,10 +99,10 @@ fn capsule<'a>(context: &mut Context<'_>, body: &'a Body) -> Result<Capsule<'a>,
         Body::Base { from, to, .. } => ([from, to].map(|end| at(context, end)), FixedTo::Base),
         Body::Platform { from, to, .. } => {
             let on_platform = |end| {
-                let end = at(context, end);
+                let (end, motion) = (at(context, end), context.motion);
                 let tape = context.tape();
-                let p = std::array::from_fn(|k| tape.coordinate(k));
-                tape.plus(&p, &end)
+                let end = motion.turned(tape, &end);
+                tape.plus(&motion.position, &end)
             };
             ([from, to].map(on_platform), FixedTo::Platform)
         }
@@ -115,8 +117,7 @@ fn at(context: &mut Context<'_>, point: &[Expression; 3]) -> Vector {
 /// A leg's platform end, length and vector.
 fn parts(context: &Context<'_>, leg: usize) -> Result<(Vector, Formula, Vector), ClaimError> {
     let leg = leg.checked_sub(1).and_then(|leg| context.legs.get(leg));
-    let parts =
-        leg.and_then(|leg| Some((leg.tip?, leg.rod()?, leg.row.a.as_slice().try_into().ok()?)));
+    let parts = leg.and_then(|leg| Some((leg.tip?, leg.rod()?, leg.vector?)));
     parts.map_or_else(|| context.refused("of a leg that there is, with two ends"), Ok)
 }
 

@@ -98,7 +98,7 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
 /// `[A, C x A]`, and its `D`; of a strut, if wanted, times `w`.
 fn about_origin(tape: &mut Tape, leg: &Leg, scaled: bool) -> Option<Row<Formula>> {
     let row = leg.scaled.as_ref().filter(|_| scaled).unwrap_or(&leg.row);
-    let (from, zero) = (leg.anchor.or(leg.tip)?, tape.integer(0));
+    let (from, zero) = (leg.ends.map(|[a, _]| a).or(leg.tip)?, tape.integer(0));
     let a = match *row.a.as_slice() {
         [x, y, _] => {
             let moment = tape.cross(&from, &[x, y, zero]);

@@ -9,5 +9,5 @@ pub(super) const PLATFORM_JOINT: Quantity = Quantity {
     words: "angle between the leg, from base to platform, and the axis on the platform, degrees",
     of_legs: true,
     given: &["axis"],
-    tests: base_joint::tests,
+    tests: |context, leg| base_joint::tests(context, leg, true),
 };

@@ -193,11 +193,12 @@ impl<A: Signs> At<'_, A> {
     /// `|v|^2` and `|M v|^2 = sum_i (A_i . v)^2/D_i`; `v` is not zero.
     pub(super) fn stretched<'b>(
         &self,
-        mut rows: impl Iterator<Item = &'b Row<Formula>>,
+        rows: impl Iterator<Item = &'b Row<Formula>>,
         v: &[i64],
     ) -> Option<[A::Number; 2]> {
         let e = &self.arithmetic;
-        let v = self.direction(v, self.problem.dimension())?;
+        let mut rows = rows.peekable();
+        let v = self.direction(v, rows.peek()?.a.len())?;
         let image = rows.try_fold(e.integer(0)?, |sum, row| {
             let product = self.dot(&self.all(&row.a)?, &v)?;
             let d = self.values.of(row.d).filter(|d| e.surely_positive(d))?;

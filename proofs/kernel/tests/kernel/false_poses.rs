@@ -3,7 +3,7 @@
 
 use crate::arithmetic::Random;
 use crate::certificates::claim;
-use crate::motions::decimal;
+use crate::motions::{decimal, rotation};
 use crate::prover::{Prover, BITS};
 use crate::turning::{planar, spatial, spherical, strut};
 use nalgebra::DMatrix;
@@ -103,6 +103,28 @@ fn curved(text: &str, x: &[f64]) -> f64 {
     of(test.b) * h.eigenvalues.amax()
 }
 
+/// The angles of the first leg, in degrees, with an axis in the base and on the platform: the last one
+/// that there is.
+fn joints(problem: &Problem, x: &[f64]) -> [f64; 2] {
+    let prover = Prover::new(problem);
+    let values = prover.values(x);
+    let leg = &problem.legs[0];
+    let vector = leg.vector.expect("a strut").map(|f| values.of(f).expect("defined").0);
+    let (m, kind) = (problem.dimension(), problem.orientation.len());
+    let r = match (kind, problem.turned) {
+        (1, _) => rotation("range", &x[m - 1..]),
+        (_, None) => rotation("roll_pitch_yaw", &x[m - 3..]),
+        _ => rotation("angle", &x[m - 3..]),
+    };
+    let last = if kind == 1 { 1 } else { 2 };
+    let axes = [[0, 1, 2].map(|k| f64::from(u8::from(k == last))), r.map(|row| row[last])];
+    let norm = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    axes.map(|axis| {
+        let along: f64 = axis.iter().zip(vector).map(|(a, b)| a * b).sum();
+        (along / norm).acos().to_degrees()
+    })
+}
+
 /// `A_i/D_i` at a pose, of columns of the inverse `A_i`, scaled by a part of it: the best `Y` is near.
 fn multiplier(
     prover: &Prover<'_>,
@@ -143,7 +165,7 @@ fn nested(plain: &Evidence, random: &mut Random) -> Evidence {
 fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
     let mut random = Random(77);
     let (mut tried, mut shown, mut columns) = (0, [0usize; 2], [0usize; 3]);
-    let mut others = [0usize; 2];
+    let (mut others, mut cones_shown) = ([0usize; 2], [0usize; 2]);
     for round in 0..18 {
         let text = machine(round % 3, &mut random);
         let free = claim(&text(""));
@@ -174,6 +196,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
         let curved = curved(&text(&acceleration("1")), &x);
         let inverse = m.is_square().then(|| m.clone().try_inverse()).flatten();
         let column = inverse.map(|inverse| inverse.column(0).norm());
+        let joints = joints(&problem, &x);
         // `part < 1`: false at the pose; `part > 1`: true there, and shown on small cells.
         for part in [0.999, 1.3] {
             let require = format!(
@@ -195,6 +218,14 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 require += &format!(
                     r#",{{"quantity":"joint_force","leg":1,"given":{{"tool":["1"]}},"end":"max","bound":"{}"}}"#,
                     decimal(part * column)
+                );
+            }
+            let bounds = joints.map(|angle| (part * angle).min(179.0));
+            let axis = if round % 3 == 0 { r#""0","1""# } else { r#""0","0","1""# };
+            for (key, bound) in ["base_joint", "platform_joint"].into_iter().zip(bounds) {
+                require += &format!(
+                    r#",{{"quantity":"{key}","leg":1,"given":{{"axis":[{axis}]}},"end":"max","bound":"{}"}}"#,
+                    decimal(bound)
                 );
             }
             if part < 1.0 && greatest / least < 1.002 {
@@ -227,6 +258,13 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 let place = Place::new(&edges, [false; 2]);
                 assert!(!exact.is_outside(&over, &place), "{cell:?}");
                 for obligation in &problem.obligations {
+                    // The sign that goes with a cone may be right where the angle is not.
+                    let joint = obligation.requirement.map(|r| &stated.require[r].quantity);
+                    let joint = joint.is_some_and(|quantity| quantity.ends_with("_joint"));
+                    let cones = bounds.iter().any(|&bound| bound <= 90.0);
+                    if joint && cones && matches!(obligation.test, Test::AtLeast(_)) {
+                        continue;
+                    }
                     for _ in 0..6 {
                         let divided = random.below(4) == 0;
                         let column = matches!(obligation.test, Test::Solve(_));
@@ -257,6 +295,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                         tried += 1;
                         shown[at] += usize::from(is);
                         columns[at] += usize::from(is && column);
+                        cones_shown[at] += usize::from(is && joint);
                         let other = matches!(obligation.test, Test::Least(..) | Test::Greatest(..));
                         others[at] += usize::from(is && other);
                         columns[2] +=
@@ -269,5 +308,6 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
     }
     assert!(shown.iter().all(|&n| n > 100), "{tried} {shown:?}");
     assert!(others.iter().all(|&n| n > 10), "{others:?}");
+    assert!(cones_shown.iter().all(|&n| n > 10), "{cones_shown:?}");
     assert!(columns.iter().all(|&n| n > 10), "{columns:?}");
 }

@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::quantity::Test;
+use orthocert_kernel::quantity::{Obligation, Test};
 use orthocert_kernel::test::curvature::Curvature;
 
 type V = [f64; 3];
@@ -398,6 +398,121 @@ fn rows_are_derivatives_in_the_twist() {
         }
     }
     assert!(reached > 900 && curved > 700, "{reached} {curved}");
+}
+
+/// Where joints and bodies are, against the pose itself, of every motion and drive.
+#[test]
+fn joints_and_bodies_are_where_the_pose_puts_them() {
+    let mut random = Random(17);
+    let (mut angles, mut segments) = ([0; 3], 0);
+    for round in 0..360 {
+        let motion = &MOTIONS[round % MOTIONS.len()];
+        let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
+        let m = motion.velocity.len() + motion.spin.len();
+        let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
+        let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
+        let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+        let plane = motion.mechanism == "planar";
+        let mut vector = || {
+            let v: V = [0; 3].map(|_: i64| number(&mut random, -1.0, 1.0));
+            if plane {
+                [v[0], v[1], 0.0]
+            } else {
+                v
+            }
+        };
+        let (axis, from, to) = (vector(), vector(), vector());
+        let bound = [70.0, 90.0, 120.0][round / 18 % 3];
+        let axis_text = texts(&axis[..if plane { 2 } else { 3 }]);
+        let joint = |key: &str| {
+            format!(
+                r#"{{"quantity":"{key}","leg":1,"given":{{"axis":[{axis_text}]}},"end":"max","bound":"{}"}}"#,
+                decimal(bound)
+            )
+        };
+        let corner = |x: &str| vec![format!("\"{x}\""); motion.velocity.len()].join(",");
+        let claim = claim(&format!(
+            r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"bodies":[{{"on":"leg","leg":1,"radius":"1/8","trim":["1/8","1/4"]}},{{"on":"platform","from":[{}],"to":[{}],"radius":"1/8"}}],"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{},{},{{"quantity":"clearance","end":"min","bound":"1/4"}}]}}"#,
+            motion.mechanism,
+            text.join(","),
+            texts(&from),
+            texts(&to),
+            corner("-1"),
+            corner("1"),
+            motion.text,
+            joint("base_joint"),
+            joint("platform_joint"),
+        ));
+        let problem = Problem::new(&claim).expect("a claim");
+        let unit = (problem.scale as f64).exp2();
+        let mut p = [0.0; 3];
+        motion.velocity.iter().for_each(|&k| p[k] = number(&mut random, -1.0, 1.0));
+        let c: Vec<f64> = motion.spin.iter().map(|_| number(&mut random, -0.7, 0.7)).collect();
+        let x: Vec<f64> = motion.velocity.iter().map(|&k| p[k] / unit).chain(c.clone()).collect();
+        let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
+        let values = problem.tape.run(&Rough, |op| match op {
+            Op::Coordinate(k) => x.get(k).map(|&x| (x, x)),
+            Op::Parameter(j) => Some(double(&parameters[j], 96)),
+            _ => None,
+        });
+        let of = |f: Formula| values.of(f).map(|x| (x.0 + x.1) / 2.0);
+        let r = rotation(motion.orientation, &c);
+        let (_, [a, b], drive) = &legs[0];
+        let plus = |a: V, s: f64, b: V| [0, 1, 2].map(|k| a[k] + s * b[k]);
+        let tip = plus(p, 1.0, times(&r, *b));
+        let w = plus(tip, -1.0, *a);
+        let Some(rho) = drive.rho(w) else { continue };
+        let own = match *drive {
+            Drive::Strut => w,
+            Drive::Slider { n, .. } => plus(w, -rho, n),
+            Drive::Arm { k, e, arm, .. } => {
+                plus(plus(w, -arm * rho.cos(), e), -arm * rho.sin(), cross(k, e))
+            }
+        };
+        let length = dot(own, own).sqrt();
+        let back: R = std::array::from_fn(|i| std::array::from_fn(|k| r[k][i]));
+        let seen = [own, times(&back, own)];
+        for (requirement, seen) in seen.into_iter().enumerate() {
+            let cos = dot(seen, axis) / length / dot(axis, axis).sqrt();
+            let expected = cos.clamp(-1.0, 1.0).acos().to_degrees();
+            let tests = problem.obligations.iter().filter(|o| o.requirement == Some(requirement));
+            let mut holds = true;
+            for Obligation { test, .. } in tests {
+                holds &= match test {
+                    Test::AtLeast(f) => of(*f).expect("a sign") >= 0.0,
+                    Test::Greatest(rows, k) => {
+                        angles[1] += 1;
+                        let [row] = rows.as_slice() else { panic!("one row") };
+                        let square: f64 =
+                            row.a.iter().map(|&a| of(a).expect("a row").powi(2)).sum();
+                        square <= of(row.d).expect("D") * of(*k).expect("a bound")
+                    }
+                    other => panic!("{other:?}"),
+                };
+            }
+            if (expected - bound).abs() > 1e-3 {
+                assert_eq!(holds, expected < bound, "{expected} {bound}");
+                angles[if holds { 0 } else { 2 }] += 1;
+            }
+        }
+        let Some(Test::Apart(test)) = problem.obligations.last().map(|o| &o.test) else {
+            panic!("a distance")
+        };
+        let expected = [
+            [plus(p, 1.0, times(&r, from)), plus(p, 1.0, times(&r, to))],
+            [plus(plus(tip, -1.0, own), 0.125 / length, own), plus(tip, -0.25 / length, own)],
+        ];
+        for (ends, expected) in test.ends.iter().zip(expected) {
+            for (end, expected) in ends.iter().zip(expected) {
+                for (&f, expected) in end.iter().zip(expected) {
+                    let found = of(f).expect("an end") * unit;
+                    assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+                }
+            }
+        }
+        segments += 1;
+    }
+    assert!(angles.iter().all(|&n| n > 50) && segments > 150, "{angles:?} {segments}");
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn moments_are_about_the_origin() {
                 match lengths {
                     // Of a strut about the origin, the tip less the anchor.
                     0 => {
-                        let anchor = leg.anchor.expect("a strut").map(of);
+                        let anchor = leg.ends.expect("a strut")[0].map(of);
                         a = std::array::from_fn(|k| tip[k] - anchor[k]);
                     }
                     _ => (0..lengths).for_each(|k| a[k] = of(leg.row.a[k])),
