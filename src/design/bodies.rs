@@ -7,11 +7,10 @@ use super::drive::axes;
 use super::error::{Defect, DesignError};
 use super::exactly;
 use super::independence::product;
-use super::number::{exact, not_negative, positive};
+use super::number::{exact, less_than_half_a_turn, not_negative, positive};
 use crate::exact::{Exact, NumberErrorKind};
 use orthocert_kernel::claim::Body;
 use orthocert_kernel::number::Expression;
-use std::cmp::Ordering;
 
 const ROD: &str =
     "{ radius = 8, trim = [20, 30] }: the rod's radius, and how far from the base joint it \
@@ -105,11 +104,7 @@ pub(super) fn joints(
         let (axis, bound) = (table.require("axis", accepted)?, table.require("max", accepted)?);
         let axis = self::axis(&axis, motion)?;
         let max = exact(&bound)?;
-        let below = max.compare(&Exact::integer(180)) == Some(Ordering::Less);
-        if bound.document.demands() && (max.sign() != Some(1) || !below) {
-            let accepted = "an angle in degrees, greater than 0 and less than 180";
-            return Err(bound.error(Defect::OutOfDomain, bound.found(), accepted));
-        }
+        less_than_half_a_turn(&bound, &max)?;
         let given = vec![("axis", axis)];
         demands.push(Demand { quantity: key, leg: Some(number), given, bound: Bound::Max(max) });
     }

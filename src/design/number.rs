@@ -131,6 +131,16 @@ pub(super) fn positive(value: &Value<'_>, number: &Exact, what: &str) -> Result<
     Err(value.error(Defect::OutOfDomain, found, format!("{what} greater than 0")))
 }
 
+/// Demands that an angle in degrees is between 0 and 180.
+pub(super) fn less_than_half_a_turn(value: &Value<'_>, angle: &Exact) -> Result<(), DesignError> {
+    let below = angle.compare(&Exact::integer(180)) == Some(Ordering::Less);
+    if !value.document.demands() || (angle.sign() == Some(1) && below) {
+        return Ok(());
+    }
+    let accepted = "an angle in degrees, greater than 0 and less than 180";
+    Err(value.error(Defect::OutOfDomain, value.found(), accepted))
+}
+
 /// `-quantity`.
 pub(super) fn negated(value: &Value<'_>, quantity: &Quantity) -> Result<Quantity, DesignError> {
     let end = |x: &Exact| writable(value, x.clone().negated());

@@ -7,7 +7,7 @@ use super::document::{Table, Value};
 use super::error::{Defect, DesignError};
 use super::leg;
 use super::mechanism::Machine;
-use super::number::{exact, not_negative, ordered, positive};
+use super::number::{exact, less_than_half_a_turn, not_negative, ordered, positive};
 use crate::exact::Exact;
 use std::cmp::Ordering;
 use toml::de::DeValue;
@@ -403,21 +403,29 @@ fn accuracy(
     machine: &Machine,
     key: &'static str,
 ) -> Result<Vec<Demand>, DesignError> {
-    if machine.mechanism.coordinates()[1] > 0 {
-        let accepted =
-            "accuracy of machines that do not turn their platform: of others it is not decided";
-        return Err(value.error(Defect::Conflict, value.found(), accepted));
-    }
-    let accepted = "{ joint_error = 0.01, max = 0.05 }";
+    let turns = machine.mechanism.coordinates()[1] > 0;
+    let (accepted, keys): (_, &[&str]) = match turns {
+        true => (
+            "{ joint_error = 0.01, max = 0.05, max_angle = 0.1 }",
+            &["joint_error", "max", "max_angle"],
+        ),
+        false => ("{ joint_error = 0.01, max = 0.05 }", &["joint_error", "max"]),
+    };
     let table = value.table(accepted)?;
-    table.only(&["joint_error", "max"])?;
+    table.only(keys)?;
     let error = table.require("joint_error", accepted)?;
     let joint_error = exact(&error)?;
     not_negative(&error, &joint_error, "an error of the joints")?;
-    let given = vec![("joint_error", vec![joint_error])];
+    let mut given = vec![("joint_error", vec![joint_error])];
     let bound = table.require("max", accepted)?;
     let max = exact(&bound)?;
     positive(&bound, &max, "a distance")?;
+    if turns {
+        let bound = table.require("max_angle", accepted)?;
+        let angle = exact(&bound)?;
+        less_than_half_a_turn(&bound, &angle)?;
+        given.push(("max_angle", vec![angle]));
+    }
     not_redundant(value, machine, key)?;
     Ok(vec![Demand { given, ..Demand::of(key, Bound::Max(max)) }])
 }

@@ -10,7 +10,7 @@ use crate::exact::Exact;
 use crate::search::Stop;
 use crate::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::solver::search::Open;
-use crate::solver::value::{unit, with_unit, Bounded};
+use crate::solver::value::{with_unit, Bounded};
 use crate::solver::Undecided;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -83,7 +83,7 @@ impl<'a> Facts<'a> {
             };
             return (name.to_owned(), None, ">", vec![Expression::integer(0)]);
         };
-        let unit = unit(&bounded.requirement.quantity, self.angular);
+        let unit = bounded.unit(self.angular);
         let name = with_unit(&bounded.name(), unit);
         match bounded.relation() {
             Some((relation, sides)) => (name, unit, relation, sides.into_iter().cloned().collect()),

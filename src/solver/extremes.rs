@@ -7,14 +7,14 @@ use super::evidence::Prover;
 use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{search, Branch, Ends};
-use super::value::{alone, unit, Bounded};
+use super::value::{alone, Bounded};
 use super::{accepted, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
 use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Zero};
 use orthocert_checker::certificate::{Certificate, Verdict};
-use orthocert_kernel::claim::{Bound, MachineClaim, Requirement, Workspace};
+use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -98,7 +98,7 @@ impl Extreme {
         };
         let leg_number = leg.map(|leg| leg + 1);
         let requirement = Requirement { bound, leg: leg_number, ..requirement };
-        Some(Extreme { bounded: Bounded { requirement, leg } })
+        Some(Extreme { bounded: Bounded { requirement, leg, angle: false } })
     }
 
     /// The quantity, what it is for, and the leg; the bound's number has no meaning.
@@ -138,7 +138,10 @@ impl Extreme {
                 }?;
                 Some(((*name).to_owned(), numbers))
             };
-            let given: Option<BTreeMap<_, _>> = quantity.given.iter().map(given).collect();
+            let turning = claim.orientation.is_some();
+            let more = if turning { quantity.given_turning } else { &[] };
+            let names = quantity.given.iter().chain(more);
+            let given: Option<BTreeMap<_, _>> = names.map(given).collect();
             let Some(given) = given else { continue };
             // The axes of joints are of their legs.
             let on_legs = claim.require.iter().filter(|own| own.quantity == quantity.key);
@@ -158,10 +161,25 @@ impl Extreme {
                 let number = leg.map(|leg| leg + 1);
                 let quantity = quantity.key.to_owned();
                 let requirement = Requirement { quantity, leg: number, given, bound };
-                all.push(Extreme { bounded: Bounded { requirement, leg } });
+                let angle = Self::angle(claim, &requirement);
+                let still = matches!(claim.mechanism, Mechanism::Spherical(_));
+                let own = Extreme { bounded: Bounded { requirement, leg, angle: false } };
+                // About a point, no position is off.
+                all.extend((angle.is_none() || !still).then_some(own));
+                all.extend(angle);
             }
         }
         all
+    }
+
+    /// Of an accuracy of a platform that turns, the angle, with the distance that the claim has.
+    fn angle(claim: &MachineClaim, requirement: &Requirement) -> Option<Self> {
+        let own = claim.require.iter().find(|own| own.quantity == "accuracy")?;
+        let is_it =
+            requirement.quantity == "accuracy" && requirement.given.contains_key("max_angle");
+        let greatest = matches!(requirement.bound, Bound::Max(_));
+        let bounded = Bounded { requirement: own.clone(), leg: None, angle: true };
+        (is_it && greatest).then_some(Extreme { bounded })
     }
 
     /// The extremes that a claim's requirements bound.
@@ -189,6 +207,11 @@ impl Extreme {
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
     fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
         let bound = number(bound)?;
+        if self.bounded.angle {
+            let mut requirement = self.bounded.requirement.clone();
+            requirement.given.insert("max_angle".to_owned(), vec![bound]);
+            return Some(alone(claim, vec![requirement]));
+        }
         let bound = match &self.bounded.requirement.bound {
             Bound::Min(_) => Bound::Min(bound),
             Bound::Max(_) => Bound::Max(bound),
@@ -203,6 +226,7 @@ impl Extreme {
     pub fn quantity(&self) -> String {
         let Requirement { quantity, .. } = &self.bounded.requirement;
         match (quantity.as_str(), self.bounded.leg) {
+            ("accuracy", _) if self.bounded.angle => self.bounded.name(),
             ("transmission", _) => "psi".to_owned(),
             ("joint_range", Some(leg)) => format!("rho_{}", leg + 1),
             ("conditioning", _) => "sigma_max/sigma_min".to_owned(),
@@ -219,6 +243,7 @@ impl Extreme {
         let Requirement { quantity, .. } = &self.bounded.requirement;
         let end = if self.is_greatest() { "greatest" } else { "least" };
         match (quantity.as_str(), self.bounded.leg) {
+            ("accuracy", _) if self.bounded.angle => "accuracy-angle".to_owned(),
             ("transmission", _) => format!("psi-{end}"),
             ("joint_range", Some(leg)) => format!("rho-{}-{end}", leg + 1),
             (_, Some(leg)) => format!("{}-{}", quantity.replace('_', "-"), leg + 1),
@@ -230,7 +255,7 @@ impl Extreme {
     pub fn unit(&self, angular: bool) -> Option<&'static str> {
         match self.bounded.requirement.quantity.as_str() {
             "joint_speed" => angular.then_some("deg/length"),
-            quantity => unit(quantity, angular),
+            _ => self.bounded.unit(angular),
         }
     }
 
@@ -393,7 +418,8 @@ impl Extreme {
         number: usize,
     ) -> Option<Bounded> {
         let first = problem.obligations[number].requirement == Some(0);
-        Bounded::of(claim, problem, number).filter(|_| first)
+        let own = |bounded: &Bounded| first && bounded.angle == self.bounded.angle;
+        Bounded::of(claim, problem, number).filter(own)
     }
 
     fn is_beyond(&self, value: f64, other: f64) -> bool {
@@ -491,7 +517,7 @@ fn certify(
     worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
     for Worst { quality, place, .. } in worst {
         let Quality::Obligation(number) = quality else { continue };
-        let Some(bounded) = Bounded::of(claim, &problem, number) else { continue };
+        let Some(bounded) = extreme.of_obligation(claim, &problem, number) else { continue };
         let value =
             bounded.value(claim, &problem, &sampler, &place).ok_or(NotEnclosed::Singular)?;
         if extreme.is_beyond(value, known.value) {

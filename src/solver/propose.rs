@@ -3,6 +3,7 @@
 use super::directions::directions;
 use super::evidence::{At, Over};
 use super::rows::{above, exponent, in_places, rounded, Form, Rows};
+use super::violation;
 use nalgebra::{DMatrix, DVector};
 use orthocert_kernel::certificate::{Corner, Evidence};
 use orthocert_kernel::formula::{Formula, Op};
@@ -18,6 +19,8 @@ const FINE: i32 = 15;
 const FINER: i32 = 27;
 /// Bits tried for a shorter one.
 const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
+/// Weights of an accuracy that are tried.
+const WEIGHTS: [u32; 5] = [0, 1, 2, 3, 5];
 /// Parts of the least singular value tried as `kappa` of an accuracy.
 const PARTS: [f64; 3] = [0.95, 0.8, 0.5];
 /// Parts of `b z^T/c^2` in what is tried for solutions.
@@ -40,6 +43,7 @@ impl Over<'_> {
             | Test::Solve(_)
             | Test::Least(..)
             | Test::Greatest(..) => self.prover.is_scaled,
+            Test::Accuracy(test) => !test.scaled.is_empty(),
             Test::AtLeast(_) => self.problem().weight.is_some(),
             _ => false,
         };
@@ -58,6 +62,7 @@ impl Over<'_> {
             Test::OneToOne(_) => there.shown(test, Evidence::Chords),
             Test::Solve(solve) => there.solution(test, solve),
             Test::Least(rows, kappa) => there.least(test, rows, *kappa),
+            Test::Accuracy(accuracy) => there.accuracy(test, accuracy, Form::Scaled),
             _ => there.shown(test, Evidence::Test),
         };
         found.map(|inner| Evidence::Control(Box::new(inner)))
@@ -80,7 +85,7 @@ impl Over<'_> {
             Test::Greatest(..) => self.shown(test, Evidence::Test),
             Test::OneToOne(_) => self.shown(test, Evidence::Chords),
             Test::Solve(solve) => self.solution(test, solve),
-            Test::Accuracy(accuracy) => self.accuracy(test, accuracy),
+            Test::Accuracy(accuracy) => self.accuracy(test, accuracy, Form::Plain),
             Test::Apart(apart) => self.apart(test, apart),
         }
     }
@@ -190,17 +195,59 @@ impl Over<'_> {
         self.shortest_of(test, all, Evidence::Lower)
     }
 
-    fn accuracy(&self, test: &Test, accuracy: &Accuracy) -> Option<Evidence> {
-        let m = self.matrix(&accuracy.rows, At::Centre)?;
-        let least = m.singular_values().min();
-        PARTS.into_iter().find_map(|part| {
-            self.shortest(test, |bits| {
-                // As many bits for kappa as for the greatest entry.
-                let y = in_places(&m, (bits + above(&m)).max(bits - exponent(least)))?;
-                let kappa = (part * least * f64::from(y.places).exp2()).floor();
-                Some(Evidence::Accuracy(y, kappa as i64))
+    /// `Y` is `V` at the centre, and at control points `A`.
+    fn accuracy(&self, test: &Test, accuracy: &Accuracy, form: Form) -> Option<Evidence> {
+        let rows = self.matrix(&accuracy.rows, At::Centre)?;
+        self.weights_of_parts(&rows, accuracy)?.find_map(|p| {
+            let mut m = rows.clone();
+            let others = (0..m.ncols()).filter(|k| !accuracy.part.contains(k));
+            others.for_each(|k| m.column_mut(k).scale_mut(f64::from(p).exp2()));
+            let least = m.singular_values().min();
+            if form == Form::Scaled {
+                for (i, leg) in self.problem().legs.iter().enumerate() {
+                    m.row_mut(i).scale_mut(self.centre(leg.row.d)?.sqrt());
+                }
+            }
+            PARTS.into_iter().find_map(|part| {
+                self.shortest(test, |bits| {
+                    // As many bits for kappa as for the greatest entry.
+                    let y = in_places(&m, (bits + above(&m)).max(bits - exponent(least)))?;
+                    let kappa = (part * least * f64::from(y.places).exp2()).floor();
+                    Some(Evidence::Accuracy(y, kappa as i64, p))
+                })
             })
         })
+    }
+
+    /// The weights by which the other part of what the platform is off by may do: from the least one that
+    /// does at the centre, to first order.
+    fn weights_of_parts(
+        &self,
+        rows: &DMatrix<f64>,
+        accuracy: &Accuracy,
+    ) -> Option<impl Iterator<Item = u32>> {
+        let inverse = rows.clone().try_inverse()?;
+        let beta = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
+            let each =
+                all.iter().map(|[half, by]| Some(self.centre(*half)? * self.centre(*by)?.abs()));
+            Some(self.centre(*error)? + each.sum::<Option<f64>>()?)
+        };
+        let beta: Vec<f64> = accuracy.joints.iter().map(beta).collect::<Option<_>>()?;
+        let n = beta.len();
+        // Of each sign vector the squares of both parts.
+        let squares = (0..1usize << (n - 1)).map(|signs| {
+            let b = |i: usize, _| if signs >> i & 1 == 1 { -beta[i] } else { beta[i] };
+            let u = &inverse * DVector::from_fn(n, b);
+            let own = violation::part(&u, accuracy).norm_squared();
+            [own, u.norm_squared() - own]
+        });
+        let squares: Vec<[f64; 2]> = squares.collect();
+        let least = WEIGHTS.into_iter().position(|p| {
+            let part = f64::from(p).exp2().powi(-2);
+            squares.iter().all(|[own, other]| own + part * other < 1.0)
+        });
+        let tried = accuracy.parts(n).len();
+        Some(WEIGHTS.into_iter().skip(least?).take(tried).filter(move |&p| tried == 2 || p == 0))
     }
 
     fn apart(&self, test: &Test, apart: &Apart) -> Option<Evidence> {

@@ -442,7 +442,8 @@ impl<'a> Sampler<'a> {
                 1.0 - z.norm() * root(&solve.square)?
             }
             Test::Accuracy(test) => {
-                1.0 - violation::displaced(values, &self.problem.legs, test)?.norm()
+                let u = violation::displaced(values, &self.problem.legs, test)?;
+                1.0 - violation::part(&u, test).norm()
             }
             Test::Apart(test) => {
                 let (_, between) = violation::between(values, test)?;

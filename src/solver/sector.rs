@@ -90,7 +90,8 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
     for _ in 0..ROUNDS {
         let problem = Problem::new(&asked)?;
         let sampler = Sampler::new(&asked, &problem)?;
-        let bounded = Bounded { requirement: asked.require[0].clone(), leg: Some(leg) };
+        let bounded =
+            Bounded { requirement: asked.require[0].clone(), leg: Some(leg), angle: false };
         let angle = |place: &Place| bounded.value(&asked, &problem, &sampler, place);
         let mut places = Vec::new();
         let about = match middle {

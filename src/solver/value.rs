@@ -25,6 +25,8 @@ pub struct Bounded {
     pub requirement: Requirement,
     /// Of this leg, counted from zero.
     pub leg: Option<usize>,
+    /// Of an accuracy, the angle that goes with it.
+    pub angle: bool,
 }
 
 /// The unit of a quantity, where it has one; `angular` where joint coordinates are angles.
@@ -107,7 +109,8 @@ impl Bounded {
     pub fn of(claim: &MachineClaim, problem: &Problem, obligation: usize) -> Option<Self> {
         let obligation = problem.obligations.get(obligation)?;
         let requirement = claim.require.get(obligation.requirement?)?.clone();
-        Some(Bounded { requirement, leg: obligation.leg })
+        let angle = matches!(&obligation.test, Test::Accuracy(test) if test.is_of_angle());
+        Some(Bounded { requirement, leg: obligation.leg, angle })
     }
 
     /// Its name: `greatest psi`, `least rho_2`, `joint speed 1`.
@@ -120,6 +123,7 @@ impl Bounded {
         };
         let number = self.leg.map(|leg| leg + 1);
         match (quantity.as_str(), number) {
+            ("accuracy", _) if self.angle => "accuracy of the angle".to_owned(),
             ("transmission", _) => format!("{end}psi"),
             ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
             ("joint_range", None) => format!("{end}rho"),
@@ -129,9 +133,20 @@ impl Bounded {
         }
     }
 
+    /// Its unit, where it has one.
+    pub fn unit(&self, angular: bool) -> Option<&'static str> {
+        match self.angle {
+            true => Some("deg"),
+            false => unit(&self.requirement.quantity, angular),
+        }
+    }
+
     /// `<=`, `>=` or `in`, and the other side; none of what is no number.
     pub fn relation(&self) -> Option<(&'static str, Vec<&Expression>)> {
         match &self.requirement.bound {
+            _ if self.angle => {
+                Some(("<=", self.requirement.given.get("max_angle")?.iter().collect()))
+            }
             Bound::Min(bound) => Some((">=", vec![bound])),
             Bound::Max(bound) => Some(("<=", vec![bound])),
             Bound::Within([min, max]) => Some(("in", vec![min, max])),
@@ -214,13 +229,18 @@ impl Bounded {
     ) -> Option<f64> {
         let own = problem.obligations.iter().enumerate().filter(|(_, own)| {
             let requirement = own.requirement.and_then(|r| sampler.claim().require.get(r));
-            requirement == Some(&self.requirement) && own.leg == self.leg
+            let angle = matches!(&own.test, Test::Accuracy(test) if test.is_of_angle());
+            requirement == Some(&self.requirement) && own.leg == self.leg && angle == self.angle
         });
         let value = |(number, own): (usize, &Obligation)| {
             let margin = sampler.margin(Quality::Obligation(number), at);
             match (self.requirement.quantity.as_str(), &own.test) {
                 ("stiffness", _) => Some(bound * (1.0 + margin).powi(2)),
                 ("constraint_margin", _) => Some(bound * (1.0 + margin)),
+                ("accuracy", Test::Accuracy(test)) if self.angle => {
+                    let (tau, _) = test.turn?;
+                    Some(2.0 * (at.of(tau)? * (1.0 - margin)).atan().to_degrees())
+                }
                 ("joint_force" | "accuracy" | "joint_acceleration", _) => {
                     Some(bound * (1.0 - margin))
                 }

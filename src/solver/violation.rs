@@ -2,7 +2,7 @@
 
 use super::directions::{ends, nearest};
 use super::sample::At;
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
+use nalgebra::{DMatrix, DVector, DVectorView, SymmetricEigen, Vector3};
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::test::accuracy::Accuracy;
@@ -94,7 +94,7 @@ pub fn unsolved(at: &At, legs: &[Leg], solve: &Solve) -> Option<DVector<f64>> {
     matrix(at, &a)?.transpose().lu().solve(&solved(at, legs, solve)?)
 }
 
-/// `M^-1 b/d` for the joint errors with which it is longest, to first order: `b_i` is what the joint of
+/// `W^-1 b` for the joint errors with which a test's part of it is longest, to first order: `b_i` is what the joint of
 /// the machine in the middle of the tolerances has more than this one's, and the error.
 pub fn displaced(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>> {
     let inverse = matrix(at, &test.rows)?.try_inverse()?;
@@ -118,12 +118,20 @@ pub fn displaced(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>>
         let b = |i: usize| off[i] + if signs >> i & 1 == 1 { errors[i] } else { -errors[i] };
         &inverse * DVector::from_fn(n, |i, _| b(i))
     };
-    (0..1usize << n).map(with).max_by(|a, b| a.norm().total_cmp(&b.norm()))
+    let all = (0..1usize << n).map(with);
+    let own = |u: &DVector<f64>| part(u, test).norm();
+    all.max_by(|a, b| own(a).total_cmp(&own(b)))
 }
 
-/// `v = M^-T u` for `u` along that: `v . b/d = |M^-1 b|/d`, and `|M^T v| = 1`.
+/// The part of `u` that a test is about.
+pub fn part<'u>(u: &'u DVector<f64>, test: &Accuracy) -> DVectorView<'u, f64> {
+    u.rows(test.part.start, test.part.len())
+}
+
+/// `v = W^-T u` for `u` along that part: `v . b` is its length, and `|W^T v| = 1`.
 pub fn far(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>> {
-    let u = displaced(at, legs, test)?;
+    let mut u = displaced(at, legs, test)?;
+    u.iter_mut().enumerate().filter(|(k, _)| !test.part.contains(k)).for_each(|(_, u)| *u = 0.0);
     matrix(at, &test.rows)?.transpose().lu().solve(&u)
 }
 

@@ -43,7 +43,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Rank(y.clone()),
         Evidence::Chords,
         Evidence::Conditioning(y.clone(), vec![3, 0, -1]),
-        Evidence::Accuracy(y.clone(), 1),
+        Evidence::Accuracy(y.clone(), 1, 0),
         Evidence::Direction(y.clone()),
         Evidence::Negative,
         Evidence::Cube,

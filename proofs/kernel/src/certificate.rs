@@ -168,8 +168,8 @@ pub enum Evidence {
     Chords,
     /// For a condition number: `Y`, and `mu_0, mu_1, .., mu_m`, over the same `2^places`.
     Conditioning(Multiplier, Vec<i64>),
-    /// For accuracy: `Y`, and `kappa` over the same `2^places`.
-    Accuracy(Multiplier, i64),
+    /// For accuracy: `Y`, `kappa` over the same `2^places`, and `p`.
+    Accuracy(Multiplier, i64, u32),
     /// For two bodies: an affine direction, three rows of `g_0, g_1, .., g_m`.
     Direction(Multiplier),
     /// For a quantity whose absolute value is bounded from below: its sign is negative.

@@ -25,6 +25,8 @@ pub(crate) struct Builder {
     pub reached: Vec<Formula>,
     /// Whether the platform turns.
     pub turns: bool,
+    /// The formulas of the legs' quantities, leg by leg.
+    of_legs: Vec<Vec<Vec<Formula>>>,
 }
 
 impl Builder {
@@ -142,7 +144,7 @@ pub(crate) fn motion(
             return Err(shape_error("orientation", expected));
         }
     };
-    Ok((Motion { position, velocity, turn }, chart))
+    Ok((Motion { position, velocity, turn, moved: None }, chart))
 }
 
 /// Legs of a platform that moves so.
@@ -151,18 +153,28 @@ pub(crate) fn built(
     motion: &Motion,
     legs: &[Leg],
 ) -> Result<Vec<machine::Leg>, ClaimError> {
-    let leg = |(number, leg)| built_leg(builder, motion, number, leg);
-    legs.iter().enumerate().map(leg).collect()
+    let quantities = legs.iter().enumerate().map(|(number, leg)| builder.quantities(number, leg));
+    builder.of_legs = quantities.collect::<Result<_, _>>()?;
+    moved(builder, motion, legs)
+}
+
+/// The same legs at another pose.
+pub(crate) fn moved(
+    builder: &mut Builder,
+    motion: &Motion,
+    legs: &[Leg],
+) -> Result<Vec<machine::Leg>, ClaimError> {
+    let Builder { tape, of_legs, .. } = builder;
+    let leg = |(leg, formulas): (_, &Vec<_>)| built_leg(tape, motion, leg, formulas);
+    legs.iter().zip(of_legs.iter()).map(leg).collect()
 }
 
 fn built_leg(
-    builder: &mut Builder,
+    tape: &mut Tape,
     motion: &Motion,
-    number: usize,
     leg: &Leg,
+    formulas: &[Vec<Formula>],
 ) -> Result<machine::Leg, ClaimError> {
-    let formulas = builder.quantities(number, leg)?;
-    let tape = &mut builder.tape;
     let (zero, one) = (tape.integer(0), tape.integer(1));
     let (moves, in_plane) = (!motion.velocity.is_empty(), motion.velocity.len() == 2);
     let vector = |formulas: &[Formula]| match *formulas {
@@ -170,7 +182,7 @@ fn built_leg(
         [x, y] if in_plane => Some([x, y, zero]),
         _ => None,
     };
-    let mut build = || match (leg, formulas.as_slice()) {
+    let mut build = || match (leg, formulas) {
         (Leg::Slider { mode, .. }, [direction, anchor, platform, length]) if moves => {
             let ends = [&vector(anchor)?, &vector(platform)?];
             let (direction, length) = (vector(direction)?, *length.first()?);

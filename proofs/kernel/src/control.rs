@@ -21,6 +21,10 @@
 //! in it, the same sum; coordinate after coordinate, with products of the weights. ∎ A coordinate of
 //! which no formula has the square needs the nodes `l` and `h` alone.
 //!
+//! *Ends alone.* Let what is shown be the easier the less `x_k^2` is, all else the same. Then the nodes `(l, l^2)` and
+//! `(h, h^2)` of that coordinate will do ([`Control::at_ends`]): with the weights `1 - t` and `t` their sum
+//! is `(x_k, s)`, `s = x_k^2 + t (1 - t) (h - l)^2 >= x_k^2`.
+//!
 //! The middle node is no point of the parabola: to take `((l + h)/2)^2` for its square would be unsound.
 //! `(x - 1/4)^2 - 1/32` on `[0, 1]` has the values 1/32, 1/32, 17/32 at 0, 1/2 and 1, and -1/32 at 1/4.
 //!
@@ -65,6 +69,13 @@ impl Control {
         Control { tape: own, m, images, degrees }
     }
 
+    /// With the nodes at the ends alone of the first coordinates.
+    #[must_use]
+    pub fn at_ends(mut self, coordinates: usize) -> Self {
+        self.degrees.iter_mut().take(coordinates).for_each(|degree| *degree = (*degree).min(1));
+        self
+    }
+
     /// Whether a formula has the form.
     pub fn has(&self, formula: Formula) -> bool {
         self.images.contains_key(&formula)
@@ -72,8 +83,12 @@ impl Control {
 
     /// Evaluations of a formula at all control points.
     pub fn work(&self) -> usize {
-        let points: usize = self.degrees.iter().map(|&d| usize::from(d) + 1).product();
-        points.saturating_mul(self.tape.ops().len())
+        self.points().saturating_mul(self.tape.ops().len())
+    }
+
+    /// How many control points there are.
+    pub fn points(&self) -> usize {
+        self.degrees.iter().map(|&d| usize::from(d) + 1).product()
     }
 
     /// Values at all control points; `edges` has, for each coordinate, the cell's centre, range and

@@ -52,6 +52,41 @@ fn eliminates<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Number>) -> bool
     true
 }
 
+/// Whether every `[[T, b], [b^T, c]]` is certainly positive definite, for each `b`: by one elimination of
+/// `T`, in which the last column and corner of each go along, or else by itself.
+pub(crate) fn are_positive_definite<E: Enclosure>(
+    e: &E,
+    t: &Triangle<E::Number>,
+    mut columns: impl Iterator<Item = Vec<E::Number>>,
+    corner: &E::Number,
+) -> bool {
+    let (mut steps, mut rest) = (Vec::new(), Some(t.clone()));
+    while let Some(now) = rest.take_if(|rest| !rest.is_empty()) {
+        steps.extend(now.first().cloned());
+        rest = eliminated(e, now);
+    }
+    let last = |mut b: Vec<E::Number>| {
+        rest.as_ref()?;
+        let mut corner = corner.clone();
+        for (at, step) in steps.iter().enumerate() {
+            let (a, row) = step.split_first()?;
+            let own = b.get(at)?.clone();
+            for (b, from) in b.iter_mut().skip(at + 1).zip(row) {
+                *b = e.sub(b, &e.ratio(from, &own, a)?)?;
+            }
+            corner = e.sub(&corner, &e.ratio(&own, &own, a)?)?;
+        }
+        Some(e.is_positive(&corner))
+    };
+    let bordered = |b: Vec<E::Number>| {
+        let mut t = t.clone();
+        t.iter_mut().zip(b).for_each(|(row, b)| row.push(b));
+        t.push(vec![corner.clone()]);
+        t
+    };
+    columns.all(|b| last(b.clone()) == Some(true) || is_positive_definite(e, bordered(b)))
+}
+
 /// The Schur complement of the first entry; `None` unless that is certainly positive.
 pub(crate) fn eliminated<E: Enclosure>(
     arithmetic: &E,

@@ -161,10 +161,11 @@ impl Input {
                 let x = enclosed(degrees, self.scale, bits)?;
                 fixed.div(&fixed.mul(&x, &pi(bits)?)?, &fixed.integer(180)?)
             }
-            Value::HalfTangent(degrees) => half_tangent(degrees, bits),
+            Value::HalfTangent(degrees) => half_tangent(degrees, self.scale, bits),
             Value::TiltReach(tilt, torsion) => {
                 let fixed = Fixed::<BigInt>::new(bits);
-                let [t, s] = [half_tangent(tilt, bits)?, half_tangent(torsion, bits)?];
+                let of = |degrees| half_tangent(degrees, 0, bits);
+                let [t, s] = [of(tilt)?, of(torsion)?];
                 let square = fixed.add(&fixed.integer(1)?, &fixed.sqr(&s)?)?;
                 fixed.mul(&t, &fixed.sqrt(&square)?)
             }
@@ -172,16 +173,17 @@ impl Input {
     }
 }
 
-/// `tan(x/2) = sin x/(1 + cos x)`, which of 0 is exactly 0; with 64 guard bits.
-fn half_tangent(degrees: &Expression, bits: u32) -> Option<Interval<BigInt>> {
+/// `tan(x/2) = sin x/(1 + cos x)` divided by `2^scale`, which of 0 is exactly 0; with 64 guard bits.
+fn half_tangent(degrees: &Expression, scale: i64, bits: u32) -> Option<Interval<BigInt>> {
     if degrees.rational().is_some_and(|x| x.is_zero()) {
         return Some(Interval::point(BigInt::from(0)));
     }
-    let working = bits.checked_add(64)?;
+    let guard = 64 + u32::try_from((-scale).max(0)).ok()?;
+    let working = bits.checked_add(guard)?;
     let fixed = Fixed::<BigInt>::new(working);
     let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
     let t = fixed.mul(&sin, &fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?)?;
-    Some(Interval { lo: t.lo >> 64u32, hi: -(-t.hi >> 64u32) })
+    Some(shifted(t, i64::from(guard) + scale))
 }
 
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A

@@ -397,16 +397,28 @@ impl Problem {
                 }
                 Test::OneToOne(rows) => entries(rows, None),
                 Test::AtLeast(f) => vec![*f],
+                Test::Accuracy(test) => entries(&test.scaled, Some(weight)),
                 // These have no form for control points.
-                Test::Beyond(..) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
-                    Vec::new()
-                }
+                Test::Beyond(..) | Test::Apart(_) | Test::Curvature(_) => Vec::new(),
             };
             wanted.extend(self.turned);
             wanted.extend(self.inside.as_ref().map(|inside| inside.g));
-            (test.clone(), Control::new(&self.tape, self.dimension(), &wanted))
+            let control = Control::new(&self.tape, self.dimension(), &wanted);
+            let ends = if self.is_easier_with_less(test) { self.corners[0].len() } else { 0 };
+            (test.clone(), control.at_ends(ends))
         };
         self.obligations.iter().map(own).collect()
+    }
+
+    /// Whether a test on scaled rows is the easier the less squares of positions are ([`Control::at_ends`]).
+    ///
+    /// **Lemma.** It is, if its matrix decreases with the `w D_i`, in which these squares have the factor `w`, and
+    /// as many struts as coordinates are asked for. *Proof.* That all `D_i > 0` is harder the less they are; but
+    /// `T > 0` shows `A` regular by itself, and a strut of length zero, `D_i = 0`, has a row `A_i` of zeros. ∎
+    /// The inequality of a cylinder has the squares with another sign.
+    fn is_easier_with_less(&self, test: &Test) -> bool {
+        let decreases = matches!(test, Test::SigmaMin(_) | Test::Solve(_) | Test::Accuracy(_));
+        decreases && self.inside.is_none() && self.legs.len() == self.dimension()
     }
 
     /// A point of the workspace in the problem's unit, and coordinates of orientation.

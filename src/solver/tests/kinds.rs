@@ -190,6 +190,48 @@ fn joints_and_bodies_of_platforms_that_turn() {
 }
 
 #[test]
+fn where_joint_errors_put_platforms_that_turn() {
+    let machines = [
+        ("3-RPR", three_rpr(), 0.05, 60),
+        ("about a point", spherical(ANGLE), 0.05, 600),
+        ("hexapod", hexapod(r#"{"angle":"5"}"#), 0.3, 20),
+    ];
+    for (name, machine, part, most) in machines {
+        let of = |[max, angle]: [f64; 2]| {
+            asking(
+                &machine,
+                "accuracy",
+                &[("joint_error", 1e-4), ("max_angle", angle)],
+                Bound::Max(decimal(max)),
+            )
+        };
+        // The worst position and the worst angle that are found, of a claim that is true.
+        let stated = of([1.0, 10.0]);
+        let problem = Problem::new(&stated).expect("a claim");
+        let sampler = Sampler::new(&stated, &problem).expect("numbers");
+        let mut worst = [1.0; 2];
+        for found in sampler.worst_values(FINEST) {
+            let Quality::Obligation(number) = found.quality else { continue };
+            let Some(bounded) = Bounded::of(&stated, &problem, number) else { continue };
+            let value = bounded.value(&stated, &problem, &sampler, &found.place).expect("a value");
+            worst[usize::from(bounded.angle)] = value;
+        }
+        let with = |parts: [f64; 2]| of([0, 1].map(|k| worst[k] * parts[k]));
+        let (_, accepted) = decided(&with([1.0 + part; 2]));
+        println!("{name} {worst:?}: {} leaves", accepted.size.leaves);
+        assert_eq!(accepted.verdict, Verdict::Certified, "{name} {worst:?}");
+        assert!(accepted.size.leaves <= most, "{name}: {}", accepted.size.leaves);
+        for parts in [[0.99, 1.5], [1.5, 0.99]] {
+            if name == "about a point" && parts[0] < 1.0 {
+                continue;
+            }
+            let (_, accepted) = decided(&with(parts));
+            assert_eq!(accepted.verdict, Verdict::Refuted, "{name} {parts:?}");
+        }
+    }
+}
+
+#[test]
 fn platforms_in_the_plane_and_about_a_point() {
     let machines = [
         ("3-RPR", three_rpr()),

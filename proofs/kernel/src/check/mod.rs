@@ -21,7 +21,7 @@ use crate::postulate::{self, PostulateClaim};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::accuracy::{accuracy, inflated, Accuracy};
+use crate::test::accuracy::{accuracy, near, Accuracy};
 use crate::test::apart::apart;
 use crate::test::curvature::curvature;
 use crate::test::solve::solve;
@@ -527,6 +527,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 sigma_min(over, rows, &|v| over.at(*kappa, v), y)
             }
             (Test::Greatest(rows, k), Evidence::Test) => sigma_max(over, rows, &|v| over.at(*k, v)),
+            (Test::Accuracy(test), Evidence::Accuracy(y, kappa, p)) => {
+                self.accuracy(over, place, test, (y, *kappa, *p)).unwrap_or(false)
+            }
             // What follows knows of vertices alone.
             _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
@@ -535,9 +538,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
             (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
-            (Test::Accuracy(test), Evidence::Accuracy(y, kappa)) => {
-                self.accuracy(over, place, test, (y, *kappa)).unwrap_or(false)
-            }
             (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
@@ -568,17 +568,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         }
     }
 
-    /// The test of accuracy, with the formulas over the inflated cell.
+    /// The test of accuracy, with the formulas near the cell.
     fn accuracy(
         &self,
         over: &Over<'_, E>,
         place: &Place<'_, E::Number>,
         test: &Accuracy,
-        evidence: (&Multiplier, i64),
+        evidence: (&Multiplier, i64, u32),
     ) -> Option<bool> {
-        let d = &over.of(test.distance)?.range;
-        let values = self.evaluate(&inflated(self.arithmetic, place.edges, d)?);
-        let far = Over::new(over.slopes, &values);
+        let (tape, slopes) = (&self.problem.tape, over.slopes);
+        let of = |f| over.of(f).map(|f| f.range.clone());
+        let values = near(tape, &self.parameters, slopes, place.edges, test, of)?;
+        let far = Over::new(slopes, &values);
         Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
     }
 
@@ -639,7 +640,14 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let steps = tree.nodes.iter().flat_map(|node| &node.by);
         let work = |Step(obligation, evidence): &Step| match evidence {
             Evidence::Control(_) => {
-                self.controls.get(*obligation).map_or(0, |(_, control)| control.work())
+                let work = |(test, control): &(Test, Control)| {
+                    let signs = match test {
+                        Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
+                        _ => 0,
+                    };
+                    control.work().saturating_add(control.points().saturating_mul(signs))
+                };
+                self.controls.get(*obligation).map_or(0, work)
             }
             _ => 0,
         };

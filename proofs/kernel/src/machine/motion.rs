@@ -23,6 +23,8 @@ pub(crate) struct Motion {
     pub velocity: &'static [usize],
     /// How it turns, if it does.
     pub turn: Option<Turn>,
+    /// `c`, of a platform turned on by the rotation with these half-angle tangents.
+    pub moved: Option<Vector>,
 }
 
 /// How a platform turns: `R = N/w`, `w >= 1`, of half-angle tangents.
@@ -52,12 +54,49 @@ impl Turn {
 }
 
 impl Motion {
-    /// `R b`.
+    /// `R b`. Turned on by `C`, it is `C R b = r + 2 (c x r + c x (c x r))/(1 + |c|^2)`, `r = R b`.
     pub fn turned(&self, tape: &mut Tape, b: &Vector) -> Vector {
-        match &self.turn {
+        let r = match &self.turn {
             None => *b,
             Some(turn) => turn.scaled(tape, b).map(|x| tape.div(x, turn.weight)),
+        };
+        let Some(c) = &self.moved else { return r };
+        let across = tape.cross(c, &r);
+        let twice = tape.cross(c, &across);
+        let both = tape.plus(&across, &twice);
+        let part = Motion::rate(tape, c);
+        let change = tape.scaled(part, &both);
+        tape.plus(&r, &change)
+    }
+
+    /// `2/(1 + |c|^2)`.
+    fn rate(tape: &mut Tape, c: &Vector) -> Formula {
+        let (one, two) = (tape.integer(1), tape.integer(2));
+        let square = tape.norm_squared(c);
+        let weight = tape.add(one, square);
+        tape.div(two, weight)
+    }
+
+    /// The row of the derivatives of a joint by the components of `P` that there are, and by those of `c`,
+    /// for a platform that is turned on by `c`:
+    ///
+    /// ```text
+    /// [u, 2 (mu + mu x c)/(1 + |c|^2)]      mu = r x u
+    /// ```
+    ///
+    /// *Proof.* The joint's rate is `u . v + mu . omega`, `r` and `u` those of the pose turned on, and
+    /// `omega = 2 (c' + c x c')/(1 + |c|^2)`: rotations with tangents `a`, and `b` before it, have together
+    /// `(a + b + a x b)/(1 - a . b)`, so that with `a = omega t/2`, to first order in `t`,
+    /// `c' = (omega + omega x c + (omega . c) c)/2`, which is that. And `mu . (c x c') = (mu x c) . c'`. ∎
+    pub fn onward(&self, tape: &mut Tape, [r, u]: &[Vector; 2]) -> Vec<Formula> {
+        let mut row: Vec<Formula> = self.velocity.iter().map(|&k| u[k]).collect();
+        if let Some((turn, c)) = self.turn.as_ref().zip(self.moved.as_ref()) {
+            let moment = tape.cross(r, u);
+            let across = tape.cross(&moment, c);
+            let (both, part) = (tape.plus(&moment, &across), Motion::rate(tape, c));
+            row.extend(turn.spin.iter().map(|&k| tape.mul(part, both[k])));
         }
+        row
     }
 
     /// The leg of a drive from `a` to the platform's joint `b`; `drive` makes it of `w`.
@@ -121,7 +160,8 @@ impl Motion {
                 turn.moment(tape, &r, &from_base)
             });
         }
-        leg.scaled = self.turn.as_ref().map(|turn| self.scaled(tape, turn, [&from_base, a, b]));
+        let turn = self.turn.as_ref().filter(|_| self.moved.is_none());
+        leg.scaled = turn.map(|turn| self.scaled(tape, turn, [&from_base, a, b]));
         leg
     }
 

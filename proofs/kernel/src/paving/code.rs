@@ -193,7 +193,8 @@ fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
         Evidence::Rank(y) => (RANK, Some(y)),
         Evidence::Direction(y) => (DIRECTION, Some(y)),
         Evidence::Conditioning(y, _) => (CONDITIONING, Some(y)),
-        Evidence::Accuracy(y, _) => (ACCURACY, Some(y)),
+        // Of platforms that do not turn.
+        Evidence::Accuracy(y, _, 0) => (ACCURACY, Some(y)),
         _ => return None,
     };
     out.push(tag);
@@ -203,7 +204,7 @@ fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
     }
     match evidence {
         Evidence::Conditioning(_, mu) => put(out, mu),
-        Evidence::Accuracy(_, kappa) => put(out, &[*kappa]),
+        Evidence::Accuracy(_, kappa, _) => put(out, &[*kappa]),
         _ => Some(()),
     }
 }
@@ -283,7 +284,7 @@ impl<R: Read> Source<'_, R> {
             ACCURACY => {
                 let y = self.multiplier()?;
                 match self.integers()?[..] {
-                    [kappa] => Evidence::Accuracy(y, kappa),
+                    [kappa] => Evidence::Accuracy(y, kappa, 0),
                     _ => return Err(Rejected::BadCode(self.node, ACCURACY)),
                 }
             }

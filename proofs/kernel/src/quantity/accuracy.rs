@@ -1,10 +1,11 @@
 //! How far joint errors and manufacturing tolerances together put the platform from where it should be.
 
 use super::{Context, Quantity, Test};
-use crate::claim;
+use crate::claim::{self, Mechanism};
+use crate::compile::moved;
 use crate::formula::{Formula, Op};
-use crate::input::{binary, ordered, positive, ClaimError, Value};
-use crate::machine::{Joint, Leg};
+use crate::input::{binary, magnitude, ordered, positive, shape_error, ClaimError, Value};
+use crate::machine::{motion::Motion, Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::test::accuracy::Accuracy;
 
@@ -13,17 +14,18 @@ pub(super) const ACCURACY: Quantity = Quantity {
     symbol: "|P' - P|",
     words: "for joint coordinates within joint_error (each; of arms degrees, counted with their turns) of \
             those that the machine in the middle of all intervals has at P, every machine has exactly \
-            one position P' so near to P with these joint coordinates, in the working modes named",
+            one position P' so near to P with these joint coordinates, in the working modes named; of a \
+            platform that turns exactly one pose, turned by at most max_angle degrees from the one meant",
     of_legs: false,
     given: &["joint_error"],
+    given_turning: &["max_angle"],
     tests,
 };
 
-/// One [`Accuracy`] for all joints. Nothing is claimed of joint limits, which an error may pass, nor of
+/// One [`Accuracy`] for all joints, and each part of what the platform is off by. Nothing is claimed of joint limits, which an error may pass, nor of
 /// positions farther than the bound; `P'` need not be in the workspace. With more joints than
 /// coordinates, joint coordinates near those commanded belong to no position.
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
-    context.without_rotation()?;
     context.not_redundant()?;
     let max = context.greatest()?.clone();
     positive(context.place, &max)?;
@@ -48,9 +50,77 @@ fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimE
         let each = tolerances.iter().zip(slopes).filter(|&(_, slope)| slope != zero);
         joints.push((error, each.map(|(&(_, half), slope)| [half, slope]).collect()));
     }
-    let rows = context.legs.iter().map(|leg| leg.divided.a.clone()).collect();
+    let mut rows: Vec<_> = context.legs.iter().map(|leg| leg.divided.a.clone()).collect();
     let distance = context.number(&max, 1);
-    Ok(vec![Test::Accuracy(Accuracy { rows, joints, distance })])
+    let first = context.motion.velocity.len();
+    if context.claim.orientation.is_none() {
+        let (far, part) = (rows.clone(), 0..rows.len());
+        let (scaled, weight, turn) = (Vec::new(), None, None);
+        let test = Accuracy { rows, far, scaled, weight, joints, distance, turn, part };
+        return Ok(vec![Test::Accuracy(test)]);
+    }
+    let scaled = context.legs.iter().map(|leg| leg.scaled.clone()).collect::<Option<_>>();
+    let (mut scaled, weight): (Vec<_>, _) = (scaled.unwrap_or_default(), context.weight);
+    let all = rows.iter_mut().chain(scaled.iter_mut().map(|row| &mut row.a));
+    let (tau, far) = turned_on(context, &max, all)?;
+    let parts = [0..first, first..rows.len()].into_iter().filter(|part| !part.is_empty());
+    let of = |part| {
+        let (rows, far, scaled) = (rows.clone(), far.clone(), scaled.clone());
+        let (joints, turn) = (joints.clone(), Some((tau, first)));
+        Test::Accuracy(Accuracy { rows, far, scaled, weight, joints, distance, turn, part })
+    };
+    Ok(parts.map(of).collect())
+}
+
+/// `tau`, and the far rows; columns of rows in `ell omega` become those in `u_c`: `omega = 2 c'` at `c = 0`,
+/// and `c = tau u_c`.
+fn turned_on<'r>(
+    context: &mut Context<'_>,
+    max: &Expression,
+    rows: impl Iterator<Item = &'r mut Vec<Formula>>,
+) -> Result<(Formula, Vec<Vec<Formula>>), ClaimError> {
+    let angle = context.given("max_angle")?.clone();
+    positive(context.place, &angle)?;
+    ordered(context.place, &angle, &Expression::integer(180), true)?;
+    let tau = context.input(Value::HalfTangent(angle.clone()));
+    // tau/d, of the order of one, of two numbers of that order.
+    let own = magnitude([max].into_iter());
+    let own = own.ok_or_else(|| shape_error(context.place, "a distance"))?;
+    let of_one = Value::HalfTangent(angle);
+    let of_one = context.builder.input(context.place, of_one, own - context.builder.scale);
+    let by = context.builder.number(context.place, max, own);
+    let unit = context.tape().div(of_one, by);
+    let (Mechanism::Planar(of) | Mechanism::Spatial(of) | Mechanism::Spherical(of)) =
+        &context.claim.mechanism
+    else {
+        return context.refused("of legs with two ends");
+    };
+    let (motion, first) = (context.motion, context.motion.velocity.len());
+    let Some(turn) = &motion.turn else { return context.refused("of a platform that turns") };
+    let m = first + turn.spin.len();
+    let tape = context.tape();
+    let two = tape.integer(2);
+    let twice = tape.mul(two, turn.length);
+    let twice = tape.mul(twice, unit);
+    let in_plane = m == first + 1;
+    let c = std::array::from_fn(|k| match k {
+        k if !in_plane => tape.coordinate(m + k),
+        2 => tape.coordinate(m),
+        _ => tape.integer(0),
+    });
+    for row in rows {
+        row.iter_mut().skip(first).for_each(|entry| *entry = tape.mul(*entry, twice));
+    }
+    let motion = Motion { moved: Some(c), ..motion.clone() };
+    let legs = moved(context.builder, &motion, &of.legs)?;
+    let tape = context.tape();
+    let far = |leg: &Leg| {
+        let mut row = motion.onward(tape, &leg.driven?);
+        row.iter_mut().skip(first).for_each(|entry| *entry = tape.mul(*entry, unit));
+        Some(row)
+    };
+    let far: Option<Vec<_>> = legs.iter().map(far).collect();
+    far.map_or_else(|| context.refused("of legs with two ends"), |far| Ok((tau, far)))
 }
 
 /// Of each toleranced parameter its half-width over `d`, in the units of formulas.

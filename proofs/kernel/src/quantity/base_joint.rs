@@ -12,6 +12,7 @@ pub(super) const BASE_JOINT: Quantity = Quantity {
     words: "angle between the leg, from base to platform, and the axis in the base, degrees",
     of_legs: true,
     given: &["axis"],
+    given_turning: &[],
     tests: |context, leg| tests(context, leg, false),
 };
 

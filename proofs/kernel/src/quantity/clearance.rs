@@ -16,6 +16,7 @@ pub(super) const CLEARANCE: Quantity = Quantity {
          one is beside it: then the distance is that of the lines along them",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

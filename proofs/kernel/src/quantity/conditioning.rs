@@ -11,6 +11,7 @@ pub(super) const CONDITIONING: Quantity = Quantity {
     words: "condition number",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

@@ -11,6 +11,7 @@ pub(super) const CONSTRAINT_MARGIN: Quantity = Quantity {
         "distance from constraint singularities, c_i = w_i - (k_i . w_i) k_i for the base axis k_i",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

@@ -15,6 +15,7 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
          the platform turns, speed bounds |(v, ell omega)|, acceleration |(a, ell alpha)| of its motion",
     of_legs: true,
     given: &["acceleration", "speed"],
+    given_turning: &[],
     tests,
 };
 

@@ -13,6 +13,7 @@ pub(super) const JOINT_FORCE: Quantity = Quantity {
             where it turns, by forces F at P and couples C with |F|^2 + |C/ell|^2 up to its square",
     of_legs: true,
     given: &["tool"],
+    given_turning: &[],
     tests,
 };
 

@@ -12,6 +12,7 @@ pub(super) const JOINT_RANGE: Quantity = Quantity {
     words: "joint coordinates",
     of_legs: true,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

@@ -11,6 +11,7 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
     words: "joint speed; of arms, degrees per time",
     of_legs: true,
     given: &["tool"],
+    given_turning: &[],
     tests,
 };
 

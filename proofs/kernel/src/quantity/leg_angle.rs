@@ -12,6 +12,7 @@ pub(super) const LEG_ANGLE: Quantity = Quantity {
     words: "angle between leg and guide, degrees",
     of_legs: true,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

@@ -44,6 +44,8 @@ pub struct Quantity {
     pub of_legs: bool,
     /// The names of what it is for; a requirement gives all of them, and no others.
     pub given: &'static [&'static str],
+    /// More of these, where the platform turns.
+    pub given_turning: &'static [&'static str],
     /// What a bound on it comes to; of a leg, for the leg given.
     tests: fn(&mut Context<'_>, Option<&Leg>) -> Result<Vec<Test>, ClaimError>,
 }
@@ -280,7 +282,9 @@ pub(crate) fn obligations(
         let Some(quantity) = TABLE.iter().find(|q| q.key == requirement.quantity) else {
             return Err(shape_error(&place, "one of the table of quantities"));
         };
-        if !requirement.given.keys().map(String::as_str).eq(quantity.given.iter().copied()) {
+        let turning = if claim.orientation.is_some() { quantity.given_turning } else { &[] };
+        let names = quantity.given.iter().chain(turning).copied();
+        if !requirement.given.keys().map(String::as_str).eq(names) {
             return Err(shape_error(&place, "given what it is for, and nothing else"));
         }
         let one = requirement.leg.map(|leg| leg.wrapping_sub(1));

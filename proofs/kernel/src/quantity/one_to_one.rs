@@ -14,6 +14,7 @@ pub(super) const ONE_TO_ONE: Quantity = Quantity {
     words: "unique direct kinematics in the working modes named",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

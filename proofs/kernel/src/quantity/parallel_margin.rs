@@ -11,6 +11,7 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     words: "distance from parallel singularities",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

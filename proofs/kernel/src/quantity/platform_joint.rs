@@ -9,5 +9,6 @@ pub(super) const PLATFORM_JOINT: Quantity = Quantity {
     words: "angle between the leg, from base to platform, and the axis on the platform, degrees",
     of_legs: true,
     given: &["axis"],
+    given_turning: &[],
     tests: |context, leg| base_joint::tests(context, leg, true),
 };

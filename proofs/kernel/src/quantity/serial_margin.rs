@@ -10,6 +10,7 @@ pub(super) const SERIAL_MARGIN: Quantity = Quantity {
     words: "distance from serial singularities",
     of_legs: true,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

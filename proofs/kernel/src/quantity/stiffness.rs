@@ -11,6 +11,7 @@ pub(super) const STIFFNESS: Quantity = Quantity {
     words: "stiffness of the platform, with joints of the stiffness given and rigid legs, without preload",
     of_legs: false,
     given: &["joint"],
+    given_turning: &[],
     tests,
 };
 

@@ -12,6 +12,7 @@ pub(super) const TRANSMISSION: Quantity = Quantity {
     words: "velocity transmission factors",
     of_legs: false,
     given: &[],
+    given_turning: &[],
     tests,
 };
 

@@ -1,142 +1,305 @@
 //! Where joint errors and tolerances put the platform.
 
 use super::solve::below_square;
-use super::{Multiplier, Over};
+use super::{Multiplier, Over, Row};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
-use crate::definite::{is_positive_definite, Triangle};
-use crate::formula::Formula;
+use crate::definite::{are_positive_definite, is_positive_definite};
+use crate::formula::{Formula, Op, Tape, Values};
+use crate::slope::{Slope, Slopes};
+use std::ops::Range;
 
-/// What the position error is at most `d`. All of it is in units of `d`.
+/// Most binary places of a weight.
+const MOST_WEIGHT: u32 = 16;
+
+/// What the platform is off by is at most `d`, and where it turns, `tau`.
+///
+/// A pose is off by `u`: its position by `d` times the first components, and turned on from the one that
+/// is meant by the rotation with the half-angle tangents `c`, `tau` times the last ones. `u_t` and `u_c` are
+/// these two *parts*, one of which may be all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// The rows of `M`, as many as coordinates.
+    /// `W`, the derivatives of the joint coordinates by `u`, over `d`, at `u = 0`: as many rows as columns.
     pub rows: Vec<Vec<Formula>>,
+    /// The same where `u` is not zero. There, coordinates from that of number `m` on are those of `c`.
+    pub far: Vec<Vec<Formula>>,
+    /// `w` times the rows of `A` in the same columns, and `w D`, where these are polynomials.
+    pub scaled: Vec<Row<Formula>>,
+    /// `w`.
+    pub weight: Option<Formula>,
     /// Of each joint, its error over `d`, and for each toleranced parameter its half-width over `d` and
     /// the derivative of the joint coordinate.
     pub joints: Vec<(Formula, Vec<[Formula; 2]>)>,
     /// `d`.
     pub distance: Formula,
+    /// `tau`, where the platform turns, and the first of its columns.
+    pub turn: Option<(Formula, usize)>,
+    /// The columns of the part that this is about.
+    pub part: Range<usize>,
 }
 
-/// Of each coordinate the cell as expansion "point", the cell inflated by `d` on every side, and `d`.
+impl Accuracy {
+    /// The columns of the parts that `u` has, of `m`.
+    pub fn parts(&self, m: usize) -> Vec<Range<usize>> {
+        let first = self.turn.map_or(m, |(_, first)| first.min(m));
+        [0..first, first..m].into_iter().filter(|part| !part.is_empty()).collect()
+    }
+
+    /// Whether this is about `u_c`.
+    pub fn is_of_angle(&self) -> bool {
+        self.turn.is_some_and(|(_, first)| self.part.start >= first)
+    }
+}
+
+/// Formulas near a cell: its points as expansion "point", and all that is off by at most `u`. `edges` has
+/// the cell's ranges second.
 ///
-/// **Lemma.** Over these edges, the slopes `S_k` of a formula `f` say
-/// `f(P + u) = f(P) + sum_k S_k u_k/d` for every `P` of the cell and every `u` with `|u_k| <= d`.
-/// *Proof.* The identities of [`crate::slope`] hold for each `P` as expansion point, with
-/// `lambda_k = u_k/d`, if `f(P)` is in [`Slope::at_centre`](crate::slope::Slope::at_centre) and
-/// `f(P + u)` in its range: so it is for the coordinates, and stays for what is made of them. ∎ The
-/// inflated cell is clipped neither to the workspace nor to anything else.
-pub fn inflated<E: Enclosure>(
-    e: &E,
+/// **Lemma.** The slopes `S_k` of a formula `f` say `f(u) = f(0) + sum_k S_k u_k` for every pose of the cell
+/// and every `u` with `|u_k| <= 1`. *Proof.* The identities of [`crate::slope`] hold for each pose as
+/// expansion point, with `lambda_k = u_k`, if `f(0)` is in [`Slope::at_centre`] and `f(u)` in its range: so
+/// it is for positions, of which coordinate `k` is `P_k + d u_k`; for coordinates of orientation, which `u`
+/// does not change; for `c = tau u_c`; and it stays for what is made of them. ∎ What is off is
+/// clipped neither to the workspace nor to anything else.
+pub fn near<E: Enclosure>(
+    tape: &Tape,
+    parameters: &[E::Number],
+    slopes: Slopes<'_, E>,
     edges: &[[E::Number; 3]],
-    d: &E::Number,
-) -> Option<Vec<[E::Number; 3]>> {
-    let edge = |[_, range, _]: &[E::Number; 3]| {
-        let wide = e.hull(&e.sub(range, d)?, &e.add(range, d)?);
-        Some([range.clone(), wide, d.clone()])
+    test: &Accuracy,
+    of: impl Fn(Formula) -> Option<E::Number>,
+) -> Option<Values<Slope<E::Number>>> {
+    let (e, m) = (slopes.arithmetic, slopes.m);
+    let d = of(test.distance)?;
+    let (tau, first) = match test.turn {
+        Some((tau, first)) => (Some(of(tau)?), first),
+        None => (None, m),
     };
-    edges.iter().map(edge).collect()
+    let about = |centre: &E::Number, by: &E::Number| {
+        let wide = e.hull(&e.sub(centre, by)?, &e.add(centre, by)?);
+        Some([centre.clone(), wide, by.clone()])
+    };
+    Some(tape.run(&slopes, |op| match op {
+        Op::Coordinate(k) if k < first => slopes.coordinate(k, about(&edges.get(k)?[1], &d)?),
+        Op::Coordinate(k) if k < m => slopes.constant(edges.get(k)?[1].clone()),
+        Op::Coordinate(k) => {
+            let c = about(&e.integer(0)?, tau.as_ref()?)?;
+            slopes.coordinate((k - m).checked_add(first).filter(|&k| k < m)?, c)
+        }
+        Op::Parameter(j) => slopes.constant(parameters.get(j)?.clone()),
+        _ => None,
+    }))
 }
 
-/// A bound on `d Gamma`, where `|M(P + u) - M(P)| <= Gamma |u|` for `0 < |u| <= d`, over edges that are
-/// [`inflated`].
+/// A number `g` with `|(J(u) - J(0)) w| <= g ||u|| ||w||` for the matrices `J` of the far rows and
+/// `||u|| = max(|u_t|, |u_c|) <= 1`, over formulas [`near`] a cell.
 ///
-/// **Lemma.** With `S_i` the matrix of the slopes `S_ijk` of `M_ij`,
-/// `d Gamma = sqrt(sum_i |S_i|_1 |S_i|_inf)` is one. *Proof.* Row `i` of `M(P + u) - M(P)` is
-/// `S_i u/d`, of norm at most `|S_i| |u|/d`, and `|S_i|^2 <= |S_i|_1 |S_i|_inf` (Schur). A matrix has at
-/// most the root of the sum of squares of its rows' norms. ∎ Absolute values are taken of each entry.
-pub fn spread<E: Enclosure>(far: &Over<'_, E>, rows: &[Vec<Formula>]) -> Option<E::Number> {
+/// **Lemma.** With `S_i` the matrix of the slopes `S_ijk` of `J_ij`, and `s_i` the sum of `sqrt(|B|_1 |B|_inf)`
+/// over its blocks `B`, the parts of `j` and of `k`, `g = sqrt(sum_i s_i^2)` is one. *Proof.* Row `i` of
+/// `J(u) - J(0)` times `w` is `w^T S_i u`, a sum of `w_a^T B u_b` over the blocks, each at most
+/// `|B| ||w|| ||u||`, and `|B|^2 <= |B|_1 |B|_inf` (Schur). ∎ Absolute values are taken of each entry.
+pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Number> {
     let (e, m) = (far.slopes.arithmetic, far.slopes.m);
     let zero = e.integer(0)?;
-    let mut square = zero.clone();
-    for row in rows {
-        let entry = |f: &Formula| far.of(*f)?.slopes[..m].iter().map(|s| e.magnitude(s)).collect();
-        let entries: Vec<Vec<E::Number>> = row.iter().map(entry).collect::<Option<_>>()?;
-        let sum = |sum: E::Number, x: &E::Number| e.add(&sum, x);
+    let sum = |sum: E::Number, x: &E::Number| e.add(&sum, x);
+    let norm = |entries: &[Vec<E::Number>], a: &Range<usize>, b: &Range<usize>| {
+        let rows = entries.get(a.clone())?;
         let mut greatest = [zero.clone(), zero.clone()];
-        for k in 0..m {
-            let column = entries.iter().filter_map(|own| own.get(k)).try_fold(zero.clone(), sum)?;
-            let own = entries.get(k)?.iter().try_fold(zero.clone(), sum)?;
-            for (greatest, x) in greatest.iter_mut().zip([own, column]) {
+        let along = |row: &Vec<E::Number>| row.get(b.clone())?.iter().try_fold(zero.clone(), sum);
+        let across = |k| rows.iter().filter_map(|row| row.get(k)).try_fold(zero.clone(), sum);
+        let sums = [rows.iter().map(along).collect(), b.clone().map(across).collect()];
+        for (greatest, sums) in greatest.iter_mut().zip(sums) {
+            let sums: Option<Vec<E::Number>> = sums;
+            for x in sums? {
                 *greatest = e.ends(&e.hull(greatest, &x))[1].clone();
             }
         }
-        square = e.add(&square, &e.mul(&greatest[0], &greatest[1])?)?;
+        e.greatest_root(&e.mul(&greatest[0], &greatest[1])?)
+    };
+    let parts = test.parts(m);
+    let mut square = zero.clone();
+    for row in &test.far {
+        let entry = |f: &Formula| far.of(*f)?.slopes[..m].iter().map(|s| e.magnitude(s)).collect();
+        let entries: Vec<Vec<E::Number>> = row.iter().map(entry).collect::<Option<_>>()?;
+        let mut blocks = parts.iter().flat_map(|a| parts.iter().map(move |b| (a, b)));
+        let own =
+            blocks.try_fold(zero.clone(), |sum, (a, b)| e.add(&sum, &norm(&entries, a, b)?))?;
+        square = e.add(&square, &e.sqr(&own)?)?;
     }
     e.greatest_root(&square)
 }
 
-/// **Accuracy.** Let `Y` and `kappa > 0` be given, `far` the [`inflated`] cell, on which every formula is
-/// defined for every machine, `g = d Gamma` its [`spread`], `z = 1 - g/(2 kappa)`. If `g < kappa` and at
-/// the vertices, with `T_v = M_v Y^T + Y M_v^T - Y Y^T` and
+/// **Accuracy.** Let `Y`, `kappa > 0` and `p >= 0` be given, every formula be defined [`near`] the cell for
+/// every machine, `g` the [`spread`] of the far rows there, `z = 1 - g/(2 kappa)`, and `V` the matrix `W` with `2^p` times the columns of the other part. If `g < kappa`
+/// and at the vertices, with `T_v = V_v Y^T + Y V_v^T - Y Y^T` and
 /// `beta_vi = e_i/d + sum_j (r_j/d) |(d rho_i/d theta_j)_v|`,
 ///
 /// ```text
 /// T_v - kappa^2 I    and    [[T_v, b], [b^T, z^2]], b_i = s_i beta_vi, for all signs s_i
 /// ```
 ///
-/// are positive definite, the following holds. For every `P` of the cell, every machine `theta` of the
-/// tolerance, and joint coordinates within `e_i` of those that the nominal machine `theta_0`, the middle
-/// of the tolerance, has at `P`, there is exactly one `u` with `|u| <= d` for which the machine has these
-/// at `P + u`.
+/// are positive definite, this part is *met* on the cell. Where each part is met, the following holds for every
+/// machine `theta` of the tolerance, and joint coordinates within `e_i` of those that the nominal machine
+/// `theta_0`, the middle of the tolerance, has at the pose: there is exactly one `u` with `|u_t| <= 1` and
+/// `|u_c| <= 1` for which the machine has these where it is off by `u`.
 ///
-/// *Proof.* Fix `P` and `theta`; `f` has the joint coordinates of that machine, `M` their derivatives.
-/// Looked for is `f(P + u) - f(P) = b` with `b_i = rho_i(P, theta_0) - rho_i(P, theta) + eps_i`.
+/// *Proof.* Fix the pose and `theta`; `d f(u)` are the joint coordinates of that machine, `J` the
+/// derivatives of `f`. Looked for is `f(u) - f(0) = b` with `d b_i = rho_i(theta_0) - rho_i(theta) + eps_i`.
+/// `||u|| = max(|u_t|, |u_c|)`.
 ///
 /// 1. *Data.* On the segment from `theta` to `theta_0`, which is in the tolerance,
-///    `|b_i| <= e_i + sum_j r_j |(d rho_i/d theta_j)(P, theta')|` for some `theta'` (mean value theorem).
-///    For that `theta'` too, the derivative at `P` is the combination of its vertex values with the
-///    weights `w_v` of [`Vertex`], which depend on `P` alone. So `|b_i| <= d sum_v w_v beta_vi`.
-/// 2. *First order.* The combination of the matrices with these weights has `M(P)` and
-///    `b' = (s_i sum_v w_v beta_vi)` in it, and as `M M^T >= M Y^T + Y M^T - Y Y^T`,
-///    `[[M M^T, b'], [b'^T, z^2]]` is positive definite, and with it `z^2 - |M(P)^-1 b'|^2`: for every
-///    corner `b'` of a box that contains `b/d`, and by convexity for `b/d`, `|M(P)^-1 b| < z d`.
-///    Likewise `M M^T > kappa^2 I`, so `psi = |M(P)^-1| < 1/kappa`.
-/// 3. *Fixed point.* Let `F(u) = M(P)^-1 (b - (f(P + u) - f(P) - M(P) u))` on the ball `|u| <= d`, which
-///    with all segments from `P` is in the inflated cell. `f(P + u) - f(P) - M(P) u =
-///    int_0^1 (M(P + t u) - M(P)) u dt` is at most `Gamma |u|^2/2`, so
-///    `|F(u)| <= z d + psi Gamma d^2/2 <= d (z + g/(2 kappa)) = d`. And
-///    `|F(u) - F(u')| <= psi |int_0^1 (M(P + u' + t (u - u')) - M(P)) (u - u') dt|
-///    <= psi Gamma d |u - u'|`, where `psi Gamma d < g/kappa < 1`. By Banach's theorem `F` has exactly one
-///    fixed point, and its fixed points are what is looked for. ∎
+///    `d |b_i| <= e_i + sum_j r_j |(d rho_i/d theta_j)(theta')|` for some `theta'` (mean value theorem).
+///    For that `theta'` too, the derivative at the pose is the combination of its vertex values with the
+///    weights `w_v` of [`Vertex`], which depend on the pose alone. So `|b_i| <= sum_v w_v beta_vi`.
+/// 2. *First order.* The combination of the matrices with these weights has `V` and
+///    `b' = (s_i sum_v w_v beta_vi)` in it, and as `V V^T >= V Y^T + Y V^T - Y Y^T`,
+///    `[[V V^T, b'], [b'^T, z^2]]` is positive definite, and with it `z^2 - |V^-1 b'|^2`: for every
+///    corner `b'` of a box that contains `b`, and by convexity for `b`, `|V^-1 b| < z`.
+///    Likewise `V V^T > kappa^2 I`, so `|V^-1| < 1/kappa`. Of this part, `V^-1 x` has the components of
+///    `W^-1 x`.
+/// 3. *Fixed point.* Let `F(u) = W^-1 (b - (f(u) - f(0) - W u))` where `||u|| <= 1`, a convex set.
+///    `f(u) - f(0) - W u = int_0^1 (J(t u) - J(0)) u dt` is at most `g ||u||^2/2 <= g/2`, so this part of
+///    `F(u)` is at most `z + g/(2 kappa) = 1`. And with
+///    `|f(u) - f(u') - W (u - u')| <= g max(||u||, ||u'||) ||u - u'|| <= g ||u - u'||`, this part of
+///    `F(u) - F(u')` is at most `(g/kappa) ||u - u'||`, `g < kappa`. If both are so, `F` maps that set into
+///    itself and contracts it: by Banach's theorem `F` has exactly one fixed point, and its fixed points are
+///    what is looked for. ∎
 ///
-/// The range of `rho_i(P, theta_0) - rho_i(P, theta)` over the cell, in place of that of the derivative,
+/// `c` with `|c| <= tau = tan(a/2)` are the rotations by at most `a < 180` degrees, each once.
+///
+/// The range of `rho_i(theta_0) - rho_i(theta)` over the cell, in place of that of the derivative,
 /// would be as wide as the cell. With the rows of `A`, and derivatives multiplied by `B_i`, it would be
-/// unsound: these are of the machine `theta'`, the row is of `theta`. So it would be with `Gamma` taken
-/// on the cell alone, or on the part of the inflated cell in the workspace: `P + u` may leave either.
+/// unsound: these are of the machine `theta'`, the row is of `theta`. So it would be with `g` taken
+/// on the cell alone, or on the part of what is near it in the workspace: `u` may lead out of either. With a
+/// large `p` nothing is lost to the other part, and more to the size of the cell.
+///
+/// *At control points.* Let `A`, `D` be polynomials after multiplication by `w > 0`, `A` in the columns of `V`,
+/// `beta_i` at least the error and slopes of joint `i` on all of the cell, and `q_i > 0` any numbers. The same
+/// follows of
+///
+/// ```text
+/// T_v - kappa^2 w D    and    [[T_v, b], [b^T, w z^2]], b_i = s_i beta_i (w D_i + q_i^2 w)/(2 q_i)
+/// ```
+///
+/// with `T_v = w (A Y^T + Y A^T - Y Y^T)`, for in place of 2: all is affine in `w A`, `w D` and `w`, so with `T`,
+/// `b'` at the pose over `w`, `A A^T >= T > kappa^2 D`, which is `V V^T > kappa^2 I`; and
+/// `|A^-1 y| < z` for `|y_i| <= |b'_i|`, among which is `y = sqrt(D) b`, as `D_i + q_i^2 >= 2 q_i sqrt(D_i)`. ∎
+/// Slopes at the control points would be of another machine, see above.
 pub fn accuracy<E: Enclosure>(
     over: &Over<'_, E>,
     far: &Over<'_, E>,
     test: &Accuracy,
-    (evidence, kappa): (&Multiplier, i64),
+    (evidence, kappa, p): (&Multiplier, i64, u32),
 ) -> bool {
     let n = test.rows.len();
     let shape = n == over.slopes.m && test.joints.len() == n && evidence.is_of(n, n) && kappa > 0;
+    let weighted = p == 0 || (p <= MOST_WEIGHT && test.parts(n).len() == 2);
     let shown = || {
         let e = over.slopes.arithmetic;
         let one = e.integer(1)?;
         let kappa = e.dyadic(kappa, evidence.places, &one)?;
-        let g = spread(far, &test.rows)?;
+        let g = spread(far, test)?;
         if !e.is_positive(&e.sub(&kappa, &g)?) {
             return None;
         }
         let z = e.sub(&one, &e.halve(&e.mul(&g, &e.recip(&kappa)?)?)?)?;
         let (square, kappa) = (e.sqr(&z)?, e.sqr(&kappa)?);
-        let holds = |v| at_vertex(over, test, v, (evidence, &kappa, &square));
-        Vertex::all(over.slopes.m).all(|v| holds(v) == Some(true)).then_some(())
+        let given = (evidence, p);
+        match over.controls {
+            None => {
+                let holds = |v| at_vertex(over, test, v, given, [&kappa, &square]);
+                over.vertices().all(|v| holds(v) == Some(true)).then_some(())
+            }
+            Some(_) => {
+                let (beta, q) = (greatest(over, test)?, roots(over, test)?);
+                let holds = |v| at_control(over, test, v, given, [&kappa, &square], [&beta, &q]);
+                (n == test.scaled.len() && over.vertices().all(|v| holds(v) == Some(true)))
+                    .then_some(())
+            }
+        }
     };
-    shape && shown().is_some()
+    shape && weighted && shown().is_some()
+}
+
+/// The entries of a row, those of the other part times `2^p`.
+fn weighted<E: Enclosure>(
+    e: &E,
+    test: &Accuracy,
+    p: u32,
+    row: impl Iterator<Item = Option<E::Number>>,
+) -> Option<Vec<E::Number>> {
+    let own = |(k, x): (usize, Option<E::Number>)| match test.part.contains(&k) {
+        true => x,
+        false => e.dyadic(1 << p, 0, &x?),
+    };
+    row.enumerate().map(own).collect()
+}
+
+/// `b` for all signs but the last: `b` and `-b` give the same.
+fn signed<'b, E: Enclosure>(
+    e: &'b E,
+    beta: &'b [E::Number],
+) -> Option<impl Iterator<Item = Vec<E::Number>> + use<'b, E>> {
+    let negative: Vec<E::Number> = beta.iter().map(|b| e.neg(b)).collect::<Option<_>>()?;
+    let with = move |signs: usize| {
+        let own = |(i, b): (usize, &E::Number)| match signs >> i & 1 {
+            1 => negative[i].clone(),
+            _ => b.clone(),
+        };
+        beta.iter().enumerate().map(own).collect()
+    };
+    Some((0..1usize << beta.len().checked_sub(1)?).map(with))
+}
+
+/// The greatest `beta_i`, of these values of slopes.
+fn sum<E: Enclosure>(
+    over: &Over<'_, E>,
+    test: &Accuracy,
+    slope: impl Fn(Formula) -> Option<E::Number>,
+) -> Option<Vec<E::Number>> {
+    let e = over.slopes.arithmetic;
+    let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
+        let start = over.of(*error)?.range.clone();
+        let sum = all.iter().try_fold(start, |sum, [half, by]| {
+            e.add(&sum, &e.mul(&over.of(*half)?.range, &e.magnitude(&slope(*by)?)?)?)
+        })?;
+        e.ends(&sum).into_iter().nth(1)
+    };
+    test.joints.iter().map(joint).collect()
+}
+
+fn greatest<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Number>> {
+    sum(over, test, |by| over.of(by).map(|by| by.range.clone()))
+}
+
+/// `q_i`: `sqrt(D_i)` at the first control point and the last, in the middle of both.
+fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Number>> {
+    let e = over.slopes.arithmetic;
+    let root = |row: &Row<Formula>| {
+        let at = |v| {
+            let [d, _] = e.ends(&e.ratio(
+                &over.at(row.d, v)?,
+                &e.integer(1)?,
+                &over.at(test.weight?, v)?,
+            )?);
+            e.sqrt(&d)
+        };
+        let ends = [over.vertices().next()?, over.vertices().last()?];
+        let [a, b] = ends.map(at);
+        let q = e.ends(&e.halve(&e.add(&a?, &b?)?)?).into_iter().next()?;
+        e.is_positive(&q).then_some(q)
+    };
+    test.scaled.iter().map(root).collect()
 }
 
 fn at_vertex<E: Enclosure>(
     over: &Over<'_, E>,
     test: &Accuracy,
     v: Vertex,
-    (evidence, kappa_squared, square): (&Multiplier, &E::Number, &E::Number),
+    (evidence, p): (&Multiplier, u32),
+    [kappa_squared, square]: [&E::Number; 2],
 ) -> Option<bool> {
     let e = over.slopes.arithmetic;
-    let at = |row: &Vec<Formula>| row.iter().map(|&f| over.at(f, v)).collect();
+    let at = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
     let rows: Vec<Vec<E::Number>> = test.rows.iter().map(at).collect::<Option<_>>()?;
     let rows: Vec<&[E::Number]> = rows.iter().map(Vec::as_slice).collect();
     let start = over.less_inside(e.integer(0)?, v)?;
@@ -147,33 +310,43 @@ fn at_vertex<E: Enclosure>(
         let own = row.first_mut()?;
         *own = e.sub(own, kappa_squared)?;
     }
-    let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
-        let start = over.of(*error)?.range.clone();
-        let sum = all.iter().try_fold(start, |sum, [half, by]| {
-            let by = e.magnitude(&v.value(&over.slopes, over.of(*by)?)?)?;
-            e.add(&sum, &e.mul(&over.of(*half)?.range, &by)?)
-        })?;
-        e.ends(&sum).into_iter().nth(1)
-    };
-    let beta: Vec<E::Number> = test.joints.iter().map(joint).collect::<Option<_>>()?;
-    // b and -b give the same: the last sign is free.
-    let definite = |signs: usize| {
-        let signed = |(i, b): (usize, &E::Number)| {
-            if signs >> i & 1 == 1 {
-                e.neg(b)
-            } else {
-                Some(b.clone())
-            }
-        };
-        let b: Option<Vec<_>> = beta.iter().enumerate().map(signed).collect();
-        b.is_some_and(|b| is_positive_definite(e, bordered(below.clone(), &b, square.clone())))
-    };
-    Some(is_positive_definite(e, least) && (0..1usize << (beta.len() - 1)).all(definite))
+    let beta = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
+    Some(
+        is_positive_definite(e, least)
+            && are_positive_definite(e, &below, signed(e, &beta)?, &square),
+    )
 }
 
-/// `[[T, b], [b^T, c]]`.
-fn bordered<N: Clone>(mut t: Triangle<N>, b: &[N], c: N) -> Triangle<N> {
-    t.iter_mut().zip(b).for_each(|(row, b)| row.push(b.clone()));
-    t.push(vec![c]);
-    t
+fn at_control<E: Enclosure>(
+    over: &Over<'_, E>,
+    test: &Accuracy,
+    v: Vertex,
+    (evidence, p): (&Multiplier, u32),
+    [kappa_squared, square]: [&E::Number; 2],
+    [beta, q]: [&[E::Number]; 2],
+) -> Option<bool> {
+    let e = over.slopes.arithmetic;
+    let weight = over.at(test.weight?, v)?;
+    let at = |row: &Row<Formula>| weighted(e, test, p, row.a.iter().map(|&f| over.at(f, v)));
+    let rows: Vec<Vec<E::Number>> = test.scaled.iter().map(at).collect::<Option<_>>()?;
+    let rows: Vec<&[E::Number]> = rows.iter().map(Vec::as_slice).collect();
+    let d: Vec<E::Number> =
+        test.scaled.iter().map(|row| over.at(row.d, v)).collect::<Option<_>>()?;
+    let start = over.less_inside(e.integer(0)?, v)?;
+    let below = below_square(e, &rows, (&weight, &start), evidence)?;
+    let corner = over.less_inside(e.mul(&weight, square)?, v)?;
+    let mut least = below.clone();
+    for (row, d) in least.iter_mut().zip(&d) {
+        let own = row.first_mut()?;
+        *own = e.sub(own, &e.mul(kappa_squared, d)?)?;
+    }
+    let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
+        let both =
+            e.add(&e.halve(&e.ratio(d, &e.integer(1)?, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
+        e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
+    };
+    let b: Vec<E::Number> = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
+    Some(
+        is_positive_definite(e, least) && are_positive_definite(e, &below, signed(e, &b)?, &corner),
+    )
 }

@@ -2,43 +2,44 @@
 
 use super::{values_at, AtPoint, Number};
 use crate::arithmetic::{Arithmetic, Enclosure};
-use crate::cell::evaluate;
 use crate::formula::Values;
 use crate::input::binary;
 use crate::machine::{Joint, Leg};
 use crate::number::{Expression, Operator};
 use crate::slope::Slopes;
-use crate::test::accuracy::{inflated, spread, Accuracy};
+use crate::test::accuracy::{near, spread, Accuracy};
 use crate::test::Over;
 
 impl AtPoint<'_> {
-    /// `v . b/d - |M^T v| - (d Gamma/2) |v|` for the worst joint errors, at most.
+    /// `v . b - |W_t^T v| - |W_c^T v| - (g/2) |v|` for the worst joint errors, at most; `b` is over `d`.
     ///
-    /// **Lemma.** If it is positive, the machine has no position within `d` with the joint coordinates
-    /// that these errors give. *Proof.* For one, `b = f(P + u) - f(P)` with `|u| <= d` (see
-    /// [`accuracy`](crate::test::accuracy::accuracy)), so `v . b <= |M^T v| d + |v| Gamma d^2/2`. Of
-    /// `b_i = delta_i + eps_i` the error may be `e_i` with the sign of `v_i`. ∎ A position beyond `d` would
-    /// show nothing: there may be another one within.
+    /// **Lemma.** If it is positive, the machine has no pose with the joint coordinates that these errors
+    /// give which is off by some `u` with `|u_t| <= 1` and `|u_c| <= 1`. *Proof.* For one,
+    /// `b = f(u) - f(0) = W u + e` with `|e| <= g/2` (see [`accuracy`](crate::test::accuracy::accuracy)), so
+    /// `v . b <= |W_t^T v| + |W_c^T v| + |v| g/2`. Of `b_i = (delta_i + eps_i)/d` the error may be `e_i` with
+    /// the sign of `v_i`. ∎ A pose that is off by more would show nothing: there may be another one within.
     pub(super) fn far(&self, test: &Accuracy, v: &[i64]) -> Option<Number> {
-        let e = &self.arithmetic;
+        let (e, of) = (&self.arithmetic, |f| self.values.of(f).cloned());
         let v = self.direction(v, test.joints.len())?;
-        let d = self.values.of(test.distance)?;
+        let d = of(test.distance)?;
         let mut rest = e.integer(0)?;
         for ((v, delta), (error, _)) in v.iter().zip(self.off_nominal()?).zip(&test.joints) {
             let size = if e.is_nonnegative(v) { v.clone() } else { e.neg(v)? };
-            rest = e.add(&rest, &e.mul(v, &e.div(&delta, d)?)?)?;
-            rest = e.add(&rest, &e.mul(&size, self.values.of(*error)?)?)?;
+            rest = e.add(&rest, &e.mul(v, &e.div(&delta, &d)?)?)?;
+            rest = e.add(&rest, &e.mul(&size, &of(*error)?)?)?;
         }
         let edges: Vec<_> = self.point.iter().map(|x| [x.clone(), x.clone(), d.clone()]).collect();
         let slopes = Slopes { arithmetic: e, m: edges.len() };
-        let edges = inflated(e, &edges, d)?;
-        let values = evaluate(&self.problem.tape, &self.parameters, slopes, &edges);
+        let values = near(&self.problem.tape, &self.parameters, slopes, &edges, test, of)?;
         let far = Over::new(slopes, &values);
         let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
-        let spread = e.halve(&spread(&far, &test.rows).filter(|_| defined)?)?;
+        let g = spread(&far, test).filter(|_| defined)?;
         let norm = |v: &[Number]| e.greatest_root(&self.square(v)?);
-        let image = norm(&self.transposed(&test.rows, &v)?)?;
-        e.sub(&rest, &e.add(&image, &e.mul(&spread, &norm(&v)?)?)?)
+        let image = self.transposed(&test.rows, &v)?;
+        for part in test.parts(image.len()) {
+            rest = e.sub(&rest, &norm(image.get(part)?)?)?;
+        }
+        e.sub(&rest, &e.mul(&e.halve(&g)?, &norm(&v)?)?)
     }
 
     /// `rho_i` of the machine in the middle of the tolerance, less `rho_i`, at this point. Of angles,

@@ -2,20 +2,28 @@
 
 use crate::arithmetic::Random;
 use crate::certificates::claim;
+use crate::false_claims::never_shown;
 use crate::leaves::{linear_delta, orthoglide, rotary, struts};
-use crate::prover::{certify, double, Prover};
+use crate::motions::{product, rotation};
+use crate::prover::{certify, double, Prover, BITS};
 use crate::quantities::{about, number, rounded, Asked, End, SLAB, TWO_SLIDERS};
 use crate::rough::{Pair, Rough};
+use crate::turning::{hexapod_legs, on_circle, planar, spatial, spherical, strut};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
+use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{Evidence, Failure, Proof, Step};
-use orthocert_kernel::check::check;
+use orthocert_kernel::check::{check, Checker, Place};
 use orthocert_kernel::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity};
-use orthocert_kernel::formula::Op;
+use orthocert_kernel::fixed::{Fixed, Interval};
+use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::test::Multiplier;
+use orthocert_kernel::quantity::Test;
+use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::test::accuracy::{near, spread, Accuracy};
+use orthocert_kernel::test::{Multiplier, Over};
 
 /// The machine with a tolerance of so much either way on each length and, but for arms, on each
 /// coordinate of the anchors.
@@ -223,7 +231,7 @@ fn accuracy_is_existence_and_uniqueness() {
         let mut changed = proof.clone();
         let Proof::Tree(tree) = &mut changed.proof else { panic!("a tree") };
         for Step(_, evidence) in tree.nodes.iter_mut().flat_map(|node| &mut node.by) {
-            if let Evidence::Accuracy(y, kappa) = evidence {
+            if let Evidence::Accuracy(y, kappa, _) = evidence {
                 change(y, kappa);
             }
         }
@@ -248,40 +256,289 @@ fn accuracy_is_existence_and_uniqueness() {
     assert!(Problem::new(&asked.of(&claim(&rows), 1.0)).is_err(), "a joint by its row");
 }
 
+/// The accuracy of a claim, its first part, with what it asks for.
+fn asked_of(problem: &Problem, obligation: usize) -> &Accuracy {
+    match &problem.obligations[obligation].test {
+        Test::Accuracy(test) => test,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A claim with these numbers of `accuracy`.
+fn accurate(text: &dyn Fn(&str) -> String, [error, max, angle]: [f64; 3]) -> MachineClaim {
+    let [error, max, angle] = [error, max, angle].map(|x| number(x).to_string());
+    claim(&text(&format!(
+        r#"{{"quantity":"accuracy","given":{{"joint_error":["{error}"],"max_angle":["{angle}"]}},"end":"max","bound":"{max}"}}"#
+    )))
+}
+
+/// A machine's text with requirements.
+type Text = Box<dyn Fn(&str) -> String>;
+
+/// Machines that turn their platforms: in the plane, about a point and in space.
+fn turning() -> [(&'static str, Text, [usize; 2]); 4] {
+    let rpr = |at: f64| strut(&on_circle(4.0, at), &on_circle(1.0, at - 60.0));
+    let plane: Vec<String> = [90.0, 210.0, 330.0].map(rpr).to_vec();
+    let hexapod = hexapod_legs();
+    let box_ = [r#""-0.5","-0.5""#, r#""0.5","0.5""#];
+    [
+        ("range", Box::new(move |r| planar(&plane, box_, r#""-20","20""#, r)), [2, 1]),
+        ("angle", Box::new(|r| spherical(r#"{"angle":"15"}"#, r)), [0, 3]),
+        ("angle", Box::new(move |r| spatial(&hexapod, r#"{"angle":"5"}"#, r)), [3, 3]),
+        ("range", Box::new(|r| three_prr(r)), [2, 1]),
+    ]
+}
+
+/// Three sliders in the plane that turn a platform.
+fn three_prr(require: &str) -> String {
+    let leg = |at: f64| {
+        format!(
+            r#"{{"drive":"slider","direction":[{}],"anchor":[{}],"platform":[{}],"length":"3","mode":"-"}}"#,
+            on_circle(1.0, at + 30.0),
+            on_circle(4.0, at),
+            on_circle(1.0, at - 60.0)
+        )
+    };
+    let legs = [90.0, 210.0, 330.0].map(leg);
+    planar(&legs, [r#""-0.2","-0.2""#, r#""0.2","0.2""#], r#""-5","5""#, require)
+}
+
+/// What displaces a pose, `t` and then `c`, in the units of coordinates.
+fn displaced(x: &[f64], u: &[f64], (kind, [first, spin]): (&str, [usize; 2])) -> Vec<f64> {
+    let whole = |c: &[f64]| match *c {
+        [c] => rotation("range", &[c]),
+        _ if c.iter().all(|&c| c == 0.0) => rotation("none", c),
+        _ => rotation("angle", c),
+    };
+    let r = product(&whole(&u[first..]), &rotation_of(kind, &x[first..]));
+    let q0 = (1.0 + r[0][0] + r[1][1] + r[2][2]).sqrt() / 2.0;
+    let c = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|x| x / (4.0 * q0 * q0));
+    let moved = x.iter().zip(u).take(first).map(|(x, u)| x + u);
+    moved.chain(c[3 - spin..].iter().copied()).collect()
+}
+
+fn rotation_of(kind: &str, c: &[f64]) -> [[f64; 3]; 3] {
+    rotation(if c.iter().all(|&c| c == 0.0) { "none" } else { kind }, c)
+}
+
 #[test]
-fn the_spread_of_rows_about_a_cell() {
-    use orthocert_kernel::slope::Slopes;
-    use orthocert_kernel::test::accuracy::{inflated, spread};
-    use orthocert_kernel::test::Over;
-    let mut random = Random(21);
-    for machine in [linear_delta(SLAB), struts(), rotary(), claim(TWO_SLIDERS)] {
-        let problem = Problem::new(&machine).expect("a claim");
+fn far_rows_are_derivatives_by_what_displaces_a_pose() {
+    let mut random = Random(23);
+    for (kind, text, split) in turning() {
+        let (d, angle) = (0.05, 4.0);
+        let stated = accurate(&text, [0.001, d, angle]);
+        let problem = Problem::new(&stated).expect("a claim");
+        let test = asked_of(&problem, 1);
         let prover = Prover::new(&problem);
-        let rows: Vec<_> = problem.legs.iter().map(|leg| leg.divided.a.clone()).collect();
-        let points = prover.grid(3);
-        for part in [0.02, 0.005] {
-            let centre = &points[points.len() / 2 + random.below(2) as usize];
-            let (half, d) = (part / 4.0, part);
-            let edge = |&c: &f64| [(c, c), (c - half, c + half), (half, half)];
-            let edges: Vec<[Pair; 3]> = centre.iter().map(edge).collect();
-            let edges = inflated(&Rough, &edges, &(d, d)).expect("edges");
-            let values = prover.checker.evaluate(&edges);
-            let slopes = Slopes { arithmetic: &Rough, m: edges.len() };
-            let far = Over::new(slopes, &values);
-            let bound = spread(&far, &rows).expect("defined").1 / d;
-            let mut greatest = 0f64;
-            for _ in 0..400 {
-                let mut near = |half: f64| half * (random.below(2_001) as f64 / 1_000.0 - 1.0);
-                let p: Vec<f64> = centre.iter().map(|c| c + near(half)).collect();
-                let u: Vec<f64> = centre.iter().map(|_| near(d)).collect();
-                let q: Vec<f64> = p.iter().zip(&u).map(|(p, u)| p + u).collect();
-                let change =
-                    prover.matrix(&q).expect("defined") - prover.matrix(&p).expect("defined");
-                let size = u.iter().map(|u| u * u).sum::<f64>().sqrt();
-                greatest = greatest.max(change.singular_values().max() / size);
+        let m = problem.dimension();
+        let unit = (problem.scale as f64).exp2();
+        let tau = (angle / 2.0f64).to_radians().tan();
+        let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
+        let rho = |x: &[f64], i: usize| {
+            let Some(Joint::Length(rho)) = problem.legs[i].rho else { panic!("a length") };
+            prover.values(x).of(rho).expect("within reach").0 * unit
+        };
+        for _ in 0..40 {
+            let mut between = |(l, h): (f64, f64)| l + (h - l) * random.below(1001) as f64 / 1e3;
+            let x: Vec<f64> = prover.ranges().into_iter().map(&mut between).collect();
+            let u: Vec<f64> = (0..m).map(|_| between((-1.0, 1.0))).collect();
+            let by = |u: &[f64]| -> Vec<f64> {
+                let scale = |(k, u): (usize, &f64)| u * if k < split[0] { d / unit } else { tau };
+                u.iter().enumerate().map(scale).collect()
+            };
+            // Coordinates from m on are those of the rotation.
+            let rows = |u: &[f64]| -> Vec<Vec<f64>> {
+                let by = by(u);
+                let values = problem.tape.run(&Rough, |op| match op {
+                    Op::Coordinate(k) if k < split[0] => Some((x[k] + by[k], x[k] + by[k])),
+                    Op::Coordinate(k) if k < m => Some((x[k], x[k])),
+                    Op::Coordinate(k) => Some(by[k - m + split[0]]).map(|c| (c, c)),
+                    Op::Parameter(j) => Some(double(&parameters[j], 96)),
+                    _ => None,
+                });
+                let of = |f: &Formula| values.of(*f).expect("defined").0;
+                test.far.iter().map(|row| row.iter().map(of).collect()).collect()
+            };
+            let h = 1e-5;
+            for (i, row) in rows(&u).iter().enumerate() {
+                for (k, found) in row.iter().enumerate() {
+                    let [after, before] = [h, -h].map(|h| {
+                        let mut u = u.clone();
+                        u[k] += h;
+                        rho(&displaced(&x, &by(&u), (kind, split)), i)
+                    });
+                    let expected = (after - before) / (2.0 * h) / d;
+                    assert!((found - expected).abs() < 1e-4, "{kind} {i} {k}: {found} {expected}");
+                }
             }
-            assert!(greatest <= bound, "{greatest} {bound}");
-            assert!(bound < 2.5 * greatest, "{greatest} {bound}");
+            // Those of the cell are the same where nothing is displaced.
+            let values = prover.values(&x);
+            let still = rows(&vec![0.0; m]);
+            for (row, far) in test.rows.iter().zip(&still) {
+                for (&f, far) in row.iter().zip(far) {
+                    assert!((values.of(f).expect("defined").0 - far).abs() < 1e-9);
+                }
+            }
         }
     }
+}
+
+#[test]
+fn the_spread_of_rows_near_a_cell() {
+    let mut random = Random(21);
+    let translating = [linear_delta(SLAB), struts(), rotary(), claim(TWO_SLIDERS)].map(|machine| {
+        let given: &[(&str, &[f64])] = &[("joint_error", &[0.0])];
+        let asked = Asked { quantity: "accuracy", leg: None, given, end: End::Max };
+        let problem = Problem::new(&machine).expect("a claim");
+        let unit = (problem.scale as f64).exp2();
+        [0.02, 0.005].map(|part| asked.of(&machine, part * unit))
+    });
+    let turning = turning().map(|(_, text, _)| {
+        [[0.05, 3.0], [0.01, 0.5]].map(|[d, angle]| accurate(&text, [0.0, d, angle]))
+    });
+    for stated in translating.iter().chain(&turning).flatten() {
+        let problem = Problem::new(stated).expect("a claim");
+        let test = asked_of(&problem, 1);
+        let prover = Prover::new(&problem);
+        let m = problem.dimension();
+        let first = test.turn.map_or(m, |(_, first)| first);
+        let points = prover.grid(3);
+        let centre = &points[points.len() / 2 + random.below(2) as usize];
+        let of = |f| prover.values(centre).of(f).copied();
+        let (d, tau) =
+            (of(test.distance).expect("d").0, test.turn.map(|t| of(t.0).expect("tau").0));
+        let half = |k: usize| if k < first { d / 4.0 } else { tau.expect("it turns") / 4.0 };
+        let edge =
+            |(k, &c): (usize, &f64)| [(c, c), (c - half(k), c + half(k)), (half(k), half(k))];
+        let edges: Vec<[Pair; 3]> = centre.iter().enumerate().map(edge).collect();
+        let parameters = prover.checker.parameters();
+        let slopes = Slopes { arithmetic: &Rough, m };
+        let values = near(&problem.tape, parameters, slopes, &edges, test, of).expect("defined");
+        let far = Over::new(slopes, &values);
+        let bound = spread(&far, test).expect("defined").1;
+        let mut greatest = 0f64;
+        for _ in 0..400 {
+            let mut one = || random.below(2_001) as f64 / 1_000.0 - 1.0;
+            let p: Vec<f64> = centre.iter().enumerate().map(|(k, c)| c + half(k) * one()).collect();
+            let u: Vec<f64> = centre.iter().map(|_| one()).collect();
+            let rows = |u: &[f64]| {
+                let values = problem.tape.run(&Rough, |op| match op {
+                    Op::Coordinate(k) if k < first => Some(p[k] + d * u[k]).map(|x| (x, x)),
+                    Op::Coordinate(k) if k < m => Some((p[k], p[k])),
+                    Op::Coordinate(k) => Some(tau? * u[k - m + first]).map(|c| (c, c)),
+                    Op::Parameter(j) => Some(parameters[j]),
+                    _ => None,
+                });
+                let all = test.far.iter().flatten().map(|&f| values.of(f).expect("defined").0);
+                DMatrix::from_row_iterator(m, m, all)
+            };
+            let change = rows(&u) - rows(&vec![0.0; m]);
+            let norm = |part| DVector::from_column_slice(&u[part]).norm();
+            let size = test.parts(m).into_iter().map(norm).fold(0.0, f64::max);
+            greatest = greatest.max(change.singular_values().max() / size);
+        }
+        assert!(greatest <= bound, "{greatest} {bound}");
+        let loose = if first < m { 6.0 } else { 2.5 };
+        assert!(bound < loose * greatest, "{greatest} {bound}");
+    }
+}
+
+/// Where joint errors put a platform that turns, by Newton's method, against what is shown on cells about
+/// the pose.
+#[test]
+fn nothing_is_shown_of_a_pose_that_is_off_by_more() {
+    let mut random = Random(29);
+    let (mut shown, mut weighted, mut controls) = ([0; 2], 0, 0);
+    for round in 0..26 {
+        // Of hexapods two, as each takes ten times as long.
+        let which = if round < 2 { 2 } else { [0, 1, 3][round % 3] };
+        let (kind, text, split) = &turning()[which];
+        let free = claim(&text(""));
+        let problem = Problem::new(&free).expect("a claim");
+        let prover = Prover::new(&problem);
+        let m = problem.dimension();
+        let unit = (problem.scale as f64).exp2();
+        let mut between = |(l, h): (f64, f64)| l + (h - l) * random.below(1001) as f64 / 1e3;
+        let x: Vec<f64> = prover.ranges().into_iter().map(&mut between).collect();
+        if !prover.is_inside(&x) {
+            continue;
+        }
+        let error = if round % 8 < 4 { 0.002 } else { 0.02 };
+        let rho = |x: &[f64]| {
+            let values = prover.values(x);
+            DVector::from_iterator(
+                m,
+                problem.legs.iter().map(|leg| {
+                    let Some(Joint::Length(rho)) = leg.rho else { panic!("a length") };
+                    values.of(rho).expect("within reach").0 * unit
+                }),
+            )
+        };
+        // Off by (t, c) with these errors; the columns of derivatives as differences.
+        let off = |errors: &DVector<f64>| {
+            let target = rho(&x) + errors;
+            let mut u = vec![0.0; m];
+            let at = |u: &[f64]| rho(&displaced(&x, u, (kind, *split)));
+            for _ in 0..12 {
+                let own = at(&u);
+                let mut j = DMatrix::zeros(m, m);
+                for k in 0..m {
+                    let mut v = u.clone();
+                    v[k] += 1e-7;
+                    j.set_column(k, &((at(&v) - &own) / 1e-7));
+                }
+                let step = j.lu().solve(&(&target - own)).expect("regular");
+                u.iter_mut().zip(step.iter()).for_each(|(u, s)| *u += s);
+            }
+            let norm = |u: &[f64]| u.iter().map(|u| u * u).sum::<f64>().sqrt();
+            [norm(&u[..split[0]]) * unit, 2.0 * norm(&u[split[0]..]).atan().to_degrees()]
+        };
+        let all = (0..1u32 << m).map(|signs| {
+            off(&DVector::from_fn(m, |i, _| if signs >> i & 1 == 1 { -error } else { error }))
+        });
+        let [most, angle] = all.fold([0f64; 2], |[a, b], [c, d]: [f64; 2]| [a.max(c), b.max(d)]);
+        let most = if split[0] == 0 { 1.0 } else { most };
+        // Too little of the one, of the other, or enough of both.
+        for (parts, fails) in
+            [([0.98, 1.5], [true, false]), ([1.5, 0.98], [false, true]), ([1.15, 1.15], [false; 2])]
+        {
+            let stated = accurate(text, [error, parts[0] * most, parts[1] * angle]);
+            let problem = Problem::new(&stated).expect("a claim");
+            let prover = Prover::new(&problem);
+            let fixed = Fixed::<i64>::new(BITS);
+            let parameters = problem.parameters(BITS, &[]).expect("parameters");
+            let exact = Checker::new(&problem, &fixed, parameters, None);
+            for obligation in 1..problem.obligations.len() {
+                let test = asked_of(&problem, obligation);
+                let false_there = fails[usize::from(test.is_of_angle())];
+                if false_there && !(split[0] == 0 && !test.is_of_angle()) {
+                    never_shown(&problem, &x, obligation, round as u64);
+                    continue;
+                }
+                let scale = f64::from(BITS).exp2();
+                let edge =
+                    |x: &f64| Interval { lo: (x * scale) as i64 - 8, hi: (x * scale) as i64 + 8 };
+                let cell = Cell(x.iter().map(edge).collect());
+                let edges = cell.edges().expect("edges");
+                let pair = |x: &Interval<i64>| (x.lo as f64 / scale, x.hi as f64 / scale);
+                let rough: Vec<_> = edges.iter().map(|edge| edge.each_ref().map(pair)).collect();
+                let values = prover.checker.evaluate(&rough);
+                let slopes = Slopes { arithmetic: &Rough, m };
+                let test = &problem.obligations[obligation].test;
+                let proposals = prover.proposals(&Over::new(slopes, &values), test);
+                let place = Place::new(&edges, [false; 2]);
+                let values = exact.evaluate(&edges);
+                let over = Over::new(Slopes { arithmetic: &fixed, m }, &values);
+                let holds = |e: &&Evidence| exact.shows(&over, &place, test, e);
+                let found: Vec<&Evidence> = proposals.iter().flatten().filter(holds).collect();
+                shown[usize::from(fails == [false; 2])] += usize::from(!found.is_empty());
+                let first = found.first();
+                weighted += usize::from(matches!(first, Some(Evidence::Accuracy(_, _, 1..))));
+                let is_control = |e: &&Evidence| matches!(e, Evidence::Control(_));
+                controls += usize::from(found.iter().any(is_control));
+            }
+        }
+    }
+    assert!(shown.iter().all(|&n| n > 8), "{shown:?}");
+    assert!(weighted > 3 && controls > 8, "{weighted} {controls}");
 }

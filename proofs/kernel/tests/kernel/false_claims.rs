@@ -26,8 +26,10 @@ fn changed(evidence: &Evidence, random: &mut Random) -> Evidence {
         Evidence::Lower(y) | Evidence::LowerDivided(y) | Evidence::Direction(y) => {
             change(y, random);
         }
-        Evidence::Accuracy(y, kappa) => {
+        Evidence::Control(inner) => **inner = changed(inner, random),
+        Evidence::Accuracy(y, kappa, p) => {
             change(y, random);
+            *p = random.below(2) as u32;
             *kappa = *kappa * (50 + random.below(80) as i64) / 100;
         }
         _ => {}

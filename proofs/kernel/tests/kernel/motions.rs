@@ -23,11 +23,11 @@ fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn times(r: &R, b: V) -> V {
+pub fn times(r: &R, b: V) -> V {
     [dot(r[0], b), dot(r[1], b), dot(r[2], b)]
 }
 
-fn product(a: &R, b: &R) -> R {
+pub fn product(a: &R, b: &R) -> R {
     let column = |k: usize| [b[0][k], b[1][k], b[2][k]];
     std::array::from_fn(|i| std::array::from_fn(|k| dot(a[i], column(k))))
 }

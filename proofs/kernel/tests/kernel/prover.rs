@@ -424,13 +424,32 @@ impl<'a> Prover<'a> {
                     |f: &Formula| over.of(*f).map(|f| (f.at_centre.0 + f.at_centre.1) / 2.0);
                 let all: Option<Vec<f64>> = accuracy.rows.iter().flatten().map(middle).collect();
                 let n = accuracy.rows.len();
-                let m = DMatrix::from_row_slice(n, n, &all?);
+                let rows = DMatrix::from_row_slice(n, n, &all?);
                 let scale = f64::from(PLACES).exp2();
-                let row = |i| m.row(i).iter().map(|x: &f64| (x * scale).round() as i64).collect();
-                let y = Multiplier { y: (0..n).map(row).collect(), places: PLACES };
-                let kappa = m.singular_values().min() * scale;
-                let with = |part: f64| Evidence::Accuracy(y.clone(), (kappa * part) as i64);
-                tried.extend([0.95, 0.8, 0.5].map(with));
+                for p in if accuracy.parts(n).len() == 2 { 0..5 } else { 0..1 } {
+                    let mut m: DMatrix<f64> = rows.clone();
+                    for k in (0..n).filter(|k| !accuracy.part.contains(k)) {
+                        m.column_mut(k).scale_mut(f64::from(p).exp2());
+                    }
+                    let row = |i| m.row(i).iter().map(|x| (x * scale).round() as i64).collect();
+                    let y = Multiplier { y: (0..n).map(row).collect(), places: PLACES };
+                    let kappa = m.singular_values().min() * scale;
+                    let with = |part: f64| Evidence::Accuracy(y.clone(), (kappa * part) as i64, p);
+                    tried.extend([0.95, 0.8, 0.5].map(with));
+                    if accuracy.scaled.is_empty() {
+                        continue;
+                    }
+                    for (i, leg) in self.problem.legs.iter().enumerate() {
+                        m.row_mut(i).scale_mut(middle(&leg.row.d)?.sqrt());
+                    }
+                    let row = |i| m.row(i).iter().map(|x| (x * scale).round() as i64).collect();
+                    let y = Multiplier { y: (0..n).map(row).collect(), places: PLACES };
+                    let with = |part: f64| {
+                        let plain = Evidence::Accuracy(y.clone(), (kappa * part) as i64, p);
+                        Evidence::Control(Box::new(plain))
+                    };
+                    tried.extend([0.95, 0.8, 0.5].map(with));
+                }
             }
             Test::Apart(apart) => tried.extend(
                 crate::directions::directions(over, apart).into_iter().map(Evidence::Direction),
@@ -546,7 +565,7 @@ impl<'a> Prover<'a> {
     /// The formulas at a point in the unit of the problem.
     pub fn values(&self, x: &[f64]) -> Values<Pair> {
         self.problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some((x[k], x[k])),
+            Op::Coordinate(k) => x.get(k).map(|&x| (x, x)),
             Op::Parameter(j) => Some(self.parameters[j]),
             _ => None,
         })
