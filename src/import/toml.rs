@@ -190,6 +190,8 @@ pub(super) struct Machine {
     pub title: &'static str,
     /// How its platform moves.
     pub kind: &'static str,
+    /// Its unit of length, where that is known.
+    pub unit: Option<&'static str>,
     /// The legs' tables, in the order of the firmware's joints.
     pub legs: Vec<String>,
     /// The lines of `[workspace]`.
@@ -291,8 +293,9 @@ pub(super) fn document(name: &str, machine: &Machine, imported: &Imported) -> St
         imported.ignored.iter().map(ToString::to_string).collect(),
     );
     list("Not in the configuration, or not expressible here:", imported.not_carried_over.clone());
+    let unit = machine.unit.map_or_else(String::new, |unit| format!("unit = \"{unit}\"\n"));
     text.push_str(&format!(
-        "\ntitle = \"{title}\"\n\n[mechanism]\nkind = \"{}\"\n\n{}\n[workspace]\n{}\n\
+        "\ntitle = \"{title}\"\n{unit}\n[mechanism]\nkind = \"{}\"\n\n{}\n[workspace]\n{}\n\
          [requirements]\n{}",
         machine.kind,
         machine.legs.join("\n"),

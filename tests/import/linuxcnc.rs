@@ -207,6 +207,23 @@ fn real_configurations_are_the_firmwares_machines() {
     }
 }
 
+/// As src/emc/ini/emcIniFile.cc has them; what it does not know names no unit.
+#[test]
+fn the_unit_of_length_is_the_files() {
+    let unit = |text: &str| {
+        let ini = format!("[TRAJ]\nLINEAR_UNITS = {text}\n[KINS]\nKINEMATICS = lineardeltakins\n");
+        let hal = "loadrt lineardeltakins\nsetp lineardeltakins.L 3\nsetp lineardeltakins.R 1\n";
+        let ini = format!("{ini}[HAL]\nHALFILE = machine.hal\n");
+        let files = [("machine.ini", ini.as_str()), ("machine.hal", hal)];
+        let design = import(linuxcnc, &files).unwrap_or_else(|e| panic!("{e}")).design;
+        design.lines().find(|line| line.starts_with("unit")).map(str::to_owned)
+    };
+    for (text, expected) in [("mm", "mm"), ("METRIC", "mm"), ("in", "in"), ("Imperial", "in")] {
+        assert_eq!(unit(text), Some(format!("unit = \"{expected}\"")), "{text}");
+    }
+    assert_eq!(unit("furlong"), None);
+}
+
 #[test]
 fn a_linear_delta() {
     let imported = on_disk(&["lineardelta.ini"]).unwrap();

@@ -37,6 +37,7 @@ pub(super) fn machine(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Linear Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace,
         requirements: FACTORS.to_owned(),

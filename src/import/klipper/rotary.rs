@@ -45,6 +45,7 @@ pub(super) fn machine(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Rotary Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace,
         requirements,

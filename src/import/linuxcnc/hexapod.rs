@@ -95,7 +95,7 @@ pub(super) fn hexapod(
         (false, true) => "joint_range = { min = 0 }\n".to_owned(),
     };
     let workspace = format!("{points}{orientation}");
-    Ok(Machine { title: "Hexapod", kind: "spatial", legs, workspace, requirements })
+    Ok(Machine { title: "Hexapod", kind: "spatial", unit: None, legs, workspace, requirements })
 }
 
 /// A height with what is added to it.

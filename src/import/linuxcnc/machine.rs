@@ -36,15 +36,23 @@ pub(super) fn machine(settings: &mut Settings, hal: &mut Hal) -> Result<Machine,
     if let Some(loaded) = hal.modules.iter().find(|loaded| loaded.value != module) {
         return Err(other(&format!("{module} and {}", loaded.value)));
     }
-    if let Some(unit) = settings.text("[TRAJ]LINEAR_UNITS", "the unit of all lengths") {
+    let unit = settings.text("[TRAJ]LINEAR_UNITS", "the unit of all lengths");
+    if let Some(unit) = &unit {
         settings.note(format!("The unit of length: the design is in the file's, {}.", unit.value));
     }
-    match module {
+    // As emcIniFile.cc names them, in either case.
+    let unit = unit.and_then(|unit| match unit.value.to_ascii_lowercase().as_str() {
+        "mm" | "metric" => Some("mm"),
+        "in" | "inch" | "imperial" => Some("in"),
+        _ => None,
+    });
+    let machine = match module {
         "lineardeltakins" => linear_delta(settings, hal),
         "rotarydeltakins" => rotary_delta(settings, hal),
         "genhexkins" => hexapod(settings, hal, &named),
         _ => tripod(settings, hal),
-    }
+    };
+    machine.map(|machine| Machine { unit, ..machine })
 }
 
 /// A pin's value; where nothing sets it, the module's default.
@@ -163,6 +171,7 @@ fn linear_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     Ok(Machine {
         title: "Linear Delta",
         kind: "translational",
+        unit: None,
         legs: legs.into(),
         workspace,
         requirements,
@@ -207,6 +216,7 @@ fn rotary_delta(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, Impor
     Ok(Machine {
         title: "Rotary Delta",
         kind: "translational",
+        unit: None,
         legs: legs.into(),
         workspace,
         requirements,
@@ -239,6 +249,7 @@ fn tripod(settings: &mut Settings, hal: &mut Hal) -> Result<Machine, ImportError
     Ok(Machine {
         title: "Tripod",
         kind: "translational",
+        unit: None,
         legs: legs.into(),
         workspace,
         requirements,

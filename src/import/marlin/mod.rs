@@ -408,6 +408,7 @@ impl Header<'_> {
         Ok(Machine {
             title: "Linear Delta",
             kind: "translational",
+            unit: Some("mm"),
             legs: legs.into(),
             workspace: cylinder(&radius.text, [&low.text, &high.text]),
             requirements: FACTORS.to_owned(),

@@ -144,6 +144,7 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Linear Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace: cylinder(&print.text, [&low.text, &high]),
         requirements: FACTORS.to_owned(),
@@ -200,6 +201,7 @@ fn rotary(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Rotary Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace: cylinder(&print.text, [&low.text, &high.text]),
         requirements: format!("{}{range}", factors_per_radian(&arms[0])),

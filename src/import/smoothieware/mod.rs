@@ -99,6 +99,7 @@ fn linear(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Linear Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace,
         requirements: FACTORS.to_owned(),
@@ -275,6 +276,7 @@ fn rotary(settings: &mut Settings) -> Result<Machine, ImportError> {
     Ok(Machine {
         title: "Rotary Delta",
         kind: "translational",
+        unit: Some("mm"),
         legs: legs.into(),
         workspace,
         requirements,
