@@ -250,12 +250,11 @@ fn bodies(out: &mut String, claim: &MachineClaim) -> fmt::Result {
             Body::Base { from, to, radius } => {
                 writeln!(out, "{radius} of the segment from ({}) to ({})", list(from), list(to))?;
             }
-            Body::Platform { from, to, radius } => writeln!(
-                out,
-                "{radius} of the segment from P + ({}) to P + ({})",
-                list(from),
-                list(to)
-            )?,
+            Body::Platform { from, to, radius } => {
+                let at = if claim.orientation.is_some() { "P + R" } else { "P +" };
+                let (from, to) = (list(from), list(to));
+                writeln!(out, "{radius} of the segment from {at} ({from}) to {at} ({to})")?;
+            }
         }
     }
     Ok(())

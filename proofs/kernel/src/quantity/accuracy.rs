@@ -14,8 +14,9 @@ pub(super) const ACCURACY: Quantity = Quantity {
     symbol: "|P' - P|",
     words: "for joint coordinates within joint_error (each; of arms degrees, counted with their turns) of \
             those that the machine in the middle of all intervals has at P, every machine has exactly \
-            one position P' so near to P with these joint coordinates, in the working modes named; of a \
-            platform that turns exactly one pose, turned by at most max_angle degrees from the one meant",
+            one position P' so near to P with these joint coordinates, in the working modes named; \
+            where the platform turns, exactly one pose so near, turned from the one at P by at most \
+            max_angle degrees",
     of_legs: false,
     given: &["joint_error"],
     given_turning: &["max_angle"],

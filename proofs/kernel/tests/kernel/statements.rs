@@ -2,6 +2,7 @@
 
 use crate::certificates::claim;
 use crate::prover::{certificate, certify};
+use crate::turning::{hexapod_legs, spatial};
 use orthocert_kernel::certificate::{
     Certificate, Claim, Failure, Proof, Provenance, Verdict, Witness, FORMAT,
 };
@@ -146,4 +147,27 @@ fn of_bodies_and_of_what_is_given() {
         ],
     );
     says(&text(8), &["where one_to_one is violated"]);
+}
+
+/// A body on a platform that turns is turned with it.
+#[test]
+fn of_bodies_on_a_platform_that_turns() {
+    let rods = r#"{"on":"leg","leg":1,"radius":"1/20","trim":["0","0"]},{"on":"platform","from":["0","0","1"],"to":["0","0","2"],"radius":"1/20"}"#;
+    let require = r#"{"quantity":"clearance","end":"min","bound":"1"},{"quantity":"accuracy","given":{"joint_error":["1"],"max_angle":["3"]},"end":"max","bound":"2"}"#;
+    let text = spatial(&hexapod_legs(), r#"{"angle":"5"}"#, require);
+    let text = text.replace(r#""workspace""#, &format!(r#""bodies":[{rods}],"workspace""#));
+    let witness = Proof::Witness(Witness {
+        precision: 96,
+        point: vec![Expression::integer(0); 6],
+        machine: vec![],
+        fails: Failure::Reach,
+    });
+    says(
+        &words(&certificate(&claim(&text), Verdict::Refuted, witness)),
+        &[
+            "body 2: all within 1/20 of the segment from P + R (0, 0, 1) to P + R (0, 0, 2)",
+            "|P' - P| <= 2, joint_error = 1, max_angle = 3",
+            "where the platform turns, exactly one pose so near",
+        ],
+    );
 }
