@@ -104,14 +104,15 @@ fn sampled(claim: &MachineClaim, finest: i32) -> Option<f64> {
             return f64::INFINITY;
         };
         let value = bounded.value(claim, &problem, &sampler, &worst.place);
-        let room = value.and_then(|value| room(claim, &bounded.requirement, value));
+        let room = value.and_then(|value| room(claim, &bounded, value));
         room.unwrap_or(if worst.margin > 0.0 { f64::INFINITY } else { -1.0 })
     });
     Some(rooms.fold(f64::INFINITY, f64::min).max(-1.0))
 }
 
 /// By how much a bound can be tightened until it is met by a value.
-fn room(claim: &MachineClaim, own: &Requirement, value: f64) -> Option<f64> {
+fn room(claim: &MachineClaim, bounded: &Bounded, value: f64) -> Option<f64> {
+    let own = &bounded.requirement;
     if own.quantity == JOINT_RANGE {
         let [least, greatest] = range(claim, own)?;
         let (least, greatest) = (approximate(least)?, approximate(greatest)?);
@@ -122,7 +123,7 @@ fn room(claim: &MachineClaim, own: &Requirement, value: f64) -> Option<f64> {
         };
         return Some((greatest - least) / 2.0 / (off - 360.0 * turns).abs() - 1.0);
     }
-    match &own.bound {
+    match &bounded.bound() {
         Bound::Min(bound) => Some(value / approximate(bound)? - 1.0),
         Bound::Max(bound) => Some(approximate(bound)? / value - 1.0),
         Bound::Within(_) | Bound::Holds => None,

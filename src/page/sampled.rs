@@ -106,22 +106,23 @@ impl<'a> Sampled<'a> {
     /// The worst of every requirement: of those of every leg, the leg with least left.
     pub fn worst(&self) -> Vec<Worst> {
         let found = self.sampler.worst_values(FINEST);
-        let all: Vec<(usize, Option<usize>, report::Row)> = found
+        let all: Vec<(usize, Option<usize>, Bound, report::Row)> = found
             .iter()
             .filter_map(|found| {
                 let Quality::Obligation(obligation) = found.quality else { return None };
                 let own = &self.problem.obligations[obligation];
                 let row = self.facts.rows(std::slice::from_ref(found)).pop()?;
-                Some((own.requirement?, own.leg.map(|leg| leg + 1), row))
+                let bound = Bounded::of(self.claim, self.problem, obligation)?.bound();
+                Some((own.requirement?, own.leg.map(|leg| leg + 1), bound, row))
             })
             .collect();
-        let left = |number: usize, leg: Option<usize>, row: &report::Row| {
+        let left = |number: usize, leg: Option<usize>, bound: &Bound, row: &report::Row| {
             let own = &self.claim.require[number];
             let value = row.worst_found?;
             if !value.is_finite() {
                 return Some(f64::NEG_INFINITY);
             }
-            let (left, size) = match &own.bound {
+            let (left, size) = match bound {
                 Bound::Min(bound) => (value - approximate(bound)?, approximate(bound)?.abs()),
                 Bound::Max(bound) => (approximate(bound)? - value, approximate(bound)?.abs()),
                 Bound::Within([min, max]) => {
@@ -132,7 +133,7 @@ impl<'a> Sampled<'a> {
                 }
                 Bound::Holds => return None,
             };
-            let same = all.iter().filter(|(other, of, _)| {
+            let same = all.iter().filter(|(other, of, ..)| {
                 self.claim.require[*other].quantity == own.quantity && *of == leg
             });
             let values: Vec<f64> = same.filter_map(|(.., row)| row.worst_found).collect();
@@ -145,9 +146,9 @@ impl<'a> Sampled<'a> {
             (size > 0.0).then_some(left / size)
         };
         let mut worst: Vec<Worst> = Vec::new();
-        for (number, leg, row) in &all {
+        for (number, leg, bound, row) in &all {
             let (number, leg, row) = (*number, *leg, row.clone());
-            let one = Worst { number, leg, left: left(number, leg, &row), row };
+            let one = Worst { number, leg, left: left(number, leg, bound, &row), row };
             match worst.iter_mut().find(|other| other.number == number) {
                 Some(other) if one.row.margin < other.row.margin => *other = one,
                 Some(_) => {}

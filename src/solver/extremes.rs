@@ -173,7 +173,7 @@ impl Extreme {
     }
 
     /// Of an accuracy of a platform that turns, the angle, with the distance that the claim has.
-    fn angle(claim: &MachineClaim, requirement: &Requirement) -> Option<Self> {
+    pub fn angle(claim: &MachineClaim, requirement: &Requirement) -> Option<Self> {
         let own = claim.require.iter().find(|own| own.quantity == "accuracy")?;
         let is_it =
             requirement.quantity == "accuracy" && requirement.given.contains_key("max_angle");

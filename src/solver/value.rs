@@ -141,6 +141,14 @@ impl Bounded {
         }
     }
 
+    /// The bound: of the angle of an accuracy, that on it.
+    pub fn bound(&self) -> Bound {
+        match self.requirement.given.get("max_angle").and_then(|all| all.first()) {
+            Some(angle) if self.angle => Bound::Max(angle.clone()),
+            _ => self.requirement.bound.clone(),
+        }
+    }
+
     /// `<=`, `>=` or `in`, and the other side; none of what is no number.
     pub fn relation(&self) -> Option<(&'static str, Vec<&Expression>)> {
         match &self.requirement.bound {
@@ -157,6 +165,11 @@ impl Bounded {
     /// The same with another bound, on this leg alone; a range has none.
     fn with(&self, x: f64) -> Option<Requirement> {
         let bound = number(&BigRational::from_f64(x)?)?;
+        if self.angle {
+            let mut requirement = self.requirement.clone();
+            requirement.given.insert("max_angle".to_owned(), vec![bound]);
+            return Some(requirement);
+        }
         let bound = match &self.requirement.bound {
             Bound::Min(_) => Bound::Min(bound),
             Bound::Max(_) => Bound::Max(bound),

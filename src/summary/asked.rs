@@ -106,11 +106,15 @@ pub fn asked(
         let leg = own.leg.map(|leg| leg - 1);
         let there = own.quantity == "joint_range"
             || own.quantity == "transmission" && matches!(claim.workspace, Workspace::Cube { .. });
-        let extreme = Extreme::on(own.clone(), leg).filter(|_| !there);
+        let angle = Extreme::angle(claim, own).map(Asked::Extreme);
+        // About a point, no position is off.
+        let still = angle.is_some() && matches!(claim.mechanism, Mechanism::Spherical(_));
+        let extreme = Extreme::on(own.clone(), leg).filter(|_| !there && !still);
         let is_new = |one: &Extreme| {
             !all.iter().any(|known| matches!(known, Asked::Extreme(known) if known == one))
         };
         all.extend(extreme.filter(is_new).map(Asked::Extreme));
+        all.extend(angle);
     }
     (all, left_out)
 }
@@ -166,15 +170,19 @@ impl Asked {
     /// An end of it, without its value.
     pub fn value(&self, end: &'static str, angular: bool) -> Value {
         let (quantity, leg, given) = self.of();
+        let angle = matches!(self, Asked::Extreme(extreme) if extreme.bounded().angle);
         let numbers = |(name, x): (&String, &Vec<Expression>)| {
             (name.clone(), x.iter().map(Expression::to_string).collect())
         };
         Value {
             quantity: quantity.to_owned(),
-            words: words(quantity, leg, &given, angular),
+            words: match angle {
+                true => format!("angle {}", words(quantity, leg, &given, angular)),
+                false => words(quantity, leg, &given, angular),
+            },
             joint: leg.map(|leg| leg + 1),
             given: given.iter().map(numbers).collect(),
-            unit: unit(quantity, angular),
+            unit: if angle { Some("deg") } else { unit(quantity, angular) },
             end,
             certified: None,
             reached: None,

@@ -6,10 +6,11 @@ use crate::exact::Exact;
 use crate::report::{exactly, Facts, FreeParameter};
 use crate::solver::extremes::Extreme;
 use crate::solver::sample::{Quality, Worst};
+use crate::solver::value::Bounded;
 use crate::solver::Verification;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
-use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
+use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
@@ -72,18 +73,26 @@ pub fn nearest(
             ("joint_range", None) => (0..problem.legs.len()).map(Some).collect(),
             (_, leg) => vec![leg.map(|leg| leg - 1)],
         };
-        for leg in legs {
+        // Of an accuracy, the distance and the angle, where there are both.
+        let bounded = |leg: &Option<usize>| {
+            let (leg, requirement) = (*leg, own.clone());
+            [false, true].map(|angle| Bounded { requirement: requirement.clone(), leg, angle })
+        };
+        for bounded in legs.iter().flat_map(bounded) {
+            let leg = bounded.leg;
             let seen = |worst: &&Worst| match worst.quality {
                 Quality::Obligation(at) => {
                     let obligation = &problem.obligations[at];
+                    let angle = Bounded::of(claim, problem, at).is_some_and(|own| own.angle);
                     obligation.requirement == Some(number)
                         && (leg.is_none() || obligation.leg == leg)
+                        && angle == bounded.angle
                 }
                 Quality::Reach | Quality::Determinant => false,
             };
             let worst = verification.worst.iter().filter(seen);
             let seen = worst.min_by(|a, b| a.margin.total_cmp(&b.margin));
-            let margin = margin(own, leg, found);
+            let margin = margin(claim, &bounded, found);
             all.extend(margin.zip(seen).map(|((least, greatest), seen)| {
                 let zero = BigRational::zero();
                 let held = |x: BigRational| if certified { x.max(zero.clone()) } else { x };
@@ -125,10 +134,11 @@ pub fn nearest(
 
 /// The least and the greatest margin that the ends found leave; none without an end.
 fn margin(
-    own: &Requirement,
-    leg: Option<usize>,
+    claim: &MachineClaim,
+    bounded: &Bounded,
     found: &[Found],
 ) -> Option<(BigRational, Option<BigRational>)> {
+    let (own, leg) = (&bounded.requirement, bounded.leg);
     let of = |wanted: &dyn Fn(&Asked) -> bool| {
         let one = found.iter().find(|found| wanted(&found.asked))?;
         one.ends.as_ref().ok()
@@ -141,9 +151,9 @@ fn margin(
         let (one, other) = (ends.next()?.ends.as_ref().ok()?, ends.next()?.ends.as_ref().ok()?);
         Some((&other.first()?.certified - &one.first()?.certified).abs())
     };
-    let (bound, is_least) = match &own.bound {
-        Bound::Min(bound) => (bound, true),
-        Bound::Max(bound) => (bound, false),
+    let (bound, is_least) = match &bounded.bound() {
+        Bound::Min(bound) => (bound.clone(), true),
+        Bound::Max(bound) => (bound.clone(), false),
         Bound::Within(ends) => {
             let sector = of(&|asked| matches!(asked, Asked::Angle(of) if Some(*of) == leg))?;
             return within(ends, sector);
@@ -157,12 +167,15 @@ fn margin(
             Asked::Angle(_) => false,
         }),
         _ => {
-            let extreme = Extreme::on(own.clone(), leg)?;
+            let extreme = match bounded.angle {
+                true => Extreme::angle(claim, own)?,
+                false => Extreme::on(own.clone(), leg)?,
+            };
             of(&|asked| matches!(asked, Asked::Extreme(one) if *one == extreme))
         }
     }?;
     let End { certified, reached, .. } = ends.first()?;
-    let bound = enclosed(bound)?;
+    let bound = enclosed(&bound)?;
     let side = |x: &BigRational, bound: &BigRational| {
         let left = if is_least { x - bound } else { bound - x };
         let size = match own.quantity.as_str() {

@@ -89,7 +89,10 @@ pub fn shares(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Shares>, NotEnclosed> {
-    let Some(own) = claim.require.iter().find(|own| own.quantity == "accuracy") else {
+    let own = claim.require.iter().find(|own| own.quantity == "accuracy");
+    // About a point, no position is off.
+    let still = matches!(claim.mechanism, Mechanism::Spherical(_));
+    let Some(own) = own.filter(|_| !still) else {
         return Ok(None);
     };
     let mut own_claim = claim.clone();

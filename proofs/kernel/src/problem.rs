@@ -412,10 +412,13 @@ impl Problem {
 
     /// Whether a test on scaled rows is the easier the less squares of positions are ([`Control::at_ends`]).
     ///
-    /// **Lemma.** It is, if its matrix decreases with the `w D_i`, in which these squares have the factor `w`, and
-    /// as many struts as coordinates are asked for. *Proof.* That all `D_i > 0` is harder the less they are; but
-    /// `T > 0` shows `A` regular by itself, and a strut of length zero, `D_i = 0`, has a row `A_i` of zeros. ∎
-    /// The inequality of a cylinder has the squares with another sign.
+    /// **Lemma.** It is, of these three tests and as many struts as coordinates. *Proof.* Of all formulas in them
+    /// only the `w D_i` have squares of positions, with the factor `w > 0`: `w A`, `w` and the inequality of
+    /// orientations have none. The matrices of singular values and solutions decrease with the `w D_i`, and so
+    /// does `T - kappa^2 w D` of an accuracy; its other one shows `|A^-1 y| < z` for all `|y_i| <= b_i`, and the `b_i` grow
+    /// with them. That all `D_i > 0` is harder the less they are; but `T > 0` shows `A` regular by itself, and a
+    /// strut of length zero, `D_i = 0`, has a row `A_i` of zeros. ∎ The inequality of a cylinder has the squares
+    /// with another sign.
     fn is_easier_with_less(&self, test: &Test) -> bool {
         let decreases = matches!(test, Test::SigmaMin(_) | Test::Solve(_) | Test::Accuracy(_));
         decreases && self.inside.is_none() && self.legs.len() == self.dimension()
