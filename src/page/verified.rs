@@ -7,7 +7,7 @@ use crate::escape;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::certificate::{Claim, Verdict};
 use orthocert_kernel::claim::{
-    Bound, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Turning, Workspace,
+    Bound, JointFormula, Leg, MachineClaim, Mechanism, Turning, Workspace,
 };
 use serde_json::Value;
 
@@ -114,11 +114,6 @@ fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
     let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
     let is_strut = |leg: &Leg| matches!(leg, Leg::Strut { base_axis: None, .. });
     let is_required = |key: &str| matches!(key, "transmission" | "conditioning" | "joint_range");
-    let is_chart = match orientation {
-        None => true,
-        Some(Orientation::Range(_) | Orientation::RollPitchYaw { .. }) => true,
-        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => false,
-    };
     let is_mechanism = match (mechanism, workspace) {
         (Mechanism::Translational(legs), Workspace::Box { .. } | Workspace::Cylinder { .. }) => {
             verdict == Verdict::Refuted && legs.iter().all(is_arm)
@@ -136,5 +131,5 @@ fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
         _ => false,
     };
     let required = require.iter().all(|requirement| is_required(&requirement.quantity));
-    is_chart && bodies.is_empty() && is_mechanism && required
+    bodies.is_empty() && is_mechanism && required
 }

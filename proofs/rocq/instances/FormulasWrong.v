@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith NArith List String Decimal.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Check Configuration Written Turning Pose.
+From Orthocert.kernel Require Import Check Configuration Written Orientation Turning Pose.
 From Orthocert.kernel Require Certificate.
 Import ListNotations.
 
@@ -33,7 +33,55 @@ Example another_Y : accepts right [by_lower [[0; -1; -1]; [1; 1; 1]; [-1; 0; -1]
 Example without_a_step : accepts right [by_lower Y] = false. Proof. vm_compute. reflexivity. Qed.
 Example not_at_controls : accepts right [(0%nat, ByLower 0%N Y); by_test] = false. Proof. vm_compute. reflexivity. Qed.
 Example of_the_other_test : accepts right [(0%nat, AtControls ByTest); by_test] = false. Proof. vm_compute. reflexivity. Qed.
+(** No inequality of orientations in the plane. *)
+Example turned : accepts right [by_lower Y; (1%nat, AtControls (Turned ByTest 0 0%N))] = false. Proof. vm_compute. reflexivity. Qed.
+Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. reflexivity. Qed.
 End Planar.
+
+(** A spherical platform on three struts, as in certificates/spherical-3-ups.cert.json, with tilt and torsion, or up to an angle. *)
+Module Spherical.
+Local Open Scope Z_scope.
+Definition root3 (n : Z) : number := Times (n // 1) (Root (3 // 1)).
+Definition vector (x y z : number) : tolerances := Tolerances (exactly x) (exactly y) (exactly z).
+Definition claim (o : orientations) (psi : number) : turning_claim :=
+  MakeTurningClaim AboutPoint
+    [(vector (150 // 1) (0 // 1) (-150 // 1), vector (0 // 1) (100 // 1) (0 // 1));
+     (vector (-75 // 1) (root3 75) (-150 // 1), vector (root3 (-50)) (-50 // 1) (0 // 1));
+     (vector (-75 // 1) (root3 (-75)) (-150 // 1), vector (root3 50) (-50 // 1) (0 // 1))]
+    (100 // 1) (vector (0 // 1) (0 // 1) (0 // 1)) o [FactorMax psi; LengthMin 0 (181 // 1)].
+Definition Y := [[14; 0; 10]; [-7; 12; 10]; [-7; -12; 10]].
+Definition less (n : Z) : nat * evidence := (0%nat, AtControls (Turned (ByLower 5%N Y) n 1%N)).
+Definition by_test : nat * evidence := (1%nat, AtControls ByTest).
+Definition accepts (c : turning_claim) (t : tree) : bool := check_turning 52 c 8 t.
+Definition tilt (a b : Z) : orientations := Tilted (a // 1) (b // 1).
+Local Notation right := (claim (tilt 20 10) (2 // 1)).
+
+Example as_it_is : accepts right (Leaf [less 3; by_test]) = true. Proof. vm_compute. reflexivity. Qed.
+Example tilt_greater : accepts (claim (tilt 25 10) (2 // 1)) (Leaf [less 3; by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+Example torsion_greater : accepts (claim (tilt 20 20) (2 // 1)) (Leaf [less 3; by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+Example another_set : accepts (claim (TurnedUpTo (25 // 1)) (2 // 1)) (Leaf [less 3; by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+(** Without the inequality, with its sign changed, and twice. *)
+Example without : accepts right (Leaf [(0%nat, AtControls (ByLower 5%N Y)); by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+Example other_sign : accepts right (Leaf [less (-3); by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+Example twice : accepts right (Leaf [(0%nat, AtControls (Turned (Turned (ByLower 5%N Y) 3 1%N) 0 0%N)); by_test]) = false. Proof. vm_compute. reflexivity. Qed.
+
+(** Of the square about the disc of tilts, the eighth next to a corner has none of them, and the quarter has. *)
+Definition upper (k : nat) (t : tree) : tree := Split [] k (Leaf []) t.
+Definition corner (t : tree) : tree := Split [less 3; by_test] 0 (Leaf []) (upper 0 (upper 1 (upper 1 t))).
+Example outside : accepts right (corner (upper 0 (upper 1 (Leaf [(0%nat, Outside)])))) = true. Proof. vm_compute. reflexivity. Qed.
+Example not_outside : accepts right (corner (Leaf [(0%nat, Outside)])) = false. Proof. vm_compute. reflexivity. Qed.
+
+(** Coordinates of a witness: tangents of 5, 8 and 10 degrees are 0.0875, 0.1405 and 0.1763. *)
+Definition is_in (o : orientations) (x y z : Z) : bool := is_orientation 64 o [(x // 10000); (y // 10000); (z // 10000)].
+Example up_to_20 : is_in (TurnedUpTo (20 // 1)) 1000 (-1000) 1000 = true. Proof. vm_compute. reflexivity. Qed.
+Example not_to_20 : is_in (TurnedUpTo (20 // 1)) 1000 (-1000) 1100 = false. Proof. vm_compute. reflexivity. Qed.
+Example in_tilt : is_in (tilt 20 10) 1405 1067 (-874) = true. Proof. vm_compute. reflexivity. Qed.
+Example beyond_tilt : is_in (tilt 20 10) 1405 1080 (-874) = false. Proof. vm_compute. reflexivity. Qed.
+Example beyond_torsion : is_in (tilt 20 10) 0 0 (-876) = false. Proof. vm_compute. reflexivity. Qed.
+Example no_turn : is_in (TurnedUpTo (0 // 1)) 0 0 0 = true. Proof. vm_compute. reflexivity. Qed.
+Example half_a_turn : is_in (TurnedUpTo (180 // 1)) 0 0 0 = false. Proof. vm_compute. reflexivity. Qed.
+Example negative_angle : is_in (TurnedUpTo (-1 // 1)) 0 0 0 = false. Proof. vm_compute. reflexivity. Qed.
+End Spherical.
 
 (** One joint whose rate is 1 + x^2 times that of x, for x from 1 to 2. *)
 Module Formulas.

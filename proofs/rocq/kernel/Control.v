@@ -316,19 +316,24 @@ Fixpoint rows_of (values : list (option fixed)) (r : rows nat) : option (rows fi
       end
   end.
 
+(** A multiple, [n] over [2^places], of a formula that is not negative, or none: the S-procedure. *)
+Definition multiple : Type := option (nat * Z * N).
+Definition multiple_at (l : multiple) (values : list (option fixed)) : option fixed :=
+  match l with None => Some zero | Some (g, n, places) => option_map (Arithmetic.dyadic n places) (nth g values None) end.
+
 Definition is_definite (n : nat) (t : triangle) : bool := if Nat.eqb (length t) n then is_positive_definite t else false.
-Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (w : nat) (k : fixed) (values : list (option fixed)) : bool :=
-  match rows_of values r, nth w values None with
-  | Some rows, Some w => is_definite n (lower_triangle places Y rows (repeat [neg (mul bits k w)] n))
-  | _, _ => false
+Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (w : nat) (k : fixed) (l : multiple) (values : list (option fixed)) : bool :=
+  match rows_of values r, nth w values None, multiple_at l values with
+  | Some rows, Some w, Some t => is_definite n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
+  | _, _, _ => false
   end.
-Definition upper_at (n : nat) (r : rows nat) (w : nat) (k : fixed) (values : list (option fixed)) : bool :=
-  match rows_of values r, nth w values None with
-  | Some rows, Some w => match upper_triangle rows (repeat [mul bits k w] n) with Some t => is_definite n t | None => false end
-  | _, _ => false
+Definition upper_at (n : nat) (r : rows nat) (w : nat) (k : fixed) (l : multiple) (values : list (option fixed)) : bool :=
+  match rows_of values r, nth w values None, multiple_at l values with
+  | Some rows, Some w, Some t => match upper_triangle rows (repeat [sub (mul bits k w) t] n) with Some t => is_definite n t | None => false end
+  | _, _, _ => false
   end.
-Definition sign_at (f : nat) (values : list (option fixed)) : bool :=
-  match nth f values None with Some a => (0 <=? lo a)%Z | None => false end.
+Definition sign_at (f : nat) (l : multiple) (values : list (option fixed)) : bool :=
+  match nth f values None, multiple_at l values with Some a, Some t => (0 <=? lo (sub a t))%Z | _, _ => false end.
 
 (** Formulas of the tape are affine in each pair. *)
 Variable m : nat.
@@ -341,6 +346,23 @@ Proof.
   intros i h before after u v w p q r l s. unfold is_affine_at in h. rewrite forallb_forall in h.
   assert (E : m = S (length before + length after)) by (rewrite <- l, app_length; cbn [length]; lia).
   specialize (h (length before) ltac:(apply in_seq; lia)). rewrite E in h. apply affine_value; assumption.
+Qed.
+
+Definition less_at (ps : list (R * R)) (l : multiple) : R :=
+  match l with None => 0 | Some (g, n, places) => IZR n / IZR (2 ^ Z.of_N places) * at_ ps g end.
+Definition is_affine_multiple (l : multiple) : bool := match l with None => true | Some (g, _, _) => is_affine_at g end.
+
+Lemma multiple_affine : forall l, is_affine_multiple l = true -> affine_there m (fun ps => less_at ps l).
+Proof.
+  intros [[[g n] places] |] h before after u v w p q r e s; cbn [less_at].
+  - rewrite (entry_affine g h before after u v w p q r e s). ring.
+  - ring.
+Qed.
+
+Lemma multiple_at_sound : forall q ps l t, Forall2 in_pair q ps -> multiple_at l (evaluate_at q) = Some t -> contains bits t (less_at ps l).
+Proof.
+  intros q ps [[[g n] places] |] t h e; cbn [multiple_at less_at] in *; [| injection e as <-; apply zero_sound].
+  pose proof (evaluate_at_sound q ps h g) as V. destruct (nth g _ None) as [a |]; [| discriminate]. injection e as <-. apply Arithmetic.dyadic_sound, V.
 Qed.
 
 Lemma rows_affine : forall r weights x, forallb is_affine_at (all_places r) = true ->
@@ -406,15 +428,21 @@ Proof.
   unfold positive_D, map_rows. rewrite Forall_map. apply Forall_forall. intros [a d] i. exact (K a d i).
 Qed.
 
-Lemma weight_affine : forall r weights w c v, forallb is_affine_at (w :: all_places r) = true ->
-  affine_there m (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w).
+Lemma weight_affine : forall r weights w c l d v, forallb is_affine_at (w :: all_places r) = true -> is_affine_multiple l = true ->
+  affine_there m (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w + d * less_at ps l).
 Proof.
-  intros r weights w c v h before after a b e p q s l su. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
-  rewrite (rows_affine r weights v h2 before after a b e p q s l su), (entry_affine w h1 before after a b e p q s l su). ring.
+  intros r weights w c l d v h k before after a b e p q s len su. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
+  rewrite (rows_affine r weights v h2 before after a b e p q s len su), (entry_affine w h1 before after a b e p q s len su),
+    (multiple_affine l k before after a b e p q s len su). ring.
 Qed.
 
+(** The multiple is of what is not negative here. *)
+Variable l : multiple.
+Hypothesis l_affine : is_affine_multiple l = true.
+Hypothesis l_nonneg : 0 <= less_at (parabola x) l.
+
 Theorem lower_shown : forall n places Y r w kappa2 k v, forallb is_affine_at (w :: all_places r) = true ->
-  (forall q, In q (grid cell) -> lower_at n places Y r w kappa2 (evaluate_at q) = true) ->
+  (forall q, In q (grid cell) -> lower_at n places Y r w kappa2 l (evaluate_at q) = true) ->
   contains bits kappa2 k -> length v = n -> nonzero v ->
   positive_D (map_rows (fun i => here i) r) /\ k * here w * dot v v < energy (map_rows (fun i => here i) r) v.
 Proof.
@@ -422,20 +450,24 @@ Proof.
   assert (P : positive_D (map_rows (fun i => here i) r)).
   { apply (regular_here r hr). intros q iq. specialize (H q iq). unfold lower_at in H. destruct (rows_of _ r) as [s |]; [exists s; reflexivity | discriminate]. }
   split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P).
-  enough (0 < form (lower_weights places Y v) (map_rows (fun i => here i) r) v + - (k * dot v v) * here w) by lra.
-  apply (decide (fun y => 0 < y) positive_convex (fun ps => form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + - (k * dot v v) * at_ ps w)).
-  - apply weight_affine, ha.
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]).
+  enough (0 < form (lower_weights places Y v) (map_rows (fun i => here i) r) v + - (k * dot v v) * here w + - dot v v * less_at (parabola x) l) by lra.
+  apply (decide (fun y => 0 < y) positive_convex
+    (fun ps => form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + - (k * dot v v) * at_ ps w + - dot v v * less_at ps l)).
+  - apply weight_affine; assumption.
   - intros q ps iq rq. specialize (H q iq). unfold lower_at in H. pose proof (evaluate_at_sound q ps rq w) as W.
     destruct (rows_of (evaluate_at q) r) as [s |] eqn:es; [| discriminate]. destruct (nth w (evaluate_at q) None) as [b |]; [| discriminate].
+    destruct (multiple_at l (evaluate_at q)) as [t |] eqn:et; [| discriminate]. pose proof (multiple_at_sound q ps l t rq et) as L.
     destruct (rows_of_sound q ps r s rq es) as [S _]. unfold is_definite in H.
-    destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [neg (mul bits kappa2 b)] n))) n) as [l | l]; [| discriminate].
-    destruct (lower_triangle_sound bits places Y s _ _ _ v S (diagonal_in bits _ _ n (neg_sound bits _ _ (mul_sound bits _ _ _ _ hk W)))) as [T [hT le]].
+    destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [sub (neg (mul bits kappa2 b)) t] n))) n) as [e | e]; [| discriminate].
+    destruct (lower_triangle_sound bits places Y s _ _ _ v S
+      (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (neg_sound bits _ _ (mul_sound bits _ _ _ _ hk W)) L))) as [T [hT le]].
     pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
-    rewrite (related_length _ _ _ _ _ hT) in l. specialize (Q ltac:(congruence) nz). lra.
+    rewrite (related_length _ _ _ _ _ hT) in e. specialize (Q ltac:(congruence) nz). lra.
 Qed.
 
 Theorem upper_shown : forall n r w k2 k v, forallb is_affine_at (w :: all_places r) = true ->
-  (forall q, In q (grid cell) -> upper_at n r w k2 (evaluate_at q) = true) ->
+  (forall q, In q (grid cell) -> upper_at n r w k2 l (evaluate_at q) = true) ->
   contains bits k2 k -> length v = n -> nonzero v ->
   positive_D (map_rows (fun i => here i) r) /\ energy (map_rows (fun i => here i) r) v < k * here w * dot v v.
 Proof.
@@ -443,23 +475,37 @@ Proof.
   assert (P : positive_D (map_rows (fun i => here i) r)).
   { apply (regular_here r hr). intros q iq. specialize (H q iq). unfold upper_at in H. destruct (rows_of _ r) as [s |]; [exists s; reflexivity | discriminate]. }
   split; [exact P |]. destruct (upper_energy _ v P) as [u E].
-  enough (0 < form (upper_weights u) (map_rows (fun i => here i) r) v + k * dot v v * here w) by lra.
-  apply (decide (fun y => 0 < y) positive_convex (fun ps => form (upper_weights u) (map_rows (fun i => at_ ps i) r) v + k * dot v v * at_ ps w)).
-  - apply weight_affine, ha.
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]).
+  enough (0 < form (upper_weights u) (map_rows (fun i => here i) r) v + k * dot v v * here w + - dot v v * less_at (parabola x) l) by lra.
+  apply (decide (fun y => 0 < y) positive_convex
+    (fun ps => form (upper_weights u) (map_rows (fun i => at_ ps i) r) v + k * dot v v * at_ ps w + - dot v v * less_at ps l)).
+  - apply weight_affine; assumption.
   - intros q ps iq rq. specialize (H q iq). unfold upper_at in H. pose proof (evaluate_at_sound q ps rq w) as W.
     destruct (rows_of (evaluate_at q) r) as [s |] eqn:es; [| discriminate]. destruct (nth w (evaluate_at q) None) as [b |]; [| discriminate].
-    destruct (rows_of_sound q ps r s rq es) as [S _]. destruct (upper_triangle s (repeat [mul bits k2 b] n)) as [T |] eqn:eu; [| discriminate].
-    unfold is_definite in H. destruct (Nat.eqb_spec (length T) n) as [l | l]; [| discriminate].
-    destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (mul_sound bits _ _ _ _ hk W)) eu) as [U [hU le]].
+    destruct (multiple_at l (evaluate_at q)) as [t |] eqn:et; [| discriminate]. pose proof (multiple_at_sound q ps l t rq et) as L.
+    destruct (rows_of_sound q ps r s rq es) as [S _]. destruct (upper_triangle s (repeat [sub (mul bits k2 b) t] n)) as [T |] eqn:eu; [| discriminate].
+    unfold is_definite in H. destruct (Nat.eqb_spec (length T) n) as [e | e]; [| discriminate].
+    destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) L)) eu) as [U [hU le]].
     pose proof (is_positive_definite_sound bits _ U H hU v) as Q. specialize (le u). rewrite <- lv, quad_diagonal in le.
-    rewrite (related_length _ _ _ _ _ hU) in l. specialize (Q ltac:(congruence) nz). lra.
+    rewrite (related_length _ _ _ _ _ hU) in e. specialize (Q ltac:(congruence) nz). lra.
 Qed.
 
-Theorem sign_shown : forall f, is_affine_at f = true -> (forall q, In q (grid cell) -> sign_at f (evaluate_at q) = true) -> 0 <= here f.
+Theorem sign_shown : forall f, is_affine_at f = true -> (forall q, In q (grid cell) -> sign_at f l (evaluate_at q) = true) -> 0 <= here f.
 Proof.
-  intros f ha H. apply (decide (fun y => 0 <= y) nonneg_convex (fun ps => at_ ps f)); [apply entry_affine, ha |].
-  intros q ps iq rq. specialize (H q iq). unfold sign_at in H. pose proof (evaluate_at_sound q ps rq f) as W.
-  destruct (nth f (evaluate_at q) None) as [a |]; [| discriminate]. apply Z.leb_le in H. exact (contains_nonneg bits _ _ H W).
+  intros f ha H. enough (0 <= here f + - (1) * less_at (parabola x) l) by lra.
+  apply (decide (fun y => 0 <= y) nonneg_convex (fun ps => at_ ps f + - (1) * less_at ps l)).
+  - intros before after a b c p q s len su. rewrite (entry_affine f ha before after a b c p q s len su), (multiple_affine l l_affine before after a b c p q s len su). ring.
+  - intros q ps iq rq. specialize (H q iq). unfold sign_at in H. pose proof (evaluate_at_sound q ps rq f) as W.
+    destruct (nth f (evaluate_at q) None) as [a |]; [| discriminate]. destruct (multiple_at l (evaluate_at q)) as [t |] eqn:et; [| discriminate].
+    apply Z.leb_le in H. pose proof (contains_nonneg bits _ _ H (sub_sound bits _ _ _ _ W (multiple_at_sound q ps l t rq et))). lra.
+Qed.
+
+(** Formulas over the whole cell. *)
+Lemma range_sound : forall f a, nth f (evaluate_at (map (fun a => (a, sqr bits a)) cell)) None = Some a -> contains bits a (here f).
+Proof.
+  intros f a e. assert (H : Forall2 in_pair (map (fun a => (a, sqr bits a)) cell) (parabola x)).
+  { unfold parabola. clear - x_in. induction x_in; cbn [map]; constructor; auto. split; [assumption | apply sqr_sound; assumption]. }
+  pose proof (evaluate_at_sound _ _ H f) as V. rewrite e in V. exact V.
 Qed.
 End OnCell.
 End Tape.

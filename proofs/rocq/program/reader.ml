@@ -224,7 +224,9 @@ let subject v =
          | "roll_pitch_yaw", v ->
            let range key = two number (get (members v) key) in
            RollPitchYaw_ (range "roll", range "pitch", range "yaw")
-         | name, _ -> not_covered [ "the orientation \""; name; "\"" ] in
+         | "angle", v -> Angle_ (number v)
+         | "tilt", v -> Tilt_ (number (get (members v) "tilt"), number (get (members v) "torsion"))
+         | _ -> raise Malformed in
        let motion = match kind with "planar" -> InPlane | "spatial" -> InSpace | _ -> AboutPoint in
        Turning_ (motion, List.map strut (array (get t "legs")), ell, List.map number (array (get w "min")),
          List.map number (array (get w "max")), orientation, List.map demand (array (get l "require")))
@@ -262,12 +264,18 @@ let rec evidence (n, m as shape) v =
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
-  | Object [ ("control", ((String "test" | Object [ ("lower", _) ]) as e)) ] -> AtControls_ (evidence shape e)
+  | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row (m + 1) mu)) y
   | Object [ (("lower" | "lower_divided" | "rank") as name, y) ] -> multiplier (fun y places -> Multiplied (name, y, places)) y
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
+(* At control points. *)
+and at_controls shape v =
+  match v with
+  | Object [ ("turned", Array [ (String "test" | Object [ ("lower", _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
+  | String "test" | Object [ ("lower", _) ] -> evidence shape v
+  | _ -> not_covered [ "this evidence at control points" ]
 let step n v =
   match array v with
   | [ i; String "outside" ] when digits i <> "0" -> raise Malformed
@@ -294,7 +302,7 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
-let is_at_controls (_, s) = match s with AtControls_ _ -> true | _ -> false
+let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
   let l = members (parse text) in

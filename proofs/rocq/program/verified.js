@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-yb=typeof
-module==="object"&&module.exports||u,gm="spatial",kk="Invalid_argument",eo="precision",ad='"',kj="@[",f9=1255,ki="inside",kV="Fatal error: exception %s\n",jN=255,kh="yaw",kT="(",kU=0x800,jL="range",jM="tree",f8="jsError",bh=0x8000,kf='the mechanism "',kg="%ni",lk="sqrt(",kS=256,ke="offset",kR="obligation",b4="machine",jK="End_of_file",eq="strut",jJ="center",ey="arm",f7="Failure",li="serial_margin",lj="parameters",bJ=0xff,jI="\n",lh="outside",ge="base_axis",gl="ENOENT",lg=122,aF="0",kQ="([^/]+)",gk=0xf,dw=128,f6=-48,jH=0xdc00,kd="Sys_blocked_io",lf="fd ",jG="given",kP="ENOTEMPTY",ak=248,kO="bound",aj="camlinternalFormat.ml",kN="Division_by_zero",ld="by",le=1027,jF="Sys_error",kc="slider",kb="postulate",kM="proof",ka="%u",cO="mechanism",eu="row",jE="EEXIST",j$="roll_pitch_yaw",gj="%d",jD="Printexc.handle_uncaught_exception",j_="y",f5="lower",j9="within",kL="cube",kK="buffer.ml",en="int_of_string",kJ="control",j8="definitions",gd=127,dv=1024,j7="@{",gq="e",jB=120,jC=103,j6=" : flags Open_rdonly and Open_wronly are not compatible",kI="orthocert/2",lc="reach",jA=512,a0="-",lb="witness",b1="platform",jz=0x7ff0,jy="pitch",gp=": Not a directory",j5=" : file already exists",bj="min",cP="workspace",j4="claim",kH="split",la="legs",bI=0xffffff,kG="joint",jw="formulas",jx="0x",j3='the workspace "',kF="roll",k_="nodes",k$="Out_of_memory",jv="psi_max",go="orientation",et=254,gn="index out of bounds",kE=100,ju="end",ex="_bigarr02",jt="%Li",kD=" : flags Open_text and Open_binary are not compatible",b2="drive",kC="coordinates",j2=", characters ",kB="lower_divided",j1="joints",k9="cylinder",bl=0xffff,j0=12520,jZ="axis",k8="parallel_margin",js='the drive "',gc="fails",gi="Unix.Unix_error",k7="infinity",em="tool",f4="mkdir",du=1000,f3="translational",s="",kA="Stack_overflow",k6="characteristic_length",gb="^",el=": No such file or directory",kz="places",ky="/static/",cN=0x3f,kx=-97,kv="stiffness",kw="Not_found",dt="planar",es="mode",k5="joint_speed",jY="Match_failure",jr=", ",jq="transmission",b0="anchor",ew=252,jX="leg",b3=".",bi="+",gh="rmdir",k4=0xf0,k3="spherical",jW="verified.ml",jU="REJECTED",jV="%li",ku=1026,bk="max",ev="direction",kt="orthoglide",k2="rank",k1="constraint_margin",k0=-32,jo="Pervasives.do_at_exit",jp="utf8",ks="test",bG=" ",ep="conditioning",gg="Fatal error: exception ",a9=0x80,jn="Undefined_recursive_module",ga=")",er="length",kZ="quantity",kr="joint_range",jm="Q2",f$="nan",jT="reference",kq="point",jS=0xe0,kY="corner",jQ="z",jR=0xdfff,ko="version",kp="_",a8="/",gf="compare: functional value",kX="Assert_failure",jP="provenance",jk="radius",jl="%i",bH="require",kn="side",kW="format",f_="ENOTDIR",km="Q1",kl="all",ci="box",jO=250;function
-gG(c,b,a){var
+yK=typeof
+module==="object"&&module.exports||u,gx="spatial",kB="Invalid_argument",ew="precision",an='"',kA="@[",gh=1255,kz="inside",la="Fatal error: exception %s\n",j3=255,ky="yaw",k_="(",k$=0x800,j1="range",j2="tree",gg="jsError",bj=0x8000,kw='the mechanism "',kx="%ni",lB="sqrt(",k9=256,kv="offset",k8="obligation",b4="machine",j0="End_of_file",ey="strut",jZ="center",eH="arm",gf="Failure",lz="serial_margin",lA="parameters",bK=0xff,jY="\n",gC="outside",go="base_axis",gw="ENOENT",ly=122,aG="0",k7="([^/]+)",gv=0xf,dB=128,ge=-48,jX=0xdc00,ku="Sys_blocked_io",lx="fd ",jW="given",k6="ENOTEMPTY",am=248,k5="bound",al="camlinternalFormat.ml",k4="Division_by_zero",lv="by",lw=1027,jV="Sys_error",kt="slider",ks="postulate",k3="torsion",k2="proof",kr="%u",cQ="mechanism",eD="row",jU="EEXIST",kq="roll_pitch_yaw",gu="%d",jT="Printexc.handle_uncaught_exception",kp="y",ev="lower",ko="within",k1="cube",k0="buffer.ml",lu="turned",eu="int_of_string",kZ="control",kn="definitions",gn=127,dA=1024,km="@{",gB="e",jR=120,jS=103,kl=" : flags Open_rdonly and Open_wronly are not compatible",kY="orthocert/2",lt="reach",jQ=512,a1="-",ls="witness",b1="platform",jP=0x7ff0,jO="pitch",gA=": Not a directory",kk=" : file already exists",bl="min",cR="workspace",kj="claim",kX="split",lr="legs",bJ=0xffffff,kW="joint",jM="formulas",jN="0x",ki='the workspace "',kV="roll",lp="nodes",lq="Out_of_memory",jL="psi_max",gz="orientation",kh="angle",eC=254,gy="index out of bounds",kU=100,jK="end",eG="_bigarr02",jJ="%Li",kT=" : flags Open_text and Open_binary are not compatible",b2="drive",kS="coordinates",kg=", characters ",kR="lower_divided",kf="joints",lo="cylinder",bn=0xffff,ke=12520,kd="axis",ln="parallel_margin",jI='the drive "',gm="fails",gt="Unix.Unix_error",lm="infinity",et="tool",gd="mkdir",dz=1000,gc="translational",s="",kQ="Stack_overflow",ll="characteristic_length",gl="^",es=": No such file or directory",kP="places",kO="/static/",cP=0x3f,kN=-97,kL="stiffness",kM="Not_found",dy="planar",eB="mode",lk="joint_speed",kc="Match_failure",jH=", ",jG="transmission",b0="anchor",eF=252,kb="leg",b3=".",bk="+",gs="rmdir",lj=0xf0,li="spherical",ka="verified.ml",j_="REJECTED",j$="%li",kK=1026,bm="max",eE="direction",kJ="orthoglide",lh="rank",lg="constraint_margin",lf=-32,jE="Pervasives.do_at_exit",jF="utf8",gr="test",bH=" ",ex="conditioning",gq="Fatal error: exception ",a9=0x80,jD="Undefined_recursive_module",gk=")",eA="length",le="quantity",kI="joint_range",ez="tilt",jC="Q2",gj="nan",j9="reference",kH="point",j8=0xe0,ld="corner",j6="z",j7=0xdfff,kF="version",kG="_",a8="/",gp="compare: functional value",lc="Assert_failure",j5="provenance",jA="radius",jB="%i",bI="require",kE="side",lb="format",gi="ENOTDIR",kD="Q1",kC="all",ck="box",j4=250;function
+gS(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dv,a-=dv)e+=d.apply(null,c.slice(b,b+Math.min(a,dv)));return e}function
-ez(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=dA,a-=dA)e+=d.apply(null,c.slice(b,b+Math.min(a,dA)));return e}function
+eI(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ez(b);var
+b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gS(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?gS(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eI(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bK(a){return a}function
-bo(a,b,c,d,e){b6(bK(a),b,c,d,e);return 0}function
-x6(b,a){throw[0,b,a]}function
-cU(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bL(a){return a}function
+bq(a,b,c,d,e){b6(bL(a),b,c,d,e);return 0}function
+yD(b,a){throw[0,b,a]}function
+cW(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-cS(a){if(a.t==2)a.c+=cU(a.l-a.c.length,"\0");else
-a.c=gG(a.c,0,a.c.length);a.t=0}function
-lQ(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gd)return false;return true}else
+cU(a){if(a.t==2)a.c+=cW(a.l-a.c.length,"\0");else
+a.c=gS(a.c,0,a.c.length);a.t=0}function
+l7(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gn)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-gI(e){for(var
+gU(e){for(var
 j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jA){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(f<<6);if(f<jS){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(g<<6);if(f<k4){a=g-0xe2080;if(a<kU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bl)c+=String.fromCharCode(0xd7c0+(a>>10),jH+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dv){c.substr(0,1);j+=c;c=s}}return j+c}function
-bm(c,a,b){this.t=c;this.c=a;this.l=b}bm.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:cS(this);case
-0:if(lQ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bm.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return gI(a)};bm.prototype.slice=function(){var
+d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jQ){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(f<<6);if(f<j8){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(g<<6);if(f<lj){a=g-0xe2080;if(a<k$||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bn)c+=String.fromCharCode(0xd7c0+(a>>10),jX+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dA){c.substr(0,1);j+=c;c=s}}return j+c}function
+bo(c,a,b){this.t=c;this.c=a;this.l=b}bo.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:cU(this);case
+0:if(l7(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bo.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return gU(a)};bo.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bm(this.t,a,this.l)};function
-lu(a){return new
-bm(0,a,a.length)}function
-a(a){return lu(a)}function
-gE(c,b){x6(c,a(b))}var
-Z=[0];function
-al(a){gE(Z.Invalid_argument,a)}function
-ls(){al(gn)}function
-$(a,c,b){b&=bJ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ez(a)}a.c[c]=b;return 0}function
-cj(b,a,c){if(a>>>0>=b.l)ls();return $(b,a,c)}function
-cR(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bo(this.t,a,this.l)};function
+lL(a){return new
+bo(0,a,a.length)}function
+a(a){return lL(a)}function
+gQ(c,b){yD(c,a(b))}var
+aa=[0];function
+ao(a){gQ(aa.Invalid_argument,a)}function
+lJ(){ao(gy)}function
+ac(a,c,b){b&=bK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eI(a)}a.c[c]=b;return 0}function
+cl(b,a,c){if(a>>>0>=b.l)lJ();return ac(b,a,c)}function
+cT(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bL(c,a){if(c.fun)return bL(c.fun,a);if(typeof
+bM(c,a){if(c.fun)return bM(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bL(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bM(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bL(c,d)}}function
-dx(){al(gn)}function
-lv(a,b){if(b>>>0>=a.length-1)dx();return a}function
-xw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bN(a){a.t&6&&cS(a);return a.c}var
-yd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-yc(a){if(yd)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bM(c,d)}}function
+dC(){ao(gy)}function
+lM(a,b){if(b>>>0>=a.length-1)dC();return a}function
+x5(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bO(a){a.t&6&&cU(a);return a.c}var
+yM=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+yL(a){if(yM)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gw(c){var
+gI(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-lE=Math.pow(2,-24);function
-x4(a){throw a}function
-lL(){x4(Z.Division_by_zero)}function
-t(b,c,a){this.lo=b&bI;this.mi=c&bI;this.hi=a&bl}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+lV=Math.pow(2,-24);function
+yB(a){throw a}function
+l2(){yB(aa.Division_by_zero)}function
+t(b,c,a){this.lo=b&bJ;this.mi=c&bJ;this.hi=a&bn}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*lE|0)+this.mi*a.lo+this.lo*a.mi,d=(c*lE|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*lV|0)+this.mi*a.lo+this.lo*a.mi,d=(c*lV|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bl);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bI;this.lo=this.lo<<1&bI};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bI;this.mi=(this.mi>>>1|this.hi<<23)&bI;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bn);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bJ;this.lo=this.lo<<1&bJ};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bJ;this.mi=(this.mi>>>1|this.hi<<23)&bJ;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())lL();var
-d=b.hi^a.hi;if(b.hi&bh)b=b.neg();if(a.hi&bh)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bh)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())lL();var
-d=a.hi;if(a.hi&bh)a=a.neg();if(b.hi&bh)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bh)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bJ,this.mi>>16,this.mi>>8&bJ,this.mi&bJ,this.lo>>16,this.lo>>8&bJ,this.lo&bJ]};t.prototype.lo32=function(){return this.lo|(this.mi&bJ)<<24};t.prototype.hi32=function(){return this.mi>>>8&bl|this.hi<<16};function
-eD(b,c,a){return new
+b=this;if(a.isZero())l2();var
+d=b.hi^a.hi;if(b.hi&bj)b=b.neg();if(a.hi&bj)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bj)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())l2();var
+d=a.hi;if(a.hi&bj)a=a.neg();if(b.hi&bj)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bj)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bK,this.mi>>16,this.mi>>8&bK,this.mi&bK,this.lo>>16,this.lo>>8&bK,this.lo&bK]};t.prototype.lo32=function(){return this.lo|(this.mi&bK)<<24};t.prototype.hi32=function(){return this.mi>>>8&bn|this.hi<<16};function
+eM(b,c,a){return new
 t(b,c,a)}function
-eC(a){if(!isFinite(a)){if(isNaN(a))return eD(1,0,jz);return a>0?eD(0,0,jz):eD(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bh:a>=0?0:bh;if(f)a=-a;var
-b=yc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ku)}else{a/=Math.pow(2,b-le);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+eL(a){if(!isFinite(a)){if(isNaN(a))return eM(1,0,jP);return a>0?eM(0,0,jP):eM(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bj:a>=0?0:bj;if(f)a=-a;var
+b=yL(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kK)}else{a/=Math.pow(2,b-lw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gk|f|b<<4;return eD(g,e,c)}function
-dA(a){return a.toArray()}function
-lr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ex)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bl)c.write(16,b.dims[a]);else{c.write(16,bl);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&gv|f|b<<4;return eM(g,e,c)}function
+dF(a){return a.toArray()}function
+lI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eG)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bn)c.write(16,b.dims[a]);else{c.write(16,bn);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dA(b.get(a));for(var
+e=dF(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dA(eC(b.get(a)));for(var
+e=dF(eL(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gw(b.get(a));c.write(32,e)}break;case
+e=gI(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gw(d[1]));c.write(32,gw(d[2]))}break;case
+d=b.get(a);c.write(32,gI(d[1]));c.write(32,gI(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dA(eC(f[1]));for(var
+f=b.get(a),e=dF(eL(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dA(eC(f[2]));for(var
+e=dF(eL(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lp(a){switch(a){case
+lG(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-xq(c,e){var
+xZ(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,44 +178,44 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)al("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)ao("Bigarray.create: unsupported kind");var
 d=new
-a(e*lp(c));return d}function
-gx(c){var
+a(e*lG(c));return d}function
+gJ(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dz(a){return new
+dE(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gy(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gk)==0?b&bh?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gk);if(c>0){a+=16;a*=Math.pow(2,c-le)}else
-a*=Math.pow(2,-ku);if(b&bh)a=-a;return a}function
-gr(b){var
+gK(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gv)==0?b&bj?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gv);if(c>0){a+=16;a*=Math.pow(2,c-lw)}else
+a*=Math.pow(2,-kK);if(b&bj)a=-a;return a}function
+gD(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)al("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-xH(b,a){return new
-t(b&bI,b>>>24&bJ|(a&bl)<<8,a>>>16&bl)}function
-gz(a){return a.hi32()}function
-gA(a){return a.lo32()}var
-xr=ex;function
-b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=xr;b5.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)ao("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+ye(b,a){return new
+t(b&bJ,b>>>24&bK|(a&bn)<<8,a>>>16&bn)}function
+gL(a){return a.hi32()}function
+gM(a){return a.lo32()}var
+x0=eG;function
+b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=x0;b5.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))al("bigarray.js: invalid offset");if(this.dims.length!=b.length)al("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dx();c=c*this.dims[a]+b[a]}else
+Array))ao("bigarray.js: invalid offset");if(this.dims.length!=b.length)ao("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dC();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dx();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dC();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return xH(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return ye(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[et,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gA(b);this.data[a*2+1]=gz(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eC,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gM(b);this.data[a*2+1]=gL(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b5.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gA(b),e=gz(b);if(c==e)this.data.fill(c);else
+c=gM(b),e=gL(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-cQ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cQ.prototype=new
-b5();cQ.prototype.offset=function(a){if(typeof
+cS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cS.prototype=new
+b5();cS.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-al("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dx();return a};cQ.prototype.get=function(a){return this.data[a]};cQ.prototype.set=function(a,b){this.data[a]=b;return 0};cQ.prototype.fill=function(a){this.data.fill(a);return 0};function
-ln(c,d,a,b){var
-e=lp(c);if(gr(a)*e!=b.length)al("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-cQ(c,d,a,b);return new
+ao("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dC();return a};cS.prototype.get=function(a){return this.data[a]};cS.prototype.set=function(a,b){this.data[a]=b;return 0};cS.prototype.fill=function(a){this.data.fill(a);return 0};function
+lE(c,d,a,b){var
+e=lG(c);if(gD(a)*e!=b.length)ao("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+cS(c,d,a,b);return new
 b5(c,d,a,b)}function
-a_(b){if(!Z.Failure)Z.Failure=[ak,a(f7),-3];gE(Z.Failure,b)}function
-lo(b,v,r){var
+a_(b){if(!aa.Failure)aa.Failure=[am,a(gf),-3];gQ(aa.Failure,b)}function
+lF(b,v,r){var
 i=b.read32s();if(i<0||i>16)a_("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bJ,o=p>>8&1,h=[];if(r==ex)for(var
+p=b.read32s(),j=p&bK,o=p>>8&1,h=[];if(r==eG)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bl){var
+n=b.read16u();if(n==bn){var
 t=b.read32u(),u=b.read32u();if(t!=0)a_("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gr(h),f=xq(j,d),g=ln(j,o,h,f);switch(j){case
+d=gD(h),f=xZ(j,d),g=lE(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,122 +282,122 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dz(e);g.set(a,q)}break;case
+q=dE(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gy(dz(e));g.set(a,k)}break;case
+k=gK(dE(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gx(b.read32s());g.set(a,k)}break;case
+k=gJ(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gx(b.read32s()),l=gx(b.read32s());g.set(a,[et,m,l])}break;case
+m=gJ(b.read32s()),l=gJ(b.read32s());g.set(a,[eC,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gy(dz(e));for(var
+m=gK(dE(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gy(dz(e));g.set(a,[et,m,l])}break}v[0]=(4+i)*4;return ln(j,o,h,f)}function
-lm(a,b,c){return a.compare(b,c)}function
-lI(a,b){return Math.imul(a,b)}function
-bM(b,a){a=lI(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lI(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-xD(a,b){a=bM(a,gA(b));a=bM(a,gz(b));return a}function
-lD(a,b){return xD(a,eC(b))}function
-lq(c){var
-b=gr(c.dims),d=0;switch(c.kind){case
+l=gK(dE(e));g.set(a,[eC,m,l])}break}v[0]=(4+i)*4;return lE(j,o,h,f)}function
+lD(a,b,c){return a.compare(b,c)}function
+lZ(a,b){return Math.imul(a,b)}function
+bN(b,a){a=lZ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lZ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+ya(a,b){a=bN(a,gM(b));a=bN(a,gL(b));return a}function
+lU(a,b){return ya(a,eL(b))}function
+lH(c){var
+b=gD(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>kS)b=kS;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bM(d,e)}e=0;switch(b&3){case
+12:if(b>k9)b=k9;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bN(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bM(d,e)}break;case
+1:e|=c.data[a+0];d=bN(d,e)}break;case
 4:case
-5:if(b>dw)b=dw;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bM(d,e)}if((b&1)!=0)d=bM(d,c.data[a]);break;case
+5:if(b>dB)b=dB;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bN(d,e)}if((b&1)!=0)d=bN(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bN(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bN(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bN(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=lD(d,c.data[a]);break;case
+a=0;a<b;a++)d=lU(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=lD(d,c.data[a]);break}return d}function
-xF(a,b){b[0]=4;return a.read32s()}function
-x1(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=lU(d,c.data[a]);break}return d}function
+yc(a,b){b[0]=4;return a.read32s()}function
+yy(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:a_("input_value: native integer value too large");default:a_("input_value: ill-formed native integer")}}function
-xQ(c,d){var
+yn(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dz(b)}function
-xM(e,d,b){var
-c=dA(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dE(b)}function
+yj(e,d,b){var
+c=dF(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-xG(a,b,c){return a.compare(b)}function
-xJ(a){return a.lo32()^a.hi32()}var
-ly={"_j":{deserialize:xQ,serialize:xM,fixed_length:8,compare:xG,hash:xJ},"_i":{deserialize:xF,fixed_length:4},"_n":{deserialize:x1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lo(a,b,"_bigarray")},serialize:lr,compare:lm,hash:lq},"_bigarr02":{deserialize:function(a,b){return lo(a,b,ex)},serialize:lr,compare:lm,hash:lq}};function
-gt(a){return ly[a.caml_custom]&&ly[a.caml_custom].compare}function
-lw(f,c,d,e){var
-b=gt(c);if(b){var
+yd(a,b,c){return a.compare(b)}function
+yg(a){return a.lo32()^a.hi32()}var
+lP={"_j":{deserialize:yn,serialize:yj,fixed_length:8,compare:yd,hash:yg},"_i":{deserialize:yc,fixed_length:4},"_n":{deserialize:yy,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lF(a,b,"_bigarray")},serialize:lI,compare:lD,hash:lH},"_bigarr02":{deserialize:function(a,b){return lF(a,b,eG)},serialize:lI,compare:lD,hash:lH}};function
+gF(a){return lP[a.caml_custom]&&lP[a.caml_custom].compare}function
+lN(f,c,d,e){var
+b=gF(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eE(a){return a
+eN(a){return a
 instanceof
-bm}function
-gC(a){return eE(a)}function
-lx(a){if(typeof
-a==="number")return du;else
-if(eE(a))return ew;else
-if(gC(a))return 1252;else
+bo}function
+gO(a){return eN(a)}function
+lO(a){if(typeof
+a==="number")return dz;else
+if(eN(a))return eF;else
+if(gO(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=jN){var
-b=a[0]|0;return b==et?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=j3){var
+b=a[0]|0;return b==eC?0:b}else
 if(a
 instanceof
-String)return j0;else
+String)return ke;else
 if(typeof
-a=="string")return j0;else
+a=="string")return ke;else
 if(a
 instanceof
-Number)return du;else
-if(a&&a.caml_custom)return f9;else
+Number)return dz;else
+if(a&&a.caml_custom)return gh;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-xR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-lt(a,b){a.t&6&&cS(a);b.t&6&&cS(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-yh(a,b){return lt(a,b)}function
-gs(a,b,d){var
+yo(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+lK(a,b){a.t&6&&cU(a);b.t&6&&cU(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+yQ(a,b){return lK(a,b)}function
+gE(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=lx(a);if(f==jO){a=a[1];continue}var
-g=lx(b);if(g==jO){b=b[1];continue}if(f!==g){if(f==du){if(g==f9)return lw(a,b,-1,d);return-1}if(g==du){if(f==f9)return lw(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:al(gf);break;case
+f=lO(a);if(f==j4){a=a[1];continue}var
+g=lO(b);if(g==j4){b=b[1];continue}if(f!==g){if(f==dz){if(g==gh)return lN(a,b,-1,d);return-1}if(g==dz){if(f==gh)return lN(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ao(gp);break;case
 248:var
-c=xR(a[2],b[2]);if(c!=0)return c|0;break;case
-249:al(gf);break;case
-250:al("equal: got Forward_tag, should not happen");break;case
-251:al("equal: abstract value");break;case
+c=yo(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ao(gp);break;case
+250:ao("equal: got Forward_tag, should not happen");break;case
+251:ao("equal: abstract value");break;case
 252:if(a!==b){var
-c=lt(a,b);if(c!=0)return c|0}break;case
-253:al("equal: got Double_tag, should not happen");break;case
-254:al("equal: got Double_array_tag, should not happen");break;case
-255:al("equal: got Custom_tag, should not happen");break;case
-1247:al(gf);break;case
+c=lK(a,b);if(c!=0)return c|0}break;case
+253:ao("equal: got Double_tag, should not happen");break;case
+254:ao("equal: got Double_array_tag, should not happen");break;case
+255:ao("equal: got Custom_tag, should not happen");break;case
+1247:ao(gp);break;case
 1255:var
-i=gt(a);if(i!=gt(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)al("compare: abstract value");var
+i=gF(a);if(i!=gF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ao("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bN(a),b=bN(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bO(a),b=bO(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-xx(a,b){return gs(a,b,true)}function
-xy(){return[0]}function
-ae(a){if(a<0)al("Bytes.create");return new
-bm(a?2:9,s,a)}function
-lz(a,b){return+(gs(a,b,false)==0)}function
-xA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cU(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ez(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-gD(d){d=bN(d);var
-e=d.length;if(e>31)al("format_int: format too long");var
-a={justify:bi,signstyle:a0,filler:bG,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+x6(a,b){return gE(a,b,true)}function
+x7(){return[0]}function
+ag(a){if(a<0)ao("Bytes.create");return new
+bo(a?2:9,s,a)}function
+lQ(a,b){return+(gE(a,b,false)==0)}function
+x9(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eI(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+gP(d){d=bO(d);var
+e=d.length;if(e>31)ao("format_int: format too long");var
+a={justify:bk,signstyle:a1,filler:bH,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a0;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aF;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gu(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a0))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bi&&b.filler==bG)for(var
-d=e;d<b.width;d++)c+=bG;if(b.signedconv)if(b.sign<0)c+=a0;else
-if(b.signstyle!=a0)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aF;if(b.alternate&&b.base==16)c+=jx;if(b.justify==bi&&b.filler==aF)for(var
-d=e;d<b.width;d++)c+=aF;c+=f;if(b.justify==a0)for(var
-d=e;d<b.width;d++)c+=bG;return a(c)}function
-gv(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a1;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+gG(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a1))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bk&&b.filler==bH)for(var
+d=e;d<b.width;d++)c+=bH;if(b.signedconv)if(b.sign<0)c+=a1;else
+if(b.signstyle!=a1)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jN;if(b.justify==bk&&b.filler==aG)for(var
+d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a1)for(var
+d=e;d<b.width;d++)c+=bH;return a(c)}function
+gH(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bi)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aF);if(b>0)a=a+b3+new
-Array(b+1).join(aF);return a}else
+c=parseInt(a.toString().split(bk)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aG);if(b>0)a=a+b3+new
+Array(b+1).join(aG);return a}else
 return a.toFixed(b)}}var
-a,e=gD(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=f$;e.filler=bG}else
-if(!isFinite(c)){a="inf";e.filler=bG}else
+a,e=gP(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gj;e.filler=bH}else
+if(!isFinite(c)){a="inf";e.filler=bH}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gq),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gB)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gB),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gB)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gu(e,a)}function
-eA(e,c){if(bN(e)==gj)return a(s+c);var
-b=gD(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gG(e,a)}function
+eJ(e,c){if(bO(e)==gu)return a(s+c);var
+b=gP(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bG;var
-f=b.prec-d.length;if(f>0)d=cU(f,aF)+d}return gu(b,d)}var
-x2=0;function
-eB(){return x2++}function
-xU(a){return a.toUtf16()}function
-dC(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bH;var
+f=b.prec-d.length;if(f>0)d=cW(f,aG)+d}return gG(b,d)}var
+yz=0;function
+eK(){return yz++}function
+yr(a){return a.toUtf16()}function
+dH(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-ye(){function
+yN(){function
 a(a){if(a.charAt(0)===a8)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dC()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-gL=ye();function
-lO(a){return a.slice(-1)!==a8?a+a8:a}if(dC()&&u.process&&u.process.cwd)var
-dy=u.process.cwd().replace(/\\/g,a8);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dH()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+gY=yN();function
+l5(a){return a.slice(-1)!==a8?a+a8:a}if(dH()&&u.process&&u.process.cwd)var
+dD=u.process.cwd().replace(/\\/g,a8);else
 var
-dy="/static";dy=lO(dy);function
-xV(a){a=xU(a);if(!gL(a))a=dy+a;var
-e=gL(a),d=e[1].split(a8),b=[];for(var
+dD="/static";dD=l5(dD);function
+ys(a){a=yr(a);if(!gY(a))a=dD+a;var
+e=gY(a),d=e[1].split(a8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-x_(e){for(var
+yH(e){for(var
 f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jA){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<kU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cN)}else
-if(a<0xd800||a>=jR)b+=String.fromCharCode(jS|a>>12,a9|a>>6&cN,a9|a&cN);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jH||h>jR)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(k4|a>>18,a9|a>>12&cN,a9|a>>6&cN,a9|a&cN)}if(b.length>dv){b.substr(0,1);f+=b;b=s}}return f+b}function
-xv(a){var
-b=9;if(!lQ(a))b=8,a=x_(a);return new
-bm(b,a,a.length)}function
-a$(a){return xv(a)}var
-yg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jE,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gl,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",f_,kP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cm(d,f,e,a){var
-b=yg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jQ){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<k$){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cP)}else
+if(a<0xd800||a>=j7)b+=String.fromCharCode(j8|a>>12,a9|a>>6&cP,a9|a&cP);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jX||h>j7)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lj|a>>18,a9|a>>12&cP,a9|a>>6&cP,a9|a&cP)}if(b.length>dA){b.substr(0,1);f+=b;b=s}}return f+b}function
+x4(a){var
+b=9;if(!l7(a))b=8,a=yH(a);return new
+bo(b,a,a.length)}function
+a$(a){return x4(a)}var
+yP=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jU,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gw,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gi,k6,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+co(d,f,e,a){var
+b=yP.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,a$(f||s),a$(e||s)];return c}var
-lJ={};function
-ck(a){return lJ[a]}function
-cl(b,a){throw[0,b].concat(a)}function
-xu(a){return new
-bm(4,a,a.length)}function
-F(a){gE(Z.Sys_error,a)}function
-x5(a){F(a+el)}function
-xt(b,a){if(a>>>0>=b.l)ls();return cR(b,a)}function
-aO(a){return a.l}function
-ll(){}function
-ap(a){this.data=a}ap.prototype=new
-ll();ap.prototype.truncate=function(a){var
-b=this.data;this.data=ae(a|0);b6(b,0,this.data,0,a)};ap.prototype.length=function(){return aO(this.data)};ap.prototype.write=function(b,d,g,a){var
+l0={};function
+cm(a){return l0[a]}function
+cn(b,a){throw[0,b].concat(a)}function
+x3(a){return new
+bo(4,a,a.length)}function
+K(a){gQ(aa.Sys_error,a)}function
+yC(a){K(a+es)}function
+x2(b,a){if(a>>>0>=b.l)lJ();return cT(b,a)}function
+aQ(a){return a.l}function
+lC(){}function
+as(a){this.data=a}as.prototype=new
+lC();as.prototype.truncate=function(a){var
+b=this.data;this.data=ag(a|0);b6(b,0,this.data,0,a)};as.prototype.length=function(){return aQ(this.data)};as.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ae(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bo(d,g,this.data,b,a);return 0};ap.prototype.read=function(c,a,d,b){var
-e=this.length();b6(this.data,c,a,d,b);return 0};ap.prototype.read_one=function(a){return xt(this.data,a)};ap.prototype.close=function(){};ap.prototype.constructor=ap;function
-aG(b,a){this.content={};this.root=b;this.lookupFun=a}aG.prototype.nm=function(a){return this.root+a};aG.prototype.create_dir_if_needed=function(d){var
+e=ag(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bq(d,g,this.data,b,a);return 0};as.prototype.read=function(c,a,d,b){var
+e=this.length();b6(this.data,c,a,d,b);return 0};as.prototype.read_one=function(a){return x2(this.data,a)};as.prototype.close=function(){};as.prototype.constructor=as;function
+aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
 c=d.split(a8),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aG.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aG.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ap(bK(c[1]))}}};aG.prototype.exists=function(a){if(a==s)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aG.prototype.mkdir=function(c,e,d){var
-b=d&&ck(gi);if(this.exists(c))if(b)cl(b,cm(jE,f4,this.nm(c)));else
-F(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cl(b,cm(gl,f4,this.nm(a)));else
-F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,f4,this.nm(a)));else
-F(a+gp);this.create_dir_if_needed(this.slash(c))};aG.prototype.rmdir=function(a,f){var
-b=f&&ck(gi),c=a==s?s:this.slash(a),e=new
-RegExp(gb+c+kQ);if(!this.exists(a))if(b)cl(b,cm(gl,gh,this.nm(a)));else
-F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,gh,this.nm(a)));else
-F(a+gp);for(var
+as(bL(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
+b=d&&cm(gt);if(this.exists(c))if(b)cn(b,co(jU,gd,this.nm(c)));else
+K(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cn(b,co(gw,gd,this.nm(a)));else
+K(a+es);if(!this.is_dir(a))if(b)cn(b,co(gi,gd,this.nm(a)));else
+K(a+gA);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
+b=f&&cm(gt),c=a==s?s:this.slash(a),e=new
+RegExp(gl+c+k7);if(!this.exists(a))if(b)cn(b,co(gw,gs,this.nm(a)));else
+K(a+es);if(!this.is_dir(a))if(b)cn(b,co(gi,gs,this.nm(a)));else
+K(a+gA);for(var
 d
 in
-this.content)if(d.match(e))if(b)cl(b,cm(kP,gh,this.nm(a)));else
-F(this.nm(a)+": Directory not empty");delete
-this.content[c]};aG.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))F(a+el);if(!this.is_dir(a))F(a+gp);var
+this.content)if(d.match(e))if(b)cn(b,co(k6,gs,this.nm(a)));else
+K(this.nm(a)+": Directory not empty");delete
+this.content[c]};aH.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))K(a+es);if(!this.is_dir(a))K(a+gA);var
 g=new
-RegExp(gb+f+kQ),d={},c=[];for(var
+RegExp(gl+f+k7),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aG.prototype.is_dir=function(a){if(a==s)return true;var
-b=this.slash(a);return this.content[b]?1:0};aG.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aG.prototype.open=function(a,b){if(b.rdonly&&b.wronly)F(this.nm(a)+j6);if(b.text&&b.binary)F(this.nm(a)+kD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))F(this.nm(a)+" : is a directory");if(b.create&&b.excl)F(this.nm(a)+j5);var
+this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)K(this.nm(a)+kl);if(b.text&&b.binary)K(this.nm(a)+kT);this.lookup(a);if(this.content[a]){if(this.is_dir(a))K(this.nm(a)+" : is a directory");if(b.create&&b.excl)K(this.nm(a)+kk);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ap(ae(0));return this.content[a]}else
-x5(this.nm(a))};aG.prototype.register=function(c,a){var
-b;if(this.content[c])F(this.nm(c)+j5);if(eE(a))b=new
-ap(a);if(gC(a))b=new
-ap(bK(a));else
+as(ag(0));return this.content[a]}else
+yC(this.nm(a))};aH.prototype.register=function(c,a){var
+b;if(this.content[c])K(this.nm(c)+kk);if(eN(a))b=new
+as(a);if(gO(a))b=new
+as(bL(a));else
 if(a
 instanceof
 Array)b=new
-ap(xu(a));else
+as(x3(a));else
 if(typeof
 a==="string")b=new
-ap(lu(a));else
+as(lL(a));else
 if(a.toString){var
-d=bK(a$(a.toString()));b=new
-ap(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-F(this.nm(c)+" : registering file with invalid content type")};aG.prototype.constructor=aG;function
-y(a){return aO(a)}function
-bq(b,a){return cR(b,a)}function
-xp(d){var
+d=bL(a$(a.toString()));b=new
+as(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+K(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
+y(a){return aQ(a)}function
+bs(b,a){return cT(b,a)}function
+xY(d){var
 c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bq(d,a);return b}function
-xo(a){if(a.t!=4)ez(a);return a.c}function
-bn(a){this.fs=require("fs");this.fd=a}bn.prototype=new
-ll();bn.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){F(a.toString())}};bn.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){F(a.toString())}};bn.prototype.write=function(f,b,c,e){var
-a=xp(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=bs(d,a);return b}function
+xX(a){if(a.t!=4)eI(a);return a.c}function
+bp(a){this.fs=require("fs");this.fd=a}bp.prototype=new
+lC();bp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){K(a.toString())}};bp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){K(a.toString())}};bp.prototype.write=function(f,b,c,e){var
+a=xY(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){F(a.toString())}return 0};bn.prototype.read=function(g,d,c,f){var
-a=xo(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){K(a.toString())}return 0};bp.prototype.read=function(g,d,c,f){var
+a=xX(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){F(a.toString())}for(var
-b=0;b<f;b++)cj(d,c+b,e[c+b]);return 0};bn.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){F(a.toString())}return a[0]};bn.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){F(a.toString())}};bn.prototype.constructor=bn;function
-aq(a){this.fs=require("fs");this.root=a}aq.prototype.nm=function(a){return this.root+a};aq.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aq.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){F(a.toString())}};aq.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){K(a.toString())}for(var
+b=0;b<f;b++)cl(d,c+b,e[c+b]);return 0};bp.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){K(a.toString())}return a[0]};bp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){K(a.toString())}};bp.prototype.constructor=bp;function
+at(a){this.fs=require("fs");this.root=a}at.prototype.nm=function(a){return this.root+a};at.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};at.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){K(a.toString())}};at.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bn(d)}catch(a){this.raise_nodejs_error(a,g)}};aq.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jp);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.raise_nodejs_error=function(a,d){var
-b=ck(gi);if(d&&b){var
-c=cm(a.code,a.syscall,a.path,a.errno);cl(b,c)}else
-F(a.toString())};aq.prototype.stats_from_js=function(a){var
+bp(d)}catch(a){this.raise_nodejs_error(a,g)}};at.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),jF);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.raise_nodejs_error=function(a,d){var
+b=cm(gt);if(d&&b){var
+c=co(a.code,a.syscall,a.path,a.errno);cn(b,c)}else
+K(a.toString())};at.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aq.prototype.constructor=aq;function
-lC(b){var
-a=gL(b);if(!a)return;return a[0]+a8}var
-eG=lC(dy)||a_("unable to compute caml_root"),cV=[];if(dC())cV.push({path:eG,device:new
-aq(eG)});else
-cV.push({path:eG,device:new
-aG(eG)});cV.push({path:ky,device:new
-aG(ky)});function
-lV(b){var
-g=xV(b),b=g.join(a8),f=lO(b),c;for(var
-e=0;e<cV.length;e++){var
-a=cV[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dC()){var
-d=lC(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};at.prototype.constructor=at;function
+lT(b){var
+a=gY(b);if(!a)return;return a[0]+a8}var
+eP=lT(dD)||a_("unable to compute caml_root"),cX=[];if(dH())cX.push({path:eP,device:new
+at(eP)});else
+cX.push({path:eP,device:new
+aH(eP)});cX.push({path:kO,device:new
+aH(kO)});function
+l$(b){var
+g=ys(b),b=g.join(a8),f=l5(b),c;for(var
+e=0;e<cX.length;e++){var
+a=cX[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dH()){var
+d=lT(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aq(d)};cV.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;F("no device found for "+f)}function
-xz(c,b){var
-a=lV(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
-lP(c,b){var
-c=a(c),b=a(b);return xz(c,b)}function
-xC(){var
+at(d)};cX.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;K("no device found for "+f)}function
+x8(c,b){var
+a=l$(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
+l6(c,b){var
+c=a(c),b=a(b);return x8(c,b)}function
+x$(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)lP(b[a].name,b[a].content);u.jsoo_create_file=lP;u.caml_fs_tmp=[];return 0}function
-lB(){return[0]}function
-xE(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(f$);return a$(a>0?k7:"-infinity")}var
+a=0;a<b.length;a++)l6(b[a].name,b[a].content);u.jsoo_create_file=l6;u.caml_fs_tmp=[];return 0}function
+lS(){return[0]}function
+yb(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(gj);return a$(a>0?lm:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bi,e=s;if(i)e=a0;else
+j=d<0?s:bk,e=s;if(i)e=a1;else
 switch(k){case
-43:e=bi;break;case
-32:e=bG;break;default:break}if(c>=0&&c<13){var
+43:e=bk;break;case
+32:e=bH;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b3);if(h<0)b+=b3+cU(c,aF);else{var
-f=h+1+c;if(b.length<f)b+=cU(f-b.length,aF);else
-b=b.substr(0,f)}}return a$(e+jx+b+"p"+j+d.toString(10))}function
-xL(a){return+a.isZero()}function
-xO(a){return new
-t(a&bI,a>>24&bI,a>>31&bl)}function
-xP(a){return a.toInt()}function
-xK(a){return+a.isNeg()}function
-xN(a){return a.neg()}function
-xI(g,c){var
-a=gD(g);if(a.signedconv&&xK(c)){a.sign=-1;c=xN(c)}var
-b=s,h=xO(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(xP(e.modulus))+b}while(!xL(c));if(a.prec>=0){a.filler=bG;var
-d=a.prec-b.length;if(d>0)b=cU(d,aF)+b}return gu(a,b)}function
-x3(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bq(c,a)){case
+h=b.indexOf(b3);if(h<0)b+=b3+cW(c,aG);else{var
+f=h+1+c;if(b.length<f)b+=cW(f-b.length,aG);else
+b=b.substr(0,f)}}return a$(e+jN+b+"p"+j+d.toString(10))}function
+yi(a){return+a.isZero()}function
+yl(a){return new
+t(a&bJ,a>>24&bJ,a>>31&bn)}function
+ym(a){return a.toInt()}function
+yh(a){return+a.isNeg()}function
+yk(a){return a.neg()}function
+yf(g,c){var
+a=gP(g);if(a.signedconv&&yh(c)){a.sign=-1;c=yk(c)}var
+b=s,h=yl(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(ym(e.modulus))+b}while(!yi(c));if(a.prec>=0){a.filler=bH;var
+d=a.prec-b.length;if(d>0)b=cW(d,aG)+b}return gG(a,b)}function
+yA(c){var
+a=0,e=y(c),b=10,d=1;if(e>0)switch(bs(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bq(c,a)==48)switch(bq(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bs(c,a)==48)switch(bs(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bq(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-lK(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lg)return a-87;return-1}function
-gB(f){var
-h=x3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bq(f,c):0,b=lK(e);if(b<0||b>=d)a_(en);var
-a=b;for(c++;c<g;c++){e=bq(f,c);if(e==95)continue;b=lK(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(en)}if(c!=g)a_(en);a=i*a;if(d==10&&(a|0)!=a)a_(en);return a|0}function
-xT(d){return function(){var
+l1(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ly)return a-87;return-1}function
+gN(f){var
+h=yA(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bs(f,c):0,b=l1(e);if(b<0||b>=d)a_(eu);var
+a=b;for(c++;c<g;c++){e=bs(f,c);if(e==95)continue;b=l1(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(eu)}if(c!=g)a_(eu);a=i*a;if(d==10&&(a|0)!=a)a_(eu);return a|0}function
+yq(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bL(d,c)}else
-return bL(d,[undefined])}}function
-xW(a,d){if(a<0)dx();var
+a=0;a<b;a++)c[a]=arguments[a];return bM(d,c)}else
+return bM(d,[undefined])}}function
+yt(a,d){if(a<0)dC();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-xX(){return 0}var
-bp=new
+yu(){return 0}var
+br=new
 Array();function
-cT(c){var
-a=bp[c];if(!a.opened)F("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&Z.fds[a.fd]&&Z.fds[a.fd].output){var
-b=Z.fds[a.fd].output;switch(b.length){case
+cV(c){var
+a=br[c];if(!a.opened)K("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&aa.fds[a.fd]&&aa.fds[a.fd].output){var
+b=aa.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-lN(e,f){var
-b=bp[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-x$(a){var
-a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+l4(e,f){var
+b=br[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+yI(a){var
+a=gU(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-ya(a){var
-a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+yJ(a){var
+a=gU(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-eH(c,e,d,a){if(Z.fds===undefined)Z.fds=new
+eQ(c,e,d,a){if(aa.fds===undefined)aa.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;Z.fds[c]=b;if(!Z.fd_last_idx||c>Z.fd_last_idx)Z.fd_last_idx=c;return c}function
-yi(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aa.fds[c]=b;if(!aa.fd_last_idx||c>aa.fd_last_idx)aa.fd_last_idx=c;return c}function
+yR(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,377 +687,377 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)F(bN(c)+j6);if(a.text&&a.binary)F(bN(c)+kD);var
-d=lV(c),e=d.device.open(d.rest,a),f=Z.fd_last_idx?Z.fd_last_idx:0;return eH(f+1,lN,e,a)}eH(0,lN,new
-ap(ae(0)));eH(1,ya,new
-ap(ae(0)));eH(2,x$,new
-ap(ae(0)));function
-xY(a){var
-c=Z.fds[a];if(c.flags.wronly)F(lf+a+" is writeonly");var
-d=null;if(a==0&&dC()){var
-e=require("fs");d=function(){return a$(e.readFileSync(0,jp))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bp[b.fd]=b;return b.fd}function
-lF(c){var
-b=Z.fds[c];if(b.flags.rdonly)F(lf+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bp[a.fd]=a;return a.fd}function
-xZ(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)K(bO(c)+kl);if(a.text&&a.binary)K(bO(c)+kT);var
+d=l$(c),e=d.device.open(d.rest,a),f=aa.fd_last_idx?aa.fd_last_idx:0;return eQ(f+1,l4,e,a)}eQ(0,l4,new
+as(ag(0)));eQ(1,yJ,new
+as(ag(0)));eQ(2,yI,new
+as(ag(0)));function
+yv(a){var
+c=aa.fds[a];if(c.flags.wronly)K(lx+a+" is writeonly");var
+d=null;if(a==0&&dH()){var
+e=require("fs");d=function(){return a$(e.readFileSync(0,jF))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};br[b.fd]=b;return b.fd}function
+lW(c){var
+b=aa.fds[c];if(b.flags.rdonly)K(lx+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};br[a.fd]=a;return a.fd}function
+yw(){var
 b=0;for(var
-a=0;a<bp.length;a++)if(bp[a]&&bp[a].opened&&bp[a].out)b=[0,bp[a].fd,b];return b}function
-aA(a){return a}function
-x0(g,d,h,f){var
-b=bp[g];if(!b.opened)F("Cannot output to a closed channel");var
-a;if(h==0&&aO(d)==f)a=d;else{a=ae(f);b6(d,h,a,0,f)}var
-i=aA(a),c=bN(i),e=c.lastIndexOf(jI);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cT(g);b.buffer+=c.substr(e+1)}return 0}function
-lG(b,a,d,c){return x0(b,bK(a),d,c)}function
-lH(c,b){var
-d=a(String.fromCharCode(b));lG(c,d,0,1);return 0}function
-dB(a,b){return+(gs(a,b,false)!=0)}function
-eF(a){if(a
+a=0;a<br.length;a++)if(br[a]&&br[a].opened&&br[a].out)b=[0,br[a].fd,b];return b}function
+aC(a){return a}function
+yx(g,d,h,f){var
+b=br[g];if(!b.opened)K("Cannot output to a closed channel");var
+a;if(h==0&&aQ(d)==f)a=d;else{a=ag(f);b6(d,h,a,0,f)}var
+i=aC(a),c=bO(i),e=c.lastIndexOf(jY);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cV(g);b.buffer+=c.substr(e+1)}return 0}function
+lX(b,a,d,c){return yx(b,bL(a),d,c)}function
+lY(c,b){var
+d=a(String.fromCharCode(b));lX(c,d,0,1);return 0}function
+dG(a,b){return+(gE(a,b,false)!=0)}function
+eO(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eE(a))return ew;else
-if(gC(a))return ew;else
+if(eN(a))return eF;else
+if(gO(a))return eF;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return jN;else
-return du}function
-a1(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);Z[b+1]=c;if(a)Z[a]=c}function
-gF(a,b){lJ[bN(a)]=b;return 0}function
-xs(a,b){if(a===b)return 1;a.t&6&&cS(a);b.t&6&&cS(b);return a.c==b.c?1:0}function
-av(a,b){return xs(a,b)}function
-x8(){al(gn)}function
-G(b,a){if(a>>>0>=y(b))x8();return bq(b,a)}function
-k(a,b){return 1-av(a,b)}function
-x9(){return 0x7FFFFFFF/4|0}function
-gH(a){var
+if(a&&a.caml_custom)return j3;else
+return dz}function
+a2(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);aa[b+1]=c;if(a)aa[a]=c}function
+gR(a,b){l0[bO(a)]=b;return 0}function
+x1(a,b){if(a===b)return 1;a.t&6&&cU(a);b.t&6&&cU(b);return a.c==b.c?1:0}function
+az(a,b){return x1(a,b)}function
+yF(){ao(gy)}function
+L(b,a){if(a>>>0>=y(b))yF();return bs(b,a)}function
+j(a,b){return 1-az(a,b)}function
+yG(){return 0x7FFFFFFF/4|0}function
+gT(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-ar(b,a){return{joo_tramp:b,joo_args:a}}function
-lM(a){return a}function
-eI(a){if(a
+au(b,a){return{joo_tramp:b,joo_args:a}}function
+l3(a){return a}function
+eR(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return lM(Z.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return l3(aa.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return lM(Z.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return l3(aa.Stack_overflow);if(a
 instanceof
-u.Error&&ck(f8))return[0,ck(f8),a];return[0,Z.Failure,a$(String(a))]}function
-eJ(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-lR(a,b){return a<b?-1:a>b?1:0}function
-lS(c,b){var
-a=c%b;return a<0?a+eJ(b):a}function
-gJ(a,b){return(a-lS(a,b))/b}function
-as(a,b){return a==b?1:0}function
-B(a,b){return a<=b?1:0}function
-af(a,b){return a<b?1:0}function
+u.Error&&cm(gg))return[0,cm(gg),a];return[0,aa.Failure,a$(String(a))]}function
+eS(a){return a<0?-a:a}function
+A(a,b){return a+b}function
+gV(a,b){return a<b?-1:a>b?1:0}function
+l8(c,b){var
+a=c%b;return a<0?a+eS(b):a}function
+gW(a,b){return(a-l8(a,b))/b}function
+av(a,b){return a==b?1:0}function
+C(a,b){return a<=b?1:0}function
+ad(a,b){return a<b?1:0}function
 n(a,b){return a*b}function
-N(a){return-a}function
-aP(a){return u.BigInt(a)}function
-lT(a,b){return a<<u.BigInt(b)}function
-lU(a,b){return a>>u.BigInt(b)}function
-br(a){return a<0?-1:a>0?1:0}function
-yf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+P(a){return-a}function
+aR(a){return u.BigInt(a)}function
+l9(a,b){return a<<u.BigInt(b)}function
+l_(a,b){return a>>u.BigInt(b)}function
+bt(a){return a<0?-1:a>0?1:0}function
+yO(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 b7(a,b){return a-b}function
-gK(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-xS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-xB(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&xS(b[1]))var
+gX(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+yp(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+x_(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yp(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=kT;for(var
-d=f;d<e.length;d++){if(d>f)a+=jr;var
+f=2,e=b;a+=k_;for(var
+d=f;d<e.length;d++){if(d>f)a+=jH;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bm)a+=ad+c.toString()+ad;else
+bo)a+=an+c.toString()+an;else
 if(typeof
-c=="string")a+=ad+c.toString()+ad;else
-a+=kp}a+=ga}else
-if(b[0]==ak)a+=b[1];return a}function
-lA(a){if(a
+c=="string")a+=an+c.toString()+an;else
+a+=kG}a+=gk}else
+if(b[0]==am)a+=b[1];return a}function
+lR(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ak)){var
-c=ck(jD);if(c)c(a,false);else{var
-d=xB(a),b=ck(jo);if(b)b(0);u.console.error(gg+d+jI)}}else
+Array&&(a[0]==0||a[0]==am)){var
+c=cm(jT);if(c)c(a,false);else{var
+d=x_(a),b=cm(jE);if(b)b(0);u.console.error(gq+d+jY)}}else
 throw a}function
-x7(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lA(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lA(a.error)})}x7();function
-e(a,b){return a.length==1?a(b):bL(a,[b])}function
-Y(a,b,c){return a.length==2?a(b,c):bL(a,[b,c])}function
-f2(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bL(a,[b,c,d,e,f])}function
-xn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bL(a,[b,c,d,e,f,g,h])}xC();var
-eK=[ak,a(k$),-1],gQ=[ak,a(jF),-2],gN=[ak,a(f7),-3],gM=[ak,a(kk),-4],gO=[ak,a(jY),-8],gP=[ak,a(kA),-9],P=[ak,a(kX),-11],gR=[ak,a(jn),-12],wr=[4,0,0,0,[12,45,[4,0,0,0,0]]],eQ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(j2),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],ws=[0,0],wt=[0,[0,[0,[0,0]]]],wu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wt]]]]]]]]]]],wv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wu]]]]]]]]]]],ww=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wv]]]]]]]]]]],wx=[0,[0,0]],wy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wx]]]]]]]]]]],wz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wy]]]]]]]]]]],wA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wz]]]]]]]]]]],wB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wA]]]]]]]]]]],wC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],wD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wC]]]]]]]]]]],wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wD]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wE]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wF]]]]]]]]]]],wH=[0,[0,0]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wH]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wI]]]]]]]]]]],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wJ]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wK]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wL]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wM]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wN]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wP]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wQ]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wR]]]]]]]]]]],wT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wS]]]]]]]]]]],wU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wT]]]]]]]]]]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wU]]]]]]]]]]],wW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wV]]]]]]]]]]],wX=[0,0],wY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wX]]]]]]]]]]],wZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wY]]]]]]]]]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wZ]]]]]]]]]]],w1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w0]]]]]]]]]]],w2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w1]]]]]]]]]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w2]]]]]]]]]]],w4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],xa=[0,[0,[0,[0,[0,0]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,0],xm=[0,[0,[0,[0,[0,0]]]]],fc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eb=[0,[0,[0,[0,0]]]];a1(11,gR,jn);a1(10,P,kX);a1(9,[ak,a(kd),-10],kd);a1(8,gP,kA);a1(7,gO,jY);a1(6,[ak,a(kw),-7],kw);a1(5,[ak,a(kN),-6],kN);a1(4,[ak,a(jK),-5],jK);a1(3,gM,kk);a1(2,gN,f7);a1(1,gQ,jF);a1(0,eK,k$);var
-l0=a("%.12g"),lZ=a(b3),lX=a("true"),lY=a("false"),l1=a("\\\\"),l2=a("\\'"),l3=a("\\b"),l4=a("\\t"),l5=a("\\n"),l6=a("\\r"),l9=a("String.blit / Bytes.blit_string"),l8=a("Bytes.blit"),l7=a("String.sub / Bytes.sub"),l$=a(s),l_=a("String.concat"),ma=a("Array.init"),md=a("Buffer.add: cannot grow buffer"),mc=[0,a(kK),93,2],mb=[0,a(kK),94,2],mm=a("%c"),mn=a("%s"),mo=a(jl),mp=a(jV),mq=a(kg),mr=a(jt),ms=a("%f"),mt=a("%B"),mu=a("%{"),mv=a("%}"),mw=a("%("),mx=a("%)"),my=a("%a"),mz=a("%t"),mA=a("%?"),mB=a("%r"),mC=a("%_r"),mD=[0,a(aj),850,23],mO=[0,a(aj),814,21],mG=[0,a(aj),815,21],mP=[0,a(aj),818,21],mH=[0,a(aj),819,21],mQ=[0,a(aj),822,19],mI=[0,a(aj),823,19],mR=[0,a(aj),826,22],mJ=[0,a(aj),827,22],mS=[0,a(aj),831,30],mK=[0,a(aj),832,30],mM=[0,a(aj),836,26],mE=[0,a(aj),837,26],mN=[0,a(aj),846,28],mF=[0,a(aj),847,28],mL=[0,a(aj),851,23],nV=a(ka),nT=[0,a(aj),1558,4],nU=a("Printf: bad conversion %["),nW=[0,a(aj),1626,39],nX=[0,a(aj),1649,31],nY=[0,a(aj),1650,31],nZ=a("Printf: bad conversion %_"),n0=a(j7),n1=a(kj),n2=a(j7),n3=a(kj),nR=a(f$),nP=a("neg_infinity"),nQ=a(k7),nO=a(b3),nJ=[0,jC],nx=a("%+nd"),ny=a("% nd"),nA=a("%+ni"),nB=a("% ni"),nC=a("%nx"),nD=a("%#nx"),nE=a("%nX"),nF=a("%#nX"),nG=a("%no"),nH=a("%#no"),nw=a("%nd"),nz=a(kg),nI=a("%nu"),nk=a("%+ld"),nl=a("% ld"),nn=a("%+li"),no=a("% li"),np=a("%lx"),nq=a("%#lx"),nr=a("%lX"),ns=a("%#lX"),nt=a("%lo"),nu=a("%#lo"),nj=a("%ld"),nm=a(jV),nv=a("%lu"),m9=a("%+Ld"),m_=a("% Ld"),na=a("%+Li"),nb=a("% Li"),nc=a("%Lx"),nd=a("%#Lx"),ne=a("%LX"),nf=a("%#LX"),ng=a("%Lo"),nh=a("%#Lo"),m8=a("%Ld"),m$=a(jt),ni=a("%Lu"),mW=a("%+d"),mX=a("% d"),mZ=a("%+i"),m0=a("% i"),m1=a("%x"),m2=a("%#x"),m3=a("%X"),m4=a("%#X"),m5=a("%o"),m6=a("%#o"),mV=a(gj),mY=a(jl),m7=a(ka),me=a("@]"),mf=a("@}"),mg=a("@?"),mh=a("@\n"),mi=a("@."),mj=a("@@"),mk=a("@%"),ml=a("@"),mT=a("CamlinternalFormat.Type_mismatch"),n7=a(s),n8=[0,[11,a(jr),[2,0,[2,0,0]]],a(", %s%s")],ov=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],ow=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],ou=a("Fatal error: out of memory in uncaught exception handler"),os=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],oo=[0,[2,0,[12,10,0]],a("%s\n")],og=a("Raised at"),oh=a("Re-raised at"),oi=a("Raised by primitive operation at"),oj=a("Called from"),ok=a(" (inlined)"),om=a(s),ol=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(j2),wr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],on=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],ob=a("Out of memory"),oc=a("Stack overflow"),od=a("Pattern matching failed"),oe=a("Assertion failed"),of=a("Undefined recursive module"),n9=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],n_=a(s),n$=a(s),oa=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],n6=[0,[4,0,0,0,0],a(gj)],n4=[0,[3,0,0],a("%S")],n5=a(kp),op=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oy=a("Jsoo_runtime.Error.Exn"),oA=a("power"),oK=[0,0],oL=[0,[0,0]],oM=[0,[0,0]],oT=[0,0],o0=[0,0,0],o1=[0,0,0],o2=[0,0],o3=[0,0],o$=[0,0],pb=[0,0],pl=[0,0,0],pm=[0,0],pn=[0,0],pz=[0,[0,[0,0]]],pH=a(","),pZ=[0,a(ga),0],p0=a(kT),p1=a(b3),p2=[0,[0,[0,0]]],p3=a(a0),p4=a(gb),p5=[0,[0,[0,[0,[0,0]]]]],p6=[0,a(ga),0],p7=a(lk),r2=a(jm),r4=a(km),r3=a(kY),r5=a(ep),r6=a(ki),r7=a(kJ),sI=[0,a(jW),6459,12],sW=a(ks),sX=[0,0],sY=a("divided"),sZ=[0,1],s0=a("mirror"),s1=[0,3],s2=a("negative"),s3=[0,2],s4=a(lh),s5=[0,4],s6=a(f5),s7=a(kB),s8=a(k2),s9=[0,0],s_=[0,0],s$=[0,0],tr=a(s),to=[0,[0,[0,[0,0]]]],tp=[0,[0,[0,[0,0]]]],tm=[0,[0,[0,0]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ws]]]]]]]]]]],tj=[0,[0,0]],tk=[0,[0,[0,0]]],th=[0,[0,[0,0]]],ti=[0,[0,0]],tg=[0,[0,[0,0]]],tb=[0,[0,0]],tc=[0,0],ta=[0,0],sQ=[0,[0,0]],sR=[0,0],sP=[0,0],sO=[0,0,0],sM=[0,0,0],sL=[0,0],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ww]]]]]]]]]]],sD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wB]]]]]]]]]]],sy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wG]]]]]]]]]]],sz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wO]]]]]]]]]]],sA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wW]]]]]]]]]]],sB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],sE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],sF=a("sqrt"),sw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],sx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],sl=[0,a("\n"),0],sm=a(ko),sn=a(em),so=a(jP),sp=a(kM),sq=a("certified"),sv=a("refuted"),sr=a("verdict"),ss=a(j4),st=a(kI),su=a(kW),sa=a(k_),sb=a(eo),sc=a(jM),sd=a(lc),sj=a(kR),sk=a(eu),se=a(gc),sf=a(b4),sg=a(kq),sh=a(eo),si=a(lb),r_=a(kH),r$=a(ld),r0=a(kz),r1=a(j_),rH=a(eu),ri=a(bH),rj=a(cP),rk=a(f3),rl=a(cO),rm=a(b4),rn=a(bH),ro=a(cP),rp=a(f3),rq=a(cO),rr=a(b4),rs=a(bH),rt=a(go),ru=a(bk),rv=a(bj),rw=a(ci),rx=a(cP),ry=a(k6),rz=a(la),rA=a(cO),rB=a(b4),rC=a(bH),rD=a(bk),rE=a(bj),rF=a(ci),rG=a(cP),rI=a(j1),rJ=a(j8),rK=a(lj),rL=a(kC),rM=a(jw),rN=a(cO),rO=a(b4),rP=a(bH),rQ=a(kn),rR=a(kL),rS=a(cP),rT=a(ke),rU=a(kt),rV=a(cO),rW=a(b4),rZ=a(kl),rX=a(jv),rY=a(kb),rc=a(jL),rd=a(kh),re=a(jy),rf=a(kF),rg=a(j$),q_=a(b1),q$=a(b0),ra=a(eq),rb=a(b2),q6=a(dt),q7=a(gm),q8=a(k3),qZ=a(bk),q0=a(bj),q1=a(ci),q2=a(jQ),q3=a(jk),q4=a(jJ),q5=a(k9),qS=a(kO),qT=a(ju),qY=a(em),qU=a(kG),qV=a(jG),qW=a(jX),qX=a(kZ),qP=a(bj),qQ=a(bk),qR=a(j9),qH=a(jq),qI=a(kr),qJ=a(k5),qK=a(ep),qL=a(li),qM=a(k8),qN=a(kv),qO=a(k1),qw=a(bi),qG=a(a0),qx=a(es),qy=a(er),qz=a(ey),qA=a(b1),qB=a(b0),qC=a(jT),qD=a(jZ),qE=a(ey),qF=a(b2),qe=a(bi),qm=a(a0),qf=a(es),qg=a(er),qh=a(b1),qi=a(b0),qj=a(ev),qk=a(kc),ql=a(b2),qn=a(ge),qo=a(b1),qp=a(b0),qq=a(eq),qr=a(b2),qs=a(ev),qt=a(dt),qu=a(b2),qb=a(bk),qc=a(bj),p$=[0,a(ad),0],qa=a(ad),p9=[0,a(jW),5848,36],p8=[0,a(ad),0],p_=a(ad),pV=a(bi),pW=a(a0),pX=a("*"),pY=a(a8),pQ=[0,[0,[0,[0,[0,0]]]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pT=[0,0],pU=[0,[0,[0,[0,0]]]],pO=a('":'),pP=a(ad),pM=[0,a(ad),0],pN=a(ad),pK=[0,a("}"),0],pL=a("{"),pI=[0,a("]"),0],pJ=a("["),pG=[0,0],pD=[0,[0,[0,0]]],pE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],px=[0,[0,0]],py=[0,[0,[0,0]]],pv=[0,[0,[0,0]]],pw=[0,[0,0]],po=[0,[0,0]],pp=[0,0],pq=[0,[0,0]],pr=[0,0],ps=[0,0],pt=[0,[0,0]],pu=[0,[0,0]],pk=[0,[0,[0,0]]],pj=[0,[0,[0,[0,[0,[0,0]]]]]],pg=[0,0],ph=[0,[0,[0,[0,[0,[0,0]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],pe=[0,[0,[0,0]]],o6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],o7=[0,[0,[0,[0,[0,[0,0]]]]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,[0,[0,[0,0]]]]]],o_=[0,[0,[0,0]]],o4=[0,[0,0]],o5=[0,0],oU=[0,0,0],oP=[0,0],oQ=[0,[0,0]],oR=[0,0],oS=[0,[0,0]],oN=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],oJ=a(aF),oI=a(s),oH=[0,[0,0]],oG=[0,0],oF=[1,0],oE=[0,0],oD=[0,0],oB=[1,0],oC=[1,0],vC=a(ep),vD=a(kJ),vE=a(kY),vF=a(ki),vG=a(f5),vH=a(kB),vI=a(k2),vN=a(f5),vO=a(ks),vJ=[0,a(ad),0],vK=a('the evidence "'),vL=a(j_),vM=a(kz),wa=a(kW),wb=a(kI),wc=a(j4),wk=[0,3,3],wd=a(kM),wh=[0,a('the drive "arm" in a claim that is certified'),0],wi=[0,a("a step of a platform that turns that is not at control points"),0],wj=[0,a("a mechanism by formulas in a claim that is refuted"),0],we=a(jP),wf=a(ko),wg=a(em),v0=a(jM),v1=a(lb),v4=a(b4),v5=a(gc),v6=a(kq),v7=a(eo),v8=a(k_),v9=a(eo),v2=[0,a(ad),0],v3=a('a proof of the kind "'),vV=a(kR),vW=a(lc),vX=a(eu),vY=[0,a(ad),0],vZ=a('the failure "'),vR=a(gc),vS=[0,a("a leaf that fails"),0],vT=a(kH),vU=a(ld),vP=a(lh),vQ=a(aF),vA=a(km),vB=a(jm),vc=a(b2),vd=a(ge),ve=a(eq),vh=a(b1),vi=a(b0),vf=[0,a('" of such a platform'),0],vg=a(js),u0=a("rho"),u1=a(eu),u2=[0,a("a joint by its coordinate"),0],uE=a(bH),uy=a(b4),uz=a(kb),uC=a(jv),uD=a(kl),uF=a(cO),uG=a(cP),uH=a("bodies"),vz=[0,a("a machine with bodies"),0],uI=a(dt),uJ=a(gm),uK=a(k3),uL=a(go),uM=a(jw),uN=a(kt),uO=a(f3),uR=a(ci),uS=a(k9),uV=a(bH),uW=a(kL),uX=a(kn),uY=a(ke),uZ=a(ci),u3=a(bH),u4=a(bk),u5=a(bj),u6=a(j1),u7=a(j8),u8=a(lj),u9=a(kC),uP=[0,a(ad),0],uQ=a(kf),u_=a(ci),u$=[0,a('" of a platform that turns'),0],va=a(j3),vb=a(k6),vx=[0,a('" that does not turn'),0],vy=a(kf),vj=a(go),vk=a(jL),vl=a(j$),vu=a(kh),vv=a(jy),vw=a(kF),vm=[0,a(ad),0],vn=a('the orientation "'),vo=a(dt),vp=a(gm),vq=a(bH),vr=a(bk),vs=a(bj),vt=a(la),uT=[0,a(ad),0],uU=a(j3),uA=[0,a(ad),0],uB=a('a claim of the kind "'),ur=a(ci),uv=a(bk),uw=a(bj),us=a(jJ),ut=a(jQ),uu=a(jk),uq=[0,a("this quantity of such a mechanism"),0],um=a(kG),un=[0,a("a stiffness for each joint"),0],ul=a(em),ue=a(kO),t5=a(kZ),t6=a(ep),t7=a(k1),t8=a(kr),t9=a(k5),t_=a(k8),t$=a(li),ua=a(kv),ub=a(jq),uc=[0,a(ad),0],ud=a('the quantity "'),uf=a(ju),ug=a(bk),uh=a(bj),ui=a(j9),uj=[0,a(ad),0],uk=a('a bound "'),uo=a(jG),up=a(jX),tY=a(es),tZ=a(er),t0=a(ey),t1=a(b1),t2=a(b0),t3=a(jT),t4=a(jZ),tV=a(b2),tW=a(ey),tG=a(b2),tH=a(dt),tI=a(kc),tJ=a(eq),tM=a(ge),tN=a(b1),tO=a(b0),tP=a(es),tQ=a(er),tR=a(b1),tS=a(b0),tT=a(ev),tU=a(ev),tK=[0,a(ad),0],tL=a(js),tD=a(bi),tE=a(a0),tB=a(" is not covered by the verified checker"),tC=a(s),tz=a(bk),tA=a(bj),tv=a(s),tw=a(lk),tx=a(s),ty=a(s),tu=[1,0],ts=a("Reader.Malformed"),tt=a("Reader.Not_covered"),wm=a(jU),wn=a("CERTIFIED"),wo=a("REFUTED"),wp=a(jU),wq=a("NOT COVERED: ");function
-V(a){if(typeof
+yE(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lR(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lR(a.error)})}yE();function
+e(a,b){return a.length==1?a(b):bM(a,[b])}function
+Y(a,b,c){return a.length==2?a(b,c):bM(a,[b,c])}function
+gb(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bM(a,[b,c,d,e,f])}function
+xW(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bM(a,[b,c,d,e,f,g,h])}x$();var
+eT=[am,a(lq),-1],g3=[am,a(jV),-2],g0=[am,a(gf),-3],gZ=[am,a(kB),-4],g1=[am,a(kc),-8],g2=[am,a(kQ),-9],R=[am,a(lc),-11],g4=[am,a(jD),-12],w0=[4,0,0,0,[12,45,[4,0,0,0,0]]],eZ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kg),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],w1=[0,0],w2=[0,[0,[0,[0,0]]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w2]]]]]]]]]]],w4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,0]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,0]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,0],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,0]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,0],xV=[0,[0,[0,[0,[0,0]]]]],fl=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],ef=[0,[0,[0,[0,0]]]];a2(11,g4,jD);a2(10,R,lc);a2(9,[am,a(ku),-10],ku);a2(8,g2,kQ);a2(7,g1,kc);a2(6,[am,a(kM),-7],kM);a2(5,[am,a(k4),-6],k4);a2(4,[am,a(j0),-5],j0);a2(3,gZ,kB);a2(2,g0,gf);a2(1,g3,jV);a2(0,eT,lq);var
+me=a("%.12g"),md=a(b3),mb=a("true"),mc=a("false"),mf=a("\\\\"),mg=a("\\'"),mh=a("\\b"),mi=a("\\t"),mj=a("\\n"),mk=a("\\r"),mn=a("String.blit / Bytes.blit_string"),mm=a("Bytes.blit"),ml=a("String.sub / Bytes.sub"),mp=a(s),mo=a("String.concat"),mq=a("Array.init"),mt=a("Buffer.add: cannot grow buffer"),ms=[0,a(k0),93,2],mr=[0,a(k0),94,2],mC=a("%c"),mD=a("%s"),mE=a(jB),mF=a(j$),mG=a(kx),mH=a(jJ),mI=a("%f"),mJ=a("%B"),mK=a("%{"),mL=a("%}"),mM=a("%("),mN=a("%)"),mO=a("%a"),mP=a("%t"),mQ=a("%?"),mR=a("%r"),mS=a("%_r"),mT=[0,a(al),850,23],m4=[0,a(al),814,21],mW=[0,a(al),815,21],m5=[0,a(al),818,21],mX=[0,a(al),819,21],m6=[0,a(al),822,19],mY=[0,a(al),823,19],m7=[0,a(al),826,22],mZ=[0,a(al),827,22],m8=[0,a(al),831,30],m0=[0,a(al),832,30],m2=[0,a(al),836,26],mU=[0,a(al),837,26],m3=[0,a(al),846,28],mV=[0,a(al),847,28],m1=[0,a(al),851,23],n$=a(kr),n9=[0,a(al),1558,4],n_=a("Printf: bad conversion %["),oa=[0,a(al),1626,39],ob=[0,a(al),1649,31],oc=[0,a(al),1650,31],od=a("Printf: bad conversion %_"),oe=a(km),of=a(kA),og=a(km),oh=a(kA),n7=a(gj),n5=a("neg_infinity"),n6=a(lm),n4=a(b3),nZ=[0,jS],nN=a("%+nd"),nO=a("% nd"),nQ=a("%+ni"),nR=a("% ni"),nS=a("%nx"),nT=a("%#nx"),nU=a("%nX"),nV=a("%#nX"),nW=a("%no"),nX=a("%#no"),nM=a("%nd"),nP=a(kx),nY=a("%nu"),nA=a("%+ld"),nB=a("% ld"),nD=a("%+li"),nE=a("% li"),nF=a("%lx"),nG=a("%#lx"),nH=a("%lX"),nI=a("%#lX"),nJ=a("%lo"),nK=a("%#lo"),nz=a("%ld"),nC=a(j$),nL=a("%lu"),nn=a("%+Ld"),no=a("% Ld"),nq=a("%+Li"),nr=a("% Li"),ns=a("%Lx"),nt=a("%#Lx"),nu=a("%LX"),nv=a("%#LX"),nw=a("%Lo"),nx=a("%#Lo"),nm=a("%Ld"),np=a(jJ),ny=a("%Lu"),na=a("%+d"),nb=a("% d"),nd=a("%+i"),ne=a("% i"),nf=a("%x"),ng=a("%#x"),nh=a("%X"),ni=a("%#X"),nj=a("%o"),nk=a("%#o"),m$=a(gu),nc=a(jB),nl=a(kr),mu=a("@]"),mv=a("@}"),mw=a("@?"),mx=a("@\n"),my=a("@."),mz=a("@@"),mA=a("@%"),mB=a("@"),m9=a("CamlinternalFormat.Type_mismatch"),ol=a(s),om=[0,[11,a(jH),[2,0,[2,0,0]]],a(", %s%s")],oL=[0,[11,a(gq),[2,0,[12,10,0]]],a(la)],oM=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oK=a("Fatal error: out of memory in uncaught exception handler"),oI=[0,[11,a(gq),[2,0,[12,10,0]]],a(la)],oE=[0,[2,0,[12,10,0]],a("%s\n")],ow=a("Raised at"),ox=a("Re-raised at"),oy=a("Raised by primitive operation at"),oz=a("Called from"),oA=a(" (inlined)"),oC=a(s),oB=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kg),w0]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oD=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],or=a("Out of memory"),os=a("Stack overflow"),ot=a("Pattern matching failed"),ou=a("Assertion failed"),ov=a("Undefined recursive module"),on=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oo=a(s),op=a(s),oq=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],ok=[0,[4,0,0,0,0],a(gu)],oi=[0,[3,0,0],a("%S")],oj=a(kG),oF=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oO=a("Jsoo_runtime.Error.Exn"),oQ=a("power"),o0=[0,0],o1=[0,[0,0]],o2=[0,[0,0]],o9=[0,0],pe=[0,0,0],pf=[0,0,0],pg=[0,0],ph=[0,0],pp=[0,0],pr=[0,0],pB=[0,0,0],pC=[0,0],pD=[0,0],pV=[0,[0,[0,0]]],p4=a(","),qk=[0,a(gk),0],ql=a(k_),qm=a(b3),qn=[0,[0,[0,0]]],qo=a(a1),qp=a(gl),qq=[0,[0,[0,[0,[0,0]]]]],qr=[0,a(gk),0],qs=a(lB),sr=a(jC),st=a(kD),ss=a(ld),su=a(ex),sv=a(kz),sw=a(lu),sx=a(kZ),s_=[0,a(ka),6748,12],tm=a(gr),tn=[0,0],to=a("divided"),tp=[0,1],tq=a("mirror"),tr=[0,3],ts=a("negative"),tt=[0,2],tu=a(gC),tv=[0,4],tw=a(ev),tx=a(kR),ty=a(lh),tz=[0,0],tA=[0,0],tB=[0,0],tT=a(s),tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,0]]]],tO=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w1]]]]]]]]]]],tL=[0,[0,0]],tM=[0,[0,[0,0]]],tJ=[0,[0,[0,0]]],tK=[0,[0,0]],tI=[0,[0,[0,0]]],tD=[0,[0,0]],tE=[0,0],tC=[0,0],tg=[0,[0,0]],th=[0,0],tf=[0,0],te=[0,0,0],tc=[0,0,0],tb=[0,0],s4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],s5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],s2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],s3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],s7=a("sqrt"),sY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],sZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],sN=[0,a("\n"),0],sO=a(kF),sP=a(et),sQ=a(j5),sR=a(k2),sS=a("certified"),sX=a("refuted"),sT=a("verdict"),sU=a(kj),sV=a(kY),sW=a(lb),sC=a(lp),sD=a(ew),sE=a(j2),sF=a(lt),sL=a(k8),sM=a(eD),sG=a(gm),sH=a(b4),sI=a(kH),sJ=a(ew),sK=a(ls),sA=a(kX),sB=a(lv),sp=a(kP),sq=a(kp),r8=a(eD),rJ=a(bI),rK=a(cR),rL=a(gc),rM=a(cQ),rN=a(b4),rO=a(bI),rP=a(cR),rQ=a(gc),rR=a(cQ),rS=a(b4),rT=a(bI),rU=a(gz),rV=a(bm),rW=a(bl),rX=a(ck),rY=a(cR),rZ=a(ll),r0=a(lr),r1=a(cQ),r2=a(b4),r3=a(bI),r4=a(bm),r5=a(bl),r6=a(ck),r7=a(cR),r9=a(kf),r_=a(kn),r$=a(lA),sa=a(kS),sb=a(jM),sc=a(cQ),sd=a(b4),se=a(bI),sf=a(kE),sg=a(k1),sh=a(cR),si=a(kv),sj=a(kJ),sk=a(cQ),sl=a(b4),so=a(kC),sm=a(jL),sn=a(ks),rz=a(j1),rA=a(ky),rB=a(jO),rC=a(kV),rD=a(kq),rE=a(kh),rF=a(k3),rG=a(ez),rH=a(ez),rv=a(b1),rw=a(b0),rx=a(ey),ry=a(b2),rr=a(dy),rs=a(gx),rt=a(li),rk=a(bm),rl=a(bl),rm=a(ck),rn=a(j6),ro=a(jA),rp=a(jZ),rq=a(lo),rd=a(k5),re=a(jK),rj=a(et),rf=a(kW),rg=a(jW),rh=a(kb),ri=a(le),ra=a(bl),rb=a(bm),rc=a(ko),q4=a(jG),q5=a(kI),q6=a(lk),q7=a(ex),q8=a(lz),q9=a(ln),q_=a(kL),q$=a(lg),qT=a(bk),q3=a(a1),qU=a(eB),qV=a(eA),qW=a(eH),qX=a(b1),qY=a(b0),qZ=a(j9),q0=a(kd),q1=a(eH),q2=a(b2),qB=a(bk),qJ=a(a1),qC=a(eB),qD=a(eA),qE=a(b1),qF=a(b0),qG=a(eE),qH=a(kt),qI=a(b2),qK=a(go),qL=a(b1),qM=a(b0),qN=a(ey),qO=a(b2),qP=a(eE),qQ=a(dy),qR=a(b2),qy=a(bm),qz=a(bl),qw=[0,a(an),0],qx=a(an),qu=[0,a(ka),6125,36],qt=[0,a(an),0],qv=a(an),qg=a(bk),qh=a(a1),qi=a("*"),qj=a(a8),qb=[0,[0,[0,[0,[0,0]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,[0,[0,0]]]],p$=a('":'),qa=a(an),p9=[0,a(an),0],p_=a(an),p7=[0,a("}"),0],p8=a("{"),p5=[0,a("]"),0],p6=a("["),p3=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pY=[0,[0,0]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pE=[0,[0,0]],pF=[0,0],pG=[0,[0,0]],pH=[0,0],pI=[0,0],pJ=[0,[0,0]],pK=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pA=[0,[0,[0,0]]],pz=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,0],px=[0,[0,[0,[0,[0,[0,0]]]]]],py=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,0]]],pn=[0,[0,[0,[0,[0,[0,0]]]]]],po=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],o_=[0,0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,0],o8=[0,[0,0]],o3=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],oZ=a(aG),oY=a(s),oX=[0,[0,0]],oW=[0,0],oV=[1,0],oU=[0,0],oT=[0,0],oR=[1,0],oS=[1,0],v6=a(ex),v7=a(kZ),v8=a(ld),v9=a(kz),v_=a(ev),v$=a(kR),wa=a(lh),wb=[0,a(an),0],wc=a('the evidence "'),wd=a(kp),we=a(kP),wf=a(ev),wg=a(lu),wi=a(ev),wj=a(gr),wk=a(gr),wh=[0,a("this evidence at control points"),0],wJ=a(lb),wK=a(kY),wL=a(kj),wT=[0,3,3],wM=a(k2),wQ=[0,a('the drive "arm" in a claim that is certified'),0],wR=[0,a("a step of a platform that turns that is not at control points"),0],wS=[0,a("a mechanism by formulas in a claim that is refuted"),0],wN=a(j5),wO=a(kF),wP=a(et),wH=a(gC),ww=a(j2),wx=a(ls),wA=a(b4),wB=a(gm),wC=a(kH),wD=a(ew),wE=a(lp),wF=a(ew),wy=[0,a(an),0],wz=a('a proof of the kind "'),wr=a(k8),ws=a(lt),wt=a(eD),wu=[0,a(an),0],wv=a('the failure "'),wn=a(gm),wo=[0,a("a leaf that fails"),0],wp=a(kX),wq=a(lv),wl=a(gC),wm=a(aG),v4=a(kD),v5=a(jC),vE=a(b2),vF=a(go),vG=a(ey),vJ=a(b1),vK=a(b0),vH=[0,a('" of such a platform'),0],vI=a(jI),vq=a("rho"),vr=a(eD),vs=[0,a("a joint by its coordinate"),0],u6=a(bI),u0=a(b4),u1=a(ks),u4=a(jL),u5=a(kC),u7=a(cQ),u8=a(cR),u9=a("bodies"),v3=[0,a("a machine with bodies"),0],u_=a(dy),u$=a(gx),va=a(li),vb=a(gz),vc=a(jM),vd=a(kJ),ve=a(gc),vh=a(ck),vi=a(lo),vl=a(bI),vm=a(k1),vn=a(kE),vo=a(kv),vp=a(ck),vt=a(bI),vu=a(bm),vv=a(bl),vw=a(kf),vx=a(kn),vy=a(lA),vz=a(kS),vf=[0,a(an),0],vg=a(kw),vA=a(ck),vB=[0,a('" of a platform that turns'),0],vC=a(ki),vD=a(ll),v1=[0,a('" that does not turn'),0],v2=a(kw),vL=a(gz),vM=a(kh),vN=a(j1),vO=a(kq),vP=a(ez),vQ=a(k3),vR=a(ez),vY=a(ky),vZ=a(jO),v0=a(kV),vS=a(dy),vT=a(gx),vU=a(bI),vV=a(bm),vW=a(bl),vX=a(lr),vj=[0,a(an),0],vk=a(ki),u2=[0,a(an),0],u3=a('a claim of the kind "'),uT=a(ck),uX=a(bm),uY=a(bl),uU=a(jZ),uV=a(j6),uW=a(jA),uS=[0,a("this quantity of such a mechanism"),0],uO=a(kW),uP=[0,a("a stiffness for each joint"),0],uN=a(et),uG=a(k5),uv=a(le),uw=a(ex),ux=a(lg),uy=a(kI),uz=a(lk),uA=a(ln),uB=a(lz),uC=a(kL),uD=a(jG),uE=[0,a(an),0],uF=a('the quantity "'),uH=a(jK),uI=a(bm),uJ=a(bl),uK=a(ko),uL=[0,a(an),0],uM=a('a bound "'),uQ=a(jW),uR=a(kb),uo=a(eB),up=a(eA),uq=a(eH),ur=a(b1),us=a(b0),ut=a(j9),uu=a(kd),ul=a(b2),um=a(eH),t8=a(b2),t9=a(dy),t_=a(kt),t$=a(ey),uc=a(go),ud=a(b1),ue=a(b0),uf=a(eB),ug=a(eA),uh=a(b1),ui=a(b0),uj=a(eE),uk=a(eE),ua=[0,a(an),0],ub=a(jI),t5=a(bk),t6=a(a1),t3=a(" is not covered by the verified checker"),t4=a(s),t1=a(bm),t2=a(bl),tX=a(s),tY=a(lB),tZ=a(s),t0=a(s),tW=[1,0],tU=a("Reader.Malformed"),tV=a("Reader.Not_covered"),wV=a(j_),wW=a("CERTIFIED"),wX=a("REFUTED"),wY=a(j_),wZ=a("NOT COVERED: ");function
+Z(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,V(a[1])];case
-1:return[1,V(a[1])];case
-2:return[2,V(a[1])];case
-3:return[3,V(a[1])];case
-4:return[4,V(a[1])];case
-5:return[5,V(a[1])];case
-6:return[6,V(a[1])];case
-7:return[7,V(a[1])];case
+0:return[0,Z(a[1])];case
+1:return[1,Z(a[1])];case
+2:return[2,Z(a[1])];case
+3:return[3,Z(a[1])];case
+4:return[4,Z(a[1])];case
+5:return[5,Z(a[1])];case
+6:return[6,Z(a[1])];case
+7:return[7,Z(a[1])];case
 8:var
-c=a[1];return[8,c,V(a[2])];case
+c=a[1];return[8,c,Z(a[2])];case
 9:var
-b=a[1];return[9,b,b,V(a[3])];case
-10:return[10,V(a[1])];case
-11:return[11,V(a[1])];case
-12:return[12,V(a[1])];case
-13:return[13,V(a[1])];default:return[14,V(a[1])]}}function
-aB(a,b){if(typeof
+b=a[1];return[9,b,b,Z(a[3])];case
+10:return[10,Z(a[1])];case
+11:return[11,Z(a[1])];case
+12:return[12,Z(a[1])];case
+13:return[13,Z(a[1])];default:return[14,Z(a[1])]}}function
+aD(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aB(a[1],b)];case
-1:return[1,aB(a[1],b)];case
-2:return[2,aB(a[1],b)];case
-3:return[3,aB(a[1],b)];case
-4:return[4,aB(a[1],b)];case
-5:return[5,aB(a[1],b)];case
-6:return[6,aB(a[1],b)];case
-7:return[7,aB(a[1],b)];case
+0:return[0,aD(a[1],b)];case
+1:return[1,aD(a[1],b)];case
+2:return[2,aD(a[1],b)];case
+3:return[3,aD(a[1],b)];case
+4:return[4,aD(a[1],b)];case
+5:return[5,aD(a[1],b)];case
+6:return[6,aD(a[1],b)];case
+7:return[7,aD(a[1],b)];case
 8:var
-c=a[1];return[8,c,aB(a[2],b)];case
+c=a[1];return[8,c,aD(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aB(a[3],b)];case
-10:return[10,aB(a[1],b)];case
-11:return[11,aB(a[1],b)];case
-12:return[12,aB(a[1],b)];case
-13:return[13,aB(a[1],b)];default:return[14,aB(a[1],b)]}}function
-O(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aD(a[3],b)];case
+10:return[10,aD(a[1],b)];case
+11:return[11,aD(a[1],b)];case
+12:return[12,aD(a[1],b)];case
+13:return[13,aD(a[1],b)];default:return[14,aD(a[1],b)]}}function
+Q(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,O(a[1],b)];case
-1:return[1,O(a[1],b)];case
+0:return[0,Q(a[1],b)];case
+1:return[1,Q(a[1],b)];case
 2:var
-c=a[1];return[2,c,O(a[2],b)];case
+c=a[1];return[2,c,Q(a[2],b)];case
 3:var
-d=a[1];return[3,d,O(a[2],b)];case
+d=a[1];return[3,d,Q(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,O(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,Q(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,O(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,Q(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,O(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,Q(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,O(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,Q(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,O(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,Q(a[4],b)];case
 9:var
-t=a[1];return[9,t,O(a[2],b)];case
-10:return[10,O(a[1],b)];case
+t=a[1];return[9,t,Q(a[2],b)];case
+10:return[10,Q(a[1],b)];case
 11:var
-u=a[1];return[11,u,O(a[2],b)];case
+u=a[1];return[11,u,Q(a[2],b)];case
 12:var
-v=a[1];return[12,v,O(a[2],b)];case
+v=a[1];return[12,v,Q(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,O(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,Q(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,O(a[3],b)];case
-15:return[15,O(a[1],b)];case
-16:return[16,O(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,Q(a[3],b)];case
+15:return[15,Q(a[1],b)];case
+16:return[16,Q(a[1],b)];case
 17:var
-A=a[1];return[17,A,O(a[2],b)];case
+A=a[1];return[17,A,Q(a[2],b)];case
 18:var
-B=a[1];return[18,B,O(a[2],b)];case
-19:return[19,O(a[1],b)];case
+B=a[1];return[18,B,Q(a[2],b)];case
+19:return[19,Q(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,O(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,Q(a[3],b)];case
 21:var
-E=a[1];return[21,E,O(a[2],b)];case
-22:return[22,O(a[1],b)];case
+E=a[1];return[21,E,Q(a[2],b)];case
+22:return[22,Q(a[1],b)];case
 23:var
-F=a[1];return[23,F,O(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,O(a[3],b)]}}function
-bO(a){throw[0,gM,a]}function
-dD(a){return 0<=a?a:-a|0}function
-am(d,c){var
-a=y(d),e=y(c),b=ae(a+e|0);bo(d,0,b,0,a);bo(c,0,b,a,e);return aA(b)}function
-lW(a){return a?lX:lY}xY(0);lF(1);var
-bs=lF(2);function
-cW(b,a){return lG(b,a,0,y(a))}function
-gS(a){cW(bs,a);lH(bs,10);return cT(bs)}function
-eL(b){function
+F=a[1];return[23,F,Q(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,Q(a[3],b)]}}function
+bP(a){throw[0,gZ,a]}function
+dI(a){return 0<=a?a:-a|0}function
+ap(d,c){var
+a=y(d),e=y(c),b=ag(a+e|0);bq(d,0,b,0,a);bq(c,0,b,a,e);return aC(b)}function
+ma(a){return a?mb:mc}yv(0);lW(1);var
+bu=lW(2);function
+cY(b,a){return lX(b,a,0,y(a))}function
+g5(a){cY(bu,a);lY(bu,10);return cV(bu)}function
+eU(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{cT(d)}catch(a){a=eI(a);if(a[1]!==gQ)throw a;var
+c=a[2],d=a[1];try{cV(d)}catch(a){a=eR(a);if(a[1]!==g3)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(xZ(0))}gF(a(jo),eL);var
-cX=(4*x9(0)|0)-1|0;function
-cn(c){var
+a=c;continue}return 0}}return a(yw(0))}gR(a(jE),eU);var
+cZ=(4*yG(0)|0)-1|0;function
+cp(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-R(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gT(d,c){var
+W(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,W(b,c)]}return 0}function
+g6(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
 b8(a,c){var
-b=ae(a);xA(b,0,a,c);return b}function
-gU(c,b,a){if(0<=b&&0<=a&&!((aO(c)-a|0)<b)){var
-d=ae(a);b6(c,b,d,0,a);return d}return bO(l7)}function
-gV(c,b,a){return aA(gU(c,b,a))}function
-gW(e,c,d,b,a){if(0<=a&&0<=c&&!((aO(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return b6(e,c,d,b,a);return bO(l8)}function
-bt(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return bo(e,c,d,b,a);return bO(l9)}function
-aT(b,a){return aA(b8(b,a))}function
-cY(c,b,a){return aA(gU(bK(c),b,a))}function
-gX(k,g){if(g){var
+b=ag(a);x9(b,0,a,c);return b}function
+g7(c,b,a){if(0<=b&&0<=a&&!((aQ(c)-a|0)<b)){var
+d=ag(a);b6(c,b,d,0,a);return d}return bP(ml)}function
+g8(c,b,a){return aC(g7(c,b,a))}function
+g9(e,c,d,b,a){if(0<=a&&0<=c&&!((aQ(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return b6(e,c,d,b,a);return bP(mm)}function
+bv(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return bq(e,c,d,b,a);return bP(mn)}function
+aW(b,a){return aC(b8(b,a))}function
+c0(c,b,a){return aC(g7(bL(c),b,a))}function
+g_(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bO(l_),c=n,b=m;continue}var
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bP(mo),c=n,b=m;continue}var
 l=y(i)+c|0}else
 var
 l=c;var
-f=ae(l),e=p,d=g;for(;;){if(d){var
+f=ag(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bo(a,0,f,e,y(a));bo(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bo(a,0,f,e,y(a))}return aA(f)}}}return l$}function
-gY(b,c){if(0===b)return[0];if(0<=b){var
-d=xW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bq(a,0,f,e,y(a));bq(k,0,f,e+y(a)|0,h);var
+e=(e+y(a)|0)+h|0,d=o;continue}bq(a,0,f,e,y(a))}return aC(f)}}}return mp}function
+g$(b,c){if(0===b)return[0];if(0<=b){var
+d=yt(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bO(ma)}function
-gZ(c){var
+a=h;continue}break}}return d}return bP(mq)}function
+ha(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-g0(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cX<b[1]){if(!((d+c|0)<=cX))throw[0,gN,md];b[1]=cX}var
-e=ae(b[1]);gW(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,P,mb]}throw[0,P,mc]}}function
-cZ(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)g0(a,b);bo(c,0,a[1],a[2],b);a[2]=d;return 0}function
-eM(a){return 5===a[2]?12:-6}function
-g1(a){return[0,0,ae(a)]}function
-g2(a,h){var
-b=aO(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ae(i);gW(a[2],0,f,0,b);a[2]=f;var
+hb(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cZ<b[1]){if(!((d+c|0)<=cZ))throw[0,g0,mt];b[1]=cZ}var
+e=ag(b[1]);g9(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,R,mr]}throw[0,R,ms]}}function
+c1(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)hb(a,b);bq(c,0,a[1],a[2],b);a[2]=d;return 0}function
+eV(a){return 5===a[2]?12:-6}function
+hc(a){return[0,0,ag(a)]}function
+hd(a,h){var
+b=aQ(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ag(i);g9(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-co(a,b){g2(a,1);cj(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-at(a,c){var
-b=y(c);g2(a,b);bt(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-g3(a){return gV(a[2],0,a[1])}function
-g4(a){if(typeof
+cq(a,b){hd(a,1);cl(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+aw(a,c){var
+b=y(c);hd(a,b);bv(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+he(a){return g8(a[2],0,a[1])}function
+hf(a){if(typeof
 a==="number")switch(a){case
-0:return me;case
-1:return mf;case
-2:return mg;case
-3:return mh;case
-4:return mi;case
-5:return mj;default:return mk}else
+0:return mu;case
+1:return mv;case
+2:return mw;case
+3:return mx;case
+4:return my;case
+5:return mz;default:return mA}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return am(ml,aT(1,a[1]))}}function
-eN(b,c){var
+1:return a[1];default:return ap(mB,aW(1,a[1]))}}function
+eW(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];at(b,mm);var
+d=a[1];aw(b,mC);var
 a=d;continue;case
 1:var
-e=a[1];at(b,mn);var
+e=a[1];aw(b,mD);var
 a=e;continue;case
 2:var
-f=a[1];at(b,mo);var
+f=a[1];aw(b,mE);var
 a=f;continue;case
 3:var
-g=a[1];at(b,mp);var
+g=a[1];aw(b,mF);var
 a=g;continue;case
 4:var
-h=a[1];at(b,mq);var
+h=a[1];aw(b,mG);var
 a=h;continue;case
 5:var
-i=a[1];at(b,mr);var
+i=a[1];aw(b,mH);var
 a=i;continue;case
 6:var
-j=a[1];at(b,ms);var
+j=a[1];aw(b,mI);var
 a=j;continue;case
 7:var
-k=a[1];at(b,mt);var
+k=a[1];aw(b,mJ);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];at(b,mu);eN(b,m);at(b,mv);var
+l=a[2],m=a[1];aw(b,mK);eW(b,m);aw(b,mL);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];at(b,mw);eN(b,o);at(b,mx);var
+n=a[3],o=a[1];aw(b,mM);eW(b,o);aw(b,mN);var
 a=n;continue;case
 10:var
-p=a[1];at(b,my);var
+p=a[1];aw(b,mO);var
 a=p;continue;case
 11:var
-q=a[1];at(b,mz);var
+q=a[1];aw(b,mP);var
 a=q;continue;case
 12:var
-r=a[1];at(b,mA);var
+r=a[1];aw(b,mQ);var
 a=r;continue;case
 13:var
-s=a[1];at(b,mB);var
+s=a[1];aw(b,mR);var
 a=s;continue;default:var
-t=a[1];at(b,mC);var
+t=a[1];aw(b,mS);var
 a=t;continue}}function
-ab(a){if(typeof
+ae(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ab(a[1])];case
-1:return[1,ab(a[1])];case
-2:return[2,ab(a[1])];case
-3:return[3,ab(a[1])];case
-4:return[4,ab(a[1])];case
-5:return[5,ab(a[1])];case
-6:return[6,ab(a[1])];case
-7:return[7,ab(a[1])];case
+0:return[0,ae(a[1])];case
+1:return[1,ae(a[1])];case
+2:return[2,ae(a[1])];case
+3:return[3,ae(a[1])];case
+4:return[4,ae(a[1])];case
+5:return[5,ae(a[1])];case
+6:return[6,ae(a[1])];case
+7:return[7,ae(a[1])];case
 8:var
-b=a[1];return[8,b,ab(a[2])];case
+b=a[1];return[8,b,ae(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ab(a[3])];case
-10:return[10,ab(a[1])];case
-11:return[11,ab(a[1])];case
-12:return[12,ab(a[1])];case
-13:return[13,ab(a[1])];default:return[14,ab(a[1])]}}function
-au(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ae(a[3])];case
+10:return[10,ae(a[1])];case
+11:return[11,ae(a[1])];case
+12:return[12,ae(a[1])];case
+13:return[13,ae(a[1])];default:return[14,ae(a[1])]}}function
+ax(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=au(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=ax(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=au(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=ax(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=au(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=ax(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=au(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=ax(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=au(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=ax(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=au(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=ax(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=au(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ac=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ac,_,Z];case
+i=ax(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=au(a[1]),ad=j[4],ae=j[3],af=j[2],ah=j[1],ai=function(a){e(af,0);return 0};return[0,function(a){e(ah,0);return 0},ai,ae,ad];case
+j=ax(a[1]),ac=j[4],ad=j[3],af=j[2],ag=j[1],ai=function(a){e(af,0);return 0};return[0,function(a){e(ag,0);return 0},ai,ad,ac];case
 8:var
-k=au(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
+k=ax(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
 9:var
-ao=a[2],ap=a[1],l=au(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=au(ag(ab(ap),ao)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){e(av,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(aw,0);return 0},aB=function(a){e(ax,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ay,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=ax(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ax(ah(ae(ap),ao)),au=m[4],av=m[3],aw=m[2],ay=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ay,0);return 0},aB,aA,az];case
 10:var
-n=au(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=ax(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=au(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=ax(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=au(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=ax(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=au(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=au(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ag(c,b){var
+q=ax(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=ax(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+ah(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1068,12 +1068,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,P,mD]}else
+9:a=6;break;default:throw[0,R,mT]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ag(t,b[1])];case
+0:return[0,ah(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1084,7 +1084,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ag(u,b[1])];case
+1:return[1,ah(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1096,7 +1096,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ag(v,b[1])];case
+2:return[2,ah(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1108,7 +1108,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ag(w,b[1])];case
+3:return[3,ah(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1120,7 +1120,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ag(x,b[1])];case
+4:return[4,ah(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1132,7 +1132,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ag(y,b[1])];case
+5:return[5,ah(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1144,7 +1144,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ag(z,b[1])];case
+6:return[6,ah(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,7 +1156,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ag(A,b[1])];case
+7:return[7,ah(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1169,255 +1169,255 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ag(B,b[2]);return[8,ag(C,D),E];case
+D=b[1],E=ah(B,b[2]);return[8,ah(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,P,mM];break;case
+14:a=4;break;default:m=1}if(m)throw[0,R,m2];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=au(ag(ab(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ag(F,I)];case
+I=b[3],J=b[2],K=b[1],s=ax(ah(ae(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ah(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,P,mN];break;case
+14:a=4;break;default:n=1}if(n)throw[0,R,m3];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ag(M,b[1])];throw[0,P,mO];case
+b!=="number"&&10===b[0])return[10,ah(M,b[1])];throw[0,R,m4];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ag(N,b[1])];default:o=1}if(o)throw[0,P,mP];break;case
+11:return[11,ah(N,b[1])];default:o=1}if(o)throw[0,R,m5];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ag(O,b[1])];default:p=1}if(p)throw[0,P,mQ];break;case
+12:return[12,ah(O,b[1])];default:p=1}if(p)throw[0,R,m6];break;case
 13:var
-q=0,Q=c[1];if(typeof
+q=0,P=c[1];if(typeof
 b==="number")q=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ag(Q,b[1])];default:q=1}if(q)throw[0,P,mR];break;default:var
-r=0,R=c[1];if(typeof
+13:return[13,ah(P,b[1])];default:q=1}if(q)throw[0,R,m7];break;default:var
+r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ag(R,b[1])];default:r=1}if(r)throw[0,P,mS]}switch(a){case
-0:throw[0,P,mG];case
-1:throw[0,P,mH];case
-2:throw[0,P,mI];case
-3:throw[0,P,mJ];case
-4:throw[0,P,mK];case
-5:throw[0,P,mE];case
-6:throw[0,P,mF];default:throw[0,P,mL]}}var
-an=[ak,mT,eB(0)];function
-dE(b,a){if(typeof
+14:return[14,ah(Q,b[1])];default:r=1}if(r)throw[0,R,m8]}switch(a){case
+0:throw[0,R,mW];case
+1:throw[0,R,mX];case
+2:throw[0,R,mY];case
+3:throw[0,R,mZ];case
+4:throw[0,R,m0];case
+5:throw[0,R,mU];case
+6:throw[0,R,mV];default:throw[0,R,m1]}}var
+aq=[am,m9,eK(0)];function
+dJ(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw an}}function
-c0(e,b,d){var
-a=dE(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aq}}function
+c2(e,b,d){var
+a=dJ(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw an}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aH(b,c,a){if(typeof
-b==="number")return[0,0,H(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aq}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aI(b,c,a){if(typeof
+b==="number")return[0,0,M(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aH(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aI(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aH(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aI(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aH(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aI(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aH(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aI(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aH(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aI(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aH(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aI(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aH(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aI(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aH(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dB([0,b[1]],[0,o]))throw an;var
-p=aH(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(dG([0,b[1]],[0,o]))throw aq;var
+p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,V(f)];if(dB([0,V(B)],C))throw an;var
-D=[0,V(d)];if(dB([0,V(A)],D))throw an;var
-q=au(ag(ab(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aH(V(z),c,y),F=r[2];return[0,[9,f,d,ab(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,Z(f)];if(dG([0,Z(B)],C))throw aq;var
+D=[0,Z(d)];if(dG([0,Z(A)],D))throw aq;var
+q=ax(ah(ae(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aI(Z(z),c,y),F=r[2];return[0,[9,f,d,ae(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aH(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aH(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aI(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aH(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aH(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw an}function
-H(b,a){if(typeof
+v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aq}function
+M(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=H(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=M(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=H(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=M(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dE(b[1],a),e=u[2],ad=u[1];if(typeof
+ac=b[2],u=dJ(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=H(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw an;case
+v=M(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw aq;case
 3:var
-ae=b[2],w=dE(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=dJ(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=H(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw an;case
+x=M(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aq;case
 4:var
-ag=b[4],ah=b[1],g=c0(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=c2(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=H(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw an;case
+aj=g[2],y=M(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aq;case
 5:var
-ak=b[4],al=b[1],i=c0(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=c2(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-ao=i[2],z=H(ak,j[1]);return[0,[5,al,am,ao,z[1]],z[2]]}throw an;case
+an=i[2],z=M(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aq;case
 6:var
-ap=b[4],aq=b[1],k=c0(b[2],b[3],a),l=k[3],ar=k[1];if(typeof
+ao=b[4],ap=b[1],k=c2(b[2],b[3],a),l=k[3],ar=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-as=k[2],A=H(ap,l[1]);return[0,[6,aq,ar,as,A[1]],A[2]]}throw an;case
+as=k[2],A=M(ao,l[1]);return[0,[6,ap,ar,as,A[1]],A[2]]}throw aq;case
 7:var
-at=b[4],au=b[1],m=c0(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+at=b[4],au=b[1],m=c2(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=H(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw an;case
+aw=m[2],B=M(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw aq;case
 8:var
-ax=b[4],ay=b[1],o=c0(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=c2(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=H(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw an;case
+aA=o[2],C=M(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aq;case
 9:var
-aB=b[2],D=dE(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=dJ(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=H(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw an;case
+E=M(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aq;case
 10:var
-F=H(b[1],a);return[0,[10,F[1]],F[2]];case
+F=M(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=H(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=M(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],I=H(b[2],a);return[0,[12,aE,I[1]],I[2]];case
+aE=b[1],H=M(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-J=a[1],aF=a[2],aG=b[3],aI=b[1];if(dB([0,b[2]],[0,J]))throw an;var
-K=H(aG,aF);return[0,[13,aI,J,K[1]],K[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dG([0,b[2]],[0,I]))throw aq;var
+J=M(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-L=a[1],aJ=a[3],aK=b[3],aM=b[2],aN=b[1],aO=[0,V(L)];if(dB([0,V(aM)],aO))throw an;var
-M=H(aK,V(aJ));return[0,[14,aN,L,M[1]],M[2]]}break;case
+K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,Z(K)];if(dG([0,Z(aL)],aO))throw aq;var
+L=M(aK,Z(aJ));return[0,[14,aM,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=H(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+N=M(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=H(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+O=M(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
 17:var
-aP=b[1],P=H(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aP=b[1],P=M(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],W=H(U[1],a),aU=W[1],X=H(Q,W[2]);return[0,[18,[0,[0,aU,aT]],X[1]],X[2]]}var
-Y=r[1],aV=Y[2],Z=H(Y[1],a),aW=Z[1],_=H(Q,Z[2]);return[0,[18,[1,[0,aW,aV]],_[1]],_[2]];case
+U=r[1],aT=U[2],V=M(U[1],a),aU=V[1],W=M(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=M(X[1],a),aW=Y[1],_=M(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],_[1]],_[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=H(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+R=M(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=H(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aQ=b[2],aR=b[1],S=M(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=H(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aS=b[1],T=M(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aL(c,d,a);case
-1:return aL(c,d,a);case
+0:return aN(c,d,a);case
+1:return aN(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-$=H(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw an;default:return aL(c,d,a)}else
+$=M(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw aq;default:return aN(c,d,a)}else
 switch(c[0]){case
-0:return aL(c,d,a);case
-1:return aL(c,d,a);case
-2:return aL(c,d,a);case
-3:return aL(c,d,a);case
-4:return aL(c,d,a);case
-5:return aL(c,d,a);case
-6:return aL(c,d,a);case
-7:return aL(c,d,a);case
-8:return aL([8,c[1],c[2]],d,a);case
+0:return aN(c,d,a);case
+1:return aN(c,d,a);case
+2:return aN(c,d,a);case
+3:return aN(c,d,a);case
+4:return aN(c,d,a);case
+5:return aN(c,d,a);case
+6:return aN(c,d,a);case
+7:return aN(c,d,a);case
+8:return aN([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],aa=aH(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
-10:return aL(c,d,a);default:return aL(c,d,a)}}throw an}function
-aL(d,c,b){var
-a=H(c,b);return[0,[23,d,a[1]],a[2]]}function
-aM(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dD(g);if(d<=b)return a;var
+aX=c[1],aa=aI(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
+10:return aN(c,d,a);default:return aN(c,d,a)}}throw aq}function
+aN(d,c,b){var
+a=M(c,b);return[0,[23,d,a[1]],a[2]]}function
+aO(k,g,a){var
+b=y(a),h=0<=g?k:0,d=dI(g);if(d<=b)return a;var
 l=2===h?48:32,c=b8(d,l);switch(h){case
-0:bt(a,0,c,0,b);break;case
-1:bt(a,0,c,d-b|0,b);break;default:var
+0:bv(a,0,c,0,b);break;case
+1:bv(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){cj(c,0,G(a,0));bt(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==L(a,0)&&45!==L(a,0)&&32!==L(a,0)){e=1;i=1}if(!i){cl(c,0,L(a,0));bv(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===G(a,0)){var
-j=0;if(jB!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){cj(c,1,G(a,1));bt(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bt(a,0,c,d-b|0,b)}}return aA(c)}function
-cp(k,b){var
-c=dD(k),a=y(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kx>>>0))e=1}else
+f=0;if(1<b&&48===L(a,0)){var
+j=0;if(jR!==L(a,1)&&88!==L(a,1)){f=1;j=1}if(!j){cl(c,1,L(a,1));bv(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bv(a,0,c,d-b|0,b)}}return aC(c)}function
+cr(k,b){var
+c=dI(k),a=y(b),d=L(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kN>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(jB===G(b,1)||88===G(b,1))j=1;if(j){var
-h=b8(c+2|0,48);cj(h,1,G(b,1));bt(b,2,h,(c-a|0)+4|0,a-2|0);return aA(h)}}e=1;f=1;break;case
+j=0;if(jR===L(b,1)||88===L(b,1))j=1;if(j){var
+h=b8(c+2|0,48);cl(h,1,L(b,1));bv(b,2,h,(c-a|0)+4|0,a-2|0);return aC(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=b8(c+1|0,48);cj(g,0,d);bt(b,1,g,(c-a|0)+2|0,a-1|0);return aA(g)}}if(e&&a<c){var
-i=b8(c,48);bt(b,0,i,c-a|0,a);return aA(i)}return b}function
-mU(k){var
+g=b8(c+1|0,48);cl(g,0,d);bv(b,1,g,(c-a|0)+2|0,a-1|0);return aC(g)}}if(e&&a<c){var
+i=b8(c,48);bv(b,0,i,c-a|0,a);return aC(i)}return b}function
+m_(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bq(k,j)+k0|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bs(k,j)+lf|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bK(k),a=[0,0],t=aO(e)-1|0,z=0;if(!(t<0)){var
+e=bL(k),a=[0,0],t=aQ(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=cR(e,i),g=0;if(32<=f){var
+f=cT(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1428,33 +1428,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aO(e)){var
-r=aO(e),s=ae(r);b6(e,0,s,0,r);var
+i=C;continue}break}}if(a[1]===aQ(e)){var
+r=aQ(e),s=ag(r);b6(e,0,s,0,r);var
 v=s}else{var
-b=ae(a[1]);a[1]=0;var
-u=aO(e)-1|0,A=0;if(!(u<0)){var
+b=ag(a[1]);a[1]=0;var
+u=aQ(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=cR(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gd<=c)d=1;else
+c=cT(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gn<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:$(b,a[1],92);a[1]++;$(b,a[1],98);break;case
-9:$(b,a[1],92);a[1]++;$(b,a[1],116);break;case
-10:$(b,a[1],92);a[1]++;$(b,a[1],110);break;case
-13:$(b,a[1],92);a[1]++;$(b,a[1],114);break;default:d=1}switch(d){case
-1:$(b,a[1],92);a[1]++;$(b,a[1],48+(c/kE|0)|0);a[1]++;$(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;$(b,a[1],48+(c%10|0)|0);break;case
-2:$(b,a[1],92);a[1]++;$(b,a[1],c);break;case
-3:$(b,a[1],c);break}a[1]++;var
+8:ac(b,a[1],92);a[1]++;ac(b,a[1],98);break;case
+9:ac(b,a[1],92);a[1]++;ac(b,a[1],116);break;case
+10:ac(b,a[1],92);a[1]++;ac(b,a[1],110);break;case
+13:ac(b,a[1],92);a[1]++;ac(b,a[1],114);break;default:d=1}switch(d){case
+1:ac(b,a[1],92);a[1]++;ac(b,a[1],48+(c/kU|0)|0);a[1]++;ac(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ac(b,a[1],48+(c%10|0)|0);break;case
+2:ac(b,a[1],92);a[1]++;ac(b,a[1],c);break;case
+3:ac(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
 v=b}var
-o=aA(v)}var
-w=y(o),x=b8(w+2|0,34);bo(o,0,x,1,w);return aA(x)}}function
-g5(d,f){var
-g=dD(f),e=nJ[1];switch(d[2]){case
+o=aC(v)}var
+w=y(o),x=b8(w+2|0,34);bq(o,0,x,1,w);return aC(x)}}function
+hg(d,f){var
+g=dI(f),e=nZ[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1462,7 +1462,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=jC;break;case
+b=jS;break;case
 4:var
 b=71;break;case
 5:var
@@ -1472,210 +1472,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=g1(16);co(c,37);switch(d[1]){case
+c=hc(16);cq(c,37);switch(d[1]){case
 0:break;case
-1:co(c,43);break;default:co(c,32)}if(8<=d[2])co(c,35);co(c,46);at(c,a(s+g));co(c,b);return g3(c)}function
-dF(m,a){if(13<=m){var
+1:cq(c,43);break;default:cq(c,32)}if(8<=d[2])cq(c,35);cq(c,46);aw(c,a(s+g));cq(c,b);return he(c)}function
+dK(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bq(a,c)+f6>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bs(a,c)+ge>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ae(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cj(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ag(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cl(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bq(a,b);if(9<f+f6>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bs(a,b);if(9<f+ge>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aA(j)}return a}function
-nK(b,c){switch(b){case
+b=p;continue}break}}return aC(j)}return a}function
+n0(b,c){switch(b){case
 1:var
-a=mW;break;case
-2:var
-a=mX;break;case
-4:var
-a=mZ;break;case
-5:var
-a=m0;break;case
-6:var
-a=m1;break;case
-7:var
-a=m2;break;case
-8:var
-a=m3;break;case
-9:var
-a=m4;break;case
-10:var
-a=m5;break;case
-11:var
-a=m6;break;case
-0:case
-13:var
-a=mV;break;case
-3:case
-14:var
-a=mY;break;default:var
-a=m7}return dF(b,eA(a,c))}function
-nL(b,c){switch(b){case
-1:var
-a=nk;break;case
-2:var
-a=nl;break;case
-4:var
-a=nn;break;case
-5:var
-a=no;break;case
-6:var
-a=np;break;case
-7:var
-a=nq;break;case
-8:var
-a=nr;break;case
-9:var
-a=ns;break;case
-10:var
-a=nt;break;case
-11:var
-a=nu;break;case
-0:case
-13:var
-a=nj;break;case
-3:case
-14:var
-a=nm;break;default:var
-a=nv}return dF(b,eA(a,c))}function
-nM(b,c){switch(b){case
-1:var
-a=nx;break;case
-2:var
-a=ny;break;case
-4:var
-a=nA;break;case
-5:var
-a=nB;break;case
-6:var
-a=nC;break;case
-7:var
-a=nD;break;case
-8:var
-a=nE;break;case
-9:var
-a=nF;break;case
-10:var
-a=nG;break;case
-11:var
-a=nH;break;case
-0:case
-13:var
-a=nw;break;case
-3:case
-14:var
-a=nz;break;default:var
-a=nI}return dF(b,eA(a,c))}function
-nN(b,c){switch(b){case
-1:var
-a=m9;break;case
-2:var
-a=m_;break;case
-4:var
 a=na;break;case
-5:var
+2:var
 a=nb;break;case
-6:var
-a=nc;break;case
-7:var
+4:var
 a=nd;break;case
-8:var
+5:var
 a=ne;break;case
-9:var
+6:var
 a=nf;break;case
-10:var
+7:var
 a=ng;break;case
-11:var
+8:var
 a=nh;break;case
+9:var
+a=ni;break;case
+10:var
+a=nj;break;case
+11:var
+a=nk;break;case
 0:case
 13:var
-a=m8;break;case
+a=m$;break;case
 3:case
 14:var
-a=m$;break;default:var
-a=ni}return dF(b,xI(a,c))}function
-bu(c,i,b){function
+a=nc;break;default:var
+a=nl}return dK(b,eJ(a,c))}function
+n1(b,c){switch(b){case
+1:var
+a=nA;break;case
+2:var
+a=nB;break;case
+4:var
+a=nD;break;case
+5:var
+a=nE;break;case
+6:var
+a=nF;break;case
+7:var
+a=nG;break;case
+8:var
+a=nH;break;case
+9:var
+a=nI;break;case
+10:var
+a=nJ;break;case
+11:var
+a=nK;break;case
+0:case
+13:var
+a=nz;break;case
+3:case
+14:var
+a=nC;break;default:var
+a=nL}return dK(b,eJ(a,c))}function
+n2(b,c){switch(b){case
+1:var
+a=nN;break;case
+2:var
+a=nO;break;case
+4:var
+a=nQ;break;case
+5:var
+a=nR;break;case
+6:var
+a=nS;break;case
+7:var
+a=nT;break;case
+8:var
+a=nU;break;case
+9:var
+a=nV;break;case
+10:var
+a=nW;break;case
+11:var
+a=nX;break;case
+0:case
+13:var
+a=nM;break;case
+3:case
+14:var
+a=nP;break;default:var
+a=nY}return dK(b,eJ(a,c))}function
+n3(b,c){switch(b){case
+1:var
+a=nn;break;case
+2:var
+a=no;break;case
+4:var
+a=nq;break;case
+5:var
+a=nr;break;case
+6:var
+a=ns;break;case
+7:var
+a=nt;break;case
+8:var
+a=nu;break;case
+9:var
+a=nv;break;case
+10:var
+a=nw;break;case
+11:var
+a=nx;break;case
+0:case
+13:var
+a=nm;break;case
+3:case
+14:var
+a=np;break;default:var
+a=ny}return dK(b,yf(a,c))}function
+bw(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return xE(b,i,a)}function
+a=32}return yb(b,i,a)}function
 q(c){var
-a=xw(b);return 3===a?b<0.?nP:nQ:4<=a?nR:c}switch(c[2]){case
+a=x5(b);return 3===a?b<0.?n5:n6:4<=a?n7:c}switch(c[2]){case
 5:var
-e=gv(g5(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=gH(hg(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
-k=G(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=L(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:am(e,nO);return q(v)}case
+v=p?e:ap(e,n4);return q(v)}case
 6:return j(0);case
 7:var
-h=bK(j(0)),f=aO(h);if(0===f)var
+h=bL(j(0)),f=aQ(h);if(0===f)var
 o=h;else{var
-m=ae(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ag(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=cR(h,a),s=25<g+kx>>>0?g:g+k0|0;$(m,a,s);var
+g=cT(h,a),s=25<g+kN>>>0?g:g+lf|0;ac(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aA(o);case
-8:return q(j(0));default:return gv(g5(c,i),b)}}function
-ds(d,x,w,v){var
+o=m}return aC(o);case
+8:return q(j(0));default:return gH(hg(c,i),b)}}function
+dx(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return A(b,[5,a,c],z)};case
+z=c[1];return function(c){return B(b,[5,a,c],z)};case
 1:var
-B=c[1];return function(c){var
+A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=l1;else
-if(gd<=c)e=1;else
+d=mf;else
+if(gn<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=l2;else
+d=mg;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=l3;break;case
+d=mh;break;case
 9:var
-d=l4;break;case
+d=mi;break;case
 10:var
-d=l5;break;case
+d=mj;break;case
 13:var
-d=l6;break;default:e=1}switch(e){case
+d=mk;break;default:e=1}switch(e){case
 1:var
-f=ae(4);$(f,0,92);$(f,1,48+(c/kE|0)|0);$(f,2,48+((c/10|0)%10|0)|0);$(f,3,48+(c%10|0)|0);var
-d=aA(f);break;case
+f=ag(4);ac(f,0,92);ac(f,1,48+(c/kU|0)|0);ac(f,2,48+((c/10|0)%10|0)|0);ac(f,3,48+(c%10|0)|0);var
+d=aC(f);break;case
 2:var
-g=ae(1);$(g,0,c);var
-d=aA(g);break}var
-h=y(d),i=b8(h+2|0,39);bo(d,0,i,1,h);return A(b,[4,a,aA(i)],B)};case
+g=ag(1);ac(g,0,c);var
+d=aC(g);break}var
+h=y(d),i=b8(h+2|0,39);bq(d,0,i,1,h);return B(b,[4,a,aC(i)],A)};case
 2:var
-C=c[2],D=c[1];return eO(b,a,C,D,function(a){return a});case
-3:return eO(b,a,c[2],c[1],mU);case
-4:return dG(b,a,c[4],c[2],c[3],nK,c[1]);case
-5:return dG(b,a,c[4],c[2],c[3],nL,c[1]);case
-6:return dG(b,a,c[4],c[2],c[3],nM,c[1]);case
-7:return dG(b,a,c[4],c[2],c[3],nN,c[1]);case
+C=c[2],D=c[1];return eX(b,a,C,D,function(a){return a});case
+3:return eX(b,a,c[2],c[1],m_);case
+4:return dL(b,a,c[4],c[2],c[3],n0,c[1]);case
+5:return dL(b,a,c[4],c[2],c[3],n1,c[1]);case
+6:return dL(b,a,c[4],c[2],c[3],n2,c[1]);case
+7:return dL(b,a,c[4],c[2],c[3],n3,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return A(b,[4,a,bu(g,d,c)],h)}:function(c){return A(b,[4,a,bu(g,eM(g),c)],h)};var
-_=i[1];return function(c){return A(b,[4,a,bu(g,_,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return B(b,[4,a,bw(g,d,c)],h)}:function(c){return B(b,[4,a,bw(g,eV(g),c)],h)};var
+_=i[1];return function(c){return B(b,[4,a,bw(g,_,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return A(b,[4,a,aM(n,m,bu(g,d,c))],h)}:function(c){return A(b,[4,a,aM(n,m,bu(g,eM(g),c))],h)};var
-aa=i[1];return function(c){return A(b,[4,a,aM(n,m,bu(g,aa,c))],h)}}var
+i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bw(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bw(g,eV(g),c))],h)};var
+$=i[1];return function(c){return B(b,[4,a,aO(n,m,bw(g,$,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return A(b,[4,a,aM(o,e,bu(g,d,c))],h)}:function(d,c){return A(b,[4,a,aM(o,d,bu(g,eM(g),c))],h)};var
-ac=i[1];return function(d,c){return A(b,[4,a,aM(o,d,bu(g,ac,c))],h)}}case
-9:return eO(b,a,c[2],c[1],lW);case
+i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bw(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bw(g,eV(g),c))],h)};var
+aa=i[1];return function(d,c){return B(b,[4,a,aO(o,d,bw(g,aa,c))],h)}}case
+9:return eX(b,a,c[2],c[1],ma);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1683,229 +1683,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-F=c[3],G=c[2],p=g1(16);eN(p,G);var
-u=g3(p);return function(c){return A(b,[4,a,u],F)};case
+E=c[3],F=c[2],p=hc(16);eW(p,F);var
+u=he(p);return function(c){return B(b,[4,a,u],E)};case
 14:var
-I=c[3],J=c[2];return function(d){var
-e=d[1],c=H(e,V(ab(J)));if(typeof
-c[2]==="number")return A(b,a,O(c[1],I));throw an};case
+G=c[3],H=c[2];return function(d){var
+e=d[1],c=M(e,Z(ae(H)));if(typeof
+c[2]==="number")return B(b,a,Q(c[1],G));throw aq};case
 15:var
-K=c[1];return function(d,c){return A(b,[6,a,function(a){return Y(d,a,c)}],K)};case
+I=c[1];return function(d,c){return B(b,[6,a,function(a){return Y(d,a,c)}],I)};case
 16:var
-L=c[1];return function(c){return A(b,[6,a,c],L)};case
+K=c[1];return function(c){return B(b,[6,a,c],K)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-M=c[2],N=l[1][1],Q=0,b=function(b,c,d){return function(a){return A(c,[1,b,[0,a]],d)}}(a,b,M),a=Q,c=N;continue}var
-R=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return A(c,[1,b,[1,a]],d)}}(a,b,R),a=T,c=S;continue;case
-19:throw[0,P,nT];case
+L=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return B(c,[1,b,[0,a]],d)}}(a,b,L),a=O,c=N;continue}var
+P=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return B(c,[1,b,[1,a]],d)}}(a,b,P),a=T,c=S;continue;case
+19:throw[0,R,n9];case
 20:var
-U=c[3],W=[8,a,nU];return function(a){return A(b,W,U)};case
+U=c[3],V=[8,a,n_];return function(a){return B(b,V,U)};case
 21:var
-X=c[2];return function(c){return A(b,[4,a,eA(nV,c)],X)};case
+W=c[2];return function(c){return B(b,[4,a,eJ(n$,c)],W)};case
 22:var
-Z=c[1];return function(c){return A(b,[5,a,c],Z)};case
+X=c[1];return function(c){return B(b,[5,a,c],X)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-2:throw[0,P,nW];default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}else
+0:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+1:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+2:throw[0,R,oa];default:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-2:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-3:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-4:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-5:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-6:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-7:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-8:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+0:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+1:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+2:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+3:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+4:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+5:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+6:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+7:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+8:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?f1(d+1|0,b,a,t,f):ar(f1,[0,b,a,t,f]);case
-10:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?f0(d+1|0,b,a,q,r,s):ar(f0,[0,b,a,q,r,s])}}function
-f1(e,d,c,a,b){if(typeof
-a==="number")return e<50?E(e+1|0,d,c,b):ar(E,[0,d,c,b]);else
+t=k[2];return d<50?ga(d+1|0,b,a,t,f):au(ga,[0,b,a,t,f]);case
+10:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);default:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?f$(d+1|0,b,a,q,r,s):au(f$,[0,b,a,q,r,s])}}function
+ga(e,d,c,a,b){if(typeof
+a==="number")return e<50?J(e+1|0,d,c,b):au(J,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aQ(d,c,f,b)};case
+f=a[1];return function(a){return aS(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aQ(d,c,g,b)};case
+g=a[1];return function(a){return aS(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aQ(d,c,h,b)};case
+h=a[1];return function(a){return aS(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aQ(d,c,i,b)};case
+i=a[1];return function(a){return aS(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aQ(d,c,j,b)};case
+j=a[1];return function(a){return aS(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aQ(d,c,k,b)};case
+k=a[1];return function(a){return aS(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aQ(d,c,l,b)};case
+l=a[1];return function(a){return aS(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aQ(d,c,m,b)};case
+m=a[1];return function(a){return aS(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aQ(d,c,n,b)};case
+n=a[2];return function(a){return aS(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ag(ab(a[1]),p);return function(a){return aQ(d,c,aB(q,o),b)};case
+o=a[3],p=a[2],q=ah(ae(a[1]),p);return function(a){return aS(d,c,aD(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aQ(d,c,r,b)};case
+r=a[1];return function(e,a){return aS(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aQ(d,c,s,b)};case
+s=a[1];return function(a){return aS(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aQ(d,c,t,b)};case
-13:throw[0,P,nX];default:throw[0,P,nY]}}function
-E(d,b,e,a){var
-c=[8,e,nZ];return d<50?ds(d+1|0,b,c,a):ar(ds,[0,b,c,a])}function
-f0(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return nS(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?ds(h+1|0,b,g,a):ar(ds,[0,b,g,a])}function
-A(a,b,c){return gH(ds(0,a,b,c))}function
-aQ(a,b,c,d){return gH(f1(0,a,b,c,d))}function
-nS(a,b,c,d,e){return gH(f0(0,a,b,c,d,e))}function
-eO(f,d,c,a,b){if(typeof
-a==="number")return function(a){return A(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return A(f,[4,d,aM(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return A(f,[4,d,aM(i,g,e(b,a))],c)}}}function
-dG(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return aS(d,c,t,b)};case
+13:throw[0,R,ob];default:throw[0,R,oc]}}function
+J(d,b,e,a){var
+c=[8,e,od];return d<50?dx(d+1|0,b,c,a):au(dx,[0,b,c,a])}function
+f$(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return n8(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?dx(h+1|0,b,g,a):au(dx,[0,b,g,a])}function
+B(a,b,c){return gT(dx(0,a,b,c))}function
+aS(a,b,c,d){return gT(ga(0,a,b,c,d))}function
+n8(a,b,c,d,e){return gT(f$(0,a,b,c,d,e))}function
+eX(f,d,c,a,b){if(typeof
+a==="number")return function(a){return B(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return B(f,[4,d,aO(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return B(f,[4,d,aO(i,g,e(b,a))],c)}}}function
+dL(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return A(f,[4,e,cp(g,Y(b,a,c))],d)}:function(c){return A(f,[4,e,Y(b,a,c)],d)};var
-k=c[1];return function(c){return A(f,[4,e,cp(k,Y(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return B(f,[4,e,cr(g,Y(b,a,c))],d)}:function(c){return B(f,[4,e,Y(b,a,c)],d)};var
+k=c[1];return function(c){return B(f,[4,e,cr(k,Y(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return A(f,[4,e,aM(i,h,cp(g,Y(b,a,c)))],d)}:function(c){return A(f,[4,e,aM(i,h,Y(b,a,c))],d)};var
-l=c[1];return function(c){return A(f,[4,e,aM(i,h,cp(l,Y(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cr(g,Y(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,Y(b,a,c))],d)};var
+l=c[1];return function(c){return B(f,[4,e,aO(i,h,cr(l,Y(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return A(f,[4,e,aM(j,h,cp(g,Y(b,a,c)))],d)}:function(g,c){return A(f,[4,e,aM(j,g,Y(b,a,c))],d)};var
-m=c[1];return function(g,c){return A(f,[4,e,aM(j,g,cp(m,Y(b,a,c)))],d)}}}function
-bv(b,f){var
+c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cr(g,Y(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,Y(b,a,c))],d)};var
+m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cr(m,Y(b,a,c)))],d)}}}function
+bx(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=g4(a[2]);bv(b,g);return cW(b,h);case
+g=a[1],h=hf(a[2]);bx(b,g);return cY(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bv(b,d);cW(b,n0);var
+i=c[1];bx(b,d);cY(b,oe);var
 a=i;continue}var
-j=c[1];bv(b,d);cW(b,n1);var
+j=c[1];bx(b,d);cY(b,of);var
 a=j;continue;case
 6:var
-m=a[2];bv(b,a[1]);return e(m,b);case
-7:bv(b,a[1]);return cT(b);case
+m=a[2];bx(b,a[1]);return e(m,b);case
+7:bx(b,a[1]);return cV(b);case
 8:var
-n=a[2];bv(b,a[1]);return bO(n);case
+n=a[2];bx(b,a[1]);return bP(n);case
 2:case
 4:var
-k=a[2];bv(b,a[1]);return cW(b,k);default:var
-l=a[2];bv(b,a[1]);return lH(b,l)}}function
-bP(b,g){var
+k=a[2];bx(b,a[1]);return cY(b,k);default:var
+l=a[2];bx(b,a[1]);return lY(b,l)}}function
+bQ(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=g4(a[2]);bP(b,h);return cZ(b,i);case
+h=a[1],i=hf(a[2]);bQ(b,h);return c1(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bP(b,f);cZ(b,n2);var
+j=d[1];bQ(b,f);c1(b,og);var
 a=j;continue}var
-k=d[1];bP(b,f);cZ(b,n3);var
+k=d[1];bQ(b,f);c1(b,oh);var
 a=k;continue;case
 6:var
-n=a[2];bP(b,a[1]);return cZ(b,e(n,0));case
+n=a[2];bQ(b,a[1]);return c1(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bP(b,a[1]);return bO(o);case
+o=a[2];bQ(b,a[1]);return bP(o);case
 2:case
 4:var
-l=a[2];bP(b,a[1]);return cZ(b,l);default:var
-m=a[2];bP(b,a[1]);var
-c=b[2];if(b[3]<=c)g0(b,1);$(b[1],c,m);b[2]=c+1|0;return 0}}function
-g6(d,c){var
-a=c[1],b=0;return A(function(a){bv(d,a);return 0},b,a)}function
-eP(a){return g6(bs,a)}function
+l=a[2];bQ(b,a[1]);return c1(b,l);default:var
+m=a[2];bQ(b,a[1]);var
+c=b[2];if(b[3]<=c)hb(b,1);ac(b[1],c,m);b[2]=c+1|0;return 0}}function
+hh(d,c){var
+a=c[1],b=0;return B(function(a){bx(d,a);return 0},b,a)}function
+eY(a){return hh(bu,a)}function
 ba(b){var
-a=b[1];return A(function(d){var
-e=64,b=cX<64?cX:e,c=ae(b),a=[0,c,0,b,c];bP(a,d);return gV(a[1],0,a[2])},0,a)}var
-dH=[0,0];function
-eR(i,h){var
+a=b[1];return B(function(d){var
+e=64,b=cZ<64?cZ:e,c=ag(b),a=[0,c,0,b,c];bQ(a,d);return g8(a[1],0,a[2])},0,a)}var
+dM=[0,0];function
+e0(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eF(a)===ew)return e(ba(n4),a);if(eF(a)===253){var
-c=gv(l0,a),b=0,g=y(c);for(;;){if(g<=b)return am(c,lZ);var
-d=G(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(eO(a)===eF)return e(ba(oi),a);if(eO(a)===253){var
+c=gH(me,a),b=0,g=y(c);for(;;){if(g<=b)return ap(c,md);var
+d=L(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return n5}return e(ba(n6),a)}function
-g7(b,a){if(b.length-1<=a)return n7;var
-c=g7(b,a+1|0),d=eR(b,a);return Y(ba(n8),d,c)}function
-eS(a){function
+b=b+1|0;continue}return c}}return oj}return e(ba(ok),a)}function
+hi(b,a){if(b.length-1<=a)return ol;var
+c=hi(b,a+1|0),d=e0(b,a);return Y(ba(om),d,c)}function
+e1(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dH[1]);if(h)return h[1];if(a===eK)return ob;if(a===gP)return oc;if(a[1]===gO){var
-c=a[2],i=c[3],p=c[2],q=c[1];return f2(ba(eQ),q,p,i,i+5|0,od)}if(a[1]===P){var
-d=a[2],j=d[3],r=d[2],s=d[1];return f2(ba(eQ),s,r,j,j+6|0,oe)}if(a[1]===gR){var
-f=a[2],k=f[3],t=f[2],u=f[1];return f2(ba(eQ),u,t,k,k+6|0,of)}if(0===eF(a)){var
+h=o(dM[1]);if(h)return h[1];if(a===eT)return or;if(a===g2)return os;if(a[1]===g1){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gb(ba(eZ),q,p,i,i+5|0,ot)}if(a[1]===R){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gb(ba(eZ),s,r,j,j+6|0,ou)}if(a[1]===g4){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gb(ba(eZ),u,t,k,k+6|0,ov)}if(0===eO(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=g7(a,2),m=eR(a,1),b=Y(ba(n9),m,l);else
+l=hi(a,2),m=e0(a,1),b=Y(ba(on),m,l);else
 switch(g){case
 0:var
-b=n_;break;case
+b=oo;break;case
 1:var
-b=n$;break;default:var
-n=eR(a,1),b=e(ba(oa),n)}return am(v,b)}return a[1]}function
-eT(t,s){var
-d=xy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=op;break;default:var
+n=e0(a,1),b=e(ba(oq),n)}return ap(v,b)}return a[1]}function
+e2(t,s){var
+d=x7(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=lv(d,b)[1+b],f=function(a){return function(b){return b?0===a?og:oh:0===a?oi:oj}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?ok:om,l=a[2],m=a[7],n=f(a[1]),c=[0,xn(ba(ol),n,m,l,k,j,i,h)];else
+a=lM(d,b)[1+b],f=function(a){return function(b){return b?0===a?ow:ox:0===a?oy:oz}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?oA:oC,l=a[2],m=a[7],n=f(a[1]),c=[0,xW(ba(oB),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(ba(on),o)];if(c){var
-q=c[1];e(g6(t,oo),q)}var
+o=f(0),c=[0,e(ba(oD),o)];if(c){var
+q=c[1];e(hh(t,oE),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-g8(c){for(;;){var
-a=dH[1],d=[0,c,a],e=dH[1]===a?(dH[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oq=op.slice();function
-or(d,c){var
-f=eS(d);e(eP(os),f);eT(bs,c);var
-a=xX(0);if(a<0){var
-b=dD(a);gS(lv(oq,b)[1+b])}return cT(bs)}var
-ot=[0];gF(a(jD),function(d,i){try{try{var
-b=i?ot:lB(0);try{eL(0)}catch(a){}try{var
-a=or(d,b),c=a}catch(a){a=eI(a);var
-g=eS(d);e(eP(ov),g);eT(bs,b);var
-h=eS(a);e(eP(ow),h);eT(bs,lB(0));var
-c=cT(bs)}var
-f=c}catch(a){a=eI(a);if(a!==eK)throw a;var
-f=gS(ou)}return f}catch(a){return 0}});var
-g9=[ak,oy,eB(0)],eU=[0,g9,[0]],ox=eF(eU)===ak?eU:eU[1];gF(a(f8),ox);(function(a){throw a});var
-oz=u.Array;g8(function(a){return a[1]===g9?[0,a$(a[2].toString())]:0});g8(function(a){return a
+hj(c){for(;;){var
+a=dM[1],d=[0,c,a],e=dM[1]===a?(dM[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+oG=oF.slice();function
+oH(d,c){var
+f=e1(d);e(eY(oI),f);e2(bu,c);var
+a=yu(0);if(a<0){var
+b=dI(a);g5(lM(oG,b)[1+b])}return cV(bu)}var
+oJ=[0];gR(a(jT),function(d,i){try{try{var
+b=i?oJ:lS(0);try{eU(0)}catch(a){}try{var
+a=oH(d,b),c=a}catch(a){a=eR(a);var
+g=e1(d);e(eY(oL),g);e2(bu,b);var
+h=e1(a);e(eY(oM),h);e2(bu,lS(0));var
+c=cV(bu)}var
+f=c}catch(a){a=eR(a);if(a!==eT)throw a;var
+f=g5(oK)}return f}catch(a){return 0}});var
+hk=[am,oO,eK(0)],e3=[0,hk,[0]],oN=eO(e3)===am?e3:e3[1];gR(a(gg),oN);(function(a){throw a});var
+oP=u.Array;hj(function(a){return a[1]===hk?[0,a$(a[2].toString())]:0});hj(function(a){return a
 instanceof
-oz?0:[0,a$(a.toString())]});var
-d=aP(0),c=aP(1);function
-j(a){return z(a,c)}function
-g_(b,a){return z(aP(b),a)}function
-b(b,a){return n(aP(b),a)}function
-bb(b,a){return[0,gJ(b,a),lS(b,a)]}function
-eV(b,a){return B(b,a)?b:a}function
-b9(b,a){return B(b,a)?a:b}function
-aU(a){return a?0:1}function
-aw(b,a){var
+oP?0:[0,a$(a.toString())]});var
+d=aR(0),c=aR(1);function
+k(a){return A(a,c)}function
+hl(b,a){return A(aR(b),a)}function
+b(b,a){return n(aR(b),a)}function
+bb(b,a){return[0,gW(b,a),l8(b,a)]}function
+e4(b,a){return C(b,a)?b:a}function
+b9(b,a){return C(b,a)?a:b}function
+aX(a){return a?0:1}function
+ai(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dI(a){return a[1]}function
-eW(a){return a[2]}function
-l(a){var
-b=a?[0,l(a[2])]:a;return b}function
+dN(a){return a[1]}function
+e5(a){return a[2]}function
+m(a){var
+b=a?[0,m(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-g$(a){return typeof
-a==="number"?0:[0,g$(a[1])]}function
-ha(d,c){var
+hm(a){return typeof
+a==="number"?0:[0,hm(a[1])]}function
+hn(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1928,9 +1928,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dJ(a){return ha(a,0)}function
-hb(a){if(typeof
-a==="number")return oB;else
+dO(a){return hn(a,0)}function
+ho(a){if(typeof
+a==="number")return oR;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1940,327 +1940,327 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hb(a[1])]}}function
-a3(a){if(typeof
-a==="number")return oC;else
+8:return[9,a[1]];default:return[0,ho(a[1])]}}function
+a4(a){if(typeof
+a==="number")return oS;else
 switch(a[0]){case
-0:return[1,a2(a[1])];case
-1:return[3,a2(a[1])];case
-2:return[5,a2(a[1])];case
-3:return[7,a2(a[1])];case
-4:return[9,a2(a[1])];case
-5:return[1,a3(a[1])];case
-6:return[3,a3(a[1])];case
-7:return[5,a3(a[1])];case
-8:return[7,a3(a[1])];default:return[9,a3(a[1])]}}function
-a2(a){if(typeof
+0:return[1,a3(a[1])];case
+1:return[3,a3(a[1])];case
+2:return[5,a3(a[1])];case
+3:return[7,a3(a[1])];case
+4:return[9,a3(a[1])];case
+5:return[1,a4(a[1])];case
+6:return[3,a4(a[1])];case
+7:return[5,a4(a[1])];case
+8:return[7,a4(a[1])];default:return[9,a4(a[1])]}}function
+a3(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a2(a[1])];case
-1:return[2,a2(a[1])];case
-2:return[4,a2(a[1])];case
-3:return[6,a2(a[1])];case
-4:return[8,a2(a[1])];case
-5:return[0,a3(a[1])];case
-6:return[2,a3(a[1])];case
-7:return[4,a3(a[1])];case
-8:return[6,a3(a[1])];default:return[8,a3(a[1])]}}function
-c1(a){return a?a[1]:a}function
-W(b,a){return b?[0,W(b[1],a)]:a}function
-c2(a,b){return a?W(b,c2(a[1],b)):a}function
-dK(b,a){return b?a:a?0:1}function
-aC(d,c){var
+0:return[0,a3(a[1])];case
+1:return[2,a3(a[1])];case
+2:return[4,a3(a[1])];case
+3:return[6,a3(a[1])];case
+4:return[8,a3(a[1])];case
+5:return[0,a4(a[1])];case
+6:return[2,a4(a[1])];case
+7:return[4,a4(a[1])];case
+8:return[6,a4(a[1])];default:return[8,a4(a[1])]}}function
+c3(a){return a?a[1]:a}function
+S(b,a){return b?[0,S(b[1],a)]:a}function
+c4(a,b){return a?S(b,c4(a[1],b)):a}function
+dP(b,a){return b?a:a?0:1}function
+aE(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+ab(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hc(b,a){return _([0,b],a)}function
-hd(c){var
+hp(b,a){return ab([0,b],a)}function
+hq(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eX(c,b,a){return c?e(b,eX(c[1],b,a)):a}function
-he(a){if(a)var
-b=a[1],d=b?[0,he(b[1])]:b,c=d;else
+e6(c,b,a){return c?e(b,e6(c[1],b,a)):a}function
+hr(a){if(a)var
+b=a[1],d=b?[0,hr(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dL(a){if(B(a,c))return c;var
-b=bb(a,aP(2)),e=b[1];return as(b[2],d)?j(dL(e)):j(dL(e))}function
-dM(c,b){var
-a=lR(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hf(b,i,h){var
-e=i,a=h;for(;;){if(B(e,c))return a;var
-f=bb(e,aP(2)),g=f[1];if(as(f[2],d)){var
-e=g,a=Y(b,a,a);continue}return Y(b,a,hf(b,g,Y(b,a,a)))}}function
-c3(a){return hf(W,a,oE)}function
-eY(a){return a?j(eY(a[1])):c}function
-bw(f,e){var
+dQ(a){if(C(a,c))return c;var
+b=bb(a,aR(2)),e=b[1];return av(b[2],d)?k(dQ(e)):k(dQ(e))}function
+dR(c,b){var
+a=gV(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hs(b,i,h){var
+e=i,a=h;for(;;){if(C(e,c))return a;var
+f=bb(e,aR(2)),g=f[1];if(av(f[2],d)){var
+e=g,a=Y(b,a,a);continue}return Y(b,a,hs(b,g,Y(b,a,a)))}}function
+c5(a){return hs(S,a,oU)}function
+e7(a){return a?k(e7(a[1])):c}function
+by(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=n(b(2,j(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=n(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,n(b(2,j(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=A(c,n(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=n(b(2,j(b(2,b(2,c)))),d),k=z(b(2,c),i),a=a[1],d=k;continue;case
+i=n(b(2,k(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-l=n(b(2,j(b(2,b(2,c)))),d),m=z(j(b(2,c)),l),a=a[1],d=m;continue;case
+l=n(b(2,k(b(2,b(2,c)))),d),m=A(k(b(2,c)),l),a=a[1],d=m;continue;case
 4:var
-o=n(b(2,j(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),o),a=a[1],d=p;continue;case
+o=n(b(2,k(b(2,b(2,c)))),d),p=A(b(2,b(2,c)),o),a=a[1],d=p;continue;case
 5:var
-q=n(b(2,j(b(2,b(2,c)))),d),r=z(j(b(2,b(2,c))),q),a=a[1],d=r;continue;case
+q=n(b(2,k(b(2,b(2,c)))),d),r=A(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
 6:var
-s=n(b(2,j(b(2,b(2,c)))),d),t=z(b(2,j(b(2,c))),s),a=a[1],d=t;continue;case
+s=n(b(2,k(b(2,b(2,c)))),d),t=A(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=n(b(2,j(b(2,b(2,c)))),d),v=z(j(b(2,j(b(2,c)))),u),a=a[1],d=v;continue;case
+u=n(b(2,k(b(2,b(2,c)))),d),v=A(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=n(b(2,j(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=n(b(2,j(b(2,b(2,c)))),d),A=z(j(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-eZ(a){if(B(a,c))return oF;var
-b=bb(a,aP(2)),e=b[1];return as(b[2],d)?a2(eZ(e)):a3(eZ(e))}function
-dN(a){return dJ(eZ(a))}function
-hg(k,f){if(0<=br(f)){var
-g=gK(f);if(0<=g){var
+w=n(b(2,k(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=n(b(2,k(b(2,b(2,c)))),d),z=A(k(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
+e8(a){if(C(a,c))return oV;var
+b=bb(a,aR(2)),e=b[1];return av(b[2],d)?a3(e8(e)):a4(e8(e))}function
+dS(a){return dO(e8(a))}function
+ht(k,f){if(0<=bt(f)){var
+g=gX(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bO(oA)}return d}function
-hh(a){return 0<=br(a)?a:d}function
-e0(a){var
-b=br(a);return 0===b?c:0<b?a:c}function
-hi(n){var
+h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bP(oQ)}return d}function
+hu(a){return 0<=bt(a)?a:d}function
+e9(a){var
+b=bt(a);return 0===b?c:0<b?a:c}function
+hv(n){var
 a=n;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bw(a[1],c);case
+1:return by(a[1],c);case
 2:var
-e=b(2,c);return bw(a[1],e);case
+e=b(2,c);return by(a[1],e);case
 3:var
-f=j(b(2,c));return bw(a[1],f);case
+f=k(b(2,c));return by(a[1],f);case
 4:var
-g=b(2,b(2,c));return bw(a[1],g);case
+g=b(2,b(2,c));return by(a[1],g);case
 5:var
-h=j(b(2,b(2,c)));return bw(a[1],h);case
+h=k(b(2,b(2,c)));return by(a[1],h);case
 6:var
-i=b(2,j(b(2,c)));return bw(a[1],i);case
+i=b(2,k(b(2,c)));return by(a[1],i);case
 7:var
-k=j(b(2,j(b(2,c))));return bw(a[1],k);case
+j=k(b(2,k(b(2,c))));return by(a[1],j);case
 8:var
-l=b(2,b(2,b(2,c)));return bw(a[1],l);default:var
-m=j(b(2,b(2,b(2,c))));return bw(a[1],m)}}function
-bQ(b,a){var
-c=br(a);return 0===c?d:1===c?gJ(b,a):g_(-1,gJ(g_(-1,b),a))}function
-hj(a){return 0<br(a)?yf(a):d}function
-c4(b,c){var
-a=gK(c);return 0<=a?lT(b,a):lU(b,-a|0)}function
-cq(b,c){var
-a=gK(c);return 0<=a?lU(b,a):lT(b,-a|0)}function
-e1(b,a){return a?a[1]:b}function
-hk(a){var
+l=b(2,b(2,b(2,c)));return by(a[1],l);default:var
+m=k(b(2,b(2,b(2,c))));return by(a[1],m)}}function
+bR(b,a){var
+c=bt(a);return 0===c?d:1===c?gW(b,a):hl(-1,gW(hl(-1,b),a))}function
+hw(a){return 0<bt(a)?yO(a):d}function
+c6(b,c){var
+a=gX(c);return 0<=a?l9(b,a):l_(b,-a|0)}function
+cs(b,c){var
+a=gX(c);return 0<=a?l_(b,a):l9(b,-a|0)}function
+e_(b,a){return a?a[1]:b}function
+hx(a){var
 b=a?a[2]:a;return b}function
-L(e,d,c){var
+H(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aV(d,c){var
+aT(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hl(a){if(a){var
-b=[0,a[1],0];return g(hl(a[2]),b)}return a}function
+hy(a){if(a){var
+b=[0,a[1],0];return g(hy(a[2]),b)}return a}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-C(b,a){if(a){var
-c=C(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cr(c,b,a){if(a){var
-d=cr(c,b,a[2]);return Y(c,a[1],d)}return b}function
-bx(f,d){var
+I(b,a){if(a){var
+c=I(b,a[2]);return g(e(b,a[1]),c)}return a}function
+ct(c,b,a){if(a){var
+d=ct(c,b,a[2]);return Y(c,a[1],d)}return b}function
+bz(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-p(d,c){var
+q(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cs(b,a){if(b)if(a)var
-d=cs(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cu(b,a){if(b)if(a)var
+d=cu(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hm(b,a){if(b)if(a)var
-d=hm(b[1],a[2]),c=[0,a[1],d];else
+hz(b,a){if(b)if(a)var
+d=hz(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-c5(b,a){var
-c=a?[0,b,c5([0,b],a[1])]:a;return c}function
-ct(b,a){var
-c=a?[0,b,ct(b,a[1])]:a;return c}function
-hn(a){if(a){var
-e=hn(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-dO(j){function
+c7(b,a){var
+c=a?[0,b,c7([0,b],a[1])]:a;return c}function
+cv(b,a){var
+c=a?[0,b,cv(b,a[1])]:a;return c}function
+hA(a){if(a){var
+e=hA(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+dT(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hn([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<br(b)?c3(b):0}function
-ho(c,b){var
-a=lR(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hp(b,a){return B(n(b[1],a[2]),n(a[1],b[2]))}function
-hq(b,a){return[0,z(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
-hr(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
-aN(a){if(typeof
-a==="number")return oI;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hA([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bt(b)?c5(b):0}function
+hB(c,b){var
+a=gV(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hC(b,a){return C(n(b[1],a[2]),n(a[1],b[2]))}function
+hD(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
+hE(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
+aP(a){if(typeof
+a==="number")return oY;else
 switch(a[0]){case
 0:var
-b=aN(a[1]);return am(aT(1,48),b);case
+b=aP(a[1]);return ap(aW(1,48),b);case
 1:var
-c=aN(a[1]);return am(aT(1,49),c);case
+c=aP(a[1]);return ap(aW(1,49),c);case
 2:var
-d=aN(a[1]);return am(aT(1,50),d);case
+d=aP(a[1]);return ap(aW(1,50),d);case
 3:var
-e=aN(a[1]);return am(aT(1,51),e);case
+e=aP(a[1]);return ap(aW(1,51),e);case
 4:var
-f=aN(a[1]);return am(aT(1,52),f);case
+f=aP(a[1]);return ap(aW(1,52),f);case
 5:var
-g=aN(a[1]);return am(aT(1,53),g);case
+g=aP(a[1]);return ap(aW(1,53),g);case
 6:var
-h=aN(a[1]);return am(aT(1,54),h);case
+h=aP(a[1]);return ap(aW(1,54),h);case
 7:var
-i=aN(a[1]);return am(aT(1,55),i);case
+i=aP(a[1]);return ap(aW(1,55),i);case
 8:var
-j=aN(a[1]);return am(aT(1,56),j);default:var
-k=aN(a[1]);return am(aT(1,57),k)}}function
-c6(a){return typeof
-a==="number"?oJ:aN(a)}function
-b_(a){return hg(b(2,c),a)}function
-hs(b,a){return cq(a,b)}function
-ht(b,a){return N(cq(N(a),b))}function
-dP(b,a){return N(bQ(N(b),a))}function
-by(c,b){var
-a=c4(b,c);return[0,a,a]}function
-S(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-ah(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
-aD(a){return[0,N(a[2]),N(a[1])]}function
-hu(e,c,b,a){if(B(d,e))return B(d,b)?[0,n(e,b),n(c,a)]:B(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(B(c,d))return B(d,b)?[0,n(e,a),n(c,b)]:B(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(B(d,b))return[0,n(e,a),n(c,a)];if(B(a,d))return[0,n(c,b),n(e,b)];var
-f=b9(n(e,b),n(c,a));return[0,eV(n(e,a),n(c,b)),f]}function
+j=aP(a[1]);return ap(aW(1,56),j);default:var
+k=aP(a[1]);return ap(aW(1,57),k)}}function
+c8(a){return typeof
+a==="number"?oZ:aP(a)}function
+b_(a){return ht(b(2,c),a)}function
+hF(b,a){return cs(a,b)}function
+hG(b,a){return P(cs(P(a),b))}function
+dU(b,a){return P(bR(P(b),a))}function
+bc(c,b){var
+a=c6(b,c);return[0,a,a]}function
+T(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+_(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
+aF(a){return[0,P(a[2]),P(a[1])]}function
+hH(e,c,b,a){if(C(d,e))return C(d,b)?[0,n(e,b),n(c,a)]:C(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(C(c,d))return C(d,b)?[0,n(e,a),n(c,b)]:C(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(C(d,b))return[0,n(e,a),n(c,a)];if(C(a,d))return[0,n(c,b),n(e,b)];var
+f=b9(n(e,b),n(c,a));return[0,e4(n(e,a),n(c,b)),f]}function
 D(c,b,a){var
-d=hu(b[1],b[2],a[1],a[2]),e=ht(c,d[2]);return[0,hs(c,d[1]),e]}function
-ax(b,a){var
-c=n(a[1],a[1]),e=n(a[2],a[2]),h=ht(b,b9(c,e)),g=0;if(af(a[1],d)&&af(d,a[2])){var
+d=hH(b[1],b[2],a[1],a[2]),e=hG(c,d[2]);return[0,hF(c,d[1]),e]}function
+aj(b,a){var
+c=n(a[1],a[1]),e=n(a[2],a[2]),h=hG(b,b9(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hs(b,eV(c,e));return[0,f,h]}function
-hv(b,a){var
-c=c4(b_(b),b),d=dP(c,a[1]);return[0,bQ(c,a[2]),d]}function
-cu(b,a){if(af(d,a[1]))return[0,hv(b,a)];var
-c=af(a[2],d),e=c?[0,aD(hv(b,aD(a)))]:c;return e}function
-dQ(f,b){var
-g=af(d,b[1]);if(g)var
-e=c4(b[2],f),a=hj(e),i=as(n(a,a),e)?a:z(a,c),h=[0,[0,hj(c4(b[1],f)),i]];else
+f=hF(b,e4(c,e));return[0,f,h]}function
+hI(b,a){var
+c=c6(b_(b),b),d=dU(c,a[1]);return[0,bR(c,a[2]),d]}function
+cw(b,a){if(ad(d,a[1]))return[0,hI(b,a)];var
+c=ad(a[2],d),e=c?[0,aF(hI(b,aF(a)))]:c;return e}function
+c9(f,b){var
+g=ad(d,b[1]);if(g)var
+e=c6(b[2],f),a=hw(e),i=av(n(a,a),e)?a:A(a,c),h=[0,[0,hw(c6(b[1],f)),i]];else
 var
 h=g;return h}function
-aW(e,d,c,b,a){if(b){if(a){var
-g=aW(e,d,c,b[2],a[2]);return[0,Y(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bR(b,a){return cq(b,a)}function
-cv(a,c,b){if(B(d,a)){var
-e=b[1],f=N(bR(N(n(a,b[2])),c));return[0,bR(n(a,e),c),f]}var
-g=b[2],h=N(bR(N(n(a,b[1])),c));return[0,bR(n(a,g),c),h]}function
-dR(a){var
-b=N(cq(N(a[2]),c));return[0,cq(a[1],c),b]}function
-e2(c,b,a){var
-e=hu(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=af(f,d)?a[2]:a[1],i=dP(f,h),j=af(g,d)?a[1]:a[2];return[0,bQ(g,j),i]}var
-aE=[0,d,d];function
-e3(a){return[0,a[1],a[1]]}function
-e4(a){return[0,a[2],a[2]]}function
-ay(a,b){switch(b[0]){case
+aY(e,d,c,b,a){if(b){if(a){var
+g=aY(e,d,c,b[2],a[2]);return[0,Y(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bS(b,a){return cs(b,a)}function
+b$(a,c,b){if(C(d,a)){var
+e=b[1],f=P(bS(P(n(a,b[2])),c));return[0,bS(n(a,e),c),f]}var
+g=b[2],h=P(bS(P(n(a,b[1])),c));return[0,bS(n(a,g),c),h]}function
+dV(a){var
+b=P(cs(P(a[2]),c));return[0,cs(a[1],c),b]}function
+e$(c,b,a){var
+e=hH(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=dU(f,h),j=ad(g,d)?a[1]:a[2];return[0,bR(g,j),i]}var
+aA=[0,d,d];function
+fa(a){return[0,a[1],a[1]]}function
+fb(a){return[0,a[2],a[2]]}function
+ar(a,b){switch(b[0]){case
 0:var
-n=b[2],m=c4(b[1],a),t=dP(m,n);return[0,[0,bQ(m,n),t]];case
+n=b[2],m=c6(b[1],a),t=dU(m,n);return[0,[0,bR(m,n),t]];case
 1:var
-c=ay(a,b[1]);if(c)var
-d=ay(a,b[2]),u=d?[0,S(c[1],d[1])]:d,o=u;else
+c=ar(a,b[1]);if(c)var
+d=ar(a,b[2]),u=d?[0,T(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ay(a,b[1]);if(e)var
-f=ay(a,b[2]),v=f?[0,ah(e[1],f[1])]:f,p=v;else
+e=ar(a,b[1]);if(e)var
+f=ar(a,b[2]),v=f?[0,_(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ay(a,b[1]);if(g)var
-h=ay(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+g=ar(a,b[1]);if(g)var
+h=ar(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ay(a,b[1]);if(i){var
-j=ay(a,b[2]);if(j)var
-k=cu(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
+i=ar(a,b[1]);if(i){var
+j=ar(a,b[2]);if(j)var
+k=cw(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ay(a,b[1]);return l?dQ(a,l[1]):l}}function
-hw(a){var
-e=b9(N(a),d);return e0(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hx(a){return hh(z(hw(a),a))}function
-b$(f,a,e){var
-b=ay(z(f,hw(a)),e);if(b)var
-c=b[1],g=hx(a),h=N(bR(N(c[2]),g)),i=hx(a),d=[0,[0,bR(c[1],i),h]];else
+l=ar(a,b[1]);return l?c9(a,l[1]):l}}function
+hJ(a){var
+e=b9(P(a),d);return e9(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hK(a){return hu(A(hJ(a),a))}function
+ca(f,a,e){var
+b=ar(A(f,hJ(a)),e);if(b)var
+c=b[1],g=hK(a),h=P(bS(P(c[2]),g)),i=hK(a),d=[0,[0,bS(c[1],i),h]];else
 var
 d=b;return d}function
-aX(d,a){var
-b=b$(d,a[2],a[1][1]);if(b)var
-c=b$(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aZ(d,a){var
+b=ca(d,a[2],a[1][1]);if(b)var
+c=ca(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hy(b,a){var
-c=N(bR(N(a[2]),b));return[0,bR(a[1],b),c]}function
-e5(b,a){var
-c=dP(b[2],a);return[0,bQ(b[1],a),c]}function
-e6(a,f,b){if(b){var
-d=b[1],g=e6(a,f,d),h=g[2],i=eY(W(c2(oL,d),oK)),j=n(eY(c2(oM,d)),i),e=e5(D(a,g[1],f),j),k=hd(b)?S(h,e):ah(h,e);return[0,e,k]}var
-l=by(a,c);return[0,by(a,c),l]}function
-hz(f){var
-g=c3(f),e=oN[1],b=g,c=0,a=e;for(;;){if(b){var
+hL(b,a){var
+c=P(bS(P(a[2]),b));return[0,bS(a[1],b),c]}function
+fc(b,a){var
+c=dU(b[2],a);return[0,bR(b[1],a),c]}function
+fd(a,f,b){if(b){var
+d=b[1],g=fd(a,f,d),h=g[2],i=e7(S(c4(o1,d),o0)),j=n(e7(c4(o2,d)),i),e=fc(D(a,g[1],f),j),k=hq(b)?T(h,e):_(h,e);return[0,e,k]}var
+l=bc(a,c);return[0,bc(a,c),l]}function
+hM(f){var
+g=c5(f),e=o3[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return W(oO,c)}}function
-hA(a,d){var
-g=b_(a),h=n(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
-i=e6(a,d,c2(oQ,W(hz(a),oP)))[2][2],f=[0,[0,e6(a,d,W(c2(oS,hz(a)),oR))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return S(o4,c)}}function
+hN(a,d){var
+g=b_(a),h=n(b(2,b(2,c)),g),e=C(d[2],h);if(e)var
+i=fd(a,d,c4(o6,S(hM(a),o5)))[2][2],f=[0,[0,fd(a,d,S(c4(o8,hM(a)),o7))[2][1],i]];else
 var
 f=e;return f}function
-hB(i){function
+hO(i){function
 a(h){var
-m=bQ(b_(i),h),g=c3(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,bQ(f,a)),l=N(bQ(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(j(b(2,j(b(2,j(b(2,j(b(2,b(2,j(b(2,j(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(j(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
-hC(e,a){var
-f=B(d,a);if(f){var
-g=b(2,b(2,c));return hA(e,e5(ax(e,[0,a,a]),g))}return f}function
-hD(a,d){var
-b=ax(a,d),e=by(a,c);return ah(S(b,b),e)}function
-dS(o,u){var
-h=ay(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hB(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),k=z(hB(a),r),f=hC(a,i);if(f){var
-g=hC(a,k);if(g)var
-l=af(d,f[1][1]),m=l?af(g[1][2],d):l,n=m?[0,[0,i,k]]:m;else
+m=bR(b_(i),h),g=c5(i),f=m,e=d,a=c;for(;;){if(g){var
+j=A(a,b(2,c)),k=A(e,bR(f,a)),l=P(bR(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
+hP(e,a){var
+f=C(d,a);if(f){var
+g=b(2,b(2,c));return hN(e,fc(aj(e,[0,a,a]),g))}return f}function
+hQ(a,d){var
+b=aj(a,d),e=bc(a,c);return _(T(b,b),e)}function
+dW(o,u){var
+h=ar(A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hO(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hO(a),r),f=hP(a,i);if(f){var
+g=hP(a,j);if(g)var
+l=ad(d,f[1][1]),m=l?ad(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
 var
 n=g;var
 e=n}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))))),t=hA(a,ax(a,e5(D(a,v,e[1]),s))),p=aw(function(b){return hD(a,hD(a,b))},t);else
+s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hN(a,aj(a,fc(D(a,v,e[1]),s))),p=ai(function(b){return hQ(a,hQ(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return aw(function(a){return hy(w,a)},p)}return h}function
-e7(d,a){return dS(d,[2,a,[0,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))),c]])}function
-dT(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ai(function(a){return hL(w,a)},p)}return h}function
+fe(d,a){return dW(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
+dX(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2274,127 +2274,127 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bz(j,i){var
+bA(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?aC(b[1],a[1]):0;case
-1:return 1===a[0]?aC(b[1],a[1]):0;case
-2:return 2===a[0]?as(b[1],a[1]):0;case
+0:return 0===a[0]?aE(b[1],a[1]):0;case
+1:return 1===a[0]?aE(b[1],a[1]):0;case
+2:return 2===a[0]?av(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bz(b[1],a[1]);if(e){var
+e=bA(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bz(b[1],a[1]);if(f){var
+f=bA(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bz(b[1],a[1]);if(g){var
+g=bA(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bz(b[1],a[1]);if(h){var
+h=bA(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-dU(b){var
+dY(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bc(c,b){var
-a=dU(b);return a?as(c,a[1]):a}function
-c7(a){return af(eJ(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+bd(c,b){var
+a=dY(b);return a?av(c,a[1]):a}function
+c_(a){return ad(eS(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 r(a){return[0,[2,a]]}function
-T(b,a){if(bc(d,b))return a;if(bc(d,a))return b;var
-c=dU(b);if(c){var
-e=c[1],f=dU(a);if(f){var
-g=f[1];if(c7(e)&&c7(g))return r(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ca(a){var
+G(b,a){if(bd(d,b))return a;if(bd(d,a))return b;var
+c=dY(b);if(c){var
+e=c[1],f=dY(a);if(f){var
+g=f[1];if(c_(e)&&c_(g))return r(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+cb(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return c7(c)?r(N(c)):[0,[5,a]];case
+c=b[1];return c_(c)?r(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-I(b,a){return bc(d,a)?b:bc(d,b)?ca(a):[0,[4,b,a]]}function
-ao(a){var
-c=dU(a);if(c){var
-b=c[1];return c7(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bc(d,a)&&!bc(c,b)){if(!bc(d,b)&&!bc(c,a))return bz(a,b)?ao(a):[0,[6,a,b]];return b}return a}function
-aI(b,a){return bc(c,a)?b:[0,[7,b,a]]}function
-cw(a){return bc(c,a)?a:[0,[9,a]]}function
-c8(g,f,d,c){var
+z(b,a){return bd(d,a)?b:bd(d,b)?cb(a):[0,[4,b,a]]}function
+$(a){var
+c=dY(a);if(c){var
+b=c[1];return c_(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bd(d,a)&&!bd(c,b)){if(!bd(d,b)&&!bd(c,a))return bA(a,b)?$(a):[0,[6,a,b]];return b}return a}function
+aJ(b,a){return bd(c,a)?b:[0,[7,b,a]]}function
+cx(a){return bd(c,a)?a:[0,[9,a]]}function
+c$(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dT(function(b){return function(a){return L(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-cx(a){var
+h=b[1],i=[0,e(f,dX(function(b){return function(a){return H(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+cy(a){var
 b=0;function
-c(a){return[0,a]}return c8(r(d),c,a,b)}function
-e8(b,a){if(a){if(bz(b,a[1]))return oT;var
-c=e8(b,a[2]);return aw(function(a){return[0,a]},c)}return a}function
-bS(c,b){var
-a=e8(b,c),d=a?a[1]:a;return d}function
-dV(d,a){if(e8(d,a[1]))return a;var
+c(a){return[0,a]}return c$(r(d),c,a,b)}function
+ff(b,a){if(a){if(bA(b,a[1]))return o9;var
+c=ff(b,a[2]);return ai(function(a){return[0,a]},c)}return a}function
+bT(c,b){var
+a=ff(b,c),d=a?a[1]:a;return d}function
+dZ(d,a){if(ff(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=dV(b[1],a);break;case
+c=dZ(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=dV(b[1],a),c=dV(b[2],h)}var
-e=c[2],f=c[1],g=[0,dT(function(a){return bS(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dW(c){var
-b=c,a=oU;for(;;){if(b){var
-d=dV(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bS(e,a)},c);return[0,hl(a[2]),g]}}function
-hE(a){return cr(function(a,b){return z(b9(a[2],N(a[1])),b)},d,a)}function
-cy(b,c,a){var
-d=hE(a),e=eV(c[2],z(b[2],d)),f=hE(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
-bd(a){return[0,a,a,0]}function
-e9(b,a){return a?e(b,a[1]):a}function
-dX(d,b,a){if(b){if(a)return Y(d,b[1],a[1]);var
+h=dZ(b[1],a),c=dZ(b[2],h)}var
+e=c[2],f=c[1],g=[0,dX(function(a){return bT(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d0(c){var
+b=c,a=o_;for(;;){if(b){var
+d=dZ(b[1],a),b=b[2],a=d;continue}var
+e=a[1],g=f(function(a){return bT(e,a)},c);return[0,hy(a[2]),g]}}function
+hR(a){return ct(function(a,b){return A(b9(a[2],P(a[1])),b)},d,a)}function
+cz(b,c,a){var
+d=hR(a),e=e4(c[2],A(b[2],d)),f=hR(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
+be(a){return[0,a,a,0]}function
+fg(b,a){return a?e(b,a[1]):a}function
+d1(d,b,a){if(b){if(a)return Y(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-e_(a,e,d){var
-c=bd(aE);return function(b){switch(b[0]){case
-0:return[0,L(b[1],e,c)];case
-1:return[0,L(b[1],d,c)];case
-2:return[0,bd(by(a,b[1]))];case
+fh(a,e,d){var
+c=be(aA);return function(b){switch(b[0]){case
+0:return[0,H(b[1],e,c)];case
+1:return[0,H(b[1],d,c)];case
+2:return[0,be(bc(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return dX(function(b,a){var
+g=b[2],h=b[1];return d1(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aW(function(a){return a},e,S,d,c),g=S(b[2],a[2]);return[0,cy(S(b[1],a[1]),g,f)]},h,g);case
+f=aY(function(a){return a},e,T,d,c),g=T(b[2],a[2]);return[0,cz(T(b[1],a[1]),g,f)]},h,g);case
 4:var
-i=b[2],j=b[1];return dX(function(b,a){var
-c=a[3],d=b[3],e=aW(function(a){return a},aD,ah,d,c),f=ah(b[2],a[2]);return[0,cy(ah(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return d1(function(b,a){var
+c=a[3],d=b[3],e=aY(function(a){return a},aF,_,d,c),f=_(b[2],a[2]);return[0,cz(_(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return e9(function(a){var
-b=f(aD,a[3]),c=aD(a[2]);return[0,[0,aD(a[1]),c,b]]},k);case
+k=b[1];return fg(function(a){var
+b=f(aF,a[3]),c=aF(a[2]);return[0,[0,aF(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return dX(function(c,b){var
-d=S(b[2],b[1]),e=S(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return d1(function(c,b){var
+d=T(b[2],b[1]),e=T(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return dR(S(D(a,d,c),f))}function
-i(b){return dR(D(a,e,b))}var
-j=aW(function(b){return dR(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cy(D(a,c[1],b[1]),k,j)]},m,l);case
+f=D(a,e,b);return dV(T(D(a,d,c),f))}function
+i(b){return dV(D(a,e,b))}var
+j=aY(function(b){return dV(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cz(D(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return dX(function(e,g){var
-b=cu(a,g[1]);if(b){var
-c=cu(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return ah(c,D(a,d,b))},n=function(b){return aD(D(a,d,b))},o=aW(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cy(d,D(a,e[2],h),p)];else
+n=b[2],o=b[1];return d1(function(e,g){var
+b=cw(a,g[1]);if(b){var
+c=cw(a,g[2]);if(c)var
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return _(c,D(a,d,b))},n=function(b){return aF(D(a,d,b))},o=aY(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cz(d,D(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return e9(function(b){var
-c=b[3],d=S(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ax(a,b[2]);return[0,cy(ax(a,b[1]),g,e)]},p);default:var
-q=b[1];return e9(function(e){var
-b=dQ(a,e[1]);if(b){var
-g=b[1],c=dQ(a,e[2]);if(c){var
-h=c[1],d=cu(a,S(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cy(g,h,f(function(b){return D(a,m,b)},l))];else
+p=b[1];return fg(function(b){var
+c=b[3],d=T(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=aj(a,b[2]);return[0,cz(aj(a,b[1]),g,e)]},p);default:var
+q=b[1];return fg(function(e){var
+b=c9(a,e[1]);if(b){var
+g=b[1],c=c9(a,e[2]);if(c){var
+h=c[1],d=cw(a,T(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cz(g,h,f(function(b){return D(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2403,126 +2403,126 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-oV(a){return a}function
-oW(a){return a}function
-oX(a,b){return aW(oW,oV,S,a,b)}function
-oY(a){return a}function
-oZ(a){return a}function
-e$(b,a,c){if(a){var
+o$(a){return a}function
+pa(a){return a}function
+pb(a,b){return aY(pa,o$,T,a,b)}function
+pc(a){return a}function
+pd(a){return a}function
+fi(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=e$(b,e,c[2]),h=c[1],i=function(c,a){return ah(c,e2(d,a,b))},j=function(a){return aD(e2(d,a,b))};return[0,aW(function(a){return a},j,i,h,a),g]}var
-k=e$(b,e,0);return[0,f(function(a){return aD(e2(d,a,b))},a),k]}return c}function
-hF(a){if(a){var
+g=fi(b,e,c[2]),h=c[1],i=function(c,a){return _(c,e$(d,a,b))},j=function(a){return aF(e$(d,a,b))};return[0,aY(function(a){return a},j,i,h,a),g]}var
+k=fi(b,e,0);return[0,f(function(a){return aF(e$(d,a,b))},a),k]}return c}function
+hS(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=af(d,c[1]),h=e?[0,e$(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ad(d,c[1]),h=e?[0,fi(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-hG(f,e){var
+hT(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hF(b);if(c){var
+c=hS(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-hH(d,b,a){if(b)if(a)var
-e=a[1],f=hH(d,b[2],a[2]),g=dK(d,b[1])?e3(e):e4(e),c=[0,g,f];else
+hU(d,b,a){if(b)if(a)var
+e=a[1],f=hU(d,b[2],a[2]),g=dP(d,b[1])?fa(e):fb(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-hI(a,b){if(a)if(b)var
-d=hI(a[2],b[2]),c=[0,hH(a[1],a,b[1]),d];else
+hV(a,b){if(a)if(b)var
+d=hV(a[2],b[2]),c=[0,hU(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bT(a){if(a){var
-b=a[1],c=bT(b),d=f(function(a){return[0,1,a]},c),e=bT(b);return g(f(function(a){return[0,0,a]},e),d)}return o0}function
-dY(a){var
-b=l(a);if(hG(b,a))return 1;var
-c=bT(c1(b));return p(function(c){return hG(b,hI([0,0,c],a))},c)}function
-bU(a){function
+bU(a){if(a){var
+b=a[1],c=bU(b),d=f(function(a){return[0,1,a]},c),e=bU(b);return g(f(function(a){return[0,0,a]},e),d)}return pe}function
+d2(a){var
+b=m(a);if(hT(b,a))return 1;var
+c=bU(c3(b));return q(function(c){return hT(b,hV([0,0,c],a))},c)}function
+bV(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-c9(h,e){var
+da(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?S(a,d):ah(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hJ(c,b,a){var
-d=bT(c);return p(function(c){return e(a,e(bU(function(a){return c9(c,a)}),b))},d)}function
-hK(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return cv(b,z(h,c),a)},k=hK(h,j,i),l=function(c,b){var
-d=a(b,e);return S(a(f,c),d)},m=function(b){return a(b,e)},n=aW(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,S(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?T(a,d):_(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hW(c,b,a){var
+d=bU(c);return q(function(c){return e(a,e(bV(function(a){return da(c,a)}),b))},d)}function
+hX(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return b$(b,A(h,c),a)},k=hX(h,j,i),l=function(c,b){var
+d=a(b,e);return T(a(f,c),d)},m=function(b){return a(b,e)},n=aY(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,T(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-hL(d,l,k,j){var
+hY(d,l,k,j){var
 c=l,b=k,a=j;for(;;){if(c){if(b){var
-e=b[1],f=c[1],g=e4(e[2]),m=e[1],h=function(e){return function(a,b){var
-c=cv(b,d,e);return ah(S(a,a),c)}}(g),i=function(b){return function(a){return aD(cv(a,d,b))}}(g),n=aW(oZ,oY,oX,a,hK(d,f,aW(function(a){return S(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
-hM(b,a){return[0,[0,0,b],a]}function
-c_(b,c,g,f,a){function
+e=b[1],f=c[1],g=fb(e[2]),m=e[1],h=function(e){return function(a,b){var
+c=b$(b,d,e);return _(T(a,a),c)}}(g),i=function(b){return function(a){return aF(b$(a,d,b))}}(g),n=aY(pd,pc,pb,a,hX(d,f,aY(function(a){return T(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
+hZ(b,a){return[0,[0,0,b],a]}function
+db(b,c,g,f,a){function
 d(a){if(a){var
-h=ct([0,aD(a[1][2]),0],b),c=hL(g,f,a[2],h),d=aC(l(c),b);if(d)return dY(c);var
+h=cv([0,aF(a[1][2]),0],b),c=hY(g,f,a[2],h),d=aE(m(c),b);if(d)return d2(c);var
 e=d}else
 var
-e=a;return e}return hJ(b,hM(c,a),d)}function
-hN(f,e){var
+e=a;return e}return hW(b,hZ(c,a),d)}function
+h0(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hF([0,[0,e3(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=hS([0,[0,fa(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fa(b,c,a){function
+fj(b,c,a){function
 d(a){if(a){var
-h=ct([0,a[1][2],0],b),c=hN(a[2],h);if(c){var
-d=c[1],e=aC(l(d),b);if(e)return dY(d);var
+h=cv([0,a[1][2],0],b),c=h0(a[2],h);if(c){var
+d=c[1],e=aE(m(d),b);if(e)return d2(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return hJ(b,hM(c,a),d)}function
-hO(a,b){var
-c=b[3],d=a[3],e=aW(function(a){return a},aD,ah,d,c),f=a[2];return[0,ah(a[1],b[1]),f,e]}function
-dZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bV(c,b,a){var
+g=a;return g}return hW(b,hZ(c,a),d)}function
+h1(a,b){var
+c=b[3],d=a[3],e=aY(function(a){return a},aF,_,d,c),f=a[2];return[0,_(a[1],b[1]),f,e]}function
+d3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bW(c,b,a){var
 d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
-d0(b,a){var
+d4(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-d1(b,a){var
-c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
-aJ(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return T(T(v(b[1],a[1]),d),c)}function
-fb(a){return d1(a,cw(aJ(a,a)))}function
-hP(a){return f(function(a){var
-b=a[2];return[0,dZ(a[1]),b]},a)}function
-hQ(a){return f(function(a){var
-b=r(c);return[0,dZ(a[3]),b]},a)}function
-bA(a){return cq(z(a[1],a[2]),c)}function
-cz(a){var
-b=bA(a);return b7(a[2],b)}function
-hR(c,b){if(b)var
-a=b[1],e=hR([0,c],b[2]),f=cz(a),h=[0,[0,cz(a),f],0],i=g(ct(aE,c),h),j=bA(a),d=[0,[0,[0,bA(a),j],a,i],e];else
+d5(b,a){var
+c=aJ(b[3],a),d=aJ(b[2],a);return[0,aJ(b[1],a),d,c]}function
+ay(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
+fk(a){return d5(a,cx(ay(a,a)))}function
+h2(a){return f(function(a){var
+b=a[2];return[0,d3(a[1]),b]},a)}function
+h3(a){return f(function(a){var
+b=r(c);return[0,d3(a[3]),b]},a)}function
+bB(a){return cs(A(a[1],a[2]),c)}function
+cA(a){var
+b=bB(a);return b7(a[2],b)}function
+h4(c,b){if(b)var
+a=b[1],e=h4([0,c],b[2]),f=cA(a),h=[0,[0,cA(a),f],0],i=g(cv(aA,c),h),j=bB(a),d=[0,[0,[0,bB(a),j],a,i],e];else
 var
 d=b;return d}function
-d2(d,b){if(b){var
+d6(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d2(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bA(a),f],c],h=bA(a);return[0,[0,[0,a[1],h],c],g]}return o1}function
-hS(d,c,b,a){var
-e=f(bd,b);return c8(0,e_(d,hR(0,a),e),c,0)}function
-aY(a){if(a){var
+e=d6(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bB(a),f],c],h=bB(a);return[0,[0,[0,a[1],h],c],g]}return pf}function
+h5(d,c,b,a){var
+e=f(be,b);return c$(0,fh(d,h4(0,a),e),c,0)}function
+aU(a){if(a){var
 b=a[1];if(b)var
-c=aY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return o2}function
-hT(b,a){if(a){var
-h=a[1],n=h[1],c=aY(f(function(a){return L(a,b,0)},n));if(c){var
-e=L(h[2],b,0);if(e){var
-i=e[1],g=hT(b,a[2]);if(g)var
-j=af(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pg}function
+h6(b,a){if(a){var
+h=a[1],n=h[1],c=aU(f(function(a){return H(a,b,0)},n));if(c){var
+e=H(h[2],b,0);if(e){var
+i=e[1],g=h6(b,a[2]);if(g)var
+j=ad(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2530,146 +2530,146 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return o3}function
-cb(d,c,b){var
-a=hT(d,c);return a?e(b,a[1]):a}function
-fd(a,b){return p(function(c){var
-a=L(c,b,0),d=a?1:a;return d},a)}function
-d3(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aW(function(a){return a},f,S,e,d),h=a[2];return[0,S(a[1],c[1]),h,g]}return a}function
-fe(b,a){return b?hO(a,b[1]):a}function
-ff(h,g,b,f){var
-a=L(f,h,0);if(a){var
+m=c;return m}return ph}function
+cc(d,c,b){var
+a=h6(d,c);return a?e(b,a[1]):a}function
+fm(a,b){return q(function(c){var
+a=H(c,b,0),d=a?1:a;return d},a)}function
+d7(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aY(function(a){return a},f,T,e,d),h=a[2];return[0,T(a[1],c[1]),h,g]}return a}function
+fn(b,a){return b?h1(a,b[1]):a}function
+fo(h,g,b,f){var
+a=H(f,h,0);if(a){var
 c=a[1];if(b){var
-i=hO(c,b[1]),e=bT(g);return p(function(a){return B(d,c9(a,i)[1])},e)}return B(d,c[2][1])}return a}function
-hU(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=h1(c,b[1]),e=bU(g);return q(function(a){return C(d,da(a,i)[1])},e)}return C(d,c[2][1])}return a}function
+h7(m,j,p,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fd(l,b);if(r){var
-B=a[2],C=a[1],E=d3(g,bd(k));return cb(b,j,function(a){return c_(e,E,C,B,a)})}return r;case
+r=fm(l,b);if(r){var
+B=a[2],C=a[1],E=d7(g,be(k));return cc(b,j,function(a){return db(e,E,C,B,a)})}return r;case
 1:var
-s=fd(l,b);if(s){var
-F=a[2],G=a[1],H=d3(g,bd(k));return cb(b,q,function(a){return c_(e,H,G,F,a)})}return s;case
+s=fm(l,b);if(s){var
+F=a[2],G=a[1],H=d7(g,be(k));return cc(b,p,function(a){return db(e,H,G,F,a)})}return s;case
 2:var
-t=fd(l,b);if(t){if(g)return 0;var
-u=as(k[1],d),v=u?as(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cb(b,j,function(a){var
-b=[0,aE,aE,0];return c_(e,[0,aE,aE,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=fm(l,b);if(t){if(g)return 0;var
+u=av(k[1],d),v=u?av(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cc(b,j,function(a){var
+b=[0,aA,aA,0];return db(e,[0,aA,aA,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fe(g,bd(x));return cb(b,q,function(a){return fa(e,K,a)})}if(!a){var
-L=fe(g,bd(x));return cb(b,j,function(a){return fa(e,L,a)})}}return 0;case
+K=fn(g,be(x));return cc(b,p,function(a){return fj(e,K,a)})}if(!a){var
+L=fn(g,be(x));return cc(b,j,function(a){return fj(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return cv(a,y,by(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),aE,A];else
+y=a[1],n=a[3],o=function(a){return b$(a,y,bc(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),aA,A];else
 var
-i=bd(aE);var
-z=h[1],M=a[2];return cb(b,j,function(c){var
-h=bT(e),a=p(function(a){return af(d,c9(a,i)[1])},h),b=a?c_(e,d3(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fa(e,fe(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=be(aA);var
+z=h[1],M=a[2];return cc(b,j,function(c){var
+h=bU(e),a=q(function(a){return ad(d,da(a,i)[1])},h),b=a?db(e,d7(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fj(e,fn(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ff(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fo(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=d3(g,bd(h[2])),Q=function(a){return c_(e,P,O,N,a)};return cb(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=d7(g,be(h[2])),Q=function(a){return db(e,P,O,N,a)};return cc(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ff(b,e,g,h[1]);case
-2:return ff(b,e,g,h[2])}return 0}}function
-fg(b,a){if(a){var
+0:return fo(b,e,g,h[1]);case
+2:return fo(b,e,g,h[2])}return 0}}function
+d8(b,a){if(a){var
 c=a[2];if(b){var
-e=fg(b[1],c);return[0,a[1],e]}var
+e=d8(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hV(r,V,H,G,F,U,T,E,c,D,C){if(D){var
-I=hS(r,V,U,c),g=D,b=C;for(;;){if(g){var
+h8(r,V,I,G,F,U,T,E,c,D,B){if(D){var
+J=h5(r,V,U,c),g=D,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-m=e(E,c);if(m)var
-S=m[1],M=bT(l(c)),o=p(function(b){return function(a){return af(c9(a,b)[2],d)}}(S),M);else
+l=e(E,c);if(l)var
+S=l[1],M=bU(m(c)),o=q(function(b){return function(a){return ad(da(a,b)[2],d)}}(S),M);else
 var
-o=m;if(o){var
+o=l;if(o){var
 g=w,b=f(function(a){return 0},b);continue}return o}var
-x=L(n,b,0);if(x){var
-q=aV(T,n);if(q){var
-y=q[1],J=0;if(typeof
-a==="number"||!(5===a[0]))J=1;else{var
-i=a[2],j=e(E,c),K=0;if(j){var
-s=B(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return cv(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,cv(i,t,k[1]),P,O]],h=hU(r,H,G,F,I,l(c),R,y,Q);K=1}else
+x=H(n,b,0);if(x){var
+p=aT(T,n);if(p){var
+y=p[1],K=0;if(typeof
+a==="number"||!(5===a[0]))K=1;else{var
+i=a[2],j=e(E,c),L=0;if(j){var
+s=C(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return b$(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,b$(i,t,k[1]),P,O]],h=h7(r,I,G,F,J,m(c),R,y,Q);L=1}else
 var
 u=s}else
 var
-u=j;if(!K)var
-h=u}if(J)var
-h=hU(r,H,G,F,I,l(c),0,y,a);if(h){var
-g=w,b=fg(n,b);continue}var
+u=j;if(!L)var
+h=u}if(K)var
+h=h7(r,I,G,F,J,m(c),0,y,a);if(h){var
+g=w,b=d8(n,b);continue}var
 z=h}else
 var
-z=q;var
+z=p;var
 A=z}else
 var
-A=x;return A}return[0,b]}}return[0,C]}function
-fh(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,B]}function
+fp(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=hV(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
-m=hV(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d2(a[2],b),q=fh(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+l=h8(j,i,h,g,f,e,d,c,b,a[1],k);return l?q(aX,l[1]):l}var
+m=h8(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d6(a[2],b),p=fp(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(p){var
 b=o[2],k=n,a=a[4];continue}var
-r=q}else
+r=p}else
 var
 r=m;return r}}function
-hW(a){return f(function(a){return 1},a)}function
-cA(m,q){var
+h9(a){return f(function(a){return 1},a)}function
+cB(m,q){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(B(j,c)){var
-k=as(b,n),l=k?c7(b):k;if(l)var
-o=as(m[2],d),g=o||as(b,d);else
+i=f[2],b=f[1];if(C(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(C(j,c)){var
+k=av(b,n),l=k?c_(b):k;if(l)var
+o=av(m[2],d),g=o||av(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=as(bb(j,aP(2))[2],d)?0:0}else
+a=av(bb(j,aR(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=as(bb(i,aP(2))[2],d)?0:0}else
+a=av(bb(i,aR(2))[2],d)?0:0}else
 var
 a=0;return a?r(a[1]):[0,[1,q]]}function
-d4(b,a){if(a)var
-d=d4([0,b],a[2]),c=[0,cA(a[1],b),d];else
+d9(b,a){if(a)var
+d=d9([0,b],a[2]),c=[0,cB(a[1],b),d];else
 var
 c=a;return c}function
-be(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fi(b,d,a){switch(a[0]){case
+bf(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fq(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(be(c[3],b),f),i=g(be(c[2],b),h);return g(be(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bf(c[3],b),f),i=g(bf(c[2],b),h);return g(bf(c[1],d),i);case
 1:var
-e=a[3],j=e?be(e[1],d):e,k=g(be(a[2],b),j);return g(be(a[1],b),k);default:return be(a[1],d)}}function
-bB(b,a){var
-c=r(d),e=L(W(o4,a),b,c),f=r(d),g=L(W(o5,a),b,f);return[0,L(a,b,r(d)),g,e]}function
-hX(b,a){return bV(I,bV(T,fc,a),b)}function
-hY(c,b,a){if(a){var
-e=a[2],f=hY(c,hk(b),e),h=a[1];return g(fi(c,e1(d,b),h),f)}return a}function
-hZ(m,k,h,x){if(h){var
-e=h[1],J=W(x,l(fi(m,e1(d,k),e))),K=h[2],M=hZ(m,hk(k),K,J),a=d4(x,fi(m,e1(d,k),e));switch(e[0]){case
+e=a[3],j=e?bf(e[1],d):e,k=g(bf(a[2],b),j);return g(bf(a[1],b),k);default:return bf(a[1],d)}}function
+bC(b,a){var
+c=r(d),e=H(S(pi,a),b,c),f=r(d),g=H(S(pj,a),b,f);return[0,H(a,b,r(d)),g,e]}function
+h_(b,a){return bW(z,bW(G,fl,a),b)}function
+h$(c,b,a){if(a){var
+e=a[2],f=h$(c,hx(b),e),h=a[1];return g(fq(c,e_(d,b),h),f)}return a}function
+ia(l,k,h,x){if(h){var
+e=h[1],L=S(x,m(fq(l,e_(d,k),e))),M=h[2],N=ia(l,hx(k),M,L),a=d9(x,fq(l,e_(d,k),e));switch(e[0]){case
 0:var
-E=e[1][5],u=L(o6,a,r(d)),g=fb(bB(a,0)),F=bB(a,o7),v=hX(bB(a,o8),F),o=aJ(g,v),f=bV(I,v,d0(o,g)),z=aJ(f,f),p=I(ao(u),z),q=cw(p),i=E?q:ca(q),A=I(o,i),B=bV(T,g,d1(f,i)),n=[0,bV(T,f,d0(i,g)),p,B,A,[0,u],0];break;case
+F=e[1][5],u=H(pk,a,r(d)),g=fk(bC(a,0)),I=bC(a,pl),v=h_(bC(a,pm),I),o=ay(g,v),f=bW(z,v,d4(o,g)),A=ay(f,f),p=z($(u),A),q=cx(p),i=F?q:cb(q),B=z(o,i),C=bW(G,g,d5(f,i)),n=[0,bW(G,f,d4(i,g)),p,C,B,[0,u],0];break;case
 1:var
-w=e[3],G=w?[0,fb(bB(a,o9))]:w,H=bB(a,o_),b=hX(bB(a,0),H),s=aJ(b,b),t=cw(s),C=aw(function(a){return bV(I,b,d0(aJ(a,b),a))},G),n=[0,b,s,d1(b,t),t,0,C];break;default:var
-j=fb(bB(a,0)),D=aJ(j,fc),n=[0,j,r(c),j,D,0,0]}var
-y=[0,n,M]}else
+w=e[3],J=w?[0,fk(bC(a,pn))]:w,K=bC(a,po),b=h_(bC(a,0),K),s=ay(b,b),t=cx(s),D=ai(function(a){return bW(z,b,d4(ay(a,b),a))},J),n=[0,b,s,d5(b,t),t,0,D];break;default:var
+j=fk(bC(a,0)),E=ay(j,fl),n=[0,j,r(c),j,E,0,0]}var
+y=[0,n,N]}else
 var
 y=h;return y}function
-cc(k,a){if(typeof
+cd(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2686,96 +2686,96 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fj(d,c,b,a){var
-e=v(c,b);return I(v(d,a),e)}function
-cB(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
-h0(a){if(a){var
+fr(d,c,b,a){var
+e=v(c,b);return z(v(d,a),e)}function
+cC(a){return I(function(a){return g(a[1],[0,a[2],0])},a)}function
+ib(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=h0(a[2]);if(d)var
-g=d[1],h=aJ(c,c),e=[0,[0,[0,dZ(c),h],g]];else
+c=b[1],d=ib(a[2]);if(d)var
+g=d[1],h=ay(c,c),e=[0,[0,[0,d3(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return o$}function
-fk(b,d,c,a){if(typeof
+f=b;return f}return pp}function
+fs(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=cA(cc(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,dZ(a[1]),b]},b)];case
-9:return h0(b)}return 0}function
-h1(b,s,r,a){var
-e=cA(cc(s,a),r),p=0;if(typeof
+e=cB(cd(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,d3(a[1]),b]},b)];case
+9:return ib(b)}return 0}function
+ic(b,s,r,a){var
+e=cB(cd(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
-K=function(a){return[0,I(a[4],e),0]},g=K,f=a[1];break;case
+L=function(a){return[0,z(a[4],e),0]},g=L,f=a[1];break;case
 3:var
-L=function(a){return[0,I(e,a[4]),0]},g=L,f=a[1];break;case
+M=function(a){return[0,z(e,a[4]),0]},g=M,f=a[1];break;case
 4:var
-M=function(b){var
-a=b[1],c=ao(a[3]),d=ao(a[2]),f=ao(a[1]),g=b[2];return[0,I(I(I(v(ao(e),g),f),d),c),0]},g=M,f=a[1];break;case
-6:var
 N=function(b){var
+a=b[1],c=$(a[3]),d=$(a[2]),f=$(a[1]),g=b[2];return[0,z(z(z(v($(e),g),f),d),c),0]},g=N,f=a[1];break;case
+6:var
+O=function(b){var
 a=b[5];if(a)var
-d=ao(a[1]),f=v(ao(e),d),c=[0,I(b[2],f),0];else
+d=$(a[1]),f=v($(e),d),c=[0,z(b[2],f),0];else
 var
-c=a;return c},g=N,f=a[1];break;case
+c=a;return c},g=O,f=a[1];break;case
 7:if(b){var
 h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],E=fj(d[1],d[2],c[1],c[2]),F=v(n[3],E),G=fj(d[1],d[3],c[1],c[3]),H=v(n[2],G),J=fj(d[2],d[3],c[2],c[3]),q=T(I(v(n[1],J),H),F),O=m[1],P=l[1],x=v(v(v(e,k[1]),P),O),Q=[0,ca(T(q,x)),0],y=[0,I(q,x),Q];else
+c=t[1],d=u[1],n=w[1],F=fr(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fr(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fr(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,cb(G(q,x)),0],y=[0,z(q,x),R];else
 var
 y=m;var
-z=y}else
+A=y}else
 var
-z=l;var
-A=z}else
-var
-A=k;var
+A=l;var
 B=A}else
 var
-B=i;var
+B=k;var
 C=B}else
 var
-C=h;var
+C=i;var
 D=C}else
 var
-D=b;return D;case
+D=h;var
+E=D}else
+var
+E=b;return E;case
 8:case
 9:var
-o=fk(b,s,r,a);return o?cB(o[1]):o;default:p=1}if(p)return 0;var
-j=aV(b,f);return j?g(j[1]):j}function
-h2(d,c,b,a){if(a){var
-e=h2(d,c,[0,b],a[2]);return g(h1(d,c,b,a[1]),e)}return a}function
-h3(a,g,k,f,j,i){if(i){var
-B=h3(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+o=fs(b,s,r,a);return o?cC(o[1]):o;default:p=1}if(p)return 0;var
+j=aT(b,f);return j?g(j[1]):j}function
+id(d,c,b,a){if(a){var
+e=id(d,c,[0,b],a[2]);return g(ic(d,c,b,a[1]),e)}return a}function
+ie(a,g,k,f,j,i){if(i){var
+B=ie(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,aE]];else
+d=[0,[0,aA]];else
 switch(b[0]){case
 0:var
-u=aX(a,cc(f,b)),d=aw(function(b){return[0,ax(a,b)]},u);break;case
+u=aZ(a,cd(f,b)),d=ai(function(b){return[0,aj(a,b)]},u);break;case
 1:var
-v=aX(a,cc(f,b)),d=aw(function(b){return[1,ax(a,b)]},v);break;case
+v=aZ(a,cd(f,b)),d=ai(function(b){return[1,aj(a,b)]},v);break;case
 5:var
-x=aX(a,cc(f,b)),d=aw(function(b){return[2,ax(a,b)]},x);break;case
+x=aZ(a,cd(f,b)),d=ai(function(b){return[2,aj(a,b)]},x);break;case
 8:var
-y=fk(k,f,j,b),d=aw(function(b){var
-d=by(a,c);return[4,e(bU(g),b),d]},y);break;case
+y=fs(k,f,j,b),d=ai(function(b){var
+d=bc(a,c);return[4,e(bV(g),b),d]},y);break;case
 9:var
-m=fk(k,f,j,b);if(m){var
-n=aX(a,cc(f,b));if(n)var
-z=ax(a,n[1]),A=m[1],r=[0,[4,e(bU(g),A),z]];else
+m=fs(k,f,j,b);if(m){var
+n=aZ(a,cd(f,b));if(n)var
+z=aj(a,n[1]),A=m[1],r=[0,[4,e(bV(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=h1(k,f,j,b),o=0;if(h){var
+h=ic(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2786,85 +2786,85 @@ d=q}var
 t=[0,d,B]}else
 var
 t=i;return t}function
-pa(a){if(typeof
+pq(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cd(s,r){var
+ce(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=as(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:as(bb(e,aP(2))[2],d)?0:0;var
-i=bb(f,aP(2)),j=i[1];if(as(i[2],d)){if(B(e,c))return 0;var
-g=bb(e,aP(2)),p=g[1];if(as(g[2],d)){var
-f=j,e=p;continue}return 0}if(B(e,c))return 0;var
-h=bb(e,aP(2)),q=h[1];if(as(h[2],d))return 0;var
+k=av(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(C(f,c))return C(e,c)?1:av(bb(e,aR(2))[2],d)?0:0;var
+i=bb(f,aR(2)),j=i[1];if(av(i[2],d)){if(C(e,c))return 0;var
+g=bb(e,aR(2)),p=g[1];if(av(g[2],d)){var
+f=j,e=p;continue}return 0}if(C(e,c))return 0;var
+h=bb(e,aR(2)),q=h[1];if(av(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cd(b[1],a[1]);if(l){var
+l=ce(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cd(b[1],a[1]);if(m){var
+m=ce(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cd(b[1],a[1]);if(n){var
+n=ce(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cd(b[1],a[1]);if(o){var
+o=ce(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-d5(a){switch(a[0]){case
+d_(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hq(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hD(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hq(b,[0,N(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hD(b,[0,P(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hr(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hE(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ho(a,[0,d,c]))return 0;var
-b=a[1],e=br(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,N(a[2]),N(b)];return[0,hr(g,f)]};break;default:return 0}var
-g=d5(e);if(g){var
-h=d5(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hB(a,[0,d,c]))return 0;var
+b=a[1],e=bt(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,P(a[2]),P(b)];return[0,hE(g,f)]};break;default:return 0}var
+g=d_(e);if(g){var
+h=d_(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 o(i,e,b){var
-f=d5(b);if(f){var
-g=f[1];return e?aU(hp(g,[0,d,c])):hp([0,d,c],g)}var
-a=ay(i,b);if(a){var
-h=a[1];return e?af(d,h[1]):B(d,h[1])}return a}function
-h4(c,b){var
-a=ay(c,b),d=a?1:a;return d}function
-bW(c,a,b){var
-d=cd(a,b),e=d?h4(c,a):d;return e?e:o(c,0,[2,b,a])}function
-aR(c,b,a){var
-d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
-a4(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-az(a){return a4([4,[0,c,c],[5,J(a,a)]],a)}function
-ce(c,b,a){var
-d=bW(c,b[1],a);return d?bW(c,a,b[2]):d}function
+f=d_(b);if(f){var
+g=f[1];return e?aX(hC(g,[0,d,c])):hC([0,d,c],g)}var
+a=ar(i,b);if(a){var
+h=a[1];return e?ad(d,h[1]):C(d,h[1])}return a}function
+ig(c,b){var
+a=ar(c,b),d=a?1:a;return d}function
+bg(c,a,b){var
+d=ce(a,b),e=d?ig(c,a):d;return e?e:o(c,0,[2,b,a])}function
 aK(c,b,a){var
-d=ce(c,b[1],a[1]),e=d?ce(c,b[2],a[2]):d;return e?ce(c,b[3],a[3]):e}function
-h5(c,a,b){if(0===a[0])return aK(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?ce(c,a[4],b[3]):h}function
-h6(a,D,G,F){var
-h=D[1],d=G;for(;;){if(h){if(d){var
+d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
+aL(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aB(a){return aL([4,[0,c,c],[5,E(a,a)]],a)}function
+cf(c,b,a){var
+d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
+aM(c,b,a){var
+d=cf(c,b[1],a[1]),e=d?cf(c,b[2],a[2]):d;return e?cf(c,b[3],a[3]):e}function
+ih(c,a,b){if(0===a[0])return aM(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cf(c,a[4],b[3]):h}function
+ii(a,D,H,G){var
+h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-n=b[4],i=b[1],p=aK(a,f[1],i),q=p?o(a,1,J(i,i)):p,r=q?aK(a,f[2],b[2]):q,s=r?aK(a,f[3],b[3]):r,t=s?ce(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dK(f[5],b[5]):u;else
+n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cf(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dP(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aK(a,e[1],b[1]),x=w?aK(a,e[2],b[2]):w,m=0;if(x)if(v){var
-E=0;if(g){var
-j=g[1],y=aK(a,v[1],j);if(y){var
-c=o(a,1,J(j,j));E=1}else
+g=b[3],w=aM(a,e[1],b[1]),x=w?aM(a,e[2],b[2]):w,m=0;if(x)if(v){var
+F=0;if(g){var
+j=g[1],y=aM(a,v[1],j);if(y){var
+c=o(a,1,E(j,j));F=1}else
 var
 z=y}else
 var
-z=g;if(!E)var
+z=g;if(!F)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -2873,7 +2873,7 @@ A=x;m=1}if(m)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aK(a,e[1],k),c=B?o(a,1,J(k,k)):B;else
+k=b[1],B=aM(a,e[1],k),c=B?o(a,1,E(k,k)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -2882,73 +2882,73 @@ var
 C=d;var
 l=C}else
 var
-l=d?0:1;return l?h5(a,D[2],F):l}}function
-bC(c,b,a){var
-d=aR(function(b,a){return[1,b,a]},a,b);return aR(function(b,a){return[2,b,a]},d,c)}function
-fl(a,e,d,c){var
-b=bC(e,d,c),f=az(a),g=a4(J(az(a),b),f);return aR(function(b,a){return[2,b,a]},b,g)}function
-c$(f,e,d,a,c){var
-b=fl(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-da(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cC(a,b){switch(a[0]){case
+l=d?0:1;return l?ih(a,D[2],G):l}}function
+bD(c,b,a){var
+d=aK(function(b,a){return[1,b,a]},a,b);return aK(function(b,a){return[2,b,a]},d,c)}function
+ft(a,e,d,c){var
+b=bD(e,d,c),f=aB(a),g=aL(E(aB(a),b),f);return aK(function(b,a){return[2,b,a]},b,g)}function
+dc(f,e,d,a,c){var
+b=ft(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
+dd(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cD(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fl(d,f,e,b),h=c$(d,f,e,a[4],b),i=a4([4,[0,c,c],da(a[5],h)],g),j=az(d);return aR(function(b,a){return[1,b,a]},j,i);case
-1:return az(bC(a[1],a[2],b));default:return az(a[1])}}function
-h7(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ft(d,f,e,b),h=dc(d,f,e,a[4],b),i=aL([4,[0,c,c],dd(a[5],h)],g),j=aB(d);return aK(function(b,a){return[1,b,a]},j,i);case
+1:return aB(bD(a[1],a[2],b));default:return aB(a[1])}}function
+ij(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c$(e,d,c,a[4],b),i=da(a[5],h),j=bC(d,c,b);return[2,J(az(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dc(e,d,c,a[4],b),i=dd(a[5],h),j=bD(d,c,b);return[2,E(aB(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bC(g,f,b);return[5,J(bC(g,f,b),k)];default:return J(az(a[1]),b)}}function
-db(e,b,a){var
-f=[0,d,c];return cr(function(c,d){var
-e=J(cC(c,b),a);return[1,[3,J(cC(c,b),a),e],d]},f,e)}function
-h8(a){var
+f=a[2],g=a[1],k=bD(g,f,b);return[5,E(bD(g,f,b),k)];default:return E(aB(a[1]),b)}}function
+de(e,b,a){var
+f=[0,d,c];return ct(function(c,d){var
+e=E(cD(c,b),a);return[1,[3,E(cD(c,b),a),e],d]},f,e)}function
+ik(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fm(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=az(b),h=c$(b,f,e,d,c),i=a4(da(a[5],h),g),j=fl(b,f,e,c);return[0,[0,aR(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-h9(d,i){if(d){var
+fu(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aB(b),h=dc(b,f,e,d,c),i=aL(dd(a[5],h),g),j=ft(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+il(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bC(a[1],a[2],i),k=az(f),l=a4(J(az(f),g),k),h=[0,aR(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bD(a[1],a[2],i),k=aB(f),l=aL(E(aB(f),g),k),h=[0,aK(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=h9(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=il(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pb}function
-h_(g,f,e,b,m,a){function
-y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
+j=b;return j}return pr}function
+im(g,f,e,b,m,a){function
+y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=db(f,e,b);return o(g,1,[2,y(a[1]),U]);case
+U=de(f,e,b);return o(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return o(g,1,[2,db(f,e,b),V]);case
+V=y(a[1]);return o(g,1,[2,de(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,h7(a,e)]},p=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,ij(a,e)]},p=X,n=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,h7(a,e),Y]},p=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,ij(a,e),Y]},p=Z,n=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=cC(a,e);return[2,[3,[3,A,A],J(cC(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
+b=cD(a,e);return[2,[3,[3,A,A],E(cD(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
 5:var
-B=a[1],$=J(b,b),aa=[3,[3,B,B],[3,db(f,e,m),$]],ab=J(m,m);return o(g,1,[2,[3,db(f,e,b),ab],aa]);case
+B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,de(f,e,m),$]],ab=E(m,m);return o(g,1,[2,[3,de(f,e,b),ab],aa]);case
 6:var
-C=a[2],r=aV(f,a[1]);if(r){var
+C=a[2],r=aT(f,a[1]);if(r){var
 h=r[1];if(0===h[0]){var
-s=h[4],ac=c$(h[1],h[2],h[3],s,e),D=da(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
-E=0}else
+s=h[4],ac=dc(h[1],h[2],h[3],s,e),D=dd(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+F=0}else
 var
-E=r;return E;case
+F=r;return F;case
 7:if(f){var
 k=f[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-t=fm(f[1],e);if(t){var
-F=t[1],u=fm(k[1],e);if(u){var
-G=u[1],v=fm(l[1],e);if(v){var
-H=v[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,I,x]);if(K)return o(g,1,[1,I,x]);var
+t=fu(f[1],e);if(t){var
+G=t[1],u=fu(k[1],e);if(u){var
+H=u[1],v=fu(l[1],e);if(v){var
+I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,J,x]);if(K)return o(g,1,[1,J,x]);var
 L=K}else
 var
 L=v;var
@@ -2968,25 +2968,25 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=db(f,e,b),ae=J(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=h9(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cr(function(a,c){var
-d=J(az(a),b);return[1,[3,J(az(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],J(b,b)],T])}return w}var
-q=aV(f,n);return q?o(g,1,p(q[1])):q}function
+ad=de(f,e,b),ae=E(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=il(f,e);if(w){var
+af=w[1],S=[0,d,c],T=ct(function(a,c){var
+d=E(aB(a),b);return[1,[3,E(aB(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
+q=aT(f,n);return q?o(g,1,p(q[1])):q}function
 bX(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-pc(a){switch(a[0]){case
+ps(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bX(b[3]),f=bX(b[2]);return[0,bX(b[1]),f,e,d,c];case
 1:var
-g=aw(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
-cD(b,a){if(b){if(a){var
-e=cD(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-h$(a,l,k,f){var
-b=ay(a,l);if(b){var
-c=ay(a,k);if(c){var
-d=dS(a,f);if(d){var
-e=e7(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,ah(D(a,c[1],d[1]),m)];else
+g=ai(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
+cE(b,a){if(b){if(a){var
+e=cE(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+io(a,l,k,f){var
+b=ar(a,l);if(b){var
+c=ar(a,k);if(c){var
+d=dW(a,f);if(d){var
+e=fe(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,_(D(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2998,13 +2998,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ia(f,B,r,A,a,e){function
-s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cD(a,a)]}var
+ip(f,B,r,A,a,e){function
+s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cE(a,a)]}var
 C=r[1];function
 g(b){var
-a=[0,d,c];return cr(function(a,c){var
-d=cD(a,b);return[1,[3,cD(a,b),d],c]},a,C)}var
-t=p(function(a){return aC(l(a),B)},a);if(t){if(typeof
+a=[0,d,c];return ct(function(a,c){var
+d=cE(a,b);return[1,[3,cE(a,b),d],c]},a,C)}var
+t=q(function(a){return aE(m(a),B)},a);if(t){if(typeof
 e==="number")return 0;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
@@ -3013,23 +3013,23 @@ u=a[1],D=g(u);return o(f,1,[2,s(e[1],u),D])}return a;case
 v=a[1],E=s(e[1],v);return o(f,1,[2,g(v),E])}return a;case
 2:if(a)return 0;var
 F=e[2],G=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,F,a[1]]);return 0},k=G,i=e[1];break;case
+a!=="number"&&0===a[0])return o(f,1,[2,F,a[1]]);return 0},j=G,i=e[1];break;case
 3:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},k=I,i=e[1];break;case
+a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},j=I,i=e[1];break;case
 4:if(a)return 0;var
 w=e[3],x=e[2],J=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=o(f,0,[2,[1,x,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],w]);if(k){if(A){var
-e=h$(f,i,h,x);return e?af(e[1][2],d):e}var
-g=h$(f,i,h,w);return g?af(d,g[1][1]):g}return k}return 0},k=J,i=e[1];break;default:if(a){var
+h=a[2],i=a[1],j=o(f,0,[2,[1,x,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],w]);if(j){if(A){var
+e=io(f,i,h,x);return e?ad(e[1][2],d):e}var
+g=io(f,i,h,w);return g?ad(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],q=a[1],y=e[1],K=cD(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cD(n,n);return o(f,1,[2,[3,g(q),M],L])}var
+n=h[1],p=a[1],y=e[1],K=cE(p,p),L=[3,[3,y,y],[3,g(n),K]],M=cE(n,n);return o(f,1,[2,[3,g(p),M],L])}var
 z=h}else
 var
 z=a;return z}var
-m=aV(r[2],i);return m?k(m[1]):m}return t}function
-ib(h,g){var
+l=aT(r[2],i);return l?j(l[1]):l}return t}function
+iq(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3039,44 +3039,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pd(a){return f(function(a){return[0,a,c]},a)}function
-ic(e,l,b,k,a){if(typeof
+pt(a){return f(function(a){return[0,a,c]},a)}function
+ir(e,l,b,k,a){if(typeof
 a==="number"){var
-q=b[3];return bx(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=ib(a[1],k);if(g){var
-m=g[1],r=m[1],s=f(pd,a[2]);return ia(e,l,b,m[2],s,r)}return g}var
-h=ib(a[1],k);if(h){var
+q=b[3];return bz(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=iq(a[1],k);if(g){var
+m=g[1],r=m[1],s=f(pt,a[2]);return ip(e,l,b,m[2],s,r)}return g}var
+h=iq(a[1],k);if(h){var
 n=h[1],i=n[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aV(b[1],a[2]);return j?ia(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+j=aT(b[1],a[2]);return j?ip(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fn(a){var
-b=az(a[1]),c=a4(J(b,a[2]),b),d=a[2];return aR(function(b,a){return[2,b,a]},d,c)}function
-fo(a){return az(fn(a))}function
-id(c){var
-a=fo(c),b=az(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fp(a,b){return bC(a[3],a[4],b)}function
-fq(a,b){var
-c=fp(a,b);return J(fo(a),c)}function
-fr(a,b){var
-c=fp(a,b);return J(id(a),c)}function
-ie(a,b){var
-c=fp(a,b);return J(az(a[1]),c)}function
-fs(b,a){var
-c=fr(b,a),d=fq(b,a);return[1,[3,d,d],[3,c,c]]}function
-ft(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=ie(a,d);return[4,[1,fs(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-ig(a,b){var
-f=a[5],c=[2,ft(a,b),f],d=ie(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-fu(a,b){var
-c=ig(a,b);return da(a[7],c)}function
-ih(b,a){var
-c=fs(b,a),d=fr(b,a),e=[3,fu(b,a),d],f=fq(b,a);return[4,[1,[3,ft(b,a),f],e],c]}function
-ii(b,a){var
-c=fs(b,a),d=fq(b,a),e=[3,fu(b,a),d],f=fr(b,a);return[4,[2,[3,ft(b,a),f],e],c]}function
-bf(c){var
+fv(a){var
+b=aB(a[1]),c=aL(E(b,a[2]),b),d=a[2];return aK(function(b,a){return[2,b,a]},d,c)}function
+fw(a){return aB(fv(a))}function
+is(c){var
+a=fw(c),b=aB(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fx(a,b){return bD(a[3],a[4],b)}function
+fy(a,b){var
+c=fx(a,b);return E(fw(a),c)}function
+fz(a,b){var
+c=fx(a,b);return E(is(a),c)}function
+it(a,b){var
+c=fx(a,b);return E(aB(a[1]),c)}function
+fA(b,a){var
+c=fz(b,a),d=fy(b,a);return[1,[3,d,d],[3,c,c]]}function
+fB(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=it(a,d);return[4,[1,fA(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iu(a,b){var
+f=a[5],c=[2,fB(a,b),f],d=it(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fC(a,b){var
+c=iu(a,b);return dd(a[7],c)}function
+iv(b,a){var
+c=fA(b,a),d=fz(b,a),e=[3,fC(b,a),d],f=fy(b,a);return[4,[1,[3,fB(b,a),f],e],c]}function
+iw(b,a){var
+c=fA(b,a),d=fy(b,a),e=[3,fC(b,a),d],f=fz(b,a);return[4,[2,[3,fB(b,a),f],e],c]}function
+bh(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3085,91 +3085,94 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bf(a[2]);return g(bf(a[1]),e)}}function
-bg(e,a,b){switch(a[0]){case
+e=bh(a[2]);return g(bh(a[1]),e)}}function
+bi(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cA([0,[0,p,p],d],b);case
+p=a[1];return cB([0,[0,p,p],d],b);case
 1:var
 s=a[1],g=e,t=r(d);for(;;){if(g){var
-m=g[1];if(lz(m[1],s))return m[2];var
+l=g[1];if(lQ(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return ca(bg(e,a[1],b));case
+2:return cb(bi(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=T;break;case
+i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=I;break;case
+i=a[2],f=a[1],h=z;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aI;break;case
+i=a[2],f=a[1],h=aJ;break;case
 7:var
-j=c3(a[2]),k=bg(e,a[1],b);if(j){if(j[1]){var
-n=ao(k),q=function(a){return v(a,n)},o=eX(c1(he(j)),q,n);return hd(j)?o:v(o,k)}return k}return r(c);default:return cw(bg(e,a[1],b))}var
-u=bg(e,i,W(b,l(bf(f))));return h(bg(e,f,b),u)}function
-cf(c,f,b){var
+j=c5(a[2]),k=bi(e,a[1],b);if(j){if(j[1]){var
+n=$(k),q=function(a){return v(a,n)},o=e6(c3(hr(j)),q,n);return hq(j)?o:v(o,k)}return k}return r(c);default:return cx(bi(e,a[1],b))}var
+u=bi(e,i,S(b,m(bh(f))));return h(bi(e,f,b),u)}function
+cg(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=W(b,l(bf(e))),k=cf(c,a[2],j),m=g(cf(c,e,b),k);return[0,bg(c,a,b),m];case
+e=a[1],j=S(b,m(bh(e))),k=cg(c,a[2],j),l=g(cg(c,e,b),k);return[0,bi(c,a,b),l];case
 8:var
-n=cf(c,a[1],b);return[0,bg(c,a,b),n];case
+n=cg(c,a[1],b);return[0,bi(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=W(b,l(bf(d))),i=cf(c,a[2],h);return g(cf(c,d,b),i)}}function
-ij(c,a,b){if(a){var
-e=a[1],d=e[2],f=W(b,l(bf(d))),h=a[2],i=bg(c,d,b),j=ij([0,[0,e[1],i],c],h,f);return g(cf(c,d,b),j)}return a}function
-dc(a){return C(bf,a)}function
-ik(c,a,b){if(a)var
-d=a[1],f=W(b,l(bf(d))),g=ik(c,a[2],f),e=[0,bg(c,d,b),g];else
+d=a[1],h=S(b,m(bh(d))),i=cg(c,a[2],h);return g(cg(c,d,b),i)}}function
+ix(c,a,b){if(a){var
+e=a[1],d=e[2],f=S(b,m(bh(d))),h=a[2],i=bi(c,d,b),j=ix([0,[0,e[1],i],c],h,f);return g(cg(c,d,b),j)}return a}function
+df(a){return I(bh,a)}function
+iy(c,a,b){if(a)var
+d=a[1],f=S(b,m(bh(d))),g=iy(c,a[2],f),e=[0,bi(c,d,b),g];else
 var
 e=a;return e}function
-il(c,a,b){if(a){var
-d=a[1],e=W(b,l(bf(d))),f=il(c,a[2],e);return g(cf(c,d,b),f)}return a}function
-im(c,a,b){if(a)var
-d=a[1],f=W(b,l(dc(d))),g=im(c,a[2],f),e=[0,ik(c,d,b),g];else
+iz(c,a,b){if(a){var
+d=a[1],e=S(b,m(bh(d))),f=iz(c,a[2],e);return g(cg(c,d,b),f)}return a}function
+iA(c,a,b){if(a)var
+d=a[1],f=S(b,m(df(d))),g=iA(c,a[2],f),e=[0,iy(c,d,b),g];else
 var
 e=a;return e}function
-io(c,a,b){if(a){var
-d=a[1],e=W(b,l(dc(d))),f=io(c,a[2],e);return g(il(c,d,b),f)}return a}function
-ip(a){return f(function(a){return[0,a[2],d]},a)}function
-iq(a){var
-c=d4(0,ip(a[2])),d=c5(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cs(f(dI,a[2]),c);return g(cs(a[1],e),b)}function
-pf(a){if(typeof
+iB(c,a,b){if(a){var
+d=a[1],e=S(b,m(df(d))),f=iB(c,a[2],e);return g(iz(c,d,b),f)}return a}function
+iC(a){return f(function(a){return[0,a[2],d]},a)}function
+iD(a){var
+c=d9(0,iC(a[2])),d=c7(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cu(f(dN,a[2]),c);return g(cu(a[1],e),b)}function
+pv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fv(b,d){var
+fD(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bx(function(a){return av(e,a)},b);case
+e=a[1];return bz(function(a){return az(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fv(b,a[1]);if(c){var
+c=fD(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-d6(a){return 1===a?pj:pk}function
-ir(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-is(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fw(a,c,b){var
-d=[3,ir(a),b],e=[1,[3,is(a),c],d],f=[3,is(a),b];return[0,[2,[3,ir(a),c],f],e]}function
-it(c,a){var
-b=fw(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iu(h,b,a){if(0===h[0])return b?b[2]?a:it(b[1],a):a;if(b){var
-c=b[2];if(c){var
-d=c[2];if(d){if(d[2])return a;var
-e=fw(b[1],a[2],a[3]),g=e[1],f=fw(c[1],e[2],a[1]);return it(d[1],[0,f[2],g,f[1]])}return a}return a}return a}function
-fx(d,c,b,a){var
-e=a[1],f=iu(d,c,a[2]),g=aR(function(b,a){return[1,b,a]},b,f);return aR(function(b,a){return[2,b,a]},g,e)}function
-iv(b){var
-a=d5(b);return a?ho(a[1],[0,d,c]):a}function
-iw(a,m,j,i){if(iv(i)){var
+iE(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+iF(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fE(a,c,b){var
+d=[3,iE(a),b],e=[1,[3,iF(a),c],d],f=[3,iF(a),b];return[0,[2,[3,iE(a),c],f],e]}function
+iG(c,a){var
+b=fE(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iH(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+iI(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:iG(d[1],a):a;case
+1:if(d){var
+f=d[2];if(f){var
+g=f[2];if(g){if(g[2])return a;var
+j=fE(d[1],a[2],a[3]),m=j[1],k=fE(f[1],j[2],a[1]);return iG(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+h=d[2];if(h){var
+i=h[2];if(i){if(i[2])return a;var
+e=[0,d[1],h[1],i[1]],l=E(e,e),n=iH(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+iJ(b){var
+a=d_(b);return a?hB(a[1],[0,d,c]):a}function
+iK(a,m,j,i){if(iJ(i)){var
 q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
-f=ay(a,j);if(f){var
-g=dS(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=e7(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),k=[0,ah(h[1],p)];else
+f=ar(a,j);if(f){var
+g=dW(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fe(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),k=[0,_(h[1],p)];else
 var
 k=h;var
 l=k}else
@@ -3178,69 +3181,27 @@ l=g;var
 e=l}else
 var
 e=f;if(e){var
-n=e[1];return m?B(d,n[1]):B(n[2],d)}return e}function
-d7(b,a,c){var
-d=bW(b,a[1],a[2]),e=d?iw(b,0,c,a[1]):d;return e?iw(b,1,c,a[2]):e}function
-dd(b,d){var
-a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,W(b,c[1])]]:[0,dT(function(a){return dd(b,a)},a)]}return[0,dT(function(a){return dd(b,a)},a)]}function
-de(d,b,h){var
-c=h;for(;;){var
-a=c[1];switch(a[0]){case
-0:var
-e=a[1],f=aU(aC(e,b));return f?aU(aC(e,W(d,b))):f;case
-1:case
-2:return 1;case
-5:case
-8:case
-9:var
-c=a[1];continue;default:var
-g=de(d,b,a[1]);if(g){var
-c=a[2];continue}return g}}}function
-df(c,b,m){var
-d=m;for(;;){var
-a=d[1];switch(a[0]){case
-5:var
-d=a[1];continue;case
-6:var
-f=a[2],g=a[1],h=de(c,b,g),i=h?df(c,b,f):h;if(i)var
-j=i;else{var
-k=df(c,b,g);if(k)return de(c,b,f);var
-j=k}return j;case
-7:var
-l=df(c,b,a[1]);return l?de(c,b,a[2]):l;case
-3:case
-4:var
-e=df(c,b,a[1]);if(e){var
-d=a[2];continue}return e;case
-8:case
-9:return de(c,b,a[1]);default:return 1}}}function
-ix(c,e){var
-b=e;for(;;){var
-a=b[1];switch(a[0]){case
-0:return hc(a[1],c);case
-1:case
-2:return 1;case
-5:case
-8:case
-9:var
-b=a[1];continue;default:var
-d=ix(c,a[1]);if(d){var
-b=a[2];continue}return d}}}function
-iy(c,e){if(e){var
-k=iy(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,ax(c,b)],0],h=D(c,a,b),i=[0,[0,dR(S(a,b)),h],g],j=[0,[0,a,ax(c,a)],i];return C(function(a){return f(function(b){return[0,a,b]},k)},j)}return pl}function
-dg(b,a){return a?e(b,a[1]):a}function
-d8(c,b,a){return dg(function(b){return dg(e(c,b),a)},b)}function
-iz(d,a){if(a){var
-b=L(a[1],d,0);if(b)var
-c=iz(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+n=e[1];return m?C(d,n[1]):C(n[2],d)}return e}function
+dg(b,a,c){var
+d=bg(b,a[1],a[2]),e=d?iK(b,0,c,a[1]):d;return e?iK(b,1,c,a[2]):e}function
+dh(a,d){if(iJ(d))return[0,aA];var
+e=dW(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fe(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=T(bc(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cw(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ai(function(d){var
+e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hL(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+g=f}else
 var
-e=b;return e}return pm}function
-fy(b,a){if(a){var
-g=a[1],c=iz(b,g[1]);if(c){var
-e=L(g[2],b,0);if(e){var
-h=e[1],f=fy(b,a[2]);if(f)var
-i=af(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
+g=e;return g}function
+fF(d,a){var
+e=o(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+ch(a){return[0,[2,[0,d,c],a],a]}function
+iL(a,b,n,m){var
+h=bg(a,[0,d,c],b),i=h?fF(a,b):h;if(i){var
+e=dh(a,b);if(e){var
+f=ar(a,n);if(f){var
+g=ar(a,m);if(g){var
+o=f[1],p=g[1];return C(d,_(D(a,aj(a,e[1]),p),o)[1])}var
+j=g}else
 var
 j=f;var
 k=j}else
@@ -3248,191 +3209,386 @@ var
 k=e;var
 l=k}else
 var
-l=c;return l}return pn}function
-iA(c,a){var
-b=aC(l(a),c);return b?dY(a):b}function
-iB(c,U,T,R,k,Q,w,v){if(w){var
-V=iy(c,Q),n=f(function(a){var
-d=f(eW,a),b=0,n=g(f(dI,a),d);return c8(0,function(a){switch(a[0]){case
-0:return[0,L(a[1],n,aE)];case
-1:return[0,L(a[1],T,aE)];case
-2:return[0,by(c,a[1])];case
-3:var
-b=a[2],d=a[1];return d8(function(b,a){return[0,S(b,a)]},d,b);case
-4:var
-e=a[2],f=a[1];return d8(function(b,a){return[0,ah(b,a)]},f,e);case
-5:var
-g=a[1];return dg(function(a){return[0,aD(a)]},g);case
-6:var
-h=a[2],i=a[1];return d8(function(b,a){return[0,D(c,b,a)]},i,h);case
-7:var
-j=a[2],k=a[1];return d8(function(b,a){var
-d=cu(c,a);return aw(function(a){return D(c,b,a)},d)},k,j);case
-8:var
-l=a[1];return dg(function(a){return[0,ax(c,a)]},l);default:var
-m=a[1];return dg(function(a){return dQ(c,a)},m)}},U,b)},V),j=w,i=v;for(;;){if(j){var
-r=j[1],l=r[1],s=L(l,i,0);if(s){var
-m=aV(R,l);if(m){var
-b=r[2],e=m[1];switch(e[0]){case
+l=i;return l}function
+d$(a){return 1===a?pz:pA}function
+fG(d,c,b,a){var
+e=a[1],f=iI(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
+di(b,d){var
+a=d[1];if(8===a[0]){var
+c=a[1][1];return 0===c[0]?[0,[0,S(b,c[1])]]:[0,dX(function(a){return di(b,a)},a)]}return[0,dX(function(a){return di(b,a)},a)]}function
+dj(d,b,h){var
+c=h;for(;;){var
+a=c[1];switch(a[0]){case
 0:var
-x=0;if(typeof
-b==="number"||!(6===b[0]))x=1;else{var
-h=b[1],y=0;if(typeof
-h!=="number"&&0===h[0]){var
-F=e[3],G=e[2],H=e[1],I=h[2],J=h[1],a=p(function(g,h,i,j,l){return function(e){var
-a=fy(e,i);if(a){var
-b=L(h,e,0);if(b){var
-f=ct([0,aD(D(c,g,b[1])),0],k);return iA(k,hL(l,j,a[1],f))}var
-d=b}else
+e=a[1],f=aX(aE(e,b));return f?aX(aE(e,S(d,b))):f;case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+c=a[1];continue;default:var
+g=dj(d,b,a[1]);if(g){var
+c=a[2];continue}return g}}}function
+dk(c,b,m){var
+d=m;for(;;){var
+a=d[1];switch(a[0]){case
+5:var
+d=a[1];continue;case
+6:var
+f=a[2],g=a[1],h=dj(c,b,g),i=h?dk(c,b,f):h;if(i)var
+j=i;else{var
+k=dk(c,b,g);if(k)return dj(c,b,f);var
+j=k}return j;case
+7:var
+l=dk(c,b,a[1]);return l?dj(c,b,a[2]):l;case
+3:case
+4:var
+e=dk(c,b,a[1]);if(e){var
+d=a[2];continue}return e;case
+8:case
+9:return dj(c,b,a[1]);default:return 1}}}function
+iM(c,e){var
+b=e;for(;;){var
+a=b[1];switch(a[0]){case
+0:return hp(a[1],c);case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+d=iM(c,a[1]);if(d){var
+b=a[2];continue}return d}}}function
+iN(c,e){if(e){var
+k=iN(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,aj(c,b)],0],h=D(c,a,b),i=[0,[0,dV(T(a,b)),h],g],j=[0,[0,a,aj(c,a)],i];return I(function(a){return f(function(b){return[0,a,b]},k)},j)}return pB}function
+dl(b,a){return a?e(b,a[1]):a}function
+ea(c,b,a){return dl(function(b){return dl(e(c,b),a)},b)}function
+iO(b,c,n,a){var
+e=f(e5,a),d=0,o=g(f(dN,a),e);return c$(0,function(a){switch(a[0]){case
+0:return[0,H(a[1],o,aA)];case
+1:return[0,H(a[1],n,aA)];case
+2:return[0,bc(b,a[1])];case
+3:var
+c=a[2],d=a[1];return ea(function(b,a){return[0,T(b,a)]},d,c);case
+4:var
+e=a[2],f=a[1];return ea(function(b,a){return[0,_(b,a)]},f,e);case
+5:var
+g=a[1];return dl(function(a){return[0,aF(a)]},g);case
+6:var
+h=a[2],i=a[1];return ea(function(c,a){return[0,D(b,c,a)]},i,h);case
+7:var
+j=a[2],k=a[1];return ea(function(c,a){var
+d=cw(b,a);return ai(function(a){return D(b,c,a)},d)},k,j);case
+8:var
+l=a[1];return dl(function(a){return[0,aj(b,a)]},l);default:var
+m=a[1];return dl(function(a){return c9(b,a)},m)}},c,d)}function
+iP(d,a){if(a){var
+b=H(a[1],d,0);if(b)var
+c=iP(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-d=a;return d}}(F,G,H,I,J),n);y=1}if(!y)var
-a=0}if(x)var
-a=0;break;case
-1:var
-z=0;if(typeof
-b==="number"||!(6===b[0]))z=1;else{var
-o=b[1],A=0;if(typeof
-o==="number"&&!o){var
-K=e[3],M=e[2],N=e[1],a=p(function(i,j,l){return function(g){var
-a=fy(g,l);if(a){var
-b=L(j,g,0);if(b){var
-h=ct([0,D(c,i,b[1]),0],k),d=hN(a[1],h);if(d)return iA(k,d[1]);var
-e=d}else
+e=b;return e}return pC}function
+fH(b,a){if(a){var
+g=a[1],c=iP(b,g[1]);if(c){var
+e=H(g[2],b,0);if(e){var
+h=e[1],f=fH(b,a[2]);if(f)var
+i=ad(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
 var
-e=b;var
-f=e}else
+j=f;var
+k=j}else
 var
-f=a;return f}}(K,M,N),n);A=1}if(!A)var
-a=0}if(z)var
-a=0;break;default:var
-C=0;if(typeof
-b==="number"||!(6===b[0]))C=1;else{var
-q=b[1],E=0;if(typeof
-q==="number"&&!q){var
-O=e[1],a=p(function(c){return function(b){var
-a=L(c,b,0);return a?B(d,a[1][1]):a}}(O),n);E=1}if(!E)var
-a=0}if(C)var
-a=0}if(a){var
-P=fg(l,i),j=j[2],i=P;continue}var
-t=a}else
+k=e;var
+l=k}else
 var
-t=m;var
-u=t}else
-var
-u=s;return u}return[0,i]}}return[0,v]}function
-iC(g,f,e,d,c,r,q,o){var
-b=r,h=q,a=o;for(;;){if(0===a[0]){var
-i=iB(g,f,e,d,c,b,a[1],h);return i?p(aU,i[1]):i}var
-j=iB(g,f,e,d,c,b,a[1],h);if(j){var
-k=j[1],l=d2(a[2],b),m=iC(g,f,e,d,c,l[1],k,a[3]);if(m){var
-b=l[2],h=k,a=a[4];continue}var
-n=m}else
-var
-n=j;return n}}function
-dh(a){var
-b=ao(a);return T(r(c),b)}function
-d9(i,g){var
-h=dh(g),j=ao(g),e=I(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,ca(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ca(f),a,e]]:[0,[0,h,a,a],[0,a,e,ca(f)],[0,a,f,e]]}function
-iD(b,a){function
+l=c;return l}return pD}function
+fI(a,d){if(a){var
+b=a[1],c=b[1],e=H(c[1],d,0),f=b[2],g=c[2];return ai(function(a){return b$(g,f,a)},e)}return[0,aA]}function
+iQ(c,a){var
+b=aE(m(a),c);return b?d2(a):b}function
+iR(e,a,c){var
+b=c7(0,a);return q(function(f){var
+b=r(d);return dk(a,f,H(c,cy(e),b))},b)}function
+dm(a){var
+b=$(a);return G(r(c),b)}function
+eb(i,g){var
+h=dm(g),j=$(g),e=z(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,cb(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cb(f),a,e]]:[0,[0,h,a,a],[0,a,e,cb(f)],[0,a,f,e]]}function
+iS(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aJ(a,c(function(a){return a[3]})),d=aJ(a,c(function(a){return a[2]}));return[0,aJ(a,c(function(a){return a[1]})),d,b]}var
+b=ay(a,c(function(a){return a[3]})),d=ay(a,c(function(a){return a[2]}));return[0,ay(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-fz(d,a){var
-e=ao(a),f=v(v(r(b(2,c)),a),d);return T(I(ao(d),f),e)}function
-fA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d_(b,a){var
-c=be(a[2],b);return g(be(a[1],b),c)}function
-iE(q,k,p,t,o,j,s){if(j){var
-u=j[1],w=d4(s,d_(o,u)),P=W(s,l(d_(o,u))),Q=iE(q,k,p,t,o,j[2],P),i=bB(w,pz),m=bB(w,0);switch(q){case
+iT(a){switch(a[0]){case
+0:return[0,a[1],0];case
+1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
+2:return[0,ch(a[1]),0];default:var
+b=[0,ch(a[2]),0];return[0,ch(a[1]),b]}}function
+cF(a){return[0,[0,a[1]],[0,a[2]]]}function
+iU(a,b){if(0===b[0])return dh(a,b[1]);var
+d=dh(a,b[1]);if(d){var
+e=dh(a,b[2]);if(e){var
+g=aj(a,e[1]),h=c9(a,T(bc(a,c),g)),i=d[1];return ai(function(b){return D(a,i,b)},h)}var
+f=e}else
+var
+f=d;return f}function
+iV(k,c,e,f,b,a){switch(b[0]){case
+0:if(typeof
+a!=="number"&&0===a[0]){var
+l=b[3],m=b[2],n=b[1],o=a[2],p=a[1];return q(function(e){var
+a=fH(e,n);if(a){var
+b=H(m,e,0);if(b){var
+d=fI(f,e);if(d){var
+i=d[1],j=cv([0,_(aF(D(k,l,b[1])),i),0],c);return iQ(c,hY(p,o,a[1],j))}var
+g=d}else
+var
+g=b;var
+h=g}else
+var
+h=a;return h},e)}return 0;case
+1:if(typeof
+a==="number"&&!a){var
+r=b[3],s=b[2],t=b[1];return q(function(g){var
+a=fH(g,t);if(a){var
+b=H(s,g,0);if(b){var
+d=fI(f,g);if(d){var
+l=d[1],m=cv([0,_(D(k,r,b[1]),l),0],c),e=h0(a[1],m);if(e)return iQ(c,e[1]);var
+h=e}else
+var
+h=d;var
+i=h}else
+var
+i=b;var
+j=i}else
+var
+j=a;return j},e)}return 0;default:if(typeof
+a==="number"&&!a){var
+g=b[1];return q(function(e){var
+a=H(g,e,0);if(a){var
+b=fI(f,e);if(b)return C(d,_(a[1],b[1])[1]);var
+c=b}else
+var
+c=a;return c},e)}return 0}}function
+iW(l,k,f,j,i,e){if(typeof
+e!=="number"&&6===e[0]){var
+a=e[1];if(typeof
+a!=="number"&&7===a[0]){if(f){var
+m=a[3],n=a[2],o=C(d,n);if(o)var
+h=gV(m,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=0===h?0:0<=h?2:1,r=1===q?1:0,g=r;else
+var
+g=o;if(g)return iV(l,k,j,[0,[0,[0,f[1],n],m]],i,a[1]);var
+p=g}else
+var
+p=f;return p}return iV(l,k,j,0,i,a)}return 0}function
+iX(e,D,C,B,A,g,z,y,x){if(y){var
+J=iN(e,z),E=f(function(a){return iO(e,D,C,a)},J),c=y,a=x;for(;;){if(c){var
+o=c[1],h=o[2],b=o[1],j=c[2];if(b){var
+p=H(b,a,0);if(p){var
+k=aT(B,b);if(k){var
+q=iW(e,A,g,E,k[1],h);if(q){var
+c=j,a=d8(b,a);continue}var
+r=q}else
+var
+r=k;var
+s=r}else
+var
+s=p;return s}if(typeof
+h==="number"&&4<=h){var
+F=0;if(g){var
+G=0,I=iO(e,D,C,f(function(a){return[0,a,aj(e,a)]},z)),i=H(g[1],I,G);if(i){var
+l=ad(i[1][2],d);F=1}else
+var
+n=i}else
+var
+n=g;if(!F)var
+l=n;if(l){var
+c=j,a=f(function(a){return 0},a);continue}return l}var
+t=H(b,a,0);if(t){var
+m=aT(B,b);if(m){var
+u=iW(e,A,g,E,m[1],h);if(u){var
+c=j,a=d8(b,a);continue}var
+v=u}else
+var
+v=m;var
+w=v}else
+var
+w=t;return w}return[0,a]}}return[0,x]}function
+iY(h,g,f,e,d,c,s,r,p){var
+b=s,i=r,a=p;for(;;){if(0===a[0]){var
+j=iX(h,g,f,e,d,c,b,a[1],i);return j?q(aX,j[1]):j}var
+k=iX(h,g,f,e,d,c,b,a[1],i);if(k){var
+l=k[1],m=d6(a[2],b),n=iY(h,g,f,e,d,c,m[1],l,a[3]);if(n){var
+b=m[2],i=l,a=a[4];continue}var
+o=n}else
+var
+o=k;return o}}function
+fJ(d,a){var
+e=$(a),f=v(v(r(b(2,c)),a),d);return G(z($(d),f),e)}function
+iZ(a){switch(a){case
+0:return pT;case
+1:return pU;default:return 0}}function
+ec(b,a){var
+c=bf(a[2],b);return g(bf(a[1],b),c)}function
+i0(q,k,p,t,o,j,s){if(j){var
+u=j[1],w=d9(s,ec(o,u)),Q=S(s,m(ec(o,u))),R=i0(q,k,p,t,o,j[2],Q),i=bC(w,pV),l=bC(w,0);switch(q){case
 0:var
-g=[0,pw,pv,r(d)];break;case
+g=[0,pS,pR,r(d)];break;case
 1:var
-g=fc;break;default:var
-F=r(d),G=r(d),g=[0,r(d),G,F]}var
-e=bV(I,g,m),y=aJ(k[3],i),z=aJ(k[2],i),a=[0,aJ(k[1],i),z,y],H=fz(g[3],m[3]),J=fz(g[2],m[2]),K=fz(g[1],m[1]),L=T(T(T(aJ(i,i),K),J),H),M=aJ(a,e),N=v(r(b(2,c)),M),O=T(v(p,L),N),A=v(a[2],e[1]),B=I(v(a[1],e[2]),A),C=v(a[1],e[3]),D=I(v(a[3],e[1]),C),E=v(a[3],e[2]),f=d1([0,I(v(a[2],e[3]),E),D,B],t),h=bV(T,d0(p,e),a);switch(q){case
+g=fl;break;default:var
+H=r(d),I=r(d),g=[0,r(d),I,H]}var
+e=bW(z,g,l),y=ay(k[3],i),A=ay(k[2],i),a=[0,ay(k[1],i),A,y],J=fJ(g[3],l[3]),K=fJ(g[2],l[2]),L=fJ(g[1],l[1]),M=G(G(G(ay(i,i),L),K),J),N=ay(a,e),O=v(r(b(2,c)),N),P=G(v(p,M),O),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d5([0,z(v(a[2],e[3]),F),E,C],t),h=bW(G,d4(p,e),a);switch(q){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,O],Q]}else
+x=[0,[0,n,P],R]}else
 var
 x=j;return x}function
-iF(a,d){if(iv(d))return[0,aE];var
-e=dS(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=e7(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=S(by(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cu(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return aw(function(d){var
-e=D(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hy(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
-g=f}else
-var
-g=e;return g}function
-iG(d,a){var
-e=o(d,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]):e}function
-iH(f,a){if(typeof
+i1(f,a){if(typeof
 a!=="number")switch(a[0]){case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],f]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fB(e,d,m,l,k,a){var
-f=v(ao(cA(iH(l,a),k)),m);if(typeof
+fK(e,d,m,l,k,a){var
+f=v($(cB(i1(l,a),k)),m);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aV(d,a[1]);if(b)var
-g=o(e,0,a[2]),h=g?[0,I(b[1][2],f)]:g;else
+b=aT(d,a[1]);if(b)var
+g=o(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aV(d,a[1]);if(c)var
-i=o(e,0,a[2]),j=i?[0,I(f,c[1][2])]:i;else
+c=aT(d,a[1]);if(c)var
+i=o(e,0,a[2]),j=i?[0,z(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-iI(h,a,g,f,m,l,j){if(j){var
-w=iI(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
+i2(h,a,g,f,m,l,j){if(j){var
+w=i2(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
 b==="number")var
-q=e(a,f),i=[0,[0,e(bU(a),g),q,aE]];else
+q=e(a,f),i=[0,[0,e(bV(a),g),q,aA]];else
 switch(b[0]){case
 0:var
 r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
 1:var
 t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
 2:var
-u=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},u);break;case
+u=fK(h,g,f,m,l,b),i=ai(function(b){return[2,e(a,b)]},u);break;case
 3:var
-v=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},v);break;default:var
+v=fK(h,g,f,m,l,b),i=ai(function(b){return[2,e(a,b)]},v);break;default:var
 i=0}if(n)var
-s=aX(h,[0,[0,k,k],d]),i=aw(function(b){var
-c=ax(h,b),d=e(a,f);return o(e(bU(a),g),d,c)},s);var
+s=aZ(h,[0,[0,k,k],d]),i=ai(function(b){var
+c=aj(h,b),d=e(a,f);return o(e(bV(a),g),d,c)},s);var
 p=[0,i,w]}else
 var
 p=j;return p}function
-iJ(h,f,e,d,c,a){if(a){var
-i=iJ(h,f,e,d,[0,c],a[2]),b=fB(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
-pA(a){if(typeof
+i3(h,f,e,d,c,a){if(a){var
+i=i3(h,f,e,d,[0,c],a[2]),b=fK(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
+pW(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-d$(a){var
-b=cd(a[1],[0,d,c]);return b?cd(a[2],[0,d,c]):b}function
-ea(b,a){return bW(b,a[1],a[2])}function
-fC(b,a){var
-c=ea(b,a[1]),d=c?ea(b,a[2]):c;return d?ea(b,a[3]):d}var
-ec=I(r(c),eb);function
-iK(e){var
-a=ao(ec);if(e)var
-f=v(r(b(2,c)),a),g=T(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aI(T(r(c),h),g);else
+ed(a){var
+b=ce(a[1],[0,d,c]);return b?ce(a[2],[0,d,c]):b}function
+pX(h,a,i,a4){var
+x=a[1],j=d$(x),ag=a[3],a5=[0,[0,[0,ag,ag],i],0],a6=a[2],ah=g(I(function(a){return ec(i,a)},a6),a5),M=m(ah),a7=a[2],a8=m(I(function(a){return ec(i,a)},a7)),aj=a[3],a9=cB([0,[0,aj,aj],i],a8),a_=iZ(x),a$=a[5];function
+e(a){return[0,[0,S(a_,a)]]}switch(a$[0]){case
+0:var
+aL=dm(e(0)),B=[0,eb(pE,e(0)),aL];break;case
+1:var
+aM=dm(e(0)),aN=v(dm(e(pF)),aM),aO=v(dm(e(pG)),aN),aP=eb(0,e(0)),aQ=iS(eb(pI,e(pH)),aP),B=[0,iS(eb(pK,e(pJ)),aQ),aO];break;default:var
+aR=e(pL),aS=e(pM),t=[0,e(0),aS,aR],aT=ay(t,t),aV=G(r(c),aT),aB=ay(t,t),n=t[1],p=t[2],s=t[3],J=function(a){var
+d=$(a),e=v(r(b(2,c)),d);return G(z(r(c),aB),e)},u=function(f,e,d,a){var
+g=Y(f,v(e,d),a);return v(r(b(2,c)),g)},aC=J(s),aD=u(G,p,s,n),aF=[0,u(z,n,s,p),aD,aC],aG=u(z,p,s,n),aH=J(p),aI=[0,u(G,n,p,s),aH,aG],aJ=u(G,n,s,p),aK=u(z,n,p,s),B=[0,[0,[0,J(n),aK,aJ],aI,aF],aV]}var
+C=B[2],N=i0(x,B[1],C,a9,i,a[2],0),ba=S(M,m(a[6])),bb=iZ(x),bc=a[5];function
+w(a){return[0,[0,S(bb,a)]]}var
+aa=$([0,[1,ba]]);switch(bc[0]){case
+2:var
+aW=w(pN),aX=w(pO),ab=[0,w(0),aX,aW],k=[0,z(aa,ay(ab,ab))];break;case
+3:var
+aY=$(w(pP)),a0=$(w(0)),a1=$(w(pQ)),k=[0,z(z(v(aa,G(r(c),a1)),a0),aY)];break;default:var
+k=0}var
+bd=k?[0,k[1],0]:k,be=[0,C,g(i3(h,N,C,i,M,a[6]),bd)],O=g(cC(N),be),y=d0(f(function(a){return di(j,a)},O))[1];function
+D(a){var
+b=di(j,a);return bT(cy(y),b)}var
+ak=q(function(a){var
+b=di(j,a),c=r(d),e=cy(y);return bA(H(D(a),e,c),b)},O),al=ak?q(function(a){return iM(j,a)},O):ak,am=al?bz(pW,a[6]):al;if(am){var
+E=a[4];switch(x){case
+0:var
+P=ed(E[3]);break;case
+1:var
+P=1;break;default:var
+ae=ed(E[1]),af=ae?ed(E[2]):ae,P=af?ed(E[3]):af}var
+Q=P}else
 var
-i=T(r(b(2,c)),a),j=ao(eb),d=aI(T(v(r(b(2,c)),j),a),i);return cw(d)}function
-iL(d,b,a){if(d){var
-e=iK(b),f=T(r(c),e),g=v(I(r(c),a),f);return I(r(c),g)}var
-h=r(c),i=iK(b),j=aI(r(c),i);return I(v(a,T(r(c),j)),h)}function
-cE(f,e,d,a){var
-g=ao(a),h=ao(d),i=I(I(r(b(2,c)),h),g),j=f?e?ec:aI(ec,v(r(b(2,c)),eb)):aI(ec,r(b(2,c))),k=v(ao(j),i);return cw(T(r(c),k))}function
-iM(g,d){var
+Q=am;var
+an=Q?o(h,1,a[3]):Q;if(an)var
+bf=iT(a[5]),R=q(function(a){var
+b=fF(h,a[1]);return b?fF(h,a[2]):b},bf);else
+var
+R=an;if(R){var
+bg=a[6],bh=g(ah,f(function(a){return i1(i,a)},bg)),T=aU(f(function(a){return aZ(h,a)},bh));if(T){var
+A=a[4];switch(x){case
+0:var
+U=[0,A[1],[0,A[2],0]];break;case
+1:var
+U=[0,A[1],[0,A[2],[0,A[3],0]]];break;default:var
+U=0}var
+V=aU(f(function(a){return aZ(h,[0,a,i])},U));if(V){var
+ao=V[1],l=a[5];switch(l[0]){case
+0:var
+F=[0,cF(l[1]),0];break;case
+1:var
+a2=[0,cF(l[3]),0],a3=[0,cF(l[2]),a2],F=[0,cF(l[1]),a3];break;case
+2:var
+K=cF(ch(l[1])),F=[0,K,[0,K,[0,K,0]]];break;default:var
+L=l[2],ac=l[1],ad=[0,[1,ch(ac)[1],L],[1,ac,L]],F=[0,ad,[0,ad,[0,cF(ch(L)),0]]]}var
+W=aU(f(function(d){var
+a=iU(h,d[1]);if(a)var
+b=iU(h,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+var
+c=a;return c},F));if(W){var
+ap=W[1],aq=a[5],bi=1<aq[0]?[0,aq[1],0]:0,X=aU(f(function(a){return dh(h,a)},bi));if(X){var
+Z=aU(i2(h,D,N,C,i,M,a[6]));if(Z){var
+_=Z[1],ar=aE(m(g(ao,ap)),j),as=ar?q(function(a){if(2===a[0])var
+b=[0,a[1],0];else
+var
+d=a[1],c=I(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return q(function(a){return iR(y,j,a)},b)},_):ar,at=as?k?iR(y,j,D(k[1])):1:as;if(at){var
+bj=f(function(a){return 1},_),bk=g(ao,ap),bl=ai(D,k);return iY(h,y,g(T[1],X[1]),_,j,bl,bk,bj,a4)}var
+au=at}else
+var
+au=Z;var
+av=au}else
+var
+av=X;var
+aw=av}else
+var
+aw=W;var
+ax=aw}else
+var
+ax=V;var
+az=ax}else
+var
+az=T;var
+aA=az}else
+var
+aA=R;return aA}function
+ee(b,a){return bg(b,a[1],a[2])}function
+fL(b,a){var
+c=ee(b,a[1]),d=c?ee(b,a[2]):c;return d?ee(b,a[3]):d}var
+eg=z(r(c),ef);function
+i4(e){var
+a=$(eg);if(e)var
+f=v(r(b(2,c)),a),g=G(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aJ(G(r(c),h),g);else
+var
+i=G(r(b(2,c)),a),j=$(ef),d=aJ(G(v(r(b(2,c)),j),a),i);return cx(d)}function
+i5(d,b,a){if(d){var
+e=i4(b),f=G(r(c),e),g=v(z(r(c),a),f);return z(r(c),g)}var
+h=r(c),i=i4(b),j=aJ(r(c),i);return z(v(a,G(r(c),j)),h)}function
+cG(f,e,d,a){var
+g=$(a),h=$(d),i=z(z(r(b(2,c)),h),g),j=f?e?eg:aJ(eg,v(r(b(2,c)),ef)):aJ(eg,r(b(2,c))),k=v($(j),i);return cx(G(r(c),k))}function
+i6(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?S(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fD(u,t,s){var
-a=f(function(a){return L(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?T(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+fM(u,t,s){var
+a=f(function(a){return H(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3440,8 +3596,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return dY([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return q(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return d2([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3457,18 +3613,18 @@ n=h;var
 o=n}else
 var
 o=b;var
-q=o}else
+p=o}else
 var
-q=g;var
-r=q}else
+p=g;var
+r=p}else
 var
 r=a;return r}function
-iN(f,i,e,b,h){var
-j=f?c:d,a=by(i,j);function
+i7(f,i,e,b,h){var
+j=f?c:d,a=bc(i,j);function
 g(b){var
-c=f?e3(b):e4(b);return ah(c,a)}var
-k=[0,bd(h),0],l=[0,[0,a,b,[0,aE,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-iO(r,g,q,p,e,o,n){if(o){var
+c=f?fa(b):fb(b);return _(c,a)}var
+k=[0,be(h),0],l=[0,[0,a,b,[0,aA,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+i8(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3477,16 +3633,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(c9,bT(pD)),a=fD(p,hS(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(da,bU(p0)),a=fM(p,h5(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=B(k[2],l[1]);b=1;c=1;d=1;break}else
+a=C(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(iM,pE),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(i6,p1),a=fM(p,c$(0,fh(g,i7(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(iM,pF),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+B=f(i6,p2),a=fM(p,c$(0,fh(g,i7(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3496,27 +3652,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?pG:a}else
+y=a?p3:a}else
 var
 y=n;return y}return[0,n]}function
-iP(f,e,d,c,p,o,n){var
+i9(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=iO(f,e,d,c,b,a[1],g);return h?aU(h[1]):h}var
-i=iO(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d2(a[2],b),l=iP(f,e,d,c,k[1],j,a[3]);if(l){var
+h=i8(f,e,d,c,b,a[1],g);return h?aX(h[1]):h}var
+i=i8(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d6(a[2],b),l=i9(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fE(a){return hg(b(2,c),b7(a,c))}function
-cF(i,a,e,w,u){var
-l=a?c:N(c),f=r(l),g=iL(a,e,pB),h=iL(a,e,pC),m=aI(g,cE(a,e,f,g)),n=[0,T(aI(h,cE(a,e,h,f)),m),0],o=aI(f,cE(a,e,f,g)),p=[0,T(aI(h,cE(a,e,g,h)),o),n],q=aI(f,cE(a,e,h,f)),s=[0,T(aI(g,cE(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eb):r(b(2,b(2,c))),j=dW([0,t,s]),k=[0,d,b_(i)];return iP(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-iQ(a,g,b){if(af(g,fE(a))){if(b){var
+fN(a){return ht(b(2,c),b7(a,c))}function
+cH(i,a,e,w,u){var
+l=a?c:P(c),f=r(l),g=i5(a,e,pY),h=i5(a,e,pZ),m=aJ(g,cG(a,e,f,g)),n=[0,G(aJ(h,cG(a,e,h,f)),m),0],o=aJ(f,cG(a,e,f,g)),p=[0,G(aJ(h,cG(a,e,g,h)),o),n],q=aJ(f,cG(a,e,h,f)),s=[0,G(aJ(g,cG(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),ef):r(b(2,b(2,c))),j=d0([0,t,s]),k=[0,d,b_(i)];return i9(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+i_(a,g,b){if(ad(g,fN(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fE(a)],v=b_(a),i=[0,fE(a),v],j=cF(a,0,1,h,b[1]),k=j?cF(a,0,0,i,c[1]):j;if(k){var
-l=cF(a,1,1,h,d[1]);if(l)return cF(a,1,0,i,e[1]);var
+h=[0,g,fN(a)],v=b_(a),i=[0,fN(a),v],j=cH(a,0,1,h,b[1]),k=j?cH(a,0,0,i,c[1]):j;if(k){var
+l=cH(a,1,1,h,d[1]);if(l)return cH(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3533,170 +3689,176 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,b_(a)],s=cF(a,0,0,r,b[1]);if(s)return cF(a,1,0,r,f[1]);var
+r=[0,g,b_(a)],s=cH(a,0,0,r,b[1]);if(s)return cH(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-fF(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,pH,fF(b)]);var
+fO(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,p4,fO(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,pJ,g(fF(a),pI)]}function
-M(a){return[0,pL,g(fF(a),pK)]}function
-ai(a){return[0,pN,[0,a,pM]]}function
-h(b,a){return[0,am(pP,am(b,pO)),a]}function
-K(b,a){return M([0,h(b,a),0])}function
-cG(d){var
-b=d,a=oD,e=0;for(;;){if(b){var
-c=hb(a),b=b[1],a=c;continue}return[0,c6(dJ(a)),e]}}function
-fG(a){return[0,c6(dN(a)),0]}function
-iR(a){var
-c=br(a),f=0,b=0===c?oH:0<c?[0,dN(a)]:[1,dN(N(a))];if(0===b[0])var
-d=c6(b[1]);else
+w(a){return[0,p6,g(fO(a),p5)]}function
+N(a){return[0,p8,g(fO(a),p7)]}function
+ak(a){return[0,p_,[0,a,p9]]}function
+h(b,a){return[0,ap(qa,ap(b,p$)),a]}function
+F(b,a){return N([0,h(b,a),0])}function
+cI(d){var
+b=d,a=oT,e=0;for(;;){if(b){var
+c=ho(a),b=b[1],a=c;continue}return[0,c8(dO(a)),e]}}function
+fP(a){return[0,c8(dS(a)),0]}function
+fQ(a){var
+c=bt(a),f=0,b=0===c?oX:0<c?[0,dS(a)]:[1,dS(P(a))];if(0===b[0])var
+d=c8(b[1]);else
 var
-e=c6(b[1]),d=am(aT(1,45),e);return[0,d,f]}function
-iS(a){var
-b=0,c=0<br(a)?dN(a):oG;return[0,c6(c),b]}function
-fH(a){switch(a[0]){case
-2:return pR;case
-3:return 2<=a[1]?pS:pT;case
-4:return pU;default:return pQ}}function
-di(b,a){function
-c(c,a){return _(c,fH(a))?di(b,a):[0,p0,g(di(b,a),pZ)]}switch(a[0]){case
+e=c8(b[1]),d=ap(aW(1,45),e);return[0,d,f]}function
+fR(a){var
+b=0,c=0<bt(a)?dS(a):oW;return[0,c8(c),b]}function
+fS(a){switch(a[0]){case
+2:return qc;case
+3:return 2<=a[1]?qd:qe;case
+4:return qf;default:return qb}}function
+dn(b,a){function
+c(c,a){return ab(c,fS(a))?dn(b,a):[0,ql,g(dn(b,a),qk)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aN(h),0];var
-i=[0,p1,[0,aN(f),0]];return[0,aN(h),i];case
+f==="number")return[0,aP(h),0];var
+i=[0,qm,[0,aP(f),0]];return[0,aP(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,p3,c(p2,a[1])];case
+2:return[0,qo,c(qn,a[1])];case
 3:var
-j=a[3],k=c([0,fH(a)],j);switch(a[1]){case
+j=a[3],k=c([0,fS(a)],j);switch(a[1]){case
 0:var
-d=pV;break;case
+d=qg;break;case
 1:var
-d=pW;break;case
+d=qh;break;case
 2:var
-d=pX;break;default:var
-d=pY}var
-l=a[2];return g(c(fH(a),l),[0,d,k]);case
+d=qi;break;default:var
+d=qj}var
+l=a[2];return g(c(fS(a),l),[0,d,k]);case
 4:var
-m=[0,p4,fG(a[2])];return g(c(p5,a[1]),m);default:return[0,p7,g(di(b,a[1]),p6)]}}function
-U(a){return[0,p_,g(di(function(a){throw[0,P,p9]},a),p8)]}function
-iT(a){return[0,qa,g(di(function(a){return a},a),p$)]}function
-bY(a){if(0===a[0])return U(a[1]);var
-b=[0,h(qb,U(a[2])),0];return M([0,h(qc,U(a[1])),b])}function
-ed(b,a){var
+m=[0,qp,fP(a[2])];return g(c(qq,a[1]),m);default:return[0,qs,g(dn(b,a[1]),qr)]}}function
+O(a){return[0,qv,g(dn(function(a){throw[0,R,qu]},a),qt)]}function
+i$(a){return[0,qx,g(dn(function(a){return a},a),qw)]}function
+bY(a){if(0===a[0])return O(a[1]);var
+b=[0,h(qy,O(a[2])),0];return N([0,h(qz,O(a[1])),b])}function
+eh(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qd(a){function
-b(a){return ed(bY,a)}switch(a[0]){case
+qA(a){function
+b(a){return eh(bY,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qe:qm,i=[0,h(qf,ai(f)),e],j=[0,h(qg,bY(a[4])),i],k=[0,h(qh,b(a[3])),j],l=[0,h(qi,b(a[2])),k],m=[0,h(qj,b(a[1])),l],c=[0,h(ql,ai(qk)),m];break;case
+e=0,f=a[5]?qB:qJ,i=[0,h(qC,ak(f)),e],j=[0,h(qD,bY(a[4])),i],k=[0,h(qE,b(a[3])),j],l=[0,h(qF,b(a[2])),k],m=[0,h(qG,b(a[1])),l],c=[0,h(qI,ak(qH)),m];break;case
 1:var
-d=a[3],n=d?[0,h(qn,b(d[1])),0]:d,o=[0,h(qo,b(a[2])),0],p=[0,h(qp,b(a[1])),o],c=g([0,h(qr,ai(qq)),p],n);break;default:var
-q=[0,h(qs,b(a[1])),0],c=[0,h(qu,ai(qt)),q]}return M(c)}function
-qv(a){function
-b(a){return ed(bY,a)}var
-c=0,d=a[7]?qw:qG,e=[0,h(qx,ai(d)),c],f=[0,h(qy,bY(a[6])),e],g=[0,h(qz,bY(a[5])),f],i=[0,h(qA,b(a[4])),g],j=[0,h(qB,b(a[3])),i],k=[0,h(qC,b(a[2])),j],l=[0,h(qD,b(a[1])),k];return M([0,h(qF,ai(qE)),l])}function
-fI(a){switch(a){case
-0:return qH;case
-1:return qI;case
-2:return qJ;case
-3:return qK;case
-4:return qL;case
-5:return qM;case
-6:return qN;default:return qO}}function
-fJ(a){switch(a[0]){case
-0:return qP;case
-1:return qQ;default:return qR}}function
-dj(a){var
+d=a[3],n=d?[0,h(qK,b(d[1])),0]:d,o=[0,h(qL,b(a[2])),0],p=[0,h(qM,b(a[1])),o],c=g([0,h(qO,ak(qN)),p],n);break;default:var
+q=[0,h(qP,b(a[1])),0],c=[0,h(qR,ak(qQ)),q]}return N(c)}function
+qS(a){function
+b(a){return eh(bY,a)}var
+c=0,d=a[7]?qT:q3,e=[0,h(qU,ak(d)),c],f=[0,h(qV,bY(a[6])),e],g=[0,h(qW,bY(a[5])),f],i=[0,h(qX,b(a[4])),g],j=[0,h(qY,b(a[3])),i],k=[0,h(qZ,b(a[2])),j],l=[0,h(q0,b(a[1])),k];return N([0,h(q2,ak(q1)),l])}function
+fT(a){switch(a){case
+0:return q4;case
+1:return q5;case
+2:return q6;case
+3:return q7;case
+4:return q8;case
+5:return q9;case
+6:return q_;default:return q$}}function
+fU(a){switch(a[0]){case
+0:return ra;case
+1:return rb;default:return rc}}function
+dp(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,U(b[2]),0],e=w([0,U(b[1]),i]);else
+i=[0,O(b[2]),0],e=w([0,O(b[1]),i]);else
 var
-e=U(b[1]);var
-k=[0,h(qS,e),j],l=[0,h(qT,ai(fJ(a[4]))),k],c=a[3];if(c)var
-n=w([0,U(c[1]),0]),m=0,o=6===a[1]?qU:qY,f=[0,h(qV,K(o,n)),m];else
+e=O(b[1]);var
+k=[0,h(rd,e),j],l=[0,h(re,ak(fU(a[4]))),k],c=a[3];if(c)var
+n=w([0,O(c[1]),0]),m=0,o=6===a[1]?rf:rj,f=[0,h(rg,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(qW,cG(d[1])),0]:d,r=g(q,p);return M([0,h(qX,ai(fI(a[1]))),r])}function
-iU(a){if(0===a[0]){var
-b=[0,h(qZ,ed(U,a[2])),0];return K(q1,M([0,h(q0,ed(U,a[1])),b]))}var
-c=[0,U(a[5]),0],d=[0,h(q2,w([0,U(a[4]),c])),0],e=[0,h(q3,U(a[3])),d],f=[0,U(a[2]),0];return K(q5,M([0,h(q4,w([0,U(a[1]),f])),e]))}function
-q9(a){function
+p=g(f,l),d=a[2],q=d?[0,h(rh,cI(d[1])),0]:d,r=g(q,p);return N([0,h(ri,ak(fT(a[1]))),r])}function
+ja(a){if(0===a[0]){var
+b=[0,h(rk,eh(O,a[2])),0];return F(rm,N([0,h(rl,eh(O,a[1])),b]))}var
+c=[0,O(a[5]),0],d=[0,h(rn,w([0,O(a[4]),c])),0],e=[0,h(ro,O(a[3])),d],f=[0,O(a[2]),0];return F(rq,N([0,h(rp,w([0,O(a[1]),f])),e]))}function
+ru(a){function
 b(a){return w(f(bY,a))}var
-c=[0,h(q_,b(a[2])),0],d=[0,h(q$,b(a[1])),c];return M([0,h(rb,ai(ra)),d])}function
-rh(a){switch(a[0]){case
+c=[0,h(rv,b(a[2])),0],d=[0,h(rw,b(a[1])),c];return N([0,h(ry,ak(rx)),d])}function
+rI(a){switch(a[0]){case
 0:var
-n=[0,h(ri,w(f(dj,a[3]))),0],o=[0,h(rj,iU(a[2])),n];return K(rm,M([0,h(rl,K(rk,w(f(qd,a[1])))),o]));case
+o=[0,h(rJ,w(f(dp,a[3]))),0],p=[0,h(rK,ja(a[2])),o];return F(rN,N([0,h(rM,F(rL,w(f(qA,a[1])))),p]));case
 1:var
-p=[0,h(rn,w(f(dj,a[3]))),0],q=[0,h(ro,iU(a[2])),p];return K(rr,M([0,h(rq,K(rp,w(f(qv,a[1])))),q]));case
+q=[0,h(rO,w(f(dp,a[3]))),0],r=[0,h(rP,ja(a[2])),q];return F(rS,N([0,h(rR,F(rQ,w(f(qS,a[1])))),r]));case
 2:var
-r=[0,h(rs,w(f(dj,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,U(a),0];return w([0,U(b),c])};if(0===b[0])var
-j=K(rc,c(b[1],b[2]));else
-var
-e=b[3],g=b[2],i=b[1],l=[0,h(rd,c(e[1],e[2])),0],m=[0,h(re,c(g[1],g[2])),l],j=K(rg,M([0,h(rf,c(i[1],i[2])),m]));var
-s=[0,h(rt,j),r],t=[0,h(ru,w(f(U,a[5]))),0],u=[0,h(rx,K(rw,M([0,h(rv,w(f(U,a[4]))),t]))),s],v=[0,h(ry,U(a[3])),0],x=M([0,h(rz,w(f(q9,a[2]))),v]);switch(a[1]){case
+s=[0,h(rT,w(f(dp,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,O(a),0];return w([0,O(b),c])};switch(b[0]){case
 0:var
-d=q6;break;case
+d=F(rz,c(b[1],b[2]));break;case
 1:var
-d=q7;break;default:var
-d=q8}return K(rB,M([0,h(rA,K(d,x)),u]));case
-3:var
-y=[0,h(rC,w(f(dj,a[7]))),0],z=[0,h(rD,w(f(U,a[6]))),0],A=[0,h(rG,K(rF,M([0,h(rE,w(f(U,a[5]))),z]))),y],B=0,C=a[4],D=[0,h(rI,w(f(function(a){return K(rH,w(f(iT,a)))},C))),B],E=a[3],F=[0,h(rJ,w(f(function(a){var
-b=[0,iT(a[2]),0];return w([0,ai(a[1]),b])},E))),D],G=a[2],H=[0,h(rK,w(f(function(a){var
-b=[0,bY(a[2]),0];return w([0,ai(a[1]),b])},G))),F];return K(rO,M([0,h(rN,K(rM,M([0,h(rL,w(f(ai,a[1]))),H]))),A]));case
-4:var
-I=[0,h(rP,w(f(dj,a[3]))),0],J=[0,h(rS,K(rR,M([0,h(rQ,U(a[2])),0]))),I];return K(rW,M([0,h(rV,K(rU,M([0,h(rT,U(a[1])),0]))),J]));default:var
-k=a[1],L=0,N=k?bY(k[1]):ai(rZ);return K(rY,M([0,h(rX,N),L]))}}function
-fK(a){return w(f(iR,a))}function
-iV(b,a){var
-c=[0,h(r0,iS(a)),0];return M([0,h(r1,w(f(fK,b))),c])}function
-fL(a){switch(a[0]){case
-0:return ai(a[1]);case
-1:var
-b=iV(a[2],a[3]);return K(a[1],b);case
+g=b[3],i=b[2],j=b[1],l=[0,h(rA,c(g[1],g[2])),0],m=[0,h(rB,c(i[1],i[2])),l],d=F(rD,N([0,h(rC,c(j[1],j[2])),m]));break;case
 2:var
-c=a[1]?r2:r4;return K(r3,ai(c));case
+d=F(rE,O(b[1]));break;default:var
+n=[0,h(rF,O(b[2])),0],d=F(rH,N([0,h(rG,O(b[1])),n]))}var
+t=[0,h(rU,d),s],u=[0,h(rV,w(f(O,a[5]))),0],v=[0,h(rY,F(rX,N([0,h(rW,w(f(O,a[4]))),u]))),t],x=[0,h(rZ,O(a[3])),0],y=N([0,h(r0,w(f(ru,a[2]))),x]);switch(a[1]){case
+0:var
+e=rr;break;case
+1:var
+e=rs;break;default:var
+e=rt}return F(r2,N([0,h(r1,F(e,y)),v]));case
 3:var
-d=[0,fK(a[3]),0];return K(r5,w([0,iV(a[1],a[2]),d]));case
+z=[0,h(r3,w(f(dp,a[7]))),0],A=[0,h(r4,w(f(O,a[6]))),0],B=[0,h(r7,F(r6,N([0,h(r5,w(f(O,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(r9,w(f(function(a){return F(r8,w(f(i$,a)))},D))),C],G=a[3],H=[0,h(r_,w(f(function(a){var
+b=[0,i$(a[2]),0];return w([0,ak(a[1]),b])},G))),E],I=a[2],J=[0,h(r$,w(f(function(a){var
+b=[0,bY(a[2]),0];return w([0,ak(a[1]),b])},I))),H];return F(sd,N([0,h(sc,F(sb,N([0,h(sa,w(f(ak,a[1]))),J]))),B]));case
 4:var
-e=[0,iS(a[3]),0],f=[0,iR(a[2]),e];return K(r6,w([0,fL(a[1]),f]));default:return K(r7,fL(a[1]))}}function
-r8(a){var
-b=[0,fL(a[2]),0];return w([0,cG(a[1]),b])}function
-r9(c){var
-b=c[2],d=b?[0,h(r_,cG(b[1])),0]:b,a=c[1],e=a?[0,h(r$,w(f(r8,[0,a[1],a[2]]))),0]:a;return M(g(e,d))}function
-fM(a){var
-b=gZ(gY(y(a),function(b){return G(a,b)}));return p(function(a){var
-b=aU(34===a?1:0),c=b?aU(92===a?1:0):b,d=c?_(sw,dO(a)):c;return d?_(dO(a),sx):d},b)}function
-ee(b){function
+K=[0,h(se,w(f(dp,a[3]))),0],L=[0,h(sh,F(sg,N([0,h(sf,O(a[2])),0]))),K];return F(sl,N([0,h(sk,F(sj,N([0,h(si,O(a[1])),0]))),L]));default:var
+k=a[1],M=0,P=k?bY(k[1]):ak(so);return F(sn,N([0,h(sm,P),M]))}}function
+fV(a){return w(f(fQ,a))}function
+jb(b,a){var
+c=[0,h(sp,fR(a)),0];return N([0,h(sq,w(f(fV,b))),c])}function
+ei(a){switch(a[0]){case
+0:return ak(a[1]);case
+1:var
+b=jb(a[2],a[3]);return F(a[1],b);case
+2:var
+c=a[1]?sr:st;return F(ss,ak(c));case
+3:var
+d=[0,fV(a[3]),0];return F(su,w([0,jb(a[1],a[2]),d]));case
+4:var
+e=[0,fR(a[3]),0],f=[0,fQ(a[2]),e];return F(sv,w([0,ei(a[1]),f]));case
+5:var
+g=[0,fR(a[3]),0],h=[0,fQ(a[2]),g];return F(sw,w([0,ei(a[1]),h]));default:return F(sx,ei(a[1]))}}function
+sy(a){var
+b=[0,ei(a[2]),0];return w([0,cI(a[1]),b])}function
+sz(c){var
+b=c[2],d=b?[0,h(sA,cI(b[1])),0]:b,a=c[1],e=a?[0,h(sB,w(f(sy,[0,a[1],a[2]]))),0]:a;return N(g(e,d))}function
+fW(a){var
+b=ha(g$(y(a),function(b){return L(a,b)}));return q(function(a){var
+b=aX(34===a?1:0),c=b?aX(92===a?1:0):b,d=c?ab(sY,dT(a)):c;return d?ab(dT(a),sZ):d},b)}function
+ej(b){function
 c(f){var
-a=dO(f),b=_(sy,a),c=b?_(a,sz):b;if(c)var
+a=dT(f),b=ab(s0,a),c=b?ab(a,s1):b;if(c)var
 d=c;else{var
-e=_(sA,a);if(e)return _(a,sB);var
+e=ab(s2,a);if(e)return ab(a,s3);var
 d=e}return d}var
-a=gZ(gY(y(b),function(a){return G(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?p(function(a){var
+a=ha(g$(y(b),function(a){return L(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?q(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=dO(a),f=_(sC,e),h=f?_(e,sD):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(l(d),sE):f;if(g)return aU(av(b,sF));var
+e=dT(a),f=ab(s4,e),h=f?ab(e,s5):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?ab(m(d),s6):f;if(g)return aX(az(b,s7));var
 h=g}else
 var
 h=a;return h}function
-fN(c){var
+fX(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ee(a[1]);case
+1:return ej(a[1]);case
 3:var
-b=fN(a[2]);if(b){var
+b=fX(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cH(m){var
+cJ(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -3707,66 +3869,66 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dJ(a[2]);if(typeof
+f=dO(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cH(a[2]);if(i){var
+i=cJ(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cH(a[1]),l=k?dM(b(2,c),j):k;return l?dM(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=cJ(a[1]),l=k?dR(b(2,c),j):k;return l?dR(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cI(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-fO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bZ(a){return C(cI,fO(a))}function
-sG(a){switch(a[0]){case
+cK(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+fY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bZ(a){return I(cK,fY(a))}function
+s8(a){switch(a[0]){case
 0:var
-c=cI(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
+c=cK(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
 1:var
 b=a[3],f=b?bZ(b[1]):b,h=g(bZ(a[2]),f);return g(bZ(a[1]),h);default:return bZ(a[1])}}function
-sH(a){var
-b=C(cI,[0,a[5],[0,a[6],0]]);return g(C(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-iW(a){if(0===a[0]){var
-b=fO(a[2]);return g(fO(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dk(c){var
+s9(a){var
+b=I(cK,[0,a[5],[0,a[6],0]]);return g(I(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+jc(a){if(0===a[0]){var
+b=fY(a[2]);return g(fY(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+dq(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-iX(a){var
-d=dM(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dM(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-iY(a,b){return b?[3,iY(a,b[1]),a]:a}function
+jd(a){var
+d=dR(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dR(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+je(a,b){return b?[3,je(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],k=b(2,j(b(2,b(2,c)))),l=function(a){return n(k,a)},m=eX(g$(h),l,c);return[0,hi(ha(dJ(a[1]),h)),m];case
-1:throw[0,P,sI];case
+h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return n(j,a)},m=e6(hm(h),l,c);return[0,hv(hn(dO(a[1]),h)),m];case
+1:throw[0,R,s_];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,N(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,P(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-o=c1(c3(a[2]));return iY(i(a[1]),o);default:return[5,i(a[1])]}}function
-bD(a){if(0===a[0]){var
+o=c3(c5(a[2]));return je(i(a[1]),o);default:return[5,i(a[1])]}}function
+bE(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
 a5(a){var
-b=bD(a[3]),c=bD(a[2]);return[0,bD(a[1]),c,b]}function
-sJ(a){switch(a[0]){case
+b=bE(a[3]),c=bE(a[2]);return[0,bE(a[1]),c,b]}function
+s$(a){switch(a[0]){case
 0:var
-b=a[5],c=bD(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
+b=a[5],c=bE(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
 1:var
-f=aw(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
-iZ(a){if(0===a[0]){var
+f=ai(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
+jf(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-sK(a){if(a[1])return 0;var
+ta(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-fP(c,j,b){var
-x=l(c),d=C(function(a){switch(a[1]){case
+fZ(c,j,b){var
+x=m(c),d=I(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
@@ -3794,11 +3956,11 @@ w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
 var
 o=e;return o}return 0;default:var
 p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0}var
-h=a[2],r=h?[0,c1(h[1]),0]:c5(0,x);return f(b,r)},b),a=C(sK,b),e=a?[0,a[1],a[2]]:sM,h=g(e,d),k=iZ(j);return[0,f(sJ,c),k,h]}function
-sN(a){if(a[1])return 0;var
+h=a[2],r=h?[0,c3(h[1]),0]:c7(0,x);return f(b,r)},b),a=I(ta,b),e=a?[0,a[1],a[2]]:tc,h=g(e,d),k=jf(j);return[0,f(s$,c),k,h]}function
+td(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-cJ(n,b){var
-c=C(function(b){switch(b[1]){case
+cL(n,b){var
+c=I(function(b){switch(b[1]){case
 0:var
 d=b[4];return 0===d[0]?[0,[1,i(d[1])],0]:0;case
 1:var
@@ -3809,91 +3971,97 @@ h=a[1],c=function(a){return[2,a,i(h)]};break;case
 k=a[1],c=function(a){return[3,a,i(k)]};break;default:var
 l=a[2],m=a[1],c=function(a){var
 b=i(l);return[4,a,i(m),b]}}var
-e=b[2],j=e?[0,c1(e[1]),0]:c5(0,n);return f(c,j);case
+e=b[2],j=e?[0,c3(e[1]),0]:c7(0,n);return f(c,j);case
 3:var
-g=b[4];return 1===g[0]?[0,[5,i(g[1])],0]:0;default:return 0}},b),a=C(sN,b),d=a?[0,a[1],a[2]]:sO;return g(d,c)}function
-fQ(h,g,a){switch(a[1]){case
+g=b[4];return 1===g[0]?[0,[5,i(g[1])],0]:0;default:return 0}},b),a=I(td,b),d=a?[0,a[1],a[2]]:te;return g(d,c)}function
+f0(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dK(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dP(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=_(sP,d);return e?_(d,g):e}var
+d=c[1],e=ab(tf,d);return e?ab(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cg(a){switch(a[0]){case
+ci(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cg(a[1])];case
+2:return[2,ci(a[1])];case
 3:var
-b=cg(a[2]),c=cg(a[3]);switch(a[1]){case
+b=ci(a[2]),c=ci(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cg(a[1]),d];default:return[8,cg(a[1])]}}function
-i0(b){function
+d=a[2];return[7,ci(a[1]),d];default:return[8,ci(a[1])]}}function
+jg(b){function
 a(e){var
-a=[0,d,c];return L(e,b,[0,a,a])}var
-e=a(sQ),f=a(sR);return[0,a(0),f,e]}function
-fR(a){function
+a=[0,d,c];return H(e,b,[0,a,a])}var
+e=a(tg),f=a(th);return[0,a(0),f,e]}function
+f1(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}if(0===a[0])return[0,b([0,a[1],a[2]])];var
-c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c]}function
-i1(j,a,h,g,e,d,c){function
-b(a){return i0(f(bD,a))}var
-k=cJ(l(a),c),m=fR(d),n=cs(g,e),o=i0(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+0:return[0,b([0,a[1],a[2]])];case
+1:var
+c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
+2:return[2,i(a[1])];default:var
+e=i(a[2]);return[3,i(a[1]),e]}}function
+jh(j,a,h,g,e,d,c){function
+b(a){return jg(f(bE,a))}var
+k=cL(m(a),c),l=f1(d),n=cu(g,e),o=jg(f(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
-sS(a){var
-b=a[7],c=bD(a[6]),d=bD(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dl(h){var
-a=cr(function(f,e){var
-a=ay(m,f);if(a)var
-b=a[1],c=b9(eJ(b[1]),eJ(b[2]));else
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
+ti(a){var
+b=a[7],c=bE(a[6]),d=bE(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
+l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+dr(h){var
+a=ct(function(f,e){var
+a=ar(l,f);if(a)var
+b=a[1],c=b9(eS(b[1]),eS(b[2]));else
 var
-c=d;return b9(c,e)},d,h);if(af(d,a)){var
-f=br(a);if(0===f||!(0<f&&!B(a,c)))var
+c=d;return b9(c,e)},d,h);if(ad(d,a)){var
+f=bt(a);if(0===f||!(0<f&&!C(a,c)))var
 g=d;else
 var
-b=bb(a,aP(2)),e=b[1],g=as(b[2],d)?dL(e):dL(e);return b7(g,m)}return d}function
-ef(a){return[0,a[1],[0,a[2],0]]}function
-bE(a){var
-b=ef(a[3]),c=g(ef(a[2]),b);return g(ef(a[1]),c)}function
-sT(a){return 0===a[0]?ef(a[1][4]):0}function
-sU(a){switch(a[0]){case
+b=bb(a,aR(2)),e=b[1],g=av(b[2],d)?dQ(e):dQ(e);return b7(g,l)}return d}function
+ek(a){return[0,a[1],[0,a[2],0]]}function
+bF(a){var
+b=ek(a[3]),c=g(ek(a[2]),b);return g(ek(a[1]),c)}function
+tj(a){return 0===a[0]?ek(a[1][4]):0}function
+tk(a){switch(a[0]){case
 0:var
-b=a[1],c=bE(b[3]);return g(bE(b[2]),c);case
+b=a[1],c=bF(b[3]);return g(bF(b[2]),c);case
 1:var
-d=bE(a[2]);return g(bE(a[1]),d);default:return 0}}function
-sV(a){switch(a[0]){case
-0:return dl(bE(a[1][1]));case
+d=bF(a[2]);return g(bF(a[1]),d);default:return 0}}function
+tl(a){switch(a[0]){case
+0:return dr(bF(a[1][1]));case
 1:var
-b=a[3];return b?dl(bE(b[1])):d;default:return dl(bE(a[1]))}}function
-fS(a){switch(a[0]){case
+b=a[3];return b?dr(bF(b[1])):d;default:return dr(bF(a[1]))}}function
+el(a){switch(a[0]){case
 0:var
-b=a[1];if(av(b,sW))return sX;if(av(b,sY))return sZ;if(av(b,s0))return s1;if(av(b,s2))return s3;var
-g=av(b,s4),i=g?s5:g;return i;case
+b=a[1];if(az(b,tm))return tn;if(az(b,to))return tp;if(az(b,tq))return tr;if(az(b,ts))return tt;var
+h=az(b,tu),j=h?tv:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(av(e,s6))return[0,[0,c,d]];if(av(e,s7))return[0,[1,c,d]];var
-h=av(e,s8),j=h?[0,[2,c,d]]:h;return j;case
+c=a[3],d=a[2],e=a[1];if(az(e,tw))return[0,[0,c,d]];if(az(e,tx))return[0,[1,c,d]];var
+i=az(e,ty),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=fS(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k;default:var
-l=fS(a[1]);return aw(function(a){return[6,a]},l)}}function
-i2(a){if(a){var
-d=a[1],b=fS(d[2]);if(b)var
-c=i2(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+f=el(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+5:var
+g=el(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=el(a[1]);return ai(function(a){return[6,a]},n)}}function
+ji(a){if(a){var
+d=a[1],b=el(d[2]);if(b)var
+c=ji(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return s9}function
-cK(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=i2(g[1]);if(c){var
+e=b;return e}return tz}function
+cM(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=ji(g[1]);if(c){var
 k=c[1];if(h){var
-d=cK(j,i);if(d){var
-l=d[1],e=cK(j,l[2]);if(e)var
+d=cM(j,i);if(d){var
+l=d[1],e=cM(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -3908,120 +4076,126 @@ var
 f=a;else
 var
 f=b;return f}function
-fT(d,a){if(d){if(a){var
-b=cK(l(a),a);if(b)var
-e=b[1],c=fT(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+f2(d,a){if(d){if(a){var
+b=cM(m(a),a);if(b)var
+e=b[1],c=f2(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return s_}return a?0:s$}function
-ch(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+f=b;return f}return tA}return a?0:tB}function
+cj(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
 a6(a,e){var
-b=ch(a[1],e),c=ch(a[2],b[2]),d=ch(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-i3(d,c){if(d){var
+b=cj(a[1],e),c=cj(a[2],b[2]),d=cj(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jj(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=ch(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=cj(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=a6(a[1],c),k=j[1],l=a6(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=a6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=a6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=i3(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-i4(b,i){if(b){var
-a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=ch(a[5],f[2]),h=ch(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=i4(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-fU(a,b){if(a){var
-c=ch(a[1],b),d=fU(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-fV(b){function
-a(a){return L(a,b,[0,d,c])}var
-e=a(tb),f=a(tc);return[0,a(0),f,e]}function
-i5(a,b){if(a){var
-c=a[1],d=fU(c[1],b),e=fU(c[2],d[2]),f=i5(a[2],e[2]),g=f[2],h=f[1],i=fV(e[1]);return[0,[0,[0,fV(d[1]),i],h],g]}return[0,0,b]}function
-i6(a){return typeof
+q=jj(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jk(b,i){if(b){var
+a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=cj(a[5],f[2]),h=cj(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jk(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+f3(a,b){if(a){var
+c=cj(a[1],b),d=f3(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+f4(b){function
+a(a){return H(a,b,[0,d,c])}var
+e=a(tD),f=a(tE);return[0,a(0),f,e]}function
+jl(a,b){if(a){var
+c=a[1],d=f3(c[1],b),e=f3(c[2],d[2]),f=jl(a[2],e[2]),g=f[2],h=f[1],i=f4(e[1]);return[0,[0,[0,f4(d[1]),i],h],g]}return[0,0,b]}function
+jm(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-eg(a){return h4(m,a)}function
-td(a){if(typeof
+em(a){return ig(l,a)}function
+tF(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=o(m,1,a[2]);return b?o(m,1,a[3]):b;case
-5:return o(m,1,[2,a[1],[0,c,c]]);case
-6:return o(m,1,a[2]);case
+b=o(l,1,a[2]);return b?o(l,1,a[3]):b;case
+5:return o(l,1,[2,a[1],[0,c,c]]);case
+6:return o(l,1,a[2]);case
 8:var
-d=o(m,1,a[1]);return d?o(m,1,a[2]):d;case
+d=o(l,1,a[1]);return d?o(l,1,a[2]):d;case
 2:case
-3:return eg(a[2]);default:return o(m,1,a[1])}}function
-fW(a){if(typeof
+3:return em(a[2]);default:return o(l,1,a[1])}}function
+f5(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=o(m,1,[2,d,e]),g=f?o(m,1,[2,[1,e,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(m,0,[1,e,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c]]):g;return h?o(m,0,[2,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c],d]):h;case
-5:return o(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=o(l,1,[2,d,e]),g=f?o(l,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(l,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?o(l,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
+5:return o(l,1,[2,a[1],[0,c,c]]);case
 0:case
-1:return o(m,1,a[1]);default:return eg(a[2])}}function
-eh(d){var
+1:return o(l,1,a[1]);default:return em(a[2])}}function
+en(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aU(bx(function(d){return function(a){var
-h=fI(a[1]),e=av(fI(d[1]),h);if(e)var
-i=fJ(a[4]),b=av(fJ(d[4]),i);else
+b=a[2],e=a[1],c=aX(bz(function(d){return function(a){var
+h=fT(a[1]),e=az(fT(d[1]),h);if(e)var
+i=fU(a[4]),b=az(fU(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?aC(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?aE(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dm(a){if(0===a[0])return eg(i(a[1]));var
-b=i(a[1]);return o(m,1,[2,i(a[2]),b])}function
+ds(a){if(0===a[0])return em(i(a[1]));var
+b=i(a[1]);return o(l,1,[2,i(a[2]),b])}function
 a7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-te(a){switch(a[0]){case
+tG(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e);case
 1:var
 b=a[3],f=b?a7(b[1]):b,h=g(a7(a[2]),f);return g(a7(a[1]),h);default:return a7(a[1])}}function
-tf(a){var
+tH(a){var
 b=[0,a[5],[0,a[6],0]],c=g(a7(a[4]),b),d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e)}function
-fX(a){switch(a){case
-0:return tj;case
-1:return tk;default:return 0}}function
-ei(a){var
-f=a[1],d=o(m,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],f]),e=d?bW(m,a[1],a[2]):d;if(e){var
-g=a[2];return o(m,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],g])}return e}function
-i7(b,a,B,r,q,n,e){function
-s(a){var
-d=b?th:ti,c=aC(l(a),d);return c?p(dm,a):c}var
-t=p(function(a){var
-b=s(a[1]);return b?s(a[2]):b},a);if(t)var
-C=l(a),f=_(d6(b),C);else
+f6(a){switch(a){case
+0:return tL;case
+1:return tM;default:return 0}}function
+eo(a){var
+f=a[1],d=o(l,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bg(l,a[1],a[2]):d;if(e){var
+g=a[2];return o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
+f7(a){var
+e=bg(l,[0,d,c],a);return e?o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+jn(c,b,C,s,r,p,f){function
+t(a){var
+d=c?tJ:tK,b=aE(m(a),d);return b?q(ds,a):b}var
+u=q(function(a){var
+b=t(a[1]);return b?t(a[2]):b},b);if(u)var
+D=m(b),g=ab(d$(c),D);else
 var
-f=t;var
-u=f?_(l(a),tl):f,v=u?o(m,1,i(B)):u;if(v)var
-D=fX(b),g=aC(l(r),D);else
+g=u;var
+v=g?ab(m(b),tN):g,w=v?o(l,1,i(C)):v;if(w)var
+E=f6(c),h=aE(m(s),E);else
 var
-g=v;if(g)var
-E=fX(b),h=aC(l(q),E);else
+h=w;if(h)var
+F=f6(c),j=aE(m(r),F);else
 var
-h=g;if(h)var
-F=cs(r,q),j=p(function(a){var
-b=i(a[2]);return bW(m,i(a[1]),b)},F);else
+j=h;if(j)var
+G=cu(s,r),k=q(function(a){var
+b=i(a[2]);return bg(l,i(a[1]),b)},G);else
 var
-j=h;if(j)if(b){var
-c=fR(n);if(0===c[0])var
-w=0;else
+k=j;if(k)if(c){var
+a=f1(p);switch(a[0]){case
+0:var
+d=0;break;case
+1:var
+y=eo(a[1]),z=y?eo(a[2]):y,d=z?eo(a[3]):z;break;case
+2:var
+d=f7(a[1]);break;default:var
+A=f7(a[1]),d=A?f7(a[2]):A}var
+e=d}else
 var
-y=ei(c[1]),z=y?ei(c[2]):y,w=z?ei(c[3]):z;var
-d=w}else
+B=f1(p),J=0===B[0]?eo(B[1]):0,e=J;else
 var
-A=fR(n),I=0===A[0]?ei(A[1]):0,d=I;else
+e=k;if(e)var
+H=m(b),I=0,n=q(function(a){return f0(I,H,a)},f);else
 var
-d=j;if(d)var
-G=l(a),H=0,k=p(function(a){return fQ(H,G,a)},e);else
-var
-k=d;var
-x=k?eh(e):k;return x?p(fW,cJ(l(a),e)):x}function
-i8(a,c,g){var
-d=_(tm,l(a));if(d)var
-m=l(a),b=p(function(a){switch(a[1]){case
+n=e;var
+x=n?en(f):n;return x?q(f5,cL(m(b),f)):x}function
+jo(a,c,g){var
+d=ab(tO,m(a));if(d)var
+l=m(a),b=q(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4037,91 +4211,93 @@ h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
 b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=_(sL,b);return d?_(b,m):d},c);else
+d=ab(tb,b);return d?ab(b,l):d},c);else
 var
 b=d;var
-e=b?eh(c):b,f=e?p(dm,C(te,a)):e;return f?p(td,g[3]):f}function
-i9(b,a){return p(function(c){var
-a=c[2];return a?hc(a[1],b):1},a)}function
-tn(s){var
-eS=fM(s[3]),eT=eS?fM(s[4]):eS;if(eT){var
-aj=s[1];if(3===aj[0]){var
-eX=p(ee,aj[1]);if(eX)var
-hD=aj[2],co=p(function(a){return ee(a[1])},hD);else
+e=b?en(c):b,f=e?q(ds,I(tG,a)):e;return f?q(tF,g[3]):f}function
+jp(b,a){return q(function(c){var
+a=c[2];return a?hp(a[1],b):1},a)}function
+tP(p){var
+ep=fW(p[3]),eq=ep?fW(p[4]):ep;if(eq){var
+aa=p[1];if(3===aa[0]){var
+et=q(ej,aa[1]);if(et)var
+gS=aa[2],b4=q(function(a){return ej(a[1])},gS);else
 var
-co=eX;if(co)var
-hE=aj[3],cp=p(function(a){var
-b=ee(a[1]),c=b?fN(a[2]):b;return c?cH(a[2]):c},hE);else
+b4=et;if(b4)var
+gT=aa[3],b5=q(function(a){var
+b=ej(a[1]),c=b?fX(a[2]):b;return c?cJ(a[2]):c},gT);else
 var
-cp=co;if(cp)var
-hF=aj[4],hG=function(a){var
-b=fN(a);return b?cH(a):b},cl=p(function(a){return p(hG,a)},hF);else
+b5=b4;if(b5)var
+gU=aa[4],gV=function(a){var
+b=fX(a);return b?cJ(a):b},b1=q(function(a){return q(gV,a)},gU);else
 var
-cl=cp}else
+b1=b5}else
 var
-cl=1;var
-cm=cl}else
+b1=1;var
+b2=b1}else
 var
-cm=eT;if(cm){var
-h=s[1];switch(h[0]){case
+b2=eq;if(b2){var
+j=p[1];switch(j[0]){case
 0:var
-hn=C(dk,h[3]),ho=g(iW(h[2]),hn),U=g(C(sG,h[1]),ho);break;case
+gC=I(dq,j[3]),gD=g(jc(j[2]),gC),P=g(I(s8,j[1]),gD);break;case
 1:var
-hp=C(dk,h[3]),hq=g(iW(h[2]),hp),U=g(C(sH,h[1]),hq);break;case
+gE=I(dq,j[3]),gF=g(jc(j[2]),gE),P=g(I(s9,j[1]),gF);break;case
 2:var
-hr=C(dk,h[7]),T=h[6];if(0===T[0])var
-eR=[0,T[1],[0,T[2],0]];else
-var
-eO=T[3],eP=T[2],eQ=T[1],eR=[0,eQ[1],[0,eQ[2],[0,eP[1],[0,eP[2],[0,eO[1],[0,eO[2],0]]]]]];var
-hs=g(eR,hr),ht=g(h[5],hs),hu=g(h[4],ht),hv=[0,h[3],hu],hw=h[2],U=g(C(function(a){return C(cI,g(a[1],a[2]))},hw),hv);break;case
+gG=I(dq,j[7]),G=j[6];switch(G[0]){case
+1:var
+ek=G[3],el=G[2],eo=G[1],bZ=[0,eo[1],[0,eo[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
+2:var
+bZ=[0,G[1],0];break;default:var
+bZ=[0,G[1],[0,G[2],0]]}var
+gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],P=g(I(function(a){return I(cK,g(a[1],a[2]))},gL),gK);break;case
 3:var
-hx=C(dk,h[7]),hy=g(h[6],hx),hz=g(h[5],hy),hA=h[2],U=g(C(function(a){return cI(a[2])},hA),hz);break;case
+gM=I(dq,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],P=g(I(function(a){return cK(a[2])},gP),gO);break;case
 4:var
-hB=C(dk,h[3]),U=[0,h[1],[0,h[2],hB]];break;default:var
-ck=h[1],U=ck?cI(ck[1]):ck}var
-cn=p(cH,U)}else
+gQ=I(dq,j[3]),P=[0,j[1],[0,j[2],gQ]];break;default:var
+b0=j[1],P=b0?cK(b0[1]):b0}var
+b3=q(cJ,P)}else
 var
-cn=cm;if(cn){var
-V=s[2];if(0===V[0]){var
-eU=iX(V[1]);if(eU)var
-hC=V[2],ak=p(function(a){var
-b=a[1];return p(function(b){var
+b3=b2;if(b3){var
+Q=p[2];if(0===Q[0]){var
+er=jd(Q[1]);if(er)var
+gR=Q[2],ac=q(function(a){var
+b=a[1];return q(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return fM(a[1]);case
-4:case
-5:var
-a=a[1];continue;default:return 1}},b)},hC);else
+1:return fW(a[1]);case
+2:case
+3:return 1;default:var
+a=a[1];continue}},b)},gR);else
 var
-ak=eU}else
+ac=er}else
 var
-eV=iX(V[1]),ak=eV?p(cH,g(V[2],V[3])):eV}else
+es=jd(Q[1]),ac=es?q(cJ,g(Q[2],Q[3])):es}else
 var
-ak=cn;if(ak){var
-a=s[1];switch(a[0]){case
+ac=b3;if(ac){var
+a=p[1];switch(a[0]){case
 0:var
-al=a[3],cL=a[2],X=a[1],Y=s[2];if(0===Y[0]){var
-fe=Y[2],n=fP(X,cL,al),cM=cK(l(fe),fe);if(cM){var
-ff=cM[1];if(ff[2])return 0;var
-fg=i8(X,al,n);if(fg){var
-hX=ff[1],fi=f(sV,n[1]),fj=n[1],ct=C(sT,fj),hO=ct?[0,ct[1],ct[2]]:C(sU,fj),x=z(c,dl(hO)),u=Y[1],ac=n[2],gu=0===ac[0]?bX(ac[1]):[0,ac[1],ac[2],ac[4][1]],dq=h6(m,n,f(pc,n[1]),gu);if(dq){var
-c6=hY(x,fi,n[1]),O=hZ(x,fi,n[1],0),c7=l(c6),gc=h2(O,x,c7,n[3]),gd=g(cB(hQ(O)),gc),c8=g(cB(hP(O)),gd),c9=dW(c8)[1],ab=cx(c9),c_=p(function(a){var
-b=r(d);return bz(L(bS(ab,a),ab,b),a)},c8);if(c_){var
-da=bx(pa,n[3]);if(da){var
-ge=n[3],gf=g(c6,f(function(a){return cc(x,a)},ge)),bq=aY(f(function(a){return aX(u,a)},gf));if(bq){var
-P=n[2];if(0===P[0])var
-db=P[1];else
+ae=a[3],cl=a[2],R=a[1],U=p[2];if(0===U[0]){var
+eM=U[2],k=fZ(R,cl,ae),cm=cM(m(eM),eM);if(cm){var
+eN=cm[1];if(eN[2])return 0;var
+eO=jo(R,ae,k);if(eO){var
+g9=eN[1],eP=f(tl,k[1]),eQ=k[1],b8=I(tj,eQ),g3=b8?[0,b8[1],b8[2]]:I(tk,eQ),v=A(c,dr(g3)),t=U[1],Z=k[2],fU=0===Z[0]?bX(Z[1]):[0,Z[1],Z[2],Z[4][1]],c6=ii(l,k,f(ps,k[1]),fU);if(c6){var
+cT=h$(v,eP,k[1]),L=ia(v,eP,k[1],0),cU=m(cT),fy=id(L,v,cU,k[3]),fz=g(cC(h3(L)),fy),cV=g(cC(h2(L)),fz),cW=d0(cV)[1],Y=cy(cW),cX=q(function(a){var
+b=r(d);return bA(H(bT(Y,a),Y,b),a)},cV);if(cX){var
+cY=bz(pq,k[3]);if(cY){var
+fA=k[3],fB=g(cT,f(function(a){return cd(v,a)},fA)),bl=aU(f(function(a){return aZ(t,a)},fB));if(bl){var
+M=k[2];if(0===M[0])var
+cZ=M[1];else
 var
-ap=P[3],c3=P[2],c4=P[1],db=[0,[0,[2,c4,ap],[1,c4,ap]],[0,[2,c3,ap],[1,c3,ap]],P[4]];var
-gg=be(db,x),br=aY(f(function(a){return aX(u,a)},gg));if(br){var
-gh=n[3],bs=aY(h3(u,function(a){return bS(ab,a)},O,x,c7,gh));if(bs){var
-de=bs[1],gi=hW(de),aq=n[2],gj=br[1],gk=function(d){if(0===aq[0])return 0;if(d){var
+al=M[3],cR=M[2],cS=M[1],cZ=[0,[0,[2,cS,al],[1,cS,al]],[0,[2,cR,al],[1,cR,al]],M[4]];var
+fE=bf(cZ,v),bm=aU(f(function(a){return aZ(t,a)},fE));if(bm){var
+fF=k[3],bn=aU(ie(t,function(a){return bT(Y,a)},L,v,cU,fF));if(bn){var
+c0=bn[1],fH=h9(c0),am=k[2],fI=bm[1],fJ=function(d){if(0===am[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b$(u,x,aq[1]);if(f){var
-g=b$(u,x,aq[2]);if(g){var
-h=b$(u,x,aq[3]);if(h)var
-q=f[1],r=bA(c),i=ah([0,bA(c),r],q),s=g[1],t=bA(b),j=ah([0,bA(b),t],s),v=cz(b),w=[0,cz(b),v],y=[0,D(u,aD(S(j,j)),w),0],z=cz(c),A=[0,cz(c),z],B=[0,D(u,aD(S(i,i)),A),y],C=ax(u,j),E=ax(u,i),k=[0,[0,ah(ah(ax(u,h[1]),E),C),aE,B]];else
+b=a[1],c=d[1],f=ca(t,v,am[1]);if(f){var
+g=ca(t,v,am[2]);if(g){var
+h=ca(t,v,am[3]);if(h)var
+q=f[1],r=bB(c),i=_([0,bB(c),r],q),s=g[1],u=bB(b),j=_([0,bB(b),u],s),w=cA(b),x=[0,cA(b),w],y=[0,D(t,aF(T(j,j)),x),0],z=cA(c),A=[0,cA(c),z],B=[0,D(t,aF(T(i,i)),A),y],C=aj(t,j),E=aj(t,i),k=[0,[0,_(_(aj(t,h[1]),E),C),aA,B]];else
 var
 k=h;var
 l=k}else
@@ -4138,299 +4314,267 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},gl=bq[1],gm=0,gn=hQ(O),go=e(bU(function(a){return bS(ab,a)}),gn),gp=hP(O);return fh(u,c9,e(bU(function(a){return bS(ab,a)}),gp),go,gm,gl,de,gk,gj,gi,hX)}var
-dg=bs}else
+p=d;return p},fK=bl[1],fM=0,fN=h3(L),fO=e(bV(function(a){return bT(Y,a)}),fN),fP=h2(L);return fp(t,cW,e(bV(function(a){return bT(Y,a)}),fP),fO,fM,fK,c0,fJ,fI,fH,g9)}var
+c1=bn}else
 var
-dg=br;var
-di=dg}else
+c1=bm;var
+c2=c1}else
 var
-di=bq;var
-bt=di}else
+c2=bl;var
+bo=c2}else
 var
-bt=da}else
+bo=cY}else
 var
-bt=c_;return bt}return dq}var
-fk=fg}else
+bo=cX;return bo}return c6}var
+eR=eO}else
 var
-fk=cM;return fk}var
-a1=Y[2];if(a1){var
-a2=a1[2];if(a2){var
-a3=a2[2];if(a3){if(a3[2])return 0;var
-fl=i3(X,f(i,Y[3]));if(fl[2])return 0;var
-Z=Y[4];if(typeof
-Z==="number")var
-y=ta;else
-if(0===Z[0]){var
-cu=Z[2],cv=Z[1];if(cu){var
-aQ=cu[1],cX=0;if(aQ){var
-aS=aQ[2],bn=0;if(aS){var
-aT=aS[2],bo=0;if(aT)if(aT[2]){var
-y=0;bn=1;bo=1}else{var
-cw=aT[1],cy=aS[1],cD=aQ[1],cE=cu[2];if(cE){var
-aW=cE[1],f$=0;if(aW){var
-aZ=aW[2],ga=0;if(aZ){var
-a0=aZ[2],gb=0;if(a0)if(a0[2]||cE[2]){var
-y=0;bn=1;bo=1;f$=1;ga=1;gb=1}else
+eR=cm;return eR}var
+aS=U[2];if(aS){var
+aV=aS[2];if(aV){var
+aW=aV[2];if(aW){if(aW[2])return 0;var
+eS=jj(R,f(i,U[3]));if(eS[2])return 0;var
+V=U[4];if(typeof
+V==="number")var
+w=tC;else
+if(0===V[0]){var
+b9=V[2],b$=V[1];if(b9){var
+aJ=b9[1],cz=0;if(aJ){var
+aN=aJ[2],be=0;if(aN){var
+aO=aN[2],bj=0;if(aO)if(aO[2]){var
+w=0;be=1;bj=1}else{var
+cb=aO[1],cc=aN[1],ce=aJ[1],cg=b9[2];if(cg){var
+aP=cg[1],ft=0;if(aP){var
+aQ=aP[2],fu=0;if(aQ){var
+aR=aQ[2],fx=0;if(aR)if(aR[2]||cg[2]){var
+w=0;be=1;bj=1;ft=1;fu=1;fx=1}else
 var
-e3=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,aW[1],aZ[1]],a0[1]]]];else
+ez=[0,[0,b$,[0,[0,ce,cc],cb],[0,[0,aP[1],aQ[1]],aR[1]]]];else
 var
-e3=a0;if(!gb)var
-e4=e3}else
+ez=aR;if(!fx)var
+eA=ez}else
 var
-e4=aZ;if(!ga)var
-e5=e4}else
-var
-e5=aW;if(!f$){var
-y=e5;bn=1;bo=1}}else
-var
-e6=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,cD,cy],cw]]]}else
-var
-e6=aT;if(!bo)var
-e7=e6}else
-var
-e7=aS;if(!bn){var
-e8=e7;cX=1}}else{var
-e8=aQ;cX=1}if(cX)var
-y=e8}else
-var
-e9=[0,[0,d,d],d],y=[0,[0,cv,e9,e9]]}else
-var
-y=[0,[1,Z[1],Z[2]]];if(y){var
-fm=i8(X,al,fP(X,cL,al));if(fm){var
-M=y[1],h0=i(a3[1]),h1=i(a2[1]),G=[0,i(a1[1]),h1,h0],am=fl[1],cN=fP(X,cL,al),dj=h6(m,cN,am,G);if(dj)if(typeof
-M==="number")return bx(function(a){switch(a[0]){case
-0:var
-b=[0,c$(a[1],a[2],a[3],a[4],G)];break;case
-1:var
-e=a[2],f=a[1],g=bC(f,e,G),b=[0,J(bC(f,e,G),g)];break;default:var
-b=0}return b?o(m,0,[2,[0,d,c],b[1]]):b},am);else{if(0===M[0]){var
-bu=aV(cN[3],M[1]);if(bu){var
-gq=bu[1],gr=h8(M[3]);return h_(m,am,G,h8(M[2]),gr,gq)}return bu}var
-bv=aV(cN[3],M[1]);if(bv){var
-bw=aV(am,M[2]);if(bw){var
-dn=bw[1],gs=bv[1],gt=cC(dn,G);return h_(m,am,G,cC(dn,G),gt,gs)}var
-dp=bw}else
-var
-dp=bv;return dp}return dj}var
-fp=fm}else
-var
-fp=y;var
-fq=fp}else
-var
-fq=a3;var
-fr=fq}else
-var
-fr=a2;var
-fs=fr}else
-var
-fs=a1;return fs;case
-1:var
-a5=a[3],N=a[1],a6=s[2];if(0===a6[0])return 0;var
-a7=a6[2];if(a7){var
-a8=a7[2];if(a8){var
-a9=a8[2];if(a9){if(a9[2])return 0;var
-ft=i4(N,f(i,a6[3]));if(ft[2])return 0;var
-e_=_(tg,l(N));if(e_)var
-hR=l(N),hS=1,cF=p(function(a){return fQ(hS,hR,a)},a5);else
-var
-cF=e_;var
-e$=cF?eh(a5):cF,fa=e$?p(dm,C(tf,N)):e$,fw=fa?p(fW,cJ(l(N),a5)):fa;if(fw){var
-h4=i6(a6[4]),h7=i(a9[1]),h9=i(a8[1]),H=[0,i(a7[1]),h9,h7],a_=ft[1],h$=a[2],hK=cJ(l(N),a5),hL=iZ(h$),ar=f(sS,N),Q=a_;for(;;){if(ar){if(Q){var
-q=Q[1],K=ar[1],dr=aK(m,K[1],q[1]),ds=dr?aK(m,K[2],q[2]):dr,dt=ds?aK(m,K[3],q[3]):ds,du=dt?aK(m,K[4],q[4]):dt,dv=du?ce(m,K[5],q[5]):du,dw=dv?ce(m,K[6],q[6]):dv,dx=dw?o(m,1,q[5]):dw,dy=dx?o(m,1,q[6]):dx,dz=dy?o(m,1,J(q[1],q[1])):dy;if(dz)var
-gv=fn(q),by=o(m,1,J(fn(q),gv));else
-var
-by=dz;var
-dA=by?dK(K[7],q[7]):by;if(dA){var
-ar=ar[2],Q=Q[2];continue}var
-dB=dA}else
-var
-dB=Q;var
-bB=dB}else
-var
-bB=Q?0:1;var
-dC=bB?h5(m,hL,H):bB;if(dC){var
-gw=f(function(a){return ig(a,H)},a_),gx=f(function(a){var
-b=ii(a,H);return[1,ih(a,H),b]},a_);return ic(m,pe,[0,f(function(a){var
-d=id(a),e=a4(ii(a,H),d),f=fo(a),g=a4(ih(a,H),f),h=aR(function(b,a){return[1,b,a]},g,e),i=a4(a[5],h),j=a[3],k=aR(function(b,a){return[1,b,a]},j,i),l=a[4],m=aR(function(b,a){return[1,b,a]},H,l),n=aR(function(b,a){return[2,b,a]},m,k),o=fu(a,H),b=a4([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a_),gx,gw],hK,h4)}return dC}}var
-fy=fw}else
-var
-fy=a9;var
-fz=fy}else
-var
-fz=a8;var
-fB=fz}else
-var
-fB=a7;return fB;case
-2:var
-a$=a[7],ba=a[6],bb=a[5],bc=a[4],bd=a[3],an=a[2],$=a[1],aa=s[2];if(0===aa[0]){var
-cO=aa[2],j=i1($,an,bd,bc,bb,ba,a$),cP=cK(l(cO),cO);if(cP){var
-fD=cP[1];if(fD[2])return 0;var
-fE=i7($,an,bd,bc,bb,ba,a$),fF=fE?i9(d6($),cO):fE;if(fF){var
-ia=fD[1],ib=j[2],A=z(c,dl(C(function(a){var
-b=bE(a[2]);return g(bE(a[1]),b)},ib))),w=aa[1],hj=j[2],eG=p(function(a){var
-b=fC(m,a[1]);return b?fC(m,a[2]):b},hj),eH=eG?fC(m,j[4]):eG;if(eH)var
-hk=fA(j[5]),ch=p(function(a){return ea(m,a)},hk);else
-var
-ch=eH;if(ch){var
-ag=j[1],E=d6(ag),eo=j[3],g8=[0,[0,[0,eo,eo],A],0],g9=j[2],ep=g(C(function(a){return d_(A,a)},g9),g8),eq=l(ep),g_=j[2],g$=l(C(function(a){return d_(A,a)},g_)),er=j[3],ha=cA([0,[0,er,er],A],g$);switch(ag){case
-0:var
-b1=px;break;case
-1:var
-b1=py;break;default:var
-b1=0}var
-hb=j[5],B=function(a){return[0,[0,W(b1,a)]]};if(0===hb[0])var
-g2=dh(B(0)),b2=[0,d9(po,B(0)),g2];else
-var
-g3=dh(B(0)),g4=v(dh(B(pp)),g3),g5=v(dh(B(pq)),g4),g6=d9(0,B(0)),g7=iD(d9(ps,B(pr)),g6),b2=[0,iD(d9(pu,B(pt)),g7),g5];var
-aJ=b2[2],b3=iE(ag,b2[1],aJ,ha,A,j[2],0),hc=[0,aJ,iJ(w,b3,aJ,A,eq,j[6])],b4=g(cB(b3),hc),aL=dW(f(function(a){return dd(E,a)},b4))[1],es=function(a){var
-b=dd(E,a);return bS(cx(aL),b)},et=p(function(a){var
-b=dd(E,a),c=r(d),e=cx(aL);return bz(L(es(a),e,c),b)},b4),eu=et?p(function(a){return ix(E,a)},b4):et,ev=eu?bx(pA,j[6]):eu;if(ev){var
-aM=j[4];switch(ag){case
-0:var
-b5=d$(aM[3]);break;case
-1:var
-b5=1;break;default:var
-em=d$(aM[1]),en=em?d$(aM[2]):em,b5=en?d$(aM[3]):en}var
-b6=b5}else
-var
-b6=ev;var
-ew=b6?o(w,1,j[3]):b6;if(ew)var
-hd=fA(j[5]),b7=p(function(a){var
-b=iG(w,a[1]);return b?iG(w,a[2]):b},hd);else
-var
-b7=ew;if(b7){var
-he=j[6],hf=g(ep,f(function(a){return iH(A,a)},he)),b8=aY(f(function(a){return aX(w,a)},hf));if(b8){var
-ai=j[4];switch(ag){case
-0:var
-b9=[0,ai[1],[0,ai[2],0]];break;case
-1:var
-b9=[0,ai[1],[0,ai[2],[0,ai[3],0]]];break;default:var
-b9=0}var
-ca=aY(f(function(a){return aX(w,[0,a,A])},b9));if(ca){var
-ex=ca[1],hg=fA(j[5]),cb=aY(f(function(d){var
-a=iF(w,d[1]);if(a)var
-b=iF(w,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
-var
-c=a;return c},hg));if(cb){var
-ey=cb[1],cd=aY(iI(w,es,b3,aJ,A,eq,j[6]));if(cd){var
-cf=cd[1],ez=aC(l(g(ex,ey)),E),eA=ez?p(function(a){if(2===a[0])var
-b=[0,a[1],0];else
-var
-e=a[1],c=C(function(a){return g(a[1],[0,a[2],0])},e),b=[0,a[2],c];return p(function(c){var
-a=c5(0,E);return p(function(b){var
-a=r(d);return df(E,b,L(c,cx(aL),a))},a)},b)},cf):ez;if(eA){var
-hh=f(function(a){return 1},cf),hi=g(ex,ey);return iC(w,aL,b8[1],cf,E,hi,hh,ia)}var
+eA=aQ;if(!fu)var
 eB=eA}else
 var
-eB=cd;var
-eC=eB}else
+eB=aP;if(!ft){var
+w=eB;be=1;bj=1}}else
 var
-eC=cb;var
+eC=[0,[0,b$,[0,[0,ce,cc],cb],[0,[0,ce,cc],cb]]]}else
+var
+eC=aO;if(!bj)var
 eD=eC}else
 var
-eD=ca;var
-eE=eD}else
+eD=aN;if(!be){var
+eE=eD;cz=1}}else{var
+eE=aJ;cz=1}if(cz)var
+w=eE}else
 var
-eE=b8;var
-eF=eE}else
+eF=[0,[0,d,d],d],w=[0,[0,b$,eF,eF]]}else
 var
-eF=b7;return eF}return ch}var
-fG=fF}else
+w=[0,[1,V[1],V[2]]];if(w){var
+eT=jo(R,ae,fZ(R,cl,ae));if(eT){var
+J=w[1],g_=i(aW[1]),g$=i(aV[1]),z=[0,i(aS[1]),g$,g_],af=eS[1],cn=fZ(R,cl,ae),c3=ii(l,cn,af,z);if(c3)if(typeof
+J==="number")return bz(function(a){switch(a[0]){case
+0:var
+b=[0,dc(a[1],a[2],a[3],a[4],z)];break;case
+1:var
+e=a[2],f=a[1],g=bD(f,e,z),b=[0,E(bD(f,e,z),g)];break;default:var
+b=0}return b?o(l,0,[2,[0,d,c],b[1]]):b},af);else{if(0===J[0]){var
+bp=aT(cn[3],J[1]);if(bp){var
+fQ=bp[1],fR=ik(J[3]);return im(l,af,z,ik(J[2]),fR,fQ)}return bp}var
+bq=aT(cn[3],J[1]);if(bq){var
+br=aT(af,J[2]);if(br){var
+c4=br[1],fS=bq[1],fT=cD(c4,z);return im(l,af,z,cD(c4,z),fT,fS)}var
+c5=br}else
 var
-fG=cP;return fG}var
-fH=f(i,aa[2]),fI=fX($),fJ=i5(an,f(i,aa[3]));if(fJ[2])return 0;var
-fK=i7($,an,bd,bc,bb,ba,a$);if(fK){var
-bp=fI,k=fH,ie=i6(aa[4]);for(;;){if(bp&&k){var
-bp=bp[1],k=k[2];continue}var
-bh=fV(hm(fI,fH)),bi=fJ[1],I=i1($,an,bd,bc,bb,ba,a$),aG=I[2],R=bi;for(;;){if(aG){if(R){var
-ed=R[1],ef=aG[1],ei=aK(m,ef[1],ed[1]),ej=ei?aK(m,ef[2],ed[2]):ei;if(ej){var
-aG=aG[2],R=R[2];continue}var
-ek=ej}else
+c5=bq;return c5}return c3}var
+eU=eT}else
 var
-ek=R;var
-bZ=ek}else
+eU=w;var
+eV=eU}else
 var
-bZ=R?0:1;var
-el=bZ?aK(m,I[4],bh):bZ;if(el){var
-ae=I[5];if(0===ae[0])var
-aH=k?k[2]?0:d7(m,ae[1],k[1]):k;else{var
-cY=0;if(k){var
-aB=k[2],cZ=0;if(aB){var
-aF=aB[2],c0=0;if(aF)if(aF[2]){var
-aH=0;cZ=1;c0=1}else{var
-d4=d7(m,ae[1],k[1]),d5=d4?d7(m,ae[2],aB[1]):d4;if(d5){var
-aH=d7(m,ae[3],aF[1]);cZ=1;c0=1}else
+eV=aW;var
+eW=eV}else
 var
-d8=d5}else
+eW=aV;var
+eX=eW}else
 var
-d8=aF;if(!c0)var
-eb=d8}else
+eX=aS;return eX;case
+1:var
+aY=a[3],K=a[1],a0=p[2];if(0===a0[0])return 0;var
+a1=a0[2];if(a1){var
+a2=a1[2];if(a2){var
+a3=a2[2];if(a3){if(a3[2])return 0;var
+eY=jk(K,f(i,a0[3]));if(eY[2])return 0;var
+eG=ab(tI,m(K));if(eG)var
+g4=m(K),g5=1,cj=q(function(a){return f0(g5,g4,a)},aY);else
 var
-eb=aB;if(!cZ){var
-ec=eb;cY=1}}else{var
-ec=k;cY=1}if(cY)var
-aH=ec}var
-b0=aH}else
+cj=eG;var
+eH=cj?en(aY):cj,eI=eH?q(ds,I(tH,K)):eH,eZ=eI?q(f5,cL(m(K),aY)):eI;if(eZ){var
+ha=jm(a0[4]),hb=i(a3[1]),hc=i(a2[1]),B=[0,i(a1[1]),hc,hb],a4=eY[1],hd=a[2],gZ=cL(m(K),aY),g0=jf(hd),an=f(ti,K),N=a4;for(;;){if(an){if(N){var
+n=N[1],F=an[1],c7=aM(l,F[1],n[1]),c8=c7?aM(l,F[2],n[2]):c7,c9=c8?aM(l,F[3],n[3]):c8,c_=c9?aM(l,F[4],n[4]):c9,c$=c_?cf(l,F[5],n[5]):c_,da=c$?cf(l,F[6],n[6]):c$,db=da?o(l,1,n[5]):da,dd=db?o(l,1,n[6]):db,de=dd?o(l,1,E(n[1],n[1])):dd;if(de)var
+fV=fv(n),bs=o(l,1,E(fv(n),fV));else
 var
-b0=el;if(b0){var
-aI=I[5],gZ=I[6],g0=I[3],g1=I[1],d3=function(a){var
-b=fx(aI,k,bh,a);return J(fx(aI,k,bh,a),b)},gW=f(d3,bi),gX=f(function(a){return[0,[5,d3(a)]]},bi),gY=[0,f(function(e){var
-a=az(fx(aI,k,bh,e)),d=iu(aI,k,e[2]),b=a4([4,[0,c,c],g0],[0,[2,[3,d[2],a[3]],[3,d[3],a[2]]],[2,[3,d[3],a[1]],[3,d[1],a[3]]],[2,[3,d[1],a[2]],[3,d[2],a[1]]]]);switch(g1){case
-0:return[0,a[1],[0,a[2],[0,b[3],0]]];case
-1:return[0,a[1],[0,a[2],[0,a[3],[0,b[1],[0,b[2],[0,b[3],0]]]]]];default:return[0,b[1],[0,b[2],[0,b[3],0]]]}},bi),gX,gW];return ic(m,d6(I[1]),gY,gZ,ie)}return b0}}}return fK;case
+bs=de;var
+dh=bs?dP(F[7],n[7]):bs;if(dh){var
+an=an[2],N=N[2];continue}var
+di=dh}else
+var
+di=N;var
+bt=di}else
+var
+bt=N?0:1;var
+dj=bt?ih(l,g0,B):bt;if(dj){var
+fY=f(function(a){return iu(a,B)},a4),f1=f(function(a){var
+b=iw(a,B);return[1,iv(a,B),b]},a4);return ir(l,pu,[0,f(function(a){var
+d=is(a),e=aL(iw(a,B),d),f=fw(a),g=aL(iv(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fC(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),f1,fY],gZ,ha)}return dj}}var
+e0=eZ}else
+var
+e0=a3;var
+e1=e0}else
+var
+e1=a2;var
+e2=e1}else
+var
+e2=a1;return e2;case
+2:var
+a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],ag=a[2],W=a[1],X=p[2];if(0===X[0]){var
+co=X[2],ah=jh(W,ag,a9,a8,a7,a6,a5),cp=cM(m(co),co);if(cp){var
+e3=cp[1];if(e3[2])return 0;var
+e4=jn(W,ag,a9,a8,a7,a6,a5),e6=e4?jp(d$(W),co):e4;if(e6){var
+he=e3[1],hf=ah[2],hg=A(c,dr(I(function(a){var
+b=bF(a[2]);return g(bF(a[1]),b)},hf))),hh=X[1],gz=ah[2],ea=q(function(a){var
+b=fL(l,a[1]);return b?fL(l,a[2]):b},gz),eb=ea?fL(l,ah[4]):ea;if(eb)var
+gA=iT(ah[5]),bU=q(function(a){return ee(l,a)},gA);else
+var
+bU=eb;return bU?pX(hh,ah,hg,he):bU}var
+e7=e6}else
+var
+e7=cp;return e7}var
+e8=f(i,X[2]),e9=f6(W),e_=jl(ag,f(i,X[3]));if(e_[2])return 0;var
+e$=jn(W,ag,a9,a8,a7,a6,a5);if(e$){var
+bk=e9,b=e8,hi=jm(X[4]);for(;;){if(bk&&b){var
+bk=bk[1],b=b[2];continue}var
+a_=f4(hz(e9,e8)),a$=e_[1],C=jh(W,ag,a9,a8,a7,a6,a5),aC=C[2],O=a$;for(;;){if(aC){if(O){var
+d5=O[1],d6=aC[1],d7=aM(l,d6[1],d5[1]),d8=d7?aM(l,d6[2],d5[2]):d7;if(d8){var
+aC=aC[2],O=O[2];continue}var
+d9=d8}else
+var
+d9=O;var
+bR=d9}else
+var
+bR=O?0:1;var
+d_=bR?aM(l,C[4],a_):bR;if(d_){var
+x=C[5];switch(x[0]){case
+0:var
+u=b?b[2]?0:dg(l,x[1],b[1]):b;break;case
+1:var
+cB=0;if(b){var
+at=b[2],cE=0;if(at){var
+au=at[2],cF=0;if(au)if(au[2]){var
+u=0;cE=1;cF=1}else{var
+dL=dg(l,x[1],b[1]),dM=dL?dg(l,x[2],at[1]):dL;if(dM){var
+u=dg(l,x[3],au[1]);cE=1;cF=1}else
+var
+dO=dM}else
+var
+dO=au;if(!cF)var
+dQ=dO}else
+var
+dQ=at;if(!cE){var
+dR=dQ;cB=1}}else{var
+dR=b;cB=1}if(cB)var
+u=dR;break;case
+2:var
+cG=0;if(b){var
+av=b[2],cH=0;if(av){var
+aw=av[2];if(aw)if(aw[2]){var
+u=0;cH=1}else{var
+dS=aw[1],dT=av[1],dU=b[1],gs=E([0,dU,dT,dS],[0,dU,dT,dS]),u=iL(l,x[1],gs,[0,c,c]);cH=1}else
+var
+dV=aw}else
+var
+dV=av;if(!cH){var
+dW=dV;cG=1}}else{var
+dW=b;cG=1}if(cG)var
+u=dW;break;default:var
+cI=0;if(b){var
+ax=b[2],cN=0;if(ax){var
+ay=ax[2],cO=0;if(ay)if(ay[2]){var
+u=0;cN=1;cO=1}else{var
+bQ=ay[1],dX=ax[1],dY=b[1],dZ=iL(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bQ,bQ]]);if(dZ){var
+u=dg(l,ch(x[2]),bQ);cN=1;cO=1}else
+var
+d1=dZ}else
+var
+d1=ay;if(!cO)var
+d2=d1}else
+var
+d2=ax;if(!cN){var
+d3=d2;cI=1}}else{var
+d3=b;cI=1}if(cI)var
+u=d3}var
+bS=u}else
+var
+bS=d_;if(bS){var
+aD=C[5],gw=C[6],gx=C[3],gy=C[1],d4=function(a){var
+c=fG(aD,b,a_,a);return E(fG(aD,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
+d=aB(fG(aD,b,a_,e)),a=aL([4,[0,c,c],gx],iH(iI(aD,b,e[2]),d));switch(gy){case
+0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
+1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return ir(l,d$(C[1]),gv,gw,hi)}return bS}}}return e$;case
 3:var
-bj=a[7],fL=a[6],fO=a[5],bk=a[4],fR=a[2],fS=a[1],cQ=s[2];if(0===cQ[0]){var
-cR=cQ[2],cS=cK(l(cR),cR);if(cS){var
-fU=cS[1];if(fU[2])return 0;var
-hT=l(fL),fb=aC(l(fO),hT);if(fb)var
-hU=l(bk),hV=0,cG=p(function(a){return fQ(hV,hU,a)},bj);else
+ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=p[2];if(0===cq[0]){var
+cr=cq[2],cs=cM(m(cr),cr);if(cs){var
+fe=cs[1];if(fe[2])return 0;var
+g6=m(fa),eJ=aE(m(fb),g6);if(eJ)var
+g7=m(bb),g8=0,ck=q(function(a){return f0(g8,g7,a)},ba);else
 var
-cG=fb;var
-fc=cG?eh(bj):cG,fd=fc?p(function(a){return dm(a[2])},fR):fc,fY=fd?p(fW,cJ(l(bk),bj)):fd,fZ=fY?i9(l(fS),cR):fY;if(fZ){var
-ik=fU[1],il=a[3],eY=cJ(l(bk),bj),hH=cs(fO,fL),cq=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},hH),hI=f(function(a){return f(cg,a)},bk),hJ=f(function(a){var
-b=cg(a[2]);return[0,a[1],b]},il),b=[0,fS,f(function(a){var
-b=bD(a[2]);return[0,a[1],b]},fR),hJ,hI],ao=cQ[1],gQ=f(dI,b[2]),bP=g(b[1],gQ),aA=l(b[1]),dV=_(pg,aA),dX=dV?_(aA,ph):dV,dY=dX?_(aA,l(b[4])):dX,dZ=dY?_(l(b[4]),pi):dY;if(dZ)var
-gR=b[4],bQ=p(function(a){return aC(l(a),aA)},gR);else
+ck=eJ;var
+eK=ck?en(ba):ck,eL=eK?q(function(a){return ds(a[2])},fc):eK,ff=eL?q(f5,cL(m(bb),ba)):eL,fg=ff?jp(m(fd),cr):ff;if(fg){var
+hj=fe[1],hk=a[3],eu=cL(m(bb),ba),gW=cu(fb,fa),b6=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(ci,a)},bb),gY=f(function(a){var
+b=ci(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
+b=bE(a[2]);return[0,a[1],b]},fc),gY,gX],ak=cq[1],gm=f(dN,h[2]),bK=g(h[1],gm),as=m(h[1]),dE=ab(pw,as),dF=dE?ab(as,px):dE,dG=dF?ab(as,m(h[4])):dF,dH=dG?ab(m(h[4]),py):dG;if(dH)var
+gn=h[4],bL=q(function(a){return aE(m(a),as)},gn);else
 var
-bQ=dZ;if(bQ){var
-ay=bP;for(;;){if(ay){var
-dT=ay[2],gP=ay[1],dU=aU(bx(function(b){return function(a){return lz(b,a)}}(gP),dT));if(dU){var
-ay=dT;continue}var
-d0=dU}else
+bL=dH;if(bL){var
+ar=bK;for(;;){if(ar){var
+dC=ar[2],gl=ar[1],dD=aX(bz(function(b){return function(a){return lQ(b,a)}}(gl),dC));if(dD){var
+ar=dC;continue}var
+dI=dD}else
 var
-d0=1;var
-bR=d0;break}}else
+dI=1;var
+bM=dI;break}}else
 var
-bR=bQ;if(bR){var
-au=bP,at=b[3];for(;;){if(at){var
-dP=at[1],dQ=dP[1],dR=aU(bx(function(b){return function(a){return av(b,a)}}(dQ),au)),dS=dR?fv(au,dP[2]):dR;if(dS){var
-au=[0,dQ,au],at=at[2];continue}var
-d1=dS}else
+bM=bL;if(bM){var
+aq=bK,ap=h[3];for(;;){if(ap){var
+dy=ap[1],dz=dy[1],dA=aX(bz(function(b){return function(a){return az(b,a)}}(dz),aq)),dB=dA?fD(aq,dy[2]):dA;if(dB){var
+aq=[0,dz,aq],ap=ap[2];continue}var
+dJ=dB}else
 var
-d1=1;var
-bT=d1;break}}else
+dJ=1;var
+bN=dJ;break}}else
 var
-bT=bR;if(bT)var
-gS=b[4],gT=g(f(dI,b[3]),bP),gU=function(a){return fv(gT,a)},bV=p(function(a){return p(gU,a)},gS);else
+bN=bM;if(bN)var
+go=h[4],gp=g(f(dN,h[3]),bK),gq=function(a){return fD(gp,a)},bO=q(function(a){return q(gq,a)},go);else
 var
-bV=bT;if(bV)var
-gV=b[2],bY=p(function(a){return bW(m,a[2][1],a[2][2])},gV);else
+bO=bN;if(bO)var
+gr=h[2],bP=q(function(a){return bg(l,a[2][1],a[2][2])},gr);else
 var
-bY=bV;var
-d2=bY?p(function(a){return bW(m,a[1],a[2])},cq):bY;if(d2){var
-gE=l(b[1]),bG=l(b[2]),dF=W(bG,l(dc(f(eW,b[3])))),gF=b[3],ad=iq(b),as=gF,bF=bG;for(;;){if(as){var
-dD=as[1],dE=dD[2],gy=W(bF,l(bf(dE))),gz=as[2],gA=bg(ad,dE,bF),ad=[0,[0,dD[1],gA],ad],as=gz,bF=gy;continue}var
-gG=im(ad,b[4],dF),bH=f(function(a){return[0,a,r(c)]},gG),gH=io(ad,b[4],dF),gI=b[3],bI=g(ij(iq(b),gI,bG),gH),bJ=dW(g(cB(bH),bI))[1],gJ=cx(bJ),bK=function(a){return bS(gJ,a)},dG=e(bU(bK),bH),dH=aC(l(cq),gE);if(dH)var
-gK=g(cB(bH),bI),bL=p(function(a){var
-b=r(d),c=cx(bJ);return bz(L(bK(a),c,b),a)},gK);else
+bP=bO;var
+dK=bP?q(function(a){return bg(l,a[1],a[2])},b6):bP;if(dK){var
+ga=m(h[1]),bv=m(h[2]),dm=S(bv,m(df(f(e5,h[3])))),gb=h[3],$=iD(h),ao=gb,bu=bv;for(;;){if(ao){var
+dk=ao[1],dl=dk[2],f3=S(bu,m(bh(dl))),f7=ao[2],f8=bi($,dl,bu),$=[0,[0,dk[1],f8],$],ao=f7,bu=f3;continue}var
+gc=iA($,h[4],dm),bw=f(function(a){return[0,a,r(c)]},gc),gd=iB($,h[4],dm),ge=h[3],bx=g(ix(iD(h),ge,bv),gd),by=d0(g(cC(bw),bx))[1],gf=cy(by),bC=function(a){return bT(gf,a)},dn=e(bV(bC),bw),dp=aE(m(b6),ga);if(dp)var
+gg=g(cC(bw),bx),bG=q(function(a){var
+b=r(d),c=cy(by);return bA(H(bC(a),c,b),a)},gg);else
 var
-bL=dH;var
-dJ=bL?bx(pf,eY):bL;if(dJ){var
-gB=C(dc,b[4]),gC=g(dc(f(eW,b[3])),gB),gD=g(ip(b[2]),gC),bM=aY(f(function(a){return aX(ao,a)},gD));if(bM){var
-bN=aY(f(function(a){return aX(ao,[0,a,d])},cq));if(bN){var
-bO=aY(f(function(a){if(typeof
-a==="number")return[0,[0,aE]];else
+bG=dp;var
+dt=bG?bz(pv,eu):bG;if(dt){var
+f9=I(df,h[4]),f_=g(df(f(e5,h[3])),f9),f$=g(iC(h[2]),f_),bH=aU(f(function(a){return aZ(ak,a)},f$));if(bH){var
+bI=aU(f(function(a){return aZ(ak,[0,a,d])},b6));if(bI){var
+bJ=aU(f(function(a){if(typeof
+a==="number")return[0,[0,aA]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4438,111 +4582,111 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aX(ao,[0,[0,b,b],d]);return aw(function(a){return e(ax(ao,a))},g)},eY));if(bO){var
-dL=bO[1],gL=hW(dL),gM=bN[1],gN=function(a){return 0},gO=bM[1];return fh(ao,bJ,dG,dG,f(bK,bI),gO,dL,gN,gM,gL,ik)}var
-dM=bO}else
+g=aZ(ak,[0,[0,b,b],d]);return ai(function(a){return e(aj(ak,a))},g)},eu));if(bJ){var
+du=bJ[1],gh=h9(du),gi=bI[1],gj=function(a){return 0},gk=bH[1];return fp(ak,by,dn,dn,f(bC,bx),gk,du,gj,gi,gh,hj)}var
+dv=bJ}else
 var
-dM=bN;var
-dN=dM}else
+dv=bI;var
+dw=dv}else
 var
-dN=bM;var
-dO=dN}else
+dw=bH;var
+dx=dw}else
 var
-dO=dJ;return dO}}return d2}var
-f0=fZ}else
+dx=dt;return dx}}return dK}var
+fh=fg}else
 var
-f0=cS;return f0}return 0;case
-4:if(0===s[2][0]){var
-f1=eg(i(a[1]));if(f1){var
-bl=a[3];if(bl){var
-aN=bl[1],cr=aN[4],F=bl[2];if(aN[1]||aN[2]||aN[3])var
-t=0;else
-switch(cr[0]){case
+fh=cs;return fh}return 0;case
+4:if(0===p[2][0]){var
+fi=em(i(a[1]));if(fi){var
+bc=a[3];if(bc){var
+aG=bc[1],b7=aG[4],y=bc[2];if(aG[1]||aG[2]||aG[3])var
+s=0;else
+switch(b7[0]){case
 0:var
-c1=0;if(F){var
-aO=F[1],eZ=aO[4];if(aO[1]||aO[2]||aO[3])var
-t=0;else
-if(1===eZ[0])if(F[2])var
-t=0;else
+cP=0;if(y){var
+aH=y[1],ev=aH[4];if(aH[1]||aH[2]||aH[3])var
+s=0;else
+if(1===ev[0])if(y[2])var
+s=0;else
 var
-hM=i(eZ[1]),t=[0,[0,i(cr[1]),hM]];else{var
-e0=0;c1=1}}else{var
-e0=F;c1=1}if(c1)var
-t=e0;break;case
+g1=i(ev[1]),s=[0,[0,i(b7[1]),g1]];else{var
+ew=0;cP=1}}else{var
+ew=y;cP=1}if(cP)var
+s=ew;break;case
 1:var
-c2=0;if(F){var
-aP=F[1],e1=aP[4];if(aP[1]||aP[2]||aP[3])var
-t=0;else
-if(0===e1[0])if(F[2])var
-t=0;else
+cQ=0;if(y){var
+aI=y[1],ex=aI[4];if(aI[1]||aI[2]||aI[3])var
+s=0;else
+if(0===ex[0])if(y[2])var
+s=0;else
 var
-hN=i(cr[1]),t=[0,[0,i(e1[1]),hN]];else{var
-e2=0;c2=1}}else{var
-e2=F;c2=1}if(c2)var
-t=e2;break;default:var
-t=0}}else
+g2=i(b7[1]),s=[0,[0,i(ex[1]),g2]];else{var
+ey=0;cQ=1}}else{var
+ey=y;cQ=1}if(cQ)var
+s=ey;break;default:var
+s=0}}else
 var
-t=bl;if(t){var
-f2=t[1],f3=f2[2],f4=f2[1],eL=o(m,1,i(a[2])),eM=eL?o(m,1,[2,f3,[0,c,c]]):eL,eN=eM?o(m,1,f4):eM;return eN?o(m,0,[2,[4,[0,c,c],f3],f4]):eN}var
-f5=t}else
+s=bc;if(s){var
+fj=s[1],fk=fj[2],fl=fj[1],eg=o(l,1,i(a[2])),eh=eg?o(l,1,[2,fk,[0,c,c]]):eg,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
+fm=s}else
 var
-f5=f1;return f5}return 0;default:var
-f6=a[1];if(f6){var
-f7=f6[1],cT=s[2];if(0===cT[0]){var
-cU=fT(to,cT[2]);if(cU){var
-f8=dm(f7);if(f8){var
-ir=cU[1],f9=bD(f7)[2],bm=cT[1],ci=b$(bm,d,f9);if(ci){var
-cj=b$(bm,d,[4,[0,c,c],f9]);if(cj){var
-hl=ci[1][1],eI=af(b_(bm),hl);if(eI)return iQ(bm,cj[1][1],ir);var
-eJ=eI}else
+fm=fi;return fm}return 0;default:var
+fn=a[1];if(fn){var
+fo=fn[1],ct=p[2];if(0===ct[0]){var
+cv=f2(tQ,ct[2]);if(cv){var
+fq=ds(fo);if(fq){var
+hl=cv[1],fr=bE(fo)[2],bd=ct[1],bW=ca(bd,d,fr);if(bW){var
+bY=ca(bd,d,[4,[0,c,c],fr]);if(bY){var
+gB=bW[1][1],ec=ad(b_(bd),gB);if(ec)return i_(bd,bY[1][1],hl);var
+ed=ec}else
 var
-eJ=cj;var
-eK=eJ}else
+ed=bY;var
+ef=ed}else
 var
-eK=ci;return eK}var
-f_=f8}else
+ef=bW;return ef}var
+fs=fq}else
 var
-f_=cU;return f_}return 0}var
-cV=s[2];if(0===cV[0]){var
-cW=fT(tp,cV[2]);return cW?iQ(cV[1],d,cW[1]):cW}return 0}}return ak}var
-x=[ak,ts,eB(0)],i_=[ak,tt,eB(0)];function
-tq(z,c){var
-s=[0,h(sm,ai(c[4])),0],t=[0,h(so,M([0,h(sn,ai(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sa,w(f(r9,a[2]))),0],i=K(sc,M([0,h(sb,fG(a[1])),k]));else{var
+fs=cv;return fs}return 0}var
+cw=p[2];if(0===cw[0]){var
+cx=f2(tR,cw[2]);return cx?i_(cw[1],d,cx[1]):cx}return 0}}return ac}var
+x=[am,tU,eK(0)],jq=[am,tV,eK(0)];function
+tS(z,c){var
+s=[0,h(sO,ak(c[4])),0],t=[0,h(sQ,N([0,h(sP,ak(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sC,w(f(sz,a[2]))),0],i=F(sE,N([0,h(sD,fP(a[1])),k]));else{var
 b=a[4],d=a[3],l=0;if(typeof
 b==="number")var
-e=ai(sd);else
+e=ak(sF);else
 if(0===b[0])var
-q=[0,w(f(fK,b[2])),0],e=K(sj,w([0,cG(b[1]),q]));else
+q=[0,w(f(fV,b[2])),0],e=F(sL,w([0,cI(b[1]),q]));else
 var
-r=[0,cG(b[2]),0],e=K(sk,w([0,cG(b[1]),r]));var
-m=[0,h(se,e),l],n=d?[0,h(sf,w(f(U,d))),0]:d,o=g(n,m),p=[0,h(sg,w(f(U,a[2]))),0],i=K(si,M(g([0,h(sh,fG(a[1])),p],o)))}var
-u=[0,h(sp,i),t],v=0===c[2][0]?sq:sv,x=[0,h(sr,ai(v)),u],y=[0,h(ss,rh(c[1])),x],j=av(gX(tr,g(M([0,h(su,ai(st)),y]),sl)),z);return j?tn(c):j}function
-X(a){if(0===a[0])return a[1];throw x}function
-Q(a){if(1===a[0])return a[1];throw x}function
-aS(a){if(2===a[0])return a[1];throw x}function
-dn(a){if(3===a[0])return a[1];throw x}function
-aZ(f,e){var
+r=[0,cI(b[2]),0],e=F(sM,w([0,cI(b[1]),r]));var
+m=[0,h(sG,e),l],n=d?[0,h(sH,w(f(O,d))),0]:d,o=g(n,m),p=[0,h(sI,w(f(O,a[2]))),0],i=F(sK,N(g([0,h(sJ,fP(a[1])),p],o)))}var
+u=[0,h(sR,i),t],v=0===c[2][0]?sS:sX,x=[0,h(sT,ak(v)),u],y=[0,h(sU,rI(c[1])),x],j=az(g_(tT,g(N([0,h(sW,ak(sV)),y]),sN)),z);return j?tP(c):j}function
+U(a){if(0===a[0])return a[1];throw x}function
+V(a){if(1===a[0])return a[1];throw x}function
+aV(a){if(2===a[0])return a[1];throw x}function
+dt(a){if(3===a[0])return a[1];throw x}function
+a0(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===xx(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===x6(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-q(c,b){var
-a=aZ(c,b);if(a)return a[1];throw x}function
-ej(b,a){var
+p(c,b){var
+a=a0(c,b);if(a)return a[1];throw x}function
+ep(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cL(a){switch(a[0]){case
+cN(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],tu]}throw x}function
-dp(e,d){var
-a=R(e,Q(d));if(a){var
+2:return[0,a[1],tW]}throw x}function
+du(e,d){var
+a=W(e,V(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-ek(i){var
-f=bK(i),d=[0,0],e=aO(f)-1|0;if(!(e<0)){var
+eq(i){var
+f=bL(i),d=[0,0],e=aQ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=cR(f,c)+f6|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=cT(f,c)+ge|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4564,47 +4708,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dq(a){return hi(ek(a))}function
-i$(b){var
-a=dn(b);return 45===G(a,0)?N(dq(cY(a,1,y(a)-1|0))):dq(a)}function
-ja(a){return e0(dq(dn(a)))}function
-jb(a){return hh(dq(dn(a)))}function
-cM(c){var
-a=dn(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gB(a))}function
-jc(a){var
-b=97<=a?1:0,c=b?a<=lg?1:0:b;if(c)var
+dv(a){return hv(eq(a))}function
+f8(b){var
+a=dt(b);return 45===L(a,0)?P(dv(c0(a,1,y(a)-1|0))):dv(a)}function
+jr(a){return e9(dv(dt(a)))}function
+f9(a){return hu(dv(dt(a)))}function
+cO(c){var
+a=dt(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gN(a))}function
+js(a){var
+b=97<=a?1:0,c=b?a<=ly?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jd(A,b){var
+jt(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?G(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?L(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=G(b,a[1])&&!(57<G(b,a[1]))){a[1]++;continue}return cY(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=L(b,a[1])&&!(57<L(b,a[1]))){a[1]++;continue}return c0(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
-f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&av(cY(b,a[1],5),tw)){a[1]=a[1]+4|0;var
-f=[5,n(j)]}else
+i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
+f=n(k);else{var
+u=0;if((a[1]+5|0)<=d&&az(c0(b,a[1],5),tY)){a[1]=a[1]+4|0;var
+f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jc(G(b,a[1]))){var
+v=0;if(a[1]<d&&js(L(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jc(G(b,a[1]))&&95!==G(b,a[1])&&(!(48<=G(b,a[1]))||57<G(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,cY(b,o,a[1]-o|0))];break}}else
+w=0;if(!js(L(b,a[1]))&&95!==L(b,a[1])&&(!(48<=L(b,a[1]))||57<L(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,c0(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=av(h,tx);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=az(h,tZ);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===G(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(av(l,ty)||48===G(l,y(l)-1|0))z=1;else
+t=1<y(h)?1:0,s=t?48===L(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(az(l,t0)||48===L(l,y(l)-1|0))z=1;else
 var
-B=ek(l),f=[0,ek(h),B];if(z)throw x}else
+B=eq(l),f=[0,eq(h),B];if(z)throw x}else
 var
-f=[0,ek(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,tv)){if(!(2<y(g))&&2<=gB(g)&&!(64<gB(g)))return[4,f,e0(dq(g))];throw x}throw x}return f}function
+f=[0,eq(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(j(g,tX)){if(!(2<y(g))&&2<=gN(g)&&!(64<gN(g)))return[4,f,e9(dv(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -4614,37 +4758,37 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-je(a){return jd(function(a){throw x},a)}function
-jf(a){var
-b=aS(a);return jd(function(a){return a},b)}function
-aa(a){return je(aS(a))}function
-bF(a){if(2===a[0])return[0,je(a[1])];var
-b=X(a),c=aa(q(b,tz));return[1,aa(q(b,tA)),c]}function
-ac(a){throw[0,i_,am(gX(tC,a),tB)]}function
-jg(c){var
-a=aS(c);if(k(a,tD)){var
-b=k(a,tE);if(b)throw x;return b}return 1}function
-tF(d){var
-b=X(d);function
-a(a){return dp(bF,q(b,a))}var
-c=aS(q(b,tG));if(k(c,tH)){if(k(c,tI)){if(k(c,tJ))return ac([0,tL,[0,c,tK]]);var
-e=aZ(b,tM),f=ej(function(a){return dp(bF,a)},e),g=a(tN);return[1,a(tO),g,f]}var
-h=jg(q(b,tP)),i=bF(q(b,tQ)),j=a(tR),l=a(tS);return[0,a(tT),l,j,i,h]}return[2,a(tU)]}function
-jh(d){var
-a=X(d);if(a){var
-b=a[1];if(!k(b[1],tV)){var
-c=b[2];if(2===c[0]&&!k(c[1],tW))return 1}}return 0}function
-tX(c){var
-a=X(c);if(1-jh(c))throw x;function
-b(b){return dp(bF,q(a,b))}var
-d=jg(q(a,tY)),e=bF(q(a,tZ)),f=bF(q(a,t0)),g=b(t1),h=b(t2),i=b(t3);return[0,b(t4),i,h,g,f,e,d]}function
-dr(c,d){var
-a=Q(d);if(a){var
+ju(a){return jt(function(a){throw x},a)}function
+jv(a){var
+b=aV(a);return jt(function(a){return a},b)}function
+X(a){return ju(aV(a))}function
+bG(a){if(2===a[0])return[0,ju(a[1])];var
+b=U(a),c=X(p(b,t1));return[1,X(p(b,t2)),c]}function
+af(a){throw[0,jq,ap(g_(t4,a),t3)]}function
+jw(c){var
+a=aV(c);if(j(a,t5)){var
+b=j(a,t6);if(b)throw x;return b}return 1}function
+t7(d){var
+b=U(d);function
+a(a){return du(bG,p(b,a))}var
+c=aV(p(b,t8));if(j(c,t9)){if(j(c,t_)){if(j(c,t$))return af([0,ub,[0,c,ua]]);var
+e=a0(b,uc),f=ep(function(a){return du(bG,a)},e),g=a(ud);return[1,a(ue),g,f]}var
+h=jw(p(b,uf)),i=bG(p(b,ug)),k=a(uh),l=a(ui);return[0,a(uj),l,k,i,h]}return[2,a(uk)]}function
+jx(d){var
+a=U(d);if(a){var
+b=a[1];if(!j(b[1],ul)){var
+c=b[2];if(2===c[0]&&!j(c[1],um))return 1}}return 0}function
+un(c){var
+a=U(c);if(1-jx(c))throw x;function
+b(b){return du(bG,p(a,b))}var
+d=jw(p(a,uo)),e=bG(p(a,up)),f=bG(p(a,uq)),g=b(ur),h=b(us),i=b(ut);return[0,b(uu),i,h,g,f,e,d]}function
+dw(c,d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-ji(i){var
-c=X(i),b=aS(q(c,t5));if(k(b,t6))if(k(b,t7))if(k(b,t8))if(k(b,t9))if(k(b,t_))if(k(b,t$))if(k(b,ua))var
-g=k(b,ub),a=g?ac([0,ud,[0,b,uc]]):g;else
+jy(i){var
+c=U(i),b=aV(p(c,uv));if(j(b,uw))if(j(b,ux))if(j(b,uy))if(j(b,uz))if(j(b,uA))if(j(b,uB))if(j(b,uC))var
+g=j(b,uD),a=g?af([0,uF,[0,b,uE]]):g;else
 var
 a=6;else
 var
@@ -4659,113 +4803,133 @@ var
 a=7;else
 var
 a=3;function
-f(a){return q(c,ue)}var
-d=aS(q(c,uf));if(k(d,ug))if(k(d,uh))if(k(d,ui))var
-e=ac([0,uk,[0,d,uj]]);else
+f(a){return p(c,uG)}var
+d=aV(p(c,uH));if(j(d,uI))if(j(d,uJ))if(j(d,uK))var
+e=af([0,uM,[0,d,uL]]);else
 var
-h=dr(aa,f(0)),e=[2,h[1],h[2]];else
+h=dw(X,f(0)),e=[2,h[1],h[2]];else
 var
-e=[0,aa(f(0))];else
+e=[0,X(f(0))];else
 var
-e=[1,aa(f(0))];function
-j(m){var
-b=X(m),e=0;if(2===a){if(b){var
-g=b[1];if(!k(g[1],ul)){var
+e=[1,X(f(0))];function
+k(m){var
+b=U(m),e=0;if(2===a){if(b){var
+g=b[1];if(!j(g[1],uN)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!b[2]){var
 i=c[1];e=1}}}}}else
 if(6===a&&b){var
-j=b[1];if(!k(j[1],um)){var
-l=j[2];if(1===l[0]){var
+k=b[1];if(!j(k[1],uO)){var
+l=k[2];if(1===l[0]){var
 d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!b[2])return ac(un)}}}if(e)return aa(i);throw x}var
-l=ej(j,aZ(c,uo));return[0,a,ej(cM,aZ(c,up)),l,e]}function
-fY(c){var
-a=ji(c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(uq)}function
-ux(U){var
-i=cL(U),j=i[1];if(k(j,uy)){if(k(j,uz))return ac([0,uB,[0,j,uA]]);var
-l=q(X(i[2]),uC),K=0;if(2===l[0]){var
-y=k(l[1],uD);if(!y){var
-w=y;K=1}}if(!K)var
-w=[0,bF(l)];return[5,w]}var
-c=X(i[2]);function
-z(a){return R(ji,Q(q(c,uE)))}var
-f=cL(q(c,uF)),a=cL(q(c,uG));if(0===aZ(c,uH)){var
-b=f[1];if(k(b,uI)&&k(b,uJ)&&k(b,uK)){if(0===aZ(c,uL)){if(k(b,uM)){var
-L=0;if(k(b,uN)){if(!k(b,uO)){var
-A=a[1],M=0;if(k(A,uR)&&k(A,uS)){L=1;M=1}if(!M){var
-m=Q(f[2]),d=X(a[2]);if(k(a[1],ur))var
-u=dr(aa,q(d,us)),v=dr(aa,q(d,ut)),O=v[2],P=v[1],S=aa(q(d,uu)),n=[1,u[1],u[2],S,P,O];else
+i=d[1];e=1;f=1}if(!f&&!b[2])return af(uP)}}}if(e)return X(i);throw x}var
+l=ep(k,a0(c,uQ));return[0,a,ep(cO,a0(c,uR)),l,e]}function
+f_(c){var
+a=jy(c),b=a[1];if(2!==b&&!(4<=b))return a;return af(uS)}function
+uZ(T){var
+m=cN(T),n=m[1];if(j(n,u0)){if(j(n,u1))return af([0,u3,[0,n,u2]]);var
+o=p(U(m[2]),u4),L=0;if(2===o[0]){var
+y=j(o[1],u5);if(!y){var
+w=y;L=1}}if(!L)var
+w=[0,bG(o)];return[5,w]}var
+c=U(m[2]);function
+z(a){return W(jy,V(p(c,u6)))}var
+f=cN(p(c,u7)),a=cN(p(c,u8));if(0===a0(c,u9)){var
+b=f[1];if(j(b,u_)&&j(b,u$)&&j(b,va)){if(0===a0(c,vb)){if(j(b,vc)){var
+M=0;if(j(b,vd)){if(!j(b,ve)){var
+A=a[1],N=0;if(j(A,vh)&&j(A,vi)){M=1;N=1}if(!N){var
+q=V(f[2]),d=U(a[2]);if(j(a[1],uT))var
+u=dw(X,p(d,uU)),v=dw(X,p(d,uV)),P=v[2],Q=v[1],R=X(p(d,uW)),r=[1,u[1],u[2],R,Q,P];else
 var
-T=dp(aa,q(d,uv)),n=[0,dp(aa,q(d,uw)),T];var
-g=m;for(;;){if(g){var
-N=g[2],t=jh(g[1]);if(!t){var
-g=N;continue}var
+S=du(X,p(d,uX)),r=[0,du(X,p(d,uY)),S];var
+h=q;for(;;){if(h){var
+O=h[2],t=jx(h[1]);if(!t){var
+h=O;continue}var
 B=t}else
 var
 B=0;if(B){var
-V=R(fY,Q(q(c,uV)));return[1,R(tX,m),n,V]}var
-W=z(0);return[0,R(tF,m),n,W]}}}}else
-if(!k(a[1],uW)){var
-Y=z(0),Z=aa(q(X(a[2]),uX));return[4,aa(q(X(f[2]),uY)),Z,Y]}if(!L)return ac([0,uQ,[0,b,uP]])}else
-if(!k(a[1],uZ)){var
-h=X(f[2]),C=X(a[2]),D=function(c,a){var
-b=Q(a);return R(function(d){var
-a=Q(d);if(a){var
+Y=W(f_,V(p(c,vl)));return[1,W(un,q),r,Y]}var
+Z=z(0);return[0,W(t7,q),r,Z]}}}}else
+if(!j(a[1],vm)){var
+_=z(0),$=X(p(U(a[2]),vn));return[4,X(p(U(f[2]),vo)),$,_]}if(!M)return af([0,vg,[0,b,vf]])}else
+if(!j(a[1],vp)){var
+i=U(f[2]),C=U(a[2]),D=function(c,a){var
+b=V(a);return W(function(d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aS(a[1]),f]}}throw x},b)},_=function(d){var
-a=X(d);if(a){var
-b=a[1],c=b[1];if(k(c,u0)){if(!k(c,u1)&&!a[2])return R(jf,Q(b[2]))}else
-if(!a[2])return ac(u2)}throw x},$=R(fY,Q(q(c,u3))),ab=R(aa,Q(q(C,u4))),ad=R(aa,Q(q(C,u5))),ae=R(_,Q(q(h,u6))),af=D(jf,q(h,u7)),ag=D(bF,q(h,u8));return[3,R(aS,Q(q(h,u9))),ag,af,ae,ad,ab,$]}return ac([0,uU,[0,a[1],uT]])}throw x}var
-E=a[1],F=X(f[2]),G=X(a[2]);if(k(E,u_))ac([0,va,[0,E,u$]]);var
-H=aZ(F,vb),ah=H?aa(H[1]):ac([0,vy,[0,b,vx]]),ai=function(d){var
-a=X(d);function
-b(b){return R(bF,Q(q(a,b)))}var
-c=aS(q(a,vc)),e=aZ(a,vd);if(!k(c,ve)&&!e){var
-f=b(vh);return[0,b(vi),f]}return ac([0,vg,[0,c,vf]])},o=cL(q(c,vj)),p=o[1];if(k(p,vk))if(k(p,vl))var
-r=ac([0,vn,[0,p,vm]]);else
+f=e(c,b[1]);return[0,aV(a[1]),f]}}throw x},b)},aa=function(d){var
+a=U(d);if(a){var
+b=a[1],c=b[1];if(j(c,vq)){if(!j(c,vr)&&!a[2])return W(jv,V(b[2]))}else
+if(!a[2])return af(vs)}throw x},ab=W(f_,V(p(c,vt))),ac=W(X,V(p(C,vu))),ad=W(X,V(p(C,vv))),ae=W(aa,V(p(i,vw))),ag=D(jv,p(i,vx)),ah=D(bG,p(i,vy));return[3,W(aV,V(p(i,vz))),ah,ag,ae,ad,ac,ab]}return af([0,vk,[0,a[1],vj]])}throw x}var
+E=a[1],F=U(f[2]),G=U(a[2]);if(j(E,vA))af([0,vC,[0,E,vB]]);var
+H=a0(F,vD),ai=H?X(H[1]):af([0,v2,[0,b,v1]]),aj=function(d){var
+a=U(d);function
+b(b){return W(bG,V(p(a,b)))}var
+c=aV(p(a,vE)),e=a0(a,vF);if(!j(c,vG)&&!e){var
+f=b(vJ);return[0,b(vK),f]}return af([0,vI,[0,c,vH]])},g=cN(p(c,vL)),k=g[1];if(j(k,vM))if(j(k,vN))if(j(k,vO)){if(j(k,vP))throw x;var
+I=g[2],ak=X(p(U(I),vQ)),l=[3,X(p(U(I),vR)),ak]}else
 var
-an=o[2],s=function(a){return dr(aa,q(X(an),a))},ao=s(vu),ap=s(vv),r=[1,s(vw),ap,ao];else
+ap=g[2],s=function(a){return dw(X,p(U(ap),a))},aq=s(vY),ar=s(vZ),l=[1,s(v0),ar,aq];else
 var
-J=dr(aa,o[2]),r=[0,J[1],J[2]];var
-I=k(b,vo),aj=I?k(b,vp)?2:1:I,ak=R(fY,Q(q(c,vq))),al=R(aa,Q(q(G,vr))),am=R(aa,Q(q(G,vs)));return[2,aj,R(ai,Q(q(F,vt))),ah,am,al,r,ak]}return ac(vz)}function
-jj(a){return R(i$,Q(a))}function
-fZ(e,h){var
-t=e[2];function
-u(c,b){var
-a=jj(b);if(cn(a)!==c)throw x;return a}switch(h[0]){case
+K=dw(X,g[2]),l=[0,K[1],K[2]];else
+var
+l=[2,X(g[2])];var
+J=j(b,vS),al=J?j(b,vT)?2:1:J,am=W(f_,V(p(c,vU))),an=W(X,V(p(G,vV))),ao=W(X,V(p(G,vW)));return[2,al,W(aj,V(p(F,vX))),ai,ao,an,l,am]}return af(v3)}function
+jz(a){return W(f8,V(a))}function
+er(e,l){var
+B=e[2];function
+C(c,b){var
+a=jz(b);if(cp(a)!==c)throw x;return a}switch(l[0]){case
 0:var
-b=h[1];if(b){var
-d=b[1],a=d[1],c=0;if(k(a,vC))if(k(a,vD))if(k(a,vE))if(k(a,vF)){var
-C=0;if(k(a,vG)&&k(a,vH)&&k(a,vI))C=1;if(!C)if(b[2])c=1;else{var
-D=d[2],w=D,v=function(c,b){return[1,a,c,b]};c=2}}else{var
-A=d[2];if(1===A[0]){var
-i=A[1];if(i){var
-j=i[2];if(j){var
-l=j[2];if(l&&!l[2]){if(!b[2]){var
-G=jb(l[1]),H=i$(j[1]);return[4,fZ(e,i[1]),H,G]}c=1}}}}}else{if(!b[2]){var
-p=aS(d[2]),r=k(p,vA);if(r){if(k(p,vB))throw x;var
-s=1}else
+b=l[1];if(b){var
+d=b[1],a=d[1],c=0;if(j(a,v6))if(j(a,v7))if(j(a,v8))if(j(a,v9)){var
+M=0;if(j(a,v_)&&j(a,v$)&&j(a,wa))M=1;if(!M)if(b[2])c=1;else{var
+N=d[2],E=N,D=function(c,b){return[1,a,c,b]};c=2}}else{var
+H=d[2];if(1===H[0]){var
+m=H[1];if(m){var
+n=m[2];if(n){var
+o=n[2];if(o&&!o[2]){if(!b[2]){var
+Q=f9(o[1]),R=f8(n[1]);return[4,er(e,m[1]),R,Q]}c=1}}}}}else{if(!b[2]){var
+y=aV(d[2]),z=j(y,v4);if(z){if(j(y,v5))throw x;var
+A=1}else
 var
-s=r;return[2,s]}c=1}else{var
-f=d[2],g=0;switch(f[0]){case
+A=z;return[2,A]}c=1}else{if(!b[2]){var
+f=d[2],i=0;switch(f[0]){case
 0:var
-m=f[1];if(!m||k(m[1][1],vN)||m[2])g=1;break;case
-2:if(k(f[1],vO))g=1;break;default:g=1}if(!g){if(!b[2])return[5,fZ(e,f)];c=1}}else{var
-B=d[2];if(1===B[0]){var
-n=B[1];if(n){var
-o=n[2];if(o&&!o[2])if(b[2])c=1;else{var
-I=o[1],J=n[1],w=J,v=function(b,a){return[3,b,a,u(t+1|0,I)]};c=2}}}}switch(c){case
-0:if(!b[2])return ac([0,vK,[0,a,vJ]]);break;case
+g=f[1];if(g){var
+J=g[1],K=J[1];if(j(K,wf)){if(!j(K,wg)){var
+L=J[2];if(1===L[0]){var
+t=L[1];if(t){var
+h=t[1],k=0;switch(h[0]){case
+0:var
+u=h[1];if(!u||j(u[1][1],wi)||u[2])k=1;break;case
+2:if(j(h[1],wj))k=1;break;default:k=1}if(!k){var
+v=t[2];if(v){var
+w=v[2];if(w&&!w[2]&&!g[2]){var
+X=f9(w[1]),Y=f8(v[1]),q=[5,er(e,h),Y,X];i=1}}}}}}}else
+if(!g[2])i=2}break;case
+2:if(!j(f[1],wk))i=2;break}switch(i){case
+0:var
+q=af(wh);break;case
+2:var
+q=er(e,f);break}return[6,q]}c=1}else{var
+I=d[2];if(1===I[0]){var
+r=I[1];if(r){var
+s=r[2];if(s&&!s[2])if(b[2])c=1;else{var
+S=s[1],T=r[1],E=T,D=function(b,a){return[3,b,a,C(B+1|0,S)]};c=2}}}}switch(c){case
+0:if(!b[2])return af([0,wc,[0,a,wb]]);break;case
 1:break;default:var
-y=X(w),E=Q(q(y,vL)),z=R(function(a){return u(t,a)},E),F=e[1];if(cn(z)!==F)throw x;return v(z,jb(q(y,vM)))}}break;case
-2:return[0,h[1]]}throw x}function
-v_(a){return 5===a[2][0]?1:0}function
-v$(d){var
+F=U(E),O=V(p(F,wd)),G=W(function(a){return C(B,a)},O),P=e[1];if(cp(G)!==P)throw x;return D(G,f9(p(F,we)))}}break;case
+2:return[0,l[1]]}throw x}function
+wG(c){var
+b=c[2],a=0;switch(b[0]){case
+0:if(!j(b[1],wH))a=1;break;case
+6:a=1;break}return a?1:0}function
+wI(d){var
 f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return G(d,a[1]);throw x}function
+g(b){if(a[1]<f)return L(d,a[1]);throw x}function
 h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,G(d,a[1]))){a[1]++;continue}return cY(d,b,a[1]-b|0)}}function
+C(b,c){for(;;){if(a[1]<f&&e(c,L(d,a[1]))){a[1]++;continue}return c0(d,b,a[1]-b|0)}}function
 D(d){h(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -4779,61 +4943,61 @@ i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
 f=i;continue}h(d);var
 b=i,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-p(c,k){if(64<c)throw x;var
+q(c,k){if(64<c)throw x;var
 b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return p(f,a)},e)]}if(123===b){a[1]++;var
+e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
 i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
+a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,C(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=p(0,0),F=a[1]<f?1:0,N=F?10===G(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=X(M);if(k(aS(q(m,wa)),wb))throw x;var
-b=ux(q(m,wc));switch(b[0]){case
+M=q(0,0),F=a[1]<f?1:0,N=F?10===L(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=U(M);if(j(aV(p(m,wJ)),wK))throw x;var
+b=uZ(p(m,wL));switch(b[0]){case
 0:var
-n=[0,cn(b[1]),3];break;case
+n=[0,cp(b[1]),3];break;case
 2:var
-Z=1===b[1]?6:3,n=[0,cn(b[2]),Z];break;case
+_=1===b[1]?6:3,n=[0,cp(b[2]),_];break;case
 3:var
-_=cn(b[1]),n=[0,cn(b[4]),_];break;default:var
-n=wk}var
-w=cL(q(m,wd)),z=w[1];if(k(z,v0))if(k(z,v1))var
-c=ac([0,v3,[0,z,v2]]);else{var
-j=X(w[2]),A=aZ(j,v4),S=A?R(aa,Q(A[1])):A,r=cL(q(j,v5)),i=r[1],o=0;if(k(i,vV)){var
-H=k(i,vW);if(H){if(!k(i,vX)){var
-I=r[2];if(1===I[0]){var
-s=I[1];if(s){var
+$=cp(b[1]),n=[0,cp(b[4]),$];break;default:var
+n=wT}var
+w=cN(p(m,wM)),z=w[1];if(j(z,ww))if(j(z,wx))var
+c=af([0,wz,[0,z,wy]]);else{var
+k=U(w[2]),A=a0(k,wA),Q=A?W(X,V(A[1])):A,r=cN(p(k,wB)),i=r[1],o=0;if(j(i,wr)){var
+G=j(i,ws);if(G){if(!j(i,wt)){var
+H=r[2];if(1===H[0]){var
+s=H[1];if(s){var
 t=s[2];if(t&&!t[2]){var
-O=cM(t[1]),l=[1,cM(s[1]),O];o=1}}}}}else{var
-l=H;o=1}}else{var
-J=r[2];if(1===J[0]){var
-u=J[1];if(u){var
+O=cO(t[1]),l=[1,cO(s[1]),O];o=1}}}}}else{var
+l=G;o=1}}else{var
+I=r[2];if(1===I[0]){var
+u=I[1];if(u){var
 v=u[2];if(v&&!v[2]){var
-P=R(jj,Q(v[1])),l=[0,cM(u[1]),P];o=1}}}}if(!o)var
-l=ac([0,vZ,[0,i,vY]]);var
-T=R(aa,Q(q(j,v6))),c=[1,ja(q(j,v7)),T,S,l]}else
+P=W(jz,V(v[1])),l=[0,cO(u[1]),P];o=1}}}}if(!o)var
+l=af([0,wv,[0,i,wu]]);var
+R=W(X,V(p(k,wC))),c=[1,jr(p(k,wD)),R,Q,l]}else
 var
-K=X(w[2]),U=Q(q(K,v8)),V=R(function(f){var
-a=X(f);if(0!==aZ(a,vR))ac(vS);var
-d=ej(cM,aZ(a,vT)),b=aZ(a,vU);if(b)var
-e=Q(b[1]),c=R(function(g){var
-b=Q(g);if(b){var
+J=U(w[2]),S=V(p(J,wE)),T=W(function(f){var
+a=U(f);if(0!==a0(a,wn))af(wo);var
+d=ep(cO,a0(a,wp)),b=a0(a,wq);if(b)var
+e=V(b[1]),c=W(function(g){var
+b=V(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],vP)){if(!a[2]){if(k(dn(e),vQ))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wl)){if(!a[2]){if(j(dt(e),wm))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=fZ(n,c);return[0,cM(e),f]}}}throw x},e);else
+f=er(n,c);return[0,cO(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},U),c=[0,ja(q(K,v9)),V];var
+c=b;return[0,c,d]},S),c=[0,jr(p(J,wF)),T];var
 B=0;switch(b[0]){case
-1:if(0===c[0]){ac(wh);B=1}break;case
+1:if(0===c[0]){af(wQ);B=1}break;case
 2:if(0===c[0]){var
-Y=c[2];if(!gT(function(a){return gT(v_,a[1])},Y)){ac(wi);B=1}}break;case
-3:if(1===c[0]){ac(wj);B=1}break}var
-L=X(q(m,we)),W=aS(q(L,wf));return[0,b,c,aS(q(L,wg)),W]}function
-wl(c){try{try{var
-d=0,a=v$(c);d=1}catch(a){a=eI(a);if(a[1]===i_)var
+Z=c[2];if(!g6(function(a){return g6(wG,a[1])},Z)){af(wR);B=1}}break;case
+3:if(1===c[0]){af(wS);B=1}break}var
+K=U(p(m,wN)),Y=aV(p(K,wO));return[0,b,c,aV(p(K,wP)),Y]}function
+wU(c){try{try{var
+d=0,a=wI(c);d=1}catch(a){a=eR(a);if(a[1]===jq)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=tq(c,a)?0===a[2][0]?0:1:2}catch(a){return wm}if(typeof
+b=tS(c,a)?0===a[2][0]?0:1:2}catch(a){return wV}if(typeof
 b==="number")switch(b){case
-0:return wn;case
-1:return wo;default:return wp}return am(wq,b[1])}yb.orthocert_verify=xT(function(b){return bN(wl(a(b)))});eL(0);return}(globalThis));
+0:return wW;case
+1:return wX;default:return wY}return ap(wZ,b[1])}yK.orthocert_verify=yq(function(b){return bO(wU(a(b)))});eU(0);return}(globalThis));
