@@ -11,7 +11,7 @@ Module Planar.
 Local Open Scope Z_scope.
 Definition root3 (n : Z) : number := Times (n // 1) (Root (3 // 1)).
 Definition vector (x y : number) : tolerances := Tolerances (exactly x) (exactly y) (exactly (0 // 1)).
-Definition claim (psi length : number) : turning_claim :=
+Definition claim_of (d : demand) (length : number) : turning_claim :=
   MakeTurningClaim InPlane
     [(vector (0 // 1) (400 // 1), vector (root3 50) (50 // 1));
      (vector (root3 (-200)) (-200 // 1), vector (root3 (-50)) (50 // 1));
@@ -19,7 +19,8 @@ Definition claim (psi length : number) : turning_claim :=
     (100 // 1)
     (Tolerances (Within (-50 // 1) (50 // 1)) (Within (-50 // 1) (50 // 1)) (exactly (0 // 1)))
     (TurnedBy (Within (-20 // 1) (20 // 1)))
-    [FactorMax psi; LengthMax 0 length].
+    [d; LengthMax 0 length].
+Definition claim (psi : number) : number -> turning_claim := claim_of (FactorMax psi).
 Definition Y := [[0; -1; -1]; [1; 1; -1]; [-1; 0; -1]].
 Definition by_lower (Y : list (list Z)) : nat * evidence := (0%nat, AtControls (ByLower 0%N Y)).
 Definition by_test : nat * evidence := (1%nat, AtControls ByTest).
@@ -33,6 +34,11 @@ Example another_Y : accepts right [by_lower [[0; -1; -1]; [1; 1; 1]; [-1; 0; -1]
 Example without_a_step : accepts right [by_lower Y] = false. Proof. vm_compute. reflexivity. Qed.
 Example not_at_controls : accepts right [(0%nat, ByLower 0%N Y); by_test] = false. Proof. vm_compute. reflexivity. Qed.
 Example of_the_other_test : accepts right [(0%nat, AtControls ByTest); by_test] = false. Proof. vm_compute. reflexivity. Qed.
+(** Full rank, and nothing more. *)
+Definition by_rank (Y : list (list Z)) : nat * evidence := (0%nat, AtControls (ByRank 0%N Y)).
+Example rank : accepts (claim_of Nonsingular (480 // 1)) [by_rank Y; by_test] = true. Proof. vm_compute. reflexivity. Qed.
+Example rank_of_another_Y : accepts (claim_of Nonsingular (480 // 1)) [by_rank [[0; 1; 1]; [-1; -1; 1]; [1; 0; 1]]; by_test] = false. Proof. vm_compute. reflexivity. Qed.
+Example rank_alone : accepts right [by_rank Y; by_test] = false. Proof. vm_compute. reflexivity. Qed.
 (** No inequality of orientations in the plane. *)
 Example turned : accepts right [by_lower Y; (1%nat, AtControls (Turned ByTest 0 0%N))] = false. Proof. vm_compute. reflexivity. Qed.
 Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. reflexivity. Qed.

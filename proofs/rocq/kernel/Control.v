@@ -327,6 +327,12 @@ Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (w
   | Some rows, Some w, Some t => is_definite n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
   | _, _, _ => false
   end.
+(** Full rank: the same with D = 0 and k = 0. *)
+Definition rank_at (n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (l : multiple) (values : list (option fixed)) : bool :=
+  match rows_of values r, multiple_at l values with
+  | Some rows, Some t => is_definite n (lower_triangle places Y (map (fun p => (fst p, zero)) rows) (repeat [sub zero t] n))
+  | _, _ => false
+  end.
 Definition upper_at (n : nat) (r : rows nat) (w : nat) (k : fixed) (l : multiple) (values : list (option fixed)) : bool :=
   match rows_of values r, nth w values None, multiple_at l values with
   | Some rows, Some w, Some t => match upper_triangle rows (repeat [sub (mul bits k w) t] n) with Some t => is_definite n t | None => false end
@@ -462,6 +468,33 @@ Proof.
     destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [sub (neg (mul bits kappa2 b)) t] n))) n) as [e | e]; [| discriminate].
     destruct (lower_triangle_sound bits places Y s _ _ _ v S
       (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (neg_sound bits _ _ (mul_sound bits _ _ _ _ hk W)) L))) as [T [hT le]].
+    pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
+    rewrite (related_length _ _ _ _ _ hT) in e. specialize (Q ltac:(congruence) nz). lra.
+Qed.
+
+Lemma form_without_D : forall ws r v, form (map (fun p => (fst p, 0)) ws) r v = form ws (map (fun p => (fst p, 0)) r) v.
+Proof. induction ws as [| [y z] ws IH]; intros [| [a d] r] v; try reflexivity. cbn [map form fst]. rewrite IH. ring. Qed.
+
+Theorem rank_shown : forall n places Y r v, forallb is_affine_at (all_places r) = true ->
+  (forall q, In q (grid cell) -> rank_at n places Y r l (evaluate_at q) = true) -> length v = n -> nonzero v ->
+  positive_D (map_rows (fun i => here i) r) /\ 0 < energy (map_rows (fun i => here i) r) v.
+Proof.
+  intros n places Y r v ha H lv nz. assert (P : positive_D (map_rows (fun i => here i) r)).
+  { apply (regular_here r ha). intros q iq. specialize (H q iq). unfold rank_at in H. destruct (rows_of _ r) as [s |]; [exists s; reflexivity | discriminate]. }
+  split; [exact P |]. apply (rank_energy places Y _ v P). rewrite <- form_without_D.
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]).
+  set (ws := map (fun p => (fst p, 0)) (lower_weights places Y v)).
+  enough (0 < form ws (map_rows (fun i => here i) r) v + - dot v v * less_at (parabola x) l) by lra.
+  apply (decide (fun y => 0 < y) positive_convex (fun ps => form ws (map_rows (fun i => at_ ps i) r) v + - dot v v * less_at ps l)).
+  - intros before after a b c p q s len su. rewrite (rows_affine r ws v ha before after a b c p q s len su), (multiple_affine l l_affine before after a b c p q s len su). ring.
+  - intros q ps iq rq. specialize (H q iq). unfold rank_at in H. unfold ws. rewrite form_without_D.
+    destruct (rows_of (evaluate_at q) r) as [s |] eqn:es; [| discriminate].
+    destruct (multiple_at l (evaluate_at q)) as [t |] eqn:et; [| discriminate]. pose proof (multiple_at_sound q ps l t rq et) as L.
+    destruct (rows_of_sound q ps r s rq es) as [S _]. unfold is_definite in H.
+    assert (S0 : rows_rel (contains bits) (map (fun p => (fst p, zero)) s) (map (fun p => (fst p, 0)) (map_rows (fun i => at_ ps i) r)))
+      by (eapply map_related; [| exact S]; intros a b [k _]; split; [exact k | apply zero_sound]).
+    destruct (Nat.eqb_spec (length (lower_triangle places Y (map (fun p => (fst p, zero)) s) (repeat [sub zero t] n))) n) as [e | e]; [| discriminate].
+    destruct (lower_triangle_sound bits places Y _ _ _ _ v S0 (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (zero_sound bits) L))) as [T [hT le]].
     pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
     rewrite (related_length _ _ _ _ _ hT) in e. specialize (Q ltac:(congruence) nz). lra.
 Qed.

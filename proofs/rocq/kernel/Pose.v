@@ -25,6 +25,7 @@ Variable g : option nat.
 Definition shows_less (points : list (list (option fixed))) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
   match t, e with
   | LeastOf r w k, ByLower places Y => forallb (lower_at bits n places Y r w k l) points
+  | LeastOf r w k, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && forallb (rank_at n places Y r l) points
   | GreatestOf r w k, ByTest => forallb (upper_at bits n r w k l) points
   | SignOf f, ByTest => forallb (sign_at f l) points
   | _, _ => false
@@ -92,6 +93,9 @@ Proof.
     by (intros good f q iq; rewrite forallb_forall in f; apply f, in_map, iq).
   destruct t as [r w k2 | r w k2 | f], e; cbn [shows_less test_holds test_places] in *; try discriminate.
   - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y); [exact ha | exact (K _ h)].
+  - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2. cbn [forallb] in ha. apply andb_true_iff in ha as [_ ha].
+    intros k v [l1 l2] lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (k0 : k = 0) by nra. subst k. rewrite !Rmult_0_l.
+    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r v ha (K _ h3) lv nz).
   - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ h)].
   - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ h)).
 Qed.

@@ -273,8 +273,8 @@ let rec evidence (n, m as shape) v =
 (* At control points. *)
 and at_controls shape v =
   match v with
-  | Object [ ("turned", Array [ (String "test" | Object [ ("lower", _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
-  | String "test" | Object [ ("lower", _) ] -> evidence shape v
+  | Object [ ("turned", Array [ (String "test" | Object [ (("lower" | "rank"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
+  | String "test" | Object [ (("lower" | "rank"), _) ] -> evidence shape v
   | _ -> not_covered [ "this evidence at control points" ]
 let step n v =
   match array v with

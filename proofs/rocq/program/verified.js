@@ -4,19 +4,19 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-yK=typeof
-module==="object"&&module.exports||u,gx="spatial",kB="Invalid_argument",ew="precision",an='"',kA="@[",gh=1255,kz="inside",la="Fatal error: exception %s\n",j3=255,ky="yaw",k_="(",k$=0x800,j1="range",j2="tree",gg="jsError",bj=0x8000,kw='the mechanism "',kx="%ni",lB="sqrt(",k9=256,kv="offset",k8="obligation",b4="machine",j0="End_of_file",ey="strut",jZ="center",eH="arm",gf="Failure",lz="serial_margin",lA="parameters",bK=0xff,jY="\n",gC="outside",go="base_axis",gw="ENOENT",ly=122,aG="0",k7="([^/]+)",gv=0xf,dB=128,ge=-48,jX=0xdc00,ku="Sys_blocked_io",lx="fd ",jW="given",k6="ENOTEMPTY",am=248,k5="bound",al="camlinternalFormat.ml",k4="Division_by_zero",lv="by",lw=1027,jV="Sys_error",kt="slider",ks="postulate",k3="torsion",k2="proof",kr="%u",cQ="mechanism",eD="row",jU="EEXIST",kq="roll_pitch_yaw",gu="%d",jT="Printexc.handle_uncaught_exception",kp="y",ev="lower",ko="within",k1="cube",k0="buffer.ml",lu="turned",eu="int_of_string",kZ="control",kn="definitions",gn=127,dA=1024,km="@{",gB="e",jR=120,jS=103,kl=" : flags Open_rdonly and Open_wronly are not compatible",kY="orthocert/2",lt="reach",jQ=512,a1="-",ls="witness",b1="platform",jP=0x7ff0,jO="pitch",gA=": Not a directory",kk=" : file already exists",bl="min",cR="workspace",kj="claim",kX="split",lr="legs",bJ=0xffffff,kW="joint",jM="formulas",jN="0x",ki='the workspace "',kV="roll",lp="nodes",lq="Out_of_memory",jL="psi_max",gz="orientation",kh="angle",eC=254,gy="index out of bounds",kU=100,jK="end",eG="_bigarr02",jJ="%Li",kT=" : flags Open_text and Open_binary are not compatible",b2="drive",kS="coordinates",kg=", characters ",kR="lower_divided",kf="joints",lo="cylinder",bn=0xffff,ke=12520,kd="axis",ln="parallel_margin",jI='the drive "',gm="fails",gt="Unix.Unix_error",lm="infinity",et="tool",gd="mkdir",dz=1000,gc="translational",s="",kQ="Stack_overflow",ll="characteristic_length",gl="^",es=": No such file or directory",kP="places",kO="/static/",cP=0x3f,kN=-97,kL="stiffness",kM="Not_found",dy="planar",eB="mode",lk="joint_speed",kc="Match_failure",jH=", ",jG="transmission",b0="anchor",eF=252,kb="leg",b3=".",bk="+",gs="rmdir",lj=0xf0,li="spherical",ka="verified.ml",j_="REJECTED",j$="%li",kK=1026,bm="max",eE="direction",kJ="orthoglide",lh="rank",lg="constraint_margin",lf=-32,jE="Pervasives.do_at_exit",jF="utf8",gr="test",bH=" ",ex="conditioning",gq="Fatal error: exception ",a9=0x80,jD="Undefined_recursive_module",gk=")",eA="length",le="quantity",kI="joint_range",ez="tilt",jC="Q2",gj="nan",j9="reference",kH="point",j8=0xe0,ld="corner",j6="z",j7=0xdfff,kF="version",kG="_",a8="/",gp="compare: functional value",lc="Assert_failure",j5="provenance",jA="radius",jB="%i",bI="require",kE="side",lb="format",gi="ENOTDIR",kD="Q1",kC="all",ck="box",j4=250;function
-gS(c,b,a){var
+yM=typeof
+module==="object"&&module.exports||u,gA="spatial",kC="Invalid_argument",ey="precision",ao='"',kB="@[",gk=1255,kA="inside",lb="Fatal error: exception %s\n",j4=255,kz="yaw",k$="(",la=0x800,j2="range",j3="tree",gj="jsError",bj=0x8000,kx='the mechanism "',ky="%ni",lB="sqrt(",k_=256,kw="offset",k9="obligation",b4="machine",j1="End_of_file",eA="strut",j0="center",eK="arm",gi="Failure",lz="serial_margin",lA="parameters",bK=0xff,jZ="\n",gF="outside",gr="base_axis",gz="ENOENT",ly=122,aG="0",k8="([^/]+)",gy=0xf,dB=128,gh=-48,jY=0xdc00,kv="Sys_blocked_io",lx="fd ",jX="given",k7="ENOTEMPTY",an=248,k6="bound",am="camlinternalFormat.ml",k5="Division_by_zero",lv="by",lw=1027,jW="Sys_error",ku="slider",kt="postulate",k4="torsion",k3="proof",ks="%u",cQ="mechanism",eF="row",jV="EEXIST",kr="roll_pitch_yaw",gx="%d",jU="Printexc.handle_uncaught_exception",kq="y",ex="lower",kp="within",k2="cube",k1="buffer.ml",lu="turned",ew="int_of_string",k0="control",ko="definitions",gq=127,dA=1024,kn="@{",gE="e",jS=120,jT=103,km=" : flags Open_rdonly and Open_wronly are not compatible",kZ="orthocert/2",lt="reach",jR=512,a1="-",ls="witness",b1="platform",jQ=0x7ff0,jP="pitch",gD=": Not a directory",kl=" : file already exists",bl="min",cR="workspace",kk="claim",kY="split",lr="legs",bJ=0xffffff,kX="joint",jN="formulas",jO="0x",kj='the workspace "',kW="roll",lp="nodes",lq="Out_of_memory",jM="psi_max",gC="orientation",ki="angle",eE=254,gB="index out of bounds",kV=100,jL="end",eJ="_bigarr02",jK="%Li",kU=" : flags Open_text and Open_binary are not compatible",b2="drive",kT="coordinates",kh=", characters ",kS="lower_divided",kg="joints",lo="cylinder",bn=0xffff,kf=12520,ke="axis",ln="parallel_margin",jJ='the drive "',gp="fails",gw="Unix.Unix_error",lm="infinity",ev="tool",gg="mkdir",dz=1000,gf="translational",s="",kR="Stack_overflow",ll="characteristic_length",go="^",eu=": No such file or directory",kQ="places",kP="/static/",cP=0x3f,kO=-97,kM="stiffness",kN="Not_found",dy="planar",eD="mode",lk="joint_speed",kd="Match_failure",jI=", ",jH="transmission",b0="anchor",eI=252,kc="leg",b3=".",bk="+",gv="rmdir",lj=0xf0,li="spherical",kb="verified.ml",j$="REJECTED",ka="%li",kL=1026,bm="max",eH="direction",kK="orthoglide",eG="rank",lh="constraint_margin",lg=-32,jF="Pervasives.do_at_exit",jG="utf8",gu="test",bH=" ",ez="conditioning",gt="Fatal error: exception ",a9=0x80,jE="Undefined_recursive_module",gn=")",eC="length",lf="quantity",kJ="joint_range",eB="tilt",jD="Q2",gm="nan",j_="reference",kI="point",j9=0xe0,le="corner",j7="z",j8=0xdfff,kG="version",kH="_",a8="/",gs="compare: functional value",ld="Assert_failure",j6="provenance",jB="radius",jC="%i",bI="require",kF="side",lc="format",gl="ENOTDIR",kE="Q1",kD="all",cl="box",j5=250;function
+gV(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=s;for(;0<a;b+=dA,a-=dA)e+=d.apply(null,c.slice(b,b+Math.min(a,dA)));return e}function
-eI(b){if(u.Uint8Array)var
+eL(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gS(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?gS(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eI(b);var
+b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?gV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eL(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -25,36 +25,36 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 bL(a){return a}function
 bq(a,b,c,d,e){b6(bL(a),b,c,d,e);return 0}function
-yD(b,a){throw[0,b,a]}function
+yF(b,a){throw[0,b,a]}function
 cW(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
 cU(a){if(a.t==2)a.c+=cW(a.l-a.c.length,"\0");else
-a.c=gS(a.c,0,a.c.length);a.t=0}function
+a.c=gV(a.c,0,a.c.length);a.t=0}function
 l7(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gn)return false;return true}else
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gq)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-gU(e){for(var
+gX(e){for(var
 j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jQ){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(f<<6);if(f<j8){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(g<<6);if(f<lj){a=g-0xe2080;if(a<k$||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bn)c+=String.fromCharCode(0xd7c0+(a>>10),jX+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jR){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(f<<6);if(f<j9){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(g<<6);if(f<lj){a=g-0xe2080;if(a<la||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bn)c+=String.fromCharCode(0xd7c0+(a>>10),jY+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>dA){c.substr(0,1);j+=c;c=s}}return j+c}function
 bo(c,a,b){this.t=c;this.c=a;this.l=b}bo.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:cU(this);case
 0:if(l7(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bo.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return gU(a)};bo.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return gX(a)};bo.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bo(this.t,a,this.l)};function
 lL(a){return new
 bo(0,a,a.length)}function
 a(a){return lL(a)}function
-gQ(c,b){yD(c,a(b))}var
+gT(c,b){yF(c,a(b))}var
 aa=[0];function
-ao(a){gQ(aa.Invalid_argument,a)}function
-lJ(){ao(gy)}function
-ac(a,c,b){b&=bK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eI(a)}a.c[c]=b;return 0}function
-cl(b,a,c){if(a>>>0>=b.l)lJ();return ac(b,a,c)}function
+ap(a){gT(aa.Invalid_argument,a)}function
+lJ(){ap(gB)}function
+ac(a,c,b){b&=bK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eL(a)}a.c[c]=b;return 0}function
+cm(b,a,c){if(a>>>0>=b.l)lJ();return ac(b,a,c)}function
 cT(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
@@ -68,20 +68,20 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bM(c,d)}}function
-dC(){ao(gy)}function
+dC(){ap(gB)}function
 lM(a,b){if(b>>>0>=a.length-1)dC();return a}function
-x5(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+x7(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
 bO(a){a.t&6&&cU(a);return a.c}var
-yM=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-yL(a){if(yM)return Math.floor(Math.log2(a));var
+yO=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+yN(a){if(yO)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gI(c){var
+gL(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
 lV=Math.pow(2,-24);function
-yB(a){throw a}function
-l2(){yB(aa.Division_by_zero)}function
+yD(a){throw a}function
+l2(){yD(aa.Division_by_zero)}function
 t(b,c,a){this.lo=b&bJ;this.mi=c&bJ;this.hi=a&bn}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
@@ -115,16 +115,16 @@ c=b.udivmod(a).quotient;if(d&bj)c=c.neg();return c};t.prototype.mod=function(b){
 a=this;if(b.isZero())l2();var
 d=a.hi;if(a.hi&bj)a=a.neg();if(b.hi&bj)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bj)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bK,this.mi>>16,this.mi>>8&bK,this.mi&bK,this.lo>>16,this.lo>>8&bK,this.lo&bK]};t.prototype.lo32=function(){return this.lo|(this.mi&bK)<<24};t.prototype.hi32=function(){return this.mi>>>8&bn|this.hi<<16};function
-eM(b,c,a){return new
+eP(b,c,a){return new
 t(b,c,a)}function
-eL(a){if(!isFinite(a)){if(isNaN(a))return eM(1,0,jP);return a>0?eM(0,0,jP):eM(0,0,0xfff0)}var
+eO(a){if(!isFinite(a)){if(isNaN(a))return eP(1,0,jQ);return a>0?eP(0,0,jQ):eP(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bj:a>=0?0:bj;if(f)a=-a;var
-b=yL(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kK)}else{a/=Math.pow(2,b-lw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=yN(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kL)}else{a/=Math.pow(2,b-lw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gv|f|b<<4;return eM(g,e,c)}function
+g=a|0;c=c&gy|f|b<<4;return eP(g,e,c)}function
 dF(a){return a.toArray()}function
-lI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eG)for(var
+lI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eJ)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<bn)c.write(16,b.dims[a]);else{c.write(16,bn);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -146,25 +146,25 @@ e=dF(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dF(eL(b.get(a)));for(var
+e=dF(eO(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gI(b.get(a));c.write(32,e)}break;case
+e=gL(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gI(d[1]));c.write(32,gI(d[2]))}break;case
+d=b.get(a);c.write(32,gL(d[1]));c.write(32,gL(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dF(eL(f[1]));for(var
+f=b.get(a),e=dF(eO(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dF(eL(f[2]));for(var
+e=dF(eO(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
 lG(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-xZ(c,e){var
+x1(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,44 +178,44 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)ao("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)ap("Bigarray.create: unsupported kind");var
 d=new
 a(e*lG(c));return d}function
-gJ(c){var
+gM(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
 dE(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gK(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gv)==0?b&bj?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gv);if(c>0){a+=16;a*=Math.pow(2,c-lw)}else
-a*=Math.pow(2,-kK);if(b&bj)a=-a;return a}function
-gD(b){var
+gN(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gy)==0?b&bj?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gy);if(c>0){a+=16;a*=Math.pow(2,c-lw)}else
+a*=Math.pow(2,-kL);if(b&bj)a=-a;return a}function
+gG(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)ao("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-ye(b,a){return new
+a=0;a<d;a++){if(b[a]<0)ap("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+yg(b,a){return new
 t(b&bJ,b>>>24&bK|(a&bn)<<8,a>>>16&bn)}function
-gL(a){return a.hi32()}function
-gM(a){return a.lo32()}var
-x0=eG;function
-b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=x0;b5.prototype.offset=function(b){var
+gO(a){return a.hi32()}function
+gP(a){return a.lo32()}var
+x2=eJ;function
+b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=x2;b5.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))ao("bigarray.js: invalid offset");if(this.dims.length!=b.length)ao("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+Array))ap("bigarray.js: invalid offset");if(this.dims.length!=b.length)ap("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
 a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dC();c=c*this.dims[a]+b[a]}else
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dC();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return ye(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return yg(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eC,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gM(b);this.data[a*2+1]=gL(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eE,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gP(b);this.data[a*2+1]=gO(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b5.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gM(b),e=gL(b);if(c==e)this.data.fill(c);else
+c=gP(b),e=gO(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -247,21 +247,21 @@ b5();cS.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ao("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dC();return a};cS.prototype.get=function(a){return this.data[a]};cS.prototype.set=function(a,b){this.data[a]=b;return 0};cS.prototype.fill=function(a){this.data.fill(a);return 0};function
+ap("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dC();return a};cS.prototype.get=function(a){return this.data[a]};cS.prototype.set=function(a,b){this.data[a]=b;return 0};cS.prototype.fill=function(a){this.data.fill(a);return 0};function
 lE(c,d,a,b){var
-e=lG(c);if(gD(a)*e!=b.length)ao("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e=lG(c);if(gG(a)*e!=b.length)ap("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 cS(c,d,a,b);return new
 b5(c,d,a,b)}function
-a_(b){if(!aa.Failure)aa.Failure=[am,a(gf),-3];gQ(aa.Failure,b)}function
+a_(b){if(!aa.Failure)aa.Failure=[an,a(gi),-3];gT(aa.Failure,b)}function
 lF(b,v,r){var
 i=b.read32s();if(i<0||i>16)a_("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bK,o=p>>8&1,h=[];if(r==eG)for(var
+p=b.read32s(),j=p&bK,o=p>>8&1,h=[];if(r==eJ)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==bn){var
 t=b.read32u(),u=b.read32u();if(t!=0)a_("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gD(h),f=xZ(j,d),g=lE(j,o,h,f);switch(j){case
+d=gG(h),f=x1(j,d),g=lE(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -288,31 +288,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gK(dE(e));g.set(a,k)}break;case
+k=gN(dE(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gJ(b.read32s());g.set(a,k)}break;case
+k=gM(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gJ(b.read32s()),l=gJ(b.read32s());g.set(a,[eC,m,l])}break;case
+m=gM(b.read32s()),l=gM(b.read32s());g.set(a,[eE,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gK(dE(e));for(var
+m=gN(dE(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gK(dE(e));g.set(a,[eC,m,l])}break}v[0]=(4+i)*4;return lE(j,o,h,f)}function
+l=gN(dE(e));g.set(a,[eE,m,l])}break}v[0]=(4+i)*4;return lE(j,o,h,f)}function
 lD(a,b,c){return a.compare(b,c)}function
 lZ(a,b){return Math.imul(a,b)}function
 bN(b,a){a=lZ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lZ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-ya(a,b){a=bN(a,gM(b));a=bN(a,gL(b));return a}function
-lU(a,b){return ya(a,eL(b))}function
+yc(a,b){a=bN(a,gP(b));a=bN(a,gO(b));return a}function
+lU(a,b){return yc(a,eO(b))}function
 lH(c){var
-b=gD(c.dims),d=0;switch(c.kind){case
+b=gG(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>k9)b=k9;var
+12:if(b>k_)b=k_;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bN(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -333,71 +333,71 @@ a=0;a<b;a++)d=lU(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=lU(d,c.data[a]);break}return d}function
-yc(a,b){b[0]=4;return a.read32s()}function
-yy(a,b){switch(a.read8u()){case
+ye(a,b){b[0]=4;return a.read32s()}function
+yA(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:a_("input_value: native integer value too large");default:a_("input_value: ill-formed native integer")}}function
-yn(c,d){var
+yp(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dE(b)}function
-yj(e,d,b){var
+yl(e,d,b){var
 c=dF(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-yd(a,b,c){return a.compare(b)}function
-yg(a){return a.lo32()^a.hi32()}var
-lP={"_j":{deserialize:yn,serialize:yj,fixed_length:8,compare:yd,hash:yg},"_i":{deserialize:yc,fixed_length:4},"_n":{deserialize:yy,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lF(a,b,"_bigarray")},serialize:lI,compare:lD,hash:lH},"_bigarr02":{deserialize:function(a,b){return lF(a,b,eG)},serialize:lI,compare:lD,hash:lH}};function
-gF(a){return lP[a.caml_custom]&&lP[a.caml_custom].compare}function
+yf(a,b,c){return a.compare(b)}function
+yi(a){return a.lo32()^a.hi32()}var
+lP={"_j":{deserialize:yp,serialize:yl,fixed_length:8,compare:yf,hash:yi},"_i":{deserialize:ye,fixed_length:4},"_n":{deserialize:yA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lF(a,b,"_bigarray")},serialize:lI,compare:lD,hash:lH},"_bigarr02":{deserialize:function(a,b){return lF(a,b,eJ)},serialize:lI,compare:lD,hash:lH}};function
+gI(a){return lP[a.caml_custom]&&lP[a.caml_custom].compare}function
 lN(f,c,d,e){var
-b=gF(c);if(b){var
+b=gI(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eN(a){return a
+eQ(a){return a
 instanceof
 bo}function
-gO(a){return eN(a)}function
+gR(a){return eQ(a)}function
 lO(a){if(typeof
 a==="number")return dz;else
-if(eN(a))return eF;else
-if(gO(a))return 1252;else
+if(eQ(a))return eI;else
+if(gR(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=j3){var
-b=a[0]|0;return b==eC?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=j4){var
+b=a[0]|0;return b==eE?0:b}else
 if(a
 instanceof
-String)return ke;else
+String)return kf;else
 if(typeof
-a=="string")return ke;else
+a=="string")return kf;else
 if(a
 instanceof
 Number)return dz;else
-if(a&&a.caml_custom)return gh;else
+if(a&&a.caml_custom)return gk;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-yo(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+yq(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
 lK(a,b){a.t&6&&cU(a);b.t&6&&cU(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-yQ(a,b){return lK(a,b)}function
-gE(a,b,d){var
+yS(a,b){return lK(a,b)}function
+gH(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=lO(a);if(f==j4){a=a[1];continue}var
-g=lO(b);if(g==j4){b=b[1];continue}if(f!==g){if(f==dz){if(g==gh)return lN(a,b,-1,d);return-1}if(g==dz){if(f==gh)return lN(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ao(gp);break;case
+f=lO(a);if(f==j5){a=a[1];continue}var
+g=lO(b);if(g==j5){b=b[1];continue}if(f!==g){if(f==dz){if(g==gk)return lN(a,b,-1,d);return-1}if(g==dz){if(f==gk)return lN(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ap(gs);break;case
 248:var
-c=yo(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ao(gp);break;case
-250:ao("equal: got Forward_tag, should not happen");break;case
-251:ao("equal: abstract value");break;case
+c=yq(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ap(gs);break;case
+250:ap("equal: got Forward_tag, should not happen");break;case
+251:ap("equal: abstract value");break;case
 252:if(a!==b){var
 c=lK(a,b);if(c!=0)return c|0}break;case
-253:ao("equal: got Double_tag, should not happen");break;case
-254:ao("equal: got Double_array_tag, should not happen");break;case
-255:ao("equal: got Custom_tag, should not happen");break;case
-1247:ao(gp);break;case
+253:ap("equal: got Double_tag, should not happen");break;case
+254:ap("equal: got Double_array_tag, should not happen");break;case
+255:ap("equal: got Custom_tag, should not happen");break;case
+1247:ap(gs);break;case
 1255:var
-i=gF(a);if(i!=gF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ao("compare: abstract value");var
+i=gI(a);if(i!=gI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ap("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -411,204 +411,204 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-x6(a,b){return gE(a,b,true)}function
-x7(){return[0]}function
-ag(a){if(a<0)ao("Bytes.create");return new
+x8(a,b){return gH(a,b,true)}function
+x9(){return[0]}function
+ag(a){if(a<0)ap("Bytes.create");return new
 bo(a?2:9,s,a)}function
-lQ(a,b){return+(gE(a,b,false)==0)}function
-x9(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eI(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-gP(d){d=bO(d);var
-e=d.length;if(e>31)ao("format_int: format too long");var
+lQ(a,b){return+(gH(a,b,false)==0)}function
+x$(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eL(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+gS(d){d=bO(d);var
+e=d.length;if(e>31)ap("format_int: format too long");var
 a={justify:bk,signstyle:a1,filler:bH,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
 b=d.charAt(c);switch(b){case"-":a.justify=a1;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gG(b,f){if(b.uppercase)f=f.toUpperCase();var
+gJ(b,f){if(b.uppercase)f=f.toUpperCase();var
 e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a1))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
 c=s;if(b.justify==bk&&b.filler==bH)for(var
 d=e;d<b.width;d++)c+=bH;if(b.signedconv)if(b.sign<0)c+=a1;else
-if(b.signstyle!=a1)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jN;if(b.justify==bk&&b.filler==aG)for(var
+if(b.signstyle!=a1)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jO;if(b.justify==bk&&b.filler==aG)for(var
 d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a1)for(var
 d=e;d<b.width;d++)c+=bH;return a(c)}function
-gH(i,c){function
+gK(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(bk)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
 Array(c+1).join(aG);if(b>0)a=a+b3+new
 Array(b+1).join(aG);return a}else
 return a.toFixed(b)}}var
-a,e=gP(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gj;e.filler=bH}else
+a,e=gS(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gm;e.filler=bH}else
 if(!isFinite(c)){a="inf";e.filler=bH}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gB)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gB),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gB)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gE)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gE),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gE)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gG(e,a)}function
-eJ(e,c){if(bO(e)==gu)return a(s+c);var
-b=gP(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gJ(e,a)}function
+eM(e,c){if(bO(e)==gx)return a(s+c);var
+b=gS(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
 d=c.toString(b.base);if(b.prec>=0){b.filler=bH;var
-f=b.prec-d.length;if(f>0)d=cW(f,aG)+d}return gG(b,d)}var
-yz=0;function
-eK(){return yz++}function
-yr(a){return a.toUtf16()}function
+f=b.prec-d.length;if(f>0)d=cW(f,aG)+d}return gJ(b,d)}var
+yB=0;function
+eN(){return yB++}function
+yt(a){return a.toUtf16()}function
 dH(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-yN(){function
+yP(){function
 a(a){if(a.charAt(0)===a8)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dH()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-gY=yN();function
+g1=yP();function
 l5(a){return a.slice(-1)!==a8?a+a8:a}if(dH()&&u.process&&u.process.cwd)var
 dD=u.process.cwd().replace(/\\/g,a8);else
 var
 dD="/static";dD=l5(dD);function
-ys(a){a=yr(a);if(!gY(a))a=dD+a;var
-e=gY(a),d=e[1].split(a8),b=[];for(var
+yu(a){a=yt(a);if(!g1(a))a=dD+a;var
+e=g1(a),d=e[1].split(a8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-yH(e){for(var
+yJ(e){for(var
 f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jQ){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<k$){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cP)}else
-if(a<0xd800||a>=j7)b+=String.fromCharCode(j8|a>>12,a9|a>>6&cP,a9|a&cP);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jX||h>j7)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lj|a>>18,a9|a>>12&cP,a9|a>>6&cP,a9|a&cP)}if(b.length>dA){b.substr(0,1);f+=b;b=s}}return f+b}function
-x4(a){var
-b=9;if(!l7(a))b=8,a=yH(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jR){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<la){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cP)}else
+if(a<0xd800||a>=j8)b+=String.fromCharCode(j9|a>>12,a9|a>>6&cP,a9|a&cP);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jY||h>j8)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lj|a>>18,a9|a>>12&cP,a9|a>>6&cP,a9|a&cP)}if(b.length>dA){b.substr(0,1);f+=b;b=s}}return f+b}function
+x6(a){var
+b=9;if(!l7(a))b=8,a=yJ(a);return new
 bo(b,a,a.length)}function
-a$(a){return x4(a)}var
-yP=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jU,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gw,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gi,k6,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-co(d,f,e,a){var
-b=yP.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+a$(a){return x6(a)}var
+yR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jV,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gz,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gl,k7,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cp(d,f,e,a){var
+b=yR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,a$(f||s),a$(e||s)];return c}var
 l0={};function
-cm(a){return l0[a]}function
-cn(b,a){throw[0,b].concat(a)}function
-x3(a){return new
+cn(a){return l0[a]}function
+co(b,a){throw[0,b].concat(a)}function
+x5(a){return new
 bo(4,a,a.length)}function
-K(a){gQ(aa.Sys_error,a)}function
-yC(a){K(a+es)}function
-x2(b,a){if(a>>>0>=b.l)lJ();return cT(b,a)}function
+K(a){gT(aa.Sys_error,a)}function
+yE(a){K(a+eu)}function
+x4(b,a){if(a>>>0>=b.l)lJ();return cT(b,a)}function
 aQ(a){return a.l}function
 lC(){}function
-as(a){this.data=a}as.prototype=new
-lC();as.prototype.truncate=function(a){var
-b=this.data;this.data=ag(a|0);b6(b,0,this.data,0,a)};as.prototype.length=function(){return aQ(this.data)};as.prototype.write=function(b,d,g,a){var
+au(a){this.data=a}au.prototype=new
+lC();au.prototype.truncate=function(a){var
+b=this.data;this.data=ag(a|0);b6(b,0,this.data,0,a)};au.prototype.length=function(){return aQ(this.data)};au.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ag(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bq(d,g,this.data,b,a);return 0};as.prototype.read=function(c,a,d,b){var
-e=this.length();b6(this.data,c,a,d,b);return 0};as.prototype.read_one=function(a){return x2(this.data,a)};as.prototype.close=function(){};as.prototype.constructor=as;function
+e=ag(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bq(d,g,this.data,b,a);return 0};au.prototype.read=function(c,a,d,b){var
+e=this.length();b6(this.data,c,a,d,b);return 0};au.prototype.read_one=function(a){return x4(this.data,a)};au.prototype.close=function(){};au.prototype.constructor=au;function
 aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
 c=d.split(a8),b=s;for(var
 a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-as(bL(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
+au(bL(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
-b=d&&cm(gt);if(this.exists(c))if(b)cn(b,co(jU,gd,this.nm(c)));else
+b=d&&cn(gw);if(this.exists(c))if(b)co(b,cp(jV,gg,this.nm(c)));else
 K(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cn(b,co(gw,gd,this.nm(a)));else
-K(a+es);if(!this.is_dir(a))if(b)cn(b,co(gi,gd,this.nm(a)));else
-K(a+gA);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
-b=f&&cm(gt),c=a==s?s:this.slash(a),e=new
-RegExp(gl+c+k7);if(!this.exists(a))if(b)cn(b,co(gw,gs,this.nm(a)));else
-K(a+es);if(!this.is_dir(a))if(b)cn(b,co(gi,gs,this.nm(a)));else
-K(a+gA);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)co(b,cp(gz,gg,this.nm(a)));else
+K(a+eu);if(!this.is_dir(a))if(b)co(b,cp(gl,gg,this.nm(a)));else
+K(a+gD);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
+b=f&&cn(gw),c=a==s?s:this.slash(a),e=new
+RegExp(go+c+k8);if(!this.exists(a))if(b)co(b,cp(gz,gv,this.nm(a)));else
+K(a+eu);if(!this.is_dir(a))if(b)co(b,cp(gl,gv,this.nm(a)));else
+K(a+gD);for(var
 d
 in
-this.content)if(d.match(e))if(b)cn(b,co(k6,gs,this.nm(a)));else
+this.content)if(d.match(e))if(b)co(b,cp(k7,gv,this.nm(a)));else
 K(this.nm(a)+": Directory not empty");delete
 this.content[c]};aH.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))K(a+es);if(!this.is_dir(a))K(a+gA);var
+f=a==s?s:this.slash(a);if(!this.exists(a))K(a+eu);if(!this.is_dir(a))K(a+gD);var
 g=new
-RegExp(gl+f+k7),d={},c=[];for(var
+RegExp(go+f+k8),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
 b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)K(this.nm(a)+kl);if(b.text&&b.binary)K(this.nm(a)+kT);this.lookup(a);if(this.content[a]){if(this.is_dir(a))K(this.nm(a)+" : is a directory");if(b.create&&b.excl)K(this.nm(a)+kk);var
+this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)K(this.nm(a)+km);if(b.text&&b.binary)K(this.nm(a)+kU);this.lookup(a);if(this.content[a]){if(this.is_dir(a))K(this.nm(a)+" : is a directory");if(b.create&&b.excl)K(this.nm(a)+kl);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-as(ag(0));return this.content[a]}else
-yC(this.nm(a))};aH.prototype.register=function(c,a){var
-b;if(this.content[c])K(this.nm(c)+kk);if(eN(a))b=new
-as(a);if(gO(a))b=new
-as(bL(a));else
+au(ag(0));return this.content[a]}else
+yE(this.nm(a))};aH.prototype.register=function(c,a){var
+b;if(this.content[c])K(this.nm(c)+kl);if(eQ(a))b=new
+au(a);if(gR(a))b=new
+au(bL(a));else
 if(a
 instanceof
 Array)b=new
-as(x3(a));else
+au(x5(a));else
 if(typeof
 a==="string")b=new
-as(lL(a));else
+au(lL(a));else
 if(a.toString){var
 d=bL(a$(a.toString()));b=new
-as(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+au(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 K(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
 y(a){return aQ(a)}function
 bs(b,a){return cT(b,a)}function
-xY(d){var
+x0(d){var
 c=y(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=bs(d,a);return b}function
-xX(a){if(a.t!=4)eI(a);return a.c}function
+xZ(a){if(a.t!=4)eL(a);return a.c}function
 bp(a){this.fs=require("fs");this.fd=a}bp.prototype=new
 lC();bp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){K(a.toString())}};bp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){K(a.toString())}};bp.prototype.write=function(f,b,c,e){var
-a=xY(b);if(!(a
+a=x0(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){K(a.toString())}return 0};bp.prototype.read=function(g,d,c,f){var
-a=xX(d);if(!(a
+a=xZ(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
 e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){K(a.toString())}for(var
-b=0;b<f;b++)cl(d,c+b,e[c+b]);return 0};bp.prototype.read_one=function(c){var
+b=0;b<f;b++)cm(d,c+b,e[c+b]);return 0};bp.prototype.read_one=function(c){var
 b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){K(a.toString())}return a[0]};bp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){K(a.toString())}};bp.prototype.constructor=bp;function
-at(a){this.fs=require("fs");this.root=a}at.prototype.nm=function(a){return this.root+a};at.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};at.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){K(a.toString())}};at.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.open=function(f,c,g){var
+av(a){this.fs=require("fs");this.root=a}av.prototype.nm=function(a){return this.root+a};av.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};av.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){K(a.toString())}};av.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bp(d)}catch(a){this.raise_nodejs_error(a,g)}};at.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};at.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jF);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};at.prototype.raise_nodejs_error=function(a,d){var
-b=cm(gt);if(d&&b){var
-c=co(a.code,a.syscall,a.path,a.errno);cn(b,c)}else
-K(a.toString())};at.prototype.stats_from_js=function(a){var
+bp(d)}catch(a){this.raise_nodejs_error(a,g)}};av.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),jG);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.raise_nodejs_error=function(a,d){var
+b=cn(gw);if(d&&b){var
+c=cp(a.code,a.syscall,a.path,a.errno);co(b,c)}else
+K(a.toString())};av.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};at.prototype.constructor=at;function
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};av.prototype.constructor=av;function
 lT(b){var
-a=gY(b);if(!a)return;return a[0]+a8}var
-eP=lT(dD)||a_("unable to compute caml_root"),cX=[];if(dH())cX.push({path:eP,device:new
-at(eP)});else
-cX.push({path:eP,device:new
-aH(eP)});cX.push({path:kO,device:new
-aH(kO)});function
+a=g1(b);if(!a)return;return a[0]+a8}var
+eS=lT(dD)||a_("unable to compute caml_root"),cX=[];if(dH())cX.push({path:eS,device:new
+av(eS)});else
+cX.push({path:eS,device:new
+aH(eS)});cX.push({path:kP,device:new
+aH(kP)});function
 l$(b){var
-g=ys(b),b=g.join(a8),f=l5(b),c;for(var
+g=yu(b),b=g.join(a8),f=l5(b),c;for(var
 e=0;e<cX.length;e++){var
 a=cX[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dH()){var
 d=lT(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-at(d)};cX.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;K("no device found for "+f)}function
-x8(c,b){var
+av(d)};cX.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;K("no device found for "+f)}function
+x_(c,b){var
 a=l$(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
 l6(c,b){var
-c=a(c),b=a(b);return x8(c,b)}function
-x$(){var
+c=a(c),b=a(b);return x_(c,b)}function
+yb(){var
 b=u.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)l6(b[a].name,b[a].content);u.jsoo_create_file=l6;u.caml_fs_tmp=[];return 0}function
 lS(){return[0]}function
-yb(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(gj);return a$(a>0?lm:"-infinity")}var
+yd(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(gm);return a$(a>0?lm:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
@@ -621,19 +621,19 @@ g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
 h=b.indexOf(b3);if(h<0)b+=b3+cW(c,aG);else{var
 f=h+1+c;if(b.length<f)b+=cW(f-b.length,aG);else
-b=b.substr(0,f)}}return a$(e+jN+b+"p"+j+d.toString(10))}function
-yi(a){return+a.isZero()}function
-yl(a){return new
+b=b.substr(0,f)}}return a$(e+jO+b+"p"+j+d.toString(10))}function
+yk(a){return+a.isZero()}function
+yn(a){return new
 t(a&bJ,a>>24&bJ,a>>31&bn)}function
-ym(a){return a.toInt()}function
-yh(a){return+a.isNeg()}function
-yk(a){return a.neg()}function
-yf(g,c){var
-a=gP(g);if(a.signedconv&&yh(c)){a.sign=-1;c=yk(c)}var
-b=s,h=yl(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(ym(e.modulus))+b}while(!yi(c));if(a.prec>=0){a.filler=bH;var
-d=a.prec-b.length;if(d>0)b=cW(d,aG)+b}return gG(a,b)}function
-yA(c){var
+yo(a){return a.toInt()}function
+yj(a){return+a.isNeg()}function
+ym(a){return a.neg()}function
+yh(g,c){var
+a=gS(g);if(a.signedconv&&yj(c)){a.sign=-1;c=ym(c)}var
+b=s,h=yn(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(yo(e.modulus))+b}while(!yk(c));if(a.prec>=0){a.filler=bH;var
+d=a.prec-b.length;if(d>0)b=cW(d,aG)+b}return gJ(a,b)}function
+yC(c){var
 a=0,e=y(c),b=10,d=1;if(e>0)switch(bs(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&bs(c,a)==48)switch(bs(c,a+1)){case
@@ -646,20 +646,20 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bs(c,a)){case
 117:case
 85:a+=2;break}return[a,d,b]}function
 l1(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ly)return a-87;return-1}function
-gN(f){var
-h=yA(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bs(f,c):0,b=l1(e);if(b<0||b>=d)a_(eu);var
-a=b;for(c++;c<g;c++){e=bs(f,c);if(e==95)continue;b=l1(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(eu)}if(c!=g)a_(eu);a=i*a;if(d==10&&(a|0)!=a)a_(eu);return a|0}function
-yq(d){return function(){var
+gQ(f){var
+h=yC(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bs(f,c):0,b=l1(e);if(b<0||b>=d)a_(ew);var
+a=b;for(c++;c<g;c++){e=bs(f,c);if(e==95)continue;b=l1(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(ew)}if(c!=g)a_(ew);a=i*a;if(d==10&&(a|0)!=a)a_(ew);return a|0}function
+ys(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
 a=0;a<b;a++)c[a]=arguments[a];return bM(d,c)}else
 return bM(d,[undefined])}}function
-yt(a,d){if(a<0)dC();var
+yv(a,d){if(a<0)dC();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-yu(){return 0}var
+yw(){return 0}var
 br=new
 Array();function
 cV(c){var
@@ -668,16 +668,16 @@ b=aa.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
 l4(e,f){var
 b=br[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-yI(a){var
-a=gU(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+yK(a){var
+a=gX(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-yJ(a){var
-a=gU(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+yL(a){var
+a=gX(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-eQ(c,e,d,a){if(aa.fds===undefined)aa.fds=new
+eT(c,e,d,a){if(aa.fds===undefined)aa.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aa.fds[c]=b;if(!aa.fd_last_idx||c>aa.fd_last_idx)aa.fd_last_idx=c;return c}function
-yR(c,b,g){var
+yT(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,55 +687,55 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)K(bO(c)+kl);if(a.text&&a.binary)K(bO(c)+kT);var
-d=l$(c),e=d.device.open(d.rest,a),f=aa.fd_last_idx?aa.fd_last_idx:0;return eQ(f+1,l4,e,a)}eQ(0,l4,new
-as(ag(0)));eQ(1,yJ,new
-as(ag(0)));eQ(2,yI,new
-as(ag(0)));function
-yv(a){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)K(bO(c)+km);if(a.text&&a.binary)K(bO(c)+kU);var
+d=l$(c),e=d.device.open(d.rest,a),f=aa.fd_last_idx?aa.fd_last_idx:0;return eT(f+1,l4,e,a)}eT(0,l4,new
+au(ag(0)));eT(1,yL,new
+au(ag(0)));eT(2,yK,new
+au(ag(0)));function
+yx(a){var
 c=aa.fds[a];if(c.flags.wronly)K(lx+a+" is writeonly");var
 d=null;if(a==0&&dH()){var
-e=require("fs");d=function(){return a$(e.readFileSync(0,jF))}}var
+e=require("fs");d=function(){return a$(e.readFileSync(0,jG))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};br[b.fd]=b;return b.fd}function
 lW(c){var
 b=aa.fds[c];if(b.flags.rdonly)K(lx+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};br[a.fd]=a;return a.fd}function
-yw(){var
+yy(){var
 b=0;for(var
 a=0;a<br.length;a++)if(br[a]&&br[a].opened&&br[a].out)b=[0,br[a].fd,b];return b}function
 aC(a){return a}function
-yx(g,d,h,f){var
+yz(g,d,h,f){var
 b=br[g];if(!b.opened)K("Cannot output to a closed channel");var
 a;if(h==0&&aQ(d)==f)a=d;else{a=ag(f);b6(d,h,a,0,f)}var
-i=aC(a),c=bO(i),e=c.lastIndexOf(jY);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cV(g);b.buffer+=c.substr(e+1)}return 0}function
-lX(b,a,d,c){return yx(b,bL(a),d,c)}function
+i=aC(a),c=bO(i),e=c.lastIndexOf(jZ);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cV(g);b.buffer+=c.substr(e+1)}return 0}function
+lX(b,a,d,c){return yz(b,bL(a),d,c)}function
 lY(c,b){var
 d=a(String.fromCharCode(b));lX(c,d,0,1);return 0}function
-dG(a,b){return+(gE(a,b,false)!=0)}function
-eO(a){if(a
+dG(a,b){return+(gH(a,b,false)!=0)}function
+eR(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eN(a))return eF;else
-if(gO(a))return eF;else
+if(eQ(a))return eI;else
+if(gR(a))return eI;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return j3;else
+if(a&&a.caml_custom)return j4;else
 return dz}function
 a2(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);aa[b+1]=c;if(a)aa[a]=c}function
-gR(a,b){l0[bO(a)]=b;return 0}function
-x1(a,b){if(a===b)return 1;a.t&6&&cU(a);b.t&6&&cU(b);return a.c==b.c?1:0}function
-az(a,b){return x1(a,b)}function
-yF(){ao(gy)}function
-L(b,a){if(a>>>0>=y(b))yF();return bs(b,a)}function
-j(a,b){return 1-az(a,b)}function
-yG(){return 0x7FFFFFFF/4|0}function
-gT(a){var
+gU(a,b){l0[bO(a)]=b;return 0}function
+x3(a,b){if(a===b)return 1;a.t&6&&cU(a);b.t&6&&cU(b);return a.c==b.c?1:0}function
+aA(a,b){return x3(a,b)}function
+yH(){ap(gB)}function
+L(b,a){if(a>>>0>=y(b))yH();return bs(b,a)}function
+i(a,b){return 1-aA(a,b)}function
+yI(){return 0x7FFFFFFF/4|0}function
+gW(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-au(b,a){return{joo_tramp:b,joo_args:a}}function
+aw(b,a){return{joo_tramp:b,joo_args:a}}function
 l3(a){return a}function
-eR(a){if(a
+eU(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
@@ -743,14 +743,14 @@ u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return l3(aa.Sta
 instanceof
 u.InternalError&&a.message&&a.message.match(/too much recursion/i))return l3(aa.Stack_overflow);if(a
 instanceof
-u.Error&&cm(gg))return[0,cm(gg),a];return[0,aa.Failure,a$(String(a))]}function
-eS(a){return a<0?-a:a}function
+u.Error&&cn(gj))return[0,cn(gj),a];return[0,aa.Failure,a$(String(a))]}function
+eV(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-gV(a,b){return a<b?-1:a>b?1:0}function
+gY(a,b){return a<b?-1:a>b?1:0}function
 l8(c,b){var
-a=c%b;return a<0?a+eS(b):a}function
-gW(a,b){return(a-l8(a,b))/b}function
-av(a,b){return a==b?1:0}function
+a=c%b;return a<0?a+eV(b):a}function
+gZ(a,b){return(a-l8(a,b))/b}function
+ah(a,b){return a==b?1:0}function
 C(a,b){return a<=b?1:0}function
 ad(a,b){return a<b?1:0}function
 n(a,b){return a*b}function
@@ -759,60 +759,60 @@ aR(a){return u.BigInt(a)}function
 l9(a,b){return a<<u.BigInt(b)}function
 l_(a,b){return a>>u.BigInt(b)}function
 bt(a){return a<0?-1:a>0?1:0}function
-yO(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+yQ(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 b7(a,b){return a-b}function
-gX(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-yp(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-x_(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yp(b[1]))var
+g0(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+yr(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+ya(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yr(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=k_;for(var
-d=f;d<e.length;d++){if(d>f)a+=jH;var
+f=2,e=b;a+=k$;for(var
+d=f;d<e.length;d++){if(d>f)a+=jI;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bo)a+=an+c.toString()+an;else
+bo)a+=ao+c.toString()+ao;else
 if(typeof
-c=="string")a+=an+c.toString()+an;else
-a+=kG}a+=gk}else
-if(b[0]==am)a+=b[1];return a}function
+c=="string")a+=ao+c.toString()+ao;else
+a+=kH}a+=gn}else
+if(b[0]==an)a+=b[1];return a}function
 lR(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==am)){var
-c=cm(jT);if(c)c(a,false);else{var
-d=x_(a),b=cm(jE);if(b)b(0);u.console.error(gq+d+jY)}}else
+Array&&(a[0]==0||a[0]==an)){var
+c=cn(jU);if(c)c(a,false);else{var
+d=ya(a),b=cn(jF);if(b)b(0);u.console.error(gt+d+jZ)}}else
 throw a}function
-yE(){var
+yG(){var
 a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lR(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lR(a.error)})}yE();function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lR(a.error)})}yG();function
 e(a,b){return a.length==1?a(b):bM(a,[b])}function
-Y(a,b,c){return a.length==2?a(b,c):bM(a,[b,c])}function
-gb(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bM(a,[b,c,d,e,f])}function
-xW(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bM(a,[b,c,d,e,f,g,h])}x$();var
-eT=[am,a(lq),-1],g3=[am,a(jV),-2],g0=[am,a(gf),-3],gZ=[am,a(kB),-4],g1=[am,a(kc),-8],g2=[am,a(kQ),-9],R=[am,a(lc),-11],g4=[am,a(jD),-12],w0=[4,0,0,0,[12,45,[4,0,0,0,0]]],eZ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kg),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],w1=[0,0],w2=[0,[0,[0,[0,0]]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w2]]]]]]]]]]],w4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,0]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,0]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,0],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,0]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,0],xV=[0,[0,[0,[0,[0,0]]]]],fl=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],ef=[0,[0,[0,[0,0]]]];a2(11,g4,jD);a2(10,R,lc);a2(9,[am,a(ku),-10],ku);a2(8,g2,kQ);a2(7,g1,kc);a2(6,[am,a(kM),-7],kM);a2(5,[am,a(k4),-6],k4);a2(4,[am,a(j0),-5],j0);a2(3,gZ,kB);a2(2,g0,gf);a2(1,g3,jV);a2(0,eT,lq);var
-me=a("%.12g"),md=a(b3),mb=a("true"),mc=a("false"),mf=a("\\\\"),mg=a("\\'"),mh=a("\\b"),mi=a("\\t"),mj=a("\\n"),mk=a("\\r"),mn=a("String.blit / Bytes.blit_string"),mm=a("Bytes.blit"),ml=a("String.sub / Bytes.sub"),mp=a(s),mo=a("String.concat"),mq=a("Array.init"),mt=a("Buffer.add: cannot grow buffer"),ms=[0,a(k0),93,2],mr=[0,a(k0),94,2],mC=a("%c"),mD=a("%s"),mE=a(jB),mF=a(j$),mG=a(kx),mH=a(jJ),mI=a("%f"),mJ=a("%B"),mK=a("%{"),mL=a("%}"),mM=a("%("),mN=a("%)"),mO=a("%a"),mP=a("%t"),mQ=a("%?"),mR=a("%r"),mS=a("%_r"),mT=[0,a(al),850,23],m4=[0,a(al),814,21],mW=[0,a(al),815,21],m5=[0,a(al),818,21],mX=[0,a(al),819,21],m6=[0,a(al),822,19],mY=[0,a(al),823,19],m7=[0,a(al),826,22],mZ=[0,a(al),827,22],m8=[0,a(al),831,30],m0=[0,a(al),832,30],m2=[0,a(al),836,26],mU=[0,a(al),837,26],m3=[0,a(al),846,28],mV=[0,a(al),847,28],m1=[0,a(al),851,23],n$=a(kr),n9=[0,a(al),1558,4],n_=a("Printf: bad conversion %["),oa=[0,a(al),1626,39],ob=[0,a(al),1649,31],oc=[0,a(al),1650,31],od=a("Printf: bad conversion %_"),oe=a(km),of=a(kA),og=a(km),oh=a(kA),n7=a(gj),n5=a("neg_infinity"),n6=a(lm),n4=a(b3),nZ=[0,jS],nN=a("%+nd"),nO=a("% nd"),nQ=a("%+ni"),nR=a("% ni"),nS=a("%nx"),nT=a("%#nx"),nU=a("%nX"),nV=a("%#nX"),nW=a("%no"),nX=a("%#no"),nM=a("%nd"),nP=a(kx),nY=a("%nu"),nA=a("%+ld"),nB=a("% ld"),nD=a("%+li"),nE=a("% li"),nF=a("%lx"),nG=a("%#lx"),nH=a("%lX"),nI=a("%#lX"),nJ=a("%lo"),nK=a("%#lo"),nz=a("%ld"),nC=a(j$),nL=a("%lu"),nn=a("%+Ld"),no=a("% Ld"),nq=a("%+Li"),nr=a("% Li"),ns=a("%Lx"),nt=a("%#Lx"),nu=a("%LX"),nv=a("%#LX"),nw=a("%Lo"),nx=a("%#Lo"),nm=a("%Ld"),np=a(jJ),ny=a("%Lu"),na=a("%+d"),nb=a("% d"),nd=a("%+i"),ne=a("% i"),nf=a("%x"),ng=a("%#x"),nh=a("%X"),ni=a("%#X"),nj=a("%o"),nk=a("%#o"),m$=a(gu),nc=a(jB),nl=a(kr),mu=a("@]"),mv=a("@}"),mw=a("@?"),mx=a("@\n"),my=a("@."),mz=a("@@"),mA=a("@%"),mB=a("@"),m9=a("CamlinternalFormat.Type_mismatch"),ol=a(s),om=[0,[11,a(jH),[2,0,[2,0,0]]],a(", %s%s")],oL=[0,[11,a(gq),[2,0,[12,10,0]]],a(la)],oM=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oK=a("Fatal error: out of memory in uncaught exception handler"),oI=[0,[11,a(gq),[2,0,[12,10,0]]],a(la)],oE=[0,[2,0,[12,10,0]],a("%s\n")],ow=a("Raised at"),ox=a("Re-raised at"),oy=a("Raised by primitive operation at"),oz=a("Called from"),oA=a(" (inlined)"),oC=a(s),oB=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kg),w0]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oD=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],or=a("Out of memory"),os=a("Stack overflow"),ot=a("Pattern matching failed"),ou=a("Assertion failed"),ov=a("Undefined recursive module"),on=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oo=a(s),op=a(s),oq=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],ok=[0,[4,0,0,0,0],a(gu)],oi=[0,[3,0,0],a("%S")],oj=a(kG),oF=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oO=a("Jsoo_runtime.Error.Exn"),oQ=a("power"),o0=[0,0],o1=[0,[0,0]],o2=[0,[0,0]],o9=[0,0],pe=[0,0,0],pf=[0,0,0],pg=[0,0],ph=[0,0],pp=[0,0],pr=[0,0],pB=[0,0,0],pC=[0,0],pD=[0,0],pV=[0,[0,[0,0]]],p4=a(","),qk=[0,a(gk),0],ql=a(k_),qm=a(b3),qn=[0,[0,[0,0]]],qo=a(a1),qp=a(gl),qq=[0,[0,[0,[0,[0,0]]]]],qr=[0,a(gk),0],qs=a(lB),sr=a(jC),st=a(kD),ss=a(ld),su=a(ex),sv=a(kz),sw=a(lu),sx=a(kZ),s_=[0,a(ka),6748,12],tm=a(gr),tn=[0,0],to=a("divided"),tp=[0,1],tq=a("mirror"),tr=[0,3],ts=a("negative"),tt=[0,2],tu=a(gC),tv=[0,4],tw=a(ev),tx=a(kR),ty=a(lh),tz=[0,0],tA=[0,0],tB=[0,0],tT=a(s),tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,0]]]],tO=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w1]]]]]]]]]]],tL=[0,[0,0]],tM=[0,[0,[0,0]]],tJ=[0,[0,[0,0]]],tK=[0,[0,0]],tI=[0,[0,[0,0]]],tD=[0,[0,0]],tE=[0,0],tC=[0,0],tg=[0,[0,0]],th=[0,0],tf=[0,0],te=[0,0,0],tc=[0,0,0],tb=[0,0],s4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],s5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],s2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],s3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],s7=a("sqrt"),sY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],sZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],sN=[0,a("\n"),0],sO=a(kF),sP=a(et),sQ=a(j5),sR=a(k2),sS=a("certified"),sX=a("refuted"),sT=a("verdict"),sU=a(kj),sV=a(kY),sW=a(lb),sC=a(lp),sD=a(ew),sE=a(j2),sF=a(lt),sL=a(k8),sM=a(eD),sG=a(gm),sH=a(b4),sI=a(kH),sJ=a(ew),sK=a(ls),sA=a(kX),sB=a(lv),sp=a(kP),sq=a(kp),r8=a(eD),rJ=a(bI),rK=a(cR),rL=a(gc),rM=a(cQ),rN=a(b4),rO=a(bI),rP=a(cR),rQ=a(gc),rR=a(cQ),rS=a(b4),rT=a(bI),rU=a(gz),rV=a(bm),rW=a(bl),rX=a(ck),rY=a(cR),rZ=a(ll),r0=a(lr),r1=a(cQ),r2=a(b4),r3=a(bI),r4=a(bm),r5=a(bl),r6=a(ck),r7=a(cR),r9=a(kf),r_=a(kn),r$=a(lA),sa=a(kS),sb=a(jM),sc=a(cQ),sd=a(b4),se=a(bI),sf=a(kE),sg=a(k1),sh=a(cR),si=a(kv),sj=a(kJ),sk=a(cQ),sl=a(b4),so=a(kC),sm=a(jL),sn=a(ks),rz=a(j1),rA=a(ky),rB=a(jO),rC=a(kV),rD=a(kq),rE=a(kh),rF=a(k3),rG=a(ez),rH=a(ez),rv=a(b1),rw=a(b0),rx=a(ey),ry=a(b2),rr=a(dy),rs=a(gx),rt=a(li),rk=a(bm),rl=a(bl),rm=a(ck),rn=a(j6),ro=a(jA),rp=a(jZ),rq=a(lo),rd=a(k5),re=a(jK),rj=a(et),rf=a(kW),rg=a(jW),rh=a(kb),ri=a(le),ra=a(bl),rb=a(bm),rc=a(ko),q4=a(jG),q5=a(kI),q6=a(lk),q7=a(ex),q8=a(lz),q9=a(ln),q_=a(kL),q$=a(lg),qT=a(bk),q3=a(a1),qU=a(eB),qV=a(eA),qW=a(eH),qX=a(b1),qY=a(b0),qZ=a(j9),q0=a(kd),q1=a(eH),q2=a(b2),qB=a(bk),qJ=a(a1),qC=a(eB),qD=a(eA),qE=a(b1),qF=a(b0),qG=a(eE),qH=a(kt),qI=a(b2),qK=a(go),qL=a(b1),qM=a(b0),qN=a(ey),qO=a(b2),qP=a(eE),qQ=a(dy),qR=a(b2),qy=a(bm),qz=a(bl),qw=[0,a(an),0],qx=a(an),qu=[0,a(ka),6125,36],qt=[0,a(an),0],qv=a(an),qg=a(bk),qh=a(a1),qi=a("*"),qj=a(a8),qb=[0,[0,[0,[0,[0,0]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,[0,[0,0]]]],p$=a('":'),qa=a(an),p9=[0,a(an),0],p_=a(an),p7=[0,a("}"),0],p8=a("{"),p5=[0,a("]"),0],p6=a("["),p3=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pY=[0,[0,0]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pE=[0,[0,0]],pF=[0,0],pG=[0,[0,0]],pH=[0,0],pI=[0,0],pJ=[0,[0,0]],pK=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pA=[0,[0,[0,0]]],pz=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,0],px=[0,[0,[0,[0,[0,[0,0]]]]]],py=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,0]]],pn=[0,[0,[0,[0,[0,[0,0]]]]]],po=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],o_=[0,0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,0],o8=[0,[0,0]],o3=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],oZ=a(aG),oY=a(s),oX=[0,[0,0]],oW=[0,0],oV=[1,0],oU=[0,0],oT=[0,0],oR=[1,0],oS=[1,0],v6=a(ex),v7=a(kZ),v8=a(ld),v9=a(kz),v_=a(ev),v$=a(kR),wa=a(lh),wb=[0,a(an),0],wc=a('the evidence "'),wd=a(kp),we=a(kP),wf=a(ev),wg=a(lu),wi=a(ev),wj=a(gr),wk=a(gr),wh=[0,a("this evidence at control points"),0],wJ=a(lb),wK=a(kY),wL=a(kj),wT=[0,3,3],wM=a(k2),wQ=[0,a('the drive "arm" in a claim that is certified'),0],wR=[0,a("a step of a platform that turns that is not at control points"),0],wS=[0,a("a mechanism by formulas in a claim that is refuted"),0],wN=a(j5),wO=a(kF),wP=a(et),wH=a(gC),ww=a(j2),wx=a(ls),wA=a(b4),wB=a(gm),wC=a(kH),wD=a(ew),wE=a(lp),wF=a(ew),wy=[0,a(an),0],wz=a('a proof of the kind "'),wr=a(k8),ws=a(lt),wt=a(eD),wu=[0,a(an),0],wv=a('the failure "'),wn=a(gm),wo=[0,a("a leaf that fails"),0],wp=a(kX),wq=a(lv),wl=a(gC),wm=a(aG),v4=a(kD),v5=a(jC),vE=a(b2),vF=a(go),vG=a(ey),vJ=a(b1),vK=a(b0),vH=[0,a('" of such a platform'),0],vI=a(jI),vq=a("rho"),vr=a(eD),vs=[0,a("a joint by its coordinate"),0],u6=a(bI),u0=a(b4),u1=a(ks),u4=a(jL),u5=a(kC),u7=a(cQ),u8=a(cR),u9=a("bodies"),v3=[0,a("a machine with bodies"),0],u_=a(dy),u$=a(gx),va=a(li),vb=a(gz),vc=a(jM),vd=a(kJ),ve=a(gc),vh=a(ck),vi=a(lo),vl=a(bI),vm=a(k1),vn=a(kE),vo=a(kv),vp=a(ck),vt=a(bI),vu=a(bm),vv=a(bl),vw=a(kf),vx=a(kn),vy=a(lA),vz=a(kS),vf=[0,a(an),0],vg=a(kw),vA=a(ck),vB=[0,a('" of a platform that turns'),0],vC=a(ki),vD=a(ll),v1=[0,a('" that does not turn'),0],v2=a(kw),vL=a(gz),vM=a(kh),vN=a(j1),vO=a(kq),vP=a(ez),vQ=a(k3),vR=a(ez),vY=a(ky),vZ=a(jO),v0=a(kV),vS=a(dy),vT=a(gx),vU=a(bI),vV=a(bm),vW=a(bl),vX=a(lr),vj=[0,a(an),0],vk=a(ki),u2=[0,a(an),0],u3=a('a claim of the kind "'),uT=a(ck),uX=a(bm),uY=a(bl),uU=a(jZ),uV=a(j6),uW=a(jA),uS=[0,a("this quantity of such a mechanism"),0],uO=a(kW),uP=[0,a("a stiffness for each joint"),0],uN=a(et),uG=a(k5),uv=a(le),uw=a(ex),ux=a(lg),uy=a(kI),uz=a(lk),uA=a(ln),uB=a(lz),uC=a(kL),uD=a(jG),uE=[0,a(an),0],uF=a('the quantity "'),uH=a(jK),uI=a(bm),uJ=a(bl),uK=a(ko),uL=[0,a(an),0],uM=a('a bound "'),uQ=a(jW),uR=a(kb),uo=a(eB),up=a(eA),uq=a(eH),ur=a(b1),us=a(b0),ut=a(j9),uu=a(kd),ul=a(b2),um=a(eH),t8=a(b2),t9=a(dy),t_=a(kt),t$=a(ey),uc=a(go),ud=a(b1),ue=a(b0),uf=a(eB),ug=a(eA),uh=a(b1),ui=a(b0),uj=a(eE),uk=a(eE),ua=[0,a(an),0],ub=a(jI),t5=a(bk),t6=a(a1),t3=a(" is not covered by the verified checker"),t4=a(s),t1=a(bm),t2=a(bl),tX=a(s),tY=a(lB),tZ=a(s),t0=a(s),tW=[1,0],tU=a("Reader.Malformed"),tV=a("Reader.Not_covered"),wV=a(j_),wW=a("CERTIFIED"),wX=a("REFUTED"),wY=a(j_),wZ=a("NOT COVERED: ");function
-Z(a){if(typeof
+Z(a,b,c){return a.length==2?a(b,c):bM(a,[b,c])}function
+ge(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bM(a,[b,c,d,e,f])}function
+xY(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bM(a,[b,c,d,e,f,g,h])}yb();var
+eW=[an,a(lq),-1],g6=[an,a(jW),-2],g3=[an,a(gi),-3],g2=[an,a(kC),-4],g4=[an,a(kd),-8],g5=[an,a(kR),-9],R=[an,a(ld),-11],g7=[an,a(jE),-12],w2=[4,0,0,0,[12,45,[4,0,0,0,0]]],e2=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kh),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],w3=[0,0],w4=[0,[0,[0,[0,0]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,0]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,0]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,0],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,0]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,0],xX=[0,[0,[0,[0,[0,0]]]]],fp=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eh=[0,[0,[0,[0,0]]]];a2(11,g7,jE);a2(10,R,ld);a2(9,[an,a(kv),-10],kv);a2(8,g5,kR);a2(7,g4,kd);a2(6,[an,a(kN),-7],kN);a2(5,[an,a(k5),-6],k5);a2(4,[an,a(j1),-5],j1);a2(3,g2,kC);a2(2,g3,gi);a2(1,g6,jW);a2(0,eW,lq);var
+me=a("%.12g"),md=a(b3),mb=a("true"),mc=a("false"),mf=a("\\\\"),mg=a("\\'"),mh=a("\\b"),mi=a("\\t"),mj=a("\\n"),mk=a("\\r"),mn=a("String.blit / Bytes.blit_string"),mm=a("Bytes.blit"),ml=a("String.sub / Bytes.sub"),mp=a(s),mo=a("String.concat"),mq=a("Array.init"),mt=a("Buffer.add: cannot grow buffer"),ms=[0,a(k1),93,2],mr=[0,a(k1),94,2],mC=a("%c"),mD=a("%s"),mE=a(jC),mF=a(ka),mG=a(ky),mH=a(jK),mI=a("%f"),mJ=a("%B"),mK=a("%{"),mL=a("%}"),mM=a("%("),mN=a("%)"),mO=a("%a"),mP=a("%t"),mQ=a("%?"),mR=a("%r"),mS=a("%_r"),mT=[0,a(am),850,23],m4=[0,a(am),814,21],mW=[0,a(am),815,21],m5=[0,a(am),818,21],mX=[0,a(am),819,21],m6=[0,a(am),822,19],mY=[0,a(am),823,19],m7=[0,a(am),826,22],mZ=[0,a(am),827,22],m8=[0,a(am),831,30],m0=[0,a(am),832,30],m2=[0,a(am),836,26],mU=[0,a(am),837,26],m3=[0,a(am),846,28],mV=[0,a(am),847,28],m1=[0,a(am),851,23],n$=a(ks),n9=[0,a(am),1558,4],n_=a("Printf: bad conversion %["),oa=[0,a(am),1626,39],ob=[0,a(am),1649,31],oc=[0,a(am),1650,31],od=a("Printf: bad conversion %_"),oe=a(kn),of=a(kB),og=a(kn),oh=a(kB),n7=a(gm),n5=a("neg_infinity"),n6=a(lm),n4=a(b3),nZ=[0,jT],nN=a("%+nd"),nO=a("% nd"),nQ=a("%+ni"),nR=a("% ni"),nS=a("%nx"),nT=a("%#nx"),nU=a("%nX"),nV=a("%#nX"),nW=a("%no"),nX=a("%#no"),nM=a("%nd"),nP=a(ky),nY=a("%nu"),nA=a("%+ld"),nB=a("% ld"),nD=a("%+li"),nE=a("% li"),nF=a("%lx"),nG=a("%#lx"),nH=a("%lX"),nI=a("%#lX"),nJ=a("%lo"),nK=a("%#lo"),nz=a("%ld"),nC=a(ka),nL=a("%lu"),nn=a("%+Ld"),no=a("% Ld"),nq=a("%+Li"),nr=a("% Li"),ns=a("%Lx"),nt=a("%#Lx"),nu=a("%LX"),nv=a("%#LX"),nw=a("%Lo"),nx=a("%#Lo"),nm=a("%Ld"),np=a(jK),ny=a("%Lu"),na=a("%+d"),nb=a("% d"),nd=a("%+i"),ne=a("% i"),nf=a("%x"),ng=a("%#x"),nh=a("%X"),ni=a("%#X"),nj=a("%o"),nk=a("%#o"),m$=a(gx),nc=a(jC),nl=a(ks),mu=a("@]"),mv=a("@}"),mw=a("@?"),mx=a("@\n"),my=a("@."),mz=a("@@"),mA=a("@%"),mB=a("@"),m9=a("CamlinternalFormat.Type_mismatch"),ol=a(s),om=[0,[11,a(jI),[2,0,[2,0,0]]],a(", %s%s")],oL=[0,[11,a(gt),[2,0,[12,10,0]]],a(lb)],oM=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oK=a("Fatal error: out of memory in uncaught exception handler"),oI=[0,[11,a(gt),[2,0,[12,10,0]]],a(lb)],oE=[0,[2,0,[12,10,0]],a("%s\n")],ow=a("Raised at"),ox=a("Re-raised at"),oy=a("Raised by primitive operation at"),oz=a("Called from"),oA=a(" (inlined)"),oC=a(s),oB=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kh),w2]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oD=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],or=a("Out of memory"),os=a("Stack overflow"),ot=a("Pattern matching failed"),ou=a("Assertion failed"),ov=a("Undefined recursive module"),on=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oo=a(s),op=a(s),oq=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],ok=[0,[4,0,0,0,0],a(gx)],oi=[0,[3,0,0],a("%S")],oj=a(kH),oF=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oO=a("Jsoo_runtime.Error.Exn"),oQ=a("power"),o0=[0,0],o1=[0,[0,0]],o2=[0,[0,0]],o9=[0,0],pe=[0,0,0],pf=[0,0,0],pg=[0,0],ph=[0,0],pp=[0,0],pr=[0,0],pB=[0,0,0],pC=[0,0],pD=[0,0],pV=[0,[0,[0,0]]],p4=a(","),qk=[0,a(gn),0],ql=a(k$),qm=a(b3),qn=[0,[0,[0,0]]],qo=a(a1),qp=a(go),qq=[0,[0,[0,[0,[0,0]]]]],qr=[0,a(gn),0],qs=a(lB),sr=a(jD),st=a(kE),ss=a(le),su=a(ez),sv=a(kA),sw=a(lu),sx=a(k0),s_=[0,a(kb),6768,12],tm=a(gu),tn=[0,0],to=a("divided"),tp=[0,1],tq=a("mirror"),tr=[0,3],ts=a("negative"),tt=[0,2],tu=a(gF),tv=[0,4],tw=a(ex),tx=a(kS),ty=a(eG),tz=[0,0],tA=[0,0],tB=[0,0],tT=a(s),tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,0]]]],tO=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],tL=[0,[0,0]],tM=[0,[0,[0,0]]],tJ=[0,[0,[0,0]]],tK=[0,[0,0]],tI=[0,[0,[0,0]]],tD=[0,[0,0]],tE=[0,0],tC=[0,0],tg=[0,[0,0]],th=[0,0],tf=[0,0],te=[0,0,0],tc=[0,0,0],tb=[0,0],s4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],s5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],s2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],s3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],s7=a("sqrt"),sY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],sZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],sN=[0,a("\n"),0],sO=a(kG),sP=a(ev),sQ=a(j6),sR=a(k3),sS=a("certified"),sX=a("refuted"),sT=a("verdict"),sU=a(kk),sV=a(kZ),sW=a(lc),sC=a(lp),sD=a(ey),sE=a(j3),sF=a(lt),sL=a(k9),sM=a(eF),sG=a(gp),sH=a(b4),sI=a(kI),sJ=a(ey),sK=a(ls),sA=a(kY),sB=a(lv),sp=a(kQ),sq=a(kq),r8=a(eF),rJ=a(bI),rK=a(cR),rL=a(gf),rM=a(cQ),rN=a(b4),rO=a(bI),rP=a(cR),rQ=a(gf),rR=a(cQ),rS=a(b4),rT=a(bI),rU=a(gC),rV=a(bm),rW=a(bl),rX=a(cl),rY=a(cR),rZ=a(ll),r0=a(lr),r1=a(cQ),r2=a(b4),r3=a(bI),r4=a(bm),r5=a(bl),r6=a(cl),r7=a(cR),r9=a(kg),r_=a(ko),r$=a(lA),sa=a(kT),sb=a(jN),sc=a(cQ),sd=a(b4),se=a(bI),sf=a(kF),sg=a(k2),sh=a(cR),si=a(kw),sj=a(kK),sk=a(cQ),sl=a(b4),so=a(kD),sm=a(jM),sn=a(kt),rz=a(j2),rA=a(kz),rB=a(jP),rC=a(kW),rD=a(kr),rE=a(ki),rF=a(k4),rG=a(eB),rH=a(eB),rv=a(b1),rw=a(b0),rx=a(eA),ry=a(b2),rr=a(dy),rs=a(gA),rt=a(li),rk=a(bm),rl=a(bl),rm=a(cl),rn=a(j7),ro=a(jB),rp=a(j0),rq=a(lo),rd=a(k6),re=a(jL),rj=a(ev),rf=a(kX),rg=a(jX),rh=a(kc),ri=a(lf),ra=a(bl),rb=a(bm),rc=a(kp),q4=a(jH),q5=a(kJ),q6=a(lk),q7=a(ez),q8=a(lz),q9=a(ln),q_=a(kM),q$=a(lh),qT=a(bk),q3=a(a1),qU=a(eD),qV=a(eC),qW=a(eK),qX=a(b1),qY=a(b0),qZ=a(j_),q0=a(ke),q1=a(eK),q2=a(b2),qB=a(bk),qJ=a(a1),qC=a(eD),qD=a(eC),qE=a(b1),qF=a(b0),qG=a(eH),qH=a(ku),qI=a(b2),qK=a(gr),qL=a(b1),qM=a(b0),qN=a(eA),qO=a(b2),qP=a(eH),qQ=a(dy),qR=a(b2),qy=a(bm),qz=a(bl),qw=[0,a(ao),0],qx=a(ao),qu=[0,a(kb),6145,36],qt=[0,a(ao),0],qv=a(ao),qg=a(bk),qh=a(a1),qi=a("*"),qj=a(a8),qb=[0,[0,[0,[0,[0,0]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,[0,[0,0]]]],p$=a('":'),qa=a(ao),p9=[0,a(ao),0],p_=a(ao),p7=[0,a("}"),0],p8=a("{"),p5=[0,a("]"),0],p6=a("["),p3=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pY=[0,[0,0]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pE=[0,[0,0]],pF=[0,0],pG=[0,[0,0]],pH=[0,0],pI=[0,0],pJ=[0,[0,0]],pK=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pA=[0,[0,[0,0]]],pz=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,0],px=[0,[0,[0,[0,[0,[0,0]]]]]],py=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,0]]],pn=[0,[0,[0,[0,[0,[0,0]]]]]],po=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],o_=[0,0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,0],o8=[0,[0,0]],o3=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],oZ=a(aG),oY=a(s),oX=[0,[0,0]],oW=[0,0],oV=[1,0],oU=[0,0],oT=[0,0],oR=[1,0],oS=[1,0],v6=a(ez),v7=a(k0),v8=a(le),v9=a(kA),v_=a(ex),v$=a(kS),wa=a(eG),wb=[0,a(ao),0],wc=a('the evidence "'),wd=a(kq),we=a(kQ),wf=a(ex),wg=a(eG),wh=a(lu),wj=a(ex),wk=a(eG),wl=a(gu),wm=a(gu),wi=[0,a("this evidence at control points"),0],wL=a(lc),wM=a(kZ),wN=a(kk),wV=[0,3,3],wO=a(k3),wS=[0,a('the drive "arm" in a claim that is certified'),0],wT=[0,a("a step of a platform that turns that is not at control points"),0],wU=[0,a("a mechanism by formulas in a claim that is refuted"),0],wP=a(j6),wQ=a(kG),wR=a(ev),wJ=a(gF),wy=a(j3),wz=a(ls),wC=a(b4),wD=a(gp),wE=a(kI),wF=a(ey),wG=a(lp),wH=a(ey),wA=[0,a(ao),0],wB=a('a proof of the kind "'),wt=a(k9),wu=a(lt),wv=a(eF),ww=[0,a(ao),0],wx=a('the failure "'),wp=a(gp),wq=[0,a("a leaf that fails"),0],wr=a(kY),ws=a(lv),wn=a(gF),wo=a(aG),v4=a(kE),v5=a(jD),vE=a(b2),vF=a(gr),vG=a(eA),vJ=a(b1),vK=a(b0),vH=[0,a('" of such a platform'),0],vI=a(jJ),vq=a("rho"),vr=a(eF),vs=[0,a("a joint by its coordinate"),0],u6=a(bI),u0=a(b4),u1=a(kt),u4=a(jM),u5=a(kD),u7=a(cQ),u8=a(cR),u9=a("bodies"),v3=[0,a("a machine with bodies"),0],u_=a(dy),u$=a(gA),va=a(li),vb=a(gC),vc=a(jN),vd=a(kK),ve=a(gf),vh=a(cl),vi=a(lo),vl=a(bI),vm=a(k2),vn=a(kF),vo=a(kw),vp=a(cl),vt=a(bI),vu=a(bm),vv=a(bl),vw=a(kg),vx=a(ko),vy=a(lA),vz=a(kT),vf=[0,a(ao),0],vg=a(kx),vA=a(cl),vB=[0,a('" of a platform that turns'),0],vC=a(kj),vD=a(ll),v1=[0,a('" that does not turn'),0],v2=a(kx),vL=a(gC),vM=a(ki),vN=a(j2),vO=a(kr),vP=a(eB),vQ=a(k4),vR=a(eB),vY=a(kz),vZ=a(jP),v0=a(kW),vS=a(dy),vT=a(gA),vU=a(bI),vV=a(bm),vW=a(bl),vX=a(lr),vj=[0,a(ao),0],vk=a(kj),u2=[0,a(ao),0],u3=a('a claim of the kind "'),uT=a(cl),uX=a(bm),uY=a(bl),uU=a(j0),uV=a(j7),uW=a(jB),uS=[0,a("this quantity of such a mechanism"),0],uO=a(kX),uP=[0,a("a stiffness for each joint"),0],uN=a(ev),uG=a(k6),uv=a(lf),uw=a(ez),ux=a(lh),uy=a(kJ),uz=a(lk),uA=a(ln),uB=a(lz),uC=a(kM),uD=a(jH),uE=[0,a(ao),0],uF=a('the quantity "'),uH=a(jL),uI=a(bm),uJ=a(bl),uK=a(kp),uL=[0,a(ao),0],uM=a('a bound "'),uQ=a(jX),uR=a(kc),uo=a(eD),up=a(eC),uq=a(eK),ur=a(b1),us=a(b0),ut=a(j_),uu=a(ke),ul=a(b2),um=a(eK),t8=a(b2),t9=a(dy),t_=a(ku),t$=a(eA),uc=a(gr),ud=a(b1),ue=a(b0),uf=a(eD),ug=a(eC),uh=a(b1),ui=a(b0),uj=a(eH),uk=a(eH),ua=[0,a(ao),0],ub=a(jJ),t5=a(bk),t6=a(a1),t3=a(" is not covered by the verified checker"),t4=a(s),t1=a(bm),t2=a(bl),tX=a(s),tY=a(lB),tZ=a(s),t0=a(s),tW=[1,0],tU=a("Reader.Malformed"),tV=a("Reader.Not_covered"),wX=a(j$),wY=a("CERTIFIED"),wZ=a("REFUTED"),w0=a(j$),w1=a("NOT COVERED: ");function
+_(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,Z(a[1])];case
-1:return[1,Z(a[1])];case
-2:return[2,Z(a[1])];case
-3:return[3,Z(a[1])];case
-4:return[4,Z(a[1])];case
-5:return[5,Z(a[1])];case
-6:return[6,Z(a[1])];case
-7:return[7,Z(a[1])];case
+0:return[0,_(a[1])];case
+1:return[1,_(a[1])];case
+2:return[2,_(a[1])];case
+3:return[3,_(a[1])];case
+4:return[4,_(a[1])];case
+5:return[5,_(a[1])];case
+6:return[6,_(a[1])];case
+7:return[7,_(a[1])];case
 8:var
-c=a[1];return[8,c,Z(a[2])];case
+c=a[1];return[8,c,_(a[2])];case
 9:var
-b=a[1];return[9,b,b,Z(a[3])];case
-10:return[10,Z(a[1])];case
-11:return[11,Z(a[1])];case
-12:return[12,Z(a[1])];case
-13:return[13,Z(a[1])];default:return[14,Z(a[1])]}}function
+b=a[1];return[9,b,b,_(a[3])];case
+10:return[10,_(a[1])];case
+11:return[11,_(a[1])];case
+12:return[12,_(a[1])];case
+13:return[13,_(a[1])];default:return[14,_(a[1])]}}function
 aD(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -877,40 +877,40 @@ E=a[1];return[21,E,Q(a[2],b)];case
 23:var
 F=a[1];return[23,F,Q(a[2],b)];default:var
 G=a[2],H=a[1];return[24,H,G,Q(a[3],b)]}}function
-bP(a){throw[0,gZ,a]}function
+bP(a){throw[0,g2,a]}function
 dI(a){return 0<=a?a:-a|0}function
-ap(d,c){var
+aq(d,c){var
 a=y(d),e=y(c),b=ag(a+e|0);bq(d,0,b,0,a);bq(c,0,b,a,e);return aC(b)}function
-ma(a){return a?mb:mc}yv(0);lW(1);var
+ma(a){return a?mb:mc}yx(0);lW(1);var
 bu=lW(2);function
 cY(b,a){return lX(b,a,0,y(a))}function
-g5(a){cY(bu,a);lY(bu,10);return cV(bu)}function
-eU(b){function
+g8(a){cY(bu,a);lY(bu,10);return cV(bu)}function
+eX(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{cV(d)}catch(a){a=eR(a);if(a[1]!==g3)throw a;var
+c=a[2],d=a[1];try{cV(d)}catch(a){a=eU(a);if(a[1]!==g6)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(yw(0))}gR(a(jE),eU);var
-cZ=(4*yG(0)|0)-1|0;function
-cp(c){var
+a=c;continue}return 0}}return a(yy(0))}gU(a(jF),eX);var
+cZ=(4*yI(0)|0)-1|0;function
+cq(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 W(b,a){if(a){var
 c=a[2],d=e(b,a[1]);return[0,d,W(b,c)]}return 0}function
-g6(d,c){var
+g9(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
 b8(a,c){var
-b=ag(a);x9(b,0,a,c);return b}function
-g7(c,b,a){if(0<=b&&0<=a&&!((aQ(c)-a|0)<b)){var
+b=ag(a);x$(b,0,a,c);return b}function
+g_(c,b,a){if(0<=b&&0<=a&&!((aQ(c)-a|0)<b)){var
 d=ag(a);b6(c,b,d,0,a);return d}return bP(ml)}function
-g8(c,b,a){return aC(g7(c,b,a))}function
-g9(e,c,d,b,a){if(0<=a&&0<=c&&!((aQ(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return b6(e,c,d,b,a);return bP(mm)}function
+g$(c,b,a){return aC(g_(c,b,a))}function
+ha(e,c,d,b,a){if(0<=a&&0<=c&&!((aQ(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return b6(e,c,d,b,a);return bP(mm)}function
 bv(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return bq(e,c,d,b,a);return bP(mn)}function
 aW(b,a){return aC(b8(b,a))}function
-c0(c,b,a){return aC(g7(bL(c),b,a))}function
-g_(k,g){if(g){var
+c0(c,b,a){return aC(g_(bL(c),b,a))}function
+hb(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
 j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bP(mo),c=n,b=m;continue}var
@@ -921,32 +921,32 @@ f=ag(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];bq(a,0,f,e,y(a));bq(k,0,f,e+y(a)|0,h);var
 e=(e+y(a)|0)+h|0,d=o;continue}bq(a,0,f,e,y(a))}return aC(f)}}}return mp}function
-g$(b,c){if(0===b)return[0];if(0<=b){var
-d=yt(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+hc(b,c){if(0===b)return[0];if(0<=b){var
+d=yv(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
 a=h;continue}break}}return d}return bP(mq)}function
-ha(c){var
+hd(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-hb(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cZ<b[1]){if(!((d+c|0)<=cZ))throw[0,g0,mt];b[1]=cZ}var
-e=ag(b[1]);g9(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,R,mr]}throw[0,R,ms]}}function
+he(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cZ<b[1]){if(!((d+c|0)<=cZ))throw[0,g3,mt];b[1]=cZ}var
+e=ag(b[1]);ha(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,R,mr]}throw[0,R,ms]}}function
 c1(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)hb(a,b);bq(c,0,a[1],a[2],b);a[2]=d;return 0}function
-eV(a){return 5===a[2]?12:-6}function
-hc(a){return[0,0,ag(a)]}function
-hd(a,h){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)he(a,b);bq(c,0,a[1],a[2],b);a[2]=d;return 0}function
+eY(a){return 5===a[2]?12:-6}function
+hf(a){return[0,0,ag(a)]}function
+hg(a,h){var
 b=aQ(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ag(i);g9(a[2],0,f,0,b);a[2]=f;var
+e=b*2|0,i=c<=e?e:c,f=ag(i);ha(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cq(a,b){hd(a,1);cl(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-aw(a,c){var
-b=y(c);hd(a,b);bv(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-he(a){return g8(a[2],0,a[1])}function
-hf(a){if(typeof
+cr(a,b){hg(a,1);cm(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+ax(a,c){var
+b=y(c);hg(a,b);bv(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+hh(a){return g$(a[2],0,a[1])}function
+hi(a){if(typeof
 a==="number")switch(a){case
 0:return mu;case
 1:return mv;case
@@ -956,54 +956,54 @@ a==="number")switch(a){case
 5:return mz;default:return mA}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return ap(mB,aW(1,a[1]))}}function
-eW(b,c){var
+1:return a[1];default:return aq(mB,aW(1,a[1]))}}function
+eZ(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];aw(b,mC);var
+d=a[1];ax(b,mC);var
 a=d;continue;case
 1:var
-e=a[1];aw(b,mD);var
+e=a[1];ax(b,mD);var
 a=e;continue;case
 2:var
-f=a[1];aw(b,mE);var
+f=a[1];ax(b,mE);var
 a=f;continue;case
 3:var
-g=a[1];aw(b,mF);var
+g=a[1];ax(b,mF);var
 a=g;continue;case
 4:var
-h=a[1];aw(b,mG);var
+h=a[1];ax(b,mG);var
 a=h;continue;case
 5:var
-i=a[1];aw(b,mH);var
+i=a[1];ax(b,mH);var
 a=i;continue;case
 6:var
-j=a[1];aw(b,mI);var
+j=a[1];ax(b,mI);var
 a=j;continue;case
 7:var
-k=a[1];aw(b,mJ);var
+k=a[1];ax(b,mJ);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];aw(b,mK);eW(b,m);aw(b,mL);var
+l=a[2],m=a[1];ax(b,mK);eZ(b,m);ax(b,mL);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];aw(b,mM);eW(b,o);aw(b,mN);var
+n=a[3],o=a[1];ax(b,mM);eZ(b,o);ax(b,mN);var
 a=n;continue;case
 10:var
-p=a[1];aw(b,mO);var
+p=a[1];ax(b,mO);var
 a=p;continue;case
 11:var
-q=a[1];aw(b,mP);var
+q=a[1];ax(b,mP);var
 a=q;continue;case
 12:var
-r=a[1];aw(b,mQ);var
+r=a[1];ax(b,mQ);var
 a=r;continue;case
 13:var
-s=a[1];aw(b,mR);var
+s=a[1];ax(b,mR);var
 a=s;continue;default:var
-t=a[1];aw(b,mS);var
+t=a[1];ax(b,mS);var
 a=t;continue}}function
 ae(a){if(typeof
 a==="number")return 0;else
@@ -1024,40 +1024,40 @@ c=a[2],d=a[1];return[9,c,d,ae(a[3])];case
 11:return[11,ae(a[1])];case
 12:return[12,ae(a[1])];case
 13:return[13,ae(a[1])];default:return[14,ae(a[1])]}}function
-ax(a){if(typeof
+ay(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=ax(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=ay(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=ax(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=ay(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=ax(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=ay(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=ax(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=ay(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=ax(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=ay(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=ax(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=ay(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=ax(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=ay(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=ax(a[1]),ac=j[4],ad=j[3],af=j[2],ag=j[1],ai=function(a){e(af,0);return 0};return[0,function(a){e(ag,0);return 0},ai,ad,ac];case
+j=ay(a[1]),ac=j[4],ad=j[3],af=j[2],ag=j[1],ah=function(a){e(af,0);return 0};return[0,function(a){e(ag,0);return 0},ah,ad,ac];case
 8:var
-k=ax(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
+k=ay(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
 9:var
-ao=a[2],ap=a[1],l=ax(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ax(ah(ae(ap),ao)),au=m[4],av=m[3],aw=m[2],ay=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ay,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=ay(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ay(ai(ae(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,az];case
 10:var
-n=ax(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=ay(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=ax(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=ay(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=ax(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=ay(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=ax(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=ax(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ah(c,b){var
+q=ay(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=ay(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+ai(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1073,7 +1073,7 @@ switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ah(t,b[1])];case
+0:return[0,ai(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1084,7 +1084,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ah(u,b[1])];case
+1:return[1,ai(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1096,7 +1096,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ah(v,b[1])];case
+2:return[2,ai(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1108,7 +1108,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ah(w,b[1])];case
+3:return[3,ai(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1120,7 +1120,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ah(x,b[1])];case
+4:return[4,ai(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1132,7 +1132,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ah(y,b[1])];case
+5:return[5,ai(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1144,7 +1144,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ah(z,b[1])];case
+6:return[6,ai(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,7 +1156,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ah(A,b[1])];case
+7:return[7,ai(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1169,7 +1169,7 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ah(B,b[2]);return[8,ah(C,D),E];case
+D=b[1],E=ai(B,b[2]);return[8,ai(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
@@ -1181,7 +1181,7 @@ b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=ax(ah(ae(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ah(F,I)];case
+I=b[3],J=b[2],K=b[1],s=ay(ai(ae(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ai(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
@@ -1189,20 +1189,20 @@ I=b[3],J=b[2],K=b[1],s=ax(ah(ae(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ah(F
 14:a=4;break;default:n=1}if(n)throw[0,R,m3];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ah(M,b[1])];throw[0,R,m4];case
+b!=="number"&&10===b[0])return[10,ai(M,b[1])];throw[0,R,m4];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ah(N,b[1])];default:o=1}if(o)throw[0,R,m5];break;case
+11:return[11,ai(N,b[1])];default:o=1}if(o)throw[0,R,m5];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ah(O,b[1])];default:p=1}if(p)throw[0,R,m6];break;case
+12:return[12,ai(O,b[1])];default:p=1}if(p)throw[0,R,m6];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1210,7 +1210,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ah(P,b[1])];default:q=1}if(q)throw[0,R,m7];break;default:var
+13:return[13,ai(P,b[1])];default:q=1}if(q)throw[0,R,m7];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1218,7 +1218,7 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ah(Q,b[1])];default:r=1}if(r)throw[0,R,m8]}switch(a){case
+14:return[14,ai(Q,b[1])];default:r=1}if(r)throw[0,R,m8]}switch(a){case
 0:throw[0,R,mW];case
 1:throw[0,R,mX];case
 2:throw[0,R,mY];case
@@ -1226,15 +1226,15 @@ switch(b[0]){case
 4:throw[0,R,m0];case
 5:throw[0,R,mU];case
 6:throw[0,R,mV];default:throw[0,R,m1]}}var
-aq=[am,m9,eK(0)];function
+ar=[an,m9,eN(0)];function
 dJ(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw aq}}function
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ar}}function
 c2(e,b,d){var
 a=dJ(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw aq}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ar}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aI(b,c,a){if(typeof
 b==="number")return[0,0,M(c,a)];else
 switch(b[0]){case
@@ -1264,14 +1264,14 @@ a!=="number"&&7===a[0]){var
 n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dG([0,b[1]],[0,o]))throw aq;var
+o=a[1],w=a[2],x=b[2];if(dG([0,b[1]],[0,o]))throw ar;var
 p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,Z(f)];if(dG([0,Z(B)],C))throw aq;var
-D=[0,Z(d)];if(dG([0,Z(A)],D))throw aq;var
-q=ax(ah(ae(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aI(Z(z),c,y),F=r[2];return[0,[9,f,d,ae(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,_(f)];if(dG([0,_(B)],C))throw ar;var
+D=[0,_(d)];if(dG([0,_(A)],D))throw ar;var
+q=ay(ai(ae(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aI(_(z),c,y),F=r[2];return[0,[9,f,d,ae(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1283,7 +1283,7 @@ a!=="number"&&13===a[0]){var
 u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw aq}function
+v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ar}function
 M(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
@@ -1296,35 +1296,35 @@ t=M(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
 ac=b[2],u=dJ(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=M(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw aq;case
+v=M(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw ar;case
 3:var
 ae=b[2],w=dJ(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=M(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw aq;case
+x=M(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw ar;case
 4:var
 ag=b[4],ah=b[1],g=c2(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=M(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw aq;case
+aj=g[2],y=M(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ar;case
 5:var
 ak=b[4],al=b[1],i=c2(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=M(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw aq;case
+an=i[2],z=M(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ar;case
 6:var
-ao=b[4],ap=b[1],k=c2(b[2],b[3],a),l=k[3],ar=k[1];if(typeof
+ao=b[4],ap=b[1],k=c2(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-as=k[2],A=M(ao,l[1]);return[0,[6,ap,ar,as,A[1]],A[2]]}throw aq;case
+as=k[2],A=M(ao,l[1]);return[0,[6,ap,aq,as,A[1]],A[2]]}throw ar;case
 7:var
 at=b[4],au=b[1],m=c2(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=M(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw aq;case
+aw=m[2],B=M(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw ar;case
 8:var
 ax=b[4],ay=b[1],o=c2(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=M(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw aq;case
+aA=o[2],C=M(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw ar;case
 9:var
 aB=b[2],D=dJ(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=M(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw aq;case
+E=M(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ar;case
 10:var
 F=M(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
@@ -1333,12 +1333,12 @@ aD=b[1],G=M(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 aE=b[1],H=M(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dG([0,b[2]],[0,I]))throw aq;var
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dG([0,b[2]],[0,I]))throw ar;var
 J=M(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,Z(K)];if(dG([0,Z(aL)],aO))throw aq;var
-L=M(aK,Z(aJ));return[0,[14,aM,K,L[1]],L[2]]}break;case
+K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,_(K)];if(dG([0,_(aL)],aO))throw ar;var
+L=M(aK,_(aJ));return[0,[14,aM,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
 N=M(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
@@ -1350,7 +1350,7 @@ aP=b[1],P=M(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
 U=r[1],aT=U[2],V=M(U[1],a),aU=V[1],W=M(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=M(X[1],a),aW=Y[1],_=M(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],_[1]],_[2]];case
+X=r[1],aV=X[2],Y=M(X[1],a),aW=Y[1],Z=M(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
 R=M(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
@@ -1367,7 +1367,7 @@ c==="number")switch(c){case
 1:return aN(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-$=M(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw aq;default:return aN(c,d,a)}else
+$=M(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw ar;default:return aN(c,d,a)}else
 switch(c[0]){case
 0:return aN(c,d,a);case
 1:return aN(c,d,a);case
@@ -1380,7 +1380,7 @@ switch(c[0]){case
 8:return aN([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],aa=aI(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
-10:return aN(c,d,a);default:return aN(c,d,a)}}throw aq}function
+10:return aN(c,d,a);default:return aN(c,d,a)}}throw ar}function
 aN(d,c,b){var
 a=M(c,b);return[0,[23,d,a[1]],a[2]]}function
 aO(k,g,a){var
@@ -1389,30 +1389,30 @@ l=2===h?48:32,c=b8(d,l);switch(h){case
 0:bv(a,0,c,0,b);break;case
 1:bv(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==L(a,0)&&45!==L(a,0)&&32!==L(a,0)){e=1;i=1}if(!i){cl(c,0,L(a,0));bv(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==L(a,0)&&45!==L(a,0)&&32!==L(a,0)){e=1;i=1}if(!i){cm(c,0,L(a,0));bv(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
 f=0;if(1<b&&48===L(a,0)){var
-j=0;if(jR!==L(a,1)&&88!==L(a,1)){f=1;j=1}if(!j){cl(c,1,L(a,1));bv(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+j=0;if(jS!==L(a,1)&&88!==L(a,1)){f=1;j=1}if(!j){cm(c,1,L(a,1));bv(a,2,c,(d-b|0)+2|0,b-2|0)}}else
 f=1;if(f)bv(a,0,c,d-b|0,b)}}return aC(c)}function
-cr(k,b){var
-c=dI(k),a=y(b),d=L(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kN>>>0))e=1}else
+cs(k,b){var
+c=dI(k),a=y(b),d=L(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kO>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(jR===L(b,1)||88===L(b,1))j=1;if(j){var
-h=b8(c+2|0,48);cl(h,1,L(b,1));bv(b,2,h,(c-a|0)+4|0,a-2|0);return aC(h)}}e=1;f=1;break;case
+j=0;if(jS===L(b,1)||88===L(b,1))j=1;if(j){var
+h=b8(c+2|0,48);cm(h,1,L(b,1));bv(b,2,h,(c-a|0)+4|0,a-2|0);return aC(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=b8(c+1|0,48);cl(g,0,d);bv(b,1,g,(c-a|0)+2|0,a-1|0);return aC(g)}}if(e&&a<c){var
+g=b8(c+1|0,48);cm(g,0,d);bv(b,1,g,(c-a|0)+2|0,a-1|0);return aC(g)}}if(e&&a<c){var
 i=b8(c,48);bv(b,0,i,c-a|0,a);return aC(i)}return b}function
 m_(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bs(k,j)+lf|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bs(k,j)+lg|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
 e=bL(k),a=[0,0],t=aQ(e)-1|0,z=0;if(!(t<0)){var
@@ -1435,7 +1435,7 @@ b=ag(a[1]);a[1]=0;var
 u=aQ(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
 c=cT(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gn<=c)d=1;else
+if(gq<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
@@ -1445,7 +1445,7 @@ switch(c){case
 9:ac(b,a[1],92);a[1]++;ac(b,a[1],116);break;case
 10:ac(b,a[1],92);a[1]++;ac(b,a[1],110);break;case
 13:ac(b,a[1],92);a[1]++;ac(b,a[1],114);break;default:d=1}switch(d){case
-1:ac(b,a[1],92);a[1]++;ac(b,a[1],48+(c/kU|0)|0);a[1]++;ac(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ac(b,a[1],48+(c%10|0)|0);break;case
+1:ac(b,a[1],92);a[1]++;ac(b,a[1],48+(c/kV|0)|0);a[1]++;ac(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ac(b,a[1],48+(c%10|0)|0);break;case
 2:ac(b,a[1],92);a[1]++;ac(b,a[1],c);break;case
 3:ac(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
@@ -1453,7 +1453,7 @@ h=B;continue}break}}var
 v=b}var
 o=aC(v)}var
 w=y(o),x=b8(w+2|0,34);bq(o,0,x,1,w);return aC(x)}}function
-hg(d,f){var
+hj(d,f){var
 g=dI(f),e=nZ[1];switch(d[2]){case
 0:var
 b=102;break;case
@@ -1462,7 +1462,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=jS;break;case
+b=jT;break;case
 4:var
 b=71;break;case
 5:var
@@ -1472,17 +1472,17 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hc(16);cq(c,37);switch(d[1]){case
+c=hf(16);cr(c,37);switch(d[1]){case
 0:break;case
-1:cq(c,43);break;default:cq(c,32)}if(8<=d[2])cq(c,35);cq(c,46);aw(c,a(s+g));cq(c,b);return he(c)}function
+1:cr(c,43);break;default:cr(c,32)}if(8<=d[2])cr(c,35);cr(c,46);ax(c,a(s+g));cr(c,b);return hh(c)}function
 dK(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bs(a,c)+ge>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bs(a,c)+gh>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ag(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cl(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ag(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cm(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bs(a,b);if(9<f+ge>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bs(a,b);if(9<f+gh>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
 b=p;continue}break}}return aC(j)}return a}function
 n0(b,c){switch(b){case
@@ -1512,7 +1512,7 @@ a=m$;break;case
 3:case
 14:var
 a=nc;break;default:var
-a=nl}return dK(b,eJ(a,c))}function
+a=nl}return dK(b,eM(a,c))}function
 n1(b,c){switch(b){case
 1:var
 a=nA;break;case
@@ -1540,7 +1540,7 @@ a=nz;break;case
 3:case
 14:var
 a=nC;break;default:var
-a=nL}return dK(b,eJ(a,c))}function
+a=nL}return dK(b,eM(a,c))}function
 n2(b,c){switch(b){case
 1:var
 a=nN;break;case
@@ -1568,7 +1568,7 @@ a=nM;break;case
 3:case
 14:var
 a=nP;break;default:var
-a=nY}return dK(b,eJ(a,c))}function
+a=nY}return dK(b,eM(a,c))}function
 n3(b,c){switch(b){case
 1:var
 a=nn;break;case
@@ -1596,35 +1596,35 @@ a=nm;break;case
 3:case
 14:var
 a=np;break;default:var
-a=ny}return dK(b,yf(a,c))}function
+a=ny}return dK(b,yh(a,c))}function
 bw(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return yb(b,i,a)}function
+a=32}return yd(b,i,a)}function
 q(c){var
-a=x5(b);return 3===a?b<0.?n5:n6:4<=a?n7:c}switch(c[2]){case
+a=x7(b);return 3===a?b<0.?n5:n6:4<=a?n7:c}switch(c[2]){case
 5:var
-e=gH(hg(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=gK(hj(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
 k=L(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:ap(e,n4);return q(v)}case
+v=p?e:aq(e,n4);return q(v)}case
 6:return j(0);case
 7:var
 h=bL(j(0)),f=aQ(h);if(0===f)var
 o=h;else{var
 m=ag(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=cT(h,a),s=25<g+kN>>>0?g:g+lf|0;ac(m,a,s);var
+g=cT(h,a),s=25<g+kO>>>0?g:g+lg|0;ac(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
 o=m}return aC(o);case
-8:return q(j(0));default:return gH(hg(c,i),b)}}function
+8:return q(j(0));default:return gK(hj(c,i),b)}}function
 dx(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
@@ -1635,7 +1635,7 @@ z=c[1];return function(c){return B(b,[5,a,c],z)};case
 A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
 d=mf;else
-if(gn<=c)e=1;else
+if(gq<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
 d=mg;else
@@ -1651,15 +1651,15 @@ d=mj;break;case
 13:var
 d=mk;break;default:e=1}switch(e){case
 1:var
-f=ag(4);ac(f,0,92);ac(f,1,48+(c/kU|0)|0);ac(f,2,48+((c/10|0)%10|0)|0);ac(f,3,48+(c%10|0)|0);var
+f=ag(4);ac(f,0,92);ac(f,1,48+(c/kV|0)|0);ac(f,2,48+((c/10|0)%10|0)|0);ac(f,3,48+(c%10|0)|0);var
 d=aC(f);break;case
 2:var
 g=ag(1);ac(g,0,c);var
 d=aC(g);break}var
 h=y(d),i=b8(h+2|0,39);bq(d,0,i,1,h);return B(b,[4,a,aC(i)],A)};case
 2:var
-C=c[2],D=c[1];return eX(b,a,C,D,function(a){return a});case
-3:return eX(b,a,c[2],c[1],m_);case
+C=c[2],D=c[1];return e0(b,a,C,D,function(a){return a});case
+3:return e0(b,a,c[2],c[1],m_);case
 4:return dL(b,a,c[4],c[2],c[3],n0,c[1]);case
 5:return dL(b,a,c[4],c[2],c[3],n1,c[1]);case
 6:return dL(b,a,c[4],c[2],c[3],n2,c[1]);case
@@ -1667,15 +1667,15 @@ C=c[2],D=c[1];return eX(b,a,C,D,function(a){return a});case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,bw(g,d,c)],h)}:function(c){return B(b,[4,a,bw(g,eV(g),c)],h)};var
-_=i[1];return function(c){return B(b,[4,a,bw(g,_,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return B(b,[4,a,bw(g,d,c)],h)}:function(c){return B(b,[4,a,bw(g,eY(g),c)],h)};var
+Y=i[1];return function(c){return B(b,[4,a,bw(g,Y,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bw(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bw(g,eV(g),c))],h)};var
+i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bw(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bw(g,eY(g),c))],h)};var
 $=i[1];return function(c){return B(b,[4,a,aO(n,m,bw(g,$,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bw(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bw(g,eV(g),c))],h)};var
+i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bw(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bw(g,eY(g),c))],h)};var
 aa=i[1];return function(d,c){return B(b,[4,a,aO(o,d,bw(g,aa,c))],h)}}case
-9:return eX(b,a,c[2],c[1],ma);case
+9:return e0(b,a,c[2],c[1],ma);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1683,14 +1683,14 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hc(16);eW(p,F);var
-u=he(p);return function(c){return B(b,[4,a,u],E)};case
+E=c[3],F=c[2],p=hf(16);eZ(p,F);var
+u=hh(p);return function(c){return B(b,[4,a,u],E)};case
 14:var
 G=c[3],H=c[2];return function(d){var
-e=d[1],c=M(e,Z(ae(H)));if(typeof
-c[2]==="number")return B(b,a,Q(c[1],G));throw aq};case
+e=d[1],c=M(e,_(ae(H)));if(typeof
+c[2]==="number")return B(b,a,Q(c[1],G));throw ar};case
 15:var
-I=c[1];return function(d,c){return B(b,[6,a,function(a){return Y(d,a,c)}],I)};case
+I=c[1];return function(d,c){return B(b,[6,a,function(a){return Z(d,a,c)}],I)};case
 16:var
 K=c[1];return function(c){return B(b,[6,a,c],K)};case
 17:var
@@ -1703,31 +1703,31 @@ P=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return B(c,[1,b,[1,a]]
 20:var
 U=c[3],V=[8,a,n_];return function(a){return B(b,V,U)};case
 21:var
-W=c[2];return function(c){return B(b,[4,a,eJ(n$,c)],W)};case
+W=c[2];return function(c){return B(b,[4,a,eM(n$,c)],W)};case
 22:var
 X=c[1];return function(c){return B(b,[5,a,c],X)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-1:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-2:throw[0,R,oa];default:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f])}else
+0:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+1:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+2:throw[0,R,oa];default:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-1:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-2:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-3:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-4:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-5:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-6:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-7:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
-8:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);case
+0:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+1:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+2:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+3:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+4:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+5:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+6:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+7:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+8:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?ga(d+1|0,b,a,t,f):au(ga,[0,b,a,t,f]);case
-10:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f]);default:return d<50?J(d+1|0,b,a,f):au(J,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?f$(d+1|0,b,a,q,r,s):au(f$,[0,b,a,q,r,s])}}function
-ga(e,d,c,a,b){if(typeof
-a==="number")return e<50?J(e+1|0,d,c,b):au(J,[0,d,c,b]);else
+t=k[2];return d<50?gd(d+1|0,b,a,t,f):aw(gd,[0,b,a,t,f]);case
+10:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);default:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gc(d+1|0,b,a,q,r,s):aw(gc,[0,b,a,q,r,s])}}function
+gd(e,d,c,a,b){if(typeof
+a==="number")return e<50?J(e+1|0,d,c,b):aw(J,[0,d,c,b]);else
 switch(a[0]){case
 0:var
 f=a[1];return function(a){return aS(d,c,f,b)};case
@@ -1748,7 +1748,7 @@ m=a[1];return function(a){return aS(d,c,m,b)};case
 8:var
 n=a[2];return function(a){return aS(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ah(ae(a[1]),p);return function(a){return aS(d,c,aD(q,o),b)};case
+o=a[3],p=a[2],q=ai(ae(a[1]),p);return function(a){return aS(d,c,aD(q,o),b)};case
 10:var
 r=a[1];return function(e,a){return aS(d,c,r,b)};case
 11:var
@@ -1757,33 +1757,33 @@ s=a[1];return function(a){return aS(d,c,s,b)};case
 t=a[1];return function(a){return aS(d,c,t,b)};case
 13:throw[0,R,ob];default:throw[0,R,oc]}}function
 J(d,b,e,a){var
-c=[8,e,od];return d<50?dx(d+1|0,b,c,a):au(dx,[0,b,c,a])}function
-f$(h,b,f,a,d,c){if(d){var
+c=[8,e,od];return d<50?dx(d+1|0,b,c,a):aw(dx,[0,b,c,a])}function
+gc(h,b,f,a,d,c){if(d){var
 i=d[1];return function(d){return n8(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dx(h+1|0,b,g,a):au(dx,[0,b,g,a])}function
-B(a,b,c){return gT(dx(0,a,b,c))}function
-aS(a,b,c,d){return gT(ga(0,a,b,c,d))}function
-n8(a,b,c,d,e){return gT(f$(0,a,b,c,d,e))}function
-eX(f,d,c,a,b){if(typeof
+g=[4,f,c];return h<50?dx(h+1|0,b,g,a):aw(dx,[0,b,g,a])}function
+B(a,b,c){return gW(dx(0,a,b,c))}function
+aS(a,b,c,d){return gW(gd(0,a,b,c,d))}function
+n8(a,b,c,d,e){return gW(gc(0,a,b,c,d,e))}function
+e0(f,d,c,a,b){if(typeof
 a==="number")return function(a){return B(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
 g=a[2],h=a[1];return function(a){return B(f,[4,d,aO(h,g,e(b,a))],c)}}var
 i=a[1];return function(g,a){return B(f,[4,d,aO(i,g,e(b,a))],c)}}}function
 dL(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,cr(g,Y(b,a,c))],d)}:function(c){return B(f,[4,e,Y(b,a,c)],d)};var
-k=c[1];return function(c){return B(f,[4,e,cr(k,Y(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return B(f,[4,e,cs(g,Z(b,a,c))],d)}:function(c){return B(f,[4,e,Z(b,a,c)],d)};var
+k=c[1];return function(c){return B(f,[4,e,cs(k,Z(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cr(g,Y(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,Y(b,a,c))],d)};var
-l=c[1];return function(c){return B(f,[4,e,aO(i,h,cr(l,Y(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cs(g,Z(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,Z(b,a,c))],d)};var
+l=c[1];return function(c){return B(f,[4,e,aO(i,h,cs(l,Z(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cr(g,Y(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,Y(b,a,c))],d)};var
-m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cr(m,Y(b,a,c)))],d)}}}function
+c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cs(g,Z(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,Z(b,a,c))],d)};var
+m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cs(m,Z(b,a,c)))],d)}}}function
 bx(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hf(a[2]);bx(b,g);return cY(b,h);case
+g=a[1],h=hi(a[2]);bx(b,g);return cY(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
 i=c[1];bx(b,d);cY(b,oe);var
@@ -1804,7 +1804,7 @@ a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hf(a[2]);bQ(b,h);return c1(b,i);case
+h=a[1],i=hi(a[2]);bQ(b,h);return c1(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
 j=d[1];bQ(b,f);c1(b,og);var
@@ -1821,91 +1821,91 @@ o=a[2];bQ(b,a[1]);return bP(o);case
 4:var
 l=a[2];bQ(b,a[1]);return c1(b,l);default:var
 m=a[2];bQ(b,a[1]);var
-c=b[2];if(b[3]<=c)hb(b,1);ac(b[1],c,m);b[2]=c+1|0;return 0}}function
-hh(d,c){var
+c=b[2];if(b[3]<=c)he(b,1);ac(b[1],c,m);b[2]=c+1|0;return 0}}function
+hk(d,c){var
 a=c[1],b=0;return B(function(a){bx(d,a);return 0},b,a)}function
-eY(a){return hh(bu,a)}function
+e1(a){return hk(bu,a)}function
 ba(b){var
 a=b[1];return B(function(d){var
-e=64,b=cZ<64?cZ:e,c=ag(b),a=[0,c,0,b,c];bQ(a,d);return g8(a[1],0,a[2])},0,a)}var
+e=64,b=cZ<64?cZ:e,c=ag(b),a=[0,c,0,b,c];bQ(a,d);return g$(a[1],0,a[2])},0,a)}var
 dM=[0,0];function
-e0(i,h){var
+e3(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eO(a)===eF)return e(ba(oi),a);if(eO(a)===253){var
-c=gH(me,a),b=0,g=y(c);for(;;){if(g<=b)return ap(c,md);var
+a==="number"?1:0)){if(eR(a)===eI)return e(ba(oi),a);if(eR(a)===253){var
+c=gK(me,a),b=0,g=y(c);for(;;){if(g<=b)return aq(c,md);var
 d=L(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
 b=b+1|0;continue}return c}}return oj}return e(ba(ok),a)}function
-hi(b,a){if(b.length-1<=a)return ol;var
-c=hi(b,a+1|0),d=e0(b,a);return Y(ba(om),d,c)}function
-e1(a){function
+hl(b,a){if(b.length-1<=a)return ol;var
+c=hl(b,a+1|0),d=e3(b,a);return Z(ba(om),d,c)}function
+e4(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dM[1]);if(h)return h[1];if(a===eT)return or;if(a===g2)return os;if(a[1]===g1){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gb(ba(eZ),q,p,i,i+5|0,ot)}if(a[1]===R){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gb(ba(eZ),s,r,j,j+6|0,ou)}if(a[1]===g4){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gb(ba(eZ),u,t,k,k+6|0,ov)}if(0===eO(a)){var
+h=o(dM[1]);if(h)return h[1];if(a===eW)return or;if(a===g5)return os;if(a[1]===g4){var
+c=a[2],i=c[3],p=c[2],q=c[1];return ge(ba(e2),q,p,i,i+5|0,ot)}if(a[1]===R){var
+d=a[2],j=d[3],r=d[2],s=d[1];return ge(ba(e2),s,r,j,j+6|0,ou)}if(a[1]===g7){var
+f=a[2],k=f[3],t=f[2],u=f[1];return ge(ba(e2),u,t,k,k+6|0,ov)}if(0===eR(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hi(a,2),m=e0(a,1),b=Y(ba(on),m,l);else
+l=hl(a,2),m=e3(a,1),b=Z(ba(on),m,l);else
 switch(g){case
 0:var
 b=oo;break;case
 1:var
 b=op;break;default:var
-n=e0(a,1),b=e(ba(oq),n)}return ap(v,b)}return a[1]}function
-e2(t,s){var
-d=x7(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+n=e3(a,1),b=e(ba(oq),n)}return aq(v,b)}return a[1]}function
+e5(t,s){var
+d=x9(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
 a=lM(d,b)[1+b],f=function(a){return function(b){return b?0===a?ow:ox:0===a?oy:oz}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?oA:oC,l=a[2],m=a[7],n=f(a[1]),c=[0,xW(ba(oB),n,m,l,k,j,i,h)];else
+h=a[5],i=a[4],j=a[3],k=a[6]?oA:oC,l=a[2],m=a[7],n=f(a[1]),c=[0,xY(ba(oB),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
 o=f(0),c=[0,e(ba(oD),o)];if(c){var
-q=c[1];e(hh(t,oE),q)}var
+q=c[1];e(hk(t,oE),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-hj(c){for(;;){var
+hm(c){for(;;){var
 a=dM[1],d=[0,c,a],e=dM[1]===a?(dM[1]=d,1):0,b=1-e;if(b)continue;return b}}var
 oG=oF.slice();function
 oH(d,c){var
-f=e1(d);e(eY(oI),f);e2(bu,c);var
-a=yu(0);if(a<0){var
-b=dI(a);g5(lM(oG,b)[1+b])}return cV(bu)}var
-oJ=[0];gR(a(jT),function(d,i){try{try{var
-b=i?oJ:lS(0);try{eU(0)}catch(a){}try{var
-a=oH(d,b),c=a}catch(a){a=eR(a);var
-g=e1(d);e(eY(oL),g);e2(bu,b);var
-h=e1(a);e(eY(oM),h);e2(bu,lS(0));var
+f=e4(d);e(e1(oI),f);e5(bu,c);var
+a=yw(0);if(a<0){var
+b=dI(a);g8(lM(oG,b)[1+b])}return cV(bu)}var
+oJ=[0];gU(a(jU),function(d,i){try{try{var
+b=i?oJ:lS(0);try{eX(0)}catch(a){}try{var
+a=oH(d,b),c=a}catch(a){a=eU(a);var
+g=e4(d);e(e1(oL),g);e5(bu,b);var
+h=e4(a);e(e1(oM),h);e5(bu,lS(0));var
 c=cV(bu)}var
-f=c}catch(a){a=eR(a);if(a!==eT)throw a;var
-f=g5(oK)}return f}catch(a){return 0}});var
-hk=[am,oO,eK(0)],e3=[0,hk,[0]],oN=eO(e3)===am?e3:e3[1];gR(a(gg),oN);(function(a){throw a});var
-oP=u.Array;hj(function(a){return a[1]===hk?[0,a$(a[2].toString())]:0});hj(function(a){return a
+f=c}catch(a){a=eU(a);if(a!==eW)throw a;var
+f=g8(oK)}return f}catch(a){return 0}});var
+hn=[an,oO,eN(0)],e6=[0,hn,[0]],oN=eR(e6)===an?e6:e6[1];gU(a(gj),oN);(function(a){throw a});var
+oP=u.Array;hm(function(a){return a[1]===hn?[0,a$(a[2].toString())]:0});hm(function(a){return a
 instanceof
 oP?0:[0,a$(a.toString())]});var
 d=aR(0),c=aR(1);function
 k(a){return A(a,c)}function
-hl(b,a){return A(aR(b),a)}function
+ho(b,a){return A(aR(b),a)}function
 b(b,a){return n(aR(b),a)}function
-bb(b,a){return[0,gW(b,a),l8(b,a)]}function
-e4(b,a){return C(b,a)?b:a}function
+bb(b,a){return[0,gZ(b,a),l8(b,a)]}function
+e7(b,a){return C(b,a)?b:a}function
 b9(b,a){return C(b,a)?a:b}function
 aX(a){return a?0:1}function
-ai(b,a){var
+aj(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
 dN(a){return a[1]}function
-e5(a){return a[2]}function
+e8(a){return a[2]}function
 m(a){var
 b=a?[0,m(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hm(a){return typeof
-a==="number"?0:[0,hm(a[1])]}function
-hn(d,c){var
+hp(a){return typeof
+a==="number"?0:[0,hp(a[1])]}function
+hq(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1928,8 +1928,8 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dO(a){return hn(a,0)}function
-ho(a){if(typeof
+dO(a){return hq(a,0)}function
+hr(a){if(typeof
 a==="number")return oR;else
 switch(a[0]){case
 0:return[1,a[1]];case
@@ -1940,7 +1940,7 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ho(a[1])]}}function
+8:return[9,a[1]];default:return[0,hr(a[1])]}}function
 a4(a){if(typeof
 a==="number")return oS;else
 switch(a[0]){case
@@ -1975,26 +1975,26 @@ b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ab(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hp(b,a){return ab([0,b],a)}function
-hq(c){var
+hs(b,a){return ab([0,b],a)}function
+ht(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e6(c,b,a){return c?e(b,e6(c[1],b,a)):a}function
-hr(a){if(a)var
-b=a[1],d=b?[0,hr(b[1])]:b,c=d;else
+e9(c,b,a){return c?e(b,e9(c[1],b,a)):a}function
+hu(a){if(a)var
+b=a[1],d=b?[0,hu(b[1])]:b,c=d;else
 var
 c=a;return c}function
 dQ(a){if(C(a,c))return c;var
-b=bb(a,aR(2)),e=b[1];return av(b[2],d)?k(dQ(e)):k(dQ(e))}function
+b=bb(a,aR(2)),e=b[1];return ah(b[2],d)?k(dQ(e)):k(dQ(e))}function
 dR(c,b){var
-a=gV(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hs(b,i,h){var
+a=gY(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hv(b,i,h){var
 e=i,a=h;for(;;){if(C(e,c))return a;var
-f=bb(e,aR(2)),g=f[1];if(av(f[2],d)){var
-e=g,a=Y(b,a,a);continue}return Y(b,a,hs(b,g,Y(b,a,a)))}}function
-c5(a){return hs(S,a,oU)}function
-e7(a){return a?k(e7(a[1])):c}function
+f=bb(e,aR(2)),g=f[1];if(ah(f[2],d)){var
+e=g,a=Z(b,a,a);continue}return Z(b,a,hv(b,g,Z(b,a,a)))}}function
+c5(a){return hv(S,a,oU)}function
+e_(a){return a?k(e_(a[1])):c}function
 by(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -2018,17 +2018,17 @@ u=n(b(2,k(b(2,b(2,c)))),d),v=A(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
 w=n(b(2,k(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=n(b(2,k(b(2,b(2,c)))),d),z=A(k(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-e8(a){if(C(a,c))return oV;var
-b=bb(a,aR(2)),e=b[1];return av(b[2],d)?a3(e8(e)):a4(e8(e))}function
-dS(a){return dO(e8(a))}function
-ht(k,f){if(0<=bt(f)){var
-g=gX(f);if(0<=g){var
+e$(a){if(C(a,c))return oV;var
+b=bb(a,aR(2)),e=b[1];return ah(b[2],d)?a3(e$(e)):a4(e$(e))}function
+dS(a){return dO(e$(a))}function
+hw(k,f){if(0<=bt(f)){var
+g=g0(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
 h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bP(oQ)}return d}function
-hu(a){return 0<=bt(a)?a:d}function
-e9(a){var
+hx(a){return 0<=bt(a)?a:d}function
+fa(a){var
 b=bt(a);return 0===b?c:0<b?a:c}function
-hv(n){var
+hy(n){var
 a=n;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2051,14 +2051,14 @@ j=k(b(2,k(b(2,c))));return by(a[1],j);case
 l=b(2,b(2,b(2,c)));return by(a[1],l);default:var
 m=k(b(2,b(2,b(2,c))));return by(a[1],m)}}function
 bR(b,a){var
-c=bt(a);return 0===c?d:1===c?gW(b,a):hl(-1,gW(hl(-1,b),a))}function
-hw(a){return 0<bt(a)?yO(a):d}function
+c=bt(a);return 0===c?d:1===c?gZ(b,a):ho(-1,gZ(ho(-1,b),a))}function
+hz(a){return 0<bt(a)?yQ(a):d}function
 c6(b,c){var
-a=gX(c);return 0<=a?l9(b,a):l_(b,-a|0)}function
-cs(b,c){var
-a=gX(c);return 0<=a?l_(b,a):l9(b,-a|0)}function
-e_(b,a){return a?a[1]:b}function
-hx(a){var
+a=g0(c);return 0<=a?l9(b,a):l_(b,-a|0)}function
+ct(b,c){var
+a=g0(c);return 0<=a?l_(b,a):l9(b,-a|0)}function
+fb(b,a){return a?a[1]:b}function
+hA(a){var
 b=a?a[2]:a;return b}function
 H(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -2067,16 +2067,16 @@ aT(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hy(a){if(a){var
-b=[0,a[1],0];return g(hy(a[2]),b)}return a}function
+hB(a){if(a){var
+b=[0,a[1],0];return g(hB(a[2]),b)}return a}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
 I(b,a){if(a){var
 c=I(b,a[2]);return g(e(b,a[1]),c)}return a}function
-ct(c,b,a){if(a){var
-d=ct(c,b,a[2]);return Y(c,a[1],d)}return b}function
+cu(c,b,a){if(a){var
+d=cu(c,b,a[2]);return Z(c,a[1],d)}return b}function
 bz(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
@@ -2084,182 +2084,182 @@ a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-q(d,c){var
+p(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cu(b,a){if(b)if(a)var
-d=cu(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cv(b,a){if(b)if(a)var
+d=cv(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hz(b,a){if(b)if(a)var
-d=hz(b[1],a[2]),c=[0,a[1],d];else
+hC(b,a){if(b)if(a)var
+d=hC(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
 c7(b,a){var
 c=a?[0,b,c7([0,b],a[1])]:a;return c}function
-cv(b,a){var
-c=a?[0,b,cv(b,a[1])]:a;return c}function
-hA(a){if(a){var
-e=hA(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+b_(b,a){var
+c=a?[0,b,b_(b,a[1])]:a;return c}function
+hD(a){if(a){var
+e=hD(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
 dT(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hA([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bt(b)?c5(b):0}function
-hB(c,b){var
-a=gV(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hC(b,a){return C(n(b[1],a[2]),n(a[1],b[2]))}function
-hD(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
-hE(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bt(b)?c5(b):0}function
+hE(c,b){var
+a=gY(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hF(b,a){return C(n(b[1],a[2]),n(a[1],b[2]))}function
+hG(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
+hH(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
 aP(a){if(typeof
 a==="number")return oY;else
 switch(a[0]){case
 0:var
-b=aP(a[1]);return ap(aW(1,48),b);case
+b=aP(a[1]);return aq(aW(1,48),b);case
 1:var
-c=aP(a[1]);return ap(aW(1,49),c);case
+c=aP(a[1]);return aq(aW(1,49),c);case
 2:var
-d=aP(a[1]);return ap(aW(1,50),d);case
+d=aP(a[1]);return aq(aW(1,50),d);case
 3:var
-e=aP(a[1]);return ap(aW(1,51),e);case
+e=aP(a[1]);return aq(aW(1,51),e);case
 4:var
-f=aP(a[1]);return ap(aW(1,52),f);case
+f=aP(a[1]);return aq(aW(1,52),f);case
 5:var
-g=aP(a[1]);return ap(aW(1,53),g);case
+g=aP(a[1]);return aq(aW(1,53),g);case
 6:var
-h=aP(a[1]);return ap(aW(1,54),h);case
+h=aP(a[1]);return aq(aW(1,54),h);case
 7:var
-i=aP(a[1]);return ap(aW(1,55),i);case
+i=aP(a[1]);return aq(aW(1,55),i);case
 8:var
-j=aP(a[1]);return ap(aW(1,56),j);default:var
-k=aP(a[1]);return ap(aW(1,57),k)}}function
+j=aP(a[1]);return aq(aW(1,56),j);default:var
+k=aP(a[1]);return aq(aW(1,57),k)}}function
 c8(a){return typeof
 a==="number"?oZ:aP(a)}function
-b_(a){return ht(b(2,c),a)}function
-hF(b,a){return cs(a,b)}function
-hG(b,a){return P(cs(P(a),b))}function
+b$(a){return hw(b(2,c),a)}function
+hI(b,a){return ct(a,b)}function
+hJ(b,a){return P(ct(P(a),b))}function
 dU(b,a){return P(bR(P(b),a))}function
 bc(c,b){var
 a=c6(b,c);return[0,a,a]}function
 T(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-_(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
+X(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
 aF(a){return[0,P(a[2]),P(a[1])]}function
-hH(e,c,b,a){if(C(d,e))return C(d,b)?[0,n(e,b),n(c,a)]:C(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(C(c,d))return C(d,b)?[0,n(e,a),n(c,b)]:C(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(C(d,b))return[0,n(e,a),n(c,a)];if(C(a,d))return[0,n(c,b),n(e,b)];var
-f=b9(n(e,b),n(c,a));return[0,e4(n(e,a),n(c,b)),f]}function
+hK(e,c,b,a){if(C(d,e))return C(d,b)?[0,n(e,b),n(c,a)]:C(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(C(c,d))return C(d,b)?[0,n(e,a),n(c,b)]:C(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(C(d,b))return[0,n(e,a),n(c,a)];if(C(a,d))return[0,n(c,b),n(e,b)];var
+f=b9(n(e,b),n(c,a));return[0,e7(n(e,a),n(c,b)),f]}function
 D(c,b,a){var
-d=hH(b[1],b[2],a[1],a[2]),e=hG(c,d[2]);return[0,hF(c,d[1]),e]}function
-aj(b,a){var
-c=n(a[1],a[1]),e=n(a[2],a[2]),h=hG(b,b9(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
+d=hK(b[1],b[2],a[1],a[2]),e=hJ(c,d[2]);return[0,hI(c,d[1]),e]}function
+ak(b,a){var
+c=n(a[1],a[1]),e=n(a[2],a[2]),h=hJ(b,b9(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hF(b,e4(c,e));return[0,f,h]}function
-hI(b,a){var
-c=c6(b_(b),b),d=dU(c,a[1]);return[0,bR(c,a[2]),d]}function
-cw(b,a){if(ad(d,a[1]))return[0,hI(b,a)];var
-c=ad(a[2],d),e=c?[0,aF(hI(b,aF(a)))]:c;return e}function
+f=hI(b,e7(c,e));return[0,f,h]}function
+hL(b,a){var
+c=c6(b$(b),b),d=dU(c,a[1]);return[0,bR(c,a[2]),d]}function
+cw(b,a){if(ad(d,a[1]))return[0,hL(b,a)];var
+c=ad(a[2],d),e=c?[0,aF(hL(b,aF(a)))]:c;return e}function
 c9(f,b){var
 g=ad(d,b[1]);if(g)var
-e=c6(b[2],f),a=hw(e),i=av(n(a,a),e)?a:A(a,c),h=[0,[0,hw(c6(b[1],f)),i]];else
+e=c6(b[2],f),a=hz(e),i=ah(n(a,a),e)?a:A(a,c),h=[0,[0,hz(c6(b[1],f)),i]];else
 var
 h=g;return h}function
 aY(e,d,c,b,a){if(b){if(a){var
-g=aY(e,d,c,b[2],a[2]);return[0,Y(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bS(b,a){return cs(b,a)}function
-b$(a,c,b){if(C(d,a)){var
+g=aY(e,d,c,b[2],a[2]);return[0,Z(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bS(b,a){return ct(b,a)}function
+ca(a,c,b){if(C(d,a)){var
 e=b[1],f=P(bS(P(n(a,b[2])),c));return[0,bS(n(a,e),c),f]}var
 g=b[2],h=P(bS(P(n(a,b[1])),c));return[0,bS(n(a,g),c),h]}function
 dV(a){var
-b=P(cs(P(a[2]),c));return[0,cs(a[1],c),b]}function
-e$(c,b,a){var
-e=hH(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=dU(f,h),j=ad(g,d)?a[1]:a[2];return[0,bR(g,j),i]}var
-aA=[0,d,d];function
-fa(a){return[0,a[1],a[1]]}function
-fb(a){return[0,a[2],a[2]]}function
-ar(a,b){switch(b[0]){case
+b=P(ct(P(a[2]),c));return[0,ct(a[1],c),b]}function
+fc(c,b,a){var
+e=hK(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=dU(f,h),j=ad(g,d)?a[1]:a[2];return[0,bR(g,j),i]}var
+as=[0,d,d];function
+fd(a){return[0,a[1],a[1]]}function
+fe(a){return[0,a[2],a[2]]}function
+at(a,b){switch(b[0]){case
 0:var
 n=b[2],m=c6(b[1],a),t=dU(m,n);return[0,[0,bR(m,n),t]];case
 1:var
-c=ar(a,b[1]);if(c)var
-d=ar(a,b[2]),u=d?[0,T(c[1],d[1])]:d,o=u;else
+c=at(a,b[1]);if(c)var
+d=at(a,b[2]),u=d?[0,T(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ar(a,b[1]);if(e)var
-f=ar(a,b[2]),v=f?[0,_(e[1],f[1])]:f,p=v;else
+e=at(a,b[1]);if(e)var
+f=at(a,b[2]),v=f?[0,X(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ar(a,b[1]);if(g)var
-h=ar(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+g=at(a,b[1]);if(g)var
+h=at(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ar(a,b[1]);if(i){var
-j=ar(a,b[2]);if(j)var
+i=at(a,b[1]);if(i){var
+j=at(a,b[2]);if(j)var
 k=cw(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ar(a,b[1]);return l?c9(a,l[1]):l}}function
-hJ(a){var
-e=b9(P(a),d);return e9(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hK(a){return hu(A(hJ(a),a))}function
-ca(f,a,e){var
-b=ar(A(f,hJ(a)),e);if(b)var
-c=b[1],g=hK(a),h=P(bS(P(c[2]),g)),i=hK(a),d=[0,[0,bS(c[1],i),h]];else
+l=at(a,b[1]);return l?c9(a,l[1]):l}}function
+hM(a){var
+e=b9(P(a),d);return fa(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hN(a){return hx(A(hM(a),a))}function
+cb(f,a,e){var
+b=at(A(f,hM(a)),e);if(b)var
+c=b[1],g=hN(a),h=P(bS(P(c[2]),g)),i=hN(a),d=[0,[0,bS(c[1],i),h]];else
 var
 d=b;return d}function
 aZ(d,a){var
-b=ca(d,a[2],a[1][1]);if(b)var
-c=ca(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cb(d,a[2],a[1][1]);if(b)var
+c=cb(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hL(b,a){var
+hO(b,a){var
 c=P(bS(P(a[2]),b));return[0,bS(a[1],b),c]}function
-fc(b,a){var
+ff(b,a){var
 c=dU(b[2],a);return[0,bR(b[1],a),c]}function
-fd(a,f,b){if(b){var
-d=b[1],g=fd(a,f,d),h=g[2],i=e7(S(c4(o1,d),o0)),j=n(e7(c4(o2,d)),i),e=fc(D(a,g[1],f),j),k=hq(b)?T(h,e):_(h,e);return[0,e,k]}var
+fg(a,f,b){if(b){var
+d=b[1],g=fg(a,f,d),h=g[2],i=e_(S(c4(o1,d),o0)),j=n(e_(c4(o2,d)),i),e=ff(D(a,g[1],f),j),k=ht(b)?T(h,e):X(h,e);return[0,e,k]}var
 l=bc(a,c);return[0,bc(a,c),l]}function
-hM(f){var
+hP(f){var
 g=c5(f),e=o3[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
 b=d,c=[0,c],a=e;continue}return S(o4,c)}}function
-hN(a,d){var
-g=b_(a),h=n(b(2,b(2,c)),g),e=C(d[2],h);if(e)var
-i=fd(a,d,c4(o6,S(hM(a),o5)))[2][2],f=[0,[0,fd(a,d,S(c4(o8,hM(a)),o7))[2][1],i]];else
+hQ(a,d){var
+g=b$(a),h=n(b(2,b(2,c)),g),e=C(d[2],h);if(e)var
+i=fg(a,d,c4(o6,S(hP(a),o5)))[2][2],f=[0,[0,fg(a,d,S(c4(o8,hP(a)),o7))[2][1],i]];else
 var
 f=e;return f}function
-hO(i){function
+hR(i){function
 a(h){var
-m=bR(b_(i),h),g=c5(i),f=m,e=d,a=c;for(;;){if(g){var
+m=bR(b$(i),h),g=c5(i),f=m,e=d,a=c;for(;;){if(g){var
 j=A(a,b(2,c)),k=A(e,bR(f,a)),l=P(bR(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
-hP(e,a){var
+hS(e,a){var
 f=C(d,a);if(f){var
-g=b(2,b(2,c));return hN(e,fc(aj(e,[0,a,a]),g))}return f}function
-hQ(a,d){var
-b=aj(a,d),e=bc(a,c);return _(T(b,b),e)}function
+g=b(2,b(2,c));return hQ(e,ff(ak(e,[0,a,a]),g))}return f}function
+hT(a,d){var
+b=ak(a,d),e=bc(a,c);return X(T(b,b),e)}function
 dW(o,u){var
-h=ar(A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hO(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hO(a),r),f=hP(a,i);if(f){var
-g=hP(a,j);if(g)var
+h=at(A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hR(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hR(a),r),f=hS(a,i);if(f){var
+g=hS(a,j);if(g)var
 l=ad(d,f[1][1]),m=l?ad(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
 var
 n=g;var
 e=n}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hN(a,aj(a,fc(D(a,v,e[1]),s))),p=ai(function(b){return hQ(a,hQ(a,b))},t);else
+s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hQ(a,ak(a,ff(D(a,v,e[1]),s))),p=aj(function(b){return hT(a,hT(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ai(function(a){return hL(w,a)},p)}return h}function
-fe(d,a){return dW(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return aj(function(a){return hO(w,a)},p)}return h}function
+fh(d,a){return dW(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
 dX(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
@@ -2279,7 +2279,7 @@ d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?aE(b[1],a[1]):0;case
 1:return 1===a[0]?aE(b[1],a[1]):0;case
-2:return 2===a[0]?av(b[1],a[1]):0;case
+2:return 2===a[0]?ah(b[1],a[1]):0;case
 3:if(3===a[0]){var
 e=bA(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
@@ -2300,19 +2300,19 @@ d=b[1],c=a[1];continue}return 0}}}function
 dY(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 bd(c,b){var
-a=dY(b);return a?av(c,a[1]):a}function
-c_(a){return ad(eS(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=dY(b);return a?ah(c,a[1]):a}function
+c_(a){return ad(eV(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 r(a){return[0,[2,a]]}function
 G(b,a){if(bd(d,b))return a;if(bd(d,a))return b;var
 c=dY(b);if(c){var
 e=c[1],f=dY(a);if(f){var
 g=f[1];if(c_(e)&&c_(g))return r(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cb(a){var
+cc(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return c_(c)?r(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){return bd(d,a)?b:bd(d,b)?cb(a):[0,[4,b,a]]}function
+z(b,a){return bd(d,a)?b:bd(d,b)?cc(a):[0,[4,b,a]]}function
 $(a){var
 c=dY(a);if(c){var
 b=c[1];return c_(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
@@ -2325,11 +2325,11 @@ h=b[1],i=[0,e(f,dX(function(b){return function(a){return H(a,b,g)}}(a),h)),a],b=
 cy(a){var
 b=0;function
 c(a){return[0,a]}return c$(r(d),c,a,b)}function
-ff(b,a){if(a){if(bA(b,a[1]))return o9;var
-c=ff(b,a[2]);return ai(function(a){return[0,a]},c)}return a}function
+fi(b,a){if(a){if(bA(b,a[1]))return o9;var
+c=fi(b,a[2]);return aj(function(a){return[0,a]},c)}return a}function
 bT(c,b){var
-a=ff(b,c),d=a?a[1]:a;return d}function
-dZ(d,a){if(ff(d,a[1]))return a;var
+a=fi(b,c),d=a?a[1]:a;return d}function
+dZ(d,a){if(fi(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
@@ -2344,18 +2344,18 @@ e=c[2],f=c[1],g=[0,dX(function(a){return bT(f,a)},b),e];return[0,[0,d,c[1]],g]}f
 d0(c){var
 b=c,a=o_;for(;;){if(b){var
 d=dZ(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bT(e,a)},c);return[0,hy(a[2]),g]}}function
-hR(a){return ct(function(a,b){return A(b9(a[2],P(a[1])),b)},d,a)}function
+e=a[1],g=f(function(a){return bT(e,a)},c);return[0,hB(a[2]),g]}}function
+hU(a){return cu(function(a,b){return A(b9(a[2],P(a[1])),b)},d,a)}function
 cz(b,c,a){var
-d=hR(a),e=e4(c[2],A(b[2],d)),f=hR(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
+d=hU(a),e=e7(c[2],A(b[2],d)),f=hU(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
 be(a){return[0,a,a,0]}function
-fg(b,a){return a?e(b,a[1]):a}function
-d1(d,b,a){if(b){if(a)return Y(d,b[1],a[1]);var
+fj(b,a){return a?e(b,a[1]):a}function
+d1(d,b,a){if(b){if(a)return Z(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-fh(a,e,d){var
-c=be(aA);return function(b){switch(b[0]){case
+fk(a,e,d){var
+c=be(as);return function(b){switch(b[0]){case
 0:return[0,H(b[1],e,c)];case
 1:return[0,H(b[1],d,c)];case
 2:return[0,be(bc(a,b[1]))];case
@@ -2366,9 +2366,9 @@ e(a){return a}var
 f=aY(function(a){return a},e,T,d,c),g=T(b[2],a[2]);return[0,cz(T(b[1],a[1]),g,f)]},h,g);case
 4:var
 i=b[2],j=b[1];return d1(function(b,a){var
-c=a[3],d=b[3],e=aY(function(a){return a},aF,_,d,c),f=_(b[2],a[2]);return[0,cz(_(b[1],a[1]),f,e)]},j,i);case
+c=a[3],d=b[3],e=aY(function(a){return a},aF,X,d,c),f=X(b[2],a[2]);return[0,cz(X(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return fg(function(a){var
+k=b[1];return fj(function(a){var
 b=f(aF,a[3]),c=aF(a[2]);return[0,[0,aF(a[1]),c,b]]},k);case
 6:var
 l=b[2],m=b[1];return d1(function(c,b){var
@@ -2381,16 +2381,16 @@ j=aY(function(b){return dV(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cz(D(a,
 n=b[2],o=b[1];return d1(function(e,g){var
 b=cw(a,g[1]);if(b){var
 c=cw(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return _(c,D(a,d,b))},n=function(b){return aF(D(a,d,b))},o=aY(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cz(d,D(a,e[2],h),p)];else
+h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return X(c,D(a,d,b))},n=function(b){return aF(D(a,d,b))},o=aY(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cz(d,D(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fg(function(b){var
-c=b[3],d=T(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=aj(a,b[2]);return[0,cz(aj(a,b[1]),g,e)]},p);default:var
-q=b[1];return fg(function(e){var
+p=b[1];return fj(function(b){var
+c=b[3],d=T(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ak(a,b[2]);return[0,cz(ak(a,b[1]),g,e)]},p);default:var
+q=b[1];return fj(function(e){var
 b=c9(a,e[1]);if(b){var
 g=b[1],c=c9(a,e[2]);if(c){var
 h=c[1],d=cw(a,T(h,g));if(d)var
@@ -2408,33 +2408,33 @@ pa(a){return a}function
 pb(a,b){return aY(pa,o$,T,a,b)}function
 pc(a){return a}function
 pd(a){return a}function
-fi(b,a,c){if(a){var
+fl(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fi(b,e,c[2]),h=c[1],i=function(c,a){return _(c,e$(d,a,b))},j=function(a){return aF(e$(d,a,b))};return[0,aY(function(a){return a},j,i,h,a),g]}var
-k=fi(b,e,0);return[0,f(function(a){return aF(e$(d,a,b))},a),k]}return c}function
-hS(a){if(a){var
+g=fl(b,e,c[2]),h=c[1],i=function(c,a){return X(c,fc(d,a,b))},j=function(a){return aF(fc(d,a,b))};return[0,aY(function(a){return a},j,i,h,a),g]}var
+k=fl(b,e,0);return[0,f(function(a){return aF(fc(d,a,b))},a),k]}return c}function
+hV(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ad(d,c[1]),h=e?[0,fi(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ad(d,c[1]),h=e?[0,fl(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-hT(f,e){var
+hW(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hS(b);if(c){var
+c=hV(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-hU(d,b,a){if(b)if(a)var
-e=a[1],f=hU(d,b[2],a[2]),g=dP(d,b[1])?fa(e):fb(e),c=[0,g,f];else
+hX(d,b,a){if(b)if(a)var
+e=a[1],f=hX(d,b[2],a[2]),g=dP(d,b[1])?fd(e):fe(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-hV(a,b){if(a)if(b)var
-d=hV(a[2],b[2]),c=[0,hU(a[1],a,b[1]),d];else
+hY(a,b){if(a)if(b)var
+d=hY(a[2],b[2]),c=[0,hX(a[1],a,b[1]),d];else
 var
 c=b;else
 var
@@ -2442,86 +2442,86 @@ c=a;return c}function
 bU(a){if(a){var
 b=a[1],c=bU(b),d=f(function(a){return[0,1,a]},c),e=bU(b);return g(f(function(a){return[0,0,a]},e),d)}return pe}function
 d2(a){var
-b=m(a);if(hT(b,a))return 1;var
-c=bU(c3(b));return q(function(c){return hT(b,hV([0,0,c],a))},c)}function
+b=m(a);if(hW(b,a))return 1;var
+c=bU(c3(b));return p(function(c){return hW(b,hY([0,0,c],a))},c)}function
 bV(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
 da(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?T(a,d):_(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hW(c,b,a){var
-d=bU(c);return q(function(c){return e(a,e(bV(function(a){return da(c,a)}),b))},d)}function
-hX(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return b$(b,A(h,c),a)},k=hX(h,j,i),l=function(c,b){var
+d=b[1],f=b[2],g=c[1]?T(a,d):X(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hZ(c,b,a){var
+d=bU(c);return p(function(c){return e(a,e(bV(function(a){return da(c,a)}),b))},d)}function
+h0(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return ca(b,A(h,c),a)},k=h0(h,j,i),l=function(c,b){var
 d=a(b,e);return T(a(f,c),d)},m=function(b){return a(b,e)},n=aY(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,T(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-hY(d,l,k,j){var
+fm(d,l,k,j){var
 c=l,b=k,a=j;for(;;){if(c){if(b){var
-e=b[1],f=c[1],g=fb(e[2]),m=e[1],h=function(e){return function(a,b){var
-c=b$(b,d,e);return _(T(a,a),c)}}(g),i=function(b){return function(a){return aF(b$(a,d,b))}}(g),n=aY(pd,pc,pb,a,hX(d,f,aY(function(a){return T(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
-hZ(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],g=fe(e[2]),m=e[1],h=function(e){return function(a,b){var
+c=ca(b,d,e);return X(T(a,a),c)}}(g),i=function(b){return function(a){return aF(ca(a,d,b))}}(g),n=aY(pd,pc,pb,a,h0(d,f,aY(function(a){return T(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
+h1(b,a){return[0,[0,0,b],a]}function
 db(b,c,g,f,a){function
 d(a){if(a){var
-h=cv([0,aF(a[1][2]),0],b),c=hY(g,f,a[2],h),d=aE(m(c),b);if(d)return d2(c);var
+h=b_([0,aF(a[1][2]),0],b),c=fm(g,f,a[2],h),d=aE(m(c),b);if(d)return d2(c);var
 e=d}else
 var
-e=a;return e}return hW(b,hZ(c,a),d)}function
-h0(f,e){var
+e=a;return e}return hZ(b,h1(c,a),d)}function
+h2(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hS([0,[0,fa(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=hV([0,[0,fd(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fj(b,c,a){function
+fn(b,c,a){function
 d(a){if(a){var
-h=cv([0,a[1][2],0],b),c=h0(a[2],h);if(c){var
+h=b_([0,a[1][2],0],b),c=h2(a[2],h);if(c){var
 d=c[1],e=aE(m(d),b);if(e)return d2(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return hW(b,hZ(c,a),d)}function
-h1(a,b){var
-c=b[3],d=a[3],e=aY(function(a){return a},aF,_,d,c),f=a[2];return[0,_(a[1],b[1]),f,e]}function
+g=a;return g}return hZ(b,h1(c,a),d)}function
+h3(a,b){var
+c=b[3],d=a[3],e=aY(function(a){return a},aF,X,d,c),f=a[2];return[0,X(a[1],b[1]),f,e]}function
 d3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bW(c,b,a){var
-d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
+d=Z(c,b[3],a[3]),e=Z(c,b[2],a[2]);return[0,Z(c,b[1],a[1]),e,d]}function
 d4(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
 d5(b,a){var
 c=aJ(b[3],a),d=aJ(b[2],a);return[0,aJ(b[1],a),d,c]}function
-ay(b,a){var
+az(b,a){var
 c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-fk(a){return d5(a,cx(ay(a,a)))}function
-h2(a){return f(function(a){var
+fo(a){return d5(a,cx(az(a,a)))}function
+h4(a){return f(function(a){var
 b=a[2];return[0,d3(a[1]),b]},a)}function
-h3(a){return f(function(a){var
+h5(a){return f(function(a){var
 b=r(c);return[0,d3(a[3]),b]},a)}function
-bB(a){return cs(A(a[1],a[2]),c)}function
+bB(a){return ct(A(a[1],a[2]),c)}function
 cA(a){var
 b=bB(a);return b7(a[2],b)}function
-h4(c,b){if(b)var
-a=b[1],e=h4([0,c],b[2]),f=cA(a),h=[0,[0,cA(a),f],0],i=g(cv(aA,c),h),j=bB(a),d=[0,[0,[0,bB(a),j],a,i],e];else
+h6(c,b){if(b)var
+a=b[1],e=h6([0,c],b[2]),f=cA(a),h=[0,[0,cA(a),f],0],i=g(b_(as,c),h),j=bB(a),d=[0,[0,[0,bB(a),j],a,i],e];else
 var
 d=b;return d}function
 d6(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=d6(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
 f=a[2],g=[0,[0,bB(a),f],c],h=bB(a);return[0,[0,[0,a[1],h],c],g]}return pf}function
-h5(d,c,b,a){var
-e=f(be,b);return c$(0,fh(d,h4(0,a),e),c,0)}function
+h7(d,c,b,a){var
+e=f(be,b);return c$(0,fk(d,h6(0,a),e),c,0)}function
 aU(a){if(a){var
 b=a[1];if(b)var
 c=aU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return pg}function
-h6(b,a){if(a){var
+h8(b,a){if(a){var
 h=a[1],n=h[1],c=aU(f(function(a){return H(a,b,0)},n));if(c){var
 e=H(h[2],b,0);if(e){var
-i=e[1],g=h6(b,a[2]);if(g)var
+i=e[1],g=h8(b,a[2]);if(g)var
 j=ad(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2531,117 +2531,117 @@ l=e;var
 m=l}else
 var
 m=c;return m}return ph}function
-cc(d,c,b){var
-a=h6(d,c);return a?e(b,a[1]):a}function
-fm(a,b){return q(function(c){var
+cd(d,c,b){var
+a=h8(d,c);return a?e(b,a[1]):a}function
+fq(a,b){return p(function(c){var
 a=H(c,b,0),d=a?1:a;return d},a)}function
 d7(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aY(function(a){return a},f,T,e,d),h=a[2];return[0,T(a[1],c[1]),h,g]}return a}function
-fn(b,a){return b?h1(a,b[1]):a}function
-fo(h,g,b,f){var
+fr(b,a){return b?h3(a,b[1]):a}function
+fs(h,g,b,f){var
 a=H(f,h,0);if(a){var
 c=a[1];if(b){var
-i=h1(c,b[1]),e=bU(g);return q(function(a){return C(d,da(a,i)[1])},e)}return C(d,c[2][1])}return a}function
-h7(m,j,p,l,b,e,g,h,a){switch(h[0]){case
+i=h3(c,b[1]),e=bU(g);return p(function(a){return C(d,da(a,i)[1])},e)}return C(d,c[2][1])}return a}function
+h9(m,j,q,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fm(l,b);if(r){var
-B=a[2],C=a[1],E=d7(g,be(k));return cc(b,j,function(a){return db(e,E,C,B,a)})}return r;case
+r=fq(l,b);if(r){var
+B=a[2],C=a[1],E=d7(g,be(k));return cd(b,j,function(a){return db(e,E,C,B,a)})}return r;case
 1:var
-s=fm(l,b);if(s){var
-F=a[2],G=a[1],H=d7(g,be(k));return cc(b,p,function(a){return db(e,H,G,F,a)})}return s;case
+s=fq(l,b);if(s){var
+F=a[2],G=a[1],H=d7(g,be(k));return cd(b,q,function(a){return db(e,H,G,F,a)})}return s;case
 2:var
-t=fm(l,b);if(t){if(g)return 0;var
-u=av(k[1],d),v=u?av(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cc(b,j,function(a){var
-b=[0,aA,aA,0];return db(e,[0,aA,aA,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=fq(l,b);if(t){if(g)return 0;var
+u=ah(k[1],d),v=u?ah(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cd(b,j,function(a){var
+b=[0,as,as,0];return db(e,[0,as,as,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fn(g,be(x));return cc(b,p,function(a){return fj(e,K,a)})}if(!a){var
-L=fn(g,be(x));return cc(b,j,function(a){return fj(e,L,a)})}}return 0;case
+K=fr(g,be(x));return cd(b,q,function(a){return fn(e,K,a)})}if(!a){var
+L=fr(g,be(x));return cd(b,j,function(a){return fn(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return b$(a,y,bc(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),aA,A];else
+y=a[1],n=a[3],o=function(a){return ca(a,y,bc(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),as,A];else
 var
-i=be(aA);var
-z=h[1],M=a[2];return cc(b,j,function(c){var
-h=bU(e),a=q(function(a){return ad(d,da(a,i)[1])},h),b=a?db(e,d7(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fj(e,fn(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=be(as);var
+z=h[1],M=a[2];return cd(b,j,function(c){var
+h=bU(e),a=p(function(a){return ad(d,da(a,i)[1])},h),b=a?db(e,d7(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fn(e,fr(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fo(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fs(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=d7(g,be(h[2])),Q=function(a){return db(e,P,O,N,a)};return cc(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=d7(g,be(h[2])),Q=function(a){return db(e,P,O,N,a)};return cd(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fo(b,e,g,h[1]);case
-2:return fo(b,e,g,h[2])}return 0}}function
+0:return fs(b,e,g,h[1]);case
+2:return fs(b,e,g,h[2])}return 0}}function
 d8(b,a){if(a){var
 c=a[2];if(b){var
 e=d8(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-h8(r,V,I,G,F,U,T,E,c,D,B){if(D){var
-J=h5(r,V,U,c),g=D,b=B;for(;;){if(g){var
+h_(r,V,I,G,F,U,T,E,c,D,B){if(D){var
+J=h7(r,V,U,c),g=D,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 l=e(E,c);if(l)var
-S=l[1],M=bU(m(c)),o=q(function(b){return function(a){return ad(da(a,b)[2],d)}}(S),M);else
+S=l[1],M=bU(m(c)),o=p(function(b){return function(a){return ad(da(a,b)[2],d)}}(S),M);else
 var
 o=l;if(o){var
 g=w,b=f(function(a){return 0},b);continue}return o}var
 x=H(n,b,0);if(x){var
-p=aT(T,n);if(p){var
-y=p[1],K=0;if(typeof
+q=aT(T,n);if(q){var
+y=q[1],K=0;if(typeof
 a==="number"||!(5===a[0]))K=1;else{var
 i=a[2],j=e(E,c),L=0;if(j){var
 s=C(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return b$(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,b$(i,t,k[1]),P,O]],h=h7(r,I,G,F,J,m(c),R,y,Q);L=1}else
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return ca(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,ca(i,t,k[1]),P,O]],h=h9(r,I,G,F,J,m(c),R,y,Q);L=1}else
 var
 u=s}else
 var
 u=j;if(!L)var
 h=u}if(K)var
-h=h7(r,I,G,F,J,m(c),0,y,a);if(h){var
+h=h9(r,I,G,F,J,m(c),0,y,a);if(h){var
 g=w,b=d8(n,b);continue}var
 z=h}else
 var
-z=p;var
+z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-fp(j,i,h,g,f,e,d,c,u,t,s){var
+ft(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=h8(j,i,h,g,f,e,d,c,b,a[1],k);return l?q(aX,l[1]):l}var
-m=h8(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d6(a[2],b),p=fp(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(p){var
+l=h_(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aX,l[1]):l}var
+m=h_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d6(a[2],b),q=ft(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
 b=o[2],k=n,a=a[4];continue}var
-r=p}else
+r=q}else
 var
 r=m;return r}}function
-h9(a){return f(function(a){return 1},a)}function
+h$(a){return f(function(a){return 1},a)}function
 cB(m,q){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(C(i,c))if(0===e[0]){var
 j=e[2],n=e[1];if(C(j,c)){var
-k=av(b,n),l=k?c_(b):k;if(l)var
-o=av(m[2],d),g=o||av(b,d);else
+k=ah(b,n),l=k?c_(b):k;if(l)var
+o=ah(m[2],d),g=o||ah(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=av(bb(j,aR(2))[2],d)?0:0}else
+a=ah(bb(j,aR(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=av(bb(i,aR(2))[2],d)?0:0}else
+a=ah(bb(i,aR(2))[2],d)?0:0}else
 var
 a=0;return a?r(a[1]):[0,[1,q]]}function
 d9(b,a){if(a)var
@@ -2649,27 +2649,27 @@ d=d9([0,b],a[2]),c=[0,cB(a[1],b),d];else
 var
 c=a;return c}function
 bf(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fq(b,d,a){switch(a[0]){case
+fu(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bf(c[3],b),f),i=g(bf(c[2],b),h);return g(bf(c[1],d),i);case
 1:var
 e=a[3],j=e?bf(e[1],d):e,k=g(bf(a[2],b),j);return g(bf(a[1],b),k);default:return bf(a[1],d)}}function
 bC(b,a){var
 c=r(d),e=H(S(pi,a),b,c),f=r(d),g=H(S(pj,a),b,f);return[0,H(a,b,r(d)),g,e]}function
-h_(b,a){return bW(z,bW(G,fl,a),b)}function
-h$(c,b,a){if(a){var
-e=a[2],f=h$(c,hx(b),e),h=a[1];return g(fq(c,e_(d,b),h),f)}return a}function
-ia(l,k,h,x){if(h){var
-e=h[1],L=S(x,m(fq(l,e_(d,k),e))),M=h[2],N=ia(l,hx(k),M,L),a=d9(x,fq(l,e_(d,k),e));switch(e[0]){case
+ia(b,a){return bW(z,bW(G,fp,a),b)}function
+ib(c,b,a){if(a){var
+e=a[2],f=ib(c,hA(b),e),h=a[1];return g(fu(c,fb(d,b),h),f)}return a}function
+ic(l,k,h,x){if(h){var
+e=h[1],L=S(x,m(fu(l,fb(d,k),e))),M=h[2],N=ic(l,hA(k),M,L),a=d9(x,fu(l,fb(d,k),e));switch(e[0]){case
 0:var
-F=e[1][5],u=H(pk,a,r(d)),g=fk(bC(a,0)),I=bC(a,pl),v=h_(bC(a,pm),I),o=ay(g,v),f=bW(z,v,d4(o,g)),A=ay(f,f),p=z($(u),A),q=cx(p),i=F?q:cb(q),B=z(o,i),C=bW(G,g,d5(f,i)),n=[0,bW(G,f,d4(i,g)),p,C,B,[0,u],0];break;case
+F=e[1][5],u=H(pk,a,r(d)),g=fo(bC(a,0)),I=bC(a,pl),v=ia(bC(a,pm),I),o=az(g,v),f=bW(z,v,d4(o,g)),A=az(f,f),p=z($(u),A),q=cx(p),i=F?q:cc(q),B=z(o,i),C=bW(G,g,d5(f,i)),n=[0,bW(G,f,d4(i,g)),p,C,B,[0,u],0];break;case
 1:var
-w=e[3],J=w?[0,fk(bC(a,pn))]:w,K=bC(a,po),b=h_(bC(a,0),K),s=ay(b,b),t=cx(s),D=ai(function(a){return bW(z,b,d4(ay(a,b),a))},J),n=[0,b,s,d5(b,t),t,0,D];break;default:var
-j=fk(bC(a,0)),E=ay(j,fl),n=[0,j,r(c),j,E,0,0]}var
+w=e[3],J=w?[0,fo(bC(a,pn))]:w,K=bC(a,po),b=ia(bC(a,0),K),s=az(b,b),t=cx(s),D=aj(function(a){return bW(z,b,d4(az(a,b),a))},J),n=[0,b,s,d5(b,t),t,0,D];break;default:var
+j=fo(bC(a,0)),E=az(j,fp),n=[0,j,r(c),j,E,0,0]}var
 y=[0,n,N]}else
 var
 y=h;return y}function
-cd(k,a){if(typeof
+ce(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2686,26 +2686,26 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fr(d,c,b,a){var
+fv(d,c,b,a){var
 e=v(c,b);return z(v(d,a),e)}function
 cC(a){return I(function(a){return g(a[1],[0,a[2],0])},a)}function
-ib(a){if(a){var
+id(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=ib(a[2]);if(d)var
-g=d[1],h=ay(c,c),e=[0,[0,[0,d3(c),h],g]];else
+c=b[1],d=id(a[2]);if(d)var
+g=d[1],h=az(c,c),e=[0,[0,[0,d3(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
 f=b;return f}return pp}function
-fs(b,d,c,a){if(typeof
+fw(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=cB(cd(d,a),c);return[0,f(function(a){var
+e=cB(ce(d,a),c);return[0,f(function(a){var
 b=v(a[2],e);return[0,d3(a[1]),b]},b)];case
-9:return ib(b)}return 0}function
-ic(b,s,r,a){var
-e=cB(cd(s,a),r),p=0;if(typeof
+9:return id(b)}return 0}function
+ie(b,s,r,a){var
+e=cB(ce(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
@@ -2727,7 +2727,7 @@ i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fr(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fr(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fr(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,cb(G(q,x)),0],y=[0,z(q,x),R];else
+c=t[1],d=u[1],n=w[1],F=fv(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fv(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fv(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,cc(G(q,x)),0],y=[0,z(q,x),R];else
 var
 y=m;var
 A=y}else
@@ -2747,35 +2747,35 @@ var
 E=b;return E;case
 8:case
 9:var
-o=fs(b,s,r,a);return o?cC(o[1]):o;default:p=1}if(p)return 0;var
+o=fw(b,s,r,a);return o?cC(o[1]):o;default:p=1}if(p)return 0;var
 j=aT(b,f);return j?g(j[1]):j}function
-id(d,c,b,a){if(a){var
-e=id(d,c,[0,b],a[2]);return g(ic(d,c,b,a[1]),e)}return a}function
-ie(a,g,k,f,j,i){if(i){var
-B=ie(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+ig(d,c,b,a){if(a){var
+e=ig(d,c,[0,b],a[2]);return g(ie(d,c,b,a[1]),e)}return a}function
+ih(a,g,k,f,j,i){if(i){var
+B=ih(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,aA]];else
+d=[0,[0,as]];else
 switch(b[0]){case
 0:var
-u=aZ(a,cd(f,b)),d=ai(function(b){return[0,aj(a,b)]},u);break;case
+u=aZ(a,ce(f,b)),d=aj(function(b){return[0,ak(a,b)]},u);break;case
 1:var
-v=aZ(a,cd(f,b)),d=ai(function(b){return[1,aj(a,b)]},v);break;case
+v=aZ(a,ce(f,b)),d=aj(function(b){return[1,ak(a,b)]},v);break;case
 5:var
-x=aZ(a,cd(f,b)),d=ai(function(b){return[2,aj(a,b)]},x);break;case
+x=aZ(a,ce(f,b)),d=aj(function(b){return[2,ak(a,b)]},x);break;case
 8:var
-y=fs(k,f,j,b),d=ai(function(b){var
+y=fw(k,f,j,b),d=aj(function(b){var
 d=bc(a,c);return[4,e(bV(g),b),d]},y);break;case
 9:var
-m=fs(k,f,j,b);if(m){var
-n=aZ(a,cd(f,b));if(n)var
-z=aj(a,n[1]),A=m[1],r=[0,[4,e(bV(g),A),z]];else
+m=fw(k,f,j,b);if(m){var
+n=aZ(a,ce(f,b));if(n)var
+z=ak(a,n[1]),A=m[1],r=[0,[4,e(bV(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=ic(k,f,j,b),o=0;if(h){var
+h=ie(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2788,40 +2788,40 @@ var
 t=i;return t}function
 pq(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ce(s,r){var
+cf(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=av(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(C(f,c))return C(e,c)?1:av(bb(e,aR(2))[2],d)?0:0;var
-i=bb(f,aR(2)),j=i[1];if(av(i[2],d)){if(C(e,c))return 0;var
-g=bb(e,aR(2)),p=g[1];if(av(g[2],d)){var
+k=ah(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(C(f,c))return C(e,c)?1:ah(bb(e,aR(2))[2],d)?0:0;var
+i=bb(f,aR(2)),j=i[1];if(ah(i[2],d)){if(C(e,c))return 0;var
+g=bb(e,aR(2)),p=g[1];if(ah(g[2],d)){var
 f=j,e=p;continue}return 0}if(C(e,c))return 0;var
-h=bb(e,aR(2)),q=h[1];if(av(h[2],d))return 0;var
+h=bb(e,aR(2)),q=h[1];if(ah(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=ce(b[1],a[1]);if(l){var
+l=cf(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=ce(b[1],a[1]);if(m){var
+m=cf(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=ce(b[1],a[1]);if(n){var
+n=cf(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=ce(b[1],a[1]);if(o){var
+o=cf(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 d_(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hD(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hG(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hD(b,[0,P(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hG(b,[0,P(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hE(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hH(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hB(a,[0,d,c]))return 0;var
-b=a[1],e=bt(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,P(a[2]),P(b)];return[0,hE(g,f)]};break;default:return 0}var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hE(a,[0,d,c]))return 0;var
+b=a[1],e=bt(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,P(a[2]),P(b)];return[0,hH(g,f)]};break;default:return 0}var
 g=d_(e);if(g){var
 h=d_(f);if(h)return b(g[1],h[1]);var
 i=h}else
@@ -2829,30 +2829,30 @@ var
 i=g;return i}function
 o(i,e,b){var
 f=d_(b);if(f){var
-g=f[1];return e?aX(hC(g,[0,d,c])):hC([0,d,c],g)}var
-a=ar(i,b);if(a){var
+g=f[1];return e?aX(hF(g,[0,d,c])):hF([0,d,c],g)}var
+a=at(i,b);if(a){var
 h=a[1];return e?ad(d,h[1]):C(d,h[1])}return a}function
-ig(c,b){var
-a=ar(c,b),d=a?1:a;return d}function
+ii(c,b){var
+a=at(c,b),d=a?1:a;return d}function
 bg(c,a,b){var
-d=ce(a,b),e=d?ig(c,a):d;return e?e:o(c,0,[2,b,a])}function
+d=cf(a,b),e=d?ii(c,a):d;return e?e:o(c,0,[2,b,a])}function
 aK(c,b,a){var
-d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
+d=Z(c,b[3],a[3]),e=Z(c,b[2],a[2]);return[0,Z(c,b[1],a[1]),e,d]}function
 aL(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
 aB(a){return aL([4,[0,c,c],[5,E(a,a)]],a)}function
-cf(c,b,a){var
+cg(c,b,a){var
 d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
 aM(c,b,a){var
-d=cf(c,b[1],a[1]),e=d?cf(c,b[2],a[2]):d;return e?cf(c,b[3],a[3]):e}function
-ih(c,a,b){if(0===a[0])return aM(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cf(c,a[4],b[3]):h}function
-ii(a,D,H,G){var
+d=cg(c,b[1],a[1]),e=d?cg(c,b[2],a[2]):d;return e?cg(c,b[3],a[3]):e}function
+ij(c,a,b){if(0===a[0])return aM(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cg(c,a[4],b[3]):h}function
+ik(a,D,H,G){var
 h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cf(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dP(f[5],b[5]):u;else
+n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cg(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dP(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
@@ -2882,31 +2882,31 @@ var
 C=d;var
 l=C}else
 var
-l=d?0:1;return l?ih(a,D[2],G):l}}function
+l=d?0:1;return l?ij(a,D[2],G):l}}function
 bD(c,b,a){var
 d=aK(function(b,a){return[1,b,a]},a,b);return aK(function(b,a){return[2,b,a]},d,c)}function
-ft(a,e,d,c){var
+fx(a,e,d,c){var
 b=bD(e,d,c),f=aB(a),g=aL(E(aB(a),b),f);return aK(function(b,a){return[2,b,a]},b,g)}function
 dc(f,e,d,a,c){var
-b=ft(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
+b=fx(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
 dd(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
 cD(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ft(d,f,e,b),h=dc(d,f,e,a[4],b),i=aL([4,[0,c,c],dd(a[5],h)],g),j=aB(d);return aK(function(b,a){return[1,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=fx(d,f,e,b),h=dc(d,f,e,a[4],b),i=aL([4,[0,c,c],dd(a[5],h)],g),j=aB(d);return aK(function(b,a){return[1,b,a]},j,i);case
 1:return aB(bD(a[1],a[2],b));default:return aB(a[1])}}function
-ij(a,b){switch(a[0]){case
+il(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=dc(e,d,c,a[4],b),i=dd(a[5],h),j=bD(d,c,b);return[2,E(aB(e),j),i];case
 1:var
 f=a[2],g=a[1],k=bD(g,f,b);return[5,E(bD(g,f,b),k)];default:return E(aB(a[1]),b)}}function
 de(e,b,a){var
-f=[0,d,c];return ct(function(c,d){var
+f=[0,d,c];return cu(function(c,d){var
 e=E(cD(c,b),a);return[1,[3,E(cD(c,b),a),e],d]},f,e)}function
-ik(a){var
+im(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fu(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aB(b),h=dc(b,f,e,d,c),i=aL(dd(a[5],h),g),j=ft(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-il(d,i){if(d){var
+fy(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aB(b),h=dc(b,f,e,d,c),i=aL(dd(a[5],h),g),j=fx(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+io(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=bD(a[1],a[2],i),k=aB(f),l=aL(E(aB(f),g),k),h=[0,aK(function(b,a){return[2,b,a]},g,l)];else
@@ -2915,10 +2915,10 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=il(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=io(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
 j=b;return j}return pr}function
-im(g,f,e,b,m,a){function
+ip(g,f,e,b,m,a){function
 y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -2927,9 +2927,9 @@ U=de(f,e,b);return o(g,1,[2,y(a[1]),U]);case
 1:var
 V=y(a[1]);return o(g,1,[2,de(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,ij(a,e)]},p=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,il(a,e)]},p=X,n=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,ij(a,e),Y]},p=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,il(a,e),Y]},p=Z,n=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
 b=cD(a,e);return[2,[3,[3,A,A],E(cD(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
@@ -2945,9 +2945,9 @@ F=r;return F;case
 7:if(f){var
 k=f[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-t=fu(f[1],e);if(t){var
-G=t[1],u=fu(k[1],e);if(u){var
-H=u[1],v=fu(l[1],e);if(v){var
+t=fy(f[1],e);if(t){var
+G=t[1],u=fy(k[1],e);if(u){var
+H=u[1],v=fy(l[1],e);if(v){var
 I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,J,x]);if(K)return o(g,1,[1,J,x]);var
 L=K}else
 var
@@ -2969,8 +2969,8 @@ var
 Q=f;return Q;case
 8:var
 ad=de(f,e,b),ae=E(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=il(f,e);if(w){var
-af=w[1],S=[0,d,c],T=ct(function(a,c){var
+R=a[1],w=io(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cu(function(a,c){var
 d=E(aB(a),b);return[1,[3,E(aB(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
 q=aT(f,n);return q?o(g,1,p(q[1])):q}function
 bX(a){return[0,a[1][1],a[2][1],a[3][1]]}function
@@ -2978,15 +2978,15 @@ ps(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bX(b[3]),f=bX(b[2]);return[0,bX(b[1]),f,e,d,c];case
 1:var
-g=ai(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
+g=aj(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
 cE(b,a){if(b){if(a){var
 e=cE(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-io(a,l,k,f){var
-b=ar(a,l);if(b){var
-c=ar(a,k);if(c){var
+iq(a,l,k,f){var
+b=at(a,l);if(b){var
+c=at(a,k);if(c){var
 d=dW(a,f);if(d){var
-e=fe(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,_(D(a,c[1],d[1]),m)];else
+e=fh(a,f);if(e)var
+m=D(a,b[1],e[1]),g=[0,X(D(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2998,13 +2998,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ip(f,B,r,A,a,e){function
+ir(f,B,r,A,a,e){function
 s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cE(a,a)]}var
 C=r[1];function
 g(b){var
-a=[0,d,c];return ct(function(a,c){var
+a=[0,d,c];return cu(function(a,c){var
 d=cE(a,b);return[1,[3,cE(a,b),d],c]},a,C)}var
-t=q(function(a){return aE(m(a),B)},a);if(t){if(typeof
+t=p(function(a){return aE(m(a),B)},a);if(t){if(typeof
 e==="number")return 0;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
@@ -3021,15 +3021,15 @@ a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},j=I,i=e[1];break;case
 w=e[3],x=e[2],J=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],j=o(f,0,[2,[1,x,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],w]);if(j){if(A){var
-e=io(f,i,h,x);return e?ad(e[1][2],d):e}var
-g=io(f,i,h,w);return g?ad(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
+e=iq(f,i,h,x);return e?ad(e[1][2],d):e}var
+g=iq(f,i,h,w);return g?ad(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],p=a[1],y=e[1],K=cE(p,p),L=[3,[3,y,y],[3,g(n),K]],M=cE(n,n);return o(f,1,[2,[3,g(p),M],L])}var
+n=h[1],q=a[1],y=e[1],K=cE(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cE(n,n);return o(f,1,[2,[3,g(q),M],L])}var
 z=h}else
 var
 z=a;return z}var
 l=aT(r[2],i);return l?j(l[1]):l}return t}function
-iq(h,g){var
+is(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3040,42 +3040,42 @@ e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
 pt(a){return f(function(a){return[0,a,c]},a)}function
-ir(e,l,b,k,a){if(typeof
+it(e,l,b,k,a){if(typeof
 a==="number"){var
 q=b[3];return bz(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=iq(a[1],k);if(g){var
-m=g[1],r=m[1],s=f(pt,a[2]);return ip(e,l,b,m[2],s,r)}return g}var
-h=iq(a[1],k);if(h){var
+g=is(a[1],k);if(g){var
+m=g[1],r=m[1],s=f(pt,a[2]);return ir(e,l,b,m[2],s,r)}return g}var
+h=is(a[1],k);if(h){var
 n=h[1],i=n[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aT(b[1],a[2]);return j?ip(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+j=aT(b[1],a[2]);return j?ir(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fv(a){var
+fz(a){var
 b=aB(a[1]),c=aL(E(b,a[2]),b),d=a[2];return aK(function(b,a){return[2,b,a]},d,c)}function
-fw(a){return aB(fv(a))}function
-is(c){var
-a=fw(c),b=aB(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fx(a,b){return bD(a[3],a[4],b)}function
-fy(a,b){var
-c=fx(a,b);return E(fw(a),c)}function
-fz(a,b){var
-c=fx(a,b);return E(is(a),c)}function
-it(a,b){var
-c=fx(a,b);return E(aB(a[1]),c)}function
-fA(b,a){var
-c=fz(b,a),d=fy(b,a);return[1,[3,d,d],[3,c,c]]}function
-fB(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=it(a,d);return[4,[1,fA(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iu(a,b){var
-f=a[5],c=[2,fB(a,b),f],d=it(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fA(a){return aB(fz(a))}function
+iu(c){var
+a=fA(c),b=aB(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fB(a,b){return bD(a[3],a[4],b)}function
 fC(a,b){var
-c=iu(a,b);return dd(a[7],c)}function
-iv(b,a){var
-c=fA(b,a),d=fz(b,a),e=[3,fC(b,a),d],f=fy(b,a);return[4,[1,[3,fB(b,a),f],e],c]}function
-iw(b,a){var
-c=fA(b,a),d=fy(b,a),e=[3,fC(b,a),d],f=fz(b,a);return[4,[2,[3,fB(b,a),f],e],c]}function
+c=fB(a,b);return E(fA(a),c)}function
+fD(a,b){var
+c=fB(a,b);return E(iu(a),c)}function
+iv(a,b){var
+c=fB(a,b);return E(aB(a[1]),c)}function
+fE(b,a){var
+c=fD(b,a),d=fC(b,a);return[1,[3,d,d],[3,c,c]]}function
+fF(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iv(a,d);return[4,[1,fE(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iw(a,b){var
+f=a[5],c=[2,fF(a,b),f],d=iv(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fG(a,b){var
+c=iw(a,b);return dd(a[7],c)}function
+ix(b,a){var
+c=fE(b,a),d=fD(b,a),e=[3,fG(b,a),d],f=fC(b,a);return[4,[1,[3,fF(b,a),f],e],c]}function
+iy(b,a){var
+c=fE(b,a),d=fC(b,a),e=[3,fG(b,a),d],f=fD(b,a);return[4,[2,[3,fF(b,a),f],e],c]}function
 bh(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -3093,7 +3093,7 @@ p=a[1];return cB([0,[0,p,p],d],b);case
 s=a[1],g=e,t=r(d);for(;;){if(g){var
 l=g[1];if(lQ(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return cb(bi(e,a[1],b));case
+2:return cc(bi(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
@@ -3104,75 +3104,75 @@ i=a[2],f=a[1],h=v;break;case
 i=a[2],f=a[1],h=aJ;break;case
 7:var
 j=c5(a[2]),k=bi(e,a[1],b);if(j){if(j[1]){var
-n=$(k),q=function(a){return v(a,n)},o=e6(c3(hr(j)),q,n);return hq(j)?o:v(o,k)}return k}return r(c);default:return cx(bi(e,a[1],b))}var
+n=$(k),q=function(a){return v(a,n)},o=e9(c3(hu(j)),q,n);return ht(j)?o:v(o,k)}return k}return r(c);default:return cx(bi(e,a[1],b))}var
 u=bi(e,i,S(b,m(bh(f))));return h(bi(e,f,b),u)}function
-cg(c,f,b){var
+ch(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=S(b,m(bh(e))),k=cg(c,a[2],j),l=g(cg(c,e,b),k);return[0,bi(c,a,b),l];case
+e=a[1],j=S(b,m(bh(e))),k=ch(c,a[2],j),l=g(ch(c,e,b),k);return[0,bi(c,a,b),l];case
 8:var
-n=cg(c,a[1],b);return[0,bi(c,a,b),n];case
+n=ch(c,a[1],b);return[0,bi(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=S(b,m(bh(d))),i=cg(c,a[2],h);return g(cg(c,d,b),i)}}function
-ix(c,a,b){if(a){var
-e=a[1],d=e[2],f=S(b,m(bh(d))),h=a[2],i=bi(c,d,b),j=ix([0,[0,e[1],i],c],h,f);return g(cg(c,d,b),j)}return a}function
-df(a){return I(bh,a)}function
-iy(c,a,b){if(a)var
-d=a[1],f=S(b,m(bh(d))),g=iy(c,a[2],f),e=[0,bi(c,d,b),g];else
-var
-e=a;return e}function
+d=a[1],h=S(b,m(bh(d))),i=ch(c,a[2],h);return g(ch(c,d,b),i)}}function
 iz(c,a,b){if(a){var
-d=a[1],e=S(b,m(bh(d))),f=iz(c,a[2],e);return g(cg(c,d,b),f)}return a}function
+e=a[1],d=e[2],f=S(b,m(bh(d))),h=a[2],i=bi(c,d,b),j=iz([0,[0,e[1],i],c],h,f);return g(ch(c,d,b),j)}return a}function
+df(a){return I(bh,a)}function
 iA(c,a,b){if(a)var
-d=a[1],f=S(b,m(df(d))),g=iA(c,a[2],f),e=[0,iy(c,d,b),g];else
+d=a[1],f=S(b,m(bh(d))),g=iA(c,a[2],f),e=[0,bi(c,d,b),g];else
 var
 e=a;return e}function
 iB(c,a,b){if(a){var
-d=a[1],e=S(b,m(df(d))),f=iB(c,a[2],e);return g(iz(c,d,b),f)}return a}function
-iC(a){return f(function(a){return[0,a[2],d]},a)}function
-iD(a){var
-c=d9(0,iC(a[2])),d=c7(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cu(f(dN,a[2]),c);return g(cu(a[1],e),b)}function
+d=a[1],e=S(b,m(bh(d))),f=iB(c,a[2],e);return g(ch(c,d,b),f)}return a}function
+iC(c,a,b){if(a)var
+d=a[1],f=S(b,m(df(d))),g=iC(c,a[2],f),e=[0,iA(c,d,b),g];else
+var
+e=a;return e}function
+iD(c,a,b){if(a){var
+d=a[1],e=S(b,m(df(d))),f=iD(c,a[2],e);return g(iB(c,d,b),f)}return a}function
+iE(a){return f(function(a){return[0,a[2],d]},a)}function
+iF(a){var
+c=d9(0,iE(a[2])),d=c7(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cv(f(dN,a[2]),c);return g(cv(a[1],e),b)}function
 pv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fD(b,d){var
+fH(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bz(function(a){return az(e,a)},b);case
+e=a[1];return bz(function(a){return aA(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fD(b,a[1]);if(c){var
+c=fH(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-iE(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-iF(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fE(a,c,b){var
-d=[3,iE(a),b],e=[1,[3,iF(a),c],d],f=[3,iF(a),b];return[0,[2,[3,iE(a),c],f],e]}function
-iG(c,a){var
-b=fE(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iH(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-iI(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:iG(d[1],a):a;case
+iG(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+iH(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fI(a,c,b){var
+d=[3,iG(a),b],e=[1,[3,iH(a),c],d],f=[3,iH(a),b];return[0,[2,[3,iG(a),c],f],e]}function
+iI(c,a){var
+b=fI(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iJ(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+iK(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:iI(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=fE(d[1],a[2],a[3]),m=j[1],k=fE(f[1],j[2],a[1]);return iG(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=fI(d[1],a[2],a[3]),m=j[1],k=fI(f[1],j[2],a[1]);return iI(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=E(e,e),n=iH(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-iJ(b){var
-a=d_(b);return a?hB(a[1],[0,d,c]):a}function
-iK(a,m,j,i){if(iJ(i)){var
+e=[0,d[1],h[1],i[1]],l=E(e,e),n=iJ(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+iL(b){var
+a=d_(b);return a?hE(a[1],[0,d,c]):a}function
+iM(a,m,j,i){if(iL(i)){var
 q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
-f=ar(a,j);if(f){var
+f=at(a,j);if(f){var
 g=dW(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fe(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),k=[0,_(h[1],p)];else
+h=fh(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=D(a,f[1],g[1]),k=[0,X(h[1],p)];else
 var
 k=h;var
 l=k}else
@@ -3183,24 +3183,24 @@ var
 e=f;if(e){var
 n=e[1];return m?C(d,n[1]):C(n[2],d)}return e}function
 dg(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?iK(b,0,c,a[1]):d;return e?iK(b,1,c,a[2]):e}function
-dh(a,d){if(iJ(d))return[0,aA];var
+d=bg(b,a[1],a[2]),e=d?iM(b,0,c,a[1]):d;return e?iM(b,1,c,a[2]):e}function
+dh(a,d){if(iL(d))return[0,as];var
 e=dW(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fe(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=T(bc(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cw(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ai(function(d){var
-e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hL(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=fh(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=T(bc(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cw(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return aj(function(d){var
+e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hO(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-fF(d,a){var
+fJ(d,a){var
 e=o(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-ch(a){return[0,[2,[0,d,c],a],a]}function
-iL(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?fF(a,b):h;if(i){var
+ci(a){return[0,[2,[0,d,c],a],a]}function
+iN(a,b,n,m){var
+h=bg(a,[0,d,c],b),i=h?fJ(a,b):h;if(i){var
 e=dh(a,b);if(e){var
-f=ar(a,n);if(f){var
-g=ar(a,m);if(g){var
-o=f[1],p=g[1];return C(d,_(D(a,aj(a,e[1]),p),o)[1])}var
+f=at(a,n);if(f){var
+g=at(a,m);if(g){var
+o=f[1],p=g[1];return C(d,X(D(a,ak(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3211,8 +3211,8 @@ l=k}else
 var
 l=i;return l}function
 d$(a){return 1===a?pz:pA}function
-fG(d,c,b,a){var
-e=a[1],f=iI(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
+fK(d,c,b,a){var
+e=a[1],f=iK(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
 di(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,S(b,c[1])]]:[0,dX(function(a){return di(b,a)},a)]}return[0,dX(function(a){return di(b,a)},a)]}function
@@ -3247,50 +3247,50 @@ e=dk(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return dj(c,b,a[1]);default:return 1}}}function
-iM(c,e){var
+iO(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hp(a[1],c);case
+0:return hs(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=iM(c,a[1]);if(d){var
+d=iO(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-iN(c,e){if(e){var
-k=iN(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,aj(c,b)],0],h=D(c,a,b),i=[0,[0,dV(T(a,b)),h],g],j=[0,[0,a,aj(c,a)],i];return I(function(a){return f(function(b){return[0,a,b]},k)},j)}return pB}function
+iP(c,e){if(e){var
+k=iP(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,ak(c,b)],0],h=D(c,a,b),i=[0,[0,dV(T(a,b)),h],g],j=[0,[0,a,ak(c,a)],i];return I(function(a){return f(function(b){return[0,a,b]},k)},j)}return pB}function
 dl(b,a){return a?e(b,a[1]):a}function
 ea(c,b,a){return dl(function(b){return dl(e(c,b),a)},b)}function
-iO(b,c,n,a){var
-e=f(e5,a),d=0,o=g(f(dN,a),e);return c$(0,function(a){switch(a[0]){case
-0:return[0,H(a[1],o,aA)];case
-1:return[0,H(a[1],n,aA)];case
+iQ(b,c,n,a){var
+e=f(e8,a),d=0,o=g(f(dN,a),e);return c$(0,function(a){switch(a[0]){case
+0:return[0,H(a[1],o,as)];case
+1:return[0,H(a[1],n,as)];case
 2:return[0,bc(b,a[1])];case
 3:var
 c=a[2],d=a[1];return ea(function(b,a){return[0,T(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return ea(function(b,a){return[0,_(b,a)]},f,e);case
+e=a[2],f=a[1];return ea(function(b,a){return[0,X(b,a)]},f,e);case
 5:var
 g=a[1];return dl(function(a){return[0,aF(a)]},g);case
 6:var
 h=a[2],i=a[1];return ea(function(c,a){return[0,D(b,c,a)]},i,h);case
 7:var
 j=a[2],k=a[1];return ea(function(c,a){var
-d=cw(b,a);return ai(function(a){return D(b,c,a)},d)},k,j);case
+d=cw(b,a);return aj(function(a){return D(b,c,a)},d)},k,j);case
 8:var
-l=a[1];return dl(function(a){return[0,aj(b,a)]},l);default:var
+l=a[1];return dl(function(a){return[0,ak(b,a)]},l);default:var
 m=a[1];return dl(function(a){return c9(b,a)},m)}},c,d)}function
-iP(d,a){if(a){var
+iR(d,a){if(a){var
 b=H(a[1],d,0);if(b)var
-c=iP(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=iR(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return pC}function
-fH(b,a){if(a){var
-g=a[1],c=iP(b,g[1]);if(c){var
+eb(b,a){if(a){var
+g=a[1],c=iR(b,g[1]);if(c){var
 e=H(g[2],b,0);if(e){var
-h=e[1],f=fH(b,a[2]);if(f)var
+h=e[1],f=eb(b,a[2]);if(f)var
 i=ad(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
 var
 j=f;var
@@ -3300,58 +3300,69 @@ k=e;var
 l=k}else
 var
 l=c;return l}return pD}function
-fI(a,d){if(a){var
-b=a[1],c=b[1],e=H(c[1],d,0),f=b[2],g=c[2];return ai(function(a){return b$(g,f,a)},e)}return[0,aA]}function
-iQ(c,a){var
+ec(a,d){if(a){var
+b=a[1],c=b[1],e=H(c[1],d,0),f=b[2],g=c[2];return aj(function(a){return ca(g,f,a)},e)}return[0,as]}function
+fL(c,a){var
 b=aE(m(a),c);return b?d2(a):b}function
-iR(e,a,c){var
-b=c7(0,a);return q(function(f){var
+iS(e,a,c){var
+b=c7(0,a);return p(function(f){var
 b=r(d);return dk(a,f,H(c,cy(e),b))},b)}function
 dm(a){var
 b=$(a);return G(r(c),b)}function
-eb(i,g){var
-h=dm(g),j=$(g),e=z(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,cb(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cb(f),a,e]]:[0,[0,h,a,a],[0,a,e,cb(f)],[0,a,f,e]]}function
-iS(b,a){function
+ed(i,g){var
+h=dm(g),j=$(g),e=z(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,cc(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cc(f),a,e]]:[0,[0,h,a,a],[0,a,e,cc(f)],[0,a,f,e]]}function
+iT(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=ay(a,c(function(a){return a[3]})),d=ay(a,c(function(a){return a[2]}));return[0,ay(a,c(function(a){return a[1]})),d,b]}var
+b=az(a,c(function(a){return a[3]})),d=az(a,c(function(a){return a[2]}));return[0,az(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-iT(a){switch(a[0]){case
+iU(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,ch(a[1]),0];default:var
-b=[0,ch(a[2]),0];return[0,ch(a[1]),b]}}function
+2:return[0,ci(a[1]),0];default:var
+b=[0,ci(a[2]),0];return[0,ci(a[1]),b]}}function
 cF(a){return[0,[0,a[1]],[0,a[2]]]}function
-iU(a,b){if(0===b[0])return dh(a,b[1]);var
+iV(a,b){if(0===b[0])return dh(a,b[1]);var
 d=dh(a,b[1]);if(d){var
 e=dh(a,b[2]);if(e){var
-g=aj(a,e[1]),h=c9(a,T(bc(a,c),g)),i=d[1];return ai(function(b){return D(a,i,b)},h)}var
+g=ak(a,e[1]),h=c9(a,T(bc(a,c),g)),i=d[1];return aj(function(b){return D(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-iV(k,c,e,f,b,a){switch(b[0]){case
-0:if(typeof
-a!=="number"&&0===a[0]){var
-l=b[3],m=b[2],n=b[1],o=a[2],p=a[1];return q(function(e){var
-a=fH(e,n);if(a){var
-b=H(m,e,0);if(b){var
-d=fI(f,e);if(d){var
-i=d[1],j=cv([0,_(aF(D(k,l,b[1])),i),0],c);return iQ(c,hY(p,o,a[1],j))}var
+iW(k,c,g,e,b,a){switch(b[0]){case
+0:var
+h=b[3],j=b[1];if(typeof
+a!=="number")switch(a[0]){case
+0:var
+n=b[2],o=a[2],q=a[1];return p(function(f){var
+a=eb(f,j);if(a){var
+b=H(n,f,0);if(b){var
+d=ec(e,f);if(d){var
+l=d[1],m=b_([0,X(aF(D(k,h,b[1])),l),0],c);return fL(c,fm(q,o,a[1],m))}var
 g=d}else
 var
 g=b;var
-h=g}else
+i=g}else
 var
-h=a;return h},e)}return 0;case
+i=a;return i},g);case
+2:var
+i=ah(h[1],d),l=i?ah(h[2],d):i;if(l){var
+m=a[2],r=a[1];return p(function(g){var
+a=eb(g,j);if(a){var
+b=ec(e,g);if(b){var
+h=b_([0,X(as,b[1]),0],c),i=a[1];return fL(c,fm(r,m,f(function(a){return[0,a[1],as]},i),h))}var
+d=b}else
+var
+d=a;return d},g)}return l}return 0;case
 1:if(typeof
 a==="number"&&!a){var
-r=b[3],s=b[2],t=b[1];return q(function(g){var
-a=fH(g,t);if(a){var
-b=H(s,g,0);if(b){var
-d=fI(f,g);if(d){var
-l=d[1],m=cv([0,_(D(k,r,b[1]),l),0],c),e=h0(a[1],m);if(e)return iQ(c,e[1]);var
-h=e}else
+s=b[3],t=b[2],u=b[1];return p(function(g){var
+a=eb(g,u);if(a){var
+b=H(t,g,0);if(b){var
+d=ec(e,g);if(d){var
+l=d[1],m=b_([0,X(D(k,s,b[1]),l),0],c),f=h2(a[1],m);if(f)return fL(c,f[1]);var
+h=f}else
 var
 h=d;var
 i=h}else
@@ -3359,31 +3370,31 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},e)}return 0;default:if(typeof
+j=a;return j},g)}return 0;default:if(typeof
 a==="number"&&!a){var
-g=b[1];return q(function(e){var
-a=H(g,e,0);if(a){var
-b=fI(f,e);if(b)return C(d,_(a[1],b[1])[1]);var
+v=b[1];return p(function(f){var
+a=H(v,f,0);if(a){var
+b=ec(e,f);if(b)return C(d,X(a[1],b[1])[1]);var
 c=b}else
 var
-c=a;return c},e)}return 0}}function
-iW(l,k,f,j,i,e){if(typeof
+c=a;return c},g)}return 0}}function
+iX(l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 m=a[3],n=a[2],o=C(d,n);if(o)var
-h=gV(m,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=0===h?0:0<=h?2:1,r=1===q?1:0,g=r;else
+h=gY(m,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=0===h?0:0<=h?2:1,r=1===q?1:0,g=r;else
 var
-g=o;if(g)return iV(l,k,j,[0,[0,[0,f[1],n],m]],i,a[1]);var
+g=o;if(g)return iW(l,k,j,[0,[0,[0,f[1],n],m]],i,a[1]);var
 p=g}else
 var
-p=f;return p}return iV(l,k,j,0,i,a)}return 0}function
-iX(e,D,C,B,A,g,z,y,x){if(y){var
-J=iN(e,z),E=f(function(a){return iO(e,D,C,a)},J),c=y,a=x;for(;;){if(c){var
+p=f;return p}return iW(l,k,j,0,i,a)}return 0}function
+iY(e,D,C,B,A,g,z,y,x){if(y){var
+J=iP(e,z),E=f(function(a){return iQ(e,D,C,a)},J),c=y,a=x;for(;;){if(c){var
 o=c[1],h=o[2],b=o[1],j=c[2];if(b){var
 p=H(b,a,0);if(p){var
 k=aT(B,b);if(k){var
-q=iW(e,A,g,E,k[1],h);if(q){var
+q=iX(e,A,g,E,k[1],h);if(q){var
 c=j,a=d8(b,a);continue}var
 r=q}else
 var
@@ -3393,7 +3404,7 @@ var
 s=p;return s}if(typeof
 h==="number"&&4<=h){var
 F=0;if(g){var
-G=0,I=iO(e,D,C,f(function(a){return[0,a,aj(e,a)]},z)),i=H(g[1],I,G);if(i){var
+G=0,I=iQ(e,D,C,f(function(a){return[0,a,ak(e,a)]},z)),i=H(g[1],I,G);if(i){var
 l=ad(i[1][2],d);F=1}else
 var
 n=i}else
@@ -3403,7 +3414,7 @@ l=n;if(l){var
 c=j,a=f(function(a){return 0},a);continue}return l}var
 t=H(b,a,0);if(t){var
 m=aT(B,b);if(m){var
-u=iW(e,A,g,E,m[1],h);if(u){var
+u=iX(e,A,g,E,m[1],h);if(u){var
 c=j,a=d8(b,a);continue}var
 v=u}else
 var
@@ -3411,30 +3422,30 @@ v=m;var
 w=v}else
 var
 w=t;return w}return[0,a]}}return[0,x]}function
-iY(h,g,f,e,d,c,s,r,p){var
-b=s,i=r,a=p;for(;;){if(0===a[0]){var
-j=iX(h,g,f,e,d,c,b,a[1],i);return j?q(aX,j[1]):j}var
-k=iX(h,g,f,e,d,c,b,a[1],i);if(k){var
-l=k[1],m=d6(a[2],b),n=iY(h,g,f,e,d,c,m[1],l,a[3]);if(n){var
+iZ(h,g,f,e,d,c,s,r,q){var
+b=s,i=r,a=q;for(;;){if(0===a[0]){var
+j=iY(h,g,f,e,d,c,b,a[1],i);return j?p(aX,j[1]):j}var
+k=iY(h,g,f,e,d,c,b,a[1],i);if(k){var
+l=k[1],m=d6(a[2],b),n=iZ(h,g,f,e,d,c,m[1],l,a[3]);if(n){var
 b=m[2],i=l,a=a[4];continue}var
 o=n}else
 var
 o=k;return o}}function
-fJ(d,a){var
+fM(d,a){var
 e=$(a),f=v(v(r(b(2,c)),a),d);return G(z($(d),f),e)}function
-iZ(a){switch(a){case
+i0(a){switch(a){case
 0:return pT;case
 1:return pU;default:return 0}}function
-ec(b,a){var
+ee(b,a){var
 c=bf(a[2],b);return g(bf(a[1],b),c)}function
-i0(q,k,p,t,o,j,s){if(j){var
-u=j[1],w=d9(s,ec(o,u)),Q=S(s,m(ec(o,u))),R=i0(q,k,p,t,o,j[2],Q),i=bC(w,pV),l=bC(w,0);switch(q){case
+i1(q,k,p,t,o,j,s){if(j){var
+u=j[1],w=d9(s,ee(o,u)),Q=S(s,m(ee(o,u))),R=i1(q,k,p,t,o,j[2],Q),i=bC(w,pV),l=bC(w,0);switch(q){case
 0:var
 g=[0,pS,pR,r(d)];break;case
 1:var
-g=fl;break;default:var
+g=fp;break;default:var
 H=r(d),I=r(d),g=[0,r(d),I,H]}var
-e=bW(z,g,l),y=ay(k[3],i),A=ay(k[2],i),a=[0,ay(k[1],i),A,y],J=fJ(g[3],l[3]),K=fJ(g[2],l[2]),L=fJ(g[1],l[1]),M=G(G(G(ay(i,i),L),K),J),N=ay(a,e),O=v(r(b(2,c)),N),P=G(v(p,M),O),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d5([0,z(v(a[2],e[3]),F),E,C],t),h=bW(G,d4(p,e),a);switch(q){case
+e=bW(z,g,l),y=az(k[3],i),A=az(k[2],i),a=[0,az(k[1],i),A,y],J=fM(g[3],l[3]),K=fM(g[2],l[2]),L=fM(g[1],l[1]),M=G(G(G(az(i,i),L),K),J),N=az(a,e),O=v(r(b(2,c)),N),P=G(v(p,M),O),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d5([0,z(v(a[2],e[3]),F),E,C],t),h=bW(G,d4(p,e),a);switch(q){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
@@ -3443,14 +3454,14 @@ n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
 x=[0,[0,n,P],R]}else
 var
 x=j;return x}function
-i1(f,a){if(typeof
+i2(f,a){if(typeof
 a!=="number")switch(a[0]){case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],f]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fK(e,d,m,l,k,a){var
-f=v($(cB(i1(l,a),k)),m);if(typeof
+fN(e,d,m,l,k,a){var
+f=v($(cB(i2(l,a),k)),m);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=aT(d,a[1]);if(b)var
@@ -3462,69 +3473,69 @@ c=aT(d,a[1]);if(c)var
 i=o(e,0,a[2]),j=i?[0,z(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-i2(h,a,g,f,m,l,j){if(j){var
-w=i2(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
+i3(h,a,g,f,m,l,j){if(j){var
+w=i3(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
 b==="number")var
-q=e(a,f),i=[0,[0,e(bV(a),g),q,aA]];else
+q=e(a,f),i=[0,[0,e(bV(a),g),q,as]];else
 switch(b[0]){case
 0:var
 r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
 1:var
 t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
 2:var
-u=fK(h,g,f,m,l,b),i=ai(function(b){return[2,e(a,b)]},u);break;case
+u=fN(h,g,f,m,l,b),i=aj(function(b){return[2,e(a,b)]},u);break;case
 3:var
-v=fK(h,g,f,m,l,b),i=ai(function(b){return[2,e(a,b)]},v);break;default:var
+v=fN(h,g,f,m,l,b),i=aj(function(b){return[2,e(a,b)]},v);break;default:var
 i=0}if(n)var
-s=aZ(h,[0,[0,k,k],d]),i=ai(function(b){var
-c=aj(h,b),d=e(a,f);return o(e(bV(a),g),d,c)},s);var
+s=aZ(h,[0,[0,k,k],d]),i=aj(function(b){var
+c=ak(h,b),d=e(a,f);return o(e(bV(a),g),d,c)},s);var
 p=[0,i,w]}else
 var
 p=j;return p}function
-i3(h,f,e,d,c,a){if(a){var
-i=i3(h,f,e,d,[0,c],a[2]),b=fK(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
+i4(h,f,e,d,c,a){if(a){var
+i=i4(h,f,e,d,[0,c],a[2]),b=fN(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
 pW(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ed(a){var
-b=ce(a[1],[0,d,c]);return b?ce(a[2],[0,d,c]):b}function
+ef(a){var
+b=cf(a[1],[0,d,c]);return b?cf(a[2],[0,d,c]):b}function
 pX(h,a,i,a4){var
-x=a[1],j=d$(x),ag=a[3],a5=[0,[0,[0,ag,ag],i],0],a6=a[2],ah=g(I(function(a){return ec(i,a)},a6),a5),M=m(ah),a7=a[2],a8=m(I(function(a){return ec(i,a)},a7)),aj=a[3],a9=cB([0,[0,aj,aj],i],a8),a_=iZ(x),a$=a[5];function
+x=a[1],j=d$(x),ag=a[3],a5=[0,[0,[0,ag,ag],i],0],a6=a[2],ah=g(I(function(a){return ee(i,a)},a6),a5),M=m(ah),a7=a[2],a8=m(I(function(a){return ee(i,a)},a7)),ai=a[3],a9=cB([0,[0,ai,ai],i],a8),a_=i0(x),a$=a[5];function
 e(a){return[0,[0,S(a_,a)]]}switch(a$[0]){case
 0:var
-aL=dm(e(0)),B=[0,eb(pE,e(0)),aL];break;case
+aL=dm(e(0)),B=[0,ed(pE,e(0)),aL];break;case
 1:var
-aM=dm(e(0)),aN=v(dm(e(pF)),aM),aO=v(dm(e(pG)),aN),aP=eb(0,e(0)),aQ=iS(eb(pI,e(pH)),aP),B=[0,iS(eb(pK,e(pJ)),aQ),aO];break;default:var
-aR=e(pL),aS=e(pM),t=[0,e(0),aS,aR],aT=ay(t,t),aV=G(r(c),aT),aB=ay(t,t),n=t[1],p=t[2],s=t[3],J=function(a){var
+aM=dm(e(0)),aN=v(dm(e(pF)),aM),aO=v(dm(e(pG)),aN),aP=ed(0,e(0)),aQ=iT(ed(pI,e(pH)),aP),B=[0,iT(ed(pK,e(pJ)),aQ),aO];break;default:var
+aR=e(pL),aS=e(pM),t=[0,e(0),aS,aR],aT=az(t,t),aV=G(r(c),aT),aB=az(t,t),n=t[1],q=t[2],s=t[3],J=function(a){var
 d=$(a),e=v(r(b(2,c)),d);return G(z(r(c),aB),e)},u=function(f,e,d,a){var
-g=Y(f,v(e,d),a);return v(r(b(2,c)),g)},aC=J(s),aD=u(G,p,s,n),aF=[0,u(z,n,s,p),aD,aC],aG=u(z,p,s,n),aH=J(p),aI=[0,u(G,n,p,s),aH,aG],aJ=u(G,n,s,p),aK=u(z,n,p,s),B=[0,[0,[0,J(n),aK,aJ],aI,aF],aV]}var
-C=B[2],N=i0(x,B[1],C,a9,i,a[2],0),ba=S(M,m(a[6])),bb=iZ(x),bc=a[5];function
+g=Z(f,v(e,d),a);return v(r(b(2,c)),g)},aC=J(s),aD=u(G,q,s,n),aF=[0,u(z,n,s,q),aD,aC],aG=u(z,q,s,n),aH=J(q),aI=[0,u(G,n,q,s),aH,aG],aJ=u(G,n,s,q),aK=u(z,n,q,s),B=[0,[0,[0,J(n),aK,aJ],aI,aF],aV]}var
+C=B[2],N=i1(x,B[1],C,a9,i,a[2],0),ba=S(M,m(a[6])),bb=i0(x),bc=a[5];function
 w(a){return[0,[0,S(bb,a)]]}var
 aa=$([0,[1,ba]]);switch(bc[0]){case
 2:var
-aW=w(pN),aX=w(pO),ab=[0,w(0),aX,aW],k=[0,z(aa,ay(ab,ab))];break;case
+aW=w(pN),aX=w(pO),ab=[0,w(0),aX,aW],k=[0,z(aa,az(ab,ab))];break;case
 3:var
 aY=$(w(pP)),a0=$(w(0)),a1=$(w(pQ)),k=[0,z(z(v(aa,G(r(c),a1)),a0),aY)];break;default:var
 k=0}var
-bd=k?[0,k[1],0]:k,be=[0,C,g(i3(h,N,C,i,M,a[6]),bd)],O=g(cC(N),be),y=d0(f(function(a){return di(j,a)},O))[1];function
+bd=k?[0,k[1],0]:k,be=[0,C,g(i4(h,N,C,i,M,a[6]),bd)],O=g(cC(N),be),y=d0(f(function(a){return di(j,a)},O))[1];function
 D(a){var
 b=di(j,a);return bT(cy(y),b)}var
-ak=q(function(a){var
-b=di(j,a),c=r(d),e=cy(y);return bA(H(D(a),e,c),b)},O),al=ak?q(function(a){return iM(j,a)},O):ak,am=al?bz(pW,a[6]):al;if(am){var
+ak=p(function(a){var
+b=di(j,a),c=r(d),e=cy(y);return bA(H(D(a),e,c),b)},O),al=ak?p(function(a){return iO(j,a)},O):ak,am=al?bz(pW,a[6]):al;if(am){var
 E=a[4];switch(x){case
 0:var
-P=ed(E[3]);break;case
+P=ef(E[3]);break;case
 1:var
 P=1;break;default:var
-ae=ed(E[1]),af=ae?ed(E[2]):ae,P=af?ed(E[3]):af}var
+ae=ef(E[1]),af=ae?ef(E[2]):ae,P=af?ef(E[3]):af}var
 Q=P}else
 var
 Q=am;var
 an=Q?o(h,1,a[3]):Q;if(an)var
-bf=iT(a[5]),R=q(function(a){var
-b=fF(h,a[1]);return b?fF(h,a[2]):b},bf);else
+bf=iU(a[5]),R=p(function(a){var
+b=fJ(h,a[1]);return b?fJ(h,a[2]):b},bf);else
 var
 R=an;if(R){var
-bg=a[6],bh=g(ah,f(function(a){return i1(i,a)},bg)),T=aU(f(function(a){return aZ(h,a)},bh));if(T){var
+bg=a[6],bh=g(ah,f(function(a){return i2(i,a)},bg)),T=aU(f(function(a){return aZ(h,a)},bh));if(T){var
 A=a[4];switch(x){case
 0:var
 U=[0,A[1],[0,A[2],0]];break;case
@@ -3538,23 +3549,23 @@ F=[0,cF(l[1]),0];break;case
 1:var
 a2=[0,cF(l[3]),0],a3=[0,cF(l[2]),a2],F=[0,cF(l[1]),a3];break;case
 2:var
-K=cF(ch(l[1])),F=[0,K,[0,K,[0,K,0]]];break;default:var
-L=l[2],ac=l[1],ad=[0,[1,ch(ac)[1],L],[1,ac,L]],F=[0,ad,[0,ad,[0,cF(ch(L)),0]]]}var
+K=cF(ci(l[1])),F=[0,K,[0,K,[0,K,0]]];break;default:var
+L=l[2],ac=l[1],ad=[0,[1,ci(ac)[1],L],[1,ac,L]],F=[0,ad,[0,ad,[0,cF(ci(L)),0]]]}var
 W=aU(f(function(d){var
-a=iU(h,d[1]);if(a)var
-b=iU(h,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=iV(h,d[1]);if(a)var
+b=iV(h,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},F));if(W){var
 ap=W[1],aq=a[5],bi=1<aq[0]?[0,aq[1],0]:0,X=aU(f(function(a){return dh(h,a)},bi));if(X){var
-Z=aU(i2(h,D,N,C,i,M,a[6]));if(Z){var
-_=Z[1],ar=aE(m(g(ao,ap)),j),as=ar?q(function(a){if(2===a[0])var
+Y=aU(i3(h,D,N,C,i,M,a[6]));if(Y){var
+_=Y[1],ar=aE(m(g(ao,ap)),j),as=ar?p(function(a){if(2===a[0])var
 b=[0,a[1],0];else
 var
-d=a[1],c=I(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return q(function(a){return iR(y,j,a)},b)},_):ar,at=as?k?iR(y,j,D(k[1])):1:as;if(at){var
-bj=f(function(a){return 1},_),bk=g(ao,ap),bl=ai(D,k);return iY(h,y,g(T[1],X[1]),_,j,bl,bk,bj,a4)}var
+d=a[1],c=I(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return p(function(a){return iS(y,j,a)},b)},_):ar,at=as?k?iS(y,j,D(k[1])):1:as;if(at){var
+bj=f(function(a){return 1},_),bk=g(ao,ap),bl=aj(D,k);return iZ(h,y,g(T[1],X[1]),_,j,bl,bk,bj,a4)}var
 au=at}else
 var
-au=Z;var
+au=Y;var
 av=au}else
 var
 av=X;var
@@ -3564,30 +3575,30 @@ aw=W;var
 ax=aw}else
 var
 ax=V;var
-az=ax}else
+ay=ax}else
 var
-az=T;var
-aA=az}else
+ay=T;var
+aA=ay}else
 var
 aA=R;return aA}function
-ee(b,a){return bg(b,a[1],a[2])}function
-fL(b,a){var
-c=ee(b,a[1]),d=c?ee(b,a[2]):c;return d?ee(b,a[3]):d}var
-eg=z(r(c),ef);function
-i4(e){var
-a=$(eg);if(e)var
+eg(b,a){return bg(b,a[1],a[2])}function
+fO(b,a){var
+c=eg(b,a[1]),d=c?eg(b,a[2]):c;return d?eg(b,a[3]):d}var
+ei=z(r(c),eh);function
+i5(e){var
+a=$(ei);if(e)var
 f=v(r(b(2,c)),a),g=G(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aJ(G(r(c),h),g);else
 var
-i=G(r(b(2,c)),a),j=$(ef),d=aJ(G(v(r(b(2,c)),j),a),i);return cx(d)}function
-i5(d,b,a){if(d){var
-e=i4(b),f=G(r(c),e),g=v(z(r(c),a),f);return z(r(c),g)}var
-h=r(c),i=i4(b),j=aJ(r(c),i);return z(v(a,G(r(c),j)),h)}function
+i=G(r(b(2,c)),a),j=$(eh),d=aJ(G(v(r(b(2,c)),j),a),i);return cx(d)}function
+i6(d,b,a){if(d){var
+e=i5(b),f=G(r(c),e),g=v(z(r(c),a),f);return z(r(c),g)}var
+h=r(c),i=i5(b),j=aJ(r(c),i);return z(v(a,G(r(c),j)),h)}function
 cG(f,e,d,a){var
-g=$(a),h=$(d),i=z(z(r(b(2,c)),h),g),j=f?e?eg:aJ(eg,v(r(b(2,c)),ef)):aJ(eg,r(b(2,c))),k=v($(j),i);return cx(G(r(c),k))}function
-i6(g,d){var
+g=$(a),h=$(d),i=z(z(r(b(2,c)),h),g),j=f?e?ei:aJ(ei,v(r(b(2,c)),eh)):aJ(ei,r(b(2,c))),k=v($(j),i);return cx(G(r(c),k))}function
+i7(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?T(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fM(u,t,s){var
+fP(u,t,s){var
 a=f(function(a){return H(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
@@ -3596,7 +3607,7 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return q(function(a){var
+v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
 c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return d2([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
@@ -3613,18 +3624,18 @@ n=h;var
 o=n}else
 var
 o=b;var
-p=o}else
+q=o}else
 var
-p=g;var
-r=p}else
+q=g;var
+r=q}else
 var
 r=a;return r}function
-i7(f,i,e,b,h){var
+i8(f,i,e,b,h){var
 j=f?c:d,a=bc(i,j);function
 g(b){var
-c=f?fa(b):fb(b);return _(c,a)}var
-k=[0,be(h),0],l=[0,[0,a,b,[0,aA,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-i8(r,g,q,p,e,o,n){if(o){var
+c=f?fd(b):fe(b);return X(c,a)}var
+k=[0,be(h),0],l=[0,[0,a,b,[0,as,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+i9(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3633,16 +3644,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(da,bU(p0)),a=fM(p,h5(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(da,bU(p0)),a=fP(p,h7(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=C(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(i6,p1),a=fM(p,c$(0,fh(g,i7(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(i7,p1),a=fP(p,c$(0,fk(g,i8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(i6,p2),a=fM(p,c$(0,fh(g,i7(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(i7,p2),a=fP(p,c$(0,fk(g,i8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3655,23 +3666,23 @@ a=w;var
 y=a?p3:a}else
 var
 y=n;return y}return[0,n]}function
-i9(f,e,d,c,p,o,n){var
+i_(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=i8(f,e,d,c,b,a[1],g);return h?aX(h[1]):h}var
-i=i8(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d6(a[2],b),l=i9(f,e,d,c,k[1],j,a[3]);if(l){var
+h=i9(f,e,d,c,b,a[1],g);return h?aX(h[1]):h}var
+i=i9(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d6(a[2],b),l=i_(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fN(a){return ht(b(2,c),b7(a,c))}function
+fQ(a){return hw(b(2,c),b7(a,c))}function
 cH(i,a,e,w,u){var
-l=a?c:P(c),f=r(l),g=i5(a,e,pY),h=i5(a,e,pZ),m=aJ(g,cG(a,e,f,g)),n=[0,G(aJ(h,cG(a,e,h,f)),m),0],o=aJ(f,cG(a,e,f,g)),p=[0,G(aJ(h,cG(a,e,g,h)),o),n],q=aJ(f,cG(a,e,h,f)),s=[0,G(aJ(g,cG(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),ef):r(b(2,b(2,c))),j=d0([0,t,s]),k=[0,d,b_(i)];return i9(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-i_(a,g,b){if(ad(g,fN(a))){if(b){var
+l=a?c:P(c),f=r(l),g=i6(a,e,pY),h=i6(a,e,pZ),m=aJ(g,cG(a,e,f,g)),n=[0,G(aJ(h,cG(a,e,h,f)),m),0],o=aJ(f,cG(a,e,f,g)),p=[0,G(aJ(h,cG(a,e,g,h)),o),n],q=aJ(f,cG(a,e,h,f)),s=[0,G(aJ(g,cG(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eh):r(b(2,b(2,c))),j=d0([0,t,s]),k=[0,d,b$(i)];return i_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+i$(a,g,b){if(ad(g,fQ(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fN(a)],v=b_(a),i=[0,fN(a),v],j=cH(a,0,1,h,b[1]),k=j?cH(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,fQ(a)],v=b$(a),i=[0,fQ(a),v],j=cH(a,0,1,h,b[1]),k=j?cH(a,0,0,i,c[1]):j;if(k){var
 l=cH(a,1,1,h,d[1]);if(l)return cH(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -3689,40 +3700,40 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,b_(a)],s=cH(a,0,0,r,b[1]);if(s)return cH(a,1,0,r,f[1]);var
+r=[0,g,b$(a)],s=cH(a,0,0,r,b[1]);if(s)return cH(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-fO(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,p4,fO(b)]);var
+fR(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,p4,fR(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,p6,g(fO(a),p5)]}function
-N(a){return[0,p8,g(fO(a),p7)]}function
-ak(a){return[0,p_,[0,a,p9]]}function
-h(b,a){return[0,ap(qa,ap(b,p$)),a]}function
+w(a){return[0,p6,g(fR(a),p5)]}function
+N(a){return[0,p8,g(fR(a),p7)]}function
+al(a){return[0,p_,[0,a,p9]]}function
+h(b,a){return[0,aq(qa,aq(b,p$)),a]}function
 F(b,a){return N([0,h(b,a),0])}function
 cI(d){var
 b=d,a=oT,e=0;for(;;){if(b){var
-c=ho(a),b=b[1],a=c;continue}return[0,c8(dO(a)),e]}}function
-fP(a){return[0,c8(dS(a)),0]}function
-fQ(a){var
+c=hr(a),b=b[1],a=c;continue}return[0,c8(dO(a)),e]}}function
+fS(a){return[0,c8(dS(a)),0]}function
+fT(a){var
 c=bt(a),f=0,b=0===c?oX:0<c?[0,dS(a)]:[1,dS(P(a))];if(0===b[0])var
 d=c8(b[1]);else
 var
-e=c8(b[1]),d=ap(aW(1,45),e);return[0,d,f]}function
-fR(a){var
+e=c8(b[1]),d=aq(aW(1,45),e);return[0,d,f]}function
+fU(a){var
 b=0,c=0<bt(a)?dS(a):oW;return[0,c8(c),b]}function
-fS(a){switch(a[0]){case
+fV(a){switch(a[0]){case
 2:return qc;case
 3:return 2<=a[1]?qd:qe;case
 4:return qf;default:return qb}}function
 dn(b,a){function
-c(c,a){return ab(c,fS(a))?dn(b,a):[0,ql,g(dn(b,a),qk)]}switch(a[0]){case
+c(c,a){return ab(c,fV(a))?dn(b,a):[0,ql,g(dn(b,a),qk)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
 f==="number")return[0,aP(h),0];var
@@ -3730,7 +3741,7 @@ i=[0,qm,[0,aP(f),0]];return[0,aP(h),i];case
 1:return[0,e(b,a[1]),0];case
 2:return[0,qo,c(qn,a[1])];case
 3:var
-j=a[3],k=c([0,fS(a)],j);switch(a[1]){case
+j=a[3],k=c([0,fV(a)],j);switch(a[1]){case
 0:var
 d=qg;break;case
 1:var
@@ -3738,26 +3749,26 @@ d=qh;break;case
 2:var
 d=qi;break;default:var
 d=qj}var
-l=a[2];return g(c(fS(a),l),[0,d,k]);case
+l=a[2];return g(c(fV(a),l),[0,d,k]);case
 4:var
-m=[0,qp,fP(a[2])];return g(c(qq,a[1]),m);default:return[0,qs,g(dn(b,a[1]),qr)]}}function
+m=[0,qp,fS(a[2])];return g(c(qq,a[1]),m);default:return[0,qs,g(dn(b,a[1]),qr)]}}function
 O(a){return[0,qv,g(dn(function(a){throw[0,R,qu]},a),qt)]}function
-i$(a){return[0,qx,g(dn(function(a){return a},a),qw)]}function
+ja(a){return[0,qx,g(dn(function(a){return a},a),qw)]}function
 bY(a){if(0===a[0])return O(a[1]);var
 b=[0,h(qy,O(a[2])),0];return N([0,h(qz,O(a[1])),b])}function
-eh(b,a){var
+ej(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
 qA(a){function
-b(a){return eh(bY,a)}switch(a[0]){case
+b(a){return ej(bY,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qB:qJ,i=[0,h(qC,ak(f)),e],j=[0,h(qD,bY(a[4])),i],k=[0,h(qE,b(a[3])),j],l=[0,h(qF,b(a[2])),k],m=[0,h(qG,b(a[1])),l],c=[0,h(qI,ak(qH)),m];break;case
+e=0,f=a[5]?qB:qJ,i=[0,h(qC,al(f)),e],j=[0,h(qD,bY(a[4])),i],k=[0,h(qE,b(a[3])),j],l=[0,h(qF,b(a[2])),k],m=[0,h(qG,b(a[1])),l],c=[0,h(qI,al(qH)),m];break;case
 1:var
-d=a[3],n=d?[0,h(qK,b(d[1])),0]:d,o=[0,h(qL,b(a[2])),0],p=[0,h(qM,b(a[1])),o],c=g([0,h(qO,ak(qN)),p],n);break;default:var
-q=[0,h(qP,b(a[1])),0],c=[0,h(qR,ak(qQ)),q]}return N(c)}function
+d=a[3],n=d?[0,h(qK,b(d[1])),0]:d,o=[0,h(qL,b(a[2])),0],p=[0,h(qM,b(a[1])),o],c=g([0,h(qO,al(qN)),p],n);break;default:var
+q=[0,h(qP,b(a[1])),0],c=[0,h(qR,al(qQ)),q]}return N(c)}function
 qS(a){function
-b(a){return eh(bY,a)}var
-c=0,d=a[7]?qT:q3,e=[0,h(qU,ak(d)),c],f=[0,h(qV,bY(a[6])),e],g=[0,h(qW,bY(a[5])),f],i=[0,h(qX,b(a[4])),g],j=[0,h(qY,b(a[3])),i],k=[0,h(qZ,b(a[2])),j],l=[0,h(q0,b(a[1])),k];return N([0,h(q2,ak(q1)),l])}function
-fT(a){switch(a){case
+b(a){return ej(bY,a)}var
+c=0,d=a[7]?qT:q3,e=[0,h(qU,al(d)),c],f=[0,h(qV,bY(a[6])),e],g=[0,h(qW,bY(a[5])),f],i=[0,h(qX,b(a[4])),g],j=[0,h(qY,b(a[3])),i],k=[0,h(qZ,b(a[2])),j],l=[0,h(q0,b(a[1])),k];return N([0,h(q2,al(q1)),l])}function
+fW(a){switch(a){case
 0:return q4;case
 1:return q5;case
 2:return q6;case
@@ -3765,7 +3776,7 @@ fT(a){switch(a){case
 4:return q8;case
 5:return q9;case
 6:return q_;default:return q$}}function
-fU(a){switch(a[0]){case
+fX(a){switch(a[0]){case
 0:return ra;case
 1:return rb;default:return rc}}function
 dp(a){var
@@ -3773,22 +3784,22 @@ b=a[4],j=0;if(2===b[0])var
 i=[0,O(b[2]),0],e=w([0,O(b[1]),i]);else
 var
 e=O(b[1]);var
-k=[0,h(rd,e),j],l=[0,h(re,ak(fU(a[4]))),k],c=a[3];if(c)var
+k=[0,h(rd,e),j],l=[0,h(re,al(fX(a[4]))),k],c=a[3];if(c)var
 n=w([0,O(c[1]),0]),m=0,o=6===a[1]?rf:rj,f=[0,h(rg,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(rh,cI(d[1])),0]:d,r=g(q,p);return N([0,h(ri,ak(fT(a[1]))),r])}function
-ja(a){if(0===a[0]){var
-b=[0,h(rk,eh(O,a[2])),0];return F(rm,N([0,h(rl,eh(O,a[1])),b]))}var
+p=g(f,l),d=a[2],q=d?[0,h(rh,cI(d[1])),0]:d,r=g(q,p);return N([0,h(ri,al(fW(a[1]))),r])}function
+jb(a){if(0===a[0]){var
+b=[0,h(rk,ej(O,a[2])),0];return F(rm,N([0,h(rl,ej(O,a[1])),b]))}var
 c=[0,O(a[5]),0],d=[0,h(rn,w([0,O(a[4]),c])),0],e=[0,h(ro,O(a[3])),d],f=[0,O(a[2]),0];return F(rq,N([0,h(rp,w([0,O(a[1]),f])),e]))}function
 ru(a){function
 b(a){return w(f(bY,a))}var
-c=[0,h(rv,b(a[2])),0],d=[0,h(rw,b(a[1])),c];return N([0,h(ry,ak(rx)),d])}function
+c=[0,h(rv,b(a[2])),0],d=[0,h(rw,b(a[1])),c];return N([0,h(ry,al(rx)),d])}function
 rI(a){switch(a[0]){case
 0:var
-o=[0,h(rJ,w(f(dp,a[3]))),0],p=[0,h(rK,ja(a[2])),o];return F(rN,N([0,h(rM,F(rL,w(f(qA,a[1])))),p]));case
+o=[0,h(rJ,w(f(dp,a[3]))),0],p=[0,h(rK,jb(a[2])),o];return F(rN,N([0,h(rM,F(rL,w(f(qA,a[1])))),p]));case
 1:var
-q=[0,h(rO,w(f(dp,a[3]))),0],r=[0,h(rP,ja(a[2])),q];return F(rS,N([0,h(rR,F(rQ,w(f(qS,a[1])))),r]));case
+q=[0,h(rO,w(f(dp,a[3]))),0],r=[0,h(rP,jb(a[2])),q];return F(rS,N([0,h(rR,F(rQ,w(f(qS,a[1])))),r]));case
 2:var
 s=[0,h(rT,w(f(dp,a[7]))),0],b=a[6],c=function(b,a){var
 c=[0,O(a),0];return w([0,O(b),c])};switch(b[0]){case
@@ -3806,56 +3817,56 @@ e=rr;break;case
 e=rs;break;default:var
 e=rt}return F(r2,N([0,h(r1,F(e,y)),v]));case
 3:var
-z=[0,h(r3,w(f(dp,a[7]))),0],A=[0,h(r4,w(f(O,a[6]))),0],B=[0,h(r7,F(r6,N([0,h(r5,w(f(O,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(r9,w(f(function(a){return F(r8,w(f(i$,a)))},D))),C],G=a[3],H=[0,h(r_,w(f(function(a){var
-b=[0,i$(a[2]),0];return w([0,ak(a[1]),b])},G))),E],I=a[2],J=[0,h(r$,w(f(function(a){var
-b=[0,bY(a[2]),0];return w([0,ak(a[1]),b])},I))),H];return F(sd,N([0,h(sc,F(sb,N([0,h(sa,w(f(ak,a[1]))),J]))),B]));case
+z=[0,h(r3,w(f(dp,a[7]))),0],A=[0,h(r4,w(f(O,a[6]))),0],B=[0,h(r7,F(r6,N([0,h(r5,w(f(O,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(r9,w(f(function(a){return F(r8,w(f(ja,a)))},D))),C],G=a[3],H=[0,h(r_,w(f(function(a){var
+b=[0,ja(a[2]),0];return w([0,al(a[1]),b])},G))),E],I=a[2],J=[0,h(r$,w(f(function(a){var
+b=[0,bY(a[2]),0];return w([0,al(a[1]),b])},I))),H];return F(sd,N([0,h(sc,F(sb,N([0,h(sa,w(f(al,a[1]))),J]))),B]));case
 4:var
 K=[0,h(se,w(f(dp,a[3]))),0],L=[0,h(sh,F(sg,N([0,h(sf,O(a[2])),0]))),K];return F(sl,N([0,h(sk,F(sj,N([0,h(si,O(a[1])),0]))),L]));default:var
-k=a[1],M=0,P=k?bY(k[1]):ak(so);return F(sn,N([0,h(sm,P),M]))}}function
-fV(a){return w(f(fQ,a))}function
-jb(b,a){var
-c=[0,h(sp,fR(a)),0];return N([0,h(sq,w(f(fV,b))),c])}function
-ei(a){switch(a[0]){case
-0:return ak(a[1]);case
+k=a[1],M=0,P=k?bY(k[1]):al(so);return F(sn,N([0,h(sm,P),M]))}}function
+fY(a){return w(f(fT,a))}function
+jc(b,a){var
+c=[0,h(sp,fU(a)),0];return N([0,h(sq,w(f(fY,b))),c])}function
+ek(a){switch(a[0]){case
+0:return al(a[1]);case
 1:var
-b=jb(a[2],a[3]);return F(a[1],b);case
+b=jc(a[2],a[3]);return F(a[1],b);case
 2:var
-c=a[1]?sr:st;return F(ss,ak(c));case
+c=a[1]?sr:st;return F(ss,al(c));case
 3:var
-d=[0,fV(a[3]),0];return F(su,w([0,jb(a[1],a[2]),d]));case
+d=[0,fY(a[3]),0];return F(su,w([0,jc(a[1],a[2]),d]));case
 4:var
-e=[0,fR(a[3]),0],f=[0,fQ(a[2]),e];return F(sv,w([0,ei(a[1]),f]));case
+e=[0,fU(a[3]),0],f=[0,fT(a[2]),e];return F(sv,w([0,ek(a[1]),f]));case
 5:var
-g=[0,fR(a[3]),0],h=[0,fQ(a[2]),g];return F(sw,w([0,ei(a[1]),h]));default:return F(sx,ei(a[1]))}}function
+g=[0,fU(a[3]),0],h=[0,fT(a[2]),g];return F(sw,w([0,ek(a[1]),h]));default:return F(sx,ek(a[1]))}}function
 sy(a){var
-b=[0,ei(a[2]),0];return w([0,cI(a[1]),b])}function
+b=[0,ek(a[2]),0];return w([0,cI(a[1]),b])}function
 sz(c){var
 b=c[2],d=b?[0,h(sA,cI(b[1])),0]:b,a=c[1],e=a?[0,h(sB,w(f(sy,[0,a[1],a[2]]))),0]:a;return N(g(e,d))}function
-fW(a){var
-b=ha(g$(y(a),function(b){return L(a,b)}));return q(function(a){var
+fZ(a){var
+b=hd(hc(y(a),function(b){return L(a,b)}));return p(function(a){var
 b=aX(34===a?1:0),c=b?aX(92===a?1:0):b,d=c?ab(sY,dT(a)):c;return d?ab(dT(a),sZ):d},b)}function
-ej(b){function
+el(b){function
 c(f){var
 a=dT(f),b=ab(s0,a),c=b?ab(a,s1):b;if(c)var
 d=c;else{var
 e=ab(s2,a);if(e)return ab(a,s3);var
 d=e}return d}var
-a=ha(g$(y(b),function(a){return L(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?q(function(a){var
+a=hd(hc(y(b),function(a){return L(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?p(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
 e=dT(a),f=ab(s4,e),h=f?ab(e,s5):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?ab(m(d),s6):f;if(g)return aX(az(b,s7));var
+g=d||(95===a?1:0);return g},d):e,g=f?ab(m(d),s6):f;if(g)return aX(aA(b,s7));var
 h=g}else
 var
 h=a;return h}function
-fX(c){var
+f0(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ej(a[1]);case
+1:return el(a[1]);case
 3:var
-b=fX(a[2]);if(b){var
+b=f0(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 cJ(m){var
@@ -3882,8 +3893,8 @@ a=a[3];continue}return i;case
 j=a[2],k=cJ(a[1]),l=k?dR(b(2,c),j):k;return l?dR(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 cK(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-fY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bZ(a){return I(cK,fY(a))}function
+f1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bZ(a){return I(cK,f1(a))}function
 s8(a){switch(a[0]){case
 0:var
 c=cK(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
@@ -3891,90 +3902,90 @@ c=cK(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
 b=a[3],f=b?bZ(b[1]):b,h=g(bZ(a[2]),f);return g(bZ(a[1]),h);default:return bZ(a[1])}}function
 s9(a){var
 b=I(cK,[0,a[5],[0,a[6],0]]);return g(I(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-jc(a){if(0===a[0]){var
-b=fY(a[2]);return g(fY(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+jd(a){if(0===a[0]){var
+b=f1(a[2]);return g(f1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 dq(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-jd(a){var
+je(a){var
 d=dR(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dR(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-je(a,b){return b?[3,je(a,b[1]),a]:a}function
-i(a){switch(a[0]){case
+jf(a,b){return b?[3,jf(a,b[1]),a]:a}function
+j(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return n(j,a)},m=e6(hm(h),l,c);return[0,hv(hn(dO(a[1]),h)),m];case
+h=a[2],i=b(2,k(b(2,b(2,c)))),l=function(a){return n(i,a)},m=e9(hp(h),l,c);return[0,hy(hq(dO(a[1]),h)),m];case
 1:throw[0,R,s_];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,P(e[1]),e[2]]:[2,[0,d,c],e];case
+e=j(a[1]);return 0===e[0]?[0,P(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
-f=i(a[2]),g=i(a[3]);switch(a[1]){case
+f=j(a[2]),g=j(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-o=c3(c5(a[2]));return je(i(a[1]),o);default:return[5,i(a[1])]}}function
+o=c3(c5(a[2]));return jf(j(a[1]),o);default:return[5,j(a[1])]}}function
 bE(a){if(0===a[0]){var
-b=i(a[1]);return[0,b,b]}var
-c=i(a[2]);return[0,i(a[1]),c]}function
+b=j(a[1]);return[0,b,b]}var
+c=j(a[2]);return[0,j(a[1]),c]}function
 a5(a){var
 b=bE(a[3]),c=bE(a[2]);return[0,bE(a[1]),c,b]}function
 s$(a){switch(a[0]){case
 0:var
 b=a[5],c=bE(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
 1:var
-f=ai(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
-jf(a){if(0===a[0]){var
+f=aj(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
+jg(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
-h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
+b=j(e(a,c));return[0,j(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
+h=j(a[5]),i=[0,j(a[4]),h],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,i]}function
 ta(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-fZ(c,j,b){var
+b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
+f2(c,i,b){var
 x=m(c),d=I(function(a){switch(a[1]){case
 0:var
-g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
+g=a[4];return 0===g[0]?[0,[1,j(g[1])],0]:0;case
 1:var
 c=a[4];switch(c[0]){case
 0:var
-q=c[1],b=function(a){return[2,a,i(q)]};break;case
+q=c[1],b=function(a){return[2,a,j(q)]};break;case
 1:var
-s=c[1],b=function(a){return[3,a,i(s)]};break;default:return 0}break;case
+s=c[1],b=function(a){return[3,a,j(s)]};break;default:return 0}break;case
 2:var
-j=a[4];if(1!==j[0])return 0;var
-d=a[3],t=j[1];if(!d)return d;var
+i=a[4];if(1!==i[0])return 0;var
+d=a[3],t=i[1];if(!d)return d;var
 u=d[1],b=function(a){var
-b=i(t);return[4,a,i(u),b]};break;case
+b=j(t);return[4,a,j(u),b]};break;case
 3:var
-k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
+k=a[4];return 1===k[0]?[0,[5,j(k[1])],0]:0;case
 4:var
 l=a[4];if(0!==l[0])return 0;var
-v=l[1],b=function(a){return[6,a,i(v)]};break;case
+v=l[1],b=function(a){return[6,a,j(v)]};break;case
 5:var
-m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
+m=a[4];return 0===m[0]?[0,[7,j(m[1])],0]:0;case
 6:var
 n=a[4];if(0===n[0]){var
 e=a[3];if(e)var
-w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
+w=j(n[1]),o=[0,[8,j(e[1]),w],0];else
 var
 o=e;return o}return 0;default:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0}var
-h=a[2],r=h?[0,c3(h[1]),0]:c7(0,x);return f(b,r)},b),a=I(ta,b),e=a?[0,a[1],a[2]]:tc,h=g(e,d),k=jf(j);return[0,f(s$,c),k,h]}function
+p=a[4];return 0===p[0]?[0,[9,j(p[1])],0]:0}var
+h=a[2],r=h?[0,c3(h[1]),0]:c7(0,x);return f(b,r)},b),a=I(ta,b),e=a?[0,a[1],a[2]]:tc,h=g(e,d),k=jg(i);return[0,f(s$,c),k,h]}function
 td(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
+b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
 cL(n,b){var
 c=I(function(b){switch(b[1]){case
 0:var
-d=b[4];return 0===d[0]?[0,[1,i(d[1])],0]:0;case
+d=b[4];return 0===d[0]?[0,[1,j(d[1])],0]:0;case
 1:var
 a=b[4];switch(a[0]){case
 0:var
-h=a[1],c=function(a){return[2,a,i(h)]};break;case
+h=a[1],c=function(a){return[2,a,j(h)]};break;case
 1:var
-k=a[1],c=function(a){return[3,a,i(k)]};break;default:var
+k=a[1],c=function(a){return[3,a,j(k)]};break;default:var
 l=a[2],m=a[1],c=function(a){var
-b=i(l);return[4,a,i(m),b]}}var
-e=b[2],j=e?[0,c3(e[1]),0]:c7(0,n);return f(c,j);case
+b=j(l);return[4,a,j(m),b]}}var
+e=b[2],i=e?[0,c3(e[1]),0]:c7(0,n);return f(c,i);case
 3:var
-g=b[4];return 1===g[0]?[0,[5,i(g[1])],0]:0;default:return 0}},b),a=I(td,b),d=a?[0,a[1],a[2]]:te;return g(d,c)}function
-f0(h,g,a){switch(a[1]){case
+g=b[4];return 1===g[0]?[0,[5,j(g[1])],0]:0;default:return 0}},b),a=I(td,b),d=a?[0,a[1],a[2]]:te;return g(d,c)}function
+f3(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
 i=2===a[4][0]?1:0,b=dP(h,i);if(b){var
@@ -3984,51 +3995,51 @@ f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-ci(a){switch(a[0]){case
-0:return[0,i([0,a[1],a[2]])];case
+cj(a){switch(a[0]){case
+0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,ci(a[1])];case
+2:return[2,cj(a[1])];case
 3:var
-b=ci(a[2]),c=ci(a[3]);switch(a[1]){case
+b=cj(a[2]),c=cj(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,ci(a[1]),d];default:return[8,ci(a[1])]}}function
-jg(b){function
+d=a[2];return[7,cj(a[1]),d];default:return[8,cj(a[1])]}}function
+jh(b){function
 a(e){var
 a=[0,d,c];return H(e,b,[0,a,a])}var
 e=a(tg),f=a(th);return[0,a(0),f,e]}function
-f1(a){function
+f4(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,i(a[1])];default:var
-e=i(a[2]);return[3,i(a[1]),e]}}function
-jh(j,a,h,g,e,d,c){function
-b(a){return jg(f(bE,a))}var
-k=cL(m(a),c),l=f1(d),n=cu(g,e),o=jg(f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
+2:return[2,j(a[1])];default:var
+e=j(a[2]);return[3,j(a[1]),e]}}function
+ji(i,a,h,g,e,d,c){function
+b(a){return jh(f(bE,a))}var
+k=cL(m(a),c),l=f4(d),n=cv(g,e),o=jh(f(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},n)),p=j(h);return[0,i,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
 ti(a){var
 b=a[7],c=bE(a[6]),d=bE(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
 l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 dr(h){var
-a=ct(function(f,e){var
-a=ar(l,f);if(a)var
-b=a[1],c=b9(eS(b[1]),eS(b[2]));else
+a=cu(function(f,e){var
+a=at(l,f);if(a)var
+b=a[1],c=b9(eV(b[1]),eV(b[2]));else
 var
 c=d;return b9(c,e)},d,h);if(ad(d,a)){var
 f=bt(a);if(0===f||!(0<f&&!C(a,c)))var
 g=d;else
 var
-b=bb(a,aR(2)),e=b[1],g=av(b[2],d)?dQ(e):dQ(e);return b7(g,l)}return d}function
-ek(a){return[0,a[1],[0,a[2],0]]}function
+b=bb(a,aR(2)),e=b[1],g=ah(b[2],d)?dQ(e):dQ(e);return b7(g,l)}return d}function
+em(a){return[0,a[1],[0,a[2],0]]}function
 bF(a){var
-b=ek(a[3]),c=g(ek(a[2]),b);return g(ek(a[1]),c)}function
-tj(a){return 0===a[0]?ek(a[1][4]):0}function
+b=em(a[3]),c=g(em(a[2]),b);return g(em(a[1]),c)}function
+tj(a){return 0===a[0]?em(a[1][4]):0}function
 tk(a){switch(a[0]){case
 0:var
 b=a[1],c=bF(b[3]);return g(bF(b[2]),c);case
@@ -4038,27 +4049,27 @@ tl(a){switch(a[0]){case
 0:return dr(bF(a[1][1]));case
 1:var
 b=a[3];return b?dr(bF(b[1])):d;default:return dr(bF(a[1]))}}function
-el(a){switch(a[0]){case
+en(a){switch(a[0]){case
 0:var
-b=a[1];if(az(b,tm))return tn;if(az(b,to))return tp;if(az(b,tq))return tr;if(az(b,ts))return tt;var
-h=az(b,tu),j=h?tv:h;return j;case
+b=a[1];if(aA(b,tm))return tn;if(aA(b,to))return tp;if(aA(b,tq))return tr;if(aA(b,ts))return tt;var
+h=aA(b,tu),j=h?tv:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(az(e,tw))return[0,[0,c,d]];if(az(e,tx))return[0,[1,c,d]];var
-i=az(e,ty),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(aA(e,tw))return[0,[0,c,d]];if(aA(e,tx))return[0,[1,c,d]];var
+i=aA(e,ty),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=el(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=en(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=el(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=el(a[1]);return ai(function(a){return[6,a]},n)}}function
-ji(a){if(a){var
-d=a[1],b=el(d[2]);if(b)var
-c=ji(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=en(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=en(a[1]);return aj(function(a){return[6,a]},n)}}function
+jj(a){if(a){var
+d=a[1],b=en(d[2]);if(b)var
+c=jj(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
 e=b;return e}return tz}function
 cM(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=ji(g[1]);if(c){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=jj(g[1]);if(c){var
 k=c[1];if(h){var
 d=cM(j,i);if(d){var
 l=d[1],e=cM(j,l[2]);if(e)var
@@ -4076,37 +4087,37 @@ var
 f=a;else
 var
 f=b;return f}function
-f2(d,a){if(d){if(a){var
+f5(d,a){if(d){if(a){var
 b=cM(m(a),a);if(b)var
-e=b[1],c=f2(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+e=b[1],c=f5(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
 f=b;return f}return tA}return a?0:tB}function
-cj(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+ck(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
 a6(a,e){var
-b=cj(a[1],e),c=cj(a[2],b[2]),d=cj(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jj(d,c){if(d){var
+b=ck(a[1],e),c=ck(a[2],b[2]),d=ck(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jk(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=cj(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=ck(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=a6(a[1],c),k=j[1],l=a6(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=a6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=a6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jj(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jk(b,i){if(b){var
-a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=cj(a[5],f[2]),h=cj(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jk(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-f3(a,b){if(a){var
-c=cj(a[1],b),d=f3(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-f4(b){function
+q=jk(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jl(b,i){if(b){var
+a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=ck(a[5],f[2]),h=ck(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jl(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+f6(a,b){if(a){var
+c=ck(a[1],b),d=f6(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+f7(b){function
 a(a){return H(a,b,[0,d,c])}var
 e=a(tD),f=a(tE);return[0,a(0),f,e]}function
-jl(a,b){if(a){var
-c=a[1],d=f3(c[1],b),e=f3(c[2],d[2]),f=jl(a[2],e[2]),g=f[2],h=f[1],i=f4(e[1]);return[0,[0,[0,f4(d[1]),i],h],g]}return[0,0,b]}function
-jm(a){return typeof
+jm(a,b){if(a){var
+c=a[1],d=f6(c[1],b),e=f6(c[2],d[2]),f=jm(a[2],e[2]),g=f[2],h=f[1],i=f7(e[1]);return[0,[0,[0,f7(d[1]),i],h],g]}return[0,0,b]}function
+jn(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-em(a){return ig(l,a)}function
+eo(a){return ii(l,a)}function
 tF(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
@@ -4117,20 +4128,20 @@ b=o(l,1,a[2]);return b?o(l,1,a[3]):b;case
 8:var
 d=o(l,1,a[1]);return d?o(l,1,a[2]):d;case
 2:case
-3:return em(a[2]);default:return o(l,1,a[1])}}function
-f5(a){if(typeof
+3:return eo(a[2]);default:return o(l,1,a[1])}}function
+f8(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
 d=a[3],e=a[2],f=o(l,1,[2,d,e]),g=f?o(l,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(l,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?o(l,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
 5:return o(l,1,[2,a[1],[0,c,c]]);case
 0:case
-1:return o(l,1,a[1]);default:return em(a[2])}}function
-en(d){var
+1:return o(l,1,a[1]);default:return eo(a[2])}}function
+ep(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=aX(bz(function(d){return function(a){var
-h=fT(a[1]),e=az(fT(d[1]),h);if(e)var
-i=fU(a[4]),b=az(fU(d[4]),i);else
+h=fW(a[1]),e=aA(fW(d[1]),h);if(e)var
+i=fX(a[4]),b=aA(fX(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -4139,8 +4150,8 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ds(a){if(0===a[0])return em(i(a[1]));var
-b=i(a[1]);return o(l,1,[2,i(a[2]),b])}function
+ds(a){if(0===a[0])return eo(j(a[1]));var
+b=j(a[1]);return o(l,1,[2,j(a[2]),b])}function
 a7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 tG(a){switch(a[0]){case
 0:var
@@ -4149,53 +4160,53 @@ c=[0,a[4],0],d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e);case
 b=a[3],f=b?a7(b[1]):b,h=g(a7(a[2]),f);return g(a7(a[1]),h);default:return a7(a[1])}}function
 tH(a){var
 b=[0,a[5],[0,a[6],0]],c=g(a7(a[4]),b),d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e)}function
-f6(a){switch(a){case
+f9(a){switch(a){case
 0:return tL;case
 1:return tM;default:return 0}}function
-eo(a){var
+eq(a){var
 f=a[1],d=o(l,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bg(l,a[1],a[2]):d;if(e){var
 g=a[2];return o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
-f7(a){var
+f_(a){var
 e=bg(l,[0,d,c],a);return e?o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-jn(c,b,C,s,r,p,f){function
+jo(c,b,C,s,r,q,f){function
 t(a){var
-d=c?tJ:tK,b=aE(m(a),d);return b?q(ds,a):b}var
-u=q(function(a){var
+d=c?tJ:tK,b=aE(m(a),d);return b?p(ds,a):b}var
+u=p(function(a){var
 b=t(a[1]);return b?t(a[2]):b},b);if(u)var
 D=m(b),g=ab(d$(c),D);else
 var
 g=u;var
-v=g?ab(m(b),tN):g,w=v?o(l,1,i(C)):v;if(w)var
-E=f6(c),h=aE(m(s),E);else
+v=g?ab(m(b),tN):g,w=v?o(l,1,j(C)):v;if(w)var
+E=f9(c),h=aE(m(s),E);else
 var
 h=w;if(h)var
-F=f6(c),j=aE(m(r),F);else
+F=f9(c),i=aE(m(r),F);else
 var
-j=h;if(j)var
-G=cu(s,r),k=q(function(a){var
-b=i(a[2]);return bg(l,i(a[1]),b)},G);else
+i=h;if(i)var
+G=cv(s,r),k=p(function(a){var
+b=j(a[2]);return bg(l,j(a[1]),b)},G);else
 var
-k=j;if(k)if(c){var
-a=f1(p);switch(a[0]){case
+k=i;if(k)if(c){var
+a=f4(q);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-y=eo(a[1]),z=y?eo(a[2]):y,d=z?eo(a[3]):z;break;case
+y=eq(a[1]),z=y?eq(a[2]):y,d=z?eq(a[3]):z;break;case
 2:var
-d=f7(a[1]);break;default:var
-A=f7(a[1]),d=A?f7(a[2]):A}var
+d=f_(a[1]);break;default:var
+A=f_(a[1]),d=A?f_(a[2]):A}var
 e=d}else
 var
-B=f1(p),J=0===B[0]?eo(B[1]):0,e=J;else
+B=f4(q),J=0===B[0]?eq(B[1]):0,e=J;else
 var
 e=k;if(e)var
-H=m(b),I=0,n=q(function(a){return f0(I,H,a)},f);else
+H=m(b),I=0,n=p(function(a){return f3(I,H,a)},f);else
 var
 n=e;var
-x=n?en(f):n;return x?q(f5,cL(m(b),f)):x}function
-jo(a,c,g){var
+x=n?ep(f):n;return x?p(f8,cL(m(b),f)):x}function
+jp(a,c,g){var
 d=ab(tO,m(a));if(d)var
-l=m(a),b=q(function(a){switch(a[1]){case
+l=m(a),b=p(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4214,22 +4225,22 @@ i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}va
 d=ab(tb,b);return d?ab(b,l):d},c);else
 var
 b=d;var
-e=b?en(c):b,f=e?q(ds,I(tG,a)):e;return f?q(tF,g[3]):f}function
-jp(b,a){return q(function(c){var
-a=c[2];return a?hp(a[1],b):1},a)}function
-tP(p){var
-ep=fW(p[3]),eq=ep?fW(p[4]):ep;if(eq){var
-aa=p[1];if(3===aa[0]){var
-et=q(ej,aa[1]);if(et)var
-gS=aa[2],b4=q(function(a){return ej(a[1])},gS);else
+e=b?ep(c):b,f=e?p(ds,I(tG,a)):e;return f?p(tF,g[3]):f}function
+jq(b,a){return p(function(c){var
+a=c[2];return a?hs(a[1],b):1},a)}function
+tP(q){var
+en=fZ(q[3]),eq=en?fZ(q[4]):en;if(eq){var
+aa=q[1];if(3===aa[0]){var
+et=p(el,aa[1]);if(et)var
+gS=aa[2],b4=p(function(a){return el(a[1])},gS);else
 var
 b4=et;if(b4)var
-gT=aa[3],b5=q(function(a){var
-b=ej(a[1]),c=b?fX(a[2]):b;return c?cJ(a[2]):c},gT);else
+gT=aa[3],b5=p(function(a){var
+b=el(a[1]),c=b?f0(a[2]):b;return c?cJ(a[2]):c},gT);else
 var
 b5=b4;if(b5)var
 gU=aa[4],gV=function(a){var
-b=fX(a);return b?cJ(a):b},b1=q(function(a){return q(gV,a)},gU);else
+b=f0(a);return b?cJ(a):b},b1=p(function(a){return p(gV,a)},gU);else
 var
 b1=b5}else
 var
@@ -4237,67 +4248,67 @@ b1=1;var
 b2=b1}else
 var
 b2=eq;if(b2){var
-j=p[1];switch(j[0]){case
+i=q[1];switch(i[0]){case
 0:var
-gC=I(dq,j[3]),gD=g(jc(j[2]),gC),P=g(I(s8,j[1]),gD);break;case
+gC=I(dq,i[3]),gD=g(jd(i[2]),gC),P=g(I(s8,i[1]),gD);break;case
 1:var
-gE=I(dq,j[3]),gF=g(jc(j[2]),gE),P=g(I(s9,j[1]),gF);break;case
+gE=I(dq,i[3]),gF=g(jd(i[2]),gE),P=g(I(s9,i[1]),gF);break;case
 2:var
-gG=I(dq,j[7]),G=j[6];switch(G[0]){case
+gG=I(dq,i[7]),G=i[6];switch(G[0]){case
 1:var
-ek=G[3],el=G[2],eo=G[1],bZ=[0,eo[1],[0,eo[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
+ej=G[3],ek=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,ek[1],[0,ek[2],[0,ej[1],[0,ej[2],0]]]]]];break;case
 2:var
 bZ=[0,G[1],0];break;default:var
 bZ=[0,G[1],[0,G[2],0]]}var
-gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],P=g(I(function(a){return I(cK,g(a[1],a[2]))},gL),gK);break;case
+gH=g(bZ,gG),gI=g(i[5],gH),gJ=g(i[4],gI),gK=[0,i[3],gJ],gL=i[2],P=g(I(function(a){return I(cK,g(a[1],a[2]))},gL),gK);break;case
 3:var
-gM=I(dq,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],P=g(I(function(a){return cK(a[2])},gP),gO);break;case
+gM=I(dq,i[7]),gN=g(i[6],gM),gO=g(i[5],gN),gP=i[2],P=g(I(function(a){return cK(a[2])},gP),gO);break;case
 4:var
-gQ=I(dq,j[3]),P=[0,j[1],[0,j[2],gQ]];break;default:var
-b0=j[1],P=b0?cK(b0[1]):b0}var
-b3=q(cJ,P)}else
+gQ=I(dq,i[3]),P=[0,i[1],[0,i[2],gQ]];break;default:var
+b0=i[1],P=b0?cK(b0[1]):b0}var
+b3=p(cJ,P)}else
 var
 b3=b2;if(b3){var
-Q=p[2];if(0===Q[0]){var
-er=jd(Q[1]);if(er)var
-gR=Q[2],ac=q(function(a){var
-b=a[1];return q(function(b){var
+Q=q[2];if(0===Q[0]){var
+er=je(Q[1]);if(er)var
+gR=Q[2],ac=p(function(a){var
+b=a[1];return p(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return fW(a[1]);case
+1:return fZ(a[1]);case
 2:case
 3:return 1;default:var
 a=a[1];continue}},b)},gR);else
 var
 ac=er}else
 var
-es=jd(Q[1]),ac=es?q(cJ,g(Q[2],Q[3])):es}else
+es=je(Q[1]),ac=es?p(cJ,g(Q[2],Q[3])):es}else
 var
 ac=b3;if(ac){var
-a=p[1];switch(a[0]){case
+a=q[1];switch(a[0]){case
 0:var
-ae=a[3],cl=a[2],R=a[1],U=p[2];if(0===U[0]){var
-eM=U[2],k=fZ(R,cl,ae),cm=cM(m(eM),eM);if(cm){var
+ae=a[3],cl=a[2],R=a[1],U=q[2];if(0===U[0]){var
+eM=U[2],k=f2(R,cl,ae),cm=cM(m(eM),eM);if(cm){var
 eN=cm[1];if(eN[2])return 0;var
-eO=jo(R,ae,k);if(eO){var
-g9=eN[1],eP=f(tl,k[1]),eQ=k[1],b8=I(tj,eQ),g3=b8?[0,b8[1],b8[2]]:I(tk,eQ),v=A(c,dr(g3)),t=U[1],Z=k[2],fU=0===Z[0]?bX(Z[1]):[0,Z[1],Z[2],Z[4][1]],c6=ii(l,k,f(ps,k[1]),fU);if(c6){var
-cT=h$(v,eP,k[1]),L=ia(v,eP,k[1],0),cU=m(cT),fy=id(L,v,cU,k[3]),fz=g(cC(h3(L)),fy),cV=g(cC(h2(L)),fz),cW=d0(cV)[1],Y=cy(cW),cX=q(function(a){var
-b=r(d);return bA(H(bT(Y,a),Y,b),a)},cV);if(cX){var
+eO=jp(R,ae,k);if(eO){var
+g9=eN[1],eP=f(tl,k[1]),eQ=k[1],b8=I(tj,eQ),g3=b8?[0,b8[1],b8[2]]:I(tk,eQ),v=A(c,dr(g3)),t=U[1],_=k[2],fU=0===_[0]?bX(_[1]):[0,_[1],_[2],_[4][1]],c6=ik(l,k,f(ps,k[1]),fU);if(c6){var
+cT=ib(v,eP,k[1]),L=ic(v,eP,k[1],0),cU=m(cT),fw=ig(L,v,cU,k[3]),fx=g(cC(h5(L)),fw),cV=g(cC(h4(L)),fx),cW=d0(cV)[1],Z=cy(cW),cX=p(function(a){var
+b=r(d);return bA(H(bT(Z,a),Z,b),a)},cV);if(cX){var
 cY=bz(pq,k[3]);if(cY){var
-fA=k[3],fB=g(cT,f(function(a){return cd(v,a)},fA)),bl=aU(f(function(a){return aZ(t,a)},fB));if(bl){var
+fy=k[3],fB=g(cT,f(function(a){return ce(v,a)},fy)),bl=aU(f(function(a){return aZ(t,a)},fB));if(bl){var
 M=k[2];if(0===M[0])var
 cZ=M[1];else
 var
 al=M[3],cR=M[2],cS=M[1],cZ=[0,[0,[2,cS,al],[1,cS,al]],[0,[2,cR,al],[1,cR,al]],M[4]];var
-fE=bf(cZ,v),bm=aU(f(function(a){return aZ(t,a)},fE));if(bm){var
-fF=k[3],bn=aU(ie(t,function(a){return bT(Y,a)},L,v,cU,fF));if(bn){var
-c0=bn[1],fH=h9(c0),am=k[2],fI=bm[1],fJ=function(d){if(0===am[0])return 0;if(d){var
+fC=bf(cZ,v),bm=aU(f(function(a){return aZ(t,a)},fC));if(bm){var
+fD=k[3],bn=aU(ih(t,function(a){return bT(Z,a)},L,v,cU,fD));if(bn){var
+c0=bn[1],fE=h$(c0),am=k[2],fF=bm[1],fI=function(d){if(0===am[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=ca(t,v,am[1]);if(f){var
-g=ca(t,v,am[2]);if(g){var
-h=ca(t,v,am[3]);if(h)var
-q=f[1],r=bB(c),i=_([0,bB(c),r],q),s=g[1],u=bB(b),j=_([0,bB(b),u],s),w=cA(b),x=[0,cA(b),w],y=[0,D(t,aF(T(j,j)),x),0],z=cA(c),A=[0,cA(c),z],B=[0,D(t,aF(T(i,i)),A),y],C=aj(t,j),E=aj(t,i),k=[0,[0,_(_(aj(t,h[1]),E),C),aA,B]];else
+b=a[1],c=d[1],f=cb(t,v,am[1]);if(f){var
+g=cb(t,v,am[2]);if(g){var
+h=cb(t,v,am[3]);if(h)var
+q=f[1],r=bB(c),i=X([0,bB(c),r],q),s=g[1],u=bB(b),j=X([0,bB(b),u],s),w=cA(b),x=[0,cA(b),w],y=[0,D(t,aF(T(j,j)),x),0],z=cA(c),A=[0,cA(c),z],B=[0,D(t,aF(T(i,i)),A),y],C=ak(t,j),E=ak(t,i),k=[0,[0,X(X(ak(t,h[1]),E),C),as,B]];else
 var
 k=h;var
 l=k}else
@@ -4314,7 +4325,7 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},fK=bl[1],fM=0,fN=h3(L),fO=e(bV(function(a){return bT(Y,a)}),fN),fP=h2(L);return fp(t,cW,e(bV(function(a){return bT(Y,a)}),fP),fO,fM,fK,c0,fJ,fI,fH,g9)}var
+p=d;return p},fJ=bl[1],fL=0,fM=h5(L),fN=e(bV(function(a){return bT(Z,a)}),fM),fP=h4(L);return ft(t,cW,e(bV(function(a){return bT(Z,a)}),fP),fN,fL,fJ,c0,fI,fF,fE,g9)}var
 c1=bn}else
 var
 c1=bm;var
@@ -4332,34 +4343,34 @@ eR=cm;return eR}var
 aS=U[2];if(aS){var
 aV=aS[2];if(aV){var
 aW=aV[2];if(aW){if(aW[2])return 0;var
-eS=jj(R,f(i,U[3]));if(eS[2])return 0;var
+eS=jk(R,f(j,U[3]));if(eS[2])return 0;var
 V=U[4];if(typeof
 V==="number")var
 w=tC;else
 if(0===V[0]){var
-b9=V[2],b$=V[1];if(b9){var
+b9=V[2],b_=V[1];if(b9){var
 aJ=b9[1],cz=0;if(aJ){var
 aN=aJ[2],be=0;if(aN){var
 aO=aN[2],bj=0;if(aO)if(aO[2]){var
 w=0;be=1;bj=1}else{var
-cb=aO[1],cc=aN[1],ce=aJ[1],cg=b9[2];if(cg){var
-aP=cg[1],ft=0;if(aP){var
+ca=aO[1],cc=aN[1],cd=aJ[1],cf=b9[2];if(cf){var
+aP=cf[1],fs=0;if(aP){var
 aQ=aP[2],fu=0;if(aQ){var
-aR=aQ[2],fx=0;if(aR)if(aR[2]||cg[2]){var
-w=0;be=1;bj=1;ft=1;fu=1;fx=1}else
+aR=aQ[2],fv=0;if(aR)if(aR[2]||cf[2]){var
+w=0;be=1;bj=1;fs=1;fu=1;fv=1}else
 var
-ez=[0,[0,b$,[0,[0,ce,cc],cb],[0,[0,aP[1],aQ[1]],aR[1]]]];else
+ez=[0,[0,b_,[0,[0,cd,cc],ca],[0,[0,aP[1],aQ[1]],aR[1]]]];else
 var
-ez=aR;if(!fx)var
+ez=aR;if(!fv)var
 eA=ez}else
 var
 eA=aQ;if(!fu)var
 eB=eA}else
 var
-eB=aP;if(!ft){var
+eB=aP;if(!fs){var
 w=eB;be=1;bj=1}}else
 var
-eC=[0,[0,b$,[0,[0,ce,cc],cb],[0,[0,ce,cc],cb]]]}else
+eC=[0,[0,b_,[0,[0,cd,cc],ca],[0,[0,cd,cc],ca]]]}else
 var
 eC=aO;if(!bj)var
 eD=eC}else
@@ -4369,11 +4380,11 @@ eE=eD;cz=1}}else{var
 eE=aJ;cz=1}if(cz)var
 w=eE}else
 var
-eF=[0,[0,d,d],d],w=[0,[0,b$,eF,eF]]}else
+eF=[0,[0,d,d],d],w=[0,[0,b_,eF,eF]]}else
 var
 w=[0,[1,V[1],V[2]]];if(w){var
-eT=jo(R,ae,fZ(R,cl,ae));if(eT){var
-J=w[1],g_=i(aW[1]),g$=i(aV[1]),z=[0,i(aS[1]),g$,g_],af=eS[1],cn=fZ(R,cl,ae),c3=ii(l,cn,af,z);if(c3)if(typeof
+eT=jp(R,ae,f2(R,cl,ae));if(eT){var
+J=w[1],g_=j(aW[1]),g$=j(aV[1]),z=[0,j(aS[1]),g$,g_],af=eS[1],cn=f2(R,cl,ae),c3=ik(l,cn,af,z);if(c3)if(typeof
 J==="number")return bz(function(a){switch(a[0]){case
 0:var
 b=[0,dc(a[1],a[2],a[3],a[4],z)];break;case
@@ -4381,10 +4392,10 @@ b=[0,dc(a[1],a[2],a[3],a[4],z)];break;case
 e=a[2],f=a[1],g=bD(f,e,z),b=[0,E(bD(f,e,z),g)];break;default:var
 b=0}return b?o(l,0,[2,[0,d,c],b[1]]):b},af);else{if(0===J[0]){var
 bp=aT(cn[3],J[1]);if(bp){var
-fQ=bp[1],fR=ik(J[3]);return im(l,af,z,ik(J[2]),fR,fQ)}return bp}var
+fQ=bp[1],fR=im(J[3]);return ip(l,af,z,im(J[2]),fR,fQ)}return bp}var
 bq=aT(cn[3],J[1]);if(bq){var
 br=aT(af,J[2]);if(br){var
-c4=br[1],fS=bq[1],fT=cD(c4,z);return im(l,af,z,cD(c4,z),fT,fS)}var
+c4=br[1],fS=bq[1],fT=cD(c4,z);return ip(l,af,z,cD(c4,z),fT,fS)}var
 c5=br}else
 var
 c5=bq;return c5}return c3}var
@@ -4401,19 +4412,19 @@ eX=eW}else
 var
 eX=aS;return eX;case
 1:var
-aY=a[3],K=a[1],a0=p[2];if(0===a0[0])return 0;var
+aY=a[3],K=a[1],a0=q[2];if(0===a0[0])return 0;var
 a1=a0[2];if(a1){var
 a2=a1[2];if(a2){var
 a3=a2[2];if(a3){if(a3[2])return 0;var
-eY=jk(K,f(i,a0[3]));if(eY[2])return 0;var
+eY=jl(K,f(j,a0[3]));if(eY[2])return 0;var
 eG=ab(tI,m(K));if(eG)var
-g4=m(K),g5=1,cj=q(function(a){return f0(g5,g4,a)},aY);else
+g4=m(K),g5=1,ch=p(function(a){return f3(g5,g4,a)},aY);else
 var
-cj=eG;var
-eH=cj?en(aY):cj,eI=eH?q(ds,I(tH,K)):eH,eZ=eI?q(f5,cL(m(K),aY)):eI;if(eZ){var
-ha=jm(a0[4]),hb=i(a3[1]),hc=i(a2[1]),B=[0,i(a1[1]),hc,hb],a4=eY[1],hd=a[2],gZ=cL(m(K),aY),g0=jf(hd),an=f(ti,K),N=a4;for(;;){if(an){if(N){var
-n=N[1],F=an[1],c7=aM(l,F[1],n[1]),c8=c7?aM(l,F[2],n[2]):c7,c9=c8?aM(l,F[3],n[3]):c8,c_=c9?aM(l,F[4],n[4]):c9,c$=c_?cf(l,F[5],n[5]):c_,da=c$?cf(l,F[6],n[6]):c$,db=da?o(l,1,n[5]):da,dd=db?o(l,1,n[6]):db,de=dd?o(l,1,E(n[1],n[1])):dd;if(de)var
-fV=fv(n),bs=o(l,1,E(fv(n),fV));else
+ch=eG;var
+eH=ch?ep(aY):ch,eI=eH?p(ds,I(tH,K)):eH,eZ=eI?p(f8,cL(m(K),aY)):eI;if(eZ){var
+ha=jn(a0[4]),hb=j(a3[1]),hc=j(a2[1]),B=[0,j(a1[1]),hc,hb],a4=eY[1],hd=a[2],gZ=cL(m(K),aY),g0=jg(hd),an=f(ti,K),N=a4;for(;;){if(an){if(N){var
+n=N[1],F=an[1],c7=aM(l,F[1],n[1]),c8=c7?aM(l,F[2],n[2]):c7,c9=c8?aM(l,F[3],n[3]):c8,c_=c9?aM(l,F[4],n[4]):c9,c$=c_?cg(l,F[5],n[5]):c_,da=c$?cg(l,F[6],n[6]):c$,db=da?o(l,1,n[5]):da,dd=db?o(l,1,n[6]):db,de=dd?o(l,1,E(n[1],n[1])):dd;if(de)var
+fV=fz(n),bs=o(l,1,E(fz(n),fV));else
 var
 bs=de;var
 dh=bs?dP(F[7],n[7]):bs;if(dh){var
@@ -4424,10 +4435,10 @@ di=N;var
 bt=di}else
 var
 bt=N?0:1;var
-dj=bt?ih(l,g0,B):bt;if(dj){var
-fY=f(function(a){return iu(a,B)},a4),f1=f(function(a){var
-b=iw(a,B);return[1,iv(a,B),b]},a4);return ir(l,pu,[0,f(function(a){var
-d=is(a),e=aL(iw(a,B),d),f=fw(a),g=aL(iv(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fC(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),f1,fY],gZ,ha)}return dj}}var
+dj=bt?ij(l,g0,B):bt;if(dj){var
+fW=f(function(a){return iw(a,B)},a4),fX=f(function(a){var
+b=iy(a,B);return[1,ix(a,B),b]},a4);return it(l,pu,[0,f(function(a){var
+d=iu(a),e=aL(iy(a,B),d),f=fA(a),g=aL(ix(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fG(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fX,fW],gZ,ha)}return dj}}var
 e0=eZ}else
 var
 e0=a3;var
@@ -4438,24 +4449,24 @@ e2=e1}else
 var
 e2=a1;return e2;case
 2:var
-a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],ag=a[2],W=a[1],X=p[2];if(0===X[0]){var
-co=X[2],ah=jh(W,ag,a9,a8,a7,a6,a5),cp=cM(m(co),co);if(cp){var
+a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],ag=a[2],W=a[1],Y=q[2];if(0===Y[0]){var
+co=Y[2],ah=ji(W,ag,a9,a8,a7,a6,a5),cp=cM(m(co),co);if(cp){var
 e3=cp[1];if(e3[2])return 0;var
-e4=jn(W,ag,a9,a8,a7,a6,a5),e6=e4?jp(d$(W),co):e4;if(e6){var
+e4=jo(W,ag,a9,a8,a7,a6,a5),e5=e4?jq(d$(W),co):e4;if(e5){var
 he=e3[1],hf=ah[2],hg=A(c,dr(I(function(a){var
-b=bF(a[2]);return g(bF(a[1]),b)},hf))),hh=X[1],gz=ah[2],ea=q(function(a){var
-b=fL(l,a[1]);return b?fL(l,a[2]):b},gz),eb=ea?fL(l,ah[4]):ea;if(eb)var
-gA=iT(ah[5]),bU=q(function(a){return ee(l,a)},gA);else
+b=bF(a[2]);return g(bF(a[1]),b)},hf))),hh=Y[1],gz=ah[2],ea=p(function(a){var
+b=fO(l,a[1]);return b?fO(l,a[2]):b},gz),eb=ea?fO(l,ah[4]):ea;if(eb)var
+gA=iU(ah[5]),bU=p(function(a){return eg(l,a)},gA);else
 var
 bU=eb;return bU?pX(hh,ah,hg,he):bU}var
-e7=e6}else
+e6=e5}else
 var
-e7=cp;return e7}var
-e8=f(i,X[2]),e9=f6(W),e_=jl(ag,f(i,X[3]));if(e_[2])return 0;var
-e$=jn(W,ag,a9,a8,a7,a6,a5);if(e$){var
-bk=e9,b=e8,hi=jm(X[4]);for(;;){if(bk&&b){var
+e6=cp;return e6}var
+e7=f(j,Y[2]),e9=f9(W),e_=jm(ag,f(j,Y[3]));if(e_[2])return 0;var
+e$=jo(W,ag,a9,a8,a7,a6,a5);if(e$){var
+bk=e9,b=e7,hi=jn(Y[4]);for(;;){if(bk&&b){var
 bk=bk[1],b=b[2];continue}var
-a_=f4(hz(e9,e8)),a$=e_[1],C=jh(W,ag,a9,a8,a7,a6,a5),aC=C[2],O=a$;for(;;){if(aC){if(O){var
+a_=f7(hC(e9,e7)),a$=e_[1],C=ji(W,ag,a9,a8,a7,a6,a5),aC=C[2],O=a$;for(;;){if(aC){if(O){var
 d5=O[1],d6=aC[1],d7=aM(l,d6[1],d5[1]),d8=d7?aM(l,d6[2],d5[2]):d7;if(d8){var
 aC=aC[2],O=O[2];continue}var
 d9=d8}else
@@ -4470,47 +4481,47 @@ x=C[5];switch(x[0]){case
 u=b?b[2]?0:dg(l,x[1],b[1]):b;break;case
 1:var
 cB=0;if(b){var
-at=b[2],cE=0;if(at){var
-au=at[2],cF=0;if(au)if(au[2]){var
+au=b[2],cE=0;if(au){var
+av=au[2],cF=0;if(av)if(av[2]){var
 u=0;cE=1;cF=1}else{var
-dL=dg(l,x[1],b[1]),dM=dL?dg(l,x[2],at[1]):dL;if(dM){var
-u=dg(l,x[3],au[1]);cE=1;cF=1}else
+dL=dg(l,x[1],b[1]),dM=dL?dg(l,x[2],au[1]):dL;if(dM){var
+u=dg(l,x[3],av[1]);cE=1;cF=1}else
 var
 dO=dM}else
 var
-dO=au;if(!cF)var
+dO=av;if(!cF)var
 dQ=dO}else
 var
-dQ=at;if(!cE){var
+dQ=au;if(!cE){var
 dR=dQ;cB=1}}else{var
 dR=b;cB=1}if(cB)var
 u=dR;break;case
 2:var
 cG=0;if(b){var
-av=b[2],cH=0;if(av){var
-aw=av[2];if(aw)if(aw[2]){var
+aw=b[2],cH=0;if(aw){var
+ax=aw[2];if(ax)if(ax[2]){var
 u=0;cH=1}else{var
-dS=aw[1],dT=av[1],dU=b[1],gs=E([0,dU,dT,dS],[0,dU,dT,dS]),u=iL(l,x[1],gs,[0,c,c]);cH=1}else
+dS=ax[1],dT=aw[1],dU=b[1],gs=E([0,dU,dT,dS],[0,dU,dT,dS]),u=iN(l,x[1],gs,[0,c,c]);cH=1}else
 var
-dV=aw}else
+dV=ax}else
 var
-dV=av;if(!cH){var
+dV=aw;if(!cH){var
 dW=dV;cG=1}}else{var
 dW=b;cG=1}if(cG)var
 u=dW;break;default:var
 cI=0;if(b){var
-ax=b[2],cN=0;if(ax){var
-ay=ax[2],cO=0;if(ay)if(ay[2]){var
+ay=b[2],cN=0;if(ay){var
+az=ay[2],cO=0;if(az)if(az[2]){var
 u=0;cN=1;cO=1}else{var
-bQ=ay[1],dX=ax[1],dY=b[1],dZ=iL(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bQ,bQ]]);if(dZ){var
-u=dg(l,ch(x[2]),bQ);cN=1;cO=1}else
+bQ=az[1],dX=ay[1],dY=b[1],dZ=iN(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bQ,bQ]]);if(dZ){var
+u=dg(l,ci(x[2]),bQ);cN=1;cO=1}else
 var
 d1=dZ}else
 var
-d1=ay;if(!cO)var
+d1=az;if(!cO)var
 d2=d1}else
 var
-d2=ax;if(!cN){var
+d2=ay;if(!cN){var
 d3=d2;cI=1}}else{var
 d3=b;cI=1}if(cI)var
 u=d3}var
@@ -4518,24 +4529,24 @@ bS=u}else
 var
 bS=d_;if(bS){var
 aD=C[5],gw=C[6],gx=C[3],gy=C[1],d4=function(a){var
-c=fG(aD,b,a_,a);return E(fG(aD,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
-d=aB(fG(aD,b,a_,e)),a=aL([4,[0,c,c],gx],iH(iI(aD,b,e[2]),d));switch(gy){case
+c=fK(aD,b,a_,a);return E(fK(aD,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
+d=aB(fK(aD,b,a_,e)),a=aL([4,[0,c,c],gx],iJ(iK(aD,b,e[2]),d));switch(gy){case
 0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
-1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return ir(l,d$(C[1]),gv,gw,hi)}return bS}}}return e$;case
+1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return it(l,d$(C[1]),gv,gw,hi)}return bS}}}return e$;case
 3:var
-ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=p[2];if(0===cq[0]){var
+ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=q[2];if(0===cq[0]){var
 cr=cq[2],cs=cM(m(cr),cr);if(cs){var
 fe=cs[1];if(fe[2])return 0;var
 g6=m(fa),eJ=aE(m(fb),g6);if(eJ)var
-g7=m(bb),g8=0,ck=q(function(a){return f0(g8,g7,a)},ba);else
+g7=m(bb),g8=0,ck=p(function(a){return f3(g8,g7,a)},ba);else
 var
 ck=eJ;var
-eK=ck?en(ba):ck,eL=eK?q(function(a){return ds(a[2])},fc):eK,ff=eL?q(f5,cL(m(bb),ba)):eL,fg=ff?jp(m(fd),cr):ff;if(fg){var
-hj=fe[1],hk=a[3],eu=cL(m(bb),ba),gW=cu(fb,fa),b6=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(ci,a)},bb),gY=f(function(a){var
-b=ci(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
-b=bE(a[2]);return[0,a[1],b]},fc),gY,gX],ak=cq[1],gm=f(dN,h[2]),bK=g(h[1],gm),as=m(h[1]),dE=ab(pw,as),dF=dE?ab(as,px):dE,dG=dF?ab(as,m(h[4])):dF,dH=dG?ab(m(h[4]),py):dG;if(dH)var
-gn=h[4],bL=q(function(a){return aE(m(a),as)},gn);else
+eK=ck?ep(ba):ck,eL=eK?p(function(a){return ds(a[2])},fc):eK,ff=eL?p(f8,cL(m(bb),ba)):eL,fg=ff?jq(m(fd),cr):ff;if(fg){var
+hj=fe[1],hk=a[3],eu=cL(m(bb),ba),gW=cv(fb,fa),b6=f(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},gW),gX=f(function(a){return f(cj,a)},bb),gY=f(function(a){var
+b=cj(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
+b=bE(a[2]);return[0,a[1],b]},fc),gY,gX],ai=cq[1],gm=f(dN,h[2]),bK=g(h[1],gm),at=m(h[1]),dE=ab(pw,at),dF=dE?ab(at,px):dE,dG=dF?ab(at,m(h[4])):dF,dH=dG?ab(m(h[4]),py):dG;if(dH)var
+gn=h[4],bL=p(function(a){return aE(m(a),at)},gn);else
 var
 bL=dH;if(bL){var
 ar=bK;for(;;){if(ar){var
@@ -4548,7 +4559,7 @@ bM=dI;break}}else
 var
 bM=bL;if(bM){var
 aq=bK,ap=h[3];for(;;){if(ap){var
-dy=ap[1],dz=dy[1],dA=aX(bz(function(b){return function(a){return az(b,a)}}(dz),aq)),dB=dA?fD(aq,dy[2]):dA;if(dB){var
+dy=ap[1],dz=dy[1],dA=aX(bz(function(b){return function(a){return aA(b,a)}}(dz),aq)),dB=dA?fH(aq,dy[2]):dA;if(dB){var
 aq=[0,dz,aq],ap=ap[2];continue}var
 dJ=dB}else
 var
@@ -4556,25 +4567,25 @@ dJ=1;var
 bN=dJ;break}}else
 var
 bN=bM;if(bN)var
-go=h[4],gp=g(f(dN,h[3]),bK),gq=function(a){return fD(gp,a)},bO=q(function(a){return q(gq,a)},go);else
+go=h[4],gp=g(f(dN,h[3]),bK),gq=function(a){return fH(gp,a)},bO=p(function(a){return p(gq,a)},go);else
 var
 bO=bN;if(bO)var
-gr=h[2],bP=q(function(a){return bg(l,a[2][1],a[2][2])},gr);else
+gr=h[2],bP=p(function(a){return bg(l,a[2][1],a[2][2])},gr);else
 var
 bP=bO;var
-dK=bP?q(function(a){return bg(l,a[1],a[2])},b6):bP;if(dK){var
-ga=m(h[1]),bv=m(h[2]),dm=S(bv,m(df(f(e5,h[3])))),gb=h[3],$=iD(h),ao=gb,bu=bv;for(;;){if(ao){var
-dk=ao[1],dl=dk[2],f3=S(bu,m(bh(dl))),f7=ao[2],f8=bi($,dl,bu),$=[0,[0,dk[1],f8],$],ao=f7,bu=f3;continue}var
-gc=iA($,h[4],dm),bw=f(function(a){return[0,a,r(c)]},gc),gd=iB($,h[4],dm),ge=h[3],bx=g(ix(iD(h),ge,bv),gd),by=d0(g(cC(bw),bx))[1],gf=cy(by),bC=function(a){return bT(gf,a)},dn=e(bV(bC),bw),dp=aE(m(b6),ga);if(dp)var
-gg=g(cC(bw),bx),bG=q(function(a){var
+dK=bP?p(function(a){return bg(l,a[1],a[2])},b6):bP;if(dK){var
+ga=m(h[1]),bv=m(h[2]),dm=S(bv,m(df(f(e8,h[3])))),gb=h[3],$=iF(h),ao=gb,bu=bv;for(;;){if(ao){var
+dk=ao[1],dl=dk[2],fY=S(bu,m(bh(dl))),f1=ao[2],f4=bi($,dl,bu),$=[0,[0,dk[1],f4],$],ao=f1,bu=fY;continue}var
+gc=iC($,h[4],dm),bw=f(function(a){return[0,a,r(c)]},gc),gd=iD($,h[4],dm),ge=h[3],bx=g(iz(iF(h),ge,bv),gd),by=d0(g(cC(bw),bx))[1],gf=cy(by),bC=function(a){return bT(gf,a)},dn=e(bV(bC),bw),dp=aE(m(b6),ga);if(dp)var
+gg=g(cC(bw),bx),bG=p(function(a){var
 b=r(d),c=cy(by);return bA(H(bC(a),c,b),a)},gg);else
 var
 bG=dp;var
 dt=bG?bz(pv,eu):bG;if(dt){var
-f9=I(df,h[4]),f_=g(df(f(e5,h[3])),f9),f$=g(iC(h[2]),f_),bH=aU(f(function(a){return aZ(ak,a)},f$));if(bH){var
-bI=aU(f(function(a){return aZ(ak,[0,a,d])},b6));if(bI){var
+f6=I(df,h[4]),f_=g(df(f(e8,h[3])),f6),f$=g(iE(h[2]),f_),bH=aU(f(function(a){return aZ(ai,a)},f$));if(bH){var
+bI=aU(f(function(a){return aZ(ai,[0,a,d])},b6));if(bI){var
 bJ=aU(f(function(a){if(typeof
-a==="number")return[0,[0,aA]];else
+a==="number")return[0,[0,as]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4582,8 +4593,8 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aZ(ak,[0,[0,b,b],d]);return ai(function(a){return e(aj(ak,a))},g)},eu));if(bJ){var
-du=bJ[1],gh=h9(du),gi=bI[1],gj=function(a){return 0},gk=bH[1];return fp(ak,by,dn,dn,f(bC,bx),gk,du,gj,gi,gh,hj)}var
+g=aZ(ai,[0,[0,b,b],d]);return aj(function(a){return e(ak(ai,a))},g)},eu));if(bJ){var
+du=bJ[1],gh=h$(du),gi=bI[1],gj=function(a){return 0},gk=bH[1];return ft(ai,by,dn,dn,f(bC,bx),gk,du,gj,gi,gh,hj)}var
 dv=bJ}else
 var
 dv=bI;var
@@ -4596,8 +4607,8 @@ dx=dt;return dx}}return dK}var
 fh=fg}else
 var
 fh=cs;return fh}return 0;case
-4:if(0===p[2][0]){var
-fi=em(i(a[1]));if(fi){var
+4:if(0===q[2][0]){var
+fi=eo(j(a[1]));if(fi){var
 bc=a[3];if(bc){var
 aG=bc[1],b7=aG[4],y=bc[2];if(aG[1]||aG[2]||aG[3])var
 s=0;else
@@ -4609,7 +4620,7 @@ s=0;else
 if(1===ev[0])if(y[2])var
 s=0;else
 var
-g1=i(ev[1]),s=[0,[0,i(b7[1]),g1]];else{var
+g1=j(ev[1]),s=[0,[0,j(b7[1]),g1]];else{var
 ew=0;cP=1}}else{var
 ew=y;cP=1}if(cP)var
 s=ew;break;case
@@ -4620,59 +4631,59 @@ s=0;else
 if(0===ex[0])if(y[2])var
 s=0;else
 var
-g2=i(b7[1]),s=[0,[0,i(ex[1]),g2]];else{var
+g2=j(b7[1]),s=[0,[0,j(ex[1]),g2]];else{var
 ey=0;cQ=1}}else{var
 ey=y;cQ=1}if(cQ)var
 s=ey;break;default:var
 s=0}}else
 var
 s=bc;if(s){var
-fj=s[1],fk=fj[2],fl=fj[1],eg=o(l,1,i(a[2])),eh=eg?o(l,1,[2,fk,[0,c,c]]):eg,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
+fj=s[1],fk=fj[2],fl=fj[1],ef=o(l,1,j(a[2])),eh=ef?o(l,1,[2,fk,[0,c,c]]):ef,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
 fm=s}else
 var
 fm=fi;return fm}return 0;default:var
 fn=a[1];if(fn){var
-fo=fn[1],ct=p[2];if(0===ct[0]){var
-cv=f2(tQ,ct[2]);if(cv){var
-fq=ds(fo);if(fq){var
-hl=cv[1],fr=bE(fo)[2],bd=ct[1],bW=ca(bd,d,fr);if(bW){var
-bY=ca(bd,d,[4,[0,c,c],fr]);if(bY){var
-gB=bW[1][1],ec=ad(b_(bd),gB);if(ec)return i_(bd,bY[1][1],hl);var
+fo=fn[1],ct=q[2];if(0===ct[0]){var
+cu=f5(tQ,ct[2]);if(cu){var
+fp=ds(fo);if(fp){var
+hl=cu[1],fq=bE(fo)[2],bd=ct[1],bW=cb(bd,d,fq);if(bW){var
+bY=cb(bd,d,[4,[0,c,c],fq]);if(bY){var
+gB=bW[1][1],ec=ad(b$(bd),gB);if(ec)return i$(bd,bY[1][1],hl);var
 ed=ec}else
 var
 ed=bY;var
-ef=ed}else
+ee=ed}else
 var
-ef=bW;return ef}var
-fs=fq}else
+ee=bW;return ee}var
+fr=fp}else
 var
-fs=cv;return fs}return 0}var
-cw=p[2];if(0===cw[0]){var
-cx=f2(tR,cw[2]);return cx?i_(cw[1],d,cx[1]):cx}return 0}}return ac}var
-x=[am,tU,eK(0)],jq=[am,tV,eK(0)];function
+fr=cu;return fr}return 0}var
+cw=q[2];if(0===cw[0]){var
+cx=f5(tR,cw[2]);return cx?i$(cw[1],d,cx[1]):cx}return 0}}return ac}var
+x=[an,tU,eN(0)],jr=[an,tV,eN(0)];function
 tS(z,c){var
-s=[0,h(sO,ak(c[4])),0],t=[0,h(sQ,N([0,h(sP,ak(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sC,w(f(sz,a[2]))),0],i=F(sE,N([0,h(sD,fP(a[1])),k]));else{var
+s=[0,h(sO,al(c[4])),0],t=[0,h(sQ,N([0,h(sP,al(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sC,w(f(sz,a[2]))),0],i=F(sE,N([0,h(sD,fS(a[1])),k]));else{var
 b=a[4],d=a[3],l=0;if(typeof
 b==="number")var
-e=ak(sF);else
+e=al(sF);else
 if(0===b[0])var
-q=[0,w(f(fV,b[2])),0],e=F(sL,w([0,cI(b[1]),q]));else
+q=[0,w(f(fY,b[2])),0],e=F(sL,w([0,cI(b[1]),q]));else
 var
 r=[0,cI(b[2]),0],e=F(sM,w([0,cI(b[1]),r]));var
-m=[0,h(sG,e),l],n=d?[0,h(sH,w(f(O,d))),0]:d,o=g(n,m),p=[0,h(sI,w(f(O,a[2]))),0],i=F(sK,N(g([0,h(sJ,fP(a[1])),p],o)))}var
-u=[0,h(sR,i),t],v=0===c[2][0]?sS:sX,x=[0,h(sT,ak(v)),u],y=[0,h(sU,rI(c[1])),x],j=az(g_(tT,g(N([0,h(sW,ak(sV)),y]),sN)),z);return j?tP(c):j}function
+m=[0,h(sG,e),l],n=d?[0,h(sH,w(f(O,d))),0]:d,o=g(n,m),p=[0,h(sI,w(f(O,a[2]))),0],i=F(sK,N(g([0,h(sJ,fS(a[1])),p],o)))}var
+u=[0,h(sR,i),t],v=0===c[2][0]?sS:sX,x=[0,h(sT,al(v)),u],y=[0,h(sU,rI(c[1])),x],j=aA(hb(tT,g(N([0,h(sW,al(sV)),y]),sN)),z);return j?tP(c):j}function
 U(a){if(0===a[0])return a[1];throw x}function
 V(a){if(1===a[0])return a[1];throw x}function
 aV(a){if(2===a[0])return a[1];throw x}function
 dt(a){if(3===a[0])return a[1];throw x}function
 a0(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===x6(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===x8(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-p(c,b){var
+q(c,b){var
 a=a0(c,b);if(a)return a[1];throw x}function
-ep(b,a){var
+er(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
 cN(a){switch(a[0]){case
 0:var
@@ -4683,10 +4694,10 @@ du(e,d){var
 a=W(e,V(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-eq(i){var
+es(i){var
 f=bL(i),d=[0,0],e=aQ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=cT(f,c)+ge|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=cT(f,c)+gh|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4708,20 +4719,20 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dv(a){return hv(eq(a))}function
-f8(b){var
+dv(a){return hy(es(a))}function
+f$(b){var
 a=dt(b);return 45===L(a,0)?P(dv(c0(a,1,y(a)-1|0))):dv(a)}function
-jr(a){return e9(dv(dt(a)))}function
-f9(a){return hu(dv(dt(a)))}function
+js(a){return fa(dv(dt(a)))}function
+ga(a){return hx(dv(dt(a)))}function
 cO(c){var
 a=dt(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gN(a))}function
-js(a){var
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gQ(a))}function
+jt(a){var
 b=97<=a?1:0,c=b?a<=ly?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jt(A,b){var
+ju(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?L(b,a[1])===e?1:0:c;return f}function
@@ -4729,66 +4740,66 @@ m(e){var
 c=a[1];for(;;){if(a[1]<d&&48<=L(b,a[1])&&!(57<L(b,a[1]))){a[1]++;continue}return c0(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
+j(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,j(k+1|0)]}if(c(40))var
 f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&az(c0(b,a[1],5),tY)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aA(c0(b,a[1],5),tY)){a[1]=a[1]+4|0;var
 f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&js(L(b,a[1]))){var
+v=0;if(a[1]<d&&jt(L(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!js(L(b,a[1]))&&95!==L(b,a[1])&&(!(48<=L(b,a[1]))||57<L(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!jt(L(b,a[1]))&&95!==L(b,a[1])&&(!(48<=L(b,a[1]))||57<L(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 f=[1,e(A,c0(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=az(h,tZ);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aA(h,tZ);if(r)var
 s=r;else
 var
 t=1<y(h)?1:0,s=t?48===L(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(az(l,t0)||48===L(l,y(l)-1|0))z=1;else
+l=q[1],z=0;if(aA(l,t0)||48===L(l,y(l)-1|0))z=1;else
 var
-B=eq(l),f=[0,eq(h),B];if(z)throw x}else
+B=es(l),f=[0,es(h),B];if(z)throw x}else
 var
-f=[0,eq(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(j(g,tX)){if(!(2<y(g))&&2<=gN(g)&&!(64<gN(g)))return[4,f,e9(dv(g))];throw x}throw x}return f}function
+f=[0,es(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(i(g,tX)){if(!(2<y(g))&&2<=gQ(g)&&!(64<gQ(g)))return[4,f,fa(dv(g))];throw x}throw x}return f}function
 f(d){var
-b=i(d);for(;;){if(c(42)){a[1]++;var
-b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
-b=[3,3,b,i(d)];continue}return b}}function
+b=j(d);for(;;){if(c(42)){a[1]++;var
+b=[3,2,b,j(d)];continue}if(c(47)){a[1]++;var
+b=[3,3,b,j(d)];continue}return b}}function
 g(d){if(64<d)throw x;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-ju(a){return jt(function(a){throw x},a)}function
-jv(a){var
-b=aV(a);return jt(function(a){return a},b)}function
-X(a){return ju(aV(a))}function
-bG(a){if(2===a[0])return[0,ju(a[1])];var
-b=U(a),c=X(p(b,t1));return[1,X(p(b,t2)),c]}function
-af(a){throw[0,jq,ap(g_(t4,a),t3)]}function
-jw(c){var
-a=aV(c);if(j(a,t5)){var
-b=j(a,t6);if(b)throw x;return b}return 1}function
+jv(a){return ju(function(a){throw x},a)}function
+jw(a){var
+b=aV(a);return ju(function(a){return a},b)}function
+Y(a){return jv(aV(a))}function
+bG(a){if(2===a[0])return[0,jv(a[1])];var
+b=U(a),c=Y(q(b,t1));return[1,Y(q(b,t2)),c]}function
+af(a){throw[0,jr,aq(hb(t4,a),t3)]}function
+jx(c){var
+a=aV(c);if(i(a,t5)){var
+b=i(a,t6);if(b)throw x;return b}return 1}function
 t7(d){var
 b=U(d);function
-a(a){return du(bG,p(b,a))}var
-c=aV(p(b,t8));if(j(c,t9)){if(j(c,t_)){if(j(c,t$))return af([0,ub,[0,c,ua]]);var
-e=a0(b,uc),f=ep(function(a){return du(bG,a)},e),g=a(ud);return[1,a(ue),g,f]}var
-h=jw(p(b,uf)),i=bG(p(b,ug)),k=a(uh),l=a(ui);return[0,a(uj),l,k,i,h]}return[2,a(uk)]}function
-jx(d){var
+a(a){return du(bG,q(b,a))}var
+c=aV(q(b,t8));if(i(c,t9)){if(i(c,t_)){if(i(c,t$))return af([0,ub,[0,c,ua]]);var
+e=a0(b,uc),f=er(function(a){return du(bG,a)},e),g=a(ud);return[1,a(ue),g,f]}var
+h=jx(q(b,uf)),j=bG(q(b,ug)),k=a(uh),l=a(ui);return[0,a(uj),l,k,j,h]}return[2,a(uk)]}function
+jy(d){var
 a=U(d);if(a){var
-b=a[1];if(!j(b[1],ul)){var
-c=b[2];if(2===c[0]&&!j(c[1],um))return 1}}return 0}function
+b=a[1];if(!i(b[1],ul)){var
+c=b[2];if(2===c[0]&&!i(c[1],um))return 1}}return 0}function
 un(c){var
-a=U(c);if(1-jx(c))throw x;function
-b(b){return du(bG,p(a,b))}var
-d=jw(p(a,uo)),e=bG(p(a,up)),f=bG(p(a,uq)),g=b(ur),h=b(us),i=b(ut);return[0,b(uu),i,h,g,f,e,d]}function
+a=U(c);if(1-jy(c))throw x;function
+b(b){return du(bG,q(a,b))}var
+d=jx(q(a,uo)),e=bG(q(a,up)),f=bG(q(a,uq)),g=b(ur),h=b(us),i=b(ut);return[0,b(uu),i,h,g,f,e,d]}function
 dw(c,d){var
 a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-jy(i){var
-c=U(i),b=aV(p(c,uv));if(j(b,uw))if(j(b,ux))if(j(b,uy))if(j(b,uz))if(j(b,uA))if(j(b,uB))if(j(b,uC))var
-g=j(b,uD),a=g?af([0,uF,[0,b,uE]]):g;else
+jz(j){var
+c=U(j),b=aV(q(c,uv));if(i(b,uw))if(i(b,ux))if(i(b,uy))if(i(b,uz))if(i(b,uA))if(i(b,uB))if(i(b,uC))var
+g=i(b,uD),a=g?af([0,uF,[0,b,uE]]):g;else
 var
 a=6;else
 var
@@ -4803,129 +4814,133 @@ var
 a=7;else
 var
 a=3;function
-f(a){return p(c,uG)}var
-d=aV(p(c,uH));if(j(d,uI))if(j(d,uJ))if(j(d,uK))var
+f(a){return q(c,uG)}var
+d=aV(q(c,uH));if(i(d,uI))if(i(d,uJ))if(i(d,uK))var
 e=af([0,uM,[0,d,uL]]);else
 var
-h=dw(X,f(0)),e=[2,h[1],h[2]];else
+h=dw(Y,f(0)),e=[2,h[1],h[2]];else
 var
-e=[0,X(f(0))];else
+e=[0,Y(f(0))];else
 var
-e=[1,X(f(0))];function
+e=[1,Y(f(0))];function
 k(m){var
 b=U(m),e=0;if(2===a){if(b){var
-g=b[1];if(!j(g[1],uN)){var
+g=b[1];if(!i(g[1],uN)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!b[2]){var
-i=c[1];e=1}}}}}else
+j=c[1];e=1}}}}}else
 if(6===a&&b){var
-k=b[1];if(!j(k[1],uO)){var
+k=b[1];if(!i(k[1],uO)){var
 l=k[2];if(1===l[0]){var
 d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!b[2])return af(uP)}}}if(e)return X(i);throw x}var
-l=ep(k,a0(c,uQ));return[0,a,ep(cO,a0(c,uR)),l,e]}function
-f_(c){var
-a=jy(c),b=a[1];if(2!==b&&!(4<=b))return a;return af(uS)}function
+j=d[1];e=1;f=1}if(!f&&!b[2])return af(uP)}}}if(e)return Y(j);throw x}var
+l=er(k,a0(c,uQ));return[0,a,er(cO,a0(c,uR)),l,e]}function
+gb(c){var
+a=jz(c),b=a[1];if(2!==b&&!(4<=b))return a;return af(uS)}function
 uZ(T){var
-m=cN(T),n=m[1];if(j(n,u0)){if(j(n,u1))return af([0,u3,[0,n,u2]]);var
-o=p(U(m[2]),u4),L=0;if(2===o[0]){var
-y=j(o[1],u5);if(!y){var
+m=cN(T),n=m[1];if(i(n,u0)){if(i(n,u1))return af([0,u3,[0,n,u2]]);var
+o=q(U(m[2]),u4),L=0;if(2===o[0]){var
+y=i(o[1],u5);if(!y){var
 w=y;L=1}}if(!L)var
 w=[0,bG(o)];return[5,w]}var
 c=U(m[2]);function
-z(a){return W(jy,V(p(c,u6)))}var
-f=cN(p(c,u7)),a=cN(p(c,u8));if(0===a0(c,u9)){var
-b=f[1];if(j(b,u_)&&j(b,u$)&&j(b,va)){if(0===a0(c,vb)){if(j(b,vc)){var
-M=0;if(j(b,vd)){if(!j(b,ve)){var
-A=a[1],N=0;if(j(A,vh)&&j(A,vi)){M=1;N=1}if(!N){var
-q=V(f[2]),d=U(a[2]);if(j(a[1],uT))var
-u=dw(X,p(d,uU)),v=dw(X,p(d,uV)),P=v[2],Q=v[1],R=X(p(d,uW)),r=[1,u[1],u[2],R,Q,P];else
+z(a){return W(jz,V(q(c,u6)))}var
+f=cN(q(c,u7)),a=cN(q(c,u8));if(0===a0(c,u9)){var
+b=f[1];if(i(b,u_)&&i(b,u$)&&i(b,va)){if(0===a0(c,vb)){if(i(b,vc)){var
+M=0;if(i(b,vd)){if(!i(b,ve)){var
+A=a[1],N=0;if(i(A,vh)&&i(A,vi)){M=1;N=1}if(!N){var
+p=V(f[2]),d=U(a[2]);if(i(a[1],uT))var
+u=dw(Y,q(d,uU)),v=dw(Y,q(d,uV)),P=v[2],Q=v[1],R=Y(q(d,uW)),r=[1,u[1],u[2],R,Q,P];else
 var
-S=du(X,p(d,uX)),r=[0,du(X,p(d,uY)),S];var
-h=q;for(;;){if(h){var
-O=h[2],t=jx(h[1]);if(!t){var
+S=du(Y,q(d,uX)),r=[0,du(Y,q(d,uY)),S];var
+h=p;for(;;){if(h){var
+O=h[2],t=jy(h[1]);if(!t){var
 h=O;continue}var
 B=t}else
 var
 B=0;if(B){var
-Y=W(f_,V(p(c,vl)));return[1,W(un,q),r,Y]}var
-Z=z(0);return[0,W(t7,q),r,Z]}}}}else
-if(!j(a[1],vm)){var
-_=z(0),$=X(p(U(a[2]),vn));return[4,X(p(U(f[2]),vo)),$,_]}if(!M)return af([0,vg,[0,b,vf]])}else
-if(!j(a[1],vp)){var
-i=U(f[2]),C=U(a[2]),D=function(c,a){var
+X=W(gb,V(q(c,vl)));return[1,W(un,p),r,X]}var
+Z=z(0);return[0,W(t7,p),r,Z]}}}}else
+if(!i(a[1],vm)){var
+_=z(0),$=Y(q(U(a[2]),vn));return[4,Y(q(U(f[2]),vo)),$,_]}if(!M)return af([0,vg,[0,b,vf]])}else
+if(!i(a[1],vp)){var
+j=U(f[2]),C=U(a[2]),D=function(c,a){var
 b=V(a);return W(function(d){var
 a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,aV(a[1]),f]}}throw x},b)},aa=function(d){var
 a=U(d);if(a){var
-b=a[1],c=b[1];if(j(c,vq)){if(!j(c,vr)&&!a[2])return W(jv,V(b[2]))}else
-if(!a[2])return af(vs)}throw x},ab=W(f_,V(p(c,vt))),ac=W(X,V(p(C,vu))),ad=W(X,V(p(C,vv))),ae=W(aa,V(p(i,vw))),ag=D(jv,p(i,vx)),ah=D(bG,p(i,vy));return[3,W(aV,V(p(i,vz))),ah,ag,ae,ad,ac,ab]}return af([0,vk,[0,a[1],vj]])}throw x}var
-E=a[1],F=U(f[2]),G=U(a[2]);if(j(E,vA))af([0,vC,[0,E,vB]]);var
-H=a0(F,vD),ai=H?X(H[1]):af([0,v2,[0,b,v1]]),aj=function(d){var
+b=a[1],c=b[1];if(i(c,vq)){if(!i(c,vr)&&!a[2])return W(jw,V(b[2]))}else
+if(!a[2])return af(vs)}throw x},ab=W(gb,V(q(c,vt))),ac=W(Y,V(q(C,vu))),ad=W(Y,V(q(C,vv))),ae=W(aa,V(q(j,vw))),ag=D(jw,q(j,vx)),ah=D(bG,q(j,vy));return[3,W(aV,V(q(j,vz))),ah,ag,ae,ad,ac,ab]}return af([0,vk,[0,a[1],vj]])}throw x}var
+E=a[1],F=U(f[2]),G=U(a[2]);if(i(E,vA))af([0,vC,[0,E,vB]]);var
+H=a0(F,vD),ai=H?Y(H[1]):af([0,v2,[0,b,v1]]),aj=function(d){var
 a=U(d);function
-b(b){return W(bG,V(p(a,b)))}var
-c=aV(p(a,vE)),e=a0(a,vF);if(!j(c,vG)&&!e){var
-f=b(vJ);return[0,b(vK),f]}return af([0,vI,[0,c,vH]])},g=cN(p(c,vL)),k=g[1];if(j(k,vM))if(j(k,vN))if(j(k,vO)){if(j(k,vP))throw x;var
-I=g[2],ak=X(p(U(I),vQ)),l=[3,X(p(U(I),vR)),ak]}else
+b(b){return W(bG,V(q(a,b)))}var
+c=aV(q(a,vE)),e=a0(a,vF);if(!i(c,vG)&&!e){var
+f=b(vJ);return[0,b(vK),f]}return af([0,vI,[0,c,vH]])},g=cN(q(c,vL)),k=g[1];if(i(k,vM))if(i(k,vN))if(i(k,vO)){if(i(k,vP))throw x;var
+I=g[2],ak=Y(q(U(I),vQ)),l=[3,Y(q(U(I),vR)),ak]}else
 var
-ap=g[2],s=function(a){return dw(X,p(U(ap),a))},aq=s(vY),ar=s(vZ),l=[1,s(v0),ar,aq];else
+ap=g[2],s=function(a){return dw(Y,q(U(ap),a))},aq=s(vY),ar=s(vZ),l=[1,s(v0),ar,aq];else
 var
-K=dw(X,g[2]),l=[0,K[1],K[2]];else
+K=dw(Y,g[2]),l=[0,K[1],K[2]];else
 var
-l=[2,X(g[2])];var
-J=j(b,vS),al=J?j(b,vT)?2:1:J,am=W(f_,V(p(c,vU))),an=W(X,V(p(G,vV))),ao=W(X,V(p(G,vW)));return[2,al,W(aj,V(p(F,vX))),ai,ao,an,l,am]}return af(v3)}function
-jz(a){return W(f8,V(a))}function
-er(e,l){var
-B=e[2];function
-C(c,b){var
-a=jz(b);if(cp(a)!==c)throw x;return a}switch(l[0]){case
+l=[2,Y(g[2])];var
+J=i(b,vS),al=J?i(b,vT)?2:1:J,am=W(gb,V(q(c,vU))),an=W(Y,V(q(G,vV))),ao=W(Y,V(q(G,vW)));return[2,al,W(aj,V(q(F,vX))),ai,ao,an,l,am]}return af(v3)}function
+jA(a){return W(f$,V(a))}function
+et(g,m){var
+D=g[2];function
+E(c,b){var
+a=jA(b);if(cq(a)!==c)throw x;return a}switch(m[0]){case
 0:var
-b=l[1];if(b){var
-d=b[1],a=d[1],c=0;if(j(a,v6))if(j(a,v7))if(j(a,v8))if(j(a,v9)){var
-M=0;if(j(a,v_)&&j(a,v$)&&j(a,wa))M=1;if(!M)if(b[2])c=1;else{var
-N=d[2],E=N,D=function(c,b){return[1,a,c,b]};c=2}}else{var
-H=d[2];if(1===H[0]){var
-m=H[1];if(m){var
-n=m[2];if(n){var
-o=n[2];if(o&&!o[2]){if(!b[2]){var
-Q=f9(o[1]),R=f8(n[1]);return[4,er(e,m[1]),R,Q]}c=1}}}}}else{if(!b[2]){var
-y=aV(d[2]),z=j(y,v4);if(z){if(j(y,v5))throw x;var
-A=1}else
+c=m[1];if(c){var
+e=c[1],b=e[1],d=0;if(i(b,v6))if(i(b,v7))if(i(b,v8))if(i(b,v9)){var
+O=0;if(i(b,v_)&&i(b,v$)&&i(b,wa))O=1;if(!O)if(c[2])d=1;else{var
+Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
+J=e[2];if(1===J[0]){var
+n=J[1];if(n){var
+o=n[2];if(o){var
+p=o[2];if(p&&!p[2]){if(!c[2]){var
+T=ga(p[1]),X=f$(o[1]);return[4,et(g,n[1]),X,T]}d=1}}}}}else{if(!c[2]){var
+A=aV(e[2]),B=i(A,v4);if(B){if(i(A,v5))throw x;var
+C=1}else
 var
-A=z;return[2,A]}c=1}else{if(!b[2]){var
-f=d[2],i=0;switch(f[0]){case
+C=B;return[2,C]}d=1}else{if(!c[2]){var
+h=e[2],l=0;switch(h[0]){case
 0:var
-g=f[1];if(g){var
-J=g[1],K=J[1];if(j(K,wf)){if(!j(K,wg)){var
-L=J[2];if(1===L[0]){var
-t=L[1];if(t){var
-h=t[1],k=0;switch(h[0]){case
+j=h[1];if(j){var
+L=j[1],u=L[1],a=0;if(i(u,wf)&&i(u,wg))if(i(u,wh))a=1;else{var
+M=L[2];if(1===M[0]){var
+v=M[1];if(v){var
+k=v[1],f=0;switch(k[0]){case
 0:var
-u=h[1];if(!u||j(u[1][1],wi)||u[2])k=1;break;case
-2:if(j(h[1],wj))k=1;break;default:k=1}if(!k){var
-v=t[2];if(v){var
-w=v[2];if(w&&!w[2]&&!g[2]){var
-X=f9(w[1]),Y=f8(v[1]),q=[5,er(e,h),Y,X];i=1}}}}}}}else
-if(!g[2])i=2}break;case
-2:if(!j(f[1],wk))i=2;break}switch(i){case
+w=k[1];if(w){var
+N=w[1][1],P=0;if(i(N,wj)&&i(N,wk)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(i(k[1],wl)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+y=v[2];if(y){var
+z=y[2];if(z&&!(z[2]||j[2])){var
+_=ga(z[1]),$=f$(y[1]),r=[5,et(g,k),$,_];l=1;a=1}else
+a=1}else
+a=1}}else
+a=1}else
+a=1}if(!a&&!j[2])l=2}break;case
+2:if(!i(h[1],wm))l=2;break}switch(l){case
 0:var
-q=af(wh);break;case
+r=af(wi);break;case
 2:var
-q=er(e,f);break}return[6,q]}c=1}else{var
-I=d[2];if(1===I[0]){var
-r=I[1];if(r){var
-s=r[2];if(s&&!s[2])if(b[2])c=1;else{var
-S=s[1],T=r[1],E=T,D=function(b,a){return[3,b,a,C(B+1|0,S)]};c=2}}}}switch(c){case
-0:if(!b[2])return af([0,wc,[0,a,wb]]);break;case
+r=et(g,h);break}return[6,r]}d=1}else{var
+K=e[2];if(1===K[0]){var
+s=K[1];if(s){var
+t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
+Y=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,Y)]};d=2}}}}switch(d){case
+0:if(!c[2])return af([0,wc,[0,b,wb]]);break;case
 1:break;default:var
-F=U(E),O=V(p(F,wd)),G=W(function(a){return C(B,a)},O),P=e[1];if(cp(G)!==P)throw x;return D(G,f9(p(F,we)))}}break;case
-2:return[0,l[1]]}throw x}function
-wG(c){var
+H=U(G),R=V(q(H,wd)),I=W(function(a){return E(D,a)},R),S=g[1];if(cq(I)!==S)throw x;return F(I,ga(q(H,we)))}}break;case
+2:return[0,m[1]]}throw x}function
+wI(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!j(b[1],wH))a=1;break;case
+0:if(!i(b[1],wJ))a=1;break;case
 6:a=1;break}return a?1:0}function
-wI(d){var
+wK(d){var
 f=y(d),a=[0,0];function
 g(b){if(a[1]<f)return L(d,a[1]);throw x}function
 h(b){if(g(0)===b){a[1]++;return 0}throw x}function
@@ -4943,27 +4958,27 @@ i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
 f=i;continue}h(d);var
 b=i,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-q(c,k){if(64<c)throw x;var
+p(c,k){if(64<c)throw x;var
 b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
+e=93,f=c+1|0;return[1,E(function(a){return p(f,a)},e)]}if(123===b){a[1]++;var
 i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
+a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,C(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=q(0,0),F=a[1]<f?1:0,N=F?10===L(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=U(M);if(j(aV(p(m,wJ)),wK))throw x;var
-b=uZ(p(m,wL));switch(b[0]){case
+M=p(0,0),F=a[1]<f?1:0,N=F?10===L(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=U(M);if(i(aV(q(m,wL)),wM))throw x;var
+b=uZ(q(m,wN));switch(b[0]){case
 0:var
-n=[0,cp(b[1]),3];break;case
+n=[0,cq(b[1]),3];break;case
 2:var
-_=1===b[1]?6:3,n=[0,cp(b[2]),_];break;case
+_=1===b[1]?6:3,n=[0,cq(b[2]),_];break;case
 3:var
-$=cp(b[1]),n=[0,cp(b[4]),$];break;default:var
-n=wT}var
-w=cN(p(m,wM)),z=w[1];if(j(z,ww))if(j(z,wx))var
-c=af([0,wz,[0,z,wy]]);else{var
-k=U(w[2]),A=a0(k,wA),Q=A?W(X,V(A[1])):A,r=cN(p(k,wB)),i=r[1],o=0;if(j(i,wr)){var
-G=j(i,ws);if(G){if(!j(i,wt)){var
+$=cq(b[1]),n=[0,cq(b[4]),$];break;default:var
+n=wV}var
+w=cN(q(m,wO)),z=w[1];if(i(z,wy))if(i(z,wz))var
+c=af([0,wB,[0,z,wA]]);else{var
+k=U(w[2]),A=a0(k,wC),Q=A?W(Y,V(A[1])):A,r=cN(q(k,wD)),j=r[1],o=0;if(i(j,wt)){var
+G=i(j,wu);if(G){if(!i(j,wv)){var
 H=r[2];if(1===H[0]){var
 s=H[1];if(s){var
 t=s[2];if(t&&!t[2]){var
@@ -4972,32 +4987,32 @@ l=G;o=1}}else{var
 I=r[2];if(1===I[0]){var
 u=I[1];if(u){var
 v=u[2];if(v&&!v[2]){var
-P=W(jz,V(v[1])),l=[0,cO(u[1]),P];o=1}}}}if(!o)var
-l=af([0,wv,[0,i,wu]]);var
-R=W(X,V(p(k,wC))),c=[1,jr(p(k,wD)),R,Q,l]}else
+P=W(jA,V(v[1])),l=[0,cO(u[1]),P];o=1}}}}if(!o)var
+l=af([0,wx,[0,j,ww]]);var
+R=W(Y,V(q(k,wE))),c=[1,js(q(k,wF)),R,Q,l]}else
 var
-J=U(w[2]),S=V(p(J,wE)),T=W(function(f){var
-a=U(f);if(0!==a0(a,wn))af(wo);var
-d=ep(cO,a0(a,wp)),b=a0(a,wq);if(b)var
+J=U(w[2]),S=V(q(J,wG)),T=W(function(f){var
+a=U(f);if(0!==a0(a,wp))af(wq);var
+d=er(cO,a0(a,wr)),b=a0(a,ws);if(b)var
 e=V(b[1]),c=W(function(g){var
 b=V(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wl)){if(!a[2]){if(j(dt(e),wm))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!i(c[1],wn)){if(!a[2]){if(i(dt(e),wo))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=er(n,c);return[0,cO(e),f]}}}throw x},e);else
+f=et(n,c);return[0,cO(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},S),c=[0,jr(p(J,wF)),T];var
+c=b;return[0,c,d]},S),c=[0,js(q(J,wH)),T];var
 B=0;switch(b[0]){case
-1:if(0===c[0]){af(wQ);B=1}break;case
+1:if(0===c[0]){af(wS);B=1}break;case
 2:if(0===c[0]){var
-Z=c[2];if(!g6(function(a){return g6(wG,a[1])},Z)){af(wR);B=1}}break;case
-3:if(1===c[0]){af(wS);B=1}break}var
-K=U(p(m,wN)),Y=aV(p(K,wO));return[0,b,c,aV(p(K,wP)),Y]}function
-wU(c){try{try{var
-d=0,a=wI(c);d=1}catch(a){a=eR(a);if(a[1]===jq)var
+Z=c[2];if(!g9(function(a){return g9(wI,a[1])},Z)){af(wT);B=1}}break;case
+3:if(1===c[0]){af(wU);B=1}break}var
+K=U(q(m,wP)),X=aV(q(K,wQ));return[0,b,c,aV(q(K,wR)),X]}function
+wW(c){try{try{var
+d=0,a=wK(c);d=1}catch(a){a=eU(a);if(a[1]===jr)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=tS(c,a)?0===a[2][0]?0:1:2}catch(a){return wV}if(typeof
+b=tS(c,a)?0===a[2][0]?0:1:2}catch(a){return wX}if(typeof
 b==="number")switch(b){case
-0:return wW;case
-1:return wX;default:return wY}return ap(wZ,b[1])}yK.orthocert_verify=yq(function(b){return bO(wU(a(b)))});eU(0);return}(globalThis));
+0:return wY;case
+1:return wZ;default:return w0}return aq(w1,b[1])}yM.orthocert_verify=ys(function(b){return bO(wW(a(b)))});eX(0);return}(globalThis));
