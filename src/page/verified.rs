@@ -5,7 +5,7 @@
 
 use crate::escape;
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::certificate::{Claim, Verdict};
+use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
     Bound, JointFormula, Leg, MachineClaim, Mechanism, Turning, Workspace,
 };
@@ -16,6 +16,9 @@ pub const PROGRAM: &str = include_str!("../../proofs/rocq/program/verified.js");
 
 /// Most bytes of a certificate in a page: what a browser checks in a second or two.
 pub const MOST_BYTES: usize = 1 << 16;
+
+/// Most control points, of all cells, of a certificate in a page: a thousand take a browser half a second.
+pub const MOST_POINTS: usize = 6000;
 
 /// Quantities that the formal development knows.
 const QUANTITIES: [&str; 8] = [
@@ -55,7 +58,7 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
         );
     }
     let text = match std::str::from_utf8(bytes) {
-        Ok(text) if bytes.len() <= MOST_BYTES => text,
+        Ok(text) if bytes.len() <= MOST_BYTES && points(certificate) <= MOST_POINTS => text,
         _ => {
             return apart(
                 "The certificate is too large to be proved again in a page: run \
@@ -73,6 +76,18 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
             escape::data(&Value::from(text).to_string())
         ),
     }
+}
+
+/// The control points at which the program evaluates tests: three to each coordinate of a cell.
+fn points(certificate: &Certificate) -> usize {
+    let Proof::Tree(tree) = &certificate.proof else { return 0 };
+    let is_test = |Step(_, by): &Step| matches!(by, Evidence::Control(_));
+    let cells = tree.nodes.iter().filter(|node| node.by.iter().any(is_test)).count();
+    let each = match &certificate.claim {
+        Claim::Machine(MachineClaim { mechanism: Mechanism::Spatial(_), .. }) => 729,
+        _ => 27,
+    };
+    cells.saturating_mul(each)
 }
 
 /// Whether the program reads claims of this kind. Where it does not read the proof, the page says so.

@@ -3,7 +3,7 @@
 From Coq Require Import ZArith NArith List String Decimal.
 From Orthocert Require Import Claim.
 From Orthocert.kernel Require Import Check Configuration Written Orientation Turning Pose.
-From Orthocert.kernel Require Certificate.
+From Orthocert.kernel Require Formula Control Certificate.
 Import ListNotations.
 
 (** The 3-RPR of certificates/planar-3-rpr.cert.json, with two of its requirements. *)
@@ -43,6 +43,40 @@ Example rank_alone : accepts right [by_rank Y; by_test] = false. Proof. vm_compu
 Example turned : accepts right [by_lower Y; (1%nat, AtControls (Turned ByTest 0 0%N))] = false. Proof. vm_compute. reflexivity. Qed.
 Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. reflexivity. Qed.
 End Planar.
+
+(** Where ends alone of positions will do: in the plane, coordinates 3 and 4 are the squares of 0 and 1. *)
+Module Ends.
+Import Formula Control.
+Definition w : formula := F (Param 0).
+Definition square (k : nat) : formula := F (Coord (3 + k)).
+Definition times (a b : formula) : formula := F (Mul a b).
+Definition minus (a b : formula) : formula := F (Sub a b).
+Definition plus (a b : formula) : formula := F (Add a b).
+(** How many coordinates have ends alone: of [n] struts with [a] in their rows and [d] for D, and a weight. *)
+Definition ends (n : nat) (a d weight : formula) (g : option formula) : nat :=
+  ends_of ([a; d; weight] ++ match g with Some g => [g] | None => [] end) 3 InPlane (repeat ([0%nat], 1%nat) n) 2
+    (option_map (fun _ => 3%nat) g).
+Definition x : formula := F (Coord 0).
+Definition d : formula := plus (minus (times w (plus (square 0) (square 1))) x) (square 2).
+
+Example as_it_is : ends 3 x d w (Some (minus w (square 2))) = 2%nat. Proof. reflexivity. Qed.
+Example more_struts : ends 4 x d w None = 0%nat. Proof. reflexivity. Qed.
+Example fewer_struts : ends 2 x d w None = 0%nat. Proof. reflexivity. Qed.
+Example another_factor : ends 3 x (times (F (Param 1)) (square 0)) w None = 0%nat. Proof. reflexivity. Qed.
+Example other_sign : ends 3 x (minus d (times w (square 1))) w None = 0%nat. Proof. reflexivity. Qed.
+Example in_the_row : ends 3 (square 0) d w None = 0%nat. Proof. reflexivity. Qed.
+Example in_the_weight : ends 3 x d (square 1) None = 0%nat. Proof. reflexivity. Qed.
+Example in_the_inequality : ends 3 x d w (Some (minus w (square 1))) = 0%nat. Proof. reflexivity. Qed.
+
+(** A middle node that is looked at, or not. *)
+Definition sign (low middle high : Z) : tensor :=
+  let at_ n := Constant (Some (Fixed.Fixed n n)) in Each (at_ low) (at_ middle) (at_ high).
+Definition everywhere_positive (e : nat) (t : tensor) : bool := everywhere e 1 sign_at (Sample _ [] t None).
+Example at_ends : everywhere_positive 1 (sign 1 (-1) 1) = true. Proof. reflexivity. Qed.
+Example at_all : everywhere_positive 0 (sign 1 (-1) 1) = false. Proof. reflexivity. Qed.
+Example at_low : everywhere_positive 1 (sign (-1) 1 1) = false. Proof. reflexivity. Qed.
+Example at_high : everywhere_positive 1 (sign 1 1 (-1)) = false. Proof. reflexivity. Qed.
+End Ends.
 
 (** A spherical platform on three struts, as in certificates/spherical-3-ups.cert.json, with tilt and torsion, or up to an angle. *)
 Module Spherical.

@@ -22,19 +22,23 @@ Variables m n : nat.
 (** Where it is curved, what is not negative at the orientations. *)
 Variable g : option nat.
 
-Definition shows_less (points : list (list (option fixed))) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
+(** Of least singular values, the first coordinates have ends alone. *)
+Variable ends : nat.
+
+Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
+  let at_all e good r w := everywhere e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
-  | LeastOf r w k, ByLower places Y => forallb (lower_at bits n places Y r w k l) points
-  | LeastOf r w k, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && forallb (rank_at n places Y r l) points
-  | GreatestOf r w k, ByTest => forallb (upper_at bits n r w k l) points
-  | SignOf f, ByTest => forallb (sign_at f l) points
+  | LeastOf r w k, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
+  | LeastOf r w k, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
+  | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
+  | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | _, _ => false
   end.
-Definition shows_at (points : list (list (option fixed))) (t : polynomial_test) (e : evidence) : bool :=
+Definition shows_at (ts : list tensor) (t : polynomial_test) (e : evidence) : bool :=
   match e with
   | AtControls (Turned e k places) =>
-      match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less points (Some (g, k, places)) t e | None => false end
-  | AtControls e => shows_less points None t e
+      match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less ts (Some (g, k, places)) t e | None => false end
+  | AtControls e => shows_less ts None t e
   | _ => false
   end.
 (** No orientation of the set is in the cell. *)
@@ -43,18 +47,20 @@ Definition is_outside_at (cell : list fixed) : bool :=
   | Some g => match nth g (evaluate_at bits tape params (map (fun a => (a, sqr bits a)) cell)) None with Some a => (hi a <? 0)%Z | None => false end
   | None => false
   end.
-Fixpoint discharged (cell : list fixed) (points : list (list (option fixed))) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+Fixpoint discharged (cell : list fixed) (ts : list tensor) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   match steps with
   | [] => Some open
-  | (O, Outside) :: rest => if is_outside_at cell then discharged cell points rest (map (fun _ => false) open) else None
+  | (O, Outside) :: rest => if is_outside_at cell then discharged cell ts rest (map (fun _ => false) open) else None
   | (i, e) :: rest =>
       match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at points t e then discharged cell points rest (clear i open) else None
+      | true, Some t => if shows_at ts t e then discharged cell ts rest (clear i open) else None
       | _, _ => None
       end
   end.
+Definition is_outside (s : nat * evidence) : bool := match s with (O, Outside) => true | _ => false end.
+(** With formulas at control points where there is a test. *)
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with [] => Some open | _ => discharged cell (map (evaluate_at bits tape params) (grid bits cell)) steps open end.
+  discharged cell (if forallb is_outside steps then [] else tensors bits tape params cell) steps open.
 Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
   | Leaf steps => match steps_at cell steps open with Some last => forallb negb last | None => false end
@@ -71,65 +77,81 @@ Definition test_places (t : polynomial_test) : list nat :=
   match t with LeastOf r w _ | GreatestOf r w _ => w :: all_places r | SignOf f => [f] end.
 Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
 Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
-Definition is_turned (x : list R) : Prop := forall i, g = Some i -> 0 <= at_pairs theta (entry_at tape i) (parabola x).
+Hypothesis eased : ends = O \/ forall r w k, In (LeastOf r w k) tests -> length r = n /\
+  is_eased tape m ends r w None = true /\ forall i k places, g = Some i -> is_eased tape m ends r w (Some (i, k, places)) = true.
+(** Rows are those of struts, and the orientation is of the set. *)
+Definition is_turned (x : list R) : Prop :=
+  let here i := at_pairs theta (entry_at tape i) (parabola x) in
+  (forall i, g = Some i -> 0 <= here i) /\ (forall r w k, In (LeastOf r w k) tests -> grounded (map_rows here r) /\ 0 < here w).
 
 Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
   match t with
-  | LeastOf r w kappa2 => forall k v, contains bits kappa2 k -> length v = n -> nonzero v ->
+  | LeastOf r w kappa2 => forall k v, contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ k * here w * Linear.dot v v < energy (map_rows here r) v
   | GreatestOf r w k2 => forall k v, contains bits k2 k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) v < k * here w * Linear.dot v v
   | SignOf f => 0 <= here f
   end.
 
-Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m ->
+Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  (l = None \/ exists i k places, g = Some i /\ l = Some (i, k, places)) ->
   is_affine_multiple tape m l = true -> 0 <= less_at tape theta (parabola x) l ->
-  shows_less (map (evaluate_at bits tape params) (grid bits cell)) l t e = true -> test_holds x t.
+  shows_less (tensors bits tape params cell) l t e = true -> test_holds x t.
 Proof.
-  intros cell x l t e it hx len la l0 h. pose proof (affine t it) as ha.
-  assert (K : forall good, forallb good (map (evaluate_at bits tape params) (grid bits cell)) = true ->
-    forall q, In q (grid bits cell) -> good (evaluate_at bits tape params q) = true)
-    by (intros good f q iq; rewrite forallb_forall in f; apply f, in_map, iq).
-  destruct t as [r w k2 | r w k2 | f], e; cbn [shows_less test_holds test_places] in *; try discriminate.
-  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y); [exact ha | exact (K _ h)].
-  - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2. cbn [forallb] in ha. apply andb_true_iff in ha as [_ ha].
-    intros k v [l1 l2] lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (k0 : k = 0) by nra. subst k. rewrite !Rmult_0_l.
-    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r v ha (K _ h3) lv nz).
-  - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ h)].
-  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ h)).
+  intros cell x l t e it hx len ht hl la l0 h. pose proof (affine t it) as ha.
+  pose proof (fun e good s => everywhere_shown bits tape params m cell len e good s) as K.
+  assert (E : forall r w k, In (LeastOf r w k) tests -> ends_suffice tape theta m x ends n r w l).
+  { intros r w k i. pose proof eased as EA. destruct EA as [e0 | H]; [left; exact e0 | right]. destruct (H r w k i) as [lr [h1 h2]]. split; [| split; [exact lr | exact (proj2 ht r w k i)]].
+    destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
+  destruct t as [r w k2 | r w k2 | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w k2 it) | exact (K _ _ _ h)].
+  - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
+    intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
+    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w k2 it) (K _ _ _ h3) lv nz).
+  - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
+  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
-  shows_at (map (evaluate_at bits tape params) (grid bits cell)) t e = true -> test_holds x t.
+  shows_at (tensors bits tape params cell) t e = true -> test_holds x t.
 Proof.
   intros cell x t e it hx len ht h.
-  assert (None_ : forall e, shows_less (map (evaluate_at bits tape params) (grid bits cell)) None t e = true -> test_holds x t)
-    by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len eq_refl (Rle_refl 0) h')).
+  assert (None_ : forall e, shows_less (tensors bits tape params cell) None t e = true -> test_holds x t)
+    by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
   destruct e as [| | | | | | | | | | | e |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places]; try exact (None_ _ h).
-  destruct g as [i |] eqn:eg; [| discriminate]. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
-  apply (shows_less_sound cell x (Some (i, k, places)) t e it hx len); [exact (g_affine i eq_refl) | | exact s].
-  cbn [less_at]. apply Rmult_le_pos; [| exact (ht i eg)]. pose proof (two_power places). apply Rmult_le_pos; [exact k0 | apply Rlt_le, Rinv_0_lt_compat; assumption].
+  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors bits tape params cell) (Some (i, k, places)) t e = true)
+    by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
+  destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
+  apply (shows_less_sound cell x (Some (i, k, places)) t e it hx len ht); [right; exists i, k, places; auto | exact (g_affine i eg) | | exact s].
+  cbn [less_at]. apply Rmult_le_pos; [| exact (proj1 ht i eg)]. pose proof (two_power places). apply Rmult_le_pos; [exact k0 | apply Rlt_le, Rinv_0_lt_compat; assumption].
 Qed.
 
 Lemma is_outside_at_sound : forall cell x, Forall2 (contains bits) cell x -> is_outside_at cell = true -> ~ is_turned x.
 Proof.
   intros cell x hx h ht. unfold is_outside_at in h. destruct g as [i |] eqn:eg; [| discriminate].
   destruct (nth i _ None) as [a |] eqn:ea; [| discriminate]. apply Z.ltb_lt, IZR_lt in h.
-  destruct (range_sound bits tape params theta theta_in cell x hx i a ea) as [_ u]. pose proof (ht i eg). pose proof (unit_R_pos bits). nra.
+  destruct (range_sound bits tape params theta theta_in cell x hx i a ea) as [_ u]. pose proof (proj1 ht i eg). pose proof (unit_R_pos bits). nra.
 Qed.
 
 Definition is_done (x : list R) (open : list bool) : Prop := forall i t, nth_error tests i = Some t -> nth i open false = false -> test_holds x t.
+
+Lemma steps_at_tensors : forall cell steps open, steps_at cell steps open = discharged cell (tensors bits tape params cell) steps open.
+Proof.
+  intros cell steps open. unfold steps_at. destruct (forallb is_outside steps) eqn:h; [| reflexivity]. revert open h.
+  induction steps as [| [i e] steps IH]; intros open h; [reflexivity |]. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
+  destruct i, e; try discriminate h1. cbn [discharged]. destruct (is_outside_at cell); [apply IH, h2 | reflexivity].
+Qed.
 
 Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   steps_at cell steps open = Some rest -> is_done x open -> is_done x rest.
 Proof.
   intros cell x steps open rest hx len ht h.
-  assert (h' : discharged cell (map (evaluate_at bits tape params) (grid bits cell)) steps open = Some rest) by (destruct steps; exact h). clear h.
-  assert (Own : forall i e steps, (forall open, discharged cell (map (evaluate_at bits tape params) (grid bits cell)) steps open = Some rest -> is_done x open -> is_done x rest) ->
+  assert (h' : discharged cell (tensors bits tape params cell) steps open = Some rest) by (rewrite <- steps_at_tensors; exact h). clear h.
+  assert (Own : forall i e steps, (forall open, discharged cell (tensors bits tape params cell) steps open = Some rest -> is_done x open -> is_done x rest) ->
     forall open, match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at (map (evaluate_at bits tape params) (grid bits cell)) t e
-          then discharged cell (map (evaluate_at bits tape params) (grid bits cell)) steps (clear i open) else None
+      | true, Some t => if shows_at (tensors bits tape params cell) t e
+          then discharged cell (tensors bits tape params cell) steps (clear i open) else None
       | _, _ => None end = Some rest -> is_done x open -> is_done x rest).
   { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
     destruct (shows_at _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
@@ -266,10 +288,14 @@ Qed.
 Lemma scaled_row_speed : let (A, D) := scaled_row k N we le a b in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
     forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
-  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q).
+  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0).
 Proof.
-  pose proof scaled_row_values as S. destruct (scaled_row k N we le a b) as [A D]. destruct S as [-> ->]. split; [| reflexivity].
-  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. intro p.
+  pose proof scaled_row_values as S. destruct (scaled_row k N we le a b) as [A D]. destruct S as [-> ->].
+  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. split; [| split; [reflexivity |]].
+  2: { intros z v. apply Rmult_integral in z as [z | z]; [lra |]. rewrite (norm2_zero _ z), dot_map. generalize (arm_of_joint l Q). clear. intros [a b c].
+    destruct k, v as [| v1 [| v2 [| v3 [| v4 [| v5 [| v6 v]]]]]]; unfold twist, vscale, cross, vzero; cbn [Linear.dot vx vy vz]; ring. }
+  intro p.
   assert (n0 : 0 < norm2 (strut_vector l P Q)) by (apply Rmult_lt_reg_l with (W * r ^ 2); lra). split; [exact n0 |].
   intro v. unfold strut_row. cbv zeta. pose proof (sqrt_lt_R0 _ n0) as s0.
   assert (E : twist k (normalised (strut_vector l P Q)) (vscale (/ L) (cross (arm_of_joint l Q) (normalised (strut_vector l P Q))))
@@ -325,6 +351,11 @@ Definition is_nothing (t : tolerance) : bool := Witness.same (least t) (0 // 1) 
 Definition is_flat (k : motion) (t : tolerances) : bool :=
   match k with InPlane => is_nothing (tz t) | InSpace => true | AboutPoint => is_nothing (tx t) && is_nothing (ty t) && is_nothing (tz t) end.
 
+(** With as many struts as coordinates, positions have ends alone. *)
+Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w : nat) (g : option nat) : nat :=
+  let e := first_angle k in
+  if Nat.eqb (length r) m && eased_in m fs e r w (option_map (fun g => (g, 0%Z, 0%N)) g) then e else O.
+
 Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let k := motion_of c in let m := dimension k in
   let ps := flat_map (strut_layout s) (struts c) ++ [(exactly (characteristic_length c), s)] in
@@ -335,8 +366,10 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
   let wanted := entries rows ++ w :: length_signs rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end in
   let tape := fst (compile (map (image m) wanted)) in
-  let place f := Formula.place (formulas tape) (image m f) in
-  forallb (fun f => Formula.same (nth (place f) (formulas tape) (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
+  let fs := formulas tape in
+  let place f := Formula.place fs (image m f) in
+  let ends := ends_of fs m k (map_rows place rows) (place w) (option_map place g) in
+  forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
   existsb excludes (turning_demands c) && is_flat k (positions c) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (ps ++ map (length_bound s) (turning_demands c))),
@@ -345,9 +378,9 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
         all_some (map (enclose_tangent bits) (curved (turned c))),
         all_some (pose_tests place rows w s j (turning_demands c)) with
   | Some params, Some box, Some angles, Some tangents, Some tests =>
-      Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (is_affine_at tape m) (test_places t)) tests &&
-      match g with Some g => is_affine_at tape m (place g) | None => true end &&
-      check_poses bits tape (params ++ tangents) tests m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
+      Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
+      match g with Some g => affine_in m fs (place g) | None => true end &&
+      check_poses bits tape (params ++ tangents) tests m m (option_map place g) ends (box ++ angles) (map (fun _ => true) tests) t
   | _, _, _, _, _ => false
   end.
 
@@ -357,7 +390,8 @@ Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R
   let (A, D) := row in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
     forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
-  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q).
+  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0).
 
 Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
   forall x front back k P Q W L N w ell, 0 < W -> 0 < L -> (forall b, norm2 (mulv Q b) = norm2 b) ->
@@ -385,6 +419,24 @@ Proof.
   intros x theta k P Q W r L. induction 1 as [| [A D] l rows m [h _] hs IH]; intro p; [split; [constructor | intro; cbn; ring] |].
   rewrite map_rows_cons in p. inversion p as [| ? ? p1 p2]. subst. destruct (IH p2) as [I1 I2]. destruct (h p1) as [h1 h2].
   split; [constructor; assumption |]. intro v. rewrite map_rows_cons. cbn [energy map]. unfold Configuration.speed2 in *. cbn [fold_right]. rewrite I2, h2. ring.
+Qed.
+
+Lemma rows_grounded : forall x theta k P Q W r L rows m, 0 < W -> Forall2 (stands x theta k P Q W r L) rows m -> grounded (map_rows (Formula.value x theta) rows).
+Proof.
+  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [_ [hd hz]] hs IH]; [constructor |]. rewrite map_rows_cons. constructor; [| exact IH].
+  cbn [fst snd]. split; [| exact hz]. rewrite hd. apply Rmult_le_pos; [apply Rmult_le_pos; [lra | apply pow2_ge_0] |]. unfold norm2.
+  destruct (strut_vector l P Q) as [a b c]. cbn [vx vy vz]. pose proof (pow2_ge_0 a). pose proof (pow2_ge_0 b). pose proof (pow2_ge_0 c). lra.
+Qed.
+
+(** All tests of least singular values are of these rows. *)
+Lemma least_tests : forall place rows w s ds j tests r v k, all_some (pose_tests place rows w s j ds) = Some tests -> In (LeastOf r v k) tests ->
+  r = map_rows place rows /\ v = place w.
+Proof.
+  intros place rows w s. induction ds as [| d ds IH]; intros j tests r v k e i; cbn [pose_tests all_some] in e; [injection e as <-; contradiction |].
+  destruct (pose_test place rows w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
+  destruct i as [-> | i]; [| exact (IH (S j) rest r v k er i)].
+  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); discriminate);
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu; intros; subst; split; reflexivity.
 Qed.
 
 (** A demand's own test, bound and formula. *)
@@ -500,10 +552,20 @@ Proof.
   rewrite forallb_forall in aff.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
-  assert (turn : is_turned tape (option_map place g) theta x).
-  { intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
+  set (ends := ends_of (formulas tape) (dimension k) k (map_rows place rows) (place w) (option_map place g)) in *.
+  assert (eased : ends = O \/ forall r v q, In (LeastOf r v q) tests -> length r = dimension k /\ is_eased tape (dimension k) ends r v None = true /\
+    forall i n places, option_map place g = Some i -> is_eased tape (dimension k) ends r v (Some (i, n, places)) = true).
+  { unfold ends, ends_of. cbv zeta. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
+    intros r v q i. destruct (least_tests _ _ _ _ _ _ _ _ _ _ et i) as [-> ->]. split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
+    - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
+      apply andb_true_iff in e2 as [-> _]. reflexivity.
+    - split; [exact e2 | discriminate]. }
+  assert (turn : is_turned tape tests (option_map place g) theta x).
+  { split; [| intros r v q i; destruct (least_tests _ _ _ _ _ _ _ _ _ _ et i) as [-> ->]; split;
+      [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
+    intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
+  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) ends theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
     by (apply (rows_speed x theta k P Q W (/ two_to s) L); exact ST).
@@ -517,8 +579,8 @@ Proof.
   { intros low kappa hk k0 it. pose proof (HT _ it) as H. cbn [test_holds] in H.
     assert (PD : positive_D (map_rows (Formula.value x theta) rows)).
     { assert (U : exists v, length v = dimension k /\ nonzero v) by (exists (repeat 1 (dimension k)); destruct k; (split; [reflexivity | unfold nonzero; cbn; lra])).
-      destruct U as [v [lv nv]]. destruct (H kappa v hk lv nv) as [p _]. rewrite Rows in p. exact p. }
-    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. intros v lv nv. destruct (H kappa v hk lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
+      destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
+    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
   assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place rows w s (j + i) d = Some u /\ In u tests /\
     forall f, length_sign rows w s (j + i) d = Some f -> In f wanted).
@@ -540,7 +602,7 @@ Proof.
     rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
   pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
   assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
-  { clear - ST. intros n A D. revert n. induction ST as [| [A' D'] l rows' m' [_ hd] hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
+  { clear - ST. intros n A D. revert n. induction ST as [| [A' D'] l rows' m' [_ [hd _]] hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
     - injection e as -> ->. exists l. split; [reflexivity | exact hd].
     - exact (IH n e). }
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-yM=typeof
-module==="object"&&module.exports||u,gA="spatial",kC="Invalid_argument",ey="precision",ao='"',kB="@[",gk=1255,kA="inside",lb="Fatal error: exception %s\n",j4=255,kz="yaw",k$="(",la=0x800,j2="range",j3="tree",gj="jsError",bj=0x8000,kx='the mechanism "',ky="%ni",lB="sqrt(",k_=256,kw="offset",k9="obligation",b4="machine",j1="End_of_file",eA="strut",j0="center",eK="arm",gi="Failure",lz="serial_margin",lA="parameters",bK=0xff,jZ="\n",gF="outside",gr="base_axis",gz="ENOENT",ly=122,aG="0",k8="([^/]+)",gy=0xf,dB=128,gh=-48,jY=0xdc00,kv="Sys_blocked_io",lx="fd ",jX="given",k7="ENOTEMPTY",an=248,k6="bound",am="camlinternalFormat.ml",k5="Division_by_zero",lv="by",lw=1027,jW="Sys_error",ku="slider",kt="postulate",k4="torsion",k3="proof",ks="%u",cQ="mechanism",eF="row",jV="EEXIST",kr="roll_pitch_yaw",gx="%d",jU="Printexc.handle_uncaught_exception",kq="y",ex="lower",kp="within",k2="cube",k1="buffer.ml",lu="turned",ew="int_of_string",k0="control",ko="definitions",gq=127,dA=1024,kn="@{",gE="e",jS=120,jT=103,km=" : flags Open_rdonly and Open_wronly are not compatible",kZ="orthocert/2",lt="reach",jR=512,a1="-",ls="witness",b1="platform",jQ=0x7ff0,jP="pitch",gD=": Not a directory",kl=" : file already exists",bl="min",cR="workspace",kk="claim",kY="split",lr="legs",bJ=0xffffff,kX="joint",jN="formulas",jO="0x",kj='the workspace "',kW="roll",lp="nodes",lq="Out_of_memory",jM="psi_max",gC="orientation",ki="angle",eE=254,gB="index out of bounds",kV=100,jL="end",eJ="_bigarr02",jK="%Li",kU=" : flags Open_text and Open_binary are not compatible",b2="drive",kT="coordinates",kh=", characters ",kS="lower_divided",kg="joints",lo="cylinder",bn=0xffff,kf=12520,ke="axis",ln="parallel_margin",jJ='the drive "',gp="fails",gw="Unix.Unix_error",lm="infinity",ev="tool",gg="mkdir",dz=1000,gf="translational",s="",kR="Stack_overflow",ll="characteristic_length",go="^",eu=": No such file or directory",kQ="places",kP="/static/",cP=0x3f,kO=-97,kM="stiffness",kN="Not_found",dy="planar",eD="mode",lk="joint_speed",kd="Match_failure",jI=", ",jH="transmission",b0="anchor",eI=252,kc="leg",b3=".",bk="+",gv="rmdir",lj=0xf0,li="spherical",kb="verified.ml",j$="REJECTED",ka="%li",kL=1026,bm="max",eH="direction",kK="orthoglide",eG="rank",lh="constraint_margin",lg=-32,jF="Pervasives.do_at_exit",jG="utf8",gu="test",bH=" ",ez="conditioning",gt="Fatal error: exception ",a9=0x80,jE="Undefined_recursive_module",gn=")",eC="length",lf="quantity",kJ="joint_range",eB="tilt",jD="Q2",gm="nan",j_="reference",kI="point",j9=0xe0,le="corner",j7="z",j8=0xdfff,kG="version",kH="_",a8="/",gs="compare: functional value",ld="Assert_failure",j6="provenance",jB="radius",jC="%i",bI="require",kF="side",lc="format",gl="ENOTDIR",kE="Q1",kD="all",cl="box",j5=250;function
-gV(c,b,a){var
+yV=typeof
+module==="object"&&module.exports||u,gH="spatial",kH="Invalid_argument",eC="precision",ap='"',kG="@[",gr=1255,kF="inside",lg="Fatal error: exception %s\n",j9=255,kE="yaw",le="(",lf=0x800,j7="range",j8="tree",gq="jsError",bn=0x8000,kC='the mechanism "',kD="%ni",lG="sqrt(",ld=256,kB="offset",lc="obligation",b8="machine",j6="End_of_file",eE="strut",j5="center",eO="arm",gp="Failure",lE="serial_margin",lF="parameters",bN=0xff,j4="\n",gM="outside",gy="base_axis",gG="ENOENT",lD=122,aG="0",lb="([^/]+)",gF=0xf,dF=128,go=-48,j3=0xdc00,kA="Sys_blocked_io",lC="fd ",j2="given",la="ENOTEMPTY",ao=248,k$="bound",an="camlinternalFormat.ml",k_="Division_by_zero",lA="by",lB=1027,j1="Sys_error",kz="slider",ky="postulate",k9="torsion",k8="proof",kx="%u",cZ="mechanism",eJ="row",j0="EEXIST",kw="roll_pitch_yaw",gE="%d",jZ="Printexc.handle_uncaught_exception",kv="y",eB="lower",ku="within",k7="cube",k6="buffer.ml",lz="turned",eA="int_of_string",k5="control",kt="definitions",gx=127,dE=1024,ks="@{",gL="e",jX=120,jY=103,kr=" : flags Open_rdonly and Open_wronly are not compatible",k4="orthocert/2",ly="reach",jW=512,a2="-",lx="witness",b5="platform",jV=0x7ff0,jU="pitch",gK=": Not a directory",kq=" : file already exists",bp="min",c0="workspace",kp="claim",k3="split",lw="legs",bM=0xffffff,k2="joint",jS="formulas",jT="0x",ko='the workspace "',k1="roll",lu="nodes",lv="Out_of_memory",jR="psi_max",gJ="orientation",kn="angle",eI=254,gI="index out of bounds",k0=100,jQ="end",eN="_bigarr02",jP="%Li",kZ=" : flags Open_text and Open_binary are not compatible",b6="drive",kY="coordinates",km=", characters ",kX="lower_divided",kl="joints",lt="cylinder",br=0xffff,kk=12520,kj="axis",ls="parallel_margin",jO='the drive "',gw="fails",gD="Unix.Unix_error",lr="infinity",ez="tool",gn="mkdir",dD=1000,gm="translational",s="",kW="Stack_overflow",lq="characteristic_length",gv="^",ey=": No such file or directory",kV="places",kU="/static/",cY=0x3f,kT=-97,kR="stiffness",kS="Not_found",dC="planar",eH="mode",lp="joint_speed",ki="Match_failure",jN=", ",jM="transmission",b4="anchor",eM=252,kh="leg",b7=".",bo="+",gC="rmdir",lo=0xf0,ln="spherical",kg="verified.ml",ke="REJECTED",kf="%li",kQ=1026,bq="max",eL="direction",kP="orthoglide",eK="rank",lm="constraint_margin",ll=-32,jK="Pervasives.do_at_exit",jL="utf8",gB="test",bK=" ",eD="conditioning",gA="Fatal error: exception ",a$=0x80,jJ="Undefined_recursive_module",gu=")",eG="length",lk="quantity",kO="joint_range",eF="tilt",jI="Q2",gt="nan",kd="reference",kN="point",kc=0xe0,lj="corner",ka="z",kb=0xdfff,kL="version",kM="_",a_="/",gz="compare: functional value",li="Assert_failure",j$="provenance",jG="radius",jH="%i",bL="require",kK="side",lh="format",gs="ENOTDIR",kJ="Q1",kI="all",cr="box",j_=250;function
+g2(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dA,a-=dA)e+=d.apply(null,c.slice(b,b+Math.min(a,dA)));return e}function
-eL(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=dE,a-=dE)e+=d.apply(null,c.slice(b,b+Math.min(a,dE)));return e}function
+eP(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?gV(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eL(b);var
+b_(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?g2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eP(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bL(a){return a}function
-bq(a,b,c,d,e){b6(bL(a),b,c,d,e);return 0}function
-yF(b,a){throw[0,b,a]}function
-cW(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bO(a){return a}function
+bu(a,b,c,d,e){b_(bO(a),b,c,d,e);return 0}function
+yO(b,a){throw[0,b,a]}function
+c5(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-cU(a){if(a.t==2)a.c+=cW(a.l-a.c.length,"\0");else
-a.c=gV(a.c,0,a.c.length);a.t=0}function
-l7(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gq)return false;return true}else
+c3(a){if(a.t==2)a.c+=c5(a.l-a.c.length,"\0");else
+a.c=g2(a.c,0,a.c.length);a.t=0}function
+ma(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gx)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-gX(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jR){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(f<<6);if(f<j9){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB){g=h+(g<<6);if(f<lj){a=g-0xe2080;if(a<la||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dB&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bn)c+=String.fromCharCode(0xd7c0+(a>>10),jY+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dA){c.substr(0,1);j+=c;c=s}}return j+c}function
-bo(c,a,b){this.t=c;this.c=a;this.l=b}bo.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:cU(this);case
-0:if(l7(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bo.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return gX(a)};bo.prototype.slice=function(){var
+g4(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a$){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<a$;d++);if(d-b>jW){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF){g=h+(f<<6);if(f<kc){a=g-0x3080;if(a<a$)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF){g=h+(g<<6);if(f<lo){a=g-0xe2080;if(a<lf||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),j3+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dE){c.substr(0,1);j+=c;c=s}}return j+c}function
+bs(c,a,b){this.t=c;this.c=a;this.l=b}bs.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:c3(this);case
+0:if(ma(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bs.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return g4(a)};bs.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bo(this.t,a,this.l)};function
-lL(a){return new
-bo(0,a,a.length)}function
-a(a){return lL(a)}function
-gT(c,b){yF(c,a(b))}var
-aa=[0];function
-ap(a){gT(aa.Invalid_argument,a)}function
-lJ(){ap(gB)}function
-ac(a,c,b){b&=bK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eL(a)}a.c[c]=b;return 0}function
-cm(b,a,c){if(a>>>0>=b.l)lJ();return ac(b,a,c)}function
-cT(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bs(this.t,a,this.l)};function
+lQ(a){return new
+bs(0,a,a.length)}function
+a(a){return lQ(a)}function
+g0(c,b){yO(c,a(b))}var
+ab=[0];function
+aq(a){g0(ab.Invalid_argument,a)}function
+lO(){aq(gI)}function
+ad(a,c,b){b&=bN;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eP(a)}a.c[c]=b;return 0}function
+cs(b,a,c){if(a>>>0>=b.l)lO();return ad(b,a,c)}function
+c2(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bM(c,a){if(c.fun)return bM(c.fun,a);if(typeof
+bP(c,a){if(c.fun)return bP(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bM(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bP(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bM(c,d)}}function
-dC(){ap(gB)}function
-lM(a,b){if(b>>>0>=a.length-1)dC();return a}function
-x7(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bO(a){a.t&6&&cU(a);return a.c}var
-yO=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-yN(a){if(yO)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bP(c,d)}}function
+dG(){aq(gI)}function
+lR(a,b){if(b>>>0>=a.length-1)dG();return a}function
+ye(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bR(a){a.t&6&&c3(a);return a.c}var
+yX=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+yW(a){if(yX)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gL(c){var
+gS(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-lV=Math.pow(2,-24);function
-yD(a){throw a}function
-l2(){yD(aa.Division_by_zero)}function
-t(b,c,a){this.lo=b&bJ;this.mi=c&bJ;this.hi=a&bn}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+l0=Math.pow(2,-24);function
+yM(a){throw a}function
+l7(){yM(ab.Division_by_zero)}function
+t(b,c,a){this.lo=b&bM;this.mi=c&bM;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*lV|0)+this.mi*a.lo+this.lo*a.mi,d=(c*lV|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*l0|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l0|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bn);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bJ;this.lo=this.lo<<1&bJ};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bJ;this.mi=(this.mi>>>1|this.hi<<23)&bJ;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&br);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bM;this.lo=this.lo<<1&bM};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bM;this.mi=(this.mi>>>1|this.hi<<23)&bM;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())l2();var
-d=b.hi^a.hi;if(b.hi&bj)b=b.neg();if(a.hi&bj)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bj)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())l2();var
-d=a.hi;if(a.hi&bj)a=a.neg();if(b.hi&bj)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bj)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bK,this.mi>>16,this.mi>>8&bK,this.mi&bK,this.lo>>16,this.lo>>8&bK,this.lo&bK]};t.prototype.lo32=function(){return this.lo|(this.mi&bK)<<24};t.prototype.hi32=function(){return this.mi>>>8&bn|this.hi<<16};function
-eP(b,c,a){return new
+b=this;if(a.isZero())l7();var
+d=b.hi^a.hi;if(b.hi&bn)b=b.neg();if(a.hi&bn)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bn)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())l7();var
+d=a.hi;if(a.hi&bn)a=a.neg();if(b.hi&bn)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bN,this.mi>>16,this.mi>>8&bN,this.mi&bN,this.lo>>16,this.lo>>8&bN,this.lo&bN]};t.prototype.lo32=function(){return this.lo|(this.mi&bN)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
+eT(b,c,a){return new
 t(b,c,a)}function
-eO(a){if(!isFinite(a)){if(isNaN(a))return eP(1,0,jQ);return a>0?eP(0,0,jQ):eP(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bj:a>=0?0:bj;if(f)a=-a;var
-b=yN(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kL)}else{a/=Math.pow(2,b-lw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+eS(a){if(!isFinite(a)){if(isNaN(a))return eT(1,0,jV);return a>0?eT(0,0,jV):eT(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bn:a>=0?0:bn;if(f)a=-a;var
+b=yW(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kQ)}else{a/=Math.pow(2,b-lB);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gy|f|b<<4;return eP(g,e,c)}function
-dF(a){return a.toArray()}function
-lI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eJ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bn)c.write(16,b.dims[a]);else{c.write(16,bn);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&gF|f|b<<4;return eT(g,e,c)}function
+dJ(a){return a.toArray()}function
+lN(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eN)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<br)c.write(16,b.dims[a]);else{c.write(16,br);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dF(b.get(a));for(var
+e=dJ(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dF(eO(b.get(a)));for(var
+e=dJ(eS(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gL(b.get(a));c.write(32,e)}break;case
+e=gS(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gL(d[1]));c.write(32,gL(d[2]))}break;case
+d=b.get(a);c.write(32,gS(d[1]));c.write(32,gS(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dF(eO(f[1]));for(var
+f=b.get(a),e=dJ(eS(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dF(eO(f[2]));for(var
+e=dJ(eS(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lG(a){switch(a){case
+lL(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-x1(c,e){var
+x_(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)ap("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aq("Bigarray.create: unsupported kind");var
 d=new
-a(e*lG(c));return d}function
-gM(c){var
+a(e*lL(c));return d}function
+gT(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dE(a){return new
+dI(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gN(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gy)==0?b&bj?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gy);if(c>0){a+=16;a*=Math.pow(2,c-lw)}else
-a*=Math.pow(2,-kL);if(b&bj)a=-a;return a}function
-gG(b){var
+gU(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gF)==0?b&bn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gF);if(c>0){a+=16;a*=Math.pow(2,c-lB)}else
+a*=Math.pow(2,-kQ);if(b&bn)a=-a;return a}function
+gN(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)ap("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-yg(b,a){return new
-t(b&bJ,b>>>24&bK|(a&bn)<<8,a>>>16&bn)}function
-gO(a){return a.hi32()}function
-gP(a){return a.lo32()}var
-x2=eJ;function
-b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=x2;b5.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aq("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+yp(b,a){return new
+t(b&bM,b>>>24&bN|(a&br)<<8,a>>>16&br)}function
+gV(a){return a.hi32()}function
+gW(a){return a.lo32()}var
+x$=eN;function
+b9(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b9.prototype.caml_custom=x$;b9.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))ap("bigarray.js: invalid offset");if(this.dims.length!=b.length)ap("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dC();c=c*this.dims[a]+b[a]}else
+Array))aq("bigarray.js: invalid offset");if(this.dims.length!=b.length)aq("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dG();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dC();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dG();c=c*this.dims[a]+(b[a]-1)}return c};b9.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return yg(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return yp(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eE,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gP(b);this.data[a*2+1]=gO(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eI,e,c];default:return this.data[a]}};b9.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gW(b);this.data[a*2+1]=gV(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b5.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b9.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gP(b),e=gO(b);if(c==e)this.data.fill(c);else
+c=gW(b),e=gV(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b5.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b9.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-cS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cS.prototype=new
-b5();cS.prototype.offset=function(a){if(typeof
+c1(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c1.prototype=new
+b9();c1.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ap("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dC();return a};cS.prototype.get=function(a){return this.data[a]};cS.prototype.set=function(a,b){this.data[a]=b;return 0};cS.prototype.fill=function(a){this.data.fill(a);return 0};function
-lE(c,d,a,b){var
-e=lG(c);if(gG(a)*e!=b.length)ap("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-cS(c,d,a,b);return new
-b5(c,d,a,b)}function
-a_(b){if(!aa.Failure)aa.Failure=[an,a(gi),-3];gT(aa.Failure,b)}function
-lF(b,v,r){var
-i=b.read32s();if(i<0||i>16)a_("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bK,o=p>>8&1,h=[];if(r==eJ)for(var
+aq("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dG();return a};c1.prototype.get=function(a){return this.data[a]};c1.prototype.set=function(a,b){this.data[a]=b;return 0};c1.prototype.fill=function(a){this.data.fill(a);return 0};function
+lJ(c,d,a,b){var
+e=lL(c);if(gN(a)*e!=b.length)aq("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+c1(c,d,a,b);return new
+b9(c,d,a,b)}function
+ba(b){if(!ab.Failure)ab.Failure=[ao,a(gp),-3];g0(ab.Failure,b)}function
+lK(b,v,r){var
+i=b.read32s();if(i<0||i>16)ba("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bN,o=p>>8&1,h=[];if(r==eN)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bn){var
-t=b.read32u(),u=b.read32u();if(t!=0)a_("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==br){var
+t=b.read32u(),u=b.read32u();if(t!=0)ba("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gG(h),f=x1(j,d),g=lE(j,o,h,f);switch(j){case
+d=gN(h),f=x_(j,d),g=lJ(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)a_("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)ba("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dE(e);g.set(a,q)}break;case
+q=dI(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gN(dE(e));g.set(a,k)}break;case
+k=gU(dI(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gM(b.read32s());g.set(a,k)}break;case
+k=gT(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gM(b.read32s()),l=gM(b.read32s());g.set(a,[eE,m,l])}break;case
+m=gT(b.read32s()),l=gT(b.read32s());g.set(a,[eI,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gN(dE(e));for(var
+m=gU(dI(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gN(dE(e));g.set(a,[eE,m,l])}break}v[0]=(4+i)*4;return lE(j,o,h,f)}function
-lD(a,b,c){return a.compare(b,c)}function
-lZ(a,b){return Math.imul(a,b)}function
-bN(b,a){a=lZ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lZ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-yc(a,b){a=bN(a,gP(b));a=bN(a,gO(b));return a}function
-lU(a,b){return yc(a,eO(b))}function
-lH(c){var
-b=gG(c.dims),d=0;switch(c.kind){case
+l=gU(dI(e));g.set(a,[eI,m,l])}break}v[0]=(4+i)*4;return lJ(j,o,h,f)}function
+lI(a,b,c){return a.compare(b,c)}function
+l4(a,b){return Math.imul(a,b)}function
+bQ(b,a){a=l4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+yl(a,b){a=bQ(a,gW(b));a=bQ(a,gV(b));return a}function
+lZ(a,b){return yl(a,eS(b))}function
+lM(c){var
+b=gN(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>k_)b=k_;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bN(d,e)}e=0;switch(b&3){case
+12:if(b>ld)b=ld;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bQ(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bN(d,e)}break;case
+1:e|=c.data[a+0];d=bQ(d,e)}break;case
 4:case
-5:if(b>dB)b=dB;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bN(d,e)}if((b&1)!=0)d=bN(d,c.data[a]);break;case
+5:if(b>dF)b=dF;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bQ(d,e)}if((b&1)!=0)d=bQ(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bN(d,c.data[a]);break;case
+a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bN(d,c.data[a]);break;case
+a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bN(d,c.data[a]);break;case
+a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=lU(d,c.data[a]);break;case
+a=0;a<b;a++)d=lZ(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=lU(d,c.data[a]);break}return d}function
-ye(a,b){b[0]=4;return a.read32s()}function
-yA(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=lZ(d,c.data[a]);break}return d}function
+yn(a,b){b[0]=4;return a.read32s()}function
+yJ(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:a_("input_value: native integer value too large");default:a_("input_value: ill-formed native integer")}}function
-yp(c,d){var
+2:ba("input_value: native integer value too large");default:ba("input_value: ill-formed native integer")}}function
+yy(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dE(b)}function
-yl(e,d,b){var
-c=dF(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dI(b)}function
+yu(e,d,b){var
+c=dJ(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-yf(a,b,c){return a.compare(b)}function
-yi(a){return a.lo32()^a.hi32()}var
-lP={"_j":{deserialize:yp,serialize:yl,fixed_length:8,compare:yf,hash:yi},"_i":{deserialize:ye,fixed_length:4},"_n":{deserialize:yA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lF(a,b,"_bigarray")},serialize:lI,compare:lD,hash:lH},"_bigarr02":{deserialize:function(a,b){return lF(a,b,eJ)},serialize:lI,compare:lD,hash:lH}};function
-gI(a){return lP[a.caml_custom]&&lP[a.caml_custom].compare}function
-lN(f,c,d,e){var
-b=gI(c);if(b){var
+yo(a,b,c){return a.compare(b)}function
+yr(a){return a.lo32()^a.hi32()}var
+lU={"_j":{deserialize:yy,serialize:yu,fixed_length:8,compare:yo,hash:yr},"_i":{deserialize:yn,fixed_length:4},"_n":{deserialize:yJ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lK(a,b,"_bigarray")},serialize:lN,compare:lI,hash:lM},"_bigarr02":{deserialize:function(a,b){return lK(a,b,eN)},serialize:lN,compare:lI,hash:lM}};function
+gP(a){return lU[a.caml_custom]&&lU[a.caml_custom].compare}function
+lS(f,c,d,e){var
+b=gP(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eQ(a){return a
+eU(a){return a
 instanceof
-bo}function
-gR(a){return eQ(a)}function
-lO(a){if(typeof
-a==="number")return dz;else
-if(eQ(a))return eI;else
-if(gR(a))return 1252;else
+bs}function
+gY(a){return eU(a)}function
+lT(a){if(typeof
+a==="number")return dD;else
+if(eU(a))return eM;else
+if(gY(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=j4){var
-b=a[0]|0;return b==eE?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=j9){var
+b=a[0]|0;return b==eI?0:b}else
 if(a
 instanceof
-String)return kf;else
+String)return kk;else
 if(typeof
-a=="string")return kf;else
+a=="string")return kk;else
 if(a
 instanceof
-Number)return dz;else
-if(a&&a.caml_custom)return gk;else
+Number)return dD;else
+if(a&&a.caml_custom)return gr;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-yq(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-lK(a,b){a.t&6&&cU(a);b.t&6&&cU(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-yS(a,b){return lK(a,b)}function
-gH(a,b,d){var
+yz(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+lP(a,b){a.t&6&&c3(a);b.t&6&&c3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+y1(a,b){return lP(a,b)}function
+gO(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=lO(a);if(f==j5){a=a[1];continue}var
-g=lO(b);if(g==j5){b=b[1];continue}if(f!==g){if(f==dz){if(g==gk)return lN(a,b,-1,d);return-1}if(g==dz){if(f==gk)return lN(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ap(gs);break;case
+f=lT(a);if(f==j_){a=a[1];continue}var
+g=lT(b);if(g==j_){b=b[1];continue}if(f!==g){if(f==dD){if(g==gr)return lS(a,b,-1,d);return-1}if(g==dD){if(f==gr)return lS(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aq(gz);break;case
 248:var
-c=yq(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ap(gs);break;case
-250:ap("equal: got Forward_tag, should not happen");break;case
-251:ap("equal: abstract value");break;case
+c=yz(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aq(gz);break;case
+250:aq("equal: got Forward_tag, should not happen");break;case
+251:aq("equal: abstract value");break;case
 252:if(a!==b){var
-c=lK(a,b);if(c!=0)return c|0}break;case
-253:ap("equal: got Double_tag, should not happen");break;case
-254:ap("equal: got Double_array_tag, should not happen");break;case
-255:ap("equal: got Custom_tag, should not happen");break;case
-1247:ap(gs);break;case
+c=lP(a,b);if(c!=0)return c|0}break;case
+253:aq("equal: got Double_tag, should not happen");break;case
+254:aq("equal: got Double_array_tag, should not happen");break;case
+255:aq("equal: got Custom_tag, should not happen");break;case
+1247:aq(gz);break;case
 1255:var
-i=gI(a);if(i!=gI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ap("compare: abstract value");var
+i=gP(a);if(i!=gP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aq("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,180 +405,180 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bO(a),b=bO(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bR(a),b=bR(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-x8(a,b){return gH(a,b,true)}function
-x9(){return[0]}function
-ag(a){if(a<0)ap("Bytes.create");return new
-bo(a?2:9,s,a)}function
-lQ(a,b){return+(gH(a,b,false)==0)}function
-x$(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eL(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-gS(d){d=bO(d);var
-e=d.length;if(e>31)ap("format_int: format too long");var
-a={justify:bk,signstyle:a1,filler:bH,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+yf(a,b){return gO(a,b,true)}function
+yg(){return[0]}function
+aj(a){if(a<0)aq("Bytes.create");return new
+bs(a?2:9,s,a)}function
+lV(a,b){return+(gO(a,b,false)==0)}function
+yi(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c5(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+gZ(d){d=bR(d);var
+e=d.length;if(e>31)aq("format_int: format too long");var
+a={justify:bo,signstyle:a2,filler:bK,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a1;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gJ(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a1))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bk&&b.filler==bH)for(var
-d=e;d<b.width;d++)c+=bH;if(b.signedconv)if(b.sign<0)c+=a1;else
-if(b.signstyle!=a1)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jO;if(b.justify==bk&&b.filler==aG)for(var
-d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a1)for(var
-d=e;d<b.width;d++)c+=bH;return a(c)}function
-gK(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a2;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+gQ(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a2))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bo&&b.filler==bK)for(var
+d=e;d<b.width;d++)c+=bK;if(b.signedconv)if(b.sign<0)c+=a2;else
+if(b.signstyle!=a2)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jT;if(b.justify==bo&&b.filler==aG)for(var
+d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a2)for(var
+d=e;d<b.width;d++)c+=bK;return a(c)}function
+gR(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bk)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aG);if(b>0)a=a+b3+new
+c=parseInt(a.toString().split(bo)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aG);if(b>0)a=a+b7+new
 Array(b+1).join(aG);return a}else
 return a.toFixed(b)}}var
-a,e=gS(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gm;e.filler=bH}else
-if(!isFinite(c)){a="inf";e.filler=bH}else
+a,e=gZ(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gt;e.filler=bK}else
+if(!isFinite(c)){a="inf";e.filler=bK}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gE)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gE),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gE)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gL)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gL),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b7)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gL)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gJ(e,a)}function
-eM(e,c){if(bO(e)==gx)return a(s+c);var
-b=gS(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b7)b--;a=a.slice(0,b+1)}}break}return gQ(e,a)}function
+eQ(e,c){if(bR(e)==gE)return a(s+c);var
+b=gZ(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bH;var
-f=b.prec-d.length;if(f>0)d=cW(f,aG)+d}return gJ(b,d)}var
-yB=0;function
-eN(){return yB++}function
-yt(a){return a.toUtf16()}function
-dH(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bK;var
+f=b.prec-d.length;if(f>0)d=c5(f,aG)+d}return gQ(b,d)}var
+yK=0;function
+eR(){return yK++}function
+yC(a){return a.toUtf16()}function
+dL(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-yP(){function
-a(a){if(a.charAt(0)===a8)return[s,a.substring(1)];return}function
+yY(){function
+a(a){if(a.charAt(0)===a_)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dH()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-g1=yP();function
-l5(a){return a.slice(-1)!==a8?a+a8:a}if(dH()&&u.process&&u.process.cwd)var
-dD=u.process.cwd().replace(/\\/g,a8);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dL()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+g8=yY();function
+l_(a){return a.slice(-1)!==a_?a+a_:a}if(dL()&&u.process&&u.process.cwd)var
+dH=u.process.cwd().replace(/\\/g,a_);else
 var
-dD="/static";dD=l5(dD);function
-yu(a){a=yt(a);if(!g1(a))a=dD+a;var
-e=g1(a),d=e[1].split(a8),b=[];for(var
+dH="/static";dH=l_(dH);function
+yD(a){a=yC(a);if(!g8(a))a=dH+a;var
+e=g8(a),d=e[1].split(a_),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-yJ(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jR){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<la){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cP)}else
-if(a<0xd800||a>=j8)b+=String.fromCharCode(j9|a>>12,a9|a>>6&cP,a9|a&cP);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jY||h>j8)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lj|a>>18,a9|a>>12&cP,a9|a>>6&cP,a9|a&cP)}if(b.length>dA){b.substr(0,1);f+=b;b=s}}return f+b}function
-x6(a){var
-b=9;if(!l7(a))b=8,a=yJ(a);return new
-bo(b,a,a.length)}function
-a$(a){return x6(a)}var
-yR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jV,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gz,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gl,k7,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cp(d,f,e,a){var
-b=yR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,a$(f||s),a$(e||s)];return c}var
-l0={};function
-cn(a){return l0[a]}function
-co(b,a){throw[0,b].concat(a)}function
-x5(a){return new
-bo(4,a,a.length)}function
-K(a){gT(aa.Sys_error,a)}function
-yE(a){K(a+eu)}function
-x4(b,a){if(a>>>0>=b.l)lJ();return cT(b,a)}function
-aQ(a){return a.l}function
-lC(){}function
+yS(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a$){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<a$;d++);if(d-c>jW){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<lf){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a$|a&cY)}else
+if(a<0xd800||a>=kb)b+=String.fromCharCode(kc|a>>12,a$|a>>6&cY,a$|a&cY);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<j3||h>kb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lo|a>>18,a$|a>>12&cY,a$|a>>6&cY,a$|a&cY)}if(b.length>dE){b.substr(0,1);f+=b;b=s}}return f+b}function
+yd(a){var
+b=9;if(!ma(a))b=8,a=yS(a);return new
+bs(b,a,a.length)}function
+bb(a){return yd(a)}var
+y0=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gs,la,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cv(d,f,e,a){var
+b=y0.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bb(f||s),bb(e||s)];return c}var
+l5={};function
+ct(a){return l5[a]}function
+cu(b,a){throw[0,b].concat(a)}function
+yc(a){return new
+bs(4,a,a.length)}function
+I(a){g0(ab.Sys_error,a)}function
+yN(a){I(a+ey)}function
+yb(b,a){if(a>>>0>=b.l)lO();return c2(b,a)}function
+aR(a){return a.l}function
+lH(){}function
 au(a){this.data=a}au.prototype=new
-lC();au.prototype.truncate=function(a){var
-b=this.data;this.data=ag(a|0);b6(b,0,this.data,0,a)};au.prototype.length=function(){return aQ(this.data)};au.prototype.write=function(b,d,g,a){var
+lH();au.prototype.truncate=function(a){var
+b=this.data;this.data=aj(a|0);b_(b,0,this.data,0,a)};au.prototype.length=function(){return aR(this.data)};au.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ag(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bq(d,g,this.data,b,a);return 0};au.prototype.read=function(c,a,d,b){var
-e=this.length();b6(this.data,c,a,d,b);return 0};au.prototype.read_one=function(a){return x4(this.data,a)};au.prototype.close=function(){};au.prototype.constructor=au;function
+e=aj(b+a),f=this.data;this.data=e;b_(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};au.prototype.read=function(c,a,d,b){var
+e=this.length();b_(this.data,c,a,d,b);return 0};au.prototype.read_one=function(a){return yb(this.data,a)};au.prototype.close=function(){};au.prototype.constructor=au;function
 aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
-c=d.split(a8),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(a_),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+a_;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a_};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-au(bL(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
+au(bO(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
-b=d&&cn(gw);if(this.exists(c))if(b)co(b,cp(jV,gg,this.nm(c)));else
-K(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)co(b,cp(gz,gg,this.nm(a)));else
-K(a+eu);if(!this.is_dir(a))if(b)co(b,cp(gl,gg,this.nm(a)));else
-K(a+gD);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
-b=f&&cn(gw),c=a==s?s:this.slash(a),e=new
-RegExp(go+c+k8);if(!this.exists(a))if(b)co(b,cp(gz,gv,this.nm(a)));else
-K(a+eu);if(!this.is_dir(a))if(b)co(b,cp(gl,gv,this.nm(a)));else
-K(a+gD);for(var
+b=d&&ct(gD);if(this.exists(c))if(b)cu(b,cv(j0,gn,this.nm(c)));else
+I(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cu(b,cv(gG,gn,this.nm(a)));else
+I(a+ey);if(!this.is_dir(a))if(b)cu(b,cv(gs,gn,this.nm(a)));else
+I(a+gK);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
+b=f&&ct(gD),c=a==s?s:this.slash(a),e=new
+RegExp(gv+c+lb);if(!this.exists(a))if(b)cu(b,cv(gG,gC,this.nm(a)));else
+I(a+ey);if(!this.is_dir(a))if(b)cu(b,cv(gs,gC,this.nm(a)));else
+I(a+gK);for(var
 d
 in
-this.content)if(d.match(e))if(b)co(b,cp(k7,gv,this.nm(a)));else
-K(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cu(b,cv(la,gC,this.nm(a)));else
+I(this.nm(a)+": Directory not empty");delete
 this.content[c]};aH.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))K(a+eu);if(!this.is_dir(a))K(a+gD);var
+f=a==s?s:this.slash(a);if(!this.exists(a))I(a+ey);if(!this.is_dir(a))I(a+gK);var
 g=new
-RegExp(go+f+k8),d={},c=[];for(var
+RegExp(gv+f+lb),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
 b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)K(this.nm(a)+km);if(b.text&&b.binary)K(this.nm(a)+kU);this.lookup(a);if(this.content[a]){if(this.is_dir(a))K(this.nm(a)+" : is a directory");if(b.create&&b.excl)K(this.nm(a)+kl);var
+this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)I(this.nm(a)+kr);if(b.text&&b.binary)I(this.nm(a)+kZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))I(this.nm(a)+" : is a directory");if(b.create&&b.excl)I(this.nm(a)+kq);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-au(ag(0));return this.content[a]}else
-yE(this.nm(a))};aH.prototype.register=function(c,a){var
-b;if(this.content[c])K(this.nm(c)+kl);if(eQ(a))b=new
-au(a);if(gR(a))b=new
-au(bL(a));else
+au(aj(0));return this.content[a]}else
+yN(this.nm(a))};aH.prototype.register=function(c,a){var
+b;if(this.content[c])I(this.nm(c)+kq);if(eU(a))b=new
+au(a);if(gY(a))b=new
+au(bO(a));else
 if(a
 instanceof
 Array)b=new
-au(x5(a));else
+au(yc(a));else
 if(typeof
 a==="string")b=new
-au(lL(a));else
+au(lQ(a));else
 if(a.toString){var
-d=bL(a$(a.toString()));b=new
+d=bO(bb(a.toString()));b=new
 au(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-K(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
-y(a){return aQ(a)}function
-bs(b,a){return cT(b,a)}function
-x0(d){var
+I(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
+y(a){return aR(a)}function
+bw(b,a){return c2(b,a)}function
+x9(d){var
 c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bs(d,a);return b}function
-xZ(a){if(a.t!=4)eL(a);return a.c}function
-bp(a){this.fs=require("fs");this.fd=a}bp.prototype=new
-lC();bp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){K(a.toString())}};bp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){K(a.toString())}};bp.prototype.write=function(f,b,c,e){var
-a=x0(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=bw(d,a);return b}function
+x8(a){if(a.t!=4)eP(a);return a.c}function
+bt(a){this.fs=require("fs");this.fd=a}bt.prototype=new
+lH();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){I(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){I(a.toString())}};bt.prototype.write=function(f,b,c,e){var
+a=x9(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){K(a.toString())}return 0};bp.prototype.read=function(g,d,c,f){var
-a=xZ(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){I(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
+a=x8(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){K(a.toString())}for(var
-b=0;b<f;b++)cm(d,c+b,e[c+b]);return 0};bp.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){K(a.toString())}return a[0]};bp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){K(a.toString())}};bp.prototype.constructor=bp;function
-av(a){this.fs=require("fs");this.root=a}av.prototype.nm=function(a){return this.root+a};av.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};av.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){K(a.toString())}};av.prototype.unlink=function(a,c){try{var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){I(a.toString())}for(var
+b=0;b<f;b++)cs(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){I(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){I(a.toString())}};bt.prototype.constructor=bt;function
+av(a){this.fs=require("fs");this.root=a}av.prototype.nm=function(a){return this.root+a};av.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};av.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){I(a.toString())}};av.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bp(d)}catch(a){this.raise_nodejs_error(a,g)}};av.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.stat=function(b,c){try{var
+bt(d)}catch(a){this.raise_nodejs_error(a,g)}};av.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jG);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.raise_nodejs_error=function(a,d){var
-b=cn(gw);if(d&&b){var
-c=cp(a.code,a.syscall,a.path,a.errno);co(b,c)}else
-K(a.toString())};av.prototype.stats_from_js=function(a){var
+a=this.fs.readlinkSync(this.nm(b),jL);return bb(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.raise_nodejs_error=function(a,d){var
+b=ct(gD);if(d&&b){var
+c=cv(a.code,a.syscall,a.path,a.errno);cu(b,c)}else
+I(a.toString())};av.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -586,57 +586,57 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};av.prototype.constructor=av;function
-lT(b){var
-a=g1(b);if(!a)return;return a[0]+a8}var
-eS=lT(dD)||a_("unable to compute caml_root"),cX=[];if(dH())cX.push({path:eS,device:new
-av(eS)});else
-cX.push({path:eS,device:new
-aH(eS)});cX.push({path:kP,device:new
-aH(kP)});function
-l$(b){var
-g=yu(b),b=g.join(a8),f=l5(b),c;for(var
-e=0;e<cX.length;e++){var
-a=cX[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dH()){var
-d=lT(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+lY(b){var
+a=g8(b);if(!a)return;return a[0]+a_}var
+eW=lY(dH)||ba("unable to compute caml_root"),c6=[];if(dL())c6.push({path:eW,device:new
+av(eW)});else
+c6.push({path:eW,device:new
+aH(eW)});c6.push({path:kU,device:new
+aH(kU)});function
+me(b){var
+g=yD(b),b=g.join(a_),f=l_(b),c;for(var
+e=0;e<c6.length;e++){var
+a=c6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dL()){var
+d=lY(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-av(d)};cX.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;K("no device found for "+f)}function
-x_(c,b){var
-a=l$(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
-l6(c,b){var
-c=a(c),b=a(b);return x_(c,b)}function
-yb(){var
+av(d)};c6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;I("no device found for "+f)}function
+yh(c,b){var
+a=me(c);if(!a.device.register)ba("cannot register file");a.device.register(a.rest,b);return 0}function
+l$(c,b){var
+c=a(c),b=a(b);return yh(c,b)}function
+yk(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)l6(b[a].name,b[a].content);u.jsoo_create_file=l6;u.caml_fs_tmp=[];return 0}function
-lS(){return[0]}function
-yd(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(gm);return a$(a>0?lm:"-infinity")}var
+a=0;a<b.length;a++)l$(b[a].name,b[a].content);u.jsoo_create_file=l$;u.caml_fs_tmp=[];return 0}function
+lX(){return[0]}function
+ym(a,c,k){if(!isFinite(a)){if(isNaN(a))return bb(gt);return bb(a>0?lr:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bk,e=s;if(i)e=a1;else
+j=d<0?s:bo,e=s;if(i)e=a2;else
 switch(k){case
-43:e=bk;break;case
-32:e=bH;break;default:break}if(c>=0&&c<13){var
+43:e=bo;break;case
+32:e=bK;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b3);if(h<0)b+=b3+cW(c,aG);else{var
-f=h+1+c;if(b.length<f)b+=cW(f-b.length,aG);else
-b=b.substr(0,f)}}return a$(e+jO+b+"p"+j+d.toString(10))}function
-yk(a){return+a.isZero()}function
-yn(a){return new
-t(a&bJ,a>>24&bJ,a>>31&bn)}function
-yo(a){return a.toInt()}function
-yj(a){return+a.isNeg()}function
-ym(a){return a.neg()}function
-yh(g,c){var
-a=gS(g);if(a.signedconv&&yj(c)){a.sign=-1;c=ym(c)}var
-b=s,h=yn(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(yo(e.modulus))+b}while(!yk(c));if(a.prec>=0){a.filler=bH;var
-d=a.prec-b.length;if(d>0)b=cW(d,aG)+b}return gJ(a,b)}function
-yC(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bs(c,a)){case
+h=b.indexOf(b7);if(h<0)b+=b7+c5(c,aG);else{var
+f=h+1+c;if(b.length<f)b+=c5(f-b.length,aG);else
+b=b.substr(0,f)}}return bb(e+jT+b+"p"+j+d.toString(10))}function
+yt(a){return+a.isZero()}function
+yw(a){return new
+t(a&bM,a>>24&bM,a>>31&br)}function
+yx(a){return a.toInt()}function
+ys(a){return+a.isNeg()}function
+yv(a){return a.neg()}function
+yq(g,c){var
+a=gZ(g);if(a.signedconv&&ys(c)){a.sign=-1;c=yv(c)}var
+b=s,h=yw(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(yx(e.modulus))+b}while(!yt(c));if(a.prec>=0){a.filler=bK;var
+d=a.prec-b.length;if(d>0)b=c5(d,aG)+b}return gQ(a,b)}function
+yL(c){var
+a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bs(c,a)==48)switch(bs(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bw(c,a)==48)switch(bw(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bs(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-l1(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ly)return a-87;return-1}function
-gQ(f){var
-h=yC(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bs(f,c):0,b=l1(e);if(b<0||b>=d)a_(ew);var
-a=b;for(c++;c<g;c++){e=bs(f,c);if(e==95)continue;b=l1(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(ew)}if(c!=g)a_(ew);a=i*a;if(d==10&&(a|0)!=a)a_(ew);return a|0}function
-ys(d){return function(){var
+l6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lD)return a-87;return-1}function
+gX(f){var
+h=yL(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=l6(e);if(b<0||b>=d)ba(eA);var
+a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=l6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ba(eA)}if(c!=g)ba(eA);a=i*a;if(d==10&&(a|0)!=a)ba(eA);return a|0}function
+yB(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bM(d,c)}else
-return bM(d,[undefined])}}function
-yv(a,d){if(a<0)dC();var
+a=0;a<b;a++)c[a]=arguments[a];return bP(d,c)}else
+return bP(d,[undefined])}}function
+yE(a,d){if(a<0)dG();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-yw(){return 0}var
-br=new
+yF(){return 0}var
+bv=new
 Array();function
-cV(c){var
-a=br[c];if(!a.opened)K("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&aa.fds[a.fd]&&aa.fds[a.fd].output){var
-b=aa.fds[a.fd].output;switch(b.length){case
+c4(c){var
+a=bv[c];if(!a.opened)I("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ab.fds[a.fd]&&ab.fds[a.fd].output){var
+b=ab.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-l4(e,f){var
-b=br[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-yK(a){var
-a=gX(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+l9(e,f){var
+b=bv[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+yT(a){var
+a=g4(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-yL(a){var
-a=gX(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+yU(a){var
+a=g4(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-eT(c,e,d,a){if(aa.fds===undefined)aa.fds=new
+eX(c,e,d,a){if(ab.fds===undefined)ab.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aa.fds[c]=b;if(!aa.fd_last_idx||c>aa.fd_last_idx)aa.fd_last_idx=c;return c}function
-yT(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ab.fds[c]=b;if(!ab.fd_last_idx||c>ab.fd_last_idx)ab.fd_last_idx=c;return c}function
+y2(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,113 +687,113 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)K(bO(c)+km);if(a.text&&a.binary)K(bO(c)+kU);var
-d=l$(c),e=d.device.open(d.rest,a),f=aa.fd_last_idx?aa.fd_last_idx:0;return eT(f+1,l4,e,a)}eT(0,l4,new
-au(ag(0)));eT(1,yL,new
-au(ag(0)));eT(2,yK,new
-au(ag(0)));function
-yx(a){var
-c=aa.fds[a];if(c.flags.wronly)K(lx+a+" is writeonly");var
-d=null;if(a==0&&dH()){var
-e=require("fs");d=function(){return a$(e.readFileSync(0,jG))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};br[b.fd]=b;return b.fd}function
-lW(c){var
-b=aa.fds[c];if(b.flags.rdonly)K(lx+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};br[a.fd]=a;return a.fd}function
-yy(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)I(bR(c)+kr);if(a.text&&a.binary)I(bR(c)+kZ);var
+d=me(c),e=d.device.open(d.rest,a),f=ab.fd_last_idx?ab.fd_last_idx:0;return eX(f+1,l9,e,a)}eX(0,l9,new
+au(aj(0)));eX(1,yU,new
+au(aj(0)));eX(2,yT,new
+au(aj(0)));function
+yG(a){var
+c=ab.fds[a];if(c.flags.wronly)I(lC+a+" is writeonly");var
+d=null;if(a==0&&dL()){var
+e=require("fs");d=function(){return bb(e.readFileSync(0,jL))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bv[b.fd]=b;return b.fd}function
+l1(c){var
+b=ab.fds[c];if(b.flags.rdonly)I(lC+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bv[a.fd]=a;return a.fd}function
+yH(){var
 b=0;for(var
-a=0;a<br.length;a++)if(br[a]&&br[a].opened&&br[a].out)b=[0,br[a].fd,b];return b}function
-aC(a){return a}function
-yz(g,d,h,f){var
-b=br[g];if(!b.opened)K("Cannot output to a closed channel");var
-a;if(h==0&&aQ(d)==f)a=d;else{a=ag(f);b6(d,h,a,0,f)}var
-i=aC(a),c=bO(i),e=c.lastIndexOf(jZ);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cV(g);b.buffer+=c.substr(e+1)}return 0}function
-lX(b,a,d,c){return yz(b,bL(a),d,c)}function
-lY(c,b){var
-d=a(String.fromCharCode(b));lX(c,d,0,1);return 0}function
-dG(a,b){return+(gH(a,b,false)!=0)}function
-eR(a){if(a
+a=0;a<bv.length;a++)if(bv[a]&&bv[a].opened&&bv[a].out)b=[0,bv[a].fd,b];return b}function
+aE(a){return a}function
+yI(g,d,h,f){var
+b=bv[g];if(!b.opened)I("Cannot output to a closed channel");var
+a;if(h==0&&aR(d)==f)a=d;else{a=aj(f);b_(d,h,a,0,f)}var
+i=aE(a),c=bR(i),e=c.lastIndexOf(j4);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c4(g);b.buffer+=c.substr(e+1)}return 0}function
+l2(b,a,d,c){return yI(b,bO(a),d,c)}function
+l3(c,b){var
+d=a(String.fromCharCode(b));l2(c,d,0,1);return 0}function
+dK(a,b){return+(gO(a,b,false)!=0)}function
+eV(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eQ(a))return eI;else
-if(gR(a))return eI;else
+if(eU(a))return eM;else
+if(gY(a))return eM;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return j4;else
-return dz}function
-a2(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);aa[b+1]=c;if(a)aa[a]=c}function
-gU(a,b){l0[bO(a)]=b;return 0}function
-x3(a,b){if(a===b)return 1;a.t&6&&cU(a);b.t&6&&cU(b);return a.c==b.c?1:0}function
-aA(a,b){return x3(a,b)}function
-yH(){ap(gB)}function
-L(b,a){if(a>>>0>=y(b))yH();return bs(b,a)}function
-i(a,b){return 1-aA(a,b)}function
-yI(){return 0x7FFFFFFF/4|0}function
-gW(a){var
+if(a&&a.caml_custom)return j9;else
+return dD}function
+a3(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ab[b+1]=c;if(a)ab[a]=c}function
+g1(a,b){l5[bR(a)]=b;return 0}function
+ya(a,b){if(a===b)return 1;a.t&6&&c3(a);b.t&6&&c3(b);return a.c==b.c?1:0}function
+aB(a,b){return ya(a,b)}function
+yQ(){aq(gI)}function
+J(b,a){if(a>>>0>=y(b))yQ();return bw(b,a)}function
+i(a,b){return 1-aB(a,b)}function
+yR(){return 0x7FFFFFFF/4|0}function
+g3(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
 aw(b,a){return{joo_tramp:b,joo_args:a}}function
-l3(a){return a}function
-eU(a){if(a
+l8(a){return a}function
+eY(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return l3(aa.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return l8(ab.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return l3(aa.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return l8(ab.Stack_overflow);if(a
 instanceof
-u.Error&&cn(gj))return[0,cn(gj),a];return[0,aa.Failure,a$(String(a))]}function
-eV(a){return a<0?-a:a}function
+u.Error&&ct(gq))return[0,ct(gq),a];return[0,ab.Failure,bb(String(a))]}function
+eZ(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-gY(a,b){return a<b?-1:a>b?1:0}function
-l8(c,b){var
-a=c%b;return a<0?a+eV(b):a}function
-gZ(a,b){return(a-l8(a,b))/b}function
-ah(a,b){return a==b?1:0}function
-C(a,b){return a<=b?1:0}function
-ad(a,b){return a<b?1:0}function
+g5(a,b){return a<b?-1:a>b?1:0}function
+mb(c,b){var
+a=c%b;return a<0?a+eZ(b):a}function
+g6(a,b){return(a-mb(a,b))/b}function
+ak(a,b){return a==b?1:0}function
+D(a,b){return a<=b?1:0}function
+ae(a,b){return a<b?1:0}function
 n(a,b){return a*b}function
-P(a){return-a}function
-aR(a){return u.BigInt(a)}function
-l9(a,b){return a<<u.BigInt(b)}function
-l_(a,b){return a>>u.BigInt(b)}function
-bt(a){return a<0?-1:a>0?1:0}function
-yQ(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+S(a){return-a}function
+aS(a){return u.BigInt(a)}function
+mc(a,b){return a<<u.BigInt(b)}function
+md(a,b){return a>>u.BigInt(b)}function
+bx(a){return a<0?-1:a>0?1:0}function
+yZ(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b7(a,b){return a-b}function
-g0(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-yr(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-ya(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yr(b[1]))var
+b$(a,b){return a-b}function
+g7(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+yA(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+yj(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yA(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=k$;for(var
-d=f;d<e.length;d++){if(d>f)a+=jI;var
+f=2,e=b;a+=le;for(var
+d=f;d<e.length;d++){if(d>f)a+=jN;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bo)a+=ao+c.toString()+ao;else
+bs)a+=ap+c.toString()+ap;else
 if(typeof
-c=="string")a+=ao+c.toString()+ao;else
-a+=kH}a+=gn}else
-if(b[0]==an)a+=b[1];return a}function
-lR(a){if(a
+c=="string")a+=ap+c.toString()+ap;else
+a+=kM}a+=gu}else
+if(b[0]==ao)a+=b[1];return a}function
+lW(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==an)){var
-c=cn(jU);if(c)c(a,false);else{var
-d=ya(a),b=cn(jF);if(b)b(0);u.console.error(gt+d+jZ)}}else
+Array&&(a[0]==0||a[0]==ao)){var
+c=ct(jZ);if(c)c(a,false);else{var
+d=yj(a),b=ct(jK);if(b)b(0);u.console.error(gA+d+j4)}}else
 throw a}function
-yG(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lR(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lR(a.error)})}yG();function
-e(a,b){return a.length==1?a(b):bM(a,[b])}function
-Z(a,b,c){return a.length==2?a(b,c):bM(a,[b,c])}function
-ge(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bM(a,[b,c,d,e,f])}function
-xY(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bM(a,[b,c,d,e,f,g,h])}yb();var
-eW=[an,a(lq),-1],g6=[an,a(jW),-2],g3=[an,a(gi),-3],g2=[an,a(kC),-4],g4=[an,a(kd),-8],g5=[an,a(kR),-9],R=[an,a(ld),-11],g7=[an,a(jE),-12],w2=[4,0,0,0,[12,45,[4,0,0,0,0]]],e2=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kh),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],w3=[0,0],w4=[0,[0,[0,[0,0]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,0]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],xa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,0]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,0],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,0]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,0],xX=[0,[0,[0,[0,[0,0]]]]],fp=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eh=[0,[0,[0,[0,0]]]];a2(11,g7,jE);a2(10,R,ld);a2(9,[an,a(kv),-10],kv);a2(8,g5,kR);a2(7,g4,kd);a2(6,[an,a(kN),-7],kN);a2(5,[an,a(k5),-6],k5);a2(4,[an,a(j1),-5],j1);a2(3,g2,kC);a2(2,g3,gi);a2(1,g6,jW);a2(0,eW,lq);var
-me=a("%.12g"),md=a(b3),mb=a("true"),mc=a("false"),mf=a("\\\\"),mg=a("\\'"),mh=a("\\b"),mi=a("\\t"),mj=a("\\n"),mk=a("\\r"),mn=a("String.blit / Bytes.blit_string"),mm=a("Bytes.blit"),ml=a("String.sub / Bytes.sub"),mp=a(s),mo=a("String.concat"),mq=a("Array.init"),mt=a("Buffer.add: cannot grow buffer"),ms=[0,a(k1),93,2],mr=[0,a(k1),94,2],mC=a("%c"),mD=a("%s"),mE=a(jC),mF=a(ka),mG=a(ky),mH=a(jK),mI=a("%f"),mJ=a("%B"),mK=a("%{"),mL=a("%}"),mM=a("%("),mN=a("%)"),mO=a("%a"),mP=a("%t"),mQ=a("%?"),mR=a("%r"),mS=a("%_r"),mT=[0,a(am),850,23],m4=[0,a(am),814,21],mW=[0,a(am),815,21],m5=[0,a(am),818,21],mX=[0,a(am),819,21],m6=[0,a(am),822,19],mY=[0,a(am),823,19],m7=[0,a(am),826,22],mZ=[0,a(am),827,22],m8=[0,a(am),831,30],m0=[0,a(am),832,30],m2=[0,a(am),836,26],mU=[0,a(am),837,26],m3=[0,a(am),846,28],mV=[0,a(am),847,28],m1=[0,a(am),851,23],n$=a(ks),n9=[0,a(am),1558,4],n_=a("Printf: bad conversion %["),oa=[0,a(am),1626,39],ob=[0,a(am),1649,31],oc=[0,a(am),1650,31],od=a("Printf: bad conversion %_"),oe=a(kn),of=a(kB),og=a(kn),oh=a(kB),n7=a(gm),n5=a("neg_infinity"),n6=a(lm),n4=a(b3),nZ=[0,jT],nN=a("%+nd"),nO=a("% nd"),nQ=a("%+ni"),nR=a("% ni"),nS=a("%nx"),nT=a("%#nx"),nU=a("%nX"),nV=a("%#nX"),nW=a("%no"),nX=a("%#no"),nM=a("%nd"),nP=a(ky),nY=a("%nu"),nA=a("%+ld"),nB=a("% ld"),nD=a("%+li"),nE=a("% li"),nF=a("%lx"),nG=a("%#lx"),nH=a("%lX"),nI=a("%#lX"),nJ=a("%lo"),nK=a("%#lo"),nz=a("%ld"),nC=a(ka),nL=a("%lu"),nn=a("%+Ld"),no=a("% Ld"),nq=a("%+Li"),nr=a("% Li"),ns=a("%Lx"),nt=a("%#Lx"),nu=a("%LX"),nv=a("%#LX"),nw=a("%Lo"),nx=a("%#Lo"),nm=a("%Ld"),np=a(jK),ny=a("%Lu"),na=a("%+d"),nb=a("% d"),nd=a("%+i"),ne=a("% i"),nf=a("%x"),ng=a("%#x"),nh=a("%X"),ni=a("%#X"),nj=a("%o"),nk=a("%#o"),m$=a(gx),nc=a(jC),nl=a(ks),mu=a("@]"),mv=a("@}"),mw=a("@?"),mx=a("@\n"),my=a("@."),mz=a("@@"),mA=a("@%"),mB=a("@"),m9=a("CamlinternalFormat.Type_mismatch"),ol=a(s),om=[0,[11,a(jI),[2,0,[2,0,0]]],a(", %s%s")],oL=[0,[11,a(gt),[2,0,[12,10,0]]],a(lb)],oM=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oK=a("Fatal error: out of memory in uncaught exception handler"),oI=[0,[11,a(gt),[2,0,[12,10,0]]],a(lb)],oE=[0,[2,0,[12,10,0]],a("%s\n")],ow=a("Raised at"),ox=a("Re-raised at"),oy=a("Raised by primitive operation at"),oz=a("Called from"),oA=a(" (inlined)"),oC=a(s),oB=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kh),w2]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oD=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],or=a("Out of memory"),os=a("Stack overflow"),ot=a("Pattern matching failed"),ou=a("Assertion failed"),ov=a("Undefined recursive module"),on=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oo=a(s),op=a(s),oq=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],ok=[0,[4,0,0,0,0],a(gx)],oi=[0,[3,0,0],a("%S")],oj=a(kH),oF=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oO=a("Jsoo_runtime.Error.Exn"),oQ=a("power"),o0=[0,0],o1=[0,[0,0]],o2=[0,[0,0]],o9=[0,0],pe=[0,0,0],pf=[0,0,0],pg=[0,0],ph=[0,0],pp=[0,0],pr=[0,0],pB=[0,0,0],pC=[0,0],pD=[0,0],pV=[0,[0,[0,0]]],p4=a(","),qk=[0,a(gn),0],ql=a(k$),qm=a(b3),qn=[0,[0,[0,0]]],qo=a(a1),qp=a(go),qq=[0,[0,[0,[0,[0,0]]]]],qr=[0,a(gn),0],qs=a(lB),sr=a(jD),st=a(kE),ss=a(le),su=a(ez),sv=a(kA),sw=a(lu),sx=a(k0),s_=[0,a(kb),6768,12],tm=a(gu),tn=[0,0],to=a("divided"),tp=[0,1],tq=a("mirror"),tr=[0,3],ts=a("negative"),tt=[0,2],tu=a(gF),tv=[0,4],tw=a(ex),tx=a(kS),ty=a(eG),tz=[0,0],tA=[0,0],tB=[0,0],tT=a(s),tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,0]]]],tO=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],tL=[0,[0,0]],tM=[0,[0,[0,0]]],tJ=[0,[0,[0,0]]],tK=[0,[0,0]],tI=[0,[0,[0,0]]],tD=[0,[0,0]],tE=[0,0],tC=[0,0],tg=[0,[0,0]],th=[0,0],tf=[0,0],te=[0,0,0],tc=[0,0,0],tb=[0,0],s4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],s5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],s2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],s3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],s7=a("sqrt"),sY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],sZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],sN=[0,a("\n"),0],sO=a(kG),sP=a(ev),sQ=a(j6),sR=a(k3),sS=a("certified"),sX=a("refuted"),sT=a("verdict"),sU=a(kk),sV=a(kZ),sW=a(lc),sC=a(lp),sD=a(ey),sE=a(j3),sF=a(lt),sL=a(k9),sM=a(eF),sG=a(gp),sH=a(b4),sI=a(kI),sJ=a(ey),sK=a(ls),sA=a(kY),sB=a(lv),sp=a(kQ),sq=a(kq),r8=a(eF),rJ=a(bI),rK=a(cR),rL=a(gf),rM=a(cQ),rN=a(b4),rO=a(bI),rP=a(cR),rQ=a(gf),rR=a(cQ),rS=a(b4),rT=a(bI),rU=a(gC),rV=a(bm),rW=a(bl),rX=a(cl),rY=a(cR),rZ=a(ll),r0=a(lr),r1=a(cQ),r2=a(b4),r3=a(bI),r4=a(bm),r5=a(bl),r6=a(cl),r7=a(cR),r9=a(kg),r_=a(ko),r$=a(lA),sa=a(kT),sb=a(jN),sc=a(cQ),sd=a(b4),se=a(bI),sf=a(kF),sg=a(k2),sh=a(cR),si=a(kw),sj=a(kK),sk=a(cQ),sl=a(b4),so=a(kD),sm=a(jM),sn=a(kt),rz=a(j2),rA=a(kz),rB=a(jP),rC=a(kW),rD=a(kr),rE=a(ki),rF=a(k4),rG=a(eB),rH=a(eB),rv=a(b1),rw=a(b0),rx=a(eA),ry=a(b2),rr=a(dy),rs=a(gA),rt=a(li),rk=a(bm),rl=a(bl),rm=a(cl),rn=a(j7),ro=a(jB),rp=a(j0),rq=a(lo),rd=a(k6),re=a(jL),rj=a(ev),rf=a(kX),rg=a(jX),rh=a(kc),ri=a(lf),ra=a(bl),rb=a(bm),rc=a(kp),q4=a(jH),q5=a(kJ),q6=a(lk),q7=a(ez),q8=a(lz),q9=a(ln),q_=a(kM),q$=a(lh),qT=a(bk),q3=a(a1),qU=a(eD),qV=a(eC),qW=a(eK),qX=a(b1),qY=a(b0),qZ=a(j_),q0=a(ke),q1=a(eK),q2=a(b2),qB=a(bk),qJ=a(a1),qC=a(eD),qD=a(eC),qE=a(b1),qF=a(b0),qG=a(eH),qH=a(ku),qI=a(b2),qK=a(gr),qL=a(b1),qM=a(b0),qN=a(eA),qO=a(b2),qP=a(eH),qQ=a(dy),qR=a(b2),qy=a(bm),qz=a(bl),qw=[0,a(ao),0],qx=a(ao),qu=[0,a(kb),6145,36],qt=[0,a(ao),0],qv=a(ao),qg=a(bk),qh=a(a1),qi=a("*"),qj=a(a8),qb=[0,[0,[0,[0,[0,0]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,0]],qe=[0,0],qf=[0,[0,[0,[0,0]]]],p$=a('":'),qa=a(ao),p9=[0,a(ao),0],p_=a(ao),p7=[0,a("}"),0],p8=a("{"),p5=[0,a("]"),0],p6=a("["),p3=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p2=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pY=[0,[0,0]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pE=[0,[0,0]],pF=[0,0],pG=[0,[0,0]],pH=[0,0],pI=[0,0],pJ=[0,[0,0]],pK=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pA=[0,[0,[0,0]]],pz=[0,[0,[0,[0,[0,[0,0]]]]]],pw=[0,0],px=[0,[0,[0,[0,[0,[0,0]]]]]],py=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],pu=[0,[0,[0,0]]],pk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pl=[0,[0,[0,[0,[0,[0,0]]]]]],pm=[0,[0,[0,0]]],pn=[0,[0,[0,[0,[0,[0,0]]]]]],po=[0,[0,[0,0]]],pi=[0,[0,0]],pj=[0,0],o_=[0,0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,0],o8=[0,[0,0]],o3=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],oZ=a(aG),oY=a(s),oX=[0,[0,0]],oW=[0,0],oV=[1,0],oU=[0,0],oT=[0,0],oR=[1,0],oS=[1,0],v6=a(ez),v7=a(k0),v8=a(le),v9=a(kA),v_=a(ex),v$=a(kS),wa=a(eG),wb=[0,a(ao),0],wc=a('the evidence "'),wd=a(kq),we=a(kQ),wf=a(ex),wg=a(eG),wh=a(lu),wj=a(ex),wk=a(eG),wl=a(gu),wm=a(gu),wi=[0,a("this evidence at control points"),0],wL=a(lc),wM=a(kZ),wN=a(kk),wV=[0,3,3],wO=a(k3),wS=[0,a('the drive "arm" in a claim that is certified'),0],wT=[0,a("a step of a platform that turns that is not at control points"),0],wU=[0,a("a mechanism by formulas in a claim that is refuted"),0],wP=a(j6),wQ=a(kG),wR=a(ev),wJ=a(gF),wy=a(j3),wz=a(ls),wC=a(b4),wD=a(gp),wE=a(kI),wF=a(ey),wG=a(lp),wH=a(ey),wA=[0,a(ao),0],wB=a('a proof of the kind "'),wt=a(k9),wu=a(lt),wv=a(eF),ww=[0,a(ao),0],wx=a('the failure "'),wp=a(gp),wq=[0,a("a leaf that fails"),0],wr=a(kY),ws=a(lv),wn=a(gF),wo=a(aG),v4=a(kE),v5=a(jD),vE=a(b2),vF=a(gr),vG=a(eA),vJ=a(b1),vK=a(b0),vH=[0,a('" of such a platform'),0],vI=a(jJ),vq=a("rho"),vr=a(eF),vs=[0,a("a joint by its coordinate"),0],u6=a(bI),u0=a(b4),u1=a(kt),u4=a(jM),u5=a(kD),u7=a(cQ),u8=a(cR),u9=a("bodies"),v3=[0,a("a machine with bodies"),0],u_=a(dy),u$=a(gA),va=a(li),vb=a(gC),vc=a(jN),vd=a(kK),ve=a(gf),vh=a(cl),vi=a(lo),vl=a(bI),vm=a(k2),vn=a(kF),vo=a(kw),vp=a(cl),vt=a(bI),vu=a(bm),vv=a(bl),vw=a(kg),vx=a(ko),vy=a(lA),vz=a(kT),vf=[0,a(ao),0],vg=a(kx),vA=a(cl),vB=[0,a('" of a platform that turns'),0],vC=a(kj),vD=a(ll),v1=[0,a('" that does not turn'),0],v2=a(kx),vL=a(gC),vM=a(ki),vN=a(j2),vO=a(kr),vP=a(eB),vQ=a(k4),vR=a(eB),vY=a(kz),vZ=a(jP),v0=a(kW),vS=a(dy),vT=a(gA),vU=a(bI),vV=a(bm),vW=a(bl),vX=a(lr),vj=[0,a(ao),0],vk=a(kj),u2=[0,a(ao),0],u3=a('a claim of the kind "'),uT=a(cl),uX=a(bm),uY=a(bl),uU=a(j0),uV=a(j7),uW=a(jB),uS=[0,a("this quantity of such a mechanism"),0],uO=a(kX),uP=[0,a("a stiffness for each joint"),0],uN=a(ev),uG=a(k6),uv=a(lf),uw=a(ez),ux=a(lh),uy=a(kJ),uz=a(lk),uA=a(ln),uB=a(lz),uC=a(kM),uD=a(jH),uE=[0,a(ao),0],uF=a('the quantity "'),uH=a(jL),uI=a(bm),uJ=a(bl),uK=a(kp),uL=[0,a(ao),0],uM=a('a bound "'),uQ=a(jX),uR=a(kc),uo=a(eD),up=a(eC),uq=a(eK),ur=a(b1),us=a(b0),ut=a(j_),uu=a(ke),ul=a(b2),um=a(eK),t8=a(b2),t9=a(dy),t_=a(ku),t$=a(eA),uc=a(gr),ud=a(b1),ue=a(b0),uf=a(eD),ug=a(eC),uh=a(b1),ui=a(b0),uj=a(eH),uk=a(eH),ua=[0,a(ao),0],ub=a(jJ),t5=a(bk),t6=a(a1),t3=a(" is not covered by the verified checker"),t4=a(s),t1=a(bm),t2=a(bl),tX=a(s),tY=a(lB),tZ=a(s),t0=a(s),tW=[1,0],tU=a("Reader.Malformed"),tV=a("Reader.Not_covered"),wX=a(j$),wY=a("CERTIFIED"),wZ=a("REFUTED"),w0=a(j$),w1=a("NOT COVERED: ");function
+yP(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lW(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lW(a.error)})}yP();function
+e(a,b){return a.length==1?a(b):bP(a,[b])}function
+R(a,b,c){return a.length==2?a(b,c):bP(a,[b,c])}function
+gl(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bP(a,[b,c,d,e,f])}function
+x7(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bP(a,[b,c,d,e,f,g,h])}yk();var
+e0=[ao,a(lv),-1],hb=[ao,a(j1),-2],g_=[ao,a(gp),-3],g9=[ao,a(kH),-4],g$=[ao,a(ki),-8],ha=[ao,a(kW),-9],U=[ao,a(li),-11],hc=[ao,a(jJ),-12],w$=[4,0,0,0,[12,45,[4,0,0,0,0]]],e6=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(km),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xa=[0,0],xb=[0,[0,[0,[0,0]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,0]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],xp=[0,[0,0]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,0],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,0]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,0],x6=[0,[0,[0,[0,[0,0]]]]],fs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],el=[0,[0,[0,[0,0]]]];a3(11,hc,jJ);a3(10,U,li);a3(9,[ao,a(kA),-10],kA);a3(8,ha,kW);a3(7,g$,ki);a3(6,[ao,a(kS),-7],kS);a3(5,[ao,a(k_),-6],k_);a3(4,[ao,a(j6),-5],j6);a3(3,g9,kH);a3(2,g_,gp);a3(1,hb,j1);a3(0,e0,lv);var
+mj=a("%.12g"),mi=a(b7),mg=a("true"),mh=a("false"),mk=a("\\\\"),ml=a("\\'"),mm=a("\\b"),mn=a("\\t"),mo=a("\\n"),mp=a("\\r"),ms=a("String.blit / Bytes.blit_string"),mr=a("Bytes.blit"),mq=a("String.sub / Bytes.sub"),mu=a(s),mt=a("String.concat"),mv=a("Array.init"),my=a("Buffer.add: cannot grow buffer"),mx=[0,a(k6),93,2],mw=[0,a(k6),94,2],mH=a("%c"),mI=a("%s"),mJ=a(jH),mK=a(kf),mL=a(kD),mM=a(jP),mN=a("%f"),mO=a("%B"),mP=a("%{"),mQ=a("%}"),mR=a("%("),mS=a("%)"),mT=a("%a"),mU=a("%t"),mV=a("%?"),mW=a("%r"),mX=a("%_r"),mY=[0,a(an),850,23],m9=[0,a(an),814,21],m1=[0,a(an),815,21],m_=[0,a(an),818,21],m2=[0,a(an),819,21],m$=[0,a(an),822,19],m3=[0,a(an),823,19],na=[0,a(an),826,22],m4=[0,a(an),827,22],nb=[0,a(an),831,30],m5=[0,a(an),832,30],m7=[0,a(an),836,26],mZ=[0,a(an),837,26],m8=[0,a(an),846,28],m0=[0,a(an),847,28],m6=[0,a(an),851,23],oe=a(kx),oc=[0,a(an),1558,4],od=a("Printf: bad conversion %["),of=[0,a(an),1626,39],og=[0,a(an),1649,31],oh=[0,a(an),1650,31],oi=a("Printf: bad conversion %_"),oj=a(ks),ok=a(kG),ol=a(ks),om=a(kG),oa=a(gt),n_=a("neg_infinity"),n$=a(lr),n9=a(b7),n4=[0,jY],nS=a("%+nd"),nT=a("% nd"),nV=a("%+ni"),nW=a("% ni"),nX=a("%nx"),nY=a("%#nx"),nZ=a("%nX"),n0=a("%#nX"),n1=a("%no"),n2=a("%#no"),nR=a("%nd"),nU=a(kD),n3=a("%nu"),nF=a("%+ld"),nG=a("% ld"),nI=a("%+li"),nJ=a("% li"),nK=a("%lx"),nL=a("%#lx"),nM=a("%lX"),nN=a("%#lX"),nO=a("%lo"),nP=a("%#lo"),nE=a("%ld"),nH=a(kf),nQ=a("%lu"),ns=a("%+Ld"),nt=a("% Ld"),nv=a("%+Li"),nw=a("% Li"),nx=a("%Lx"),ny=a("%#Lx"),nz=a("%LX"),nA=a("%#LX"),nB=a("%Lo"),nC=a("%#Lo"),nr=a("%Ld"),nu=a(jP),nD=a("%Lu"),nf=a("%+d"),ng=a("% d"),ni=a("%+i"),nj=a("% i"),nk=a("%x"),nl=a("%#x"),nm=a("%X"),nn=a("%#X"),no=a("%o"),np=a("%#o"),ne=a(gE),nh=a(jH),nq=a(kx),mz=a("@]"),mA=a("@}"),mB=a("@?"),mC=a("@\n"),mD=a("@."),mE=a("@@"),mF=a("@%"),mG=a("@"),nc=a("CamlinternalFormat.Type_mismatch"),oq=a(s),or=[0,[11,a(jN),[2,0,[2,0,0]]],a(", %s%s")],oQ=[0,[11,a(gA),[2,0,[12,10,0]]],a(lg)],oR=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oP=a("Fatal error: out of memory in uncaught exception handler"),oN=[0,[11,a(gA),[2,0,[12,10,0]]],a(lg)],oJ=[0,[2,0,[12,10,0]],a("%s\n")],oB=a("Raised at"),oC=a("Re-raised at"),oD=a("Raised by primitive operation at"),oE=a("Called from"),oF=a(" (inlined)"),oH=a(s),oG=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(km),w$]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oI=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],ow=a("Out of memory"),ox=a("Stack overflow"),oy=a("Pattern matching failed"),oz=a("Assertion failed"),oA=a("Undefined recursive module"),os=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],ot=a(s),ou=a(s),ov=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],op=[0,[4,0,0,0,0],a(gE)],on=[0,[3,0,0],a("%S")],oo=a(kM),oK=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oT=a("Jsoo_runtime.Error.Exn"),oV=a("power"),o5=[0,0],o6=[0,[0,0]],o7=[0,[0,0]],pc=[0,0],pj=[0,0,0],pk=[0,0,0],pl=[0,0],pm=[0,0],pu=[0,0],pw=[0,0],pI=[0,0],pJ=[0,0],p4=[0,[0,[0,0]]],qb=a(","),qt=[0,a(gu),0],qu=a(le),qv=a(b7),qw=[0,[0,[0,0]]],qx=a(a2),qy=a(gv),qz=[0,[0,[0,[0,[0,0]]]]],qA=[0,a(gu),0],qB=a(lG),sA=a(jI),sC=a(kJ),sB=a(lj),sD=a(eD),sE=a(kF),sF=a(lz),sG=a(k5),th=[0,a(kg),6954,12],tv=a(gB),tw=[0,0],tx=a("divided"),ty=[0,1],tz=a("mirror"),tA=[0,3],tB=a("negative"),tC=[0,2],tD=a(gM),tE=[0,4],tF=a(eB),tG=a(kX),tH=a(eK),tI=[0,0],tJ=[0,0],tK=[0,0],t2=a(s),tZ=[0,[0,[0,[0,0]]]],t0=[0,[0,[0,[0,0]]]],tX=[0,[0,[0,0]]],tW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,0]],tR=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,0],tL=[0,0],tp=[0,[0,0]],tq=[0,0],to=[0,0],tn=[0,0,0],tl=[0,0,0],tk=[0,0],tb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],s9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],s_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],s$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],ta=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],td=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],te=a("sqrt"),s7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],s8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],sW=[0,a("\n"),0],sX=a(kL),sY=a(ez),sZ=a(j$),s0=a(k8),s1=a("certified"),s6=a("refuted"),s2=a("verdict"),s3=a(kp),s4=a(k4),s5=a(lh),sL=a(lu),sM=a(eC),sN=a(j8),sO=a(ly),sU=a(lc),sV=a(eJ),sP=a(gw),sQ=a(b8),sR=a(kN),sS=a(eC),sT=a(lx),sJ=a(k3),sK=a(lA),sy=a(kV),sz=a(kv),sf=a(eJ),rS=a(bL),rT=a(c0),rU=a(gm),rV=a(cZ),rW=a(b8),rX=a(bL),rY=a(c0),rZ=a(gm),r0=a(cZ),r1=a(b8),r2=a(bL),r3=a(gJ),r4=a(bq),r5=a(bp),r6=a(cr),r7=a(c0),r8=a(lq),r9=a(lw),r_=a(cZ),r$=a(b8),sa=a(bL),sb=a(bq),sc=a(bp),sd=a(cr),se=a(c0),sg=a(kl),sh=a(kt),si=a(lF),sj=a(kY),sk=a(jS),sl=a(cZ),sm=a(b8),sn=a(bL),so=a(kK),sp=a(k7),sq=a(c0),sr=a(kB),ss=a(kP),st=a(cZ),su=a(b8),sx=a(kI),sv=a(jR),sw=a(ky),rI=a(j7),rJ=a(kE),rK=a(jU),rL=a(k1),rM=a(kw),rN=a(kn),rO=a(k9),rP=a(eF),rQ=a(eF),rE=a(b5),rF=a(b4),rG=a(eE),rH=a(b6),rA=a(dC),rB=a(gH),rC=a(ln),rt=a(bq),ru=a(bp),rv=a(cr),rw=a(ka),rx=a(jG),ry=a(j5),rz=a(lt),rm=a(k$),rn=a(jQ),rs=a(ez),ro=a(k2),rp=a(j2),rq=a(kh),rr=a(lk),rj=a(bp),rk=a(bq),rl=a(ku),rb=a(jM),rc=a(kO),rd=a(lp),re=a(eD),rf=a(lE),rg=a(ls),rh=a(kR),ri=a(lm),q2=a(bo),ra=a(a2),q3=a(eH),q4=a(eG),q5=a(eO),q6=a(b5),q7=a(b4),q8=a(kd),q9=a(kj),q_=a(eO),q$=a(b6),qK=a(bo),qS=a(a2),qL=a(eH),qM=a(eG),qN=a(b5),qO=a(b4),qP=a(eL),qQ=a(kz),qR=a(b6),qT=a(gy),qU=a(b5),qV=a(b4),qW=a(eE),qX=a(b6),qY=a(eL),qZ=a(dC),q0=a(b6),qH=a(bq),qI=a(bp),qF=[0,a(ap),0],qG=a(ap),qD=[0,a(kg),6331,36],qC=[0,a(ap),0],qE=a(ap),qp=a(bo),qq=a(a2),qr=a("*"),qs=a(a_),qk=[0,[0,[0,[0,[0,0]]]]],ql=[0,[0,[0,0]]],qm=[0,[0,0]],qn=[0,0],qo=[0,[0,[0,[0,0]]]],qi=a('":'),qj=a(ap),qg=[0,a(ap),0],qh=a(ap),qe=[0,a("}"),0],qf=a("{"),qc=[0,a("]"),0],qd=a("["),qa=[0,0],p9=[0,[0,[0,0]]],p_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p7=[0,[0,0]],p8=[0,[0,[0,0]]],p2=[0,[0,0]],p3=[0,[0,[0,0]]],p0=[0,[0,[0,0]]],p1=[0,[0,0]],pY=[0,0],pU=[0,[0,0]],pV=[0,0],pW=[0,0],pX=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pR=[0,[0,0]],pS=[0,[0,0]],pT=[0,0],pH=[0,0],pF=[0,[0,[0,0]]],pE=[0,[0,[0,[0,[0,[0,0]]]]]],pB=[0,0],pC=[0,[0,[0,[0,[0,[0,0]]]]]],pD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],pz=[0,[0,[0,0]]],pp=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pq=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,[0,0]]],ps=[0,[0,[0,[0,[0,[0,0]]]]]],pt=[0,[0,[0,0]]],pn=[0,[0,0]],po=[0,0],pd=[0,0,0],o_=[0,0],o$=[0,[0,0]],pa=[0,0],pb=[0,[0,0]],o8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],o4=a(aG),o3=a(s),o2=[0,[0,0]],o1=[0,0],o0=[1,0],oZ=[0,0],oY=[0,0],oW=[1,0],oX=[1,0],wd=a(eD),we=a(k5),wf=a(lj),wg=a(kF),wh=a(eB),wi=a(kX),wj=a(eK),wk=[0,a(ap),0],wl=a('the evidence "'),wm=a(kv),wn=a(kV),wo=a(eB),wp=a(eK),wq=a(lz),ws=a(eB),wt=a(eK),wu=a(gB),wv=a(gB),wr=[0,a("this evidence at control points"),0],wU=a(lh),wV=a(k4),wW=a(kp),w4=[0,3,3],wX=a(k8),w1=[0,a('the drive "arm" in a claim that is certified'),0],w2=[0,a("a step of a platform that turns that is not at control points"),0],w3=[0,a("a mechanism by formulas in a claim that is refuted"),0],wY=a(j$),wZ=a(kL),w0=a(ez),wS=a(gM),wH=a(j8),wI=a(lx),wL=a(b8),wM=a(gw),wN=a(kN),wO=a(eC),wP=a(lu),wQ=a(eC),wJ=[0,a(ap),0],wK=a('a proof of the kind "'),wC=a(lc),wD=a(ly),wE=a(eJ),wF=[0,a(ap),0],wG=a('the failure "'),wy=a(gw),wz=[0,a("a leaf that fails"),0],wA=a(k3),wB=a(lA),ww=a(gM),wx=a(aG),wb=a(kJ),wc=a(jI),vN=a(b6),vO=a(gy),vP=a(eE),vS=a(b5),vT=a(b4),vQ=[0,a('" of such a platform'),0],vR=a(jO),vz=a("rho"),vA=a(eJ),vB=[0,a("a joint by its coordinate"),0],vd=a(bL),u9=a(b8),u_=a(ky),vb=a(jR),vc=a(kI),ve=a(cZ),vf=a(c0),vg=a("bodies"),wa=[0,a("a machine with bodies"),0],vh=a(dC),vi=a(gH),vj=a(ln),vk=a(gJ),vl=a(jS),vm=a(kP),vn=a(gm),vq=a(cr),vr=a(lt),vu=a(bL),vv=a(k7),vw=a(kK),vx=a(kB),vy=a(cr),vC=a(bL),vD=a(bq),vE=a(bp),vF=a(kl),vG=a(kt),vH=a(lF),vI=a(kY),vo=[0,a(ap),0],vp=a(kC),vJ=a(cr),vK=[0,a('" of a platform that turns'),0],vL=a(ko),vM=a(lq),v_=[0,a('" that does not turn'),0],v$=a(kC),vU=a(gJ),vV=a(kn),vW=a(j7),vX=a(kw),vY=a(eF),vZ=a(k9),v0=a(eF),v7=a(kE),v8=a(jU),v9=a(k1),v1=a(dC),v2=a(gH),v3=a(bL),v4=a(bq),v5=a(bp),v6=a(lw),vs=[0,a(ap),0],vt=a(ko),u$=[0,a(ap),0],va=a('a claim of the kind "'),u2=a(cr),u6=a(bq),u7=a(bp),u3=a(j5),u4=a(ka),u5=a(jG),u1=[0,a("this quantity of such a mechanism"),0],uX=a(k2),uY=[0,a("a stiffness for each joint"),0],uW=a(ez),uP=a(k$),uE=a(lk),uF=a(eD),uG=a(lm),uH=a(kO),uI=a(lp),uJ=a(ls),uK=a(lE),uL=a(kR),uM=a(jM),uN=[0,a(ap),0],uO=a('the quantity "'),uQ=a(jQ),uR=a(bq),uS=a(bp),uT=a(ku),uU=[0,a(ap),0],uV=a('a bound "'),uZ=a(j2),u0=a(kh),ux=a(eH),uy=a(eG),uz=a(eO),uA=a(b5),uB=a(b4),uC=a(kd),uD=a(kj),uu=a(b6),uv=a(eO),uf=a(b6),ug=a(dC),uh=a(kz),ui=a(eE),ul=a(gy),um=a(b5),un=a(b4),uo=a(eH),up=a(eG),uq=a(b5),ur=a(b4),us=a(eL),ut=a(eL),uj=[0,a(ap),0],uk=a(jO),uc=a(bo),ud=a(a2),ua=a(" is not covered by the verified checker"),ub=a(s),t_=a(bq),t$=a(bp),t6=a(s),t7=a(lG),t8=a(s),t9=a(s),t5=[1,0],t3=a("Reader.Malformed"),t4=a("Reader.Not_covered"),w6=a(ke),w7=a("CERTIFIED"),w8=a("REFUTED"),w9=a(ke),w_=a("NOT COVERED: ");function
 _(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
@@ -813,217 +813,217 @@ b=a[1];return[9,b,b,_(a[3])];case
 11:return[11,_(a[1])];case
 12:return[12,_(a[1])];case
 13:return[13,_(a[1])];default:return[14,_(a[1])]}}function
-aD(a,b){if(typeof
+aF(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aD(a[1],b)];case
-1:return[1,aD(a[1],b)];case
-2:return[2,aD(a[1],b)];case
-3:return[3,aD(a[1],b)];case
-4:return[4,aD(a[1],b)];case
-5:return[5,aD(a[1],b)];case
-6:return[6,aD(a[1],b)];case
-7:return[7,aD(a[1],b)];case
+0:return[0,aF(a[1],b)];case
+1:return[1,aF(a[1],b)];case
+2:return[2,aF(a[1],b)];case
+3:return[3,aF(a[1],b)];case
+4:return[4,aF(a[1],b)];case
+5:return[5,aF(a[1],b)];case
+6:return[6,aF(a[1],b)];case
+7:return[7,aF(a[1],b)];case
 8:var
-c=a[1];return[8,c,aD(a[2],b)];case
+c=a[1];return[8,c,aF(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aD(a[3],b)];case
-10:return[10,aD(a[1],b)];case
-11:return[11,aD(a[1],b)];case
-12:return[12,aD(a[1],b)];case
-13:return[13,aD(a[1],b)];default:return[14,aD(a[1],b)]}}function
-Q(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aF(a[3],b)];case
+10:return[10,aF(a[1],b)];case
+11:return[11,aF(a[1],b)];case
+12:return[12,aF(a[1],b)];case
+13:return[13,aF(a[1],b)];default:return[14,aF(a[1],b)]}}function
+T(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,Q(a[1],b)];case
-1:return[1,Q(a[1],b)];case
+0:return[0,T(a[1],b)];case
+1:return[1,T(a[1],b)];case
 2:var
-c=a[1];return[2,c,Q(a[2],b)];case
+c=a[1];return[2,c,T(a[2],b)];case
 3:var
-d=a[1];return[3,d,Q(a[2],b)];case
+d=a[1];return[3,d,T(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,Q(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,T(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,Q(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,T(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,Q(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,T(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,Q(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,T(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,Q(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,T(a[4],b)];case
 9:var
-t=a[1];return[9,t,Q(a[2],b)];case
-10:return[10,Q(a[1],b)];case
+t=a[1];return[9,t,T(a[2],b)];case
+10:return[10,T(a[1],b)];case
 11:var
-u=a[1];return[11,u,Q(a[2],b)];case
+u=a[1];return[11,u,T(a[2],b)];case
 12:var
-v=a[1];return[12,v,Q(a[2],b)];case
+v=a[1];return[12,v,T(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,Q(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,T(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,Q(a[3],b)];case
-15:return[15,Q(a[1],b)];case
-16:return[16,Q(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,T(a[3],b)];case
+15:return[15,T(a[1],b)];case
+16:return[16,T(a[1],b)];case
 17:var
-A=a[1];return[17,A,Q(a[2],b)];case
+A=a[1];return[17,A,T(a[2],b)];case
 18:var
-B=a[1];return[18,B,Q(a[2],b)];case
-19:return[19,Q(a[1],b)];case
+B=a[1];return[18,B,T(a[2],b)];case
+19:return[19,T(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,Q(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,T(a[3],b)];case
 21:var
-E=a[1];return[21,E,Q(a[2],b)];case
-22:return[22,Q(a[1],b)];case
+E=a[1];return[21,E,T(a[2],b)];case
+22:return[22,T(a[1],b)];case
 23:var
-F=a[1];return[23,F,Q(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,Q(a[3],b)]}}function
-bP(a){throw[0,g2,a]}function
-dI(a){return 0<=a?a:-a|0}function
-aq(d,c){var
-a=y(d),e=y(c),b=ag(a+e|0);bq(d,0,b,0,a);bq(c,0,b,a,e);return aC(b)}function
-ma(a){return a?mb:mc}yx(0);lW(1);var
-bu=lW(2);function
-cY(b,a){return lX(b,a,0,y(a))}function
-g8(a){cY(bu,a);lY(bu,10);return cV(bu)}function
-eX(b){function
+F=a[1];return[23,F,T(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,T(a[3],b)]}}function
+bS(a){throw[0,g9,a]}function
+dM(a){return 0<=a?a:-a|0}function
+ar(d,c){var
+a=y(d),e=y(c),b=aj(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
+mf(a){return a?mg:mh}yG(0);l1(1);var
+by=l1(2);function
+c7(b,a){return l2(b,a,0,y(a))}function
+hd(a){c7(by,a);l3(by,10);return c4(by)}function
+e1(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{cV(d)}catch(a){a=eU(a);if(a[1]!==g6)throw a;var
+c=a[2],d=a[1];try{c4(d)}catch(a){a=eY(a);if(a[1]!==hb)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(yy(0))}gU(a(jF),eX);var
-cZ=(4*yI(0)|0)-1|0;function
-cq(c){var
+a=c;continue}return 0}}return a(yH(0))}g1(a(jK),e1);var
+c8=(4*yR(0)|0)-1|0;function
+cw(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-W(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,W(b,c)]}return 0}function
-g9(d,c){var
+Y(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+he(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-b8(a,c){var
-b=ag(a);x$(b,0,a,c);return b}function
-g_(c,b,a){if(0<=b&&0<=a&&!((aQ(c)-a|0)<b)){var
-d=ag(a);b6(c,b,d,0,a);return d}return bP(ml)}function
-g$(c,b,a){return aC(g_(c,b,a))}function
-ha(e,c,d,b,a){if(0<=a&&0<=c&&!((aQ(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return b6(e,c,d,b,a);return bP(mm)}function
-bv(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aQ(d)-a|0)<b))return bq(e,c,d,b,a);return bP(mn)}function
-aW(b,a){return aC(b8(b,a))}function
-c0(c,b,a){return aC(g_(bL(c),b,a))}function
-hb(k,g){if(g){var
+ca(a,c){var
+b=aj(a);yi(b,0,a,c);return b}function
+hf(c,b,a){if(0<=b&&0<=a&&!((aR(c)-a|0)<b)){var
+d=aj(a);b_(c,b,d,0,a);return d}return bS(mq)}function
+hg(c,b,a){return aE(hf(c,b,a))}function
+hh(e,c,d,b,a){if(0<=a&&0<=c&&!((aR(e)-a|0)<c)&&0<=b&&!((aR(d)-a|0)<b))return b_(e,c,d,b,a);return bS(mr)}function
+bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aR(d)-a|0)<b))return bu(e,c,d,b,a);return bS(ms)}function
+aY(b,a){return aE(ca(b,a))}function
+c9(c,b,a){return aE(hf(bO(c),b,a))}function
+hi(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bP(mo),c=n,b=m;continue}var
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bS(mt),c=n,b=m;continue}var
 l=y(i)+c|0}else
 var
 l=c;var
-f=ag(l),e=p,d=g;for(;;){if(d){var
+f=aj(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bq(a,0,f,e,y(a));bq(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bq(a,0,f,e,y(a))}return aC(f)}}}return mp}function
-hc(b,c){if(0===b)return[0];if(0<=b){var
-d=yv(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bu(a,0,f,e,y(a));bu(k,0,f,e+y(a)|0,h);var
+e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mu}function
+hj(b,c){if(0===b)return[0];if(0<=b){var
+d=yE(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bP(mq)}function
-hd(c){var
+a=h;continue}break}}return d}return bS(mv)}function
+hk(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-he(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cZ<b[1]){if(!((d+c|0)<=cZ))throw[0,g3,mt];b[1]=cZ}var
-e=ag(b[1]);ha(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,R,mr]}throw[0,R,ms]}}function
-c1(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)he(a,b);bq(c,0,a[1],a[2],b);a[2]=d;return 0}function
-eY(a){return 5===a[2]?12:-6}function
-hf(a){return[0,0,ag(a)]}function
-hg(a,h){var
-b=aQ(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ag(i);ha(a[2],0,f,0,b);a[2]=f;var
+hl(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c8<b[1]){if(!((d+c|0)<=c8))throw[0,g_,my];b[1]=c8}var
+e=aj(b[1]);hh(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,U,mw]}throw[0,U,mx]}}function
+c_(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)hl(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
+e2(a){return 5===a[2]?12:-6}function
+hm(a){return[0,0,aj(a)]}function
+hn(a,h){var
+b=aR(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=aj(i);hh(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cr(a,b){hg(a,1);cm(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+cx(a,b){hn(a,1);cs(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
 ax(a,c){var
-b=y(c);hg(a,b);bv(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-hh(a){return g$(a[2],0,a[1])}function
-hi(a){if(typeof
+b=y(c);hn(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+ho(a){return hg(a[2],0,a[1])}function
+hp(a){if(typeof
 a==="number")switch(a){case
-0:return mu;case
-1:return mv;case
-2:return mw;case
-3:return mx;case
-4:return my;case
-5:return mz;default:return mA}else
+0:return mz;case
+1:return mA;case
+2:return mB;case
+3:return mC;case
+4:return mD;case
+5:return mE;default:return mF}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return aq(mB,aW(1,a[1]))}}function
-eZ(b,c){var
+1:return a[1];default:return ar(mG,aY(1,a[1]))}}function
+e3(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];ax(b,mC);var
+d=a[1];ax(b,mH);var
 a=d;continue;case
 1:var
-e=a[1];ax(b,mD);var
+e=a[1];ax(b,mI);var
 a=e;continue;case
 2:var
-f=a[1];ax(b,mE);var
+f=a[1];ax(b,mJ);var
 a=f;continue;case
 3:var
-g=a[1];ax(b,mF);var
+g=a[1];ax(b,mK);var
 a=g;continue;case
 4:var
-h=a[1];ax(b,mG);var
+h=a[1];ax(b,mL);var
 a=h;continue;case
 5:var
-i=a[1];ax(b,mH);var
+i=a[1];ax(b,mM);var
 a=i;continue;case
 6:var
-j=a[1];ax(b,mI);var
+j=a[1];ax(b,mN);var
 a=j;continue;case
 7:var
-k=a[1];ax(b,mJ);var
+k=a[1];ax(b,mO);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];ax(b,mK);eZ(b,m);ax(b,mL);var
+l=a[2],m=a[1];ax(b,mP);e3(b,m);ax(b,mQ);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];ax(b,mM);eZ(b,o);ax(b,mN);var
+n=a[3],o=a[1];ax(b,mR);e3(b,o);ax(b,mS);var
 a=n;continue;case
 10:var
-p=a[1];ax(b,mO);var
+p=a[1];ax(b,mT);var
 a=p;continue;case
 11:var
-q=a[1];ax(b,mP);var
+q=a[1];ax(b,mU);var
 a=q;continue;case
 12:var
-r=a[1];ax(b,mQ);var
+r=a[1];ax(b,mV);var
 a=r;continue;case
 13:var
-s=a[1];ax(b,mR);var
+s=a[1];ax(b,mW);var
 a=s;continue;default:var
-t=a[1];ax(b,mS);var
+t=a[1];ax(b,mX);var
 a=t;continue}}function
-ae(a){if(typeof
+af(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ae(a[1])];case
-1:return[1,ae(a[1])];case
-2:return[2,ae(a[1])];case
-3:return[3,ae(a[1])];case
-4:return[4,ae(a[1])];case
-5:return[5,ae(a[1])];case
-6:return[6,ae(a[1])];case
-7:return[7,ae(a[1])];case
+0:return[0,af(a[1])];case
+1:return[1,af(a[1])];case
+2:return[2,af(a[1])];case
+3:return[3,af(a[1])];case
+4:return[4,af(a[1])];case
+5:return[5,af(a[1])];case
+6:return[6,af(a[1])];case
+7:return[7,af(a[1])];case
 8:var
-b=a[1];return[8,b,ae(a[2])];case
+b=a[1];return[8,b,af(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ae(a[3])];case
-10:return[10,ae(a[1])];case
-11:return[11,ae(a[1])];case
-12:return[12,ae(a[1])];case
-13:return[13,ae(a[1])];default:return[14,ae(a[1])]}}function
+c=a[2],d=a[1];return[9,c,d,af(a[3])];case
+10:return[10,af(a[1])];case
+11:return[11,af(a[1])];case
+12:return[12,af(a[1])];case
+13:return[13,af(a[1])];default:return[14,af(a[1])]}}function
 ay(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
@@ -1043,11 +1043,11 @@ h=ay(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,f
 6:var
 i=ay(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=ay(a[1]),ac=j[4],ad=j[3],af=j[2],ag=j[1],ah=function(a){e(af,0);return 0};return[0,function(a){e(ag,0);return 0},ah,ad,ac];case
+j=ay(a[1]),ac=j[4],ad=j[3],ae=j[2],ag=j[1],ah=function(a){e(ae,0);return 0};return[0,function(a){e(ag,0);return 0},ah,ad,ac];case
 8:var
-k=ay(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
+k=ay(a[2]),ai=k[4],aj=k[3],ak=k[2],am=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(am,0);return 0},an,aj,ai];case
 9:var
-ao=a[2],ap=a[1],l=ay(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ay(ai(ae(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=ay(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ay(al(af(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,az];case
 10:var
 n=ay(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
@@ -1057,7 +1057,7 @@ p=ay(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};retu
 13:var
 q=ay(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
 r=ay(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ai(c,b){var
+al(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1068,12 +1068,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,R,mT]}else
+9:a=6;break;default:throw[0,U,mY]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ai(t,b[1])];case
+0:return[0,al(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1084,7 +1084,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ai(u,b[1])];case
+1:return[1,al(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1096,7 +1096,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ai(v,b[1])];case
+2:return[2,al(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1108,7 +1108,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ai(w,b[1])];case
+3:return[3,al(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1120,7 +1120,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ai(x,b[1])];case
+4:return[4,al(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1132,7 +1132,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ai(y,b[1])];case
+5:return[5,al(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1144,7 +1144,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ai(z,b[1])];case
+6:return[6,al(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,7 +1156,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ai(A,b[1])];case
+7:return[7,al(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1169,40 +1169,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ai(B,b[2]);return[8,ai(C,D),E];case
+D=b[1],E=al(B,b[2]);return[8,al(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,R,m2];break;case
+14:a=4;break;default:m=1}if(m)throw[0,U,m7];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=ay(ai(ae(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ai(F,I)];case
+I=b[3],J=b[2],K=b[1],s=ay(al(af(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,al(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,R,m3];break;case
+14:a=4;break;default:n=1}if(n)throw[0,U,m8];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ai(M,b[1])];throw[0,R,m4];case
+b!=="number"&&10===b[0])return[10,al(M,b[1])];throw[0,U,m9];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ai(N,b[1])];default:o=1}if(o)throw[0,R,m5];break;case
+11:return[11,al(N,b[1])];default:o=1}if(o)throw[0,U,m_];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ai(O,b[1])];default:p=1}if(p)throw[0,R,m6];break;case
+12:return[12,al(O,b[1])];default:p=1}if(p)throw[0,U,m$];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1210,7 +1210,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ai(P,b[1])];default:q=1}if(q)throw[0,R,m7];break;default:var
+13:return[13,al(P,b[1])];default:q=1}if(q)throw[0,U,na];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1218,25 +1218,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ai(Q,b[1])];default:r=1}if(r)throw[0,R,m8]}switch(a){case
-0:throw[0,R,mW];case
-1:throw[0,R,mX];case
-2:throw[0,R,mY];case
-3:throw[0,R,mZ];case
-4:throw[0,R,m0];case
-5:throw[0,R,mU];case
-6:throw[0,R,mV];default:throw[0,R,m1]}}var
-ar=[an,m9,eN(0)];function
-dJ(b,a){if(typeof
+14:return[14,al(Q,b[1])];default:r=1}if(r)throw[0,U,nb]}switch(a){case
+0:throw[0,U,m1];case
+1:throw[0,U,m2];case
+2:throw[0,U,m3];case
+3:throw[0,U,m4];case
+4:throw[0,U,m5];case
+5:throw[0,U,mZ];case
+6:throw[0,U,m0];default:throw[0,U,m6]}}var
+as=[ao,nc,eR(0)];function
+dN(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw ar}}function
-c2(e,b,d){var
-a=dJ(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw as}}function
+c$(e,b,d){var
+a=dN(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw ar}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw as}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aI(b,c,a){if(typeof
-b==="number")return[0,0,M(c,a)];else
+b==="number")return[0,0,K(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1264,14 +1264,14 @@ a!=="number"&&7===a[0]){var
 n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dG([0,b[1]],[0,o]))throw ar;var
+o=a[1],w=a[2],x=b[2];if(dK([0,b[1]],[0,o]))throw as;var
 p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,_(f)];if(dG([0,_(B)],C))throw ar;var
-D=[0,_(d)];if(dG([0,_(A)],D))throw ar;var
-q=ay(ai(ae(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aI(_(z),c,y),F=r[2];return[0,[9,f,d,ae(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,_(f)];if(dK([0,_(B)],C))throw as;var
+D=[0,_(d)];if(dK([0,_(A)],D))throw as;var
+q=ay(al(af(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aI(_(z),c,y),F=r[2];return[0,[9,f,d,af(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1283,83 +1283,83 @@ a!=="number"&&13===a[0]){var
 u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw ar}function
-M(b,a){if(typeof
+v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw as}function
+K(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=M(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=K(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=M(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=K(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dJ(b[1],a),e=u[2],ad=u[1];if(typeof
+ac=b[2],u=dN(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=M(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw ar;case
+v=K(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw as;case
 3:var
-ae=b[2],w=dJ(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=dN(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=M(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw ar;case
+x=K(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw as;case
 4:var
-ag=b[4],ah=b[1],g=c2(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=c$(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=M(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw ar;case
+aj=g[2],y=K(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw as;case
 5:var
-ak=b[4],al=b[1],i=c2(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=c$(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=M(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw ar;case
+an=i[2],z=K(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw as;case
 6:var
-ao=b[4],ap=b[1],k=c2(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=c$(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-as=k[2],A=M(ao,l[1]);return[0,[6,ap,aq,as,A[1]],A[2]]}throw ar;case
+ar=k[2],A=K(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw as;case
 7:var
-at=b[4],au=b[1],m=c2(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+at=b[4],au=b[1],m=c$(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=M(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw ar;case
+aw=m[2],B=K(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw as;case
 8:var
-ax=b[4],ay=b[1],o=c2(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=c$(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=M(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw ar;case
+aA=o[2],C=K(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw as;case
 9:var
-aB=b[2],D=dJ(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=dN(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=M(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw ar;case
+E=K(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw as;case
 10:var
-F=M(b[1],a);return[0,[10,F[1]],F[2]];case
+F=K(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=M(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=K(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=M(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=K(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dG([0,b[2]],[0,I]))throw ar;var
-J=M(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dK([0,b[2]],[0,I]))throw as;var
+J=K(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,_(K)];if(dG([0,_(aL)],aO))throw ar;var
-L=M(aK,_(aJ));return[0,[14,aM,K,L[1]],L[2]]}break;case
+L=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,_(L)];if(dK([0,_(aL)],aO))throw as;var
+M=K(aK,_(aJ));return[0,[14,aM,L,M[1]],M[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=M(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+N=K(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=M(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+O=K(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
 17:var
-aP=b[1],P=M(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aP=b[1],P=K(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],V=M(U[1],a),aU=V[1],W=M(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=M(X[1],a),aW=Y[1],Z=M(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+U=r[1],aT=U[2],V=K(U[1],a),aU=V[1],W=K(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=K(X[1],a),aW=Y[1],Z=K(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=M(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+R=K(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=M(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aQ=b[2],aR=b[1],S=K(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=M(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aS=b[1],T=K(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
@@ -1367,7 +1367,7 @@ c==="number")switch(c){case
 1:return aN(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-$=M(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw ar;default:return aN(c,d,a)}else
+$=K(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw as;default:return aN(c,d,a)}else
 switch(c[0]){case
 0:return aN(c,d,a);case
 1:return aN(c,d,a);case
@@ -1380,44 +1380,44 @@ switch(c[0]){case
 8:return aN([8,c[1],c[2]],d,a);case
 9:var
 aX=c[1],aa=aI(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
-10:return aN(c,d,a);default:return aN(c,d,a)}}throw ar}function
+10:return aN(c,d,a);default:return aN(c,d,a)}}throw as}function
 aN(d,c,b){var
-a=M(c,b);return[0,[23,d,a[1]],a[2]]}function
+a=K(c,b);return[0,[23,d,a[1]],a[2]]}function
 aO(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dI(g);if(d<=b)return a;var
-l=2===h?48:32,c=b8(d,l);switch(h){case
-0:bv(a,0,c,0,b);break;case
-1:bv(a,0,c,d-b|0,b);break;default:var
+b=y(a),h=0<=g?k:0,d=dM(g);if(d<=b)return a;var
+l=2===h?48:32,c=ca(d,l);switch(h){case
+0:bz(a,0,c,0,b);break;case
+1:bz(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==L(a,0)&&45!==L(a,0)&&32!==L(a,0)){e=1;i=1}if(!i){cm(c,0,L(a,0));bv(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==J(a,0)&&45!==J(a,0)&&32!==J(a,0)){e=1;i=1}if(!i){cs(c,0,J(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===L(a,0)){var
-j=0;if(jS!==L(a,1)&&88!==L(a,1)){f=1;j=1}if(!j){cm(c,1,L(a,1));bv(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bv(a,0,c,d-b|0,b)}}return aC(c)}function
-cs(k,b){var
-c=dI(k),a=y(b),d=L(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kO>>>0))e=1}else
+f=0;if(1<b&&48===J(a,0)){var
+j=0;if(jX!==J(a,1)&&88!==J(a,1)){f=1;j=1}if(!j){cs(c,1,J(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bz(a,0,c,d-b|0,b)}}return aE(c)}function
+cy(k,b){var
+c=dM(k),a=y(b),d=J(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kT>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(jS===L(b,1)||88===L(b,1))j=1;if(j){var
-h=b8(c+2|0,48);cm(h,1,L(b,1));bv(b,2,h,(c-a|0)+4|0,a-2|0);return aC(h)}}e=1;f=1;break;case
+j=0;if(jX===J(b,1)||88===J(b,1))j=1;if(j){var
+h=ca(c+2|0,48);cs(h,1,J(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=b8(c+1|0,48);cm(g,0,d);bv(b,1,g,(c-a|0)+2|0,a-1|0);return aC(g)}}if(e&&a<c){var
-i=b8(c,48);bv(b,0,i,c-a|0,a);return aC(i)}return b}function
-m_(k){var
+g=ca(c+1|0,48);cs(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
+i=ca(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
+nd(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bs(k,j)+lg|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bw(k,j)+ll|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bL(k),a=[0,0],t=aQ(e)-1|0,z=0;if(!(t<0)){var
+e=bO(k),a=[0,0],t=aR(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=cT(e,i),g=0;if(32<=f){var
+f=c2(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1428,33 +1428,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aQ(e)){var
-r=aQ(e),s=ag(r);b6(e,0,s,0,r);var
+i=C;continue}break}}if(a[1]===aR(e)){var
+r=aR(e),s=aj(r);b_(e,0,s,0,r);var
 v=s}else{var
-b=ag(a[1]);a[1]=0;var
-u=aQ(e)-1|0,A=0;if(!(u<0)){var
+b=aj(a[1]);a[1]=0;var
+u=aR(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=cT(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gq<=c)d=1;else
+c=c2(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gx<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ac(b,a[1],92);a[1]++;ac(b,a[1],98);break;case
-9:ac(b,a[1],92);a[1]++;ac(b,a[1],116);break;case
-10:ac(b,a[1],92);a[1]++;ac(b,a[1],110);break;case
-13:ac(b,a[1],92);a[1]++;ac(b,a[1],114);break;default:d=1}switch(d){case
-1:ac(b,a[1],92);a[1]++;ac(b,a[1],48+(c/kV|0)|0);a[1]++;ac(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ac(b,a[1],48+(c%10|0)|0);break;case
-2:ac(b,a[1],92);a[1]++;ac(b,a[1],c);break;case
-3:ac(b,a[1],c);break}a[1]++;var
+8:ad(b,a[1],92);a[1]++;ad(b,a[1],98);break;case
+9:ad(b,a[1],92);a[1]++;ad(b,a[1],116);break;case
+10:ad(b,a[1],92);a[1]++;ad(b,a[1],110);break;case
+13:ad(b,a[1],92);a[1]++;ad(b,a[1],114);break;default:d=1}switch(d){case
+1:ad(b,a[1],92);a[1]++;ad(b,a[1],48+(c/k0|0)|0);a[1]++;ad(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ad(b,a[1],48+(c%10|0)|0);break;case
+2:ad(b,a[1],92);a[1]++;ad(b,a[1],c);break;case
+3:ad(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
 v=b}var
-o=aC(v)}var
-w=y(o),x=b8(w+2|0,34);bq(o,0,x,1,w);return aC(x)}}function
-hj(d,f){var
-g=dI(f),e=nZ[1];switch(d[2]){case
+o=aE(v)}var
+w=y(o),x=ca(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
+hq(d,f){var
+g=dM(f),e=n4[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1462,7 +1462,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=jT;break;case
+b=jY;break;case
 4:var
 b=71;break;case
 5:var
@@ -1472,160 +1472,160 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hf(16);cr(c,37);switch(d[1]){case
+c=hm(16);cx(c,37);switch(d[1]){case
 0:break;case
-1:cr(c,43);break;default:cr(c,32)}if(8<=d[2])cr(c,35);cr(c,46);ax(c,a(s+g));cr(c,b);return hh(c)}function
-dK(m,a){if(13<=m){var
+1:cx(c,43);break;default:cx(c,32)}if(8<=d[2])cx(c,35);cx(c,46);ax(c,a(s+g));cx(c,b);return ho(c)}function
+dO(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bs(a,c)+gh>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bw(a,c)+go>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ag(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cm(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=aj(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cs(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bs(a,b);if(9<f+gh>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bw(a,b);if(9<f+go>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aC(j)}return a}function
-n0(b,c){switch(b){case
+b=p;continue}break}}return aE(j)}return a}function
+n5(b,c){switch(b){case
 1:var
-a=na;break;case
-2:var
-a=nb;break;case
-4:var
-a=nd;break;case
-5:var
-a=ne;break;case
-6:var
 a=nf;break;case
-7:var
+2:var
 a=ng;break;case
-8:var
-a=nh;break;case
-9:var
+4:var
 a=ni;break;case
-10:var
+5:var
 a=nj;break;case
-11:var
+6:var
 a=nk;break;case
-0:case
-13:var
-a=m$;break;case
-3:case
-14:var
-a=nc;break;default:var
-a=nl}return dK(b,eM(a,c))}function
-n1(b,c){switch(b){case
-1:var
-a=nA;break;case
-2:var
-a=nB;break;case
-4:var
-a=nD;break;case
-5:var
-a=nE;break;case
-6:var
-a=nF;break;case
 7:var
-a=nG;break;case
+a=nl;break;case
 8:var
-a=nH;break;case
-9:var
-a=nI;break;case
-10:var
-a=nJ;break;case
-11:var
-a=nK;break;case
-0:case
-13:var
-a=nz;break;case
-3:case
-14:var
-a=nC;break;default:var
-a=nL}return dK(b,eM(a,c))}function
-n2(b,c){switch(b){case
-1:var
-a=nN;break;case
-2:var
-a=nO;break;case
-4:var
-a=nQ;break;case
-5:var
-a=nR;break;case
-6:var
-a=nS;break;case
-7:var
-a=nT;break;case
-8:var
-a=nU;break;case
-9:var
-a=nV;break;case
-10:var
-a=nW;break;case
-11:var
-a=nX;break;case
-0:case
-13:var
-a=nM;break;case
-3:case
-14:var
-a=nP;break;default:var
-a=nY}return dK(b,eM(a,c))}function
-n3(b,c){switch(b){case
-1:var
-a=nn;break;case
-2:var
-a=no;break;case
-4:var
-a=nq;break;case
-5:var
-a=nr;break;case
-6:var
-a=ns;break;case
-7:var
-a=nt;break;case
-8:var
-a=nu;break;case
-9:var
-a=nv;break;case
-10:var
-a=nw;break;case
-11:var
-a=nx;break;case
-0:case
-13:var
 a=nm;break;case
+9:var
+a=nn;break;case
+10:var
+a=no;break;case
+11:var
+a=np;break;case
+0:case
+13:var
+a=ne;break;case
 3:case
 14:var
-a=np;break;default:var
-a=ny}return dK(b,yh(a,c))}function
-bw(c,i,b){function
+a=nh;break;default:var
+a=nq}return dO(b,eQ(a,c))}function
+n6(b,c){switch(b){case
+1:var
+a=nF;break;case
+2:var
+a=nG;break;case
+4:var
+a=nI;break;case
+5:var
+a=nJ;break;case
+6:var
+a=nK;break;case
+7:var
+a=nL;break;case
+8:var
+a=nM;break;case
+9:var
+a=nN;break;case
+10:var
+a=nO;break;case
+11:var
+a=nP;break;case
+0:case
+13:var
+a=nE;break;case
+3:case
+14:var
+a=nH;break;default:var
+a=nQ}return dO(b,eQ(a,c))}function
+n7(b,c){switch(b){case
+1:var
+a=nS;break;case
+2:var
+a=nT;break;case
+4:var
+a=nV;break;case
+5:var
+a=nW;break;case
+6:var
+a=nX;break;case
+7:var
+a=nY;break;case
+8:var
+a=nZ;break;case
+9:var
+a=n0;break;case
+10:var
+a=n1;break;case
+11:var
+a=n2;break;case
+0:case
+13:var
+a=nR;break;case
+3:case
+14:var
+a=nU;break;default:var
+a=n3}return dO(b,eQ(a,c))}function
+n8(b,c){switch(b){case
+1:var
+a=ns;break;case
+2:var
+a=nt;break;case
+4:var
+a=nv;break;case
+5:var
+a=nw;break;case
+6:var
+a=nx;break;case
+7:var
+a=ny;break;case
+8:var
+a=nz;break;case
+9:var
+a=nA;break;case
+10:var
+a=nB;break;case
+11:var
+a=nC;break;case
+0:case
+13:var
+a=nr;break;case
+3:case
+14:var
+a=nu;break;default:var
+a=nD}return dO(b,yq(a,c))}function
+bA(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return yd(b,i,a)}function
+a=32}return ym(b,i,a)}function
 q(c){var
-a=x7(b);return 3===a?b<0.?n5:n6:4<=a?n7:c}switch(c[2]){case
+a=ye(b);return 3===a?b<0.?n_:n$:4<=a?oa:c}switch(c[2]){case
 5:var
-e=gK(hj(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=gR(hq(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
-k=L(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=J(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:aq(e,n4);return q(v)}case
+v=p?e:ar(e,n9);return q(v)}case
 6:return j(0);case
 7:var
-h=bL(j(0)),f=aQ(h);if(0===f)var
+h=bO(j(0)),f=aR(h);if(0===f)var
 o=h;else{var
-m=ag(f),n=f-1|0,r=0;if(!(n<0)){var
+m=aj(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=cT(h,a),s=25<g+kO>>>0?g:g+lg|0;ac(m,a,s);var
+g=c2(h,a),s=25<g+kT>>>0?g:g+ll|0;ad(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aC(o);case
-8:return q(j(0));default:return gK(hj(c,i),b)}}function
-dx(d,x,w,v){var
+o=m}return aE(o);case
+8:return q(j(0));default:return gR(hq(c,i),b)}}function
+dB(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
@@ -1634,48 +1634,48 @@ z=c[1];return function(c){return B(b,[5,a,c],z)};case
 1:var
 A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=mf;else
-if(gq<=c)e=1;else
+d=mk;else
+if(gx<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=mg;else
+d=ml;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=mh;break;case
+d=mm;break;case
 9:var
-d=mi;break;case
+d=mn;break;case
 10:var
-d=mj;break;case
+d=mo;break;case
 13:var
-d=mk;break;default:e=1}switch(e){case
+d=mp;break;default:e=1}switch(e){case
 1:var
-f=ag(4);ac(f,0,92);ac(f,1,48+(c/kV|0)|0);ac(f,2,48+((c/10|0)%10|0)|0);ac(f,3,48+(c%10|0)|0);var
-d=aC(f);break;case
+f=aj(4);ad(f,0,92);ad(f,1,48+(c/k0|0)|0);ad(f,2,48+((c/10|0)%10|0)|0);ad(f,3,48+(c%10|0)|0);var
+d=aE(f);break;case
 2:var
-g=ag(1);ac(g,0,c);var
-d=aC(g);break}var
-h=y(d),i=b8(h+2|0,39);bq(d,0,i,1,h);return B(b,[4,a,aC(i)],A)};case
+g=aj(1);ad(g,0,c);var
+d=aE(g);break}var
+h=y(d),i=ca(h+2|0,39);bu(d,0,i,1,h);return B(b,[4,a,aE(i)],A)};case
 2:var
-C=c[2],D=c[1];return e0(b,a,C,D,function(a){return a});case
-3:return e0(b,a,c[2],c[1],m_);case
-4:return dL(b,a,c[4],c[2],c[3],n0,c[1]);case
-5:return dL(b,a,c[4],c[2],c[3],n1,c[1]);case
-6:return dL(b,a,c[4],c[2],c[3],n2,c[1]);case
-7:return dL(b,a,c[4],c[2],c[3],n3,c[1]);case
+C=c[2],D=c[1];return e4(b,a,C,D,function(a){return a});case
+3:return e4(b,a,c[2],c[1],nd);case
+4:return dP(b,a,c[4],c[2],c[3],n5,c[1]);case
+5:return dP(b,a,c[4],c[2],c[3],n6,c[1]);case
+6:return dP(b,a,c[4],c[2],c[3],n7,c[1]);case
+7:return dP(b,a,c[4],c[2],c[3],n8,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,bw(g,d,c)],h)}:function(c){return B(b,[4,a,bw(g,eY(g),c)],h)};var
-Y=i[1];return function(c){return B(b,[4,a,bw(g,Y,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return B(b,[4,a,bA(g,d,c)],h)}:function(c){return B(b,[4,a,bA(g,e2(g),c)],h)};var
+Z=i[1];return function(c){return B(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bw(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bw(g,eY(g),c))],h)};var
-$=i[1];return function(c){return B(b,[4,a,aO(n,m,bw(g,$,c))],h)}}var
+i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bA(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bA(g,e2(g),c))],h)};var
+$=i[1];return function(c){return B(b,[4,a,aO(n,m,bA(g,$,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bw(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bw(g,eY(g),c))],h)};var
-aa=i[1];return function(d,c){return B(b,[4,a,aO(o,d,bw(g,aa,c))],h)}}case
-9:return e0(b,a,c[2],c[1],ma);case
+i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bA(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bA(g,e2(g),c))],h)};var
+aa=i[1];return function(d,c){return B(b,[4,a,aO(o,d,bA(g,aa,c))],h)}}case
+9:return e4(b,a,c[2],c[1],mf);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1683,229 +1683,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hf(16);eZ(p,F);var
-u=hh(p);return function(c){return B(b,[4,a,u],E)};case
+E=c[3],F=c[2],p=hm(16);e3(p,F);var
+u=ho(p);return function(c){return B(b,[4,a,u],E)};case
 14:var
-G=c[3],H=c[2];return function(d){var
-e=d[1],c=M(e,_(ae(H)));if(typeof
-c[2]==="number")return B(b,a,Q(c[1],G));throw ar};case
+G=c[3],I=c[2];return function(d){var
+e=d[1],c=K(e,_(af(I)));if(typeof
+c[2]==="number")return B(b,a,T(c[1],G));throw as};case
 15:var
-I=c[1];return function(d,c){return B(b,[6,a,function(a){return Z(d,a,c)}],I)};case
+J=c[1];return function(d,c){return B(b,[6,a,function(a){return R(d,a,c)}],J)};case
 16:var
-K=c[1];return function(c){return B(b,[6,a,c],K)};case
+L=c[1];return function(c){return B(b,[6,a,c],L)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-L=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return B(c,[1,b,[0,a]],d)}}(a,b,L),a=O,c=N;continue}var
-P=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return B(c,[1,b,[1,a]],d)}}(a,b,P),a=T,c=S;continue;case
-19:throw[0,R,n9];case
+M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return B(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
+P=c[2],Q=l[1][1],S=0,b=function(b,c,d){return function(a){return B(c,[1,b,[1,a]],d)}}(a,b,P),a=S,c=Q;continue;case
+19:throw[0,U,oc];case
 20:var
-U=c[3],V=[8,a,n_];return function(a){return B(b,V,U)};case
+V=c[3],W=[8,a,od];return function(a){return B(b,W,V)};case
 21:var
-W=c[2];return function(c){return B(b,[4,a,eM(n$,c)],W)};case
+X=c[2];return function(c){return B(b,[4,a,eQ(oe,c)],X)};case
 22:var
-X=c[1];return function(c){return B(b,[5,a,c],X)};case
+Y=c[1];return function(c){return B(b,[5,a,c],Y)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-1:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-2:throw[0,R,oa];default:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f])}else
+0:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+1:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+2:throw[0,U,of];default:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-1:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-2:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-3:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-4:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-5:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-6:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-7:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
-8:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);case
+0:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+1:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+2:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+3:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+4:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+5:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+6:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+7:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+8:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gd(d+1|0,b,a,t,f):aw(gd,[0,b,a,t,f]);case
-10:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f]);default:return d<50?J(d+1|0,b,a,f):aw(J,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gc(d+1|0,b,a,q,r,s):aw(gc,[0,b,a,q,r,s])}}function
-gd(e,d,c,a,b){if(typeof
-a==="number")return e<50?J(e+1|0,d,c,b):aw(J,[0,d,c,b]);else
+t=k[2];return d<50?gk(d+1|0,b,a,t,f):aw(gk,[0,b,a,t,f]);case
+10:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);default:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gj(d+1|0,b,a,q,r,s):aw(gj,[0,b,a,q,r,s])}}function
+gk(e,d,c,a,b){if(typeof
+a==="number")return e<50?H(e+1|0,d,c,b):aw(H,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aS(d,c,f,b)};case
+f=a[1];return function(a){return aT(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aS(d,c,g,b)};case
+g=a[1];return function(a){return aT(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aS(d,c,h,b)};case
+h=a[1];return function(a){return aT(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aS(d,c,i,b)};case
+i=a[1];return function(a){return aT(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aS(d,c,j,b)};case
+j=a[1];return function(a){return aT(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aS(d,c,k,b)};case
+k=a[1];return function(a){return aT(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aS(d,c,l,b)};case
+l=a[1];return function(a){return aT(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aS(d,c,m,b)};case
+m=a[1];return function(a){return aT(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aS(d,c,n,b)};case
+n=a[2];return function(a){return aT(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ai(ae(a[1]),p);return function(a){return aS(d,c,aD(q,o),b)};case
+o=a[3],p=a[2],q=al(af(a[1]),p);return function(a){return aT(d,c,aF(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aS(d,c,r,b)};case
+r=a[1];return function(e,a){return aT(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aS(d,c,s,b)};case
+s=a[1];return function(a){return aT(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aS(d,c,t,b)};case
-13:throw[0,R,ob];default:throw[0,R,oc]}}function
-J(d,b,e,a){var
-c=[8,e,od];return d<50?dx(d+1|0,b,c,a):aw(dx,[0,b,c,a])}function
-gc(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return n8(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dx(h+1|0,b,g,a):aw(dx,[0,b,g,a])}function
-B(a,b,c){return gW(dx(0,a,b,c))}function
-aS(a,b,c,d){return gW(gd(0,a,b,c,d))}function
-n8(a,b,c,d,e){return gW(gc(0,a,b,c,d,e))}function
-e0(f,d,c,a,b){if(typeof
+t=a[1];return function(a){return aT(d,c,t,b)};case
+13:throw[0,U,og];default:throw[0,U,oh]}}function
+H(d,b,e,a){var
+c=[8,e,oi];return d<50?dB(d+1|0,b,c,a):aw(dB,[0,b,c,a])}function
+gj(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return ob(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?dB(h+1|0,b,g,a):aw(dB,[0,b,g,a])}function
+B(a,b,c){return g3(dB(0,a,b,c))}function
+aT(a,b,c,d){return g3(gk(0,a,b,c,d))}function
+ob(a,b,c,d,e){return g3(gj(0,a,b,c,d,e))}function
+e4(f,d,c,a,b){if(typeof
 a==="number")return function(a){return B(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
 g=a[2],h=a[1];return function(a){return B(f,[4,d,aO(h,g,e(b,a))],c)}}var
 i=a[1];return function(g,a){return B(f,[4,d,aO(i,g,e(b,a))],c)}}}function
-dL(f,e,d,g,c,b,a){if(typeof
+dP(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,cs(g,Z(b,a,c))],d)}:function(c){return B(f,[4,e,Z(b,a,c)],d)};var
-k=c[1];return function(c){return B(f,[4,e,cs(k,Z(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return B(f,[4,e,cy(g,R(b,a,c))],d)}:function(c){return B(f,[4,e,R(b,a,c)],d)};var
+k=c[1];return function(c){return B(f,[4,e,cy(k,R(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cs(g,Z(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,Z(b,a,c))],d)};var
-l=c[1];return function(c){return B(f,[4,e,aO(i,h,cs(l,Z(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cy(g,R(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,R(b,a,c))],d)};var
+l=c[1];return function(c){return B(f,[4,e,aO(i,h,cy(l,R(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cs(g,Z(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,Z(b,a,c))],d)};var
-m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cs(m,Z(b,a,c)))],d)}}}function
-bx(b,f){var
+c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cy(g,R(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,R(b,a,c))],d)};var
+m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cy(m,R(b,a,c)))],d)}}}function
+bB(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hi(a[2]);bx(b,g);return cY(b,h);case
+g=a[1],h=hp(a[2]);bB(b,g);return c7(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bx(b,d);cY(b,oe);var
+i=c[1];bB(b,d);c7(b,oj);var
 a=i;continue}var
-j=c[1];bx(b,d);cY(b,of);var
+j=c[1];bB(b,d);c7(b,ok);var
 a=j;continue;case
 6:var
-m=a[2];bx(b,a[1]);return e(m,b);case
-7:bx(b,a[1]);return cV(b);case
+m=a[2];bB(b,a[1]);return e(m,b);case
+7:bB(b,a[1]);return c4(b);case
 8:var
-n=a[2];bx(b,a[1]);return bP(n);case
+n=a[2];bB(b,a[1]);return bS(n);case
 2:case
 4:var
-k=a[2];bx(b,a[1]);return cY(b,k);default:var
-l=a[2];bx(b,a[1]);return lY(b,l)}}function
-bQ(b,g){var
+k=a[2];bB(b,a[1]);return c7(b,k);default:var
+l=a[2];bB(b,a[1]);return l3(b,l)}}function
+bT(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hi(a[2]);bQ(b,h);return c1(b,i);case
+h=a[1],i=hp(a[2]);bT(b,h);return c_(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bQ(b,f);c1(b,og);var
+j=d[1];bT(b,f);c_(b,ol);var
 a=j;continue}var
-k=d[1];bQ(b,f);c1(b,oh);var
+k=d[1];bT(b,f);c_(b,om);var
 a=k;continue;case
 6:var
-n=a[2];bQ(b,a[1]);return c1(b,e(n,0));case
+n=a[2];bT(b,a[1]);return c_(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bQ(b,a[1]);return bP(o);case
+o=a[2];bT(b,a[1]);return bS(o);case
 2:case
 4:var
-l=a[2];bQ(b,a[1]);return c1(b,l);default:var
-m=a[2];bQ(b,a[1]);var
-c=b[2];if(b[3]<=c)he(b,1);ac(b[1],c,m);b[2]=c+1|0;return 0}}function
-hk(d,c){var
-a=c[1],b=0;return B(function(a){bx(d,a);return 0},b,a)}function
-e1(a){return hk(bu,a)}function
-ba(b){var
+l=a[2];bT(b,a[1]);return c_(b,l);default:var
+m=a[2];bT(b,a[1]);var
+c=b[2];if(b[3]<=c)hl(b,1);ad(b[1],c,m);b[2]=c+1|0;return 0}}function
+hr(d,c){var
+a=c[1],b=0;return B(function(a){bB(d,a);return 0},b,a)}function
+e5(a){return hr(by,a)}function
+bc(b){var
 a=b[1];return B(function(d){var
-e=64,b=cZ<64?cZ:e,c=ag(b),a=[0,c,0,b,c];bQ(a,d);return g$(a[1],0,a[2])},0,a)}var
-dM=[0,0];function
-e3(i,h){var
+e=64,b=c8<64?c8:e,c=aj(b),a=[0,c,0,b,c];bT(a,d);return hg(a[1],0,a[2])},0,a)}var
+dQ=[0,0];function
+e7(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eR(a)===eI)return e(ba(oi),a);if(eR(a)===253){var
-c=gK(me,a),b=0,g=y(c);for(;;){if(g<=b)return aq(c,md);var
-d=L(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(eV(a)===eM)return e(bc(on),a);if(eV(a)===253){var
+c=gR(mj,a),b=0,g=y(c);for(;;){if(g<=b)return ar(c,mi);var
+d=J(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return oj}return e(ba(ok),a)}function
-hl(b,a){if(b.length-1<=a)return ol;var
-c=hl(b,a+1|0),d=e3(b,a);return Z(ba(om),d,c)}function
-e4(a){function
+b=b+1|0;continue}return c}}return oo}return e(bc(op),a)}function
+hs(b,a){if(b.length-1<=a)return oq;var
+c=hs(b,a+1|0),d=e7(b,a);return R(bc(or),d,c)}function
+e8(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dM[1]);if(h)return h[1];if(a===eW)return or;if(a===g5)return os;if(a[1]===g4){var
-c=a[2],i=c[3],p=c[2],q=c[1];return ge(ba(e2),q,p,i,i+5|0,ot)}if(a[1]===R){var
-d=a[2],j=d[3],r=d[2],s=d[1];return ge(ba(e2),s,r,j,j+6|0,ou)}if(a[1]===g7){var
-f=a[2],k=f[3],t=f[2],u=f[1];return ge(ba(e2),u,t,k,k+6|0,ov)}if(0===eR(a)){var
+h=o(dQ[1]);if(h)return h[1];if(a===e0)return ow;if(a===ha)return ox;if(a[1]===g$){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gl(bc(e6),q,p,i,i+5|0,oy)}if(a[1]===U){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gl(bc(e6),s,r,j,j+6|0,oz)}if(a[1]===hc){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gl(bc(e6),u,t,k,k+6|0,oA)}if(0===eV(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hl(a,2),m=e3(a,1),b=Z(ba(on),m,l);else
+l=hs(a,2),m=e7(a,1),b=R(bc(os),m,l);else
 switch(g){case
 0:var
-b=oo;break;case
+b=ot;break;case
 1:var
-b=op;break;default:var
-n=e3(a,1),b=e(ba(oq),n)}return aq(v,b)}return a[1]}function
-e5(t,s){var
-d=x9(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=ou;break;default:var
+n=e7(a,1),b=e(bc(ov),n)}return ar(v,b)}return a[1]}function
+e9(t,s){var
+d=yg(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=lM(d,b)[1+b],f=function(a){return function(b){return b?0===a?ow:ox:0===a?oy:oz}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?oA:oC,l=a[2],m=a[7],n=f(a[1]),c=[0,xY(ba(oB),n,m,l,k,j,i,h)];else
+a=lR(d,b)[1+b],f=function(a){return function(b){return b?0===a?oB:oC:0===a?oD:oE}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?oF:oH,l=a[2],m=a[7],n=f(a[1]),c=[0,x7(bc(oG),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(ba(oD),o)];if(c){var
-q=c[1];e(hk(t,oE),q)}var
+o=f(0),c=[0,e(bc(oI),o)];if(c){var
+q=c[1];e(hr(t,oJ),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-hm(c){for(;;){var
-a=dM[1],d=[0,c,a],e=dM[1]===a?(dM[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oG=oF.slice();function
-oH(d,c){var
-f=e4(d);e(e1(oI),f);e5(bu,c);var
-a=yw(0);if(a<0){var
-b=dI(a);g8(lM(oG,b)[1+b])}return cV(bu)}var
-oJ=[0];gU(a(jU),function(d,i){try{try{var
-b=i?oJ:lS(0);try{eX(0)}catch(a){}try{var
-a=oH(d,b),c=a}catch(a){a=eU(a);var
-g=e4(d);e(e1(oL),g);e5(bu,b);var
-h=e4(a);e(e1(oM),h);e5(bu,lS(0));var
-c=cV(bu)}var
-f=c}catch(a){a=eU(a);if(a!==eW)throw a;var
-f=g8(oK)}return f}catch(a){return 0}});var
-hn=[an,oO,eN(0)],e6=[0,hn,[0]],oN=eR(e6)===an?e6:e6[1];gU(a(gj),oN);(function(a){throw a});var
-oP=u.Array;hm(function(a){return a[1]===hn?[0,a$(a[2].toString())]:0});hm(function(a){return a
+ht(c){for(;;){var
+a=dQ[1],d=[0,c,a],e=dQ[1]===a?(dQ[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+oL=oK.slice();function
+oM(d,c){var
+f=e8(d);e(e5(oN),f);e9(by,c);var
+a=yF(0);if(a<0){var
+b=dM(a);hd(lR(oL,b)[1+b])}return c4(by)}var
+oO=[0];g1(a(jZ),function(d,i){try{try{var
+b=i?oO:lX(0);try{e1(0)}catch(a){}try{var
+a=oM(d,b),c=a}catch(a){a=eY(a);var
+g=e8(d);e(e5(oQ),g);e9(by,b);var
+h=e8(a);e(e5(oR),h);e9(by,lX(0));var
+c=c4(by)}var
+f=c}catch(a){a=eY(a);if(a!==e0)throw a;var
+f=hd(oP)}return f}catch(a){return 0}});var
+hu=[ao,oT,eR(0)],e_=[0,hu,[0]],oS=eV(e_)===ao?e_:e_[1];g1(a(gq),oS);(function(a){throw a});var
+oU=u.Array;ht(function(a){return a[1]===hu?[0,bb(a[2].toString())]:0});ht(function(a){return a
 instanceof
-oP?0:[0,a$(a.toString())]});var
-d=aR(0),c=aR(1);function
+oU?0:[0,bb(a.toString())]});var
+d=aS(0),c=aS(1);function
 k(a){return A(a,c)}function
-ho(b,a){return A(aR(b),a)}function
-b(b,a){return n(aR(b),a)}function
-bb(b,a){return[0,gZ(b,a),l8(b,a)]}function
-e7(b,a){return C(b,a)?b:a}function
-b9(b,a){return C(b,a)?a:b}function
-aX(a){return a?0:1}function
-aj(b,a){var
+hv(b,a){return A(aS(b),a)}function
+b(b,a){return n(aS(b),a)}function
+bd(b,a){return[0,g6(b,a),mb(b,a)]}function
+e$(b,a){return D(b,a)?b:a}function
+cb(b,a){return D(b,a)?a:b}function
+aU(a){return a?0:1}function
+$(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dN(a){return a[1]}function
-e8(a){return a[2]}function
+da(a){return a[1]}function
+dR(a){return a[2]}function
 m(a){var
 b=a?[0,m(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hp(a){return typeof
-a==="number"?0:[0,hp(a[1])]}function
-hq(d,c){var
+hw(a){return typeof
+a==="number"?0:[0,hw(a[1])]}function
+hx(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1928,9 +1928,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dO(a){return hq(a,0)}function
-hr(a){if(typeof
-a==="number")return oR;else
+dS(a){return hx(a,0)}function
+hy(a){if(typeof
+a==="number")return oW;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1940,62 +1940,62 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hr(a[1])]}}function
-a4(a){if(typeof
-a==="number")return oS;else
+8:return[9,a[1]];default:return[0,hy(a[1])]}}function
+a5(a){if(typeof
+a==="number")return oX;else
 switch(a[0]){case
-0:return[1,a3(a[1])];case
-1:return[3,a3(a[1])];case
-2:return[5,a3(a[1])];case
-3:return[7,a3(a[1])];case
-4:return[9,a3(a[1])];case
-5:return[1,a4(a[1])];case
-6:return[3,a4(a[1])];case
-7:return[5,a4(a[1])];case
-8:return[7,a4(a[1])];default:return[9,a4(a[1])]}}function
-a3(a){if(typeof
+0:return[1,a4(a[1])];case
+1:return[3,a4(a[1])];case
+2:return[5,a4(a[1])];case
+3:return[7,a4(a[1])];case
+4:return[9,a4(a[1])];case
+5:return[1,a5(a[1])];case
+6:return[3,a5(a[1])];case
+7:return[5,a5(a[1])];case
+8:return[7,a5(a[1])];default:return[9,a5(a[1])]}}function
+a4(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a3(a[1])];case
-1:return[2,a3(a[1])];case
-2:return[4,a3(a[1])];case
-3:return[6,a3(a[1])];case
-4:return[8,a3(a[1])];case
-5:return[0,a4(a[1])];case
-6:return[2,a4(a[1])];case
-7:return[4,a4(a[1])];case
-8:return[6,a4(a[1])];default:return[8,a4(a[1])]}}function
-c3(a){return a?a[1]:a}function
-S(b,a){return b?[0,S(b[1],a)]:a}function
-c4(a,b){return a?S(b,c4(a[1],b)):a}function
-dP(b,a){return b?a:a?0:1}function
-aE(d,c){var
+0:return[0,a4(a[1])];case
+1:return[2,a4(a[1])];case
+2:return[4,a4(a[1])];case
+3:return[6,a4(a[1])];case
+4:return[8,a4(a[1])];case
+5:return[0,a5(a[1])];case
+6:return[2,a5(a[1])];case
+7:return[4,a5(a[1])];case
+8:return[6,a5(a[1])];default:return[8,a5(a[1])]}}function
+cz(a){return a?a[1]:a}function
+L(b,a){return b?[0,L(b[1],a)]:a}function
+db(a,b){return a?L(b,db(a[1],b)):a}function
+dT(b,a){return b?a:a?0:1}function
+az(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ab(d,c){var
+ac(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hs(b,a){return ab([0,b],a)}function
-ht(c){var
+hz(b,a){return ac([0,b],a)}function
+hA(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e9(c,b,a){return c?e(b,e9(c[1],b,a)):a}function
-hu(a){if(a)var
-b=a[1],d=b?[0,hu(b[1])]:b,c=d;else
+fa(c,b,a){return c?e(b,fa(c[1],b,a)):a}function
+hB(a){if(a)var
+b=a[1],d=b?[0,hB(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dQ(a){if(C(a,c))return c;var
-b=bb(a,aR(2)),e=b[1];return ah(b[2],d)?k(dQ(e)):k(dQ(e))}function
-dR(c,b){var
-a=gY(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hv(b,i,h){var
-e=i,a=h;for(;;){if(C(e,c))return a;var
-f=bb(e,aR(2)),g=f[1];if(ah(f[2],d)){var
-e=g,a=Z(b,a,a);continue}return Z(b,a,hv(b,g,Z(b,a,a)))}}function
-c5(a){return hv(S,a,oU)}function
-e_(a){return a?k(e_(a[1])):c}function
-by(f,e){var
+dU(a){if(D(a,c))return c;var
+b=bd(a,aS(2)),e=b[1];return ak(b[2],d)?k(dU(e)):k(dU(e))}function
+dV(c,b){var
+a=g5(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hC(b,i,h){var
+e=i,a=h;for(;;){if(D(e,c))return a;var
+f=bd(e,aS(2)),g=f[1];if(ak(f[2],d)){var
+e=g,a=R(b,a,a);continue}return R(b,a,hC(b,g,R(b,a,a)))}}function
+dc(a){return hC(L,a,oZ)}function
+fb(a){return a?k(fb(a[1])):c}function
+bC(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2018,66 +2018,66 @@ u=n(b(2,k(b(2,b(2,c)))),d),v=A(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
 w=n(b(2,k(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=n(b(2,k(b(2,b(2,c)))),d),z=A(k(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-e$(a){if(C(a,c))return oV;var
-b=bb(a,aR(2)),e=b[1];return ah(b[2],d)?a3(e$(e)):a4(e$(e))}function
-dS(a){return dO(e$(a))}function
-hw(k,f){if(0<=bt(f)){var
-g=g0(f);if(0<=g){var
+fc(a){if(D(a,c))return o0;var
+b=bd(a,aS(2)),e=b[1];return ak(b[2],d)?a4(fc(e)):a5(fc(e))}function
+dW(a){return dS(fc(a))}function
+hD(k,f){if(0<=bx(f)){var
+g=g7(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bP(oQ)}return d}function
-hx(a){return 0<=bt(a)?a:d}function
-fa(a){var
-b=bt(a);return 0===b?c:0<b?a:c}function
-hy(n){var
+h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bS(oV)}return d}function
+hE(a){return 0<=bx(a)?a:d}function
+fd(a){var
+b=bx(a);return 0===b?c:0<b?a:c}function
+hF(n){var
 a=n;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return by(a[1],c);case
+1:return bC(a[1],c);case
 2:var
-e=b(2,c);return by(a[1],e);case
+e=b(2,c);return bC(a[1],e);case
 3:var
-f=k(b(2,c));return by(a[1],f);case
+f=k(b(2,c));return bC(a[1],f);case
 4:var
-g=b(2,b(2,c));return by(a[1],g);case
+g=b(2,b(2,c));return bC(a[1],g);case
 5:var
-h=k(b(2,b(2,c)));return by(a[1],h);case
+h=k(b(2,b(2,c)));return bC(a[1],h);case
 6:var
-i=b(2,k(b(2,c)));return by(a[1],i);case
+i=b(2,k(b(2,c)));return bC(a[1],i);case
 7:var
-j=k(b(2,k(b(2,c))));return by(a[1],j);case
+j=k(b(2,k(b(2,c))));return bC(a[1],j);case
 8:var
-l=b(2,b(2,b(2,c)));return by(a[1],l);default:var
-m=k(b(2,b(2,b(2,c))));return by(a[1],m)}}function
-bR(b,a){var
-c=bt(a);return 0===c?d:1===c?gZ(b,a):ho(-1,gZ(ho(-1,b),a))}function
-hz(a){return 0<bt(a)?yQ(a):d}function
-c6(b,c){var
-a=g0(c);return 0<=a?l9(b,a):l_(b,-a|0)}function
-ct(b,c){var
-a=g0(c);return 0<=a?l_(b,a):l9(b,-a|0)}function
-fb(b,a){return a?a[1]:b}function
-hA(a){var
+l=b(2,b(2,b(2,c)));return bC(a[1],l);default:var
+m=k(b(2,b(2,b(2,c))));return bC(a[1],m)}}function
+bU(b,a){var
+c=bx(a);return 0===c?d:1===c?g6(b,a):hv(-1,g6(hv(-1,b),a))}function
+hG(a){return 0<bx(a)?yZ(a):d}function
+dd(b,c){var
+a=g7(c);return 0<=a?mc(b,a):md(b,-a|0)}function
+cA(b,c){var
+a=g7(c);return 0<=a?md(b,a):mc(b,-a|0)}function
+fe(b,a){return a?a[1]:b}function
+hH(a){var
 b=a?a[2]:a;return b}function
-H(e,d,c){var
+N(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aT(d,c){var
+aV(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hB(a){if(a){var
-b=[0,a[1],0];return g(hB(a[2]),b)}return a}function
+hI(a){if(a){var
+b=[0,a[1],0];return g(hI(a[2]),b)}return a}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-I(b,a){if(a){var
-c=I(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cu(c,b,a){if(a){var
-d=cu(c,b,a[2]);return Z(c,a[1],d)}return b}function
-bz(f,d){var
+M(b,a){if(a){var
+c=M(b,a[2]);return g(e(b,a[1]),c)}return a}function
+cB(c,b,a){if(a){var
+d=cB(c,b,a[2]);return R(c,a[1],d)}return b}function
+bD(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2088,179 +2088,179 @@ p(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cv(b,a){if(b)if(a)var
-d=cv(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cC(b,a){if(b)if(a)var
+d=cC(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hC(b,a){if(b)if(a)var
-d=hC(b[1],a[2]),c=[0,a[1],d];else
+hJ(b,a){if(b)if(a)var
+d=hJ(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-c7(b,a){var
-c=a?[0,b,c7([0,b],a[1])]:a;return c}function
-b_(b,a){var
-c=a?[0,b,b_(b,a[1])]:a;return c}function
-hD(a){if(a){var
-e=hD(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-dT(j){function
+cD(b,a){var
+c=a?[0,b,cD([0,b],a[1])]:a;return c}function
+cc(b,a){var
+c=a?[0,b,cc(b,a[1])]:a;return c}function
+hK(a){if(a){var
+e=hK(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+dX(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hD([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bt(b)?c5(b):0}function
-hE(c,b){var
-a=gY(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hF(b,a){return C(n(b[1],a[2]),n(a[1],b[2]))}function
-hG(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
-hH(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hK([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?dc(b):0}function
+hL(c,b){var
+a=g5(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hM(b,a){return D(n(b[1],a[2]),n(a[1],b[2]))}function
+hN(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
+hO(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
 aP(a){if(typeof
-a==="number")return oY;else
+a==="number")return o3;else
 switch(a[0]){case
 0:var
-b=aP(a[1]);return aq(aW(1,48),b);case
+b=aP(a[1]);return ar(aY(1,48),b);case
 1:var
-c=aP(a[1]);return aq(aW(1,49),c);case
+c=aP(a[1]);return ar(aY(1,49),c);case
 2:var
-d=aP(a[1]);return aq(aW(1,50),d);case
+d=aP(a[1]);return ar(aY(1,50),d);case
 3:var
-e=aP(a[1]);return aq(aW(1,51),e);case
+e=aP(a[1]);return ar(aY(1,51),e);case
 4:var
-f=aP(a[1]);return aq(aW(1,52),f);case
+f=aP(a[1]);return ar(aY(1,52),f);case
 5:var
-g=aP(a[1]);return aq(aW(1,53),g);case
+g=aP(a[1]);return ar(aY(1,53),g);case
 6:var
-h=aP(a[1]);return aq(aW(1,54),h);case
+h=aP(a[1]);return ar(aY(1,54),h);case
 7:var
-i=aP(a[1]);return aq(aW(1,55),i);case
+i=aP(a[1]);return ar(aY(1,55),i);case
 8:var
-j=aP(a[1]);return aq(aW(1,56),j);default:var
-k=aP(a[1]);return aq(aW(1,57),k)}}function
-c8(a){return typeof
-a==="number"?oZ:aP(a)}function
-b$(a){return hw(b(2,c),a)}function
-hI(b,a){return ct(a,b)}function
-hJ(b,a){return P(ct(P(a),b))}function
-dU(b,a){return P(bR(P(b),a))}function
-bc(c,b){var
-a=c6(b,c);return[0,a,a]}function
-T(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-X(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
-aF(a){return[0,P(a[2]),P(a[1])]}function
-hK(e,c,b,a){if(C(d,e))return C(d,b)?[0,n(e,b),n(c,a)]:C(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(C(c,d))return C(d,b)?[0,n(e,a),n(c,b)]:C(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(C(d,b))return[0,n(e,a),n(c,a)];if(C(a,d))return[0,n(c,b),n(e,b)];var
-f=b9(n(e,b),n(c,a));return[0,e7(n(e,a),n(c,b)),f]}function
-D(c,b,a){var
-d=hK(b[1],b[2],a[1],a[2]),e=hJ(c,d[2]);return[0,hI(c,d[1]),e]}function
-ak(b,a){var
-c=n(a[1],a[1]),e=n(a[2],a[2]),h=hJ(b,b9(c,e)),g=0;if(ad(a[1],d)&&ad(d,a[2])){var
+j=aP(a[1]);return ar(aY(1,56),j);default:var
+k=aP(a[1]);return ar(aY(1,57),k)}}function
+de(a){return typeof
+a==="number"?o4:aP(a)}function
+cd(a){return hD(b(2,c),a)}function
+hP(b,a){return cA(a,b)}function
+hQ(b,a){return S(cA(S(a),b))}function
+dY(b,a){return S(bU(S(b),a))}function
+a6(c,b){var
+a=dd(b,c);return[0,a,a]}function
+Q(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+V(b,a){return[0,b$(b[1],a[2]),b$(b[2],a[1])]}function
+aC(a){return[0,S(a[2]),S(a[1])]}function
+hR(e,c,b,a){if(D(d,e))return D(d,b)?[0,n(e,b),n(c,a)]:D(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(D(c,d))return D(d,b)?[0,n(e,a),n(c,b)]:D(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(D(d,b))return[0,n(e,a),n(c,a)];if(D(a,d))return[0,n(c,b),n(e,b)];var
+f=cb(n(e,b),n(c,a));return[0,e$(n(e,a),n(c,b)),f]}function
+C(c,b,a){var
+d=hR(b[1],b[2],a[1],a[2]),e=hQ(c,d[2]);return[0,hP(c,d[1]),e]}function
+ag(b,a){var
+c=n(a[1],a[1]),e=n(a[2],a[2]),h=hQ(b,cb(c,e)),g=0;if(ae(a[1],d)&&ae(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hI(b,e7(c,e));return[0,f,h]}function
-hL(b,a){var
-c=c6(b$(b),b),d=dU(c,a[1]);return[0,bR(c,a[2]),d]}function
-cw(b,a){if(ad(d,a[1]))return[0,hL(b,a)];var
-c=ad(a[2],d),e=c?[0,aF(hL(b,aF(a)))]:c;return e}function
-c9(f,b){var
-g=ad(d,b[1]);if(g)var
-e=c6(b[2],f),a=hz(e),i=ah(n(a,a),e)?a:A(a,c),h=[0,[0,hz(c6(b[1],f)),i]];else
+f=hP(b,e$(c,e));return[0,f,h]}function
+hS(b,a){var
+c=dd(cd(b),b),d=dY(c,a[1]);return[0,bU(c,a[2]),d]}function
+ce(b,a){if(ae(d,a[1]))return[0,hS(b,a)];var
+c=ae(a[2],d),e=c?[0,aC(hS(b,aC(a)))]:c;return e}function
+cE(f,b){var
+g=ae(d,b[1]);if(g)var
+e=dd(b[2],f),a=hG(e),i=ak(n(a,a),e)?a:A(a,c),h=[0,[0,hG(dd(b[1],f)),i]];else
 var
 h=g;return h}function
-aY(e,d,c,b,a){if(b){if(a){var
-g=aY(e,d,c,b[2],a[2]);return[0,Z(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bS(b,a){return ct(b,a)}function
-ca(a,c,b){if(C(d,a)){var
-e=b[1],f=P(bS(P(n(a,b[2])),c));return[0,bS(n(a,e),c),f]}var
-g=b[2],h=P(bS(P(n(a,b[1])),c));return[0,bS(n(a,g),c),h]}function
-dV(a){var
-b=P(ct(P(a[2]),c));return[0,ct(a[1],c),b]}function
-fc(c,b,a){var
-e=hK(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ad(f,d)?a[2]:a[1],i=dU(f,h),j=ad(g,d)?a[1]:a[2];return[0,bR(g,j),i]}var
-as=[0,d,d];function
-fd(a){return[0,a[1],a[1]]}function
-fe(a){return[0,a[2],a[2]]}function
+aZ(e,d,c,b,a){if(b){if(a){var
+g=aZ(e,d,c,b[2],a[2]);return[0,R(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bV(b,a){return cA(b,a)}function
+cf(a,c,b){if(D(d,a)){var
+e=b[1],f=S(bV(S(n(a,b[2])),c));return[0,bV(n(a,e),c),f]}var
+g=b[2],h=S(bV(S(n(a,b[1])),c));return[0,bV(n(a,g),c),h]}function
+dZ(a){var
+b=S(cA(S(a[2]),c));return[0,cA(a[1],c),b]}function
+ff(c,b,a){var
+e=hR(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ae(f,d)?a[2]:a[1],i=dY(f,h),j=ae(g,d)?a[1]:a[2];return[0,bU(g,j),i]}var
+ah=[0,d,d];function
+fg(a){return[0,a[1],a[1]]}function
+fh(a){return[0,a[2],a[2]]}function
 at(a,b){switch(b[0]){case
 0:var
-n=b[2],m=c6(b[1],a),t=dU(m,n);return[0,[0,bR(m,n),t]];case
+n=b[2],m=dd(b[1],a),t=dY(m,n);return[0,[0,bU(m,n),t]];case
 1:var
 c=at(a,b[1]);if(c)var
-d=at(a,b[2]),u=d?[0,T(c[1],d[1])]:d,o=u;else
+d=at(a,b[2]),u=d?[0,Q(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
 e=at(a,b[1]);if(e)var
-f=at(a,b[2]),v=f?[0,X(e[1],f[1])]:f,p=v;else
+f=at(a,b[2]),v=f?[0,V(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
 g=at(a,b[1]);if(g)var
-h=at(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+h=at(a,b[2]),w=h?[0,C(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
 i=at(a,b[1]);if(i){var
 j=at(a,b[2]);if(j)var
-k=cw(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
+k=ce(a,j[1]),x=k?[0,C(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=at(a,b[1]);return l?c9(a,l[1]):l}}function
-hM(a){var
-e=b9(P(a),d);return fa(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hN(a){return hx(A(hM(a),a))}function
-cb(f,a,e){var
-b=at(A(f,hM(a)),e);if(b)var
-c=b[1],g=hN(a),h=P(bS(P(c[2]),g)),i=hN(a),d=[0,[0,bS(c[1],i),h]];else
+l=at(a,b[1]);return l?cE(a,l[1]):l}}function
+hT(a){var
+e=cb(S(a),d);return fd(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hU(a){return hE(A(hT(a),a))}function
+cg(f,a,e){var
+b=at(A(f,hT(a)),e);if(b)var
+c=b[1],g=hU(a),h=S(bV(S(c[2]),g)),i=hU(a),d=[0,[0,bV(c[1],i),h]];else
 var
 d=b;return d}function
-aZ(d,a){var
-b=cb(d,a[2],a[1][1]);if(b)var
-c=cb(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+a0(d,a){var
+b=cg(d,a[2],a[1][1]);if(b)var
+c=cg(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hO(b,a){var
-c=P(bS(P(a[2]),b));return[0,bS(a[1],b),c]}function
-ff(b,a){var
-c=dU(b[2],a);return[0,bR(b[1],a),c]}function
-fg(a,f,b){if(b){var
-d=b[1],g=fg(a,f,d),h=g[2],i=e_(S(c4(o1,d),o0)),j=n(e_(c4(o2,d)),i),e=ff(D(a,g[1],f),j),k=ht(b)?T(h,e):X(h,e);return[0,e,k]}var
-l=bc(a,c);return[0,bc(a,c),l]}function
-hP(f){var
-g=c5(f),e=o3[1],b=g,c=0,a=e;for(;;){if(b){var
+hV(b,a){var
+c=S(bV(S(a[2]),b));return[0,bV(a[1],b),c]}function
+fi(b,a){var
+c=dY(b[2],a);return[0,bU(b[1],a),c]}function
+fj(a,f,b){if(b){var
+d=b[1],g=fj(a,f,d),h=g[2],i=fb(L(db(o6,d),o5)),j=n(fb(db(o7,d)),i),e=fi(C(a,g[1],f),j),k=hA(b)?Q(h,e):V(h,e);return[0,e,k]}var
+l=a6(a,c);return[0,a6(a,c),l]}function
+hW(f){var
+g=dc(f),e=o8[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return S(o4,c)}}function
-hQ(a,d){var
-g=b$(a),h=n(b(2,b(2,c)),g),e=C(d[2],h);if(e)var
-i=fg(a,d,c4(o6,S(hP(a),o5)))[2][2],f=[0,[0,fg(a,d,S(c4(o8,hP(a)),o7))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return L(o9,c)}}function
+hX(a,d){var
+g=cd(a),h=n(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fj(a,d,db(o$,L(hW(a),o_)))[2][2],f=[0,[0,fj(a,d,L(db(pb,hW(a)),pa))[2][1],i]];else
 var
 f=e;return f}function
-hR(i){function
+hY(i){function
 a(h){var
-m=bR(b$(i),h),g=c5(i),f=m,e=d,a=c;for(;;){if(g){var
-j=A(a,b(2,c)),k=A(e,bR(f,a)),l=P(bR(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
-hS(e,a){var
-f=C(d,a);if(f){var
-g=b(2,b(2,c));return hQ(e,ff(ak(e,[0,a,a]),g))}return f}function
-hT(a,d){var
-b=ak(a,d),e=bc(a,c);return X(T(b,b),e)}function
-dW(o,u){var
+m=bU(cd(i),h),g=dc(i),f=m,e=d,a=c;for(;;){if(g){var
+j=A(a,b(2,c)),k=A(e,bU(f,a)),l=S(bU(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return b$(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
+hZ(e,a){var
+f=D(d,a);if(f){var
+g=b(2,b(2,c));return hX(e,fi(ag(e,[0,a,a]),g))}return f}function
+h0(a,d){var
+b=ag(a,d),e=a6(a,c);return V(Q(b,b),e)}function
+d0(o,u){var
 h=at(A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hR(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hR(a),r),f=hS(a,i);if(f){var
-g=hS(a,j);if(g)var
-l=ad(d,f[1][1]),m=l?ad(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
+v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b$(hY(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hY(a),r),f=hZ(a,i);if(f){var
+g=hZ(a,j);if(g)var
+l=ae(d,f[1][1]),m=l?ae(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
 var
 n=g;var
 e=n}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hQ(a,ak(a,ff(D(a,v,e[1]),s))),p=aj(function(b){return hT(a,hT(a,b))},t);else
+s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hX(a,ag(a,fi(C(a,v,e[1]),s))),p=$(function(b){return h0(a,h0(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return aj(function(a){return hO(w,a)},p)}return h}function
-fh(d,a){return dW(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
-dX(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return $(function(a){return hV(w,a)},p)}return h}function
+fk(d,a){return d0(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
+d1(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2274,127 +2274,127 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bA(j,i){var
+be(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?aE(b[1],a[1]):0;case
-1:return 1===a[0]?aE(b[1],a[1]):0;case
-2:return 2===a[0]?ah(b[1],a[1]):0;case
+0:return 0===a[0]?az(b[1],a[1]):0;case
+1:return 1===a[0]?az(b[1],a[1]):0;case
+2:return 2===a[0]?ak(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bA(b[1],a[1]);if(e){var
+e=be(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bA(b[1],a[1]);if(f){var
+f=be(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bA(b[1],a[1]);if(g){var
+g=be(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bA(b[1],a[1]);if(h){var
+h=be(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-dY(b){var
+d2(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bd(c,b){var
-a=dY(b);return a?ah(c,a[1]):a}function
-c_(a){return ad(eV(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-r(a){return[0,[2,a]]}function
-G(b,a){if(bd(d,b))return a;if(bd(d,a))return b;var
-c=dY(b);if(c){var
-e=c[1],f=dY(a);if(f){var
-g=f[1];if(c_(e)&&c_(g))return r(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-cc(a){var
+bf(c,b){var
+a=d2(b);return a?ak(c,a[1]):a}function
+df(a){return ae(eZ(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+q(a){return[0,[2,a]]}function
+G(b,a){if(bf(d,b))return a;if(bf(d,a))return b;var
+c=d2(b);if(c){var
+e=c[1],f=d2(a);if(f){var
+g=f[1];if(df(e)&&df(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ch(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return c_(c)?r(P(c)):[0,[5,a]];case
+c=b[1];return df(c)?q(S(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){return bd(d,a)?b:bd(d,b)?cc(a):[0,[4,b,a]]}function
-$(a){var
-c=dY(a);if(c){var
-b=c[1];return c_(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bd(d,a)&&!bd(c,b)){if(!bd(d,b)&&!bd(c,a))return bA(a,b)?$(a):[0,[6,a,b]];return b}return a}function
-aJ(b,a){return bd(c,a)?b:[0,[7,b,a]]}function
-cx(a){return bd(c,a)?a:[0,[9,a]]}function
-c$(g,f,d,c){var
+z(b,a){return bf(d,a)?b:bf(d,b)?ch(a):[0,[4,b,a]]}function
+aa(a){var
+c=d2(a);if(c){var
+b=c[1];return df(b)?q(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bf(d,a)&&!bf(c,b)){if(!bf(d,b)&&!bf(c,a))return be(a,b)?aa(a):[0,[6,a,b]];return b}return a}function
+aJ(b,a){return bf(c,a)?b:[0,[7,b,a]]}function
+cF(a){return bf(c,a)?a:[0,[9,a]]}function
+cG(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dX(function(b){return function(a){return H(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-cy(a){var
+h=b[1],i=[0,e(f,d1(function(b){return function(a){return N(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d3(a){var
 b=0;function
-c(a){return[0,a]}return c$(r(d),c,a,b)}function
-fi(b,a){if(a){if(bA(b,a[1]))return o9;var
-c=fi(b,a[2]);return aj(function(a){return[0,a]},c)}return a}function
-bT(c,b){var
-a=fi(b,c),d=a?a[1]:a;return d}function
-dZ(d,a){if(fi(d,a[1]))return a;var
+c(a){return[0,a]}return cG(q(d),c,a,b)}function
+fl(b,a){if(a){if(be(b,a[1]))return pc;var
+c=fl(b,a[2]);return $(function(a){return[0,a]},c)}return a}function
+bW(c,b){var
+a=fl(b,c),d=a?a[1]:a;return d}function
+d4(d,a){if(fl(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=dZ(b[1],a);break;case
+c=d4(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=dZ(b[1],a),c=dZ(b[2],h)}var
-e=c[2],f=c[1],g=[0,dX(function(a){return bT(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-d0(c){var
-b=c,a=o_;for(;;){if(b){var
-d=dZ(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bT(e,a)},c);return[0,hB(a[2]),g]}}function
-hU(a){return cu(function(a,b){return A(b9(a[2],P(a[1])),b)},d,a)}function
-cz(b,c,a){var
-d=hU(a),e=e7(c[2],A(b[2],d)),f=hU(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
-be(a){return[0,a,a,0]}function
-fj(b,a){return a?e(b,a[1]):a}function
-d1(d,b,a){if(b){if(a)return Z(d,b[1],a[1]);var
+h=d4(b[1],a),c=d4(b[2],h)}var
+e=c[2],f=c[1],g=[0,d1(function(a){return bW(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d5(c){var
+b=c,a=pd;for(;;){if(b){var
+d=d4(b[1],a),b=b[2],a=d;continue}var
+e=a[1],g=f(function(a){return bW(e,a)},c);return[0,hI(a[2]),g]}}function
+h1(a){return cB(function(a,b){return A(cb(a[2],S(a[1])),b)},d,a)}function
+cH(b,c,a){var
+d=h1(a),e=e$(c[2],A(b[2],d)),f=h1(a);return[0,b,[0,cb(c[1],b$(b[1],f)),e],a]}function
+bg(a){return[0,a,a,0]}function
+fm(b,a){return a?e(b,a[1]):a}function
+d6(d,b,a){if(b){if(a)return R(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-fk(a,e,d){var
-c=be(as);return function(b){switch(b[0]){case
-0:return[0,H(b[1],e,c)];case
-1:return[0,H(b[1],d,c)];case
-2:return[0,be(bc(a,b[1]))];case
+fn(a,e,d){var
+c=bg(ah);return function(b){switch(b[0]){case
+0:return[0,N(b[1],e,c)];case
+1:return[0,N(b[1],d,c)];case
+2:return[0,bg(a6(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return d1(function(b,a){var
+g=b[2],h=b[1];return d6(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aY(function(a){return a},e,T,d,c),g=T(b[2],a[2]);return[0,cz(T(b[1],a[1]),g,f)]},h,g);case
+f=aZ(function(a){return a},e,Q,d,c),g=Q(b[2],a[2]);return[0,cH(Q(b[1],a[1]),g,f)]},h,g);case
 4:var
-i=b[2],j=b[1];return d1(function(b,a){var
-c=a[3],d=b[3],e=aY(function(a){return a},aF,X,d,c),f=X(b[2],a[2]);return[0,cz(X(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return d6(function(b,a){var
+c=a[3],d=b[3],e=aZ(function(a){return a},aC,V,d,c),f=V(b[2],a[2]);return[0,cH(V(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return fj(function(a){var
-b=f(aF,a[3]),c=aF(a[2]);return[0,[0,aF(a[1]),c,b]]},k);case
+k=b[1];return fm(function(a){var
+b=f(aC,a[3]),c=aC(a[2]);return[0,[0,aC(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return d1(function(c,b){var
-d=T(b[2],b[1]),e=T(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return d6(function(c,b){var
+d=Q(b[2],b[1]),e=Q(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return dV(T(D(a,d,c),f))}function
-i(b){return dV(D(a,e,b))}var
-j=aY(function(b){return dV(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cz(D(a,c[1],b[1]),k,j)]},m,l);case
+f=C(a,e,b);return dZ(Q(C(a,d,c),f))}function
+i(b){return dZ(C(a,e,b))}var
+j=aZ(function(b){return dZ(C(a,d,b))},i,h,g,f),k=C(a,c[2],b[2]);return[0,cH(C(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return d1(function(e,g){var
-b=cw(a,g[1]);if(b){var
-c=cw(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return X(c,D(a,d,b))},n=function(b){return aF(D(a,d,b))},o=aY(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cz(d,D(a,e[2],h),p)];else
+n=b[2],o=b[1];return d6(function(e,g){var
+b=ce(a,g[1]);if(b){var
+c=ce(a,g[2]);if(c)var
+h=c[1],d=C(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return V(c,C(a,d,b))},n=function(b){return aC(C(a,d,b))},o=aZ(function(a){return a},n,m,l,k),p=f(function(b){return C(a,h,b)},o),i=[0,cH(d,C(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fj(function(b){var
-c=b[3],d=T(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ak(a,b[2]);return[0,cz(ak(a,b[1]),g,e)]},p);default:var
-q=b[1];return fj(function(e){var
-b=c9(a,e[1]);if(b){var
-g=b[1],c=c9(a,e[2]);if(c){var
-h=c[1],d=cw(a,T(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cz(g,h,f(function(b){return D(a,m,b)},l))];else
+p=b[1];return fm(function(b){var
+c=b[3],d=Q(b[2],b[1]),e=f(function(b){return C(a,d,b)},c),g=ag(a,b[2]);return[0,cH(ag(a,b[1]),g,e)]},p);default:var
+q=b[1];return fm(function(e){var
+b=cE(a,e[1]);if(b){var
+g=b[1],c=cE(a,e[2]);if(c){var
+h=c[1],d=ce(a,Q(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cH(g,h,f(function(b){return C(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2403,126 +2403,126 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-o$(a){return a}function
-pa(a){return a}function
-pb(a,b){return aY(pa,o$,T,a,b)}function
-pc(a){return a}function
-pd(a){return a}function
-fl(b,a,c){if(a){var
+pe(a){return a}function
+pf(a){return a}function
+pg(a,b){return aZ(pf,pe,Q,a,b)}function
+ph(a){return a}function
+pi(a){return a}function
+fo(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fl(b,e,c[2]),h=c[1],i=function(c,a){return X(c,fc(d,a,b))},j=function(a){return aF(fc(d,a,b))};return[0,aY(function(a){return a},j,i,h,a),g]}var
-k=fl(b,e,0);return[0,f(function(a){return aF(fc(d,a,b))},a),k]}return c}function
-hV(a){if(a){var
+g=fo(b,e,c[2]),h=c[1],i=function(c,a){return V(c,ff(d,a,b))},j=function(a){return aC(ff(d,a,b))};return[0,aZ(function(a){return a},j,i,h,a),g]}var
+k=fo(b,e,0);return[0,f(function(a){return aC(ff(d,a,b))},a),k]}return c}function
+h2(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ad(d,c[1]),h=e?[0,fl(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ae(d,c[1]),h=e?[0,fo(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-hW(f,e){var
+h3(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hV(b);if(c){var
+c=h2(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-hX(d,b,a){if(b)if(a)var
-e=a[1],f=hX(d,b[2],a[2]),g=dP(d,b[1])?fd(e):fe(e),c=[0,g,f];else
+h4(d,b,a){if(b)if(a)var
+e=a[1],f=h4(d,b[2],a[2]),g=dT(d,b[1])?fg(e):fh(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-hY(a,b){if(a)if(b)var
-d=hY(a[2],b[2]),c=[0,hX(a[1],a,b[1]),d];else
+h5(a,b){if(a)if(b)var
+d=h5(a[2],b[2]),c=[0,h4(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bU(a){if(a){var
-b=a[1],c=bU(b),d=f(function(a){return[0,1,a]},c),e=bU(b);return g(f(function(a){return[0,0,a]},e),d)}return pe}function
-d2(a){var
-b=m(a);if(hW(b,a))return 1;var
-c=bU(c3(b));return p(function(c){return hW(b,hY([0,0,c],a))},c)}function
-bV(a){function
+bX(a){if(a){var
+b=a[1],c=bX(b),d=f(function(a){return[0,1,a]},c),e=bX(b);return g(f(function(a){return[0,0,a]},e),d)}return pj}function
+d7(a){var
+b=m(a);if(h3(b,a))return 1;var
+c=bX(cz(b));return p(function(c){return h3(b,h5([0,0,c],a))},c)}function
+bh(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-da(h,e){var
+dg(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?T(a,d):X(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hZ(c,b,a){var
-d=bU(c);return p(function(c){return e(a,e(bV(function(a){return da(c,a)}),b))},d)}function
-h0(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return ca(b,A(h,c),a)},k=h0(h,j,i),l=function(c,b){var
-d=a(b,e);return T(a(f,c),d)},m=function(b){return a(b,e)},n=aY(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,T(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?Q(a,d):V(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+h6(c,b,a){var
+d=bX(c);return p(function(c){return e(a,e(bh(function(a){return dg(c,a)}),b))},d)}function
+h7(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return cf(b,A(h,c),a)},k=h7(h,j,i),l=function(c,b){var
+d=a(b,e);return Q(a(f,c),d)},m=function(b){return a(b,e)},n=aZ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,Q(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fm(d,l,k,j){var
+fp(d,l,k,j){var
 c=l,b=k,a=j;for(;;){if(c){if(b){var
-e=b[1],f=c[1],g=fe(e[2]),m=e[1],h=function(e){return function(a,b){var
-c=ca(b,d,e);return X(T(a,a),c)}}(g),i=function(b){return function(a){return aF(ca(a,d,b))}}(g),n=aY(pd,pc,pb,a,h0(d,f,aY(function(a){return T(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
-h1(b,a){return[0,[0,0,b],a]}function
-db(b,c,g,f,a){function
+e=b[1],f=c[1],g=fh(e[2]),m=e[1],h=function(e){return function(a,b){var
+c=cf(b,d,e);return V(Q(a,a),c)}}(g),i=function(b){return function(a){return aC(cf(a,d,b))}}(g),n=aZ(pi,ph,pg,a,h7(d,f,aZ(function(a){return Q(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
+h8(b,a){return[0,[0,0,b],a]}function
+dh(b,c,g,f,a){function
 d(a){if(a){var
-h=b_([0,aF(a[1][2]),0],b),c=fm(g,f,a[2],h),d=aE(m(c),b);if(d)return d2(c);var
+h=cc([0,aC(a[1][2]),0],b),c=fp(g,f,a[2],h),d=az(m(c),b);if(d)return d7(c);var
 e=d}else
 var
-e=a;return e}return hZ(b,h1(c,a),d)}function
-h2(f,e){var
+e=a;return e}return h6(b,h8(c,a),d)}function
+h9(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hV([0,[0,fd(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=h2([0,[0,fg(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fn(b,c,a){function
+fq(b,c,a){function
 d(a){if(a){var
-h=b_([0,a[1][2],0],b),c=h2(a[2],h);if(c){var
-d=c[1],e=aE(m(d),b);if(e)return d2(d);var
+h=cc([0,a[1][2],0],b),c=h9(a[2],h);if(c){var
+d=c[1],e=az(m(d),b);if(e)return d7(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return hZ(b,h1(c,a),d)}function
-h3(a,b){var
-c=b[3],d=a[3],e=aY(function(a){return a},aF,X,d,c),f=a[2];return[0,X(a[1],b[1]),f,e]}function
-d3(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bW(c,b,a){var
-d=Z(c,b[3],a[3]),e=Z(c,b[2],a[2]);return[0,Z(c,b[1],a[1]),e,d]}function
-d4(b,a){var
+g=a;return g}return h6(b,h8(c,a),d)}function
+h_(a,b){var
+c=b[3],d=a[3],e=aZ(function(a){return a},aC,V,d,c),f=a[2];return[0,V(a[1],b[1]),f,e]}function
+d8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bY(c,b,a){var
+d=R(c,b[3],a[3]),e=R(c,b[2],a[2]);return[0,R(c,b[1],a[1]),e,d]}function
+d9(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-d5(b,a){var
+d_(b,a){var
 c=aJ(b[3],a),d=aJ(b[2],a);return[0,aJ(b[1],a),d,c]}function
-az(b,a){var
+aA(b,a){var
 c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-fo(a){return d5(a,cx(az(a,a)))}function
-h4(a){return f(function(a){var
-b=a[2];return[0,d3(a[1]),b]},a)}function
-h5(a){return f(function(a){var
-b=r(c);return[0,d3(a[3]),b]},a)}function
-bB(a){return ct(A(a[1],a[2]),c)}function
-cA(a){var
-b=bB(a);return b7(a[2],b)}function
-h6(c,b){if(b)var
-a=b[1],e=h6([0,c],b[2]),f=cA(a),h=[0,[0,cA(a),f],0],i=g(b_(as,c),h),j=bB(a),d=[0,[0,[0,bB(a),j],a,i],e];else
+fr(a){return d_(a,cF(aA(a,a)))}function
+h$(a){return f(function(a){var
+b=a[2];return[0,d8(a[1]),b]},a)}function
+ia(a){return f(function(a){var
+b=q(c);return[0,d8(a[3]),b]},a)}function
+bE(a){return cA(A(a[1],a[2]),c)}function
+cI(a){var
+b=bE(a);return b$(a[2],b)}function
+ib(c,b){if(b)var
+a=b[1],e=ib([0,c],b[2]),f=cI(a),h=[0,[0,cI(a),f],0],i=g(cc(ah,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
 var
 d=b;return d}function
-d6(d,b){if(b){var
+d$(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d6(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bB(a),f],c],h=bB(a);return[0,[0,[0,a[1],h],c],g]}return pf}function
-h7(d,c,b,a){var
-e=f(be,b);return c$(0,fk(d,h6(0,a),e),c,0)}function
-aU(a){if(a){var
+e=d$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pk}function
+ic(d,c,b,a){var
+e=f(bg,b);return cG(0,fn(d,ib(0,a),e),c,0)}function
+aW(a){if(a){var
 b=a[1];if(b)var
-c=aU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pg}function
-h8(b,a){if(a){var
-h=a[1],n=h[1],c=aU(f(function(a){return H(a,b,0)},n));if(c){var
-e=H(h[2],b,0);if(e){var
-i=e[1],g=h8(b,a[2]);if(g)var
-j=ad(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pl}function
+id(b,a){if(a){var
+h=a[1],n=h[1],c=aW(f(function(a){return N(a,b,0)},n));if(c){var
+e=N(h[2],b,0);if(e){var
+i=e[1],g=id(b,a[2]);if(g)var
+j=ae(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2530,146 +2530,146 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return ph}function
-cd(d,c,b){var
-a=h8(d,c);return a?e(b,a[1]):a}function
-fq(a,b){return p(function(c){var
-a=H(c,b,0),d=a?1:a;return d},a)}function
-d7(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aY(function(a){return a},f,T,e,d),h=a[2];return[0,T(a[1],c[1]),h,g]}return a}function
-fr(b,a){return b?h3(a,b[1]):a}function
-fs(h,g,b,f){var
-a=H(f,h,0);if(a){var
+m=c;return m}return pm}function
+ci(d,c,b){var
+a=id(d,c);return a?e(b,a[1]):a}function
+ft(a,b){return p(function(c){var
+a=N(c,b,0),d=a?1:a;return d},a)}function
+ea(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aZ(function(a){return a},f,Q,e,d),h=a[2];return[0,Q(a[1],c[1]),h,g]}return a}function
+fu(b,a){return b?h_(a,b[1]):a}function
+fv(h,g,b,f){var
+a=N(f,h,0);if(a){var
 c=a[1];if(b){var
-i=h3(c,b[1]),e=bU(g);return p(function(a){return C(d,da(a,i)[1])},e)}return C(d,c[2][1])}return a}function
-h9(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=h_(c,b[1]),e=bX(g);return p(function(a){return D(d,dg(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+ie(m,j,q,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fq(l,b);if(r){var
-B=a[2],C=a[1],E=d7(g,be(k));return cd(b,j,function(a){return db(e,E,C,B,a)})}return r;case
+r=ft(l,b);if(r){var
+B=a[2],D=a[1],E=ea(g,bg(k));return ci(b,j,function(a){return dh(e,E,D,B,a)})}return r;case
 1:var
-s=fq(l,b);if(s){var
-F=a[2],G=a[1],H=d7(g,be(k));return cd(b,q,function(a){return db(e,H,G,F,a)})}return s;case
+s=ft(l,b);if(s){var
+F=a[2],G=a[1],H=ea(g,bg(k));return ci(b,q,function(a){return dh(e,H,G,F,a)})}return s;case
 2:var
-t=fq(l,b);if(t){if(g)return 0;var
-u=ah(k[1],d),v=u?ah(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cd(b,j,function(a){var
-b=[0,as,as,0];return db(e,[0,as,as,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=ft(l,b);if(t){if(g)return 0;var
+u=ak(k[1],d),v=u?ak(k[2],d):u;if(v){var
+I=a[2],J=a[1];return ci(b,j,function(a){var
+b=[0,ah,ah,0];return dh(e,[0,ah,ah,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fr(g,be(x));return cd(b,q,function(a){return fn(e,K,a)})}if(!a){var
-L=fr(g,be(x));return cd(b,j,function(a){return fn(e,L,a)})}}return 0;case
+K=fu(g,bg(x));return ci(b,q,function(a){return fq(e,K,a)})}if(!a){var
+L=fu(g,bg(x));return ci(b,j,function(a){return fq(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return ca(a,y,bc(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),as,A];else
+y=a[1],n=a[3],o=function(a){return cf(a,y,a6(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),ah,A];else
 var
-i=be(as);var
-z=h[1],M=a[2];return cd(b,j,function(c){var
-h=bU(e),a=p(function(a){return ad(d,da(a,i)[1])},h),b=a?db(e,d7(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fn(e,fr(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=bg(ah);var
+z=h[1],M=a[2];return ci(b,j,function(c){var
+h=bX(e),a=p(function(a){return ae(d,dg(a,i)[1])},h),b=a?dh(e,ea(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return C(m,z,a)},j),l=i[2];return fq(e,fu(g,[0,C(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fs(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fv(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=d7(g,be(h[2])),Q=function(a){return db(e,P,O,N,a)};return cd(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=ea(g,bg(h[2])),Q=function(a){return dh(e,P,O,N,a)};return ci(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fs(b,e,g,h[1]);case
-2:return fs(b,e,g,h[2])}return 0}}function
-d8(b,a){if(a){var
+0:return fv(b,e,g,h[1]);case
+2:return fv(b,e,g,h[2])}return 0}}function
+eb(b,a){if(a){var
 c=a[2];if(b){var
-e=d8(b[1],c);return[0,a[1],e]}var
+e=eb(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-h_(r,V,I,G,F,U,T,E,c,D,B){if(D){var
-J=h7(r,V,U,c),g=D,b=B;for(;;){if(g){var
+ig(r,V,H,G,F,U,T,E,c,C,B){if(C){var
+I=ic(r,V,U,c),g=C,b=B;for(;;){if(g){var
 v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 l=e(E,c);if(l)var
-S=l[1],M=bU(m(c)),o=p(function(b){return function(a){return ad(da(a,b)[2],d)}}(S),M);else
+S=l[1],L=bX(m(c)),o=p(function(b){return function(a){return ae(dg(a,b)[2],d)}}(S),L);else
 var
 o=l;if(o){var
 g=w,b=f(function(a){return 0},b);continue}return o}var
-x=H(n,b,0);if(x){var
-q=aT(T,n);if(q){var
-y=q[1],K=0;if(typeof
-a==="number"||!(5===a[0]))K=1;else{var
-i=a[2],j=e(E,c),L=0;if(j){var
-s=C(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return ca(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,ca(i,t,k[1]),P,O]],h=h9(r,I,G,F,J,m(c),R,y,Q);L=1}else
+x=N(n,b,0);if(x){var
+q=aV(T,n);if(q){var
+y=q[1],J=0;if(typeof
+a==="number"||!(5===a[0]))J=1;else{var
+i=a[2],j=e(E,c),K=0;if(j){var
+s=D(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],M=k[3],O=f(function(b,c){return function(a){return cf(b,c,a)}}(i,t),M),P=k[2],R=[0,[0,cf(i,t,k[1]),P,O]],h=ie(r,H,G,F,I,m(c),R,y,Q);K=1}else
 var
 u=s}else
 var
-u=j;if(!L)var
-h=u}if(K)var
-h=h9(r,I,G,F,J,m(c),0,y,a);if(h){var
-g=w,b=d8(n,b);continue}var
+u=j;if(!K)var
+h=u}if(J)var
+h=ie(r,H,G,F,I,m(c),0,y,a);if(h){var
+g=w,b=eb(n,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-ft(j,i,h,g,f,e,d,c,u,t,s){var
+fw(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=h_(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aX,l[1]):l}var
-m=h_(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d6(a[2],b),q=ft(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+l=ig(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
+m=ig(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d$(a[2],b),q=fw(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
 b=o[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-h$(a){return f(function(a){return 1},a)}function
-cB(m,q){var
+ih(a){return f(function(a){return 1},a)}function
+cJ(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(C(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(C(j,c)){var
-k=ah(b,n),l=k?c_(b):k;if(l)var
-o=ah(m[2],d),g=o||ah(b,d);else
+i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(D(j,c)){var
+k=ak(b,n),l=k?df(b):k;if(l)var
+o=ak(m[2],d),g=o||ak(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=ah(bb(j,aR(2))[2],d)?0:0}else
+a=ak(bd(j,aS(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ah(bb(i,aR(2))[2],d)?0:0}else
+a=ak(bd(i,aS(2))[2],d)?0:0}else
 var
-a=0;return a?r(a[1]):[0,[1,q]]}function
-d9(b,a){if(a)var
-d=d9([0,b],a[2]),c=[0,cB(a[1],b),d];else
+a=0;return a?q(a[1]):[0,[1,r]]}function
+ec(b,a){if(a)var
+d=ec([0,b],a[2]),c=[0,cJ(a[1],b),d];else
 var
 c=a;return c}function
-bf(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fu(b,d,a){switch(a[0]){case
+bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fx(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bf(c[3],b),f),i=g(bf(c[2],b),h);return g(bf(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
-e=a[3],j=e?bf(e[1],d):e,k=g(bf(a[2],b),j);return g(bf(a[1],b),k);default:return bf(a[1],d)}}function
-bC(b,a){var
-c=r(d),e=H(S(pi,a),b,c),f=r(d),g=H(S(pj,a),b,f);return[0,H(a,b,r(d)),g,e]}function
-ia(b,a){return bW(z,bW(G,fp,a),b)}function
-ib(c,b,a){if(a){var
-e=a[2],f=ib(c,hA(b),e),h=a[1];return g(fu(c,fb(d,b),h),f)}return a}function
-ic(l,k,h,x){if(h){var
-e=h[1],L=S(x,m(fu(l,fb(d,k),e))),M=h[2],N=ic(l,hA(k),M,L),a=d9(x,fu(l,fb(d,k),e));switch(e[0]){case
+e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
+bF(b,a){var
+c=q(d),e=N(L(pn,a),b,c),f=q(d),g=N(L(po,a),b,f);return[0,N(a,b,q(d)),g,e]}function
+ii(b,a){return bY(z,bY(G,fs,a),b)}function
+ij(c,b,a){if(a){var
+e=a[2],f=ij(c,hH(b),e),h=a[1];return g(fx(c,fe(d,b),h),f)}return a}function
+ik(l,k,h,x){if(h){var
+e=h[1],K=L(x,m(fx(l,fe(d,k),e))),M=h[2],O=ik(l,hH(k),M,K),a=ec(x,fx(l,fe(d,k),e));switch(e[0]){case
 0:var
-F=e[1][5],u=H(pk,a,r(d)),g=fo(bC(a,0)),I=bC(a,pl),v=ia(bC(a,pm),I),o=az(g,v),f=bW(z,v,d4(o,g)),A=az(f,f),p=z($(u),A),q=cx(p),i=F?q:cc(q),B=z(o,i),C=bW(G,g,d5(f,i)),n=[0,bW(G,f,d4(i,g)),p,C,B,[0,u],0];break;case
+F=e[1][5],u=N(pp,a,q(d)),g=fr(bF(a,0)),H=bF(a,pq),v=ii(bF(a,pr),H),o=aA(g,v),f=bY(z,v,d9(o,g)),A=aA(f,f),p=z(aa(u),A),r=cF(p),i=F?r:ch(r),B=z(o,i),C=bY(G,g,d_(f,i)),n=[0,bY(G,f,d9(i,g)),p,C,B,[0,u],0];break;case
 1:var
-w=e[3],J=w?[0,fo(bC(a,pn))]:w,K=bC(a,po),b=ia(bC(a,0),K),s=az(b,b),t=cx(s),D=aj(function(a){return bW(z,b,d4(az(a,b),a))},J),n=[0,b,s,d5(b,t),t,0,D];break;default:var
-j=fo(bC(a,0)),E=az(j,fp),n=[0,j,r(c),j,E,0,0]}var
-y=[0,n,N]}else
+w=e[3],I=w?[0,fr(bF(a,ps))]:w,J=bF(a,pt),b=ii(bF(a,0),J),s=aA(b,b),t=cF(s),D=$(function(a){return bY(z,b,d9(aA(a,b),a))},I),n=[0,b,s,d_(b,t),t,0,D];break;default:var
+j=fr(bF(a,0)),E=aA(j,fs),n=[0,j,q(c),j,E,0,0]}var
+y=[0,n,O]}else
 var
 y=h;return y}function
-ce(k,a){if(typeof
+cj(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2686,26 +2686,26 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fv(d,c,b,a){var
+fy(d,c,b,a){var
 e=v(c,b);return z(v(d,a),e)}function
-cC(a){return I(function(a){return g(a[1],[0,a[2],0])},a)}function
-id(a){if(a){var
+cK(a){return M(function(a){return g(a[1],[0,a[2],0])},a)}function
+il(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=id(a[2]);if(d)var
-g=d[1],h=az(c,c),e=[0,[0,[0,d3(c),h],g]];else
+c=b[1],d=il(a[2]);if(d)var
+g=d[1],h=aA(c,c),e=[0,[0,[0,d8(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pp}function
-fw(b,d,c,a){if(typeof
+f=b;return f}return pu}function
+fz(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=cB(ce(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,d3(a[1]),b]},b)];case
-9:return id(b)}return 0}function
-ie(b,s,r,a){var
-e=cB(ce(s,a),r),p=0;if(typeof
+e=cJ(cj(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,d8(a[1]),b]},b)];case
+9:return il(b)}return 0}function
+im(b,s,r,a){var
+e=cJ(cj(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
@@ -2714,11 +2714,11 @@ L=function(a){return[0,z(a[4],e),0]},g=L,f=a[1];break;case
 M=function(a){return[0,z(e,a[4]),0]},g=M,f=a[1];break;case
 4:var
 N=function(b){var
-a=b[1],c=$(a[3]),d=$(a[2]),f=$(a[1]),g=b[2];return[0,z(z(z(v($(e),g),f),d),c),0]},g=N,f=a[1];break;case
+a=b[1],c=aa(a[3]),d=aa(a[2]),f=aa(a[1]),g=b[2];return[0,z(z(z(v(aa(e),g),f),d),c),0]},g=N,f=a[1];break;case
 6:var
 O=function(b){var
 a=b[5];if(a)var
-d=$(a[1]),f=v($(e),d),c=[0,z(b[2],f),0];else
+d=aa(a[1]),f=v(aa(e),d),c=[0,z(b[2],f),0];else
 var
 c=a;return c},g=O,f=a[1];break;case
 7:if(b){var
@@ -2727,7 +2727,7 @@ i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fv(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fv(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fv(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,cc(G(q,x)),0],y=[0,z(q,x),R];else
+c=t[1],d=u[1],n=w[1],F=fy(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fy(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fy(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ch(G(q,x)),0],y=[0,z(q,x),R];else
 var
 y=m;var
 A=y}else
@@ -2747,35 +2747,35 @@ var
 E=b;return E;case
 8:case
 9:var
-o=fw(b,s,r,a);return o?cC(o[1]):o;default:p=1}if(p)return 0;var
-j=aT(b,f);return j?g(j[1]):j}function
-ig(d,c,b,a){if(a){var
-e=ig(d,c,[0,b],a[2]);return g(ie(d,c,b,a[1]),e)}return a}function
-ih(a,g,k,f,j,i){if(i){var
-B=ih(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+o=fz(b,s,r,a);return o?cK(o[1]):o;default:p=1}if(p)return 0;var
+j=aV(b,f);return j?g(j[1]):j}function
+io(d,c,b,a){if(a){var
+e=io(d,c,[0,b],a[2]);return g(im(d,c,b,a[1]),e)}return a}function
+ip(a,g,k,f,j,i){if(i){var
+B=ip(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,as]];else
+d=[0,[0,ah]];else
 switch(b[0]){case
 0:var
-u=aZ(a,ce(f,b)),d=aj(function(b){return[0,ak(a,b)]},u);break;case
+u=a0(a,cj(f,b)),d=$(function(b){return[0,ag(a,b)]},u);break;case
 1:var
-v=aZ(a,ce(f,b)),d=aj(function(b){return[1,ak(a,b)]},v);break;case
+v=a0(a,cj(f,b)),d=$(function(b){return[1,ag(a,b)]},v);break;case
 5:var
-x=aZ(a,ce(f,b)),d=aj(function(b){return[2,ak(a,b)]},x);break;case
+x=a0(a,cj(f,b)),d=$(function(b){return[2,ag(a,b)]},x);break;case
 8:var
-y=fw(k,f,j,b),d=aj(function(b){var
-d=bc(a,c);return[4,e(bV(g),b),d]},y);break;case
+y=fz(k,f,j,b),d=$(function(b){var
+d=a6(a,c);return[4,e(bh(g),b),d]},y);break;case
 9:var
-m=fw(k,f,j,b);if(m){var
-n=aZ(a,ce(f,b));if(n)var
-z=ak(a,n[1]),A=m[1],r=[0,[4,e(bV(g),A),z]];else
+m=fz(k,f,j,b);if(m){var
+n=a0(a,cj(f,b));if(n)var
+z=ag(a,n[1]),A=m[1],r=[0,[4,e(bh(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=ie(k,f,j,b),o=0;if(h){var
+h=im(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2786,73 +2786,73 @@ d=q}var
 t=[0,d,B]}else
 var
 t=i;return t}function
-pq(a){if(typeof
+pv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cf(s,r){var
+ck(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=ah(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(C(f,c))return C(e,c)?1:ah(bb(e,aR(2))[2],d)?0:0;var
-i=bb(f,aR(2)),j=i[1];if(ah(i[2],d)){if(C(e,c))return 0;var
-g=bb(e,aR(2)),p=g[1];if(ah(g[2],d)){var
-f=j,e=p;continue}return 0}if(C(e,c))return 0;var
-h=bb(e,aR(2)),q=h[1];if(ah(h[2],d))return 0;var
+k=ak(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:ak(bd(e,aS(2))[2],d)?0:0;var
+i=bd(f,aS(2)),j=i[1];if(ak(i[2],d)){if(D(e,c))return 0;var
+g=bd(e,aS(2)),p=g[1];if(ak(g[2],d)){var
+f=j,e=p;continue}return 0}if(D(e,c))return 0;var
+h=bd(e,aS(2)),q=h[1];if(ak(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cf(b[1],a[1]);if(l){var
+l=ck(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cf(b[1],a[1]);if(m){var
+m=ck(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cf(b[1],a[1]);if(n){var
+n=ck(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cf(b[1],a[1]);if(o){var
+o=ck(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-d_(a){switch(a[0]){case
+ed(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hG(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hN(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hG(b,[0,P(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hN(b,[0,S(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hH(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hO(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hE(a,[0,d,c]))return 0;var
-b=a[1],e=bt(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,P(a[2]),P(b)];return[0,hH(g,f)]};break;default:return 0}var
-g=d_(e);if(g){var
-h=d_(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hL(a,[0,d,c]))return 0;var
+b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,S(a[2]),S(b)];return[0,hO(g,f)]};break;default:return 0}var
+g=ed(e);if(g){var
+h=ed(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 o(i,e,b){var
-f=d_(b);if(f){var
-g=f[1];return e?aX(hF(g,[0,d,c])):hF([0,d,c],g)}var
+f=ed(b);if(f){var
+g=f[1];return e?aU(hM(g,[0,d,c])):hM([0,d,c],g)}var
 a=at(i,b);if(a){var
-h=a[1];return e?ad(d,h[1]):C(d,h[1])}return a}function
-ii(c,b){var
+h=a[1];return e?ae(d,h[1]):D(d,h[1])}return a}function
+iq(c,b){var
 a=at(c,b),d=a?1:a;return d}function
-bg(c,a,b){var
-d=cf(a,b),e=d?ii(c,a):d;return e?e:o(c,0,[2,b,a])}function
+bj(c,a,b){var
+d=ck(a,b),e=d?iq(c,a):d;return e?e:o(c,0,[2,b,a])}function
 aK(c,b,a){var
-d=Z(c,b[3],a[3]),e=Z(c,b[2],a[2]);return[0,Z(c,b[1],a[1]),e,d]}function
+d=R(c,b[3],a[3]),e=R(c,b[2],a[2]);return[0,R(c,b[1],a[1]),e,d]}function
 aL(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aB(a){return aL([4,[0,c,c],[5,E(a,a)]],a)}function
-cg(c,b,a){var
-d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
+aD(a){return aL([4,[0,c,c],[5,E(a,a)]],a)}function
+cl(c,b,a){var
+d=bj(c,b[1],a);return d?bj(c,a,b[2]):d}function
 aM(c,b,a){var
-d=cg(c,b[1],a[1]),e=d?cg(c,b[2],a[2]):d;return e?cg(c,b[3],a[3]):e}function
-ij(c,a,b){if(0===a[0])return aM(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cg(c,a[4],b[3]):h}function
-ik(a,D,H,G){var
+d=cl(c,b[1],a[1]),e=d?cl(c,b[2],a[2]):d;return e?cl(c,b[3],a[3]):e}function
+ir(c,a,b){if(0===a[0])return aM(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cl(c,a[4],b[3]):h}function
+is(a,D,H,G){var
 h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cg(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dP(f[5],b[5]):u;else
+n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cl(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dT(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
@@ -2882,72 +2882,72 @@ var
 C=d;var
 l=C}else
 var
-l=d?0:1;return l?ij(a,D[2],G):l}}function
-bD(c,b,a){var
+l=d?0:1;return l?ir(a,D[2],G):l}}function
+bG(c,b,a){var
 d=aK(function(b,a){return[1,b,a]},a,b);return aK(function(b,a){return[2,b,a]},d,c)}function
-fx(a,e,d,c){var
-b=bD(e,d,c),f=aB(a),g=aL(E(aB(a),b),f);return aK(function(b,a){return[2,b,a]},b,g)}function
-dc(f,e,d,a,c){var
-b=fx(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
-dd(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cD(a,b){switch(a[0]){case
+fA(a,e,d,c){var
+b=bG(e,d,c),f=aD(a),g=aL(E(aD(a),b),f);return aK(function(b,a){return[2,b,a]},b,g)}function
+di(f,e,d,a,c){var
+b=fA(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
+dj(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cL(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fx(d,f,e,b),h=dc(d,f,e,a[4],b),i=aL([4,[0,c,c],dd(a[5],h)],g),j=aB(d);return aK(function(b,a){return[1,b,a]},j,i);case
-1:return aB(bD(a[1],a[2],b));default:return aB(a[1])}}function
-il(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fA(d,f,e,b),h=di(d,f,e,a[4],b),i=aL([4,[0,c,c],dj(a[5],h)],g),j=aD(d);return aK(function(b,a){return[1,b,a]},j,i);case
+1:return aD(bG(a[1],a[2],b));default:return aD(a[1])}}function
+it(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dc(e,d,c,a[4],b),i=dd(a[5],h),j=bD(d,c,b);return[2,E(aB(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=di(e,d,c,a[4],b),i=dj(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bD(g,f,b);return[5,E(bD(g,f,b),k)];default:return E(aB(a[1]),b)}}function
-de(e,b,a){var
-f=[0,d,c];return cu(function(c,d){var
-e=E(cD(c,b),a);return[1,[3,E(cD(c,b),a),e],d]},f,e)}function
-im(a){var
+f=a[2],g=a[1],k=bG(g,f,b);return[5,E(bG(g,f,b),k)];default:return E(aD(a[1]),b)}}function
+dk(e,b,a){var
+f=[0,d,c];return cB(function(c,d){var
+e=E(cL(c,b),a);return[1,[3,E(cL(c,b),a),e],d]},f,e)}function
+iu(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fy(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aB(b),h=dc(b,f,e,d,c),i=aL(dd(a[5],h),g),j=fx(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-io(d,i){if(d){var
+fB(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=di(b,f,e,d,c),i=aL(dj(a[5],h),g),j=fA(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+iv(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bD(a[1],a[2],i),k=aB(f),l=aL(E(aB(f),g),k),h=[0,aK(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aL(E(aD(f),g),k),h=[0,aK(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=io(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=iv(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pr}function
-ip(g,f,e,b,m,a){function
+j=b;return j}return pw}function
+iw(g,f,e,b,m,a){function
 y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=de(f,e,b);return o(g,1,[2,y(a[1]),U]);case
+U=dk(f,e,b);return o(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return o(g,1,[2,de(f,e,b),V]);case
+V=y(a[1]);return o(g,1,[2,dk(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,il(a,e)]},p=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,it(a,e)]},p=X,n=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,il(a,e),Y]},p=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,it(a,e),Y]},p=Z,n=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=cD(a,e);return[2,[3,[3,A,A],E(cD(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
+b=cL(a,e);return[2,[3,[3,A,A],E(cL(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
 5:var
-B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,de(f,e,m),$]],ab=E(m,m);return o(g,1,[2,[3,de(f,e,b),ab],aa]);case
+B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dk(f,e,m),$]],ab=E(m,m);return o(g,1,[2,[3,dk(f,e,b),ab],aa]);case
 6:var
-C=a[2],r=aT(f,a[1]);if(r){var
+C=a[2],r=aV(f,a[1]);if(r){var
 h=r[1];if(0===h[0]){var
-s=h[4],ac=dc(h[1],h[2],h[3],s,e),D=dd(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+s=h[4],ac=di(h[1],h[2],h[3],s,e),D=dj(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
 F=0}else
 var
 F=r;return F;case
 7:if(f){var
 k=f[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-t=fy(f[1],e);if(t){var
-G=t[1],u=fy(k[1],e);if(u){var
-H=u[1],v=fy(l[1],e);if(v){var
+t=fB(f[1],e);if(t){var
+G=t[1],u=fB(k[1],e);if(u){var
+H=u[1],v=fB(l[1],e);if(v){var
 I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,J,x]);if(K)return o(g,1,[1,J,x]);var
 L=K}else
 var
@@ -2968,25 +2968,25 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=de(f,e,b),ae=E(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=io(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cu(function(a,c){var
-d=E(aB(a),b);return[1,[3,E(aB(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
-q=aT(f,n);return q?o(g,1,p(q[1])):q}function
-bX(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-ps(a){switch(a[0]){case
+ad=dk(f,e,b),ae=E(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=iv(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cB(function(a,c){var
+d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
+q=aV(f,n);return q?o(g,1,p(q[1])):q}function
+bZ(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+px(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bX(b[3]),f=bX(b[2]);return[0,bX(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bZ(b[3]),f=bZ(b[2]);return[0,bZ(b[1]),f,e,d,c];case
 1:var
-g=aj(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
-cE(b,a){if(b){if(a){var
-e=cE(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-iq(a,l,k,f){var
+g=$(bZ,a[3]),h=bZ(a[2]);return[1,bZ(a[1]),h,g];default:return[2,bZ(a[1])]}}function
+cM(b,a){if(b){if(a){var
+e=cM(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+ix(a,l,k,f){var
 b=at(a,l);if(b){var
 c=at(a,k);if(c){var
-d=dW(a,f);if(d){var
-e=fh(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,X(D(a,c[1],d[1]),m)];else
+d=d0(a,f);if(d){var
+e=fk(a,f);if(e)var
+m=C(a,b[1],e[1]),g=[0,V(C(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2998,13 +2998,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ir(f,B,r,A,a,e){function
-s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cE(a,a)]}var
+iy(f,B,r,A,a,e){function
+s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cM(a,a)]}var
 C=r[1];function
 g(b){var
-a=[0,d,c];return cu(function(a,c){var
-d=cE(a,b);return[1,[3,cE(a,b),d],c]},a,C)}var
-t=p(function(a){return aE(m(a),B)},a);if(t){if(typeof
+a=[0,d,c];return cB(function(a,c){var
+d=cM(a,b);return[1,[3,cM(a,b),d],c]},a,C)}var
+t=p(function(a){return az(m(a),B)},a);if(t){if(typeof
 e==="number")return 0;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
@@ -3021,15 +3021,15 @@ a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},j=I,i=e[1];break;case
 w=e[3],x=e[2],J=function(a){if(typeof
 a!=="number"&&1===a[0]){var
 h=a[2],i=a[1],j=o(f,0,[2,[1,x,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],w]);if(j){if(A){var
-e=iq(f,i,h,x);return e?ad(e[1][2],d):e}var
-g=iq(f,i,h,w);return g?ad(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
+e=ix(f,i,h,x);return e?ae(e[1][2],d):e}var
+g=ix(f,i,h,w);return g?ae(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],q=a[1],y=e[1],K=cE(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cE(n,n);return o(f,1,[2,[3,g(q),M],L])}var
+n=h[1],q=a[1],y=e[1],K=cM(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cM(n,n);return o(f,1,[2,[3,g(q),M],L])}var
 z=h}else
 var
 z=a;return z}var
-l=aT(r[2],i);return l?j(l[1]):l}return t}function
-is(h,g){var
+l=aV(r[2],i);return l?j(l[1]):l}return t}function
+iz(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3039,44 +3039,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pt(a){return f(function(a){return[0,a,c]},a)}function
-it(e,l,b,k,a){if(typeof
+py(a){return f(function(a){return[0,a,c]},a)}function
+iA(e,l,b,k,a){if(typeof
 a==="number"){var
-q=b[3];return bz(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=is(a[1],k);if(g){var
-m=g[1],r=m[1],s=f(pt,a[2]);return ir(e,l,b,m[2],s,r)}return g}var
-h=is(a[1],k);if(h){var
+q=b[3];return bD(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=iz(a[1],k);if(g){var
+m=g[1],r=m[1],s=f(py,a[2]);return iy(e,l,b,m[2],s,r)}return g}var
+h=iz(a[1],k);if(h){var
 n=h[1],i=n[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aT(b[1],a[2]);return j?ir(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+j=aV(b[1],a[2]);return j?iy(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fz(a){var
-b=aB(a[1]),c=aL(E(b,a[2]),b),d=a[2];return aK(function(b,a){return[2,b,a]},d,c)}function
-fA(a){return aB(fz(a))}function
-iu(c){var
-a=fA(c),b=aB(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fB(a,b){return bD(a[3],a[4],b)}function
-fC(a,b){var
-c=fB(a,b);return E(fA(a),c)}function
-fD(a,b){var
-c=fB(a,b);return E(iu(a),c)}function
-iv(a,b){var
-c=fB(a,b);return E(aB(a[1]),c)}function
-fE(b,a){var
-c=fD(b,a),d=fC(b,a);return[1,[3,d,d],[3,c,c]]}function
-fF(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iv(a,d);return[4,[1,fE(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iw(a,b){var
-f=a[5],c=[2,fF(a,b),f],d=iv(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fC(a){var
+b=aD(a[1]),c=aL(E(b,a[2]),b),d=a[2];return aK(function(b,a){return[2,b,a]},d,c)}function
+fD(a){return aD(fC(a))}function
+iB(c){var
+a=fD(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fE(a,b){return bG(a[3],a[4],b)}function
+fF(a,b){var
+c=fE(a,b);return E(fD(a),c)}function
 fG(a,b){var
-c=iw(a,b);return dd(a[7],c)}function
-ix(b,a){var
-c=fE(b,a),d=fD(b,a),e=[3,fG(b,a),d],f=fC(b,a);return[4,[1,[3,fF(b,a),f],e],c]}function
-iy(b,a){var
-c=fE(b,a),d=fC(b,a),e=[3,fG(b,a),d],f=fD(b,a);return[4,[2,[3,fF(b,a),f],e],c]}function
-bh(c){var
+c=fE(a,b);return E(iB(a),c)}function
+iC(a,b){var
+c=fE(a,b);return E(aD(a[1]),c)}function
+fH(b,a){var
+c=fG(b,a),d=fF(b,a);return[1,[3,d,d],[3,c,c]]}function
+fI(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iC(a,d);return[4,[1,fH(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iD(a,b){var
+f=a[5],c=[2,fI(a,b),f],d=iC(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fJ(a,b){var
+c=iD(a,b);return dj(a[7],c)}function
+iE(b,a){var
+c=fH(b,a),d=fG(b,a),e=[3,fJ(b,a),d],f=fF(b,a);return[4,[1,[3,fI(b,a),f],e],c]}function
+iF(b,a){var
+c=fH(b,a),d=fF(b,a),e=[3,fJ(b,a),d],f=fG(b,a);return[4,[2,[3,fI(b,a),f],e],c]}function
+bk(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3085,15 +3085,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bh(a[2]);return g(bh(a[1]),e)}}function
-bi(e,a,b){switch(a[0]){case
+e=bk(a[2]);return g(bk(a[1]),e)}}function
+bl(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cB([0,[0,p,p],d],b);case
+p=a[1];return cJ([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=r(d);for(;;){if(g){var
-l=g[1];if(lQ(l[1],s))return l[2];var
+s=a[1],g=e,t=q(d);for(;;){if(g){var
+l=g[1];if(lV(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return cc(bi(e,a[1],b));case
+2:return ch(bl(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
@@ -3103,76 +3103,76 @@ i=a[2],f=a[1],h=v;break;case
 6:var
 i=a[2],f=a[1],h=aJ;break;case
 7:var
-j=c5(a[2]),k=bi(e,a[1],b);if(j){if(j[1]){var
-n=$(k),q=function(a){return v(a,n)},o=e9(c3(hu(j)),q,n);return ht(j)?o:v(o,k)}return k}return r(c);default:return cx(bi(e,a[1],b))}var
-u=bi(e,i,S(b,m(bh(f))));return h(bi(e,f,b),u)}function
-ch(c,f,b){var
+j=dc(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
+n=aa(k),r=function(a){return v(a,n)},o=fa(cz(hB(j)),r,n);return hA(j)?o:v(o,k)}return k}return q(c);default:return cF(bl(e,a[1],b))}var
+u=bl(e,i,L(b,m(bk(f))));return h(bl(e,f,b),u)}function
+cm(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=S(b,m(bh(e))),k=ch(c,a[2],j),l=g(ch(c,e,b),k);return[0,bi(c,a,b),l];case
+e=a[1],j=L(b,m(bk(e))),k=cm(c,a[2],j),l=g(cm(c,e,b),k);return[0,bl(c,a,b),l];case
 8:var
-n=ch(c,a[1],b);return[0,bi(c,a,b),n];case
+n=cm(c,a[1],b);return[0,bl(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=S(b,m(bh(d))),i=ch(c,a[2],h);return g(ch(c,d,b),i)}}function
-iz(c,a,b){if(a){var
-e=a[1],d=e[2],f=S(b,m(bh(d))),h=a[2],i=bi(c,d,b),j=iz([0,[0,e[1],i],c],h,f);return g(ch(c,d,b),j)}return a}function
-df(a){return I(bh,a)}function
-iA(c,a,b){if(a)var
-d=a[1],f=S(b,m(bh(d))),g=iA(c,a[2],f),e=[0,bi(c,d,b),g];else
+d=a[1],h=L(b,m(bk(d))),i=cm(c,a[2],h);return g(cm(c,d,b),i)}}function
+iG(c,a,b){if(a){var
+e=a[1],d=e[2],f=L(b,m(bk(d))),h=a[2],i=bl(c,d,b),j=iG([0,[0,e[1],i],c],h,f);return g(cm(c,d,b),j)}return a}function
+dl(a){return M(bk,a)}function
+iH(c,a,b){if(a)var
+d=a[1],f=L(b,m(bk(d))),g=iH(c,a[2],f),e=[0,bl(c,d,b),g];else
 var
 e=a;return e}function
-iB(c,a,b){if(a){var
-d=a[1],e=S(b,m(bh(d))),f=iB(c,a[2],e);return g(ch(c,d,b),f)}return a}function
-iC(c,a,b){if(a)var
-d=a[1],f=S(b,m(df(d))),g=iC(c,a[2],f),e=[0,iA(c,d,b),g];else
+iI(c,a,b){if(a){var
+d=a[1],e=L(b,m(bk(d))),f=iI(c,a[2],e);return g(cm(c,d,b),f)}return a}function
+iJ(c,a,b){if(a)var
+d=a[1],f=L(b,m(dl(d))),g=iJ(c,a[2],f),e=[0,iH(c,d,b),g];else
 var
 e=a;return e}function
-iD(c,a,b){if(a){var
-d=a[1],e=S(b,m(df(d))),f=iD(c,a[2],e);return g(iB(c,d,b),f)}return a}function
-iE(a){return f(function(a){return[0,a[2],d]},a)}function
-iF(a){var
-c=d9(0,iE(a[2])),d=c7(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cv(f(dN,a[2]),c);return g(cv(a[1],e),b)}function
-pv(a){if(typeof
+iK(c,a,b){if(a){var
+d=a[1],e=L(b,m(dl(d))),f=iK(c,a[2],e);return g(iI(c,d,b),f)}return a}function
+iL(a){return f(function(a){return[0,a[2],d]},a)}function
+iM(a){var
+c=ec(0,iL(a[2])),d=cD(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cC(f(da,a[2]),c);return g(cC(a[1],e),b)}function
+pA(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fH(b,d){var
+fK(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bz(function(a){return aA(e,a)},b);case
+e=a[1];return bD(function(a){return aB(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fH(b,a[1]);if(c){var
+c=fK(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-iG(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-iH(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fI(a,c,b){var
-d=[3,iG(a),b],e=[1,[3,iH(a),c],d],f=[3,iH(a),b];return[0,[2,[3,iG(a),c],f],e]}function
-iI(c,a){var
-b=fI(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iJ(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-iK(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:iI(d[1],a):a;case
+iN(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+iO(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fL(a,c,b){var
+d=[3,iN(a),b],e=[1,[3,iO(a),c],d],f=[3,iO(a),b];return[0,[2,[3,iN(a),c],f],e]}function
+iP(c,a){var
+b=fL(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iQ(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+iR(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:iP(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=fI(d[1],a[2],a[3]),m=j[1],k=fI(f[1],j[2],a[1]);return iI(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=fL(d[1],a[2],a[3]),m=j[1],k=fL(f[1],j[2],a[1]);return iP(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=E(e,e),n=iJ(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-iL(b){var
-a=d_(b);return a?hE(a[1],[0,d,c]):a}function
-iM(a,m,j,i){if(iL(i)){var
+e=[0,d[1],h[1],i[1]],l=E(e,e),n=iQ(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+iS(b){var
+a=ed(b);return a?hL(a[1],[0,d,c]):a}function
+iT(a,m,j,i){if(iS(i)){var
 q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
 f=at(a,j);if(f){var
-g=dW(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fh(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),k=[0,X(h[1],p)];else
+g=d0(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fk(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=C(a,f[1],g[1]),k=[0,V(h[1],p)];else
 var
 k=h;var
 l=k}else
@@ -3181,26 +3181,26 @@ l=g;var
 e=l}else
 var
 e=f;if(e){var
-n=e[1];return m?C(d,n[1]):C(n[2],d)}return e}function
-dg(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?iM(b,0,c,a[1]):d;return e?iM(b,1,c,a[2]):e}function
-dh(a,d){if(iL(d))return[0,as];var
-e=dW(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fh(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=T(bc(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cw(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return aj(function(d){var
-e=D(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hO(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+n=e[1];return m?D(d,n[1]):D(n[2],d)}return e}function
+dm(b,a,c){var
+d=bj(b,a[1],a[2]),e=d?iT(b,0,c,a[1]):d;return e?iT(b,1,c,a[2]):e}function
+dn(a,d){if(iS(d))return[0,ah];var
+e=d0(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fk(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=Q(a6(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ce(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return $(function(d){var
+e=C(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hV(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-fJ(d,a){var
+fM(d,a){var
 e=o(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-ci(a){return[0,[2,[0,d,c],a],a]}function
-iN(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?fJ(a,b):h;if(i){var
-e=dh(a,b);if(e){var
+cn(a){return[0,[2,[0,d,c],a],a]}function
+iU(a,b,n,m){var
+h=bj(a,[0,d,c],b),i=h?fM(a,b):h;if(i){var
+e=dn(a,b);if(e){var
 f=at(a,n);if(f){var
 g=at(a,m);if(g){var
-o=f[1],p=g[1];return C(d,X(D(a,ak(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return D(d,V(C(a,ag(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3210,396 +3210,506 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-d$(a){return 1===a?pz:pA}function
-fK(d,c,b,a){var
-e=a[1],f=iK(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
-di(b,d){var
+ee(a){return 1===a?pE:pF}function
+fN(d,c,b,a){var
+e=a[1],f=iR(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
+dp(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,S(b,c[1])]]:[0,dX(function(a){return di(b,a)},a)]}return[0,dX(function(a){return di(b,a)},a)]}function
-dj(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,d1(function(a){return dp(b,a)},a)]}return[0,d1(function(a){return dp(b,a)},a)]}function
+cN(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aX(aE(e,b));return f?aX(aE(e,S(d,b))):f;case
+e=a[1],f=aU(az(e,b));return f?aU(az(e,L(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dj(d,b,a[1]);if(g){var
+g=cN(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dk(c,b,m){var
+dq(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dj(c,b,g),i=h?dk(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cN(c,b,g),i=h?dq(c,b,f):h;if(i)var
 j=i;else{var
-k=dk(c,b,g);if(k)return dj(c,b,f);var
+k=dq(c,b,g);if(k)return cN(c,b,f);var
 j=k}return j;case
 7:var
-l=dk(c,b,a[1]);return l?dj(c,b,a[2]):l;case
+l=dq(c,b,a[1]);return l?cN(c,b,a[2]):l;case
 3:case
 4:var
-e=dk(c,b,a[1]);if(e){var
+e=dq(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dj(c,b,a[1]);default:return 1}}}function
-iO(c,e){var
+9:return cN(c,b,a[1]);default:return 1}}}function
+co(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hs(a[1],c);case
+0:return aU(az(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=iO(c,a[1]);if(d){var
+d=co(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-iP(c,e){if(e){var
-k=iP(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,ak(c,b)],0],h=D(c,a,b),i=[0,[0,dV(T(a,b)),h],g],j=[0,[0,a,ak(c,a)],i];return I(function(a){return f(function(b){return[0,a,b]},k)},j)}return pB}function
-dl(b,a){return a?e(b,a[1]):a}function
-ea(c,b,a){return dl(function(b){return dl(e(c,b),a)},b)}function
-iQ(b,c,n,a){var
-e=f(e8,a),d=0,o=g(f(dN,a),e);return c$(0,function(a){switch(a[0]){case
-0:return[0,H(a[1],o,as)];case
-1:return[0,H(a[1],n,as)];case
-2:return[0,bc(b,a[1])];case
+fO(d,b,m){var
+c=m;for(;;){var
+a=c[1];switch(a[0]){case
 3:var
-c=a[2],d=a[1];return ea(function(b,a){return[0,T(b,a)]},d,c);case
+f=fO(d,b,a[1]);if(f){var
+c=a[2];continue}return f;case
 4:var
-e=a[2],f=a[1];return ea(function(b,a){return[0,X(b,a)]},f,e);case
-5:var
-g=a[1];return dl(function(a){return[0,aF(a)]},g);case
+g=fO(d,b,a[1]);return g?co(b,a[2]):g;case
 6:var
-h=a[2],i=a[1];return ea(function(c,a){return[0,D(b,c,a)]},i,h);case
-7:var
-j=a[2],k=a[1];return ea(function(c,a){var
-d=cw(b,a);return aj(function(a){return D(b,c,a)},d)},k,j);case
-8:var
-l=a[1];return dl(function(a){return[0,ak(b,a)]},l);default:var
-m=a[1];return dl(function(a){return c9(b,a)},m)}},c,d)}function
-iR(d,a){if(a){var
-b=H(a[1],d,0);if(b)var
-c=iR(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+h=a[2],i=a[1],j=co(b,i);if(j){var
+k=co(b,h);if(k)var
+e=k;else{var
+l=be(i,d);if(l){var
+c=h;continue}var
+e=l}}else
 var
-e=b;return e}return pC}function
-eb(b,a){if(a){var
-g=a[1],c=iR(b,g[1]);if(c){var
-e=H(g[2],b,0);if(e){var
-h=e[1],f=eb(b,a[2]);if(f)var
-i=ad(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
+e=j;return e;case
+0:case
+1:case
+2:return 1;default:return co(b,c)}}}function
+iV(c,e){var
+b=e;for(;;){var
+a=b[1];switch(a[0]){case
+0:return hz(a[1],c);case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+d=iV(c,a[1]);if(d){var
+b=a[2];continue}return d}}}function
+b0(b,a){return a?e(b,a[1]):a}function
+b1(c,b,a){return b0(function(b){return b0(e(c,b),a)},b)}function
+pG(a){return 0===a[0]?a[1]:0}function
+bm(b,a){switch(a[0]){case
+0:return[0,e(b,a[1])];case
+1:return[1,bm(b,a[1])];default:var
+c=bm(b,a[3]),d=bm(b,a[2]);return[2,bm(b,a[1]),d,c]}}function
+aQ(b,c,a){switch(c[0]){case
+0:return bm(e(b,c[1]),a);case
+1:var
+d=c[1];switch(a[0]){case
+0:var
+k=a[1];return[1,bm(function(a){return R(b,a,k)},d)];case
+1:return[1,aQ(b,d,a[1])];default:var
+l=aQ(b,d,a[3]),m=aQ(b,d,a[2]);return[2,aQ(b,d,a[1]),m,l]}default:var
+f=c[3],g=c[2],h=c[1];switch(a[0]){case
+0:var
+n=a[1],o=function(a){return R(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+1:var
+j=a[1],r=aQ(b,f,j),s=aQ(b,g,j);return[2,aQ(b,h,j),s,r];default:var
+t=aQ(b,f,a[3]),u=aQ(b,g,a[2]);return[2,aQ(b,h,a[1]),u,t]}}}function
+fP(c,g,a){if(a)var
+d=a[1],b=function(i){var
+a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
+0:var
+f=[0,a,ag(c,a)];break;case
+1:var
+h=C(c,a,b),f=[0,dZ(Q(a,b)),h];break;default:var
+f=[0,b,ag(c,b)]}return[0,[0,e(g,f)]]},i=fP(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
-j=f;var
-k=j}else
+h=a;return h}function
+iW(a){if(a){var
+b=a[1];if(b)var
+c=iW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-k=e;var
-l=k}else
+d=b;return d}return pI}function
+ef(a){if(a){var
+g=a[1],b=g[2],c=iW(g[1]);if(c)if(b){var
+h=b[1],e=ef(a[2]);if(e)var
+i=ae(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
-l=c;return l}return pD}function
-ec(a,d){if(a){var
-b=a[1],c=b[1],e=H(c[1],d,0),f=b[2],g=c[2];return aj(function(a){return ca(g,f,a)},e)}return[0,as]}function
-fL(c,a){var
-b=aE(m(a),c);return b?d2(a):b}function
-iS(e,a,c){var
-b=c7(0,a);return p(function(f){var
-b=r(d);return dk(a,f,H(c,cy(e),b))},b)}function
-dm(a){var
-b=$(a);return G(r(c),b)}function
-ed(i,g){var
-h=dm(g),j=$(g),e=z(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,cc(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,cc(f),a,e]]:[0,[0,h,a,a],[0,a,e,cc(f)],[0,a,f,e]]}function
-iT(b,a){function
+j=e;var
+f=j}else
+var
+f=b;else
+var
+f=c;return f}return pJ}function
+fQ(b,a){var
+c=a[3],d=$(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(bh(b),g),f,d]}function
+iX(f,d,c,b){if(d){var
+j=d[1],a=function(e){var
+a=fQ(function(a){switch(a[0]){case
+0:return a;case
+1:return a[1];default:var
+b=a[3],c=a[2],d=a[1];switch(e){case
+0:return d;case
+1:return c;default:return b}}},b);return iX(cz(f),j,c,a)},g=a(0);if(g){var
+h=a(2);if(h)return f?1:a(1);var
+i=h}else
+var
+i=g;return i}return e(c,fQ(pG,b))}function
+eg(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return $(function(a){return cf(f,e,a)},d)}return[0,ah]}function
+fR(c,a){var
+b=az(m(a),c);return b?d7(a):b}function
+pK(c){var
+a=c[2];if(a){var
+b=eg(c[3]);if(b)return D(d,V(a[1],b[1])[1]);var
+e=b}else
+var
+e=a;return e}function
+iY(a,c,b){var
+e=N(b,c,q(d)),f=cD(0,a);return p(function(b){return dq(a,b,e)},f)}function
+dr(a){var
+b=aa(a);return G(q(c),b)}function
+eh(i,g){var
+h=dr(g),j=aa(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ch(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ch(f),a,e]]:[0,[0,h,a,a],[0,a,e,ch(f)],[0,a,f,e]]}function
+iZ(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=az(a,c(function(a){return a[3]})),d=az(a,c(function(a){return a[2]}));return[0,az(a,c(function(a){return a[1]})),d,b]}var
+b=aA(a,c(function(a){return a[3]})),d=aA(a,c(function(a){return a[2]}));return[0,aA(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-iU(a){switch(a[0]){case
+i0(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,ci(a[1]),0];default:var
-b=[0,ci(a[2]),0];return[0,ci(a[1]),b]}}function
-cF(a){return[0,[0,a[1]],[0,a[2]]]}function
-iV(a,b){if(0===b[0])return dh(a,b[1]);var
-d=dh(a,b[1]);if(d){var
-e=dh(a,b[2]);if(e){var
-g=ak(a,e[1]),h=c9(a,T(bc(a,c),g)),i=d[1];return aj(function(b){return D(a,i,b)},h)}var
+2:return[0,cn(a[1]),0];default:var
+b=[0,cn(a[2]),0];return[0,cn(a[1]),b]}}function
+cO(a){return[0,[0,a[1]],[0,a[2]]]}function
+i1(a,b){if(0===b[0])return dn(a,b[1]);var
+d=dn(a,b[1]);if(d){var
+e=dn(a,b[2]);if(e){var
+g=ag(a,e[1]),h=cE(a,Q(a6(a,c),g)),i=d[1];return $(function(b){return C(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-iW(k,c,g,e,b,a){switch(b[0]){case
+i2(m,v,c,l,u,t,b,a){switch(b[0]){case
 0:var
-h=b[3],j=b[1];if(typeof
-a!=="number")switch(a[0]){case
+j=b[3],n=b[2],o=b[1],k=0;if(typeof
+a==="number")k=1;else
+switch(a[0]){case
 0:var
-n=b[2],o=a[2],q=a[1];return p(function(f){var
-a=eb(f,j);if(a){var
-b=H(n,f,0);if(b){var
-d=ec(e,f);if(d){var
-l=d[1],m=b_([0,X(aF(D(k,h,b[1])),l),0],c);return fL(c,fm(q,o,a[1],m))}var
-g=d}else
+w=a[2],x=a[1],i=n,h=o,g=function(e){var
+a=ef(e[1]);if(a){var
+b=e[2];if(b){var
+d=eg(e[3]);if(d){var
+h=d[1],i=cc([0,V(aC(C(m,j,b[1])),h),0],c);return fR(c,fp(x,w,a[1],i))}var
+f=d}else
 var
-g=b;var
-i=g}else
+f=b;var
+g=f}else
 var
-i=a;return i},g);case
+g=a;return g},e=l;break;case
 2:var
-i=ah(h[1],d),l=i?ah(h[2],d):i;if(l){var
-m=a[2],r=a[1];return p(function(g){var
-a=eb(g,j);if(a){var
-b=ec(e,g);if(b){var
-h=b_([0,X(as,b[1]),0],c),i=a[1];return fL(c,fm(r,m,f(function(a){return[0,a[1],as]},i),h))}var
+p=ak(j[1],d),q=p?ak(j[2],d):p;if(!q)return q;var
+z=a[2],A=a[1],i=n,h=o,g=function(e){var
+a=ef(e[1]);if(a){var
+b=eg(e[3]);if(b){var
+g=cc([0,V(ah,b[1]),0],c),h=a[1];return fR(c,fp(A,z,f(function(a){return[0,a[1],ah]},h),g))}var
 d=b}else
 var
-d=a;return d},g)}return l}return 0;case
-1:if(typeof
-a==="number"&&!a){var
-s=b[3],t=b[2],u=b[1];return p(function(g){var
-a=eb(g,u);if(a){var
-b=H(t,g,0);if(b){var
-d=ec(e,g);if(d){var
-l=d[1],m=b_([0,X(D(k,s,b[1]),l),0],c),f=h2(a[1],m);if(f)return fL(c,f[1]);var
-h=f}else
+d=a;return d},e=l;break;default:k=1}if(k)return 0;break;case
+1:var
+r=0;if(typeof
+a==="number"&&!a)var
+B=b[2],D=b[1],E=b[3],i=B,h=D,F=0,g=function(f){var
+a=ef(f[1]);if(a){var
+b=f[2];if(b){var
+d=eg(f[3]);if(d){var
+j=d[1],k=cc([0,V(C(m,E,b[1]),j),0],c),e=h9(a[1],k);if(e)return fR(c,e[1]);var
+g=e}else
 var
-h=d;var
+g=d;var
+h=g}else
+var
+h=b;var
 i=h}else
 var
-i=b;var
-j=i}else
-var
-j=a;return j},g)}return 0;default:if(typeof
-a==="number"&&!a){var
-v=b[1];return p(function(f){var
-a=H(v,f,0);if(a){var
-b=ec(e,f);if(b)return C(d,X(a[1],b[1])[1]);var
-c=b}else
-var
-c=a;return c},g)}return 0}}function
-iX(l,k,f,j,i,e){if(typeof
+i=a;return i},e=F;else
+r=1;if(r)return 0;break;default:var
+s=0;if(typeof
+a==="number"&&!a)var
+i=b[1],h=0,g=pK,e=0;else
+s=1;if(s)return 0}var
+y=[0,h,i,t];return iX(e,v,g,fQ(function(a){return N(a,u,pY)},y))}function
+i3(n,m,l,f,k,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-m=a[3],n=a[2],o=C(d,n);if(o)var
-h=gY(m,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=0===h?0:0<=h?2:1,r=1===q?1:0,g=r;else
+o=a[3],p=a[2],q=D(d,p);if(q)var
+h=g5(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===h?0:0<=h?2:1,t=1===s?1:0,g=t;else
 var
-g=o;if(g)return iW(l,k,j,[0,[0,[0,f[1],n],m]],i,a[1]);var
-p=g}else
+g=q;if(g)return i2(n,m,l,k,j,[0,[0,[0,f[1],p],o]],i,a[1]);var
+r=g}else
 var
-p=f;return p}return iW(l,k,j,0,i,a)}return 0}function
-iY(e,D,C,B,A,g,z,y,x){if(y){var
-J=iP(e,z),E=f(function(a){return iQ(e,D,C,a)},J),c=y,a=x;for(;;){if(c){var
-o=c[1],h=o[2],b=o[1],j=c[2];if(b){var
-p=H(b,a,0);if(p){var
-k=aT(B,b);if(k){var
-q=iX(e,A,g,E,k[1],h);if(q){var
-c=j,a=d8(b,a);continue}var
-r=q}else
+r=f;return r}return i2(n,m,l,k,j,0,i,a)}return 0}function
+pZ(a){if(a[1])return 0;var
+b=a[2];if(typeof
+b==="number"&&4<=b)return 1;return 0}function
+i4(a,J,I,H,G,F,h,E,o,D,W){if(p(pZ,D))var
+q=0;else
 var
-r=k;var
-s=r}else
-var
-s=p;return s}if(typeof
-h==="number"&&4<=h){var
-F=0;if(g){var
-G=0,I=iQ(e,D,C,f(function(a){return[0,a,ak(e,a)]},z)),i=H(g[1],I,G);if(i){var
-l=ad(i[1][2],d);F=1}else
-var
-n=i}else
-var
-n=g;if(!F)var
-l=n;if(l){var
-c=j,a=f(function(a){return 0},a);continue}return l}var
-t=H(b,a,0);if(t){var
-m=aT(B,b);if(m){var
-u=iX(e,A,g,E,m[1],h);if(u){var
-c=j,a=d8(b,a);continue}var
-v=u}else
-var
-v=m;var
+S=fP(a,dR,o),R=0,T=g(fP(a,da,o),S),q=cG(pH,function(b){switch(b[0]){case
+0:return N(b[1],T,[0,[0,ah]]);case
+1:return[0,[0,N(b[1],I,ah)]];case
+2:return[0,[0,a6(a,b[1])]];case
+3:var
+c=b[2],d=b[1],e=function(b,a){return[0,Q(b,a)]};return aQ(function(a,b){return b1(e,a,b)},d,c);case
+4:var
+f=b[2],g=b[1],h=function(b,a){return[0,V(b,a)]};return aQ(function(a,b){return b1(h,a,b)},g,f);case
+5:var
+i=b[1],j=function(a){return[0,aC(a)]};return bm(function(a){return b0(j,a)},i);case
+6:var
+k=b[2],l=b[1],m=function(c,b){return[0,C(a,c,b)]};return aQ(function(a,b){return b1(m,a,b)},l,k);case
+7:var
+n=b[2],o=b[1],p=function(c,b){var
+d=ce(a,b);return $(function(b){return C(a,c,b)},d)};return aQ(function(a,b){return b1(p,a,b)},o,n);case
+8:var
+q=b[1],r=function(b){return[0,ag(a,b)]};return bm(function(a){return b0(r,a)},q);default:var
+s=b[1],t=function(b){return cE(a,b)};return bm(function(a){return b0(t,a)},s)}},J,R);var
+e=D,b=W;for(;;){if(e){var
+t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
+u=N(c,b,0);if(u){var
+l=aV(H,c);if(l){var
+v=i3(a,G,F,h,E,q,l[1],i);if(v){var
+e=k,b=eb(c,b);continue}var
 w=v}else
 var
-w=t;return w}return[0,a]}}return[0,x]}function
-iZ(h,g,f,e,d,c,s,r,q){var
-b=s,i=r,a=q;for(;;){if(0===a[0]){var
-j=iY(h,g,f,e,d,c,b,a[1],i);return j?p(aX,j[1]):j}var
-k=iY(h,g,f,e,d,c,b,a[1],i);if(k){var
-l=k[1],m=d6(a[2],b),n=iZ(h,g,f,e,d,c,m[1],l,a[3]);if(n){var
-b=m[2],i=l,a=a[4];continue}var
-o=n}else
+w=l;var
+x=w}else
 var
-o=k;return o}}function
-fM(d,a){var
-e=$(a),f=v(v(r(b(2,c)),a),d);return G(z($(d),f),e)}function
-i0(a){switch(a){case
-0:return pT;case
-1:return pU;default:return 0}}function
-ee(b,a){var
-c=bf(a[2],b);return g(bf(a[1],b),c)}function
-i1(q,k,p,t,o,j,s){if(j){var
-u=j[1],w=d9(s,ee(o,u)),Q=S(s,m(ee(o,u))),R=i1(q,k,p,t,o,j[2],Q),i=bC(w,pV),l=bC(w,0);switch(q){case
+x=u;return x}if(typeof
+i==="number"&&4<=i){var
+K=0;if(h){var
+U=0,r=f(function(b){return[0,b,ag(a,b)]},o),M=f(dR,r),L=0,O=g(f(da,r),M),P=cG(0,function(n){return function(b){switch(b[0]){case
+0:return[0,N(b[1],n,ah)];case
+1:return[0,N(b[1],I,ah)];case
+2:return[0,a6(a,b[1])];case
+3:var
+c=b[2],d=b[1];return b1(function(b,a){return[0,Q(b,a)]},d,c);case
+4:var
+e=b[2],f=b[1];return b1(function(b,a){return[0,V(b,a)]},f,e);case
+5:var
+g=b[1];return b0(function(a){return[0,aC(a)]},g);case
+6:var
+h=b[2],i=b[1];return b1(function(c,b){return[0,C(a,c,b)]},i,h);case
+7:var
+j=b[2],k=b[1];return b1(function(c,b){var
+d=ce(a,b);return $(function(b){return C(a,c,b)},d)},k,j);case
+8:var
+l=b[1];return b0(function(b){return[0,ag(a,b)]},l);default:var
+m=b[1];return b0(function(b){return cE(a,b)},m)}}}(O),J,L),j=N(h[1],P,U);if(j){var
+m=ae(j[1][2],d);K=1}else
+var
+s=j}else
+var
+s=h;if(!K)var
+m=s;if(m){var
+e=k,b=f(function(a){return 0},b);continue}return m}var
+y=N(c,b,0);if(y){var
+n=aV(H,c);if(n){var
+z=i3(a,G,F,h,E,q,n[1],i);if(z){var
+e=k,b=eb(c,b);continue}var
+A=z}else
+var
+A=n;var
+B=A}else
+var
+B=y;return B}return[0,b]}}function
+i5(j,i,h,g,f,e,d,c,u,t,s){var
+b=u,k=t,a=s;for(;;){if(0===a[0]){var
+l=i4(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
+m=i4(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d$(a[2],b),q=i5(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+b=o[2],k=n,a=a[4];continue}var
+r=q}else
+var
+r=m;return r}}function
+fS(d,a){var
+e=aa(a),f=v(v(q(b(2,c)),a),d);return G(z(aa(d),f),e)}function
+fT(a){switch(a){case
+0:return p2;case
+1:return p3;default:return 0}}function
+ei(b,a){var
+c=bi(a[2],b);return g(bi(a[1],b),c)}function
+i6(r,k,p,t,o,j,s){if(j){var
+u=j[1],w=ec(s,ei(o,u)),R=L(s,m(ei(o,u))),S=i6(r,k,p,t,o,j[2],R),i=bF(w,p4),l=bF(w,0);switch(r){case
 0:var
-g=[0,pS,pR,r(d)];break;case
+g=[0,p1,p0,q(d)];break;case
 1:var
-g=fp;break;default:var
-H=r(d),I=r(d),g=[0,r(d),I,H]}var
-e=bW(z,g,l),y=az(k[3],i),A=az(k[2],i),a=[0,az(k[1],i),A,y],J=fM(g[3],l[3]),K=fM(g[2],l[2]),L=fM(g[1],l[1]),M=G(G(G(az(i,i),L),K),J),N=az(a,e),O=v(r(b(2,c)),N),P=G(v(p,M),O),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d5([0,z(v(a[2],e[3]),F),E,C],t),h=bW(G,d4(p,e),a);switch(q){case
+g=fs;break;default:var
+H=q(d),I=q(d),g=[0,q(d),I,H]}var
+e=bY(z,g,l),y=aA(k[3],i),A=aA(k[2],i),a=[0,aA(k[1],i),A,y],J=fS(g[3],l[3]),K=fS(g[2],l[2]),M=fS(g[1],l[1]),N=G(G(G(aA(i,i),M),K),J),O=aA(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d_([0,z(v(a[2],e[3]),F),E,C],t),h=bY(G,d9(p,e),a);switch(r){case
 0:var
 n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
 n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
 n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,P],R]}else
+x=[0,[0,n,Q],S]}else
 var
 x=j;return x}function
-i2(f,a){if(typeof
+i7(f,a){if(typeof
 a!=="number")switch(a[0]){case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],f]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fN(e,d,m,l,k,a){var
-f=v($(cB(i2(l,a),k)),m);if(typeof
+fU(e,d,m,l,k,a){var
+f=v(aa(cJ(i7(l,a),k)),m);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aT(d,a[1]);if(b)var
+b=aV(d,a[1]);if(b)var
 g=o(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aT(d,a[1]);if(c)var
+c=aV(d,a[1]);if(c)var
 i=o(e,0,a[2]),j=i?[0,z(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-i3(h,a,g,f,m,l,j){if(j){var
-w=i3(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
+i8(h,a,g,f,m,l,j){if(j){var
+w=i8(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
 b==="number")var
-q=e(a,f),i=[0,[0,e(bV(a),g),q,as]];else
+q=e(a,f),i=[0,[0,e(bh(a),g),q,ah]];else
 switch(b[0]){case
 0:var
 r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
 1:var
 t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
 2:var
-u=fN(h,g,f,m,l,b),i=aj(function(b){return[2,e(a,b)]},u);break;case
+u=fU(h,g,f,m,l,b),i=$(function(b){return[2,e(a,b)]},u);break;case
 3:var
-v=fN(h,g,f,m,l,b),i=aj(function(b){return[2,e(a,b)]},v);break;default:var
+v=fU(h,g,f,m,l,b),i=$(function(b){return[2,e(a,b)]},v);break;default:var
 i=0}if(n)var
-s=aZ(h,[0,[0,k,k],d]),i=aj(function(b){var
-c=ak(h,b),d=e(a,f);return o(e(bV(a),g),d,c)},s);var
+s=a0(h,[0,[0,k,k],d]),i=$(function(b){var
+c=ag(h,b),d=e(a,f);return o(e(bh(a),g),d,c)},s);var
 p=[0,i,w]}else
 var
 p=j;return p}function
-i4(h,f,e,d,c,a){if(a){var
-i=i4(h,f,e,d,[0,c],a[2]),b=fN(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
-pW(a){if(typeof
+i9(h,f,e,d,c,a){if(a){var
+i=i9(h,f,e,d,[0,c],a[2]),b=fU(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
+p5(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ef(a){var
-b=cf(a[1],[0,d,c]);return b?cf(a[2],[0,d,c]):b}function
-pX(h,a,i,a4){var
-x=a[1],j=d$(x),ag=a[3],a5=[0,[0,[0,ag,ag],i],0],a6=a[2],ah=g(I(function(a){return ee(i,a)},a6),a5),M=m(ah),a7=a[2],a8=m(I(function(a){return ee(i,a)},a7)),ai=a[3],a9=cB([0,[0,ai,ai],i],a8),a_=i0(x),a$=a[5];function
-e(a){return[0,[0,S(a_,a)]]}switch(a$[0]){case
+ej(a){var
+b=ck(a[1],[0,d,c]);return b?ck(a[2],[0,d,c]):b}function
+p6(j,a,k,bd){var
+w=a[1],h=ee(w),ao=a[3],bf=[0,[0,[0,ao,ao],k],0],bg=a[2],ap=g(M(function(a){return ei(k,a)},bg),bf),S=m(ap),bi=a[2],bj=m(M(function(a){return ei(k,a)},bi)),aq=a[3],bk=cJ([0,[0,aq,aq],k],bj),bl=fT(w),bm=a[5];function
+i(a){return[0,[0,L(bl,a)]]}switch(bm[0]){case
 0:var
-aL=dm(e(0)),B=[0,ed(pE,e(0)),aL];break;case
+aV=dr(i(0)),F=[0,eh(pL,i(0)),aV];break;case
 1:var
-aM=dm(e(0)),aN=v(dm(e(pF)),aM),aO=v(dm(e(pG)),aN),aP=ed(0,e(0)),aQ=iT(ed(pI,e(pH)),aP),B=[0,iT(ed(pK,e(pJ)),aQ),aO];break;default:var
-aR=e(pL),aS=e(pM),t=[0,e(0),aS,aR],aT=az(t,t),aV=G(r(c),aT),aB=az(t,t),n=t[1],q=t[2],s=t[3],J=function(a){var
-d=$(a),e=v(r(b(2,c)),d);return G(z(r(c),aB),e)},u=function(f,e,d,a){var
-g=Z(f,v(e,d),a);return v(r(b(2,c)),g)},aC=J(s),aD=u(G,q,s,n),aF=[0,u(z,n,s,q),aD,aC],aG=u(z,q,s,n),aH=J(q),aI=[0,u(G,n,q,s),aH,aG],aJ=u(G,n,s,q),aK=u(z,n,q,s),B=[0,[0,[0,J(n),aK,aJ],aI,aF],aV]}var
-C=B[2],N=i1(x,B[1],C,a9,i,a[2],0),ba=S(M,m(a[6])),bb=i0(x),bc=a[5];function
-w(a){return[0,[0,S(bb,a)]]}var
-aa=$([0,[1,ba]]);switch(bc[0]){case
+aX=dr(i(0)),aY=v(dr(i(pM)),aX),aZ=v(dr(i(pN)),aY),a1=eh(0,i(0)),a2=iZ(eh(pP,i(pO)),a1),F=[0,iZ(eh(pR,i(pQ)),a2),aZ];break;default:var
+a3=i(pS),a4=i(pT),u=[0,i(0),a4,a3],a5=aA(u,u),a6=G(q(c),a5),aM=aA(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
+d=aa(a),e=v(q(b(2,c)),d);return G(z(q(c),aM),e)},y=function(f,e,d,a){var
+g=R(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(z,r,t,s),aO,aN],aQ=y(z,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(z,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
+B=F[2],H=i6(w,F[1],B,bk,k,a[2],0),bn=L(S,m(a[6])),bo=fT(w),bp=a[5];function
+A(a){return[0,[0,L(bo,a)]]}var
+af=aa([0,[1,bn]]);switch(bp[0]){case
 2:var
-aW=w(pN),aX=w(pO),ab=[0,w(0),aX,aW],k=[0,z(aa,az(ab,ab))];break;case
+a7=A(pU),a8=A(pV),ag=[0,A(0),a8,a7],l=[0,z(af,aA(ag,ag))];break;case
 3:var
-aY=$(w(pP)),a0=$(w(0)),a1=$(w(pQ)),k=[0,z(z(v(aa,G(r(c),a1)),a0),aY)];break;default:var
-k=0}var
-bd=k?[0,k[1],0]:k,be=[0,C,g(i4(h,N,C,i,M,a[6]),bd)],O=g(cC(N),be),y=d0(f(function(a){return di(j,a)},O))[1];function
-D(a){var
-b=di(j,a);return bT(cy(y),b)}var
-ak=p(function(a){var
-b=di(j,a),c=r(d),e=cy(y);return bA(H(D(a),e,c),b)},O),al=ak?p(function(a){return iO(j,a)},O):ak,am=al?bz(pW,a[6]):al;if(am){var
-E=a[4];switch(x){case
-0:var
-P=ef(E[3]);break;case
-1:var
-P=1;break;default:var
-ae=ef(E[1]),af=ae?ef(E[2]):ae,P=af?ef(E[3]):af}var
-Q=P}else
+a9=aa(A(pW)),a_=aa(A(0)),a$=aa(A(pX)),l=[0,z(z(v(af,G(q(c),a$)),a_),a9)];break;default:var
+l=0}var
+bq=l?[0,l[1],0]:l,br=[0,B,g(i9(j,H,B,k,S,a[6]),bq)],T=g(cK(H),br),ar=d5(f(function(a){return dp(h,a)},T))[1],C=d3(ar);function
+x(a){return bW(C,dp(h,a))}var
+bs=$(x,l),bt=x(B),as=e(bh(x),H),al=fT(w),am=az(m(as),h);if(am)var
+an=$(function(a){return[0,[0,a,d],d]},bs),E=function(a){return N(a,C,q(d))},ae=E(bt),aL=cD(0,al),Q=p(function(a){var
+b=cN(h,a,ae),c=b?p(function(b){var
+d=b[1],c=p(function(b){var
+c=E(b);return co(L(h,a),c)},d);if(c){var
+e=E(b[2]);return fO(ae,L(h,a),e)}return c},as):b;if(c){if(an){var
+e=E(an[1][1][1]);return co(L(h,a),e)}var
+d=1}else
+var
+d=c;return d},aL);else
 var
 Q=am;var
-an=Q?o(h,1,a[3]):Q;if(an)var
-bf=iU(a[5]),R=p(function(a){var
-b=fJ(h,a[1]);return b?fJ(h,a[2]):b},bf);else
+bc=Q?al:Q,at=p(function(a){var
+b=dp(h,a),c=q(d);return be(N(x(a),C,c),b)},T),au=at?p(function(a){return iV(h,a)},T):at,av=au?bD(p5,a[6]):au;if(av){var
+I=a[4];switch(w){case
+0:var
+U=ej(I[3]);break;case
+1:var
+U=1;break;default:var
+aj=ej(I[1]),ak=aj?ej(I[2]):aj,U=ak?ej(I[3]):ak}var
+V=U}else
 var
-R=an;if(R){var
-bg=a[6],bh=g(ah,f(function(a){return i2(i,a)},bg)),T=aU(f(function(a){return aZ(h,a)},bh));if(T){var
-A=a[4];switch(x){case
+V=av;var
+aw=V?o(j,1,a[3]):V;if(aw)var
+bu=i0(a[5]),W=p(function(a){var
+b=fM(j,a[1]);return b?fM(j,a[2]):b},bu);else
+var
+W=aw;if(W){var
+bv=a[6],bw=g(ap,f(function(a){return i7(k,a)},bv)),X=aW(f(function(a){return a0(j,a)},bw));if(X){var
+D=a[4];switch(w){case
 0:var
-U=[0,A[1],[0,A[2],0]];break;case
+Y=[0,D[1],[0,D[2],0]];break;case
 1:var
-U=[0,A[1],[0,A[2],[0,A[3],0]]];break;default:var
-U=0}var
-V=aU(f(function(a){return aZ(h,[0,a,i])},U));if(V){var
-ao=V[1],l=a[5];switch(l[0]){case
+Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
+Y=0}var
+Z=aW(f(function(a){return a0(j,[0,a,k])},Y));if(Z){var
+ax=Z[1],n=a[5];switch(n[0]){case
 0:var
-F=[0,cF(l[1]),0];break;case
+J=[0,cO(n[1]),0];break;case
 1:var
-a2=[0,cF(l[3]),0],a3=[0,cF(l[2]),a2],F=[0,cF(l[1]),a3];break;case
+ba=[0,cO(n[3]),0],bb=[0,cO(n[2]),ba],J=[0,cO(n[1]),bb];break;case
 2:var
-K=cF(ci(l[1])),F=[0,K,[0,K,[0,K,0]]];break;default:var
-L=l[2],ac=l[1],ad=[0,[1,ci(ac)[1],L],[1,ac,L]],F=[0,ad,[0,ad,[0,cF(ci(L)),0]]]}var
-W=aU(f(function(d){var
-a=iV(h,d[1]);if(a)var
-b=iV(h,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+O=cO(cn(n[1])),J=[0,O,[0,O,[0,O,0]]];break;default:var
+P=n[2],ah=n[1],ai=[0,[1,cn(ah)[1],P],[1,ah,P]],J=[0,ai,[0,ai,[0,cO(cn(P)),0]]]}var
+_=aW(f(function(d){var
+a=i1(j,d[1]);if(a)var
+b=i1(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},F));if(W){var
-ap=W[1],aq=a[5],bi=1<aq[0]?[0,aq[1],0]:0,X=aU(f(function(a){return dh(h,a)},bi));if(X){var
-Y=aU(i3(h,D,N,C,i,M,a[6]));if(Y){var
-_=Y[1],ar=aE(m(g(ao,ap)),j),as=ar?p(function(a){if(2===a[0])var
+c=a;return c},J));if(_){var
+ay=_[1],aB=a[5],bx=1<aB[0]?[0,aB[1],0]:0,ab=aW(f(function(a){return dn(j,a)},bx));if(ab){var
+ac=aW(i8(j,x,H,B,k,S,a[6]));if(ac){var
+ad=ac[1],aC=az(m(g(ax,ay)),h),aD=aC?p(function(a){if(2===a[0])var
 b=[0,a[1],0];else
 var
-d=a[1],c=I(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return p(function(a){return iS(y,j,a)},b)},_):ar,at=as?k?iS(y,j,D(k[1])):1:as;if(at){var
-bj=f(function(a){return 1},_),bk=g(ao,ap),bl=aj(D,k);return iZ(h,y,g(T[1],X[1]),_,j,bl,bk,bj,a4)}var
-au=at}else
+d=a[1],c=M(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return p(function(a){return iY(h,C,a)},b)},ad):aC,aE=aD?l?iY(h,C,x(l[1])):1:aD;if(aE){var
+by=f(function(a){return 1},ad),bz=g(ax,ay),bA=$(x,l);return i5(j,ar,g(X[1],ab[1]),ad,h,h,bA,bc,bz,by,bd)}var
+aF=aE}else
 var
-au=Y;var
-av=au}else
+aF=ac;var
+aG=aF}else
 var
-av=X;var
-aw=av}else
+aG=ab;var
+aH=aG}else
 var
-aw=W;var
-ax=aw}else
+aH=_;var
+aI=aH}else
 var
-ax=V;var
-ay=ax}else
+aI=Z;var
+aJ=aI}else
 var
-ay=T;var
-aA=ay}else
+aJ=X;var
+aK=aJ}else
 var
-aA=R;return aA}function
-eg(b,a){return bg(b,a[1],a[2])}function
-fO(b,a){var
-c=eg(b,a[1]),d=c?eg(b,a[2]):c;return d?eg(b,a[3]):d}var
-ei=z(r(c),eh);function
-i5(e){var
-a=$(ei);if(e)var
-f=v(r(b(2,c)),a),g=G(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aJ(G(r(c),h),g);else
+aK=W;return aK}function
+ek(b,a){return bj(b,a[1],a[2])}function
+fV(b,a){var
+c=ek(b,a[1]),d=c?ek(b,a[2]):c;return d?ek(b,a[3]):d}var
+em=z(q(c),el);function
+i_(e){var
+a=aa(em);if(e)var
+f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aJ(G(q(c),h),g);else
 var
-i=G(r(b(2,c)),a),j=$(eh),d=aJ(G(v(r(b(2,c)),j),a),i);return cx(d)}function
-i6(d,b,a){if(d){var
-e=i5(b),f=G(r(c),e),g=v(z(r(c),a),f);return z(r(c),g)}var
-h=r(c),i=i5(b),j=aJ(r(c),i);return z(v(a,G(r(c),j)),h)}function
-cG(f,e,d,a){var
-g=$(a),h=$(d),i=z(z(r(b(2,c)),h),g),j=f?e?ei:aJ(ei,v(r(b(2,c)),eh)):aJ(ei,r(b(2,c))),k=v($(j),i);return cx(G(r(c),k))}function
-i7(g,d){var
+i=G(q(b(2,c)),a),j=aa(el),d=aJ(G(v(q(b(2,c)),j),a),i);return cF(d)}function
+i$(d,b,a){if(d){var
+e=i_(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
+h=q(c),i=i_(b),j=aJ(q(c),i);return z(v(a,G(q(c),j)),h)}function
+cP(f,e,d,a){var
+g=aa(a),h=aa(d),i=z(z(q(b(2,c)),h),g),j=f?e?em:aJ(em,v(q(b(2,c)),el)):aJ(em,q(b(2,c))),k=v(aa(j),i);return cF(G(q(c),k))}function
+ja(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?T(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fP(u,t,s){var
-a=f(function(a){return H(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?Q(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+fW(u,t,s){var
+a=f(function(a){return N(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3608,7 +3718,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return d2([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return d7([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3630,12 +3740,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-i8(f,i,e,b,h){var
-j=f?c:d,a=bc(i,j);function
+jb(f,i,e,b,h){var
+j=f?c:d,a=a6(i,j);function
 g(b){var
-c=f?fd(b):fe(b);return X(c,a)}var
-k=[0,be(h),0],l=[0,[0,a,b,[0,as,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-i9(r,g,q,p,e,o,n){if(o){var
+c=f?fg(b):fh(b);return V(c,a)}var
+k=[0,bg(h),0],l=[0,[0,a,b,[0,ah,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+jc(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3644,16 +3754,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(da,bU(p0)),a=fP(p,h7(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(dg,bX(p9)),a=fW(p,ic(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=C(k[2],l[1]);b=1;c=1;d=1;break}else
+a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(i7,p1),a=fP(p,c$(0,fk(g,i8(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(ja,p_),a=fW(p,cG(0,fn(g,jb(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(i7,p2),a=fP(p,c$(0,fk(g,i8(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(ja,p$),a=fW(p,cG(0,fn(g,jb(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3663,27 +3773,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?p3:a}else
+y=a?qa:a}else
 var
 y=n;return y}return[0,n]}function
-i_(f,e,d,c,p,o,n){var
+jd(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=i9(f,e,d,c,b,a[1],g);return h?aX(h[1]):h}var
-i=i9(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d6(a[2],b),l=i_(f,e,d,c,k[1],j,a[3]);if(l){var
+h=jc(f,e,d,c,b,a[1],g);return h?aU(h[1]):h}var
+i=jc(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d$(a[2],b),l=jd(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fQ(a){return hw(b(2,c),b7(a,c))}function
-cH(i,a,e,w,u){var
-l=a?c:P(c),f=r(l),g=i6(a,e,pY),h=i6(a,e,pZ),m=aJ(g,cG(a,e,f,g)),n=[0,G(aJ(h,cG(a,e,h,f)),m),0],o=aJ(f,cG(a,e,f,g)),p=[0,G(aJ(h,cG(a,e,g,h)),o),n],q=aJ(f,cG(a,e,h,f)),s=[0,G(aJ(g,cG(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eh):r(b(2,b(2,c))),j=d0([0,t,s]),k=[0,d,b$(i)];return i_(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-i$(a,g,b){if(ad(g,fQ(a))){if(b){var
+fX(a){return hD(b(2,c),b$(a,c))}function
+cQ(i,a,e,w,u){var
+l=a?c:S(c),f=q(l),g=i$(a,e,p7),h=i$(a,e,p8),m=aJ(g,cP(a,e,f,g)),n=[0,G(aJ(h,cP(a,e,h,f)),m),0],o=aJ(f,cP(a,e,f,g)),p=[0,G(aJ(h,cP(a,e,g,h)),o),n],r=aJ(f,cP(a,e,h,f)),s=[0,G(aJ(g,cP(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),el):q(b(2,b(2,c))),j=d5([0,t,s]),k=[0,d,cd(i)];return jd(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+je(a,g,b){if(ae(g,fX(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fQ(a)],v=b$(a),i=[0,fQ(a),v],j=cH(a,0,1,h,b[1]),k=j?cH(a,0,0,i,c[1]):j;if(k){var
-l=cH(a,1,1,h,d[1]);if(l)return cH(a,1,0,i,e[1]);var
+h=[0,g,fX(a)],v=cd(a),i=[0,fX(a),v],j=cQ(a,0,1,h,b[1]),k=j?cQ(a,0,0,i,c[1]):j;if(k){var
+l=cQ(a,1,1,h,d[1]);if(l)return cQ(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3700,176 +3810,176 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,b$(a)],s=cH(a,0,0,r,b[1]);if(s)return cH(a,1,0,r,f[1]);var
+r=[0,g,cd(a)],s=cQ(a,0,0,r,b[1]);if(s)return cQ(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-fR(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,p4,fR(b)]);var
+fY(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,qb,fY(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,p6,g(fR(a),p5)]}function
-N(a){return[0,p8,g(fR(a),p7)]}function
-al(a){return[0,p_,[0,a,p9]]}function
-h(b,a){return[0,aq(qa,aq(b,p$)),a]}function
-F(b,a){return N([0,h(b,a),0])}function
-cI(d){var
-b=d,a=oT,e=0;for(;;){if(b){var
-c=hr(a),b=b[1],a=c;continue}return[0,c8(dO(a)),e]}}function
-fS(a){return[0,c8(dS(a)),0]}function
-fT(a){var
-c=bt(a),f=0,b=0===c?oX:0<c?[0,dS(a)]:[1,dS(P(a))];if(0===b[0])var
-d=c8(b[1]);else
+w(a){return[0,qd,g(fY(a),qc)]}function
+O(a){return[0,qf,g(fY(a),qe)]}function
+am(a){return[0,qh,[0,a,qg]]}function
+h(b,a){return[0,ar(qj,ar(b,qi)),a]}function
+F(b,a){return O([0,h(b,a),0])}function
+cR(d){var
+b=d,a=oY,e=0;for(;;){if(b){var
+c=hy(a),b=b[1],a=c;continue}return[0,de(dS(a)),e]}}function
+fZ(a){return[0,de(dW(a)),0]}function
+f0(a){var
+c=bx(a),f=0,b=0===c?o2:0<c?[0,dW(a)]:[1,dW(S(a))];if(0===b[0])var
+d=de(b[1]);else
 var
-e=c8(b[1]),d=aq(aW(1,45),e);return[0,d,f]}function
-fU(a){var
-b=0,c=0<bt(a)?dS(a):oW;return[0,c8(c),b]}function
-fV(a){switch(a[0]){case
-2:return qc;case
-3:return 2<=a[1]?qd:qe;case
-4:return qf;default:return qb}}function
-dn(b,a){function
-c(c,a){return ab(c,fV(a))?dn(b,a):[0,ql,g(dn(b,a),qk)]}switch(a[0]){case
+e=de(b[1]),d=ar(aY(1,45),e);return[0,d,f]}function
+f1(a){var
+b=0,c=0<bx(a)?dW(a):o1;return[0,de(c),b]}function
+f2(a){switch(a[0]){case
+2:return ql;case
+3:return 2<=a[1]?qm:qn;case
+4:return qo;default:return qk}}function
+ds(b,a){function
+c(c,a){return ac(c,f2(a))?ds(b,a):[0,qu,g(ds(b,a),qt)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
 f==="number")return[0,aP(h),0];var
-i=[0,qm,[0,aP(f),0]];return[0,aP(h),i];case
+i=[0,qv,[0,aP(f),0]];return[0,aP(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,qo,c(qn,a[1])];case
+2:return[0,qx,c(qw,a[1])];case
 3:var
-j=a[3],k=c([0,fV(a)],j);switch(a[1]){case
+j=a[3],k=c([0,f2(a)],j);switch(a[1]){case
 0:var
-d=qg;break;case
+d=qp;break;case
 1:var
-d=qh;break;case
+d=qq;break;case
 2:var
-d=qi;break;default:var
-d=qj}var
-l=a[2];return g(c(fV(a),l),[0,d,k]);case
+d=qr;break;default:var
+d=qs}var
+l=a[2];return g(c(f2(a),l),[0,d,k]);case
 4:var
-m=[0,qp,fS(a[2])];return g(c(qq,a[1]),m);default:return[0,qs,g(dn(b,a[1]),qr)]}}function
-O(a){return[0,qv,g(dn(function(a){throw[0,R,qu]},a),qt)]}function
-ja(a){return[0,qx,g(dn(function(a){return a},a),qw)]}function
-bY(a){if(0===a[0])return O(a[1]);var
-b=[0,h(qy,O(a[2])),0];return N([0,h(qz,O(a[1])),b])}function
-ej(b,a){var
+m=[0,qy,fZ(a[2])];return g(c(qz,a[1]),m);default:return[0,qB,g(ds(b,a[1]),qA)]}}function
+P(a){return[0,qE,g(ds(function(a){throw[0,U,qD]},a),qC)]}function
+jf(a){return[0,qG,g(ds(function(a){return a},a),qF)]}function
+b2(a){if(0===a[0])return P(a[1]);var
+b=[0,h(qH,P(a[2])),0];return O([0,h(qI,P(a[1])),b])}function
+en(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qA(a){function
-b(a){return ej(bY,a)}switch(a[0]){case
+qJ(a){function
+b(a){return en(b2,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qB:qJ,i=[0,h(qC,al(f)),e],j=[0,h(qD,bY(a[4])),i],k=[0,h(qE,b(a[3])),j],l=[0,h(qF,b(a[2])),k],m=[0,h(qG,b(a[1])),l],c=[0,h(qI,al(qH)),m];break;case
+e=0,f=a[5]?qK:qS,i=[0,h(qL,am(f)),e],j=[0,h(qM,b2(a[4])),i],k=[0,h(qN,b(a[3])),j],l=[0,h(qO,b(a[2])),k],m=[0,h(qP,b(a[1])),l],c=[0,h(qR,am(qQ)),m];break;case
 1:var
-d=a[3],n=d?[0,h(qK,b(d[1])),0]:d,o=[0,h(qL,b(a[2])),0],p=[0,h(qM,b(a[1])),o],c=g([0,h(qO,al(qN)),p],n);break;default:var
-q=[0,h(qP,b(a[1])),0],c=[0,h(qR,al(qQ)),q]}return N(c)}function
-qS(a){function
-b(a){return ej(bY,a)}var
-c=0,d=a[7]?qT:q3,e=[0,h(qU,al(d)),c],f=[0,h(qV,bY(a[6])),e],g=[0,h(qW,bY(a[5])),f],i=[0,h(qX,b(a[4])),g],j=[0,h(qY,b(a[3])),i],k=[0,h(qZ,b(a[2])),j],l=[0,h(q0,b(a[1])),k];return N([0,h(q2,al(q1)),l])}function
-fW(a){switch(a){case
-0:return q4;case
-1:return q5;case
-2:return q6;case
-3:return q7;case
-4:return q8;case
-5:return q9;case
-6:return q_;default:return q$}}function
-fX(a){switch(a[0]){case
-0:return ra;case
-1:return rb;default:return rc}}function
-dp(a){var
+d=a[3],n=d?[0,h(qT,b(d[1])),0]:d,o=[0,h(qU,b(a[2])),0],p=[0,h(qV,b(a[1])),o],c=g([0,h(qX,am(qW)),p],n);break;default:var
+q=[0,h(qY,b(a[1])),0],c=[0,h(q0,am(qZ)),q]}return O(c)}function
+q1(a){function
+b(a){return en(b2,a)}var
+c=0,d=a[7]?q2:ra,e=[0,h(q3,am(d)),c],f=[0,h(q4,b2(a[6])),e],g=[0,h(q5,b2(a[5])),f],i=[0,h(q6,b(a[4])),g],j=[0,h(q7,b(a[3])),i],k=[0,h(q8,b(a[2])),j],l=[0,h(q9,b(a[1])),k];return O([0,h(q$,am(q_)),l])}function
+f3(a){switch(a){case
+0:return rb;case
+1:return rc;case
+2:return rd;case
+3:return re;case
+4:return rf;case
+5:return rg;case
+6:return rh;default:return ri}}function
+f4(a){switch(a[0]){case
+0:return rj;case
+1:return rk;default:return rl}}function
+dt(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,O(b[2]),0],e=w([0,O(b[1]),i]);else
+i=[0,P(b[2]),0],e=w([0,P(b[1]),i]);else
 var
-e=O(b[1]);var
-k=[0,h(rd,e),j],l=[0,h(re,al(fX(a[4]))),k],c=a[3];if(c)var
-n=w([0,O(c[1]),0]),m=0,o=6===a[1]?rf:rj,f=[0,h(rg,F(o,n)),m];else
+e=P(b[1]);var
+k=[0,h(rm,e),j],l=[0,h(rn,am(f4(a[4]))),k],c=a[3];if(c)var
+n=w([0,P(c[1]),0]),m=0,o=6===a[1]?ro:rs,f=[0,h(rp,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(rh,cI(d[1])),0]:d,r=g(q,p);return N([0,h(ri,al(fW(a[1]))),r])}function
-jb(a){if(0===a[0]){var
-b=[0,h(rk,ej(O,a[2])),0];return F(rm,N([0,h(rl,ej(O,a[1])),b]))}var
-c=[0,O(a[5]),0],d=[0,h(rn,w([0,O(a[4]),c])),0],e=[0,h(ro,O(a[3])),d],f=[0,O(a[2]),0];return F(rq,N([0,h(rp,w([0,O(a[1]),f])),e]))}function
-ru(a){function
-b(a){return w(f(bY,a))}var
-c=[0,h(rv,b(a[2])),0],d=[0,h(rw,b(a[1])),c];return N([0,h(ry,al(rx)),d])}function
-rI(a){switch(a[0]){case
+p=g(f,l),d=a[2],q=d?[0,h(rq,cR(d[1])),0]:d,r=g(q,p);return O([0,h(rr,am(f3(a[1]))),r])}function
+jg(a){if(0===a[0]){var
+b=[0,h(rt,en(P,a[2])),0];return F(rv,O([0,h(ru,en(P,a[1])),b]))}var
+c=[0,P(a[5]),0],d=[0,h(rw,w([0,P(a[4]),c])),0],e=[0,h(rx,P(a[3])),d],f=[0,P(a[2]),0];return F(rz,O([0,h(ry,w([0,P(a[1]),f])),e]))}function
+rD(a){function
+b(a){return w(f(b2,a))}var
+c=[0,h(rE,b(a[2])),0],d=[0,h(rF,b(a[1])),c];return O([0,h(rH,am(rG)),d])}function
+rR(a){switch(a[0]){case
 0:var
-o=[0,h(rJ,w(f(dp,a[3]))),0],p=[0,h(rK,jb(a[2])),o];return F(rN,N([0,h(rM,F(rL,w(f(qA,a[1])))),p]));case
+o=[0,h(rS,w(f(dt,a[3]))),0],p=[0,h(rT,jg(a[2])),o];return F(rW,O([0,h(rV,F(rU,w(f(qJ,a[1])))),p]));case
 1:var
-q=[0,h(rO,w(f(dp,a[3]))),0],r=[0,h(rP,jb(a[2])),q];return F(rS,N([0,h(rR,F(rQ,w(f(qS,a[1])))),r]));case
+q=[0,h(rX,w(f(dt,a[3]))),0],r=[0,h(rY,jg(a[2])),q];return F(r1,O([0,h(r0,F(rZ,w(f(q1,a[1])))),r]));case
 2:var
-s=[0,h(rT,w(f(dp,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,O(a),0];return w([0,O(b),c])};switch(b[0]){case
+s=[0,h(r2,w(f(dt,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,P(a),0];return w([0,P(b),c])};switch(b[0]){case
 0:var
-d=F(rz,c(b[1],b[2]));break;case
+d=F(rI,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(rA,c(g[1],g[2])),0],m=[0,h(rB,c(i[1],i[2])),l],d=F(rD,N([0,h(rC,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(rJ,c(g[1],g[2])),0],m=[0,h(rK,c(i[1],i[2])),l],d=F(rM,O([0,h(rL,c(j[1],j[2])),m]));break;case
 2:var
-d=F(rE,O(b[1]));break;default:var
-n=[0,h(rF,O(b[2])),0],d=F(rH,N([0,h(rG,O(b[1])),n]))}var
-t=[0,h(rU,d),s],u=[0,h(rV,w(f(O,a[5]))),0],v=[0,h(rY,F(rX,N([0,h(rW,w(f(O,a[4]))),u]))),t],x=[0,h(rZ,O(a[3])),0],y=N([0,h(r0,w(f(ru,a[2]))),x]);switch(a[1]){case
+d=F(rN,P(b[1]));break;default:var
+n=[0,h(rO,P(b[2])),0],d=F(rQ,O([0,h(rP,P(b[1])),n]))}var
+t=[0,h(r3,d),s],u=[0,h(r4,w(f(P,a[5]))),0],v=[0,h(r7,F(r6,O([0,h(r5,w(f(P,a[4]))),u]))),t],x=[0,h(r8,P(a[3])),0],y=O([0,h(r9,w(f(rD,a[2]))),x]);switch(a[1]){case
 0:var
-e=rr;break;case
+e=rA;break;case
 1:var
-e=rs;break;default:var
-e=rt}return F(r2,N([0,h(r1,F(e,y)),v]));case
+e=rB;break;default:var
+e=rC}return F(r$,O([0,h(r_,F(e,y)),v]));case
 3:var
-z=[0,h(r3,w(f(dp,a[7]))),0],A=[0,h(r4,w(f(O,a[6]))),0],B=[0,h(r7,F(r6,N([0,h(r5,w(f(O,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(r9,w(f(function(a){return F(r8,w(f(ja,a)))},D))),C],G=a[3],H=[0,h(r_,w(f(function(a){var
-b=[0,ja(a[2]),0];return w([0,al(a[1]),b])},G))),E],I=a[2],J=[0,h(r$,w(f(function(a){var
-b=[0,bY(a[2]),0];return w([0,al(a[1]),b])},I))),H];return F(sd,N([0,h(sc,F(sb,N([0,h(sa,w(f(al,a[1]))),J]))),B]));case
+z=[0,h(sa,w(f(dt,a[7]))),0],A=[0,h(sb,w(f(P,a[6]))),0],B=[0,h(se,F(sd,O([0,h(sc,w(f(P,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(sg,w(f(function(a){return F(sf,w(f(jf,a)))},D))),C],G=a[3],H=[0,h(sh,w(f(function(a){var
+b=[0,jf(a[2]),0];return w([0,am(a[1]),b])},G))),E],I=a[2],J=[0,h(si,w(f(function(a){var
+b=[0,b2(a[2]),0];return w([0,am(a[1]),b])},I))),H];return F(sm,O([0,h(sl,F(sk,O([0,h(sj,w(f(am,a[1]))),J]))),B]));case
 4:var
-K=[0,h(se,w(f(dp,a[3]))),0],L=[0,h(sh,F(sg,N([0,h(sf,O(a[2])),0]))),K];return F(sl,N([0,h(sk,F(sj,N([0,h(si,O(a[1])),0]))),L]));default:var
-k=a[1],M=0,P=k?bY(k[1]):al(so);return F(sn,N([0,h(sm,P),M]))}}function
-fY(a){return w(f(fT,a))}function
-jc(b,a){var
-c=[0,h(sp,fU(a)),0];return N([0,h(sq,w(f(fY,b))),c])}function
-ek(a){switch(a[0]){case
-0:return al(a[1]);case
+K=[0,h(sn,w(f(dt,a[3]))),0],L=[0,h(sq,F(sp,O([0,h(so,P(a[2])),0]))),K];return F(su,O([0,h(st,F(ss,O([0,h(sr,P(a[1])),0]))),L]));default:var
+k=a[1],M=0,N=k?b2(k[1]):am(sx);return F(sw,O([0,h(sv,N),M]))}}function
+f5(a){return w(f(f0,a))}function
+jh(b,a){var
+c=[0,h(sy,f1(a)),0];return O([0,h(sz,w(f(f5,b))),c])}function
+eo(a){switch(a[0]){case
+0:return am(a[1]);case
 1:var
-b=jc(a[2],a[3]);return F(a[1],b);case
+b=jh(a[2],a[3]);return F(a[1],b);case
 2:var
-c=a[1]?sr:st;return F(ss,al(c));case
+c=a[1]?sA:sC;return F(sB,am(c));case
 3:var
-d=[0,fY(a[3]),0];return F(su,w([0,jc(a[1],a[2]),d]));case
+d=[0,f5(a[3]),0];return F(sD,w([0,jh(a[1],a[2]),d]));case
 4:var
-e=[0,fU(a[3]),0],f=[0,fT(a[2]),e];return F(sv,w([0,ek(a[1]),f]));case
+e=[0,f1(a[3]),0],f=[0,f0(a[2]),e];return F(sE,w([0,eo(a[1]),f]));case
 5:var
-g=[0,fU(a[3]),0],h=[0,fT(a[2]),g];return F(sw,w([0,ek(a[1]),h]));default:return F(sx,ek(a[1]))}}function
-sy(a){var
-b=[0,ek(a[2]),0];return w([0,cI(a[1]),b])}function
-sz(c){var
-b=c[2],d=b?[0,h(sA,cI(b[1])),0]:b,a=c[1],e=a?[0,h(sB,w(f(sy,[0,a[1],a[2]]))),0]:a;return N(g(e,d))}function
-fZ(a){var
-b=hd(hc(y(a),function(b){return L(a,b)}));return p(function(a){var
-b=aX(34===a?1:0),c=b?aX(92===a?1:0):b,d=c?ab(sY,dT(a)):c;return d?ab(dT(a),sZ):d},b)}function
-el(b){function
+g=[0,f1(a[3]),0],h=[0,f0(a[2]),g];return F(sF,w([0,eo(a[1]),h]));default:return F(sG,eo(a[1]))}}function
+sH(a){var
+b=[0,eo(a[2]),0];return w([0,cR(a[1]),b])}function
+sI(c){var
+b=c[2],d=b?[0,h(sJ,cR(b[1])),0]:b,a=c[1],e=a?[0,h(sK,w(f(sH,[0,a[1],a[2]]))),0]:a;return O(g(e,d))}function
+f6(a){var
+b=hk(hj(y(a),function(b){return J(a,b)}));return p(function(a){var
+b=aU(34===a?1:0),c=b?aU(92===a?1:0):b,d=c?ac(s7,dX(a)):c;return d?ac(dX(a),s8):d},b)}function
+ep(b){function
 c(f){var
-a=dT(f),b=ab(s0,a),c=b?ab(a,s1):b;if(c)var
+a=dX(f),b=ac(s9,a),c=b?ac(a,s_):b;if(c)var
 d=c;else{var
-e=ab(s2,a);if(e)return ab(a,s3);var
+e=ac(s$,a);if(e)return ac(a,ta);var
 d=e}return d}var
-a=hd(hc(y(b),function(a){return L(b,a)}));if(a){var
+a=hk(hj(y(b),function(a){return J(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?p(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=dT(a),f=ab(s4,e),h=f?ab(e,s5):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?ab(m(d),s6):f;if(g)return aX(aA(b,s7));var
+e=dX(a),f=ac(tb,e),h=f?ac(e,tc):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?ac(m(d),td):f;if(g)return aU(aB(b,te));var
 h=g}else
 var
 h=a;return h}function
-f0(c){var
+f7(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return el(a[1]);case
+1:return ep(a[1]);case
 3:var
-b=f0(a[2]);if(b){var
+b=f7(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cJ(m){var
+cS(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -3880,66 +3990,66 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dO(a[2]);if(typeof
+f=dS(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cJ(a[2]);if(i){var
+i=cS(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cJ(a[1]),l=k?dR(b(2,c),j):k;return l?dR(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=cS(a[1]),l=k?dV(b(2,c),j):k;return l?dV(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cK(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-f1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bZ(a){return I(cK,f1(a))}function
-s8(a){switch(a[0]){case
+cT(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+f8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b3(a){return M(cT,f8(a))}function
+tf(a){switch(a[0]){case
 0:var
-c=cK(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
+c=cT(a[4]),d=g(b3(a[3]),c),e=g(b3(a[2]),d);return g(b3(a[1]),e);case
 1:var
-b=a[3],f=b?bZ(b[1]):b,h=g(bZ(a[2]),f);return g(bZ(a[1]),h);default:return bZ(a[1])}}function
-s9(a){var
-b=I(cK,[0,a[5],[0,a[6],0]]);return g(I(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-jd(a){if(0===a[0]){var
-b=f1(a[2]);return g(f1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dq(c){var
+b=a[3],f=b?b3(b[1]):b,h=g(b3(a[2]),f);return g(b3(a[1]),h);default:return b3(a[1])}}function
+tg(a){var
+b=M(cT,[0,a[5],[0,a[6],0]]);return g(M(b3,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+ji(a){if(0===a[0]){var
+b=f8(a[2]);return g(f8(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+du(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-je(a){var
-d=dR(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dR(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-jf(a,b){return b?[3,jf(a,b[1]),a]:a}function
+jj(a){var
+d=dV(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dV(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+jk(a,b){return b?[3,jk(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-h=a[2],i=b(2,k(b(2,b(2,c)))),l=function(a){return n(i,a)},m=e9(hp(h),l,c);return[0,hy(hq(dO(a[1]),h)),m];case
-1:throw[0,R,s_];case
+h=a[2],i=b(2,k(b(2,b(2,c)))),l=function(a){return n(i,a)},m=fa(hw(h),l,c);return[0,hF(hx(dS(a[1]),h)),m];case
+1:throw[0,U,th];case
 2:var
-e=j(a[1]);return 0===e[0]?[0,P(e[1]),e[2]]:[2,[0,d,c],e];case
+e=j(a[1]);return 0===e[0]?[0,S(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=j(a[2]),g=j(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-o=c3(c5(a[2]));return jf(j(a[1]),o);default:return[5,j(a[1])]}}function
-bE(a){if(0===a[0]){var
+o=cz(dc(a[2]));return jk(j(a[1]),o);default:return[5,j(a[1])]}}function
+bH(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-a5(a){var
-b=bE(a[3]),c=bE(a[2]);return[0,bE(a[1]),c,b]}function
-s$(a){switch(a[0]){case
+a7(a){var
+b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
+ti(a){switch(a[0]){case
 0:var
-b=a[5],c=bE(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
+b=a[5],c=bH(a[4]),d=a7(a[3]),e=a7(a[2]);return[0,[0,a7(a[1]),e,d,c,b]];case
 1:var
-f=aj(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
-jg(a){if(0===a[0]){var
+f=$(a7,a[3]),g=a7(a[2]);return[1,a7(a[1]),g,f];default:return[2,a7(a[1])]}}function
+jl(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(e(a,c));return[0,j(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=j(a[5]),i=[0,j(a[4]),h],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,i]}function
-ta(a){if(a[1])return 0;var
+tj(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
-f2(c,i,b){var
-x=m(c),d=I(function(a){switch(a[1]){case
+f9(c,i,b){var
+x=m(c),d=M(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,j(g[1])],0]:0;case
 1:var
@@ -3967,11 +4077,11 @@ w=j(n[1]),o=[0,[8,j(e[1]),w],0];else
 var
 o=e;return o}return 0;default:var
 p=a[4];return 0===p[0]?[0,[9,j(p[1])],0]:0}var
-h=a[2],r=h?[0,c3(h[1]),0]:c7(0,x);return f(b,r)},b),a=I(ta,b),e=a?[0,a[1],a[2]]:tc,h=g(e,d),k=jg(i);return[0,f(s$,c),k,h]}function
-td(a){if(a[1])return 0;var
+h=a[2],r=h?[0,cz(h[1]),0]:cD(0,x);return f(b,r)},b),a=M(tj,b),e=a?[0,a[1],a[2]]:tl,h=g(e,d),k=jl(i);return[0,f(ti,c),k,h]}function
+tm(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
-cL(n,b){var
-c=I(function(b){switch(b[1]){case
+cU(n,b){var
+c=M(function(b){switch(b[1]){case
 0:var
 d=b[4];return 0===d[0]?[0,[1,j(d[1])],0]:0;case
 1:var
@@ -3982,35 +4092,35 @@ h=a[1],c=function(a){return[2,a,j(h)]};break;case
 k=a[1],c=function(a){return[3,a,j(k)]};break;default:var
 l=a[2],m=a[1],c=function(a){var
 b=j(l);return[4,a,j(m),b]}}var
-e=b[2],i=e?[0,c3(e[1]),0]:c7(0,n);return f(c,i);case
+e=b[2],i=e?[0,cz(e[1]),0]:cD(0,n);return f(c,i);case
 3:var
-g=b[4];return 1===g[0]?[0,[5,j(g[1])],0]:0;default:return 0}},b),a=I(td,b),d=a?[0,a[1],a[2]]:te;return g(d,c)}function
-f3(h,g,a){switch(a[1]){case
+g=b[4];return 1===g[0]?[0,[5,j(g[1])],0]:0;default:return 0}},b),a=M(tm,b),d=a?[0,a[1],a[2]]:tn;return g(d,c)}function
+f_(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dP(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dT(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=ab(tf,d);return e?ab(d,g):e}var
+d=c[1],e=ac(to,d);return e?ac(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cj(a){switch(a[0]){case
+cp(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cj(a[1])];case
+2:return[2,cp(a[1])];case
 3:var
-b=cj(a[2]),c=cj(a[3]);switch(a[1]){case
+b=cp(a[2]),c=cp(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cj(a[1]),d];default:return[8,cj(a[1])]}}function
-jh(b){function
+d=a[2];return[7,cp(a[1]),d];default:return[8,cp(a[1])]}}function
+jm(b){function
 a(e){var
-a=[0,d,c];return H(e,b,[0,a,a])}var
-e=a(tg),f=a(th);return[0,a(0),f,e]}function
-f4(a){function
+a=[0,d,c];return N(e,b,[0,a,a])}var
+e=a(tp),f=a(tq);return[0,a(0),f,e]}function
+f$(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4018,61 +4128,61 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-ji(i,a,h,g,e,d,c){function
-b(a){return jh(f(bE,a))}var
-k=cL(m(a),c),l=f4(d),n=cv(g,e),o=jh(f(function(a){var
+jn(i,a,h,g,e,d,c){function
+b(a){return jm(f(bH,a))}var
+k=cU(m(a),c),l=f$(d),n=cC(g,e),o=jm(f(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},n)),p=j(h);return[0,i,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
-ti(a){var
-b=a[7],c=bE(a[6]),d=bE(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
+tr(a){var
+b=a[7],c=bH(a[6]),d=bH(a[5]),e=a7(a[4]),f=a7(a[3]),g=a7(a[2]);return[0,a7(a[1]),g,f,e,d,c,b]}var
 l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dr(h){var
-a=cu(function(f,e){var
+dv(h){var
+a=cB(function(f,e){var
 a=at(l,f);if(a)var
-b=a[1],c=b9(eV(b[1]),eV(b[2]));else
+b=a[1],c=cb(eZ(b[1]),eZ(b[2]));else
 var
-c=d;return b9(c,e)},d,h);if(ad(d,a)){var
-f=bt(a);if(0===f||!(0<f&&!C(a,c)))var
+c=d;return cb(c,e)},d,h);if(ae(d,a)){var
+f=bx(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bb(a,aR(2)),e=b[1],g=ah(b[2],d)?dQ(e):dQ(e);return b7(g,l)}return d}function
-em(a){return[0,a[1],[0,a[2],0]]}function
-bF(a){var
-b=em(a[3]),c=g(em(a[2]),b);return g(em(a[1]),c)}function
-tj(a){return 0===a[0]?em(a[1][4]):0}function
-tk(a){switch(a[0]){case
+b=bd(a,aS(2)),e=b[1],g=ak(b[2],d)?dU(e):dU(e);return b$(g,l)}return d}function
+eq(a){return[0,a[1],[0,a[2],0]]}function
+bI(a){var
+b=eq(a[3]),c=g(eq(a[2]),b);return g(eq(a[1]),c)}function
+ts(a){return 0===a[0]?eq(a[1][4]):0}function
+tt(a){switch(a[0]){case
 0:var
-b=a[1],c=bF(b[3]);return g(bF(b[2]),c);case
+b=a[1],c=bI(b[3]);return g(bI(b[2]),c);case
 1:var
-d=bF(a[2]);return g(bF(a[1]),d);default:return 0}}function
-tl(a){switch(a[0]){case
-0:return dr(bF(a[1][1]));case
+d=bI(a[2]);return g(bI(a[1]),d);default:return 0}}function
+tu(a){switch(a[0]){case
+0:return dv(bI(a[1][1]));case
 1:var
-b=a[3];return b?dr(bF(b[1])):d;default:return dr(bF(a[1]))}}function
-en(a){switch(a[0]){case
+b=a[3];return b?dv(bI(b[1])):d;default:return dv(bI(a[1]))}}function
+er(a){switch(a[0]){case
 0:var
-b=a[1];if(aA(b,tm))return tn;if(aA(b,to))return tp;if(aA(b,tq))return tr;if(aA(b,ts))return tt;var
-h=aA(b,tu),j=h?tv:h;return j;case
+b=a[1];if(aB(b,tv))return tw;if(aB(b,tx))return ty;if(aB(b,tz))return tA;if(aB(b,tB))return tC;var
+h=aB(b,tD),j=h?tE:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aA(e,tw))return[0,[0,c,d]];if(aA(e,tx))return[0,[1,c,d]];var
-i=aA(e,ty),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(aB(e,tF))return[0,[0,c,d]];if(aB(e,tG))return[0,[1,c,d]];var
+i=aB(e,tH),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=en(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=er(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=en(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=en(a[1]);return aj(function(a){return[6,a]},n)}}function
-jj(a){if(a){var
-d=a[1],b=en(d[2]);if(b)var
-c=jj(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=er(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=er(a[1]);return $(function(a){return[6,a]},n)}}function
+jo(a){if(a){var
+d=a[1],b=er(d[2]);if(b)var
+c=jo(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return tz}function
-cM(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=jj(g[1]);if(c){var
+e=b;return e}return tI}function
+cV(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=jo(g[1]);if(c){var
 k=c[1];if(h){var
-d=cM(j,i);if(d){var
-l=d[1],e=cM(j,l[2]);if(e)var
+d=cV(j,i);if(d){var
+l=d[1],e=cV(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -4087,38 +4197,38 @@ var
 f=a;else
 var
 f=b;return f}function
-f5(d,a){if(d){if(a){var
-b=cM(m(a),a);if(b)var
-e=b[1],c=f5(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+ga(d,a){if(d){if(a){var
+b=cV(m(a),a);if(b)var
+e=b[1],c=ga(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return tA}return a?0:tB}function
-ck(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-a6(a,e){var
-b=ck(a[1],e),c=ck(a[2],b[2]),d=ck(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jk(d,c){if(d){var
+f=b;return f}return tJ}return a?0:tK}function
+cq(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+a8(a,e){var
+b=cq(a[1],e),c=cq(a[2],b[2]),d=cq(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jp(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=ck(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a8(a[1],c),f=a8(a[2],e[2]),g=a8(a[3],f[2]),h=cq(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=a6(a[1],c),k=j[1],l=a6(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=a6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=a8(a[1],c),k=j[1],l=a8(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=a8(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=a6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jk(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jl(b,i){if(b){var
-a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=ck(a[5],f[2]),h=ck(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jl(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-f6(a,b){if(a){var
-c=ck(a[1],b),d=f6(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-f7(b){function
-a(a){return H(a,b,[0,d,c])}var
-e=a(tD),f=a(tE);return[0,a(0),f,e]}function
-jm(a,b){if(a){var
-c=a[1],d=f6(c[1],b),e=f6(c[2],d[2]),f=jm(a[2],e[2]),g=f[2],h=f[1],i=f7(e[1]);return[0,[0,[0,f7(d[1]),i],h],g]}return[0,0,b]}function
-jn(a){return typeof
+p=a8(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=jp(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jq(b,i){if(b){var
+a=b[1],c=a8(a[1],i),d=a8(a[2],c[2]),e=a8(a[3],d[2]),f=a8(a[4],e[2]),g=cq(a[5],f[2]),h=cq(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jq(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gb(a,b){if(a){var
+c=cq(a[1],b),d=gb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gc(b){function
+a(a){return N(a,b,[0,d,c])}var
+e=a(tM),f=a(tN);return[0,a(0),f,e]}function
+jr(a,b){if(a){var
+c=a[1],d=gb(c[1],b),e=gb(c[2],d[2]),f=jr(a[2],e[2]),g=f[2],h=f[1],i=gc(e[1]);return[0,[0,[0,gc(d[1]),i],h],g]}return[0,0,b]}function
+js(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-eo(a){return ii(l,a)}function
-tF(a){if(typeof
+es(a){return iq(l,a)}function
+tO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -4128,84 +4238,84 @@ b=o(l,1,a[2]);return b?o(l,1,a[3]):b;case
 8:var
 d=o(l,1,a[1]);return d?o(l,1,a[2]):d;case
 2:case
-3:return eo(a[2]);default:return o(l,1,a[1])}}function
-f8(a){if(typeof
+3:return es(a[2]);default:return o(l,1,a[1])}}function
+gd(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
 d=a[3],e=a[2],f=o(l,1,[2,d,e]),g=f?o(l,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(l,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?o(l,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
 5:return o(l,1,[2,a[1],[0,c,c]]);case
 0:case
-1:return o(l,1,a[1]);default:return eo(a[2])}}function
-ep(d){var
+1:return o(l,1,a[1]);default:return es(a[2])}}function
+et(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aX(bz(function(d){return function(a){var
-h=fW(a[1]),e=aA(fW(d[1]),h);if(e)var
-i=fX(a[4]),b=aA(fX(d[4]),i);else
+b=a[2],e=a[1],c=aU(bD(function(d){return function(a){var
+h=f3(a[1]),e=aB(f3(d[1]),h);if(e)var
+i=f4(a[4]),b=aB(f4(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?aE(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?az(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ds(a){if(0===a[0])return eo(j(a[1]));var
+dw(a){if(0===a[0])return es(j(a[1]));var
 b=j(a[1]);return o(l,1,[2,j(a[2]),b])}function
-a7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-tG(a){switch(a[0]){case
+a9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+tP(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e);case
+c=[0,a[4],0],d=g(a9(a[3]),c),e=g(a9(a[2]),d);return g(a9(a[1]),e);case
 1:var
-b=a[3],f=b?a7(b[1]):b,h=g(a7(a[2]),f);return g(a7(a[1]),h);default:return a7(a[1])}}function
-tH(a){var
-b=[0,a[5],[0,a[6],0]],c=g(a7(a[4]),b),d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e)}function
-f9(a){switch(a){case
-0:return tL;case
-1:return tM;default:return 0}}function
-eq(a){var
-f=a[1],d=o(l,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bg(l,a[1],a[2]):d;if(e){var
+b=a[3],f=b?a9(b[1]):b,h=g(a9(a[2]),f);return g(a9(a[1]),h);default:return a9(a[1])}}function
+tQ(a){var
+b=[0,a[5],[0,a[6],0]],c=g(a9(a[4]),b),d=g(a9(a[3]),c),e=g(a9(a[2]),d);return g(a9(a[1]),e)}function
+ge(a){switch(a){case
+0:return tU;case
+1:return tV;default:return 0}}function
+eu(a){var
+f=a[1],d=o(l,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(l,a[1],a[2]):d;if(e){var
 g=a[2];return o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
-f_(a){var
-e=bg(l,[0,d,c],a);return e?o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-jo(c,b,C,s,r,q,f){function
+gf(a){var
+e=bj(l,[0,d,c],a);return e?o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+jt(c,b,C,s,r,q,f){function
 t(a){var
-d=c?tJ:tK,b=aE(m(a),d);return b?p(ds,a):b}var
+d=c?tS:tT,b=az(m(a),d);return b?p(dw,a):b}var
 u=p(function(a){var
 b=t(a[1]);return b?t(a[2]):b},b);if(u)var
-D=m(b),g=ab(d$(c),D);else
+D=m(b),g=ac(ee(c),D);else
 var
 g=u;var
-v=g?ab(m(b),tN):g,w=v?o(l,1,j(C)):v;if(w)var
-E=f9(c),h=aE(m(s),E);else
+v=g?ac(m(b),tW):g,w=v?o(l,1,j(C)):v;if(w)var
+E=ge(c),h=az(m(s),E);else
 var
 h=w;if(h)var
-F=f9(c),i=aE(m(r),F);else
+F=ge(c),i=az(m(r),F);else
 var
 i=h;if(i)var
-G=cv(s,r),k=p(function(a){var
-b=j(a[2]);return bg(l,j(a[1]),b)},G);else
+G=cC(s,r),k=p(function(a){var
+b=j(a[2]);return bj(l,j(a[1]),b)},G);else
 var
 k=i;if(k)if(c){var
-a=f4(q);switch(a[0]){case
+a=f$(q);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-y=eq(a[1]),z=y?eq(a[2]):y,d=z?eq(a[3]):z;break;case
+y=eu(a[1]),z=y?eu(a[2]):y,d=z?eu(a[3]):z;break;case
 2:var
-d=f_(a[1]);break;default:var
-A=f_(a[1]),d=A?f_(a[2]):A}var
+d=gf(a[1]);break;default:var
+A=gf(a[1]),d=A?gf(a[2]):A}var
 e=d}else
 var
-B=f4(q),J=0===B[0]?eq(B[1]):0,e=J;else
+B=f$(q),J=0===B[0]?eu(B[1]):0,e=J;else
 var
 e=k;if(e)var
-H=m(b),I=0,n=p(function(a){return f3(I,H,a)},f);else
+H=m(b),I=0,n=p(function(a){return f_(I,H,a)},f);else
 var
 n=e;var
-x=n?ep(f):n;return x?p(f8,cL(m(b),f)):x}function
-jp(a,c,g){var
-d=ab(tO,m(a));if(d)var
+x=n?et(f):n;return x?p(gd,cU(m(b),f)):x}function
+ju(a,c,g){var
+d=ac(tX,m(a));if(d)var
 l=m(a),b=p(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
@@ -4222,93 +4332,93 @@ h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
 b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=ab(tb,b);return d?ab(b,l):d},c);else
+d=ac(tk,b);return d?ac(b,l):d},c);else
 var
 b=d;var
-e=b?ep(c):b,f=e?p(ds,I(tG,a)):e;return f?p(tF,g[3]):f}function
-jq(b,a){return p(function(c){var
-a=c[2];return a?hs(a[1],b):1},a)}function
-tP(q){var
-en=fZ(q[3]),eq=en?fZ(q[4]):en;if(eq){var
-aa=q[1];if(3===aa[0]){var
-et=p(el,aa[1]);if(et)var
-gS=aa[2],b4=p(function(a){return el(a[1])},gS);else
+e=b?et(c):b,f=e?p(dw,M(tP,a)):e;return f?p(tO,g[3]):f}function
+jv(b,a){return p(function(c){var
+a=c[2];return a?hz(a[1],b):1},a)}function
+tY(r){var
+en=f6(r[3]),eo=en?f6(r[4]):en;if(eo){var
+ab=r[1];if(3===ab[0]){var
+eu=p(ep,ab[1]);if(eu)var
+gS=ab[2],b4=p(function(a){return ep(a[1])},gS);else
 var
-b4=et;if(b4)var
-gT=aa[3],b5=p(function(a){var
-b=el(a[1]),c=b?f0(a[2]):b;return c?cJ(a[2]):c},gT);else
+b4=eu;if(b4)var
+gT=ab[3],b5=p(function(a){var
+b=ep(a[1]),c=b?f7(a[2]):b;return c?cS(a[2]):c},gT);else
 var
 b5=b4;if(b5)var
-gU=aa[4],gV=function(a){var
-b=f0(a);return b?cJ(a):b},b1=p(function(a){return p(gV,a)},gU);else
+gU=ab[4],gV=function(a){var
+b=f7(a);return b?cS(a):b},b1=p(function(a){return p(gV,a)},gU);else
 var
 b1=b5}else
 var
 b1=1;var
 b2=b1}else
 var
-b2=eq;if(b2){var
-i=q[1];switch(i[0]){case
+b2=eo;if(b2){var
+i=r[1];switch(i[0]){case
 0:var
-gC=I(dq,i[3]),gD=g(jd(i[2]),gC),P=g(I(s8,i[1]),gD);break;case
+gC=M(du,i[3]),gD=g(ji(i[2]),gC),R=g(M(tf,i[1]),gD);break;case
 1:var
-gE=I(dq,i[3]),gF=g(jd(i[2]),gE),P=g(I(s9,i[1]),gF);break;case
+gE=M(du,i[3]),gF=g(ji(i[2]),gE),R=g(M(tg,i[1]),gF);break;case
 2:var
-gG=I(dq,i[7]),G=i[6];switch(G[0]){case
+gG=M(du,i[7]),G=i[6];switch(G[0]){case
 1:var
-ej=G[3],ek=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,ek[1],[0,ek[2],[0,ej[1],[0,ej[2],0]]]]]];break;case
+ej=G[3],el=G[2],em=G[1],bY=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ej[1],[0,ej[2],0]]]]]];break;case
 2:var
-bZ=[0,G[1],0];break;default:var
-bZ=[0,G[1],[0,G[2],0]]}var
-gH=g(bZ,gG),gI=g(i[5],gH),gJ=g(i[4],gI),gK=[0,i[3],gJ],gL=i[2],P=g(I(function(a){return I(cK,g(a[1],a[2]))},gL),gK);break;case
+bY=[0,G[1],0];break;default:var
+bY=[0,G[1],[0,G[2],0]]}var
+gH=g(bY,gG),gI=g(i[5],gH),gJ=g(i[4],gI),gK=[0,i[3],gJ],gL=i[2],R=g(M(function(a){return M(cT,g(a[1],a[2]))},gL),gK);break;case
 3:var
-gM=I(dq,i[7]),gN=g(i[6],gM),gO=g(i[5],gN),gP=i[2],P=g(I(function(a){return cK(a[2])},gP),gO);break;case
+gM=M(du,i[7]),gN=g(i[6],gM),gO=g(i[5],gN),gP=i[2],R=g(M(function(a){return cT(a[2])},gP),gO);break;case
 4:var
-gQ=I(dq,i[3]),P=[0,i[1],[0,i[2],gQ]];break;default:var
-b0=i[1],P=b0?cK(b0[1]):b0}var
-b3=p(cJ,P)}else
+gQ=M(du,i[3]),R=[0,i[1],[0,i[2],gQ]];break;default:var
+b0=i[1],R=b0?cT(b0[1]):b0}var
+b3=p(cS,R)}else
 var
 b3=b2;if(b3){var
-Q=q[2];if(0===Q[0]){var
-er=je(Q[1]);if(er)var
-gR=Q[2],ac=p(function(a){var
+S=r[2];if(0===S[0]){var
+eq=jj(S[1]);if(eq)var
+gR=S[2],ad=p(function(a){var
 b=a[1];return p(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return fZ(a[1]);case
+1:return f6(a[1]);case
 2:case
 3:return 1;default:var
 a=a[1];continue}},b)},gR);else
 var
-ac=er}else
+ad=eq}else
 var
-es=je(Q[1]),ac=es?p(cJ,g(Q[2],Q[3])):es}else
+er=jj(S[1]),ad=er?p(cS,g(S[2],S[3])):er}else
 var
-ac=b3;if(ac){var
-a=q[1];switch(a[0]){case
+ad=b3;if(ad){var
+a=r[1];switch(a[0]){case
 0:var
-ae=a[3],cl=a[2],R=a[1],U=q[2];if(0===U[0]){var
-eM=U[2],k=f2(R,cl,ae),cm=cM(m(eM),eM);if(cm){var
-eN=cm[1];if(eN[2])return 0;var
-eO=jp(R,ae,k);if(eO){var
-g9=eN[1],eP=f(tl,k[1]),eQ=k[1],b8=I(tj,eQ),g3=b8?[0,b8[1],b8[2]]:I(tk,eQ),v=A(c,dr(g3)),t=U[1],_=k[2],fU=0===_[0]?bX(_[1]):[0,_[1],_[2],_[4][1]],c6=ik(l,k,f(ps,k[1]),fU);if(c6){var
-cT=ib(v,eP,k[1]),L=ic(v,eP,k[1],0),cU=m(cT),fw=ig(L,v,cU,k[3]),fx=g(cC(h5(L)),fw),cV=g(cC(h4(L)),fx),cW=d0(cV)[1],Z=cy(cW),cX=p(function(a){var
-b=r(d);return bA(H(bT(Z,a),Z,b),a)},cV);if(cX){var
-cY=bz(pq,k[3]);if(cY){var
-fy=k[3],fB=g(cT,f(function(a){return ce(v,a)},fy)),bl=aU(f(function(a){return aZ(t,a)},fB));if(bl){var
-M=k[2];if(0===M[0])var
-cZ=M[1];else
+af=a[3],ch=a[2],T=a[1],U=r[2];if(0===U[0]){var
+eN=U[2],k=f9(T,ch,af),ci=cV(m(eN),eN);if(ci){var
+eO=ci[1];if(eO[2])return 0;var
+eP=ju(T,af,k);if(eP){var
+g9=eO[1],eQ=f(tu,k[1]),eR=k[1],b8=M(ts,eR),g3=b8?[0,b8[1],b8[2]]:M(tt,eR),v=A(c,dv(g3)),t=U[1],_=k[2],fT=0===_[0]?bZ(_[1]):[0,_[1],_[2],_[4][1]],c5=is(l,k,f(px,k[1]),fT);if(c5){var
+cO=ij(v,eQ,k[1]),J=ik(v,eQ,k[1],0),cP=m(cO),fv=io(J,v,cP,k[3]),fx=g(cK(ia(J)),fv),cQ=g(cK(h$(J)),fx),cR=d5(cQ)[1],Z=d3(cR),cW=p(function(a){var
+b=q(d);return be(N(bW(Z,a),Z,b),a)},cQ);if(cW){var
+cX=bD(pv,k[3]);if(cX){var
+fy=k[3],fz=g(cO,f(function(a){return cj(v,a)},fy)),bn=aW(f(function(a){return a0(t,a)},fz));if(bn){var
+K=k[2];if(0===K[0])var
+cY=K[1];else
 var
-al=M[3],cR=M[2],cS=M[1],cZ=[0,[0,[2,cS,al],[1,cS,al]],[0,[2,cR,al],[1,cR,al]],M[4]];var
-fC=bf(cZ,v),bm=aU(f(function(a){return aZ(t,a)},fC));if(bm){var
-fD=k[3],bn=aU(ih(t,function(a){return bT(Z,a)},L,v,cU,fD));if(bn){var
-c0=bn[1],fE=h$(c0),am=k[2],fF=bm[1],fI=function(d){if(0===am[0])return 0;if(d){var
+am=K[3],cM=K[2],cN=K[1],cY=[0,[0,[2,cN,am],[1,cN,am]],[0,[2,cM,am],[1,cM,am]],K[4]];var
+fA=bi(cY,v),bo=aW(f(function(a){return a0(t,a)},fA));if(bo){var
+fB=k[3],bp=aW(ip(t,function(a){return bW(Z,a)},J,v,cP,fB));if(bp){var
+cZ=bp[1],fE=ih(cZ),an=k[2],fF=bo[1],fG=function(d){if(0===an[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=cb(t,v,am[1]);if(f){var
-g=cb(t,v,am[2]);if(g){var
-h=cb(t,v,am[3]);if(h)var
-q=f[1],r=bB(c),i=X([0,bB(c),r],q),s=g[1],u=bB(b),j=X([0,bB(b),u],s),w=cA(b),x=[0,cA(b),w],y=[0,D(t,aF(T(j,j)),x),0],z=cA(c),A=[0,cA(c),z],B=[0,D(t,aF(T(i,i)),A),y],C=ak(t,j),E=ak(t,i),k=[0,[0,X(X(ak(t,h[1]),E),C),as,B]];else
+b=a[1],c=d[1],f=cg(t,v,an[1]);if(f){var
+g=cg(t,v,an[2]);if(g){var
+h=cg(t,v,an[3]);if(h)var
+q=f[1],r=bE(c),i=V([0,bE(c),r],q),s=g[1],u=bE(b),j=V([0,bE(b),u],s),w=cI(b),x=[0,cI(b),w],y=[0,C(t,aC(Q(j,j)),x),0],z=cI(c),A=[0,cI(c),z],B=[0,C(t,aC(Q(i,i)),A),y],D=ag(t,j),E=ag(t,i),k=[0,[0,V(V(ag(t,h[1]),E),D),ah,B]];else
 var
 k=h;var
 l=k}else
@@ -4325,267 +4435,267 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},fJ=bl[1],fL=0,fM=h5(L),fN=e(bV(function(a){return bT(Z,a)}),fM),fP=h4(L);return ft(t,cW,e(bV(function(a){return bT(Z,a)}),fP),fN,fL,fJ,c0,fI,fF,fE,g9)}var
-c1=bn}else
+p=d;return p},fH=bn[1],fI=0,fL=ia(J),fM=e(bh(function(a){return bW(Z,a)}),fL),fO=h$(J);return fw(t,cR,e(bh(function(a){return bW(Z,a)}),fO),fM,fI,fH,cZ,fG,fF,fE,g9)}var
+c0=bp}else
 var
-c1=bm;var
-c2=c1}else
+c0=bo;var
+c1=c0}else
 var
-c2=bl;var
-bo=c2}else
+c1=bn;var
+bq=c1}else
 var
-bo=cY}else
+bq=cX}else
 var
-bo=cX;return bo}return c6}var
-eR=eO}else
+bq=cW;return bq}return c5}var
+eS=eP}else
 var
-eR=cm;return eR}var
+eS=ci;return eS}var
 aS=U[2];if(aS){var
-aV=aS[2];if(aV){var
-aW=aV[2];if(aW){if(aW[2])return 0;var
-eS=jk(R,f(j,U[3]));if(eS[2])return 0;var
-V=U[4];if(typeof
-V==="number")var
-w=tC;else
-if(0===V[0]){var
-b9=V[2],b_=V[1];if(b9){var
-aJ=b9[1],cz=0;if(aJ){var
-aN=aJ[2],be=0;if(aN){var
-aO=aN[2],bj=0;if(aO)if(aO[2]){var
-w=0;be=1;bj=1}else{var
-ca=aO[1],cc=aN[1],cd=aJ[1],cf=b9[2];if(cf){var
-aP=cf[1],fs=0;if(aP){var
-aQ=aP[2],fu=0;if(aQ){var
-aR=aQ[2],fv=0;if(aR)if(aR[2]||cf[2]){var
-w=0;be=1;bj=1;fs=1;fu=1;fv=1}else
+aT=aS[2];if(aT){var
+aX=aT[2];if(aX){if(aX[2])return 0;var
+eT=jp(T,f(j,U[3]));if(eT[2])return 0;var
+W=U[4];if(typeof
+W==="number")var
+w=tL;else
+if(0===W[0]){var
+b9=W[2],b_=W[1];if(b9){var
+aJ=b9[1],cx=0;if(aJ){var
+aN=aJ[2],bf=0;if(aN){var
+aO=aN[2],bg=0;if(aO)if(aO[2]){var
+w=0;bf=1;bg=1}else{var
+b$=aO[1],ca=aN[1],cb=aJ[1],cc=b9[2];if(cc){var
+aP=cc[1],fs=0;if(aP){var
+aQ=aP[2],ft=0;if(aQ){var
+aR=aQ[2],fu=0;if(aR)if(aR[2]||cc[2]){var
+w=0;bf=1;bg=1;fs=1;ft=1;fu=1}else
 var
-ez=[0,[0,b_,[0,[0,cd,cc],ca],[0,[0,aP[1],aQ[1]],aR[1]]]];else
+eA=[0,[0,b_,[0,[0,cb,ca],b$],[0,[0,aP[1],aQ[1]],aR[1]]]];else
 var
-ez=aR;if(!fv)var
-eA=ez}else
-var
-eA=aQ;if(!fu)var
+eA=aR;if(!fu)var
 eB=eA}else
 var
-eB=aP;if(!fs){var
-w=eB;be=1;bj=1}}else
+eB=aQ;if(!ft)var
+eC=eB}else
 var
-eC=[0,[0,b_,[0,[0,cd,cc],ca],[0,[0,cd,cc],ca]]]}else
+eC=aP;if(!fs){var
+w=eC;bf=1;bg=1}}else
 var
-eC=aO;if(!bj)var
-eD=eC}else
+eD=[0,[0,b_,[0,[0,cb,ca],b$],[0,[0,cb,ca],b$]]]}else
 var
-eD=aN;if(!be){var
-eE=eD;cz=1}}else{var
-eE=aJ;cz=1}if(cz)var
-w=eE}else
+eD=aO;if(!bg)var
+eE=eD}else
 var
-eF=[0,[0,d,d],d],w=[0,[0,b_,eF,eF]]}else
+eE=aN;if(!bf){var
+eF=eE;cx=1}}else{var
+eF=aJ;cx=1}if(cx)var
+w=eF}else
 var
-w=[0,[1,V[1],V[2]]];if(w){var
-eT=jp(R,ae,f2(R,cl,ae));if(eT){var
-J=w[1],g_=j(aW[1]),g$=j(aV[1]),z=[0,j(aS[1]),g$,g_],af=eS[1],cn=f2(R,cl,ae),c3=ik(l,cn,af,z);if(c3)if(typeof
-J==="number")return bz(function(a){switch(a[0]){case
+eG=[0,[0,d,d],d],w=[0,[0,b_,eG,eG]]}else
+var
+w=[0,[1,W[1],W[2]]];if(w){var
+eU=ju(T,af,f9(T,ch,af));if(eU){var
+H=w[1],g_=j(aX[1]),g$=j(aT[1]),z=[0,j(aS[1]),g$,g_],ai=eT[1],ck=f9(T,ch,af),c2=is(l,ck,ai,z);if(c2)if(typeof
+H==="number")return bD(function(a){switch(a[0]){case
 0:var
-b=[0,dc(a[1],a[2],a[3],a[4],z)];break;case
+b=[0,di(a[1],a[2],a[3],a[4],z)];break;case
 1:var
-e=a[2],f=a[1],g=bD(f,e,z),b=[0,E(bD(f,e,z),g)];break;default:var
-b=0}return b?o(l,0,[2,[0,d,c],b[1]]):b},af);else{if(0===J[0]){var
-bp=aT(cn[3],J[1]);if(bp){var
-fQ=bp[1],fR=im(J[3]);return ip(l,af,z,im(J[2]),fR,fQ)}return bp}var
-bq=aT(cn[3],J[1]);if(bq){var
-br=aT(af,J[2]);if(br){var
-c4=br[1],fS=bq[1],fT=cD(c4,z);return ip(l,af,z,cD(c4,z),fT,fS)}var
-c5=br}else
+e=a[2],f=a[1],g=bG(f,e,z),b=[0,E(bG(f,e,z),g)];break;default:var
+b=0}return b?o(l,0,[2,[0,d,c],b[1]]):b},ai);else{if(0===H[0]){var
+br=aV(ck[3],H[1]);if(br){var
+fP=br[1],fQ=iu(H[3]);return iw(l,ai,z,iu(H[2]),fQ,fP)}return br}var
+bs=aV(ck[3],H[1]);if(bs){var
+bt=aV(ai,H[2]);if(bt){var
+c3=bt[1],fR=bs[1],fS=cL(c3,z);return iw(l,ai,z,cL(c3,z),fS,fR)}var
+c4=bt}else
 var
-c5=bq;return c5}return c3}var
-eU=eT}else
-var
-eU=w;var
+c4=bs;return c4}return c2}var
 eV=eU}else
 var
-eV=aW;var
+eV=w;var
 eW=eV}else
 var
-eW=aV;var
+eW=aX;var
 eX=eW}else
 var
-eX=aS;return eX;case
+eX=aT;var
+eY=eX}else
+var
+eY=aS;return eY;case
 1:var
-aY=a[3],K=a[1],a0=q[2];if(0===a0[0])return 0;var
-a1=a0[2];if(a1){var
+aY=a[3],I=a[1],aZ=r[2];if(0===aZ[0])return 0;var
+a1=aZ[2];if(a1){var
 a2=a1[2];if(a2){var
 a3=a2[2];if(a3){if(a3[2])return 0;var
-eY=jl(K,f(j,a0[3]));if(eY[2])return 0;var
-eG=ab(tI,m(K));if(eG)var
-g4=m(K),g5=1,ch=p(function(a){return f3(g5,g4,a)},aY);else
+eZ=jq(I,f(j,aZ[3]));if(eZ[2])return 0;var
+eH=ac(tR,m(I));if(eH)var
+g4=m(I),g5=1,ce=p(function(a){return f_(g5,g4,a)},aY);else
 var
-ch=eG;var
-eH=ch?ep(aY):ch,eI=eH?p(ds,I(tH,K)):eH,eZ=eI?p(f8,cL(m(K),aY)):eI;if(eZ){var
-ha=jn(a0[4]),hb=j(a3[1]),hc=j(a2[1]),B=[0,j(a1[1]),hc,hb],a4=eY[1],hd=a[2],gZ=cL(m(K),aY),g0=jg(hd),an=f(ti,K),N=a4;for(;;){if(an){if(N){var
-n=N[1],F=an[1],c7=aM(l,F[1],n[1]),c8=c7?aM(l,F[2],n[2]):c7,c9=c8?aM(l,F[3],n[3]):c8,c_=c9?aM(l,F[4],n[4]):c9,c$=c_?cg(l,F[5],n[5]):c_,da=c$?cg(l,F[6],n[6]):c$,db=da?o(l,1,n[5]):da,dd=db?o(l,1,n[6]):db,de=dd?o(l,1,E(n[1],n[1])):dd;if(de)var
-fV=fz(n),bs=o(l,1,E(fz(n),fV));else
+ce=eH;var
+eI=ce?et(aY):ce,eJ=eI?p(dw,M(tQ,I)):eI,e0=eJ?p(gd,cU(m(I),aY)):eJ;if(e0){var
+ha=js(aZ[4]),hb=j(a3[1]),hc=j(a2[1]),B=[0,j(a1[1]),hc,hb],a4=eZ[1],hd=a[2],gZ=cU(m(I),aY),g0=jl(hd),ao=f(tr,I),O=a4;for(;;){if(ao){if(O){var
+n=O[1],F=ao[1],c6=aM(l,F[1],n[1]),c7=c6?aM(l,F[2],n[2]):c6,c8=c7?aM(l,F[3],n[3]):c7,c9=c8?aM(l,F[4],n[4]):c8,c_=c9?cl(l,F[5],n[5]):c9,c$=c_?cl(l,F[6],n[6]):c_,db=c$?o(l,1,n[5]):c$,dc=db?o(l,1,n[6]):db,dd=dc?o(l,1,E(n[1],n[1])):dc;if(dd)var
+fU=fC(n),bu=o(l,1,E(fC(n),fU));else
 var
-bs=de;var
-dh=bs?dP(F[7],n[7]):bs;if(dh){var
-an=an[2],N=N[2];continue}var
-di=dh}else
+bu=dd;var
+de=bu?dT(F[7],n[7]):bu;if(de){var
+ao=ao[2],O=O[2];continue}var
+df=de}else
 var
-di=N;var
-bt=di}else
+df=O;var
+bv=df}else
 var
-bt=N?0:1;var
-dj=bt?ij(l,g0,B):bt;if(dj){var
-fW=f(function(a){return iw(a,B)},a4),fX=f(function(a){var
-b=iy(a,B);return[1,ix(a,B),b]},a4);return it(l,pu,[0,f(function(a){var
-d=iu(a),e=aL(iy(a,B),d),f=fA(a),g=aL(ix(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fG(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fX,fW],gZ,ha)}return dj}}var
-e0=eZ}else
-var
-e0=a3;var
+bv=O?0:1;var
+dg=bv?ir(l,g0,B):bv;if(dg){var
+fW=f(function(a){return iD(a,B)},a4),fX=f(function(a){var
+b=iF(a,B);return[1,iE(a,B),b]},a4);return iA(l,pz,[0,f(function(a){var
+d=iB(a),e=aL(iF(a,B),d),f=fD(a),g=aL(iE(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fJ(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fX,fW],gZ,ha)}return dg}}var
 e1=e0}else
 var
-e1=a2;var
+e1=a3;var
 e2=e1}else
 var
-e2=a1;return e2;case
+e2=a2;var
+e3=e2}else
+var
+e3=a1;return e3;case
 2:var
-a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],ag=a[2],W=a[1],Y=q[2];if(0===Y[0]){var
-co=Y[2],ah=ji(W,ag,a9,a8,a7,a6,a5),cp=cM(m(co),co);if(cp){var
-e3=cp[1];if(e3[2])return 0;var
-e4=jo(W,ag,a9,a8,a7,a6,a5),e5=e4?jq(d$(W),co):e4;if(e5){var
-he=e3[1],hf=ah[2],hg=A(c,dr(I(function(a){var
-b=bF(a[2]);return g(bF(a[1]),b)},hf))),hh=Y[1],gz=ah[2],ea=p(function(a){var
-b=fO(l,a[1]);return b?fO(l,a[2]):b},gz),eb=ea?fO(l,ah[4]):ea;if(eb)var
-gA=iU(ah[5]),bU=p(function(a){return eg(l,a)},gA);else
+a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],aj=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
+cm=Y[2],ak=jn(X,aj,a9,a8,a7,a6,a5),co=cV(m(cm),cm);if(co){var
+e4=co[1];if(e4[2])return 0;var
+e5=jt(X,aj,a9,a8,a7,a6,a5),e6=e5?jv(ee(X),cm):e5;if(e6){var
+he=e4[1],hf=ak[2],hg=A(c,dv(M(function(a){var
+b=bI(a[2]);return g(bI(a[1]),b)},hf))),hh=Y[1],gz=ak[2],ea=p(function(a){var
+b=fV(l,a[1]);return b?fV(l,a[2]):b},gz),eb=ea?fV(l,ak[4]):ea;if(eb)var
+gA=i0(ak[5]),bU=p(function(a){return ek(l,a)},gA);else
 var
-bU=eb;return bU?pX(hh,ah,hg,he):bU}var
-e6=e5}else
+bU=eb;return bU?p6(hh,ak,hg,he):bU}var
+e7=e6}else
 var
-e6=cp;return e6}var
-e7=f(j,Y[2]),e9=f9(W),e_=jm(ag,f(j,Y[3]));if(e_[2])return 0;var
-e$=jo(W,ag,a9,a8,a7,a6,a5);if(e$){var
-bk=e9,b=e7,hi=jn(Y[4]);for(;;){if(bk&&b){var
-bk=bk[1],b=b[2];continue}var
-a_=f7(hC(e9,e7)),a$=e_[1],C=ji(W,ag,a9,a8,a7,a6,a5),aC=C[2],O=a$;for(;;){if(aC){if(O){var
-d5=O[1],d6=aC[1],d7=aM(l,d6[1],d5[1]),d8=d7?aM(l,d6[2],d5[2]):d7;if(d8){var
-aC=aC[2],O=O[2];continue}var
-d9=d8}else
+e7=co;return e7}var
+e8=f(j,Y[2]),e9=ge(X),e_=jr(aj,f(j,Y[3]));if(e_[2])return 0;var
+e$=jt(X,aj,a9,a8,a7,a6,a5);if(e$){var
+bm=e9,b=e8,hi=js(Y[4]);for(;;){if(bm&&b){var
+bm=bm[1],b=b[2];continue}var
+a_=gc(hJ(e9,e8)),a$=e_[1],D=jn(X,aj,a9,a8,a7,a6,a5),aE=D[2],P=a$;for(;;){if(aE){if(P){var
+d6=P[1],d7=aE[1],d8=aM(l,d7[1],d6[1]),d9=d8?aM(l,d7[2],d6[2]):d8;if(d9){var
+aE=aE[2],P=P[2];continue}var
+d_=d9}else
 var
-d9=O;var
-bR=d9}else
+d_=P;var
+bS=d_}else
 var
-bR=O?0:1;var
-d_=bR?aM(l,C[4],a_):bR;if(d_){var
-x=C[5];switch(x[0]){case
+bS=P?0:1;var
+d$=bS?aM(l,D[4],a_):bS;if(d$){var
+x=D[5];switch(x[0]){case
 0:var
-u=b?b[2]?0:dg(l,x[1],b[1]):b;break;case
+u=b?b[2]?0:dm(l,x[1],b[1]):b;break;case
 1:var
-cB=0;if(b){var
-au=b[2],cE=0;if(au){var
-av=au[2],cF=0;if(av)if(av[2]){var
-u=0;cE=1;cF=1}else{var
-dL=dg(l,x[1],b[1]),dM=dL?dg(l,x[2],au[1]):dL;if(dM){var
-u=dg(l,x[3],av[1]);cE=1;cF=1}else
+cy=0;if(b){var
+au=b[2],cz=0;if(au){var
+av=au[2],cA=0;if(av)if(av[2]){var
+u=0;cz=1;cA=1}else{var
+dL=dm(l,x[1],b[1]),dM=dL?dm(l,x[2],au[1]):dL;if(dM){var
+u=dm(l,x[3],av[1]);cz=1;cA=1}else
 var
-dO=dM}else
+dN=dM}else
 var
-dO=av;if(!cF)var
-dQ=dO}else
+dN=av;if(!cA)var
+dO=dN}else
 var
-dQ=au;if(!cE){var
-dR=dQ;cB=1}}else{var
-dR=b;cB=1}if(cB)var
-u=dR;break;case
+dO=au;if(!cz){var
+dP=dO;cy=1}}else{var
+dP=b;cy=1}if(cy)var
+u=dP;break;case
 2:var
-cG=0;if(b){var
-aw=b[2],cH=0;if(aw){var
+cB=0;if(b){var
+aw=b[2],cD=0;if(aw){var
 ax=aw[2];if(ax)if(ax[2]){var
-u=0;cH=1}else{var
-dS=ax[1],dT=aw[1],dU=b[1],gs=E([0,dU,dT,dS],[0,dU,dT,dS]),u=iN(l,x[1],gs,[0,c,c]);cH=1}else
+u=0;cD=1}else{var
+dQ=ax[1],dS=aw[1],dU=b[1],gs=E([0,dU,dS,dQ],[0,dU,dS,dQ]),u=iU(l,x[1],gs,[0,c,c]);cD=1}else
 var
 dV=ax}else
 var
-dV=aw;if(!cH){var
-dW=dV;cG=1}}else{var
-dW=b;cG=1}if(cG)var
+dV=aw;if(!cD){var
+dW=dV;cB=1}}else{var
+dW=b;cB=1}if(cB)var
 u=dW;break;default:var
-cI=0;if(b){var
-ay=b[2],cN=0;if(ay){var
-az=ay[2],cO=0;if(az)if(az[2]){var
-u=0;cN=1;cO=1}else{var
-bQ=az[1],dX=ay[1],dY=b[1],dZ=iN(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bQ,bQ]]);if(dZ){var
-u=dg(l,ci(x[2]),bQ);cN=1;cO=1}else
+cE=0;if(b){var
+ay=b[2],cF=0;if(ay){var
+aA=ay[2],cG=0;if(aA)if(aA[2]){var
+u=0;cF=1;cG=1}else{var
+bR=aA[1],dX=ay[1],dY=b[1],dZ=iU(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bR,bR]]);if(dZ){var
+u=dm(l,cn(x[2]),bR);cF=1;cG=1}else
 var
-d1=dZ}else
+d0=dZ}else
 var
-d1=az;if(!cO)var
-d2=d1}else
+d0=aA;if(!cG)var
+d1=d0}else
 var
-d2=ay;if(!cN){var
-d3=d2;cI=1}}else{var
-d3=b;cI=1}if(cI)var
-u=d3}var
-bS=u}else
+d1=ay;if(!cF){var
+d2=d1;cE=1}}else{var
+d2=b;cE=1}if(cE)var
+u=d2}var
+bT=u}else
 var
-bS=d_;if(bS){var
-aD=C[5],gw=C[6],gx=C[3],gy=C[1],d4=function(a){var
-c=fK(aD,b,a_,a);return E(fK(aD,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
-d=aB(fK(aD,b,a_,e)),a=aL([4,[0,c,c],gx],iJ(iK(aD,b,e[2]),d));switch(gy){case
+bT=d$;if(bT){var
+aF=D[5],gw=D[6],gx=D[3],gy=D[1],d4=function(a){var
+c=fN(aF,b,a_,a);return E(fN(aF,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
+d=aD(fN(aF,b,a_,e)),a=aL([4,[0,c,c],gx],iQ(iR(aF,b,e[2]),d));switch(gy){case
 0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
-1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return it(l,d$(C[1]),gv,gw,hi)}return bS}}}return e$;case
+1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return iA(l,ee(D[1]),gv,gw,hi)}return bT}}}return e$;case
 3:var
-ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=q[2];if(0===cq[0]){var
-cr=cq[2],cs=cM(m(cr),cr);if(cs){var
+ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=r[2];if(0===cq[0]){var
+cr=cq[2],cs=cV(m(cr),cr);if(cs){var
 fe=cs[1];if(fe[2])return 0;var
-g6=m(fa),eJ=aE(m(fb),g6);if(eJ)var
-g7=m(bb),g8=0,ck=p(function(a){return f3(g8,g7,a)},ba);else
+g6=m(fa),eK=az(m(fb),g6);if(eK)var
+g7=m(bb),g8=0,cf=p(function(a){return f_(g8,g7,a)},ba);else
 var
-ck=eJ;var
-eK=ck?ep(ba):ck,eL=eK?p(function(a){return ds(a[2])},fc):eK,ff=eL?p(f8,cL(m(bb),ba)):eL,fg=ff?jq(m(fd),cr):ff;if(fg){var
-hj=fe[1],hk=a[3],eu=cL(m(bb),ba),gW=cv(fb,fa),b6=f(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},gW),gX=f(function(a){return f(cj,a)},bb),gY=f(function(a){var
-b=cj(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
-b=bE(a[2]);return[0,a[1],b]},fc),gY,gX],ai=cq[1],gm=f(dN,h[2]),bK=g(h[1],gm),at=m(h[1]),dE=ab(pw,at),dF=dE?ab(at,px):dE,dG=dF?ab(at,m(h[4])):dF,dH=dG?ab(m(h[4]),py):dG;if(dH)var
-gn=h[4],bL=p(function(a){return aE(m(a),at)},gn);else
+cf=eK;var
+eL=cf?et(ba):cf,eM=eL?p(function(a){return dw(a[2])},fc):eL,ff=eM?p(gd,cU(m(bb),ba)):eM,fg=ff?jv(m(fd),cr):ff;if(fg){var
+hj=fe[1],hk=a[3],ev=cU(m(bb),ba),gW=cC(fb,fa),b6=f(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},gW),gX=f(function(a){return f(cp,a)},bb),gY=f(function(a){var
+b=cp(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
+b=bH(a[2]);return[0,a[1],b]},fc),gY,gX],al=cq[1],gm=f(da,h[2]),bL=g(h[1],gm),at=m(h[1]),dE=ac(pB,at),dF=dE?ac(at,pC):dE,dG=dF?ac(at,m(h[4])):dF,dH=dG?ac(m(h[4]),pD):dG;if(dH)var
+gn=h[4],bM=p(function(a){return az(m(a),at)},gn);else
 var
-bL=dH;if(bL){var
-ar=bK;for(;;){if(ar){var
-dC=ar[2],gl=ar[1],dD=aX(bz(function(b){return function(a){return lQ(b,a)}}(gl),dC));if(dD){var
-ar=dC;continue}var
+bM=dH;if(bM){var
+as=bL;for(;;){if(as){var
+dC=as[2],gl=as[1],dD=aU(bD(function(b){return function(a){return lV(b,a)}}(gl),dC));if(dD){var
+as=dC;continue}var
 dI=dD}else
 var
 dI=1;var
-bM=dI;break}}else
+bN=dI;break}}else
 var
-bM=bL;if(bM){var
-aq=bK,ap=h[3];for(;;){if(ap){var
-dy=ap[1],dz=dy[1],dA=aX(bz(function(b){return function(a){return aA(b,a)}}(dz),aq)),dB=dA?fH(aq,dy[2]):dA;if(dB){var
-aq=[0,dz,aq],ap=ap[2];continue}var
+bN=bM;if(bN){var
+ar=bL,aq=h[3];for(;;){if(aq){var
+dy=aq[1],dz=dy[1],dA=aU(bD(function(b){return function(a){return aB(b,a)}}(dz),ar)),dB=dA?fK(ar,dy[2]):dA;if(dB){var
+ar=[0,dz,ar],aq=aq[2];continue}var
 dJ=dB}else
 var
 dJ=1;var
-bN=dJ;break}}else
-var
-bN=bM;if(bN)var
-go=h[4],gp=g(f(dN,h[3]),bK),gq=function(a){return fH(gp,a)},bO=p(function(a){return p(gq,a)},go);else
+bO=dJ;break}}else
 var
 bO=bN;if(bO)var
-gr=h[2],bP=p(function(a){return bg(l,a[2][1],a[2][2])},gr);else
+go=h[4],gp=g(f(da,h[3]),bL),gq=function(a){return fK(gp,a)},bP=p(function(a){return p(gq,a)},go);else
 var
-bP=bO;var
-dK=bP?p(function(a){return bg(l,a[1],a[2])},b6):bP;if(dK){var
-ga=m(h[1]),bv=m(h[2]),dm=S(bv,m(df(f(e8,h[3])))),gb=h[3],$=iF(h),ao=gb,bu=bv;for(;;){if(ao){var
-dk=ao[1],dl=dk[2],fY=S(bu,m(bh(dl))),f1=ao[2],f4=bi($,dl,bu),$=[0,[0,dk[1],f4],$],ao=f1,bu=fY;continue}var
-gc=iC($,h[4],dm),bw=f(function(a){return[0,a,r(c)]},gc),gd=iD($,h[4],dm),ge=h[3],bx=g(iz(iF(h),ge,bv),gd),by=d0(g(cC(bw),bx))[1],gf=cy(by),bC=function(a){return bT(gf,a)},dn=e(bV(bC),bw),dp=aE(m(b6),ga);if(dp)var
-gg=g(cC(bw),bx),bG=p(function(a){var
-b=r(d),c=cy(by);return bA(H(bC(a),c,b),a)},gg);else
+bP=bO;if(bP)var
+gr=h[2],bQ=p(function(a){return bj(l,a[2][1],a[2][2])},gr);else
 var
-bG=dp;var
-dt=bG?bz(pv,eu):bG;if(dt){var
-f6=I(df,h[4]),f_=g(df(f(e8,h[3])),f6),f$=g(iE(h[2]),f_),bH=aU(f(function(a){return aZ(ai,a)},f$));if(bH){var
-bI=aU(f(function(a){return aZ(ai,[0,a,d])},b6));if(bI){var
-bJ=aU(f(function(a){if(typeof
-a==="number")return[0,[0,as]];else
+bQ=bP;var
+dK=bQ?p(function(a){return bj(l,a[1],a[2])},b6):bQ;if(dK){var
+f4=m(h[1]),bx=m(h[2]),dk=L(bx,m(dl(f(dR,h[3])))),f5=h[3],aa=iM(h),ap=f5,bw=bx;for(;;){if(ap){var
+dh=ap[1],dj=dh[2],fY=L(bw,m(bk(dj))),fZ=ap[2],f0=bl(aa,dj,bw),aa=[0,[0,dh[1],f0],aa],ap=fZ,bw=fY;continue}var
+f8=iJ(aa,h[4],dk),by=f(function(a){return[0,a,q(c)]},f8),f$=iK(aa,h[4],dk),gb=h[3],bz=g(iG(iM(h),gb,bx),f$),bA=d5(g(cK(by),bz))[1],gf=d3(bA),bB=function(a){return bW(gf,a)},dn=e(bh(bB),by),dp=az(m(b6),f4);if(dp)var
+gg=g(cK(by),bz),bC=p(function(a){var
+b=q(d),c=d3(bA);return be(N(bB(a),c,b),a)},gg);else
+var
+bC=dp;var
+dq=bC?bD(pA,ev):bC;if(dq){var
+f1=M(dl,h[4]),f2=g(dl(f(dR,h[3])),f1),f3=g(iL(h[2]),f2),bF=aW(f(function(a){return a0(al,a)},f3));if(bF){var
+bJ=aW(f(function(a){return a0(al,[0,a,d])},b6));if(bJ){var
+bK=aW(f(function(a){if(typeof
+a==="number")return[0,[0,ah]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4593,111 +4703,111 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aZ(ai,[0,[0,b,b],d]);return aj(function(a){return e(ak(ai,a))},g)},eu));if(bJ){var
-du=bJ[1],gh=h$(du),gi=bI[1],gj=function(a){return 0},gk=bH[1];return ft(ai,by,dn,dn,f(bC,bx),gk,du,gj,gi,gh,hj)}var
-dv=bJ}else
+g=a0(al,[0,[0,b,b],d]);return $(function(a){return e(ag(al,a))},g)},ev));if(bK){var
+dr=bK[1],gh=ih(dr),gi=bJ[1],gj=function(a){return 0},gk=bF[1];return fw(al,bA,dn,dn,f(bB,bz),gk,dr,gj,gi,gh,hj)}var
+ds=bK}else
 var
-dv=bI;var
-dw=dv}else
+ds=bJ;var
+dt=ds}else
 var
-dw=bH;var
-dx=dw}else
+dt=bF;var
+dx=dt}else
 var
-dx=dt;return dx}}return dK}var
+dx=dq;return dx}}return dK}var
 fh=fg}else
 var
 fh=cs;return fh}return 0;case
-4:if(0===q[2][0]){var
-fi=eo(j(a[1]));if(fi){var
+4:if(0===r[2][0]){var
+fi=es(j(a[1]));if(fi){var
 bc=a[3];if(bc){var
 aG=bc[1],b7=aG[4],y=bc[2];if(aG[1]||aG[2]||aG[3])var
 s=0;else
 switch(b7[0]){case
 0:var
-cP=0;if(y){var
-aH=y[1],ev=aH[4];if(aH[1]||aH[2]||aH[3])var
+cH=0;if(y){var
+aH=y[1],ew=aH[4];if(aH[1]||aH[2]||aH[3])var
 s=0;else
-if(1===ev[0])if(y[2])var
+if(1===ew[0])if(y[2])var
 s=0;else
 var
-g1=j(ev[1]),s=[0,[0,j(b7[1]),g1]];else{var
-ew=0;cP=1}}else{var
-ew=y;cP=1}if(cP)var
-s=ew;break;case
+g1=j(ew[1]),s=[0,[0,j(b7[1]),g1]];else{var
+ex=0;cH=1}}else{var
+ex=y;cH=1}if(cH)var
+s=ex;break;case
 1:var
-cQ=0;if(y){var
-aI=y[1],ex=aI[4];if(aI[1]||aI[2]||aI[3])var
+cJ=0;if(y){var
+aI=y[1],ey=aI[4];if(aI[1]||aI[2]||aI[3])var
 s=0;else
-if(0===ex[0])if(y[2])var
+if(0===ey[0])if(y[2])var
 s=0;else
 var
-g2=j(b7[1]),s=[0,[0,j(ex[1]),g2]];else{var
-ey=0;cQ=1}}else{var
-ey=y;cQ=1}if(cQ)var
-s=ey;break;default:var
+g2=j(b7[1]),s=[0,[0,j(ey[1]),g2]];else{var
+ez=0;cJ=1}}else{var
+ez=y;cJ=1}if(cJ)var
+s=ez;break;default:var
 s=0}}else
 var
 s=bc;if(s){var
-fj=s[1],fk=fj[2],fl=fj[1],ef=o(l,1,j(a[2])),eh=ef?o(l,1,[2,fk,[0,c,c]]):ef,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
+fj=s[1],fk=fj[2],fl=fj[1],eg=o(l,1,j(a[2])),eh=eg?o(l,1,[2,fk,[0,c,c]]):eg,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
 fm=s}else
 var
 fm=fi;return fm}return 0;default:var
 fn=a[1];if(fn){var
-fo=fn[1],ct=q[2];if(0===ct[0]){var
-cu=f5(tQ,ct[2]);if(cu){var
-fp=ds(fo);if(fp){var
-hl=cu[1],fq=bE(fo)[2],bd=ct[1],bW=cb(bd,d,fq);if(bW){var
-bY=cb(bd,d,[4,[0,c,c],fq]);if(bY){var
-gB=bW[1][1],ec=ad(b$(bd),gB);if(ec)return i$(bd,bY[1][1],hl);var
+fo=fn[1],ct=r[2];if(0===ct[0]){var
+cu=ga(tZ,ct[2]);if(cu){var
+fp=dw(fo);if(fp){var
+hl=cu[1],fq=bH(fo)[2],bd=ct[1],bV=cg(bd,d,fq);if(bV){var
+bX=cg(bd,d,[4,[0,c,c],fq]);if(bX){var
+gB=bV[1][1],ec=ae(cd(bd),gB);if(ec)return je(bd,bX[1][1],hl);var
 ed=ec}else
 var
-ed=bY;var
-ee=ed}else
+ed=bX;var
+ef=ed}else
 var
-ee=bW;return ee}var
+ef=bV;return ef}var
 fr=fp}else
 var
 fr=cu;return fr}return 0}var
-cw=q[2];if(0===cw[0]){var
-cx=f5(tR,cw[2]);return cx?i$(cw[1],d,cx[1]):cx}return 0}}return ac}var
-x=[an,tU,eN(0)],jr=[an,tV,eN(0)];function
-tS(z,c){var
-s=[0,h(sO,al(c[4])),0],t=[0,h(sQ,N([0,h(sP,al(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sC,w(f(sz,a[2]))),0],i=F(sE,N([0,h(sD,fS(a[1])),k]));else{var
+cv=r[2];if(0===cv[0]){var
+cw=ga(t0,cv[2]);return cw?je(cv[1],d,cw[1]):cw}return 0}}return ad}var
+x=[ao,t3,eR(0)],jw=[ao,t4,eR(0)];function
+t1(z,c){var
+s=[0,h(sX,am(c[4])),0],t=[0,h(sZ,O([0,h(sY,am(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sL,w(f(sI,a[2]))),0],i=F(sN,O([0,h(sM,fZ(a[1])),k]));else{var
 b=a[4],d=a[3],l=0;if(typeof
 b==="number")var
-e=al(sF);else
+e=am(sO);else
 if(0===b[0])var
-q=[0,w(f(fY,b[2])),0],e=F(sL,w([0,cI(b[1]),q]));else
+q=[0,w(f(f5,b[2])),0],e=F(sU,w([0,cR(b[1]),q]));else
 var
-r=[0,cI(b[2]),0],e=F(sM,w([0,cI(b[1]),r]));var
-m=[0,h(sG,e),l],n=d?[0,h(sH,w(f(O,d))),0]:d,o=g(n,m),p=[0,h(sI,w(f(O,a[2]))),0],i=F(sK,N(g([0,h(sJ,fS(a[1])),p],o)))}var
-u=[0,h(sR,i),t],v=0===c[2][0]?sS:sX,x=[0,h(sT,al(v)),u],y=[0,h(sU,rI(c[1])),x],j=aA(hb(tT,g(N([0,h(sW,al(sV)),y]),sN)),z);return j?tP(c):j}function
-U(a){if(0===a[0])return a[1];throw x}function
-V(a){if(1===a[0])return a[1];throw x}function
-aV(a){if(2===a[0])return a[1];throw x}function
-dt(a){if(3===a[0])return a[1];throw x}function
-a0(f,e){var
+r=[0,cR(b[2]),0],e=F(sV,w([0,cR(b[1]),r]));var
+m=[0,h(sP,e),l],n=d?[0,h(sQ,w(f(P,d))),0]:d,o=g(n,m),p=[0,h(sR,w(f(P,a[2]))),0],i=F(sT,O(g([0,h(sS,fZ(a[1])),p],o)))}var
+u=[0,h(s0,i),t],v=0===c[2][0]?s1:s6,x=[0,h(s2,am(v)),u],y=[0,h(s3,rR(c[1])),x],j=aB(hi(t2,g(O([0,h(s5,am(s4)),y]),sW)),z);return j?tY(c):j}function
+W(a){if(0===a[0])return a[1];throw x}function
+X(a){if(1===a[0])return a[1];throw x}function
+aX(a){if(2===a[0])return a[1];throw x}function
+dx(a){if(3===a[0])return a[1];throw x}function
+a1(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===x8(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===yf(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-q(c,b){var
-a=a0(c,b);if(a)return a[1];throw x}function
-er(b,a){var
+r(c,b){var
+a=a1(c,b);if(a)return a[1];throw x}function
+ev(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cN(a){switch(a[0]){case
+cW(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],tW]}throw x}function
-du(e,d){var
-a=W(e,V(d));if(a){var
+2:return[0,a[1],t5]}throw x}function
+dy(e,d){var
+a=Y(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-es(i){var
-f=bL(i),d=[0,0],e=aQ(f)-1|0;if(!(e<0)){var
+ew(i){var
+f=bO(i),d=[0,0],e=aR(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=cT(f,c)+gh|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=c2(f,c)+go|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4719,47 +4829,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dv(a){return hy(es(a))}function
-f$(b){var
-a=dt(b);return 45===L(a,0)?P(dv(c0(a,1,y(a)-1|0))):dv(a)}function
-js(a){return fa(dv(dt(a)))}function
-ga(a){return hx(dv(dt(a)))}function
-cO(c){var
-a=dt(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gQ(a))}function
-jt(a){var
-b=97<=a?1:0,c=b?a<=ly?1:0:b;if(c)var
+dz(a){return hF(ew(a))}function
+gg(b){var
+a=dx(b);return 45===J(a,0)?S(dz(c9(a,1,y(a)-1|0))):dz(a)}function
+jx(a){return fd(dz(dx(a)))}function
+gh(a){return hE(dz(dx(a)))}function
+cX(c){var
+a=dx(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gX(a))}function
+jy(a){var
+b=97<=a?1:0,c=b?a<=lD?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-ju(A,b){var
+jz(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?L(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?J(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=L(b,a[1])&&!(57<L(b,a[1]))){a[1]++;continue}return c0(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=J(b,a[1])&&!(57<J(b,a[1]))){a[1]++;continue}return c9(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
 j(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,j(k+1|0)]}if(c(40))var
 f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&aA(c0(b,a[1],5),tY)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aB(c9(b,a[1],5),t7)){a[1]=a[1]+4|0;var
 f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jt(L(b,a[1]))){var
+v=0;if(a[1]<d&&jy(J(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jt(L(b,a[1]))&&95!==L(b,a[1])&&(!(48<=L(b,a[1]))||57<L(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,c0(b,o,a[1]-o|0))];break}}else
+w=0;if(!jy(J(b,a[1]))&&95!==J(b,a[1])&&(!(48<=J(b,a[1]))||57<J(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,c9(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aA(h,tZ);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aB(h,t8);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===L(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(aA(l,t0)||48===L(l,y(l)-1|0))z=1;else
+t=1<y(h)?1:0,s=t?48===J(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(aB(l,t9)||48===J(l,y(l)-1|0))z=1;else
 var
-B=es(l),f=[0,es(h),B];if(z)throw x}else
+B=ew(l),f=[0,ew(h),B];if(z)throw x}else
 var
-f=[0,es(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(i(g,tX)){if(!(2<y(g))&&2<=gQ(g)&&!(64<gQ(g)))return[4,f,fa(dv(g))];throw x}throw x}return f}function
+f=[0,ew(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(i(g,t6)){if(!(2<y(g))&&2<=gX(g)&&!(64<gX(g)))return[4,f,fd(dz(g))];throw x}throw x}return f}function
 f(d){var
 b=j(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,j(d)];continue}if(c(47)){a[1]++;var
@@ -4769,37 +4879,37 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-jv(a){return ju(function(a){throw x},a)}function
-jw(a){var
-b=aV(a);return ju(function(a){return a},b)}function
-Y(a){return jv(aV(a))}function
-bG(a){if(2===a[0])return[0,jv(a[1])];var
-b=U(a),c=Y(q(b,t1));return[1,Y(q(b,t2)),c]}function
-af(a){throw[0,jr,aq(hb(t4,a),t3)]}function
-jx(c){var
-a=aV(c);if(i(a,t5)){var
-b=i(a,t6);if(b)throw x;return b}return 1}function
-t7(d){var
-b=U(d);function
-a(a){return du(bG,q(b,a))}var
-c=aV(q(b,t8));if(i(c,t9)){if(i(c,t_)){if(i(c,t$))return af([0,ub,[0,c,ua]]);var
-e=a0(b,uc),f=er(function(a){return du(bG,a)},e),g=a(ud);return[1,a(ue),g,f]}var
-h=jx(q(b,uf)),j=bG(q(b,ug)),k=a(uh),l=a(ui);return[0,a(uj),l,k,j,h]}return[2,a(uk)]}function
-jy(d){var
-a=U(d);if(a){var
-b=a[1];if(!i(b[1],ul)){var
-c=b[2];if(2===c[0]&&!i(c[1],um))return 1}}return 0}function
-un(c){var
-a=U(c);if(1-jy(c))throw x;function
-b(b){return du(bG,q(a,b))}var
-d=jx(q(a,uo)),e=bG(q(a,up)),f=bG(q(a,uq)),g=b(ur),h=b(us),i=b(ut);return[0,b(uu),i,h,g,f,e,d]}function
-dw(c,d){var
-a=V(d);if(a){var
+jA(a){return jz(function(a){throw x},a)}function
+jB(a){var
+b=aX(a);return jz(function(a){return a},b)}function
+Z(a){return jA(aX(a))}function
+bJ(a){if(2===a[0])return[0,jA(a[1])];var
+b=W(a),c=Z(r(b,t_));return[1,Z(r(b,t$)),c]}function
+ai(a){throw[0,jw,ar(hi(ub,a),ua)]}function
+jC(c){var
+a=aX(c);if(i(a,uc)){var
+b=i(a,ud);if(b)throw x;return b}return 1}function
+ue(d){var
+b=W(d);function
+a(a){return dy(bJ,r(b,a))}var
+c=aX(r(b,uf));if(i(c,ug)){if(i(c,uh)){if(i(c,ui))return ai([0,uk,[0,c,uj]]);var
+e=a1(b,ul),f=ev(function(a){return dy(bJ,a)},e),g=a(um);return[1,a(un),g,f]}var
+h=jC(r(b,uo)),j=bJ(r(b,up)),k=a(uq),l=a(ur);return[0,a(us),l,k,j,h]}return[2,a(ut)]}function
+jD(d){var
+a=W(d);if(a){var
+b=a[1];if(!i(b[1],uu)){var
+c=b[2];if(2===c[0]&&!i(c[1],uv))return 1}}return 0}function
+uw(c){var
+a=W(c);if(1-jD(c))throw x;function
+b(b){return dy(bJ,r(a,b))}var
+d=jC(r(a,ux)),e=bJ(r(a,uy)),f=bJ(r(a,uz)),g=b(uA),h=b(uB),i=b(uC);return[0,b(uD),i,h,g,f,e,d]}function
+dA(c,d){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-jz(j){var
-c=U(j),b=aV(q(c,uv));if(i(b,uw))if(i(b,ux))if(i(b,uy))if(i(b,uz))if(i(b,uA))if(i(b,uB))if(i(b,uC))var
-g=i(b,uD),a=g?af([0,uF,[0,b,uE]]):g;else
+jE(j){var
+c=W(j),b=aX(r(c,uE));if(i(b,uF))if(i(b,uG))if(i(b,uH))if(i(b,uI))if(i(b,uJ))if(i(b,uK))if(i(b,uL))var
+g=i(b,uM),a=g?ai([0,uO,[0,b,uN]]):g;else
 var
 a=6;else
 var
@@ -4814,137 +4924,137 @@ var
 a=7;else
 var
 a=3;function
-f(a){return q(c,uG)}var
-d=aV(q(c,uH));if(i(d,uI))if(i(d,uJ))if(i(d,uK))var
-e=af([0,uM,[0,d,uL]]);else
+f(a){return r(c,uP)}var
+d=aX(r(c,uQ));if(i(d,uR))if(i(d,uS))if(i(d,uT))var
+e=ai([0,uV,[0,d,uU]]);else
 var
-h=dw(Y,f(0)),e=[2,h[1],h[2]];else
+h=dA(Z,f(0)),e=[2,h[1],h[2]];else
 var
-e=[0,Y(f(0))];else
+e=[0,Z(f(0))];else
 var
-e=[1,Y(f(0))];function
+e=[1,Z(f(0))];function
 k(m){var
-b=U(m),e=0;if(2===a){if(b){var
-g=b[1];if(!i(g[1],uN)){var
+b=W(m),e=0;if(2===a){if(b){var
+g=b[1];if(!i(g[1],uW)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!b[2]){var
 j=c[1];e=1}}}}}else
 if(6===a&&b){var
-k=b[1];if(!i(k[1],uO)){var
+k=b[1];if(!i(k[1],uX)){var
 l=k[2];if(1===l[0]){var
 d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-j=d[1];e=1;f=1}if(!f&&!b[2])return af(uP)}}}if(e)return Y(j);throw x}var
-l=er(k,a0(c,uQ));return[0,a,er(cO,a0(c,uR)),l,e]}function
-gb(c){var
-a=jz(c),b=a[1];if(2!==b&&!(4<=b))return a;return af(uS)}function
-uZ(T){var
-m=cN(T),n=m[1];if(i(n,u0)){if(i(n,u1))return af([0,u3,[0,n,u2]]);var
-o=q(U(m[2]),u4),L=0;if(2===o[0]){var
-y=i(o[1],u5);if(!y){var
+j=d[1];e=1;f=1}if(!f&&!b[2])return ai(uY)}}}if(e)return Z(j);throw x}var
+l=ev(k,a1(c,uZ));return[0,a,ev(cX,a1(c,u0)),l,e]}function
+gi(c){var
+a=jE(c),b=a[1];if(2!==b&&!(4<=b))return a;return ai(u1)}function
+u8(T){var
+m=cW(T),n=m[1];if(i(n,u9)){if(i(n,u_))return ai([0,va,[0,n,u$]]);var
+o=r(W(m[2]),vb),L=0;if(2===o[0]){var
+y=i(o[1],vc);if(!y){var
 w=y;L=1}}if(!L)var
-w=[0,bG(o)];return[5,w]}var
-c=U(m[2]);function
-z(a){return W(jz,V(q(c,u6)))}var
-f=cN(q(c,u7)),a=cN(q(c,u8));if(0===a0(c,u9)){var
-b=f[1];if(i(b,u_)&&i(b,u$)&&i(b,va)){if(0===a0(c,vb)){if(i(b,vc)){var
-M=0;if(i(b,vd)){if(!i(b,ve)){var
-A=a[1],N=0;if(i(A,vh)&&i(A,vi)){M=1;N=1}if(!N){var
-p=V(f[2]),d=U(a[2]);if(i(a[1],uT))var
-u=dw(Y,q(d,uU)),v=dw(Y,q(d,uV)),P=v[2],Q=v[1],R=Y(q(d,uW)),r=[1,u[1],u[2],R,Q,P];else
+w=[0,bJ(o)];return[5,w]}var
+c=W(m[2]);function
+z(a){return Y(jE,X(r(c,vd)))}var
+f=cW(r(c,ve)),a=cW(r(c,vf));if(0===a1(c,vg)){var
+b=f[1];if(i(b,vh)&&i(b,vi)&&i(b,vj)){if(0===a1(c,vk)){if(i(b,vl)){var
+M=0;if(i(b,vm)){if(!i(b,vn)){var
+A=a[1],N=0;if(i(A,vq)&&i(A,vr)){M=1;N=1}if(!N){var
+p=X(f[2]),d=W(a[2]);if(i(a[1],u2))var
+u=dA(Z,r(d,u3)),v=dA(Z,r(d,u4)),P=v[2],Q=v[1],R=Z(r(d,u5)),q=[1,u[1],u[2],R,Q,P];else
 var
-S=du(Y,q(d,uX)),r=[0,du(Y,q(d,uY)),S];var
+S=dy(Z,r(d,u6)),q=[0,dy(Z,r(d,u7)),S];var
 h=p;for(;;){if(h){var
-O=h[2],t=jy(h[1]);if(!t){var
+O=h[2],t=jD(h[1]);if(!t){var
 h=O;continue}var
 B=t}else
 var
 B=0;if(B){var
-X=W(gb,V(q(c,vl)));return[1,W(un,p),r,X]}var
-Z=z(0);return[0,W(t7,p),r,Z]}}}}else
-if(!i(a[1],vm)){var
-_=z(0),$=Y(q(U(a[2]),vn));return[4,Y(q(U(f[2]),vo)),$,_]}if(!M)return af([0,vg,[0,b,vf]])}else
-if(!i(a[1],vp)){var
-j=U(f[2]),C=U(a[2]),D=function(c,a){var
-b=V(a);return W(function(d){var
-a=V(d);if(a){var
+U=Y(gi,X(r(c,vu)));return[1,Y(uw,p),q,U]}var
+V=z(0);return[0,Y(ue,p),q,V]}}}}else
+if(!i(a[1],vv)){var
+_=z(0),$=Z(r(W(a[2]),vw));return[4,Z(r(W(f[2]),vx)),$,_]}if(!M)return ai([0,vp,[0,b,vo]])}else
+if(!i(a[1],vy)){var
+j=W(f[2]),C=W(a[2]),D=function(c,a){var
+b=X(a);return Y(function(d){var
+a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aV(a[1]),f]}}throw x},b)},aa=function(d){var
-a=U(d);if(a){var
-b=a[1],c=b[1];if(i(c,vq)){if(!i(c,vr)&&!a[2])return W(jw,V(b[2]))}else
-if(!a[2])return af(vs)}throw x},ab=W(gb,V(q(c,vt))),ac=W(Y,V(q(C,vu))),ad=W(Y,V(q(C,vv))),ae=W(aa,V(q(j,vw))),ag=D(jw,q(j,vx)),ah=D(bG,q(j,vy));return[3,W(aV,V(q(j,vz))),ah,ag,ae,ad,ac,ab]}return af([0,vk,[0,a[1],vj]])}throw x}var
-E=a[1],F=U(f[2]),G=U(a[2]);if(i(E,vA))af([0,vC,[0,E,vB]]);var
-H=a0(F,vD),ai=H?Y(H[1]):af([0,v2,[0,b,v1]]),aj=function(d){var
-a=U(d);function
-b(b){return W(bG,V(q(a,b)))}var
-c=aV(q(a,vE)),e=a0(a,vF);if(!i(c,vG)&&!e){var
-f=b(vJ);return[0,b(vK),f]}return af([0,vI,[0,c,vH]])},g=cN(q(c,vL)),k=g[1];if(i(k,vM))if(i(k,vN))if(i(k,vO)){if(i(k,vP))throw x;var
-I=g[2],ak=Y(q(U(I),vQ)),l=[3,Y(q(U(I),vR)),ak]}else
+f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},aa=function(d){var
+a=W(d);if(a){var
+b=a[1],c=b[1];if(i(c,vz)){if(!i(c,vA)&&!a[2])return Y(jB,X(b[2]))}else
+if(!a[2])return ai(vB)}throw x},ab=Y(gi,X(r(c,vC))),ac=Y(Z,X(r(C,vD))),ad=Y(Z,X(r(C,vE))),ae=Y(aa,X(r(j,vF))),af=D(jB,r(j,vG)),ag=D(bJ,r(j,vH));return[3,Y(aX,X(r(j,vI))),ag,af,ae,ad,ac,ab]}return ai([0,vt,[0,a[1],vs]])}throw x}var
+E=a[1],F=W(f[2]),G=W(a[2]);if(i(E,vJ))ai([0,vL,[0,E,vK]]);var
+H=a1(F,vM),ah=H?Z(H[1]):ai([0,v$,[0,b,v_]]),aj=function(d){var
+a=W(d);function
+b(b){return Y(bJ,X(r(a,b)))}var
+c=aX(r(a,vN)),e=a1(a,vO);if(!i(c,vP)&&!e){var
+f=b(vS);return[0,b(vT),f]}return ai([0,vR,[0,c,vQ]])},g=cW(r(c,vU)),k=g[1];if(i(k,vV))if(i(k,vW))if(i(k,vX)){if(i(k,vY))throw x;var
+I=g[2],ak=Z(r(W(I),vZ)),l=[3,Z(r(W(I),v0)),ak]}else
 var
-ap=g[2],s=function(a){return dw(Y,q(U(ap),a))},aq=s(vY),ar=s(vZ),l=[1,s(v0),ar,aq];else
+ap=g[2],s=function(a){return dA(Z,r(W(ap),a))},aq=s(v7),ar=s(v8),l=[1,s(v9),ar,aq];else
 var
-K=dw(Y,g[2]),l=[0,K[1],K[2]];else
+K=dA(Z,g[2]),l=[0,K[1],K[2]];else
 var
-l=[2,Y(g[2])];var
-J=i(b,vS),al=J?i(b,vT)?2:1:J,am=W(gb,V(q(c,vU))),an=W(Y,V(q(G,vV))),ao=W(Y,V(q(G,vW)));return[2,al,W(aj,V(q(F,vX))),ai,ao,an,l,am]}return af(v3)}function
-jA(a){return W(f$,V(a))}function
-et(g,m){var
+l=[2,Z(g[2])];var
+J=i(b,v1),al=J?i(b,v2)?2:1:J,am=Y(gi,X(r(c,v3))),an=Y(Z,X(r(G,v4))),ao=Y(Z,X(r(G,v5)));return[2,al,Y(aj,X(r(F,v6))),ah,ao,an,l,am]}return ai(wa)}function
+jF(a){return Y(gg,X(a))}function
+ex(g,m){var
 D=g[2];function
 E(c,b){var
-a=jA(b);if(cq(a)!==c)throw x;return a}switch(m[0]){case
+a=jF(b);if(cw(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(i(b,v6))if(i(b,v7))if(i(b,v8))if(i(b,v9)){var
-O=0;if(i(b,v_)&&i(b,v$)&&i(b,wa))O=1;if(!O)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(i(b,wd))if(i(b,we))if(i(b,wf))if(i(b,wg)){var
+O=0;if(i(b,wh)&&i(b,wi)&&i(b,wj))O=1;if(!O)if(c[2])d=1;else{var
 Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 n=J[1];if(n){var
 o=n[2];if(o){var
 p=o[2];if(p&&!p[2]){if(!c[2]){var
-T=ga(p[1]),X=f$(o[1]);return[4,et(g,n[1]),X,T]}d=1}}}}}else{if(!c[2]){var
-A=aV(e[2]),B=i(A,v4);if(B){if(i(A,v5))throw x;var
+T=gh(p[1]),U=gg(o[1]);return[4,ex(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
+A=aX(e[2]),B=i(A,wb);if(B){if(i(A,wc))throw x;var
 C=1}else
 var
 C=B;return[2,C]}d=1}else{if(!c[2]){var
 h=e[2],l=0;switch(h[0]){case
 0:var
 j=h[1];if(j){var
-L=j[1],u=L[1],a=0;if(i(u,wf)&&i(u,wg))if(i(u,wh))a=1;else{var
+L=j[1],u=L[1],a=0;if(i(u,wo)&&i(u,wp))if(i(u,wq))a=1;else{var
 M=L[2];if(1===M[0]){var
 v=M[1];if(v){var
 k=v[1],f=0;switch(k[0]){case
 0:var
 w=k[1];if(w){var
-N=w[1][1],P=0;if(i(N,wj)&&i(N,wk)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(i(k[1],wl)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+N=w[1][1],P=0;if(i(N,ws)&&i(N,wt)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(i(k[1],wu)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 y=v[2];if(y){var
 z=y[2];if(z&&!(z[2]||j[2])){var
-_=ga(z[1]),$=f$(y[1]),r=[5,et(g,k),$,_];l=1;a=1}else
+_=gh(z[1]),$=gg(y[1]),q=[5,ex(g,k),$,_];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!j[2])l=2}break;case
-2:if(!i(h[1],wm))l=2;break}switch(l){case
+2:if(!i(h[1],wv))l=2;break}switch(l){case
 0:var
-r=af(wi);break;case
+q=ai(wr);break;case
 2:var
-r=et(g,h);break}return[6,r]}d=1}else{var
+q=ex(g,h);break}return[6,q]}d=1}else{var
 K=e[2];if(1===K[0]){var
 s=K[1];if(s){var
 t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
-Y=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,Y)]};d=2}}}}switch(d){case
-0:if(!c[2])return af([0,wc,[0,b,wb]]);break;case
+V=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,V)]};d=2}}}}switch(d){case
+0:if(!c[2])return ai([0,wl,[0,b,wk]]);break;case
 1:break;default:var
-H=U(G),R=V(q(H,wd)),I=W(function(a){return E(D,a)},R),S=g[1];if(cq(I)!==S)throw x;return F(I,ga(q(H,we)))}}break;case
+H=W(G),R=X(r(H,wm)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cw(I)!==S)throw x;return F(I,gh(r(H,wn)))}}break;case
 2:return[0,m[1]]}throw x}function
-wI(c){var
+wR(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!i(b[1],wJ))a=1;break;case
+0:if(!i(b[1],wS))a=1;break;case
 6:a=1;break}return a?1:0}function
-wK(d){var
+wT(d){var
 f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return L(d,a[1]);throw x}function
+g(b){if(a[1]<f)return J(d,a[1]);throw x}function
 h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,L(d,a[1]))){a[1]++;continue}return c0(d,b,a[1]-b|0)}}function
+C(b,c){for(;;){if(a[1]<f&&e(c,J(d,a[1]))){a[1]++;continue}return c9(d,b,a[1]-b|0)}}function
 D(d){h(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -4965,54 +5075,54 @@ i=125;return[0,E(function(b){var
 a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,C(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=p(0,0),F=a[1]<f?1:0,N=F?10===L(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=U(M);if(i(aV(q(m,wL)),wM))throw x;var
-b=uZ(q(m,wN));switch(b[0]){case
+M=p(0,0),F=a[1]<f?1:0,N=F?10===J(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=W(M);if(i(aX(r(m,wU)),wV))throw x;var
+b=u8(r(m,wW));switch(b[0]){case
 0:var
-n=[0,cq(b[1]),3];break;case
+n=[0,cw(b[1]),3];break;case
 2:var
-_=1===b[1]?6:3,n=[0,cq(b[2]),_];break;case
+_=1===b[1]?6:3,n=[0,cw(b[2]),_];break;case
 3:var
-$=cq(b[1]),n=[0,cq(b[4]),$];break;default:var
-n=wV}var
-w=cN(q(m,wO)),z=w[1];if(i(z,wy))if(i(z,wz))var
-c=af([0,wB,[0,z,wA]]);else{var
-k=U(w[2]),A=a0(k,wC),Q=A?W(Y,V(A[1])):A,r=cN(q(k,wD)),j=r[1],o=0;if(i(j,wt)){var
-G=i(j,wu);if(G){if(!i(j,wv)){var
-H=r[2];if(1===H[0]){var
+$=cw(b[1]),n=[0,cw(b[4]),$];break;default:var
+n=w4}var
+w=cW(r(m,wX)),z=w[1];if(i(z,wH))if(i(z,wI))var
+c=ai([0,wK,[0,z,wJ]]);else{var
+k=W(w[2]),A=a1(k,wL),Q=A?Y(Z,X(A[1])):A,q=cW(r(k,wM)),j=q[1],o=0;if(i(j,wC)){var
+G=i(j,wD);if(G){if(!i(j,wE)){var
+H=q[2];if(1===H[0]){var
 s=H[1];if(s){var
 t=s[2];if(t&&!t[2]){var
-O=cO(t[1]),l=[1,cO(s[1]),O];o=1}}}}}else{var
+O=cX(t[1]),l=[1,cX(s[1]),O];o=1}}}}}else{var
 l=G;o=1}}else{var
-I=r[2];if(1===I[0]){var
+I=q[2];if(1===I[0]){var
 u=I[1];if(u){var
 v=u[2];if(v&&!v[2]){var
-P=W(jA,V(v[1])),l=[0,cO(u[1]),P];o=1}}}}if(!o)var
-l=af([0,wx,[0,j,ww]]);var
-R=W(Y,V(q(k,wE))),c=[1,js(q(k,wF)),R,Q,l]}else
+P=Y(jF,X(v[1])),l=[0,cX(u[1]),P];o=1}}}}if(!o)var
+l=ai([0,wG,[0,j,wF]]);var
+R=Y(Z,X(r(k,wN))),c=[1,jx(r(k,wO)),R,Q,l]}else
 var
-J=U(w[2]),S=V(q(J,wG)),T=W(function(f){var
-a=U(f);if(0!==a0(a,wp))af(wq);var
-d=er(cO,a0(a,wr)),b=a0(a,ws);if(b)var
-e=V(b[1]),c=W(function(g){var
-b=V(g);if(b){var
+K=W(w[2]),S=X(r(K,wP)),T=Y(function(f){var
+a=W(f);if(0!==a1(a,wy))ai(wz);var
+d=ev(cX,a1(a,wA)),b=a1(a,wB);if(b)var
+e=X(b[1]),c=Y(function(g){var
+b=X(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!i(c[1],wn)){if(!a[2]){if(i(dt(e),wo))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!i(c[1],ww)){if(!a[2]){if(i(dx(e),wx))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=et(n,c);return[0,cO(e),f]}}}throw x},e);else
+f=ex(n,c);return[0,cX(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},S),c=[0,js(q(J,wH)),T];var
+c=b;return[0,c,d]},S),c=[0,jx(r(K,wQ)),T];var
 B=0;switch(b[0]){case
-1:if(0===c[0]){af(wS);B=1}break;case
+1:if(0===c[0]){ai(w1);B=1}break;case
 2:if(0===c[0]){var
-Z=c[2];if(!g9(function(a){return g9(wI,a[1])},Z)){af(wT);B=1}}break;case
-3:if(1===c[0]){af(wU);B=1}break}var
-K=U(q(m,wP)),X=aV(q(K,wQ));return[0,b,c,aV(q(K,wR)),X]}function
-wW(c){try{try{var
-d=0,a=wK(c);d=1}catch(a){a=eU(a);if(a[1]===jr)var
+V=c[2];if(!he(function(a){return he(wR,a[1])},V)){ai(w2);B=1}}break;case
+3:if(1===c[0]){ai(w3);B=1}break}var
+L=W(r(m,wY)),U=aX(r(L,wZ));return[0,b,c,aX(r(L,w0)),U]}function
+w5(c){try{try{var
+d=0,a=wT(c);d=1}catch(a){a=eY(a);if(a[1]===jw)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=tS(c,a)?0===a[2][0]?0:1:2}catch(a){return wX}if(typeof
+b=t1(c,a)?0===a[2][0]?0:1:2}catch(a){return w6}if(typeof
 b==="number")switch(b){case
-0:return wY;case
-1:return wZ;default:return w0}return aq(w1,b[1])}yM.orthocert_verify=ys(function(b){return bO(wW(a(b)))});eX(0);return}(globalThis));
+0:return w7;case
+1:return w8;default:return w9}return ar(w_,b[1])}yV.orthocert_verify=yB(function(b){return bR(w5(a(b)))});e1(0);return}(globalThis));
