@@ -42,6 +42,23 @@ Example rank_alone : accepts right [by_rank Y; by_test] = false. Proof. vm_compu
 (** No inequality of orientations in the plane. *)
 Example turned : accepts right [by_lower Y; (1%nat, AtControls (Turned ByTest 0 0%N))] = false. Proof. vm_compute. reflexivity. Qed.
 Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. reflexivity. Qed.
+
+(** Joint speeds and forces, and stiffness. *)
+Definition asks (d : demand) (e : evidence) : bool :=
+  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (positions right) (Turning.turned right) [FactorMax (11 // 10); d]) [by_lower Y; (1%nat, AtControls e)].
+Example speed : asks (SpeedMax 0 (100 // 1) (160 // 1)) ByTest = true. Proof. vm_compute. reflexivity. Qed.
+Example speed_less : asks (SpeedMax 0 (100 // 1) (100 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
+Example speed_of_none : asks (SpeedMax 3 (100 // 1) (160 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
+Example tool_at_rest : asks (SpeedMax 0 (0 // 1) (160 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
+Definition Y2 := [[0; -2; -2]; [2; 2; -2]; [-2; 0; -2]].
+Example stiff : asks (StiffnessMin (2 // 1) (1 // 1)) (ByLower 0%N Y2) = true. Proof. vm_compute. reflexivity. Qed.
+Example stiffer : asks (StiffnessMin (2 // 1) (3 // 1)) (ByLower 0%N Y2) = false. Proof. vm_compute. reflexivity. Qed.
+Example joints_negative : asks (StiffnessMin (-2 // 1) (-1 // 1)) (ByLower 0%N Y2) = false. Proof. vm_compute. reflexivity. Qed.
+Definition Y8 := [[1; -5; -5]; [4; 4; -5]; [-5; 2; -5]].
+Example force : asks (ForceMax 0 (100 // 1) (120 // 1)) (ByLower 3%N Y8) = true. Proof. vm_compute. reflexivity. Qed.
+Example force_less : asks (ForceMax 0 (100 // 1) (60 // 1)) (ByLower 3%N Y8) = false. Proof. vm_compute. reflexivity. Qed.
+Example force_by_another_Y : asks (ForceMax 0 (100 // 1) (120 // 1)) (ByLower 3%N [[1; -5; 5]; [4; 4; -5]; [-5; 2; -5]]) = false. Proof. vm_compute. reflexivity. Qed.
+Example force_by_test : asks (ForceMax 0 (100 // 1) (120 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
 End Planar.
 
 (** Where ends alone of positions will do: in the plane, coordinates 3 and 4 are the squares of 0 and 1. *)

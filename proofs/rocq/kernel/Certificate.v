@@ -45,8 +45,8 @@ Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_.
-(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, and the joints' stiffness, of stiffness. *)
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_.
+(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, and the joints' stiffness, of stiffness. *)
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
 
@@ -165,6 +165,7 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
+  | Force_ => "joint_force"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
 Definition bound_text (e : written_end) : text :=
@@ -431,6 +432,9 @@ Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
   | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
   | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
+  | Speed_, AtMost_ b => match given_ r with Some tool => each (fun i => SpeedMax i (denoted tool) (denoted b)) | None => [] end
+  | Force_, AtMost_ b => match given_ r with Some tool => each (fun i => ForceMax i (denoted tool) (denoted b)) | None => [] end
+  | Stiffness_, AtLeast_ b => match given_ r with Some k => [StiffnessMin (denoted k) (denoted b)] | None => [] end
   | _, _ => []
   end.
 Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
@@ -441,6 +445,15 @@ Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) 
   | JointRange, e, leg, None => Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end &&
       match leg with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end
   | _, _, _, _ => false
+  end.
+(** Of platforms that turn; forces of as many struts as coordinates alone are determined. *)
+Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) : bool :=
+  let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
+  match about_ r, end_ r, given_ r with
+  | Speed_, AtMost_ _, Some _ => is_leg
+  | Force_, AtMost_ _, Some _ => is_leg && Nat.eqb legs coordinates
+  | Stiffness_, AtLeast_ _, Some _ => match leg_ r with None => true | Some _ => false end
+  | _, _, _ => is_demand false legs r
   end.
 
 Fixpoint written_of (x : term string) : written :=
@@ -669,6 +682,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | AngleWithin _ a b => certainly exact_bits true (Minus b a) && certainly exact_bits true (Minus (Plus a (180 // 1)) b)
       && certainly exact_bits false (Plus a (360 // 1)) && certainly exact_bits false (Minus (360 // 1) b)
   | LengthMin _ b | LengthMax _ b => is_number b
+  | SpeedMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
@@ -713,7 +727,7 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | (InSpace | AboutPoint), TurnedUpTo a => is_less_than_half_turn a
   | (InSpace | AboutPoint), Tilted a b => is_less_than_half_turn a && is_less_than_half_turn b
   | _, _ => false
-  end && forallb (is_demand false (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
+  end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
 
 Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
   Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).

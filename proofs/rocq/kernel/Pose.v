@@ -22,14 +22,13 @@ Variables m n : nat.
 (** Where it is curved, what is not negative at the orientations. *)
 Variable g : option nat.
 
-(** Of least singular values, the first coordinates have ends alone. *)
-Variable ends : nat.
 
 Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
   let at_all e good r w := everywhere e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
-  | LeastOf r w k, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
-  | LeastOf r w k, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
+  | LeastOf r w k ends, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
+  | LeastOf r w k ends, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
+  | SolveOf i r w k ends, ByLower places Y => at_all ends (solve_at bits n i places Y k) r w
   | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | _, _ => false
@@ -74,21 +73,27 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ | GreatestOf r w _ => w :: all_places r | SignOf f => [f] end.
+  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ => w :: all_places r | SignOf f => [f] end.
+(** Rows and weight of a test that has ends alone of some coordinates. *)
+Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
+  match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
 Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
 Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
-Hypothesis eased : ends = O \/ forall r w k, In (LeastOf r w k) tests -> length r = n /\
+Hypothesis eased : forall t r w ends, In t tests -> with_ends t = Some (r, w, ends) -> ends = O \/ length r = n /\
   is_eased tape m ends r w None = true /\ forall i k places, g = Some i -> is_eased tape m ends r w (Some (i, k, places)) = true.
 (** Rows are those of struts, and the orientation is of the set. *)
 Definition is_turned (x : list R) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
-  (forall i, g = Some i -> 0 <= here i) /\ (forall r w k, In (LeastOf r w k) tests -> grounded (map_rows here r) /\ 0 < here w).
+  (forall i, g = Some i -> 0 <= here i) /\ (forall t r w e, In t tests -> with_ends t = Some (r, w, e) -> e = O \/ grounded (map_rows here r) /\ 0 < here w).
 
 Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
   match t with
-  | LeastOf r w kappa2 => forall k v, contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
+  | LeastOf r w kappa2 _ => forall k v, contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ k * here w * Linear.dot v v < energy (map_rows here r) v
+  | SolveOf i r w k2 _ => forall k u, contains bits k2 k -> 0 <= k -> 0 < here w -> length u = length r -> nonzero u ->
+      let p := weighted_sum u (map fst (map_rows here r)) in
+      k * here w * (nth i (map snd (map_rows here r)) 0 * nth i u 0 ^ 2) < Linear.dot p p
   | GreatestOf r w k2 => forall k v, contains bits k2 k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) v < k * here w * Linear.dot v v
   | SignOf f => 0 <= here f
@@ -101,15 +106,17 @@ Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bi
 Proof.
   intros cell x l t e it hx len ht hl la l0 h. pose proof (affine t it) as ha.
   pose proof (fun e good s => everywhere_shown bits tape params m cell len e good s) as K.
-  assert (E : forall r w k, In (LeastOf r w k) tests -> ends_suffice tape theta m x ends n r w l).
-  { intros r w k i. pose proof eased as EA. destruct EA as [e0 | H]; [left; exact e0 | right]. destruct (H r w k i) as [lr [h1 h2]]. split; [| split; [exact lr | exact (proj2 ht r w k i)]].
+  assert (E : forall r w c, with_ends t = Some (r, w, c) -> ends_suffice tape theta m x c n r w l).
+  { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
+    split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 | r w k2 | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
-  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w k2 it) | exact (K _ _ _ h)].
+  destruct t as [r w k2 ends | r w k2 | i r w k2 ends | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
-    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w k2 it) (K _ _ _ h3) lv nz).
+    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w ends eq_refl) (K _ _ _ h3) lv nz).
   - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
+  - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
   - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
 Qed.
 
@@ -287,23 +294,24 @@ Qed.
 
 Lemma scaled_row_speed : let (A, D) := scaled_row k N we le a b in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
-    forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
+    exists q, q ^ 2 = W * Formula.value x theta D /\ forall v, Linear.dot (map (Formula.value x theta) A) v = q * Linear.dot (strut_row k L l P Q) v) /\
   Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
-  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0).
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 Proof.
+  assert (len : length (fst (scaled_row k N we le a b)) = dimension k) by (destruct k; reflexivity).
   pose proof scaled_row_values as S. destruct (scaled_row k N we le a b) as [A D]. destruct S as [-> ->].
-  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. split; [| split; [reflexivity |]].
+  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. split; [| split; [reflexivity | split; [| exact len]]].
   2: { intros z v. apply Rmult_integral in z as [z | z]; [lra |]. rewrite (norm2_zero _ z), dot_map. generalize (arm_of_joint l Q). clear. intros [a b c].
     destruct k, v as [| v1 [| v2 [| v3 [| v4 [| v5 [| v6 v]]]]]]; unfold twist, vscale, cross, vzero; cbn [Linear.dot vx vy vz]; ring. }
   intro p.
   assert (n0 : 0 < norm2 (strut_vector l P Q)) by (apply Rmult_lt_reg_l with (W * r ^ 2); lra). split; [exact n0 |].
-  intro v. unfold strut_row. cbv zeta. pose proof (sqrt_lt_R0 _ n0) as s0.
+  exists (W * r * sqrt (norm2 (strut_vector l P Q))). unfold strut_row. cbv zeta. pose proof (sqrt_lt_R0 _ n0) as s0.
   assert (E : twist k (normalised (strut_vector l P Q)) (vscale (/ L) (cross (arm_of_joint l Q) (normalised (strut_vector l P Q))))
     = map (Rmult (/ sqrt (norm2 (strut_vector l P Q)))) (twist k (strut_vector l P Q) (vscale (/ L) (cross (arm_of_joint l Q) (strut_vector l P Q))))).
   { rewrite <- twist_scaled. unfold normalised. f_equal. set (c := / sqrt _). generalize (arm_of_joint l Q) (strut_vector l P Q). clear.
     intros [u1 u2 u3] [v1 v2 v3]. unfold vscale, cross. cbn [vx vy vz]. f_equal; ring. }
-  rewrite E, !dot_map. assert (S2 : sqrt (norm2 (strut_vector l P Q)) ^ 2 = norm2 (strut_vector l P Q)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
-  rewrite !Rpow_mult_distr, pow_inv, S2. field. split; [lra | split; lra].
+  assert (S2 : sqrt (norm2 (strut_vector l P Q)) ^ 2 = norm2 (strut_vector l P Q)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+  split; [rewrite !Rpow_mult_distr, S2; ring |]. intro v. rewrite E, !dot_map. field. lra.
 Qed.
 End Row.
 
@@ -320,9 +328,9 @@ Fixpoint all_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (
 Section Precision.
 Variable bits : positive.
 
-(** The bound of a leg's length, in the unit of the check, and what it is not to be negative. *)
+(** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, or b/k of a stiffness. *)
 Definition length_bound (s : Z) (d : demand) : parameter :=
-  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | _ => (exactly (0 // 1), 0%Z) end.
+  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | StiffnessMin k b => (exactly (Over b k), 0%Z) | _ => (exactly (0 // 1), 0%Z) end.
 Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option formula :=
   let bound := times (square (quantity (length_bound s d) j)) w in
   match d with
@@ -330,19 +338,38 @@ Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d 
   | LengthMax i b => match nth_error rows i with Some (_, D) => if certainly bits false b then Some (minus bound D) else None | None => None end
   | _ => None
   end.
-Definition pose_test (place : formula -> nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
-  let squared make x := option_map (fun a => make (map_rows place rows) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
+(** M^T k M >= b I is sigma_min >= 1 of the rows with D b/k. *)
+Definition stiff_rows (rows : rows formula) (s : Z) (j : nat) (d : demand) : Test.rows formula :=
+  map (fun p => (fst p, times (snd p) (quantity (length_bound s d) j))) rows.
+Definition own_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : list formula :=
   match d with
-  | Nonsingular => Some (LeastOf (map_rows place rows) (place w) zero)
-  | FactorMax b => squared LeastOf (Over (1 // 1) b)
-  | FactorMin b => squared GreatestOf (Over (1 // 1) b)
+  | StiffnessMin _ _ => map snd (stiff_rows rows s j d)
+  | _ => match length_sign rows w s j d with Some f => [f] | None => [] end
+  end.
+Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
+  let squared make r x := option_map (fun a => make (map_rows place r) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
+  let least r w k := LeastOf r w k ends in
+  match d with
+  | Nonsingular => Some (least (map_rows place rows) (place w) zero)
+  | FactorMax b => squared least rows (Over (1 // 1) b)
+  | FactorMin b => squared GreatestOf rows (Over (1 // 1) b)
   | LengthMin _ _ | LengthMax _ _ => option_map (fun f => SignOf (place f)) (length_sign rows w s j d)
+  | SpeedMax i tool b => match nth_error rows i with
+      | Some row => if certainly bits true tool && certainly bits false b then squared GreatestOf [row] (Over b tool) else None
+      | None => None
+      end
+  | StiffnessMin k b => if certainly bits true k && certainly bits true b
+      then Some (LeastOf (map_rows place (stiff_rows rows s j d)) (place w) (Fixed.integer bits 1) O) else None
+  | ForceMax i tool b => match nth_error rows i with
+      | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
+      | None => None
+      end
   | AngleWithin _ _ _ | Conditioned _ => None
   end.
-Fixpoint pose_tests (place : formula -> nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
-  match ds with [] => [] | d :: ds' => pose_test place rows w s j d :: pose_tests place rows w s (S j) ds' end.
-Fixpoint length_signs (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
-  match ds with [] => [] | d :: ds' => (match length_sign rows w s j d with Some f => [f] | None => [] end) ++ length_signs rows w s (S j) ds' end.
+Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
+  match ds with [] => [] | d :: ds' => pose_test place ends rows w s j d :: pose_tests place ends rows w s (S j) ds' end.
+Fixpoint demand_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
+  match ds with [] => [] | d :: ds' => own_formulas rows w s j d ++ demand_formulas rows w s (S j) ds' end.
 Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
@@ -364,7 +391,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let (N, w) := chart (turned c) (first_angle k) in
   let rows := all_rows k N w ell s (struts c) 0 in
   let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
-  let wanted := entries rows ++ w :: length_signs rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end in
+  let wanted := entries rows ++ w :: demand_formulas rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end in
   let tape := fst (compile (map (image m) wanted)) in
   let fs := formulas tape in
   let place f := Formula.place fs (image m f) in
@@ -376,11 +403,11 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (positions c))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (pose_tests place rows w s j (turning_demands c)) with
+        all_some (pose_tests place ends rows w s j (turning_demands c)) with
   | Some params, Some box, Some angles, Some tangents, Some tests =>
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
       match g with Some g => affine_in m fs (place g) | None => true end &&
-      check_poses bits tape (params ++ tangents) tests m m (option_map place g) ends (box ++ angles) (map (fun _ => true) tests) t
+      check_poses bits tape (params ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
   | _, _, _, _, _ => false
   end.
 
@@ -389,9 +416,9 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
 Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R) (row : list formula * formula) (l : strut) : Prop :=
   let (A, D) := row in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
-    forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
+    exists q, q ^ 2 = W * Formula.value x theta D /\ forall v, Linear.dot (map (Formula.value x theta) A) v = q * Linear.dot (strut_row k L l P Q) v) /\
   Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
-  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0).
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 
 Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
   forall x front back k P Q W L N w ell, 0 < W -> 0 < L -> (forall b, norm2 (mulv Q b) = norm2 b) ->
@@ -418,36 +445,76 @@ Lemma rows_speed : forall x theta k P Q W r L rows m, Forall2 (stands x theta k 
 Proof.
   intros x theta k P Q W r L. induction 1 as [| [A D] l rows m [h _] hs IH]; intro p; [split; [constructor | intro; cbn; ring] |].
   rewrite map_rows_cons in p. inversion p as [| ? ? p1 p2]. subst. destruct (IH p2) as [I1 I2]. destruct (h p1) as [h1 h2].
-  split; [constructor; assumption |]. intro v. rewrite map_rows_cons. cbn [energy map]. unfold Configuration.speed2 in *. cbn [fold_right]. rewrite I2, h2. ring.
+  split; [constructor; assumption |]. intro v. rewrite map_rows_cons. cbn [energy map]. unfold Configuration.speed2 in *. cbn [fold_right].
+  destruct h2 as [q [q2 h2]]. cbn [snd] in p1. rewrite I2, h2, Rpow_mult_distr, q2. field. lra.
+Qed.
+
+(** Forces of the joints, scaled as rows are. *)
+Lemma scaled_forces : forall x theta k P Q W r L rows m, 0 < W -> Forall2 (stands x theta k P Q W r L) rows m -> positive_D (map_rows (Formula.value x theta) rows) ->
+  forall tau, length tau = length m -> exists u, length u = length rows /\
+    (forall v, Linear.dot u (map (fun row => Linear.dot row v) (map fst (map_rows (Formula.value x theta) rows)))
+      = Linear.dot tau (map (fun row => Linear.dot row v) (map (fun l => strut_row k L l P Q) m))) /\
+    forall i, W * (nth i (map snd (map_rows (Formula.value x theta) rows)) 0 * nth i u 0 ^ 2) = nth i tau 0 ^ 2.
+Proof.
+  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [h _] hs IH]; intros p [| t tau] e; try discriminate.
+  - exists []. split; [reflexivity |]. split; [reflexivity |]. intros [| i]; cbn; ring.
+  - rewrite map_rows_cons in p |- *. inversion p as [| ? ? p1 p2]. subst. cbn [snd] in p1. destruct (IH p2 tau ltac:(cbn in e; congruence)) as [u [lu [hu hi]]].
+    destruct (h p1) as [_ [q [q2 hq]]]. pose proof (Rmult_lt_0_compat _ _ W0 p1) as wd. assert (qn : q <> 0) by (intros ->; rewrite <- q2 in wd; lra).
+    exists (t / q :: u). split; [cbn; congruence |]. split.
+    + intro v. cbn [map fst Linear.dot]. rewrite hu, hq. field. exact qn.
+    + intros [| i]; cbn [map snd nth]; [| apply hi]. transitivity (W * Formula.value x theta D * (t / q) ^ 2); [ring |]. rewrite <- q2. field. exact qn.
+Qed.
+
+Lemma weighted_length : forall n M u, Forall (fun r : list R => length r = n) M -> length u = length M -> u <> [] -> length (weighted_sum u M) = n.
+Proof.
+  intro n. assert (C : forall t s a b, length (comb t s a b) = Nat.max (length a) (length b)).
+  { unfold comb. intros t s. induction a as [| y a IH]; intros [| z b]; cbn [merge length]; rewrite ?map_length; try reflexivity. rewrite IH. reflexivity. }
+  induction M as [| r M IH]; intros [| t u] h l ne; try discriminate; [contradiction |]. inversion h as [| ? ? h1 h2]; subst. cbn [weighted_sum]. rewrite C.
+  destruct u as [| t' u]; [cbn [weighted_sum length]; lia |]. rewrite (IH (t' :: u) h2) by (try discriminate; cbn in *; congruence). lia.
 Qed.
 
 Lemma rows_grounded : forall x theta k P Q W r L rows m, 0 < W -> Forall2 (stands x theta k P Q W r L) rows m -> grounded (map_rows (Formula.value x theta) rows).
 Proof.
-  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [_ [hd hz]] hs IH]; [constructor |]. rewrite map_rows_cons. constructor; [| exact IH].
+  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [_ [hd [hz _]]] hs IH]; [constructor |]. rewrite map_rows_cons. constructor; [| exact IH].
   cbn [fst snd]. split; [| exact hz]. rewrite hd. apply Rmult_le_pos; [apply Rmult_le_pos; [lra | apply pow2_ge_0] |]. unfold norm2.
   destruct (strut_vector l P Q) as [a b c]. cbn [vx vy vz]. pose proof (pow2_ge_0 a). pose proof (pow2_ge_0 b). pose proof (pow2_ge_0 c). lra.
 Qed.
 
-(** All tests of least singular values are of these rows. *)
-Lemma least_tests : forall place rows w s ds j tests r v k, all_some (pose_tests place rows w s j ds) = Some tests -> In (LeastOf r v k) tests ->
-  r = map_rows place rows /\ v = place w.
+(** Where ends alone are looked at, it is of these rows. *)
+Lemma least_tests : forall place ends rows w s ds j tests t r v e, all_some (pose_tests place ends rows w s j ds) = Some tests -> In t tests -> with_ends t = Some (r, v, e) ->
+  e = O \/ e = ends /\ r = map_rows place rows /\ v = place w.
 Proof.
-  intros place rows w s. induction ds as [| d ds IH]; intros j tests r v k e i; cbn [pose_tests all_some] in e; [injection e as <-; contradiction |].
-  destruct (pose_test place rows w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
-  destruct i as [-> | i]; [| exact (IH (S j) rest r v k er i)].
-  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); discriminate);
-    try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu; intros; subst; split; reflexivity.
+  intros place ends rows w s. induction ds as [| d ds IH]; intros j tests t r v e h i we; cbn [pose_tests all_some] in h; [injection h as <-; contradiction |].
+  destruct (pose_test place ends rows w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
+  destruct i as [-> | i]; [| exact (IH (S j) rest t r v e er i we)].
+  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); [cbn [option_map] in eu | discriminate]); try (destruct (nth_error _ _); [| discriminate]);
+    try (destruct (certainly _ _ _ && _); [| discriminate]);
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu as <-; cbn [with_ends] in we; try discriminate;
+    injection we; intros; subst; auto.
 Qed.
 
-(** A demand's own test, bound and formula. *)
-Lemma demand_at : forall place rows w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
-  In (pose_test place rows w s (j + i) d) (pose_tests place rows w s j ds) /\
-  forall f, length_sign rows w s (j + i) d = Some f -> In f (length_signs rows w s j ds).
+(** A demand's own test, bound and formulas. *)
+Lemma demand_at : forall place ends rows w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
+  In (pose_test place ends rows w s (j + i) d) (pose_tests place ends rows w s j ds) /\
+  forall f, In f (own_formulas rows w s (j + i) d) -> In f (demand_formulas rows w s j ds).
 Proof.
-  intros place rows w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
-  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [length_signs]. rewrite e. left. reflexivity.
+  intros place ends rows w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
+  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [demand_formulas]. apply in_or_app. left. exact e.
   - destruct (IH (S j) d i) as [n [h1 [h2 h3]]]. exists (S n). rewrite <- Nat.add_succ_comm. split; [exact h1 |]. split; [right; exact h2 |].
-    intros f e. cbn [length_signs]. apply in_or_app. right. exact (h3 f e).
+    intros f e. cbn [demand_formulas]. apply in_or_app. right. exact (h3 f e).
+Qed.
+
+(** Rows with D times q. *)
+Lemma stiff_energy : forall x theta rows s j d q v, Formula.value x theta (quantity (length_bound s d) j) = q -> 0 < q ->
+  positive_D (map_rows (Formula.value x theta) (stiff_rows rows s j d)) ->
+  positive_D (map_rows (Formula.value x theta) rows) /\
+  energy (map_rows (Formula.value x theta) rows) v = q * energy (map_rows (Formula.value x theta) (stiff_rows rows s j d)) v.
+Proof.
+  intros x theta rows s j d q v hq q0. induction rows as [| [A D] rows IH]; intro p; [split; [constructor | cbn; ring] |].
+  cbn [stiff_rows map fst snd] in p |- *. fold (stiff_rows rows s j d) in *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons. inversion p as [| ? ? p1 p2]; subst.
+  cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2]. set (q := Formula.value x theta (quantity (length_bound s d) j)) in *.
+  assert (D0 : 0 < Formula.value x theta D) by (apply Rmult_lt_reg_r with q; lra).
+  split; [constructor; assumption |]. cbn [energy]. rewrite value_times, I2. fold q. field. split; lra.
 Qed.
 
 Lemma is_nothing_sound : forall t y, is_nothing t = true -> within t y -> y = 0.
@@ -491,7 +558,7 @@ Proof.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
   set (rows := all_rows k N w ell s ts 0) in *.
   set (g := curve (turned c) (first_angle k) (j + length ds)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
-  set (wanted := entries rows ++ w :: length_signs rows w s j ds ++ gs) in *.
+  set (wanted := entries rows ++ w :: demand_formulas rows w s j ds ++ gs) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
   apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
@@ -499,7 +566,7 @@ Proof.
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (map (end_box bits) _)) as [angles |] eqn:ea; [| discriminate].
   destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
-  destruct (all_some (pose_tests _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  destruct (all_some (pose_tests _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
   apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in C as [C gaff]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
   apply positive_sound in L0. set (L := Claim.value (characteristic_length c)) in *.
   assert (ok : are_angles (turned c)).
@@ -540,32 +607,33 @@ Proof.
   assert (Found : forall f, In f wanted -> at_pairs theta (entry_at tape (place f)) (parabola x) = Formula.value x theta f).
   { intros f i. assert (E : entry_at tape (place f) = image (dimension k) f) by (apply Formula.same_sound, found, i).
     rewrite E, <- lx. apply image_value. rewrite lx. apply below_, i. }
-  assert (Rows : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place rows) = map_rows (Formula.value x theta) rows).
-  { assert (K : forall r, (forall f, In f (entries r) -> In f wanted) ->
+  assert (RowsOf : forall r, (forall f, In f (entries r) -> In f wanted) ->
       map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place r) = map_rows (Formula.value x theta) r).
-    { induction r as [| [A D] r IH]; intro i; [reflexivity |]. rewrite !map_rows_cons. f_equal.
+  { induction r as [| [A D] r IH]; intro i; [reflexivity |]. rewrite !map_rows_cons. f_equal.
       - f_equal; [rewrite map_map; apply map_ext_in; intros f q; apply Found, i; cbn [entries flat_map fst]; apply in_or_app; left; apply in_or_app; left; exact q |].
         apply Found, i. cbn [entries flat_map snd]. apply in_or_app. left. apply in_or_app. right. left. reflexivity.
       - apply IH. intros f q. apply i. cbn [entries flat_map]. apply in_or_app. right. exact q. }
-    apply K. intros f q. apply in_or_app. left. exact q. }
+  assert (Rows : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place rows) = map_rows (Formula.value x theta) rows)
+    by (apply RowsOf; intros f q; apply in_or_app; left; exact q).
   assert (Weight : at_pairs theta (entry_at tape (place w)) (parabola x) = W) by (rewrite Found; [exact hw | apply in_or_app; right; left; reflexivity]).
   rewrite forallb_forall in aff.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
   set (ends := ends_of (formulas tape) (dimension k) k (map_rows place rows) (place w) (option_map place g)) in *.
-  assert (eased : ends = O \/ forall r v q, In (LeastOf r v q) tests -> length r = dimension k /\ is_eased tape (dimension k) ends r v None = true /\
-    forall i n places, option_map place g = Some i -> is_eased tape (dimension k) ends r v (Some (i, n, places)) = true).
-  { unfold ends, ends_of. cbv zeta. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
-    intros r v q i. destruct (least_tests _ _ _ _ _ _ _ _ _ _ et i) as [-> ->]. split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
+  assert (eased : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
+    forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
+  { intros u r v e0 i we. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
+    unfold ends, ends_of. cbv zeta. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
+    split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
-      apply andb_true_iff in e2 as [-> _]. reflexivity.
+      apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
     - split; [exact e2 | discriminate]. }
   assert (turn : is_turned tape tests (option_map place g) theta x).
-  { split; [| intros r v q i; destruct (least_tests _ _ _ _ _ _ _ _ _ _ et i) as [-> ->]; split;
+  { split; [| intros u r v e i we; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) ends theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
+  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
     by (apply (rows_speed x theta k P Q W (/ two_to s) L); exact ST).
@@ -574,24 +642,25 @@ Proof.
     generalize (map (fun l => strut_row k L l P Q) m). intro M. unfold Configuration.speed2. induction M as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F0). ring. }
   assert (NZ : forall v, nonzero v \/ ~ nonzero v) by (intro v; destruct (Rlt_dec 0 (Linear.dot v v)); auto).
   set (conf := struts_at k L m P Q).
-  assert (Lower : forall low kappa, contains bits low kappa -> 0 <= kappa -> In (LeastOf (map_rows place rows) (place w) low) tests ->
-    Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\ forall v, length v = dimension k -> nonzero v -> kappa * Linear.dot v v < Configuration.speed2 (jacobian conf) v).
+  assert (Lower : forall low kappa, contains bits low kappa -> 0 <= kappa -> In (LeastOf (map_rows place rows) (place w) low ends) tests ->
+    Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\ positive_D (map_rows (Formula.value x theta) rows) /\
+    forall v, length v = dimension k -> nonzero v -> kappa * Linear.dot v v < Configuration.speed2 (jacobian conf) v).
   { intros low kappa hk k0 it. pose proof (HT _ it) as H. cbn [test_holds] in H.
     assert (PD : positive_D (map_rows (Formula.value x theta) rows)).
     { assert (U : exists v, length v = dimension k /\ nonzero v) by (exists (repeat 1 (dimension k)); destruct k; (split; [reflexivity | unfold nonzero; cbn; lra])).
       destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
-    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
+    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
-  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place rows w s (j + i) d = Some u /\ In u tests /\
-    forall f, length_sign rows w s (j + i) d = Some f -> In f wanted).
-  { intros d id. destruct (demand_at place rows w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
+  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place ends rows w s (j + i) d = Some u /\ In u tests /\
+    forall f, In f (own_formulas rows w s (j + i) d) -> In f wanted).
+  { intros d id. destruct (demand_at place ends rows w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
     exists i, u. split; [exact h1 |]. split; [exact e |]. split; [exact iu |]. intros f q. apply in_or_app. right. right. apply in_or_app. left. exact (h3 f q). }
-  assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low) tests).
+  assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low ends) tests).
   { apply existsb_exists in ex as [d [id e]]. destruct (Test d id) as [i [u [_ [pu [iu _]]]]]. destruct d; try discriminate; cbn [pose_test] in pu.
     - injection pu as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact iu].
     - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. eexists; eexists. split; [apply squared_in, e1 |].
       split; [apply pow2_ge_0 | exact iu]. }
-  destruct Reach as [low [kappa [hk [k0 it]]]]. destruct (Lower low kappa hk k0 it) as [reach_ low_].
+  destruct Reach as [low [kappa [hk [k0 it]]]]. destruct (Lower low kappa hk k0 it) as [reach_ [PDR low_]].
   assert (INJ : Configuration.injective (dimension k) conf).
   { intros v lv nv. specialize (low_ v lv nv). unfold nonzero in nv. assert (0 <= kappa * Linear.dot v v) by (apply Rmult_le_pos; lra). lra. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
@@ -601,29 +670,88 @@ Proof.
     unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [/ two_to s * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
     rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
   pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
-  assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
-  { clear - ST. intros n A D. revert n. induction ST as [| [A' D'] l rows' m' [_ [hd _]] hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
-    - injection e as -> ->. exists l. split; [reflexivity | exact hd].
+  assert (LegOf : forall n row, nth_error rows n = Some row -> exists l, nth_error m n = Some l /\ stands x theta k P Q W ratio L row l).
+  { clear - ST. intros n row. revert n. induction ST as [| row' l rows' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
+    - injection e as ->. exists l. split; [reflexivity | exact hd].
     - exact (IH n e). }
+  assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
+  { intros n A D e. destruct (LegOf n _ e) as [l [e' [_ [hd _]]]]. exists l. split; [exact e' | exact hd]. }
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b]; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
-  4-5: cbn [length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b']; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
+  4-5: cbn [own_formulas length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
-    pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ eq_refl)) as FF;
+    pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ (or_introl eq_refl))) as FF;
     match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end; clear H FF; rename G into H;
     rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H; rewrite hw in H;
     exists (strut_length l P Q); (split; [exact (Joint n l nl) |]); unfold strut_length; rewrite <- (sqrt_pow2 (Claim.value b) b0); apply sqrt_le_1_alt;
     apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]; rewrite Rpow_mult_distr in H; lra.
   - exact INJ.
   - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
-    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. destruct (Lower _ _ K (pow2_ge_0 _) iu) as [_ G]. intros v lv.
+    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. destruct (Lower _ _ K (pow2_ge_0 _) iu) as [_ [_ G]]. intros v lv.
     destruct (NZ v) as [nz | z]; [apply Rlt_le, G; assumption | destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
   - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
     cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. pose proof (HT _ iu) as H. cbn [test_holds] in H. intros v lv.
     unfold conf, struts_at. cbn [jacobian]. destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ v K lv nz) as [p q]. rewrite Rows in p, q. rewrite Weight, (proj2 (Speed p)) in q. apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
+  - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits false b') eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
+    destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K.
+    destruct (LegOf n _ nr) as [l [nl [st _]]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
+    intros v lv le. apply Rabs_le. enough (Q2 : Linear.dot (strut_row k L l P Q) v ^ 2 <= Claim.value b' ^ 2) by (split; nra).
+    destruct (NZ v) as [nz | z]; [| rewrite (dot_zero v _ (zero_vector v ltac:(apply Rnot_lt_le; exact z))); nra].
+    pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct (H _ v K lv nz) as [p q].
+    change [(map place A, place D)] with (map_rows place [(A, D)]) in p, q. rewrite RowsOf in p, q by (intros f i'; apply in_or_app; left; apply in_flat_map; exists (A, D);
+      split; [exact (nth_error_In _ _ nr) | cbn [entries flat_map] in i'; rewrite app_nil_r in i'; exact i']).
+    rewrite map_rows_cons in p, q. pose proof (Forall_inv p) as p1. cbn [snd] in p1. destruct (st p1) as [_ [z [z2 S2]]]. cbn [energy map_rows map] in q.
+    rewrite Weight, S2, Rpow_mult_distr, z2 in q. replace (W * Formula.value x theta D * Linear.dot (strut_row k L l P Q) v ^ 2 / Formula.value x theta D)
+      with (W * Linear.dot (strut_row k L l P Q) v ^ 2) in q by (field; lra).
+    set (tool := Claim.value b) in *. set (y := Claim.value b') in *. set (u := Linear.dot (strut_row k L l P Q) v ^ 2) in *. set (vv := Linear.dot v v) in *.
+    assert (u < (y / tool) ^ 2 * vv) by (apply Rmult_lt_reg_l with W; lra). assert ((y / tool) ^ 2 * vv <= (y / tool) ^ 2 * tool ^ 2) by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact le]).
+    replace ((y / tool) ^ 2 * tool ^ 2) with (y ^ 2) in * by (field; lra). lra.
+  - destruct (nth_error rows n) as [row |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-.
+    pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K. pose proof (HT _ iu) as H. cbn [test_holds] in H. rewrite Rows, Weight in H.
+    unfold conf, struts_at. cbn [jacobian]. intros tau F [lt' [lF hF]] le. rewrite map_length in lt'.
+    destruct (scaled_forces x theta k P Q W ratio L rows m W0 ST PDR tau lt') as [u [lu [hu hi]]]. set (As := map fst (map_rows (Formula.value x theta) rows)) in *.
+    set (p := weighted_sum u As) in *. specialize (hi n). set (du := nth n (map snd _) 0 * nth n u 0 ^ 2) in *. set (tool := Claim.value b) in *. set (y := Claim.value b') in *.
+    enough (Q2 : nth n tau 0 ^ 2 <= y ^ 2) by (apply Rabs_le; split; nra).
+    destruct (NZ u) as [nz | z].
+    + assert (LA : Forall (fun row => length row = dimension k) As).
+      { unfold As. clear - ST. induction ST as [| [A D] l rows' m' [_ [_ [_ hl]]] hs IH]; [constructor |]. rewrite map_rows_cons. cbn [map fst]. constructor; [rewrite map_length; exact hl | exact IH]. }
+      assert (lp : length p = dimension k).
+      { apply weighted_length; [exact LA | unfold As, map_rows; rewrite !map_length; exact lu |]. intros ->. unfold nonzero in nz. cbn in nz. lra. }
+      assert (pv : forall v, Linear.dot p v = Linear.dot tau (map (fun row => Linear.dot row v) (map (fun l => strut_row k L l P Q) m)))
+        by (intro v; unfold p; rewrite dot_weighted; apply hu).
+      assert (pp : Linear.dot p p = Linear.dot F F).
+      { rewrite (pv p), <- (hF p lp), dot_commutes, (pv F). symmetry. apply hF, lF. }
+      specialize (H ((tool / y) ^ 2) u K (pow2_ge_0 _) W0 ltac:(unfold map_rows; rewrite map_length; exact lu) nz). cbv zeta in H. fold p in H. fold du in H. rewrite pp in H.
+      assert ((tool / y) ^ 2 * nth n tau 0 ^ 2 < tool ^ 2) by (rewrite <- hi; set (c2 := (tool / y) ^ 2) in *; clearbody c2; lra).
+      assert (E : (tool / y) ^ 2 * nth n tau 0 ^ 2 = tool ^ 2 * (nth n tau 0 / y) ^ 2) by (field; lra).
+      assert (t2 : 0 < tool ^ 2) by (apply pow_lt; exact t0). assert ((nth n tau 0 / y) ^ 2 < 1) by (apply Rmult_lt_reg_l with (tool ^ 2); lra).
+      replace (nth n tau 0 ^ 2) with ((nth n tau 0 / y) ^ 2 * y ^ 2) by (field; lra). pose proof (pow2_ge_0 y). nra.
+    + pose proof (zero_vector u ltac:(apply Rnot_lt_le; exact z)) as Z0. assert (un : nth n u 0 = 0).
+      { destruct (nth_in_or_default n u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
+      rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). lra.
+  - destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate]. apply andb_true_iff in ce as [k0' b0]. apply positive_sound in k0', b0.
+    injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. intros v lv.
+    assert (Number : Formula.value x theta (quantity (length_bound s (StiffnessMin b b')) (j + i)) = Claim.value b' / Claim.value b).
+    { apply quantity_value; [exists (Claim.value b' / Claim.value b); split; [split; apply Rle_refl | cbn [snd length_bound]; change (two_to 0) with 1; field; lra] |].
+      unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [ratio * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
+      rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map length_bound].
+      cbn. f_equal. change (two_to 0) with 1. field. lra. }
+    assert (q0 : 0 < Claim.value b' / Claim.value b) by (apply Rdiv_lt_0_compat; assumption).
+    destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
+    destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [p q].
+    rewrite RowsOf in p, q by (intros f i'; apply in_flat_map in i' as [[A D] [i1 i2]]; apply in_app_or in i2 as [i2 | [<- | []]];
+      [apply in_map_iff in i1 as [[A' D'] [e1 i1]]; injection e1 as <- <-; apply in_or_app; left; apply in_flat_map; exists (A', D'); split; [exact i1 | apply in_or_app; left; exact i2]
+      | apply signs, in_map_iff; exists (A, D); split; [reflexivity | exact i1]]).
+    destruct (stiff_energy x theta rows s (j + i) _ _ v Number q0 p) as [p' E]. rewrite (proj2 (Speed p')) in E. rewrite Weight in q.
+    unfold conf, struts_at. cbn [jacobian]. set (S2 := Configuration.speed2 _ v) in *. set (y := Claim.value b') in *. set (e := Claim.value b) in *.
+    assert (y / e * (W * Linear.dot v v) < W * S2) by (rewrite E; apply Rmult_lt_compat_l; [exact q0 | lra]).
+    assert (y / e * Linear.dot v v < S2) by (apply Rmult_lt_reg_l with W; lra).
+    replace (y * Linear.dot v v) with (e * (y / e * Linear.dot v v)) by (field; lra). apply Rmult_le_compat_l; lra.
 Qed.
 End Precision.
 

@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-yV=typeof
-module==="object"&&module.exports||u,gH="spatial",kH="Invalid_argument",eC="precision",ap='"',kG="@[",gr=1255,kF="inside",lg="Fatal error: exception %s\n",j9=255,kE="yaw",le="(",lf=0x800,j7="range",j8="tree",gq="jsError",bn=0x8000,kC='the mechanism "',kD="%ni",lG="sqrt(",ld=256,kB="offset",lc="obligation",b8="machine",j6="End_of_file",eE="strut",j5="center",eO="arm",gp="Failure",lE="serial_margin",lF="parameters",bN=0xff,j4="\n",gM="outside",gy="base_axis",gG="ENOENT",lD=122,aG="0",lb="([^/]+)",gF=0xf,dF=128,go=-48,j3=0xdc00,kA="Sys_blocked_io",lC="fd ",j2="given",la="ENOTEMPTY",ao=248,k$="bound",an="camlinternalFormat.ml",k_="Division_by_zero",lA="by",lB=1027,j1="Sys_error",kz="slider",ky="postulate",k9="torsion",k8="proof",kx="%u",cZ="mechanism",eJ="row",j0="EEXIST",kw="roll_pitch_yaw",gE="%d",jZ="Printexc.handle_uncaught_exception",kv="y",eB="lower",ku="within",k7="cube",k6="buffer.ml",lz="turned",eA="int_of_string",k5="control",kt="definitions",gx=127,dE=1024,ks="@{",gL="e",jX=120,jY=103,kr=" : flags Open_rdonly and Open_wronly are not compatible",k4="orthocert/2",ly="reach",jW=512,a2="-",lx="witness",b5="platform",jV=0x7ff0,jU="pitch",gK=": Not a directory",kq=" : file already exists",bp="min",c0="workspace",kp="claim",k3="split",lw="legs",bM=0xffffff,k2="joint",jS="formulas",jT="0x",ko='the workspace "',k1="roll",lu="nodes",lv="Out_of_memory",jR="psi_max",gJ="orientation",kn="angle",eI=254,gI="index out of bounds",k0=100,jQ="end",eN="_bigarr02",jP="%Li",kZ=" : flags Open_text and Open_binary are not compatible",b6="drive",kY="coordinates",km=", characters ",kX="lower_divided",kl="joints",lt="cylinder",br=0xffff,kk=12520,kj="axis",ls="parallel_margin",jO='the drive "',gw="fails",gD="Unix.Unix_error",lr="infinity",ez="tool",gn="mkdir",dD=1000,gm="translational",s="",kW="Stack_overflow",lq="characteristic_length",gv="^",ey=": No such file or directory",kV="places",kU="/static/",cY=0x3f,kT=-97,kR="stiffness",kS="Not_found",dC="planar",eH="mode",lp="joint_speed",ki="Match_failure",jN=", ",jM="transmission",b4="anchor",eM=252,kh="leg",b7=".",bo="+",gC="rmdir",lo=0xf0,ln="spherical",kg="verified.ml",ke="REJECTED",kf="%li",kQ=1026,bq="max",eL="direction",kP="orthoglide",eK="rank",lm="constraint_margin",ll=-32,jK="Pervasives.do_at_exit",jL="utf8",gB="test",bK=" ",eD="conditioning",gA="Fatal error: exception ",a$=0x80,jJ="Undefined_recursive_module",gu=")",eG="length",lk="quantity",kO="joint_range",eF="tilt",jI="Q2",gt="nan",kd="reference",kN="point",kc=0xe0,lj="corner",ka="z",kb=0xdfff,kL="version",kM="_",a_="/",gz="compare: functional value",li="Assert_failure",j$="provenance",jG="radius",jH="%i",bL="require",kK="side",lh="format",gs="ENOTDIR",kJ="Q1",kI="all",cr="box",j_=250;function
-g2(c,b,a){var
+zb=typeof
+module==="object"&&module.exports||u,gJ="spatial",kR="Invalid_argument",eF="precision",aq='"',kQ="@[",lr="this quantity of such a mechanism",gt=1255,kP="inside",lq="Fatal error: exception %s\n",kh=255,kO="yaw",lo="(",lp=0x800,kf="range",kg="tree",gs="jsError",bn=0x8000,kM='the mechanism "',kN="%ni",lR="sqrt(",ln=256,kL="offset",lm="obligation",b_="machine",ke="End_of_file",eH="strut",kd="center",eR="arm",gr="Failure",lP="serial_margin",lQ="parameters",bO=0xff,kc="\n",gO="outside",gA="base_axis",gI="ENOENT",lO=122,aG="0",ll="([^/]+)",gH=0xf,dK=128,gq=-48,kb=0xdc00,kK="Sys_blocked_io",lN="fd ",ka="given",lk="ENOTEMPTY",ap=248,lj="bound",ao="camlinternalFormat.ml",li="Division_by_zero",lL="by",lM=1027,j$="Sys_error",kJ="slider",kI="postulate",lh="torsion",lg="proof",kH="%u",c0="mechanism",eM="row",j_="EEXIST",kG="roll_pitch_yaw",gG="%d",j9="Printexc.handle_uncaught_exception",kF="y",eE="lower",kE="within",lf="cube",le="buffer.ml",lK="turned",eD="int_of_string",ld="control",kD="definitions",gz=127,dJ=1024,kC="@{",gN="e",j7=120,j8=103,kB=" : flags Open_rdonly and Open_wronly are not compatible",lc="orthocert/2",lJ="reach",j6=512,a3="-",lI="witness",b7="platform",j5=0x7ff0,j4="pitch",gM=": Not a directory",kA=" : file already exists",bp="min",c1="workspace",kz="claim",lb="split",lH="legs",bN=0xffffff,la="joint",j2="formulas",j3="0x",ky='the workspace "',k$="roll",lF="nodes",lG="Out_of_memory",j1="psi_max",gL="orientation",kx="angle",eL=254,gK="index out of bounds",k_=100,j0="end",eQ="_bigarr02",jZ="%Li",k9=" : flags Open_text and Open_binary are not compatible",b8="drive",k8="coordinates",kw=", characters ",k7="lower_divided",kv="joints",lE="cylinder",br=0xffff,ku=12520,kt="axis",lD="parallel_margin",jY='the drive "',gy="fails",gF="Unix.Unix_error",lC="infinity",eC="tool",gp="mkdir",dI=1000,go="translational",s="",k6="Stack_overflow",lB="characteristic_length",gx="^",eB=": No such file or directory",k5="places",k4="/static/",cZ=0x3f,k3=-97,k1="stiffness",k2="Not_found",dH="planar",eK="mode",lA="joint_speed",ks="Match_failure",jX=", ",jW="transmission",b6="anchor",eP=252,jV="joint_force",kr="leg",b9=".",bo="+",gE="rmdir",lz=0xf0,ly="spherical",kq="verified.ml",ko="REJECTED",kp="%li",k0=1026,bq="max",eO="direction",kZ="orthoglide",eN="rank",lx="constraint_margin",lw=-32,jT="Pervasives.do_at_exit",jU="utf8",gD="test",bL=" ",eG="conditioning",gC="Fatal error: exception ",ba=0x80,jS="Undefined_recursive_module",gw=")",eJ="length",lv="quantity",kY="joint_range",eI="tilt",jR="Q2",gv="nan",kn="reference",kX="point",km=0xe0,lu="corner",kk="z",kl=0xdfff,kV="version",kW="_",a$="/",gB="compare: functional value",lt="Assert_failure",kj="provenance",jP="radius",jQ="%i",bM="require",kU="side",ls="format",gu="ENOTDIR",kT="Q1",kS="all",ct="box",ki=250;function
+g4(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dE,a-=dE)e+=d.apply(null,c.slice(b,b+Math.min(a,dE)));return e}function
-eP(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=dJ,a-=dJ)e+=d.apply(null,c.slice(b,b+Math.min(a,dJ)));return e}function
+eS(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-b_(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?g2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eP(b);var
+ca(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eS(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bO(a){return a}function
-bu(a,b,c,d,e){b_(bO(a),b,c,d,e);return 0}function
-yO(b,a){throw[0,b,a]}function
-c5(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bP(a){return a}function
+bu(a,b,c,d,e){ca(bP(a),b,c,d,e);return 0}function
+y6(b,a){throw[0,b,a]}function
+c6(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-c3(a){if(a.t==2)a.c+=c5(a.l-a.c.length,"\0");else
-a.c=g2(a.c,0,a.c.length);a.t=0}function
-ma(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gx)return false;return true}else
+c4(a){if(a.t==2)a.c+=c6(a.l-a.c.length,"\0");else
+a.c=g4(a.c,0,a.c.length);a.t=0}function
+ml(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gz)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-g4(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a$){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<a$;d++);if(d-b>jW){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF){g=h+(f<<6);if(f<kc){a=g-0x3080;if(a<a$)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF){g=h+(g<<6);if(f<lo){a=g-0xe2080;if(a<lf||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dF&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),j3+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dE){c.substr(0,1);j+=c;c=s}}return j+c}function
+g6(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ba){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<ba;d++);if(d-b>j6){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(f<<6);if(f<km){a=g-0x3080;if(a<ba)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(g<<6);if(f<lz){a=g-0xe2080;if(a<lp||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),kb+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dJ){c.substr(0,1);j+=c;c=s}}return j+c}function
 bs(c,a,b){this.t=c;this.c=a;this.l=b}bs.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:c3(this);case
-0:if(ma(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:c4(this);case
+0:if(ml(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bs.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return g4(a)};bs.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return g6(a)};bs.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bs(this.t,a,this.l)};function
-lQ(a){return new
+l1(a){return new
 bs(0,a,a.length)}function
-a(a){return lQ(a)}function
-g0(c,b){yO(c,a(b))}var
-ab=[0];function
-aq(a){g0(ab.Invalid_argument,a)}function
-lO(){aq(gI)}function
-ad(a,c,b){b&=bN;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eP(a)}a.c[c]=b;return 0}function
-cs(b,a,c){if(a>>>0>=b.l)lO();return ad(b,a,c)}function
-c2(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+a(a){return l1(a)}function
+g2(c,b){y6(c,a(b))}var
+ad=[0];function
+ar(a){g2(ad.Invalid_argument,a)}function
+lZ(){ar(gK)}function
+af(a,c,b){b&=bO;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eS(a)}a.c[c]=b;return 0}function
+cu(b,a,c){if(a>>>0>=b.l)lZ();return af(b,a,c)}function
+c3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bP(c,a){if(c.fun)return bP(c.fun,a);if(typeof
+bQ(c,a){if(c.fun)return bQ(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bP(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bQ(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bP(c,d)}}function
-dG(){aq(gI)}function
-lR(a,b){if(b>>>0>=a.length-1)dG();return a}function
-ye(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bR(a){a.t&6&&c3(a);return a.c}var
-yX=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-yW(a){if(yX)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bQ(c,d)}}function
+dL(){ar(gK)}function
+l2(a,b){if(b>>>0>=a.length-1)dL();return a}function
+yw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bS(a){a.t&6&&c4(a);return a.c}var
+zd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+zc(a){if(zd)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gS(c){var
+gU(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-l0=Math.pow(2,-24);function
-yM(a){throw a}function
-l7(){yM(ab.Division_by_zero)}function
-t(b,c,a){this.lo=b&bM;this.mi=c&bM;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+l$=Math.pow(2,-24);function
+y4(a){throw a}function
+mg(){y4(ad.Division_by_zero)}function
+t(b,c,a){this.lo=b&bN;this.mi=c&bN;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*l0|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l0|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*l$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -106,25 +106,25 @@ c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&br);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bM;this.lo=this.lo<<1&bM};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bM;this.mi=(this.mi>>>1|this.hi<<23)&bM;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bN;this.lo=this.lo<<1&bN};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bN;this.mi=(this.mi>>>1|this.hi<<23)&bN;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())l7();var
+b=this;if(a.isZero())mg();var
 d=b.hi^a.hi;if(b.hi&bn)b=b.neg();if(a.hi&bn)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bn)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())l7();var
+a=this;if(b.isZero())mg();var
 d=a.hi;if(a.hi&bn)a=a.neg();if(b.hi&bn)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bN,this.mi>>16,this.mi>>8&bN,this.mi&bN,this.lo>>16,this.lo>>8&bN,this.lo&bN]};t.prototype.lo32=function(){return this.lo|(this.mi&bN)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
-eT(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bO,this.mi>>16,this.mi>>8&bO,this.mi&bO,this.lo>>16,this.lo>>8&bO,this.lo&bO]};t.prototype.lo32=function(){return this.lo|(this.mi&bO)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
+eW(b,c,a){return new
 t(b,c,a)}function
-eS(a){if(!isFinite(a)){if(isNaN(a))return eT(1,0,jV);return a>0?eT(0,0,jV):eT(0,0,0xfff0)}var
+eV(a){if(!isFinite(a)){if(isNaN(a))return eW(1,0,j5);return a>0?eW(0,0,j5):eW(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bn:a>=0?0:bn;if(f)a=-a;var
-b=yW(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-kQ)}else{a/=Math.pow(2,b-lB);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=zc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-k0)}else{a/=Math.pow(2,b-lM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gF|f|b<<4;return eT(g,e,c)}function
-dJ(a){return a.toArray()}function
-lN(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eN)for(var
+g=a|0;c=c&gH|f|b<<4;return eW(g,e,c)}function
+dO(a){return a.toArray()}function
+lY(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eQ)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<br)c.write(16,b.dims[a]);else{c.write(16,br);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dJ(b.get(a));for(var
+e=dO(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dJ(eS(b.get(a)));for(var
+e=dO(eV(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gS(b.get(a));c.write(32,e)}break;case
+e=gU(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gS(d[1]));c.write(32,gS(d[2]))}break;case
+d=b.get(a);c.write(32,gU(d[1]));c.write(32,gU(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dJ(eS(f[1]));for(var
+f=b.get(a),e=dO(eV(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dJ(eS(f[2]));for(var
+e=dO(eV(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lL(a){switch(a){case
+lW(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-x_(c,e){var
+yq(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aq("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)ar("Bigarray.create: unsupported kind");var
 d=new
-a(e*lL(c));return d}function
-gT(c){var
+a(e*lW(c));return d}function
+gV(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dI(a){return new
+dN(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gU(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gF)==0?b&bn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gF);if(c>0){a+=16;a*=Math.pow(2,c-lB)}else
-a*=Math.pow(2,-kQ);if(b&bn)a=-a;return a}function
-gN(b){var
+gW(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gH)==0?b&bn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gH);if(c>0){a+=16;a*=Math.pow(2,c-lM)}else
+a*=Math.pow(2,-k0);if(b&bn)a=-a;return a}function
+gP(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aq("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-yp(b,a){return new
-t(b&bM,b>>>24&bN|(a&br)<<8,a>>>16&br)}function
-gV(a){return a.hi32()}function
-gW(a){return a.lo32()}var
-x$=eN;function
-b9(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b9.prototype.caml_custom=x$;b9.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)ar("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+yH(b,a){return new
+t(b&bN,b>>>24&bO|(a&br)<<8,a>>>16&br)}function
+gX(a){return a.hi32()}function
+gY(a){return a.lo32()}var
+yr=eQ;function
+b$(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b$.prototype.caml_custom=yr;b$.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aq("bigarray.js: invalid offset");if(this.dims.length!=b.length)aq("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dG();c=c*this.dims[a]+b[a]}else
+Array))ar("bigarray.js: invalid offset");if(this.dims.length!=b.length)ar("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dL();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dG();c=c*this.dims[a]+(b[a]-1)}return c};b9.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dL();c=c*this.dims[a]+(b[a]-1)}return c};b$.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return yp(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return yH(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eI,e,c];default:return this.data[a]}};b9.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gW(b);this.data[a*2+1]=gV(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eL,e,c];default:return this.data[a]}};b$.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gY(b);this.data[a*2+1]=gX(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b9.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b$.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gW(b),e=gV(b);if(c==e)this.data.fill(c);else
+c=gY(b),e=gX(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b9.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b$.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-c1(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c1.prototype=new
-b9();c1.prototype.offset=function(a){if(typeof
+c2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c2.prototype=new
+b$();c2.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aq("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dG();return a};c1.prototype.get=function(a){return this.data[a]};c1.prototype.set=function(a,b){this.data[a]=b;return 0};c1.prototype.fill=function(a){this.data.fill(a);return 0};function
-lJ(c,d,a,b){var
-e=lL(c);if(gN(a)*e!=b.length)aq("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-c1(c,d,a,b);return new
-b9(c,d,a,b)}function
-ba(b){if(!ab.Failure)ab.Failure=[ao,a(gp),-3];g0(ab.Failure,b)}function
-lK(b,v,r){var
-i=b.read32s();if(i<0||i>16)ba("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bN,o=p>>8&1,h=[];if(r==eN)for(var
+ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dL();return a};c2.prototype.get=function(a){return this.data[a]};c2.prototype.set=function(a,b){this.data[a]=b;return 0};c2.prototype.fill=function(a){this.data.fill(a);return 0};function
+lU(c,d,a,b){var
+e=lW(c);if(gP(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+c2(c,d,a,b);return new
+b$(c,d,a,b)}function
+bb(b){if(!ad.Failure)ad.Failure=[ap,a(gr),-3];g2(ad.Failure,b)}function
+lV(b,v,r){var
+i=b.read32s();if(i<0||i>16)bb("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bO,o=p>>8&1,h=[];if(r==eQ)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==br){var
-t=b.read32u(),u=b.read32u();if(t!=0)ba("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bb("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gN(h),f=x_(j,d),g=lJ(j,o,h,f);switch(j){case
+d=gP(h),f=yq(j,d),g=lU(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)ba("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bb("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dI(e);g.set(a,q)}break;case
+q=dN(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gU(dI(e));g.set(a,k)}break;case
+k=gW(dN(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gT(b.read32s());g.set(a,k)}break;case
+k=gV(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gT(b.read32s()),l=gT(b.read32s());g.set(a,[eI,m,l])}break;case
+m=gV(b.read32s()),l=gV(b.read32s());g.set(a,[eL,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gU(dI(e));for(var
+m=gW(dN(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gU(dI(e));g.set(a,[eI,m,l])}break}v[0]=(4+i)*4;return lJ(j,o,h,f)}function
-lI(a,b,c){return a.compare(b,c)}function
-l4(a,b){return Math.imul(a,b)}function
-bQ(b,a){a=l4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=l4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-yl(a,b){a=bQ(a,gW(b));a=bQ(a,gV(b));return a}function
-lZ(a,b){return yl(a,eS(b))}function
-lM(c){var
-b=gN(c.dims),d=0;switch(c.kind){case
+l=gW(dN(e));g.set(a,[eL,m,l])}break}v[0]=(4+i)*4;return lU(j,o,h,f)}function
+lT(a,b,c){return a.compare(b,c)}function
+md(a,b){return Math.imul(a,b)}function
+bR(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+yD(a,b){a=bR(a,gY(b));a=bR(a,gX(b));return a}function
+l_(a,b){return yD(a,eV(b))}function
+lX(c){var
+b=gP(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ld)b=ld;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bQ(d,e)}e=0;switch(b&3){case
+12:if(b>ln)b=ln;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bR(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bQ(d,e)}break;case
+1:e|=c.data[a+0];d=bR(d,e)}break;case
 4:case
-5:if(b>dF)b=dF;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bQ(d,e)}if((b&1)!=0)d=bQ(d,c.data[a]);break;case
+5:if(b>dK)b=dK;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bR(d,e)}if((b&1)!=0)d=bR(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bQ(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=lZ(d,c.data[a]);break;case
+a=0;a<b;a++)d=l_(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=lZ(d,c.data[a]);break}return d}function
-yn(a,b){b[0]=4;return a.read32s()}function
-yJ(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=l_(d,c.data[a]);break}return d}function
+yF(a,b){b[0]=4;return a.read32s()}function
+y1(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:ba("input_value: native integer value too large");default:ba("input_value: ill-formed native integer")}}function
-yy(c,d){var
+2:bb("input_value: native integer value too large");default:bb("input_value: ill-formed native integer")}}function
+yQ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dI(b)}function
-yu(e,d,b){var
-c=dJ(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dN(b)}function
+yM(e,d,b){var
+c=dO(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-yo(a,b,c){return a.compare(b)}function
-yr(a){return a.lo32()^a.hi32()}var
-lU={"_j":{deserialize:yy,serialize:yu,fixed_length:8,compare:yo,hash:yr},"_i":{deserialize:yn,fixed_length:4},"_n":{deserialize:yJ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lK(a,b,"_bigarray")},serialize:lN,compare:lI,hash:lM},"_bigarr02":{deserialize:function(a,b){return lK(a,b,eN)},serialize:lN,compare:lI,hash:lM}};function
-gP(a){return lU[a.caml_custom]&&lU[a.caml_custom].compare}function
-lS(f,c,d,e){var
-b=gP(c);if(b){var
+yG(a,b,c){return a.compare(b)}function
+yJ(a){return a.lo32()^a.hi32()}var
+l5={"_j":{deserialize:yQ,serialize:yM,fixed_length:8,compare:yG,hash:yJ},"_i":{deserialize:yF,fixed_length:4},"_n":{deserialize:y1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lV(a,b,"_bigarray")},serialize:lY,compare:lT,hash:lX},"_bigarr02":{deserialize:function(a,b){return lV(a,b,eQ)},serialize:lY,compare:lT,hash:lX}};function
+gR(a){return l5[a.caml_custom]&&l5[a.caml_custom].compare}function
+l3(f,c,d,e){var
+b=gR(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eU(a){return a
+eX(a){return a
 instanceof
 bs}function
-gY(a){return eU(a)}function
-lT(a){if(typeof
-a==="number")return dD;else
-if(eU(a))return eM;else
-if(gY(a))return 1252;else
+g0(a){return eX(a)}function
+l4(a){if(typeof
+a==="number")return dI;else
+if(eX(a))return eP;else
+if(g0(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=j9){var
-b=a[0]|0;return b==eI?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=kh){var
+b=a[0]|0;return b==eL?0:b}else
 if(a
 instanceof
-String)return kk;else
+String)return ku;else
 if(typeof
-a=="string")return kk;else
+a=="string")return ku;else
 if(a
 instanceof
-Number)return dD;else
-if(a&&a.caml_custom)return gr;else
+Number)return dI;else
+if(a&&a.caml_custom)return gt;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-yz(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-lP(a,b){a.t&6&&c3(a);b.t&6&&c3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-y1(a,b){return lP(a,b)}function
-gO(a,b,d){var
+yR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+l0(a,b){a.t&6&&c4(a);b.t&6&&c4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+zh(a,b){return l0(a,b)}function
+gQ(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=lT(a);if(f==j_){a=a[1];continue}var
-g=lT(b);if(g==j_){b=b[1];continue}if(f!==g){if(f==dD){if(g==gr)return lS(a,b,-1,d);return-1}if(g==dD){if(f==gr)return lS(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aq(gz);break;case
+f=l4(a);if(f==ki){a=a[1];continue}var
+g=l4(b);if(g==ki){b=b[1];continue}if(f!==g){if(f==dI){if(g==gt)return l3(a,b,-1,d);return-1}if(g==dI){if(f==gt)return l3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ar(gB);break;case
 248:var
-c=yz(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aq(gz);break;case
-250:aq("equal: got Forward_tag, should not happen");break;case
-251:aq("equal: abstract value");break;case
+c=yR(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ar(gB);break;case
+250:ar("equal: got Forward_tag, should not happen");break;case
+251:ar("equal: abstract value");break;case
 252:if(a!==b){var
-c=lP(a,b);if(c!=0)return c|0}break;case
-253:aq("equal: got Double_tag, should not happen");break;case
-254:aq("equal: got Double_array_tag, should not happen");break;case
-255:aq("equal: got Custom_tag, should not happen");break;case
-1247:aq(gz);break;case
+c=l0(a,b);if(c!=0)return c|0}break;case
+253:ar("equal: got Double_tag, should not happen");break;case
+254:ar("equal: got Double_array_tag, should not happen");break;case
+255:ar("equal: got Custom_tag, should not happen");break;case
+1247:ar(gB);break;case
 1255:var
-i=gP(a);if(i!=gP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aq("compare: abstract value");var
+i=gR(a);if(i!=gR(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,235 +405,235 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bR(a),b=bR(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bS(a),b=bS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-yf(a,b){return gO(a,b,true)}function
-yg(){return[0]}function
-aj(a){if(a<0)aq("Bytes.create");return new
+yx(a,b){return gQ(a,b,true)}function
+yy(){return[0]}function
+ak(a){if(a<0)ar("Bytes.create");return new
 bs(a?2:9,s,a)}function
-lV(a,b){return+(gO(a,b,false)==0)}function
-yi(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c5(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-gZ(d){d=bR(d);var
-e=d.length;if(e>31)aq("format_int: format too long");var
-a={justify:bo,signstyle:a2,filler:bK,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+l6(a,b){return+(gQ(a,b,false)==0)}function
+yA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c6(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eS(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+g1(d){d=bS(d);var
+e=d.length;if(e>31)ar("format_int: format too long");var
+a={justify:bo,signstyle:a3,filler:bL,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a2;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gQ(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a2))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bo&&b.filler==bK)for(var
-d=e;d<b.width;d++)c+=bK;if(b.signedconv)if(b.sign<0)c+=a2;else
-if(b.signstyle!=a2)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=jT;if(b.justify==bo&&b.filler==aG)for(var
-d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a2)for(var
-d=e;d<b.width;d++)c+=bK;return a(c)}function
-gR(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a3;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+gS(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a3))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bo&&b.filler==bL)for(var
+d=e;d<b.width;d++)c+=bL;if(b.signedconv)if(b.sign<0)c+=a3;else
+if(b.signstyle!=a3)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=j3;if(b.justify==bo&&b.filler==aG)for(var
+d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a3)for(var
+d=e;d<b.width;d++)c+=bL;return a(c)}function
+gT(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
 c=parseInt(a.toString().split(bo)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aG);if(b>0)a=a+b7+new
+Array(c+1).join(aG);if(b>0)a=a+b9+new
 Array(b+1).join(aG);return a}else
 return a.toFixed(b)}}var
-a,e=gZ(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gt;e.filler=bK}else
-if(!isFinite(c)){a="inf";e.filler=bK}else
+a,e=g1(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gv;e.filler=bL}else
+if(!isFinite(c)){a="inf";e.filler=bL}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gL)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gL),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b7)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gL)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gN),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b7)b--;a=a.slice(0,b+1)}}break}return gQ(e,a)}function
-eQ(e,c){if(bR(e)==gE)return a(s+c);var
-b=gZ(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)}}break}return gS(e,a)}function
+eT(e,c){if(bS(e)==gG)return a(s+c);var
+b=g1(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bK;var
-f=b.prec-d.length;if(f>0)d=c5(f,aG)+d}return gQ(b,d)}var
-yK=0;function
-eR(){return yK++}function
-yC(a){return a.toUtf16()}function
-dL(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bL;var
+f=b.prec-d.length;if(f>0)d=c6(f,aG)+d}return gS(b,d)}var
+y2=0;function
+eU(){return y2++}function
+yU(a){return a.toUtf16()}function
+dQ(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-yY(){function
-a(a){if(a.charAt(0)===a_)return[s,a.substring(1)];return}function
+ze(){function
+a(a){if(a.charAt(0)===a$)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dL()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-g8=yY();function
-l_(a){return a.slice(-1)!==a_?a+a_:a}if(dL()&&u.process&&u.process.cwd)var
-dH=u.process.cwd().replace(/\\/g,a_);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dQ()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+g_=ze();function
+mj(a){return a.slice(-1)!==a$?a+a$:a}if(dQ()&&u.process&&u.process.cwd)var
+dM=u.process.cwd().replace(/\\/g,a$);else
 var
-dH="/static";dH=l_(dH);function
-yD(a){a=yC(a);if(!g8(a))a=dH+a;var
-e=g8(a),d=e[1].split(a_),b=[];for(var
+dM="/static";dM=mj(dM);function
+yV(a){a=yU(a);if(!g_(a))a=dM+a;var
+e=g_(a),d=e[1].split(a$),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-yS(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a$){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<a$;d++);if(d-c>jW){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<lf){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a$|a&cY)}else
-if(a<0xd800||a>=kb)b+=String.fromCharCode(kc|a>>12,a$|a>>6&cY,a$|a&cY);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<j3||h>kb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lo|a>>18,a$|a>>12&cY,a$|a>>6&cY,a$|a&cY)}if(b.length>dE){b.substr(0,1);f+=b;b=s}}return f+b}function
-yd(a){var
-b=9;if(!ma(a))b=8,a=yS(a);return new
+y_(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ba){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<ba;d++);if(d-c>j6){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<lp){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ba|a&cZ)}else
+if(a<0xd800||a>=kl)b+=String.fromCharCode(km|a>>12,ba|a>>6&cZ,ba|a&cZ);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kb||h>kl)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lz|a>>18,ba|a>>12&cZ,ba|a>>6&cZ,ba|a&cZ)}if(b.length>dJ){b.substr(0,1);f+=b;b=s}}return f+b}function
+yv(a){var
+b=9;if(!ml(a))b=8,a=y_(a);return new
 bs(b,a,a.length)}function
-bb(a){return yd(a)}var
-y0=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gs,la,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cv(d,f,e,a){var
-b=y0.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bb(f||s),bb(e||s)];return c}var
-l5={};function
-ct(a){return l5[a]}function
-cu(b,a){throw[0,b].concat(a)}function
-yc(a){return new
+bc(a){return yv(a)}var
+zg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j_,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gu,lk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cx(d,f,e,a){var
+b=zg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bc(f||s),bc(e||s)];return c}var
+me={};function
+cv(a){return me[a]}function
+cw(b,a){throw[0,b].concat(a)}function
+yu(a){return new
 bs(4,a,a.length)}function
-I(a){g0(ab.Sys_error,a)}function
-yN(a){I(a+ey)}function
-yb(b,a){if(a>>>0>=b.l)lO();return c2(b,a)}function
-aR(a){return a.l}function
-lH(){}function
-au(a){this.data=a}au.prototype=new
-lH();au.prototype.truncate=function(a){var
-b=this.data;this.data=aj(a|0);b_(b,0,this.data,0,a)};au.prototype.length=function(){return aR(this.data)};au.prototype.write=function(b,d,g,a){var
+J(a){g2(ad.Sys_error,a)}function
+y5(a){J(a+eB)}function
+yt(b,a){if(a>>>0>=b.l)lZ();return c3(b,a)}function
+aS(a){return a.l}function
+lS(){}function
+av(a){this.data=a}av.prototype=new
+lS();av.prototype.truncate=function(a){var
+b=this.data;this.data=ak(a|0);ca(b,0,this.data,0,a)};av.prototype.length=function(){return aS(this.data)};av.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=aj(b+a),f=this.data;this.data=e;b_(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};au.prototype.read=function(c,a,d,b){var
-e=this.length();b_(this.data,c,a,d,b);return 0};au.prototype.read_one=function(a){return yb(this.data,a)};au.prototype.close=function(){};au.prototype.constructor=au;function
+e=ak(b+a),f=this.data;this.data=e;ca(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};av.prototype.read=function(c,a,d,b){var
+e=this.length();ca(this.data,c,a,d,b);return 0};av.prototype.read_one=function(a){return yt(this.data,a)};av.prototype.close=function(){};av.prototype.constructor=av;function
 aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
-c=d.split(a_),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a_;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a_};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(a$),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+a$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a$};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-au(bO(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
+av(bP(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
-b=d&&ct(gD);if(this.exists(c))if(b)cu(b,cv(j0,gn,this.nm(c)));else
-I(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cu(b,cv(gG,gn,this.nm(a)));else
-I(a+ey);if(!this.is_dir(a))if(b)cu(b,cv(gs,gn,this.nm(a)));else
-I(a+gK);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
-b=f&&ct(gD),c=a==s?s:this.slash(a),e=new
-RegExp(gv+c+lb);if(!this.exists(a))if(b)cu(b,cv(gG,gC,this.nm(a)));else
-I(a+ey);if(!this.is_dir(a))if(b)cu(b,cv(gs,gC,this.nm(a)));else
-I(a+gK);for(var
+b=d&&cv(gF);if(this.exists(c))if(b)cw(b,cx(j_,gp,this.nm(c)));else
+J(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cw(b,cx(gI,gp,this.nm(a)));else
+J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gp,this.nm(a)));else
+J(a+gM);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
+b=f&&cv(gF),c=a==s?s:this.slash(a),e=new
+RegExp(gx+c+ll);if(!this.exists(a))if(b)cw(b,cx(gI,gE,this.nm(a)));else
+J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gE,this.nm(a)));else
+J(a+gM);for(var
 d
 in
-this.content)if(d.match(e))if(b)cu(b,cv(la,gC,this.nm(a)));else
-I(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)cw(b,cx(lk,gE,this.nm(a)));else
+J(this.nm(a)+": Directory not empty");delete
 this.content[c]};aH.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))I(a+ey);if(!this.is_dir(a))I(a+gK);var
+f=a==s?s:this.slash(a);if(!this.exists(a))J(a+eB);if(!this.is_dir(a))J(a+gM);var
 g=new
-RegExp(gv+f+lb),d={},c=[];for(var
+RegExp(gx+f+ll),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
 b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)I(this.nm(a)+kr);if(b.text&&b.binary)I(this.nm(a)+kZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))I(this.nm(a)+" : is a directory");if(b.create&&b.excl)I(this.nm(a)+kq);var
+this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)J(this.nm(a)+kB);if(b.text&&b.binary)J(this.nm(a)+k9);this.lookup(a);if(this.content[a]){if(this.is_dir(a))J(this.nm(a)+" : is a directory");if(b.create&&b.excl)J(this.nm(a)+kA);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-au(aj(0));return this.content[a]}else
-yN(this.nm(a))};aH.prototype.register=function(c,a){var
-b;if(this.content[c])I(this.nm(c)+kq);if(eU(a))b=new
-au(a);if(gY(a))b=new
-au(bO(a));else
+av(ak(0));return this.content[a]}else
+y5(this.nm(a))};aH.prototype.register=function(c,a){var
+b;if(this.content[c])J(this.nm(c)+kA);if(eX(a))b=new
+av(a);if(g0(a))b=new
+av(bP(a));else
 if(a
 instanceof
 Array)b=new
-au(yc(a));else
+av(yu(a));else
 if(typeof
 a==="string")b=new
-au(lQ(a));else
+av(l1(a));else
 if(a.toString){var
-d=bO(bb(a.toString()));b=new
-au(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-I(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
-y(a){return aR(a)}function
-bw(b,a){return c2(b,a)}function
-x9(d){var
+d=bP(bc(a.toString()));b=new
+av(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+J(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
+y(a){return aS(a)}function
+bw(b,a){return c3(b,a)}function
+yp(d){var
 c=y(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=bw(d,a);return b}function
-x8(a){if(a.t!=4)eP(a);return a.c}function
+yo(a){if(a.t!=4)eS(a);return a.c}function
 bt(a){this.fs=require("fs");this.fd=a}bt.prototype=new
-lH();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){I(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){I(a.toString())}};bt.prototype.write=function(f,b,c,e){var
-a=x9(b);if(!(a
+lS();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){J(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){J(a.toString())}};bt.prototype.write=function(f,b,c,e){var
+a=yp(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){I(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
-a=x8(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){J(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
+a=yo(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){I(a.toString())}for(var
-b=0;b<f;b++)cs(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){I(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){I(a.toString())}};bt.prototype.constructor=bt;function
-av(a){this.fs=require("fs");this.root=a}av.prototype.nm=function(a){return this.root+a};av.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};av.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){I(a.toString())}};av.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){J(a.toString())}for(var
+b=0;b<f;b++)cu(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){J(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){J(a.toString())}};bt.prototype.constructor=bt;function
+aw(a){this.fs=require("fs");this.root=a}aw.prototype.nm=function(a){return this.root+a};aw.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aw.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){J(a.toString())}};aw.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bt(d)}catch(a){this.raise_nodejs_error(a,g)}};av.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};av.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jL);return bb(a)}catch(a){this.raise_nodejs_error(a,c)}};av.prototype.raise_nodejs_error=function(a,d){var
-b=ct(gD);if(d&&b){var
-c=cv(a.code,a.syscall,a.path,a.errno);cu(b,c)}else
-I(a.toString())};av.prototype.stats_from_js=function(a){var
+bt(d)}catch(a){this.raise_nodejs_error(a,g)}};aw.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),jU);return bc(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.raise_nodejs_error=function(a,d){var
+b=cv(gF);if(d&&b){var
+c=cx(a.code,a.syscall,a.path,a.errno);cw(b,c)}else
+J(a.toString())};aw.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};av.prototype.constructor=av;function
-lY(b){var
-a=g8(b);if(!a)return;return a[0]+a_}var
-eW=lY(dH)||ba("unable to compute caml_root"),c6=[];if(dL())c6.push({path:eW,device:new
-av(eW)});else
-c6.push({path:eW,device:new
-aH(eW)});c6.push({path:kU,device:new
-aH(kU)});function
-me(b){var
-g=yD(b),b=g.join(a_),f=l_(b),c;for(var
-e=0;e<c6.length;e++){var
-a=c6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dL()){var
-d=lY(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aw.prototype.constructor=aw;function
+l9(b){var
+a=g_(b);if(!a)return;return a[0]+a$}var
+eZ=l9(dM)||bb("unable to compute caml_root"),c7=[];if(dQ())c7.push({path:eZ,device:new
+aw(eZ)});else
+c7.push({path:eZ,device:new
+aH(eZ)});c7.push({path:k4,device:new
+aH(k4)});function
+mp(b){var
+g=yV(b),b=g.join(a$),f=mj(b),c;for(var
+e=0;e<c7.length;e++){var
+a=c7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dQ()){var
+d=l9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-av(d)};c6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;I("no device found for "+f)}function
-yh(c,b){var
-a=me(c);if(!a.device.register)ba("cannot register file");a.device.register(a.rest,b);return 0}function
-l$(c,b){var
-c=a(c),b=a(b);return yh(c,b)}function
-yk(){var
+aw(d)};c7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;J("no device found for "+f)}function
+yz(c,b){var
+a=mp(c);if(!a.device.register)bb("cannot register file");a.device.register(a.rest,b);return 0}function
+mk(c,b){var
+c=a(c),b=a(b);return yz(c,b)}function
+yC(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)l$(b[a].name,b[a].content);u.jsoo_create_file=l$;u.caml_fs_tmp=[];return 0}function
-lX(){return[0]}function
-ym(a,c,k){if(!isFinite(a)){if(isNaN(a))return bb(gt);return bb(a>0?lr:"-infinity")}var
+a=0;a<b.length;a++)mk(b[a].name,b[a].content);u.jsoo_create_file=mk;u.caml_fs_tmp=[];return 0}function
+l8(){return[0]}function
+yE(a,c,k){if(!isFinite(a)){if(isNaN(a))return bc(gv);return bc(a>0?lC:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bo,e=s;if(i)e=a2;else
+j=d<0?s:bo,e=s;if(i)e=a3;else
 switch(k){case
 43:e=bo;break;case
-32:e=bK;break;default:break}if(c>=0&&c<13){var
+32:e=bL;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b7);if(h<0)b+=b7+c5(c,aG);else{var
-f=h+1+c;if(b.length<f)b+=c5(f-b.length,aG);else
-b=b.substr(0,f)}}return bb(e+jT+b+"p"+j+d.toString(10))}function
-yt(a){return+a.isZero()}function
-yw(a){return new
-t(a&bM,a>>24&bM,a>>31&br)}function
-yx(a){return a.toInt()}function
-ys(a){return+a.isNeg()}function
-yv(a){return a.neg()}function
-yq(g,c){var
-a=gZ(g);if(a.signedconv&&ys(c)){a.sign=-1;c=yv(c)}var
-b=s,h=yw(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(yx(e.modulus))+b}while(!yt(c));if(a.prec>=0){a.filler=bK;var
-d=a.prec-b.length;if(d>0)b=c5(d,aG)+b}return gQ(a,b)}function
-yL(c){var
+h=b.indexOf(b9);if(h<0)b+=b9+c6(c,aG);else{var
+f=h+1+c;if(b.length<f)b+=c6(f-b.length,aG);else
+b=b.substr(0,f)}}return bc(e+j3+b+"p"+j+d.toString(10))}function
+yL(a){return+a.isZero()}function
+yO(a){return new
+t(a&bN,a>>24&bN,a>>31&br)}function
+yP(a){return a.toInt()}function
+yK(a){return+a.isNeg()}function
+yN(a){return a.neg()}function
+yI(g,c){var
+a=g1(g);if(a.signedconv&&yK(c)){a.sign=-1;c=yN(c)}var
+b=s,h=yO(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(yP(e.modulus))+b}while(!yL(c));if(a.prec>=0){a.filler=bL;var
+d=a.prec-b.length;if(d>0)b=c6(d,aG)+b}return gS(a,b)}function
+y3(c){var
 a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&bw(c,a)==48)switch(bw(c,a+1)){case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-l6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lD)return a-87;return-1}function
-gX(f){var
-h=yL(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=l6(e);if(b<0||b>=d)ba(eA);var
-a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=l6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ba(eA)}if(c!=g)ba(eA);a=i*a;if(d==10&&(a|0)!=a)ba(eA);return a|0}function
-yB(d){return function(){var
+mf(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lO)return a-87;return-1}function
+gZ(f){var
+h=y3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=mf(e);if(b<0||b>=d)bb(eD);var
+a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=mf(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bb(eD)}if(c!=g)bb(eD);a=i*a;if(d==10&&(a|0)!=a)bb(eD);return a|0}function
+yT(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bP(d,c)}else
-return bP(d,[undefined])}}function
-yE(a,d){if(a<0)dG();var
+a=0;a<b;a++)c[a]=arguments[a];return bQ(d,c)}else
+return bQ(d,[undefined])}}function
+yW(a,d){if(a<0)dL();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-yF(){return 0}var
+yX(){return 0}var
 bv=new
 Array();function
-c4(c){var
-a=bv[c];if(!a.opened)I("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ab.fds[a.fd]&&ab.fds[a.fd].output){var
-b=ab.fds[a.fd].output;switch(b.length){case
+c5(c){var
+a=bv[c];if(!a.opened)J("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ad.fds[a.fd]&&ad.fds[a.fd].output){var
+b=ad.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-l9(e,f){var
+mi(e,f){var
 b=bv[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-yT(a){var
-a=g4(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+y$(a){var
+a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-yU(a){var
-a=g4(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+za(a){var
+a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-eX(c,e,d,a){if(ab.fds===undefined)ab.fds=new
+e0(c,e,d,a){if(ad.fds===undefined)ad.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ab.fds[c]=b;if(!ab.fd_last_idx||c>ab.fd_last_idx)ab.fd_last_idx=c;return c}function
-y2(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ad.fds[c]=b;if(!ad.fd_last_idx||c>ad.fd_last_idx)ad.fd_last_idx=c;return c}function
+zi(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,132 +687,132 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)I(bR(c)+kr);if(a.text&&a.binary)I(bR(c)+kZ);var
-d=me(c),e=d.device.open(d.rest,a),f=ab.fd_last_idx?ab.fd_last_idx:0;return eX(f+1,l9,e,a)}eX(0,l9,new
-au(aj(0)));eX(1,yU,new
-au(aj(0)));eX(2,yT,new
-au(aj(0)));function
-yG(a){var
-c=ab.fds[a];if(c.flags.wronly)I(lC+a+" is writeonly");var
-d=null;if(a==0&&dL()){var
-e=require("fs");d=function(){return bb(e.readFileSync(0,jL))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)J(bS(c)+kB);if(a.text&&a.binary)J(bS(c)+k9);var
+d=mp(c),e=d.device.open(d.rest,a),f=ad.fd_last_idx?ad.fd_last_idx:0;return e0(f+1,mi,e,a)}e0(0,mi,new
+av(ak(0)));e0(1,za,new
+av(ak(0)));e0(2,y$,new
+av(ak(0)));function
+yY(a){var
+c=ad.fds[a];if(c.flags.wronly)J(lN+a+" is writeonly");var
+d=null;if(a==0&&dQ()){var
+e=require("fs");d=function(){return bc(e.readFileSync(0,jU))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bv[b.fd]=b;return b.fd}function
-l1(c){var
-b=ab.fds[c];if(b.flags.rdonly)I(lC+c+" is readonly");var
+ma(c){var
+b=ad.fds[c];if(b.flags.rdonly)J(lN+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bv[a.fd]=a;return a.fd}function
-yH(){var
+yZ(){var
 b=0;for(var
 a=0;a<bv.length;a++)if(bv[a]&&bv[a].opened&&bv[a].out)b=[0,bv[a].fd,b];return b}function
 aE(a){return a}function
-yI(g,d,h,f){var
-b=bv[g];if(!b.opened)I("Cannot output to a closed channel");var
-a;if(h==0&&aR(d)==f)a=d;else{a=aj(f);b_(d,h,a,0,f)}var
-i=aE(a),c=bR(i),e=c.lastIndexOf(j4);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c4(g);b.buffer+=c.substr(e+1)}return 0}function
-l2(b,a,d,c){return yI(b,bO(a),d,c)}function
-l3(c,b){var
-d=a(String.fromCharCode(b));l2(c,d,0,1);return 0}function
-dK(a,b){return+(gO(a,b,false)!=0)}function
-eV(a){if(a
+y0(g,d,h,f){var
+b=bv[g];if(!b.opened)J("Cannot output to a closed channel");var
+a;if(h==0&&aS(d)==f)a=d;else{a=ak(f);ca(d,h,a,0,f)}var
+i=aE(a),c=bS(i),e=c.lastIndexOf(kc);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c5(g);b.buffer+=c.substr(e+1)}return 0}function
+mb(b,a,d,c){return y0(b,bP(a),d,c)}function
+mc(c,b){var
+d=a(String.fromCharCode(b));mb(c,d,0,1);return 0}function
+dP(a,b){return+(gQ(a,b,false)!=0)}function
+eY(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eU(a))return eM;else
-if(gY(a))return eM;else
+if(eX(a))return eP;else
+if(g0(a))return eP;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return j9;else
-return dD}function
-a3(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ab[b+1]=c;if(a)ab[a]=c}function
-g1(a,b){l5[bR(a)]=b;return 0}function
-ya(a,b){if(a===b)return 1;a.t&6&&c3(a);b.t&6&&c3(b);return a.c==b.c?1:0}function
-aB(a,b){return ya(a,b)}function
-yQ(){aq(gI)}function
-J(b,a){if(a>>>0>=y(b))yQ();return bw(b,a)}function
-i(a,b){return 1-aB(a,b)}function
-yR(){return 0x7FFFFFFF/4|0}function
-g3(a){var
+if(a&&a.caml_custom)return kh;else
+return dI}function
+a4(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ad[b+1]=c;if(a)ad[a]=c}function
+g3(a,b){me[bS(a)]=b;return 0}function
+ys(a,b){if(a===b)return 1;a.t&6&&c4(a);b.t&6&&c4(b);return a.c==b.c?1:0}function
+aC(a,b){return ys(a,b)}function
+y8(){ar(gK)}function
+K(b,a){if(a>>>0>=y(b))y8();return bw(b,a)}function
+j(a,b){return 1-aC(a,b)}function
+y9(){return 0x7FFFFFFF/4|0}function
+g5(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-aw(b,a){return{joo_tramp:b,joo_args:a}}function
-l8(a){return a}function
-eY(a){if(a
+ax(b,a){return{joo_tramp:b,joo_args:a}}function
+mh(a){return a}function
+e1(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return l8(ab.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mh(ad.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return l8(ab.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mh(ad.Stack_overflow);if(a
 instanceof
-u.Error&&ct(gq))return[0,ct(gq),a];return[0,ab.Failure,bb(String(a))]}function
-eZ(a){return a<0?-a:a}function
-A(a,b){return a+b}function
-g5(a,b){return a<b?-1:a>b?1:0}function
-mb(c,b){var
-a=c%b;return a<0?a+eZ(b):a}function
-g6(a,b){return(a-mb(a,b))/b}function
-ak(a,b){return a==b?1:0}function
+u.Error&&cv(gs))return[0,cv(gs),a];return[0,ad.Failure,bc(String(a))]}function
+e2(a){return a<0?-a:a}function
+z(a,b){return a+b}function
+g7(a,b){return a<b?-1:a>b?1:0}function
+mm(c,b){var
+a=c%b;return a<0?a+e2(b):a}function
+g8(a,b){return(a-mm(a,b))/b}function
+al(a,b){return a==b?1:0}function
 D(a,b){return a<=b?1:0}function
-ae(a,b){return a<b?1:0}function
-n(a,b){return a*b}function
-S(a){return-a}function
-aS(a){return u.BigInt(a)}function
-mc(a,b){return a<<u.BigInt(b)}function
-md(a,b){return a>>u.BigInt(b)}function
+ag(a,b){return a<b?1:0}function
+o(a,b){return a*b}function
+T(a){return-a}function
+aT(a){return u.BigInt(a)}function
+mn(a,b){return a<<u.BigInt(b)}function
+mo(a,b){return a>>u.BigInt(b)}function
 bx(a){return a<0?-1:a>0?1:0}function
-yZ(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+zf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b$(a,b){return a-b}function
-g7(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-yA(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-yj(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yA(b[1]))var
+cb(a,b){return a-b}function
+g9(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+yS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+yB(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yS(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=le;for(var
-d=f;d<e.length;d++){if(d>f)a+=jN;var
+f=2,e=b;a+=lo;for(var
+d=f;d<e.length;d++){if(d>f)a+=jX;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bs)a+=ap+c.toString()+ap;else
+bs)a+=aq+c.toString()+aq;else
 if(typeof
-c=="string")a+=ap+c.toString()+ap;else
-a+=kM}a+=gu}else
-if(b[0]==ao)a+=b[1];return a}function
-lW(a){if(a
+c=="string")a+=aq+c.toString()+aq;else
+a+=kW}a+=gw}else
+if(b[0]==ap)a+=b[1];return a}function
+l7(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ao)){var
-c=ct(jZ);if(c)c(a,false);else{var
-d=yj(a),b=ct(jK);if(b)b(0);u.console.error(gA+d+j4)}}else
+Array&&(a[0]==0||a[0]==ap)){var
+c=cv(j9);if(c)c(a,false);else{var
+d=yB(a),b=cv(jT);if(b)b(0);u.console.error(gC+d+kc)}}else
 throw a}function
-yP(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lW(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lW(a.error)})}yP();function
-e(a,b){return a.length==1?a(b):bP(a,[b])}function
-R(a,b,c){return a.length==2?a(b,c):bP(a,[b,c])}function
-gl(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bP(a,[b,c,d,e,f])}function
-x7(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bP(a,[b,c,d,e,f,g,h])}yk();var
-e0=[ao,a(lv),-1],hb=[ao,a(j1),-2],g_=[ao,a(gp),-3],g9=[ao,a(kH),-4],g$=[ao,a(ki),-8],ha=[ao,a(kW),-9],U=[ao,a(li),-11],hc=[ao,a(jJ),-12],w$=[4,0,0,0,[12,45,[4,0,0,0,0]]],e6=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(km),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xa=[0,0],xb=[0,[0,[0,[0,0]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,0]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],xo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xn]]]]]]]]]]],xp=[0,[0,0]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xp]]]]]]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xq]]]]]]]]]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xr]]]]]]]]]]],xt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,0],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,0]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,0],x6=[0,[0,[0,[0,[0,0]]]]],fs=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],el=[0,[0,[0,[0,0]]]];a3(11,hc,jJ);a3(10,U,li);a3(9,[ao,a(kA),-10],kA);a3(8,ha,kW);a3(7,g$,ki);a3(6,[ao,a(kS),-7],kS);a3(5,[ao,a(k_),-6],k_);a3(4,[ao,a(j6),-5],j6);a3(3,g9,kH);a3(2,g_,gp);a3(1,hb,j1);a3(0,e0,lv);var
-mj=a("%.12g"),mi=a(b7),mg=a("true"),mh=a("false"),mk=a("\\\\"),ml=a("\\'"),mm=a("\\b"),mn=a("\\t"),mo=a("\\n"),mp=a("\\r"),ms=a("String.blit / Bytes.blit_string"),mr=a("Bytes.blit"),mq=a("String.sub / Bytes.sub"),mu=a(s),mt=a("String.concat"),mv=a("Array.init"),my=a("Buffer.add: cannot grow buffer"),mx=[0,a(k6),93,2],mw=[0,a(k6),94,2],mH=a("%c"),mI=a("%s"),mJ=a(jH),mK=a(kf),mL=a(kD),mM=a(jP),mN=a("%f"),mO=a("%B"),mP=a("%{"),mQ=a("%}"),mR=a("%("),mS=a("%)"),mT=a("%a"),mU=a("%t"),mV=a("%?"),mW=a("%r"),mX=a("%_r"),mY=[0,a(an),850,23],m9=[0,a(an),814,21],m1=[0,a(an),815,21],m_=[0,a(an),818,21],m2=[0,a(an),819,21],m$=[0,a(an),822,19],m3=[0,a(an),823,19],na=[0,a(an),826,22],m4=[0,a(an),827,22],nb=[0,a(an),831,30],m5=[0,a(an),832,30],m7=[0,a(an),836,26],mZ=[0,a(an),837,26],m8=[0,a(an),846,28],m0=[0,a(an),847,28],m6=[0,a(an),851,23],oe=a(kx),oc=[0,a(an),1558,4],od=a("Printf: bad conversion %["),of=[0,a(an),1626,39],og=[0,a(an),1649,31],oh=[0,a(an),1650,31],oi=a("Printf: bad conversion %_"),oj=a(ks),ok=a(kG),ol=a(ks),om=a(kG),oa=a(gt),n_=a("neg_infinity"),n$=a(lr),n9=a(b7),n4=[0,jY],nS=a("%+nd"),nT=a("% nd"),nV=a("%+ni"),nW=a("% ni"),nX=a("%nx"),nY=a("%#nx"),nZ=a("%nX"),n0=a("%#nX"),n1=a("%no"),n2=a("%#no"),nR=a("%nd"),nU=a(kD),n3=a("%nu"),nF=a("%+ld"),nG=a("% ld"),nI=a("%+li"),nJ=a("% li"),nK=a("%lx"),nL=a("%#lx"),nM=a("%lX"),nN=a("%#lX"),nO=a("%lo"),nP=a("%#lo"),nE=a("%ld"),nH=a(kf),nQ=a("%lu"),ns=a("%+Ld"),nt=a("% Ld"),nv=a("%+Li"),nw=a("% Li"),nx=a("%Lx"),ny=a("%#Lx"),nz=a("%LX"),nA=a("%#LX"),nB=a("%Lo"),nC=a("%#Lo"),nr=a("%Ld"),nu=a(jP),nD=a("%Lu"),nf=a("%+d"),ng=a("% d"),ni=a("%+i"),nj=a("% i"),nk=a("%x"),nl=a("%#x"),nm=a("%X"),nn=a("%#X"),no=a("%o"),np=a("%#o"),ne=a(gE),nh=a(jH),nq=a(kx),mz=a("@]"),mA=a("@}"),mB=a("@?"),mC=a("@\n"),mD=a("@."),mE=a("@@"),mF=a("@%"),mG=a("@"),nc=a("CamlinternalFormat.Type_mismatch"),oq=a(s),or=[0,[11,a(jN),[2,0,[2,0,0]]],a(", %s%s")],oQ=[0,[11,a(gA),[2,0,[12,10,0]]],a(lg)],oR=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],oP=a("Fatal error: out of memory in uncaught exception handler"),oN=[0,[11,a(gA),[2,0,[12,10,0]]],a(lg)],oJ=[0,[2,0,[12,10,0]],a("%s\n")],oB=a("Raised at"),oC=a("Re-raised at"),oD=a("Raised by primitive operation at"),oE=a("Called from"),oF=a(" (inlined)"),oH=a(s),oG=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(km),w$]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oI=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],ow=a("Out of memory"),ox=a("Stack overflow"),oy=a("Pattern matching failed"),oz=a("Assertion failed"),oA=a("Undefined recursive module"),os=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],ot=a(s),ou=a(s),ov=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],op=[0,[4,0,0,0,0],a(gE)],on=[0,[3,0,0],a("%S")],oo=a(kM),oK=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oT=a("Jsoo_runtime.Error.Exn"),oV=a("power"),o5=[0,0],o6=[0,[0,0]],o7=[0,[0,0]],pc=[0,0],pj=[0,0,0],pk=[0,0,0],pl=[0,0],pm=[0,0],pu=[0,0],pw=[0,0],pI=[0,0],pJ=[0,0],p4=[0,[0,[0,0]]],qb=a(","),qt=[0,a(gu),0],qu=a(le),qv=a(b7),qw=[0,[0,[0,0]]],qx=a(a2),qy=a(gv),qz=[0,[0,[0,[0,[0,0]]]]],qA=[0,a(gu),0],qB=a(lG),sA=a(jI),sC=a(kJ),sB=a(lj),sD=a(eD),sE=a(kF),sF=a(lz),sG=a(k5),th=[0,a(kg),6954,12],tv=a(gB),tw=[0,0],tx=a("divided"),ty=[0,1],tz=a("mirror"),tA=[0,3],tB=a("negative"),tC=[0,2],tD=a(gM),tE=[0,4],tF=a(eB),tG=a(kX),tH=a(eK),tI=[0,0],tJ=[0,0],tK=[0,0],t2=a(s),tZ=[0,[0,[0,[0,0]]]],t0=[0,[0,[0,[0,0]]]],tX=[0,[0,[0,0]]],tW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,0]],tR=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,0],tL=[0,0],tp=[0,[0,0]],tq=[0,0],to=[0,0],tn=[0,0,0],tl=[0,0,0],tk=[0,0],tb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],s9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xo]]]]]]]]]]],s_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],s$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],ta=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],td=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],te=a("sqrt"),s7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],s8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],sW=[0,a("\n"),0],sX=a(kL),sY=a(ez),sZ=a(j$),s0=a(k8),s1=a("certified"),s6=a("refuted"),s2=a("verdict"),s3=a(kp),s4=a(k4),s5=a(lh),sL=a(lu),sM=a(eC),sN=a(j8),sO=a(ly),sU=a(lc),sV=a(eJ),sP=a(gw),sQ=a(b8),sR=a(kN),sS=a(eC),sT=a(lx),sJ=a(k3),sK=a(lA),sy=a(kV),sz=a(kv),sf=a(eJ),rS=a(bL),rT=a(c0),rU=a(gm),rV=a(cZ),rW=a(b8),rX=a(bL),rY=a(c0),rZ=a(gm),r0=a(cZ),r1=a(b8),r2=a(bL),r3=a(gJ),r4=a(bq),r5=a(bp),r6=a(cr),r7=a(c0),r8=a(lq),r9=a(lw),r_=a(cZ),r$=a(b8),sa=a(bL),sb=a(bq),sc=a(bp),sd=a(cr),se=a(c0),sg=a(kl),sh=a(kt),si=a(lF),sj=a(kY),sk=a(jS),sl=a(cZ),sm=a(b8),sn=a(bL),so=a(kK),sp=a(k7),sq=a(c0),sr=a(kB),ss=a(kP),st=a(cZ),su=a(b8),sx=a(kI),sv=a(jR),sw=a(ky),rI=a(j7),rJ=a(kE),rK=a(jU),rL=a(k1),rM=a(kw),rN=a(kn),rO=a(k9),rP=a(eF),rQ=a(eF),rE=a(b5),rF=a(b4),rG=a(eE),rH=a(b6),rA=a(dC),rB=a(gH),rC=a(ln),rt=a(bq),ru=a(bp),rv=a(cr),rw=a(ka),rx=a(jG),ry=a(j5),rz=a(lt),rm=a(k$),rn=a(jQ),rs=a(ez),ro=a(k2),rp=a(j2),rq=a(kh),rr=a(lk),rj=a(bp),rk=a(bq),rl=a(ku),rb=a(jM),rc=a(kO),rd=a(lp),re=a(eD),rf=a(lE),rg=a(ls),rh=a(kR),ri=a(lm),q2=a(bo),ra=a(a2),q3=a(eH),q4=a(eG),q5=a(eO),q6=a(b5),q7=a(b4),q8=a(kd),q9=a(kj),q_=a(eO),q$=a(b6),qK=a(bo),qS=a(a2),qL=a(eH),qM=a(eG),qN=a(b5),qO=a(b4),qP=a(eL),qQ=a(kz),qR=a(b6),qT=a(gy),qU=a(b5),qV=a(b4),qW=a(eE),qX=a(b6),qY=a(eL),qZ=a(dC),q0=a(b6),qH=a(bq),qI=a(bp),qF=[0,a(ap),0],qG=a(ap),qD=[0,a(kg),6331,36],qC=[0,a(ap),0],qE=a(ap),qp=a(bo),qq=a(a2),qr=a("*"),qs=a(a_),qk=[0,[0,[0,[0,[0,0]]]]],ql=[0,[0,[0,0]]],qm=[0,[0,0]],qn=[0,0],qo=[0,[0,[0,[0,0]]]],qi=a('":'),qj=a(ap),qg=[0,a(ap),0],qh=a(ap),qe=[0,a("}"),0],qf=a("{"),qc=[0,a("]"),0],qd=a("["),qa=[0,0],p9=[0,[0,[0,0]]],p_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],p7=[0,[0,0]],p8=[0,[0,[0,0]]],p2=[0,[0,0]],p3=[0,[0,[0,0]]],p0=[0,[0,[0,0]]],p1=[0,[0,0]],pY=[0,0],pU=[0,[0,0]],pV=[0,0],pW=[0,0],pX=[0,[0,0]],pL=[0,[0,0]],pM=[0,0],pN=[0,[0,0]],pO=[0,0],pP=[0,0],pQ=[0,[0,0]],pR=[0,[0,0]],pS=[0,[0,0]],pT=[0,0],pH=[0,0],pF=[0,[0,[0,0]]],pE=[0,[0,[0,[0,[0,[0,0]]]]]],pB=[0,0],pC=[0,[0,[0,[0,[0,[0,0]]]]]],pD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],pz=[0,[0,[0,0]]],pp=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pq=[0,[0,[0,[0,[0,[0,0]]]]]],pr=[0,[0,[0,0]]],ps=[0,[0,[0,[0,[0,[0,0]]]]]],pt=[0,[0,[0,0]]],pn=[0,[0,0]],po=[0,0],pd=[0,0,0],o_=[0,0],o$=[0,[0,0]],pa=[0,0],pb=[0,[0,0]],o8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],o4=a(aG),o3=a(s),o2=[0,[0,0]],o1=[0,0],o0=[1,0],oZ=[0,0],oY=[0,0],oW=[1,0],oX=[1,0],wd=a(eD),we=a(k5),wf=a(lj),wg=a(kF),wh=a(eB),wi=a(kX),wj=a(eK),wk=[0,a(ap),0],wl=a('the evidence "'),wm=a(kv),wn=a(kV),wo=a(eB),wp=a(eK),wq=a(lz),ws=a(eB),wt=a(eK),wu=a(gB),wv=a(gB),wr=[0,a("this evidence at control points"),0],wU=a(lh),wV=a(k4),wW=a(kp),w4=[0,3,3],wX=a(k8),w1=[0,a('the drive "arm" in a claim that is certified'),0],w2=[0,a("a step of a platform that turns that is not at control points"),0],w3=[0,a("a mechanism by formulas in a claim that is refuted"),0],wY=a(j$),wZ=a(kL),w0=a(ez),wS=a(gM),wH=a(j8),wI=a(lx),wL=a(b8),wM=a(gw),wN=a(kN),wO=a(eC),wP=a(lu),wQ=a(eC),wJ=[0,a(ap),0],wK=a('a proof of the kind "'),wC=a(lc),wD=a(ly),wE=a(eJ),wF=[0,a(ap),0],wG=a('the failure "'),wy=a(gw),wz=[0,a("a leaf that fails"),0],wA=a(k3),wB=a(lA),ww=a(gM),wx=a(aG),wb=a(kJ),wc=a(jI),vN=a(b6),vO=a(gy),vP=a(eE),vS=a(b5),vT=a(b4),vQ=[0,a('" of such a platform'),0],vR=a(jO),vz=a("rho"),vA=a(eJ),vB=[0,a("a joint by its coordinate"),0],vd=a(bL),u9=a(b8),u_=a(ky),vb=a(jR),vc=a(kI),ve=a(cZ),vf=a(c0),vg=a("bodies"),wa=[0,a("a machine with bodies"),0],vh=a(dC),vi=a(gH),vj=a(ln),vk=a(gJ),vl=a(jS),vm=a(kP),vn=a(gm),vq=a(cr),vr=a(lt),vu=a(bL),vv=a(k7),vw=a(kK),vx=a(kB),vy=a(cr),vC=a(bL),vD=a(bq),vE=a(bp),vF=a(kl),vG=a(kt),vH=a(lF),vI=a(kY),vo=[0,a(ap),0],vp=a(kC),vJ=a(cr),vK=[0,a('" of a platform that turns'),0],vL=a(ko),vM=a(lq),v_=[0,a('" that does not turn'),0],v$=a(kC),vU=a(gJ),vV=a(kn),vW=a(j7),vX=a(kw),vY=a(eF),vZ=a(k9),v0=a(eF),v7=a(kE),v8=a(jU),v9=a(k1),v1=a(dC),v2=a(gH),v3=a(bL),v4=a(bq),v5=a(bp),v6=a(lw),vs=[0,a(ap),0],vt=a(ko),u$=[0,a(ap),0],va=a('a claim of the kind "'),u2=a(cr),u6=a(bq),u7=a(bp),u3=a(j5),u4=a(ka),u5=a(jG),u1=[0,a("this quantity of such a mechanism"),0],uX=a(k2),uY=[0,a("a stiffness for each joint"),0],uW=a(ez),uP=a(k$),uE=a(lk),uF=a(eD),uG=a(lm),uH=a(kO),uI=a(lp),uJ=a(ls),uK=a(lE),uL=a(kR),uM=a(jM),uN=[0,a(ap),0],uO=a('the quantity "'),uQ=a(jQ),uR=a(bq),uS=a(bp),uT=a(ku),uU=[0,a(ap),0],uV=a('a bound "'),uZ=a(j2),u0=a(kh),ux=a(eH),uy=a(eG),uz=a(eO),uA=a(b5),uB=a(b4),uC=a(kd),uD=a(kj),uu=a(b6),uv=a(eO),uf=a(b6),ug=a(dC),uh=a(kz),ui=a(eE),ul=a(gy),um=a(b5),un=a(b4),uo=a(eH),up=a(eG),uq=a(b5),ur=a(b4),us=a(eL),ut=a(eL),uj=[0,a(ap),0],uk=a(jO),uc=a(bo),ud=a(a2),ua=a(" is not covered by the verified checker"),ub=a(s),t_=a(bq),t$=a(bp),t6=a(s),t7=a(lG),t8=a(s),t9=a(s),t5=[1,0],t3=a("Reader.Malformed"),t4=a("Reader.Not_covered"),w6=a(ke),w7=a("CERTIFIED"),w8=a("REFUTED"),w9=a(ke),w_=a("NOT COVERED: ");function
-_(a){if(typeof
+y7(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){l7(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)l7(a.error)})}y7();function
+e(a,b){return a.length==1?a(b):bQ(a,[b])}function
+S(a,b,c){return a.length==2?a(b,c):bQ(a,[b,c])}function
+gn(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bQ(a,[b,c,d,e,f])}function
+yn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bQ(a,[b,c,d,e,f,g,h])}yC();var
+e3=[ap,a(lG),-1],hd=[ap,a(j$),-2],ha=[ap,a(gr),-3],g$=[ap,a(kR),-4],hb=[ap,a(ks),-8],hc=[ap,a(k6),-9],V=[ap,a(lt),-11],he=[ap,a(jS),-12],xr=[4,0,0,0,[12,45,[4,0,0,0,0]]],e9=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kw),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xs=[0,0],xt=[0,[0,[0,[0,0]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,0]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,0],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,0]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,0],ym=[0,[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eo=[0,[0,[0,[0,0]]]];a4(11,he,jS);a4(10,V,lt);a4(9,[ap,a(kK),-10],kK);a4(8,hc,k6);a4(7,hb,ks);a4(6,[ap,a(k2),-7],k2);a4(5,[ap,a(li),-6],li);a4(4,[ap,a(ke),-5],ke);a4(3,g$,kR);a4(2,ha,gr);a4(1,hd,j$);a4(0,e3,lG);var
+mu=a("%.12g"),mt=a(b9),mr=a("true"),ms=a("false"),mv=a("\\\\"),mw=a("\\'"),mx=a("\\b"),my=a("\\t"),mz=a("\\n"),mA=a("\\r"),mD=a("String.blit / Bytes.blit_string"),mC=a("Bytes.blit"),mB=a("String.sub / Bytes.sub"),mF=a(s),mE=a("String.concat"),mG=a("Array.init"),mJ=a("Buffer.add: cannot grow buffer"),mI=[0,a(le),93,2],mH=[0,a(le),94,2],mS=a("%c"),mT=a("%s"),mU=a(jQ),mV=a(kp),mW=a(kN),mX=a(jZ),mY=a("%f"),mZ=a("%B"),m0=a("%{"),m1=a("%}"),m2=a("%("),m3=a("%)"),m4=a("%a"),m5=a("%t"),m6=a("%?"),m7=a("%r"),m8=a("%_r"),m9=[0,a(ao),850,23],ni=[0,a(ao),814,21],na=[0,a(ao),815,21],nj=[0,a(ao),818,21],nb=[0,a(ao),819,21],nk=[0,a(ao),822,19],nc=[0,a(ao),823,19],nl=[0,a(ao),826,22],nd=[0,a(ao),827,22],nm=[0,a(ao),831,30],ne=[0,a(ao),832,30],ng=[0,a(ao),836,26],m_=[0,a(ao),837,26],nh=[0,a(ao),846,28],m$=[0,a(ao),847,28],nf=[0,a(ao),851,23],op=a(kH),on=[0,a(ao),1558,4],oo=a("Printf: bad conversion %["),oq=[0,a(ao),1626,39],or=[0,a(ao),1649,31],os=[0,a(ao),1650,31],ot=a("Printf: bad conversion %_"),ou=a(kC),ov=a(kQ),ow=a(kC),ox=a(kQ),ol=a(gv),oj=a("neg_infinity"),ok=a(lC),oi=a(b9),od=[0,j8],n3=a("%+nd"),n4=a("% nd"),n6=a("%+ni"),n7=a("% ni"),n8=a("%nx"),n9=a("%#nx"),n_=a("%nX"),n$=a("%#nX"),oa=a("%no"),ob=a("%#no"),n2=a("%nd"),n5=a(kN),oc=a("%nu"),nQ=a("%+ld"),nR=a("% ld"),nT=a("%+li"),nU=a("% li"),nV=a("%lx"),nW=a("%#lx"),nX=a("%lX"),nY=a("%#lX"),nZ=a("%lo"),n0=a("%#lo"),nP=a("%ld"),nS=a(kp),n1=a("%lu"),nD=a("%+Ld"),nE=a("% Ld"),nG=a("%+Li"),nH=a("% Li"),nI=a("%Lx"),nJ=a("%#Lx"),nK=a("%LX"),nL=a("%#LX"),nM=a("%Lo"),nN=a("%#Lo"),nC=a("%Ld"),nF=a(jZ),nO=a("%Lu"),nq=a("%+d"),nr=a("% d"),nt=a("%+i"),nu=a("% i"),nv=a("%x"),nw=a("%#x"),nx=a("%X"),ny=a("%#X"),nz=a("%o"),nA=a("%#o"),np=a(gG),ns=a(jQ),nB=a(kH),mK=a("@]"),mL=a("@}"),mM=a("@?"),mN=a("@\n"),mO=a("@."),mP=a("@@"),mQ=a("@%"),mR=a("@"),nn=a("CamlinternalFormat.Type_mismatch"),oB=a(s),oC=[0,[11,a(jX),[2,0,[2,0,0]]],a(", %s%s")],o1=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],o2=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],o0=a("Fatal error: out of memory in uncaught exception handler"),oY=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],oU=[0,[2,0,[12,10,0]],a("%s\n")],oM=a("Raised at"),oN=a("Re-raised at"),oO=a("Raised by primitive operation at"),oP=a("Called from"),oQ=a(" (inlined)"),oS=a(s),oR=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kw),xr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oT=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],oH=a("Out of memory"),oI=a("Stack overflow"),oJ=a("Pattern matching failed"),oK=a("Assertion failed"),oL=a("Undefined recursive module"),oD=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oE=a(s),oF=a(s),oG=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oA=[0,[4,0,0,0,0],a(gG)],oy=[0,[3,0,0],a("%S")],oz=a(kW),oV=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],o4=a("Jsoo_runtime.Error.Exn"),o6=a("power"),pe=[0,0],pf=[0,[0,0]],pg=[0,[0,0]],pn=[0,0],pu=[0,0,0],pv=[0,0,0],pw=[0,0],px=[0,0],pF=[0,0],pH=[0,0],pT=[0,0],pU=[0,0],qd=[0,[0,[0,0]]],qm=a(","),qE=[0,a(gw),0],qF=a(lo),qG=a(b9),qH=[0,[0,[0,0]]],qI=a(a3),qJ=a(gx),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,a(gw),0],qM=a(lR),sM=a(jR),sO=a(kT),sN=a(lu),sP=a(eG),sQ=a(kP),sR=a(lK),sS=a(ld),tt=[0,a(kq),7077,12],tI=a(gD),tJ=[0,0],tK=a("divided"),tL=[0,1],tM=a("mirror"),tN=[0,3],tO=a("negative"),tP=[0,2],tQ=a(gO),tR=[0,4],tS=a(eE),tT=a(k7),tU=a(eN),tV=[0,0],tW=[0,0],tX=[0,0],ud=a(s),ua=[0,[0,[0,[0,0]]]],ub=[0,[0,[0,[0,0]]]],t_=[0,[0,[0,0]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t5=[0,[0,[0,0]]],t6=[0,[0,0]],t4=[0,[0,[0,0]]],tZ=[0,[0,0]],t0=[0,0],tY=[0,0],tC=[0,[0,0]],tD=[0,0],tB=[0,0],tA=[0,0],tz=[0,0,0],tx=[0,0,0],tw=[0,0],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],to=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],tj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],tk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],tm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],tp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tq=a("sqrt"),th=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],ti=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],s8=[0,a("\n"),0],s9=a(kV),s_=a(eC),s$=a(kj),ta=a(lg),tb=a("certified"),tg=a("refuted"),tc=a("verdict"),td=a(kz),te=a(lc),tf=a(ls),sX=a(lF),sY=a(eF),sZ=a(kg),s0=a(lJ),s6=a(lm),s7=a(eM),s1=a(gy),s2=a(b_),s3=a(kX),s4=a(eF),s5=a(lI),sV=a(lb),sW=a(lL),sK=a(k5),sL=a(kF),sr=a(eM),r4=a(bM),r5=a(c1),r6=a(go),r7=a(c0),r8=a(b_),r9=a(bM),r_=a(c1),r$=a(go),sa=a(c0),sb=a(b_),sc=a(bM),sd=a(gL),se=a(bq),sf=a(bp),sg=a(ct),sh=a(c1),si=a(lB),sj=a(lH),sk=a(c0),sl=a(b_),sm=a(bM),sn=a(bq),so=a(bp),sp=a(ct),sq=a(c1),ss=a(kv),st=a(kD),su=a(lQ),sv=a(k8),sw=a(j2),sx=a(c0),sy=a(b_),sz=a(bM),sA=a(kU),sB=a(lf),sC=a(c1),sD=a(kL),sE=a(kZ),sF=a(c0),sG=a(b_),sJ=a(kS),sH=a(j1),sI=a(kI),rU=a(kf),rV=a(kO),rW=a(j4),rX=a(k$),rY=a(kG),rZ=a(kx),r0=a(lh),r1=a(eI),r2=a(eI),rQ=a(b7),rR=a(b6),rS=a(eH),rT=a(b8),rM=a(dH),rN=a(gJ),rO=a(ly),rF=a(bq),rG=a(bp),rH=a(ct),rI=a(kk),rJ=a(jP),rK=a(kd),rL=a(lE),ry=a(lj),rz=a(j0),rE=a(eC),rA=a(la),rB=a(ka),rC=a(kr),rD=a(lv),rv=a(bp),rw=a(bq),rx=a(kE),rm=a(jW),rn=a(kY),ro=a(lA),rp=a(eG),rq=a(lP),rr=a(lD),rs=a(k1),rt=a(lx),ru=a(jV),rb=a(bo),rl=a(a3),rc=a(eK),rd=a(eJ),re=a(eR),rf=a(b7),rg=a(b6),rh=a(kn),ri=a(kt),rj=a(eR),rk=a(b8),qV=a(bo),q3=a(a3),qW=a(eK),qX=a(eJ),qY=a(b7),qZ=a(b6),q0=a(eO),q1=a(kJ),q2=a(b8),q4=a(gA),q5=a(b7),q6=a(b6),q7=a(eH),q8=a(b8),q9=a(eO),q_=a(dH),q$=a(b8),qS=a(bq),qT=a(bp),qQ=[0,a(aq),0],qR=a(aq),qO=[0,a(kq),6453,36],qN=[0,a(aq),0],qP=a(aq),qA=a(bo),qB=a(a3),qC=a("*"),qD=a(a$),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,[0,0]]]],qt=a('":'),qu=a(aq),qr=[0,a(aq),0],qs=a(aq),qp=[0,a("}"),0],qq=a("{"),qn=[0,a("]"),0],qo=a("["),ql=[0,0],qi=[0,[0,[0,0]]],qj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,[0,[0,0]]],p$=[0,[0,[0,0]]],qa=[0,[0,0]],p9=[0,0],p5=[0,[0,0]],p6=[0,0],p7=[0,0],p8=[0,[0,0]],pW=[0,[0,0]],pX=[0,0],pY=[0,[0,0]],pZ=[0,0],p0=[0,0],p1=[0,[0,0]],p2=[0,[0,0]],p3=[0,[0,0]],p4=[0,0],pS=[0,0],pQ=[0,[0,[0,0]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pM=[0,0],pN=[0,[0,[0,[0,[0,[0,0]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],pK=[0,[0,[0,0]]],pA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,0]]],py=[0,[0,0]],pz=[0,0],po=[0,0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],ph=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],pd=a(aG),pc=a(s),pb=[0,[0,0]],pa=[0,0],o$=[1,0],o_=[0,0],o9=[0,0],o7=[1,0],o8=[1,0],wu=a(eG),wv=a(ld),ww=a(lu),wx=a(kP),wy=a(eE),wz=a(k7),wA=a(eN),wB=[0,a(aq),0],wC=a('the evidence "'),wD=a(kF),wE=a(k5),wF=a(eE),wG=a(eN),wH=a(lK),wJ=a(eE),wK=a(eN),wL=a(gD),wM=a(gD),wI=[0,a("this evidence at control points"),0],w$=a(ls),xa=a(lc),xb=a(kz),xk=[0,3,3],xc=a(lg),xg=[0,a('the drive "arm" in a claim that is certified'),0],xh=[0,a("a step of a platform that turns that is not at control points"),0],xi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xj=[0,a("a mechanism by formulas in a claim that is refuted"),0],xd=a(kj),xe=a(kV),xf=a(eC),w9=a(gO),wY=a(kg),wZ=a(lI),w2=a(b_),w3=a(gy),w4=a(kX),w5=a(eF),w6=a(lF),w7=a(eF),w0=[0,a(aq),0],w1=a('a proof of the kind "'),wT=a(lm),wU=a(lJ),wV=a(eM),wW=[0,a(aq),0],wX=a('the failure "'),wP=a(gy),wQ=[0,a("a leaf that fails"),0],wR=a(lb),wS=a(lL),wN=a(gO),wO=a(aG),ws=a(kT),wt=a(jR),v4=a(b8),v5=a(gA),v6=a(eH),v9=a(b7),v_=a(b6),v7=[0,a('" of such a platform'),0],v8=a(jY),vQ=a("rho"),vR=a(eM),vS=[0,a("a joint by its coordinate"),0],vu=a(bM),vo=a(b_),vp=a(kI),vs=a(j1),vt=a(kS),vv=a(c0),vw=a(c1),vx=a("bodies"),wr=[0,a("a machine with bodies"),0],vy=a(dH),vz=a(gJ),vA=a(ly),vB=a(gL),vC=a(j2),vD=a(kZ),vE=a(go),vH=a(ct),vI=a(lE),vL=a(bM),vM=a(lf),vN=a(kU),vO=a(kL),vP=a(ct),vT=a(bM),vU=a(bq),vV=a(bp),vW=a(kv),vX=a(kD),vY=a(lQ),vZ=a(k8),vF=[0,a(aq),0],vG=a(kM),v0=a(ct),v1=[0,a('" of a platform that turns'),0],v2=a(ky),v3=a(lB),wp=[0,a('" that does not turn'),0],wq=a(kM),v$=a(gL),wa=a(kx),wb=a(kf),wc=a(kG),wd=a(eI),we=a(lh),wf=a(eI),wm=a(kO),wn=a(j4),wo=a(k$),wg=a(dH),wh=a(gJ),wi=a(bM),wj=a(bq),wk=a(bp),wl=a(lH),vJ=[0,a(aq),0],vK=a(ky),vq=[0,a(aq),0],vr=a('a claim of the kind "'),vh=a(ct),vl=a(bq),vm=a(bp),vi=a(kd),vj=a(kk),vk=a(jP),vf=[0,a(lr),0],ve=[0,a(lr),0],u$=a(la),va=[0,a("a stiffness for each joint"),0],u_=a(eC),u3=a(lj),uR=a(lv),uS=a(eG),uT=a(lx),uU=a(jV),uV=a(kY),uW=a(lA),uX=a(lD),uY=a(lP),uZ=a(k1),u0=a(jW),u1=[0,a(aq),0],u2=a('the quantity "'),u4=a(j0),u5=a(bq),u6=a(bp),u7=a(kE),u8=[0,a(aq),0],u9=a('a bound "'),vb=a(ka),vc=a(kr),uK=a(eK),uL=a(eJ),uM=a(eR),uN=a(b7),uO=a(b6),uP=a(kn),uQ=a(kt),uH=a(b8),uI=a(eR),us=a(b8),ut=a(dH),uu=a(kJ),uv=a(eH),uy=a(gA),uz=a(b7),uA=a(b6),uB=a(eK),uC=a(eJ),uD=a(b7),uE=a(b6),uF=a(eO),uG=a(eO),uw=[0,a(aq),0],ux=a(jY),up=a(bo),uq=a(a3),un=a(" is not covered by the verified checker"),uo=a(s),ul=a(bq),um=a(bp),uh=a(s),ui=a(lR),uj=a(s),uk=a(s),ug=[1,0],ue=a("Reader.Malformed"),uf=a("Reader.Not_covered"),xm=a(ko),xn=a("CERTIFIED"),xo=a("REFUTED"),xp=a(ko),xq=a("NOT COVERED: ");function
+aa(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,_(a[1])];case
-1:return[1,_(a[1])];case
-2:return[2,_(a[1])];case
-3:return[3,_(a[1])];case
-4:return[4,_(a[1])];case
-5:return[5,_(a[1])];case
-6:return[6,_(a[1])];case
-7:return[7,_(a[1])];case
+0:return[0,aa(a[1])];case
+1:return[1,aa(a[1])];case
+2:return[2,aa(a[1])];case
+3:return[3,aa(a[1])];case
+4:return[4,aa(a[1])];case
+5:return[5,aa(a[1])];case
+6:return[6,aa(a[1])];case
+7:return[7,aa(a[1])];case
 8:var
-c=a[1];return[8,c,_(a[2])];case
+c=a[1];return[8,c,aa(a[2])];case
 9:var
-b=a[1];return[9,b,b,_(a[3])];case
-10:return[10,_(a[1])];case
-11:return[11,_(a[1])];case
-12:return[12,_(a[1])];case
-13:return[13,_(a[1])];default:return[14,_(a[1])]}}function
+b=a[1];return[9,b,b,aa(a[3])];case
+10:return[10,aa(a[1])];case
+11:return[11,aa(a[1])];case
+12:return[12,aa(a[1])];case
+13:return[13,aa(a[1])];default:return[14,aa(a[1])]}}function
 aF(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -832,232 +832,236 @@ d=a[2],e=a[1];return[9,e,d,aF(a[3],b)];case
 11:return[11,aF(a[1],b)];case
 12:return[12,aF(a[1],b)];case
 13:return[13,aF(a[1],b)];default:return[14,aF(a[1],b)]}}function
-T(a,b){if(typeof
+U(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,T(a[1],b)];case
-1:return[1,T(a[1],b)];case
+0:return[0,U(a[1],b)];case
+1:return[1,U(a[1],b)];case
 2:var
-c=a[1];return[2,c,T(a[2],b)];case
+c=a[1];return[2,c,U(a[2],b)];case
 3:var
-d=a[1];return[3,d,T(a[2],b)];case
+d=a[1];return[3,d,U(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,T(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,U(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,T(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,U(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,T(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,U(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,T(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,U(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,T(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,U(a[4],b)];case
 9:var
-t=a[1];return[9,t,T(a[2],b)];case
-10:return[10,T(a[1],b)];case
+t=a[1];return[9,t,U(a[2],b)];case
+10:return[10,U(a[1],b)];case
 11:var
-u=a[1];return[11,u,T(a[2],b)];case
+u=a[1];return[11,u,U(a[2],b)];case
 12:var
-v=a[1];return[12,v,T(a[2],b)];case
+v=a[1];return[12,v,U(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,T(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,U(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,T(a[3],b)];case
-15:return[15,T(a[1],b)];case
-16:return[16,T(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,U(a[3],b)];case
+15:return[15,U(a[1],b)];case
+16:return[16,U(a[1],b)];case
 17:var
-A=a[1];return[17,A,T(a[2],b)];case
+A=a[1];return[17,A,U(a[2],b)];case
 18:var
-B=a[1];return[18,B,T(a[2],b)];case
-19:return[19,T(a[1],b)];case
+B=a[1];return[18,B,U(a[2],b)];case
+19:return[19,U(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,T(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,U(a[3],b)];case
 21:var
-E=a[1];return[21,E,T(a[2],b)];case
-22:return[22,T(a[1],b)];case
+E=a[1];return[21,E,U(a[2],b)];case
+22:return[22,U(a[1],b)];case
 23:var
-F=a[1];return[23,F,T(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,T(a[3],b)]}}function
-bS(a){throw[0,g9,a]}function
-dM(a){return 0<=a?a:-a|0}function
-ar(d,c){var
-a=y(d),e=y(c),b=aj(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
-mf(a){return a?mg:mh}yG(0);l1(1);var
-by=l1(2);function
-c7(b,a){return l2(b,a,0,y(a))}function
-hd(a){c7(by,a);l3(by,10);return c4(by)}function
-e1(b){function
+F=a[1];return[23,F,U(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,U(a[3],b)]}}function
+bT(a){throw[0,g$,a]}function
+dR(a){return 0<=a?a:-a|0}function
+as(d,c){var
+a=y(d),e=y(c),b=ak(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
+mq(a){return a?mr:ms}yY(0);ma(1);var
+by=ma(2);function
+c8(b,a){return mb(b,a,0,y(a))}function
+hf(a){c8(by,a);mc(by,10);return c5(by)}function
+e4(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{c4(d)}catch(a){a=eY(a);if(a[1]!==hb)throw a;var
+c=a[2],d=a[1];try{c5(d)}catch(a){a=e1(a);if(a[1]!==hd)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(yH(0))}g1(a(jK),e1);var
-c8=(4*yR(0)|0)-1|0;function
-cw(c){var
+a=c;continue}return 0}}return a(yZ(0))}g3(a(jT),e4);var
+c9=(4*y9(0)|0)-1|0;function
+cy(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 Y(b,a){if(a){var
 c=a[2],d=e(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-he(d,c){var
+hg(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-ca(a,c){var
-b=aj(a);yi(b,0,a,c);return b}function
-hf(c,b,a){if(0<=b&&0<=a&&!((aR(c)-a|0)<b)){var
-d=aj(a);b_(c,b,d,0,a);return d}return bS(mq)}function
-hg(c,b,a){return aE(hf(c,b,a))}function
-hh(e,c,d,b,a){if(0<=a&&0<=c&&!((aR(e)-a|0)<c)&&0<=b&&!((aR(d)-a|0)<b))return b_(e,c,d,b,a);return bS(mr)}function
-bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aR(d)-a|0)<b))return bu(e,c,d,b,a);return bS(ms)}function
-aY(b,a){return aE(ca(b,a))}function
-c9(c,b,a){return aE(hf(bO(c),b,a))}function
-hi(k,g){if(g){var
+hh(d,c){var
+a=c;for(;;){if(a){var
+f=a[2],b=e(d,a[1]);if(b)return b;var
+a=f;continue}return 0}}function
+cc(a,c){var
+b=ak(a);yA(b,0,a,c);return b}function
+hi(c,b,a){if(0<=b&&0<=a&&!((aS(c)-a|0)<b)){var
+d=ak(a);ca(c,b,d,0,a);return d}return bT(mB)}function
+hj(c,b,a){return aE(hi(c,b,a))}function
+hk(e,c,d,b,a){if(0<=a&&0<=c&&!((aS(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return ca(e,c,d,b,a);return bT(mC)}function
+bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return bu(e,c,d,b,a);return bT(mD)}function
+aY(b,a){return aE(cc(b,a))}function
+c_(c,b,a){return aE(hi(bP(c),b,a))}function
+hl(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bS(mt),c=n,b=m;continue}var
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bT(mE),c=n,b=m;continue}var
 l=y(i)+c|0}else
 var
 l=c;var
-f=aj(l),e=p,d=g;for(;;){if(d){var
+f=ak(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];bu(a,0,f,e,y(a));bu(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mu}function
-hj(b,c){if(0===b)return[0];if(0<=b){var
-d=yE(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mF}function
+hm(b,c){if(0===b)return[0];if(0<=b){var
+d=yW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bS(mv)}function
-hk(c){var
+a=h;continue}break}}return d}return bT(mG)}function
+hn(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-hl(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c8<b[1]){if(!((d+c|0)<=c8))throw[0,g_,my];b[1]=c8}var
-e=aj(b[1]);hh(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,U,mw]}throw[0,U,mx]}}function
-c_(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)hl(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
-e2(a){return 5===a[2]?12:-6}function
-hm(a){return[0,0,aj(a)]}function
-hn(a,h){var
-b=aR(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=aj(i);hh(a[2],0,f,0,b);a[2]=f;var
+ho(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c9<b[1]){if(!((d+c|0)<=c9))throw[0,ha,mJ];b[1]=c9}var
+e=ak(b[1]);hk(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,V,mH]}throw[0,V,mI]}}function
+c$(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)ho(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
+e5(a){return 5===a[2]?12:-6}function
+hp(a){return[0,0,ak(a)]}function
+hq(a,h){var
+b=aS(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ak(i);hk(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cx(a,b){hn(a,1);cs(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-ax(a,c){var
-b=y(c);hn(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-ho(a){return hg(a[2],0,a[1])}function
-hp(a){if(typeof
+cz(a,b){hq(a,1);cu(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+ay(a,c){var
+b=y(c);hq(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+hr(a){return hj(a[2],0,a[1])}function
+hs(a){if(typeof
 a==="number")switch(a){case
-0:return mz;case
-1:return mA;case
-2:return mB;case
-3:return mC;case
-4:return mD;case
-5:return mE;default:return mF}else
+0:return mK;case
+1:return mL;case
+2:return mM;case
+3:return mN;case
+4:return mO;case
+5:return mP;default:return mQ}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return ar(mG,aY(1,a[1]))}}function
-e3(b,c){var
+1:return a[1];default:return as(mR,aY(1,a[1]))}}function
+e6(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];ax(b,mH);var
+d=a[1];ay(b,mS);var
 a=d;continue;case
 1:var
-e=a[1];ax(b,mI);var
+e=a[1];ay(b,mT);var
 a=e;continue;case
 2:var
-f=a[1];ax(b,mJ);var
+f=a[1];ay(b,mU);var
 a=f;continue;case
 3:var
-g=a[1];ax(b,mK);var
+g=a[1];ay(b,mV);var
 a=g;continue;case
 4:var
-h=a[1];ax(b,mL);var
+h=a[1];ay(b,mW);var
 a=h;continue;case
 5:var
-i=a[1];ax(b,mM);var
+i=a[1];ay(b,mX);var
 a=i;continue;case
 6:var
-j=a[1];ax(b,mN);var
+j=a[1];ay(b,mY);var
 a=j;continue;case
 7:var
-k=a[1];ax(b,mO);var
+k=a[1];ay(b,mZ);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];ax(b,mP);e3(b,m);ax(b,mQ);var
+l=a[2],m=a[1];ay(b,m0);e6(b,m);ay(b,m1);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];ax(b,mR);e3(b,o);ax(b,mS);var
+n=a[3],o=a[1];ay(b,m2);e6(b,o);ay(b,m3);var
 a=n;continue;case
 10:var
-p=a[1];ax(b,mT);var
+p=a[1];ay(b,m4);var
 a=p;continue;case
 11:var
-q=a[1];ax(b,mU);var
+q=a[1];ay(b,m5);var
 a=q;continue;case
 12:var
-r=a[1];ax(b,mV);var
+r=a[1];ay(b,m6);var
 a=r;continue;case
 13:var
-s=a[1];ax(b,mW);var
+s=a[1];ay(b,m7);var
 a=s;continue;default:var
-t=a[1];ax(b,mX);var
+t=a[1];ay(b,m8);var
 a=t;continue}}function
-af(a){if(typeof
+ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,af(a[1])];case
-1:return[1,af(a[1])];case
-2:return[2,af(a[1])];case
-3:return[3,af(a[1])];case
-4:return[4,af(a[1])];case
-5:return[5,af(a[1])];case
-6:return[6,af(a[1])];case
-7:return[7,af(a[1])];case
+0:return[0,ah(a[1])];case
+1:return[1,ah(a[1])];case
+2:return[2,ah(a[1])];case
+3:return[3,ah(a[1])];case
+4:return[4,ah(a[1])];case
+5:return[5,ah(a[1])];case
+6:return[6,ah(a[1])];case
+7:return[7,ah(a[1])];case
 8:var
-b=a[1];return[8,b,af(a[2])];case
+b=a[1];return[8,b,ah(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,af(a[3])];case
-10:return[10,af(a[1])];case
-11:return[11,af(a[1])];case
-12:return[12,af(a[1])];case
-13:return[13,af(a[1])];default:return[14,af(a[1])]}}function
-ay(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ah(a[3])];case
+10:return[10,ah(a[1])];case
+11:return[11,ah(a[1])];case
+12:return[12,ah(a[1])];case
+13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
+az(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=ay(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=az(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=ay(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=az(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=ay(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=az(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=ay(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=az(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=ay(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=az(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=ay(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=az(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=ay(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=az(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=ay(a[1]),ac=j[4],ad=j[3],ae=j[2],ag=j[1],ah=function(a){e(ae,0);return 0};return[0,function(a){e(ag,0);return 0},ah,ad,ac];case
+j=az(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=ay(a[2]),ai=k[4],aj=k[3],ak=k[2],am=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(am,0);return 0},an,aj,ai];case
+k=az(a[2]),ai=k[4],aj=k[3],ak=k[2],al=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(al,0);return 0},an,aj,ai];case
 9:var
-ao=a[2],ap=a[1],l=ay(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=ay(al(af(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],az=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=az(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=az(am(ah(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,ay];case
 10:var
-n=ay(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=az(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=ay(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=az(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=ay(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=az(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=ay(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=ay(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-al(c,b){var
+q=az(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=az(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+am(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1068,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,U,mY]}else
+9:a=6;break;default:throw[0,V,m9]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,al(t,b[1])];case
+0:return[0,am(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1084,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,al(u,b[1])];case
+1:return[1,am(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1096,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,al(v,b[1])];case
+2:return[2,am(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1108,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,al(w,b[1])];case
+3:return[3,am(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1120,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,al(x,b[1])];case
+4:return[4,am(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1132,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,al(y,b[1])];case
+5:return[5,am(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1144,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,al(z,b[1])];case
+6:return[6,am(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,al(A,b[1])];case
+7:return[7,am(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1169,40 +1173,40 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=al(B,b[2]);return[8,al(C,D),E];case
+D=b[1],E=am(B,b[2]);return[8,am(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,U,m7];break;case
+14:a=4;break;default:m=1}if(m)throw[0,V,ng];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=ay(al(af(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,al(F,I)];case
+I=b[3],J=b[2],K=b[1],s=az(am(ah(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,U,m8];break;case
+14:a=4;break;default:n=1}if(n)throw[0,V,nh];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,al(M,b[1])];throw[0,U,m9];case
+b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,V,ni];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,al(N,b[1])];default:o=1}if(o)throw[0,U,m_];break;case
+11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,V,nj];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,al(O,b[1])];default:p=1}if(p)throw[0,U,m$];break;case
+12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,V,nk];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1210,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,al(P,b[1])];default:q=1}if(q)throw[0,U,na];break;default:var
+13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,V,nl];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1218,25 +1222,25 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,al(Q,b[1])];default:r=1}if(r)throw[0,U,nb]}switch(a){case
-0:throw[0,U,m1];case
-1:throw[0,U,m2];case
-2:throw[0,U,m3];case
-3:throw[0,U,m4];case
-4:throw[0,U,m5];case
-5:throw[0,U,mZ];case
-6:throw[0,U,m0];default:throw[0,U,m6]}}var
-as=[ao,nc,eR(0)];function
-dN(b,a){if(typeof
+14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,V,nm]}switch(a){case
+0:throw[0,V,na];case
+1:throw[0,V,nb];case
+2:throw[0,V,nc];case
+3:throw[0,V,nd];case
+4:throw[0,V,ne];case
+5:throw[0,V,m_];case
+6:throw[0,V,m$];default:throw[0,V,nf]}}var
+at=[ap,nn,eU(0)];function
+dS(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw as}}function
-c$(e,b,d){var
-a=dN(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw at}}function
+da(e,b,d){var
+a=dS(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw as}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw at}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
 aI(b,c,a){if(typeof
-b==="number")return[0,0,K(c,a)];else
+b==="number")return[0,0,L(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
@@ -1264,14 +1268,14 @@ a!=="number"&&7===a[0]){var
 n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dK([0,b[1]],[0,o]))throw as;var
+o=a[1],w=a[2],x=b[2];if(dP([0,b[1]],[0,o]))throw at;var
 p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,_(f)];if(dK([0,_(B)],C))throw as;var
-D=[0,_(d)];if(dK([0,_(A)],D))throw as;var
-q=ay(al(af(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aI(_(z),c,y),F=r[2];return[0,[9,f,d,af(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,aa(f)];if(dP([0,aa(B)],C))throw at;var
+D=[0,aa(d)];if(dP([0,aa(A)],D))throw at;var
+q=az(am(ah(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aI(aa(z),c,y),F=r[2];return[0,[9,f,d,ah(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
 s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
@@ -1283,141 +1287,141 @@ a!=="number"&&13===a[0]){var
 u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw as}function
-K(b,a){if(typeof
+v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
+L(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=K(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=L(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=K(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=L(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dN(b[1],a),e=u[2],ad=u[1];if(typeof
+ac=b[2],u=dS(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=K(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw as;case
+v=L(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
 3:var
-ae=b[2],w=dN(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=dS(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=K(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw as;case
+x=L(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
 4:var
-ag=b[4],ah=b[1],g=c$(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=da(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=K(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw as;case
+aj=g[2],y=L(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
 5:var
-ak=b[4],al=b[1],i=c$(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=da(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=K(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw as;case
+an=i[2],z=L(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
 6:var
-ao=b[4],ap=b[1],k=c$(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=da(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=K(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw as;case
+ar=k[2],A=L(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
 7:var
-at=b[4],au=b[1],m=c$(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+as=b[4],au=b[1],m=da(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=K(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw as;case
+aw=m[2],B=L(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
 8:var
-ax=b[4],ay=b[1],o=c$(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=da(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=K(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw as;case
+aA=o[2],C=L(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
 9:var
-aB=b[2],D=dN(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=dS(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=K(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw as;case
+E=L(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
 10:var
-F=K(b[1],a);return[0,[10,F[1]],F[2]];case
+F=L(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=K(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=L(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=K(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=L(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dK([0,b[2]],[0,I]))throw as;var
-J=K(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dP([0,b[2]],[0,I]))throw at;var
+J=L(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-L=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aO=[0,_(L)];if(dK([0,_(aL)],aO))throw as;var
-M=K(aK,_(aJ));return[0,[14,aM,L,M[1]],M[2]]}break;case
+K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,aa(K)];if(dP([0,aa(aL)],aN))throw at;var
+M=L(aK,aa(aJ));return[0,[14,aM,K,M[1]],M[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=K(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+N=L(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=K(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+O=L(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
 17:var
-aP=b[1],P=K(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aP=b[1],P=L(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],V=K(U[1],a),aU=V[1],W=K(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=K(X[1],a),aW=Y[1],Z=K(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+U=r[1],aT=U[2],V=L(U[1],a),aU=V[1],W=L(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=L(X[1],a),aW=Y[1],Z=L(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=K(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+R=L(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=K(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aQ=b[2],aR=b[1],S=L(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=K(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aS=b[1],T=L(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aN(c,d,a);case
-1:return aN(c,d,a);case
+0:return aO(c,d,a);case
+1:return aO(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-$=K(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw as;default:return aN(c,d,a)}else
+_=L(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aO(c,d,a)}else
 switch(c[0]){case
-0:return aN(c,d,a);case
-1:return aN(c,d,a);case
-2:return aN(c,d,a);case
-3:return aN(c,d,a);case
-4:return aN(c,d,a);case
-5:return aN(c,d,a);case
-6:return aN(c,d,a);case
-7:return aN(c,d,a);case
-8:return aN([8,c[1],c[2]],d,a);case
+0:return aO(c,d,a);case
+1:return aO(c,d,a);case
+2:return aO(c,d,a);case
+3:return aO(c,d,a);case
+4:return aO(c,d,a);case
+5:return aO(c,d,a);case
+6:return aO(c,d,a);case
+7:return aO(c,d,a);case
+8:return aO([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],aa=aI(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
-10:return aN(c,d,a);default:return aN(c,d,a)}}throw as}function
-aN(d,c,b){var
-a=K(c,b);return[0,[23,d,a[1]],a[2]]}function
-aO(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dM(g);if(d<=b)return a;var
-l=2===h?48:32,c=ca(d,l);switch(h){case
+aX=c[1],$=aI(c[2],d,a),ab=$[2];return[0,[23,[9,aX,$[1]],ab[1]],ab[2]];case
+10:return aO(c,d,a);default:return aO(c,d,a)}}throw at}function
+aO(d,c,b){var
+a=L(c,b);return[0,[23,d,a[1]],a[2]]}function
+aP(k,g,a){var
+b=y(a),h=0<=g?k:0,d=dR(g);if(d<=b)return a;var
+l=2===h?48:32,c=cc(d,l);switch(h){case
 0:bz(a,0,c,0,b);break;case
 1:bz(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==J(a,0)&&45!==J(a,0)&&32!==J(a,0)){e=1;i=1}if(!i){cs(c,0,J(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==K(a,0)&&45!==K(a,0)&&32!==K(a,0)){e=1;i=1}if(!i){cu(c,0,K(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===J(a,0)){var
-j=0;if(jX!==J(a,1)&&88!==J(a,1)){f=1;j=1}if(!j){cs(c,1,J(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=0;if(1<b&&48===K(a,0)){var
+j=0;if(j7!==K(a,1)&&88!==K(a,1)){f=1;j=1}if(!j){cu(c,1,K(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
 f=1;if(f)bz(a,0,c,d-b|0,b)}}return aE(c)}function
-cy(k,b){var
-c=dM(k),a=y(b),d=J(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kT>>>0))e=1}else
+cA(k,b){var
+c=dR(k),a=y(b),d=K(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+k3>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(jX===J(b,1)||88===J(b,1))j=1;if(j){var
-h=ca(c+2|0,48);cs(h,1,J(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
+j=0;if(j7===K(b,1)||88===K(b,1))j=1;if(j){var
+h=cc(c+2|0,48);cu(h,1,K(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=ca(c+1|0,48);cs(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
-i=ca(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
-nd(k){var
+g=cc(c+1|0,48);cu(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
+i=cc(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
+no(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bw(k,j)+ll|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bw(k,j)+lw|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bO(k),a=[0,0],t=aR(e)-1|0,z=0;if(!(t<0)){var
+e=bP(k),a=[0,0],t=aS(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=c2(e,i),g=0;if(32<=f){var
+f=c3(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1428,33 +1432,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aR(e)){var
-r=aR(e),s=aj(r);b_(e,0,s,0,r);var
+i=C;continue}break}}if(a[1]===aS(e)){var
+r=aS(e),s=ak(r);ca(e,0,s,0,r);var
 v=s}else{var
-b=aj(a[1]);a[1]=0;var
-u=aR(e)-1|0,A=0;if(!(u<0)){var
+b=ak(a[1]);a[1]=0;var
+u=aS(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=c2(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gx<=c)d=1;else
+c=c3(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gz<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:ad(b,a[1],92);a[1]++;ad(b,a[1],98);break;case
-9:ad(b,a[1],92);a[1]++;ad(b,a[1],116);break;case
-10:ad(b,a[1],92);a[1]++;ad(b,a[1],110);break;case
-13:ad(b,a[1],92);a[1]++;ad(b,a[1],114);break;default:d=1}switch(d){case
-1:ad(b,a[1],92);a[1]++;ad(b,a[1],48+(c/k0|0)|0);a[1]++;ad(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ad(b,a[1],48+(c%10|0)|0);break;case
-2:ad(b,a[1],92);a[1]++;ad(b,a[1],c);break;case
-3:ad(b,a[1],c);break}a[1]++;var
+8:af(b,a[1],92);a[1]++;af(b,a[1],98);break;case
+9:af(b,a[1],92);a[1]++;af(b,a[1],116);break;case
+10:af(b,a[1],92);a[1]++;af(b,a[1],110);break;case
+13:af(b,a[1],92);a[1]++;af(b,a[1],114);break;default:d=1}switch(d){case
+1:af(b,a[1],92);a[1]++;af(b,a[1],48+(c/k_|0)|0);a[1]++;af(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;af(b,a[1],48+(c%10|0)|0);break;case
+2:af(b,a[1],92);a[1]++;af(b,a[1],c);break;case
+3:af(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
 v=b}var
 o=aE(v)}var
-w=y(o),x=ca(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
-hq(d,f){var
-g=dM(f),e=n4[1];switch(d[2]){case
+w=y(o),x=cc(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
+ht(d,f){var
+g=dR(f),e=od[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1462,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=jY;break;case
+b=j8;break;case
 4:var
 b=71;break;case
 5:var
@@ -1472,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hm(16);cx(c,37);switch(d[1]){case
+c=hp(16);cz(c,37);switch(d[1]){case
 0:break;case
-1:cx(c,43);break;default:cx(c,32)}if(8<=d[2])cx(c,35);cx(c,46);ax(c,a(s+g));cx(c,b);return ho(c)}function
-dO(m,a){if(13<=m){var
+1:cz(c,43);break;default:cz(c,32)}if(8<=d[2])cz(c,35);cz(c,46);ay(c,a(s+g));cz(c,b);return hr(c)}function
+dT(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bw(a,c)+go>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bw(a,c)+gq>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=aj(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cs(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ak(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cu(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bw(a,b);if(9<f+go>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bw(a,b);if(9<f+gq>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
 b=p;continue}break}}return aE(j)}return a}function
-n5(b,c){switch(b){case
+oe(b,c){switch(b){case
 1:var
-a=nf;break;case
+a=nq;break;case
 2:var
-a=ng;break;case
-4:var
-a=ni;break;case
-5:var
-a=nj;break;case
-6:var
-a=nk;break;case
-7:var
-a=nl;break;case
-8:var
-a=nm;break;case
-9:var
-a=nn;break;case
-10:var
-a=no;break;case
-11:var
-a=np;break;case
-0:case
-13:var
-a=ne;break;case
-3:case
-14:var
-a=nh;break;default:var
-a=nq}return dO(b,eQ(a,c))}function
-n6(b,c){switch(b){case
-1:var
-a=nF;break;case
-2:var
-a=nG;break;case
-4:var
-a=nI;break;case
-5:var
-a=nJ;break;case
-6:var
-a=nK;break;case
-7:var
-a=nL;break;case
-8:var
-a=nM;break;case
-9:var
-a=nN;break;case
-10:var
-a=nO;break;case
-11:var
-a=nP;break;case
-0:case
-13:var
-a=nE;break;case
-3:case
-14:var
-a=nH;break;default:var
-a=nQ}return dO(b,eQ(a,c))}function
-n7(b,c){switch(b){case
-1:var
-a=nS;break;case
-2:var
-a=nT;break;case
-4:var
-a=nV;break;case
-5:var
-a=nW;break;case
-6:var
-a=nX;break;case
-7:var
-a=nY;break;case
-8:var
-a=nZ;break;case
-9:var
-a=n0;break;case
-10:var
-a=n1;break;case
-11:var
-a=n2;break;case
-0:case
-13:var
-a=nR;break;case
-3:case
-14:var
-a=nU;break;default:var
-a=n3}return dO(b,eQ(a,c))}function
-n8(b,c){switch(b){case
-1:var
-a=ns;break;case
-2:var
-a=nt;break;case
-4:var
-a=nv;break;case
-5:var
-a=nw;break;case
-6:var
-a=nx;break;case
-7:var
-a=ny;break;case
-8:var
-a=nz;break;case
-9:var
-a=nA;break;case
-10:var
-a=nB;break;case
-11:var
-a=nC;break;case
-0:case
-13:var
 a=nr;break;case
+4:var
+a=nt;break;case
+5:var
+a=nu;break;case
+6:var
+a=nv;break;case
+7:var
+a=nw;break;case
+8:var
+a=nx;break;case
+9:var
+a=ny;break;case
+10:var
+a=nz;break;case
+11:var
+a=nA;break;case
+0:case
+13:var
+a=np;break;case
 3:case
 14:var
-a=nu;break;default:var
-a=nD}return dO(b,yq(a,c))}function
+a=ns;break;default:var
+a=nB}return dT(b,eT(a,c))}function
+of(b,c){switch(b){case
+1:var
+a=nQ;break;case
+2:var
+a=nR;break;case
+4:var
+a=nT;break;case
+5:var
+a=nU;break;case
+6:var
+a=nV;break;case
+7:var
+a=nW;break;case
+8:var
+a=nX;break;case
+9:var
+a=nY;break;case
+10:var
+a=nZ;break;case
+11:var
+a=n0;break;case
+0:case
+13:var
+a=nP;break;case
+3:case
+14:var
+a=nS;break;default:var
+a=n1}return dT(b,eT(a,c))}function
+og(b,c){switch(b){case
+1:var
+a=n3;break;case
+2:var
+a=n4;break;case
+4:var
+a=n6;break;case
+5:var
+a=n7;break;case
+6:var
+a=n8;break;case
+7:var
+a=n9;break;case
+8:var
+a=n_;break;case
+9:var
+a=n$;break;case
+10:var
+a=oa;break;case
+11:var
+a=ob;break;case
+0:case
+13:var
+a=n2;break;case
+3:case
+14:var
+a=n5;break;default:var
+a=oc}return dT(b,eT(a,c))}function
+oh(b,c){switch(b){case
+1:var
+a=nD;break;case
+2:var
+a=nE;break;case
+4:var
+a=nG;break;case
+5:var
+a=nH;break;case
+6:var
+a=nI;break;case
+7:var
+a=nJ;break;case
+8:var
+a=nK;break;case
+9:var
+a=nL;break;case
+10:var
+a=nM;break;case
+11:var
+a=nN;break;case
+0:case
+13:var
+a=nC;break;case
+3:case
+14:var
+a=nF;break;default:var
+a=nO}return dT(b,yI(a,c))}function
 bA(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return ym(b,i,a)}function
+a=32}return yE(b,i,a)}function
 q(c){var
-a=ye(b);return 3===a?b<0.?n_:n$:4<=a?oa:c}switch(c[2]){case
+a=yw(b);return 3===a?b<0.?oj:ok:4<=a?ol:c}switch(c[2]){case
 5:var
-e=gR(hq(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=gT(ht(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
-k=J(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=K(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:ar(e,n9);return q(v)}case
+v=p?e:as(e,oi);return q(v)}case
 6:return j(0);case
 7:var
-h=bO(j(0)),f=aR(h);if(0===f)var
+h=bP(j(0)),f=aS(h);if(0===f)var
 o=h;else{var
-m=aj(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ak(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=c2(h,a),s=25<g+kT>>>0?g:g+ll|0;ad(m,a,s);var
+g=c3(h,a),s=25<g+k3>>>0?g:g+lw|0;af(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
 o=m}return aE(o);case
-8:return q(j(0));default:return gR(hq(c,i),b)}}function
-dB(d,x,w,v){var
+8:return q(j(0));default:return gT(ht(c,i),b)}}function
+dG(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return B(b,[5,a,c],z)};case
+z=c[1];return function(c){return C(b,[5,a,c],z)};case
 1:var
 A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=mk;else
-if(gx<=c)e=1;else
+d=mv;else
+if(gz<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=ml;else
+d=mw;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=mm;break;case
+d=mx;break;case
 9:var
-d=mn;break;case
+d=my;break;case
 10:var
-d=mo;break;case
+d=mz;break;case
 13:var
-d=mp;break;default:e=1}switch(e){case
+d=mA;break;default:e=1}switch(e){case
 1:var
-f=aj(4);ad(f,0,92);ad(f,1,48+(c/k0|0)|0);ad(f,2,48+((c/10|0)%10|0)|0);ad(f,3,48+(c%10|0)|0);var
+f=ak(4);af(f,0,92);af(f,1,48+(c/k_|0)|0);af(f,2,48+((c/10|0)%10|0)|0);af(f,3,48+(c%10|0)|0);var
 d=aE(f);break;case
 2:var
-g=aj(1);ad(g,0,c);var
+g=ak(1);af(g,0,c);var
 d=aE(g);break}var
-h=y(d),i=ca(h+2|0,39);bu(d,0,i,1,h);return B(b,[4,a,aE(i)],A)};case
+h=y(d),i=cc(h+2|0,39);bu(d,0,i,1,h);return C(b,[4,a,aE(i)],A)};case
 2:var
-C=c[2],D=c[1];return e4(b,a,C,D,function(a){return a});case
-3:return e4(b,a,c[2],c[1],nd);case
-4:return dP(b,a,c[4],c[2],c[3],n5,c[1]);case
-5:return dP(b,a,c[4],c[2],c[3],n6,c[1]);case
-6:return dP(b,a,c[4],c[2],c[3],n7,c[1]);case
-7:return dP(b,a,c[4],c[2],c[3],n8,c[1]);case
+B=c[2],D=c[1];return e7(b,a,B,D,function(a){return a});case
+3:return e7(b,a,c[2],c[1],no);case
+4:return dU(b,a,c[4],c[2],c[3],oe,c[1]);case
+5:return dU(b,a,c[4],c[2],c[3],of,c[1]);case
+6:return dU(b,a,c[4],c[2],c[3],og,c[1]);case
+7:return dU(b,a,c[4],c[2],c[3],oh,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,bA(g,d,c)],h)}:function(c){return B(b,[4,a,bA(g,e2(g),c)],h)};var
-Z=i[1];return function(c){return B(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return C(b,[4,a,bA(g,d,c)],h)}:function(c){return C(b,[4,a,bA(g,e5(g),c)],h)};var
+Z=i[1];return function(c){return C(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return B(b,[4,a,aO(n,m,bA(g,d,c))],h)}:function(c){return B(b,[4,a,aO(n,m,bA(g,e2(g),c))],h)};var
-$=i[1];return function(c){return B(b,[4,a,aO(n,m,bA(g,$,c))],h)}}var
+i==="number")return i?function(d,c){return C(b,[4,a,aP(n,m,bA(g,d,c))],h)}:function(c){return C(b,[4,a,aP(n,m,bA(g,e5(g),c))],h)};var
+_=i[1];return function(c){return C(b,[4,a,aP(n,m,bA(g,_,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return B(b,[4,a,aO(o,e,bA(g,d,c))],h)}:function(d,c){return B(b,[4,a,aO(o,d,bA(g,e2(g),c))],h)};var
-aa=i[1];return function(d,c){return B(b,[4,a,aO(o,d,bA(g,aa,c))],h)}}case
-9:return e4(b,a,c[2],c[1],mf);case
+i==="number")return i?function(e,d,c){return C(b,[4,a,aP(o,e,bA(g,d,c))],h)}:function(d,c){return C(b,[4,a,aP(o,d,bA(g,e5(g),c))],h)};var
+$=i[1];return function(d,c){return C(b,[4,a,aP(o,d,bA(g,$,c))],h)}}case
+9:return e7(b,a,c[2],c[1],mq);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1683,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hm(16);e3(p,F);var
-u=ho(p);return function(c){return B(b,[4,a,u],E)};case
+E=c[3],F=c[2],p=hp(16);e6(p,F);var
+u=hr(p);return function(c){return C(b,[4,a,u],E)};case
 14:var
-G=c[3],I=c[2];return function(d){var
-e=d[1],c=K(e,_(af(I)));if(typeof
-c[2]==="number")return B(b,a,T(c[1],G));throw as};case
+G=c[3],H=c[2];return function(d){var
+e=d[1],c=L(e,aa(ah(H)));if(typeof
+c[2]==="number")return C(b,a,U(c[1],G));throw at};case
 15:var
-J=c[1];return function(d,c){return B(b,[6,a,function(a){return R(d,a,c)}],J)};case
+J=c[1];return function(d,c){return C(b,[6,a,function(a){return S(d,a,c)}],J)};case
 16:var
-L=c[1];return function(c){return B(b,[6,a,c],L)};case
+K=c[1];return function(c){return C(b,[6,a,c],K)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return B(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
-P=c[2],Q=l[1][1],S=0,b=function(b,c,d){return function(a){return B(c,[1,b,[1,a]],d)}}(a,b,P),a=S,c=Q;continue;case
-19:throw[0,U,oc];case
+M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return C(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
+P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return C(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
+19:throw[0,V,on];case
 20:var
-V=c[3],W=[8,a,od];return function(a){return B(b,W,V)};case
+T=c[3],W=[8,a,oo];return function(a){return C(b,W,T)};case
 21:var
-X=c[2];return function(c){return B(b,[4,a,eQ(oe,c)],X)};case
+X=c[2];return function(c){return C(b,[4,a,eT(op,c)],X)};case
 22:var
-Y=c[1];return function(c){return B(b,[5,a,c],Y)};case
+Y=c[1];return function(c){return C(b,[5,a,c],Y)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-1:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-2:throw[0,U,of];default:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f])}else
+0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+2:throw[0,V,oq];default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-1:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-2:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-3:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-4:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-5:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-6:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-7:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
-8:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);case
+0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+2:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+3:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+4:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+5:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+6:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+7:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+8:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gk(d+1|0,b,a,t,f):aw(gk,[0,b,a,t,f]);case
-10:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f]);default:return d<50?H(d+1|0,b,a,f):aw(H,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gj(d+1|0,b,a,q,r,s):aw(gj,[0,b,a,q,r,s])}}function
-gk(e,d,c,a,b){if(typeof
-a==="number")return e<50?H(e+1|0,d,c,b):aw(H,[0,d,c,b]);else
+t=k[2];return d<50?gm(d+1|0,b,a,t,f):ax(gm,[0,b,a,t,f]);case
+10:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gl(d+1|0,b,a,q,r,s):ax(gl,[0,b,a,q,r,s])}}function
+gm(e,d,c,a,b){if(typeof
+a==="number")return e<50?I(e+1|0,d,c,b):ax(I,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aT(d,c,f,b)};case
+f=a[1];return function(a){return aU(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aT(d,c,g,b)};case
+g=a[1];return function(a){return aU(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aT(d,c,h,b)};case
+h=a[1];return function(a){return aU(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aT(d,c,i,b)};case
+i=a[1];return function(a){return aU(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aT(d,c,j,b)};case
+j=a[1];return function(a){return aU(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aT(d,c,k,b)};case
+k=a[1];return function(a){return aU(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aT(d,c,l,b)};case
+l=a[1];return function(a){return aU(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aT(d,c,m,b)};case
+m=a[1];return function(a){return aU(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aT(d,c,n,b)};case
+n=a[2];return function(a){return aU(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=al(af(a[1]),p);return function(a){return aT(d,c,aF(q,o),b)};case
+o=a[3],p=a[2],q=am(ah(a[1]),p);return function(a){return aU(d,c,aF(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aT(d,c,r,b)};case
+r=a[1];return function(e,a){return aU(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aT(d,c,s,b)};case
+s=a[1];return function(a){return aU(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aT(d,c,t,b)};case
-13:throw[0,U,og];default:throw[0,U,oh]}}function
-H(d,b,e,a){var
-c=[8,e,oi];return d<50?dB(d+1|0,b,c,a):aw(dB,[0,b,c,a])}function
-gj(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return ob(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dB(h+1|0,b,g,a):aw(dB,[0,b,g,a])}function
-B(a,b,c){return g3(dB(0,a,b,c))}function
-aT(a,b,c,d){return g3(gk(0,a,b,c,d))}function
-ob(a,b,c,d,e){return g3(gj(0,a,b,c,d,e))}function
-e4(f,d,c,a,b){if(typeof
-a==="number")return function(a){return B(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return B(f,[4,d,aO(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return B(f,[4,d,aO(i,g,e(b,a))],c)}}}function
-dP(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return aU(d,c,t,b)};case
+13:throw[0,V,or];default:throw[0,V,os]}}function
+I(d,b,e,a){var
+c=[8,e,ot];return d<50?dG(d+1|0,b,c,a):ax(dG,[0,b,c,a])}function
+gl(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return om(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?dG(h+1|0,b,g,a):ax(dG,[0,b,g,a])}function
+C(a,b,c){return g5(dG(0,a,b,c))}function
+aU(a,b,c,d){return g5(gm(0,a,b,c,d))}function
+om(a,b,c,d,e){return g5(gl(0,a,b,c,d,e))}function
+e7(f,d,c,a,b){if(typeof
+a==="number")return function(a){return C(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return C(f,[4,d,aP(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return C(f,[4,d,aP(i,g,e(b,a))],c)}}}function
+dU(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,cy(g,R(b,a,c))],d)}:function(c){return B(f,[4,e,R(b,a,c)],d)};var
-k=c[1];return function(c){return B(f,[4,e,cy(k,R(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return C(f,[4,e,cA(g,S(b,a,c))],d)}:function(c){return C(f,[4,e,S(b,a,c)],d)};var
+k=c[1];return function(c){return C(f,[4,e,cA(k,S(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return B(f,[4,e,aO(i,h,cy(g,R(b,a,c)))],d)}:function(c){return B(f,[4,e,aO(i,h,R(b,a,c))],d)};var
-l=c[1];return function(c){return B(f,[4,e,aO(i,h,cy(l,R(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return C(f,[4,e,aP(i,h,cA(g,S(b,a,c)))],d)}:function(c){return C(f,[4,e,aP(i,h,S(b,a,c))],d)};var
+l=c[1];return function(c){return C(f,[4,e,aP(i,h,cA(l,S(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return B(f,[4,e,aO(j,h,cy(g,R(b,a,c)))],d)}:function(g,c){return B(f,[4,e,aO(j,g,R(b,a,c))],d)};var
-m=c[1];return function(g,c){return B(f,[4,e,aO(j,g,cy(m,R(b,a,c)))],d)}}}function
+c==="number")return c?function(h,g,c){return C(f,[4,e,aP(j,h,cA(g,S(b,a,c)))],d)}:function(g,c){return C(f,[4,e,aP(j,g,S(b,a,c))],d)};var
+m=c[1];return function(g,c){return C(f,[4,e,aP(j,g,cA(m,S(b,a,c)))],d)}}}function
 bB(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hp(a[2]);bB(b,g);return c7(b,h);case
+g=a[1],h=hs(a[2]);bB(b,g);return c8(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bB(b,d);c7(b,oj);var
+i=c[1];bB(b,d);c8(b,ou);var
 a=i;continue}var
-j=c[1];bB(b,d);c7(b,ok);var
+j=c[1];bB(b,d);c8(b,ov);var
 a=j;continue;case
 6:var
 m=a[2];bB(b,a[1]);return e(m,b);case
-7:bB(b,a[1]);return c4(b);case
+7:bB(b,a[1]);return c5(b);case
 8:var
-n=a[2];bB(b,a[1]);return bS(n);case
+n=a[2];bB(b,a[1]);return bT(n);case
 2:case
 4:var
-k=a[2];bB(b,a[1]);return c7(b,k);default:var
-l=a[2];bB(b,a[1]);return l3(b,l)}}function
-bT(b,g){var
+k=a[2];bB(b,a[1]);return c8(b,k);default:var
+l=a[2];bB(b,a[1]);return mc(b,l)}}function
+bU(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hp(a[2]);bT(b,h);return c_(b,i);case
+h=a[1],i=hs(a[2]);bU(b,h);return c$(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bT(b,f);c_(b,ol);var
+j=d[1];bU(b,f);c$(b,ow);var
 a=j;continue}var
-k=d[1];bT(b,f);c_(b,om);var
+k=d[1];bU(b,f);c$(b,ox);var
 a=k;continue;case
 6:var
-n=a[2];bT(b,a[1]);return c_(b,e(n,0));case
+n=a[2];bU(b,a[1]);return c$(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bT(b,a[1]);return bS(o);case
+o=a[2];bU(b,a[1]);return bT(o);case
 2:case
 4:var
-l=a[2];bT(b,a[1]);return c_(b,l);default:var
-m=a[2];bT(b,a[1]);var
-c=b[2];if(b[3]<=c)hl(b,1);ad(b[1],c,m);b[2]=c+1|0;return 0}}function
-hr(d,c){var
-a=c[1],b=0;return B(function(a){bB(d,a);return 0},b,a)}function
-e5(a){return hr(by,a)}function
-bc(b){var
-a=b[1];return B(function(d){var
-e=64,b=c8<64?c8:e,c=aj(b),a=[0,c,0,b,c];bT(a,d);return hg(a[1],0,a[2])},0,a)}var
-dQ=[0,0];function
-e7(i,h){var
+l=a[2];bU(b,a[1]);return c$(b,l);default:var
+m=a[2];bU(b,a[1]);var
+c=b[2];if(b[3]<=c)ho(b,1);af(b[1],c,m);b[2]=c+1|0;return 0}}function
+hu(d,c){var
+a=c[1],b=0;return C(function(a){bB(d,a);return 0},b,a)}function
+e8(a){return hu(by,a)}function
+bd(b){var
+a=b[1];return C(function(d){var
+e=64,b=c9<64?c9:e,c=ak(b),a=[0,c,0,b,c];bU(a,d);return hj(a[1],0,a[2])},0,a)}var
+dV=[0,0];function
+e_(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eV(a)===eM)return e(bc(on),a);if(eV(a)===253){var
-c=gR(mj,a),b=0,g=y(c);for(;;){if(g<=b)return ar(c,mi);var
-d=J(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(eY(a)===eP)return e(bd(oy),a);if(eY(a)===253){var
+c=gT(mu,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mt);var
+d=K(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return oo}return e(bc(op),a)}function
-hs(b,a){if(b.length-1<=a)return oq;var
-c=hs(b,a+1|0),d=e7(b,a);return R(bc(or),d,c)}function
-e8(a){function
+b=b+1|0;continue}return c}}return oz}return e(bd(oA),a)}function
+hv(b,a){if(b.length-1<=a)return oB;var
+c=hv(b,a+1|0),d=e_(b,a);return S(bd(oC),d,c)}function
+e$(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dQ[1]);if(h)return h[1];if(a===e0)return ow;if(a===ha)return ox;if(a[1]===g$){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gl(bc(e6),q,p,i,i+5|0,oy)}if(a[1]===U){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gl(bc(e6),s,r,j,j+6|0,oz)}if(a[1]===hc){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gl(bc(e6),u,t,k,k+6|0,oA)}if(0===eV(a)){var
+h=o(dV[1]);if(h)return h[1];if(a===e3)return oH;if(a===hc)return oI;if(a[1]===hb){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gn(bd(e9),q,p,i,i+5|0,oJ)}if(a[1]===V){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gn(bd(e9),s,r,j,j+6|0,oK)}if(a[1]===he){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gn(bd(e9),u,t,k,k+6|0,oL)}if(0===eY(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hs(a,2),m=e7(a,1),b=R(bc(os),m,l);else
+l=hv(a,2),m=e_(a,1),b=S(bd(oD),m,l);else
 switch(g){case
 0:var
-b=ot;break;case
+b=oE;break;case
 1:var
-b=ou;break;default:var
-n=e7(a,1),b=e(bc(ov),n)}return ar(v,b)}return a[1]}function
-e9(t,s){var
-d=yg(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=oF;break;default:var
+n=e_(a,1),b=e(bd(oG),n)}return as(v,b)}return a[1]}function
+fa(t,s){var
+d=yy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=lR(d,b)[1+b],f=function(a){return function(b){return b?0===a?oB:oC:0===a?oD:oE}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?oF:oH,l=a[2],m=a[7],n=f(a[1]),c=[0,x7(bc(oG),n,m,l,k,j,i,h)];else
+a=l2(d,b)[1+b],f=function(a){return function(b){return b?0===a?oM:oN:0===a?oO:oP}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?oQ:oS,l=a[2],m=a[7],n=f(a[1]),c=[0,yn(bd(oR),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bc(oI),o)];if(c){var
-q=c[1];e(hr(t,oJ),q)}var
+o=f(0),c=[0,e(bd(oT),o)];if(c){var
+q=c[1];e(hu(t,oU),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-ht(c){for(;;){var
-a=dQ[1],d=[0,c,a],e=dQ[1]===a?(dQ[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oL=oK.slice();function
-oM(d,c){var
-f=e8(d);e(e5(oN),f);e9(by,c);var
-a=yF(0);if(a<0){var
-b=dM(a);hd(lR(oL,b)[1+b])}return c4(by)}var
-oO=[0];g1(a(jZ),function(d,i){try{try{var
-b=i?oO:lX(0);try{e1(0)}catch(a){}try{var
-a=oM(d,b),c=a}catch(a){a=eY(a);var
-g=e8(d);e(e5(oQ),g);e9(by,b);var
-h=e8(a);e(e5(oR),h);e9(by,lX(0));var
-c=c4(by)}var
-f=c}catch(a){a=eY(a);if(a!==e0)throw a;var
-f=hd(oP)}return f}catch(a){return 0}});var
-hu=[ao,oT,eR(0)],e_=[0,hu,[0]],oS=eV(e_)===ao?e_:e_[1];g1(a(gq),oS);(function(a){throw a});var
-oU=u.Array;ht(function(a){return a[1]===hu?[0,bb(a[2].toString())]:0});ht(function(a){return a
+hw(c){for(;;){var
+a=dV[1],d=[0,c,a],e=dV[1]===a?(dV[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+oW=oV.slice();function
+oX(d,c){var
+f=e$(d);e(e8(oY),f);fa(by,c);var
+a=yX(0);if(a<0){var
+b=dR(a);hf(l2(oW,b)[1+b])}return c5(by)}var
+oZ=[0];g3(a(j9),function(d,i){try{try{var
+b=i?oZ:l8(0);try{e4(0)}catch(a){}try{var
+a=oX(d,b),c=a}catch(a){a=e1(a);var
+g=e$(d);e(e8(o1),g);fa(by,b);var
+h=e$(a);e(e8(o2),h);fa(by,l8(0));var
+c=c5(by)}var
+f=c}catch(a){a=e1(a);if(a!==e3)throw a;var
+f=hf(o0)}return f}catch(a){return 0}});var
+hx=[ap,o4,eU(0)],fb=[0,hx,[0]],o3=eY(fb)===ap?fb:fb[1];g3(a(gs),o3);(function(a){throw a});var
+o5=u.Array;hw(function(a){return a[1]===hx?[0,bc(a[2].toString())]:0});hw(function(a){return a
 instanceof
-oU?0:[0,bb(a.toString())]});var
-d=aS(0),c=aS(1);function
-k(a){return A(a,c)}function
-hv(b,a){return A(aS(b),a)}function
-b(b,a){return n(aS(b),a)}function
-bd(b,a){return[0,g6(b,a),mb(b,a)]}function
-e$(b,a){return D(b,a)?b:a}function
-cb(b,a){return D(b,a)?a:b}function
-aU(a){return a?0:1}function
-$(b,a){var
+o5?0:[0,bc(a.toString())]});var
+d=aT(0),c=aT(1);function
+k(a){return z(a,c)}function
+hy(b,a){return z(aT(b),a)}function
+b(b,a){return o(aT(b),a)}function
+be(b,a){return[0,g8(b,a),mm(b,a)]}function
+fc(b,a){return D(b,a)?b:a}function
+cd(b,a){return D(b,a)?a:b}function
+aV(a){return a?0:1}function
+ab(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-da(a){return a[1]}function
-dR(a){return a[2]}function
-m(a){var
-b=a?[0,m(a[2])]:a;return b}function
+db(a){return a[1]}function
+dc(a){return a[2]}function
+n(a){var
+b=a?[0,n(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hw(a){return typeof
-a==="number"?0:[0,hw(a[1])]}function
-hx(d,c){var
+hz(a){return typeof
+a==="number"?0:[0,hz(a[1])]}function
+hA(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1928,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dS(a){return hx(a,0)}function
-hy(a){if(typeof
-a==="number")return oW;else
+dW(a){return hA(a,0)}function
+hB(a){if(typeof
+a==="number")return o7;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1940,95 +1944,95 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hy(a[1])]}}function
-a5(a){if(typeof
-a==="number")return oX;else
+8:return[9,a[1]];default:return[0,hB(a[1])]}}function
+a6(a){if(typeof
+a==="number")return o8;else
 switch(a[0]){case
-0:return[1,a4(a[1])];case
-1:return[3,a4(a[1])];case
-2:return[5,a4(a[1])];case
-3:return[7,a4(a[1])];case
-4:return[9,a4(a[1])];case
-5:return[1,a5(a[1])];case
-6:return[3,a5(a[1])];case
-7:return[5,a5(a[1])];case
-8:return[7,a5(a[1])];default:return[9,a5(a[1])]}}function
-a4(a){if(typeof
+0:return[1,a5(a[1])];case
+1:return[3,a5(a[1])];case
+2:return[5,a5(a[1])];case
+3:return[7,a5(a[1])];case
+4:return[9,a5(a[1])];case
+5:return[1,a6(a[1])];case
+6:return[3,a6(a[1])];case
+7:return[5,a6(a[1])];case
+8:return[7,a6(a[1])];default:return[9,a6(a[1])]}}function
+a5(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a4(a[1])];case
-1:return[2,a4(a[1])];case
-2:return[4,a4(a[1])];case
-3:return[6,a4(a[1])];case
-4:return[8,a4(a[1])];case
-5:return[0,a5(a[1])];case
-6:return[2,a5(a[1])];case
-7:return[4,a5(a[1])];case
-8:return[6,a5(a[1])];default:return[8,a5(a[1])]}}function
-cz(a){return a?a[1]:a}function
-L(b,a){return b?[0,L(b[1],a)]:a}function
-db(a,b){return a?L(b,db(a[1],b)):a}function
-dT(b,a){return b?a:a?0:1}function
-az(d,c){var
+0:return[0,a5(a[1])];case
+1:return[2,a5(a[1])];case
+2:return[4,a5(a[1])];case
+3:return[6,a5(a[1])];case
+4:return[8,a5(a[1])];case
+5:return[0,a6(a[1])];case
+6:return[2,a6(a[1])];case
+7:return[4,a6(a[1])];case
+8:return[6,a6(a[1])];default:return[8,a6(a[1])]}}function
+cB(a){return a?a[1]:a}function
+M(b,a){return b?[0,M(b[1],a)]:a}function
+dd(a,b){return a?M(b,dd(a[1],b)):a}function
+dX(b,a){return b?a:a?0:1}function
+ai(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ac(d,c){var
+Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hz(b,a){return ac([0,b],a)}function
-hA(c){var
+hC(b,a){return Z([0,b],a)}function
+hD(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fa(c,b,a){return c?e(b,fa(c[1],b,a)):a}function
-hB(a){if(a)var
-b=a[1],d=b?[0,hB(b[1])]:b,c=d;else
+fd(c,b,a){return c?e(b,fd(c[1],b,a)):a}function
+hE(a){if(a)var
+b=a[1],d=b?[0,hE(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dU(a){if(D(a,c))return c;var
-b=bd(a,aS(2)),e=b[1];return ak(b[2],d)?k(dU(e)):k(dU(e))}function
-dV(c,b){var
-a=g5(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hC(b,i,h){var
+dY(a){if(D(a,c))return c;var
+b=be(a,aT(2)),e=b[1];return al(b[2],d)?k(dY(e)):k(dY(e))}function
+dZ(c,b){var
+a=g7(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hF(b,i,h){var
 e=i,a=h;for(;;){if(D(e,c))return a;var
-f=bd(e,aS(2)),g=f[1];if(ak(f[2],d)){var
-e=g,a=R(b,a,a);continue}return R(b,a,hC(b,g,R(b,a,a)))}}function
-dc(a){return hC(L,a,oZ)}function
-fb(a){return a?k(fb(a[1])):c}function
+f=be(e,aT(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=S(b,a,a);continue}return S(b,a,hF(b,g,S(b,a,a)))}}function
+de(a){return hF(M,a,o_)}function
+fe(a){return a?k(fe(a[1])):c}function
 bC(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=n(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=o(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=A(c,n(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=z(c,o(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=n(b(2,k(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
+i=o(b(2,k(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-l=n(b(2,k(b(2,b(2,c)))),d),m=A(k(b(2,c)),l),a=a[1],d=m;continue;case
+l=o(b(2,k(b(2,b(2,c)))),d),m=z(k(b(2,c)),l),a=a[1],d=m;continue;case
 4:var
-o=n(b(2,k(b(2,b(2,c)))),d),p=A(b(2,b(2,c)),o),a=a[1],d=p;continue;case
+n=o(b(2,k(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),n),a=a[1],d=p;continue;case
 5:var
-q=n(b(2,k(b(2,b(2,c)))),d),r=A(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
+q=o(b(2,k(b(2,b(2,c)))),d),r=z(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
 6:var
-s=n(b(2,k(b(2,b(2,c)))),d),t=A(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
+s=o(b(2,k(b(2,b(2,c)))),d),t=z(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=n(b(2,k(b(2,b(2,c)))),d),v=A(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
+u=o(b(2,k(b(2,b(2,c)))),d),v=z(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=n(b(2,k(b(2,b(2,c)))),d),x=A(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=n(b(2,k(b(2,b(2,c)))),d),z=A(k(b(2,b(2,b(2,c)))),y),a=a[1],d=z;continue}}function
-fc(a){if(D(a,c))return o0;var
-b=bd(a,aS(2)),e=b[1];return ak(b[2],d)?a4(fc(e)):a5(fc(e))}function
-dW(a){return dS(fc(a))}function
-hD(k,f){if(0<=bx(f)){var
-g=g7(f);if(0<=g){var
+w=o(b(2,k(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=o(b(2,k(b(2,b(2,c)))),d),A=z(k(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+ff(a){if(D(a,c))return o$;var
+b=be(a,aT(2)),e=b[1];return al(b[2],d)?a5(ff(e)):a6(ff(e))}function
+d0(a){return dW(ff(a))}function
+hG(k,f){if(0<=bx(f)){var
+g=g9(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bS(oV)}return d}function
-hE(a){return 0<=bx(a)?a:d}function
-fd(a){var
+h=a>>>1|0,i=o(b,b),j=1===(a&1)?o(e,b):e,e=j,b=i,a=h;continue}}return bT(o6)}return d}function
+hH(a){return 0<=bx(a)?a:d}function
+fg(a){var
 b=bx(a);return 0===b?c:0<b?a:c}function
-hF(n){var
+hI(n){var
 a=n;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -2050,33 +2054,33 @@ j=k(b(2,k(b(2,c))));return bC(a[1],j);case
 8:var
 l=b(2,b(2,b(2,c)));return bC(a[1],l);default:var
 m=k(b(2,b(2,b(2,c))));return bC(a[1],m)}}function
-bU(b,a){var
-c=bx(a);return 0===c?d:1===c?g6(b,a):hv(-1,g6(hv(-1,b),a))}function
-hG(a){return 0<bx(a)?yZ(a):d}function
-dd(b,c){var
-a=g7(c);return 0<=a?mc(b,a):md(b,-a|0)}function
-cA(b,c){var
-a=g7(c);return 0<=a?md(b,a):mc(b,-a|0)}function
-fe(b,a){return a?a[1]:b}function
-hH(a){var
+bV(b,a){var
+c=bx(a);return 0===c?d:1===c?g8(b,a):hy(-1,g8(hy(-1,b),a))}function
+hJ(a){return 0<bx(a)?zf(a):d}function
+df(b,c){var
+a=g9(c);return 0<=a?mn(b,a):mo(b,-a|0)}function
+cC(b,c){var
+a=g9(c);return 0<=a?mo(b,a):mn(b,-a|0)}function
+fh(b,a){return a?a[1]:b}function
+hK(a){var
 b=a?a[2]:a;return b}function
-N(e,d,c){var
+P(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aV(d,c){var
+aJ(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hI(a){if(a){var
-b=[0,a[1],0];return g(hI(a[2]),b)}return a}function
+hL(a){if(a){var
+b=[0,a[1],0];return g(hL(a[2]),b)}return a}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-M(b,a){if(a){var
-c=M(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cB(c,b,a){if(a){var
-d=cB(c,b,a[2]);return R(c,a[1],d)}return b}function
+N(b,a){if(a){var
+c=N(b,a[2]);return g(e(b,a[1]),c)}return a}function
+cD(c,b,a){if(a){var
+d=cD(c,b,a[2]);return S(c,a[1],d)}return b}function
 bD(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
@@ -2088,179 +2092,179 @@ p(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cC(b,a){if(b)if(a)var
-d=cC(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cE(b,a){if(b)if(a)var
+d=cE(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hJ(b,a){if(b)if(a)var
-d=hJ(b[1],a[2]),c=[0,a[1],d];else
+hM(b,a){if(b)if(a)var
+d=hM(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cD(b,a){var
-c=a?[0,b,cD([0,b],a[1])]:a;return c}function
-cc(b,a){var
-c=a?[0,b,cc(b,a[1])]:a;return c}function
-hK(a){if(a){var
-e=hK(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-dX(j){function
+cF(b,a){var
+c=a?[0,b,cF([0,b],a[1])]:a;return c}function
+ce(b,a){var
+c=a?[0,b,ce(b,a[1])]:a;return c}function
+hN(a){if(a){var
+e=hN(a[2]),f=o(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+d1(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hK([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?dc(b):0}function
-hL(c,b){var
-a=g5(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hM(b,a){return D(n(b[1],a[2]),n(a[1],b[2]))}function
-hN(b,a){return[0,A(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
-hO(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
-aP(a){if(typeof
-a==="number")return o3;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?de(b):0}function
+hO(c,b){var
+a=g7(o(c[1],b[2]),o(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hP(b,a){return D(o(b[1],a[2]),o(a[1],b[2]))}function
+hQ(b,a){return[0,z(o(b[1],a[2]),o(a[1],b[2])),o(b[2],a[2])]}function
+hR(b,a){return[0,o(b[1],a[1]),o(b[2],a[2])]}function
+aQ(a){if(typeof
+a==="number")return pc;else
 switch(a[0]){case
 0:var
-b=aP(a[1]);return ar(aY(1,48),b);case
+b=aQ(a[1]);return as(aY(1,48),b);case
 1:var
-c=aP(a[1]);return ar(aY(1,49),c);case
+c=aQ(a[1]);return as(aY(1,49),c);case
 2:var
-d=aP(a[1]);return ar(aY(1,50),d);case
+d=aQ(a[1]);return as(aY(1,50),d);case
 3:var
-e=aP(a[1]);return ar(aY(1,51),e);case
+e=aQ(a[1]);return as(aY(1,51),e);case
 4:var
-f=aP(a[1]);return ar(aY(1,52),f);case
+f=aQ(a[1]);return as(aY(1,52),f);case
 5:var
-g=aP(a[1]);return ar(aY(1,53),g);case
+g=aQ(a[1]);return as(aY(1,53),g);case
 6:var
-h=aP(a[1]);return ar(aY(1,54),h);case
+h=aQ(a[1]);return as(aY(1,54),h);case
 7:var
-i=aP(a[1]);return ar(aY(1,55),i);case
+i=aQ(a[1]);return as(aY(1,55),i);case
 8:var
-j=aP(a[1]);return ar(aY(1,56),j);default:var
-k=aP(a[1]);return ar(aY(1,57),k)}}function
-de(a){return typeof
-a==="number"?o4:aP(a)}function
-cd(a){return hD(b(2,c),a)}function
-hP(b,a){return cA(a,b)}function
-hQ(b,a){return S(cA(S(a),b))}function
-dY(b,a){return S(bU(S(b),a))}function
-a6(c,b){var
-a=dd(b,c);return[0,a,a]}function
-Q(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-V(b,a){return[0,b$(b[1],a[2]),b$(b[2],a[1])]}function
-aC(a){return[0,S(a[2]),S(a[1])]}function
-hR(e,c,b,a){if(D(d,e))return D(d,b)?[0,n(e,b),n(c,a)]:D(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(D(c,d))return D(d,b)?[0,n(e,a),n(c,b)]:D(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(D(d,b))return[0,n(e,a),n(c,a)];if(D(a,d))return[0,n(c,b),n(e,b)];var
-f=cb(n(e,b),n(c,a));return[0,e$(n(e,a),n(c,b)),f]}function
-C(c,b,a){var
-d=hR(b[1],b[2],a[1],a[2]),e=hQ(c,d[2]);return[0,hP(c,d[1]),e]}function
-ag(b,a){var
-c=n(a[1],a[1]),e=n(a[2],a[2]),h=hQ(b,cb(c,e)),g=0;if(ae(a[1],d)&&ae(d,a[2])){var
+j=aQ(a[1]);return as(aY(1,56),j);default:var
+k=aQ(a[1]);return as(aY(1,57),k)}}function
+dg(a){return typeof
+a==="number"?pd:aQ(a)}function
+cf(a){return hG(b(2,c),a)}function
+hS(b,a){return cC(a,b)}function
+hT(b,a){return T(cC(T(a),b))}function
+d2(b,a){return T(bV(T(b),a))}function
+aZ(c,b){var
+a=df(b,c);return[0,a,a]}function
+H(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+O(b,a){return[0,cb(b[1],a[2]),cb(b[2],a[1])]}function
+aA(a){return[0,T(a[2]),T(a[1])]}function
+hU(e,c,b,a){if(D(d,e))return D(d,b)?[0,o(e,b),o(c,a)]:D(a,d)?[0,o(c,b),o(e,a)]:[0,o(c,b),o(c,a)];if(D(c,d))return D(d,b)?[0,o(e,a),o(c,b)]:D(a,d)?[0,o(c,a),o(e,b)]:[0,o(e,a),o(e,b)];if(D(d,b))return[0,o(e,a),o(c,a)];if(D(a,d))return[0,o(c,b),o(e,b)];var
+f=cd(o(e,b),o(c,a));return[0,fc(o(e,a),o(c,b)),f]}function
+B(c,b,a){var
+d=hU(b[1],b[2],a[1],a[2]),e=hT(c,d[2]);return[0,hS(c,d[1]),e]}function
+aj(b,a){var
+c=o(a[1],a[1]),e=o(a[2],a[2]),h=hT(b,cd(c,e)),g=0;if(ag(a[1],d)&&ag(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hP(b,e$(c,e));return[0,f,h]}function
-hS(b,a){var
-c=dd(cd(b),b),d=dY(c,a[1]);return[0,bU(c,a[2]),d]}function
-ce(b,a){if(ae(d,a[1]))return[0,hS(b,a)];var
-c=ae(a[2],d),e=c?[0,aC(hS(b,aC(a)))]:c;return e}function
-cE(f,b){var
-g=ae(d,b[1]);if(g)var
-e=dd(b[2],f),a=hG(e),i=ak(n(a,a),e)?a:A(a,c),h=[0,[0,hG(dd(b[1],f)),i]];else
+f=hS(b,fc(c,e));return[0,f,h]}function
+hV(b,a){var
+c=df(cf(b),b),d=d2(c,a[1]);return[0,bV(c,a[2]),d]}function
+cg(b,a){if(ag(d,a[1]))return[0,hV(b,a)];var
+c=ag(a[2],d),e=c?[0,aA(hV(b,aA(a)))]:c;return e}function
+cG(f,b){var
+g=ag(d,b[1]);if(g)var
+e=df(b[2],f),a=hJ(e),i=al(o(a,a),e)?a:z(a,c),h=[0,[0,hJ(df(b[1],f)),i]];else
 var
 h=g;return h}function
-aZ(e,d,c,b,a){if(b){if(a){var
-g=aZ(e,d,c,b[2],a[2]);return[0,R(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bV(b,a){return cA(b,a)}function
-cf(a,c,b){if(D(d,a)){var
-e=b[1],f=S(bV(S(n(a,b[2])),c));return[0,bV(n(a,e),c),f]}var
-g=b[2],h=S(bV(S(n(a,b[1])),c));return[0,bV(n(a,g),c),h]}function
-dZ(a){var
-b=S(cA(S(a[2]),c));return[0,cA(a[1],c),b]}function
-ff(c,b,a){var
-e=hR(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ae(f,d)?a[2]:a[1],i=dY(f,h),j=ae(g,d)?a[1]:a[2];return[0,bU(g,j),i]}var
-ah=[0,d,d];function
-fg(a){return[0,a[1],a[1]]}function
-fh(a){return[0,a[2],a[2]]}function
-at(a,b){switch(b[0]){case
+a0(e,d,c,b,a){if(b){if(a){var
+g=a0(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bW(b,a){return cC(b,a)}function
+bX(a,c,b){if(D(d,a)){var
+e=b[1],f=T(bW(T(o(a,b[2])),c));return[0,bW(o(a,e),c),f]}var
+g=b[2],h=T(bW(T(o(a,b[1])),c));return[0,bW(o(a,g),c),h]}function
+d3(a){var
+b=T(cC(T(a[2]),c));return[0,cC(a[1],c),b]}function
+fi(c,b,a){var
+e=hU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ag(f,d)?a[2]:a[1],i=d2(f,h),j=ag(g,d)?a[1]:a[2];return[0,bV(g,j),i]}var
+_=[0,d,d];function
+fj(a){return[0,a[1],a[1]]}function
+d4(a){return[0,a[2],a[2]]}function
+au(a,b){switch(b[0]){case
 0:var
-n=b[2],m=dd(b[1],a),t=dY(m,n);return[0,[0,bU(m,n),t]];case
+n=b[2],m=df(b[1],a),t=d2(m,n);return[0,[0,bV(m,n),t]];case
 1:var
-c=at(a,b[1]);if(c)var
-d=at(a,b[2]),u=d?[0,Q(c[1],d[1])]:d,o=u;else
+c=au(a,b[1]);if(c)var
+d=au(a,b[2]),u=d?[0,H(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=at(a,b[1]);if(e)var
-f=at(a,b[2]),v=f?[0,V(e[1],f[1])]:f,p=v;else
+e=au(a,b[1]);if(e)var
+f=au(a,b[2]),v=f?[0,O(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=at(a,b[1]);if(g)var
-h=at(a,b[2]),w=h?[0,C(a,g[1],h[1])]:h,q=w;else
+g=au(a,b[1]);if(g)var
+h=au(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=at(a,b[1]);if(i){var
-j=at(a,b[2]);if(j)var
-k=ce(a,j[1]),x=k?[0,C(a,i[1],k[1])]:k,r=x;else
+i=au(a,b[1]);if(i){var
+j=au(a,b[2]);if(j)var
+k=cg(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=at(a,b[1]);return l?cE(a,l[1]):l}}function
-hT(a){var
-e=cb(S(a),d);return fd(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hU(a){return hE(A(hT(a),a))}function
-cg(f,a,e){var
-b=at(A(f,hT(a)),e);if(b)var
-c=b[1],g=hU(a),h=S(bV(S(c[2]),g)),i=hU(a),d=[0,[0,bV(c[1],i),h]];else
+l=au(a,b[1]);return l?cG(a,l[1]):l}}function
+hW(a){var
+e=cd(T(a),d);return fg(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hX(a){return hH(z(hW(a),a))}function
+ch(f,a,e){var
+b=au(z(f,hW(a)),e);if(b)var
+c=b[1],g=hX(a),h=T(bW(T(c[2]),g)),i=hX(a),d=[0,[0,bW(c[1],i),h]];else
 var
 d=b;return d}function
-a0(d,a){var
-b=cg(d,a[2],a[1][1]);if(b)var
-c=cg(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+a1(d,a){var
+b=ch(d,a[2],a[1][1]);if(b)var
+c=ch(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hV(b,a){var
-c=S(bV(S(a[2]),b));return[0,bV(a[1],b),c]}function
-fi(b,a){var
-c=dY(b[2],a);return[0,bU(b[1],a),c]}function
-fj(a,f,b){if(b){var
-d=b[1],g=fj(a,f,d),h=g[2],i=fb(L(db(o6,d),o5)),j=n(fb(db(o7,d)),i),e=fi(C(a,g[1],f),j),k=hA(b)?Q(h,e):V(h,e);return[0,e,k]}var
-l=a6(a,c);return[0,a6(a,c),l]}function
-hW(f){var
-g=dc(f),e=o8[1],b=g,c=0,a=e;for(;;){if(b){var
+hY(b,a){var
+c=T(bW(T(a[2]),b));return[0,bW(a[1],b),c]}function
+fk(b,a){var
+c=d2(b[2],a);return[0,bV(b[1],a),c]}function
+fl(a,f,b){if(b){var
+d=b[1],g=fl(a,f,d),h=g[2],i=fe(M(dd(pf,d),pe)),j=o(fe(dd(pg,d)),i),e=fk(B(a,g[1],f),j),k=hD(b)?H(h,e):O(h,e);return[0,e,k]}var
+l=aZ(a,c);return[0,aZ(a,c),l]}function
+hZ(f){var
+g=de(f),e=ph[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return L(o9,c)}}function
-hX(a,d){var
-g=cd(a),h=n(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fj(a,d,db(o$,L(hW(a),o_)))[2][2],f=[0,[0,fj(a,d,L(db(pb,hW(a)),pa))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return M(pi,c)}}function
+h0(a,d){var
+g=cf(a),h=o(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fl(a,d,dd(pk,M(hZ(a),pj)))[2][2],f=[0,[0,fl(a,d,M(dd(pm,hZ(a)),pl))[2][1],i]];else
 var
 f=e;return f}function
-hY(i){function
+h1(i){function
 a(h){var
-m=bU(cd(i),h),g=dc(i),f=m,e=d,a=c;for(;;){if(g){var
-j=A(a,b(2,c)),k=A(e,bU(f,a)),l=S(bU(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return b$(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
-hZ(e,a){var
+m=bV(cf(i),h),g=de(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,bV(f,a)),l=T(bV(f,o(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=o(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return cb(o(b(2,b(2,b(2,b(2,c)))),g),f)}function
+h2(e,a){var
 f=D(d,a);if(f){var
-g=b(2,b(2,c));return hX(e,fi(ag(e,[0,a,a]),g))}return f}function
-h0(a,d){var
-b=ag(a,d),e=a6(a,c);return V(Q(b,b),e)}function
-d0(o,u){var
-h=at(A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=A(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b$(hY(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=A(hY(a),r),f=hZ(a,i);if(f){var
-g=hZ(a,j);if(g)var
-l=ae(d,f[1][1]),m=l?ae(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
+g=b(2,b(2,c));return h0(e,fk(aj(e,[0,a,a]),g))}return f}function
+h3(a,d){var
+b=aj(a,d),e=aZ(a,c);return O(H(b,b),e)}function
+d5(o,u){var
+h=au(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cb(h1(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(h1(a),r),f=h2(a,i);if(f){var
+g=h2(a,j);if(g)var
+l=ag(d,f[1][1]),m=l?ag(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
 var
 n=g;var
 e=n}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=hX(a,ag(a,fi(C(a,v,e[1]),s))),p=$(function(b){return h0(a,h0(a,b))},t);else
+s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=h0(a,aj(a,fk(B(a,v,e[1]),s))),p=ab(function(b){return h3(a,h3(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return $(function(a){return hV(w,a)},p)}return h}function
-fk(d,a){return d0(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
-d1(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ab(function(a){return hY(w,a)},p)}return h}function
+fm(d,a){return d5(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
+d6(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2274,127 +2278,127 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-be(j,i){var
+bf(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?az(b[1],a[1]):0;case
-1:return 1===a[0]?az(b[1],a[1]):0;case
-2:return 2===a[0]?ak(b[1],a[1]):0;case
+0:return 0===a[0]?ai(b[1],a[1]):0;case
+1:return 1===a[0]?ai(b[1],a[1]):0;case
+2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=be(b[1],a[1]);if(e){var
+e=bf(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=be(b[1],a[1]);if(f){var
+f=bf(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=be(b[1],a[1]);if(g){var
+g=bf(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=be(b[1],a[1]);if(h){var
+h=bf(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-d2(b){var
+d7(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bf(c,b){var
-a=d2(b);return a?ak(c,a[1]):a}function
-df(a){return ae(eZ(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+bg(c,b){var
+a=d7(b);return a?al(c,a[1]):a}function
+dh(a){return ag(e2(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 q(a){return[0,[2,a]]}function
-G(b,a){if(bf(d,b))return a;if(bf(d,a))return b;var
-c=d2(b);if(c){var
-e=c[1],f=d2(a);if(f){var
-g=f[1];if(df(e)&&df(g))return q(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ch(a){var
+G(b,a){if(bg(d,b))return a;if(bg(d,a))return b;var
+c=d7(b);if(c){var
+e=c[1],f=d7(a);if(f){var
+g=f[1];if(dh(e)&&dh(g))return q(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ci(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return df(c)?q(S(c)):[0,[5,a]];case
+c=b[1];return dh(c)?q(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){return bf(d,a)?b:bf(d,b)?ch(a):[0,[4,b,a]]}function
-aa(a){var
-c=d2(a);if(c){var
-b=c[1];return df(b)?q(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bf(d,a)&&!bf(c,b)){if(!bf(d,b)&&!bf(c,a))return be(a,b)?aa(a):[0,[6,a,b]];return b}return a}function
-aJ(b,a){return bf(c,a)?b:[0,[7,b,a]]}function
-cF(a){return bf(c,a)?a:[0,[9,a]]}function
-cG(g,f,d,c){var
+A(b,a){return bg(d,a)?b:bg(d,b)?ci(a):[0,[4,b,a]]}function
+ac(a){var
+c=d7(a);if(c){var
+b=c[1];return dh(b)?q(o(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bg(d,a)&&!bg(c,b)){if(!bg(d,b)&&!bg(c,a))return bf(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
+aK(b,a){return bg(c,a)?b:[0,[7,b,a]]}function
+cH(a){return bg(c,a)?a:[0,[9,a]]}function
+cI(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,d1(function(b){return function(a){return N(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-d3(a){var
+h=b[1],i=[0,e(f,d6(function(b){return function(a){return P(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d8(a){var
 b=0;function
-c(a){return[0,a]}return cG(q(d),c,a,b)}function
-fl(b,a){if(a){if(be(b,a[1]))return pc;var
-c=fl(b,a[2]);return $(function(a){return[0,a]},c)}return a}function
-bW(c,b){var
-a=fl(b,c),d=a?a[1]:a;return d}function
-d4(d,a){if(fl(d,a[1]))return a;var
+c(a){return[0,a]}return cI(q(d),c,a,b)}function
+fn(b,a){if(a){if(bf(b,a[1]))return pn;var
+c=fn(b,a[2]);return ab(function(a){return[0,a]},c)}return a}function
+bY(c,b){var
+a=fn(b,c),d=a?a[1]:a;return d}function
+d9(d,a){if(fn(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=d4(b[1],a);break;case
+c=d9(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=d4(b[1],a),c=d4(b[2],h)}var
-e=c[2],f=c[1],g=[0,d1(function(a){return bW(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-d5(c){var
-b=c,a=pd;for(;;){if(b){var
-d=d4(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bW(e,a)},c);return[0,hI(a[2]),g]}}function
-h1(a){return cB(function(a,b){return A(cb(a[2],S(a[1])),b)},d,a)}function
-cH(b,c,a){var
-d=h1(a),e=e$(c[2],A(b[2],d)),f=h1(a);return[0,b,[0,cb(c[1],b$(b[1],f)),e],a]}function
-bg(a){return[0,a,a,0]}function
-fm(b,a){return a?e(b,a[1]):a}function
-d6(d,b,a){if(b){if(a)return R(d,b[1],a[1]);var
+h=d9(b[1],a),c=d9(b[2],h)}var
+e=c[2],f=c[1],g=[0,d6(function(a){return bY(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d_(c){var
+b=c,a=po;for(;;){if(b){var
+d=d9(b[1],a),b=b[2],a=d;continue}var
+e=a[1],g=f(function(a){return bY(e,a)},c);return[0,hL(a[2]),g]}}function
+h4(a){return cD(function(a,b){return z(cd(a[2],T(a[1])),b)},d,a)}function
+cJ(b,c,a){var
+d=h4(a),e=fc(c[2],z(b[2],d)),f=h4(a);return[0,b,[0,cd(c[1],cb(b[1],f)),e],a]}function
+bh(a){return[0,a,a,0]}function
+fo(b,a){return a?e(b,a[1]):a}function
+d$(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-fn(a,e,d){var
-c=bg(ah);return function(b){switch(b[0]){case
-0:return[0,N(b[1],e,c)];case
-1:return[0,N(b[1],d,c)];case
-2:return[0,bg(a6(a,b[1]))];case
+fp(a,e,d){var
+c=bh(_);return function(b){switch(b[0]){case
+0:return[0,P(b[1],e,c)];case
+1:return[0,P(b[1],d,c)];case
+2:return[0,bh(aZ(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return d6(function(b,a){var
+g=b[2],h=b[1];return d$(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aZ(function(a){return a},e,Q,d,c),g=Q(b[2],a[2]);return[0,cH(Q(b[1],a[1]),g,f)]},h,g);case
+f=a0(function(a){return a},e,H,d,c),g=H(b[2],a[2]);return[0,cJ(H(b[1],a[1]),g,f)]},h,g);case
 4:var
-i=b[2],j=b[1];return d6(function(b,a){var
-c=a[3],d=b[3],e=aZ(function(a){return a},aC,V,d,c),f=V(b[2],a[2]);return[0,cH(V(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return d$(function(b,a){var
+c=a[3],d=b[3],e=a0(function(a){return a},aA,O,d,c),f=O(b[2],a[2]);return[0,cJ(O(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return fm(function(a){var
-b=f(aC,a[3]),c=aC(a[2]);return[0,[0,aC(a[1]),c,b]]},k);case
+k=b[1];return fo(function(a){var
+b=f(aA,a[3]),c=aA(a[2]);return[0,[0,aA(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return d6(function(c,b){var
-d=Q(b[2],b[1]),e=Q(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return d$(function(c,b){var
+d=H(b[2],b[1]),e=H(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=C(a,e,b);return dZ(Q(C(a,d,c),f))}function
-i(b){return dZ(C(a,e,b))}var
-j=aZ(function(b){return dZ(C(a,d,b))},i,h,g,f),k=C(a,c[2],b[2]);return[0,cH(C(a,c[1],b[1]),k,j)]},m,l);case
+f=B(a,e,b);return d3(H(B(a,d,c),f))}function
+i(b){return d3(B(a,e,b))}var
+j=a0(function(b){return d3(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cJ(B(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return d6(function(e,g){var
-b=ce(a,g[1]);if(b){var
-c=ce(a,g[2]);if(c)var
-h=c[1],d=C(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return V(c,C(a,d,b))},n=function(b){return aC(C(a,d,b))},o=aZ(function(a){return a},n,m,l,k),p=f(function(b){return C(a,h,b)},o),i=[0,cH(d,C(a,e[2],h),p)];else
+n=b[2],o=b[1];return d$(function(e,g){var
+b=cg(a,g[1]);if(b){var
+c=cg(a,g[2]);if(c)var
+h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return O(c,B(a,d,b))},n=function(b){return aA(B(a,d,b))},o=a0(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cJ(d,B(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fm(function(b){var
-c=b[3],d=Q(b[2],b[1]),e=f(function(b){return C(a,d,b)},c),g=ag(a,b[2]);return[0,cH(ag(a,b[1]),g,e)]},p);default:var
-q=b[1];return fm(function(e){var
-b=cE(a,e[1]);if(b){var
-g=b[1],c=cE(a,e[2]);if(c){var
-h=c[1],d=ce(a,Q(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cH(g,h,f(function(b){return C(a,m,b)},l))];else
+p=b[1];return fo(function(b){var
+c=b[3],d=H(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cJ(aj(a,b[1]),g,e)]},p);default:var
+q=b[1];return fo(function(e){var
+b=cG(a,e[1]);if(b){var
+g=b[1],c=cG(a,e[2]);if(c){var
+h=c[1],d=cg(a,H(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cJ(g,h,f(function(b){return B(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2403,126 +2407,130 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-pe(a){return a}function
-pf(a){return a}function
-pg(a,b){return aZ(pf,pe,Q,a,b)}function
-ph(a){return a}function
-pi(a){return a}function
-fo(b,a,c){if(a){var
+pp(a){return a}function
+pq(a){return a}function
+pr(a,b){return a0(pq,pp,H,a,b)}function
+ps(a){return a}function
+pt(a){return a}function
+h5(a,b){return a0(pt,ps,pr,a,b)}function
+fq(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fo(b,e,c[2]),h=c[1],i=function(c,a){return V(c,ff(d,a,b))},j=function(a){return aC(ff(d,a,b))};return[0,aZ(function(a){return a},j,i,h,a),g]}var
-k=fo(b,e,0);return[0,f(function(a){return aC(ff(d,a,b))},a),k]}return c}function
-h2(a){if(a){var
+g=fq(b,e,c[2]),h=c[1],i=function(c,a){return O(c,fi(d,a,b))},j=function(a){return aA(fi(d,a,b))};return[0,a0(function(a){return a},j,i,h,a),g]}var
+k=fq(b,e,0);return[0,f(function(a){return aA(fi(d,a,b))},a),k]}return c}function
+h6(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ae(d,c[1]),h=e?[0,fo(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ag(d,c[1]),h=e?[0,fq(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-h3(f,e){var
+h7(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=h2(b);if(c){var
+c=h6(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-h4(d,b,a){if(b)if(a)var
-e=a[1],f=h4(d,b[2],a[2]),g=dT(d,b[1])?fg(e):fh(e),c=[0,g,f];else
+h8(d,b,a){if(b)if(a)var
+e=a[1],f=h8(d,b[2],a[2]),g=dX(d,b[1])?fj(e):d4(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-h5(a,b){if(a)if(b)var
-d=h5(a[2],b[2]),c=[0,h4(a[1],a,b[1]),d];else
+h9(a,b){if(a)if(b)var
+d=h9(a[2],b[2]),c=[0,h8(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bX(a){if(a){var
-b=a[1],c=bX(b),d=f(function(a){return[0,1,a]},c),e=bX(b);return g(f(function(a){return[0,0,a]},e),d)}return pj}function
-d7(a){var
-b=m(a);if(h3(b,a))return 1;var
-c=bX(cz(b));return p(function(c){return h3(b,h5([0,0,c],a))},c)}function
-bh(a){function
+bZ(a){if(a){var
+b=a[1],c=bZ(b),d=f(function(a){return[0,1,a]},c),e=bZ(b);return g(f(function(a){return[0,0,a]},e),d)}return pu}function
+ea(a){var
+b=n(a);if(h7(b,a))return 1;var
+c=bZ(cB(b));return p(function(c){return h7(b,h9([0,0,c],a))},c)}function
+a7(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-dg(h,e){var
+di(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?Q(a,d):V(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-h6(c,b,a){var
-d=bX(c);return p(function(c){return e(a,e(bh(function(a){return dg(c,a)}),b))},d)}function
-h7(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return cf(b,A(h,c),a)},k=h7(h,j,i),l=function(c,b){var
-d=a(b,e);return Q(a(f,c),d)},m=function(b){return a(b,e)},n=aZ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,Q(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?H(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+h_(c,b,a){var
+d=bZ(c);return p(function(c){return e(a,e(a7(function(a){return di(c,a)}),b))},d)}function
+h$(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bX(b,z(h,c),a)},k=h$(h,j,i),l=function(c,b){var
+d=a(b,e);return H(a(f,c),d)},m=function(b){return a(b,e)},n=a0(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,H(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fp(d,l,k,j){var
-c=l,b=k,a=j;for(;;){if(c){if(b){var
-e=b[1],f=c[1],g=fh(e[2]),m=e[1],h=function(e){return function(a,b){var
-c=cf(b,d,e);return V(Q(a,a),c)}}(g),i=function(b){return function(a){return aC(cf(a,d,b))}}(g),n=aZ(pi,ph,pg,a,h7(d,f,aZ(function(a){return Q(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
-h8(b,a){return[0,[0,0,b],a]}function
-dh(b,c,g,f,a){function
+ia(b,d,a,c){function
+e(c,d){var
+e=bX(d,b,a);return O(H(c,c),e)}function
+f(c){return aA(bX(c,b,a))}return a0(function(a){return H(a,a)},f,e,d,c)}function
+fr(d,i,h,g){var
+c=i,b=h,a=g;for(;;){if(c){if(b){var
+e=b[1],f=c[1],j=d4(e[2]),k=h5(a,h$(d,f,ia(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+ib(b,a){return[0,[0,0,b],a]}function
+dj(b,c,g,f,a){function
 d(a){if(a){var
-h=cc([0,aC(a[1][2]),0],b),c=fp(g,f,a[2],h),d=az(m(c),b);if(d)return d7(c);var
+h=ce([0,aA(a[1][2]),0],b),c=fr(g,f,a[2],h),d=ai(n(c),b);if(d)return ea(c);var
 e=d}else
 var
-e=a;return e}return h6(b,h8(c,a),d)}function
-h9(f,e){var
+e=a;return e}return h_(b,ib(c,a),d)}function
+ic(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=h2([0,[0,fg(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=h6([0,[0,fj(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fq(b,c,a){function
+fs(b,c,a){function
 d(a){if(a){var
-h=cc([0,a[1][2],0],b),c=h9(a[2],h);if(c){var
-d=c[1],e=az(m(d),b);if(e)return d7(d);var
+h=ce([0,a[1][2],0],b),c=ic(a[2],h);if(c){var
+d=c[1],e=ai(n(d),b);if(e)return ea(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return h6(b,h8(c,a),d)}function
-h_(a,b){var
-c=b[3],d=a[3],e=aZ(function(a){return a},aC,V,d,c),f=a[2];return[0,V(a[1],b[1]),f,e]}function
-d8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bY(c,b,a){var
-d=R(c,b[3],a[3]),e=R(c,b[2],a[2]);return[0,R(c,b[1],a[1]),e,d]}function
-d9(b,a){var
+g=a;return g}return h_(b,ib(c,a),d)}function
+id(a,b){var
+c=b[3],d=a[3],e=a0(function(a){return a},aA,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
+eb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b0(c,b,a){var
+d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
+ec(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-d_(b,a){var
-c=aJ(b[3],a),d=aJ(b[2],a);return[0,aJ(b[1],a),d,c]}function
-aA(b,a){var
+ed(b,a){var
+c=aK(b[3],a),d=aK(b[2],a);return[0,aK(b[1],a),d,c]}function
+aB(b,a){var
 c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-fr(a){return d_(a,cF(aA(a,a)))}function
-h$(a){return f(function(a){var
-b=a[2];return[0,d8(a[1]),b]},a)}function
-ia(a){return f(function(a){var
-b=q(c);return[0,d8(a[3]),b]},a)}function
-bE(a){return cA(A(a[1],a[2]),c)}function
-cI(a){var
-b=bE(a);return b$(a[2],b)}function
-ib(c,b){if(b)var
-a=b[1],e=ib([0,c],b[2]),f=cI(a),h=[0,[0,cI(a),f],0],i=g(cc(ah,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
+ft(a){return ed(a,cH(aB(a,a)))}function
+ie(a){return f(function(a){var
+b=a[2];return[0,eb(a[1]),b]},a)}function
+ig(a){return f(function(a){var
+b=q(c);return[0,eb(a[3]),b]},a)}function
+bE(a){return cC(z(a[1],a[2]),c)}function
+cK(a){var
+b=bE(a);return cb(a[2],b)}function
+ih(c,b){if(b)var
+a=b[1],e=ih([0,c],b[2]),f=cK(a),h=[0,[0,cK(a),f],0],i=g(ce(_,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
 var
 d=b;return d}function
-d$(d,b){if(b){var
+ee(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pk}function
-ic(d,c,b,a){var
-e=f(bg,b);return cG(0,fn(d,ib(0,a),e),c,0)}function
+e=ee(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pv}function
+ii(d,c,b,a){var
+e=f(bh,b);return cI(0,fp(d,ih(0,a),e),c,0)}function
 aW(a){if(a){var
 b=a[1];if(b)var
 c=aW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pl}function
-id(b,a){if(a){var
-h=a[1],n=h[1],c=aW(f(function(a){return N(a,b,0)},n));if(c){var
-e=N(h[2],b,0);if(e){var
-i=e[1],g=id(b,a[2]);if(g)var
-j=ae(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pw}function
+ij(b,a){if(a){var
+h=a[1],n=h[1],c=aW(f(function(a){return P(a,b,0)},n));if(c){var
+e=P(h[2],b,0);if(e){var
+i=e[1],g=ij(b,a[2]);if(g)var
+j=ag(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2530,146 +2538,146 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return pm}function
-ci(d,c,b){var
-a=id(d,c);return a?e(b,a[1]):a}function
-ft(a,b){return p(function(c){var
-a=N(c,b,0),d=a?1:a;return d},a)}function
-ea(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aZ(function(a){return a},f,Q,e,d),h=a[2];return[0,Q(a[1],c[1]),h,g]}return a}function
-fu(b,a){return b?h_(a,b[1]):a}function
-fv(h,g,b,f){var
-a=N(f,h,0);if(a){var
+m=c;return m}return px}function
+cj(d,c,b){var
+a=ij(d,c);return a?e(b,a[1]):a}function
+fv(a,b){return p(function(c){var
+a=P(c,b,0),d=a?1:a;return d},a)}function
+ef(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a0(function(a){return a},f,H,e,d),h=a[2];return[0,H(a[1],c[1]),h,g]}return a}function
+fw(b,a){return b?id(a,b[1]):a}function
+fx(h,g,b,f){var
+a=P(f,h,0);if(a){var
 c=a[1];if(b){var
-i=h_(c,b[1]),e=bX(g);return p(function(a){return D(d,dg(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-ie(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=id(c,b[1]),e=bZ(g);return p(function(a){return D(d,di(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+ik(m,j,q,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=ft(l,b);if(r){var
-B=a[2],D=a[1],E=ea(g,bg(k));return ci(b,j,function(a){return dh(e,E,D,B,a)})}return r;case
+r=fv(l,b);if(r){var
+C=a[2],D=a[1],E=ef(g,bh(k));return cj(b,j,function(a){return dj(e,E,D,C,a)})}return r;case
 1:var
-s=ft(l,b);if(s){var
-F=a[2],G=a[1],H=ea(g,bg(k));return ci(b,q,function(a){return dh(e,H,G,F,a)})}return s;case
+s=fv(l,b);if(s){var
+F=a[2],G=a[1],H=ef(g,bh(k));return cj(b,q,function(a){return dj(e,H,G,F,a)})}return s;case
 2:var
-t=ft(l,b);if(t){if(g)return 0;var
-u=ak(k[1],d),v=u?ak(k[2],d):u;if(v){var
-I=a[2],J=a[1];return ci(b,j,function(a){var
-b=[0,ah,ah,0];return dh(e,[0,ah,ah,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=fv(l,b);if(t){if(g)return 0;var
+u=al(k[1],d),v=u?al(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cj(b,j,function(a){var
+b=[0,_,_,0];return dj(e,[0,_,_,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fu(g,bg(x));return ci(b,q,function(a){return fq(e,K,a)})}if(!a){var
-L=fu(g,bg(x));return ci(b,j,function(a){return fq(e,L,a)})}}return 0;case
+K=fw(g,bh(x));return cj(b,q,function(a){return fs(e,K,a)})}if(!a){var
+L=fw(g,bh(x));return cj(b,j,function(a){return fs(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return cf(a,y,a6(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),ah,A];else
+y=a[1],n=a[3],o=function(a){return bX(a,y,aZ(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),_,A];else
 var
-i=bg(ah);var
-z=h[1],M=a[2];return ci(b,j,function(c){var
-h=bX(e),a=p(function(a){return ae(d,dg(a,i)[1])},h),b=a?dh(e,ea(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return C(m,z,a)},j),l=i[2];return fq(e,fu(g,[0,C(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=bh(_);var
+z=h[1],M=a[2];return cj(b,j,function(c){var
+h=bZ(e),a=p(function(a){return ag(d,di(a,i)[1])},h),b=a?dj(e,ef(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fs(e,fw(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fv(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fx(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=ea(g,bg(h[2])),Q=function(a){return dh(e,P,O,N,a)};return ci(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=ef(g,bh(h[2])),Q=function(a){return dj(e,P,O,N,a)};return cj(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fv(b,e,g,h[1]);case
-2:return fv(b,e,g,h[2])}return 0}}function
-eb(b,a){if(a){var
+0:return fx(b,e,g,h[1]);case
+2:return fx(b,e,g,h[2])}return 0}}function
+eg(b,a){if(a){var
 c=a[2];if(b){var
-e=eb(b[1],c);return[0,a[1],e]}var
+e=eg(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-ig(r,V,H,G,F,U,T,E,c,C,B){if(C){var
-I=ic(r,V,U,c),g=C,b=B;for(;;){if(g){var
-v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+il(r,V,H,G,F,U,T,E,c,C,B){if(C){var
+I=ii(r,V,U,c),g=C,b=B;for(;;){if(g){var
+v=g[1],a=v[2],m=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 l=e(E,c);if(l)var
-S=l[1],L=bX(m(c)),o=p(function(b){return function(a){return ae(dg(a,b)[2],d)}}(S),L);else
+S=l[1],L=bZ(n(c)),o=p(function(b){return function(a){return ag(di(a,b)[2],d)}}(S),L);else
 var
 o=l;if(o){var
 g=w,b=f(function(a){return 0},b);continue}return o}var
-x=N(n,b,0);if(x){var
-q=aV(T,n);if(q){var
+x=P(m,b,0);if(x){var
+q=aJ(T,m);if(q){var
 y=q[1],J=0;if(typeof
 a==="number"||!(5===a[0]))J=1;else{var
 i=a[2],j=e(E,c),K=0;if(j){var
 s=D(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],M=k[3],O=f(function(b,c){return function(a){return cf(b,c,a)}}(i,t),M),P=k[2],R=[0,[0,cf(i,t,k[1]),P,O]],h=ie(r,H,G,F,I,m(c),R,y,Q);K=1}else
+k=j[1],t=a[3],Q=a[1],M=k[3],N=f(function(b,c){return function(a){return bX(b,c,a)}}(i,t),M),O=k[2],R=[0,[0,bX(i,t,k[1]),O,N]],h=ik(r,H,G,F,I,n(c),R,y,Q);K=1}else
 var
 u=s}else
 var
 u=j;if(!K)var
 h=u}if(J)var
-h=ie(r,H,G,F,I,m(c),0,y,a);if(h){var
-g=w,b=eb(n,b);continue}var
+h=ik(r,H,G,F,I,n(c),0,y,a);if(h){var
+g=w,b=eg(m,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
 A=x;return A}return[0,b]}}return[0,B]}function
-fw(j,i,h,g,f,e,d,c,u,t,s){var
+fy(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=ig(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
-m=ig(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d$(a[2],b),q=fw(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+l=il(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aV,l[1]):l}var
+m=il(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=ee(a[2],b),q=fy(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
 b=o[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-ih(a){return f(function(a){return 1},a)}function
-cJ(m,r){var
+im(a){return f(function(a){return 1},a)}function
+ck(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
 j=e[2],n=e[1];if(D(j,c)){var
-k=ak(b,n),l=k?df(b):k;if(l)var
-o=ak(m[2],d),g=o||ak(b,d);else
+k=al(b,n),l=k?dh(b):k;if(l)var
+o=al(m[2],d),g=o||al(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=ak(bd(j,aS(2))[2],d)?0:0}else
+a=al(be(j,aT(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ak(bd(i,aS(2))[2],d)?0:0}else
+a=al(be(i,aT(2))[2],d)?0:0}else
 var
 a=0;return a?q(a[1]):[0,[1,r]]}function
-ec(b,a){if(a)var
-d=ec([0,b],a[2]),c=[0,cJ(a[1],b),d];else
+eh(b,a){if(a)var
+d=eh([0,b],a[2]),c=[0,ck(a[1],b),d];else
 var
 c=a;return c}function
 bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fx(b,d,a){switch(a[0]){case
+fz(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
 e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
 bF(b,a){var
-c=q(d),e=N(L(pn,a),b,c),f=q(d),g=N(L(po,a),b,f);return[0,N(a,b,q(d)),g,e]}function
-ii(b,a){return bY(z,bY(G,fs,a),b)}function
-ij(c,b,a){if(a){var
-e=a[2],f=ij(c,hH(b),e),h=a[1];return g(fx(c,fe(d,b),h),f)}return a}function
-ik(l,k,h,x){if(h){var
-e=h[1],K=L(x,m(fx(l,fe(d,k),e))),M=h[2],O=ik(l,hH(k),M,K),a=ec(x,fx(l,fe(d,k),e));switch(e[0]){case
+c=q(d),e=P(M(py,a),b,c),f=q(d),g=P(M(pz,a),b,f);return[0,P(a,b,q(d)),g,e]}function
+io(b,a){return b0(A,b0(G,fu,a),b)}function
+ip(c,b,a){if(a){var
+e=a[2],f=ip(c,hK(b),e),h=a[1];return g(fz(c,fh(d,b),h),f)}return a}function
+iq(l,k,h,x){if(h){var
+e=h[1],K=M(x,n(fz(l,fh(d,k),e))),L=h[2],N=iq(l,hK(k),L,K),a=eh(x,fz(l,fh(d,k),e));switch(e[0]){case
 0:var
-F=e[1][5],u=N(pp,a,q(d)),g=fr(bF(a,0)),H=bF(a,pq),v=ii(bF(a,pr),H),o=aA(g,v),f=bY(z,v,d9(o,g)),A=aA(f,f),p=z(aa(u),A),r=cF(p),i=F?r:ch(r),B=z(o,i),C=bY(G,g,d_(f,i)),n=[0,bY(G,f,d9(i,g)),p,C,B,[0,u],0];break;case
+F=e[1][5],u=P(pA,a,q(d)),g=ft(bF(a,0)),H=bF(a,pB),v=io(bF(a,pC),H),o=aB(g,v),f=b0(A,v,ec(o,g)),z=aB(f,f),p=A(ac(u),z),r=cH(p),i=F?r:ci(r),B=A(o,i),C=b0(G,g,ed(f,i)),m=[0,b0(G,f,ec(i,g)),p,C,B,[0,u],0];break;case
 1:var
-w=e[3],I=w?[0,fr(bF(a,ps))]:w,J=bF(a,pt),b=ii(bF(a,0),J),s=aA(b,b),t=cF(s),D=$(function(a){return bY(z,b,d9(aA(a,b),a))},I),n=[0,b,s,d_(b,t),t,0,D];break;default:var
-j=fr(bF(a,0)),E=aA(j,fs),n=[0,j,q(c),j,E,0,0]}var
-y=[0,n,O]}else
+w=e[3],I=w?[0,ft(bF(a,pD))]:w,J=bF(a,pE),b=io(bF(a,0),J),s=aB(b,b),t=cH(s),D=ab(function(a){return b0(A,b,ec(aB(a,b),a))},I),m=[0,b,s,ed(b,t),t,0,D];break;default:var
+j=ft(bF(a,0)),E=aB(j,fu),m=[0,j,q(c),j,E,0,0]}var
+y=[0,m,N]}else
 var
 y=h;return y}function
-cj(k,a){if(typeof
+cl(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2686,39 +2694,39 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fy(d,c,b,a){var
-e=v(c,b);return z(v(d,a),e)}function
-cK(a){return M(function(a){return g(a[1],[0,a[2],0])},a)}function
-il(a){if(a){var
+fA(d,c,b,a){var
+e=v(c,b);return A(v(d,a),e)}function
+cL(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
+ir(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=il(a[2]);if(d)var
-g=d[1],h=aA(c,c),e=[0,[0,[0,d8(c),h],g]];else
+c=b[1],d=ir(a[2]);if(d)var
+g=d[1],h=aB(c,c),e=[0,[0,[0,eb(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pu}function
-fz(b,d,c,a){if(typeof
+f=b;return f}return pF}function
+fB(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=cJ(cj(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,d8(a[1]),b]},b)];case
-9:return il(b)}return 0}function
-im(b,s,r,a){var
-e=cJ(cj(s,a),r),p=0;if(typeof
+e=ck(cl(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,eb(a[1]),b]},b)];case
+9:return ir(b)}return 0}function
+is(b,s,r,a){var
+e=ck(cl(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
-L=function(a){return[0,z(a[4],e),0]},g=L,f=a[1];break;case
+L=function(a){return[0,A(a[4],e),0]},g=L,f=a[1];break;case
 3:var
-M=function(a){return[0,z(e,a[4]),0]},g=M,f=a[1];break;case
+M=function(a){return[0,A(e,a[4]),0]},g=M,f=a[1];break;case
 4:var
 N=function(b){var
-a=b[1],c=aa(a[3]),d=aa(a[2]),f=aa(a[1]),g=b[2];return[0,z(z(z(v(aa(e),g),f),d),c),0]},g=N,f=a[1];break;case
+a=b[1],c=ac(a[3]),d=ac(a[2]),f=ac(a[1]),g=b[2];return[0,A(A(A(v(ac(e),g),f),d),c),0]},g=N,f=a[1];break;case
 6:var
 O=function(b){var
 a=b[5];if(a)var
-d=aa(a[1]),f=v(aa(e),d),c=[0,z(b[2],f),0];else
+d=ac(a[1]),f=v(ac(e),d),c=[0,A(b[2],f),0];else
 var
 c=a;return c},g=O,f=a[1];break;case
 7:if(b){var
@@ -2727,13 +2735,13 @@ i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fy(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fy(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fy(d[2],d[3],c[2],c[3]),q=G(z(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ch(G(q,x)),0],y=[0,z(q,x),R];else
+c=t[1],d=u[1],n=w[1],F=fA(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fA(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fA(d[2],d[3],c[2],c[3]),q=G(A(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ci(G(q,x)),0],y=[0,A(q,x),R];else
 var
 y=m;var
-A=y}else
+z=y}else
 var
-A=l;var
-B=A}else
+z=l;var
+B=z}else
 var
 B=k;var
 C=B}else
@@ -2747,35 +2755,35 @@ var
 E=b;return E;case
 8:case
 9:var
-o=fz(b,s,r,a);return o?cK(o[1]):o;default:p=1}if(p)return 0;var
-j=aV(b,f);return j?g(j[1]):j}function
-io(d,c,b,a){if(a){var
-e=io(d,c,[0,b],a[2]);return g(im(d,c,b,a[1]),e)}return a}function
-ip(a,g,k,f,j,i){if(i){var
-B=ip(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+o=fB(b,s,r,a);return o?cL(o[1]):o;default:p=1}if(p)return 0;var
+j=aJ(b,f);return j?g(j[1]):j}function
+it(d,c,b,a){if(a){var
+e=it(d,c,[0,b],a[2]);return g(is(d,c,b,a[1]),e)}return a}function
+iu(a,g,k,f,j,i){if(i){var
+B=iu(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,ah]];else
+d=[0,[0,_]];else
 switch(b[0]){case
 0:var
-u=a0(a,cj(f,b)),d=$(function(b){return[0,ag(a,b)]},u);break;case
+u=a1(a,cl(f,b)),d=ab(function(b){return[0,aj(a,b)]},u);break;case
 1:var
-v=a0(a,cj(f,b)),d=$(function(b){return[1,ag(a,b)]},v);break;case
+v=a1(a,cl(f,b)),d=ab(function(b){return[1,aj(a,b)]},v);break;case
 5:var
-x=a0(a,cj(f,b)),d=$(function(b){return[2,ag(a,b)]},x);break;case
+x=a1(a,cl(f,b)),d=ab(function(b){return[2,aj(a,b)]},x);break;case
 8:var
-y=fz(k,f,j,b),d=$(function(b){var
-d=a6(a,c);return[4,e(bh(g),b),d]},y);break;case
+y=fB(k,f,j,b),d=ab(function(b){var
+d=aZ(a,c);return[4,e(a7(g),b),d]},y);break;case
 9:var
-m=fz(k,f,j,b);if(m){var
-n=a0(a,cj(f,b));if(n)var
-z=ag(a,n[1]),A=m[1],r=[0,[4,e(bh(g),A),z]];else
+m=fB(k,f,j,b);if(m){var
+n=a1(a,cl(f,b));if(n)var
+z=aj(a,n[1]),A=m[1],r=[0,[4,e(a7(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=im(k,f,j,b),o=0;if(h){var
+h=is(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2786,81 +2794,81 @@ d=q}var
 t=[0,d,B]}else
 var
 t=i;return t}function
-pv(a){if(typeof
+pG(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ck(s,r){var
+cm(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=ak(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:ak(bd(e,aS(2))[2],d)?0:0;var
-i=bd(f,aS(2)),j=i[1];if(ak(i[2],d)){if(D(e,c))return 0;var
-g=bd(e,aS(2)),p=g[1];if(ak(g[2],d)){var
+k=al(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(be(e,aT(2))[2],d)?0:0;var
+i=be(f,aT(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=be(e,aT(2)),p=g[1];if(al(g[2],d)){var
 f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=bd(e,aS(2)),q=h[1];if(ak(h[2],d))return 0;var
+h=be(e,aT(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=ck(b[1],a[1]);if(l){var
+l=cm(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=ck(b[1],a[1]);if(m){var
+m=cm(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=ck(b[1],a[1]);if(n){var
+n=cm(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=ck(b[1],a[1]);if(o){var
+o=cm(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ed(a){switch(a[0]){case
+ei(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hN(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hQ(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hN(b,[0,S(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hQ(b,[0,T(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hO(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hR(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hL(a,[0,d,c]))return 0;var
-b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,S(a[2]),S(b)];return[0,hO(g,f)]};break;default:return 0}var
-g=ed(e);if(g){var
-h=ed(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hO(a,[0,d,c]))return 0;var
+b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,hR(g,f)]};break;default:return 0}var
+g=ei(e);if(g){var
+h=ei(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-o(i,e,b){var
-f=ed(b);if(f){var
-g=f[1];return e?aU(hM(g,[0,d,c])):hM([0,d,c],g)}var
-a=at(i,b);if(a){var
-h=a[1];return e?ae(d,h[1]):D(d,h[1])}return a}function
-iq(c,b){var
-a=at(c,b),d=a?1:a;return d}function
+l(i,e,b){var
+f=ei(b);if(f){var
+g=f[1];return e?aV(hP(g,[0,d,c])):hP([0,d,c],g)}var
+a=au(i,b);if(a){var
+h=a[1];return e?ag(d,h[1]):D(d,h[1])}return a}function
+iv(c,b){var
+a=au(c,b),d=a?1:a;return d}function
 bj(c,a,b){var
-d=ck(a,b),e=d?iq(c,a):d;return e?e:o(c,0,[2,b,a])}function
-aK(c,b,a){var
-d=R(c,b[3],a[3]),e=R(c,b[2],a[2]);return[0,R(c,b[1],a[1]),e,d]}function
-aL(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+d=cm(a,b),e=d?iv(c,a):d;return e?e:l(c,0,[2,b,a])}function
+aL(c,b,a){var
+d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
+aM(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
 E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aD(a){return aL([4,[0,c,c],[5,E(a,a)]],a)}function
-cl(c,b,a){var
+aD(a){return aM([4,[0,c,c],[5,E(a,a)]],a)}function
+cn(c,b,a){var
 d=bj(c,b[1],a);return d?bj(c,a,b[2]):d}function
-aM(c,b,a){var
-d=cl(c,b[1],a[1]),e=d?cl(c,b[2],a[2]):d;return e?cl(c,b[3],a[3]):e}function
-ir(c,a,b){if(0===a[0])return aM(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?cl(c,a[4],b[3]):h}function
-is(a,D,H,G){var
+aN(c,b,a){var
+d=cn(c,b[1],a[1]),e=d?cn(c,b[2],a[2]):d;return e?cn(c,b[3],a[3]):e}function
+iw(c,a,b){if(0===a[0])return aN(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cn(c,a[4],b[3]):h}function
+ix(a,D,H,G){var
 h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-n=b[4],i=b[1],p=aM(a,f[1],i),q=p?o(a,1,E(i,i)):p,r=q?aM(a,f[2],b[2]):q,s=r?aM(a,f[3],b[3]):r,t=s?cl(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dT(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aN(a,f[1],i),q=p?l(a,1,E(i,i)):p,r=q?aN(a,f[2],b[2]):q,s=r?aN(a,f[3],b[3]):r,t=s?cn(a,f[4],o):s,u=t?l(a,1,o):t,c=u?dX(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aM(a,e[1],b[1]),x=w?aM(a,e[2],b[2]):w,m=0;if(x)if(v){var
+g=b[3],w=aN(a,e[1],b[1]),x=w?aN(a,e[2],b[2]):w,n=0;if(x)if(v){var
 F=0;if(g){var
-j=g[1],y=aM(a,v[1],j);if(y){var
-c=o(a,1,E(j,j));F=1}else
+j=g[1],y=aN(a,v[1],j);if(y){var
+c=l(a,1,E(j,j));F=1}else
 var
 z=y}else
 var
@@ -2868,87 +2876,87 @@ z=g;if(!F)var
 c=z}else
 if(g)var
 c=0;else{var
-A=1;m=1}else{var
-A=x;m=1}if(m)var
+A=1;n=1}else{var
+A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aM(a,e[1],k),c=B?o(a,1,E(k,k)):B;else
+k=b[1],B=aN(a,e[1],k),c=B?l(a,1,E(k,k)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
 C=c}else
 var
 C=d;var
-l=C}else
+m=C}else
 var
-l=d?0:1;return l?ir(a,D[2],G):l}}function
+m=d?0:1;return m?iw(a,D[2],G):m}}function
 bG(c,b,a){var
-d=aK(function(b,a){return[1,b,a]},a,b);return aK(function(b,a){return[2,b,a]},d,c)}function
-fA(a,e,d,c){var
-b=bG(e,d,c),f=aD(a),g=aL(E(aD(a),b),f);return aK(function(b,a){return[2,b,a]},b,g)}function
-di(f,e,d,a,c){var
-b=fA(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
-dj(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cL(a,b){switch(a[0]){case
+d=aL(function(b,a){return[1,b,a]},a,b);return aL(function(b,a){return[2,b,a]},d,c)}function
+fC(a,e,d,c){var
+b=bG(e,d,c),f=aD(a),g=aM(E(aD(a),b),f);return aL(function(b,a){return[2,b,a]},b,g)}function
+dk(f,e,d,a,c){var
+b=fC(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
+dl(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cM(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fA(d,f,e,b),h=di(d,f,e,a[4],b),i=aL([4,[0,c,c],dj(a[5],h)],g),j=aD(d);return aK(function(b,a){return[1,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=fC(d,f,e,b),h=dk(d,f,e,a[4],b),i=aM([4,[0,c,c],dl(a[5],h)],g),j=aD(d);return aL(function(b,a){return[1,b,a]},j,i);case
 1:return aD(bG(a[1],a[2],b));default:return aD(a[1])}}function
-it(a,b){switch(a[0]){case
+iy(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=di(e,d,c,a[4],b),i=dj(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dk(e,d,c,a[4],b),i=dl(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
 1:var
 f=a[2],g=a[1],k=bG(g,f,b);return[5,E(bG(g,f,b),k)];default:return E(aD(a[1]),b)}}function
-dk(e,b,a){var
-f=[0,d,c];return cB(function(c,d){var
-e=E(cL(c,b),a);return[1,[3,E(cL(c,b),a),e],d]},f,e)}function
-iu(a){var
+dm(e,b,a){var
+f=[0,d,c];return cD(function(c,d){var
+e=E(cM(c,b),a);return[1,[3,E(cM(c,b),a),e],d]},f,e)}function
+iz(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fB(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=di(b,f,e,d,c),i=aL(dj(a[5],h),g),j=fA(b,f,e,c);return[0,[0,aK(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-iv(d,i){if(d){var
+fD(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=dk(b,f,e,d,c),i=aM(dl(a[5],h),g),j=fC(b,f,e,c);return[0,[0,aL(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+iA(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aL(E(aD(f),g),k),h=[0,aK(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aM(E(aD(f),g),k),h=[0,aL(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=iv(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=iA(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pw}function
-iw(g,f,e,b,m,a){function
+j=b;return j}return pH}function
+iB(g,f,e,b,n,a){function
 y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=dk(f,e,b);return o(g,1,[2,y(a[1]),U]);case
+U=dm(f,e,b);return l(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return o(g,1,[2,dk(f,e,b),V]);case
+V=y(a[1]);return l(g,1,[2,dm(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,it(a,e)]},p=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,iy(a,e)]},p=X,o=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,it(a,e),Y]},p=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,iy(a,e),Y]},p=Z,o=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=cL(a,e);return[2,[3,[3,A,A],E(cL(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
+b=cM(a,e);return[2,[3,[3,A,A],E(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
 5:var
-B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dk(f,e,m),$]],ab=E(m,m);return o(g,1,[2,[3,dk(f,e,b),ab],aa]);case
+B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dm(f,e,n),$]],ab=E(n,n);return l(g,1,[2,[3,dm(f,e,b),ab],aa]);case
 6:var
-C=a[2],r=aV(f,a[1]);if(r){var
+C=a[2],r=aJ(f,a[1]);if(r){var
 h=r[1];if(0===h[0]){var
-s=h[4],ac=di(h[1],h[2],h[3],s,e),D=dj(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+s=h[4],ac=dk(h[1],h[2],h[3],s,e),D=dl(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
 F=0}else
 var
 F=r;return F;case
 7:if(f){var
 k=f[2];if(k){var
-l=k[2];if(l){if(l[2])return 0;var
-t=fB(f[1],e);if(t){var
-G=t[1],u=fB(k[1],e);if(u){var
-H=u[1],v=fB(l[1],e);if(v){var
-I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,J,x]);if(K)return o(g,1,[1,J,x]);var
+m=k[2];if(m){if(m[2])return 0;var
+t=fD(f[1],e);if(t){var
+G=t[1],u=fD(k[1],e);if(u){var
+H=u[1],v=fD(m[1],e);if(v){var
+I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
 L=K}else
 var
 L=v;var
@@ -2960,7 +2968,7 @@ var
 N=t;var
 O=N}else
 var
-O=l;var
+O=m;var
 P=O}else
 var
 P=k;var
@@ -2968,25 +2976,25 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=dk(f,e,b),ae=E(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=iv(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cB(function(a,c){var
-d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
-q=aV(f,n);return q?o(g,1,p(q[1])):q}function
-bZ(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-px(a){switch(a[0]){case
+ad=dm(f,e,b),ae=E(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=iA(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cD(function(a,c){var
+d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
+q=aJ(f,o);return q?l(g,1,p(q[1])):q}function
+b1(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+pI(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bZ(b[3]),f=bZ(b[2]);return[0,bZ(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b1(b[3]),f=b1(b[2]);return[0,b1(b[1]),f,e,d,c];case
 1:var
-g=$(bZ,a[3]),h=bZ(a[2]);return[1,bZ(a[1]),h,g];default:return[2,bZ(a[1])]}}function
-cM(b,a){if(b){if(a){var
-e=cM(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-ix(a,l,k,f){var
-b=at(a,l);if(b){var
-c=at(a,k);if(c){var
-d=d0(a,f);if(d){var
-e=fk(a,f);if(e)var
-m=C(a,b[1],e[1]),g=[0,V(C(a,c[1],d[1]),m)];else
+g=ab(b1,a[3]),h=b1(a[2]);return[1,b1(a[1]),h,g];default:return[2,b1(a[1])]}}function
+cN(b,a){if(b){if(a){var
+e=cN(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+iC(a,l,k,f){var
+b=au(a,l);if(b){var
+c=au(a,k);if(c){var
+d=d5(a,f);if(d){var
+e=fm(a,f);if(e)var
+m=B(a,b[1],e[1]),g=[0,O(B(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2998,38 +3006,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-iy(f,B,r,A,a,e){function
-s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cM(a,a)]}var
-C=r[1];function
+iD(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cN(a,a)]}var
+E=s[1];function
 g(b){var
-a=[0,d,c];return cB(function(a,c){var
-d=cM(a,b);return[1,[3,cM(a,b),d],c]},a,C)}var
-t=p(function(a){return az(m(a),B)},a);if(t){if(typeof
-e==="number")return 0;else
+a=[0,d,c];return cD(function(a,c){var
+d=cN(a,b);return[1,[3,cN(a,b),d],c]},a,E)}var
+u=p(function(a){return ai(n(a),D)},a);if(u){var
+r=0;if(typeof
+e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-u=a[1],D=g(u);return o(f,1,[2,s(e[1],u),D])}return a;case
+w=a[1],F=g(w);return l(f,1,[2,t(e[1],w),F])}return a;case
 1:if(a){if(a[2])return 0;var
-v=a[1],E=s(e[1],v);return o(f,1,[2,g(v),E])}return a;case
+x=a[1],G=t(e[1],x);return l(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
-F=e[2],G=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,F,a[1]]);return 0},j=G,i=e[1];break;case
-3:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},j=I,i=e[1];break;case
+a!=="number"&&0===a[0])return l(f,1,[2,H,a[1]]);return 0},j=I,i=e[1];break;case
+3:if(a)return 0;var
+J=e[2],K=function(a){if(typeof
+a!=="number"&&0===a[0])return l(f,1,[2,a[1],J]);return 0},j=K,i=e[1];break;case
 4:if(a)return 0;var
-w=e[3],x=e[2],J=function(a){if(typeof
+y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=o(f,0,[2,[1,x,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],w]);if(j){if(A){var
-e=ix(f,i,h,x);return e?ae(e[1][2],d):e}var
-g=ix(f,i,h,w);return g?ae(d,g[1][1]):g}return j}return 0},j=J,i=e[1];break;default:if(a){var
+h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
+e=iC(f,i,h,z);return e?ag(e[1][2],d):e}var
+g=iC(f,i,h,y);return g?ag(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
+5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],q=a[1],y=e[1],K=cM(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cM(n,n);return o(f,1,[2,[3,g(q),M],L])}var
-z=h}else
+o=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(o),M]],O=cN(o,o);return l(f,1,[2,[3,g(q),O],N])}var
+B=h}else
 var
-z=a;return z}var
-l=aV(r[2],i);return l?j(l[1]):l}return t}function
-iz(h,g){var
+B=a;return B;default:r=1}if(!r){var
+m=aJ(s[2],i);return m?j(m[1]):m}var
+v=0}else
+var
+v=u;return v}function
+iE(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3039,43 +3052,43 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-py(a){return f(function(a){return[0,a,c]},a)}function
-iA(e,l,b,k,a){if(typeof
+pJ(a){return f(function(a){return[0,a,c]},a)}function
+iF(e,m,b,k,a){if(typeof
 a==="number"){var
-q=b[3];return bD(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=iz(a[1],k);if(g){var
-m=g[1],r=m[1],s=f(py,a[2]);return iy(e,l,b,m[2],s,r)}return g}var
-h=iz(a[1],k);if(h){var
-n=h[1],i=n[1];if(typeof
+q=b[3];return bD(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=iE(a[1],k);if(g){var
+n=g[1],r=n[1],s=f(pJ,a[2]);return iD(e,m,b,n[2],s,r)}return g}var
+h=iE(a[1],k);if(h){var
+o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aV(b[1],a[2]);return j?iy(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+j=aJ(b[1],a[2]);return j?iD(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fC(a){var
-b=aD(a[1]),c=aL(E(b,a[2]),b),d=a[2];return aK(function(b,a){return[2,b,a]},d,c)}function
-fD(a){return aD(fC(a))}function
-iB(c){var
-a=fD(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fE(a,b){return bG(a[3],a[4],b)}function
-fF(a,b){var
-c=fE(a,b);return E(fD(a),c)}function
-fG(a,b){var
-c=fE(a,b);return E(iB(a),c)}function
-iC(a,b){var
-c=fE(a,b);return E(aD(a[1]),c)}function
-fH(b,a){var
-c=fG(b,a),d=fF(b,a);return[1,[3,d,d],[3,c,c]]}function
-fI(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iC(a,d);return[4,[1,fH(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iD(a,b){var
-f=a[5],c=[2,fI(a,b),f],d=iC(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-fJ(a,b){var
-c=iD(a,b);return dj(a[7],c)}function
-iE(b,a){var
-c=fH(b,a),d=fG(b,a),e=[3,fJ(b,a),d],f=fF(b,a);return[4,[1,[3,fI(b,a),f],e],c]}function
-iF(b,a){var
-c=fH(b,a),d=fF(b,a),e=[3,fJ(b,a),d],f=fG(b,a);return[4,[2,[3,fI(b,a),f],e],c]}function
+fE(a){var
+b=aD(a[1]),c=aM(E(b,a[2]),b),d=a[2];return aL(function(b,a){return[2,b,a]},d,c)}function
+fF(a){return aD(fE(a))}function
+iG(c){var
+a=fF(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fG(a,b){return bG(a[3],a[4],b)}function
+fH(a,b){var
+c=fG(a,b);return E(fF(a),c)}function
+fI(a,b){var
+c=fG(a,b);return E(iG(a),c)}function
+iH(a,b){var
+c=fG(a,b);return E(aD(a[1]),c)}function
+fJ(b,a){var
+c=fI(b,a),d=fH(b,a);return[1,[3,d,d],[3,c,c]]}function
+fK(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iH(a,d);return[4,[1,fJ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iI(a,b){var
+f=a[5],c=[2,fK(a,b),f],d=iH(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fL(a,b){var
+c=iI(a,b);return dl(a[7],c)}function
+iJ(b,a){var
+c=fJ(b,a),d=fI(b,a),e=[3,fL(b,a),d],f=fH(b,a);return[4,[1,[3,fK(b,a),f],e],c]}function
+iK(b,a){var
+c=fJ(b,a),d=fH(b,a),e=[3,fL(b,a),d],f=fI(b,a);return[4,[2,[3,fK(b,a),f],e],c]}function
 bk(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -3088,119 +3101,119 @@ a=a[1];continue;default:var
 e=bk(a[2]);return g(bk(a[1]),e)}}function
 bl(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cJ([0,[0,p,p],d],b);case
+p=a[1];return ck([0,[0,p,p],d],b);case
 1:var
 s=a[1],g=e,t=q(d);for(;;){if(g){var
-l=g[1];if(lV(l[1],s))return l[2];var
+l=g[1];if(l6(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return ch(bl(e,a[1],b));case
+2:return ci(bl(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=z;break;case
+i=a[2],f=a[1],h=A;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aJ;break;case
+i=a[2],f=a[1],h=aK;break;case
 7:var
-j=dc(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
-n=aa(k),r=function(a){return v(a,n)},o=fa(cz(hB(j)),r,n);return hA(j)?o:v(o,k)}return k}return q(c);default:return cF(bl(e,a[1],b))}var
-u=bl(e,i,L(b,m(bk(f))));return h(bl(e,f,b),u)}function
-cm(c,f,b){var
+j=de(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
+m=ac(k),r=function(a){return v(a,m)},o=fd(cB(hE(j)),r,m);return hD(j)?o:v(o,k)}return k}return q(c);default:return cH(bl(e,a[1],b))}var
+u=bl(e,i,M(b,n(bk(f))));return h(bl(e,f,b),u)}function
+co(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=L(b,m(bk(e))),k=cm(c,a[2],j),l=g(cm(c,e,b),k);return[0,bl(c,a,b),l];case
+e=a[1],j=M(b,n(bk(e))),k=co(c,a[2],j),l=g(co(c,e,b),k);return[0,bl(c,a,b),l];case
 8:var
-n=cm(c,a[1],b);return[0,bl(c,a,b),n];case
+m=co(c,a[1],b);return[0,bl(c,a,b),m];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=L(b,m(bk(d))),i=cm(c,a[2],h);return g(cm(c,d,b),i)}}function
-iG(c,a,b){if(a){var
-e=a[1],d=e[2],f=L(b,m(bk(d))),h=a[2],i=bl(c,d,b),j=iG([0,[0,e[1],i],c],h,f);return g(cm(c,d,b),j)}return a}function
-dl(a){return M(bk,a)}function
-iH(c,a,b){if(a)var
-d=a[1],f=L(b,m(bk(d))),g=iH(c,a[2],f),e=[0,bl(c,d,b),g];else
+d=a[1],h=M(b,n(bk(d))),i=co(c,a[2],h);return g(co(c,d,b),i)}}function
+iL(c,a,b){if(a){var
+e=a[1],d=e[2],f=M(b,n(bk(d))),h=a[2],i=bl(c,d,b),j=iL([0,[0,e[1],i],c],h,f);return g(co(c,d,b),j)}return a}function
+dn(a){return N(bk,a)}function
+iM(c,a,b){if(a)var
+d=a[1],f=M(b,n(bk(d))),g=iM(c,a[2],f),e=[0,bl(c,d,b),g];else
 var
 e=a;return e}function
-iI(c,a,b){if(a){var
-d=a[1],e=L(b,m(bk(d))),f=iI(c,a[2],e);return g(cm(c,d,b),f)}return a}function
-iJ(c,a,b){if(a)var
-d=a[1],f=L(b,m(dl(d))),g=iJ(c,a[2],f),e=[0,iH(c,d,b),g];else
+iN(c,a,b){if(a){var
+d=a[1],e=M(b,n(bk(d))),f=iN(c,a[2],e);return g(co(c,d,b),f)}return a}function
+iO(c,a,b){if(a)var
+d=a[1],f=M(b,n(dn(d))),g=iO(c,a[2],f),e=[0,iM(c,d,b),g];else
 var
 e=a;return e}function
-iK(c,a,b){if(a){var
-d=a[1],e=L(b,m(dl(d))),f=iK(c,a[2],e);return g(iI(c,d,b),f)}return a}function
-iL(a){return f(function(a){return[0,a[2],d]},a)}function
-iM(a){var
-c=ec(0,iL(a[2])),d=cD(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cC(f(da,a[2]),c);return g(cC(a[1],e),b)}function
-pA(a){if(typeof
+iP(c,a,b){if(a){var
+d=a[1],e=M(b,n(dn(d))),f=iP(c,a[2],e);return g(iN(c,d,b),f)}return a}function
+iQ(a){return f(function(a){return[0,a[2],d]},a)}function
+iR(a){var
+c=eh(0,iQ(a[2])),d=cF(0,n(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cE(f(db,a[2]),c);return g(cE(a[1],e),b)}function
+pL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fK(b,d){var
+fM(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bD(function(a){return aB(e,a)},b);case
+e=a[1];return bD(function(a){return aC(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fK(b,a[1]);if(c){var
+c=fM(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-iN(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-iO(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fL(a,c,b){var
-d=[3,iN(a),b],e=[1,[3,iO(a),c],d],f=[3,iO(a),b];return[0,[2,[3,iN(a),c],f],e]}function
-iP(c,a){var
-b=fL(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iQ(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-iR(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:iP(d[1],a):a;case
+iS(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+iT(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fN(a,c,b){var
+d=[3,iS(a),b],e=[1,[3,iT(a),c],d],f=[3,iT(a),b];return[0,[2,[3,iS(a),c],f],e]}function
+iU(c,a){var
+b=fN(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iV(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+iW(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:iU(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=fL(d[1],a[2],a[3]),m=j[1],k=fL(f[1],j[2],a[1]);return iP(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=fN(d[1],a[2],a[3]),m=j[1],k=fN(f[1],j[2],a[1]);return iU(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=E(e,e),n=iQ(e,a),o=aL([0,b(2,c),c],n),p=E(e,a),q=aL([3,[0,b(2,c),c],p],e),r=aL([2,[0,c,c],l],a),s=aK(function(b,a){return[1,b,a]},r,q);return aL([4,[0,c,c],[1,[0,c,c],l]],aK(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-iS(b){var
-a=ed(b);return a?hL(a[1],[0,d,c]):a}function
-iT(a,m,j,i){if(iS(i)){var
-q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
-f=at(a,j);if(f){var
-g=d0(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fk(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=C(a,f[1],g[1]),k=[0,V(h[1],p)];else
+e=[0,d[1],h[1],i[1]],l=E(e,e),n=iV(e,a),o=aM([0,b(2,c),c],n),p=E(e,a),q=aM([3,[0,b(2,c),c],p],e),r=aM([2,[0,c,c],l],a),s=aL(function(b,a){return[1,b,a]},r,q);return aM([4,[0,c,c],[1,[0,c,c],l]],aL(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+iX(b){var
+a=ei(b);return a?hO(a[1],[0,d,c]):a}function
+iY(a,n,j,i){if(iX(i)){var
+q=n?[2,[0,d,c],j]:j;return l(a,0,q)}var
+f=au(a,j);if(f){var
+g=d5(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fm(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=B(a,f[1],g[1]),k=[0,O(h[1],p)];else
 var
 k=h;var
-l=k}else
+m=k}else
 var
-l=g;var
-e=l}else
+m=g;var
+e=m}else
 var
 e=f;if(e){var
-n=e[1];return m?D(d,n[1]):D(n[2],d)}return e}function
-dm(b,a,c){var
-d=bj(b,a[1],a[2]),e=d?iT(b,0,c,a[1]):d;return e?iT(b,1,c,a[2]):e}function
-dn(a,d){if(iS(d))return[0,ah];var
-e=d0(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fk(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=Q(a6(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ce(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return $(function(d){var
-e=C(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hV(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dp(b,a,c){var
+d=bj(b,a[1],a[2]),e=d?iY(b,0,c,a[1]):d;return e?iY(b,1,c,a[2]):e}function
+dq(a,d){if(iX(d))return[0,_];var
+e=d5(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fm(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=H(aZ(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ab(function(d){var
+e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-fM(d,a){var
-e=o(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-cn(a){return[0,[2,[0,d,c],a],a]}function
-iU(a,b,n,m){var
-h=bj(a,[0,d,c],b),i=h?fM(a,b):h;if(i){var
-e=dn(a,b);if(e){var
-f=at(a,n);if(f){var
-g=at(a,m);if(g){var
-o=f[1],p=g[1];return D(d,V(C(a,ag(a,e[1]),p),o)[1])}var
+fO(d,a){var
+e=l(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+cp(a){return[0,[2,[0,d,c],a],a]}function
+iZ(a,b,n,m){var
+h=bj(a,[0,d,c],b),i=h?fO(a,b):h;if(i){var
+e=dq(a,b);if(e){var
+f=au(a,n);if(f){var
+g=au(a,m);if(g){var
+o=f[1],p=g[1];return D(d,O(B(a,aj(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3210,218 +3223,238 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-ee(a){return 1===a?pE:pF}function
-fN(d,c,b,a){var
-e=a[1],f=iR(d,c,a[2]),g=aK(function(b,a){return[1,b,a]},b,f);return aK(function(b,a){return[2,b,a]},g,e)}function
-dp(b,d){var
+dr(a){return 1===a?pP:pQ}function
+fP(d,c,b,a){var
+e=a[1],f=iW(d,c,a[2]),g=aL(function(b,a){return[1,b,a]},b,f);return aL(function(b,a){return[2,b,a]},g,e)}function
+ds(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,d1(function(a){return dp(b,a)},a)]}return[0,d1(function(a){return dp(b,a)},a)]}function
-cN(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,d6(function(a){return ds(b,a)},a)]}return[0,d6(function(a){return ds(b,a)},a)]}function
+cO(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aU(az(e,b));return f?aU(az(e,L(d,b))):f;case
+e=a[1],f=aV(ai(e,b));return f?aV(ai(e,M(d,b))):f;case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cN(d,b,a[1]);if(g){var
+g=cO(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dq(c,b,m){var
+dt(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cN(c,b,g),i=h?dq(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cO(c,b,g),i=h?dt(c,b,f):h;if(i)var
 j=i;else{var
-k=dq(c,b,g);if(k)return cN(c,b,f);var
+k=dt(c,b,g);if(k)return cO(c,b,f);var
 j=k}return j;case
 7:var
-l=dq(c,b,a[1]);return l?cN(c,b,a[2]):l;case
+l=dt(c,b,a[1]);return l?cO(c,b,a[2]):l;case
 3:case
 4:var
-e=dq(c,b,a[1]);if(e){var
+e=dt(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cN(c,b,a[1]);default:return 1}}}function
-co(c,e){var
+9:return cO(c,b,a[1]);default:return 1}}}function
+cq(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aU(az(a[1],c));case
+0:return aV(ai(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=co(c,a[1]);if(d){var
+d=cq(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fO(d,b,m){var
+fQ(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fO(d,b,a[1]);if(f){var
+f=fQ(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fO(d,b,a[1]);return g?co(b,a[2]):g;case
+g=fQ(d,b,a[1]);return g?cq(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=co(b,i);if(j){var
-k=co(b,h);if(k)var
+h=a[2],i=a[1],j=cq(b,i);if(j){var
+k=cq(b,h);if(k)var
 e=k;else{var
-l=be(i,d);if(l){var
+l=bf(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return co(b,c)}}}function
-iV(c,e){var
+2:return 1;default:return cq(b,c)}}}function
+i0(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hz(a[1],c);case
+0:return hC(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=iV(c,a[1]);if(d){var
+d=i0(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b0(b,a){return a?e(b,a[1]):a}function
-b1(c,b,a){return b0(function(b){return b0(e(c,b),a)},b)}function
-pG(a){return 0===a[0]?a[1]:0}function
+b2(b,a){return a?e(b,a[1]):a}function
+b3(c,b,a){return b2(function(b){return b2(e(c,b),a)},b)}function
+pR(a){return 0===a[0]?a[1]:0}function
 bm(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
 1:return[1,bm(b,a[1])];default:var
 c=bm(b,a[3]),d=bm(b,a[2]);return[2,bm(b,a[1]),d,c]}}function
-aQ(b,c,a){switch(c[0]){case
+aR(b,c,a){switch(c[0]){case
 0:return bm(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bm(function(a){return R(b,a,k)},d)];case
-1:return[1,aQ(b,d,a[1])];default:var
-l=aQ(b,d,a[3]),m=aQ(b,d,a[2]);return[2,aQ(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bm(function(a){return S(b,a,k)},d)];case
+1:return[1,aR(b,d,a[1])];default:var
+l=aR(b,d,a[3]),m=aR(b,d,a[2]);return[2,aR(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return R(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aQ(b,f,j),s=aQ(b,g,j);return[2,aQ(b,h,j),s,r];default:var
-t=aQ(b,f,a[3]),u=aQ(b,g,a[2]);return[2,aQ(b,h,a[1]),u,t]}}}function
-fP(c,g,a){if(a)var
+j=a[1],r=aR(b,f,j),s=aR(b,g,j);return[2,aR(b,h,j),s,r];default:var
+t=aR(b,f,a[3]),u=aR(b,g,a[2]);return[2,aR(b,h,a[1]),u,t]}}}function
+fR(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-f=[0,a,ag(c,a)];break;case
+f=[0,a,aj(c,a)];break;case
 1:var
-h=C(c,a,b),f=[0,dZ(Q(a,b)),h];break;default:var
-f=[0,b,ag(c,b)]}return[0,[0,e(g,f)]]},i=fP(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=B(c,a,b),f=[0,d3(H(a,b)),h];break;default:var
+f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=fR(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-iW(a){if(a){var
+i1(a){if(a){var
 b=a[1];if(b)var
-c=iW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=i1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pI}function
-ef(a){if(a){var
-g=a[1],b=g[2],c=iW(g[1]);if(c)if(b){var
-h=b[1],e=ef(a[2]);if(e)var
-i=ae(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return pT}function
+du(a){if(a){var
+g=a[1],b=g[2],c=i1(g[1]);if(c)if(b){var
+h=b[1],e=du(a[2]);if(e)var
+i=ag(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pJ}function
-fQ(b,a){var
-c=a[3],d=$(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(bh(b),g),f,d]}function
-iX(f,d,c,b){if(d){var
+f=c;return f}return pU}function
+fS(b,a){var
+c=a[3],d=ab(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a7(b),g),f,d]}function
+i2(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=fQ(function(a){switch(a[0]){case
+a=fS(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return iX(cz(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return i2(cB(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,fQ(pG,b))}function
-eg(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return $(function(a){return cf(f,e,a)},d)}return[0,ah]}function
-fR(c,a){var
-b=az(m(a),c);return b?d7(a):b}function
-pK(c){var
+i=g;return i}return e(c,fS(pR,b))}function
+dv(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ab(function(a){return bX(f,e,a)},d)}return[0,_]}function
+i3(d,b,a){if(b){if(a){var
+e=i3(d,b[2],a[2]);return H(bX(b[1],z(d,c),a[1]),e)}return _}return _}function
+i4(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(e,a,b)},j=i4(e,h),k=f(function(a){var
+e=b(d,a[2]);return H(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,H(b(d,c),l),k],j];else
+var
+i=a;return i}function
+i5(e,b,d,a){if(b)if(a)var
+f=b[1],g=i5(e,b[2],d,a[2]),c=[0,[0,f,ia(e,a[1][1],d,f)],g];else
+var
+c=a;else
+var
+c=b;return c}function
+i6(e,d,c,b,a){if(a){var
+g=a[2];if(d){var
+i=i6(e,d[1],c,b,g);return[0,[0,O(_,b),0],i]}var
+j=f(function(a){return[0,O(_,b),0]},g),h=[0,[0,O(aA(B(e,c,d4(a[1][2]))),b),0],j]}else
+var
+h=a;return h}function
+ej(c,a){var
+b=ai(n(a),c);return b?ea(a):b}function
+pV(c){var
 a=c[2];if(a){var
-b=eg(c[3]);if(b)return D(d,V(a[1],b[1])[1]);var
+b=dv(c[3]);if(b)return D(d,O(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iY(a,c,b){var
-e=N(b,c,q(d)),f=cD(0,a);return p(function(b){return dq(a,b,e)},f)}function
-dr(a){var
-b=aa(a);return G(q(c),b)}function
-eh(i,g){var
-h=dr(g),j=aa(g),e=z(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ch(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ch(f),a,e]]:[0,[0,h,a,a],[0,a,e,ch(f)],[0,a,f,e]]}function
-iZ(b,a){function
+i7(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
+i8(a,c,b){var
+e=P(b,c,q(d)),f=cF(0,a);return p(function(b){return dt(a,b,e)},f)}function
+dw(a){var
+b=ac(a);return G(q(c),b)}function
+ek(i,g){var
+h=dw(g),j=ac(g),e=A(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ci(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ci(f),a,e]]:[0,[0,h,a,a],[0,a,e,ci(f)],[0,a,f,e]]}function
+i9(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aA(a,c(function(a){return a[3]})),d=aA(a,c(function(a){return a[2]}));return[0,aA(a,c(function(a){return a[1]})),d,b]}var
+b=aB(a,c(function(a){return a[3]})),d=aB(a,c(function(a){return a[2]}));return[0,aB(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-i0(a){switch(a[0]){case
+i_(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cn(a[1]),0];default:var
-b=[0,cn(a[2]),0];return[0,cn(a[1]),b]}}function
-cO(a){return[0,[0,a[1]],[0,a[2]]]}function
-i1(a,b){if(0===b[0])return dn(a,b[1]);var
-d=dn(a,b[1]);if(d){var
-e=dn(a,b[2]);if(e){var
-g=ag(a,e[1]),h=cE(a,Q(a6(a,c),g)),i=d[1];return $(function(b){return C(a,i,b)},h)}var
+2:return[0,cp(a[1]),0];default:var
+b=[0,cp(a[2]),0];return[0,cp(a[1]),b]}}function
+cP(a){return[0,[0,a[1]],[0,a[2]]]}function
+i$(a,b){if(0===b[0])return dq(a,b[1]);var
+d=dq(a,b[1]);if(d){var
+e=dq(a,b[2]);if(e){var
+g=aj(a,e[1]),h=cG(a,H(aZ(a,c),g)),i=d[1];return ab(function(b){return B(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-i2(m,v,c,l,u,t,b,a){switch(b[0]){case
+ja(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-j=b[3],n=b[2],o=b[1],k=0;if(typeof
-a==="number")k=1;else
+m=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
+a==="number")l=1;else
 switch(a[0]){case
 0:var
-w=a[2],x=a[1],i=n,h=o,g=function(e){var
-a=ef(e[1]);if(a){var
+A=a[2],C=a[1],i=o,h=p,g=function(e){var
+a=du(e[1]);if(a){var
 b=e[2];if(b){var
-d=eg(e[3]);if(d){var
-h=d[1],i=cc([0,V(aC(C(m,j,b[1])),h),0],c);return fR(c,fp(x,w,a[1],i))}var
+d=dv(e[3]);if(d){var
+h=d[1],i=ce([0,O(aA(B(j,k,b[1])),h),0],c);return ej(c,fr(C,A,a[1],i))}var
 f=d}else
 var
 f=b;var
 g=f}else
 var
-g=a;return g},e=l;break;case
+g=a;return g},e=m;break;case
 2:var
-p=ak(j[1],d),q=p?ak(j[2],d):p;if(!q)return q;var
-z=a[2],A=a[1],i=n,h=o,g=function(e){var
-a=ef(e[1]);if(a){var
-b=eg(e[3]);if(b){var
-g=cc([0,V(ah,b[1]),0],c),h=a[1];return fR(c,fp(A,z,f(function(a){return[0,a[1],ah]},h),g))}var
+q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+E=a[2],F=a[1],i=o,h=p,g=function(e){var
+a=du(e[1]);if(a){var
+b=dv(e[3]);if(b){var
+g=ce([0,O(_,b[1]),0],c),h=a[1];return ej(c,fr(F,E,f(function(a){return[0,a[1],_]},h),g))}var
 d=b}else
 var
-d=a;return d},e=l;break;default:k=1}if(k)return 0;break;case
+d=a;return d},e=m;break;default:l=1}if(l)return 0;break;case
 1:var
-r=0;if(typeof
+u=0;if(typeof
 a==="number"&&!a)var
-B=b[2],D=b[1],E=b[3],i=B,h=D,F=0,g=function(f){var
-a=ef(f[1]);if(a){var
+G=b[2],H=b[1],I=b[3],i=G,h=H,J=0,g=function(f){var
+a=du(f[1]);if(a){var
 b=f[2];if(b){var
-d=eg(f[3]);if(d){var
-j=d[1],k=cc([0,V(C(m,E,b[1]),j),0],c),e=h9(a[1],k);if(e)return fR(c,e[1]);var
+d=dv(f[3]);if(d){var
+k=d[1],l=ce([0,O(B(j,I,b[1]),k),0],c),e=ic(a[1],l);if(e)return ej(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3430,54 +3463,73 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},e=F;else
-r=1;if(r)return 0;break;default:var
-s=0;if(typeof
+i=a;return i},e=J;else
+u=1;if(u)return 0;break;case
+2:var
+v=0;if(typeof
+a==="number"||!(0===a[0]))v=1;else
+var
+s=a[2],t=a[1],K=b[3],L=b[2],M=b[4],N=b[1],Q=function(f){var
+a=du(f[1]);if(a){var
+b=a[1],d=f[2];if(d){var
+e=dv(f[3]);if(e){var
+g=ai(n(b),c),h=g?ai(n(s),c):g;if(h){var
+m=i4(t,i5(t,s,d[1],b));return ej(c,h5(i6(j,N,M,e[1],b),m))}var
+i=h}else
+var
+i=e;var
+k=i}else
+var
+k=d;var
+l=k}else
+var
+l=a;return l},i=K,h=L,g=Q,e=b[5];if(v)return 0;break;default:var
+w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pK,e=0;else
-s=1;if(s)return 0}var
-y=[0,h,i,t];return iX(e,v,g,fQ(function(a){return N(a,u,pY)},y))}function
-i3(n,m,l,f,k,j,i,e){if(typeof
+i=b[1],h=0,g=pV,e=0;else
+w=1;if(w)return 0}var
+D=[0,h,i,x];return i2(e,z,g,fS(function(a){return P(a,y,p9)},D))}function
+jb(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-o=a[3],p=a[2],q=D(d,p);if(q)var
-h=g5(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===h?0:0<=h?2:1,t=1===s?1:0,g=t;else
+n=a[3],o=a[2],p=D(d,o);if(p)var
+h=g7(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=q;if(g)return i2(n,m,l,k,j,[0,[0,[0,f[1],p],o]],i,a[1]);var
-r=g}else
+g=p;if(g)return ja(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+q=g}else
 var
-r=f;return r}return i2(n,m,l,k,j,0,i,a)}return 0}function
-pZ(a){if(a[1])return 0;var
+q=f;return q}return ja(m,l,k,j,0,i,a)}return 0}function
+p_(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-i4(a,J,I,H,G,F,h,E,o,D,W){if(p(pZ,D))var
+jc(a,J,I,G,F,E,h,o,D,V){if(p(p_,D))var
 q=0;else
 var
-S=fP(a,dR,o),R=0,T=g(fP(a,da,o),S),q=cG(pH,function(b){switch(b[0]){case
-0:return N(b[1],T,[0,[0,ah]]);case
-1:return[0,[0,N(b[1],I,ah)]];case
-2:return[0,[0,a6(a,b[1])]];case
+S=fR(a,dc,o),R=0,T=g(fR(a,db,o),S),q=cI(pS,function(b){switch(b[0]){case
+0:return P(b[1],T,[0,[0,_]]);case
+1:return[0,[0,P(b[1],I,_)]];case
+2:return[0,[0,aZ(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,Q(b,a)]};return aQ(function(a,b){return b1(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,H(b,a)]};return aR(function(a,b){return b3(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,V(b,a)]};return aQ(function(a,b){return b1(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return aR(function(a,b){return b3(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aC(a)]};return bm(function(a){return b0(j,a)},i);case
+i=b[1],j=function(a){return[0,aA(a)]};return bm(function(a){return b2(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,C(a,c,b)]};return aQ(function(a,b){return b1(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aR(function(a,b){return b3(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=ce(a,b);return $(function(b){return C(a,c,b)},d)};return aQ(function(a,b){return b1(p,a,b)},o,n);case
+d=cg(a,b);return ab(function(b){return B(a,c,b)},d)};return aR(function(a,b){return b3(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,ag(a,b)]};return bm(function(a){return b0(r,a)},q);default:var
-s=b[1],t=function(b){return cE(a,b)};return bm(function(a){return b0(t,a)},s)}},J,R);var
-e=D,b=W;for(;;){if(e){var
+q=b[1],r=function(b){return[0,aj(a,b)]};return bm(function(a){return b2(r,a)},q);default:var
+s=b[1],t=function(b){return cG(a,b)};return bm(function(a){return b2(t,a)},s)}},J,R);var
+e=D,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=N(c,b,0);if(u){var
-l=aV(H,c);if(l){var
-v=i3(a,G,F,h,E,q,l[1],i);if(v){var
-e=k,b=eb(c,b);continue}var
+u=P(c,b,0);if(u){var
+l=aJ(G,c);if(l){var
+v=jb(a,F,E,h,q,l[1],i);if(v){var
+e=k,b=eg(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3486,199 +3538,232 @@ var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
 K=0;if(h){var
-U=0,r=f(function(b){return[0,b,ag(a,b)]},o),M=f(dR,r),L=0,O=g(f(da,r),M),P=cG(0,function(n){return function(b){switch(b[0]){case
-0:return[0,N(b[1],n,ah)];case
-1:return[0,N(b[1],I,ah)];case
-2:return[0,a6(a,b[1])];case
+U=0,r=f(function(b){return[0,b,aj(a,b)]},o),M=f(dc,r),L=0,N=g(f(db,r),M),Q=cI(0,function(n){return function(b){switch(b[0]){case
+0:return[0,P(b[1],n,_)];case
+1:return[0,P(b[1],I,_)];case
+2:return[0,aZ(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b1(function(b,a){return[0,Q(b,a)]},d,c);case
+c=b[2],d=b[1];return b3(function(b,a){return[0,H(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b1(function(b,a){return[0,V(b,a)]},f,e);case
+e=b[2],f=b[1];return b3(function(b,a){return[0,O(b,a)]},f,e);case
 5:var
-g=b[1];return b0(function(a){return[0,aC(a)]},g);case
+g=b[1];return b2(function(a){return[0,aA(a)]},g);case
 6:var
-h=b[2],i=b[1];return b1(function(c,b){return[0,C(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b3(function(c,b){return[0,B(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b1(function(c,b){var
-d=ce(a,b);return $(function(b){return C(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return b3(function(c,b){var
+d=cg(a,b);return ab(function(b){return B(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b0(function(b){return[0,ag(a,b)]},l);default:var
-m=b[1];return b0(function(b){return cE(a,b)},m)}}}(O),J,L),j=N(h[1],P,U);if(j){var
-m=ae(j[1][2],d);K=1}else
+l=b[1];return b2(function(b){return[0,aj(a,b)]},l);default:var
+m=b[1];return b2(function(b){return cG(a,b)},m)}}}(N),J,L),j=P(h[1],Q,U);if(j){var
+m=ag(j[1][2],d);K=1}else
 var
 s=j}else
 var
 s=h;if(!K)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=N(c,b,0);if(y){var
-n=aV(H,c);if(n){var
-z=i3(a,G,F,h,E,q,n[1],i);if(z){var
-e=k,b=eb(c,b);continue}var
+y=P(c,b,0);if(y){var
+n=aJ(G,c);if(n){var
+z=jb(a,F,E,h,q,n[1],i);if(z){var
+e=k,b=eg(c,b);continue}var
 A=z}else
 var
 A=n;var
-B=A}else
+C=A}else
 var
-B=y;return B}return[0,b]}}function
-i5(j,i,h,g,f,e,d,c,u,t,s){var
-b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=i4(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
-m=i4(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d$(a[2],b),q=i5(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
-b=o[2],k=n,a=a[4];continue}var
-r=q}else
+C=y;return C}return[0,b]}}function
+jd(i,h,g,f,e,d,c,t,s,r){var
+b=t,j=s,a=r;for(;;){if(0===a[0]){var
+k=jc(i,h,g,f,e,d,c,b,a[1],j);return k?p(aV,k[1]):k}var
+l=jc(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=ee(a[2],b),o=jd(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
+b=n[2],j=m,a=a[4];continue}var
+q=o}else
 var
-r=m;return r}}function
-fS(d,a){var
-e=aa(a),f=v(v(q(b(2,c)),a),d);return G(z(aa(d),f),e)}function
-fT(a){switch(a){case
-0:return p2;case
-1:return p3;default:return 0}}function
-ei(b,a){var
+q=l;return q}}function
+fT(d,a){var
+e=ac(a),f=v(v(q(b(2,c)),a),d);return G(A(ac(d),f),e)}function
+fU(a){switch(a){case
+0:return qb;case
+1:return qc;default:return 0}}function
+el(b,a){var
 c=bi(a[2],b);return g(bi(a[1],b),c)}function
-i6(r,k,p,t,o,j,s){if(j){var
-u=j[1],w=ec(s,ei(o,u)),R=L(s,m(ei(o,u))),S=i6(r,k,p,t,o,j[2],R),i=bF(w,p4),l=bF(w,0);switch(r){case
+je(r,k,p,t,o,j,s){if(j){var
+u=j[1],w=eh(s,el(o,u)),R=M(s,n(el(o,u))),S=je(r,k,p,t,o,j[2],R),i=bF(w,qd),l=bF(w,0);switch(r){case
 0:var
-g=[0,p1,p0,q(d)];break;case
+g=[0,qa,p$,q(d)];break;case
 1:var
-g=fs;break;default:var
+g=fu;break;default:var
 H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=bY(z,g,l),y=aA(k[3],i),A=aA(k[2],i),a=[0,aA(k[1],i),A,y],J=fS(g[3],l[3]),K=fS(g[2],l[2]),M=fS(g[1],l[1]),N=G(G(G(aA(i,i),M),K),J),O=aA(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=z(v(a[1],e[2]),B),D=v(a[1],e[3]),E=z(v(a[3],e[1]),D),F=v(a[3],e[2]),f=d_([0,z(v(a[2],e[3]),F),E,C],t),h=bY(G,d9(p,e),a);switch(r){case
+e=b0(A,g,l),y=aB(k[3],i),z=aB(k[2],i),a=[0,aB(k[1],i),z,y],J=fT(g[3],l[3]),K=fT(g[2],l[2]),L=fT(g[1],l[1]),N=G(G(G(aB(i,i),L),K),J),O=aB(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=A(v(a[1],e[2]),B),D=v(a[1],e[3]),E=A(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ed([0,A(v(a[2],e[3]),F),E,C],t),h=b0(G,ec(p,e),a);switch(r){case
 0:var
-n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+m=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
-n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,Q],S]}else
+m=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+m=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,m,Q],S]}else
 var
 x=j;return x}function
-i7(f,a){if(typeof
+fV(g,a){if(typeof
 a!=="number")switch(a[0]){case
+8:var
+f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
-e=a[2];return[0,[0,e,e],f]}var
+e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fU(e,d,m,l,k,a){var
-f=v(aa(cJ(i7(l,a),k)),m);if(typeof
+fW(e,d,n,m,k,a){var
+f=v(ac(ck(fV(m,a),k)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aV(d,a[1]);if(b)var
-g=o(e,0,a[2]),h=g?[0,z(b[1][2],f)]:g;else
+b=aJ(d,a[1]);if(b)var
+g=l(e,0,a[2]),h=g?[0,A(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aV(d,a[1]);if(c)var
-i=o(e,0,a[2]),j=i?[0,z(f,c[1][2])]:i;else
+c=aJ(d,a[1]);if(c)var
+i=l(e,0,a[2]),j=i?[0,A(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-i8(h,a,g,f,m,l,j){if(j){var
-w=i8(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
-b==="number")var
-q=e(a,f),i=[0,[0,e(bh(a),g),q,ah]];else
-switch(b[0]){case
+jf(a,d,c,b){return f(function(a){var
+e=ck(fV(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+jg(b,g,s,f,i,q,p,o){if(o){var
+X=jg(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+a==="number")var
+M=e(g,i),h=[0,t(e(a7(g),f),M,_)];else
+switch(a[0]){case
 0:var
-r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
+j=[4,[0,c,c],a[1]],n=f,m=t;k=1;break;case
 1:var
-t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
+O=[4,[0,c,c],a[1]],j=O,n=f,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
 2:var
-u=fU(h,g,f,m,l,b),i=$(function(b){return[2,e(a,b)]},u);break;case
+P=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},P);break;case
 3:var
-v=fU(h,g,f,m,l,b),i=$(function(b){return[2,e(a,b)]},v);break;default:var
-i=0}if(n)var
-s=a0(h,[0,[0,k,k],d]),i=$(function(b){var
-c=ag(h,b),d=e(a,f);return o(e(bh(a),g),d,c)},s);var
-p=[0,i,w]}else
+Q=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},Q);break;case
+6:var
+u=a[3],v=a[2],r=aJ(f,a[1]),K=0;if(r){var
+w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
+R=[4,u,v],S=[0,r[1],0],j=R,n=S,m=function(c,b,a){return[1,c,b,a]};k=1;K=1}else
 var
-p=j;return p}function
-i9(h,f,e,d,c,a){if(a){var
-i=i9(h,f,e,d,[0,c],a[2]),b=fU(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
-p5(a){if(typeof
+y=x}else
+var
+y=r;if(!K)var
+h=y;break;case
+7:var
+z=a[3],A=a[2],B=a[1],C=aJ(f,B),L=0;if(C){var
+D=l(b,1,A),E=D?l(b,1,z):D;if(E){var
+T=[4,A,z],j=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};k=1;L=1}else
+var
+F=E}else
+var
+F=C;if(!L)var
+h=F;break;case
+8:var
+G=l(b,1,a[1]),H=G?l(b,1,a[2]):G;if(H)var
+U=aZ(b,c),V=e(g,i),W=jf(f,q,p,a),I=[0,[0,e(a7(g),W),V,U,0]];else
+var
+I=H;var
+h=I;break;default:var
+h=0}if(k)var
+N=a1(b,[0,[0,j,j],d]),h=ab(function(a){var
+c=aj(b,a),d=e(g,i);return m(e(a7(g),n),d,c)},N);var
+J=[0,h,X]}else
+var
+J=o;return J}function
+jh(j,h,i,e,d,a){if(a){var
+n=jh(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+b!=="number"&&8===b[0]){var
+k=f(dc,jf(h,e,d,b));l=1}if(!l)var
+c=fW(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+qe(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ej(a){var
-b=ck(a[1],[0,d,c]);return b?ck(a[2],[0,d,c]):b}function
-p6(j,a,k,bd){var
-w=a[1],h=ee(w),ao=a[3],bf=[0,[0,[0,ao,ao],k],0],bg=a[2],ap=g(M(function(a){return ei(k,a)},bg),bf),S=m(ap),bi=a[2],bj=m(M(function(a){return ei(k,a)},bi)),aq=a[3],bk=cJ([0,[0,aq,aq],k],bj),bl=fT(w),bm=a[5];function
-i(a){return[0,[0,L(bl,a)]]}switch(bm[0]){case
+em(a){var
+b=cm(a[1],[0,d,c]);return b?cm(a[2],[0,d,c]):b}function
+qf(j,a,k,be){var
+w=a[1],h=dr(w),ap=a[3],bg=[0,[0,[0,ap,ap],k],0],bh=a[2],aq=g(N(function(a){return el(k,a)},bh),bg),R=n(aq),bi=a[2],bj=n(N(function(a){return el(k,a)},bi)),ar=a[3],bk=ck([0,[0,ar,ar],k],bj),bl=fU(w),bm=a[5];function
+i(a){return[0,[0,M(bl,a)]]}switch(bm[0]){case
 0:var
-aV=dr(i(0)),F=[0,eh(pL,i(0)),aV];break;case
+aV=dw(i(0)),F=[0,ek(pW,i(0)),aV];break;case
 1:var
-aX=dr(i(0)),aY=v(dr(i(pM)),aX),aZ=v(dr(i(pN)),aY),a1=eh(0,i(0)),a2=iZ(eh(pP,i(pO)),a1),F=[0,iZ(eh(pR,i(pQ)),a2),aZ];break;default:var
-a3=i(pS),a4=i(pT),u=[0,i(0),a4,a3],a5=aA(u,u),a6=G(q(c),a5),aM=aA(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
-d=aa(a),e=v(q(b(2,c)),d);return G(z(q(c),aM),e)},y=function(f,e,d,a){var
-g=R(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(z,r,t,s),aO,aN],aQ=y(z,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(z,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
-B=F[2],H=i6(w,F[1],B,bk,k,a[2],0),bn=L(S,m(a[6])),bo=fT(w),bp=a[5];function
-A(a){return[0,[0,L(bo,a)]]}var
-af=aa([0,[1,bn]]);switch(bp[0]){case
+aX=dw(i(0)),aY=v(dw(i(pX)),aX),aZ=v(dw(i(pY)),aY),a0=ek(0,i(0)),a2=i9(ek(p0,i(pZ)),a0),F=[0,i9(ek(p2,i(p1)),a2),aZ];break;default:var
+a3=i(p3),a4=i(p4),u=[0,i(0),a4,a3],a5=aB(u,u),a6=G(q(c),a5),aM=aB(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
+d=ac(a),e=v(q(b(2,c)),d);return G(A(q(c),aM),e)},y=function(f,e,d,a){var
+g=S(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(A,r,t,s),aO,aN],aQ=y(A,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(A,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
+B=F[2],H=je(w,F[1],B,bk,k,a[2],0),bn=M(R,n(a[6])),bo=fU(w),bp=a[5];function
+z(a){return[0,[0,M(bo,a)]]}var
+af=ac([0,[1,bn]]);switch(bp[0]){case
 2:var
-a7=A(pU),a8=A(pV),ag=[0,A(0),a8,a7],l=[0,z(af,aA(ag,ag))];break;case
+a8=z(p5),a9=z(p6),ag=[0,z(0),a9,a8],m=[0,A(af,aB(ag,ag))];break;case
 3:var
-a9=aa(A(pW)),a_=aa(A(0)),a$=aa(A(pX)),l=[0,z(z(v(af,G(q(c),a$)),a_),a9)];break;default:var
-l=0}var
-bq=l?[0,l[1],0]:l,br=[0,B,g(i9(j,H,B,k,S,a[6]),bq)],T=g(cK(H),br),ar=d5(f(function(a){return dp(h,a)},T))[1],C=d3(ar);function
-x(a){return bW(C,dp(h,a))}var
-bs=$(x,l),bt=x(B),as=e(bh(x),H),al=fT(w),am=az(m(as),h);if(am)var
-an=$(function(a){return[0,[0,a,d],d]},bs),E=function(a){return N(a,C,q(d))},ae=E(bt),aL=cD(0,al),Q=p(function(a){var
-b=cN(h,a,ae),c=b?p(function(b){var
+a_=ac(z(p7)),a$=ac(z(0)),ba=ac(z(p8)),m=[0,A(A(v(af,G(q(c),ba)),a$),a_)];break;default:var
+m=0}var
+bq=m?[0,m[1],0]:m,br=[0,B,g(jh(j,H,B,k,R,a[6]),bq)],T=g(cL(H),br),as=d_(f(function(a){return ds(h,a)},T))[1],C=d8(as);function
+x(a){return bY(C,ds(h,a))}var
+bs=ab(x,m),bt=x(B),at=e(a7(x),H),am=fU(w),an=ai(n(at),h);if(an)var
+ao=ab(function(a){return[0,[0,a,d],d]},bs),E=function(a){return P(a,C,q(d))},ae=E(bt),aL=cF(0,am),Q=p(function(a){var
+b=cO(h,a,ae),c=b?p(function(b){var
 d=b[1],c=p(function(b){var
-c=E(b);return co(L(h,a),c)},d);if(c){var
-e=E(b[2]);return fO(ae,L(h,a),e)}return c},as):b;if(c){if(an){var
-e=E(an[1][1][1]);return co(L(h,a),e)}var
+c=E(b);return cq(M(h,a),c)},d);if(c){var
+e=E(b[2]);return fQ(ae,M(h,a),e)}return c},at):b;if(c){if(ao){var
+e=E(ao[1][1][1]);return cq(M(h,a),e)}var
 d=1}else
 var
 d=c;return d},aL);else
 var
-Q=am;var
-bc=Q?al:Q,at=p(function(a){var
-b=dp(h,a),c=q(d);return be(N(x(a),C,c),b)},T),au=at?p(function(a){return iV(h,a)},T):at,av=au?bD(p5,a[6]):au;if(av){var
+Q=an;var
+bd=Q?am:Q,au=p(function(a){var
+b=ds(h,a),c=q(d);return bf(P(x(a),C,c),b)},T),av=au?p(function(a){return i0(h,a)},T):au,aw=av?bD(qe,a[6]):av;if(aw){var
 I=a[4];switch(w){case
 0:var
-U=ej(I[3]);break;case
+U=em(I[3]);break;case
 1:var
 U=1;break;default:var
-aj=ej(I[1]),ak=aj?ej(I[2]):aj,U=ak?ej(I[3]):ak}var
+ak=em(I[1]),al=ak?em(I[2]):ak,U=al?em(I[3]):al}var
 V=U}else
 var
-V=av;var
-aw=V?o(j,1,a[3]):V;if(aw)var
-bu=i0(a[5]),W=p(function(a){var
-b=fM(j,a[1]);return b?fM(j,a[2]):b},bu);else
+V=aw;var
+ax=V?l(j,1,a[3]):V;if(ax)var
+bu=i_(a[5]),W=p(function(a){var
+b=fO(j,a[1]);return b?fO(j,a[2]):b},bu);else
 var
-W=aw;if(W){var
-bv=a[6],bw=g(ap,f(function(a){return i7(k,a)},bv)),X=aW(f(function(a){return a0(j,a)},bw));if(X){var
+W=ax;if(W){var
+bv=a[6],bw=g(aq,f(function(a){return fV(k,a)},bv)),X=aW(f(function(a){return a1(j,a)},bw));if(X){var
 D=a[4];switch(w){case
 0:var
 Y=[0,D[1],[0,D[2],0]];break;case
 1:var
 Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
 Y=0}var
-Z=aW(f(function(a){return a0(j,[0,a,k])},Y));if(Z){var
-ax=Z[1],n=a[5];switch(n[0]){case
+Z=aW(f(function(a){return a1(j,[0,a,k])},Y));if(Z){var
+ay=Z[1],o=a[5];switch(o[0]){case
 0:var
-J=[0,cO(n[1]),0];break;case
+J=[0,cP(o[1]),0];break;case
 1:var
-ba=[0,cO(n[3]),0],bb=[0,cO(n[2]),ba],J=[0,cO(n[1]),bb];break;case
+bb=[0,cP(o[3]),0],bc=[0,cP(o[2]),bb],J=[0,cP(o[1]),bc];break;case
 2:var
-O=cO(cn(n[1])),J=[0,O,[0,O,[0,O,0]]];break;default:var
-P=n[2],ah=n[1],ai=[0,[1,cn(ah)[1],P],[1,ah,P]],J=[0,ai,[0,ai,[0,cO(cn(P)),0]]]}var
+L=cP(cp(o[1])),J=[0,L,[0,L,[0,L,0]]];break;default:var
+O=o[2],ah=o[1],aj=[0,[1,cp(ah)[1],O],[1,ah,O]],J=[0,aj,[0,aj,[0,cP(cp(O)),0]]]}var
 _=aW(f(function(d){var
-a=i1(j,d[1]);if(a)var
-b=i1(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+a=i$(j,d[1]);if(a)var
+b=i$(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
 c=a;return c},J));if(_){var
-ay=_[1],aB=a[5],bx=1<aB[0]?[0,aB[1],0]:0,ab=aW(f(function(a){return dn(j,a)},bx));if(ab){var
-ac=aW(i8(j,x,H,B,k,S,a[6]));if(ac){var
-ad=ac[1],aC=az(m(g(ax,ay)),h),aD=aC?p(function(a){if(2===a[0])var
-b=[0,a[1],0];else
-var
-d=a[1],c=M(function(a){return g(a[1],[0,a[2],0])},d),b=[0,a[2],c];return p(function(a){return iY(h,C,a)},b)},ad):aC,aE=aD?l?iY(h,C,x(l[1])):1:aD;if(aE){var
-by=f(function(a){return 1},ad),bz=g(ax,ay),bA=$(x,l);return i5(j,ar,g(X[1],ab[1]),ad,h,h,bA,bc,bz,by,bd)}var
+az=_[1],aA=a[5],bx=1<aA[0]?[0,aA[1],0]:0,$=aW(f(function(a){return dq(j,a)},bx));if($){var
+aa=aW(jg(j,x,bd,H,B,k,R,a[6]));if(aa){var
+ad=aa[1],aC=ai(n(g(ay,az)),h),aD=aC?p(function(a){switch(a[0]){case
+2:var
+d=i7(a[2]),b=[0,a[3],d];break;case
+3:var
+b=[0,a[1],0];break;default:var
+c=i7(a[1]),b=[0,a[2],c]}return p(function(a){return i8(h,C,a)},b)},ad):aC,aE=aD?m?i8(h,C,x(m[1])):1:aD;if(aE){var
+by=f(function(a){return 1},ad),bz=g(ay,az),bA=ab(x,m);return jd(j,as,g(X[1],$[1]),ad,h,h,bA,bz,by,be)}var
 aF=aE}else
 var
-aF=ac;var
+aF=aa;var
 aG=aF}else
 var
-aG=ab;var
+aG=$;var
 aH=aG}else
 var
 aH=_;var
@@ -3691,25 +3776,25 @@ aJ=X;var
 aK=aJ}else
 var
 aK=W;return aK}function
-ek(b,a){return bj(b,a[1],a[2])}function
-fV(b,a){var
-c=ek(b,a[1]),d=c?ek(b,a[2]):c;return d?ek(b,a[3]):d}var
-em=z(q(c),el);function
-i_(e){var
-a=aa(em);if(e)var
-f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aJ(G(q(c),h),g);else
+en(b,a){return bj(b,a[1],a[2])}function
+fX(b,a){var
+c=en(b,a[1]),d=c?en(b,a[2]):c;return d?en(b,a[3]):d}var
+ep=A(q(c),eo);function
+ji(e){var
+a=ac(ep);if(e)var
+f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aK(G(q(c),h),g);else
 var
-i=G(q(b(2,c)),a),j=aa(el),d=aJ(G(v(q(b(2,c)),j),a),i);return cF(d)}function
-i$(d,b,a){if(d){var
-e=i_(b),f=G(q(c),e),g=v(z(q(c),a),f);return z(q(c),g)}var
-h=q(c),i=i_(b),j=aJ(q(c),i);return z(v(a,G(q(c),j)),h)}function
-cP(f,e,d,a){var
-g=aa(a),h=aa(d),i=z(z(q(b(2,c)),h),g),j=f?e?em:aJ(em,v(q(b(2,c)),el)):aJ(em,q(b(2,c))),k=v(aa(j),i);return cF(G(q(c),k))}function
-ja(g,d){var
+i=G(q(b(2,c)),a),j=ac(eo),d=aK(G(v(q(b(2,c)),j),a),i);return cH(d)}function
+jj(d,b,a){if(d){var
+e=ji(b),f=G(q(c),e),g=v(A(q(c),a),f);return A(q(c),g)}var
+h=q(c),i=ji(b),j=aK(q(c),i);return A(v(a,G(q(c),j)),h)}function
+cQ(f,e,d,a){var
+g=ac(a),h=ac(d),i=A(A(q(b(2,c)),h),g),j=f?e?ep:aK(ep,v(q(b(2,c)),eo)):aK(ep,q(b(2,c))),k=v(ac(j),i);return cH(G(q(c),k))}function
+jk(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?Q(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fW(u,t,s){var
-a=f(function(a){return N(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?H(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+fY(u,t,s){var
+a=f(function(a){return P(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3718,7 +3803,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return d7([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ea([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3740,12 +3825,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-jb(f,i,e,b,h){var
-j=f?c:d,a=a6(i,j);function
+jl(f,i,e,b,h){var
+j=f?c:d,a=aZ(i,j);function
 g(b){var
-c=f?fg(b):fh(b);return V(c,a)}var
-k=[0,bg(h),0],l=[0,[0,a,b,[0,ah,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-jc(r,g,q,p,e,o,n){if(o){var
+c=f?fj(b):d4(b);return O(c,a)}var
+k=[0,bh(h),0],l=[0,[0,a,b,[0,_,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+jm(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3754,16 +3839,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(dg,bX(p9)),a=fW(p,ic(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(di,bZ(qi)),a=fY(p,ii(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
 a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(ja,p_),a=fW(p,cG(0,fn(g,jb(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(jk,qj),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(ja,p$),a=fW(p,cG(0,fn(g,jb(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=f(jk,qk),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3773,27 +3858,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?qa:a}else
+y=a?ql:a}else
 var
 y=n;return y}return[0,n]}function
-jd(f,e,d,c,p,o,n){var
+jn(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=jc(f,e,d,c,b,a[1],g);return h?aU(h[1]):h}var
-i=jc(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d$(a[2],b),l=jd(f,e,d,c,k[1],j,a[3]);if(l){var
+h=jm(f,e,d,c,b,a[1],g);return h?aV(h[1]):h}var
+i=jm(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ee(a[2],b),l=jn(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fX(a){return hD(b(2,c),b$(a,c))}function
-cQ(i,a,e,w,u){var
-l=a?c:S(c),f=q(l),g=i$(a,e,p7),h=i$(a,e,p8),m=aJ(g,cP(a,e,f,g)),n=[0,G(aJ(h,cP(a,e,h,f)),m),0],o=aJ(f,cP(a,e,f,g)),p=[0,G(aJ(h,cP(a,e,g,h)),o),n],r=aJ(f,cP(a,e,h,f)),s=[0,G(aJ(g,cP(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),el):q(b(2,b(2,c))),j=d5([0,t,s]),k=[0,d,cd(i)];return jd(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-je(a,g,b){if(ae(g,fX(a))){if(b){var
+fZ(a){return hG(b(2,c),cb(a,c))}function
+cR(i,a,e,w,u){var
+l=a?c:T(c),f=q(l),g=jj(a,e,qg),h=jj(a,e,qh),m=aK(g,cQ(a,e,f,g)),n=[0,G(aK(h,cQ(a,e,h,f)),m),0],o=aK(f,cQ(a,e,f,g)),p=[0,G(aK(h,cQ(a,e,g,h)),o),n],r=aK(f,cQ(a,e,h,f)),s=[0,G(aK(g,cQ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eo):q(b(2,b(2,c))),j=d_([0,t,s]),k=[0,d,cf(i)];return jn(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+jo(a,g,b){if(ag(g,fZ(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fX(a)],v=cd(a),i=[0,fX(a),v],j=cQ(a,0,1,h,b[1]),k=j?cQ(a,0,0,i,c[1]):j;if(k){var
-l=cQ(a,1,1,h,d[1]);if(l)return cQ(a,1,0,i,e[1]);var
+h=[0,g,fZ(a)],v=cf(a),i=[0,fZ(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
+l=cR(a,1,1,h,d[1]);if(l)return cR(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3810,176 +3895,177 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cd(a)],s=cQ(a,0,0,r,b[1]);if(s)return cQ(a,1,0,r,f[1]);var
+r=[0,g,cf(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-fY(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,qb,fY(b)]);var
+f0(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,qm,f0(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,qd,g(fY(a),qc)]}function
-O(a){return[0,qf,g(fY(a),qe)]}function
-am(a){return[0,qh,[0,a,qg]]}function
-h(b,a){return[0,ar(qj,ar(b,qi)),a]}function
-F(b,a){return O([0,h(b,a),0])}function
-cR(d){var
-b=d,a=oY,e=0;for(;;){if(b){var
-c=hy(a),b=b[1],a=c;continue}return[0,de(dS(a)),e]}}function
-fZ(a){return[0,de(dW(a)),0]}function
-f0(a){var
-c=bx(a),f=0,b=0===c?o2:0<c?[0,dW(a)]:[1,dW(S(a))];if(0===b[0])var
-d=de(b[1]);else
+w(a){return[0,qo,g(f0(a),qn)]}function
+Q(a){return[0,qq,g(f0(a),qp)]}function
+an(a){return[0,qs,[0,a,qr]]}function
+h(b,a){return[0,as(qu,as(b,qt)),a]}function
+F(b,a){return Q([0,h(b,a),0])}function
+cS(d){var
+b=d,a=o9,e=0;for(;;){if(b){var
+c=hB(a),b=b[1],a=c;continue}return[0,dg(dW(a)),e]}}function
+f1(a){return[0,dg(d0(a)),0]}function
+f2(a){var
+c=bx(a),f=0,b=0===c?pb:0<c?[0,d0(a)]:[1,d0(T(a))];if(0===b[0])var
+d=dg(b[1]);else
 var
-e=de(b[1]),d=ar(aY(1,45),e);return[0,d,f]}function
-f1(a){var
-b=0,c=0<bx(a)?dW(a):o1;return[0,de(c),b]}function
-f2(a){switch(a[0]){case
-2:return ql;case
-3:return 2<=a[1]?qm:qn;case
-4:return qo;default:return qk}}function
-ds(b,a){function
-c(c,a){return ac(c,f2(a))?ds(b,a):[0,qu,g(ds(b,a),qt)]}switch(a[0]){case
+e=dg(b[1]),d=as(aY(1,45),e);return[0,d,f]}function
+f3(a){var
+b=0,c=0<bx(a)?d0(a):pa;return[0,dg(c),b]}function
+f4(a){switch(a[0]){case
+2:return qw;case
+3:return 2<=a[1]?qx:qy;case
+4:return qz;default:return qv}}function
+dx(b,a){function
+c(c,a){return Z(c,f4(a))?dx(b,a):[0,qF,g(dx(b,a),qE)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aP(h),0];var
-i=[0,qv,[0,aP(f),0]];return[0,aP(h),i];case
+f==="number")return[0,aQ(h),0];var
+i=[0,qG,[0,aQ(f),0]];return[0,aQ(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,qx,c(qw,a[1])];case
+2:return[0,qI,c(qH,a[1])];case
 3:var
-j=a[3],k=c([0,f2(a)],j);switch(a[1]){case
+j=a[3],k=c([0,f4(a)],j);switch(a[1]){case
 0:var
-d=qp;break;case
+d=qA;break;case
 1:var
-d=qq;break;case
+d=qB;break;case
 2:var
-d=qr;break;default:var
-d=qs}var
-l=a[2];return g(c(f2(a),l),[0,d,k]);case
+d=qC;break;default:var
+d=qD}var
+l=a[2];return g(c(f4(a),l),[0,d,k]);case
 4:var
-m=[0,qy,fZ(a[2])];return g(c(qz,a[1]),m);default:return[0,qB,g(ds(b,a[1]),qA)]}}function
-P(a){return[0,qE,g(ds(function(a){throw[0,U,qD]},a),qC)]}function
-jf(a){return[0,qG,g(ds(function(a){return a},a),qF)]}function
-b2(a){if(0===a[0])return P(a[1]);var
-b=[0,h(qH,P(a[2])),0];return O([0,h(qI,P(a[1])),b])}function
-en(b,a){var
+m=[0,qJ,f1(a[2])];return g(c(qK,a[1]),m);default:return[0,qM,g(dx(b,a[1]),qL)]}}function
+R(a){return[0,qP,g(dx(function(a){throw[0,V,qO]},a),qN)]}function
+jp(a){return[0,qR,g(dx(function(a){return a},a),qQ)]}function
+b4(a){if(0===a[0])return R(a[1]);var
+b=[0,h(qS,R(a[2])),0];return Q([0,h(qT,R(a[1])),b])}function
+eq(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qJ(a){function
-b(a){return en(b2,a)}switch(a[0]){case
+qU(a){function
+b(a){return eq(b4,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qK:qS,i=[0,h(qL,am(f)),e],j=[0,h(qM,b2(a[4])),i],k=[0,h(qN,b(a[3])),j],l=[0,h(qO,b(a[2])),k],m=[0,h(qP,b(a[1])),l],c=[0,h(qR,am(qQ)),m];break;case
+e=0,f=a[5]?qV:q3,i=[0,h(qW,an(f)),e],j=[0,h(qX,b4(a[4])),i],k=[0,h(qY,b(a[3])),j],l=[0,h(qZ,b(a[2])),k],m=[0,h(q0,b(a[1])),l],c=[0,h(q2,an(q1)),m];break;case
 1:var
-d=a[3],n=d?[0,h(qT,b(d[1])),0]:d,o=[0,h(qU,b(a[2])),0],p=[0,h(qV,b(a[1])),o],c=g([0,h(qX,am(qW)),p],n);break;default:var
-q=[0,h(qY,b(a[1])),0],c=[0,h(q0,am(qZ)),q]}return O(c)}function
-q1(a){function
-b(a){return en(b2,a)}var
-c=0,d=a[7]?q2:ra,e=[0,h(q3,am(d)),c],f=[0,h(q4,b2(a[6])),e],g=[0,h(q5,b2(a[5])),f],i=[0,h(q6,b(a[4])),g],j=[0,h(q7,b(a[3])),i],k=[0,h(q8,b(a[2])),j],l=[0,h(q9,b(a[1])),k];return O([0,h(q$,am(q_)),l])}function
-f3(a){switch(a){case
-0:return rb;case
-1:return rc;case
-2:return rd;case
-3:return re;case
-4:return rf;case
-5:return rg;case
-6:return rh;default:return ri}}function
-f4(a){switch(a[0]){case
-0:return rj;case
-1:return rk;default:return rl}}function
-dt(a){var
+d=a[3],n=d?[0,h(q4,b(d[1])),0]:d,o=[0,h(q5,b(a[2])),0],p=[0,h(q6,b(a[1])),o],c=g([0,h(q8,an(q7)),p],n);break;default:var
+q=[0,h(q9,b(a[1])),0],c=[0,h(q$,an(q_)),q]}return Q(c)}function
+ra(a){function
+b(a){return eq(b4,a)}var
+c=0,d=a[7]?rb:rl,e=[0,h(rc,an(d)),c],f=[0,h(rd,b4(a[6])),e],g=[0,h(re,b4(a[5])),f],i=[0,h(rf,b(a[4])),g],j=[0,h(rg,b(a[3])),i],k=[0,h(rh,b(a[2])),j],l=[0,h(ri,b(a[1])),k];return Q([0,h(rk,an(rj)),l])}function
+f5(a){switch(a){case
+0:return rm;case
+1:return rn;case
+2:return ro;case
+3:return rp;case
+4:return rq;case
+5:return rr;case
+6:return rs;case
+7:return rt;default:return ru}}function
+f6(a){switch(a[0]){case
+0:return rv;case
+1:return rw;default:return rx}}function
+dy(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,P(b[2]),0],e=w([0,P(b[1]),i]);else
+i=[0,R(b[2]),0],e=w([0,R(b[1]),i]);else
 var
-e=P(b[1]);var
-k=[0,h(rm,e),j],l=[0,h(rn,am(f4(a[4]))),k],c=a[3];if(c)var
-n=w([0,P(c[1]),0]),m=0,o=6===a[1]?ro:rs,f=[0,h(rp,F(o,n)),m];else
+e=R(b[1]);var
+k=[0,h(ry,e),j],l=[0,h(rz,an(f6(a[4]))),k],c=a[3];if(c)var
+n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rA:rE,f=[0,h(rB,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(rq,cR(d[1])),0]:d,r=g(q,p);return O([0,h(rr,am(f3(a[1]))),r])}function
-jg(a){if(0===a[0]){var
-b=[0,h(rt,en(P,a[2])),0];return F(rv,O([0,h(ru,en(P,a[1])),b]))}var
-c=[0,P(a[5]),0],d=[0,h(rw,w([0,P(a[4]),c])),0],e=[0,h(rx,P(a[3])),d],f=[0,P(a[2]),0];return F(rz,O([0,h(ry,w([0,P(a[1]),f])),e]))}function
-rD(a){function
-b(a){return w(f(b2,a))}var
-c=[0,h(rE,b(a[2])),0],d=[0,h(rF,b(a[1])),c];return O([0,h(rH,am(rG)),d])}function
-rR(a){switch(a[0]){case
+p=g(f,l),d=a[2],q=d?[0,h(rC,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(rD,an(f5(a[1]))),r])}function
+jq(a){if(0===a[0]){var
+b=[0,h(rF,eq(R,a[2])),0];return F(rH,Q([0,h(rG,eq(R,a[1])),b]))}var
+c=[0,R(a[5]),0],d=[0,h(rI,w([0,R(a[4]),c])),0],e=[0,h(rJ,R(a[3])),d],f=[0,R(a[2]),0];return F(rL,Q([0,h(rK,w([0,R(a[1]),f])),e]))}function
+rP(a){function
+b(a){return w(f(b4,a))}var
+c=[0,h(rQ,b(a[2])),0],d=[0,h(rR,b(a[1])),c];return Q([0,h(rT,an(rS)),d])}function
+r3(a){switch(a[0]){case
 0:var
-o=[0,h(rS,w(f(dt,a[3]))),0],p=[0,h(rT,jg(a[2])),o];return F(rW,O([0,h(rV,F(rU,w(f(qJ,a[1])))),p]));case
+o=[0,h(r4,w(f(dy,a[3]))),0],p=[0,h(r5,jq(a[2])),o];return F(r8,Q([0,h(r7,F(r6,w(f(qU,a[1])))),p]));case
 1:var
-q=[0,h(rX,w(f(dt,a[3]))),0],r=[0,h(rY,jg(a[2])),q];return F(r1,O([0,h(r0,F(rZ,w(f(q1,a[1])))),r]));case
+q=[0,h(r9,w(f(dy,a[3]))),0],r=[0,h(r_,jq(a[2])),q];return F(sb,Q([0,h(sa,F(r$,w(f(ra,a[1])))),r]));case
 2:var
-s=[0,h(r2,w(f(dt,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,P(a),0];return w([0,P(b),c])};switch(b[0]){case
+s=[0,h(sc,w(f(dy,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,R(a),0];return w([0,R(b),c])};switch(b[0]){case
 0:var
-d=F(rI,c(b[1],b[2]));break;case
+d=F(rU,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(rJ,c(g[1],g[2])),0],m=[0,h(rK,c(i[1],i[2])),l],d=F(rM,O([0,h(rL,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(rV,c(g[1],g[2])),0],m=[0,h(rW,c(i[1],i[2])),l],d=F(rY,Q([0,h(rX,c(j[1],j[2])),m]));break;case
 2:var
-d=F(rN,P(b[1]));break;default:var
-n=[0,h(rO,P(b[2])),0],d=F(rQ,O([0,h(rP,P(b[1])),n]))}var
-t=[0,h(r3,d),s],u=[0,h(r4,w(f(P,a[5]))),0],v=[0,h(r7,F(r6,O([0,h(r5,w(f(P,a[4]))),u]))),t],x=[0,h(r8,P(a[3])),0],y=O([0,h(r9,w(f(rD,a[2]))),x]);switch(a[1]){case
+d=F(rZ,R(b[1]));break;default:var
+n=[0,h(r0,R(b[2])),0],d=F(r2,Q([0,h(r1,R(b[1])),n]))}var
+t=[0,h(sd,d),s],u=[0,h(se,w(f(R,a[5]))),0],v=[0,h(sh,F(sg,Q([0,h(sf,w(f(R,a[4]))),u]))),t],x=[0,h(si,R(a[3])),0],y=Q([0,h(sj,w(f(rP,a[2]))),x]);switch(a[1]){case
 0:var
-e=rA;break;case
+e=rM;break;case
 1:var
-e=rB;break;default:var
-e=rC}return F(r$,O([0,h(r_,F(e,y)),v]));case
+e=rN;break;default:var
+e=rO}return F(sl,Q([0,h(sk,F(e,y)),v]));case
 3:var
-z=[0,h(sa,w(f(dt,a[7]))),0],A=[0,h(sb,w(f(P,a[6]))),0],B=[0,h(se,F(sd,O([0,h(sc,w(f(P,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(sg,w(f(function(a){return F(sf,w(f(jf,a)))},D))),C],G=a[3],H=[0,h(sh,w(f(function(a){var
-b=[0,jf(a[2]),0];return w([0,am(a[1]),b])},G))),E],I=a[2],J=[0,h(si,w(f(function(a){var
-b=[0,b2(a[2]),0];return w([0,am(a[1]),b])},I))),H];return F(sm,O([0,h(sl,F(sk,O([0,h(sj,w(f(am,a[1]))),J]))),B]));case
+z=[0,h(sm,w(f(dy,a[7]))),0],A=[0,h(sn,w(f(R,a[6]))),0],B=[0,h(sq,F(sp,Q([0,h(so,w(f(R,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(ss,w(f(function(a){return F(sr,w(f(jp,a)))},D))),C],G=a[3],H=[0,h(st,w(f(function(a){var
+b=[0,jp(a[2]),0];return w([0,an(a[1]),b])},G))),E],I=a[2],J=[0,h(su,w(f(function(a){var
+b=[0,b4(a[2]),0];return w([0,an(a[1]),b])},I))),H];return F(sy,Q([0,h(sx,F(sw,Q([0,h(sv,w(f(an,a[1]))),J]))),B]));case
 4:var
-K=[0,h(sn,w(f(dt,a[3]))),0],L=[0,h(sq,F(sp,O([0,h(so,P(a[2])),0]))),K];return F(su,O([0,h(st,F(ss,O([0,h(sr,P(a[1])),0]))),L]));default:var
-k=a[1],M=0,N=k?b2(k[1]):am(sx);return F(sw,O([0,h(sv,N),M]))}}function
-f5(a){return w(f(f0,a))}function
-jh(b,a){var
-c=[0,h(sy,f1(a)),0];return O([0,h(sz,w(f(f5,b))),c])}function
-eo(a){switch(a[0]){case
-0:return am(a[1]);case
+K=[0,h(sz,w(f(dy,a[3]))),0],L=[0,h(sC,F(sB,Q([0,h(sA,R(a[2])),0]))),K];return F(sG,Q([0,h(sF,F(sE,Q([0,h(sD,R(a[1])),0]))),L]));default:var
+k=a[1],M=0,N=k?b4(k[1]):an(sJ);return F(sI,Q([0,h(sH,N),M]))}}function
+f7(a){return w(f(f2,a))}function
+jr(b,a){var
+c=[0,h(sK,f3(a)),0];return Q([0,h(sL,w(f(f7,b))),c])}function
+er(a){switch(a[0]){case
+0:return an(a[1]);case
 1:var
-b=jh(a[2],a[3]);return F(a[1],b);case
+b=jr(a[2],a[3]);return F(a[1],b);case
 2:var
-c=a[1]?sA:sC;return F(sB,am(c));case
+c=a[1]?sM:sO;return F(sN,an(c));case
 3:var
-d=[0,f5(a[3]),0];return F(sD,w([0,jh(a[1],a[2]),d]));case
+d=[0,f7(a[3]),0];return F(sP,w([0,jr(a[1],a[2]),d]));case
 4:var
-e=[0,f1(a[3]),0],f=[0,f0(a[2]),e];return F(sE,w([0,eo(a[1]),f]));case
+e=[0,f3(a[3]),0],f=[0,f2(a[2]),e];return F(sQ,w([0,er(a[1]),f]));case
 5:var
-g=[0,f1(a[3]),0],h=[0,f0(a[2]),g];return F(sF,w([0,eo(a[1]),h]));default:return F(sG,eo(a[1]))}}function
-sH(a){var
-b=[0,eo(a[2]),0];return w([0,cR(a[1]),b])}function
-sI(c){var
-b=c[2],d=b?[0,h(sJ,cR(b[1])),0]:b,a=c[1],e=a?[0,h(sK,w(f(sH,[0,a[1],a[2]]))),0]:a;return O(g(e,d))}function
-f6(a){var
-b=hk(hj(y(a),function(b){return J(a,b)}));return p(function(a){var
-b=aU(34===a?1:0),c=b?aU(92===a?1:0):b,d=c?ac(s7,dX(a)):c;return d?ac(dX(a),s8):d},b)}function
-ep(b){function
+g=[0,f3(a[3]),0],h=[0,f2(a[2]),g];return F(sR,w([0,er(a[1]),h]));default:return F(sS,er(a[1]))}}function
+sT(a){var
+b=[0,er(a[2]),0];return w([0,cS(a[1]),b])}function
+sU(c){var
+b=c[2],d=b?[0,h(sV,cS(b[1])),0]:b,a=c[1],e=a?[0,h(sW,w(f(sT,[0,a[1],a[2]]))),0]:a;return Q(g(e,d))}function
+f8(a){var
+b=hn(hm(y(a),function(b){return K(a,b)}));return p(function(a){var
+b=aV(34===a?1:0),c=b?aV(92===a?1:0):b,d=c?Z(th,d1(a)):c;return d?Z(d1(a),ti):d},b)}function
+es(b){function
 c(f){var
-a=dX(f),b=ac(s9,a),c=b?ac(a,s_):b;if(c)var
+a=d1(f),b=Z(tj,a),c=b?Z(a,tk):b;if(c)var
 d=c;else{var
-e=ac(s$,a);if(e)return ac(a,ta);var
+e=Z(tl,a);if(e)return Z(a,tm);var
 d=e}return d}var
-a=hk(hj(y(b),function(a){return J(b,a)}));if(a){var
+a=hn(hm(y(b),function(a){return K(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?p(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=dX(a),f=ac(tb,e),h=f?ac(e,tc):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?ac(m(d),td):f;if(g)return aU(aB(b,te));var
+e=d1(a),f=Z(tn,e),h=f?Z(e,to):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(n(d),tp):f;if(g)return aV(aC(b,tq));var
 h=g}else
 var
 h=a;return h}function
-f7(c){var
+f9(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ep(a[1]);case
+1:return es(a[1]);case
 3:var
-b=f7(a[2]);if(b){var
+b=f9(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cS(m){var
+cT(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -3990,199 +4076,216 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dS(a[2]);if(typeof
+f=dW(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cS(a[2]);if(i){var
+i=cT(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cS(a[1]),l=k?dV(b(2,c),j):k;return l?dV(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=cT(a[1]),l=k?dZ(b(2,c),j):k;return l?dZ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cT(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-f8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b3(a){return M(cT,f8(a))}function
-tf(a){switch(a[0]){case
+cU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+f_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b5(a){return N(cU,f_(a))}function
+tr(a){switch(a[0]){case
 0:var
-c=cT(a[4]),d=g(b3(a[3]),c),e=g(b3(a[2]),d);return g(b3(a[1]),e);case
+c=cU(a[4]),d=g(b5(a[3]),c),e=g(b5(a[2]),d);return g(b5(a[1]),e);case
 1:var
-b=a[3],f=b?b3(b[1]):b,h=g(b3(a[2]),f);return g(b3(a[1]),h);default:return b3(a[1])}}function
-tg(a){var
-b=M(cT,[0,a[5],[0,a[6],0]]);return g(M(b3,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-ji(a){if(0===a[0]){var
-b=f8(a[2]);return g(f8(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-du(c){var
+b=a[3],f=b?b5(b[1]):b,h=g(b5(a[2]),f);return g(b5(a[1]),h);default:return b5(a[1])}}function
+ts(a){var
+b=N(cU,[0,a[5],[0,a[6],0]]);return g(N(b5,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+js(a){if(0===a[0]){var
+b=f_(a[2]);return g(f_(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+dz(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-jj(a){var
-d=dV(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dV(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-jk(a,b){return b?[3,jk(a,b[1]),a]:a}function
-j(a){switch(a[0]){case
+jt(a){var
+d=dZ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dZ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+ju(a,b){return b?[3,ju(a,b[1]),a]:a}function
+i(a){switch(a[0]){case
 0:var
-h=a[2],i=b(2,k(b(2,b(2,c)))),l=function(a){return n(i,a)},m=fa(hw(h),l,c);return[0,hF(hx(dS(a[1]),h)),m];case
-1:throw[0,U,th];case
+h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return o(j,a)},m=fd(hz(h),l,c);return[0,hI(hA(dW(a[1]),h)),m];case
+1:throw[0,V,tt];case
 2:var
-e=j(a[1]);return 0===e[0]?[0,S(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,T(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
-f=j(a[2]),g=j(a[3]);switch(a[1]){case
+f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-o=cz(dc(a[2]));return jk(j(a[1]),o);default:return[5,j(a[1])]}}function
+n=cB(de(a[2]));return ju(i(a[1]),n);default:return[5,i(a[1])]}}function
 bH(a){if(0===a[0]){var
-b=j(a[1]);return[0,b,b]}var
-c=j(a[2]);return[0,j(a[1]),c]}function
-a7(a){var
+b=i(a[1]);return[0,b,b]}var
+c=i(a[2]);return[0,i(a[1]),c]}function
+a8(a){var
 b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
-ti(a){switch(a[0]){case
+tu(a){switch(a[0]){case
 0:var
-b=a[5],c=bH(a[4]),d=a7(a[3]),e=a7(a[2]);return[0,[0,a7(a[1]),e,d,c,b]];case
+b=a[5],c=bH(a[4]),d=a8(a[3]),e=a8(a[2]);return[0,[0,a8(a[1]),e,d,c,b]];case
 1:var
-f=$(a7,a[3]),g=a7(a[2]);return[1,a7(a[1]),g,f];default:return[2,a7(a[1])]}}function
-jl(a){if(0===a[0]){var
+f=ab(a8,a[3]),g=a8(a[2]);return[1,a8(a[1]),g,f];default:return[2,a8(a[1])]}}function
+jv(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=j(e(a,c));return[0,j(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
-h=j(a[5]),i=[0,j(a[4]),h],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,i]}function
-tj(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
-f9(c,i,b){var
-x=m(c),d=M(function(a){switch(a[1]){case
+b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
+h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
+tv(a){if(a[1])return 0;var
+b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
+f$(c,j,b){var
+x=n(c),d=N(function(a){switch(a[1]){case
 0:var
-g=a[4];return 0===g[0]?[0,[1,j(g[1])],0]:0;case
+g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
 c=a[4];switch(c[0]){case
 0:var
-q=c[1],b=function(a){return[2,a,j(q)]};break;case
+q=c[1],b=function(a){return[2,a,i(q)]};break;case
 1:var
-s=c[1],b=function(a){return[3,a,j(s)]};break;default:return 0}break;case
+s=c[1],b=function(a){return[3,a,i(s)]};break;default:return 0}break;case
 2:var
-i=a[4];if(1!==i[0])return 0;var
-d=a[3],t=i[1];if(!d)return d;var
+j=a[4];if(1!==j[0])return 0;var
+d=a[3],t=j[1];if(!d)return d;var
 u=d[1],b=function(a){var
-b=j(t);return[4,a,j(u),b]};break;case
+b=i(t);return[4,a,i(u),b]};break;case
 3:var
-k=a[4];return 1===k[0]?[0,[5,j(k[1])],0]:0;case
+k=a[4];return 1===k[0]?[0,[5,i(k[1])],0]:0;case
 4:var
 l=a[4];if(0!==l[0])return 0;var
-v=l[1],b=function(a){return[6,a,j(v)]};break;case
+v=l[1],b=function(a){return[6,a,i(v)]};break;case
 5:var
-m=a[4];return 0===m[0]?[0,[7,j(m[1])],0]:0;case
+m=a[4];return 0===m[0]?[0,[7,i(m[1])],0]:0;case
 6:var
 n=a[4];if(0===n[0]){var
 e=a[3];if(e)var
-w=j(n[1]),o=[0,[8,j(e[1]),w],0];else
+w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
 var
-o=e;return o}return 0;default:var
-p=a[4];return 0===p[0]?[0,[9,j(p[1])],0]:0}var
-h=a[2],r=h?[0,cz(h[1]),0]:cD(0,x);return f(b,r)},b),a=M(tj,b),e=a?[0,a[1],a[2]]:tl,h=g(e,d),k=jl(i);return[0,f(ti,c),k,h]}function
-tm(a){if(a[1])return 0;var
-b=a[4];return 1===b[0]?[0,[0,j(b[1])],0]:0}function
-cU(n,b){var
-c=M(function(b){switch(b[1]){case
+o=e;return o}return 0;case
+7:var
+p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;default:return 0}var
+h=a[2],r=h?[0,cB(h[1]),0]:cF(0,x);return f(b,r)},b),a=N(tv,b),e=a?[0,a[1],a[2]]:tx,h=g(e,d),k=jv(j);return[0,f(tu,c),k,h]}function
+ty(a){if(a[1])return 0;var
+b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
+cV(z,b){var
+c=N(function(a){switch(a[1]){case
 0:var
-d=b[4];return 0===d[0]?[0,[1,j(d[1])],0]:0;case
+h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
-a=b[4];switch(a[0]){case
+b=a[4];switch(b[0]){case
 0:var
-h=a[1],c=function(a){return[2,a,j(h)]};break;case
+p=b[1],c=function(a){return[2,a,i(p)]};break;case
 1:var
-k=a[1],c=function(a){return[3,a,j(k)]};break;default:var
-l=a[2],m=a[1],c=function(a){var
-b=j(l);return[4,a,j(m),b]}}var
-e=b[2],i=e?[0,cz(e[1]),0]:cD(0,n);return f(c,i);case
+r=b[1],c=function(a){return[3,a,i(r)]};break;default:var
+s=b[2],t=b[1],c=function(a){var
+b=i(s);return[4,a,i(t),b]}}break;case
+2:var
+k=a[4];if(1!==k[0])return 0;var
+d=a[3],u=k[1];if(!d)return d;var
+v=d[1],c=function(a){var
+b=i(u);return[6,a,i(v),b]};break;case
 3:var
-g=b[4];return 1===g[0]?[0,[5,j(g[1])],0]:0;default:return 0}},b),a=M(tm,b),d=a?[0,a[1],a[2]]:tn;return g(d,c)}function
-f_(h,g,a){switch(a[1]){case
+l=a[4];return 1===l[0]?[0,[5,i(l[1])],0]:0;case
+6:var
+m=a[4];if(0===m[0]){var
+e=a[3];if(e)var
+w=i(m[1]),n=[0,[8,i(e[1]),w],0];else
+var
+n=e;return n}return 0;case
+8:var
+o=a[4];if(1!==o[0])return 0;var
+g=a[3],x=o[1];if(!g)return g;var
+y=g[1],c=function(a){var
+b=i(x);return[7,a,i(y),b]};break;default:return 0}var
+j=a[2],q=j?[0,cB(j[1]),0]:cF(0,z);return f(c,q)},b),a=N(ty,b),d=a?[0,a[1],a[2]]:tz;return g(d,c)}function
+bI(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dT(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dX(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=ac(to,d);return e?ac(d,g):e}var
+d=c[1],e=Z(tA,d);return e?Z(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cp(a){switch(a[0]){case
-0:return[0,j([0,a[1],a[2]])];case
+cr(a){switch(a[0]){case
+0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cp(a[1])];case
+2:return[2,cr(a[1])];case
 3:var
-b=cp(a[2]),c=cp(a[3]);switch(a[1]){case
+b=cr(a[2]),c=cr(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cp(a[1]),d];default:return[8,cp(a[1])]}}function
-jm(b){function
+d=a[2];return[7,cr(a[1]),d];default:return[8,cr(a[1])]}}function
+jw(b){function
 a(e){var
-a=[0,d,c];return N(e,b,[0,a,a])}var
-e=a(tp),f=a(tq);return[0,a(0),f,e]}function
-f$(a){function
+a=[0,d,c];return P(e,b,[0,a,a])}var
+e=a(tC),f=a(tD);return[0,a(0),f,e]}function
+ga(a){function
 b(a){var
-b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
+b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,j(a[1])];default:var
-e=j(a[2]);return[3,j(a[1]),e]}}function
-jn(i,a,h,g,e,d,c){function
-b(a){return jm(f(bH,a))}var
-k=cU(m(a),c),l=f$(d),n=cC(g,e),o=jm(f(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},n)),p=j(h);return[0,i,f(function(a){var
+2:return[2,i(a[1])];default:var
+e=i(a[2]);return[3,i(a[1]),e]}}function
+jx(j,a,h,g,e,d,c){function
+b(a){return jw(f(bH,a))}var
+k=cV(n(a),c),l=ga(d),m=cE(g,e),o=jw(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},m)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
-tr(a){var
-b=a[7],c=bH(a[6]),d=bH(a[5]),e=a7(a[4]),f=a7(a[3]),g=a7(a[2]);return[0,a7(a[1]),g,f,e,d,c,b]}var
-l=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dv(h){var
-a=cB(function(f,e){var
-a=at(l,f);if(a)var
-b=a[1],c=cb(eZ(b[1]),eZ(b[2]));else
+tE(a){var
+b=a[7],c=bH(a[6]),d=bH(a[5]),e=a8(a[4]),f=a8(a[3]),g=a8(a[2]);return[0,a8(a[1]),g,f,e,d,c,b]}var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+dA(h){var
+a=cD(function(f,e){var
+a=au(m,f);if(a)var
+b=a[1],c=cd(e2(b[1]),e2(b[2]));else
 var
-c=d;return cb(c,e)},d,h);if(ae(d,a)){var
+c=d;return cd(c,e)},d,h);if(ag(d,a)){var
 f=bx(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bd(a,aS(2)),e=b[1],g=ak(b[2],d)?dU(e):dU(e);return b$(g,l)}return d}function
-eq(a){return[0,a[1],[0,a[2],0]]}function
-bI(a){var
-b=eq(a[3]),c=g(eq(a[2]),b);return g(eq(a[1]),c)}function
-ts(a){return 0===a[0]?eq(a[1][4]):0}function
-tt(a){switch(a[0]){case
+b=be(a,aT(2)),e=b[1],g=al(b[2],d)?dY(e):dY(e);return cb(g,m)}return d}function
+et(a){return[0,a[1],[0,a[2],0]]}function
+bJ(a){var
+b=et(a[3]),c=g(et(a[2]),b);return g(et(a[1]),c)}function
+tF(a){return 0===a[0]?et(a[1][4]):0}function
+tG(a){switch(a[0]){case
 0:var
-b=a[1],c=bI(b[3]);return g(bI(b[2]),c);case
+b=a[1],c=bJ(b[3]);return g(bJ(b[2]),c);case
 1:var
-d=bI(a[2]);return g(bI(a[1]),d);default:return 0}}function
-tu(a){switch(a[0]){case
-0:return dv(bI(a[1][1]));case
+d=bJ(a[2]);return g(bJ(a[1]),d);default:return 0}}function
+tH(a){switch(a[0]){case
+0:return dA(bJ(a[1][1]));case
 1:var
-b=a[3];return b?dv(bI(b[1])):d;default:return dv(bI(a[1]))}}function
-er(a){switch(a[0]){case
+b=a[3];return b?dA(bJ(b[1])):d;default:return dA(bJ(a[1]))}}function
+eu(a){switch(a[0]){case
 0:var
-b=a[1];if(aB(b,tv))return tw;if(aB(b,tx))return ty;if(aB(b,tz))return tA;if(aB(b,tB))return tC;var
-h=aB(b,tD),j=h?tE:h;return j;case
+b=a[1];if(aC(b,tI))return tJ;if(aC(b,tK))return tL;if(aC(b,tM))return tN;if(aC(b,tO))return tP;var
+h=aC(b,tQ),j=h?tR:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aB(e,tF))return[0,[0,c,d]];if(aB(e,tG))return[0,[1,c,d]];var
-i=aB(e,tH),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(aC(e,tS))return[0,[0,c,d]];if(aC(e,tT))return[0,[1,c,d]];var
+i=aC(e,tU),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=er(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=eu(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=er(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=er(a[1]);return $(function(a){return[6,a]},n)}}function
-jo(a){if(a){var
-d=a[1],b=er(d[2]);if(b)var
-c=jo(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=eu(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=eu(a[1]);return ab(function(a){return[6,a]},n)}}function
+jy(a){if(a){var
+d=a[1],b=eu(d[2]);if(b)var
+c=jy(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return tI}function
-cV(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=jo(g[1]);if(c){var
+e=b;return e}return tV}function
+cW(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=jy(g[1]);if(c){var
 k=c[1];if(h){var
-d=cV(j,i);if(d){var
-l=d[1],e=cV(j,l[2]);if(e)var
+d=cW(j,i);if(d){var
+l=d[1],e=cW(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -4197,126 +4300,138 @@ var
 f=a;else
 var
 f=b;return f}function
-ga(d,a){if(d){if(a){var
-b=cV(m(a),a);if(b)var
-e=b[1],c=ga(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gb(d,a){if(d){if(a){var
+b=cW(n(a),a);if(b)var
+e=b[1],c=gb(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return tJ}return a?0:tK}function
-cq(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-a8(a,e){var
-b=cq(a[1],e),c=cq(a[2],b[2]),d=cq(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jp(d,c){if(d){var
+f=b;return f}return tW}return a?0:tX}function
+cs(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+a9(a,e){var
+b=cs(a[1],e),c=cs(a[2],b[2]),d=cs(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jz(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a8(a[1],c),f=a8(a[2],e[2]),g=a8(a[3],f[2]),h=cq(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a9(a[1],c),f=a9(a[2],e[2]),g=a9(a[3],f[2]),h=cs(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=a8(a[1],c),k=j[1],l=a8(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=a8(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=a9(a[1],c),k=j[1],l=a9(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=a9(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=a8(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jp(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jq(b,i){if(b){var
-a=b[1],c=a8(a[1],i),d=a8(a[2],c[2]),e=a8(a[3],d[2]),f=a8(a[4],e[2]),g=cq(a[5],f[2]),h=cq(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jq(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gb(a,b){if(a){var
-c=cq(a[1],b),d=gb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gc(b){function
-a(a){return N(a,b,[0,d,c])}var
-e=a(tM),f=a(tN);return[0,a(0),f,e]}function
-jr(a,b){if(a){var
-c=a[1],d=gb(c[1],b),e=gb(c[2],d[2]),f=jr(a[2],e[2]),g=f[2],h=f[1],i=gc(e[1]);return[0,[0,[0,gc(d[1]),i],h],g]}return[0,0,b]}function
-js(a){return typeof
+p=a9(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=jz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jA(b,i){if(b){var
+a=b[1],c=a9(a[1],i),d=a9(a[2],c[2]),e=a9(a[3],d[2]),f=a9(a[4],e[2]),g=cs(a[5],f[2]),h=cs(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gc(a,b){if(a){var
+c=cs(a[1],b),d=gc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gd(b){function
+a(a){return P(a,b,[0,d,c])}var
+e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
+jB(a,b){if(a){var
+c=a[1],d=gc(c[1],b),e=gc(c[2],d[2]),f=jB(a[2],e[2]),g=f[2],h=f[1],i=gd(e[1]);return[0,[0,[0,gd(d[1]),i],h],g]}return[0,0,b]}function
+jC(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-es(a){return iq(l,a)}function
-tO(a){if(typeof
+ev(a){return iv(m,a)}function
+t1(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=o(l,1,a[2]);return b?o(l,1,a[3]):b;case
-5:return o(l,1,[2,a[1],[0,c,c]]);case
-6:return o(l,1,a[2]);case
+b=l(m,1,a[2]);return b?l(m,1,a[3]):b;case
+5:return l(m,1,[2,a[1],[0,c,c]]);case
+6:return l(m,1,a[2]);case
 8:var
-d=o(l,1,a[1]);return d?o(l,1,a[2]):d;case
+d=l(m,1,a[1]);return d?l(m,1,a[2]):d;case
 2:case
-3:return es(a[2]);default:return o(l,1,a[1])}}function
-gd(a){if(typeof
+3:return ev(a[2]);default:return l(m,1,a[1])}}function
+ge(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=o(l,1,[2,d,e]),g=f?o(l,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(l,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?o(l,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
-5:return o(l,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=l(m,1,[2,d,e]),g=f?l(m,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(m,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?l(m,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
+5:return l(m,1,[2,a[1],[0,c,c]]);case
+8:var
+j=l(m,1,a[1]);return j?l(m,1,a[2]):j;case
 0:case
-1:return o(l,1,a[1]);default:return es(a[2])}}function
-et(d){var
+1:return l(m,1,a[1]);case
+2:case
+3:return ev(a[2]);default:var
+i=l(m,1,a[2]);return i?l(m,1,a[3]):i}}function
+ew(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aU(bD(function(d){return function(a){var
-h=f3(a[1]),e=aB(f3(d[1]),h);if(e)var
-i=f4(a[4]),b=aB(f4(d[4]),i);else
+b=a[2],e=a[1],c=aV(bD(function(d){return function(a){var
+h=f5(a[1]),e=aC(f5(d[1]),h);if(e)var
+i=f6(a[4]),b=aC(f6(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?az(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?ai(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dw(a){if(0===a[0])return es(j(a[1]));var
-b=j(a[1]);return o(l,1,[2,j(a[2]),b])}function
-a9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-tP(a){switch(a[0]){case
+dB(a){if(0===a[0])return ev(i(a[1]));var
+b=i(a[1]);return l(m,1,[2,i(a[2]),b])}function
+a_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+t2(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a9(a[3]),c),e=g(a9(a[2]),d);return g(a9(a[1]),e);case
+c=[0,a[4],0],d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e);case
 1:var
-b=a[3],f=b?a9(b[1]):b,h=g(a9(a[2]),f);return g(a9(a[1]),h);default:return a9(a[1])}}function
-tQ(a){var
-b=[0,a[5],[0,a[6],0]],c=g(a9(a[4]),b),d=g(a9(a[3]),c),e=g(a9(a[2]),d);return g(a9(a[1]),e)}function
-ge(a){switch(a){case
-0:return tU;case
-1:return tV;default:return 0}}function
-eu(a){var
-f=a[1],d=o(l,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(l,a[1],a[2]):d;if(e){var
-g=a[2];return o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
-gf(a){var
-e=bj(l,[0,d,c],a);return e?o(l,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-jt(c,b,C,s,r,q,f){function
-t(a){var
-d=c?tS:tT,b=az(m(a),d);return b?p(dw,a):b}var
-u=p(function(a){var
-b=t(a[1]);return b?t(a[2]):b},b);if(u)var
-D=m(b),g=ac(ee(c),D);else
+b=a[3],f=b?a_(b[1]):b,h=g(a_(a[2]),f);return g(a_(a[1]),h);default:return a_(a[1])}}function
+t3(a){var
+b=[0,a[5],[0,a[6],0]],c=g(a_(a[4]),b),d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e)}function
+gf(a){switch(a){case
+0:return t7;case
+1:return t8;default:return 0}}function
+ex(a){var
+f=a[1],d=l(m,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(m,a[1],a[2]):d;if(e){var
+g=a[2];return l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
+gg(a){var
+e=bj(m,[0,d,c],a);return e?l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+jD(c,d,D,t,s,r,g){function
+u(a){var
+d=c?t5:t6,b=ai(n(a),d);return b?p(dB,a):b}var
+v=p(function(a){var
+b=u(a[1]);return b?u(a[2]):b},d);if(v)var
+E=n(d),h=Z(dr(c),E);else
 var
-g=u;var
-v=g?ac(m(b),tW):g,w=v?o(l,1,j(C)):v;if(w)var
-E=ge(c),h=az(m(s),E);else
+h=v;var
+w=h?Z(n(d),t9):h,x=w?l(m,1,i(D)):w;if(x)var
+F=gf(c),j=ai(n(t),F);else
 var
-h=w;if(h)var
-F=ge(c),i=az(m(r),F);else
+j=x;if(j)var
+G=gf(c),k=ai(n(s),G);else
 var
-i=h;if(i)var
-G=cC(s,r),k=p(function(a){var
-b=j(a[2]);return bj(l,j(a[1]),b)},G);else
+k=j;if(k)var
+H=cE(t,s),o=p(function(a){var
+b=i(a[2]);return bj(m,i(a[1]),b)},H);else
 var
-k=i;if(k)if(c){var
-a=f$(q);switch(a[0]){case
+o=k;if(o)if(c){var
+a=ga(r);switch(a[0]){case
 0:var
-d=0;break;case
+e=0;break;case
 1:var
-y=eu(a[1]),z=y?eu(a[2]):y,d=z?eu(a[3]):z;break;case
+z=ex(a[1]),A=z?ex(a[2]):z,e=A?ex(a[3]):A;break;case
 2:var
-d=gf(a[1]);break;default:var
-A=gf(a[1]),d=A?gf(a[2]):A}var
-e=d}else
+e=gg(a[1]);break;default:var
+B=gg(a[1]),e=B?gg(a[2]):B}var
+f=e}else
 var
-B=f$(q),J=0===B[0]?eu(B[1]):0,e=J;else
+C=ga(r),J=0===C[0]?ex(C[1]):0,f=J;else
 var
-e=k;if(e)var
-H=m(b),I=0,n=p(function(a){return f_(I,H,a)},f);else
+f=o;if(f)var
+b=n(d),I=dr(c),q=p(function(a){var
+d=a[2];if(d)var
+e=d[1],f=Z(tB,e),g=f?Z(e,b):f,c=g;else
 var
-n=e;var
-x=n?et(f):n;return x?p(gd,cU(m(b),f)):x}function
-ju(a,c,g){var
-d=ac(tX,m(a));if(d)var
-l=m(a),b=p(function(a){switch(a[1]){case
+c=1;switch(a[1]){case
+2:return 1===a[4][0]?a[3]?c:bI(0,b,a):bI(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bI(0,b,a):bI(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?ai(b,I):c:bI(0,b,a):bI(0,b,a);default:return bI(0,b,a)}},g);else
+var
+q=f;var
+y=q?ew(g):q;return y?p(ge,cV(n(d),g)):y}function
+jE(a,c,g){var
+d=Z(t_,n(a));if(d)var
+l=n(a),b=p(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4331,94 +4446,95 @@ b=e[1];break;case
 h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
 b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
-i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=ac(tk,b);return d?ac(b,l):d},c);else
+i=a[3],k=i?1:i;return k}return 0;case
+8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
+d=Z(tw,b);return d?Z(b,l):d},c);else
 var
 b=d;var
-e=b?et(c):b,f=e?p(dw,M(tP,a)):e;return f?p(tO,g[3]):f}function
-jv(b,a){return p(function(c){var
-a=c[2];return a?hz(a[1],b):1},a)}function
-tY(r){var
-en=f6(r[3]),eo=en?f6(r[4]):en;if(eo){var
-ab=r[1];if(3===ab[0]){var
-eu=p(ep,ab[1]);if(eu)var
-gS=ab[2],b4=p(function(a){return ep(a[1])},gS);else
+e=b?ew(c):b,f=e?p(dB,N(t2,a)):e;return f?p(t1,g[3]):f}function
+jF(b,a){return p(function(c){var
+a=c[2];return a?hC(a[1],b):1},a)}function
+t$(r){var
+eo=f8(r[3]),ep=eo?f8(r[4]):eo;if(ep){var
+ad=r[1];if(3===ad[0]){var
+et=p(es,ad[1]);if(et)var
+gS=ad[2],b5=p(function(a){return es(a[1])},gS);else
 var
-b4=eu;if(b4)var
-gT=ab[3],b5=p(function(a){var
-b=ep(a[1]),c=b?f7(a[2]):b;return c?cS(a[2]):c},gT);else
+b5=et;if(b5)var
+gT=ad[3],b6=p(function(a){var
+b=es(a[1]),c=b?f9(a[2]):b;return c?cT(a[2]):c},gT);else
 var
-b5=b4;if(b5)var
-gU=ab[4],gV=function(a){var
-b=f7(a);return b?cS(a):b},b1=p(function(a){return p(gV,a)},gU);else
+b6=b5;if(b6)var
+gU=ad[4],gV=function(a){var
+b=f9(a);return b?cT(a):b},b2=p(function(a){return p(gV,a)},gU);else
 var
-b1=b5}else
+b2=b6}else
 var
-b1=1;var
-b2=b1}else
+b2=1;var
+b3=b2}else
 var
-b2=eo;if(b2){var
-i=r[1];switch(i[0]){case
+b3=ep;if(b3){var
+j=r[1];switch(j[0]){case
 0:var
-gC=M(du,i[3]),gD=g(ji(i[2]),gC),R=g(M(tf,i[1]),gD);break;case
+gC=N(dz,j[3]),gD=g(js(j[2]),gC),S=g(N(tr,j[1]),gD);break;case
 1:var
-gE=M(du,i[3]),gF=g(ji(i[2]),gE),R=g(M(tg,i[1]),gF);break;case
+gE=N(dz,j[3]),gF=g(js(j[2]),gE),S=g(N(ts,j[1]),gF);break;case
 2:var
-gG=M(du,i[7]),G=i[6];switch(G[0]){case
+gG=N(dz,j[7]),G=j[6];switch(G[0]){case
 1:var
-ej=G[3],el=G[2],em=G[1],bY=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ej[1],[0,ej[2],0]]]]]];break;case
+ek=G[3],el=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
 2:var
-bY=[0,G[1],0];break;default:var
-bY=[0,G[1],[0,G[2],0]]}var
-gH=g(bY,gG),gI=g(i[5],gH),gJ=g(i[4],gI),gK=[0,i[3],gJ],gL=i[2],R=g(M(function(a){return M(cT,g(a[1],a[2]))},gL),gK);break;case
+bZ=[0,G[1],0];break;default:var
+bZ=[0,G[1],[0,G[2],0]]}var
+gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],S=g(N(function(a){return N(cU,g(a[1],a[2]))},gL),gK);break;case
 3:var
-gM=M(du,i[7]),gN=g(i[6],gM),gO=g(i[5],gN),gP=i[2],R=g(M(function(a){return cT(a[2])},gP),gO);break;case
+gM=N(dz,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],S=g(N(function(a){return cU(a[2])},gP),gO);break;case
 4:var
-gQ=M(du,i[3]),R=[0,i[1],[0,i[2],gQ]];break;default:var
-b0=i[1],R=b0?cT(b0[1]):b0}var
-b3=p(cS,R)}else
+gQ=N(dz,j[3]),S=[0,j[1],[0,j[2],gQ]];break;default:var
+b0=j[1],S=b0?cU(b0[1]):b0}var
+b4=p(cT,S)}else
 var
-b3=b2;if(b3){var
-S=r[2];if(0===S[0]){var
-eq=jj(S[1]);if(eq)var
-gR=S[2],ad=p(function(a){var
+b4=b3;if(b4){var
+T=r[2];if(0===T[0]){var
+eq=jt(T[1]);if(eq)var
+gR=T[2],ae=p(function(a){var
 b=a[1];return p(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return f6(a[1]);case
+1:return f8(a[1]);case
 2:case
 3:return 1;default:var
 a=a[1];continue}},b)},gR);else
 var
-ad=eq}else
+ae=eq}else
 var
-er=jj(S[1]),ad=er?p(cS,g(S[2],S[3])):er}else
+er=jt(T[1]),ae=er?p(cT,g(T[2],T[3])):er}else
 var
-ad=b3;if(ad){var
+ae=b4;if(ae){var
 a=r[1];switch(a[0]){case
 0:var
-af=a[3],ch=a[2],T=a[1],U=r[2];if(0===U[0]){var
-eN=U[2],k=f9(T,ch,af),ci=cV(m(eN),eN);if(ci){var
-eO=ci[1];if(eO[2])return 0;var
-eP=ju(T,af,k);if(eP){var
-g9=eO[1],eQ=f(tu,k[1]),eR=k[1],b8=M(ts,eR),g3=b8?[0,b8[1],b8[2]]:M(tt,eR),v=A(c,dv(g3)),t=U[1],_=k[2],fT=0===_[0]?bZ(_[1]):[0,_[1],_[2],_[4][1]],c5=is(l,k,f(px,k[1]),fT);if(c5){var
-cO=ij(v,eQ,k[1]),J=ik(v,eQ,k[1],0),cP=m(cO),fv=io(J,v,cP,k[3]),fx=g(cK(ia(J)),fv),cQ=g(cK(h$(J)),fx),cR=d5(cQ)[1],Z=d3(cR),cW=p(function(a){var
-b=q(d);return be(N(bW(Z,a),Z,b),a)},cQ);if(cW){var
-cX=bD(pv,k[3]);if(cX){var
-fy=k[3],fz=g(cO,f(function(a){return cj(v,a)},fy)),bn=aW(f(function(a){return a0(t,a)},fz));if(bn){var
-K=k[2];if(0===K[0])var
-cY=K[1];else
+af=a[3],ci=a[2],U=a[1],V=r[2];if(0===V[0]){var
+eO=V[2],k=f$(U,ci,af),cj=cW(n(eO),eO);if(cj){var
+eP=cj[1];if(eP[2])return 0;var
+eQ=jE(U,af,k);if(eQ){var
+g9=eP[1],eR=f(tH,k[1]),eS=k[1],b9=N(tF,eS),g3=b9?[0,b9[1],b9[2]]:N(tG,eS),v=z(c,dA(g3)),t=V[1],aa=k[2],fU=0===aa[0]?b1(aa[1]):[0,aa[1],aa[2],aa[4][1]],c6=ix(m,k,f(pI,k[1]),fU);if(c6){var
+cP=ip(v,eR,k[1]),K=iq(v,eR,k[1],0),cQ=n(cP),fw=it(K,v,cQ,k[3]),fx=g(cL(ig(K)),fw),cR=g(cL(ie(K)),fx),cS=d_(cR)[1],$=d8(cS),cX=p(function(a){var
+b=q(d);return bf(P(bY($,a),$,b),a)},cR);if(cX){var
+cY=bD(pG,k[3]);if(cY){var
+fz=k[3],fA=g(cP,f(function(a){return cl(v,a)},fz)),bn=aW(f(function(a){return a1(t,a)},fA));if(bn){var
+L=k[2];if(0===L[0])var
+cZ=L[1];else
 var
-am=K[3],cM=K[2],cN=K[1],cY=[0,[0,[2,cN,am],[1,cN,am]],[0,[2,cM,am],[1,cM,am]],K[4]];var
-fA=bi(cY,v),bo=aW(f(function(a){return a0(t,a)},fA));if(bo){var
-fB=k[3],bp=aW(ip(t,function(a){return bW(Z,a)},J,v,cP,fB));if(bp){var
-cZ=bp[1],fE=ih(cZ),an=k[2],fF=bo[1],fG=function(d){if(0===an[0])return 0;if(d){var
+an=L[3],cN=L[2],cO=L[1],cZ=[0,[0,[2,cO,an],[1,cO,an]],[0,[2,cN,an],[1,cN,an]],L[4]];var
+fB=bi(cZ,v),bo=aW(f(function(a){return a1(t,a)},fB));if(bo){var
+fC=k[3],bp=aW(iu(t,function(a){return bY($,a)},K,v,cQ,fC));if(bp){var
+c0=bp[1],fD=im(c0),ao=k[2],fG=bo[1],fH=function(d){if(0===ao[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=cg(t,v,an[1]);if(f){var
-g=cg(t,v,an[2]);if(g){var
-h=cg(t,v,an[3]);if(h)var
-q=f[1],r=bE(c),i=V([0,bE(c),r],q),s=g[1],u=bE(b),j=V([0,bE(b),u],s),w=cI(b),x=[0,cI(b),w],y=[0,C(t,aC(Q(j,j)),x),0],z=cI(c),A=[0,cI(c),z],B=[0,C(t,aC(Q(i,i)),A),y],D=ag(t,j),E=ag(t,i),k=[0,[0,V(V(ag(t,h[1]),E),D),ah,B]];else
+b=a[1],c=d[1],f=ch(t,v,ao[1]);if(f){var
+g=ch(t,v,ao[2]);if(g){var
+h=ch(t,v,ao[3]);if(h)var
+q=f[1],r=bE(c),i=O([0,bE(c),r],q),s=g[1],u=bE(b),j=O([0,bE(b),u],s),w=cK(b),x=[0,cK(b),w],y=[0,B(t,aA(H(j,j)),x),0],z=cK(c),A=[0,cK(c),z],C=[0,B(t,aA(H(i,i)),A),y],D=aj(t,j),E=aj(t,i),k=[0,[0,O(O(aj(t,h[1]),E),D),_,C]];else
 var
 k=h;var
 l=k}else
@@ -4435,267 +4551,267 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},fH=bn[1],fI=0,fL=ia(J),fM=e(bh(function(a){return bW(Z,a)}),fL),fO=h$(J);return fw(t,cR,e(bh(function(a){return bW(Z,a)}),fO),fM,fI,fH,cZ,fG,fF,fE,g9)}var
-c0=bp}else
+p=d;return p},fI=bn[1],fJ=0,fK=ig(K),fN=e(a7(function(a){return bY($,a)}),fK),fO=ie(K);return fy(t,cS,e(a7(function(a){return bY($,a)}),fO),fN,fJ,fI,c0,fH,fG,fD,g9)}var
+c1=bp}else
 var
-c0=bo;var
-c1=c0}else
+c1=bo;var
+c2=c1}else
 var
-c1=bn;var
-bq=c1}else
+c2=bn;var
+bq=c2}else
 var
-bq=cX}else
+bq=cY}else
 var
-bq=cW;return bq}return c5}var
-eS=eP}else
+bq=cX;return bq}return c6}var
+eT=eQ}else
 var
-eS=ci;return eS}var
-aS=U[2];if(aS){var
-aT=aS[2];if(aT){var
-aX=aT[2];if(aX){if(aX[2])return 0;var
-eT=jp(T,f(j,U[3]));if(eT[2])return 0;var
-W=U[4];if(typeof
+eT=cj;return eT}var
+aT=V[2];if(aT){var
+aU=aT[2];if(aU){var
+aX=aU[2];if(aX){if(aX[2])return 0;var
+eU=jz(U,f(i,V[3]));if(eU[2])return 0;var
+W=V[4];if(typeof
 W==="number")var
-w=tL;else
+w=tY;else
 if(0===W[0]){var
-b9=W[2],b_=W[1];if(b9){var
-aJ=b9[1],cx=0;if(aJ){var
-aN=aJ[2],bf=0;if(aN){var
-aO=aN[2],bg=0;if(aO)if(aO[2]){var
-w=0;bf=1;bg=1}else{var
-b$=aO[1],ca=aN[1],cb=aJ[1],cc=b9[2];if(cc){var
-aP=cc[1],fs=0;if(aP){var
-aQ=aP[2],ft=0;if(aQ){var
-aR=aQ[2],fu=0;if(aR)if(aR[2]||cc[2]){var
-w=0;bf=1;bg=1;fs=1;ft=1;fu=1}else
+b_=W[2],b$=W[1];if(b_){var
+aK=b_[1],cy=0;if(aK){var
+aO=aK[2],bg=0;if(aO){var
+aP=aO[2],bh=0;if(aP)if(aP[2]){var
+w=0;bg=1;bh=1}else{var
+ca=aP[1],cb=aO[1],cc=aK[1],cd=b_[2];if(cd){var
+aQ=cd[1],ft=0;if(aQ){var
+aR=aQ[2],fu=0;if(aR){var
+aS=aR[2],fv=0;if(aS)if(aS[2]||cd[2]){var
+w=0;bg=1;bh=1;ft=1;fu=1;fv=1}else
 var
-eA=[0,[0,b_,[0,[0,cb,ca],b$],[0,[0,aP[1],aQ[1]],aR[1]]]];else
+eB=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,aQ[1],aR[1]],aS[1]]]];else
 var
-eA=aR;if(!fu)var
-eB=eA}else
-var
-eB=aQ;if(!ft)var
+eB=aS;if(!fv)var
 eC=eB}else
 var
-eC=aP;if(!fs){var
-w=eC;bf=1;bg=1}}else
+eC=aR;if(!fu)var
+eD=eC}else
 var
-eD=[0,[0,b_,[0,[0,cb,ca],b$],[0,[0,cb,ca],b$]]]}else
+eD=aQ;if(!ft){var
+w=eD;bg=1;bh=1}}else
 var
-eD=aO;if(!bg)var
-eE=eD}else
+eE=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,cc,cb],ca]]]}else
 var
-eE=aN;if(!bf){var
-eF=eE;cx=1}}else{var
-eF=aJ;cx=1}if(cx)var
-w=eF}else
+eE=aP;if(!bh)var
+eF=eE}else
 var
-eG=[0,[0,d,d],d],w=[0,[0,b_,eG,eG]]}else
+eF=aO;if(!bg){var
+eG=eF;cy=1}}else{var
+eG=aK;cy=1}if(cy)var
+w=eG}else
+var
+eH=[0,[0,d,d],d],w=[0,[0,b$,eH,eH]]}else
 var
 w=[0,[1,W[1],W[2]]];if(w){var
-eU=ju(T,af,f9(T,ch,af));if(eU){var
-H=w[1],g_=j(aX[1]),g$=j(aT[1]),z=[0,j(aS[1]),g$,g_],ai=eT[1],ck=f9(T,ch,af),c2=is(l,ck,ai,z);if(c2)if(typeof
-H==="number")return bD(function(a){switch(a[0]){case
+eV=jE(U,af,f$(U,ci,af));if(eV){var
+I=w[1],g_=i(aX[1]),g$=i(aU[1]),A=[0,i(aT[1]),g$,g_],ah=eU[1],ck=f$(U,ci,af),c3=ix(m,ck,ah,A);if(c3)if(typeof
+I==="number")return bD(function(a){switch(a[0]){case
 0:var
-b=[0,di(a[1],a[2],a[3],a[4],z)];break;case
+b=[0,dk(a[1],a[2],a[3],a[4],A)];break;case
 1:var
-e=a[2],f=a[1],g=bG(f,e,z),b=[0,E(bG(f,e,z),g)];break;default:var
-b=0}return b?o(l,0,[2,[0,d,c],b[1]]):b},ai);else{if(0===H[0]){var
-br=aV(ck[3],H[1]);if(br){var
-fP=br[1],fQ=iu(H[3]);return iw(l,ai,z,iu(H[2]),fQ,fP)}return br}var
-bs=aV(ck[3],H[1]);if(bs){var
-bt=aV(ai,H[2]);if(bt){var
-c3=bt[1],fR=bs[1],fS=cL(c3,z);return iw(l,ai,z,cL(c3,z),fS,fR)}var
-c4=bt}else
+e=a[2],f=a[1],g=bG(f,e,A),b=[0,E(bG(f,e,A),g)];break;default:var
+b=0}return b?l(m,0,[2,[0,d,c],b[1]]):b},ah);else{if(0===I[0]){var
+br=aJ(ck[3],I[1]);if(br){var
+fQ=br[1],fR=iz(I[3]);return iB(m,ah,A,iz(I[2]),fR,fQ)}return br}var
+bs=aJ(ck[3],I[1]);if(bs){var
+bt=aJ(ah,I[2]);if(bt){var
+c4=bt[1],fS=bs[1],fT=cM(c4,A);return iB(m,ah,A,cM(c4,A),fT,fS)}var
+c5=bt}else
 var
-c4=bs;return c4}return c2}var
-eV=eU}else
-var
-eV=w;var
+c5=bs;return c5}return c3}var
 eW=eV}else
 var
-eW=aX;var
+eW=w;var
 eX=eW}else
 var
-eX=aT;var
+eX=aX;var
 eY=eX}else
 var
-eY=aS;return eY;case
+eY=aU;var
+eZ=eY}else
+var
+eZ=aT;return eZ;case
 1:var
-aY=a[3],I=a[1],aZ=r[2];if(0===aZ[0])return 0;var
-a1=aZ[2];if(a1){var
-a2=a1[2];if(a2){var
+aY=a[3],J=a[1],aZ=r[2];if(0===aZ[0])return 0;var
+a0=aZ[2];if(a0){var
+a2=a0[2];if(a2){var
 a3=a2[2];if(a3){if(a3[2])return 0;var
-eZ=jq(I,f(j,aZ[3]));if(eZ[2])return 0;var
-eH=ac(tR,m(I));if(eH)var
-g4=m(I),g5=1,ce=p(function(a){return f_(g5,g4,a)},aY);else
+e0=jA(J,f(i,aZ[3]));if(e0[2])return 0;var
+eI=Z(t4,n(J));if(eI)var
+g4=n(J),g5=1,ce=p(function(a){return bI(g5,g4,a)},aY);else
 var
-ce=eH;var
-eI=ce?et(aY):ce,eJ=eI?p(dw,M(tQ,I)):eI,e0=eJ?p(gd,cU(m(I),aY)):eJ;if(e0){var
-ha=js(aZ[4]),hb=j(a3[1]),hc=j(a2[1]),B=[0,j(a1[1]),hc,hb],a4=eZ[1],hd=a[2],gZ=cU(m(I),aY),g0=jl(hd),ao=f(tr,I),O=a4;for(;;){if(ao){if(O){var
-n=O[1],F=ao[1],c6=aM(l,F[1],n[1]),c7=c6?aM(l,F[2],n[2]):c6,c8=c7?aM(l,F[3],n[3]):c7,c9=c8?aM(l,F[4],n[4]):c8,c_=c9?cl(l,F[5],n[5]):c9,c$=c_?cl(l,F[6],n[6]):c_,db=c$?o(l,1,n[5]):c$,dc=db?o(l,1,n[6]):db,dd=dc?o(l,1,E(n[1],n[1])):dc;if(dd)var
-fU=fC(n),bu=o(l,1,E(fC(n),fU));else
+ce=eI;var
+eJ=ce?ew(aY):ce,eK=eJ?p(dB,N(t3,J)):eJ,e1=eK?p(ge,cV(n(J),aY)):eK;if(e1){var
+ha=jC(aZ[4]),hb=i(a3[1]),hc=i(a2[1]),C=[0,i(a0[1]),hc,hb],a4=e0[1],hd=a[2],gZ=cV(n(J),aY),g0=jv(hd),ap=f(tE,J),Q=a4;for(;;){if(ap){if(Q){var
+o=Q[1],F=ap[1],c7=aN(m,F[1],o[1]),c8=c7?aN(m,F[2],o[2]):c7,c9=c8?aN(m,F[3],o[3]):c8,c_=c9?aN(m,F[4],o[4]):c9,c$=c_?cn(m,F[5],o[5]):c_,da=c$?cn(m,F[6],o[6]):c$,dd=da?l(m,1,o[5]):da,de=dd?l(m,1,o[6]):dd,df=de?l(m,1,E(o[1],o[1])):de;if(df)var
+fV=fE(o),bu=l(m,1,E(fE(o),fV));else
 var
-bu=dd;var
-de=bu?dT(F[7],n[7]):bu;if(de){var
-ao=ao[2],O=O[2];continue}var
-df=de}else
+bu=df;var
+dg=bu?dX(F[7],o[7]):bu;if(dg){var
+ap=ap[2],Q=Q[2];continue}var
+dh=dg}else
 var
-df=O;var
-bv=df}else
+dh=Q;var
+bv=dh}else
 var
-bv=O?0:1;var
-dg=bv?ir(l,g0,B):bv;if(dg){var
-fW=f(function(a){return iD(a,B)},a4),fX=f(function(a){var
-b=iF(a,B);return[1,iE(a,B),b]},a4);return iA(l,pz,[0,f(function(a){var
-d=iB(a),e=aL(iF(a,B),d),f=fD(a),g=aL(iE(a,B),f),h=aK(function(b,a){return[1,b,a]},g,e),i=aL(a[5],h),j=a[3],k=aK(function(b,a){return[1,b,a]},j,i),l=a[4],m=aK(function(b,a){return[1,b,a]},B,l),n=aK(function(b,a){return[2,b,a]},m,k),o=fJ(a,B),b=aL([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fX,fW],gZ,ha)}return dg}}var
-e1=e0}else
-var
-e1=a3;var
+bv=Q?0:1;var
+di=bv?iw(m,g0,C):bv;if(di){var
+fW=f(function(a){return iI(a,C)},a4),fY=f(function(a){var
+b=iK(a,C);return[1,iJ(a,C),b]},a4);return iF(m,pK,[0,f(function(a){var
+d=iG(a),e=aM(iK(a,C),d),f=fF(a),g=aM(iJ(a,C),f),h=aL(function(b,a){return[1,b,a]},g,e),i=aM(a[5],h),j=a[3],k=aL(function(b,a){return[1,b,a]},j,i),l=a[4],m=aL(function(b,a){return[1,b,a]},C,l),n=aL(function(b,a){return[2,b,a]},m,k),o=fL(a,C),b=aM([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fY,fW],gZ,ha)}return di}}var
 e2=e1}else
 var
-e2=a2;var
+e2=a3;var
 e3=e2}else
 var
-e3=a1;return e3;case
+e3=a2;var
+e4=e3}else
+var
+e4=a0;return e4;case
 2:var
-a5=a[7],a6=a[6],a7=a[5],a8=a[4],a9=a[3],aj=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
-cm=Y[2],ak=jn(X,aj,a9,a8,a7,a6,a5),co=cV(m(cm),cm);if(co){var
-e4=co[1];if(e4[2])return 0;var
-e5=jt(X,aj,a9,a8,a7,a6,a5),e6=e5?jv(ee(X),cm):e5;if(e6){var
-he=e4[1],hf=ak[2],hg=A(c,dv(M(function(a){var
-b=bI(a[2]);return g(bI(a[1]),b)},hf))),hh=Y[1],gz=ak[2],ea=p(function(a){var
-b=fV(l,a[1]);return b?fV(l,a[2]):b},gz),eb=ea?fV(l,ak[4]):ea;if(eb)var
-gA=i0(ak[5]),bU=p(function(a){return ek(l,a)},gA);else
+a5=a[7],a6=a[6],a8=a[5],a9=a[4],a_=a[3],ak=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
+cm=Y[2],al=jx(X,ak,a_,a9,a8,a6,a5),co=cW(n(cm),cm);if(co){var
+e5=co[1];if(e5[2])return 0;var
+e6=jD(X,ak,a_,a9,a8,a6,a5),e7=e6?jF(dr(X),cm):e6;if(e7){var
+he=e5[1],hf=al[2],hg=z(c,dA(N(function(a){var
+b=bJ(a[2]);return g(bJ(a[1]),b)},hf))),hh=Y[1],gz=al[2],ec=p(function(a){var
+b=fX(m,a[1]);return b?fX(m,a[2]):b},gz),ed=ec?fX(m,al[4]):ec;if(ed)var
+gA=i_(al[5]),bV=p(function(a){return en(m,a)},gA);else
 var
-bU=eb;return bU?p6(hh,ak,hg,he):bU}var
-e7=e6}else
+bV=ed;return bV?qf(hh,al,hg,he):bV}var
+e8=e7}else
 var
-e7=co;return e7}var
-e8=f(j,Y[2]),e9=ge(X),e_=jr(aj,f(j,Y[3]));if(e_[2])return 0;var
-e$=jt(X,aj,a9,a8,a7,a6,a5);if(e$){var
-bm=e9,b=e8,hi=js(Y[4]);for(;;){if(bm&&b){var
+e8=co;return e8}var
+e9=f(i,Y[2]),e_=gf(X),e$=jB(ak,f(i,Y[3]));if(e$[2])return 0;var
+fa=jD(X,ak,a_,a9,a8,a6,a5);if(fa){var
+bm=e_,b=e9,hi=jC(Y[4]);for(;;){if(bm&&b){var
 bm=bm[1],b=b[2];continue}var
-a_=gc(hJ(e9,e8)),a$=e_[1],D=jn(X,aj,a9,a8,a7,a6,a5),aE=D[2],P=a$;for(;;){if(aE){if(P){var
-d6=P[1],d7=aE[1],d8=aM(l,d7[1],d6[1]),d9=d8?aM(l,d7[2],d6[2]):d8;if(d9){var
-aE=aE[2],P=P[2];continue}var
-d_=d9}else
+a$=gd(hM(e_,e9)),ba=e$[1],D=jx(X,ak,a_,a9,a8,a6,a5),aE=D[2],R=ba;for(;;){if(aE){if(R){var
+d6=R[1],d7=aE[1],d9=aN(m,d7[1],d6[1]),d$=d9?aN(m,d7[2],d6[2]):d9;if(d$){var
+aE=aE[2],R=R[2];continue}var
+ea=d$}else
 var
-d_=P;var
-bS=d_}else
+ea=R;var
+bT=ea}else
 var
-bS=P?0:1;var
-d$=bS?aM(l,D[4],a_):bS;if(d$){var
+bT=R?0:1;var
+eb=bT?aN(m,D[4],a$):bT;if(eb){var
 x=D[5];switch(x[0]){case
 0:var
-u=b?b[2]?0:dm(l,x[1],b[1]):b;break;case
+u=b?b[2]?0:dp(m,x[1],b[1]):b;break;case
 1:var
-cy=0;if(b){var
-au=b[2],cz=0;if(au){var
-av=au[2],cA=0;if(av)if(av[2]){var
-u=0;cz=1;cA=1}else{var
-dL=dm(l,x[1],b[1]),dM=dL?dm(l,x[2],au[1]):dL;if(dM){var
-u=dm(l,x[3],av[1]);cz=1;cA=1}else
+cz=0;if(b){var
+av=b[2],cA=0;if(av){var
+aw=av[2],cB=0;if(aw)if(aw[2]){var
+u=0;cA=1;cB=1}else{var
+dO=dp(m,x[1],b[1]),dP=dO?dp(m,x[2],av[1]):dO;if(dP){var
+u=dp(m,x[3],aw[1]);cA=1;cB=1}else
 var
-dN=dM}else
+dQ=dP}else
 var
-dN=av;if(!cA)var
-dO=dN}else
+dQ=aw;if(!cB)var
+dR=dQ}else
 var
-dO=au;if(!cz){var
-dP=dO;cy=1}}else{var
-dP=b;cy=1}if(cy)var
-u=dP;break;case
+dR=av;if(!cA){var
+dS=dR;cz=1}}else{var
+dS=b;cz=1}if(cz)var
+u=dS;break;case
 2:var
-cB=0;if(b){var
-aw=b[2],cD=0;if(aw){var
-ax=aw[2];if(ax)if(ax[2]){var
+cC=0;if(b){var
+ax=b[2],cD=0;if(ax){var
+ay=ax[2];if(ay)if(ay[2]){var
 u=0;cD=1}else{var
-dQ=ax[1],dS=aw[1],dU=b[1],gs=E([0,dU,dS,dQ],[0,dU,dS,dQ]),u=iU(l,x[1],gs,[0,c,c]);cD=1}else
+dT=ay[1],dU=ax[1],dV=b[1],gs=E([0,dV,dU,dT],[0,dV,dU,dT]),u=iZ(m,x[1],gs,[0,c,c]);cD=1}else
 var
-dV=ax}else
+dW=ay}else
 var
-dV=aw;if(!cD){var
-dW=dV;cB=1}}else{var
-dW=b;cB=1}if(cB)var
-u=dW;break;default:var
-cE=0;if(b){var
-ay=b[2],cF=0;if(ay){var
-aA=ay[2],cG=0;if(aA)if(aA[2]){var
-u=0;cF=1;cG=1}else{var
-bR=aA[1],dX=ay[1],dY=b[1],dZ=iU(l,x[1],[1,[3,dY,dY],[3,dX,dX]],[1,[0,c,c],[3,bR,bR]]);if(dZ){var
-u=dm(l,cn(x[2]),bR);cF=1;cG=1}else
+dW=ax;if(!cD){var
+dY=dW;cC=1}}else{var
+dY=b;cC=1}if(cC)var
+u=dY;break;default:var
+cF=0;if(b){var
+az=b[2],cG=0;if(az){var
+aB=az[2],cH=0;if(aB)if(aB[2]){var
+u=0;cG=1;cH=1}else{var
+bS=aB[1],dZ=az[1],d0=b[1],d1=iZ(m,x[1],[1,[3,d0,d0],[3,dZ,dZ]],[1,[0,c,c],[3,bS,bS]]);if(d1){var
+u=dp(m,cp(x[2]),bS);cG=1;cH=1}else
 var
-d0=dZ}else
+d2=d1}else
 var
-d0=aA;if(!cG)var
-d1=d0}else
+d2=aB;if(!cH)var
+d3=d2}else
 var
-d1=ay;if(!cF){var
-d2=d1;cE=1}}else{var
-d2=b;cE=1}if(cE)var
-u=d2}var
-bT=u}else
+d3=az;if(!cG){var
+d4=d3;cF=1}}else{var
+d4=b;cF=1}if(cF)var
+u=d4}var
+bU=u}else
 var
-bT=d$;if(bT){var
-aF=D[5],gw=D[6],gx=D[3],gy=D[1],d4=function(a){var
-c=fN(aF,b,a_,a);return E(fN(aF,b,a_,a),c)},gt=f(d4,a$),gu=f(function(a){return[0,[5,d4(a)]]},a$),gv=[0,f(function(e){var
-d=aD(fN(aF,b,a_,e)),a=aL([4,[0,c,c],gx],iQ(iR(aF,b,e[2]),d));switch(gy){case
+bU=eb;if(bU){var
+aF=D[5],gw=D[6],gx=D[3],gy=D[1],d5=function(a){var
+c=fP(aF,b,a$,a);return E(fP(aF,b,a$,a),c)},gt=f(d5,ba),gu=f(function(a){return[0,[5,d5(a)]]},ba),gv=[0,f(function(e){var
+d=aD(fP(aF,b,a$,e)),a=aM([4,[0,c,c],gx],iV(iW(aF,b,e[2]),d));switch(gy){case
 0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
-1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},a$),gu,gt];return iA(l,ee(D[1]),gv,gw,hi)}return bT}}}return e$;case
+1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},ba),gu,gt];return iF(m,dr(D[1]),gv,gw,hi)}return bU}}}return fa;case
 3:var
-ba=a[7],fa=a[6],fb=a[5],bb=a[4],fc=a[2],fd=a[1],cq=r[2];if(0===cq[0]){var
-cr=cq[2],cs=cV(m(cr),cr);if(cs){var
-fe=cs[1];if(fe[2])return 0;var
-g6=m(fa),eK=az(m(fb),g6);if(eK)var
-g7=m(bb),g8=0,cf=p(function(a){return f_(g8,g7,a)},ba);else
+bb=a[7],fb=a[6],fc=a[5],bc=a[4],fd=a[2],fe=a[1],cq=r[2];if(0===cq[0]){var
+cs=cq[2],ct=cW(n(cs),cs);if(ct){var
+ff=ct[1];if(ff[2])return 0;var
+g6=n(fb),eL=ai(n(fc),g6);if(eL)var
+g7=n(bc),g8=0,cg=p(function(a){return bI(g8,g7,a)},bb);else
 var
-cf=eK;var
-eL=cf?et(ba):cf,eM=eL?p(function(a){return dw(a[2])},fc):eL,ff=eM?p(gd,cU(m(bb),ba)):eM,fg=ff?jv(m(fd),cr):ff;if(fg){var
-hj=fe[1],hk=a[3],ev=cU(m(bb),ba),gW=cC(fb,fa),b6=f(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},gW),gX=f(function(a){return f(cp,a)},bb),gY=f(function(a){var
-b=cp(a[2]);return[0,a[1],b]},hk),h=[0,fd,f(function(a){var
-b=bH(a[2]);return[0,a[1],b]},fc),gY,gX],al=cq[1],gm=f(da,h[2]),bL=g(h[1],gm),at=m(h[1]),dE=ac(pB,at),dF=dE?ac(at,pC):dE,dG=dF?ac(at,m(h[4])):dF,dH=dG?ac(m(h[4]),pD):dG;if(dH)var
-gn=h[4],bM=p(function(a){return az(m(a),at)},gn);else
+cg=eL;var
+eM=cg?ew(bb):cg,eN=eM?p(function(a){return dB(a[2])},fd):eM,fg=eN?p(ge,cV(n(bc),bb)):eN,fh=fg?jF(n(fe),cs):fg;if(fh){var
+hj=ff[1],hk=a[3],eu=cV(n(bc),bb),gW=cE(fc,fb),b7=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(cr,a)},bc),gY=f(function(a){var
+b=cr(a[2]);return[0,a[1],b]},hk),h=[0,fe,f(function(a){var
+b=bH(a[2]);return[0,a[1],b]},fd),gY,gX],am=cq[1],gm=f(db,h[2]),bM=g(h[1],gm),au=n(h[1]),dH=Z(pM,au),dI=dH?Z(au,pN):dH,dJ=dI?Z(au,n(h[4])):dI,dK=dJ?Z(n(h[4]),pO):dJ;if(dK)var
+gn=h[4],bN=p(function(a){return ai(n(a),au)},gn);else
 var
-bM=dH;if(bM){var
-as=bL;for(;;){if(as){var
-dC=as[2],gl=as[1],dD=aU(bD(function(b){return function(a){return lV(b,a)}}(gl),dC));if(dD){var
-as=dC;continue}var
-dI=dD}else
+bN=dK;if(bN){var
+at=bM;for(;;){if(at){var
+dF=at[2],gl=at[1],dG=aV(bD(function(b){return function(a){return l6(b,a)}}(gl),dF));if(dG){var
+at=dF;continue}var
+dL=dG}else
 var
-dI=1;var
-bN=dI;break}}else
+dL=1;var
+bO=dL;break}}else
 var
-bN=bM;if(bN){var
-ar=bL,aq=h[3];for(;;){if(aq){var
-dy=aq[1],dz=dy[1],dA=aU(bD(function(b){return function(a){return aB(b,a)}}(dz),ar)),dB=dA?fK(ar,dy[2]):dA;if(dB){var
-ar=[0,dz,ar],aq=aq[2];continue}var
-dJ=dB}else
+bO=bN;if(bO){var
+as=bM,ar=h[3];for(;;){if(ar){var
+dy=ar[1],dC=dy[1],dD=aV(bD(function(b){return function(a){return aC(b,a)}}(dC),as)),dE=dD?fM(as,dy[2]):dD;if(dE){var
+as=[0,dC,as],ar=ar[2];continue}var
+dM=dE}else
 var
-dJ=1;var
-bO=dJ;break}}else
-var
-bO=bN;if(bO)var
-go=h[4],gp=g(f(da,h[3]),bL),gq=function(a){return fK(gp,a)},bP=p(function(a){return p(gq,a)},go);else
+dM=1;var
+bP=dM;break}}else
 var
 bP=bO;if(bP)var
-gr=h[2],bQ=p(function(a){return bj(l,a[2][1],a[2][2])},gr);else
+go=h[4],gp=g(f(db,h[3]),bM),gq=function(a){return fM(gp,a)},bQ=p(function(a){return p(gq,a)},go);else
 var
-bQ=bP;var
-dK=bQ?p(function(a){return bj(l,a[1],a[2])},b6):bQ;if(dK){var
-f4=m(h[1]),bx=m(h[2]),dk=L(bx,m(dl(f(dR,h[3])))),f5=h[3],aa=iM(h),ap=f5,bw=bx;for(;;){if(ap){var
-dh=ap[1],dj=dh[2],fY=L(bw,m(bk(dj))),fZ=ap[2],f0=bl(aa,dj,bw),aa=[0,[0,dh[1],f0],aa],ap=fZ,bw=fY;continue}var
-f8=iJ(aa,h[4],dk),by=f(function(a){return[0,a,q(c)]},f8),f$=iK(aa,h[4],dk),gb=h[3],bz=g(iG(iM(h),gb,bx),f$),bA=d5(g(cK(by),bz))[1],gf=d3(bA),bB=function(a){return bW(gf,a)},dn=e(bh(bB),by),dp=az(m(b6),f4);if(dp)var
-gg=g(cK(by),bz),bC=p(function(a){var
-b=q(d),c=d3(bA);return be(N(bB(a),c,b),a)},gg);else
+bQ=bP;if(bQ)var
+gr=h[2],bR=p(function(a){return bj(m,a[2][1],a[2][2])},gr);else
 var
-bC=dp;var
-dq=bC?bD(pA,ev):bC;if(dq){var
-f1=M(dl,h[4]),f2=g(dl(f(dR,h[3])),f1),f3=g(iL(h[2]),f2),bF=aW(f(function(a){return a0(al,a)},f3));if(bF){var
-bJ=aW(f(function(a){return a0(al,[0,a,d])},b6));if(bJ){var
-bK=aW(f(function(a){if(typeof
-a==="number")return[0,[0,ah]];else
+bR=bQ;var
+dN=bR?p(function(a){return bj(m,a[1],a[2])},b7):bR;if(dN){var
+f5=n(h[1]),bx=n(h[2]),dm=M(bx,n(dn(f(dc,h[3])))),f6=h[3],ac=iR(h),aq=f6,bw=bx;for(;;){if(aq){var
+dj=aq[1],dl=dj[2],fZ=M(bw,n(bk(dl))),f0=aq[2],f1=bl(ac,dl,bw),ac=[0,[0,dj[1],f1],ac],aq=f0,bw=fZ;continue}var
+f7=iO(ac,h[4],dm),by=f(function(a){return[0,a,q(c)]},f7),f_=iP(ac,h[4],dm),ga=h[3],bz=g(iL(iR(h),ga,bx),f_),bA=d_(g(cL(by),bz))[1],gc=d8(bA),bB=function(a){return bY(gc,a)},dq=e(a7(bB),by),ds=ai(n(b7),f5);if(ds)var
+gg=g(cL(by),bz),bC=p(function(a){var
+b=q(d),c=d8(bA);return bf(P(bB(a),c,b),a)},gg);else
+var
+bC=ds;var
+dt=bC?bD(pL,eu):bC;if(dt){var
+f2=N(dn,h[4]),f3=g(dn(f(dc,h[3])),f2),f4=g(iQ(h[2]),f3),bF=aW(f(function(a){return a1(am,a)},f4));if(bF){var
+bK=aW(f(function(a){return a1(am,[0,a,d])},b7));if(bK){var
+bL=aW(f(function(a){if(typeof
+a==="number")return[0,[0,_]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4703,111 +4819,111 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=a0(al,[0,[0,b,b],d]);return $(function(a){return e(ag(al,a))},g)},ev));if(bK){var
-dr=bK[1],gh=ih(dr),gi=bJ[1],gj=function(a){return 0},gk=bF[1];return fw(al,bA,dn,dn,f(bB,bz),gk,dr,gj,gi,gh,hj)}var
-ds=bK}else
+g=a1(am,[0,[0,b,b],d]);return ab(function(a){return e(aj(am,a))},g)},eu));if(bL){var
+du=bL[1],gh=im(du),gi=bK[1],gj=function(a){return 0},gk=bF[1];return fy(am,bA,dq,dq,f(bB,bz),gk,du,gj,gi,gh,hj)}var
+dv=bL}else
 var
-ds=bJ;var
-dt=ds}else
+dv=bK;var
+dw=dv}else
 var
-dt=bF;var
-dx=dt}else
+dw=bF;var
+dx=dw}else
 var
-dx=dq;return dx}}return dK}var
-fh=fg}else
+dx=dt;return dx}}return dN}var
+fi=fh}else
 var
-fh=cs;return fh}return 0;case
+fi=ct;return fi}return 0;case
 4:if(0===r[2][0]){var
-fi=es(j(a[1]));if(fi){var
-bc=a[3];if(bc){var
-aG=bc[1],b7=aG[4],y=bc[2];if(aG[1]||aG[2]||aG[3])var
+fj=ev(i(a[1]));if(fj){var
+bd=a[3];if(bd){var
+aG=bd[1],b8=aG[4],y=bd[2];if(aG[1]||aG[2]||aG[3])var
 s=0;else
-switch(b7[0]){case
+switch(b8[0]){case
 0:var
-cH=0;if(y){var
-aH=y[1],ew=aH[4];if(aH[1]||aH[2]||aH[3])var
+cI=0;if(y){var
+aH=y[1],ex=aH[4];if(aH[1]||aH[2]||aH[3])var
 s=0;else
-if(1===ew[0])if(y[2])var
+if(1===ex[0])if(y[2])var
 s=0;else
 var
-g1=j(ew[1]),s=[0,[0,j(b7[1]),g1]];else{var
-ex=0;cH=1}}else{var
-ex=y;cH=1}if(cH)var
-s=ex;break;case
+g1=i(ex[1]),s=[0,[0,i(b8[1]),g1]];else{var
+ey=0;cI=1}}else{var
+ey=y;cI=1}if(cI)var
+s=ey;break;case
 1:var
 cJ=0;if(y){var
-aI=y[1],ey=aI[4];if(aI[1]||aI[2]||aI[3])var
+aI=y[1],ez=aI[4];if(aI[1]||aI[2]||aI[3])var
 s=0;else
-if(0===ey[0])if(y[2])var
+if(0===ez[0])if(y[2])var
 s=0;else
 var
-g2=j(b7[1]),s=[0,[0,j(ey[1]),g2]];else{var
-ez=0;cJ=1}}else{var
-ez=y;cJ=1}if(cJ)var
-s=ez;break;default:var
+g2=i(b8[1]),s=[0,[0,i(ez[1]),g2]];else{var
+eA=0;cJ=1}}else{var
+eA=y;cJ=1}if(cJ)var
+s=eA;break;default:var
 s=0}}else
 var
-s=bc;if(s){var
-fj=s[1],fk=fj[2],fl=fj[1],eg=o(l,1,j(a[2])),eh=eg?o(l,1,[2,fk,[0,c,c]]):eg,ei=eh?o(l,1,fl):eh;return ei?o(l,0,[2,[4,[0,c,c],fk],fl]):ei}var
-fm=s}else
+s=bd;if(s){var
+fk=s[1],fl=fk[2],fm=fk[1],eh=l(m,1,i(a[2])),ei=eh?l(m,1,[2,fl,[0,c,c]]):eh,ej=ei?l(m,1,fm):ei;return ej?l(m,0,[2,[4,[0,c,c],fl],fm]):ej}var
+fn=s}else
 var
-fm=fi;return fm}return 0;default:var
-fn=a[1];if(fn){var
-fo=fn[1],ct=r[2];if(0===ct[0]){var
-cu=ga(tZ,ct[2]);if(cu){var
-fp=dw(fo);if(fp){var
-hl=cu[1],fq=bH(fo)[2],bd=ct[1],bV=cg(bd,d,fq);if(bV){var
-bX=cg(bd,d,[4,[0,c,c],fq]);if(bX){var
-gB=bV[1][1],ec=ae(cd(bd),gB);if(ec)return je(bd,bX[1][1],hl);var
-ed=ec}else
+fn=fj;return fn}return 0;default:var
+fo=a[1];if(fo){var
+fp=fo[1],cu=r[2];if(0===cu[0]){var
+cv=gb(ua,cu[2]);if(cv){var
+fq=dB(fp);if(fq){var
+hl=cv[1],fr=bH(fp)[2],be=cu[1],bW=ch(be,d,fr);if(bW){var
+bX=ch(be,d,[4,[0,c,c],fr]);if(bX){var
+gB=bW[1][1],ee=ag(cf(be),gB);if(ee)return jo(be,bX[1][1],hl);var
+ef=ee}else
 var
-ed=bX;var
-ef=ed}else
+ef=bX;var
+eg=ef}else
 var
-ef=bV;return ef}var
-fr=fp}else
+eg=bW;return eg}var
+fs=fq}else
 var
-fr=cu;return fr}return 0}var
-cv=r[2];if(0===cv[0]){var
-cw=ga(t0,cv[2]);return cw?je(cv[1],d,cw[1]):cw}return 0}}return ad}var
-x=[ao,t3,eR(0)],jw=[ao,t4,eR(0)];function
-t1(z,c){var
-s=[0,h(sX,am(c[4])),0],t=[0,h(sZ,O([0,h(sY,am(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sL,w(f(sI,a[2]))),0],i=F(sN,O([0,h(sM,fZ(a[1])),k]));else{var
+fs=cv;return fs}return 0}var
+cw=r[2];if(0===cw[0]){var
+cx=gb(ub,cw[2]);return cx?jo(cw[1],d,cx[1]):cx}return 0}}return ae}var
+x=[ap,ue,eU(0)],jG=[ap,uf,eU(0)];function
+uc(z,c){var
+s=[0,h(s9,an(c[4])),0],t=[0,h(s$,Q([0,h(s_,an(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sX,w(f(sU,a[2]))),0],i=F(sZ,Q([0,h(sY,f1(a[1])),k]));else{var
 b=a[4],d=a[3],l=0;if(typeof
 b==="number")var
-e=am(sO);else
+e=an(s0);else
 if(0===b[0])var
-q=[0,w(f(f5,b[2])),0],e=F(sU,w([0,cR(b[1]),q]));else
+q=[0,w(f(f7,b[2])),0],e=F(s6,w([0,cS(b[1]),q]));else
 var
-r=[0,cR(b[2]),0],e=F(sV,w([0,cR(b[1]),r]));var
-m=[0,h(sP,e),l],n=d?[0,h(sQ,w(f(P,d))),0]:d,o=g(n,m),p=[0,h(sR,w(f(P,a[2]))),0],i=F(sT,O(g([0,h(sS,fZ(a[1])),p],o)))}var
-u=[0,h(s0,i),t],v=0===c[2][0]?s1:s6,x=[0,h(s2,am(v)),u],y=[0,h(s3,rR(c[1])),x],j=aB(hi(t2,g(O([0,h(s5,am(s4)),y]),sW)),z);return j?tY(c):j}function
+r=[0,cS(b[2]),0],e=F(s7,w([0,cS(b[1]),r]));var
+m=[0,h(s1,e),l],n=d?[0,h(s2,w(f(R,d))),0]:d,o=g(n,m),p=[0,h(s3,w(f(R,a[2]))),0],i=F(s5,Q(g([0,h(s4,f1(a[1])),p],o)))}var
+u=[0,h(ta,i),t],v=0===c[2][0]?tb:tg,x=[0,h(tc,an(v)),u],y=[0,h(td,r3(c[1])),x],j=aC(hl(ud,g(Q([0,h(tf,an(te)),y]),s8)),z);return j?t$(c):j}function
 W(a){if(0===a[0])return a[1];throw x}function
 X(a){if(1===a[0])return a[1];throw x}function
 aX(a){if(2===a[0])return a[1];throw x}function
-dx(a){if(3===a[0])return a[1];throw x}function
-a1(f,e){var
+dC(a){if(3===a[0])return a[1];throw x}function
+a2(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===yf(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===yx(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=a1(c,b);if(a)return a[1];throw x}function
-ev(b,a){var
+a=a2(c,b);if(a)return a[1];throw x}function
+ey(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cW(a){switch(a[0]){case
+cX(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],t5]}throw x}function
-dy(e,d){var
+2:return[0,a[1],ug]}throw x}function
+dD(e,d){var
 a=Y(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-ew(i){var
-f=bO(i),d=[0,0],e=aR(f)-1|0;if(!(e<0)){var
+ez(i){var
+f=bP(i),d=[0,0],e=aS(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=c2(f,c)+go|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=c3(f,c)+gq|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4829,232 +4945,237 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dz(a){return hF(ew(a))}function
-gg(b){var
-a=dx(b);return 45===J(a,0)?S(dz(c9(a,1,y(a)-1|0))):dz(a)}function
-jx(a){return fd(dz(dx(a)))}function
-gh(a){return hE(dz(dx(a)))}function
-cX(c){var
-a=dx(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gX(a))}function
-jy(a){var
-b=97<=a?1:0,c=b?a<=lD?1:0:b;if(c)var
+dE(a){return hI(ez(a))}function
+gh(b){var
+a=dC(b);return 45===K(a,0)?T(dE(c_(a,1,y(a)-1|0))):dE(a)}function
+jH(a){return fg(dE(dC(a)))}function
+gi(a){return hH(dE(dC(a)))}function
+cY(c){var
+a=dC(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gZ(a))}function
+jI(a){var
+b=97<=a?1:0,c=b?a<=lO?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jz(A,b){var
+jJ(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?J(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?K(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=J(b,a[1])&&!(57<J(b,a[1]))){a[1]++;continue}return c9(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=K(b,a[1])&&!(57<K(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-j(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,j(k+1|0)]}if(c(40))var
+i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
 f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&aB(c9(b,a[1],5),t7)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aC(c_(b,a[1],5),ui)){a[1]=a[1]+4|0;var
 f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jy(J(b,a[1]))){var
+v=0;if(a[1]<d&&jI(K(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jy(J(b,a[1]))&&95!==J(b,a[1])&&(!(48<=J(b,a[1]))||57<J(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,c9(b,o,a[1]-o|0))];break}}else
+w=0;if(!jI(K(b,a[1]))&&95!==K(b,a[1])&&(!(48<=K(b,a[1]))||57<K(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,c_(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aB(h,t8);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aC(h,uj);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===J(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(aB(l,t9)||48===J(l,y(l)-1|0))z=1;else
+t=1<y(h)?1:0,s=t?48===K(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(aC(l,uk)||48===K(l,y(l)-1|0))z=1;else
 var
-B=ew(l),f=[0,ew(h),B];if(z)throw x}else
+B=ez(l),f=[0,ez(h),B];if(z)throw x}else
 var
-f=[0,ew(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(i(g,t6)){if(!(2<y(g))&&2<=gX(g)&&!(64<gX(g)))return[4,f,fd(dz(g))];throw x}throw x}return f}function
+f=[0,ez(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(j(g,uh)){if(!(2<y(g))&&2<=gZ(g)&&!(64<gZ(g)))return[4,f,fg(dE(g))];throw x}throw x}return f}function
 f(d){var
-b=j(d);for(;;){if(c(42)){a[1]++;var
-b=[3,2,b,j(d)];continue}if(c(47)){a[1]++;var
-b=[3,3,b,j(d)];continue}return b}}function
+b=i(d);for(;;){if(c(42)){a[1]++;var
+b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
+b=[3,3,b,i(d)];continue}return b}}function
 g(d){if(64<d)throw x;var
 b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-jA(a){return jz(function(a){throw x},a)}function
-jB(a){var
-b=aX(a);return jz(function(a){return a},b)}function
-Z(a){return jA(aX(a))}function
-bJ(a){if(2===a[0])return[0,jA(a[1])];var
-b=W(a),c=Z(r(b,t_));return[1,Z(r(b,t$)),c]}function
-ai(a){throw[0,jw,ar(hi(ub,a),ua)]}function
-jC(c){var
-a=aX(c);if(i(a,uc)){var
-b=i(a,ud);if(b)throw x;return b}return 1}function
-ue(d){var
+jK(a){return jJ(function(a){throw x},a)}function
+jL(a){var
+b=aX(a);return jJ(function(a){return a},b)}function
+$(a){return jK(aX(a))}function
+bK(a){if(2===a[0])return[0,jK(a[1])];var
+b=W(a),c=$(r(b,ul));return[1,$(r(b,um)),c]}function
+ae(a){throw[0,jG,as(hl(uo,a),un)]}function
+jM(c){var
+a=aX(c);if(j(a,up)){var
+b=j(a,uq);if(b)throw x;return b}return 1}function
+ur(d){var
 b=W(d);function
-a(a){return dy(bJ,r(b,a))}var
-c=aX(r(b,uf));if(i(c,ug)){if(i(c,uh)){if(i(c,ui))return ai([0,uk,[0,c,uj]]);var
-e=a1(b,ul),f=ev(function(a){return dy(bJ,a)},e),g=a(um);return[1,a(un),g,f]}var
-h=jC(r(b,uo)),j=bJ(r(b,up)),k=a(uq),l=a(ur);return[0,a(us),l,k,j,h]}return[2,a(ut)]}function
-jD(d){var
+a(a){return dD(bK,r(b,a))}var
+c=aX(r(b,us));if(j(c,ut)){if(j(c,uu)){if(j(c,uv))return ae([0,ux,[0,c,uw]]);var
+e=a2(b,uy),f=ey(function(a){return dD(bK,a)},e),g=a(uz);return[1,a(uA),g,f]}var
+h=jM(r(b,uB)),i=bK(r(b,uC)),k=a(uD),l=a(uE);return[0,a(uF),l,k,i,h]}return[2,a(uG)]}function
+jN(d){var
 a=W(d);if(a){var
-b=a[1];if(!i(b[1],uu)){var
-c=b[2];if(2===c[0]&&!i(c[1],uv))return 1}}return 0}function
-uw(c){var
-a=W(c);if(1-jD(c))throw x;function
-b(b){return dy(bJ,r(a,b))}var
-d=jC(r(a,ux)),e=bJ(r(a,uy)),f=bJ(r(a,uz)),g=b(uA),h=b(uB),i=b(uC);return[0,b(uD),i,h,g,f,e,d]}function
-dA(c,d){var
+b=a[1];if(!j(b[1],uH)){var
+c=b[2];if(2===c[0]&&!j(c[1],uI))return 1}}return 0}function
+uJ(c){var
+a=W(c);if(1-jN(c))throw x;function
+b(b){return dD(bK,r(a,b))}var
+d=jM(r(a,uK)),e=bK(r(a,uL)),f=bK(r(a,uM)),g=b(uN),h=b(uO),i=b(uP);return[0,b(uQ),i,h,g,f,e,d]}function
+dF(c,d){var
 a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-jE(j){var
-c=W(j),b=aX(r(c,uE));if(i(b,uF))if(i(b,uG))if(i(b,uH))if(i(b,uI))if(i(b,uJ))if(i(b,uK))if(i(b,uL))var
-g=i(b,uM),a=g?ai([0,uO,[0,b,uN]]):g;else
+gj(i){var
+c=W(i),a=aX(r(c,uR));if(j(a,uS))if(j(a,uT))if(j(a,uU))if(j(a,uV))if(j(a,uW))if(j(a,uX))if(j(a,uY))if(j(a,uZ))var
+g=j(a,u0),b=g?ae([0,u2,[0,a,u1]]):g;else
 var
-a=6;else
+b=6;else
 var
-a=4;else
+b=4;else
 var
-a=5;else
+b=5;else
 var
-a=2;else
+b=2;else
 var
-a=1;else
+b=1;else
 var
-a=7;else
+b=8;else
 var
-a=3;function
-f(a){return r(c,uP)}var
-d=aX(r(c,uQ));if(i(d,uR))if(i(d,uS))if(i(d,uT))var
-e=ai([0,uV,[0,d,uU]]);else
+b=7;else
 var
-h=dA(Z,f(0)),e=[2,h[1],h[2]];else
+b=3;function
+f(a){return r(c,u3)}var
+d=aX(r(c,u4));if(j(d,u5))if(j(d,u6))if(j(d,u7))var
+e=ae([0,u9,[0,d,u8]]);else
 var
-e=[0,Z(f(0))];else
+h=dF($,f(0)),e=[2,h[1],h[2]];else
 var
-e=[1,Z(f(0))];function
+e=[0,$(f(0))];else
+var
+e=[1,$(f(0))];function
 k(m){var
-b=W(m),e=0;if(2===a){if(b){var
-g=b[1];if(!i(g[1],uW)){var
-h=g[2];if(1===h[0]){var
-c=h[1];if(c&&!c[2]&&!b[2]){var
-j=c[1];e=1}}}}}else
-if(6===a&&b){var
-k=b[1];if(!i(k[1],uX)){var
+a=W(m),e=0;switch(b){case
+6:if(a){var
+k=a[1];if(!j(k[1],u$)){var
 l=k[2];if(1===l[0]){var
-d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-j=d[1];e=1;f=1}if(!f&&!b[2])return ai(uY)}}}if(e)return Z(j);throw x}var
-l=ev(k,a1(c,uZ));return[0,a,ev(cX,a1(c,u0)),l,e]}function
-gi(c){var
-a=jE(c),b=a[1];if(2!==b&&!(4<=b))return a;return ai(u1)}function
-u8(T){var
-m=cW(T),n=m[1];if(i(n,u9)){if(i(n,u_))return ai([0,va,[0,n,u$]]);var
-o=r(W(m[2]),vb),L=0;if(2===o[0]){var
-y=i(o[1],vc);if(!y){var
-w=y;L=1}}if(!L)var
-w=[0,bJ(o)];return[5,w]}var
-c=W(m[2]);function
-z(a){return Y(jE,X(r(c,vd)))}var
-f=cW(r(c,ve)),a=cW(r(c,vf));if(0===a1(c,vg)){var
-b=f[1];if(i(b,vh)&&i(b,vi)&&i(b,vj)){if(0===a1(c,vk)){if(i(b,vl)){var
-M=0;if(i(b,vm)){if(!i(b,vn)){var
-A=a[1],N=0;if(i(A,vq)&&i(A,vr)){M=1;N=1}if(!N){var
-p=X(f[2]),d=W(a[2]);if(i(a[1],u2))var
-u=dA(Z,r(d,u3)),v=dA(Z,r(d,u4)),P=v[2],Q=v[1],R=Z(r(d,u5)),q=[1,u[1],u[2],R,Q,P];else
+d=l[1],f=0;if(d&&!d[2])if(a[2])f=1;else{var
+i=d[1];e=1;f=1}if(!f&&!a[2])return ae(va)}}}break;case
+2:case
+8:if(a){var
+g=a[1];if(!j(g[1],u_)){var
+h=g[2];if(1===h[0]){var
+c=h[1];if(c&&!c[2]&&!a[2]){var
+i=c[1];e=1}}}}break}if(e)return $(i);throw x}var
+l=ey(k,a2(c,vb));return[0,b,ey(cY,a2(c,vc)),l,e]}function
+vd(b){var
+a=gj(b);return 8<=a[1]?ae(ve):a}function
+gk(c){var
+a=gj(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(vf)}function
+vg(a){var
+b=gj(a);switch(b[1]){case
+2:case
+6:case
+8:return b;default:return gk(a)}}function
+vn(P){var
+l=cX(P),m=l[1];if(j(m,vo)){if(j(m,vp))return ae([0,vr,[0,m,vq]]);var
+n=r(W(l[2]),vs),I=0;if(2===n[0]){var
+v=j(n[1],vt);if(!v){var
+u=v;I=1}}if(!I)var
+u=[0,bK(n)];return[5,u]}var
+c=W(l[2]);function
+w(a){return Y(vd,X(r(c,vu)))}var
+f=cX(r(c,vv)),a=cX(r(c,vw));if(0===a2(c,vx)){var
+b=f[1];if(j(b,vy)&&j(b,vz)&&j(b,vA)){if(0===a2(c,vB)){if(j(b,vC)){var
+J=0;if(j(b,vD)){if(!j(b,vE)){var
+y=a[1],K=0;if(j(y,vH)&&j(y,vI)){J=1;K=1}if(!K){var
+o=X(f[2]),d=W(a[2]);if(j(a[1],vh))var
+s=dF($,r(d,vi)),t=dF($,r(d,vj)),L=t[2],M=t[1],N=$(r(d,vk)),p=[1,s[1],s[2],N,M,L];else
 var
-S=dy(Z,r(d,u6)),q=[0,dy(Z,r(d,u7)),S];var
-h=p;for(;;){if(h){var
-O=h[2],t=jD(h[1]);if(!t){var
-h=O;continue}var
-B=t}else
-var
-B=0;if(B){var
-U=Y(gi,X(r(c,vu)));return[1,Y(uw,p),q,U]}var
-V=z(0);return[0,Y(ue,p),q,V]}}}}else
-if(!i(a[1],vv)){var
-_=z(0),$=Z(r(W(a[2]),vw));return[4,Z(r(W(f[2]),vx)),$,_]}if(!M)return ai([0,vp,[0,b,vo]])}else
-if(!i(a[1],vy)){var
-j=W(f[2]),C=W(a[2]),D=function(c,a){var
+O=dD($,r(d,vl)),p=[0,dD($,r(d,vm)),O];if(hh(jN,o)){var
+Q=Y(gk,X(r(c,vL)));return[1,Y(uJ,o),p,Q]}var
+R=w(0);return[0,Y(ur,o),p,R]}}}else
+if(!j(a[1],vM)){var
+S=w(0),T=$(r(W(a[2]),vN));return[4,$(r(W(f[2]),vO)),T,S]}if(!J)return ae([0,vG,[0,b,vF]])}else
+if(!j(a[1],vP)){var
+h=W(f[2]),z=W(a[2]),A=function(c,a){var
 b=X(a);return Y(function(d){var
 a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},aa=function(d){var
+f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},U=function(d){var
 a=W(d);if(a){var
-b=a[1],c=b[1];if(i(c,vz)){if(!i(c,vA)&&!a[2])return Y(jB,X(b[2]))}else
-if(!a[2])return ai(vB)}throw x},ab=Y(gi,X(r(c,vC))),ac=Y(Z,X(r(C,vD))),ad=Y(Z,X(r(C,vE))),ae=Y(aa,X(r(j,vF))),af=D(jB,r(j,vG)),ag=D(bJ,r(j,vH));return[3,Y(aX,X(r(j,vI))),ag,af,ae,ad,ac,ab]}return ai([0,vt,[0,a[1],vs]])}throw x}var
-E=a[1],F=W(f[2]),G=W(a[2]);if(i(E,vJ))ai([0,vL,[0,E,vK]]);var
-H=a1(F,vM),ah=H?Z(H[1]):ai([0,v$,[0,b,v_]]),aj=function(d){var
+b=a[1],c=b[1];if(j(c,vQ)){if(!j(c,vR)&&!a[2])return Y(jL,X(b[2]))}else
+if(!a[2])return ae(vS)}throw x},V=Y(gk,X(r(c,vT))),Z=Y($,X(r(z,vU))),_=Y($,X(r(z,vV))),aa=Y(U,X(r(h,vW))),ab=A(jL,r(h,vX)),ac=A(bK,r(h,vY));return[3,Y(aX,X(r(h,vZ))),ac,ab,aa,_,Z,V]}return ae([0,vK,[0,a[1],vJ]])}throw x}var
+B=a[1],C=W(f[2]),D=W(a[2]);if(j(B,v0))ae([0,v2,[0,B,v1]]);var
+E=a2(C,v3),ad=E?$(E[1]):ae([0,wq,[0,b,wp]]),af=function(d){var
 a=W(d);function
-b(b){return Y(bJ,X(r(a,b)))}var
-c=aX(r(a,vN)),e=a1(a,vO);if(!i(c,vP)&&!e){var
-f=b(vS);return[0,b(vT),f]}return ai([0,vR,[0,c,vQ]])},g=cW(r(c,vU)),k=g[1];if(i(k,vV))if(i(k,vW))if(i(k,vX)){if(i(k,vY))throw x;var
-I=g[2],ak=Z(r(W(I),vZ)),l=[3,Z(r(W(I),v0)),ak]}else
+b(b){return Y(bK,X(r(a,b)))}var
+c=aX(r(a,v4)),e=a2(a,v5);if(!j(c,v6)&&!e){var
+f=b(v9);return[0,b(v_),f]}return ae([0,v8,[0,c,v7]])},g=cX(r(c,v$)),i=g[1];if(j(i,wa))if(j(i,wb))if(j(i,wc)){if(j(i,wd))throw x;var
+F=g[2],ag=$(r(W(F),we)),k=[3,$(r(W(F),wf)),ag]}else
 var
-ap=g[2],s=function(a){return dA(Z,r(W(ap),a))},aq=s(v7),ar=s(v8),l=[1,s(v9),ar,aq];else
+al=g[2],q=function(a){return dF($,r(W(al),a))},am=q(wm),an=q(wn),k=[1,q(wo),an,am];else
 var
-K=dA(Z,g[2]),l=[0,K[1],K[2]];else
+H=dF($,g[2]),k=[0,H[1],H[2]];else
 var
-l=[2,Z(g[2])];var
-J=i(b,v1),al=J?i(b,v2)?2:1:J,am=Y(gi,X(r(c,v3))),an=Y(Z,X(r(G,v4))),ao=Y(Z,X(r(G,v5)));return[2,al,Y(aj,X(r(F,v6))),ah,ao,an,l,am]}return ai(wa)}function
-jF(a){return Y(gg,X(a))}function
-ex(g,m){var
+k=[2,$(g[2])];var
+G=j(b,wg),ah=G?j(b,wh)?2:1:G,ai=Y(vg,X(r(c,wi))),aj=Y($,X(r(D,wj))),ak=Y($,X(r(D,wk)));return[2,ah,Y(af,X(r(C,wl))),ad,ak,aj,k,ai]}return ae(wr)}function
+jO(a){return Y(gh,X(a))}function
+eA(g,m){var
 D=g[2];function
 E(c,b){var
-a=jF(b);if(cw(a)!==c)throw x;return a}switch(m[0]){case
+a=jO(b);if(cy(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(i(b,wd))if(i(b,we))if(i(b,wf))if(i(b,wg)){var
-O=0;if(i(b,wh)&&i(b,wi)&&i(b,wj))O=1;if(!O)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(j(b,wu))if(j(b,wv))if(j(b,ww))if(j(b,wx)){var
+O=0;if(j(b,wy)&&j(b,wz)&&j(b,wA))O=1;if(!O)if(c[2])d=1;else{var
 Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 n=J[1];if(n){var
 o=n[2];if(o){var
 p=o[2];if(p&&!p[2]){if(!c[2]){var
-T=gh(p[1]),U=gg(o[1]);return[4,ex(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
-A=aX(e[2]),B=i(A,wb);if(B){if(i(A,wc))throw x;var
+T=gi(p[1]),U=gh(o[1]);return[4,eA(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
+A=aX(e[2]),B=j(A,ws);if(B){if(j(A,wt))throw x;var
 C=1}else
 var
 C=B;return[2,C]}d=1}else{if(!c[2]){var
 h=e[2],l=0;switch(h[0]){case
 0:var
-j=h[1];if(j){var
-L=j[1],u=L[1],a=0;if(i(u,wo)&&i(u,wp))if(i(u,wq))a=1;else{var
+i=h[1];if(i){var
+L=i[1],u=L[1],a=0;if(j(u,wF)&&j(u,wG))if(j(u,wH))a=1;else{var
 M=L[2];if(1===M[0]){var
 v=M[1];if(v){var
 k=v[1],f=0;switch(k[0]){case
 0:var
 w=k[1];if(w){var
-N=w[1][1],P=0;if(i(N,ws)&&i(N,wt)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(i(k[1],wu)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+N=w[1][1],P=0;if(j(N,wJ)&&j(N,wK)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(j(k[1],wL)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 y=v[2];if(y){var
-z=y[2];if(z&&!(z[2]||j[2])){var
-_=gh(z[1]),$=gg(y[1]),q=[5,ex(g,k),$,_];l=1;a=1}else
+z=y[2];if(z&&!(z[2]||i[2])){var
+_=gi(z[1]),$=gh(y[1]),q=[5,eA(g,k),$,_];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
-a=1}if(!a&&!j[2])l=2}break;case
-2:if(!i(h[1],wv))l=2;break}switch(l){case
+a=1}if(!a&&!i[2])l=2}break;case
+2:if(!j(h[1],wM))l=2;break}switch(l){case
 0:var
-q=ai(wr);break;case
+q=ae(wI);break;case
 2:var
-q=ex(g,h);break}return[6,q]}d=1}else{var
+q=eA(g,h);break}return[6,q]}d=1}else{var
 K=e[2];if(1===K[0]){var
 s=K[1];if(s){var
 t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
 V=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,V)]};d=2}}}}switch(d){case
-0:if(!c[2])return ai([0,wl,[0,b,wk]]);break;case
+0:if(!c[2])return ae([0,wC,[0,b,wB]]);break;case
 1:break;default:var
-H=W(G),R=X(r(H,wm)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cw(I)!==S)throw x;return F(I,gh(r(H,wn)))}}break;case
+H=W(G),R=X(r(H,wD)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cy(I)!==S)throw x;return F(I,gi(r(H,wE)))}}break;case
 2:return[0,m[1]]}throw x}function
-wR(c){var
+w8(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!i(b[1],wS))a=1;break;case
+0:if(!j(b[1],w9))a=1;break;case
 6:a=1;break}return a?1:0}function
-wT(d){var
+w_(d){var
 f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return J(d,a[1]);throw x}function
+g(b){if(a[1]<f)return K(d,a[1]);throw x}function
 h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,J(d,a[1]))){a[1]++;continue}return c9(d,b,a[1]-b|0)}}function
+C(b,c){for(;;){if(a[1]<f&&e(c,K(d,a[1]))){a[1]++;continue}return c_(d,b,a[1]-b|0)}}function
 D(d){h(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -5068,61 +5189,65 @@ i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
 f=i;continue}h(d);var
 b=i,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-p(c,k){if(64<c)throw x;var
+q(c,k){if(64<c)throw x;var
 b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return p(f,a)},e)]}if(123===b){a[1]++;var
+e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
 i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
+a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,C(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=p(0,0),F=a[1]<f?1:0,N=F?10===J(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=W(M);if(i(aX(r(m,wU)),wV))throw x;var
-b=u8(r(m,wW));switch(b[0]){case
+M=q(0,0),F=a[1]<f?1:0,N=F?10===K(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=W(M);if(j(aX(r(m,w$)),xa))throw x;var
+b=vn(r(m,xb));switch(b[0]){case
 0:var
-n=[0,cw(b[1]),3];break;case
+n=[0,cy(b[1]),3];break;case
 2:var
-_=1===b[1]?6:3,n=[0,cw(b[2]),_];break;case
+_=1===b[1]?6:3,n=[0,cy(b[2]),_];break;case
 3:var
-$=cw(b[1]),n=[0,cw(b[4]),$];break;default:var
-n=w4}var
-w=cW(r(m,wX)),z=w[1];if(i(z,wH))if(i(z,wI))var
-c=ai([0,wK,[0,z,wJ]]);else{var
-k=W(w[2]),A=a1(k,wL),Q=A?Y(Z,X(A[1])):A,q=cW(r(k,wM)),j=q[1],o=0;if(i(j,wC)){var
-G=i(j,wD);if(G){if(!i(j,wE)){var
-H=q[2];if(1===H[0]){var
-s=H[1];if(s){var
-t=s[2];if(t&&!t[2]){var
-O=cX(t[1]),l=[1,cX(s[1]),O];o=1}}}}}else{var
+aa=cy(b[1]),n=[0,cy(b[4]),aa];break;default:var
+n=xk}var
+z=cX(r(m,xc)),A=z[1];if(j(A,wY))if(j(A,wZ))var
+c=ae([0,w1,[0,A,w0]]);else{var
+k=W(z[2]),B=a2(k,w2),Q=B?Y($,X(B[1])):B,s=cX(r(k,w3)),i=s[1],o=0;if(j(i,wT)){var
+G=j(i,wU);if(G){if(!j(i,wV)){var
+H=s[2];if(1===H[0]){var
+t=H[1];if(t){var
+u=t[2];if(u&&!u[2]){var
+O=cY(u[1]),l=[1,cY(t[1]),O];o=1}}}}}else{var
 l=G;o=1}}else{var
-I=q[2];if(1===I[0]){var
-u=I[1];if(u){var
-v=u[2];if(v&&!v[2]){var
-P=Y(jF,X(v[1])),l=[0,cX(u[1]),P];o=1}}}}if(!o)var
-l=ai([0,wG,[0,j,wF]]);var
-R=Y(Z,X(r(k,wN))),c=[1,jx(r(k,wO)),R,Q,l]}else
+I=s[2];if(1===I[0]){var
+v=I[1];if(v){var
+w=v[2];if(w&&!w[2]){var
+P=Y(jO,X(w[1])),l=[0,cY(v[1]),P];o=1}}}}if(!o)var
+l=ae([0,wX,[0,i,wW]]);var
+R=Y($,X(r(k,w4))),c=[1,jH(r(k,w5)),R,Q,l]}else
 var
-K=W(w[2]),S=X(r(K,wP)),T=Y(function(f){var
-a=W(f);if(0!==a1(a,wy))ai(wz);var
-d=ev(cX,a1(a,wA)),b=a1(a,wB);if(b)var
+J=W(z[2]),S=X(r(J,w6)),T=Y(function(f){var
+a=W(f);if(0!==a2(a,wP))ae(wQ);var
+d=ey(cY,a2(a,wR)),b=a2(a,wS);if(b)var
 e=X(b[1]),c=Y(function(g){var
 b=X(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!i(c[1],ww)){if(!a[2]){if(i(dx(e),wx))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wN)){if(!a[2]){if(j(dC(e),wO))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=ex(n,c);return[0,cX(e),f]}}}throw x},e);else
+f=eA(n,c);return[0,cY(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},S),c=[0,jx(r(K,wQ)),T];var
-B=0;switch(b[0]){case
-1:if(0===c[0]){ai(w1);B=1}break;case
+c=b;return[0,c,d]},S),c=[0,jH(r(J,w7)),T];var
+p=0;switch(b[0]){case
+1:if(0===c[0]){ae(xg);p=1}break;case
 2:if(0===c[0]){var
-V=c[2];if(!he(function(a){return he(wR,a[1])},V)){ai(w2);B=1}}break;case
-3:if(1===c[0]){ai(w3);B=1}break}var
-L=W(r(m,wY)),U=aX(r(L,wZ));return[0,b,c,aX(r(L,w0)),U]}function
-w5(c){try{try{var
-d=0,a=wT(c);d=1}catch(a){a=eY(a);if(a[1]===jw)var
+V=c[2];if(!hg(function(a){return hg(w8,a[1])},V)){ae(xh);p=1}}else{var
+Z=b[7];if(hh(function(a){switch(a[1]){case
+2:case
+6:case
+8:return 1;default:return 0}},Z)){ae(xi);p=1}}break;case
+3:if(1===c[0]){ae(xj);p=1}break}var
+L=W(r(m,xd)),U=aX(r(L,xe));return[0,b,c,aX(r(L,xf)),U]}function
+xl(c){try{try{var
+d=0,a=w_(c);d=1}catch(a){a=e1(a);if(a[1]===jG)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=t1(c,a)?0===a[2][0]?0:1:2}catch(a){return w6}if(typeof
+b=uc(c,a)?0===a[2][0]?0:1:2}catch(a){return xm}if(typeof
 b==="number")switch(b){case
-0:return w7;case
-1:return w8;default:return w9}return ar(w_,b[1])}yV.orthocert_verify=yB(function(b){return bR(w5(a(b)))});e1(0);return}(globalThis));
+0:return xn;case
+1:return xo;default:return xp}return as(xq,b[1])}zb.orthocert_verify=yT(function(b){return bS(xl(a(b)))});e4(0);return}(globalThis));
