@@ -141,6 +141,10 @@ Check kernel.Arm.refute_arms_sound.
 Print Assumptions kernel.Arm.refute_arms_sound.
 Check kernel.Written.check_written_sound.
 Print Assumptions kernel.Written.check_written_sound.
+Check kernel.Orientation.rotation_about_rotates.
+Print Assumptions kernel.Orientation.rotation_about_rotates.
+Check kernel.Orientation.rotation_about_axes.
+Print Assumptions kernel.Orientation.rotation_about_axes.
 Check kernel.Turning.length_velocity.
 Print Assumptions kernel.Turning.length_velocity.
 Check kernel.Turning.refute_turning_sound.

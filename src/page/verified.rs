@@ -5,9 +5,9 @@
 
 use crate::escape;
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::certificate::{Claim, Verdict};
+use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
-    Bound, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Turning, Workspace,
+    Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
 };
 use serde_json::Value;
 
@@ -16,6 +16,9 @@ pub const PROGRAM: &str = include_str!("../../proofs/rocq/program/verified.js");
 
 /// Most bytes of a certificate in a page: what a browser checks in a second or two.
 pub const MOST_BYTES: usize = 1 << 16;
+
+/// Most tests at control points, of all steps of a certificate in a page: ten thousand take a browser a second.
+pub const MOST_POINTS: usize = 25_000;
 
 /// Quantities that the formal development knows.
 const QUANTITIES: [&str; 8] = [
@@ -55,7 +58,7 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
         );
     }
     let text = match std::str::from_utf8(bytes) {
-        Ok(text) if bytes.len() <= MOST_BYTES => text,
+        Ok(text) if bytes.len() <= MOST_BYTES && points(certificate) <= MOST_POINTS => text,
         _ => {
             return apart(
                 "The certificate is too large to be proved again in a page: run \
@@ -73,6 +76,18 @@ pub fn verified(certificate: &Certificate, bytes: &[u8]) -> Verified {
             escape::data(&Value::from(text).to_string())
         ),
     }
+}
+
+/// How often the program does a test at a control point, at most: there are three to each coordinate of a cell.
+fn points(certificate: &Certificate) -> usize {
+    let Proof::Tree(tree) = &certificate.proof else { return 0 };
+    let is_test = |Step(_, by): &Step| matches!(by, Evidence::Control(_));
+    let steps = tree.nodes.iter().flat_map(|node| &node.by).filter(|&step| is_test(step)).count();
+    let each = match &certificate.claim {
+        Claim::Machine(MachineClaim { mechanism: Mechanism::Spatial(_), .. }) => 729,
+        _ => 27,
+    };
+    steps.saturating_mul(each)
 }
 
 /// Whether the program reads claims of this kind. Where it does not read the proof, the page says so.
@@ -108,16 +123,23 @@ fn is_machine_covered(claim: &MachineClaim) -> bool {
     orientation.is_none() && bodies.is_empty() && is_required && is_mechanism
 }
 
-/// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds.
+/// Claims about transmission, condition numbers and joint coordinates of machines of the other kinds, and
+/// certified ones about joint speeds and forces and stiffness of platforms that turn.
 fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
     let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
     let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
     let is_strut = |leg: &Leg| matches!(leg, Leg::Strut { base_axis: None, .. });
-    let is_required = |key: &str| matches!(key, "transmission" | "conditioning" | "joint_range");
-    let is_chart = match orientation {
-        None => true,
-        Some(Orientation::Range(_) | Orientation::RollPitchYaw { .. }) => true,
-        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => false,
+    let turns = matches!(
+        mechanism,
+        Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_)
+    );
+    let is_required = |requirement: &Requirement| match requirement.quantity.as_str() {
+        "transmission" | "conditioning" | "joint_range" => true,
+        "joint_speed" | "joint_force" | "stiffness" => {
+            let is_one = requirement.given.values().all(|given| given.len() == 1);
+            turns && verdict == Verdict::Certified && is_one
+        }
+        _ => false,
     };
     let is_mechanism = match (mechanism, workspace) {
         (Mechanism::Translational(legs), Workspace::Box { .. } | Workspace::Cylinder { .. }) => {
@@ -135,6 +157,5 @@ fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
         ) => orientation.is_some() && legs.iter().all(is_strut),
         _ => false,
     };
-    let required = require.iter().all(|requirement| is_required(&requirement.quantity));
-    is_chart && bodies.is_empty() && is_mechanism && required
+    bodies.is_empty() && is_mechanism && require.iter().all(is_required)
 }

@@ -273,6 +273,7 @@ fn a_page_proves_its_claim_again() {
         ("postulate-all", "CERTIFIED"),
         ("delta-conditioning-refuted", "REFUTED"),
         ("star-singular", "REFUTED"),
+        ("spherical-3-ups", "CERTIFIED"),
     ] {
         let page = folder.report_of_committed(name, &[]);
         browser.open(&page);
@@ -298,7 +299,7 @@ fn a_page_proves_its_claim_again() {
         assert!(browser.text(".verdict strong").contains("REJECTED"));
         kept("edited", "rejected", &browser.screenshot());
     }
-    let page = folder.report_of_committed("hexapod-linuxcnc", &[]);
+    let page = folder.report_of_committed("orthoglide-as-built-tight", &[]);
     browser.open(&page);
     assert!(browser.text("#reproved").contains("not covered by the formally verified checker"));
     assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 2);

@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written Turning Pose.
+From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed.
 Import ListNotations.
 Local Open Scope list_scope.
@@ -45,8 +45,8 @@ Record written_arm := Arm_ {
   axis_ : triple quantity; reference_ : triple quantity; anchor_ : triple quantity; platform_ : triple quantity;
   arm_ : quantity; rod_ : quantity; mode_ : bool }.
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_.
-(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, and the joints' stiffness, of stiffness. *)
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_.
+(** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, and the joints' stiffness, of stiffness. *)
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression).
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option expression; end_ : written_end }.
 
@@ -57,7 +57,9 @@ Inductive written_region :=
 (** Degrees. *)
 Inductive written_orientation :=
   | Range_ (a b : expression)
-  | RollPitchYaw_ (roll pitch yaw : expression * expression).
+  | RollPitchYaw_ (roll pitch yaw : expression * expression)
+  | Angle_ (a : expression)
+  | Tilt_ (tilt torsion : expression).
 
 Inductive subject :=
   (* legs that do not turn the platform *)
@@ -80,6 +82,7 @@ Inductive step :=
   | AtCorner (f : face)
   | Conditioned_ (y : list (list Z)) (places : N) (mu : list Z)
   | Inside_ (s : step) (n : Z) (places : N)
+  | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step).
 Record node := Node { by_ : list (nat * step); split_ : option nat }.
 
@@ -162,6 +165,7 @@ Definition about_text (a : about) : string :=
   | Transmission => "transmission" | JointRange => "joint_range" | Speed_ => "joint_speed"
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
+  | Force_ => "joint_force"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" end.
 Definition bound_text (e : written_end) : text :=
@@ -191,6 +195,8 @@ Definition orientation_text (o : written_orientation) : text :=
   match o with
   | Range_ a b => variant "range" (two a b)
   | RollPitchYaw_ (a, b) (c, d) (e, f) => variant "roll_pitch_yaw" (object [field "roll" (two a b); field "pitch" (two c d); field "yaw" (two e f)])
+  | Angle_ a => variant "angle" (number a)
+  | Tilt_ a b => variant "tilt" (object [field "tilt" (number a); field "torsion" (number b)])
   end.
 
 Definition subject_text (s : subject) : text :=
@@ -235,6 +241,7 @@ Fixpoint evidence_text (s : step) : text :=
   | AtCorner f => variant "corner" (quoted (match f with Q1 => "Q1" | Q2 => "Q2" end))
   | Conditioned_ y places mu => variant "conditioning" (array [multiplier_text y places; integers_text mu])
   | Inside_ s n places => variant "inside" (array [evidence_text s; integer_text n; places_text places])
+  | Turned_ s n places => variant "turned" (array [evidence_text s; integer_text n; places_text places])
   | AtControls_ s => variant "control" (evidence_text s)
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
@@ -271,7 +278,7 @@ Definition is_plain (s : string) : bool :=
 Fixpoint is_plain_step (s : step) : bool :=
   match s with
   | Plain name | Multiplied name _ _ => is_plain name
-  | Inside_ s _ _ | AtControls_ s => is_plain_step s
+  | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
   | AtCorner _ | Conditioned_ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
@@ -317,7 +324,7 @@ Definition in_arm (l : written_arm) : list expression :=
 Definition in_region (w : written_region) : list expression :=
   match w with Box_ a b => in_triple a ++ in_triple b | Cylinder_ x y r bottom top => [x; y; r; bottom; top] end%list.
 Definition in_orientation (o : written_orientation) : list expression :=
-  match o with Range_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] end.
+  match o with Range_ a b | Tilt_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] | Angle_ a => [a] end.
 Definition in_requirement (r : written_requirement) : list expression :=
   (match given_ r with Some x => [x] | None => [] end ++
    match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] end)%list.
@@ -425,6 +432,9 @@ Definition demand_of (legs : nat) (r : written_requirement) : list demand :=
   | JointRange, AtMost_ b => each (fun i => LengthMax i (denoted b))
   | JointRange, Within_ a b => each (fun i => AngleWithin i (denoted a) (denoted b))
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
+  | Speed_, AtMost_ b => match given_ r with Some tool => each (fun i => SpeedMax i (denoted tool) (denoted b)) | None => [] end
+  | Force_, AtMost_ b => match given_ r with Some tool => each (fun i => ForceMax i (denoted tool) (denoted b)) | None => [] end
+  | Stiffness_, AtLeast_ b => match given_ r with Some k => [StiffnessMin (denoted k) (denoted b)] | None => [] end
   | _, _ => []
   end.
 Definition demands (legs : nat) (rs : list written_requirement) : list demand :=
@@ -435,6 +445,15 @@ Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) 
   | JointRange, e, leg, None => Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end &&
       match leg with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end
   | _, _, _, _ => false
+  end.
+(** Of platforms that turn; forces of as many struts as coordinates alone are determined. *)
+Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) : bool :=
+  let is_leg := match leg_ r with Some n => Nat.leb 1 n && Nat.leb n legs | None => true end in
+  match about_ r, end_ r, given_ r with
+  | Speed_, AtMost_ _, Some _ => is_leg
+  | Force_, AtMost_ _, Some _ => is_leg && Nat.eqb legs coordinates
+  | Stiffness_, AtLeast_ _, Some _ => match leg_ r with None => true | Some _ => false end
+  | _, _, _ => is_demand false legs r
   end.
 
 Fixpoint written_of (x : term string) : written :=
@@ -458,7 +477,12 @@ Definition vector_of (l : list tolerance) : tolerances :=
   let at_ k := nth k l (exactly (0 // 1)) in Tolerances (at_ 0%nat) (at_ 1%nat) (at_ 2%nat).
 Definition orientation_of (o : written_orientation) : orientations :=
   let range p := Within (denoted (fst p)) (denoted (snd p)) in
-  match o with Range_ a b => TurnedBy (range (a, b)) | RollPitchYaw_ r p y => RollPitchYaw (range r) (range p) (range y) end.
+  match o with
+  | Range_ a b => TurnedBy (range (a, b))
+  | RollPitchYaw_ r p y => RollPitchYaw (range r) (range p) (range y)
+  | Angle_ a => TurnedUpTo (denoted a)
+  | Tilt_ a b => Tilted (denoted a) (denoted b)
+  end.
 Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
     (o : written_orientation) (rs : list written_requirement) : turning_claim :=
   let vector v := vector_of (map tolerance_of v) in
@@ -545,6 +569,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
   | AtCorner f => Some (ByCorner f)
   | Conditioned_ y places mu => Some (ByConditioning places y mu)
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
+  | Turned_ s n places => match evidence_of s with Some e => Some (Turned e n places) | None => None end
   | AtControls_ s => option_map AtControls (evidence_of s)
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
@@ -657,6 +682,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | AngleWithin _ a b => certainly exact_bits true (Minus b a) && certainly exact_bits true (Minus (Plus a (180 // 1)) b)
       && certainly exact_bits false (Plus a (360 // 1)) && certainly exact_bits false (Minus (360 // 1) b)
   | LengthMin _ b | LengthMax _ b => is_number b
+  | SpeedMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
@@ -688,6 +714,7 @@ Definition places_in (k : motion) : nat := match k with InPlane => 2 | _ => 3 en
 Definition places_of_point (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
 Definition is_angle_range (t : tolerance) : bool :=
   certainly exact_bits true (Plus (180 // 1) (least t)) && below exact_bits (least t) (greatest t) && certainly exact_bits true (Minus (180 // 1) (greatest t)).
+Definition is_less_than_half_turn (a : Claim.number) : bool := below exact_bits (0 // 1) a && certainly exact_bits true (Minus (180 // 1) a).
 Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (a b : list expression)
     (o : written_orientation) (rs : list written_requirement) : bool :=
   let is_vector v := Nat.eqb (length v) (places_in k) && forallb is_range v in
@@ -697,8 +724,10 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   match k, orientation_of o with
   | InPlane, TurnedBy t => is_angle_range t
   | (InSpace | AboutPoint), RollPitchYaw x y z => is_angle_range x && is_angle_range y && is_angle_range z
+  | (InSpace | AboutPoint), TurnedUpTo a => is_less_than_half_turn a
+  | (InSpace | AboutPoint), Tilted a b => is_less_than_half_turn a && is_less_than_half_turn b
   | _, _ => false
-  end && forallb (is_demand false (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
+  end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
 
 Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
   Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).

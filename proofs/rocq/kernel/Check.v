@@ -29,7 +29,9 @@ Inductive evidence :=
   (* no point of the workspace is in the cell *)
   | Outside
   (* of polynomials: at control points (Pose.v) *)
-  | AtControls (e : evidence).
+  | AtControls (e : evidence)
+  (* as [Inside], of what is not negative at the orientations *)
+  | Turned (e : evidence) (n : Z) (places : N).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -321,7 +323,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | | |];
+  destruct t as [low | high | c2 | f | r low | f g], e as [| | places Y | places Y | places Y | places Y mu | | | | | | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -389,7 +391,7 @@ Proof.
   assert (K : forall less e, harmless lambda less -> shows (evaluate cell) (length cell) less t e = true -> holds (length cell) x t).
   { intros less e' hl k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-  destruct e as [| | | | | | | | | e' n places | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | |]; try (apply (K None _ I h)).
   cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in h as [n0 h].
   refine (K _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
   destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.

@@ -29,11 +29,18 @@ Inductive demand :=
   | FactorMax (b : number) | FactorMin (b : number)    (* velocity transmission factors *)
   | LengthMin (joint : nat) (b : number) | LengthMax (joint : nat) (b : number)
   | AngleWithin (joint : nat) (a b : number)           (* degrees, up to whole turns *)
-  | Conditioned (b : number).                          (* sigma_max / sigma_min *)
+  | Conditioned (b : number)                           (* sigma_max / sigma_min *)
+  (* of joints that are lengths: a joint's speed, and its static force, at a speed of the platform, or a force on it, up to [tool] *)
+  | SpeedMax (joint : nat) (tool b : number) | ForceMax (joint : nat) (tool b : number)
+  | StiffnessMin (k b : number).                       (* the least eigenvalue of k M^T M *)
 
 (** No motion of the platform, of [n] coordinates, leaves all joints at rest. *)
 Definition injective (n : nat) (c : configuration) : Prop :=
   forall v, length v = n -> nonzero v -> 0 < speed2 (jacobian c) v.
+
+(** Virtual work: the joint forces tau hold the force F on the platform, F . v = tau . M v for every v. *)
+Definition holds_force (n : nat) (M : list (list R)) (tau F : list R) : Prop :=
+  length tau = length M /\ length F = n /\ forall v, length v = n -> dot F v = dot tau (map (fun row => dot row v) M).
 
 Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
   match d with
@@ -46,6 +53,10 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
       nth_error (joints c) i = Some (Angle (cos (in_degrees angle)) (sin (in_degrees angle)))
   | Conditioned b => forall u v, length u = n -> length v = n ->
       speed2 (jacobian c) u * dot v v <= value b ^ 2 * (speed2 (jacobian c) v * dot u u)
+  | SpeedMax i tool b => exists row, nth_error (jacobian c) i = Some row /\
+      forall v, length v = n -> dot v v <= value tool ^ 2 -> Rabs (dot row v) <= value b
+  | ForceMax i tool b => forall tau F, holds_force n (jacobian c) tau F -> dot F F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
+  | StiffnessMin k b => forall v, length v = n -> value b * dot v v <= value k * speed2 (jacobian c) v
   end.
 
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
@@ -155,7 +166,7 @@ Proof.
   assert (At : forall i x, nth_error (joints k) i = Some x -> exists y, nth_error (njoints c) i = Some y /\ x = coordinate_of y).
   { intros i x e. rewrite X, nth_error_map in e. destruct (nth_error (njoints c) i) as [y |]; [| discriminate].
     injection e as <-. exists y. split; reflexivity. }
-  destruct d as [| b | b | i b | i b | i a b | b]; cbn [fulfils] in F; [discriminate | | | | | |];
+  destruct d as [| b | b | i b | i b | i a b | b | i a b | i a b | a b]; cbn [fulfils] in F; [discriminate | | | | | | | discriminate | discriminate | discriminate];
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
     set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.

@@ -36,6 +36,27 @@ Fixpoint is_affine (m k : nat) (f : formula) : bool :=
       | Sqr a | Sqrt a => is_free m k a
       end
   end.
+(** Coordinate [j] is not in the formula. *)
+Fixpoint is_without (j : nat) (f : formula) : bool :=
+  match f with
+  | F o => match o with
+      | Coord k => negb (Nat.eqb k j)
+      | Param _ | Integer _ => true
+      | Add a b | Sub a b | Mul a b | Div a b => is_without j a && is_without j b
+      | Neg a | Sqr a | Sqrt a => is_without j a
+      end
+  end.
+(** Certainly not the less for more of coordinate [j], where [w] is not negative. *)
+Fixpoint rises (w : formula) (j : nat) (f : formula) : bool :=
+  match f with
+  | F o => match o with
+      | Coord _ | Param _ | Integer _ => true
+      | Add a b => rises w j a && rises w j b
+      | Sub a b => rises w j a && is_without j b
+      | Mul a b => is_without j a && (is_without j b || Formula.same a w && rises w j b)
+      | _ => is_without j f
+      end
+  end.
 
 (** ** Values at pairs *)
 
@@ -94,6 +115,32 @@ Proof.
   apply andb_true_iff in h as [h1 h2]. rewrite (nth_at p), (nth_at q). destruct (Nat.eqb j k); [discriminate h1 |]. destruct (Nat.eqb j (m + k)); [discriminate h2 | exact eq_refl].
 Qed.
 
+Lemma without_value : forall f a s t, is_without (m + k) f = true -> at_ f (a, s) = at_ f (a, t).
+Proof.
+  fix IH 1. intros [o] c s t h. unfold at_pairs in *. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a]; cbn [is_without] in h; cbn [value map_op real_op];
+    [| exact eq_refl | exact eq_refl | | | | | | |]; try (apply andb_true_iff in h as [h1 h2]; rewrite (IH a c s t h1), (IH b c s t h2); exact eq_refl);
+    try (rewrite (IH a c s t h); exact eq_refl).
+  rewrite (nth_at (c, s)), (nth_at (c, t)). destruct (Nat.eqb j k); [exact eq_refl |]. destruct (Nat.eqb j (m + k)); [discriminate h | exact eq_refl].
+Qed.
+
+Lemma rises_value : forall w f a s t, rises w (m + k) f = true -> 0 <= at_ w (a, s) -> s <= t -> at_ f (a, s) <= at_ f (a, t).
+Proof.
+  intros w. fix IH 1. intros [o] c s t h w0 le. destruct o as [j | j | n | a b | a b | a | a b | a b | a | a];
+    try (apply Req_le; exact (without_value _ c s t h)); cbn [rises] in h.
+  - unfold at_pairs. cbn [value map_op real_op]. rewrite (nth_at (c, s)), (nth_at (c, t)). cbn [fst snd].
+    destruct (Nat.eqb j k); [apply Rle_refl |]. destruct (Nat.eqb j (m + k)); [exact le | apply Rle_refl].
+  - apply Rle_refl.
+  - apply Rle_refl.
+  - apply andb_true_iff in h as [h1 h2]. pose proof (IH a c s t h1 w0 le) as A. pose proof (IH b c s t h2 w0 le) as B.
+    unfold at_pairs in *. cbn [value map_op real_op]. lra.
+  - apply andb_true_iff in h as [h1 h2]. pose proof (IH a c s t h1 w0 le) as A. pose proof (without_value b c s t h2) as B.
+    unfold at_pairs in *. cbn [value map_op real_op]. lra.
+  - apply andb_true_iff in h as [h1 h]. pose proof (without_value a c s t h1) as A. apply orb_true_iff in h as [h | h].
+    + pose proof (without_value b c s t h) as B. unfold at_pairs in *. cbn [value map_op real_op]. rewrite A, B. lra.
+    + apply andb_true_iff in h as [e h]. apply Formula.same_sound in e. pose proof (IH b c s t h w0 le) as B. rewrite <- e in w0.
+      unfold at_pairs in *. cbn [value map_op real_op]. rewrite <- A. apply Rmult_le_compat_l; assumption.
+Qed.
+
 Lemma affine_value : forall f u v w p q r, u + v + w = 1 -> is_affine m k f = true ->
   at_ f (mean u v w p q r) = u * at_ f p + v * at_ f q + w * at_ f r.
 Proof.
@@ -121,6 +168,22 @@ Proof.
     rewrite (A (mean u v w p q r)), (A q), (A r), E. ring.
 Qed.
 End Coordinate.
+
+(** The first coordinates do not matter to what is free of them. *)
+Lemma prefix_value : forall f m before before' after, length before = length before' -> length (before ++ after) = m ->
+  (forall k, (k < length before)%nat -> is_free m k f = true) -> at_pairs f (before ++ after) = at_pairs f (before' ++ after).
+Proof.
+  intros f m before before' after e L h.
+  enough (K : forall pre, length (pre ++ before ++ after) = m -> (forall k, (length pre <= k < length pre + length before)%nat -> is_free m k f = true) ->
+    at_pairs f (pre ++ before ++ after) = at_pairs f (pre ++ before' ++ after)) by (apply (K []); [exact L | intros k i; apply h; cbn [length] in i; lia]).
+  clear h L. revert before' e. induction before as [| p b IH]; intros [| q b'] e pre L h; try discriminate; [reflexivity |].
+  transitivity (at_pairs f (pre ++ q :: b ++ after)).
+  - apply free_value. replace (S (length pre + length (b ++ after))) with m by (rewrite <- L, !app_length; cbn [length app]; rewrite ?app_length; lia).
+    apply h. cbn [length]. lia.
+  - specialize (IH b' ltac:(cbn in e; congruence) (pre ++ [q])). rewrite <- !app_assoc in IH. cbn [app] in IH. apply IH.
+    + rewrite <- L, !app_length. cbn [length app]. rewrite ?app_length. lia.
+    + intros k i. apply h. rewrite app_length in i. cbn [length] in *. lia.
+Qed.
 End Pairs.
 
 (** There are [m] coordinates. *)
@@ -191,6 +254,88 @@ Proof.
   intros u v w a b c u0 v0 w0 s ha hb hc. pose proof (Rmult_le_pos u a u0 ha). pose proof (Rmult_le_pos v b v0 hb). pose proof (Rmult_le_pos w c w0 hc). lra.
 Qed.
 
+(** A pair that is a mean of two points, or another of these above it. *)
+Definition is_below_mean (p : R * R) (nodes : list (R * R)) : Prop :=
+  exists t q r, 0 <= t <= 1 /\ In q nodes /\ In r nodes /\ fst p = fst (mean (1 - t) t 0 q r r) /\ snd p <= snd (mean (1 - t) t 0 q r r).
+
+(** [g] is the easier to show positive the less the squares of the first [e] coordinates of [x] are. *)
+Definition falls (e : nat) (x : list R) (g : list (R * R) -> R) : Prop :=
+  forall before front z after s, x = front ++ z :: after -> length before = length front -> (length front < e)%nat -> z ^ 2 <= s ->
+    g (before ++ (z, s) :: parabola after) <= g (before ++ (z, z ^ 2) :: parabola after).
+
+Lemma ends_decide : forall m g, affine_there m g -> forall x e, length x = m -> falls e x g -> forall nodes,
+  Forall2 (fun z l => is_mean (z, z ^ 2) (fst l) /\ is_below_mean (z, z ^ 2) (snd l)) x nodes ->
+  (forall qs, Forall2 (fun q l => In q l) qs (map (fun l => snd l) (firstn e nodes) ++ map (fun l => fst l) (skipn e nodes)) -> 0 < g qs) ->
+  0 < g (parabola x).
+Proof.
+  intros m g ha x e lx fall nodes h H.
+  enough (K : forall x' nodes', Forall2 (fun z l => is_mean (z, z ^ 2) (fst l) /\ is_below_mean (z, z ^ 2) (snd l)) x' nodes' ->
+    forall e' front before, x = front ++ x' -> length before = length front -> (length front + e' = e \/ e' = 0)%nat ->
+    (forall qs, Forall2 (fun q l => In q l) qs (map (fun l => snd l) (firstn e' nodes') ++ map (fun l => fst l) (skipn e' nodes')) -> 0 < g (before ++ qs)) ->
+    0 < g (before ++ parabola x')) by exact (K x nodes h e [] [] eq_refl eq_refl (or_introl eq_refl) H).
+  clear h H. induction 1 as [| z l x' nodes' [hm hb] h IH]; intros e' front before ex lb he H.
+  - apply (H []). destruct e'; constructor.
+  - assert (L : forall p, length (before ++ p :: parabola x') = m)
+      by (intro p; rewrite <- lx, ex, !app_length; cbn [length]; unfold parabola; rewrite map_length; lia).
+    assert (Each : forall e'' t, (length (front ++ [z]) + e'' = e \/ e'' = 0)%nat ->
+      (forall qs, Forall2 (fun q l => In q l) qs (map (fun l => snd l) (firstn e'' nodes') ++ map (fun l => fst l) (skipn e'' nodes')) -> 0 < g (before ++ t :: qs)) ->
+      0 < g (before ++ t :: parabola x')).
+    { intros e'' t he'' H'. specialize (IH e'' (front ++ [z]) (before ++ [t])). rewrite <- !app_assoc in IH. cbn [app] in IH. apply IH; auto.
+      - rewrite !app_length. cbn [length]. lia.
+      - intros qs hq. rewrite <- app_assoc. exact (H' qs hq). }
+    cbn [parabola map]. fold (parabola x'). destruct e' as [| e'].
+    + destruct hm as [u [v [w [q [r [s [u0 [v0 [w0 [su [iq [ir [is ->]]]]]]]]]]]]].
+      assert (N : forall t, In t (fst l) -> 0 < g (before ++ t :: parabola x')).
+      { intros t it. apply (Each O t (or_intror eq_refl)). intros qs hq. apply H. cbn [firstn skipn map app]. constructor; [exact it | exact hq]. }
+      rewrite ha; [apply positive_convex; auto | apply L | exact su].
+    + destruct he as [he |]; [| discriminate]. destruct hb as [t [q [r [[t0 t1] [iq [ir [e1 e2]]]]]]].
+      assert (N : forall t, In t (snd l) -> 0 < g (before ++ t :: parabola x')).
+      { intros y iy. apply (Each e' y); [left; rewrite app_length; cbn [length]; lia |]. intros qs hq. apply H. cbn [firstn skipn map app]. constructor; [exact iy | exact hq]. }
+      apply Rlt_le_trans with (g (before ++ mean (1 - t) t 0 q r r :: parabola x')).
+      * rewrite ha; [apply positive_convex; auto; lra | apply L | lra].
+      * pose proof (fall before front z x' (snd (mean (1 - t) t 0 q r r)) ex lb ltac:(lia) e2) as B. rewrite (surjective_pairing (mean _ _ _ _ _ _)).
+        cbn [fst] in e1. rewrite <- e1. exact B.
+Qed.
+
+(** ** A Y^T + Y A^T - w Y Y^T - k D_i e_i e_i^T, a form in the joints' forces *)
+
+Fixpoint weighted_sum (u : list R) (M : list (list R)) : list R :=
+  match u, M with t :: u', r :: M' => comb t 1 r (weighted_sum u' M') | _, _ => [] end.
+Lemma dot_weighted : forall u M v, dot (weighted_sum u M) v = dot u (map (fun r => dot r v) M).
+Proof. induction u as [| t u IH]; intros [| r M] v; cbn [weighted_sum map dot]; try (destruct v; reflexivity). rewrite dot_comb, IH. ring. Qed.
+Lemma dot_commutes : forall u v, dot u v = dot v u.
+Proof. induction u as [| a u IH]; intros [| b v]; cbn [dot]; try reflexivity. rewrite IH. ring. Qed.
+
+Fixpoint real_gram (qs : list (list R * list R)) : list (list R) :=
+  match qs with
+  | [] => []
+  | (h, z) :: rest => (2 * dot h z :: map (fun q => dot (fst q) z + dot h (snd q)) rest) :: real_gram rest
+  end.
+Lemma quad_gram : forall qs u, quad (real_gram qs) u = 2 * dot (weighted_sum u (map fst qs)) (weighted_sum u (map snd qs)).
+Proof.
+  induction qs as [| [h z] qs IH]; intros [| t u]; cbn [real_gram quad map weighted_sum dot]; try ring. rewrite IH. cbn [row_form fst snd].
+  assert (B : dot (map (fun q => dot (fst q) z + dot h (snd q)) qs) u = dot (weighted_sum u (map fst qs)) z + dot h (weighted_sum u (map snd qs))).
+  { rewrite (dot_commutes h), !dot_weighted, !map_map, (dot_commutes u), (dot_commutes u). clear. revert u. induction qs as [| q qs IH]; intros [| t u]; cbn [map dot]; try ring.
+    rewrite IH, (dot_commutes h (snd q)). ring. }
+  rewrite B, dot_comb, !(dot_commutes _ (comb t 1 _ _)), !dot_comb, (dot_commutes z h), (dot_commutes (weighted_sum u (map snd qs)) h), (dot_commutes z), (dot_commutes (weighted_sum u (map snd qs))). ring.
+Qed.
+
+Fixpoint solve_weights (i : nat) (k : R) (u : list R) : list (R * R) :=
+  match u with
+  | [] => []
+  | t :: u' => match i with O => (2 * t, - k * t ^ 2) :: map (fun t => (2 * t, 0)) u' | S i' => (2 * t, 0) :: solve_weights i' k u' end
+  end.
+
+Lemma form_no_D : forall u r v, length u = length r -> form (map (fun t => (2 * t, 0)) u) r v = 2 * dot (weighted_sum u (map fst r)) v.
+Proof. induction u as [| t u IH]; intros [| [a d] r] v l; try discriminate; cbn [map form weighted_sum fst dot]; [ring |]. rewrite IH, dot_comb by (cbn in l; congruence). ring. Qed.
+Lemma form_solve : forall i k u r v, length u = length r ->
+  form (solve_weights i k u) r v = 2 * dot (weighted_sum u (map fst r)) v - k * (nth i (map snd r) 0 * nth i u 0 ^ 2).
+Proof.
+  induction i as [| i IH]; intros k [| t u] [| [a d] r] v l; try discriminate; cbn [solve_weights form map weighted_sum fst snd nth dot]; try ring.
+  - rewrite form_no_D, dot_comb by (cbn in l; congruence). ring.
+  - rewrite IH, dot_comb by (cbn in l; congruence). ring.
+Qed.
+
 (** ** Nodes of a range *)
 
 Section Precision.
@@ -198,24 +343,26 @@ Variable bits : positive.
 Local Notation unit := (unit_R bits).
 
 (** The ends, with their squares, and between them no point of the parabola. *)
-Definition nodes (a : fixed) : list (fixed * fixed) :=
+Inductive which := Low | Middle | High.
+Definition node (a : fixed) (j : which) : fixed * fixed :=
   let l := Fixed (lo a) (lo a) in let h := Fixed (hi a) (hi a) in
-  [(l, sqr bits l); (halve (add l h), mul bits l h); (h, sqr bits h)].
+  match j with Low => (l, sqr bits l) | Middle => (halve (add l h), mul bits l h) | High => (h, sqr bits h) end.
 Definition in_pair (i : fixed * fixed) (p : R * R) : Prop := contains bits (fst i) (fst p) /\ contains bits (snd i) (snd p).
 
-Definition real_nodes (a : fixed) : list (R * R) :=
-  let l := IZR (lo a) / unit in let h := IZR (hi a) / unit in [(l, l ^ 2); ((l + h) / 2, l * h); (h, h ^ 2)].
+Definition real_node (a : fixed) (j : which) : R * R :=
+  let l := IZR (lo a) / unit in let h := IZR (hi a) / unit in match j with Low => (l, l ^ 2) | Middle => ((l + h) / 2, l * h) | High => (h, h ^ 2) end.
+Definition real_nodes (a : fixed) : list (R * R) := map (real_node a) [Low; Middle; High].
+Definition real_ends (a : fixed) : list (R * R) := map (real_node a) [Low; High].
 
-Lemma real_nodes_in : forall a, Forall2 in_pair (nodes a) (real_nodes a).
+Lemma real_node_in : forall a j, in_pair (node a j) (real_node a j).
 Proof.
-  intro a. unfold nodes. cbv zeta. pose proof (point_sound bits (lo a)) as L. pose proof (point_sound bits (hi a)) as H.
-  apply Forall2_cons; [split | apply Forall2_cons; [split | apply Forall2_cons; [split | apply Forall2_nil]]]; cbn [fst snd];
-    auto using sqr_sound, mul_sound, halve_sound, add_sound.
+  intros a j. unfold node, real_node. cbv zeta. pose proof (point_sound bits (lo a)) as L. pose proof (point_sound bits (hi a)) as H.
+  destruct j; split; cbn [fst snd]; auto using sqr_sound, mul_sound, halve_sound, add_sound.
 Qed.
 
 Lemma real_nodes_mean : forall a x, contains bits a x -> is_mean (x, x ^ 2) (real_nodes a).
 Proof.
-  intros a x [l u]. unfold real_nodes. cbv zeta. pose proof (unit_R_pos bits) as u0. set (L := IZR (lo a) / unit). set (H := IZR (hi a) / unit).
+  intros a x [l u]. unfold real_nodes, real_node. cbn [map]. cbv zeta. pose proof (unit_R_pos bits) as u0. set (L := IZR (lo a) / unit). set (H := IZR (hi a) / unit).
   assert (E : forall z, IZR z / unit * unit = IZR z) by (intro; field; lra).
   assert (hl : L <= x) by (apply Rmult_le_reg_r with unit; [exact u0 | unfold L; rewrite E; exact l]).
   assert (hh : x <= H) by (apply Rmult_le_reg_r with unit; [exact u0 | unfold H; rewrite E; exact u]). clearbody L H.
@@ -229,18 +376,39 @@ Proof.
     unfold mean. cbn [fst snd]. rewrite T. f_equal; field.
 Qed.
 
-(** All control points of a cell. *)
-Fixpoint grid (cell : list fixed) : list (list (fixed * fixed)) :=
-  match cell with [] => [[]] | a :: c => let rest := grid c in flat_map (fun n => map (cons n) rest) (nodes a) end.
-
-Lemma grid_in : forall cell qs, Forall2 (fun q l => In q l) qs (map real_nodes cell) -> exists is, In is (grid cell) /\ Forall2 in_pair is qs.
+Lemma real_ends_mean : forall a x, contains bits a x -> is_below_mean (x, x ^ 2) (real_ends a).
 Proof.
-  induction cell as [| a cell IH]; intros qs h; inversion h as [| q l qs' l' hq h']; subst; [exists []; split; [left; reflexivity | constructor] |].
-  destruct (IH qs' h') as [is [hi hr]].
-  assert (N : exists i, In i (nodes a) /\ in_pair i q).
-  { pose proof (real_nodes_in a) as R. revert hq. induction R as [| i r is' rs hir R IHR]; intros hq; [contradiction |].
-    destruct hq as [<- | hq]; [exists i; split; [left; reflexivity | exact hir] |]. destruct (IHR hq) as [j [ij jq]]. exists j. split; [right; exact ij | exact jq]. }
-  destruct N as [i [ii iq]]. exists (i :: is). split; [| constructor; assumption]. cbn [grid]. cbv zeta. apply in_flat_map. exists i. split; [exact ii |]. apply in_map, hi.
+  intros a x [l u]. unfold real_ends, real_node. cbn [map]. cbv zeta. pose proof (unit_R_pos bits) as u0. set (L := IZR (lo a) / unit). set (H := IZR (hi a) / unit).
+  assert (E : forall z, IZR z / unit * unit = IZR z) by (intro; field; lra).
+  assert (hl : L <= x) by (apply Rmult_le_reg_r with unit; [exact u0 | unfold L; rewrite E; exact l]).
+  assert (hh : x <= H) by (apply Rmult_le_reg_r with unit; [exact u0 | unfold H; rewrite E; exact u]). clearbody L H.
+  unfold is_below_mean, mean. cbn [fst snd]. destruct (Req_dec L H) as [e | n].
+  - exists 0, (L, L ^ 2), (H, H ^ 2). assert (x = L) by lra. subst x. repeat split; try lra; [left; reflexivity | right; left; reflexivity | |]; cbn [fst snd]; lra.
+  - set (t := (x - L) / (H - L)). assert (T : x = L + t * (H - L)) by (unfold t; field; lra).
+    assert (t0 : 0 <= t) by (apply Rmult_le_pos; [lra | apply Rlt_le, Rinv_0_lt_compat; lra]).
+    assert (t1 : t <= 1) by (apply Rmult_le_reg_r with (H - L); [lra |]; lra). clearbody t.
+    exists t, (L, L ^ 2), (H, H ^ 2). repeat split; try assumption; [left; reflexivity | right; left; reflexivity | |]; cbn [fst snd]; rewrite T; [ring |].
+    enough (0 <= t * (1 - t) * (H - L) ^ 2) by lra. apply Rmult_le_pos; [apply Rmult_le_pos; lra | apply pow2_ge_0].
+Qed.
+
+(** A control point of a cell; of the first [e] coordinates an end. *)
+Fixpoint points (cell : list fixed) (p : list which) : list (fixed * fixed) :=
+  match cell, p with a :: cell', j :: p' => node a j :: points cell' p' | _, _ => [] end.
+Fixpoint ends_first (e : nat) (p : list which) : Prop :=
+  match e, p with S e', j :: p' => j <> Middle /\ ends_first e' p' | _, _ => True end.
+
+Lemma points_in : forall cell e qs,
+  Forall2 (fun q l => In q l) qs (map (fun l => snd l) (firstn e (map (fun a => (real_nodes a, real_ends a)) cell))
+    ++ map (fun l => fst l) (skipn e (map (fun a => (real_nodes a, real_ends a)) cell))) ->
+  exists p, length p = length cell /\ ends_first e p /\ Forall2 in_pair (points cell p) qs.
+Proof.
+  induction cell as [| a cell IH]; intros e qs h.
+  - destruct e; cbn [map firstn skipn app] in h; inversion h; subst; exists []; split; [reflexivity | split; [exact I | constructor] | reflexivity | split; [exact I | constructor]].
+  - destruct e as [| e]; cbn [map firstn skipn app fst snd] in h; inversion h as [| q l qs' l' hq h']; subst.
+    + destruct (IH O qs' h') as [p [lp [_ hp]]]. apply in_map_iff in hq as [j [<- ij]]. exists (j :: p). split; [cbn; congruence |].
+      split; [exact I |]. cbn [points]. constructor; [apply real_node_in | exact hp].
+    + destruct (IH e qs' h') as [p [lp [ep hp]]]. apply in_map_iff in hq as [j [<- ij]]. exists (j :: p). split; [cbn; congruence |].
+      split; [split; [destruct ij as [<- | [<- | []]]; discriminate | exact ep] |]. cbn [points]. constructor; [apply real_node_in | exact hp].
 Qed.
 
 (** ** Formulas at a control point, in intervals *)
@@ -293,54 +461,245 @@ Proof.
   - destruct (Fixed.root bits ia) as [r |] eqn:e; [| exact I]. apply (root_sound bits ia r _ e A).
 Qed.
 
+(** ** Formulas at all control points: a branch for each node of a coordinate that matters *)
+
+Inductive tensor := Constant (a : option fixed) | Same (t : tensor) | Each (low middle high : tensor).
+Definition pick {A : Type} (j : which) (l m h : A) : A := match j with Low => l | Middle => m | High => h end.
+Definition branch (j : which) (t : tensor) : tensor := match t with Constant _ => t | Same t => t | Each l m h => pick j l m h end.
+Definition last_value (t : tensor) : option fixed := match t with Constant a => a | _ => None end.
+Fixpoint value_at (t : tensor) (p : list which) : option fixed := match p with [] => last_value t | j :: p' => value_at (branch j t) p' end.
+
+Fixpoint tensor1 (f : option fixed -> option fixed) (t : tensor) : tensor :=
+  match t with Constant a => Constant (f a) | Same t => Same (tensor1 f t) | Each l m h => Each (tensor1 f l) (tensor1 f m) (tensor1 f h) end.
+Fixpoint tensor2 (f : option fixed -> option fixed -> option fixed) (s t : tensor) : tensor :=
+  match s with
+  | Constant a => tensor1 (f a) t
+  | Same s' => match t with
+      | Constant b => Same (tensor1 (fun a => f a b) s')
+      | Same t' => Same (tensor2 f s' t')
+      | Each l m h => Each (tensor2 f s' l) (tensor2 f s' m) (tensor2 f s' h)
+      end
+  | Each l m h => match t with
+      | Constant b => let g := tensor1 (fun a => f a b) in Each (g l) (g m) (g h)
+      | Same t' => Each (tensor2 f l t') (tensor2 f m t') (tensor2 f h t')
+      | Each l' m' h' => Each (tensor2 f l l') (tensor2 f m m') (tensor2 f h h')
+      end
+  end.
+
+Lemma value_tensor1 : forall f p t, f None = None -> value_at (tensor1 f t) p = f (value_at t p).
+Proof.
+  intros f p t n. revert t. induction p as [| j p IH]; intros [a | t | l m h]; cbn [value_at tensor1 last_value branch]; auto.
+  - exact (IH (Constant a)).
+  - destruct j; apply IH.
+Qed.
+Lemma value_constant : forall a p, value_at (Constant a) p = a.
+Proof. intros a p. induction p; [reflexivity | exact IHp]. Qed.
+Lemma value_tensor2 : forall f p s t, (forall a, f a None = None) -> (forall b, f None b = None) ->
+  value_at (tensor2 f s t) p = f (value_at s p) (value_at t p).
+Proof.
+  intros f p s t n n'. revert s t. induction p as [| j p IH]; intros s t.
+  - destruct s as [a | s | l m h], t as [b | t | l' m' h']; cbn [value_at tensor2 tensor1 last_value]; auto; rewrite ?n, ?n'; reflexivity.
+  - cbn [value_at]. destruct s as [a | s | l m h].
+    + cbn [tensor2 branch]. rewrite value_constant.
+      replace (branch j (tensor1 (f a) t)) with (tensor1 (f a) (branch j t)) by (destruct t, j; reflexivity). apply value_tensor1, n.
+    + destruct t as [b | t | l' m' h']; cbn [tensor2 branch]; [rewrite value_constant; apply (value_tensor1 (fun a => f a b)), n' | apply IH | destruct j; apply IH].
+    + destruct t as [b | t | l' m' h']; cbn [tensor2 branch]; [| destruct j; apply IH | destruct j; apply IH].
+      rewrite value_constant. destruct j; apply (value_tensor1 (fun a => f a b)), n'.
+Qed.
+
+Fixpoint axes (f : fixed * fixed -> fixed) (cell : list fixed) : list tensor :=
+  match cell with
+  | [] => []
+  | a :: cell' => let at_ j := Constant (Some (f (node a j))) in Each (at_ Low) (at_ Middle) (at_ High) :: map Same (axes f cell')
+  end.
+Lemma value_axes : forall f cell p, length p = length cell ->
+  map (fun t => value_at t p) (axes f cell) = map Some (map f (points cell p)).
+Proof.
+  intro f. induction cell as [| a cell IH]; intros [| j p] l; try discriminate; [reflexivity |]. cbn [axes map points].
+  f_equal; [cbn [value_at branch]; destruct j; apply value_constant |]. rewrite map_map. apply IH. cbn in l. congruence.
+Qed.
+
+Definition tensor_op (coords : list tensor) (o : op tensor) : tensor :=
+  match o with
+  | Coord k => nth k coords (Constant (Some zero))
+  | Param j => Constant (Some (nth j params zero))
+  | Integer n => Constant (Some (Fixed.integer bits n))
+  | Add a b => tensor2 (lift2 (fun a b => Some (add a b))) a b
+  | Sub a b => tensor2 (lift2 (fun a b => Some (sub a b))) a b
+  | Neg a => tensor1 (lift1 (fun a => Some (neg a))) a
+  | Mul a b => tensor2 (lift2 (fun a b => Some (mul bits a b))) a b
+  | Div a b => tensor2 (lift2 (fun a b => option_map (mul bits a) (recip bits b))) a b
+  | Sqr a => tensor1 (lift1 (fun a => Some (sqr bits a))) a
+  | Sqrt a => tensor1 (lift1 (Fixed.root bits)) a
+  end.
+Definition tensors (cell : list fixed) : list tensor :=
+  run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) tape [].
+
+Theorem tensors_value : forall cell p, length p = length cell ->
+  forall i, value_at (nth i (tensors cell) (Constant None)) p = nth i (evaluate_at (points cell p)) None.
+Proof.
+  intros cell p l. unfold tensors, evaluate_at. set (q := points cell p).
+  assert (C : map (fun t => value_at t p) (axes fst cell ++ axes snd cell) = map Some (map fst q ++ map snd q))
+    by (rewrite map_app, !value_axes, map_app by exact l; reflexivity).
+  apply (nth_related _ _ (Constant None) None (fun t a => value_at t p = a)); [apply value_constant |].
+  apply (run_related tensor (option fixed) (Constant None) None _ _ (fun t a => value_at t p = a)); [apply value_constant | | constructor].
+  assert (N1 : forall g a, lift2 g a None = None) by (intros g []; reflexivity).
+  intros o f g H. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a]; cbn [map_op tensor_op fixed_op];
+    try apply value_constant; try (rewrite value_tensor2, (H a), (H b) by (try apply N1; reflexivity); reflexivity);
+    try (rewrite value_tensor1, (H a) by reflexivity; reflexivity).
+  rewrite <- (map_nth Some), <- C. pose proof (map_nth (fun t => value_at t p) (axes fst cell ++ axes snd cell) (Constant (Some zero)) k) as M.
+  cbn beta in M. rewrite value_constant in M. symmetry. exact M.
+Qed.
+
 (** ** Tests: sigma_min^2 > k w, sigma_max^2 < k w, f >= 0 *)
 
 Inductive polynomial_test :=
-  | LeastOf (r : rows nat) (w : nat) (kappa2 : fixed)
+  (* of the first [e] coordinates, ends alone *)
+  | LeastOf (r : rows nat) (w : nat) (kappa2 : fixed) (e : nat)
   | GreatestOf (r : rows nat) (w : nat) (k2 : fixed)
+  (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
+  | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
   | SignOf (f : nat).
 
-Fixpoint values_of (values : list (option fixed)) (a : list nat) : option (list fixed) :=
+Fixpoint all_known (a : list (option fixed)) : option (list fixed) :=
   match a with
   | [] => Some []
-  | i :: a' => match nth i values None, values_of values a' with Some x, Some l => Some (x :: l) | _, _ => None end
+  | x :: a' => match x, all_known a' with Some x, Some l => Some (x :: l) | _, _ => None end
   end.
 (** Every D_i is positive. *)
-Fixpoint rows_of (values : list (option fixed)) (r : rows nat) : option (rows fixed) :=
+Fixpoint known_rows (r : rows (option fixed)) : option (rows fixed) :=
   match r with
   | [] => Some []
   | (a, d) :: r' =>
-      match values_of values a, nth d values None, rows_of values r' with
+      match all_known a, d, known_rows r' with
       | Some a, Some d, Some rest => if (0 <? lo d)%Z then Some ((a, d) :: rest) else None
       | _, _, _ => None
       end
   end.
 
+(** A multiple, [n] over [2^places], of a formula that is not negative, or none: the S-procedure. *)
+Definition multiple : Type := option (nat * Z * N).
+
+(** What a test needs: rows, a weight or what is not to be negative, and what a multiple is of. *)
+Record sample (A : Type) := Sample { s_rows : rows A; s_weight : A; s_less : option (A * Z * N) }.
+Arguments Sample {A}. Arguments s_rows {A}. Arguments s_weight {A}. Arguments s_less {A}.
+Definition map_sample {A B : Type} (f : A -> B) (s : sample A) : sample B :=
+  Sample (map_rows f (s_rows s)) (f (s_weight s)) (option_map (fun l => (f (fst (fst l)), snd (fst l), snd l)) (s_less s)).
+Definition sample_of (r : rows nat) (w : nat) (l : multiple) : sample nat := Sample r w l.
+
+Lemma map_sample_map : forall (A B C : Type) (f : A -> B) (g : B -> C) s, map_sample g (map_sample f s) = map_sample (fun a => g (f a)) s.
+Proof.
+  intros A B C f g [r w l]. unfold map_sample. cbn [s_rows s_weight s_less]. f_equal.
+  - unfold map_rows. rewrite map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity.
+  - destruct l as [[[x n] places] |]; reflexivity.
+Qed.
+Lemma map_sample_ext : forall (A B : Type) (f g : A -> B) s, (forall a, f a = g a) -> map_sample f s = map_sample g s.
+Proof.
+  intros A B f g [r w l] e. unfold map_sample. cbn [s_rows s_weight s_less]. rewrite e. f_equal.
+  - unfold map_rows. apply map_ext. intros [a d]. cbn [fst snd]. rewrite e. f_equal. apply map_ext, e.
+  - destruct l as [[[x n] places] |]; cbn; rewrite ?e; reflexivity.
+Qed.
+
+(** At all control points of [m] coordinates, at ends alone of the first [e]. *)
+Fixpoint everywhere (e m : nat) (good : sample (option fixed) -> bool) (s : sample tensor) : bool :=
+  match m with
+  | O => good (map_sample last_value s)
+  | S m' =>
+      let at_ j := everywhere (pred e) m' good (map_sample (branch j) s) in
+      if at_ Low then if at_ High then match e with O => at_ Middle | S _ => true end else false else false
+  end.
+Lemma everywhere_sound : forall good m e s, everywhere e m good s = true ->
+  forall p, length p = m -> ends_first e p -> good (map_sample (fun t => value_at t p) s) = true.
+Proof.
+  intro good. induction m as [| m IH]; intros e s h [| j p] l i; try discriminate; [exact h |]. cbn [everywhere] in h. cbv zeta in h.
+  destruct (everywhere _ _ _ (map_sample (branch Low) s)) eqn:lw; [| discriminate].
+  destruct (everywhere _ _ _ (map_sample (branch High) s)) eqn:hg; [| discriminate].
+  assert (K : everywhere (pred e) m good (map_sample (branch j) s) = true).
+  { destruct j; [exact lw | | exact hg]. destruct e; [exact h | exfalso; exact (proj1 i eq_refl)]. }
+  rewrite <- (IH _ _ K p) by (try (destruct e; [destruct p; exact I | exact (proj2 i)]); cbn in l; congruence).
+  rewrite map_sample_map. reflexivity.
+Qed.
+
+Definition known_multiple (l : option (option fixed * Z * N)) : option fixed :=
+  match l with None => Some zero | Some (g, n, places) => option_map (Arithmetic.dyadic n places) g end.
+
+Fixpoint half_product (places : N) (y : list Z) (z : list fixed) : fixed :=
+  match y, z with n :: y', a :: z' => add (Arithmetic.dyadic n (places + 1) a) (half_product places y' z') | _, _ => zero end.
+Fixpoint gram (places : N) (ps : list (list Z * list fixed)) : triangle :=
+  match ps with
+  | [] => []
+  | (y, z) :: rest => let h := half_product places in
+      (add (h y z) (h y z) :: map (fun q => add (h (fst q) z) (h y (snd q))) rest) :: gram places rest
+  end.
+Fixpoint solve_pairs (places : N) (Y : list (list Z)) (w : fixed) (r : rows fixed) : list (list Z * list fixed) :=
+  match Y, r with y :: Y', (a, _) :: r' => (y, residual places a w y) :: solve_pairs places Y' w r' | _, _ => [] end.
+Fixpoint solve_diagonal (i : nat) (k t : fixed) (r : rows fixed) {struct r} : triangle :=
+  match r with
+  | [] => []
+  | (_, d) :: r' => match i with
+      | O => [sub (neg (mul bits k (upper_end d))) t] :: map (fun _ => [sub zero t]) r'
+      | S i' => [sub zero t] :: solve_diagonal i' k t r'
+      end
+  end.
+
 Definition is_definite (n : nat) (t : triangle) : bool := if Nat.eqb (length t) n then is_positive_definite t else false.
-Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (w : nat) (k : fixed) (values : list (option fixed)) : bool :=
-  match rows_of values r, nth w values None with
-  | Some rows, Some w => is_definite n (lower_triangle places Y rows (repeat [neg (mul bits k w)] n))
+Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (k : fixed) (s : sample (option fixed)) : bool :=
+  match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
+  | Some rows, Some w, Some t => is_definite n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
+  | _, _, _ => false
+  end.
+(** Full rank: the same with D = 0 and k = 0. *)
+Definition rank_at (n : nat) (places : N) (Y : list (list Z)) (s : sample (option fixed)) : bool :=
+  match known_rows (s_rows s), known_multiple (s_less s) with
+  | Some rows, Some t => is_definite n (lower_triangle places Y (map (fun p => (fst p, zero)) rows) (repeat [sub zero t] n))
   | _, _ => false
   end.
-Definition upper_at (n : nat) (r : rows nat) (w : nat) (k : fixed) (values : list (option fixed)) : bool :=
-  match rows_of values r, nth w values None with
-  | Some rows, Some w => match upper_triangle rows (repeat [mul bits k w] n) with Some t => is_definite n t | None => false end
-  | _, _ => false
+Definition upper_at (n : nat) (k : fixed) (s : sample (option fixed)) : bool :=
+  match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
+  | Some rows, Some w, Some t => match upper_triangle rows (repeat [sub (mul bits k w) t] n) with Some t => is_definite n t | None => false end
+  | _, _, _ => false
   end.
-Definition sign_at (f : nat) (values : list (option fixed)) : bool :=
-  match nth f values None with Some a => (0 <=? lo a)%Z | None => false end.
+(** As many rows of A, and of Y, as coordinates. *)
+Definition solve_at (n i : nat) (places : N) (Y : list (list Z)) (k : fixed) (s : sample (option fixed)) : bool :=
+  match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
+  | Some rows, Some w, Some t => Nat.eqb (length rows) n && Nat.eqb (length Y) n &&
+      is_definite n (triangle_add (solve_diagonal i k t rows) (gram places (solve_pairs places Y w rows)))
+  | _, _, _ => false
+  end.
+Definition sign_at (s : sample (option fixed)) : bool :=
+  match s_weight s, known_multiple (s_less s) with Some a, Some t => (0 <=? lo (sub a t))%Z | _, _ => false end.
 
 (** Formulas of the tape are affine in each pair. *)
 Variable m : nat.
 Definition all_places (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
-Definition is_affine_at (i : nat) : bool := forallb (fun k => is_affine m k (entry_at i)) (seq 0 m).
+Definition affine_in (fs : list formula) (i : nat) : bool := let f := nth i fs (integer 0) in forallb (fun k => is_affine m k f) (seq 0 m).
+Definition is_affine_at (i : nat) : bool := affine_in (formulas tape) i.
 Local Notation at_ ps i := (at_pairs theta (entry_at i) ps).
 
 Lemma entry_affine : forall i, is_affine_at i = true -> affine_there m (fun ps => at_ ps i).
 Proof.
-  intros i h before after u v w p q r l s. unfold is_affine_at in h. rewrite forallb_forall in h.
+  intros i h before after u v w p q r l s. unfold is_affine_at, affine_in in h. cbv zeta in h. rewrite forallb_forall in h.
   assert (E : m = S (length before + length after)) by (rewrite <- l, app_length; cbn [length]; lia).
   specialize (h (length before) ltac:(apply in_seq; lia)). rewrite E in h. apply affine_value; assumption.
+Qed.
+
+Definition less_at (ps : list (R * R)) (l : multiple) : R :=
+  match l with None => 0 | Some (g, n, places) => IZR n / IZR (2 ^ Z.of_N places) * at_ ps g end.
+Definition is_affine_multiple (l : multiple) : bool := match l with None => true | Some (g, _, _) => is_affine_at g end.
+
+Lemma multiple_affine : forall l, is_affine_multiple l = true -> affine_there m (fun ps => less_at ps l).
+Proof.
+  intros [[[g n] places] |] h before after u v w p q r e s; cbn [less_at].
+  - rewrite (entry_affine g h before after u v w p q r e s). ring.
+  - ring.
+Qed.
+
+Local Notation look q := (fun i => nth i (evaluate_at q) None).
+Lemma multiple_sound : forall q ps r w l t, Forall2 in_pair q ps ->
+  known_multiple (s_less (map_sample (look q) (sample_of r w l))) = Some t -> contains bits t (less_at ps l).
+Proof.
+  intros q ps r w [[[g n] places] |] t h e; cbn [known_multiple less_at map_sample sample_of s_less option_map fst snd] in *; [| injection e as <-; apply zero_sound].
+  pose proof (evaluate_at_sound q ps h g) as V. destruct (nth g _ None) as [a |]; [| discriminate]. injection e as <-. apply Arithmetic.dyadic_sound, V.
 Qed.
 
 Lemma rows_affine : forall r weights x, forallb is_affine_at (all_places r) = true ->
@@ -358,23 +717,78 @@ Proof.
   rewrite (D a x h1), (entry_affine d h2 before after u v w p q s l e), (IH weights h3). ring.
 Qed.
 
-Lemma values_of_sound : forall q ps a s, Forall2 in_pair q ps -> values_of (evaluate_at q) a = Some s -> Forall2 (contains bits) s (map (fun i => at_ ps i) a).
+Lemma all_known_sound : forall q ps a s, Forall2 in_pair q ps -> all_known (map (look q) a) = Some s -> Forall2 (contains bits) s (map (fun i => at_ ps i) a).
 Proof.
-  intros q ps a s h. revert s. induction a as [| i a IH]; intros s e; cbn [values_of map] in *; [injection e as <-; constructor |].
+  intros q ps a s h. revert s. induction a as [| i a IH]; intros s e; cbn [all_known map] in *; [injection e as <-; constructor |].
   pose proof (evaluate_at_sound q ps h i) as V. destruct (nth i _ None) as [b |]; [| discriminate].
-  destruct (values_of _ a) as [l |]; [| discriminate]. injection e as <-. constructor; auto.
+  destruct (all_known _) as [l |]; [| discriminate]. injection e as <-. constructor; auto.
 Qed.
 
-Lemma rows_of_sound : forall q ps r s, Forall2 in_pair q ps -> rows_of (evaluate_at q) r = Some s ->
+Lemma known_rows_sound : forall q ps r s, Forall2 in_pair q ps -> known_rows (map_rows (look q) r) = Some s ->
   rows_rel (contains bits) s (map_rows (fun i => at_ ps i) r) /\ positive_D (map_rows (fun i => at_ ps i) r).
 Proof.
-  intros q ps r s h. revert s. induction r as [| [a d] r IH]; intros s e; cbn [rows_of] in e; [injection e as <-; split; constructor |].
-  destruct (values_of _ a) as [b |] eqn:ea; [| discriminate]. pose proof (evaluate_at_sound q ps h d) as V.
-  destruct (nth d _ None) as [c |]; [| discriminate]. destruct (rows_of _ r) as [rest |]; [| discriminate].
+  intros q ps r s h. revert s. induction r as [| [a d] r IH]; intros s e; [injection e as <-; split; constructor |]. rewrite map_rows_cons in e. cbn [known_rows] in e.
+  destruct (all_known _) as [b |] eqn:ea; [| discriminate]. pose proof (evaluate_at_sound q ps h d) as V.
+  destruct (nth d _ None) as [c |]; [| discriminate]. destruct (known_rows _) as [rest |]; [| discriminate].
   destruct (0 <? lo c)%Z eqn:p; [| discriminate]. injection e as <-. apply Z.ltb_lt in p. destruct (IH rest eq_refl) as [I1 I2].
   rewrite map_rows_cons. split; constructor; auto.
-  - split; [exact (values_of_sound q ps a b h ea) | exact V].
+  - split; [exact (all_known_sound q ps a b h ea) | exact V].
   - exact (contains_positive bits _ _ p V).
+Qed.
+
+Lemma half_product_sound : forall places y z v, Forall2 (contains bits) z v -> contains bits (half_product places y z) (dot (map (Y_half places) y) v).
+Proof.
+  intros places y z v h. revert y. induction h as [| a b z v hb h IH]; intros [| n y]; cbn [half_product map dot]; try apply zero_sound.
+  apply add_sound; [apply Arithmetic.dyadic_sound, hb | apply IH].
+Qed.
+Lemma gram_sound : forall places ps qs, Forall2 (fun p q => fst q = map (Y_half places) (fst p) /\ Forall2 (contains bits) (snd p) (snd q)) ps qs ->
+  triangle_in bits (gram places ps) (real_gram qs).
+Proof.
+  intros places. induction 1 as [| [y z] [h v] ps qs [e hz] hs IH]; cbn [gram real_gram]; constructor; [| exact IH]. cbn [fst snd] in *. subst h. constructor.
+  - replace (2 * dot (map (Y_half places) y) v) with (dot (map (Y_half places) y) v + dot (map (Y_half places) y) v) by ring. apply add_sound; apply half_product_sound, hz.
+  - clear IH. induction hs as [| p q ps qs [e k] hs IH]; cbn [map]; constructor; [| exact IH]. rewrite e. apply add_sound; apply half_product_sound; assumption.
+Qed.
+
+Definition real_pairs (places : N) (Y : list (list Z)) (w : R) (r : rows R) : list (list R * list R) :=
+  map (fun p => (map (Y_half places) (fst p), comb 2 (- w) (fst (snd p)) (map (Y_value places) (fst p)))) (combine Y r).
+Lemma solve_pairs_sound : forall places Y w W i r, contains bits w W -> rows_rel (contains bits) i r ->
+  Forall2 (fun p q => fst q = map (Y_half places) (fst p) /\ Forall2 (contains bits) (snd p) (snd q)) (solve_pairs places Y w i) (real_pairs places Y W r).
+Proof.
+  intros places Y w W i r hw h. revert Y. induction h as [| [a d] [b e] i r [h1 h2] h IH]; intros [| y Y]; cbn; try constructor; [| apply IH].
+  cbn [fst snd] in *. split; [reflexivity | apply residual_sound; assumption].
+Qed.
+Lemma quad_pairs : forall places Y w r u, length Y = length r -> let q := weighted_sum u (map (map (Y_value places)) Y) in
+  quad (real_gram (real_pairs places Y w r)) u = 2 * dot (weighted_sum u (map fst r)) q - w * dot q q.
+Proof.
+  intros places Y w r u l q. rewrite quad_gram. unfold real_pairs. rewrite !map_map. cbn [fst snd].
+  assert (E1 : forall v, 2 * dot (weighted_sum u (map (fun p : list Z * (list R * R) => map (Y_half places) (fst p)) (combine Y r))) v = dot q v).
+  { intro v. unfold q. rewrite !dot_weighted, !map_map. clear q. revert Y r l. induction u as [| t u IH]; intros [| y Y] [| p r] l; try discriminate; cbn [combine map dot fst]; try ring.
+    rewrite <- (IH Y r) by (cbn in l; congruence).
+    assert (H : dot (map (Y_value places) y) v = 2 * dot (map (Y_half places) y) v) by (rewrite <- dot_map, map_map; f_equal; apply map_ext; exact (Y_half_eq places)). rewrite H. ring. }
+  rewrite E1. rewrite dot_commutes.
+  assert (E2 : forall v, dot (weighted_sum u (map (fun p : list Z * (list R * R) => comb 2 (- w) (fst (snd p)) (map (Y_value places) (fst p))) (combine Y r))) v
+    = 2 * dot (weighted_sum u (map fst r)) v - w * dot q v).
+  { intro v. unfold q. clear E1 q. rewrite !dot_weighted, !map_map. revert Y r l. induction u as [| t u IH]; intros [| y Y] [| p r] l; try discriminate; cbn [combine map dot fst snd]; try ring.
+    rewrite IH, dot_comb by (cbn in l; congruence). ring. }
+  apply E2.
+Qed.
+Lemma solve_diagonal_sound : forall i k K t T r s u, contains bits k K -> 0 <= K -> contains bits t T -> rows_rel (contains bits) r s -> length u = length s ->
+  exists S, triangle_in bits (solve_diagonal i k t r) S /\ quad S u <= - K * (nth i (map snd s) 0 * nth i u 0 ^ 2) - T * dot u u.
+Proof.
+  intros i k K t T r s u hk K0 ht h.
+  assert (T0 : contains bits (sub zero t) (- T)) by (replace (- T) with (0 - T) by ring; apply sub_sound; [apply zero_sound | exact ht]).
+  assert (Rest : forall (r : rows fixed) (s : rows R), rows_rel (contains bits) r s -> forall u, length u = length s ->
+    exists S, triangle_in bits (map (fun _ => [sub zero t]) r) S /\ quad S u = - T * dot u u).
+  { clear - T0. induction 1 as [| p q r s _ h IH]; intros [| y u] l; try discriminate; [exists []; split; [constructor | cbn; ring] |].
+    destruct (IH u ltac:(cbn in l; congruence)) as [S [hS e]]. exists ([- T] :: S). split; [cbn [map]; constructor; [constructor; [exact T0 | constructor] | exact hS] |].
+    cbn [quad row_form dot]. rewrite e. ring. }
+  revert i u. induction h as [| [a d] [b e] r s [_ hd] h IH]; intros i [| y u] l; try discriminate; [exists []; split; [cbn [solve_diagonal]; constructor | destruct i; cbn; lra] |].
+  cbn [fst snd] in hd. destruct i as [| i]; cbn [solve_diagonal map snd nth].
+  - destruct (Rest r s h u ltac:(cbn in l; congruence)) as [S [hS q]]. destruct (upper_end_sound bits d e hd) as [g [hg le]].
+    exists ([- (K * g) - T] :: S). split; [constructor; [constructor; [apply sub_sound; [apply neg_sound, mul_sound; assumption | exact ht] | constructor] | exact hS] |].
+    cbn [quad row_form dot]. rewrite q. pose proof (pow2_ge_0 y). assert (K * (e * y ^ 2) <= K * (g * y ^ 2)) by (apply Rmult_le_compat_l; [exact K0 | apply Rmult_le_compat_r; assumption]). lra.
+  - destruct (IH i u ltac:(cbn in l; congruence)) as [S [hS q]]. exists ([- T] :: S). split; [constructor; [constructor; [exact T0 | constructor] | exact hS] |].
+    cbn [quad row_form dot]. lra.
 Qed.
 
 (** ** What the tests show of a cell *)
@@ -386,80 +800,310 @@ Hypothesis x_in : Forall2 (contains bits) cell x.
 Hypothesis dimension : length cell = m.
 Local Notation here i := (at_pairs theta (entry_at i) (parabola x)).
 
-Lemma decide : forall good, is_convex good -> forall g, affine_there m g ->
-  (forall q ps, In q (grid cell) -> Forall2 in_pair q ps -> good (g ps)) -> good (g (parabola x)).
+Definition at_controls (e : nat) (good : sample (option fixed) -> bool) (s : sample nat) : Prop :=
+  forall p, length p = m -> ends_first e p -> good (map_sample (look (points cell p)) s) = true.
+
+Lemma everywhere_shown : forall e good s, everywhere e m good (map_sample (fun i => nth i (tensors cell) (Constant None)) s) = true -> at_controls e good s.
 Proof.
-  intros good cv g ha H. apply (controls_decide good cv m g ha (parabola x) (map real_nodes cell)).
-  - unfold parabola. rewrite map_length, <- (related_length _ _ _ _ _ x_in). exact dimension.
-  - unfold parabola. clear - x_in. induction x_in; cbn [map]; constructor; auto. apply real_nodes_mean; assumption.
-  - intros qs hq. destruct (grid_in cell qs hq) as [q [iq rq]]. exact (H q qs iq rq).
+  intros e good s h p l i. pose proof (everywhere_sound good m e _ h p l i) as K. rewrite map_sample_map in K. rewrite <- K. f_equal.
+  apply map_sample_ext. intro j. symmetry. apply tensors_value. congruence.
 Qed.
 
-Lemma regular_here : forall r, forallb is_affine_at (all_places r) = true ->
-  (forall q, In q (grid cell) -> exists s, rows_of (evaluate_at q) r = Some s) -> positive_D (map_rows (fun i => here i) r).
+Lemma x_length : length x = m.
+Proof. rewrite <- (related_length _ _ _ _ _ x_in). exact dimension. Qed.
+
+Lemma decide_weakly : forall good, is_convex good -> forall g, affine_there m g ->
+  (forall p ps, length p = m -> Forall2 in_pair (points cell p) ps -> good (g ps)) -> good (g (parabola x)).
 Proof.
-  intros r ha H. assert (K : forall a d, In (a, d) r -> 0 < here d).
-  { intros a d i. apply (decide (fun y => 0 < y) positive_convex (fun ps => at_ ps d)).
+  intros good cv g ha H. apply (controls_decide good cv m g ha (parabola x) (map real_nodes cell)).
+  - unfold parabola. rewrite map_length. exact x_length.
+  - unfold parabola. clear - x_in. induction x_in; cbn [map]; constructor; auto. apply real_nodes_mean; assumption.
+  - intros qs hq. destruct (points_in cell O qs) as [p [lp [_ hp]]]; [cbn [firstn skipn map app]; rewrite map_map; exact hq |].
+    exact (H p qs ltac:(congruence) hp).
+Qed.
+
+Lemma decide : forall g e, affine_there m g -> falls e x g ->
+  (forall p ps, length p = m -> ends_first e p -> Forall2 in_pair (points cell p) ps -> 0 < g ps) -> 0 < g (parabola x).
+Proof.
+  intros g e ha fall H. apply (ends_decide m g ha x e x_length fall (map (fun a => (real_nodes a, real_ends a)) cell)).
+  - clear - x_in. induction x_in; cbn [map]; constructor; auto. split; [apply real_nodes_mean | apply real_ends_mean]; assumption.
+  - intros qs hq. destruct (points_in cell e qs hq) as [p [lp [ep hp]]]. exact (H p qs ltac:(congruence) ep hp).
+Qed.
+Lemma falls_none : forall g, falls O x g.
+Proof. intros g before front z after s _ _ l. lia. Qed.
+
+Lemma regular_here : forall r w l, forallb is_affine_at (all_places r) = true ->
+  at_controls O (fun s => match known_rows (s_rows s) with Some _ => true | None => false end) (sample_of r w l) -> positive_D (map_rows (fun i => here i) r).
+Proof.
+  intros r w l ha H. assert (K : forall a d, In (a, d) r -> 0 < here d).
+  { intros a d i. apply (decide_weakly (fun y => 0 < y) positive_convex (fun ps => at_ ps d)).
     - apply entry_affine. rewrite forallb_forall in ha. apply ha, in_flat_map. exists (a, d). split; [exact i |]. apply in_or_app. right. left. reflexivity.
-    - intros q ps iq rq. destruct (H q iq) as [s e]. destruct (rows_of_sound q ps r s rq e) as [_ P]. unfold positive_D, map_rows in P.
+    - intros p ps lp rq. specialize (H p lp I). cbn [map_sample sample_of s_rows] in H. destruct (known_rows _) as [s |] eqn:e; [| discriminate].
+      destruct (known_rows_sound _ ps r s rq e) as [_ P]. unfold positive_D, map_rows in P.
       rewrite Forall_map, Forall_forall in P. exact (P (a, d) i). }
   unfold positive_D, map_rows. rewrite Forall_map. apply Forall_forall. intros [a d] i. exact (K a d i).
 Qed.
 
-Lemma weight_affine : forall r weights w c v, forallb is_affine_at (w :: all_places r) = true ->
-  affine_there m (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w).
+Lemma weight_affine : forall r weights w c l d v, forallb is_affine_at (w :: all_places r) = true -> is_affine_multiple l = true ->
+  affine_there m (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w + d * less_at ps l).
 Proof.
-  intros r weights w c v h before after a b e p q s l su. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
-  rewrite (rows_affine r weights v h2 before after a b e p q s l su), (entry_affine w h1 before after a b e p q s l su). ring.
+  intros r weights w c l d v h k before after a b e p q s len su. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
+  rewrite (rows_affine r weights v h2 before after a b e p q s len su), (entry_affine w h1 before after a b e p q s len su),
+    (multiple_affine l k before after a b e p q s len su). ring.
 Qed.
 
-Theorem lower_shown : forall n places Y r w kappa2 k v, forallb is_affine_at (w :: all_places r) = true ->
-  (forall q, In q (grid cell) -> lower_at n places Y r w kappa2 (evaluate_at q) = true) ->
-  contains bits kappa2 k -> length v = n -> nonzero v ->
+(** ** Ends alone *)
+
+(** Squares of the first [e] coordinates are in D alone, with the factor w. *)
+Definition eased_in (fs : list formula) (e : nat) (r : rows nat) (w : nat) (l : multiple) : bool :=
+  let at_ i := nth i fs (integer 0) in
+  let weight := at_ w in
+  forallb (fun k => is_free m k weight
+    && forallb (fun p => forallb (fun i => is_without (m + k) (at_ i)) (fst p) && rises weight (m + k) (at_ (snd p))) r
+    && match l with Some (g, _, _) => is_without (m + k) (at_ g) | None => true end) (seq 0 e).
+Definition is_eased (e : nat) (r : rows nat) (w : nat) (l : multiple) : bool := eased_in (formulas tape) e r w l.
+
+Lemma weighted_falls : forall e r w l weights c d v, is_eased e r w l = true -> 0 <= here w -> Forall (fun q => snd q <= 0) weights ->
+  falls e x (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w + d * less_at ps l).
+Proof.
+  intros e r w l weights c d v h w0 hw before front z after s ex lb le zs. unfold is_eased, eased_in in h. cbv zeta in h. fold (entry_at w) in h. rewrite forallb_forall in h.
+  assert (E : m = S (length before + length after)) by (rewrite <- x_length, ex, app_length, lb; cbn [length]; lia).
+  assert (Lp : length (parabola after) = length after) by apply map_length.
+  assert (hk := h (length before) ltac:(apply in_seq; lia)). apply andb_true_iff in hk as [hk hl]. apply andb_true_iff in hk as [fw hr].
+  assert (W : forall i, is_without (m + length before) (entry_at i) = true -> at_ (before ++ (z, s) :: parabola after) i = at_ (before ++ (z, z ^ 2) :: parabola after) i).
+  { intros i q. apply without_value. rewrite Lp, <- E. exact q. }
+  assert (WW : at_ (before ++ (z, s) :: parabola after) w = at_ (before ++ (z, z ^ 2) :: parabola after) w).
+  { apply free_value. rewrite Lp, <- E. exact fw. }
+  assert (W0 : 0 <= at_ (before ++ (z, z ^ 2) :: parabola after) w).
+  { replace (at_ (before ++ (z, z ^ 2) :: parabola after) w) with (here w); [exact w0 |]. rewrite ex. unfold parabola. rewrite map_app. cbn [map]. fold (parabola after).
+    apply (prefix_value theta (entry_at w) m); [rewrite map_length; congruence | rewrite app_length, map_length; cbn [length]; rewrite Lp; lia |].
+    intros k i. rewrite map_length in i. specialize (h k ltac:(apply in_seq; lia)). apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h _]. exact h. }
+  assert (LL : less_at (before ++ (z, s) :: parabola after) l = less_at (before ++ (z, z ^ 2) :: parabola after) l).
+  { destruct l as [[[g n] places] |]; cbn [less_at]; [rewrite (W g hl); reflexivity | reflexivity]. }
+  rewrite WW, LL. apply Rplus_le_compat_r, Rplus_le_compat_r. clear h LL WW. revert r hr. induction hw as [| [y q] ws q0 hw IH]; intros [| [a b] r] hr; try apply Rle_refl. rewrite !map_rows_cons. cbn [form].
+  cbn [forallb fst snd] in hr. apply andb_true_iff in hr as [hr1 hr]. apply andb_true_iff in hr1 as [ha hb]. specialize (IH r hr).
+  assert (A : map (fun i => at_ (before ++ (z, s) :: parabola after) i) a = map (fun i => at_ (before ++ (z, z ^ 2) :: parabola after) i) a).
+  { apply map_ext_in. intros i ii. apply W. rewrite forallb_forall in ha. apply ha, ii. }
+  assert (B : at_ (before ++ (z, z ^ 2) :: parabola after) b <= at_ (before ++ (z, s) :: parabola after) b).
+  { apply (rises_value theta before (parabola after) (entry_at w)); [rewrite Lp, <- E; exact hb | exact W0 | exact zs]. }
+  rewrite A. cbn [snd] in q0. pose proof (Rmult_le_compat_neg_l q _ _ q0 B). lra.
+Qed.
+
+(** Fewer equations than coordinates have a solution that is not zero. *)
+Lemma orthogonal_exists : forall n (L : list (list R)), (length L < n)%nat -> exists v, length v = n /\ nonzero v /\ Forall (fun y => dot y v = 0) L.
+Proof.
+  induction n as [| n IH]; intros L h; [lia |].
+  assert (C : Forall (fun y => hd 0 y = 0) L \/ exists L1 y L2, L = L1 ++ y :: L2 /\ hd 0 y <> 0).
+  { clear. induction L as [| y L [H | [L1 [z [L2 [-> hz]]]]]].
+    - left. constructor.
+    - destruct (Req_dec (hd 0 y) 0) as [e | e]; [left; constructor; assumption | right; exists [], y, L; split; [reflexivity | exact e]].
+    - right. exists (y :: L1), z, L2. split; [reflexivity | exact hz]. }
+  assert (D : forall y t v, dot y (t :: v) = hd 0 y * t + dot (tl y) v) by (intros [| a y] t v; cbn [dot hd tl]; [destruct v; cbn; ring | ring]).
+  destruct C as [H | [L1 [y [L2 [-> hy]]]]].
+  - exists (1 :: repeat 0 n). split; [cbn [length]; rewrite repeat_length; reflexivity |].
+    assert (Z : Forall (eq 0) (repeat 0 n)) by (clear; induction n; cbn [repeat]; constructor; auto).
+    split; [unfold nonzero; cbn [dot]; rewrite (dot_zero _ _ Z); lra |]. eapply Forall_impl; [| exact H]. intros y e. cbn beta in e. rewrite D, e, (dot_zero _ _ Z). ring.
+  - set (less := fun z => comb 1 (- (hd 0 z / hd 0 y)) (tl z) (tl y)).
+    destruct (IH (map less (L1 ++ L2))) as [v [lv [nv hv]]]; [rewrite map_length, app_length in *; cbn [length] in h; lia |].
+    exists (- (dot (tl y) v / hd 0 y) :: v). split; [cbn; congruence |]. split.
+    + unfold nonzero in *. cbn [dot]. pose proof (pow2_ge_0 (dot (tl y) v / hd 0 y)) as Q. set (t := dot (tl y) v / hd 0 y) in *. nra.
+    + rewrite Forall_map in hv. assert (K : forall z, dot (less z) v = 0 -> dot z (- (dot (tl y) v / hd 0 y) :: v) = 0).
+      { intros z e. unfold less in e. rewrite dot_comb in e. rewrite D. refine (eq_trans _ e). field. exact hy. }
+      apply Forall_app in hv as [h1 h2]. apply Forall_app. split; [eapply Forall_impl; [| exact h1]; exact K |].
+      constructor; [rewrite D; field; exact hy | eapply Forall_impl; [| exact h2]; exact K].
+Qed.
+
+(** A strut of length zero has a row of zeros. *)
+Definition grounded (r : rows R) : Prop := Forall (fun p => 0 <= snd p /\ (snd p = 0 -> forall v, dot (fst p) v = 0)) r.
+
+Lemma orthogonal_form : forall places Y r v, Forall (fun y => dot y v = 0) (firstn (length r) (map (map (Y_value places)) Y)) -> form (lower_weights places Y v) r v = 0.
+Proof.
+  intros places. induction Y as [| y Y IH]; intros [| [a d] r] v h; try reflexivity. cbn [map length firstn] in h. inversion h as [| ? ? h1 h2]; subst.
+  cbn [lower_weights map form]. fold (lower_weights places Y v). rewrite h1, (IH r v h2). ring.
+Qed.
+Lemma orthogonal_here : forall places Y r, grounded r -> ~ positive_D r -> exists L, (length L < length r)%nat /\
+  forall v, Forall (fun y => dot y v = 0) L -> form (lower_weights places Y v) r v = 0 /\ form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v = 0.
+Proof.
+  intros places Y r g. revert Y. induction g as [| [a d] r [d0 hd] g IH]; intros Y n; [destruct n; constructor |]. cbn [fst snd] in *.
+  destruct Y as [| y Y]; [exists []; split; [cbn; lia | intros; split; reflexivity] |]. destruct (Rle_lt_or_eq_dec 0 d d0) as [p | e].
+  - destruct (IH Y) as [L [l h]]; [intro q; apply n; constructor; assumption |]. exists (map (Y_value places) y :: L). split; [cbn [length]; lia |].
+    intros v hv. inversion hv as [| ? ? h1 h2]; subst. destruct (h v h2) as [k1 k2]. cbn [lower_weights map form fst]. fold (lower_weights places Y v). rewrite h1, k1, k2. split; ring.
+  - exists (firstn (length r) (map (map (Y_value places)) Y)). split; [cbn [length]; pose proof (firstn_le_length (length r) (map (map (Y_value places)) Y)); lia |].
+    intros v hv. cbn [lower_weights map form fst]. fold (lower_weights places Y v). rewrite (hd (eq_sym e)), <- e, (orthogonal_form places Y r v hv).
+    rewrite (orthogonal_form places Y (map (fun p => (fst p, 0)) r) v) by (rewrite map_length; exact hv). split; ring.
+Qed.
+
+(** Where ends alone are looked at: as many rows as coordinates. *)
+Definition ends_suffice (e n : nat) (r : rows nat) (w : nat) (l : multiple) : Prop :=
+  e = O \/ is_eased e r w l = true /\ length r = n /\ grounded (map_rows (fun i => here i) r) /\ 0 < here w.
+
+Lemma regular_by_form : forall places Y r n, length r = n -> grounded (map_rows (fun i => here i) r) ->
+  (forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map_rows (fun i => here i) r) v \/
+    0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (fun i => here i) r)) v) ->
+  positive_D (map_rows (fun i => here i) r).
+Proof.
+  intros places Y r n lr g H. set (R := map_rows (fun i => here i) r) in *. assert (LR : length R = n) by (unfold R, map_rows; rewrite map_length; exact lr).
+  destruct (Forall_dec (fun p : list Rdefinitions.R * Rdefinitions.R => 0 < snd p) (fun p => Rlt_dec 0 (snd p)) R) as [p | p]; [exact p |]. exfalso.
+  destruct (orthogonal_here places Y R g p) as [L [l h]]. destruct (orthogonal_exists n L ltac:(lia)) as [v [lv [nv hv]]].
+  destruct (h v hv) as [z1 z2]. destruct (H v lv nv); lra.
+Qed.
+
+Lemma falls_suffices : forall e n r w l weights c d v, ends_suffice e n r w l -> Forall (fun q => snd q <= 0) weights ->
+  falls e x (fun ps => form weights (map_rows (fun i => at_ ps i) r) v + c * at_ ps w + d * less_at ps l).
+Proof.
+  intros e n r w l weights c d v [-> | [h [_ [_ w0]]]] hw; [apply falls_none |]. apply weighted_falls; [exact h | lra | exact hw].
+Qed.
+
+(** The multiple is of what is not negative here. *)
+Variable l : multiple.
+Hypothesis l_affine : is_affine_multiple l = true.
+Hypothesis l_nonneg : 0 <= less_at (parabola x) l.
+
+Lemma known_everywhere : forall e good r w, at_controls e good (sample_of r w l) ->
+  (forall s, good s = true -> exists rows, known_rows (s_rows s) = Some rows) ->
+  at_controls e (fun s => match known_rows (s_rows s) with Some _ => true | None => false end) (sample_of r w l).
+Proof. intros e good r w H K p lp ep. destruct (K _ (H p lp ep)) as [rows ->]. reflexivity. Qed.
+
+Theorem lower_shown : forall e n places Y r w kappa2 k v, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
+  at_controls e (lower_at n places Y kappa2) (sample_of r w l) ->
+  contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
   positive_D (map_rows (fun i => here i) r) /\ k * here w * dot v v < energy (map_rows (fun i => here i) r) v.
 Proof.
-  intros n places Y r w kappa2 k v ha H hk lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  intros e n places Y r w kappa2 k v ha he H hk k0 lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  assert (T : forall v, length v = n -> nonzero v ->
+    0 < form (lower_weights places Y v) (map_rows (fun i => here i) r) v + - (k * dot v v) * here w + - dot v v * less_at (parabola x) l).
+  { clear v lv nz. intros v lv nz. apply (decide (fun ps => form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + - (k * dot v v) * at_ ps w + - dot v v * less_at ps l) e).
+    - apply weight_affine; assumption.
+    - apply (falls_suffices e n); [exact he |]. unfold lower_weights. rewrite Forall_map. apply Forall_forall. intros y _. cbn [snd].
+      pose proof (pow2_ge_0 (dot (map (Y_value places) y) v)). lra.
+    - intros p ps lp ep rq. specialize (H p lp ep). unfold lower_at in H. pose proof (evaluate_at_sound _ ps rq w) as W.
+      destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in es, H.
+      destruct (nth w (evaluate_at _) None) as [b |]; [| discriminate].
+      match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
+      destruct (known_rows_sound _ ps r s rq es) as [S _]. unfold is_definite in H.
+      destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [sub (neg (mul bits kappa2 b)) t] n))) n) as [q | q]; [| discriminate].
+      destruct (lower_triangle_sound bits places Y s _ _ _ v S
+        (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (neg_sound bits _ _ (mul_sound bits _ _ _ _ hk W)) L))) as [T [hT le]].
+      pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
+      rewrite (related_length _ _ _ _ _ hT) in q. specialize (Q ltac:(congruence) nz). lra. }
   assert (P : positive_D (map_rows (fun i => here i) r)).
-  { apply (regular_here r hr). intros q iq. specialize (H q iq). unfold lower_at in H. destruct (rows_of _ r) as [s |]; [exists s; reflexivity | discriminate]. }
-  split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P).
-  enough (0 < form (lower_weights places Y v) (map_rows (fun i => here i) r) v + - (k * dot v v) * here w) by lra.
-  apply (decide (fun y => 0 < y) positive_convex (fun ps => form (lower_weights places Y v) (map_rows (fun i => at_ ps i) r) v + - (k * dot v v) * at_ ps w)).
-  - apply weight_affine, ha.
-  - intros q ps iq rq. specialize (H q iq). unfold lower_at in H. pose proof (evaluate_at_sound q ps rq w) as W.
-    destruct (rows_of (evaluate_at q) r) as [s |] eqn:es; [| discriminate]. destruct (nth w (evaluate_at q) None) as [b |]; [| discriminate].
-    destruct (rows_of_sound q ps r s rq es) as [S _]. unfold is_definite in H.
-    destruct (Nat.eqb_spec (length (lower_triangle places Y s (repeat [neg (mul bits kappa2 b)] n))) n) as [l | l]; [| discriminate].
-    destruct (lower_triangle_sound bits places Y s _ _ _ v S (diagonal_in bits _ _ n (neg_sound bits _ _ (mul_sound bits _ _ _ _ hk W)))) as [T [hT le]].
-    pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
-    rewrite (related_length _ _ _ _ _ hT) in l. specialize (Q ltac:(congruence) nz). lra.
+  { destruct he as [-> | [_ [lr [g w0]]]].
+    - apply (regular_here r w l hr), (known_everywhere O (lower_at n places Y kappa2) r w H). intros s h. unfold lower_at in h.
+      destruct (known_rows _) as [rows |]; [exists rows; reflexivity | discriminate].
+    - apply (regular_by_form places Y r n lr g). intros u lu nu. left. specialize (T u lu nu). unfold nonzero in nu.
+      pose proof (Rmult_le_pos (k * dot u u) (here w) ltac:(apply Rmult_le_pos; lra) ltac:(lra)). pose proof (Rmult_le_pos (dot u u) _ ltac:(lra) l_nonneg). lra. }
+  split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P). specialize (T v lv nz).
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]). lra.
+Qed.
+
+Lemma form_without_D : forall ws r v, form (map (fun p => (fst p, 0)) ws) r v = form ws (map (fun p => (fst p, 0)) r) v.
+Proof. induction ws as [| [y z] ws IH]; intros [| [a d] r] v; try reflexivity. cbn [map form fst]. rewrite IH. ring. Qed.
+
+Theorem rank_shown : forall e n places Y r w v, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
+  at_controls e (rank_at n places Y) (sample_of r w l) -> length v = n -> nonzero v ->
+  positive_D (map_rows (fun i => here i) r) /\ 0 < energy (map_rows (fun i => here i) r) v.
+Proof.
+  intros e n places Y r w v ha he H lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  assert (T : forall v, length v = n -> nonzero v ->
+    0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows (fun i => here i) r)) v + - dot v v * less_at (parabola x) l).
+  { clear v lv nz. intros v lv nz. set (ws := map (fun p => (fst p, 0)) (lower_weights places Y v)). rewrite <- form_without_D. fold ws.
+    enough (0 < form ws (map_rows (fun i => here i) r) v + 0 * here w + - dot v v * less_at (parabola x) l) by lra.
+    apply (decide (fun ps => form ws (map_rows (fun i => at_ ps i) r) v + 0 * at_ ps w + - dot v v * less_at ps l) e).
+    - apply weight_affine; assumption.
+    - apply (falls_suffices e n); [exact he |]. unfold ws. rewrite Forall_map. apply Forall_forall. intros y _. apply Rle_refl.
+    - intros p ps lp ep rq. specialize (H p lp ep). unfold rank_at in H. unfold ws. rewrite form_without_D.
+      destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows] in es.
+      match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
+      destruct (known_rows_sound _ ps r s rq es) as [S _]. unfold is_definite in H.
+      assert (S0 : rows_rel (contains bits) (map (fun p => (fst p, zero)) s) (map (fun p => (fst p, 0)) (map_rows (fun i => at_ ps i) r)))
+        by (eapply map_related; [| exact S]; intros a b [k _]; split; [exact k | apply zero_sound]).
+      destruct (Nat.eqb_spec (length (lower_triangle places Y (map (fun p => (fst p, zero)) s) (repeat [sub zero t] n))) n) as [q | q]; [| discriminate].
+      destruct (lower_triangle_sound bits places Y _ _ _ _ v S0 (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (zero_sound bits) L))) as [T [hT le]].
+      pose proof (is_positive_definite_sound bits _ T H hT v) as Q. rewrite <- lv, quad_diagonal in le.
+      rewrite (related_length _ _ _ _ _ hT) in q. specialize (Q ltac:(congruence) nz). lra. }
+  assert (P : positive_D (map_rows (fun i => here i) r)).
+  { destruct he as [-> | [_ [lr [g w0]]]].
+    - apply (regular_here r w l hr), (known_everywhere O (rank_at n places Y) r w H). intros s h. unfold rank_at in h.
+      destruct (known_rows _) as [rows |]; [exists rows; reflexivity | discriminate].
+    - apply (regular_by_form places Y r n lr g). intros u lu nu. right. specialize (T u lu nu). unfold nonzero in nu. pose proof (Rmult_le_pos (dot u u) _ ltac:(lra) l_nonneg). lra. }
+  split; [exact P |]. apply (rank_energy places Y _ v P). specialize (T v lv nz).
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]). lra.
 Qed.
 
 Theorem upper_shown : forall n r w k2 k v, forallb is_affine_at (w :: all_places r) = true ->
-  (forall q, In q (grid cell) -> upper_at n r w k2 (evaluate_at q) = true) ->
+  at_controls O (upper_at n k2) (sample_of r w l) ->
   contains bits k2 k -> length v = n -> nonzero v ->
   positive_D (map_rows (fun i => here i) r) /\ energy (map_rows (fun i => here i) r) v < k * here w * dot v v.
 Proof.
   intros n r w k2 k v ha H hk lv nz. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
   assert (P : positive_D (map_rows (fun i => here i) r)).
-  { apply (regular_here r hr). intros q iq. specialize (H q iq). unfold upper_at in H. destruct (rows_of _ r) as [s |]; [exists s; reflexivity | discriminate]. }
+  { apply (regular_here r w l hr), (known_everywhere O (upper_at n k2) r w H). intros s h. unfold upper_at in h.
+    destruct (known_rows _) as [rows |]; [exists rows; reflexivity | discriminate]. }
   split; [exact P |]. destruct (upper_energy _ v P) as [u E].
-  enough (0 < form (upper_weights u) (map_rows (fun i => here i) r) v + k * dot v v * here w) by lra.
-  apply (decide (fun y => 0 < y) positive_convex (fun ps => form (upper_weights u) (map_rows (fun i => at_ ps i) r) v + k * dot v v * at_ ps w)).
-  - apply weight_affine, ha.
-  - intros q ps iq rq. specialize (H q iq). unfold upper_at in H. pose proof (evaluate_at_sound q ps rq w) as W.
-    destruct (rows_of (evaluate_at q) r) as [s |] eqn:es; [| discriminate]. destruct (nth w (evaluate_at q) None) as [b |]; [| discriminate].
-    destruct (rows_of_sound q ps r s rq es) as [S _]. destruct (upper_triangle s (repeat [mul bits k2 b] n)) as [T |] eqn:eu; [| discriminate].
-    unfold is_definite in H. destruct (Nat.eqb_spec (length T) n) as [l | l]; [| discriminate].
-    destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (mul_sound bits _ _ _ _ hk W)) eu) as [U [hU le]].
+  assert (0 <= dot v v * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]).
+  enough (0 < form (upper_weights u) (map_rows (fun i => here i) r) v + k * dot v v * here w + - dot v v * less_at (parabola x) l) by lra.
+  apply (decide (fun ps => form (upper_weights u) (map_rows (fun i => at_ ps i) r) v + k * dot v v * at_ ps w + - dot v v * less_at ps l) O).
+  - apply weight_affine; assumption.
+  - apply falls_none.
+  - intros p ps lp ep rq. specialize (H p lp ep). unfold upper_at in H. pose proof (evaluate_at_sound _ ps rq w) as W.
+    destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in es, H. destruct (nth w (evaluate_at _) None) as [b |]; [| discriminate].
+    match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
+    destruct (known_rows_sound _ ps r s rq es) as [S _]. destruct (upper_triangle s (repeat [sub (mul bits k2 b) t] n)) as [T |] eqn:eu; [| discriminate].
+    unfold is_definite in H. destruct (Nat.eqb_spec (length T) n) as [e | e]; [| discriminate].
+    destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) L)) eu) as [U [hU le]].
     pose proof (is_positive_definite_sound bits _ U H hU v) as Q. specialize (le u). rewrite <- lv, quad_diagonal in le.
-    rewrite (related_length _ _ _ _ _ hU) in l. specialize (Q ltac:(congruence) nz). lra.
+    rewrite (related_length _ _ _ _ _ hU) in e. specialize (Q ltac:(congruence) nz). lra.
 Qed.
 
-Theorem sign_shown : forall f, is_affine_at f = true -> (forall q, In q (grid cell) -> sign_at f (evaluate_at q) = true) -> 0 <= here f.
+Theorem solve_shown : forall e n i places Y r w k2 k u, forallb is_affine_at (w :: all_places r) = true -> ends_suffice e n r w l ->
+  at_controls e (solve_at n i places Y k2) (sample_of r w l) ->
+  contains bits k2 k -> 0 <= k -> 0 < here w -> length u = length r -> nonzero u ->
+  let p := weighted_sum u (map fst (map_rows (fun i => here i) r)) in
+  k * here w * (nth i (map snd (map_rows (fun i => here i) r)) 0 * nth i u 0 ^ 2) < dot p p.
 Proof.
-  intros f ha H. apply (decide (fun y => 0 <= y) nonneg_convex (fun ps => at_ ps f)); [apply entry_affine, ha |].
-  intros q ps iq rq. specialize (H q iq). unfold sign_at in H. pose proof (evaluate_at_sound q ps rq f) as W.
-  destruct (nth f (evaluate_at q) None) as [a |]; [| discriminate]. apply Z.leb_le in H. exact (contains_nonneg bits _ _ H W).
+  intros e n i places Y r w k2 k u ha he H hk k0 w0 lu nz p. set (q := weighted_sum u (map (map (Y_value places)) Y)).
+  assert (T : 0 < form (solve_weights i k u) (map_rows (fun i => here i) r) q + - dot q q * here w + - dot u u * less_at (parabola x) l).
+  { apply (decide (fun ps => form (solve_weights i k u) (map_rows (fun i => at_ ps i) r) q + - dot q q * at_ ps w + - dot u u * less_at ps l) e).
+    - apply weight_affine; assumption.
+    - apply (falls_suffices e n); [exact he |]. clear - k0. revert i. induction u as [| t u IH]; intros [| i]; cbn [solve_weights]; constructor; cbn [snd]; try lra; [| | apply IH].
+      + pose proof (Rmult_le_pos k (t ^ 2) k0 (pow2_ge_0 t)). lra.
+      + rewrite Forall_map. apply Forall_forall. intros y _. cbn [snd]. lra.
+    - intros c ps lp ep rq. specialize (H c lp ep). unfold solve_at in H. pose proof (evaluate_at_sound _ ps rq w) as W.
+      destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in es, H.
+      destruct (nth w (evaluate_at _) None) as [b |]; [| discriminate].
+      match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
+      destruct (known_rows_sound _ ps r s rq es) as [S _]. apply andb_true_iff in H as [H D]. apply andb_true_iff in H as [l1 l2]. apply Nat.eqb_eq in l1, l2.
+      pose proof (related_length _ _ _ _ _ S) as ls. set (R := map_rows (fun i => at_ ps i) r) in *. assert (lr : length R = length r) by (unfold R, map_rows; apply map_length).
+      destruct (solve_diagonal_sound i k2 k t _ s R u hk k0 L S ltac:(congruence)) as [G [hG le]].
+      pose proof (triangle_add_sound bits _ _ _ _ hG (gram_sound places _ _ (solve_pairs_sound places Y b _ s R W S))) as hT.
+      unfold is_definite in D. destruct (Nat.eqb_spec (length (triangle_add (solve_diagonal i k2 t s) (gram places (solve_pairs places Y b s)))) n) as [z | z]; [| discriminate].
+      pose proof (is_positive_definite_sound bits _ _ D hT u) as Q. rewrite (related_length _ _ _ _ _ hT) in z. specialize (Q ltac:(congruence) nz).
+      rewrite quad_tcomb, quad_pairs in Q by congruence. fold q in Q. rewrite form_solve by congruence. lra. }
+  rewrite form_solve in T by (unfold map_rows; rewrite map_length; exact lu). fold p in T.
+  set (W := here w) in *. set (B := nth i (map snd (map_rows (fun i => here i) r)) 0 * nth i u 0 ^ 2) in *.
+  pose proof (dot_self (comb 1 (- W) p q)) as N. rewrite dot_comb, !(dot_commutes _ (comb _ _ _ _)), !dot_comb, (dot_commutes q p) in N.
+  assert (0 <= dot u u * less_at (parabola x) l) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l_nonneg]).
+  assert (0 < 2 * dot p q - k * B - W * dot q q) by lra.
+  assert (0 < W * (2 * dot p q - k * B - W * dot q q)) by (apply Rmult_lt_0_compat; assumption). nra.
+Qed.
+
+Theorem sign_shown : forall f, is_affine_at f = true -> at_controls O sign_at (sample_of [] f l) -> 0 <= here f.
+Proof.
+  intros f ha H. enough (0 <= here f + - (1) * less_at (parabola x) l) by lra.
+  apply (decide_weakly (fun y => 0 <= y) nonneg_convex (fun ps => at_ ps f + - (1) * less_at ps l)).
+  - intros before after a b c p q s len su. rewrite (entry_affine f ha before after a b c p q s len su), (multiple_affine l l_affine before after a b c p q s len su). ring.
+  - intros p ps lp rq. specialize (H p lp I). unfold sign_at in H. pose proof (evaluate_at_sound _ ps rq f) as W. cbn [map_sample sample_of s_weight] in H.
+    destruct (nth f (evaluate_at _) None) as [a |]; [| discriminate].
+    match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end.
+    apply Z.leb_le in H. pose proof (contains_nonneg bits _ _ H (sub_sound bits _ _ _ _ W (multiple_sound _ ps [] f l t rq et))). lra.
+Qed.
+
+(** Formulas over the whole cell. *)
+Lemma range_sound : forall f a, nth f (evaluate_at (map (fun a => (a, sqr bits a)) cell)) None = Some a -> contains bits a (here f).
+Proof.
+  intros f a e. assert (H : Forall2 in_pair (map (fun a => (a, sqr bits a)) cell) (parabola x)).
+  { unfold parabola. clear - x_in. induction x_in; cbn [map]; constructor; auto. split; [assumption | apply sqr_sound; assumption]. }
+  pose proof (evaluate_at_sound _ _ H f) as V. rewrite e in V. exact V.
 Qed.
 End OnCell.
 End Tape.

@@ -1,12 +1,12 @@
 (** * Platforms that turn: formulas, and certified claims
 
-    With half-angle tangents c, R = N/w, and w A and w D of a strut are
+    With the coordinates of orientation c, R = N/w, and w A and w D of a strut are
     polynomials (motion.rs): tests at control points, a bisection tree. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Test Cell Check Number Trig Formula Machine Problem Witness Turning Control.
+From Orthocert.kernel Require Import Statement Arithmetic Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -19,25 +19,47 @@ Variable tape : list (op nat).
 Variable params : list fixed.
 Variable tests : list polynomial_test.
 Variables m n : nat.
+(** Where it is curved, what is not negative at the orientations. *)
+Variable g : option nat.
 
-Definition shows_at (points : list (list (option fixed))) (t : polynomial_test) (e : evidence) : bool :=
+
+Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
+  let at_all e good r w := everywhere e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
-  | LeastOf r w k, AtControls (ByLower places Y) => forallb (lower_at bits n places Y r w k) points
-  | GreatestOf r w k, AtControls ByTest => forallb (upper_at bits n r w k) points
-  | SignOf f, AtControls ByTest => forallb (sign_at f) points
+  | LeastOf r w k ends, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
+  | LeastOf r w k ends, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
+  | SolveOf i r w k ends, ByLower places Y => at_all ends (solve_at bits n i places Y k) r w
+  | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
+  | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | _, _ => false
   end.
-Fixpoint discharged (points : list (list (option fixed))) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+Definition shows_at (ts : list tensor) (t : polynomial_test) (e : evidence) : bool :=
+  match e with
+  | AtControls (Turned e k places) =>
+      match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less ts (Some (g, k, places)) t e | None => false end
+  | AtControls e => shows_less ts None t e
+  | _ => false
+  end.
+(** No orientation of the set is in the cell. *)
+Definition is_outside_at (cell : list fixed) : bool :=
+  match g with
+  | Some g => match nth g (evaluate_at bits tape params (map (fun a => (a, sqr bits a)) cell)) None with Some a => (hi a <? 0)%Z | None => false end
+  | None => false
+  end.
+Fixpoint discharged (cell : list fixed) (ts : list tensor) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   match steps with
   | [] => Some open
+  | (O, Outside) :: rest => if is_outside_at cell then discharged cell ts rest (map (fun _ => false) open) else None
   | (i, e) :: rest =>
       match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at points t e then discharged points rest (clear i open) else None
+      | true, Some t => if shows_at ts t e then discharged cell ts rest (clear i open) else None
       | _, _ => None
       end
   end.
+Definition is_outside (s : nat * evidence) : bool := match s with (O, Outside) => true | _ => false end.
+(** With formulas at control points where there is a test. *)
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with [] => Some open | _ => discharged (map (evaluate_at bits tape params) (grid bits cell)) steps open end.
+  discharged cell (if forallb is_outside steps then [] else tensors bits tape params cell) steps open.
 Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
   | Leaf steps => match steps_at cell steps open with Some last => forallb negb last | None => false end
@@ -51,56 +73,112 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ | GreatestOf r w _ => w :: all_places r | SignOf f => [f] end.
+  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ => w :: all_places r | SignOf f => [f] end.
+(** Rows and weight of a test that has ends alone of some coordinates. *)
+Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
+  match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
 Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
+Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
+Hypothesis eased : forall t r w ends, In t tests -> with_ends t = Some (r, w, ends) -> ends = O \/ length r = n /\
+  is_eased tape m ends r w None = true /\ forall i k places, g = Some i -> is_eased tape m ends r w (Some (i, k, places)) = true.
+(** Rows are those of struts, and the orientation is of the set. *)
+Definition is_turned (x : list R) : Prop :=
+  let here i := at_pairs theta (entry_at tape i) (parabola x) in
+  (forall i, g = Some i -> 0 <= here i) /\ (forall t r w e, In t tests -> with_ends t = Some (r, w, e) -> e = O \/ grounded (map_rows here r) /\ 0 < here w).
 
 Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
   match t with
-  | LeastOf r w kappa2 => forall k v, contains bits kappa2 k -> length v = n -> nonzero v ->
+  | LeastOf r w kappa2 _ => forall k v, contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ k * here w * Linear.dot v v < energy (map_rows here r) v
+  | SolveOf i r w k2 _ => forall k u, contains bits k2 k -> 0 <= k -> 0 < here w -> length u = length r -> nonzero u ->
+      let p := weighted_sum u (map fst (map_rows here r)) in
+      k * here w * (nth i (map snd (map_rows here r)) 0 * nth i u 0 ^ 2) < Linear.dot p p
   | GreatestOf r w k2 => forall k v, contains bits k2 k -> length v = n -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) v < k * here w * Linear.dot v v
   | SignOf f => 0 <= here f
   end.
 
-Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m ->
-  shows_at (map (evaluate_at bits tape params) (grid bits cell)) t e = true -> test_holds x t.
+Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  (l = None \/ exists i k places, g = Some i /\ l = Some (i, k, places)) ->
+  is_affine_multiple tape m l = true -> 0 <= less_at tape theta (parabola x) l ->
+  shows_less (tensors bits tape params cell) l t e = true -> test_holds x t.
 Proof.
-  intros cell x t e it hx len h. pose proof (affine t it) as ha.
-  assert (K : forall good, forallb good (map (evaluate_at bits tape params) (grid bits cell)) = true ->
-    forall q, In q (grid bits cell) -> good (evaluate_at bits tape params q) = true)
-    by (intros good f q iq; rewrite forallb_forall in f; apply f, in_map, iq).
-  destruct t as [r w k2 | r w k2 | f], e as [| | | | | | | | | | | [| | places Y | | | | | | | | |]]; cbn [shows_at test_holds test_places] in *; try discriminate.
-  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len n places Y); [exact ha | exact (K _ h)].
-  - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len n); [exact ha | exact (K _ h)].
-  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len f ha (K _ h)).
+  intros cell x l t e it hx len ht hl la l0 h. pose proof (affine t it) as ha.
+  pose proof (fun e good s => everywhere_shown bits tape params m cell len e good s) as K.
+  assert (E : forall r w c, with_ends t = Some (r, w, c) -> ends_suffice tape theta m x c n r w l).
+  { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
+    split; [| split; [exact lr | exact G]].
+    destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
+  destruct t as [r w k2 ends | r w k2 | i r w k2 ends | f], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
+  - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
+    intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
+    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w ends eq_refl) (K _ _ _ h3) lv nz).
+  - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
+  - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
+  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
+Qed.
+
+Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  shows_at (tensors bits tape params cell) t e = true -> test_holds x t.
+Proof.
+  intros cell x t e it hx len ht h.
+  assert (None_ : forall e, shows_less (tensors bits tape params cell) None t e = true -> test_holds x t)
+    by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
+  destruct e as [| | | | | | | | | | | e |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places]; try exact (None_ _ h).
+  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors bits tape params cell) (Some (i, k, places)) t e = true)
+    by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
+  destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
+  apply (shows_less_sound cell x (Some (i, k, places)) t e it hx len ht); [right; exists i, k, places; auto | exact (g_affine i eg) | | exact s].
+  cbn [less_at]. apply Rmult_le_pos; [| exact (proj1 ht i eg)]. pose proof (two_power places). apply Rmult_le_pos; [exact k0 | apply Rlt_le, Rinv_0_lt_compat; assumption].
+Qed.
+
+Lemma is_outside_at_sound : forall cell x, Forall2 (contains bits) cell x -> is_outside_at cell = true -> ~ is_turned x.
+Proof.
+  intros cell x hx h ht. unfold is_outside_at in h. destruct g as [i |] eqn:eg; [| discriminate].
+  destruct (nth i _ None) as [a |] eqn:ea; [| discriminate]. apply Z.ltb_lt, IZR_lt in h.
+  destruct (range_sound bits tape params theta theta_in cell x hx i a ea) as [_ u]. pose proof (proj1 ht i eg). pose proof (unit_R_pos bits). nra.
 Qed.
 
 Definition is_done (x : list R) (open : list bool) : Prop := forall i t, nth_error tests i = Some t -> nth i open false = false -> test_holds x t.
 
-Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m ->
+Lemma steps_at_tensors : forall cell steps open, steps_at cell steps open = discharged cell (tensors bits tape params cell) steps open.
+Proof.
+  intros cell steps open. unfold steps_at. destruct (forallb is_outside steps) eqn:h; [| reflexivity]. revert open h.
+  induction steps as [| [i e] steps IH]; intros open h; [reflexivity |]. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
+  destruct i, e; try discriminate h1. cbn [discharged]. destruct (is_outside_at cell); [apply IH, h2 | reflexivity].
+Qed.
+
+Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   steps_at cell steps open = Some rest -> is_done x open -> is_done x rest.
 Proof.
-  intros cell x steps open rest hx len h.
-  assert (h' : discharged (map (evaluate_at bits tape params) (grid bits cell)) steps open = Some rest) by (destruct steps; exact h). clear h.
+  intros cell x steps open rest hx len ht h.
+  assert (h' : discharged cell (tensors bits tape params cell) steps open = Some rest) by (rewrite <- steps_at_tensors; exact h). clear h.
+  assert (Own : forall i e steps, (forall open, discharged cell (tensors bits tape params cell) steps open = Some rest -> is_done x open -> is_done x rest) ->
+    forall open, match nth i open false, nth_error tests i with
+      | true, Some t => if shows_at (tensors bits tape params cell) t e
+          then discharged cell (tensors bits tape params cell) steps (clear i open) else None
+      | _, _ => None end = Some rest -> is_done x open -> is_done x rest).
+  { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
+    destruct (shows_at _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
+    destruct (nth_clear i j open' o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
+    exact (shows_at_sound cell x t e (nth_error_In _ _ nt) hx len ht s). }
   revert open h'. induction steps as [| [i e] steps IH]; intros open h D; cbn [discharged] in h; [injection h as <-; exact D |].
-  destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
-  destruct (shows_at _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
-  destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
-  exact (shows_at_sound cell x t e (nth_error_In _ _ nt) hx len s).
+  pose proof (Own i e steps IH open) as O1. destruct i as [| i], e; try exact (O1 h D).
+  destruct (is_outside_at cell) eqn:o; [| discriminate h]. exfalso. exact (is_outside_at_sound cell x hx o ht).
 Qed.
 
 Theorem check_poses_sound : forall tr cell x open, check_poses cell open tr = true -> Forall2 (contains bits) cell x -> length cell = m ->
-  is_done x open -> forall t, In t tests -> test_holds x t.
+  is_turned x -> is_done x open -> forall t, In t tests -> test_holds x t.
 Proof.
-  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx len D t it; cbn [check_poses] in h;
-    destruct (steps_at cell steps open) as [rest |] eqn:s; try discriminate; pose proof (steps_at_sound cell x steps open rest hx len s D) as D'.
+  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx len ht D t it; cbn [check_poses] in h;
+    destruct (steps_at cell steps open) as [rest |] eqn:s; try discriminate; pose proof (steps_at_sound cell x steps open rest hx len ht s D) as D'.
   - destruct (In_nth_error _ _ it) as [i e]. apply (D' i t e). rewrite forallb_forall in h.
     destruct (nth_in_or_default i rest false) as [k | ->]; [| reflexivity]. apply h in k. destruct (nth i rest false); [discriminate | reflexivity].
   - pose proof (halves_sound bits k cell x hx) as c. destruct (halves_length k cell) as [La Lb]. destruct (halves k cell) as [a b]. cbn [fst snd] in *.
     destruct (check_poses a rest lower) eqn:ha; [| discriminate].
-    destruct c as [c | c]; [exact (IHl a x rest ha c ltac:(congruence) D' t it) | exact (IHu b x rest h c ltac:(congruence) D' t it)].
+    destruct c as [c | c]; [exact (IHl a x rest ha c ltac:(congruence) ht D' t it) | exact (IHu b x rest h c ltac:(congruence) ht D' t it)].
 Qed.
 
 Lemma none_done : forall x, is_done x (map (fun _ => true) tests).
@@ -113,20 +191,6 @@ End Tree.
 
 (** ** Formulas *)
 
-Record emat := EMat { erow1 : evec; erow2 : evec; erow3 : evec }.
-Definition eweight (t : formula) : formula := plus (integer 1) (square t).
-Definition eabout (k : nat) (t : formula) : emat :=
-  let w := eweight t in let c := minus (integer 1) (square t) in let s := times (integer 2) t in let z := integer 0 in
-  match k with
-  | 0%nat => EMat (EVec w z z) (EVec z c (opposite s)) (EVec z s c)
-  | 1%nat => EMat (EVec c z s) (EVec z w z) (EVec (opposite s) z c)
-  | _ => EMat (EVec c (opposite s) z) (EVec s c z) (EVec z z w)
-  end.
-Definition emulv (M : emat) (u : evec) : evec := EVec (Machine.product (erow1 M) u) (Machine.product (erow2 M) u) (Machine.product (erow3 M) u).
-Definition emulm (A B : emat) : emat :=
-  let column f := EVec (f (erow1 B)) (f (erow2 B)) (f (erow3 B)) in
-  let row u := EVec (Machine.product u (column ex)) (Machine.product u (column ey)) (Machine.product u (column ez)) in
-  EMat (row (erow1 A)) (row (erow2 A)) (row (erow3 A)).
 Definition ecross (a b : evec) : evec :=
   EVec (minus (times (ey a) (ez b)) (times (ez a) (ey b))) (minus (times (ez a) (ex b)) (times (ex a) (ez b)))
     (minus (times (ex a) (ey b)) (times (ey a) (ex b))).
@@ -138,15 +202,6 @@ Definition etwist (k : motion) (v w : evec) : list formula :=
   | AboutPoint => [ex w; ey w; ez w]
   end.
 
-(** N and w of these coordinates. *)
-Definition chart (o : orientations) (first : nat) : emat * formula :=
-  let c k := F (Coord (first + k)) in
-  match o with
-  | TurnedBy _ => (eabout 2 (c 0%nat), eweight (c 0%nat))
-  | RollPitchYaw _ _ _ =>
-      (emulm (eabout 2 (c 2%nat)) (emulm (eabout 1 (c 1%nat)) (eabout 0 (c 0%nat))),
-       times (eweight (c 2%nat)) (times (eweight (c 1%nat)) (eweight (c 0%nat))))
-  end.
 Definition eposition (k : motion) : evec :=
   match k with
   | InPlane => EVec (F (Coord 0)) (F (Coord 1)) (integer 0)
@@ -165,11 +220,7 @@ Definition scaled_row (k : motion) (N : emat) (w ell : formula) (a b : evec) : l
 Section Values.
 Variables x theta : list R.
 Local Notation value := (Formula.value x theta).
-Definition val3 (u : evec) : vec := Vec (value (ex u)) (value (ey u)) (value (ez u)).
-Definition valm (M : emat) : mat := Mat (val3 (erow1 M)) (val3 (erow2 M)) (val3 (erow3 M)).
-
-Lemma value_dot : forall u v, value (Machine.product u v) = Vec3.dot (val3 u) (val3 v).
-Proof. intros. unfold Machine.product. rewrite !value_plus, !value_times. reflexivity. Qed.
+Local Notation val3 := (val3 x theta).
 Lemma val3_minus : forall u v, val3 (map2 minus u v) = vsub (val3 u) (val3 v).
 Proof. intros. unfold val3, map2, vsub. cbn [ex ey ez vx vy vz]. rewrite !value_minus. reflexivity. Qed.
 Lemma val3_plus : forall u v, val3 (map2 plus u v) = vadd (val3 u) (val3 v).
@@ -180,114 +231,9 @@ Lemma val3_divided : forall u a, val3 (divided_by u a) = vscale (/ value a) (val
 Proof. intros. unfold val3, divided_by, vscale. cbn [ex ey ez vx vy vz]. rewrite !value_over. unfold Rdiv. f_equal; ring. Qed.
 Lemma val3_cross : forall u v, val3 (ecross u v) = cross (val3 u) (val3 v).
 Proof. intros. unfold val3, ecross, cross. cbn [ex ey ez vx vy vz]. rewrite !value_minus, !value_times. reflexivity. Qed.
-Lemma val3_mulv : forall M u, val3 (emulv M u) = mulv (valm M) (val3 u).
-Proof. intros. unfold emulv, mulv. unfold val3 at 1. cbn [ex ey ez]. rewrite !value_dot. reflexivity. Qed.
-Lemma valm_mulm : forall A B, valm (emulm A B) = mulm (valm A) (valm B).
-Proof.
-  intros A B. unfold emulm, mulm, valm at 1. cbv zeta. cbn [erow1 erow2 erow3]. unfold val3 at 1 2 3. cbn [ex ey ez]. rewrite !value_dot.
-  unfold valm, mulv, transpose, col1, col2, col3, val3, Vec3.dot. cbn [row1 row2 row3 vx vy vz ex ey ez]. f_equal; f_equal; ring.
-Qed.
-
-Lemma value_weight : forall t, value (eweight t) = 1 + value t ^ 2.
-Proof. intro t. unfold eweight. rewrite value_plus, Formula.value_square. reflexivity. Qed.
-
-Lemma mscale_ext : forall A B C a b c w, A = vscale w a -> B = vscale w b -> C = vscale w c -> Mat A B C = mscale w (Mat a b c).
-Proof. intros. subst. reflexivity. Qed.
-
-Lemma valm_about : forall t a, is_half_tangent (value t) a ->
-  valm (eabout 0 t) = mscale (1 + value t ^ 2) (rotation_x (in_degrees a)) /\
-  valm (eabout 1 t) = mscale (1 + value t ^ 2) (rotation_y (in_degrees a)) /\
-  valm (eabout 2 t) = mscale (1 + value t ^ 2) (rotation_z (in_degrees a)).
-Proof.
-  intros t a [C S]. pose proof (pow2_ge_0 (value t)) as t0. unfold valm, eabout, rotation_x, rotation_y, rotation_z. cbv zeta. cbn [erow1 erow2 erow3].
-  rewrite C, S. unfold val3. cbn [ex ey ez]. rewrite !value_weight, !value_opposite, !value_minus, !value_times, !Formula.value_square.
-  change (value (integer 0)) with 0. change (value (integer 1)) with 1. change (value (integer 2)) with 2.
-  repeat split; apply mscale_ext; unfold vscale; cbn [vx vy vz]; f_equal; field; lra.
-Qed.
 End Values.
 
 (** ** What they stand for *)
-
-Lemma rotations_keep : forall a b, norm2 (mulv (rotation_x a) b) = norm2 b /\ norm2 (mulv (rotation_y a) b) = norm2 b /\
-  norm2 (mulv (rotation_z a) b) = norm2 b.
-Proof.
-  intros a [x y z]. pose proof (sin2_cos2 a) as S. unfold Rsqr in S. set (s := sin a) in *. set (c := cos a) in *.
-  assert (K : forall u v, (c * u - s * v) ^ 2 + (s * u + c * v) ^ 2 = u ^ 2 + v ^ 2).
-  { intros u v. replace ((c * u - s * v) ^ 2 + (s * u + c * v) ^ 2) with ((s * s + c * c) * (u ^ 2 + v ^ 2)) by ring. rewrite S. ring. }
-  unfold mulv, rotation_x, rotation_y, rotation_z, norm2, Vec3.dot. fold s c. cbn [row1 row2 row3 vx vy vz].
-  pose proof (K y z). pose proof (K z x). pose proof (K x y). repeat split; cbn [pow] in *; lra.
-Qed.
-
-Lemma orientation_keeps : forall o Q, in_orientations o Q -> forall b, norm2 (mulv Q b) = norm2 b.
-Proof.
-  intros [t | r p y] Q h b; cbn [in_orientations] in h.
-  - destruct h as [a [_ ->]]. apply rotations_keep.
-  - destruct h as [a [e [d [_ [_ [_ ->]]]]]]. rewrite !mulm_mulv.
-    destruct (rotations_keep (in_degrees d) (mulv (rotation_y (in_degrees e)) (mulv (rotation_x (in_degrees a)) b))) as [_ [_ ->]].
-    destruct (rotations_keep (in_degrees e) (mulv (rotation_x (in_degrees a)) b)) as [_ [-> _]]. apply rotations_keep.
-Qed.
-
-(** The tangent of the half of an angle in degrees. *)
-Definition tangent (x : R) : R := sin (in_degrees (x / 2)) / cos (in_degrees (x / 2)).
-Definition is_angle (x : R) : Prop := -180 < x < 180.
-
-Lemma half_cosine : forall x, is_angle x -> 0 < cos (in_degrees (x / 2)).
-Proof. intros x [h1 h2]. pose proof PI_RGT_0. apply cos_gt_0; unfold in_degrees; nra. Qed.
-
-Lemma tangent_is : forall x, is_angle x -> is_half_tangent (tangent x) x.
-Proof. intros x h. pose proof (half_cosine x h). apply half_tangent. unfold tangent. field. lra. Qed.
-
-Lemma tangent_increases : forall a b, is_angle a -> is_angle b -> a <= b -> tangent a <= tangent b.
-Proof.
-  intros a b ha hb le. pose proof (half_cosine a ha) as ca. pose proof (half_cosine b hb) as cb. destruct ha, hb. pose proof PI_RGT_0.
-  assert (S : 0 <= sin (in_degrees (b / 2) - in_degrees (a / 2))) by (apply sin_ge_0; unfold in_degrees; nra).
-  rewrite sin_minus in S. unfold tangent. set (p := cos (in_degrees (a / 2))) in *. set (q := cos (in_degrees (b / 2))) in *.
-  set (u := sin (in_degrees (a / 2))) in *. set (v := sin (in_degrees (b / 2))) in *. clearbody p q u v.
-  apply Rmult_le_reg_r with (p * q); [apply Rmult_lt_0_compat; assumption |]. replace (u / p * (p * q)) with (u * q) by (field; lra).
-  replace (v / q * (p * q)) with (v * p) by (field; lra). lra.
-Qed.
-
-Lemma mulm_scaled : forall a b A B, mulm (mscale a A) (mscale b B) = mscale (a * b) (mulm A B).
-Proof. intros a b [[] [] []] [[] [] []]. unfold mulm, mscale, mulv, transpose, col1, col2, col3, vscale, Vec3.dot. cbn. f_equal; f_equal; ring. Qed.
-Lemma mulv_scaled : forall a A u, mulv (mscale a A) u = vscale a (mulv A u).
-Proof. intros a [[] [] []] []. unfold mscale, mulv, vscale, Vec3.dot. cbn. f_equal; ring. Qed.
-Lemma mulv_scale : forall a A u, mulv A (vscale a u) = vscale a (mulv A u).
-Proof. intros a [[] [] []] []. unfold mulv, vscale, Vec3.dot. cbn. f_equal; ring. Qed.
-
-Definition angles_of (o : orientations) : list tolerance := match o with TurnedBy t => [t] | RollPitchYaw r p y => [r; p; y] end.
-Definition are_angles (o : orientations) : Prop := Forall (fun t => is_angle (Claim.value (least t)) /\ is_angle (Claim.value (greatest t))) (angles_of o).
-Definition tangents_within (o : orientations) (cs : list R) : Prop :=
-  Forall2 (fun t c => tangent (Claim.value (least t)) <= c <= tangent (Claim.value (greatest t))) (angles_of o) cs.
-
-(** N = w Q in some coordinates of the box. *)
-Lemma chart_sound : forall o Q, in_orientations o Q -> are_angles o -> exists cs w, tangents_within o cs /\ 0 < w /\
-  forall x theta first, (forall k, nth (first + k) x 0 = nth k cs 0) ->
-    valm x theta (fst (chart o first)) = mscale w Q /\ Formula.value x theta (snd (chart o first)) = w.
-Proof.
-  assert (B : forall t a, is_angle (Claim.value (least t)) /\ is_angle (Claim.value (greatest t)) -> within t a ->
-    is_angle a /\ tangent (Claim.value (least t)) <= tangent a <= tangent (Claim.value (greatest t))).
-  { intros t a [[h1 h2] [h3 h4]] [l g]. assert (is_angle a) by (split; lra). split; [assumption |].
-    split; apply tangent_increases; try assumption; split; assumption. }
-  intros [t | r p y] Q h ok; unfold are_angles, tangents_within in *; cbn [in_orientations angles_of chart fst snd] in *.
-  - destruct h as [a [ha ->]]. inversion ok as [| ? ? o1 _]. subst. destruct (B t a o1 ha) as [ia ba].
-    exists [tangent a], (1 + tangent a ^ 2). split; [constructor; [exact ba | constructor] |]. split; [pose proof (pow2_ge_0 (tangent a)); lra |].
-    intros x theta first hx. assert (V : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat).
-    pose proof (tangent_is a ia) as T. rewrite <- V in T. destruct (valm_about x theta _ a T) as [_ [_ M]]. rewrite V in M. split; [exact M |].
-    rewrite value_weight, V. reflexivity.
-  - destruct h as [a [b [c [ha [hb [hc ->]]]]]]. inversion ok as [| ? ? o1 ok1]. inversion ok1 as [| ? ? o2 ok2]. inversion ok2 as [| ? ? o3 _]. subst.
-    destruct (B r a o1 ha) as [ia ba]. destruct (B p b o2 hb) as [ib bb]. destruct (B y c o3 hc) as [ic bc].
-    exists [tangent a; tangent b; tangent c], ((1 + tangent c ^ 2) * ((1 + tangent b ^ 2) * (1 + tangent a ^ 2))).
-    split; [repeat (constructor; [assumption |]); constructor |].
-    pose proof (pow2_ge_0 (tangent a)). pose proof (pow2_ge_0 (tangent b)). pose proof (pow2_ge_0 (tangent c)).
-    split; [apply Rmult_lt_0_compat; [lra | apply Rmult_lt_0_compat; lra] |].
-    intros x theta first hx. assert (Va : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat).
-    assert (Vb : Formula.value x theta (F (Coord (first + 1))) = tangent b) by exact (hx 1%nat).
-    assert (Vc : Formula.value x theta (F (Coord (first + 2))) = tangent c) by exact (hx 2%nat).
-    pose proof (tangent_is a ia) as Ta. rewrite <- Va in Ta. destruct (valm_about x theta _ a Ta) as [Ma _].
-    pose proof (tangent_is b ib) as Tb. rewrite <- Vb in Tb. destruct (valm_about x theta _ b Tb) as [_ [Mb _]].
-    pose proof (tangent_is c ic) as Tc. rewrite <- Vc in Tc. destruct (valm_about x theta _ c Tc) as [_ [_ Mc]].
-    rewrite !valm_mulm, Ma, Mb, Mc, !mulm_scaled, !value_times, !value_weight, Va, Vb, Vc. split; reflexivity.
-Qed.
 
 Lemma twist_scaled : forall k c a b, twist k (vscale c a) (vscale c b) = map (Rmult c) (twist k a b).
 Proof. intros [] c a b; reflexivity. Qed.
@@ -328,7 +274,7 @@ Lemma scaled_row_values : let (A, D) := scaled_row k N we le a b in
 Proof.
   unfold scaled_row. cbv zeta. pose proof (keeps (strut_joint l)) as K.
   assert (Nb : val3 x theta (emulv N b) = vscale (W * r) (arm_of_joint l Q)).
-  { rewrite val3_mulv, hN, hb, mulv_scaled, mulv_scale. unfold arm_of_joint. unfold vscale. cbn [vx vy vz]. f_equal; ring. }
+  { rewrite val3_mulv, hN, hb, mulv_mscale, mulv_scale. unfold arm_of_joint. unfold vscale. cbn [vx vy vz]. f_equal; ring. }
   assert (H : val3 x theta (map2 minus (eposition k) a) = vscale r (vsub P (strut_base l))).
   { rewrite val3_minus, hP, ha. unfold vsub, vscale. cbn [vx vy vz]. f_equal; ring. }
   split.
@@ -348,19 +294,24 @@ Qed.
 
 Lemma scaled_row_speed : let (A, D) := scaled_row k N we le a b in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
-    forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
-  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q).
+    exists q, q ^ 2 = W * Formula.value x theta D /\ forall v, Linear.dot (map (Formula.value x theta) A) v = q * Linear.dot (strut_row k L l P Q) v) /\
+  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 Proof.
-  pose proof scaled_row_values as S. destruct (scaled_row k N we le a b) as [A D]. destruct S as [-> ->]. split; [| reflexivity].
-  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. intro p.
+  assert (len : length (fst (scaled_row k N we le a b)) = dimension k) by (destruct k; reflexivity).
+  pose proof scaled_row_values as S. destruct (scaled_row k N we le a b) as [A D]. destruct S as [-> ->].
+  pose proof (pow_lt r 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr. split; [| split; [reflexivity | split; [| exact len]]].
+  2: { intros z v. apply Rmult_integral in z as [z | z]; [lra |]. rewrite (norm2_zero _ z), dot_map. generalize (arm_of_joint l Q). clear. intros [a b c].
+    destruct k, v as [| v1 [| v2 [| v3 [| v4 [| v5 [| v6 v]]]]]]; unfold twist, vscale, cross, vzero; cbn [Linear.dot vx vy vz]; ring. }
+  intro p.
   assert (n0 : 0 < norm2 (strut_vector l P Q)) by (apply Rmult_lt_reg_l with (W * r ^ 2); lra). split; [exact n0 |].
-  intro v. unfold strut_row. cbv zeta. pose proof (sqrt_lt_R0 _ n0) as s0.
+  exists (W * r * sqrt (norm2 (strut_vector l P Q))). unfold strut_row. cbv zeta. pose proof (sqrt_lt_R0 _ n0) as s0.
   assert (E : twist k (normalised (strut_vector l P Q)) (vscale (/ L) (cross (arm_of_joint l Q) (normalised (strut_vector l P Q))))
     = map (Rmult (/ sqrt (norm2 (strut_vector l P Q)))) (twist k (strut_vector l P Q) (vscale (/ L) (cross (arm_of_joint l Q) (strut_vector l P Q))))).
   { rewrite <- twist_scaled. unfold normalised. f_equal. set (c := / sqrt _). generalize (arm_of_joint l Q) (strut_vector l P Q). clear.
     intros [u1 u2 u3] [v1 v2 v3]. unfold vscale, cross. cbn [vx vy vz]. f_equal; ring. }
-  rewrite E, !dot_map. assert (S2 : sqrt (norm2 (strut_vector l P Q)) ^ 2 = norm2 (strut_vector l P Q)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
-  rewrite !Rpow_mult_distr, pow_inv, S2. field. split; [lra | split; lra].
+  assert (S2 : sqrt (norm2 (strut_vector l P Q)) ^ 2 = norm2 (strut_vector l P Q)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+  split; [rewrite !Rpow_mult_distr, S2; ring |]. intro v. rewrite E, !dot_map. field. lra.
 Qed.
 End Row.
 
@@ -377,21 +328,9 @@ Fixpoint all_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (
 Section Precision.
 Variable bits : positive.
 
-(** The tangent of the half of an angle is sin/(1 + cos); of 0 it is 0. *)
-Definition enclose_tangent (x : number) : option fixed :=
-  if is_zero x then Some zero
-  else match cosine (bits + 64) x, sine (bits + 64) x with
-    | Some c, Some s => option_map (fun q => shortened 64 (mul (bits + 64) s q)) (recip (bits + 64) (add (Fixed.integer (bits + 64) 1) c))
-    | _, _ => None
-    end.
-Definition angle_box (t : tolerance) : option fixed :=
-  match enclose_tangent (least t), enclose_tangent (greatest t) with Some a, Some b => Some (Fixed (lo a) (hi b)) | _, _ => None end.
-Definition is_angle_number (x : number) : bool :=
-  certainly bits true (Plus (180 // 1) x) && certainly bits true (Minus (180 // 1) x).
-
-(** The bound of a leg's length, in the unit of the check, and what it is not to be negative. *)
+(** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, or b/k of a stiffness. *)
 Definition length_bound (s : Z) (d : demand) : parameter :=
-  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | _ => (exactly (0 // 1), 0%Z) end.
+  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | StiffnessMin k b => (exactly (Over b k), 0%Z) | _ => (exactly (0 // 1), 0%Z) end.
 Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option formula :=
   let bound := times (square (quantity (length_bound s d) j)) w in
   match d with
@@ -399,19 +338,38 @@ Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d 
   | LengthMax i b => match nth_error rows i with Some (_, D) => if certainly bits false b then Some (minus bound D) else None | None => None end
   | _ => None
   end.
-Definition pose_test (place : formula -> nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
-  let squared make x := option_map (fun a => make (map_rows place rows) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
+(** M^T k M >= b I is sigma_min >= 1 of the rows with D b/k. *)
+Definition stiff_rows (rows : rows formula) (s : Z) (j : nat) (d : demand) : Test.rows formula :=
+  map (fun p => (fst p, times (snd p) (quantity (length_bound s d) j))) rows.
+Definition own_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : list formula :=
   match d with
-  | Nonsingular => Some (LeastOf (map_rows place rows) (place w) zero)
-  | FactorMax b => squared LeastOf (Over (1 // 1) b)
-  | FactorMin b => squared GreatestOf (Over (1 // 1) b)
+  | StiffnessMin _ _ => map snd (stiff_rows rows s j d)
+  | _ => match length_sign rows w s j d with Some f => [f] | None => [] end
+  end.
+Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
+  let squared make r x := option_map (fun a => make (map_rows place r) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
+  let least r w k := LeastOf r w k ends in
+  match d with
+  | Nonsingular => Some (least (map_rows place rows) (place w) zero)
+  | FactorMax b => squared least rows (Over (1 // 1) b)
+  | FactorMin b => squared GreatestOf rows (Over (1 // 1) b)
   | LengthMin _ _ | LengthMax _ _ => option_map (fun f => SignOf (place f)) (length_sign rows w s j d)
+  | SpeedMax i tool b => match nth_error rows i with
+      | Some row => if certainly bits true tool && certainly bits false b then squared GreatestOf [row] (Over b tool) else None
+      | None => None
+      end
+  | StiffnessMin k b => if certainly bits true k && certainly bits true b
+      then Some (LeastOf (map_rows place (stiff_rows rows s j d)) (place w) (Fixed.integer bits 1) O) else None
+  | ForceMax i tool b => match nth_error rows i with
+      | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
+      | None => None
+      end
   | AngleWithin _ _ _ | Conditioned _ => None
   end.
-Fixpoint pose_tests (place : formula -> nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
-  match ds with [] => [] | d :: ds' => pose_test place rows w s j d :: pose_tests place rows w s (S j) ds' end.
-Fixpoint length_signs (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
-  match ds with [] => [] | d :: ds' => (match length_sign rows w s j d with Some f => [f] | None => [] end) ++ length_signs rows w s (S j) ds' end.
+Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
+  match ds with [] => [] | d :: ds' => pose_test place ends rows w s j d :: pose_tests place ends rows w s (S j) ds' end.
+Fixpoint demand_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
+  match ds with [] => [] | d :: ds' => own_formulas rows w s j d ++ demand_formulas rows w s (S j) ds' end.
 Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
@@ -420,6 +378,11 @@ Definition is_nothing (t : tolerance) : bool := Witness.same (least t) (0 // 1) 
 Definition is_flat (k : motion) (t : tolerances) : bool :=
   match k with InPlane => is_nothing (tz t) | InSpace => true | AboutPoint => is_nothing (tx t) && is_nothing (ty t) && is_nothing (tz t) end.
 
+(** With as many struts as coordinates, positions have ends alone. *)
+Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w : nat) (g : option nat) : nat :=
+  let e := first_angle k in
+  if Nat.eqb (length r) m && eased_in m fs e r w (option_map (fun g => (g, 0%Z, 0%N)) g) then e else O.
+
 Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let k := motion_of c in let m := dimension k in
   let ps := flat_map (strut_layout s) (struts c) ++ [(exactly (characteristic_length c), s)] in
@@ -427,48 +390,35 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let ell := quantity (exactly (characteristic_length c), s) (length (flat_map (strut_layout s) (struts c))) in
   let (N, w) := chart (turned c) (first_angle k) in
   let rows := all_rows k N w ell s (struts c) 0 in
-  let wanted := entries rows ++ w :: length_signs rows w s j (turning_demands c) in
+  let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
+  let wanted := entries rows ++ w :: demand_formulas rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end in
   let tape := fst (compile (map (image m) wanted)) in
-  let place f := Formula.place (formulas tape) (image m f) in
-  forallb (fun f => Formula.same (nth (place f) (formulas tape) (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
+  let fs := formulas tape in
+  let place f := Formula.place fs (image m f) in
+  let ends := ends_of fs m k (map_rows place rows) (place w) (option_map place g) in
+  forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
   existsb excludes (turning_demands c) && is_flat k (positions c) && certainly bits true (characteristic_length c) &&
-  forallb (fun t => is_angle_number (least t) && is_angle_number (greatest t)) (angles_of (turned c)) &&
+  forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (ps ++ map (length_bound s) (turning_demands c))),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (positions c))),
-        all_some (map angle_box (angles_of (turned c))),
-        all_some (pose_tests place rows w s j (turning_demands c)) with
-  | Some params, Some box, Some angles, Some tests =>
-      Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (is_affine_at tape m) (test_places t)) tests &&
-      check_poses bits tape params tests m (box ++ angles) (map (fun _ => true) tests) t
-  | _, _, _, _ => false
+        all_some (map (end_box bits) (chart_ends (turned c))),
+        all_some (map (enclose_tangent bits) (curved (turned c))),
+        all_some (pose_tests place ends rows w s j (turning_demands c)) with
+  | Some params, Some box, Some angles, Some tangents, Some tests =>
+      Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
+      match g with Some g => affine_in m fs (place g) | None => true end &&
+      check_poses bits tape (params ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
+  | _, _, _, _, _ => false
   end.
 
 (** ** Soundness *)
 
-Lemma enclose_tangent_sound : forall x a, enclose_tangent x = Some a -> is_angle (Claim.value x) -> contains bits a (tangent (Claim.value x)).
-Proof.
-  intros x a h ok. unfold enclose_tangent in h. destruct (is_zero x) eqn:z.
-  - injection h as <-. unfold is_zero in z. destruct (rational x) as [q |] eqn:r; [| discriminate]. apply QArith_base.Qeq_bool_eq, Qreals.Qeq_eqR in z.
-    assert (q0 : Rdefinitions.Q2R q = 0) by (rewrite z; unfold Rdefinitions.Q2R; cbn; lra). rewrite (rational_sound _ _ r), q0. unfold tangent, in_degrees.
-    replace (0 / 2 * PI / 180) with 0 by field. rewrite sin_0. unfold Rdiv. rewrite Rmult_0_l. apply zero_sound.
-  - destruct (cosine (bits + 64) x) as [c |] eqn:ec; [| discriminate]. destruct (sine (bits + 64) x) as [u |] eqn:es; [| discriminate].
-    destruct (recip _ _) as [q |] eqn:eq; [| discriminate]. cbn [option_map] in h. assert (E : shortened 64 (mul (bits + 64) u q) = a) by congruence. subst a.
-    apply (shortened_sound bits 64). apply cosine_sound in ec. apply sine_sound in es.
-    destruct (recip_sound (bits + 64) _ q (1 + cos (in_degrees (Claim.value x))) eq (add_sound _ _ _ _ _ (Fixed.integer_sound (bits + 64) 1) ec)) as [_ R].
-    pose proof (half_cosine _ ok) as p0. assert (D : in_degrees (Claim.value x) = 2 * in_degrees (Claim.value x / 2)) by (unfold in_degrees; field).
-    replace (tangent (Claim.value x)) with (sin (in_degrees (Claim.value x)) * / (1 + cos (in_degrees (Claim.value x)))); [apply mul_sound; assumption |].
-    unfold tangent. rewrite D. set (p := in_degrees (Claim.value x / 2)) in *. rewrite sin_2a, cos_2a_cos. field. split; [lra |].
-    replace (1 + (2 * cos p * cos p - 1)) with (2 * (cos p * cos p)) by ring. nra.
-Qed.
-
-Lemma is_angle_number_sound : forall x, is_angle_number x = true -> is_angle (Claim.value x).
-Proof. intros x h. apply andb_true_iff in h as [a b]. apply positive_sound in a, b. cbn [Claim.value] in a, b. split; lra. Qed.
-
 Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R) (row : list formula * formula) (l : strut) : Prop :=
   let (A, D) := row in
   (0 < Formula.value x theta D -> 0 < norm2 (strut_vector l P Q) /\
-    forall v, Linear.dot (map (Formula.value x theta) A) v ^ 2 / Formula.value x theta D = W * Linear.dot (strut_row k L l P Q) v ^ 2) /\
-  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q).
+    exists q, q ^ 2 = W * Formula.value x theta D /\ forall v, Linear.dot (map (Formula.value x theta) A) v = q * Linear.dot (strut_row k L l P Q) v) /\
+  Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
+  (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 
 Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
   forall x front back k P Q W L N w ell, 0 < W -> 0 < L -> (forall b, norm2 (mulv Q b) = norm2 b) ->
@@ -495,18 +445,76 @@ Lemma rows_speed : forall x theta k P Q W r L rows m, Forall2 (stands x theta k 
 Proof.
   intros x theta k P Q W r L. induction 1 as [| [A D] l rows m [h _] hs IH]; intro p; [split; [constructor | intro; cbn; ring] |].
   rewrite map_rows_cons in p. inversion p as [| ? ? p1 p2]. subst. destruct (IH p2) as [I1 I2]. destruct (h p1) as [h1 h2].
-  split; [constructor; assumption |]. intro v. rewrite map_rows_cons. cbn [energy map]. unfold Configuration.speed2 in *. cbn [fold_right]. rewrite I2, h2. ring.
+  split; [constructor; assumption |]. intro v. rewrite map_rows_cons. cbn [energy map]. unfold Configuration.speed2 in *. cbn [fold_right].
+  destruct h2 as [q [q2 h2]]. cbn [snd] in p1. rewrite I2, h2, Rpow_mult_distr, q2. field. lra.
 Qed.
 
-(** A demand's own test, bound and formula. *)
-Lemma demand_at : forall place rows w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
-  In (pose_test place rows w s (j + i) d) (pose_tests place rows w s j ds) /\
-  forall f, length_sign rows w s (j + i) d = Some f -> In f (length_signs rows w s j ds).
+(** Forces of the joints, scaled as rows are. *)
+Lemma scaled_forces : forall x theta k P Q W r L rows m, 0 < W -> Forall2 (stands x theta k P Q W r L) rows m -> positive_D (map_rows (Formula.value x theta) rows) ->
+  forall tau, length tau = length m -> exists u, length u = length rows /\
+    (forall v, Linear.dot u (map (fun row => Linear.dot row v) (map fst (map_rows (Formula.value x theta) rows)))
+      = Linear.dot tau (map (fun row => Linear.dot row v) (map (fun l => strut_row k L l P Q) m))) /\
+    forall i, W * (nth i (map snd (map_rows (Formula.value x theta) rows)) 0 * nth i u 0 ^ 2) = nth i tau 0 ^ 2.
 Proof.
-  intros place rows w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
-  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [length_signs]. rewrite e. left. reflexivity.
+  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [h _] hs IH]; intros p [| t tau] e; try discriminate.
+  - exists []. split; [reflexivity |]. split; [reflexivity |]. intros [| i]; cbn; ring.
+  - rewrite map_rows_cons in p |- *. inversion p as [| ? ? p1 p2]. subst. cbn [snd] in p1. destruct (IH p2 tau ltac:(cbn in e; congruence)) as [u [lu [hu hi]]].
+    destruct (h p1) as [_ [q [q2 hq]]]. pose proof (Rmult_lt_0_compat _ _ W0 p1) as wd. assert (qn : q <> 0) by (intros ->; rewrite <- q2 in wd; lra).
+    exists (t / q :: u). split; [cbn; congruence |]. split.
+    + intro v. cbn [map fst Linear.dot]. rewrite hu, hq. field. exact qn.
+    + intros [| i]; cbn [map snd nth]; [| apply hi]. transitivity (W * Formula.value x theta D * (t / q) ^ 2); [ring |]. rewrite <- q2. field. exact qn.
+Qed.
+
+Lemma weighted_length : forall n M u, Forall (fun r : list R => length r = n) M -> length u = length M -> u <> [] -> length (weighted_sum u M) = n.
+Proof.
+  intro n. assert (C : forall t s a b, length (comb t s a b) = Nat.max (length a) (length b)).
+  { unfold comb. intros t s. induction a as [| y a IH]; intros [| z b]; cbn [merge length]; rewrite ?map_length; try reflexivity. rewrite IH. reflexivity. }
+  induction M as [| r M IH]; intros [| t u] h l ne; try discriminate; [contradiction |]. inversion h as [| ? ? h1 h2]; subst. cbn [weighted_sum]. rewrite C.
+  destruct u as [| t' u]; [cbn [weighted_sum length]; lia |]. rewrite (IH (t' :: u) h2) by (try discriminate; cbn in *; congruence). lia.
+Qed.
+
+Lemma rows_grounded : forall x theta k P Q W r L rows m, 0 < W -> Forall2 (stands x theta k P Q W r L) rows m -> grounded (map_rows (Formula.value x theta) rows).
+Proof.
+  intros x theta k P Q W r L rows m W0. induction 1 as [| [A D] l rows m [_ [hd [hz _]]] hs IH]; [constructor |]. rewrite map_rows_cons. constructor; [| exact IH].
+  cbn [fst snd]. split; [| exact hz]. rewrite hd. apply Rmult_le_pos; [apply Rmult_le_pos; [lra | apply pow2_ge_0] |]. unfold norm2.
+  destruct (strut_vector l P Q) as [a b c]. cbn [vx vy vz]. pose proof (pow2_ge_0 a). pose proof (pow2_ge_0 b). pose proof (pow2_ge_0 c). lra.
+Qed.
+
+(** Where ends alone are looked at, it is of these rows. *)
+Lemma least_tests : forall place ends rows w s ds j tests t r v e, all_some (pose_tests place ends rows w s j ds) = Some tests -> In t tests -> with_ends t = Some (r, v, e) ->
+  e = O \/ e = ends /\ r = map_rows place rows /\ v = place w.
+Proof.
+  intros place ends rows w s. induction ds as [| d ds IH]; intros j tests t r v e h i we; cbn [pose_tests all_some] in h; [injection h as <-; contradiction |].
+  destruct (pose_test place ends rows w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
+  destruct i as [-> | i]; [| exact (IH (S j) rest t r v e er i we)].
+  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); [cbn [option_map] in eu | discriminate]); try (destruct (nth_error _ _); [| discriminate]);
+    try (destruct (certainly _ _ _ && _); [| discriminate]);
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu as <-; cbn [with_ends] in we; try discriminate;
+    injection we; intros; subst; auto.
+Qed.
+
+(** A demand's own test, bound and formulas. *)
+Lemma demand_at : forall place ends rows w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
+  In (pose_test place ends rows w s (j + i) d) (pose_tests place ends rows w s j ds) /\
+  forall f, In f (own_formulas rows w s (j + i) d) -> In f (demand_formulas rows w s j ds).
+Proof.
+  intros place ends rows w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
+  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [demand_formulas]. apply in_or_app. left. exact e.
   - destruct (IH (S j) d i) as [n [h1 [h2 h3]]]. exists (S n). rewrite <- Nat.add_succ_comm. split; [exact h1 |]. split; [right; exact h2 |].
-    intros f e. cbn [length_signs]. apply in_or_app. right. exact (h3 f e).
+    intros f e. cbn [demand_formulas]. apply in_or_app. right. exact (h3 f e).
+Qed.
+
+(** Rows with D times q. *)
+Lemma stiff_energy : forall x theta rows s j d q v, Formula.value x theta (quantity (length_bound s d) j) = q -> 0 < q ->
+  positive_D (map_rows (Formula.value x theta) (stiff_rows rows s j d)) ->
+  positive_D (map_rows (Formula.value x theta) rows) /\
+  energy (map_rows (Formula.value x theta) rows) v = q * energy (map_rows (Formula.value x theta) (stiff_rows rows s j d)) v.
+Proof.
+  intros x theta rows s j d q v hq q0. induction rows as [| [A D] rows IH]; intro p; [split; [constructor | cbn; ring] |].
+  cbn [stiff_rows map fst snd] in p |- *. fold (stiff_rows rows s j d) in *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons. inversion p as [| ? ? p1 p2]; subst.
+  cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2]. set (q := Formula.value x theta (quantity (length_bound s d) j)) in *.
+  assert (D0 : 0 < Formula.value x theta D) by (apply Rmult_lt_reg_r with q; lra).
+  split; [constructor; assumption |]. cbn [energy]. rewrite value_times, I2. fold q. field. split; lra.
 Qed.
 
 Lemma is_nothing_sound : forall t y, is_nothing t = true -> within t y -> y = 0.
@@ -537,15 +545,6 @@ Proof.
   - injection e as <-. constructor.
 Qed.
 
-Lemma angle_boxes : forall o cs angles, are_angles o -> tangents_within o cs -> all_some (map (angle_box) (angles_of o)) = Some angles -> Forall2 (contains bits) angles cs.
-Proof.
-  intros o cs angles ok h. unfold are_angles, tangents_within in *. revert angles ok. induction h as [| t c ts cs hc h IH]; intros angles ok e; cbn [map all_some] in e; [injection e as <-; constructor |].
-  inversion ok as [| ? ? [o1 o2] ok']. subst. unfold angle_box in e. destruct (enclose_tangent (least t)) as [a |] eqn:ea; [| discriminate].
-  destruct (enclose_tangent (greatest t)) as [b |] eqn:eb; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. injection e as <-.
-  constructor; [| apply IH; [exact ok' | reflexivity]]. destruct (enclose_tangent_sound _ _ ea o1) as [l _]. destruct (enclose_tangent_sound _ _ eb o2) as [_ u].
-  pose proof (unit_R_pos bits). unfold contains. cbn [lo hi]. split; nra.
-Qed.
-
 Lemma squared_in : forall x a, enclose_parameter bits (exactly x, 0%Z) = Some a -> contains bits (sqr bits a) (Claim.value x ^ 2).
 Proof.
   intros x a e. apply sqr_sound, (enclose_parameter_sound bits _ _ _ e). exists (Claim.value x). unfold within, exactly. cbn [fst snd least greatest].
@@ -557,38 +556,50 @@ Proof.
   intros c s t h m P Q [hm [hP hQ]]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
-  set (rows := all_rows k N w ell s ts 0) in *. set (wanted := entries rows ++ w :: length_signs rows w s j ds) in *.
+  set (rows := all_rows k N w ell s ts 0) in *.
+  set (g := curve (turned c) (first_angle k) (j + length ds)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
+  set (wanted := entries rows ++ w :: demand_formulas rows w s j ds ++ gs) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
   apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
-  destruct (all_some (map angle_box _)) as [angles |] eqn:ea; [| discriminate].
-  destruct (all_some (pose_tests _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
-  apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
+  destruct (all_some (map (end_box bits) _)) as [angles |] eqn:ea; [| discriminate].
+  destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
+  destruct (all_some (pose_tests _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in C as [C gaff]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
   apply positive_sound in L0. set (L := Claim.value (characteristic_length c)) in *.
   assert (ok : are_angles (turned c)).
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
-    split; apply (is_angle_number_sound); assumption. }
+    split; apply (is_angle_number_sound bits); assumption. }
   destruct (chart_sound _ _ hQ ok) as [cs [W [hcs [W0 CH]]]].
   destruct (all_rows_stand s ts m hm) as [th [TH RS]]. set (bs := map (fun d => Claim.value (least (fst (length_bound s d))) / two_to (snd (length_bound s d))) ds).
-  set (theta := th ++ [/ two_to s * L] ++ bs).
+  set (tt := map (fun a => tangent (Claim.value a)) (curved (turned c))).
+  set (theta := th ++ [/ two_to s * L] ++ bs ++ tt).
   assert (TL : Forall2 scaled_within (lay ++ [pl]) (th ++ [/ two_to s * L])).
   { apply Forall2_app; [exact TH |]. constructor; [| constructor]. exists L. split; [split; apply Rle_refl |]. cbn [snd pl]. unfold Rdiv. ring. }
   assert (TB : Forall2 scaled_within (map (length_bound s) ds) bs).
   { unfold bs. clear. induction ds as [| d l IH]; cbn [map]; constructor; [| exact IH]. eexists. split; [| reflexivity]. unfold within. destruct d; cbn; lra. }
-  assert (T : Forall2 (contains bits) params theta) by (unfold theta; rewrite app_assoc; apply (enclosed_all bits _ _ _ ep); apply Forall2_app; assumption).
+  assert (TT : Forall2 (contains bits) tangents tt).
+  { apply (tangents_in bits); [intros a i; exact (curved_angles _ a ok i) | exact eg]. }
+  assert (T : Forall2 (contains bits) (params ++ tangents) theta).
+  { unfold theta. rewrite !app_assoc. apply Forall2_app; [| exact TT]. apply (enclosed_all bits _ _ _ ep). apply Forall2_app; assumption. }
+  assert (lb : length bs = length ds) by apply map_length.
+  assert (lt : length th = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH)).
+  assert (tangent_at : forall a, In a (curved (turned c)) -> nth (j + length ds) theta 0 = tangent (Claim.value a)).
+  { intros a i. unfold theta. rewrite !app_assoc. replace (j + length ds)%nat with (length ((th ++ [(/ two_to s * L)%R]) ++ bs) + 0)%nat
+      by (unfold j; rewrite !app_length, lb, lt; cbn [length]; lia).
+    rewrite app_nth2_plus. unfold tt. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
   set (x := map (Rmult (/ two_to s)) (position_list k P) ++ cs).
-  assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; [exact (position_boxes k _ P s box hP eb) | exact (angle_boxes _ cs angles ok hcs ea)]).
+  assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; [exact (position_boxes k _ P s box hP eb) | exact (box_sound bits _ cs angles ok hcs ea)]).
   assert (lx : length x = dimension k) by (rewrite <- (related_length _ _ _ _ _ X); exact len).
   assert (first : forall i, nth (first_angle k + i) x 0 = nth i cs 0).
   { intro i. unfold x. replace (first_angle k) with (length (map (Rmult (/ two_to s)) (position_list k P))) by (destruct k; reflexivity). apply app_nth2_plus. }
-  destruct (CH x theta (first_angle k) first) as [hN hw]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
-  assert (lt : length th = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH)).
+  destruct (CH x theta (first_angle k) (j + length ds)%nat first tangent_at) as [hN [hw hg]]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
   assert (hl : Formula.value x theta ell = / two_to s * L).
   { unfold ell, theta. apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
     rewrite <- lt. apply nth_middle. }
-  pose proof (RS x [] ([/ two_to s * L] ++ bs) k P Q W L N w ell W0 L0 (orientation_keeps _ _ hQ)
+  pose proof (RS x [] ([/ two_to s * L] ++ bs ++ tt) k P Q W L N w ell W0 L0 (orientation_keeps _ _ hQ)
     (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as ST.
   change (Forall2 (stands x theta k P Q W (/ two_to s) L) rows m) in ST.
   (* the tape *)
@@ -596,17 +607,33 @@ Proof.
   assert (Found : forall f, In f wanted -> at_pairs theta (entry_at tape (place f)) (parabola x) = Formula.value x theta f).
   { intros f i. assert (E : entry_at tape (place f) = image (dimension k) f) by (apply Formula.same_sound, found, i).
     rewrite E, <- lx. apply image_value. rewrite lx. apply below_, i. }
-  assert (Rows : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place rows) = map_rows (Formula.value x theta) rows).
-  { assert (K : forall r, (forall f, In f (entries r) -> In f wanted) ->
+  assert (RowsOf : forall r, (forall f, In f (entries r) -> In f wanted) ->
       map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place r) = map_rows (Formula.value x theta) r).
-    { induction r as [| [A D] r IH]; intro i; [reflexivity |]. rewrite !map_rows_cons. f_equal.
+  { induction r as [| [A D] r IH]; intro i; [reflexivity |]. rewrite !map_rows_cons. f_equal.
       - f_equal; [rewrite map_map; apply map_ext_in; intros f q; apply Found, i; cbn [entries flat_map fst]; apply in_or_app; left; apply in_or_app; left; exact q |].
         apply Found, i. cbn [entries flat_map snd]. apply in_or_app. left. apply in_or_app. right. left. reflexivity.
       - apply IH. intros f q. apply i. cbn [entries flat_map]. apply in_or_app. right. exact q. }
-    apply K. intros f q. apply in_or_app. left. exact q. }
+  assert (Rows : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place rows) = map_rows (Formula.value x theta) rows)
+    by (apply RowsOf; intros f q; apply in_or_app; left; exact q).
   assert (Weight : at_pairs theta (entry_at tape (place w)) (parabola x) = W) by (rewrite Found; [exact hw | apply in_or_app; right; left; reflexivity]).
   rewrite forallb_forall in aff.
-  pose proof (check_poses_sound bits tape params tests (dimension k) (dimension k) theta T aff t _ x _ tree_ok X len ltac:(apply none_done)) as HT.
+  assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
+    by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
+  set (ends := ends_of (formulas tape) (dimension k) k (map_rows place rows) (place w) (option_map place g)) in *.
+  assert (eased : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
+    forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
+  { intros u r v e0 i we. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
+    unfold ends, ends_of. cbv zeta. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
+    split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
+    - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
+      apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
+    - split; [exact e2 | discriminate]. }
+  assert (turn : is_turned tape tests (option_map place g) theta x).
+  { split; [| intros u r v e i we; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
+      [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
+    intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
+    apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
+  pose proof (check_poses_sound bits tape (params ++ tangents) tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
     by (apply (rows_speed x theta k P Q W (/ two_to s) L); exact ST).
@@ -615,56 +642,116 @@ Proof.
     generalize (map (fun l => strut_row k L l P Q) m). intro M. unfold Configuration.speed2. induction M as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F0). ring. }
   assert (NZ : forall v, nonzero v \/ ~ nonzero v) by (intro v; destruct (Rlt_dec 0 (Linear.dot v v)); auto).
   set (conf := struts_at k L m P Q).
-  assert (Lower : forall low kappa, contains bits low kappa -> 0 <= kappa -> In (LeastOf (map_rows place rows) (place w) low) tests ->
-    Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\ forall v, length v = dimension k -> nonzero v -> kappa * Linear.dot v v < Configuration.speed2 (jacobian conf) v).
+  assert (Lower : forall low kappa, contains bits low kappa -> 0 <= kappa -> In (LeastOf (map_rows place rows) (place w) low ends) tests ->
+    Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\ positive_D (map_rows (Formula.value x theta) rows) /\
+    forall v, length v = dimension k -> nonzero v -> kappa * Linear.dot v v < Configuration.speed2 (jacobian conf) v).
   { intros low kappa hk k0 it. pose proof (HT _ it) as H. cbn [test_holds] in H.
     assert (PD : positive_D (map_rows (Formula.value x theta) rows)).
     { assert (U : exists v, length v = dimension k /\ nonzero v) by (exists (repeat 1 (dimension k)); destruct k; (split; [reflexivity | unfold nonzero; cbn; lra])).
-      destruct U as [v [lv nv]]. destruct (H kappa v hk lv nv) as [p _]. rewrite Rows in p. exact p. }
-    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. intros v lv nv. destruct (H kappa v hk lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
+      destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
+    destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
-  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place rows w s (j + i) d = Some u /\ In u tests /\
-    forall f, length_sign rows w s (j + i) d = Some f -> In f wanted).
-  { intros d id. destruct (demand_at place rows w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
-    exists i, u. split; [exact h1 |]. split; [exact e |]. split; [exact iu |]. intros f q. apply in_or_app. right. right. exact (h3 f q). }
-  assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low) tests).
+  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place ends rows w s (j + i) d = Some u /\ In u tests /\
+    forall f, In f (own_formulas rows w s (j + i) d) -> In f wanted).
+  { intros d id. destruct (demand_at place ends rows w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
+    exists i, u. split; [exact h1 |]. split; [exact e |]. split; [exact iu |]. intros f q. apply in_or_app. right. right. apply in_or_app. left. exact (h3 f q). }
+  assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low ends) tests).
   { apply existsb_exists in ex as [d [id e]]. destruct (Test d id) as [i [u [_ [pu [iu _]]]]]. destruct d; try discriminate; cbn [pose_test] in pu.
     - injection pu as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact iu].
     - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. eexists; eexists. split; [apply squared_in, e1 |].
       split; [apply pow2_ge_0 | exact iu]. }
-  destruct Reach as [low [kappa [hk [k0 it]]]]. destruct (Lower low kappa hk k0 it) as [reach_ low_].
+  destruct Reach as [low [kappa [hk [k0 it]]]]. destruct (Lower low kappa hk k0 it) as [reach_ [PDR low_]].
   assert (INJ : Configuration.injective (dimension k) conf).
   { intros v lv nv. specialize (low_ v lv nv). unfold nonzero in nv. assert (0 <= kappa * Linear.dot v v) by (apply Rmult_le_pos; lra). lra. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
   destruct (Test d id) as [i [u [nd [pu [iu signs]]]]].
   assert (Bound : forall b, length_bound s d = (exactly b, s) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = / two_to s * Claim.value b).
   { intros b e. apply quantity_value; [rewrite e; exists (Claim.value b); split; [split; apply Rle_refl | cbn [snd]; unfold Rdiv; ring] |].
-    unfold theta. rewrite app_assoc. replace j with (length (th ++ [/ two_to s * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
-    rewrite app_nth2_plus. unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
+    unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [/ two_to s * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
+    rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
   pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
-  assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
-  { clear - ST. intros n A D. revert n. induction ST as [| [A' D'] l rows' m' [_ hd] hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
-    - injection e as -> ->. exists l. split; [reflexivity | exact hd].
+  assert (LegOf : forall n row, nth_error rows n = Some row -> exists l, nth_error m n = Some l /\ stands x theta k P Q W ratio L row l).
+  { clear - ST. intros n row. revert n. induction ST as [| row' l rows' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
+    - injection e as ->. exists l. split; [reflexivity | exact hd].
     - exact (IH n e). }
+  assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
+  { intros n A D e. destruct (LegOf n _ e) as [l [e' [_ [hd _]]]]. exists l. split; [exact e' | exact hd]. }
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b]; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
-  4-5: cbn [length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b']; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
+  4-5: cbn [own_formulas length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
-    pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ eq_refl)) as FF;
+    pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ (or_introl eq_refl))) as FF;
     match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end; clear H FF; rename G into H;
     rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H; rewrite hw in H;
     exists (strut_length l P Q); (split; [exact (Joint n l nl) |]); unfold strut_length; rewrite <- (sqrt_pow2 (Claim.value b) b0); apply sqrt_le_1_alt;
     apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]; rewrite Rpow_mult_distr in H; lra.
   - exact INJ.
   - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
-    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. destruct (Lower _ _ K (pow2_ge_0 _) iu) as [_ G]. intros v lv.
+    cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. destruct (Lower _ _ K (pow2_ge_0 _) iu) as [_ [_ G]]. intros v lv.
     destruct (NZ v) as [nz | z]; [apply Rlt_le, G; assumption | destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
   - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K.
     cbn [Claim.value] in K. replace (1 / 1) with 1 in K by field. pose proof (HT _ iu) as H. cbn [test_holds] in H. intros v lv.
     unfold conf, struts_at. cbn [jacobian]. destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ v K lv nz) as [p q]. rewrite Rows in p, q. rewrite Weight, (proj2 (Speed p)) in q. apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
+  - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits false b') eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
+    destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K.
+    destruct (LegOf n _ nr) as [l [nl [st _]]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
+    intros v lv le. apply Rabs_le. enough (Q2 : Linear.dot (strut_row k L l P Q) v ^ 2 <= Claim.value b' ^ 2) by (split; nra).
+    destruct (NZ v) as [nz | z]; [| rewrite (dot_zero v _ (zero_vector v ltac:(apply Rnot_lt_le; exact z))); nra].
+    pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct (H _ v K lv nz) as [p q].
+    change [(map place A, place D)] with (map_rows place [(A, D)]) in p, q. rewrite RowsOf in p, q by (intros f i'; apply in_or_app; left; apply in_flat_map; exists (A, D);
+      split; [exact (nth_error_In _ _ nr) | cbn [entries flat_map] in i'; rewrite app_nil_r in i'; exact i']).
+    rewrite map_rows_cons in p, q. pose proof (Forall_inv p) as p1. cbn [snd] in p1. destruct (st p1) as [_ [z [z2 S2]]]. cbn [energy map_rows map] in q.
+    rewrite Weight, S2, Rpow_mult_distr, z2 in q. replace (W * Formula.value x theta D * Linear.dot (strut_row k L l P Q) v ^ 2 / Formula.value x theta D)
+      with (W * Linear.dot (strut_row k L l P Q) v ^ 2) in q by (field; lra).
+    set (tool := Claim.value b) in *. set (y := Claim.value b') in *. set (u := Linear.dot (strut_row k L l P Q) v ^ 2) in *. set (vv := Linear.dot v v) in *.
+    assert (u < (y / tool) ^ 2 * vv) by (apply Rmult_lt_reg_l with W; lra). assert ((y / tool) ^ 2 * vv <= (y / tool) ^ 2 * tool ^ 2) by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact le]).
+    replace ((y / tool) ^ 2 * tool ^ 2) with (y ^ 2) in * by (field; lra). lra.
+  - destruct (nth_error rows n) as [row |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-.
+    pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K. pose proof (HT _ iu) as H. cbn [test_holds] in H. rewrite Rows, Weight in H.
+    unfold conf, struts_at. cbn [jacobian]. intros tau F [lt' [lF hF]] le. rewrite map_length in lt'.
+    destruct (scaled_forces x theta k P Q W ratio L rows m W0 ST PDR tau lt') as [u [lu [hu hi]]]. set (As := map fst (map_rows (Formula.value x theta) rows)) in *.
+    set (p := weighted_sum u As) in *. specialize (hi n). set (du := nth n (map snd _) 0 * nth n u 0 ^ 2) in *. set (tool := Claim.value b) in *. set (y := Claim.value b') in *.
+    enough (Q2 : nth n tau 0 ^ 2 <= y ^ 2) by (apply Rabs_le; split; nra).
+    destruct (NZ u) as [nz | z].
+    + assert (LA : Forall (fun row => length row = dimension k) As).
+      { unfold As. clear - ST. induction ST as [| [A D] l rows' m' [_ [_ [_ hl]]] hs IH]; [constructor |]. rewrite map_rows_cons. cbn [map fst]. constructor; [rewrite map_length; exact hl | exact IH]. }
+      assert (lp : length p = dimension k).
+      { apply weighted_length; [exact LA | unfold As, map_rows; rewrite !map_length; exact lu |]. intros ->. unfold nonzero in nz. cbn in nz. lra. }
+      assert (pv : forall v, Linear.dot p v = Linear.dot tau (map (fun row => Linear.dot row v) (map (fun l => strut_row k L l P Q) m)))
+        by (intro v; unfold p; rewrite dot_weighted; apply hu).
+      assert (pp : Linear.dot p p = Linear.dot F F).
+      { rewrite (pv p), <- (hF p lp), dot_commutes, (pv F). symmetry. apply hF, lF. }
+      specialize (H ((tool / y) ^ 2) u K (pow2_ge_0 _) W0 ltac:(unfold map_rows; rewrite map_length; exact lu) nz). cbv zeta in H. fold p in H. fold du in H. rewrite pp in H.
+      assert ((tool / y) ^ 2 * nth n tau 0 ^ 2 < tool ^ 2) by (rewrite <- hi; set (c2 := (tool / y) ^ 2) in *; clearbody c2; lra).
+      assert (E : (tool / y) ^ 2 * nth n tau 0 ^ 2 = tool ^ 2 * (nth n tau 0 / y) ^ 2) by (field; lra).
+      assert (t2 : 0 < tool ^ 2) by (apply pow_lt; exact t0). assert ((nth n tau 0 / y) ^ 2 < 1) by (apply Rmult_lt_reg_l with (tool ^ 2); lra).
+      replace (nth n tau 0 ^ 2) with ((nth n tau 0 / y) ^ 2 * y ^ 2) by (field; lra). pose proof (pow2_ge_0 y). nra.
+    + pose proof (zero_vector u ltac:(apply Rnot_lt_le; exact z)) as Z0. assert (un : nth n u 0 = 0).
+      { destruct (nth_in_or_default n u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
+      rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). lra.
+  - destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate]. apply andb_true_iff in ce as [k0' b0]. apply positive_sound in k0', b0.
+    injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. intros v lv.
+    assert (Number : Formula.value x theta (quantity (length_bound s (StiffnessMin b b')) (j + i)) = Claim.value b' / Claim.value b).
+    { apply quantity_value; [exists (Claim.value b' / Claim.value b); split; [split; apply Rle_refl | cbn [snd length_bound]; change (two_to 0) with 1; field; lra] |].
+      unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [ratio * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
+      rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map length_bound].
+      cbn. f_equal. change (two_to 0) with 1. field. lra. }
+    assert (q0 : 0 < Claim.value b' / Claim.value b) by (apply Rdiv_lt_0_compat; assumption).
+    destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
+    destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [p q].
+    rewrite RowsOf in p, q by (intros f i'; apply in_flat_map in i' as [[A D] [i1 i2]]; apply in_app_or in i2 as [i2 | [<- | []]];
+      [apply in_map_iff in i1 as [[A' D'] [e1 i1]]; injection e1 as <- <-; apply in_or_app; left; apply in_flat_map; exists (A', D'); split; [exact i1 | apply in_or_app; left; exact i2]
+      | apply signs, in_map_iff; exists (A, D); split; [reflexivity | exact i1]]).
+    destruct (stiff_energy x theta rows s (j + i) _ _ v Number q0 p) as [p' E]. rewrite (proj2 (Speed p')) in E. rewrite Weight in q.
+    unfold conf, struts_at. cbn [jacobian]. set (S2 := Configuration.speed2 _ v) in *. set (y := Claim.value b') in *. set (e := Claim.value b) in *.
+    assert (y / e * (W * Linear.dot v v) < W * S2) by (rewrite E; apply Rmult_lt_compat_l; [exact q0 | lra]).
+    assert (y / e * Linear.dot v v < S2) by (apply Rmult_lt_reg_l with W; lra).
+    replace (y * Linear.dot v v) with (e * (y / e * Linear.dot v v)) by (field; lra). apply Rmult_le_compat_l; lra.
 Qed.
 End Precision.
 
@@ -678,6 +765,8 @@ Definition certify_turning (exact bits : positive) (c : turning_claim) (s : Z) (
 
 Lemma least_within : forall exact t, is_met exact t = true -> within t (Claim.value (least t)).
 Proof. intros exact t h. apply below_sound in h. split; [apply Rle_refl | exact h]. Qed.
+Lemma either_met : forall exact x, is_met exact (either_way x) = true -> 0 <= 0 <= Claim.value x.
+Proof. intros exact x h. apply below_sound in h. cbn [either_way least greatest Claim.value] in h. lra. Qed.
 Definition leasts_of (t : tolerances) : vec := Vec (Claim.value (least (tx t))) (Claim.value (least (ty t))) (Claim.value (least (tz t))).
 Lemma leasts_within : forall exact t, are_met exact t = true -> all_within t (leasts_of t).
 Proof.
@@ -691,11 +780,14 @@ Proof.
   intros exact bits c s t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
   split; [exact (check_turning_sound bits c s t k) |].
   assert (T : exists Q, in_orientations (turned c) Q).
-  { rewrite forallb_forall in o. destruct (turned c) as [a | r q y]; cbn [angles_of in_orientations] in *.
+  { rewrite forallb_forall in o. destruct (turned c) as [a | r q y | m | m n]; cbn [angles_of in_orientations] in *.
     - eexists. exists (Claim.value (least a)). split; [apply (least_within exact), o; left; reflexivity | reflexivity].
     - eexists. exists (Claim.value (least r)), (Claim.value (least q)), (Claim.value (least y)).
       split; [apply (least_within exact), o; left; reflexivity |]. split; [apply (least_within exact), o; right; left; reflexivity |].
-      split; [apply (least_within exact), o; right; right; left; reflexivity | reflexivity]. }
+      split; [apply (least_within exact), o; right; right; left; reflexivity | reflexivity].
+    - destruct (either_met exact m (o _ (or_introl eq_refl))) as [z0 z1]. eexists. exists e1, 0. split; [unfold norm2; cbn; ring | split; [exact (conj z0 z1) | reflexivity]].
+    - pose proof (either_met exact m (o _ (or_introl eq_refl))) as hm. pose proof (either_met exact n (o _ (or_intror (or_introl eq_refl)))) as hn.
+      eexists. exists 0, 0, 0. split; [exact hm | split; [lra | reflexivity]]. }
   destruct T as [Q hQ]. exists (map (fun t => Strut (leasts_of (fst t)) (leasts_of (snd t))) (struts c)), (leasts_of (positions c)), Q.
   split; [| split; [exact (leasts_within exact _ p) | exact hQ]]. rewrite forallb_forall in l.
   induction (struts c) as [| u ts IH]; cbn [map]; constructor; [| apply IH; intros v i; apply l; right; exact i].

@@ -4,19 +4,15 @@
     point.  The platform's joint b is at P + R b; orientations are told by angles
     in degrees, and proved by the tangents of their halves. *)
 
-From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
+From Coq Require Import ZArith Reals Lra List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Number Trig Machine Witness.
+From Orthocert.kernel Require Import Statement Number Machine Witness Orientation.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
 
 (** ** Kinematics *)
-
-Definition rotation_x (a : R) : mat := Mat (Vec 1 0 0) (Vec 0 (cos a) (- sin a)) (Vec 0 (sin a) (cos a)).
-Definition rotation_y (a : R) : mat := Mat (Vec (cos a) 0 (sin a)) (Vec 0 1 0) (Vec (- sin a) 0 (cos a)).
-Definition rotation_z (a : R) : mat := Mat (Vec (cos a) (- sin a) 0) (Vec (sin a) (cos a) 0) (Vec 0 0 1).
 
 Record strut := Strut { strut_base : vec; strut_joint : vec }.
 
@@ -76,18 +72,6 @@ Qed.
 
 (** ** Claims *)
 
-(** Degrees. *)
-Inductive orientations :=
-  | TurnedBy (angle : tolerance)                  (* in the plane *)
-  | RollPitchYaw (roll pitch yaw : tolerance).
-
-Definition in_orientations (o : orientations) (Q : mat) : Prop :=
-  match o with
-  | TurnedBy t => exists a, within t a /\ Q = rotation_z (in_degrees a)
-  | RollPitchYaw r p y => exists a b c, within r a /\ within p b /\ within y c /\
-      Q = mulm (rotation_z (in_degrees c)) (mulm (rotation_y (in_degrees b)) (rotation_x (in_degrees a)))
-  end.
-
 (** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. *)
 Record turning_claim := MakeTurningClaim {
   motion_of : motion; struts : list (tolerances * tolerances); characteristic_length : number;
@@ -103,75 +87,12 @@ Definition meets_turning (c : turning_claim) (m : list strut) (P : vec) (Q : mat
 
 Definition turning_holds (c : turning_claim) : Prop := forall m P Q, is_about_struts c m P Q -> meets_turning c m P Q.
 
-(** ** Angles by the tangents of their halves *)
-
-(** [t] is the tangent of the half of the angle [x]. *)
-Definition is_half_tangent (t x : R) : Prop :=
-  cos (in_degrees x) = (1 - t ^ 2) / (1 + t ^ 2) /\ sin (in_degrees x) = 2 * t / (1 + t ^ 2).
-
-Lemma half_tangent : forall t x, sin (in_degrees (x / 2)) = t * cos (in_degrees (x / 2)) -> is_half_tangent t x.
-Proof.
-  intros t x e. set (p := in_degrees (x / 2)) in *. assert (E : in_degrees x = 2 * p) by (unfold p, in_degrees; field).
-  pose proof (sin2_cos2 p) as S. unfold Rsqr in S. rewrite e in S. pose proof (pow2_ge_0 t) as t0.
-  assert (C : cos p * cos p = / (1 + t ^ 2)) by (apply Rmult_eq_reg_r with (1 + t ^ 2); [rewrite Rinv_l by lra; lra | lra]).
-  unfold is_half_tangent. rewrite E, cos_2a, sin_2a, e. split.
-  - replace (cos p * cos p - t * cos p * (t * cos p)) with (cos p * cos p * (1 - t ^ 2)) by ring. rewrite C. field. lra.
-  - replace (2 * (t * cos p) * cos p) with (2 * t * (cos p * cos p)) by ring. rewrite C. field. lra.
-Qed.
-
-(** Between the half tangents of two angles are those of angles between. *)
-Definition excess (t x : R) : R := sin (in_degrees (x / 2)) - t * cos (in_degrees (x / 2)).
-
-Lemma half_tangent_between : forall t a b, a <= b -> excess t a <= 0 -> 0 <= excess t b -> exists x, a <= x <= b /\ is_half_tangent t x.
-Proof.
-  intros t a b le ha hb.
-  assert (C : continuity (excess t)).
-  { assert (L : continuity (fun x => in_degrees (x / 2))) by (intro x; unfold in_degrees; reg).
-    intro x. apply continuity_pt_minus.
-    - apply (continuity_pt_comp (fun x => in_degrees (x / 2)) sin); [apply L | apply continuity_sin].
-    - apply (continuity_pt_scal (fun x => cos (in_degrees (x / 2)))).
-      apply (continuity_pt_comp (fun x => in_degrees (x / 2)) cos); [apply L | apply continuity_cos]. }
-  destruct (IVT_cor (excess t) a b C le ltac:(nra)) as [x [h z]]. exists x. split; [exact h |]. apply half_tangent. unfold excess in z. lra.
-Qed.
-
 (** ** A machine and a pose in exact numbers *)
 
 Record exact_strut := StrutNumbers { xbase : numbers; xjoint : numbers }.
 Definition strut_of (l : exact_strut) : strut := Strut (values (xbase l)) (values (xjoint l)).
 
 Section Exact.
-(** The cosine and the sine of an angle by the tangent of its half. *)
-Definition tcosine (t : number) : number := Over (Minus (1 // 1) (Times t t)) (Plus (1 // 1) (Times t t)).
-Definition tsine (t : number) : number := Over (Times (2 // 1) t) (Plus (1 // 1) (Times t t)).
-Definition tturned (t p q : number) : number * number :=
-  (Minus (Times (tcosine t) p) (Times (tsine t) q), Plus (Times (tsine t) p) (Times (tcosine t) q)).
-Definition about_x (t : number) (b : numbers) : numbers := let (y, z) := tturned t (ny b) (nz b) in Numbers (nx b) y z.
-Definition about_y (t : number) (b : numbers) : numbers := let (z, x) := tturned t (nz b) (nx b) in Numbers x (ny b) z.
-Definition about_z (t : number) (b : numbers) : numbers := let (x, y) := tturned t (nx b) (ny b) in Numbers x y (nz b).
-
-Lemma value_tcosine : forall t x, is_half_tangent (value t) x -> value (tcosine t) = cos (in_degrees x).
-Proof. intros t x [-> _]. unfold tcosine. cbn [value]. f_equal; [field | f_equal; field]. Qed.
-Lemma value_tsine : forall t x, is_half_tangent (value t) x -> value (tsine t) = sin (in_degrees x).
-Proof. intros t x [_ ->]. unfold tsine. cbn [value]. f_equal; [field | f_equal; field]. Qed.
-
-Lemma values_about : forall t x b, is_half_tangent (value t) x ->
-  values (about_x t b) = mulv (rotation_x (in_degrees x)) (values b) /\
-  values (about_y t b) = mulv (rotation_y (in_degrees x)) (values b) /\
-  values (about_z t b) = mulv (rotation_z (in_degrees x)) (values b).
-Proof.
-  intros t x b h. pose proof (value_tcosine t x h) as C. pose proof (value_tsine t x h) as S.
-  unfold about_x, about_y, about_z, tturned, values, mulv, Vec3.dot. cbn [nx ny nz value row1 row2 row3 vx vy vz rotation_x rotation_y rotation_z].
-  rewrite C, S. repeat split; f_equal; ring.
-Qed.
-
-(** The platform's joint, turned. *)
-Definition turn (o : orientations) (c : list number) (b : numbers) : numbers :=
-  match o, c with
-  | TurnedBy _, [t] => about_z t b
-  | RollPitchYaw _ _ _, [x; y; z] => about_z z (about_y y (about_x x b))
-  | _, _ => b
-  end.
-
 Definition xvector (o : orientations) (c : list number) (P : numbers) (l : exact_strut) : numbers :=
   each2 Minus (each2 Plus P (turn o c (xjoint l))) (xbase l).
 Definition ntwist (k : motion) (v w : numbers) : list number :=
@@ -180,9 +101,6 @@ Definition ntwist (k : motion) (v w : numbers) : list number :=
   | InSpace => [nx v; ny v; nz v; nx w; ny w; nz w]
   | AboutPoint => [nx w; ny w; nz w]
   end.
-Definition ncrossed (a b : numbers) : numbers :=
-  Numbers (Minus (Times (ny a) (nz b)) (Times (nz a) (ny b))) (Minus (Times (nz a) (nx b)) (Times (nx a) (nz b)))
-    (Minus (Times (nx a) (ny b)) (Times (ny a) (nx b))).
 Definition xstrut_row (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (l : exact_strut) : list number :=
   let u := unit_of (xvector o c P l) in ntwist k u (scaled (Over (1 // 1) ell) (ncrossed (turn o c (xjoint l)) u)).
 
@@ -216,69 +134,6 @@ End Stand.
 Section Precision.
 Variable bits : positive.
 
-(** The excess of [t] over the half tangent of [x] is at most zero, or at least; of 0 degrees, it is -t. *)
-Definition excess_of (t x : number) : option fixed :=
-  match enclose bits t, cosine bits (Over x (2 // 1)), sine bits (Over x (2 // 1)) with
-  | Some t, Some c, Some s => Some (sub s (mul bits t c))
-  | _, _, _ => None
-  end.
-Definition is_zero (x : number) : bool := match rational x with Some q => Qeq_bool q 0 | None => false end.
-Definition exceeds (is_more : bool) (t x : number) : bool :=
-  if is_zero x then certainly bits false (if is_more then Minus (0 // 1) t else t)
-  else match excess_of t x with Some a => if is_more then (0 <=? lo a)%Z else (hi a <=? 0)%Z | None => false end.
-
-Lemma excess_of_sound : forall t x a, excess_of t x = Some a -> contains bits a (excess (value t) (value x)).
-Proof.
-  intros t x a h. unfold excess_of in h. destruct (enclose bits t) as [u |] eqn:e1; [| discriminate].
-  destruct (cosine bits _) as [c |] eqn:e2; [| discriminate]. destruct (sine bits _) as [s |] eqn:e3; [| discriminate].
-  assert (E : sub s (mul bits u c) = a) by congruence. subst a. apply cosine_sound in e2. apply sine_sound in e3. cbn [value] in e2, e3.
-  replace (2 / 1) with 2 in e2, e3 by field. unfold excess. apply sub_sound; [exact e3 | apply mul_sound; [apply enclose_sound, e1 | exact e2]].
-Qed.
-
-Lemma exceeds_sound : forall t x (is_more : bool), exceeds is_more t x = true ->
-  if is_more then 0 <= excess (value t) (value x) else excess (value t) (value x) <= 0.
-Proof.
-  intros t x is_more h. unfold exceeds in h. destruct (is_zero x) eqn:z.
-  - unfold is_zero in z. destruct (rational x) as [q |] eqn:r; [| discriminate]. apply Qeq_bool_eq, Qeq_eqR in z.
-    rewrite (rational_sound _ _ r), z. replace (Q2R 0) with 0 by (unfold Q2R; cbn; lra). unfold excess, in_degrees.
-    replace (0 / 2 * PI / 180) with 0 by field. rewrite sin_0, cos_0. destruct is_more; apply nonneg_sound in h; cbn [value] in h; lra.
-  - destruct (excess_of t x) as [a |] eqn:e; [| discriminate]. apply excess_of_sound in e. destruct is_more.
-    + apply Z.leb_le in h. exact (contains_nonneg bits _ _ h e).
-    + apply Z.leb_le, IZR_le in h. destruct e as [_ e]. pose proof (unit_R_pos bits). nra.
-Qed.
-
-Definition is_half_tangent_in (t : tolerance) (c : number) : bool :=
-  below bits (least t) (greatest t) && exceeds false c (least t) && exceeds true c (greatest t).
-
-Lemma is_half_tangent_in_sound : forall t c, is_half_tangent_in t c = true -> exists x, within t x /\ is_half_tangent (value c) x.
-Proof.
-  intros t c h. apply andb_true_iff in h as [h b]. apply andb_true_iff in h as [h a]. apply below_sound in h.
-  apply exceeds_sound in a, b. cbn beta iota in a, b. exact (half_tangent_between _ _ _ h a b).
-Qed.
-
-Definition is_orientation (o : orientations) (c : list number) : bool :=
-  match o, c with
-  | TurnedBy t, [x] => is_half_tangent_in t x
-  | RollPitchYaw r p y, [x; z; w] => is_half_tangent_in r x && is_half_tangent_in p z && is_half_tangent_in y w
-  | _, _ => false
-  end.
-
-Lemma mulm_mulv : forall A B v, mulv (mulm A B) v = mulv A (mulv B v).
-Proof. intros [a b c] B v. unfold mulm, mulv. cbn [row1 row2 row3]. destruct B as [d e f]. unfold transpose, col1, col2, col3, Vec3.dot. cbn [row1 row2 row3 vx vy vz]. f_equal; ring. Qed.
-
-Lemma is_orientation_sound : forall o c, is_orientation o c = true ->
-  exists Q, in_orientations o Q /\ forall b, values (turn o c b) = mulv Q (values b).
-Proof.
-  intros [t | r p y] [| x [| z [| w [|]]]] h; try discriminate; cbn [is_orientation turn in_orientations] in *.
-  - destruct (is_half_tangent_in_sound _ _ h) as [a [ha ta]]. eexists. split; [exists a; split; [exact ha | reflexivity] |].
-    intro b. apply (values_about _ _ _ ta).
-  - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2].
-    destruct (is_half_tangent_in_sound _ _ h1) as [a [ha ta]]. destruct (is_half_tangent_in_sound _ _ h2) as [b [hb tb]].
-    destruct (is_half_tangent_in_sound _ _ h3) as [d [hd td]]. eexists. split; [exists a, b, d; split; [exact ha | split; [exact hb | split; [exact hd | reflexivity]]] |].
-    intro v. destruct (values_about _ _ (about_y z (about_x x v)) td) as [_ [_ ->]]. destruct (values_about _ _ (about_x x v) tb) as [_ [-> _]].
-    destruct (values_about _ _ v ta) as [-> _]. rewrite !mulm_mulv. reflexivity.
-Qed.
-
 Fixpoint all_struts (ts : list (tolerances * tolerances)) (ls : list exact_strut) : bool :=
   match ts, ls with
   | [], [] => true
@@ -294,7 +149,7 @@ Proof.
 Qed.
 
 Definition refute_turning (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (f : nfailure) : bool :=
-  all_struts (struts c) ls && parts bits (positions c) P && is_orientation (turned c) t &&
+  all_struts (struts c) ls && parts bits (positions c) P && is_orientation bits (turned c) t &&
   refutes bits (dimension (motion_of c)) (exact_struts_at (motion_of c) (characteristic_length c) (turned c) t P ls) (turning_demands c) f.
 
 (** A machine of the claim does not meet it in some pose of the workspace. *)
@@ -302,7 +157,7 @@ Theorem refute_turning_sound : forall c ls P t f, refute_turning c ls P t f = tr
   exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q.
 Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
-  destruct (is_orientation_sound _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
+  destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
   split; [split; [apply all_struts_sound, h | split; [exact (parts_sound bits _ _ p) | exact hQ]] |].
   exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _) r).
 Qed.

@@ -279,7 +279,7 @@ Definition written_test (d : demand) : option test :=
   | FactorMax b => squared SigmaMin (Over (1 // 1) b)
   | FactorMin b => squared SigmaMax (Over (1 // 1) b)
   | Conditioned b => squared Conditioning b
-  | LengthMin _ _ | LengthMax _ _ | AngleWithin _ _ _ => None
+  | LengthMin _ _ | LengthMax _ _ | AngleWithin _ _ _ | SpeedMax _ _ _ | ForceMax _ _ _ | StiffnessMin _ _ => None
   end.
 Definition excludes_singularities (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
 
@@ -345,7 +345,7 @@ Proof.
   { intros v z. assert (dot v v <= 0) by (apply Rnot_lt_le; exact z). pose proof (zero_vector v ltac:(assumption)) as F. split; [apply dot_zero, F |].
     unfold speed2. clear - F. induction (jacobian c) as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F). ring. }
   assert (N : forall v, nonzero v \/ ~ nonzero v) by (intro v; destruct (Rlt_dec 0 (dot v v)); auto).
-  destruct d as [| b | b | i b | i b | i a b | b]; cbn [written_test] in e; try discriminate.
+  destruct d as [| b | b | i b | i b | i a b | b | i a b | i a b | a b]; cbn [written_test] in e; try discriminate.
   - injection e as <-. assert (J : injective n c).
     { intros v l nz. rewrite <- E. specialize (H 0 v (zero_sound bits) l nz). lra. }
     split; [exact J | intros _; exact J].

@@ -171,6 +171,7 @@ let requirement v =
     | "parallel_margin" -> Parallel_
     | "stiffness" -> Stiffness_
     | "constraint_margin" -> Constraint_
+    | "joint_force" -> Force_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
   let end_ = match string (get l "end") with
@@ -179,17 +180,27 @@ let requirement v =
     | "within" -> let a, b = two number (bound ()) in Within_ (a, b)
     | bound -> not_covered [ "a bound \""; bound; "\"" ] in
   let given v = match about_, members v with
-    | Speed_, [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
+    | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] -> number x
     | Stiffness_, [ ("joint", Array _) ] -> not_covered [ "a stiffness for each joint" ]
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
-(* Of machines of Configuration.v. *)
+(* Of machines of Statement.v, of Configuration.v, and of these of platforms that turn. *)
+let of_machine v =
+  let r = requirement v in
+  match r.about_ with
+  | Force_ -> not_covered [ "this quantity of such a mechanism" ]
+  | _ -> r
 let demand v =
   let r = requirement v in
   match r.about_ with
   | Transmission | JointRange | Condition_ -> r
   | _ -> not_covered [ "this quantity of such a mechanism" ]
+let turning_demand v =
+  let r = requirement v in
+  match r.about_ with
+  | Speed_ | Force_ | Stiffness_ -> r
+  | _ -> demand v
 
 let region (kind, v) =
   let l = members v in
@@ -204,7 +215,7 @@ let subject v =
   | "postulate", v -> Postulate_ (match get (members v) "psi_max" with String "all" -> None | v -> Some (quantity v))
   | "machine", v ->
     let l = members v in
-    let require () = List.map requirement (array (get l "require")) in
+    let require () = List.map of_machine (array (get l "require")) in
     (match variant (get l "mechanism"), variant (get l "workspace") with
      | _ when find l "bodies" <> None -> not_covered [ "a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w) ->
@@ -224,10 +235,12 @@ let subject v =
          | "roll_pitch_yaw", v ->
            let range key = two number (get (members v) key) in
            RollPitchYaw_ (range "roll", range "pitch", range "yaw")
-         | name, _ -> not_covered [ "the orientation \""; name; "\"" ] in
+         | "angle", v -> Angle_ (number v)
+         | "tilt", v -> Tilt_ (number (get (members v) "tilt"), number (get (members v) "torsion"))
+         | _ -> raise Malformed in
        let motion = match kind with "planar" -> InPlane | "spatial" -> InSpace | _ -> AboutPoint in
        Turning_ (motion, List.map strut (array (get t "legs")), ell, List.map number (array (get w "min")),
-         List.map number (array (get w "max")), orientation, List.map demand (array (get l "require")))
+         List.map number (array (get w "max")), orientation, List.map turning_demand (array (get l "require")))
      | _ when find l "orientation" <> None -> raise Malformed
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
        let legs = array legs and region = region workspace in
@@ -262,12 +275,18 @@ let rec evidence (n, m as shape) v =
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
-  | Object [ ("control", ((String "test" | Object [ ("lower", _) ]) as e)) ] -> AtControls_ (evidence shape e)
+  | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("conditioning", Array [ y; mu ]) ] -> multiplier (fun y places -> Conditioned_ (y, places, row (m + 1) mu)) y
   | Object [ (("lower" | "lower_divided" | "rank") as name, y) ] -> multiplier (fun y places -> Multiplied (name, y, places)) y
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
+(* At control points. *)
+and at_controls shape v =
+  match v with
+  | Object [ ("turned", Array [ (String "test" | Object [ (("lower" | "rank"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
+  | String "test" | Object [ (("lower" | "rank"), _) ] -> evidence shape v
+  | _ -> not_covered [ "this evidence at control points" ]
 let step n v =
   match array v with
   | [ i; String "outside" ] when digits i <> "0" -> raise Malformed
@@ -294,7 +313,7 @@ let proof n v =
     ByWitness (positive (get l "precision"), List.map number (array (get l "point")), machine, fails (get l "fails"))
   | name, _ -> not_covered [ "a proof of the kind \""; name; "\"" ]
 
-let is_at_controls (_, s) = match s with AtControls_ _ -> true | _ -> false
+let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
 
 let certificate text =
   let l = members (parse text) in
@@ -312,6 +331,8 @@ let certificate text =
    | Arms_ _, Nodes _ -> not_covered [ "the drive \"arm\" in a claim that is certified" ]
    | Turning_ _, Nodes (_, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
+   | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
+     not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in

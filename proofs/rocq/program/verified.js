@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-yb=typeof
-module==="object"&&module.exports||u,gm="spatial",kk="Invalid_argument",eo="precision",ad='"',kj="@[",f9=1255,ki="inside",kV="Fatal error: exception %s\n",jN=255,kh="yaw",kT="(",kU=0x800,jL="range",jM="tree",f8="jsError",bh=0x8000,kf='the mechanism "',kg="%ni",lk="sqrt(",kS=256,ke="offset",kR="obligation",b4="machine",jK="End_of_file",eq="strut",jJ="center",ey="arm",f7="Failure",li="serial_margin",lj="parameters",bJ=0xff,jI="\n",lh="outside",ge="base_axis",gl="ENOENT",lg=122,aF="0",kQ="([^/]+)",gk=0xf,dw=128,f6=-48,jH=0xdc00,kd="Sys_blocked_io",lf="fd ",jG="given",kP="ENOTEMPTY",ak=248,kO="bound",aj="camlinternalFormat.ml",kN="Division_by_zero",ld="by",le=1027,jF="Sys_error",kc="slider",kb="postulate",kM="proof",ka="%u",cO="mechanism",eu="row",jE="EEXIST",j$="roll_pitch_yaw",gj="%d",jD="Printexc.handle_uncaught_exception",j_="y",f5="lower",j9="within",kL="cube",kK="buffer.ml",en="int_of_string",kJ="control",j8="definitions",gd=127,dv=1024,j7="@{",gq="e",jB=120,jC=103,j6=" : flags Open_rdonly and Open_wronly are not compatible",kI="orthocert/2",lc="reach",jA=512,a0="-",lb="witness",b1="platform",jz=0x7ff0,jy="pitch",gp=": Not a directory",j5=" : file already exists",bj="min",cP="workspace",j4="claim",kH="split",la="legs",bI=0xffffff,kG="joint",jw="formulas",jx="0x",j3='the workspace "',kF="roll",k_="nodes",k$="Out_of_memory",jv="psi_max",go="orientation",et=254,gn="index out of bounds",kE=100,ju="end",ex="_bigarr02",jt="%Li",kD=" : flags Open_text and Open_binary are not compatible",b2="drive",kC="coordinates",j2=", characters ",kB="lower_divided",j1="joints",k9="cylinder",bl=0xffff,j0=12520,jZ="axis",k8="parallel_margin",js='the drive "',gc="fails",gi="Unix.Unix_error",k7="infinity",em="tool",f4="mkdir",du=1000,f3="translational",s="",kA="Stack_overflow",k6="characteristic_length",gb="^",el=": No such file or directory",kz="places",ky="/static/",cN=0x3f,kx=-97,kv="stiffness",kw="Not_found",dt="planar",es="mode",k5="joint_speed",jY="Match_failure",jr=", ",jq="transmission",b0="anchor",ew=252,jX="leg",b3=".",bi="+",gh="rmdir",k4=0xf0,k3="spherical",jW="verified.ml",jU="REJECTED",jV="%li",ku=1026,bk="max",ev="direction",kt="orthoglide",k2="rank",k1="constraint_margin",k0=-32,jo="Pervasives.do_at_exit",jp="utf8",ks="test",bG=" ",ep="conditioning",gg="Fatal error: exception ",a9=0x80,jn="Undefined_recursive_module",ga=")",er="length",kZ="quantity",kr="joint_range",jm="Q2",f$="nan",jT="reference",kq="point",jS=0xe0,kY="corner",jQ="z",jR=0xdfff,ko="version",kp="_",a8="/",gf="compare: functional value",kX="Assert_failure",jP="provenance",jk="radius",jl="%i",bH="require",kn="side",kW="format",f_="ENOTDIR",km="Q1",kl="all",ci="box",jO=250;function
-gG(c,b,a){var
+zb=typeof
+module==="object"&&module.exports||u,gJ="spatial",kR="Invalid_argument",eF="precision",aq='"',kQ="@[",lr="this quantity of such a mechanism",gt=1255,kP="inside",lq="Fatal error: exception %s\n",kh=255,kO="yaw",lo="(",lp=0x800,kf="range",kg="tree",gs="jsError",bn=0x8000,kM='the mechanism "',kN="%ni",lR="sqrt(",ln=256,kL="offset",lm="obligation",b_="machine",ke="End_of_file",eH="strut",kd="center",eR="arm",gr="Failure",lP="serial_margin",lQ="parameters",bO=0xff,kc="\n",gO="outside",gA="base_axis",gI="ENOENT",lO=122,aG="0",ll="([^/]+)",gH=0xf,dK=128,gq=-48,kb=0xdc00,kK="Sys_blocked_io",lN="fd ",ka="given",lk="ENOTEMPTY",ap=248,lj="bound",ao="camlinternalFormat.ml",li="Division_by_zero",lL="by",lM=1027,j$="Sys_error",kJ="slider",kI="postulate",lh="torsion",lg="proof",kH="%u",c0="mechanism",eM="row",j_="EEXIST",kG="roll_pitch_yaw",gG="%d",j9="Printexc.handle_uncaught_exception",kF="y",eE="lower",kE="within",lf="cube",le="buffer.ml",lK="turned",eD="int_of_string",ld="control",kD="definitions",gz=127,dJ=1024,kC="@{",gN="e",j7=120,j8=103,kB=" : flags Open_rdonly and Open_wronly are not compatible",lc="orthocert/2",lJ="reach",j6=512,a3="-",lI="witness",b7="platform",j5=0x7ff0,j4="pitch",gM=": Not a directory",kA=" : file already exists",bp="min",c1="workspace",kz="claim",lb="split",lH="legs",bN=0xffffff,la="joint",j2="formulas",j3="0x",ky='the workspace "',k$="roll",lF="nodes",lG="Out_of_memory",j1="psi_max",gL="orientation",kx="angle",eL=254,gK="index out of bounds",k_=100,j0="end",eQ="_bigarr02",jZ="%Li",k9=" : flags Open_text and Open_binary are not compatible",b8="drive",k8="coordinates",kw=", characters ",k7="lower_divided",kv="joints",lE="cylinder",br=0xffff,ku=12520,kt="axis",lD="parallel_margin",jY='the drive "',gy="fails",gF="Unix.Unix_error",lC="infinity",eC="tool",gp="mkdir",dI=1000,go="translational",s="",k6="Stack_overflow",lB="characteristic_length",gx="^",eB=": No such file or directory",k5="places",k4="/static/",cZ=0x3f,k3=-97,k1="stiffness",k2="Not_found",dH="planar",eK="mode",lA="joint_speed",ks="Match_failure",jX=", ",jW="transmission",b6="anchor",eP=252,jV="joint_force",kr="leg",b9=".",bo="+",gE="rmdir",lz=0xf0,ly="spherical",kq="verified.ml",ko="REJECTED",kp="%li",k0=1026,bq="max",eO="direction",kZ="orthoglide",eN="rank",lx="constraint_margin",lw=-32,jT="Pervasives.do_at_exit",jU="utf8",gD="test",bL=" ",eG="conditioning",gC="Fatal error: exception ",ba=0x80,jS="Undefined_recursive_module",gw=")",eJ="length",lv="quantity",kY="joint_range",eI="tilt",jR="Q2",gv="nan",kn="reference",kX="point",km=0xe0,lu="corner",kk="z",kl=0xdfff,kV="version",kW="_",a$="/",gB="compare: functional value",lt="Assert_failure",kj="provenance",jP="radius",jQ="%i",bM="require",kU="side",ls="format",gu="ENOTDIR",kT="Q1",kS="all",ct="box",ki=250;function
+g4(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dv,a-=dv)e+=d.apply(null,c.slice(b,b+Math.min(a,dv)));return e}function
-ez(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=dJ,a-=dJ)e+=d.apply(null,c.slice(b,b+Math.min(a,dJ)));return e}function
+eS(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-b6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?gG(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ez(b);var
+ca(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eS(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bK(a){return a}function
-bo(a,b,c,d,e){b6(bK(a),b,c,d,e);return 0}function
-x6(b,a){throw[0,b,a]}function
-cU(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bP(a){return a}function
+bu(a,b,c,d,e){ca(bP(a),b,c,d,e);return 0}function
+y6(b,a){throw[0,b,a]}function
+c6(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-cS(a){if(a.t==2)a.c+=cU(a.l-a.c.length,"\0");else
-a.c=gG(a.c,0,a.c.length);a.t=0}function
-lQ(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gd)return false;return true}else
+c4(a){if(a.t==2)a.c+=c6(a.l-a.c.length,"\0");else
+a.c=g4(a.c,0,a.c.length);a.t=0}function
+ml(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gz)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-gI(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<a9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<a9;d++);if(d-b>jA){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(f<<6);if(f<jS){a=g-0x3080;if(a<a9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw){g=h+(g<<6);if(f<k4){a=g-0xe2080;if(a<kU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dw&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>bl)c+=String.fromCharCode(0xd7c0+(a>>10),jH+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dv){c.substr(0,1);j+=c;c=s}}return j+c}function
-bm(c,a,b){this.t=c;this.c=a;this.l=b}bm.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:cS(this);case
-0:if(lQ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bm.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return gI(a)};bm.prototype.slice=function(){var
+g6(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ba){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<ba;d++);if(d-b>j6){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(f<<6);if(f<km){a=g-0x3080;if(a<ba)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(g<<6);if(f<lz){a=g-0xe2080;if(a<lp||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),kb+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dJ){c.substr(0,1);j+=c;c=s}}return j+c}function
+bs(c,a,b){this.t=c;this.c=a;this.l=b}bs.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:c4(this);case
+0:if(ml(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bs.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return g6(a)};bs.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bm(this.t,a,this.l)};function
-lu(a){return new
-bm(0,a,a.length)}function
-a(a){return lu(a)}function
-gE(c,b){x6(c,a(b))}var
-Z=[0];function
-al(a){gE(Z.Invalid_argument,a)}function
-ls(){al(gn)}function
-$(a,c,b){b&=bJ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ez(a)}a.c[c]=b;return 0}function
-cj(b,a,c){if(a>>>0>=b.l)ls();return $(b,a,c)}function
-cR(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bs(this.t,a,this.l)};function
+l1(a){return new
+bs(0,a,a.length)}function
+a(a){return l1(a)}function
+g2(c,b){y6(c,a(b))}var
+ad=[0];function
+ar(a){g2(ad.Invalid_argument,a)}function
+lZ(){ar(gK)}function
+af(a,c,b){b&=bO;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eS(a)}a.c[c]=b;return 0}function
+cu(b,a,c){if(a>>>0>=b.l)lZ();return af(b,a,c)}function
+c3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bL(c,a){if(c.fun)return bL(c.fun,a);if(typeof
+bQ(c,a){if(c.fun)return bQ(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bL(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bQ(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bL(c,d)}}function
-dx(){al(gn)}function
-lv(a,b){if(b>>>0>=a.length-1)dx();return a}function
-xw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bN(a){a.t&6&&cS(a);return a.c}var
-yd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-yc(a){if(yd)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bQ(c,d)}}function
+dL(){ar(gK)}function
+l2(a,b){if(b>>>0>=a.length-1)dL();return a}function
+yw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bS(a){a.t&6&&c4(a);return a.c}var
+zd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+zc(a){if(zd)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gw(c){var
+gU(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-lE=Math.pow(2,-24);function
-x4(a){throw a}function
-lL(){x4(Z.Division_by_zero)}function
-t(b,c,a){this.lo=b&bI;this.mi=c&bI;this.hi=a&bl}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+l$=Math.pow(2,-24);function
+y4(a){throw a}function
+mg(){y4(ad.Division_by_zero)}function
+t(b,c,a){this.lo=b&bN;this.mi=c&bN;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*lE|0)+this.mi*a.lo+this.lo*a.mi,d=(c*lE|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*l$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bl);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bI;this.lo=this.lo<<1&bI};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bI;this.mi=(this.mi>>>1|this.hi<<23)&bI;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&br);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bN;this.lo=this.lo<<1&bN};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bN;this.mi=(this.mi>>>1|this.hi<<23)&bN;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())lL();var
-d=b.hi^a.hi;if(b.hi&bh)b=b.neg();if(a.hi&bh)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bh)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())lL();var
-d=a.hi;if(a.hi&bh)a=a.neg();if(b.hi&bh)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bh)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bJ,this.mi>>16,this.mi>>8&bJ,this.mi&bJ,this.lo>>16,this.lo>>8&bJ,this.lo&bJ]};t.prototype.lo32=function(){return this.lo|(this.mi&bJ)<<24};t.prototype.hi32=function(){return this.mi>>>8&bl|this.hi<<16};function
-eD(b,c,a){return new
+b=this;if(a.isZero())mg();var
+d=b.hi^a.hi;if(b.hi&bn)b=b.neg();if(a.hi&bn)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bn)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())mg();var
+d=a.hi;if(a.hi&bn)a=a.neg();if(b.hi&bn)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bO,this.mi>>16,this.mi>>8&bO,this.mi&bO,this.lo>>16,this.lo>>8&bO,this.lo&bO]};t.prototype.lo32=function(){return this.lo|(this.mi&bO)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
+eW(b,c,a){return new
 t(b,c,a)}function
-eC(a){if(!isFinite(a)){if(isNaN(a))return eD(1,0,jz);return a>0?eD(0,0,jz):eD(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bh:a>=0?0:bh;if(f)a=-a;var
-b=yc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ku)}else{a/=Math.pow(2,b-le);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+eV(a){if(!isFinite(a)){if(isNaN(a))return eW(1,0,j5);return a>0?eW(0,0,j5):eW(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bn:a>=0?0:bn;if(f)a=-a;var
+b=zc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-k0)}else{a/=Math.pow(2,b-lM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gk|f|b<<4;return eD(g,e,c)}function
-dA(a){return a.toArray()}function
-lr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ex)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<bl)c.write(16,b.dims[a]);else{c.write(16,bl);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&gH|f|b<<4;return eW(g,e,c)}function
+dO(a){return a.toArray()}function
+lY(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eQ)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<br)c.write(16,b.dims[a]);else{c.write(16,br);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dA(b.get(a));for(var
+e=dO(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dA(eC(b.get(a)));for(var
+e=dO(eV(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gw(b.get(a));c.write(32,e)}break;case
+e=gU(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gw(d[1]));c.write(32,gw(d[2]))}break;case
+d=b.get(a);c.write(32,gU(d[1]));c.write(32,gU(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dA(eC(f[1]));for(var
+f=b.get(a),e=dO(eV(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dA(eC(f[2]));for(var
+e=dO(eV(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lp(a){switch(a){case
+lW(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-xq(c,e){var
+yq(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -178,51 +178,51 @@ b=u,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)al("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)ar("Bigarray.create: unsupported kind");var
 d=new
-a(e*lp(c));return d}function
-gx(c){var
+a(e*lW(c));return d}function
+gV(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dz(a){return new
+dN(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gy(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gk)==0?b&bh?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gk);if(c>0){a+=16;a*=Math.pow(2,c-le)}else
-a*=Math.pow(2,-ku);if(b&bh)a=-a;return a}function
-gr(b){var
+gW(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gH)==0?b&bn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gH);if(c>0){a+=16;a*=Math.pow(2,c-lM)}else
+a*=Math.pow(2,-k0);if(b&bn)a=-a;return a}function
+gP(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)al("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-xH(b,a){return new
-t(b&bI,b>>>24&bJ|(a&bl)<<8,a>>>16&bl)}function
-gz(a){return a.hi32()}function
-gA(a){return a.lo32()}var
-xr=ex;function
-b5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b5.prototype.caml_custom=xr;b5.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)ar("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+yH(b,a){return new
+t(b&bN,b>>>24&bO|(a&br)<<8,a>>>16&br)}function
+gX(a){return a.hi32()}function
+gY(a){return a.lo32()}var
+yr=eQ;function
+b$(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b$.prototype.caml_custom=yr;b$.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))al("bigarray.js: invalid offset");if(this.dims.length!=b.length)al("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dx();c=c*this.dims[a]+b[a]}else
+Array))ar("bigarray.js: invalid offset");if(this.dims.length!=b.length)ar("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dL();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dx();c=c*this.dims[a]+(b[a]-1)}return c};b5.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dL();c=c*this.dims[a]+(b[a]-1)}return c};b$.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return xH(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return yH(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[et,e,c];default:return this.data[a]}};b5.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gA(b);this.data[a*2+1]=gz(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eL,e,c];default:return this.data[a]}};b$.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=gY(b);this.data[a*2+1]=gX(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b5.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b$.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gA(b),e=gz(b);if(c==e)this.data.fill(c);else
+c=gY(b),e=gX(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b5.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b$.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-cQ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cQ.prototype=new
-b5();cQ.prototype.offset=function(a){if(typeof
+c2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c2.prototype=new
+b$();c2.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-al("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dx();return a};cQ.prototype.get=function(a){return this.data[a]};cQ.prototype.set=function(a,b){this.data[a]=b;return 0};cQ.prototype.fill=function(a){this.data.fill(a);return 0};function
-ln(c,d,a,b){var
-e=lp(c);if(gr(a)*e!=b.length)al("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-cQ(c,d,a,b);return new
-b5(c,d,a,b)}function
-a_(b){if(!Z.Failure)Z.Failure=[ak,a(f7),-3];gE(Z.Failure,b)}function
-lo(b,v,r){var
-i=b.read32s();if(i<0||i>16)a_("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bJ,o=p>>8&1,h=[];if(r==ex)for(var
+ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dL();return a};c2.prototype.get=function(a){return this.data[a]};c2.prototype.set=function(a,b){this.data[a]=b;return 0};c2.prototype.fill=function(a){this.data.fill(a);return 0};function
+lU(c,d,a,b){var
+e=lW(c);if(gP(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+c2(c,d,a,b);return new
+b$(c,d,a,b)}function
+bb(b){if(!ad.Failure)ad.Failure=[ap,a(gr),-3];g2(ad.Failure,b)}function
+lV(b,v,r){var
+i=b.read32s();if(i<0||i>16)bb("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bO,o=p>>8&1,h=[];if(r==eQ)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==bl){var
-t=b.read32u(),u=b.read32u();if(t!=0)a_("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==br){var
+t=b.read32u(),u=b.read32u();if(t!=0)bb("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gr(h),f=xq(j,d),g=ln(j,o,h,f);switch(j){case
+d=gP(h),f=yq(j,d),g=lU(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)a_("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bb("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dz(e);g.set(a,q)}break;case
+q=dN(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gy(dz(e));g.set(a,k)}break;case
+k=gW(dN(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gx(b.read32s());g.set(a,k)}break;case
+k=gV(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gx(b.read32s()),l=gx(b.read32s());g.set(a,[et,m,l])}break;case
+m=gV(b.read32s()),l=gV(b.read32s());g.set(a,[eL,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gy(dz(e));for(var
+m=gW(dN(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gy(dz(e));g.set(a,[et,m,l])}break}v[0]=(4+i)*4;return ln(j,o,h,f)}function
-lm(a,b,c){return a.compare(b,c)}function
-lI(a,b){return Math.imul(a,b)}function
-bM(b,a){a=lI(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lI(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-xD(a,b){a=bM(a,gA(b));a=bM(a,gz(b));return a}function
-lD(a,b){return xD(a,eC(b))}function
-lq(c){var
-b=gr(c.dims),d=0;switch(c.kind){case
+l=gW(dN(e));g.set(a,[eL,m,l])}break}v[0]=(4+i)*4;return lU(j,o,h,f)}function
+lT(a,b,c){return a.compare(b,c)}function
+md(a,b){return Math.imul(a,b)}function
+bR(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+yD(a,b){a=bR(a,gY(b));a=bR(a,gX(b));return a}function
+l_(a,b){return yD(a,eV(b))}function
+lX(c){var
+b=gP(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>kS)b=kS;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bM(d,e)}e=0;switch(b&3){case
+12:if(b>ln)b=ln;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bR(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bM(d,e)}break;case
+1:e|=c.data[a+0];d=bR(d,e)}break;case
 4:case
-5:if(b>dw)b=dw;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bM(d,e)}if((b&1)!=0)d=bM(d,c.data[a]);break;case
+5:if(b>dK)b=dK;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bR(d,e)}if((b&1)!=0)d=bR(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bM(d,c.data[a]);break;case
+a=0;a<b;a++)d=bR(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=lD(d,c.data[a]);break;case
+a=0;a<b;a++)d=l_(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=lD(d,c.data[a]);break}return d}function
-xF(a,b){b[0]=4;return a.read32s()}function
-x1(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=l_(d,c.data[a]);break}return d}function
+yF(a,b){b[0]=4;return a.read32s()}function
+y1(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:a_("input_value: native integer value too large");default:a_("input_value: ill-formed native integer")}}function
-xQ(c,d){var
+2:bb("input_value: native integer value too large");default:bb("input_value: ill-formed native integer")}}function
+yQ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dz(b)}function
-xM(e,d,b){var
-c=dA(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dN(b)}function
+yM(e,d,b){var
+c=dO(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-xG(a,b,c){return a.compare(b)}function
-xJ(a){return a.lo32()^a.hi32()}var
-ly={"_j":{deserialize:xQ,serialize:xM,fixed_length:8,compare:xG,hash:xJ},"_i":{deserialize:xF,fixed_length:4},"_n":{deserialize:x1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lo(a,b,"_bigarray")},serialize:lr,compare:lm,hash:lq},"_bigarr02":{deserialize:function(a,b){return lo(a,b,ex)},serialize:lr,compare:lm,hash:lq}};function
-gt(a){return ly[a.caml_custom]&&ly[a.caml_custom].compare}function
-lw(f,c,d,e){var
-b=gt(c);if(b){var
+yG(a,b,c){return a.compare(b)}function
+yJ(a){return a.lo32()^a.hi32()}var
+l5={"_j":{deserialize:yQ,serialize:yM,fixed_length:8,compare:yG,hash:yJ},"_i":{deserialize:yF,fixed_length:4},"_n":{deserialize:y1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lV(a,b,"_bigarray")},serialize:lY,compare:lT,hash:lX},"_bigarr02":{deserialize:function(a,b){return lV(a,b,eQ)},serialize:lY,compare:lT,hash:lX}};function
+gR(a){return l5[a.caml_custom]&&l5[a.caml_custom].compare}function
+l3(f,c,d,e){var
+b=gR(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eE(a){return a
+eX(a){return a
 instanceof
-bm}function
-gC(a){return eE(a)}function
-lx(a){if(typeof
-a==="number")return du;else
-if(eE(a))return ew;else
-if(gC(a))return 1252;else
+bs}function
+g0(a){return eX(a)}function
+l4(a){if(typeof
+a==="number")return dI;else
+if(eX(a))return eP;else
+if(g0(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=jN){var
-b=a[0]|0;return b==et?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=kh){var
+b=a[0]|0;return b==eL?0:b}else
 if(a
 instanceof
-String)return j0;else
+String)return ku;else
 if(typeof
-a=="string")return j0;else
+a=="string")return ku;else
 if(a
 instanceof
-Number)return du;else
-if(a&&a.caml_custom)return f9;else
+Number)return dI;else
+if(a&&a.caml_custom)return gt;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-xR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-lt(a,b){a.t&6&&cS(a);b.t&6&&cS(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-yh(a,b){return lt(a,b)}function
-gs(a,b,d){var
+yR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+l0(a,b){a.t&6&&c4(a);b.t&6&&c4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+zh(a,b){return l0(a,b)}function
+gQ(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=lx(a);if(f==jO){a=a[1];continue}var
-g=lx(b);if(g==jO){b=b[1];continue}if(f!==g){if(f==du){if(g==f9)return lw(a,b,-1,d);return-1}if(g==du){if(f==f9)return lw(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:al(gf);break;case
+f=l4(a);if(f==ki){a=a[1];continue}var
+g=l4(b);if(g==ki){b=b[1];continue}if(f!==g){if(f==dI){if(g==gt)return l3(a,b,-1,d);return-1}if(g==dI){if(f==gt)return l3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ar(gB);break;case
 248:var
-c=xR(a[2],b[2]);if(c!=0)return c|0;break;case
-249:al(gf);break;case
-250:al("equal: got Forward_tag, should not happen");break;case
-251:al("equal: abstract value");break;case
+c=yR(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ar(gB);break;case
+250:ar("equal: got Forward_tag, should not happen");break;case
+251:ar("equal: abstract value");break;case
 252:if(a!==b){var
-c=lt(a,b);if(c!=0)return c|0}break;case
-253:al("equal: got Double_tag, should not happen");break;case
-254:al("equal: got Double_array_tag, should not happen");break;case
-255:al("equal: got Custom_tag, should not happen");break;case
-1247:al(gf);break;case
+c=l0(a,b);if(c!=0)return c|0}break;case
+253:ar("equal: got Double_tag, should not happen");break;case
+254:ar("equal: got Double_array_tag, should not happen");break;case
+255:ar("equal: got Custom_tag, should not happen");break;case
+1247:ar(gB);break;case
 1255:var
-i=gt(a);if(i!=gt(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)al("compare: abstract value");var
+i=gR(a);if(i!=gR(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bN(a),b=bN(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bS(a),b=bS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-xx(a,b){return gs(a,b,true)}function
-xy(){return[0]}function
-ae(a){if(a<0)al("Bytes.create");return new
-bm(a?2:9,s,a)}function
-lz(a,b){return+(gs(a,b,false)==0)}function
-xA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=cU(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ez(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-gD(d){d=bN(d);var
-e=d.length;if(e>31)al("format_int: format too long");var
-a={justify:bi,signstyle:a0,filler:bG,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+yx(a,b){return gQ(a,b,true)}function
+yy(){return[0]}function
+ak(a){if(a<0)ar("Bytes.create");return new
+bs(a?2:9,s,a)}function
+l6(a,b){return+(gQ(a,b,false)==0)}function
+yA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c6(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eS(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+g1(d){d=bS(d);var
+e=d.length;if(e>31)ar("format_int: format too long");var
+a={justify:bo,signstyle:a3,filler:bL,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a0;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aF;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gu(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a0))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bi&&b.filler==bG)for(var
-d=e;d<b.width;d++)c+=bG;if(b.signedconv)if(b.sign<0)c+=a0;else
-if(b.signstyle!=a0)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aF;if(b.alternate&&b.base==16)c+=jx;if(b.justify==bi&&b.filler==aF)for(var
-d=e;d<b.width;d++)c+=aF;c+=f;if(b.justify==a0)for(var
-d=e;d<b.width;d++)c+=bG;return a(c)}function
-gv(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a3;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+gS(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a3))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bo&&b.filler==bL)for(var
+d=e;d<b.width;d++)c+=bL;if(b.signedconv)if(b.sign<0)c+=a3;else
+if(b.signstyle!=a3)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=j3;if(b.justify==bo&&b.filler==aG)for(var
+d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a3)for(var
+d=e;d<b.width;d++)c+=bL;return a(c)}function
+gT(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bi)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aF);if(b>0)a=a+b3+new
-Array(b+1).join(aF);return a}else
+c=parseInt(a.toString().split(bo)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aG);if(b>0)a=a+b9+new
+Array(b+1).join(aG);return a}else
 return a.toFixed(b)}}var
-a,e=gD(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=f$;e.filler=bG}else
-if(!isFinite(c)){a="inf";e.filler=bG}else
+a,e=g1(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gv;e.filler=bL}else
+if(!isFinite(c)){a="inf";e.filler=bL}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gq),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gq)a=a.slice(0,b-1)+aF+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(gN),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aF)b--;if(a.charAt(b)==b3)b--;a=a.slice(0,b+1)}}break}return gu(e,a)}function
-eA(e,c){if(bN(e)==gj)return a(s+c);var
-b=gD(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)}}break}return gS(e,a)}function
+eT(e,c){if(bS(e)==gG)return a(s+c);var
+b=g1(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bG;var
-f=b.prec-d.length;if(f>0)d=cU(f,aF)+d}return gu(b,d)}var
-x2=0;function
-eB(){return x2++}function
-xU(a){return a.toUtf16()}function
-dC(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bL;var
+f=b.prec-d.length;if(f>0)d=c6(f,aG)+d}return gS(b,d)}var
+y2=0;function
+eU(){return y2++}function
+yU(a){return a.toUtf16()}function
+dQ(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-ye(){function
-a(a){if(a.charAt(0)===a8)return[s,a.substring(1)];return}function
+ze(){function
+a(a){if(a.charAt(0)===a$)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dC()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-gL=ye();function
-lO(a){return a.slice(-1)!==a8?a+a8:a}if(dC()&&u.process&&u.process.cwd)var
-dy=u.process.cwd().replace(/\\/g,a8);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dQ()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+g_=ze();function
+mj(a){return a.slice(-1)!==a$?a+a$:a}if(dQ()&&u.process&&u.process.cwd)var
+dM=u.process.cwd().replace(/\\/g,a$);else
 var
-dy="/static";dy=lO(dy);function
-xV(a){a=xU(a);if(!gL(a))a=dy+a;var
-e=gL(a),d=e[1].split(a8),b=[];for(var
+dM="/static";dM=mj(dM);function
+yV(a){a=yU(a);if(!g_(a))a=dM+a;var
+e=g_(a),d=e[1].split(a$),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-x_(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<a9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<a9;d++);if(d-c>jA){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<kU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(a9|a&cN)}else
-if(a<0xd800||a>=jR)b+=String.fromCharCode(jS|a>>12,a9|a>>6&cN,a9|a&cN);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<jH||h>jR)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(k4|a>>18,a9|a>>12&cN,a9|a>>6&cN,a9|a&cN)}if(b.length>dv){b.substr(0,1);f+=b;b=s}}return f+b}function
-xv(a){var
-b=9;if(!lQ(a))b=8,a=x_(a);return new
-bm(b,a,a.length)}function
-a$(a){return xv(a)}var
-yg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",jE,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gl,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",f_,kP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cm(d,f,e,a){var
-b=yg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,a$(f||s),a$(e||s)];return c}var
-lJ={};function
-ck(a){return lJ[a]}function
-cl(b,a){throw[0,b].concat(a)}function
-xu(a){return new
-bm(4,a,a.length)}function
-F(a){gE(Z.Sys_error,a)}function
-x5(a){F(a+el)}function
-xt(b,a){if(a>>>0>=b.l)ls();return cR(b,a)}function
-aO(a){return a.l}function
-ll(){}function
-ap(a){this.data=a}ap.prototype=new
-ll();ap.prototype.truncate=function(a){var
-b=this.data;this.data=ae(a|0);b6(b,0,this.data,0,a)};ap.prototype.length=function(){return aO(this.data)};ap.prototype.write=function(b,d,g,a){var
+y_(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ba){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<ba;d++);if(d-c>j6){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<lp){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ba|a&cZ)}else
+if(a<0xd800||a>=kl)b+=String.fromCharCode(km|a>>12,ba|a>>6&cZ,ba|a&cZ);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kb||h>kl)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lz|a>>18,ba|a>>12&cZ,ba|a>>6&cZ,ba|a&cZ)}if(b.length>dJ){b.substr(0,1);f+=b;b=s}}return f+b}function
+yv(a){var
+b=9;if(!ml(a))b=8,a=y_(a);return new
+bs(b,a,a.length)}function
+bc(a){return yv(a)}var
+zg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j_,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gu,lk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cx(d,f,e,a){var
+b=zg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bc(f||s),bc(e||s)];return c}var
+me={};function
+cv(a){return me[a]}function
+cw(b,a){throw[0,b].concat(a)}function
+yu(a){return new
+bs(4,a,a.length)}function
+J(a){g2(ad.Sys_error,a)}function
+y5(a){J(a+eB)}function
+yt(b,a){if(a>>>0>=b.l)lZ();return c3(b,a)}function
+aS(a){return a.l}function
+lS(){}function
+av(a){this.data=a}av.prototype=new
+lS();av.prototype.truncate=function(a){var
+b=this.data;this.data=ak(a|0);ca(b,0,this.data,0,a)};av.prototype.length=function(){return aS(this.data)};av.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ae(b+a),f=this.data;this.data=e;b6(f,0,this.data,0,c)}bo(d,g,this.data,b,a);return 0};ap.prototype.read=function(c,a,d,b){var
-e=this.length();b6(this.data,c,a,d,b);return 0};ap.prototype.read_one=function(a){return xt(this.data,a)};ap.prototype.close=function(){};ap.prototype.constructor=ap;function
-aG(b,a){this.content={};this.root=b;this.lookupFun=a}aG.prototype.nm=function(a){return this.root+a};aG.prototype.create_dir_if_needed=function(d){var
-c=d.split(a8),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aG.prototype.slash=function(a){return/\/$/.test(a)?a:a+a8};aG.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=ak(b+a),f=this.data;this.data=e;ca(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};av.prototype.read=function(c,a,d,b){var
+e=this.length();ca(this.data,c,a,d,b);return 0};av.prototype.read_one=function(a){return yt(this.data,a)};av.prototype.close=function(){};av.prototype.constructor=av;function
+aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
+c=d.split(a$),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+a$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a$};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ap(bK(c[1]))}}};aG.prototype.exists=function(a){if(a==s)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aG.prototype.mkdir=function(c,e,d){var
-b=d&&ck(gi);if(this.exists(c))if(b)cl(b,cm(jE,f4,this.nm(c)));else
-F(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cl(b,cm(gl,f4,this.nm(a)));else
-F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,f4,this.nm(a)));else
-F(a+gp);this.create_dir_if_needed(this.slash(c))};aG.prototype.rmdir=function(a,f){var
-b=f&&ck(gi),c=a==s?s:this.slash(a),e=new
-RegExp(gb+c+kQ);if(!this.exists(a))if(b)cl(b,cm(gl,gh,this.nm(a)));else
-F(a+el);if(!this.is_dir(a))if(b)cl(b,cm(f_,gh,this.nm(a)));else
-F(a+gp);for(var
+av(bP(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
+b=d&&cv(gF);if(this.exists(c))if(b)cw(b,cx(j_,gp,this.nm(c)));else
+J(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cw(b,cx(gI,gp,this.nm(a)));else
+J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gp,this.nm(a)));else
+J(a+gM);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
+b=f&&cv(gF),c=a==s?s:this.slash(a),e=new
+RegExp(gx+c+ll);if(!this.exists(a))if(b)cw(b,cx(gI,gE,this.nm(a)));else
+J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gE,this.nm(a)));else
+J(a+gM);for(var
 d
 in
-this.content)if(d.match(e))if(b)cl(b,cm(kP,gh,this.nm(a)));else
-F(this.nm(a)+": Directory not empty");delete
-this.content[c]};aG.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))F(a+el);if(!this.is_dir(a))F(a+gp);var
+this.content)if(d.match(e))if(b)cw(b,cx(lk,gE,this.nm(a)));else
+J(this.nm(a)+": Directory not empty");delete
+this.content[c]};aH.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))J(a+eB);if(!this.is_dir(a))J(a+gM);var
 g=new
-RegExp(gb+f+kQ),d={},c=[];for(var
+RegExp(gx+f+ll),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aG.prototype.is_dir=function(a){if(a==s)return true;var
-b=this.slash(a);return this.content[b]?1:0};aG.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aG.prototype.open=function(a,b){if(b.rdonly&&b.wronly)F(this.nm(a)+j6);if(b.text&&b.binary)F(this.nm(a)+kD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))F(this.nm(a)+" : is a directory");if(b.create&&b.excl)F(this.nm(a)+j5);var
+this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)J(this.nm(a)+kB);if(b.text&&b.binary)J(this.nm(a)+k9);this.lookup(a);if(this.content[a]){if(this.is_dir(a))J(this.nm(a)+" : is a directory");if(b.create&&b.excl)J(this.nm(a)+kA);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ap(ae(0));return this.content[a]}else
-x5(this.nm(a))};aG.prototype.register=function(c,a){var
-b;if(this.content[c])F(this.nm(c)+j5);if(eE(a))b=new
-ap(a);if(gC(a))b=new
-ap(bK(a));else
+av(ak(0));return this.content[a]}else
+y5(this.nm(a))};aH.prototype.register=function(c,a){var
+b;if(this.content[c])J(this.nm(c)+kA);if(eX(a))b=new
+av(a);if(g0(a))b=new
+av(bP(a));else
 if(a
 instanceof
 Array)b=new
-ap(xu(a));else
+av(yu(a));else
 if(typeof
 a==="string")b=new
-ap(lu(a));else
+av(l1(a));else
 if(a.toString){var
-d=bK(a$(a.toString()));b=new
-ap(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-F(this.nm(c)+" : registering file with invalid content type")};aG.prototype.constructor=aG;function
-y(a){return aO(a)}function
-bq(b,a){return cR(b,a)}function
-xp(d){var
+d=bP(bc(a.toString()));b=new
+av(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+J(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
+y(a){return aS(a)}function
+bw(b,a){return c3(b,a)}function
+yp(d){var
 c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bq(d,a);return b}function
-xo(a){if(a.t!=4)ez(a);return a.c}function
-bn(a){this.fs=require("fs");this.fd=a}bn.prototype=new
-ll();bn.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){F(a.toString())}};bn.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){F(a.toString())}};bn.prototype.write=function(f,b,c,e){var
-a=xp(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=bw(d,a);return b}function
+yo(a){if(a.t!=4)eS(a);return a.c}function
+bt(a){this.fs=require("fs");this.fd=a}bt.prototype=new
+lS();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){J(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){J(a.toString())}};bt.prototype.write=function(f,b,c,e){var
+a=yp(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){F(a.toString())}return 0};bn.prototype.read=function(g,d,c,f){var
-a=xo(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){J(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
+a=yo(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){F(a.toString())}for(var
-b=0;b<f;b++)cj(d,c+b,e[c+b]);return 0};bn.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){F(a.toString())}return a[0]};bn.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){F(a.toString())}};bn.prototype.constructor=bn;function
-aq(a){this.fs=require("fs");this.root=a}aq.prototype.nm=function(a){return this.root+a};aq.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aq.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){F(a.toString())}};aq.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){J(a.toString())}for(var
+b=0;b<f;b++)cu(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){J(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){J(a.toString())}};bt.prototype.constructor=bt;function
+aw(a){this.fs=require("fs");this.root=a}aw.prototype.nm=function(a){return this.root+a};aw.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aw.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){J(a.toString())}};aw.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bn(d)}catch(a){this.raise_nodejs_error(a,g)}};aq.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aq.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jp);return a$(a)}catch(a){this.raise_nodejs_error(a,c)}};aq.prototype.raise_nodejs_error=function(a,d){var
-b=ck(gi);if(d&&b){var
-c=cm(a.code,a.syscall,a.path,a.errno);cl(b,c)}else
-F(a.toString())};aq.prototype.stats_from_js=function(a){var
+bt(d)}catch(a){this.raise_nodejs_error(a,g)}};aw.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),jU);return bc(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.raise_nodejs_error=function(a,d){var
+b=cv(gF);if(d&&b){var
+c=cx(a.code,a.syscall,a.path,a.errno);cw(b,c)}else
+J(a.toString())};aw.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aq.prototype.constructor=aq;function
-lC(b){var
-a=gL(b);if(!a)return;return a[0]+a8}var
-eG=lC(dy)||a_("unable to compute caml_root"),cV=[];if(dC())cV.push({path:eG,device:new
-aq(eG)});else
-cV.push({path:eG,device:new
-aG(eG)});cV.push({path:ky,device:new
-aG(ky)});function
-lV(b){var
-g=xV(b),b=g.join(a8),f=lO(b),c;for(var
-e=0;e<cV.length;e++){var
-a=cV[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dC()){var
-d=lC(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aw.prototype.constructor=aw;function
+l9(b){var
+a=g_(b);if(!a)return;return a[0]+a$}var
+eZ=l9(dM)||bb("unable to compute caml_root"),c7=[];if(dQ())c7.push({path:eZ,device:new
+aw(eZ)});else
+c7.push({path:eZ,device:new
+aH(eZ)});c7.push({path:k4,device:new
+aH(k4)});function
+mp(b){var
+g=yV(b),b=g.join(a$),f=mj(b),c;for(var
+e=0;e<c7.length;e++){var
+a=c7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dQ()){var
+d=l9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aq(d)};cV.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;F("no device found for "+f)}function
-xz(c,b){var
-a=lV(c);if(!a.device.register)a_("cannot register file");a.device.register(a.rest,b);return 0}function
-lP(c,b){var
-c=a(c),b=a(b);return xz(c,b)}function
-xC(){var
+aw(d)};c7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;J("no device found for "+f)}function
+yz(c,b){var
+a=mp(c);if(!a.device.register)bb("cannot register file");a.device.register(a.rest,b);return 0}function
+mk(c,b){var
+c=a(c),b=a(b);return yz(c,b)}function
+yC(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)lP(b[a].name,b[a].content);u.jsoo_create_file=lP;u.caml_fs_tmp=[];return 0}function
-lB(){return[0]}function
-xE(a,c,k){if(!isFinite(a)){if(isNaN(a))return a$(f$);return a$(a>0?k7:"-infinity")}var
+a=0;a<b.length;a++)mk(b[a].name,b[a].content);u.jsoo_create_file=mk;u.caml_fs_tmp=[];return 0}function
+l8(){return[0]}function
+yE(a,c,k){if(!isFinite(a)){if(isNaN(a))return bc(gv);return bc(a>0?lC:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bi,e=s;if(i)e=a0;else
+j=d<0?s:bo,e=s;if(i)e=a3;else
 switch(k){case
-43:e=bi;break;case
-32:e=bG;break;default:break}if(c>=0&&c<13){var
+43:e=bo;break;case
+32:e=bL;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b3);if(h<0)b+=b3+cU(c,aF);else{var
-f=h+1+c;if(b.length<f)b+=cU(f-b.length,aF);else
-b=b.substr(0,f)}}return a$(e+jx+b+"p"+j+d.toString(10))}function
-xL(a){return+a.isZero()}function
-xO(a){return new
-t(a&bI,a>>24&bI,a>>31&bl)}function
-xP(a){return a.toInt()}function
-xK(a){return+a.isNeg()}function
-xN(a){return a.neg()}function
-xI(g,c){var
-a=gD(g);if(a.signedconv&&xK(c)){a.sign=-1;c=xN(c)}var
-b=s,h=xO(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(xP(e.modulus))+b}while(!xL(c));if(a.prec>=0){a.filler=bG;var
-d=a.prec-b.length;if(d>0)b=cU(d,aF)+b}return gu(a,b)}function
-x3(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bq(c,a)){case
+h=b.indexOf(b9);if(h<0)b+=b9+c6(c,aG);else{var
+f=h+1+c;if(b.length<f)b+=c6(f-b.length,aG);else
+b=b.substr(0,f)}}return bc(e+j3+b+"p"+j+d.toString(10))}function
+yL(a){return+a.isZero()}function
+yO(a){return new
+t(a&bN,a>>24&bN,a>>31&br)}function
+yP(a){return a.toInt()}function
+yK(a){return+a.isNeg()}function
+yN(a){return a.neg()}function
+yI(g,c){var
+a=g1(g);if(a.signedconv&&yK(c)){a.sign=-1;c=yN(c)}var
+b=s,h=yO(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(yP(e.modulus))+b}while(!yL(c));if(a.prec>=0){a.filler=bL;var
+d=a.prec-b.length;if(d>0)b=c6(d,aG)+b}return gS(a,b)}function
+y3(c){var
+a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bq(c,a)==48)switch(bq(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bw(c,a)==48)switch(bw(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bq(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-lK(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lg)return a-87;return-1}function
-gB(f){var
-h=x3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bq(f,c):0,b=lK(e);if(b<0||b>=d)a_(en);var
-a=b;for(c++;c<g;c++){e=bq(f,c);if(e==95)continue;b=lK(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)a_(en)}if(c!=g)a_(en);a=i*a;if(d==10&&(a|0)!=a)a_(en);return a|0}function
-xT(d){return function(){var
+mf(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lO)return a-87;return-1}function
+gZ(f){var
+h=y3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=mf(e);if(b<0||b>=d)bb(eD);var
+a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=mf(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bb(eD)}if(c!=g)bb(eD);a=i*a;if(d==10&&(a|0)!=a)bb(eD);return a|0}function
+yT(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bL(d,c)}else
-return bL(d,[undefined])}}function
-xW(a,d){if(a<0)dx();var
+a=0;a<b;a++)c[a]=arguments[a];return bQ(d,c)}else
+return bQ(d,[undefined])}}function
+yW(a,d){if(a<0)dL();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-xX(){return 0}var
-bp=new
+yX(){return 0}var
+bv=new
 Array();function
-cT(c){var
-a=bp[c];if(!a.opened)F("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&Z.fds[a.fd]&&Z.fds[a.fd].output){var
-b=Z.fds[a.fd].output;switch(b.length){case
+c5(c){var
+a=bv[c];if(!a.opened)J("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ad.fds[a.fd]&&ad.fds[a.fd].output){var
+b=ad.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-lN(e,f){var
-b=bp[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-x$(a){var
-a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+mi(e,f){var
+b=bv[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+y$(a){var
+a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-ya(a){var
-a=gI(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+za(a){var
+a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-eH(c,e,d,a){if(Z.fds===undefined)Z.fds=new
+e0(c,e,d,a){if(ad.fds===undefined)ad.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;Z.fds[c]=b;if(!Z.fd_last_idx||c>Z.fd_last_idx)Z.fd_last_idx=c;return c}function
-yi(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ad.fds[c]=b;if(!ad.fd_last_idx||c>ad.fd_last_idx)ad.fd_last_idx=c;return c}function
+zi(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,377 +687,381 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)F(bN(c)+j6);if(a.text&&a.binary)F(bN(c)+kD);var
-d=lV(c),e=d.device.open(d.rest,a),f=Z.fd_last_idx?Z.fd_last_idx:0;return eH(f+1,lN,e,a)}eH(0,lN,new
-ap(ae(0)));eH(1,ya,new
-ap(ae(0)));eH(2,x$,new
-ap(ae(0)));function
-xY(a){var
-c=Z.fds[a];if(c.flags.wronly)F(lf+a+" is writeonly");var
-d=null;if(a==0&&dC()){var
-e=require("fs");d=function(){return a$(e.readFileSync(0,jp))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bp[b.fd]=b;return b.fd}function
-lF(c){var
-b=Z.fds[c];if(b.flags.rdonly)F(lf+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bp[a.fd]=a;return a.fd}function
-xZ(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)J(bS(c)+kB);if(a.text&&a.binary)J(bS(c)+k9);var
+d=mp(c),e=d.device.open(d.rest,a),f=ad.fd_last_idx?ad.fd_last_idx:0;return e0(f+1,mi,e,a)}e0(0,mi,new
+av(ak(0)));e0(1,za,new
+av(ak(0)));e0(2,y$,new
+av(ak(0)));function
+yY(a){var
+c=ad.fds[a];if(c.flags.wronly)J(lN+a+" is writeonly");var
+d=null;if(a==0&&dQ()){var
+e=require("fs");d=function(){return bc(e.readFileSync(0,jU))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bv[b.fd]=b;return b.fd}function
+ma(c){var
+b=ad.fds[c];if(b.flags.rdonly)J(lN+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bv[a.fd]=a;return a.fd}function
+yZ(){var
 b=0;for(var
-a=0;a<bp.length;a++)if(bp[a]&&bp[a].opened&&bp[a].out)b=[0,bp[a].fd,b];return b}function
-aA(a){return a}function
-x0(g,d,h,f){var
-b=bp[g];if(!b.opened)F("Cannot output to a closed channel");var
-a;if(h==0&&aO(d)==f)a=d;else{a=ae(f);b6(d,h,a,0,f)}var
-i=aA(a),c=bN(i),e=c.lastIndexOf(jI);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);cT(g);b.buffer+=c.substr(e+1)}return 0}function
-lG(b,a,d,c){return x0(b,bK(a),d,c)}function
-lH(c,b){var
-d=a(String.fromCharCode(b));lG(c,d,0,1);return 0}function
-dB(a,b){return+(gs(a,b,false)!=0)}function
-eF(a){if(a
+a=0;a<bv.length;a++)if(bv[a]&&bv[a].opened&&bv[a].out)b=[0,bv[a].fd,b];return b}function
+aE(a){return a}function
+y0(g,d,h,f){var
+b=bv[g];if(!b.opened)J("Cannot output to a closed channel");var
+a;if(h==0&&aS(d)==f)a=d;else{a=ak(f);ca(d,h,a,0,f)}var
+i=aE(a),c=bS(i),e=c.lastIndexOf(kc);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c5(g);b.buffer+=c.substr(e+1)}return 0}function
+mb(b,a,d,c){return y0(b,bP(a),d,c)}function
+mc(c,b){var
+d=a(String.fromCharCode(b));mb(c,d,0,1);return 0}function
+dP(a,b){return+(gQ(a,b,false)!=0)}function
+eY(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eE(a))return ew;else
-if(gC(a))return ew;else
+if(eX(a))return eP;else
+if(g0(a))return eP;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return jN;else
-return du}function
-a1(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);Z[b+1]=c;if(a)Z[a]=c}function
-gF(a,b){lJ[bN(a)]=b;return 0}function
-xs(a,b){if(a===b)return 1;a.t&6&&cS(a);b.t&6&&cS(b);return a.c==b.c?1:0}function
-av(a,b){return xs(a,b)}function
-x8(){al(gn)}function
-G(b,a){if(a>>>0>=y(b))x8();return bq(b,a)}function
-k(a,b){return 1-av(a,b)}function
-x9(){return 0x7FFFFFFF/4|0}function
-gH(a){var
+if(a&&a.caml_custom)return kh;else
+return dI}function
+a4(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ad[b+1]=c;if(a)ad[a]=c}function
+g3(a,b){me[bS(a)]=b;return 0}function
+ys(a,b){if(a===b)return 1;a.t&6&&c4(a);b.t&6&&c4(b);return a.c==b.c?1:0}function
+aC(a,b){return ys(a,b)}function
+y8(){ar(gK)}function
+K(b,a){if(a>>>0>=y(b))y8();return bw(b,a)}function
+j(a,b){return 1-aC(a,b)}function
+y9(){return 0x7FFFFFFF/4|0}function
+g5(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-ar(b,a){return{joo_tramp:b,joo_args:a}}function
-lM(a){return a}function
-eI(a){if(a
+ax(b,a){return{joo_tramp:b,joo_args:a}}function
+mh(a){return a}function
+e1(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return lM(Z.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mh(ad.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return lM(Z.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mh(ad.Stack_overflow);if(a
 instanceof
-u.Error&&ck(f8))return[0,ck(f8),a];return[0,Z.Failure,a$(String(a))]}function
-eJ(a){return a<0?-a:a}function
+u.Error&&cv(gs))return[0,cv(gs),a];return[0,ad.Failure,bc(String(a))]}function
+e2(a){return a<0?-a:a}function
 z(a,b){return a+b}function
-lR(a,b){return a<b?-1:a>b?1:0}function
-lS(c,b){var
-a=c%b;return a<0?a+eJ(b):a}function
-gJ(a,b){return(a-lS(a,b))/b}function
-as(a,b){return a==b?1:0}function
-B(a,b){return a<=b?1:0}function
-af(a,b){return a<b?1:0}function
-n(a,b){return a*b}function
-N(a){return-a}function
-aP(a){return u.BigInt(a)}function
-lT(a,b){return a<<u.BigInt(b)}function
-lU(a,b){return a>>u.BigInt(b)}function
-br(a){return a<0?-1:a>0?1:0}function
-yf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+g7(a,b){return a<b?-1:a>b?1:0}function
+mm(c,b){var
+a=c%b;return a<0?a+e2(b):a}function
+g8(a,b){return(a-mm(a,b))/b}function
+al(a,b){return a==b?1:0}function
+D(a,b){return a<=b?1:0}function
+ag(a,b){return a<b?1:0}function
+o(a,b){return a*b}function
+T(a){return-a}function
+aT(a){return u.BigInt(a)}function
+mn(a,b){return a<<u.BigInt(b)}function
+mo(a,b){return a>>u.BigInt(b)}function
+bx(a){return a<0?-1:a>0?1:0}function
+zf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-b7(a,b){return a-b}function
-gK(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-xS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-xB(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&xS(b[1]))var
+cb(a,b){return a-b}function
+g9(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+yS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+yB(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yS(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=kT;for(var
-d=f;d<e.length;d++){if(d>f)a+=jr;var
+f=2,e=b;a+=lo;for(var
+d=f;d<e.length;d++){if(d>f)a+=jX;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bm)a+=ad+c.toString()+ad;else
+bs)a+=aq+c.toString()+aq;else
 if(typeof
-c=="string")a+=ad+c.toString()+ad;else
-a+=kp}a+=ga}else
-if(b[0]==ak)a+=b[1];return a}function
-lA(a){if(a
+c=="string")a+=aq+c.toString()+aq;else
+a+=kW}a+=gw}else
+if(b[0]==ap)a+=b[1];return a}function
+l7(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==ak)){var
-c=ck(jD);if(c)c(a,false);else{var
-d=xB(a),b=ck(jo);if(b)b(0);u.console.error(gg+d+jI)}}else
+Array&&(a[0]==0||a[0]==ap)){var
+c=cv(j9);if(c)c(a,false);else{var
+d=yB(a),b=cv(jT);if(b)b(0);u.console.error(gC+d+kc)}}else
 throw a}function
-x7(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){lA(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)lA(a.error)})}x7();function
-e(a,b){return a.length==1?a(b):bL(a,[b])}function
-Y(a,b,c){return a.length==2?a(b,c):bL(a,[b,c])}function
-f2(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bL(a,[b,c,d,e,f])}function
-xn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bL(a,[b,c,d,e,f,g,h])}xC();var
-eK=[ak,a(k$),-1],gQ=[ak,a(jF),-2],gN=[ak,a(f7),-3],gM=[ak,a(kk),-4],gO=[ak,a(jY),-8],gP=[ak,a(kA),-9],P=[ak,a(kX),-11],gR=[ak,a(jn),-12],wr=[4,0,0,0,[12,45,[4,0,0,0,0]]],eQ=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(j2),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],ws=[0,0],wt=[0,[0,[0,[0,0]]]],wu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wt]]]]]]]]]]],wv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wu]]]]]]]]]]],ww=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wv]]]]]]]]]]],wx=[0,[0,0]],wy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wx]]]]]]]]]]],wz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wy]]]]]]]]]]],wA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wz]]]]]]]]]]],wB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wA]]]]]]]]]]],wC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],wD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wC]]]]]]]]]]],wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wD]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wE]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wF]]]]]]]]]]],wH=[0,[0,0]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wH]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wI]]]]]]]]]]],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wJ]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wK]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wL]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wM]]]]]]]]]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wN]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wP]]]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wQ]]]]]]]]]]],wS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wR]]]]]]]]]]],wT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wS]]]]]]]]]]],wU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wT]]]]]]]]]]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wU]]]]]]]]]]],wW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wV]]]]]]]]]]],wX=[0,0],wY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wX]]]]]]]]]]],wZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wY]]]]]]]]]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wZ]]]]]]]]]]],w1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w0]]]]]]]]]]],w2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w1]]]]]]]]]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w2]]]]]]]]]]],w4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w3]]]]]]]]]]],w5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w4]]]]]]]]]]],w6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w5]]]]]]]]]]],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w6]]]]]]]]]]],w8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w8]]]]]]]]]]],w_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],w$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w_]]]]]]]]]]],xa=[0,[0,[0,[0,[0,0]]]]],xb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xa]]]]]]]]]]],xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xb]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xc]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xd]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xe]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xf]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xg]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xh]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xi]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xj]]]]]]]]]]],xl=[0,0],xm=[0,[0,[0,[0,[0,0]]]]],fc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eb=[0,[0,[0,[0,0]]]];a1(11,gR,jn);a1(10,P,kX);a1(9,[ak,a(kd),-10],kd);a1(8,gP,kA);a1(7,gO,jY);a1(6,[ak,a(kw),-7],kw);a1(5,[ak,a(kN),-6],kN);a1(4,[ak,a(jK),-5],jK);a1(3,gM,kk);a1(2,gN,f7);a1(1,gQ,jF);a1(0,eK,k$);var
-l0=a("%.12g"),lZ=a(b3),lX=a("true"),lY=a("false"),l1=a("\\\\"),l2=a("\\'"),l3=a("\\b"),l4=a("\\t"),l5=a("\\n"),l6=a("\\r"),l9=a("String.blit / Bytes.blit_string"),l8=a("Bytes.blit"),l7=a("String.sub / Bytes.sub"),l$=a(s),l_=a("String.concat"),ma=a("Array.init"),md=a("Buffer.add: cannot grow buffer"),mc=[0,a(kK),93,2],mb=[0,a(kK),94,2],mm=a("%c"),mn=a("%s"),mo=a(jl),mp=a(jV),mq=a(kg),mr=a(jt),ms=a("%f"),mt=a("%B"),mu=a("%{"),mv=a("%}"),mw=a("%("),mx=a("%)"),my=a("%a"),mz=a("%t"),mA=a("%?"),mB=a("%r"),mC=a("%_r"),mD=[0,a(aj),850,23],mO=[0,a(aj),814,21],mG=[0,a(aj),815,21],mP=[0,a(aj),818,21],mH=[0,a(aj),819,21],mQ=[0,a(aj),822,19],mI=[0,a(aj),823,19],mR=[0,a(aj),826,22],mJ=[0,a(aj),827,22],mS=[0,a(aj),831,30],mK=[0,a(aj),832,30],mM=[0,a(aj),836,26],mE=[0,a(aj),837,26],mN=[0,a(aj),846,28],mF=[0,a(aj),847,28],mL=[0,a(aj),851,23],nV=a(ka),nT=[0,a(aj),1558,4],nU=a("Printf: bad conversion %["),nW=[0,a(aj),1626,39],nX=[0,a(aj),1649,31],nY=[0,a(aj),1650,31],nZ=a("Printf: bad conversion %_"),n0=a(j7),n1=a(kj),n2=a(j7),n3=a(kj),nR=a(f$),nP=a("neg_infinity"),nQ=a(k7),nO=a(b3),nJ=[0,jC],nx=a("%+nd"),ny=a("% nd"),nA=a("%+ni"),nB=a("% ni"),nC=a("%nx"),nD=a("%#nx"),nE=a("%nX"),nF=a("%#nX"),nG=a("%no"),nH=a("%#no"),nw=a("%nd"),nz=a(kg),nI=a("%nu"),nk=a("%+ld"),nl=a("% ld"),nn=a("%+li"),no=a("% li"),np=a("%lx"),nq=a("%#lx"),nr=a("%lX"),ns=a("%#lX"),nt=a("%lo"),nu=a("%#lo"),nj=a("%ld"),nm=a(jV),nv=a("%lu"),m9=a("%+Ld"),m_=a("% Ld"),na=a("%+Li"),nb=a("% Li"),nc=a("%Lx"),nd=a("%#Lx"),ne=a("%LX"),nf=a("%#LX"),ng=a("%Lo"),nh=a("%#Lo"),m8=a("%Ld"),m$=a(jt),ni=a("%Lu"),mW=a("%+d"),mX=a("% d"),mZ=a("%+i"),m0=a("% i"),m1=a("%x"),m2=a("%#x"),m3=a("%X"),m4=a("%#X"),m5=a("%o"),m6=a("%#o"),mV=a(gj),mY=a(jl),m7=a(ka),me=a("@]"),mf=a("@}"),mg=a("@?"),mh=a("@\n"),mi=a("@."),mj=a("@@"),mk=a("@%"),ml=a("@"),mT=a("CamlinternalFormat.Type_mismatch"),n7=a(s),n8=[0,[11,a(jr),[2,0,[2,0,0]]],a(", %s%s")],ov=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],ow=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],ou=a("Fatal error: out of memory in uncaught exception handler"),os=[0,[11,a(gg),[2,0,[12,10,0]]],a(kV)],oo=[0,[2,0,[12,10,0]],a("%s\n")],og=a("Raised at"),oh=a("Re-raised at"),oi=a("Raised by primitive operation at"),oj=a("Called from"),ok=a(" (inlined)"),om=a(s),ol=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(j2),wr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],on=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],ob=a("Out of memory"),oc=a("Stack overflow"),od=a("Pattern matching failed"),oe=a("Assertion failed"),of=a("Undefined recursive module"),n9=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],n_=a(s),n$=a(s),oa=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],n6=[0,[4,0,0,0,0],a(gj)],n4=[0,[3,0,0],a("%S")],n5=a(kp),op=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],oy=a("Jsoo_runtime.Error.Exn"),oA=a("power"),oK=[0,0],oL=[0,[0,0]],oM=[0,[0,0]],oT=[0,0],o0=[0,0,0],o1=[0,0,0],o2=[0,0],o3=[0,0],o$=[0,0],pb=[0,0],pl=[0,0,0],pm=[0,0],pn=[0,0],pz=[0,[0,[0,0]]],pH=a(","),pZ=[0,a(ga),0],p0=a(kT),p1=a(b3),p2=[0,[0,[0,0]]],p3=a(a0),p4=a(gb),p5=[0,[0,[0,[0,[0,0]]]]],p6=[0,a(ga),0],p7=a(lk),r2=a(jm),r4=a(km),r3=a(kY),r5=a(ep),r6=a(ki),r7=a(kJ),sI=[0,a(jW),6459,12],sW=a(ks),sX=[0,0],sY=a("divided"),sZ=[0,1],s0=a("mirror"),s1=[0,3],s2=a("negative"),s3=[0,2],s4=a(lh),s5=[0,4],s6=a(f5),s7=a(kB),s8=a(k2),s9=[0,0],s_=[0,0],s$=[0,0],tr=a(s),to=[0,[0,[0,[0,0]]]],tp=[0,[0,[0,[0,0]]]],tm=[0,[0,[0,0]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ws]]]]]]]]]]],tj=[0,[0,0]],tk=[0,[0,[0,0]]],th=[0,[0,[0,0]]],ti=[0,[0,0]],tg=[0,[0,[0,0]]],tb=[0,[0,0]],tc=[0,0],ta=[0,0],sQ=[0,[0,0]],sR=[0,0],sP=[0,0],sO=[0,0,0],sM=[0,0,0],sL=[0,0],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ww]]]]]]]]]]],sD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wB]]]]]]]]]]],sy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wG]]]]]]]]]]],sz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wO]]]]]]]]]]],sA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,wW]]]]]]]]]]],sB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w7]]]]]]]]]]],sE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w9]]]]]]]]]]],sF=a("sqrt"),sw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,w$]]]]]]]]]]],sx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xk]]]]]]]]]]],sl=[0,a("\n"),0],sm=a(ko),sn=a(em),so=a(jP),sp=a(kM),sq=a("certified"),sv=a("refuted"),sr=a("verdict"),ss=a(j4),st=a(kI),su=a(kW),sa=a(k_),sb=a(eo),sc=a(jM),sd=a(lc),sj=a(kR),sk=a(eu),se=a(gc),sf=a(b4),sg=a(kq),sh=a(eo),si=a(lb),r_=a(kH),r$=a(ld),r0=a(kz),r1=a(j_),rH=a(eu),ri=a(bH),rj=a(cP),rk=a(f3),rl=a(cO),rm=a(b4),rn=a(bH),ro=a(cP),rp=a(f3),rq=a(cO),rr=a(b4),rs=a(bH),rt=a(go),ru=a(bk),rv=a(bj),rw=a(ci),rx=a(cP),ry=a(k6),rz=a(la),rA=a(cO),rB=a(b4),rC=a(bH),rD=a(bk),rE=a(bj),rF=a(ci),rG=a(cP),rI=a(j1),rJ=a(j8),rK=a(lj),rL=a(kC),rM=a(jw),rN=a(cO),rO=a(b4),rP=a(bH),rQ=a(kn),rR=a(kL),rS=a(cP),rT=a(ke),rU=a(kt),rV=a(cO),rW=a(b4),rZ=a(kl),rX=a(jv),rY=a(kb),rc=a(jL),rd=a(kh),re=a(jy),rf=a(kF),rg=a(j$),q_=a(b1),q$=a(b0),ra=a(eq),rb=a(b2),q6=a(dt),q7=a(gm),q8=a(k3),qZ=a(bk),q0=a(bj),q1=a(ci),q2=a(jQ),q3=a(jk),q4=a(jJ),q5=a(k9),qS=a(kO),qT=a(ju),qY=a(em),qU=a(kG),qV=a(jG),qW=a(jX),qX=a(kZ),qP=a(bj),qQ=a(bk),qR=a(j9),qH=a(jq),qI=a(kr),qJ=a(k5),qK=a(ep),qL=a(li),qM=a(k8),qN=a(kv),qO=a(k1),qw=a(bi),qG=a(a0),qx=a(es),qy=a(er),qz=a(ey),qA=a(b1),qB=a(b0),qC=a(jT),qD=a(jZ),qE=a(ey),qF=a(b2),qe=a(bi),qm=a(a0),qf=a(es),qg=a(er),qh=a(b1),qi=a(b0),qj=a(ev),qk=a(kc),ql=a(b2),qn=a(ge),qo=a(b1),qp=a(b0),qq=a(eq),qr=a(b2),qs=a(ev),qt=a(dt),qu=a(b2),qb=a(bk),qc=a(bj),p$=[0,a(ad),0],qa=a(ad),p9=[0,a(jW),5848,36],p8=[0,a(ad),0],p_=a(ad),pV=a(bi),pW=a(a0),pX=a("*"),pY=a(a8),pQ=[0,[0,[0,[0,[0,0]]]]],pR=[0,[0,[0,0]]],pS=[0,[0,0]],pT=[0,0],pU=[0,[0,[0,[0,0]]]],pO=a('":'),pP=a(ad),pM=[0,a(ad),0],pN=a(ad),pK=[0,a("}"),0],pL=a("{"),pI=[0,a("]"),0],pJ=a("["),pG=[0,0],pD=[0,[0,[0,0]]],pE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],pB=[0,[0,0]],pC=[0,[0,[0,0]]],px=[0,[0,0]],py=[0,[0,[0,0]]],pv=[0,[0,[0,0]]],pw=[0,[0,0]],po=[0,[0,0]],pp=[0,0],pq=[0,[0,0]],pr=[0,0],ps=[0,0],pt=[0,[0,0]],pu=[0,[0,0]],pk=[0,[0,[0,0]]],pj=[0,[0,[0,[0,[0,[0,0]]]]]],pg=[0,0],ph=[0,[0,[0,[0,[0,[0,0]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xl]]]]]]]]]]],pe=[0,[0,[0,0]]],o6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],o7=[0,[0,[0,[0,[0,[0,0]]]]]],o8=[0,[0,[0,0]]],o9=[0,[0,[0,[0,[0,[0,0]]]]]],o_=[0,[0,[0,0]]],o4=[0,[0,0]],o5=[0,0],oU=[0,0,0],oP=[0,0],oQ=[0,[0,0]],oR=[0,0],oS=[0,[0,0]],oN=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xm]]]]]]]]]]],oJ=a(aF),oI=a(s),oH=[0,[0,0]],oG=[0,0],oF=[1,0],oE=[0,0],oD=[0,0],oB=[1,0],oC=[1,0],vC=a(ep),vD=a(kJ),vE=a(kY),vF=a(ki),vG=a(f5),vH=a(kB),vI=a(k2),vN=a(f5),vO=a(ks),vJ=[0,a(ad),0],vK=a('the evidence "'),vL=a(j_),vM=a(kz),wa=a(kW),wb=a(kI),wc=a(j4),wk=[0,3,3],wd=a(kM),wh=[0,a('the drive "arm" in a claim that is certified'),0],wi=[0,a("a step of a platform that turns that is not at control points"),0],wj=[0,a("a mechanism by formulas in a claim that is refuted"),0],we=a(jP),wf=a(ko),wg=a(em),v0=a(jM),v1=a(lb),v4=a(b4),v5=a(gc),v6=a(kq),v7=a(eo),v8=a(k_),v9=a(eo),v2=[0,a(ad),0],v3=a('a proof of the kind "'),vV=a(kR),vW=a(lc),vX=a(eu),vY=[0,a(ad),0],vZ=a('the failure "'),vR=a(gc),vS=[0,a("a leaf that fails"),0],vT=a(kH),vU=a(ld),vP=a(lh),vQ=a(aF),vA=a(km),vB=a(jm),vc=a(b2),vd=a(ge),ve=a(eq),vh=a(b1),vi=a(b0),vf=[0,a('" of such a platform'),0],vg=a(js),u0=a("rho"),u1=a(eu),u2=[0,a("a joint by its coordinate"),0],uE=a(bH),uy=a(b4),uz=a(kb),uC=a(jv),uD=a(kl),uF=a(cO),uG=a(cP),uH=a("bodies"),vz=[0,a("a machine with bodies"),0],uI=a(dt),uJ=a(gm),uK=a(k3),uL=a(go),uM=a(jw),uN=a(kt),uO=a(f3),uR=a(ci),uS=a(k9),uV=a(bH),uW=a(kL),uX=a(kn),uY=a(ke),uZ=a(ci),u3=a(bH),u4=a(bk),u5=a(bj),u6=a(j1),u7=a(j8),u8=a(lj),u9=a(kC),uP=[0,a(ad),0],uQ=a(kf),u_=a(ci),u$=[0,a('" of a platform that turns'),0],va=a(j3),vb=a(k6),vx=[0,a('" that does not turn'),0],vy=a(kf),vj=a(go),vk=a(jL),vl=a(j$),vu=a(kh),vv=a(jy),vw=a(kF),vm=[0,a(ad),0],vn=a('the orientation "'),vo=a(dt),vp=a(gm),vq=a(bH),vr=a(bk),vs=a(bj),vt=a(la),uT=[0,a(ad),0],uU=a(j3),uA=[0,a(ad),0],uB=a('a claim of the kind "'),ur=a(ci),uv=a(bk),uw=a(bj),us=a(jJ),ut=a(jQ),uu=a(jk),uq=[0,a("this quantity of such a mechanism"),0],um=a(kG),un=[0,a("a stiffness for each joint"),0],ul=a(em),ue=a(kO),t5=a(kZ),t6=a(ep),t7=a(k1),t8=a(kr),t9=a(k5),t_=a(k8),t$=a(li),ua=a(kv),ub=a(jq),uc=[0,a(ad),0],ud=a('the quantity "'),uf=a(ju),ug=a(bk),uh=a(bj),ui=a(j9),uj=[0,a(ad),0],uk=a('a bound "'),uo=a(jG),up=a(jX),tY=a(es),tZ=a(er),t0=a(ey),t1=a(b1),t2=a(b0),t3=a(jT),t4=a(jZ),tV=a(b2),tW=a(ey),tG=a(b2),tH=a(dt),tI=a(kc),tJ=a(eq),tM=a(ge),tN=a(b1),tO=a(b0),tP=a(es),tQ=a(er),tR=a(b1),tS=a(b0),tT=a(ev),tU=a(ev),tK=[0,a(ad),0],tL=a(js),tD=a(bi),tE=a(a0),tB=a(" is not covered by the verified checker"),tC=a(s),tz=a(bk),tA=a(bj),tv=a(s),tw=a(lk),tx=a(s),ty=a(s),tu=[1,0],ts=a("Reader.Malformed"),tt=a("Reader.Not_covered"),wm=a(jU),wn=a("CERTIFIED"),wo=a("REFUTED"),wp=a(jU),wq=a("NOT COVERED: ");function
-V(a){if(typeof
+y7(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){l7(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)l7(a.error)})}y7();function
+e(a,b){return a.length==1?a(b):bQ(a,[b])}function
+S(a,b,c){return a.length==2?a(b,c):bQ(a,[b,c])}function
+gn(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bQ(a,[b,c,d,e,f])}function
+yn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bQ(a,[b,c,d,e,f,g,h])}yC();var
+e3=[ap,a(lG),-1],hd=[ap,a(j$),-2],ha=[ap,a(gr),-3],g$=[ap,a(kR),-4],hb=[ap,a(ks),-8],hc=[ap,a(k6),-9],V=[ap,a(lt),-11],he=[ap,a(jS),-12],xr=[4,0,0,0,[12,45,[4,0,0,0,0]]],e9=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kw),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xs=[0,0],xt=[0,[0,[0,[0,0]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,0]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,0],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,0]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,0],ym=[0,[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eo=[0,[0,[0,[0,0]]]];a4(11,he,jS);a4(10,V,lt);a4(9,[ap,a(kK),-10],kK);a4(8,hc,k6);a4(7,hb,ks);a4(6,[ap,a(k2),-7],k2);a4(5,[ap,a(li),-6],li);a4(4,[ap,a(ke),-5],ke);a4(3,g$,kR);a4(2,ha,gr);a4(1,hd,j$);a4(0,e3,lG);var
+mu=a("%.12g"),mt=a(b9),mr=a("true"),ms=a("false"),mv=a("\\\\"),mw=a("\\'"),mx=a("\\b"),my=a("\\t"),mz=a("\\n"),mA=a("\\r"),mD=a("String.blit / Bytes.blit_string"),mC=a("Bytes.blit"),mB=a("String.sub / Bytes.sub"),mF=a(s),mE=a("String.concat"),mG=a("Array.init"),mJ=a("Buffer.add: cannot grow buffer"),mI=[0,a(le),93,2],mH=[0,a(le),94,2],mS=a("%c"),mT=a("%s"),mU=a(jQ),mV=a(kp),mW=a(kN),mX=a(jZ),mY=a("%f"),mZ=a("%B"),m0=a("%{"),m1=a("%}"),m2=a("%("),m3=a("%)"),m4=a("%a"),m5=a("%t"),m6=a("%?"),m7=a("%r"),m8=a("%_r"),m9=[0,a(ao),850,23],ni=[0,a(ao),814,21],na=[0,a(ao),815,21],nj=[0,a(ao),818,21],nb=[0,a(ao),819,21],nk=[0,a(ao),822,19],nc=[0,a(ao),823,19],nl=[0,a(ao),826,22],nd=[0,a(ao),827,22],nm=[0,a(ao),831,30],ne=[0,a(ao),832,30],ng=[0,a(ao),836,26],m_=[0,a(ao),837,26],nh=[0,a(ao),846,28],m$=[0,a(ao),847,28],nf=[0,a(ao),851,23],op=a(kH),on=[0,a(ao),1558,4],oo=a("Printf: bad conversion %["),oq=[0,a(ao),1626,39],or=[0,a(ao),1649,31],os=[0,a(ao),1650,31],ot=a("Printf: bad conversion %_"),ou=a(kC),ov=a(kQ),ow=a(kC),ox=a(kQ),ol=a(gv),oj=a("neg_infinity"),ok=a(lC),oi=a(b9),od=[0,j8],n3=a("%+nd"),n4=a("% nd"),n6=a("%+ni"),n7=a("% ni"),n8=a("%nx"),n9=a("%#nx"),n_=a("%nX"),n$=a("%#nX"),oa=a("%no"),ob=a("%#no"),n2=a("%nd"),n5=a(kN),oc=a("%nu"),nQ=a("%+ld"),nR=a("% ld"),nT=a("%+li"),nU=a("% li"),nV=a("%lx"),nW=a("%#lx"),nX=a("%lX"),nY=a("%#lX"),nZ=a("%lo"),n0=a("%#lo"),nP=a("%ld"),nS=a(kp),n1=a("%lu"),nD=a("%+Ld"),nE=a("% Ld"),nG=a("%+Li"),nH=a("% Li"),nI=a("%Lx"),nJ=a("%#Lx"),nK=a("%LX"),nL=a("%#LX"),nM=a("%Lo"),nN=a("%#Lo"),nC=a("%Ld"),nF=a(jZ),nO=a("%Lu"),nq=a("%+d"),nr=a("% d"),nt=a("%+i"),nu=a("% i"),nv=a("%x"),nw=a("%#x"),nx=a("%X"),ny=a("%#X"),nz=a("%o"),nA=a("%#o"),np=a(gG),ns=a(jQ),nB=a(kH),mK=a("@]"),mL=a("@}"),mM=a("@?"),mN=a("@\n"),mO=a("@."),mP=a("@@"),mQ=a("@%"),mR=a("@"),nn=a("CamlinternalFormat.Type_mismatch"),oB=a(s),oC=[0,[11,a(jX),[2,0,[2,0,0]]],a(", %s%s")],o1=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],o2=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],o0=a("Fatal error: out of memory in uncaught exception handler"),oY=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],oU=[0,[2,0,[12,10,0]],a("%s\n")],oM=a("Raised at"),oN=a("Re-raised at"),oO=a("Raised by primitive operation at"),oP=a("Called from"),oQ=a(" (inlined)"),oS=a(s),oR=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kw),xr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oT=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],oH=a("Out of memory"),oI=a("Stack overflow"),oJ=a("Pattern matching failed"),oK=a("Assertion failed"),oL=a("Undefined recursive module"),oD=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oE=a(s),oF=a(s),oG=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oA=[0,[4,0,0,0,0],a(gG)],oy=[0,[3,0,0],a("%S")],oz=a(kW),oV=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],o4=a("Jsoo_runtime.Error.Exn"),o6=a("power"),pe=[0,0],pf=[0,[0,0]],pg=[0,[0,0]],pn=[0,0],pu=[0,0,0],pv=[0,0,0],pw=[0,0],px=[0,0],pF=[0,0],pH=[0,0],pT=[0,0],pU=[0,0],qd=[0,[0,[0,0]]],qm=a(","),qE=[0,a(gw),0],qF=a(lo),qG=a(b9),qH=[0,[0,[0,0]]],qI=a(a3),qJ=a(gx),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,a(gw),0],qM=a(lR),sM=a(jR),sO=a(kT),sN=a(lu),sP=a(eG),sQ=a(kP),sR=a(lK),sS=a(ld),tt=[0,a(kq),7077,12],tI=a(gD),tJ=[0,0],tK=a("divided"),tL=[0,1],tM=a("mirror"),tN=[0,3],tO=a("negative"),tP=[0,2],tQ=a(gO),tR=[0,4],tS=a(eE),tT=a(k7),tU=a(eN),tV=[0,0],tW=[0,0],tX=[0,0],ud=a(s),ua=[0,[0,[0,[0,0]]]],ub=[0,[0,[0,[0,0]]]],t_=[0,[0,[0,0]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t5=[0,[0,[0,0]]],t6=[0,[0,0]],t4=[0,[0,[0,0]]],tZ=[0,[0,0]],t0=[0,0],tY=[0,0],tC=[0,[0,0]],tD=[0,0],tB=[0,0],tA=[0,0],tz=[0,0,0],tx=[0,0,0],tw=[0,0],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],to=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],tj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],tk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],tm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],tp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tq=a("sqrt"),th=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],ti=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],s8=[0,a("\n"),0],s9=a(kV),s_=a(eC),s$=a(kj),ta=a(lg),tb=a("certified"),tg=a("refuted"),tc=a("verdict"),td=a(kz),te=a(lc),tf=a(ls),sX=a(lF),sY=a(eF),sZ=a(kg),s0=a(lJ),s6=a(lm),s7=a(eM),s1=a(gy),s2=a(b_),s3=a(kX),s4=a(eF),s5=a(lI),sV=a(lb),sW=a(lL),sK=a(k5),sL=a(kF),sr=a(eM),r4=a(bM),r5=a(c1),r6=a(go),r7=a(c0),r8=a(b_),r9=a(bM),r_=a(c1),r$=a(go),sa=a(c0),sb=a(b_),sc=a(bM),sd=a(gL),se=a(bq),sf=a(bp),sg=a(ct),sh=a(c1),si=a(lB),sj=a(lH),sk=a(c0),sl=a(b_),sm=a(bM),sn=a(bq),so=a(bp),sp=a(ct),sq=a(c1),ss=a(kv),st=a(kD),su=a(lQ),sv=a(k8),sw=a(j2),sx=a(c0),sy=a(b_),sz=a(bM),sA=a(kU),sB=a(lf),sC=a(c1),sD=a(kL),sE=a(kZ),sF=a(c0),sG=a(b_),sJ=a(kS),sH=a(j1),sI=a(kI),rU=a(kf),rV=a(kO),rW=a(j4),rX=a(k$),rY=a(kG),rZ=a(kx),r0=a(lh),r1=a(eI),r2=a(eI),rQ=a(b7),rR=a(b6),rS=a(eH),rT=a(b8),rM=a(dH),rN=a(gJ),rO=a(ly),rF=a(bq),rG=a(bp),rH=a(ct),rI=a(kk),rJ=a(jP),rK=a(kd),rL=a(lE),ry=a(lj),rz=a(j0),rE=a(eC),rA=a(la),rB=a(ka),rC=a(kr),rD=a(lv),rv=a(bp),rw=a(bq),rx=a(kE),rm=a(jW),rn=a(kY),ro=a(lA),rp=a(eG),rq=a(lP),rr=a(lD),rs=a(k1),rt=a(lx),ru=a(jV),rb=a(bo),rl=a(a3),rc=a(eK),rd=a(eJ),re=a(eR),rf=a(b7),rg=a(b6),rh=a(kn),ri=a(kt),rj=a(eR),rk=a(b8),qV=a(bo),q3=a(a3),qW=a(eK),qX=a(eJ),qY=a(b7),qZ=a(b6),q0=a(eO),q1=a(kJ),q2=a(b8),q4=a(gA),q5=a(b7),q6=a(b6),q7=a(eH),q8=a(b8),q9=a(eO),q_=a(dH),q$=a(b8),qS=a(bq),qT=a(bp),qQ=[0,a(aq),0],qR=a(aq),qO=[0,a(kq),6453,36],qN=[0,a(aq),0],qP=a(aq),qA=a(bo),qB=a(a3),qC=a("*"),qD=a(a$),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,[0,0]]]],qt=a('":'),qu=a(aq),qr=[0,a(aq),0],qs=a(aq),qp=[0,a("}"),0],qq=a("{"),qn=[0,a("]"),0],qo=a("["),ql=[0,0],qi=[0,[0,[0,0]]],qj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,[0,[0,0]]],p$=[0,[0,[0,0]]],qa=[0,[0,0]],p9=[0,0],p5=[0,[0,0]],p6=[0,0],p7=[0,0],p8=[0,[0,0]],pW=[0,[0,0]],pX=[0,0],pY=[0,[0,0]],pZ=[0,0],p0=[0,0],p1=[0,[0,0]],p2=[0,[0,0]],p3=[0,[0,0]],p4=[0,0],pS=[0,0],pQ=[0,[0,[0,0]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pM=[0,0],pN=[0,[0,[0,[0,[0,[0,0]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],pK=[0,[0,[0,0]]],pA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,0]]],py=[0,[0,0]],pz=[0,0],po=[0,0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],ph=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],pd=a(aG),pc=a(s),pb=[0,[0,0]],pa=[0,0],o$=[1,0],o_=[0,0],o9=[0,0],o7=[1,0],o8=[1,0],wu=a(eG),wv=a(ld),ww=a(lu),wx=a(kP),wy=a(eE),wz=a(k7),wA=a(eN),wB=[0,a(aq),0],wC=a('the evidence "'),wD=a(kF),wE=a(k5),wF=a(eE),wG=a(eN),wH=a(lK),wJ=a(eE),wK=a(eN),wL=a(gD),wM=a(gD),wI=[0,a("this evidence at control points"),0],w$=a(ls),xa=a(lc),xb=a(kz),xk=[0,3,3],xc=a(lg),xg=[0,a('the drive "arm" in a claim that is certified'),0],xh=[0,a("a step of a platform that turns that is not at control points"),0],xi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xj=[0,a("a mechanism by formulas in a claim that is refuted"),0],xd=a(kj),xe=a(kV),xf=a(eC),w9=a(gO),wY=a(kg),wZ=a(lI),w2=a(b_),w3=a(gy),w4=a(kX),w5=a(eF),w6=a(lF),w7=a(eF),w0=[0,a(aq),0],w1=a('a proof of the kind "'),wT=a(lm),wU=a(lJ),wV=a(eM),wW=[0,a(aq),0],wX=a('the failure "'),wP=a(gy),wQ=[0,a("a leaf that fails"),0],wR=a(lb),wS=a(lL),wN=a(gO),wO=a(aG),ws=a(kT),wt=a(jR),v4=a(b8),v5=a(gA),v6=a(eH),v9=a(b7),v_=a(b6),v7=[0,a('" of such a platform'),0],v8=a(jY),vQ=a("rho"),vR=a(eM),vS=[0,a("a joint by its coordinate"),0],vu=a(bM),vo=a(b_),vp=a(kI),vs=a(j1),vt=a(kS),vv=a(c0),vw=a(c1),vx=a("bodies"),wr=[0,a("a machine with bodies"),0],vy=a(dH),vz=a(gJ),vA=a(ly),vB=a(gL),vC=a(j2),vD=a(kZ),vE=a(go),vH=a(ct),vI=a(lE),vL=a(bM),vM=a(lf),vN=a(kU),vO=a(kL),vP=a(ct),vT=a(bM),vU=a(bq),vV=a(bp),vW=a(kv),vX=a(kD),vY=a(lQ),vZ=a(k8),vF=[0,a(aq),0],vG=a(kM),v0=a(ct),v1=[0,a('" of a platform that turns'),0],v2=a(ky),v3=a(lB),wp=[0,a('" that does not turn'),0],wq=a(kM),v$=a(gL),wa=a(kx),wb=a(kf),wc=a(kG),wd=a(eI),we=a(lh),wf=a(eI),wm=a(kO),wn=a(j4),wo=a(k$),wg=a(dH),wh=a(gJ),wi=a(bM),wj=a(bq),wk=a(bp),wl=a(lH),vJ=[0,a(aq),0],vK=a(ky),vq=[0,a(aq),0],vr=a('a claim of the kind "'),vh=a(ct),vl=a(bq),vm=a(bp),vi=a(kd),vj=a(kk),vk=a(jP),vf=[0,a(lr),0],ve=[0,a(lr),0],u$=a(la),va=[0,a("a stiffness for each joint"),0],u_=a(eC),u3=a(lj),uR=a(lv),uS=a(eG),uT=a(lx),uU=a(jV),uV=a(kY),uW=a(lA),uX=a(lD),uY=a(lP),uZ=a(k1),u0=a(jW),u1=[0,a(aq),0],u2=a('the quantity "'),u4=a(j0),u5=a(bq),u6=a(bp),u7=a(kE),u8=[0,a(aq),0],u9=a('a bound "'),vb=a(ka),vc=a(kr),uK=a(eK),uL=a(eJ),uM=a(eR),uN=a(b7),uO=a(b6),uP=a(kn),uQ=a(kt),uH=a(b8),uI=a(eR),us=a(b8),ut=a(dH),uu=a(kJ),uv=a(eH),uy=a(gA),uz=a(b7),uA=a(b6),uB=a(eK),uC=a(eJ),uD=a(b7),uE=a(b6),uF=a(eO),uG=a(eO),uw=[0,a(aq),0],ux=a(jY),up=a(bo),uq=a(a3),un=a(" is not covered by the verified checker"),uo=a(s),ul=a(bq),um=a(bp),uh=a(s),ui=a(lR),uj=a(s),uk=a(s),ug=[1,0],ue=a("Reader.Malformed"),uf=a("Reader.Not_covered"),xm=a(ko),xn=a("CERTIFIED"),xo=a("REFUTED"),xp=a(ko),xq=a("NOT COVERED: ");function
+aa(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,V(a[1])];case
-1:return[1,V(a[1])];case
-2:return[2,V(a[1])];case
-3:return[3,V(a[1])];case
-4:return[4,V(a[1])];case
-5:return[5,V(a[1])];case
-6:return[6,V(a[1])];case
-7:return[7,V(a[1])];case
+0:return[0,aa(a[1])];case
+1:return[1,aa(a[1])];case
+2:return[2,aa(a[1])];case
+3:return[3,aa(a[1])];case
+4:return[4,aa(a[1])];case
+5:return[5,aa(a[1])];case
+6:return[6,aa(a[1])];case
+7:return[7,aa(a[1])];case
 8:var
-c=a[1];return[8,c,V(a[2])];case
+c=a[1];return[8,c,aa(a[2])];case
 9:var
-b=a[1];return[9,b,b,V(a[3])];case
-10:return[10,V(a[1])];case
-11:return[11,V(a[1])];case
-12:return[12,V(a[1])];case
-13:return[13,V(a[1])];default:return[14,V(a[1])]}}function
-aB(a,b){if(typeof
+b=a[1];return[9,b,b,aa(a[3])];case
+10:return[10,aa(a[1])];case
+11:return[11,aa(a[1])];case
+12:return[12,aa(a[1])];case
+13:return[13,aa(a[1])];default:return[14,aa(a[1])]}}function
+aF(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aB(a[1],b)];case
-1:return[1,aB(a[1],b)];case
-2:return[2,aB(a[1],b)];case
-3:return[3,aB(a[1],b)];case
-4:return[4,aB(a[1],b)];case
-5:return[5,aB(a[1],b)];case
-6:return[6,aB(a[1],b)];case
-7:return[7,aB(a[1],b)];case
+0:return[0,aF(a[1],b)];case
+1:return[1,aF(a[1],b)];case
+2:return[2,aF(a[1],b)];case
+3:return[3,aF(a[1],b)];case
+4:return[4,aF(a[1],b)];case
+5:return[5,aF(a[1],b)];case
+6:return[6,aF(a[1],b)];case
+7:return[7,aF(a[1],b)];case
 8:var
-c=a[1];return[8,c,aB(a[2],b)];case
+c=a[1];return[8,c,aF(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aB(a[3],b)];case
-10:return[10,aB(a[1],b)];case
-11:return[11,aB(a[1],b)];case
-12:return[12,aB(a[1],b)];case
-13:return[13,aB(a[1],b)];default:return[14,aB(a[1],b)]}}function
-O(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aF(a[3],b)];case
+10:return[10,aF(a[1],b)];case
+11:return[11,aF(a[1],b)];case
+12:return[12,aF(a[1],b)];case
+13:return[13,aF(a[1],b)];default:return[14,aF(a[1],b)]}}function
+U(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,O(a[1],b)];case
-1:return[1,O(a[1],b)];case
+0:return[0,U(a[1],b)];case
+1:return[1,U(a[1],b)];case
 2:var
-c=a[1];return[2,c,O(a[2],b)];case
+c=a[1];return[2,c,U(a[2],b)];case
 3:var
-d=a[1];return[3,d,O(a[2],b)];case
+d=a[1];return[3,d,U(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,O(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,U(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,O(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,U(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,O(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,U(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,O(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,U(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,O(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,U(a[4],b)];case
 9:var
-t=a[1];return[9,t,O(a[2],b)];case
-10:return[10,O(a[1],b)];case
+t=a[1];return[9,t,U(a[2],b)];case
+10:return[10,U(a[1],b)];case
 11:var
-u=a[1];return[11,u,O(a[2],b)];case
+u=a[1];return[11,u,U(a[2],b)];case
 12:var
-v=a[1];return[12,v,O(a[2],b)];case
+v=a[1];return[12,v,U(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,O(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,U(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,O(a[3],b)];case
-15:return[15,O(a[1],b)];case
-16:return[16,O(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,U(a[3],b)];case
+15:return[15,U(a[1],b)];case
+16:return[16,U(a[1],b)];case
 17:var
-A=a[1];return[17,A,O(a[2],b)];case
+A=a[1];return[17,A,U(a[2],b)];case
 18:var
-B=a[1];return[18,B,O(a[2],b)];case
-19:return[19,O(a[1],b)];case
+B=a[1];return[18,B,U(a[2],b)];case
+19:return[19,U(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,O(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,U(a[3],b)];case
 21:var
-E=a[1];return[21,E,O(a[2],b)];case
-22:return[22,O(a[1],b)];case
+E=a[1];return[21,E,U(a[2],b)];case
+22:return[22,U(a[1],b)];case
 23:var
-F=a[1];return[23,F,O(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,O(a[3],b)]}}function
-bO(a){throw[0,gM,a]}function
-dD(a){return 0<=a?a:-a|0}function
-am(d,c){var
-a=y(d),e=y(c),b=ae(a+e|0);bo(d,0,b,0,a);bo(c,0,b,a,e);return aA(b)}function
-lW(a){return a?lX:lY}xY(0);lF(1);var
-bs=lF(2);function
-cW(b,a){return lG(b,a,0,y(a))}function
-gS(a){cW(bs,a);lH(bs,10);return cT(bs)}function
-eL(b){function
+F=a[1];return[23,F,U(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,U(a[3],b)]}}function
+bT(a){throw[0,g$,a]}function
+dR(a){return 0<=a?a:-a|0}function
+as(d,c){var
+a=y(d),e=y(c),b=ak(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
+mq(a){return a?mr:ms}yY(0);ma(1);var
+by=ma(2);function
+c8(b,a){return mb(b,a,0,y(a))}function
+hf(a){c8(by,a);mc(by,10);return c5(by)}function
+e4(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{cT(d)}catch(a){a=eI(a);if(a[1]!==gQ)throw a;var
+c=a[2],d=a[1];try{c5(d)}catch(a){a=e1(a);if(a[1]!==hd)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(xZ(0))}gF(a(jo),eL);var
-cX=(4*x9(0)|0)-1|0;function
-cn(c){var
+a=c;continue}return 0}}return a(yZ(0))}g3(a(jT),e4);var
+c9=(4*y9(0)|0)-1|0;function
+cy(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-R(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gT(d,c){var
+Y(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+hg(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-b8(a,c){var
-b=ae(a);xA(b,0,a,c);return b}function
-gU(c,b,a){if(0<=b&&0<=a&&!((aO(c)-a|0)<b)){var
-d=ae(a);b6(c,b,d,0,a);return d}return bO(l7)}function
-gV(c,b,a){return aA(gU(c,b,a))}function
-gW(e,c,d,b,a){if(0<=a&&0<=c&&!((aO(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return b6(e,c,d,b,a);return bO(l8)}function
-bt(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aO(d)-a|0)<b))return bo(e,c,d,b,a);return bO(l9)}function
-aT(b,a){return aA(b8(b,a))}function
-cY(c,b,a){return aA(gU(bK(c),b,a))}function
-gX(k,g){if(g){var
+hh(d,c){var
+a=c;for(;;){if(a){var
+f=a[2],b=e(d,a[1]);if(b)return b;var
+a=f;continue}return 0}}function
+cc(a,c){var
+b=ak(a);yA(b,0,a,c);return b}function
+hi(c,b,a){if(0<=b&&0<=a&&!((aS(c)-a|0)<b)){var
+d=ak(a);ca(c,b,d,0,a);return d}return bT(mB)}function
+hj(c,b,a){return aE(hi(c,b,a))}function
+hk(e,c,d,b,a){if(0<=a&&0<=c&&!((aS(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return ca(e,c,d,b,a);return bT(mC)}function
+bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return bu(e,c,d,b,a);return bT(mD)}function
+aY(b,a){return aE(cc(b,a))}function
+c_(c,b,a){return aE(hi(bP(c),b,a))}function
+hl(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bO(l_),c=n,b=m;continue}var
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bT(mE),c=n,b=m;continue}var
 l=y(i)+c|0}else
 var
 l=c;var
-f=ae(l),e=p,d=g;for(;;){if(d){var
+f=ak(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bo(a,0,f,e,y(a));bo(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bo(a,0,f,e,y(a))}return aA(f)}}}return l$}function
-gY(b,c){if(0===b)return[0];if(0<=b){var
-d=xW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bu(a,0,f,e,y(a));bu(k,0,f,e+y(a)|0,h);var
+e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mF}function
+hm(b,c){if(0===b)return[0];if(0<=b){var
+d=yW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bO(ma)}function
-gZ(c){var
+a=h;continue}break}}return d}return bT(mG)}function
+hn(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-g0(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(cX<b[1]){if(!((d+c|0)<=cX))throw[0,gN,md];b[1]=cX}var
-e=ae(b[1]);gW(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,P,mb]}throw[0,P,mc]}}function
-cZ(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)g0(a,b);bo(c,0,a[1],a[2],b);a[2]=d;return 0}function
-eM(a){return 5===a[2]?12:-6}function
-g1(a){return[0,0,ae(a)]}function
-g2(a,h){var
-b=aO(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ae(i);gW(a[2],0,f,0,b);a[2]=f;var
+ho(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c9<b[1]){if(!((d+c|0)<=c9))throw[0,ha,mJ];b[1]=c9}var
+e=ak(b[1]);hk(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,V,mH]}throw[0,V,mI]}}function
+c$(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)ho(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
+e5(a){return 5===a[2]?12:-6}function
+hp(a){return[0,0,ak(a)]}function
+hq(a,h){var
+b=aS(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=ak(i);hk(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-co(a,b){g2(a,1);cj(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-at(a,c){var
-b=y(c);g2(a,b);bt(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-g3(a){return gV(a[2],0,a[1])}function
-g4(a){if(typeof
+cz(a,b){hq(a,1);cu(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+ay(a,c){var
+b=y(c);hq(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+hr(a){return hj(a[2],0,a[1])}function
+hs(a){if(typeof
 a==="number")switch(a){case
-0:return me;case
-1:return mf;case
-2:return mg;case
-3:return mh;case
-4:return mi;case
-5:return mj;default:return mk}else
+0:return mK;case
+1:return mL;case
+2:return mM;case
+3:return mN;case
+4:return mO;case
+5:return mP;default:return mQ}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return am(ml,aT(1,a[1]))}}function
-eN(b,c){var
+1:return a[1];default:return as(mR,aY(1,a[1]))}}function
+e6(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];at(b,mm);var
+d=a[1];ay(b,mS);var
 a=d;continue;case
 1:var
-e=a[1];at(b,mn);var
+e=a[1];ay(b,mT);var
 a=e;continue;case
 2:var
-f=a[1];at(b,mo);var
+f=a[1];ay(b,mU);var
 a=f;continue;case
 3:var
-g=a[1];at(b,mp);var
+g=a[1];ay(b,mV);var
 a=g;continue;case
 4:var
-h=a[1];at(b,mq);var
+h=a[1];ay(b,mW);var
 a=h;continue;case
 5:var
-i=a[1];at(b,mr);var
+i=a[1];ay(b,mX);var
 a=i;continue;case
 6:var
-j=a[1];at(b,ms);var
+j=a[1];ay(b,mY);var
 a=j;continue;case
 7:var
-k=a[1];at(b,mt);var
+k=a[1];ay(b,mZ);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];at(b,mu);eN(b,m);at(b,mv);var
+l=a[2],m=a[1];ay(b,m0);e6(b,m);ay(b,m1);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];at(b,mw);eN(b,o);at(b,mx);var
+n=a[3],o=a[1];ay(b,m2);e6(b,o);ay(b,m3);var
 a=n;continue;case
 10:var
-p=a[1];at(b,my);var
+p=a[1];ay(b,m4);var
 a=p;continue;case
 11:var
-q=a[1];at(b,mz);var
+q=a[1];ay(b,m5);var
 a=q;continue;case
 12:var
-r=a[1];at(b,mA);var
+r=a[1];ay(b,m6);var
 a=r;continue;case
 13:var
-s=a[1];at(b,mB);var
+s=a[1];ay(b,m7);var
 a=s;continue;default:var
-t=a[1];at(b,mC);var
+t=a[1];ay(b,m8);var
 a=t;continue}}function
-ab(a){if(typeof
+ah(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ab(a[1])];case
-1:return[1,ab(a[1])];case
-2:return[2,ab(a[1])];case
-3:return[3,ab(a[1])];case
-4:return[4,ab(a[1])];case
-5:return[5,ab(a[1])];case
-6:return[6,ab(a[1])];case
-7:return[7,ab(a[1])];case
+0:return[0,ah(a[1])];case
+1:return[1,ah(a[1])];case
+2:return[2,ah(a[1])];case
+3:return[3,ah(a[1])];case
+4:return[4,ah(a[1])];case
+5:return[5,ah(a[1])];case
+6:return[6,ah(a[1])];case
+7:return[7,ah(a[1])];case
 8:var
-b=a[1];return[8,b,ab(a[2])];case
+b=a[1];return[8,b,ah(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ab(a[3])];case
-10:return[10,ab(a[1])];case
-11:return[11,ab(a[1])];case
-12:return[12,ab(a[1])];case
-13:return[13,ab(a[1])];default:return[14,ab(a[1])]}}function
-au(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ah(a[3])];case
+10:return[10,ah(a[1])];case
+11:return[11,ah(a[1])];case
+12:return[12,ah(a[1])];case
+13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
+az(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=au(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=az(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=au(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=az(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=au(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=az(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=au(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=az(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=au(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=az(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=au(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=az(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=au(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ac=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ac,_,Z];case
+i=az(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=au(a[1]),ad=j[4],ae=j[3],af=j[2],ah=j[1],ai=function(a){e(af,0);return 0};return[0,function(a){e(ah,0);return 0},ai,ae,ad];case
+j=az(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=au(a[2]),aj=k[4],ak=k[3],al=k[2],am=k[1],an=function(a){e(al,0);return 0};return[0,function(a){e(am,0);return 0},an,ak,aj];case
+k=az(a[2]),ai=k[4],aj=k[3],ak=k[2],al=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(al,0);return 0},an,aj,ai];case
 9:var
-ao=a[2],ap=a[1],l=au(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=au(ag(ab(ap),ao)),av=m[4],aw=m[3],ax=m[2],ay=m[1],az=function(a){e(av,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(aw,0);return 0},aB=function(a){e(ax,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ay,0);return 0},aB,aA,az];case
+ao=a[2],ap=a[1],l=az(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=az(am(ah(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,ay];case
 10:var
-n=au(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=az(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=au(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=az(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=au(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=az(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=au(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=au(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
-ag(c,b){var
+q=az(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=az(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+am(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
 b==="number")return 0;else
@@ -1068,12 +1072,12 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,P,mD]}else
+9:a=6;break;default:throw[0,V,m9]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[0,ag(t,b[1])];case
+0:return[0,am(t,b[1])];case
 8:a=5;d=1;break;case
 9:a=6;d=1;break;case
 10:d=1;break;case
@@ -1084,7 +1088,7 @@ b!=="number")switch(b[0]){case
 1:var
 f=0,u=c[1];if(typeof
 b!=="number")switch(b[0]){case
-1:return[1,ag(u,b[1])];case
+1:return[1,am(u,b[1])];case
 8:a=5;f=1;break;case
 9:a=6;f=1;break;case
 10:f=1;break;case
@@ -1096,7 +1100,7 @@ b!=="number")switch(b[0]){case
 g=0,v=c[1];if(typeof
 b==="number")g=1;else
 switch(b[0]){case
-2:return[2,ag(v,b[1])];case
+2:return[2,am(v,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1108,7 +1112,7 @@ switch(b[0]){case
 h=0,w=c[1];if(typeof
 b==="number")h=1;else
 switch(b[0]){case
-3:return[3,ag(w,b[1])];case
+3:return[3,am(w,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1120,7 +1124,7 @@ switch(b[0]){case
 i=0,x=c[1];if(typeof
 b==="number")i=1;else
 switch(b[0]){case
-4:return[4,ag(x,b[1])];case
+4:return[4,am(x,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1132,7 +1136,7 @@ switch(b[0]){case
 j=0,y=c[1];if(typeof
 b==="number")j=1;else
 switch(b[0]){case
-5:return[5,ag(y,b[1])];case
+5:return[5,am(y,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1144,7 +1148,7 @@ switch(b[0]){case
 k=0,z=c[1];if(typeof
 b==="number")k=1;else
 switch(b[0]){case
-6:return[6,ag(z,b[1])];case
+6:return[6,am(z,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1156,7 +1160,7 @@ switch(b[0]){case
 l=0,A=c[1];if(typeof
 b==="number")l=1;else
 switch(b[0]){case
-7:return[7,ag(A,b[1])];case
+7:return[7,am(A,b[1])];case
 8:a=5;break;case
 9:a=6;break;case
 10:break;case
@@ -1169,255 +1173,255 @@ m=0,B=c[2],C=c[1];if(typeof
 b==="number")m=1;else
 switch(b[0]){case
 8:var
-D=b[1],E=ag(B,b[2]);return[8,ag(C,D),E];case
+D=b[1],E=am(B,b[2]);return[8,am(C,D),E];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,P,mM];break;case
+14:a=4;break;default:m=1}if(m)throw[0,V,ng];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=au(ag(ab(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,ag(F,I)];case
+I=b[3],J=b[2],K=b[1],s=az(am(ah(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,P,mN];break;case
+14:a=4;break;default:n=1}if(n)throw[0,V,nh];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,ag(M,b[1])];throw[0,P,mO];case
+b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,V,ni];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,ag(N,b[1])];default:o=1}if(o)throw[0,P,mP];break;case
+11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,V,nj];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,ag(O,b[1])];default:p=1}if(p)throw[0,P,mQ];break;case
+12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,V,nk];break;case
 13:var
-q=0,Q=c[1];if(typeof
+q=0,P=c[1];if(typeof
 b==="number")q=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,ag(Q,b[1])];default:q=1}if(q)throw[0,P,mR];break;default:var
-r=0,R=c[1];if(typeof
+13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,V,nl];break;default:var
+r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,ag(R,b[1])];default:r=1}if(r)throw[0,P,mS]}switch(a){case
-0:throw[0,P,mG];case
-1:throw[0,P,mH];case
-2:throw[0,P,mI];case
-3:throw[0,P,mJ];case
-4:throw[0,P,mK];case
-5:throw[0,P,mE];case
-6:throw[0,P,mF];default:throw[0,P,mL]}}var
-an=[ak,mT,eB(0)];function
-dE(b,a){if(typeof
+14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,V,nm]}switch(a){case
+0:throw[0,V,na];case
+1:throw[0,V,nb];case
+2:throw[0,V,nc];case
+3:throw[0,V,nd];case
+4:throw[0,V,ne];case
+5:throw[0,V,m_];case
+6:throw[0,V,m$];default:throw[0,V,nf]}}var
+at=[ap,nn,eU(0)];function
+dS(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
-a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw an}}function
-c0(e,b,d){var
-a=dE(e,d);if(typeof
+a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw at}}function
+da(e,b,d){var
+a=dS(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
-c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw an}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aH(b,c,a){if(typeof
-b==="number")return[0,0,H(c,a)];else
+c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw at}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
+aI(b,c,a){if(typeof
+b==="number")return[0,0,L(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aH(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aI(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aH(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aI(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aH(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aI(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aH(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aI(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aH(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aI(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aH(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aI(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aH(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aI(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aH(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dB([0,b[1]],[0,o]))throw an;var
-p=aH(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(dP([0,b[1]],[0,o]))throw at;var
+p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,V(f)];if(dB([0,V(B)],C))throw an;var
-D=[0,V(d)];if(dB([0,V(A)],D))throw an;var
-q=au(ag(ab(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aH(V(z),c,y),F=r[2];return[0,[9,f,d,ab(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,aa(f)];if(dP([0,aa(B)],C))throw at;var
+D=[0,aa(d)];if(dP([0,aa(A)],D))throw at;var
+q=az(am(ah(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aI(aa(z),c,y),F=r[2];return[0,[9,f,d,ah(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aH(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aH(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aI(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aH(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aH(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw an}function
-H(b,a){if(typeof
+v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
+L(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=H(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=L(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=H(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=L(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dE(b[1],a),e=u[2],ad=u[1];if(typeof
+ac=b[2],u=dS(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=H(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw an;case
+v=L(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
 3:var
-ae=b[2],w=dE(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=dS(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=H(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw an;case
+x=L(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
 4:var
-ag=b[4],ah=b[1],g=c0(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=da(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=H(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw an;case
+aj=g[2],y=L(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
 5:var
-ak=b[4],al=b[1],i=c0(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=da(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-ao=i[2],z=H(ak,j[1]);return[0,[5,al,am,ao,z[1]],z[2]]}throw an;case
+an=i[2],z=L(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
 6:var
-ap=b[4],aq=b[1],k=c0(b[2],b[3],a),l=k[3],ar=k[1];if(typeof
+ao=b[4],ap=b[1],k=da(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-as=k[2],A=H(ap,l[1]);return[0,[6,aq,ar,as,A[1]],A[2]]}throw an;case
+ar=k[2],A=L(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
 7:var
-at=b[4],au=b[1],m=c0(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+as=b[4],au=b[1],m=da(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=H(at,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw an;case
+aw=m[2],B=L(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
 8:var
-ax=b[4],ay=b[1],o=c0(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=da(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=H(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw an;case
+aA=o[2],C=L(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
 9:var
-aB=b[2],D=dE(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=dS(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=H(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw an;case
+E=L(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
 10:var
-F=H(b[1],a);return[0,[10,F[1]],F[2]];case
+F=L(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=H(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=L(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],I=H(b[2],a);return[0,[12,aE,I[1]],I[2]];case
+aE=b[1],H=L(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-J=a[1],aF=a[2],aG=b[3],aI=b[1];if(dB([0,b[2]],[0,J]))throw an;var
-K=H(aG,aF);return[0,[13,aI,J,K[1]],K[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dP([0,b[2]],[0,I]))throw at;var
+J=L(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-L=a[1],aJ=a[3],aK=b[3],aM=b[2],aN=b[1],aO=[0,V(L)];if(dB([0,V(aM)],aO))throw an;var
-M=H(aK,V(aJ));return[0,[14,aN,L,M[1]],M[2]]}break;case
+K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,aa(K)];if(dP([0,aa(aL)],aN))throw at;var
+M=L(aK,aa(aJ));return[0,[14,aM,K,M[1]],M[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=H(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+N=L(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=H(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+O=L(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
 17:var
-aP=b[1],P=H(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aP=b[1],P=L(b[2],a);return[0,[17,aP,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],W=H(U[1],a),aU=W[1],X=H(Q,W[2]);return[0,[18,[0,[0,aU,aT]],X[1]],X[2]]}var
-Y=r[1],aV=Y[2],Z=H(Y[1],a),aW=Z[1],_=H(Q,Z[2]);return[0,[18,[1,[0,aW,aV]],_[1]],_[2]];case
+U=r[1],aT=U[2],V=L(U[1],a),aU=V[1],W=L(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=L(X[1],a),aW=Y[1],Z=L(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=H(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+R=L(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=H(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aQ=b[2],aR=b[1],S=L(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=H(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aS=b[1],T=L(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aL(c,d,a);case
-1:return aL(c,d,a);case
+0:return aO(c,d,a);case
+1:return aO(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-$=H(d,a[1]);return[0,[23,2,$[1]],$[2]]}throw an;default:return aL(c,d,a)}else
+_=L(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aO(c,d,a)}else
 switch(c[0]){case
-0:return aL(c,d,a);case
-1:return aL(c,d,a);case
-2:return aL(c,d,a);case
-3:return aL(c,d,a);case
-4:return aL(c,d,a);case
-5:return aL(c,d,a);case
-6:return aL(c,d,a);case
-7:return aL(c,d,a);case
-8:return aL([8,c[1],c[2]],d,a);case
+0:return aO(c,d,a);case
+1:return aO(c,d,a);case
+2:return aO(c,d,a);case
+3:return aO(c,d,a);case
+4:return aO(c,d,a);case
+5:return aO(c,d,a);case
+6:return aO(c,d,a);case
+7:return aO(c,d,a);case
+8:return aO([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],aa=aH(c[2],d,a),ab=aa[2];return[0,[23,[9,aX,aa[1]],ab[1]],ab[2]];case
-10:return aL(c,d,a);default:return aL(c,d,a)}}throw an}function
-aL(d,c,b){var
-a=H(c,b);return[0,[23,d,a[1]],a[2]]}function
-aM(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dD(g);if(d<=b)return a;var
-l=2===h?48:32,c=b8(d,l);switch(h){case
-0:bt(a,0,c,0,b);break;case
-1:bt(a,0,c,d-b|0,b);break;default:var
+aX=c[1],$=aI(c[2],d,a),ab=$[2];return[0,[23,[9,aX,$[1]],ab[1]],ab[2]];case
+10:return aO(c,d,a);default:return aO(c,d,a)}}throw at}function
+aO(d,c,b){var
+a=L(c,b);return[0,[23,d,a[1]],a[2]]}function
+aP(k,g,a){var
+b=y(a),h=0<=g?k:0,d=dR(g);if(d<=b)return a;var
+l=2===h?48:32,c=cc(d,l);switch(h){case
+0:bz(a,0,c,0,b);break;case
+1:bz(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==G(a,0)&&45!==G(a,0)&&32!==G(a,0)){e=1;i=1}if(!i){cj(c,0,G(a,0));bt(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==K(a,0)&&45!==K(a,0)&&32!==K(a,0)){e=1;i=1}if(!i){cu(c,0,K(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===G(a,0)){var
-j=0;if(jB!==G(a,1)&&88!==G(a,1)){f=1;j=1}if(!j){cj(c,1,G(a,1));bt(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bt(a,0,c,d-b|0,b)}}return aA(c)}function
-cp(k,b){var
-c=dD(k),a=y(b),d=G(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+kx>>>0))e=1}else
+f=0;if(1<b&&48===K(a,0)){var
+j=0;if(j7!==K(a,1)&&88!==K(a,1)){f=1;j=1}if(!j){cu(c,1,K(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bz(a,0,c,d-b|0,b)}}return aE(c)}function
+cA(k,b){var
+c=dR(k),a=y(b),d=K(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+k3>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(jB===G(b,1)||88===G(b,1))j=1;if(j){var
-h=b8(c+2|0,48);cj(h,1,G(b,1));bt(b,2,h,(c-a|0)+4|0,a-2|0);return aA(h)}}e=1;f=1;break;case
+j=0;if(j7===K(b,1)||88===K(b,1))j=1;if(j){var
+h=cc(c+2|0,48);cu(h,1,K(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=b8(c+1|0,48);cj(g,0,d);bt(b,1,g,(c-a|0)+2|0,a-1|0);return aA(g)}}if(e&&a<c){var
-i=b8(c,48);bt(b,0,i,c-a|0,a);return aA(i)}return b}function
-mU(k){var
+g=cc(c+1|0,48);cu(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
+i=cc(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
+no(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bq(k,j)+k0|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bw(k,j)+lw|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bK(k),a=[0,0],t=aO(e)-1|0,z=0;if(!(t<0)){var
+e=bP(k),a=[0,0],t=aS(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=cR(e,i),g=0;if(32<=f){var
+f=c3(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1428,33 +1432,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aO(e)){var
-r=aO(e),s=ae(r);b6(e,0,s,0,r);var
+i=C;continue}break}}if(a[1]===aS(e)){var
+r=aS(e),s=ak(r);ca(e,0,s,0,r);var
 v=s}else{var
-b=ae(a[1]);a[1]=0;var
-u=aO(e)-1|0,A=0;if(!(u<0)){var
+b=ak(a[1]);a[1]=0;var
+u=aS(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=cR(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gd<=c)d=1;else
+c=c3(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gz<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:$(b,a[1],92);a[1]++;$(b,a[1],98);break;case
-9:$(b,a[1],92);a[1]++;$(b,a[1],116);break;case
-10:$(b,a[1],92);a[1]++;$(b,a[1],110);break;case
-13:$(b,a[1],92);a[1]++;$(b,a[1],114);break;default:d=1}switch(d){case
-1:$(b,a[1],92);a[1]++;$(b,a[1],48+(c/kE|0)|0);a[1]++;$(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;$(b,a[1],48+(c%10|0)|0);break;case
-2:$(b,a[1],92);a[1]++;$(b,a[1],c);break;case
-3:$(b,a[1],c);break}a[1]++;var
+8:af(b,a[1],92);a[1]++;af(b,a[1],98);break;case
+9:af(b,a[1],92);a[1]++;af(b,a[1],116);break;case
+10:af(b,a[1],92);a[1]++;af(b,a[1],110);break;case
+13:af(b,a[1],92);a[1]++;af(b,a[1],114);break;default:d=1}switch(d){case
+1:af(b,a[1],92);a[1]++;af(b,a[1],48+(c/k_|0)|0);a[1]++;af(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;af(b,a[1],48+(c%10|0)|0);break;case
+2:af(b,a[1],92);a[1]++;af(b,a[1],c);break;case
+3:af(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
 v=b}var
-o=aA(v)}var
-w=y(o),x=b8(w+2|0,34);bo(o,0,x,1,w);return aA(x)}}function
-g5(d,f){var
-g=dD(f),e=nJ[1];switch(d[2]){case
+o=aE(v)}var
+w=y(o),x=cc(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
+ht(d,f){var
+g=dR(f),e=od[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1462,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=jC;break;case
+b=j8;break;case
 4:var
 b=71;break;case
 5:var
@@ -1472,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=g1(16);co(c,37);switch(d[1]){case
+c=hp(16);cz(c,37);switch(d[1]){case
 0:break;case
-1:co(c,43);break;default:co(c,32)}if(8<=d[2])co(c,35);co(c,46);at(c,a(s+g));co(c,b);return g3(c)}function
-dF(m,a){if(13<=m){var
+1:cz(c,43);break;default:cz(c,32)}if(8<=d[2])cz(c,35);cz(c,46);ay(c,a(s+g));cz(c,b);return hr(c)}function
+dT(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bq(a,c)+f6>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bw(a,c)+gq>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ae(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cj(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=ak(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cu(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bq(a,b);if(9<f+f6>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bw(a,b);if(9<f+gq>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aA(j)}return a}function
-nK(b,c){switch(b){case
+b=p;continue}break}}return aE(j)}return a}function
+oe(b,c){switch(b){case
 1:var
-a=mW;break;case
-2:var
-a=mX;break;case
-4:var
-a=mZ;break;case
-5:var
-a=m0;break;case
-6:var
-a=m1;break;case
-7:var
-a=m2;break;case
-8:var
-a=m3;break;case
-9:var
-a=m4;break;case
-10:var
-a=m5;break;case
-11:var
-a=m6;break;case
-0:case
-13:var
-a=mV;break;case
-3:case
-14:var
-a=mY;break;default:var
-a=m7}return dF(b,eA(a,c))}function
-nL(b,c){switch(b){case
-1:var
-a=nk;break;case
-2:var
-a=nl;break;case
-4:var
-a=nn;break;case
-5:var
-a=no;break;case
-6:var
-a=np;break;case
-7:var
 a=nq;break;case
-8:var
+2:var
 a=nr;break;case
-9:var
-a=ns;break;case
-10:var
+4:var
 a=nt;break;case
-11:var
+5:var
 a=nu;break;case
-0:case
-13:var
-a=nj;break;case
-3:case
-14:var
-a=nm;break;default:var
-a=nv}return dF(b,eA(a,c))}function
-nM(b,c){switch(b){case
-1:var
-a=nx;break;case
-2:var
-a=ny;break;case
-4:var
-a=nA;break;case
-5:var
-a=nB;break;case
 6:var
-a=nC;break;case
+a=nv;break;case
 7:var
-a=nD;break;case
-8:var
-a=nE;break;case
-9:var
-a=nF;break;case
-10:var
-a=nG;break;case
-11:var
-a=nH;break;case
-0:case
-13:var
 a=nw;break;case
-3:case
-14:var
-a=nz;break;default:var
-a=nI}return dF(b,eA(a,c))}function
-nN(b,c){switch(b){case
-1:var
-a=m9;break;case
-2:var
-a=m_;break;case
-4:var
-a=na;break;case
-5:var
-a=nb;break;case
-6:var
-a=nc;break;case
-7:var
-a=nd;break;case
 8:var
-a=ne;break;case
+a=nx;break;case
 9:var
-a=nf;break;case
+a=ny;break;case
 10:var
-a=ng;break;case
+a=nz;break;case
 11:var
-a=nh;break;case
+a=nA;break;case
 0:case
 13:var
-a=m8;break;case
+a=np;break;case
 3:case
 14:var
-a=m$;break;default:var
-a=ni}return dF(b,xI(a,c))}function
-bu(c,i,b){function
+a=ns;break;default:var
+a=nB}return dT(b,eT(a,c))}function
+of(b,c){switch(b){case
+1:var
+a=nQ;break;case
+2:var
+a=nR;break;case
+4:var
+a=nT;break;case
+5:var
+a=nU;break;case
+6:var
+a=nV;break;case
+7:var
+a=nW;break;case
+8:var
+a=nX;break;case
+9:var
+a=nY;break;case
+10:var
+a=nZ;break;case
+11:var
+a=n0;break;case
+0:case
+13:var
+a=nP;break;case
+3:case
+14:var
+a=nS;break;default:var
+a=n1}return dT(b,eT(a,c))}function
+og(b,c){switch(b){case
+1:var
+a=n3;break;case
+2:var
+a=n4;break;case
+4:var
+a=n6;break;case
+5:var
+a=n7;break;case
+6:var
+a=n8;break;case
+7:var
+a=n9;break;case
+8:var
+a=n_;break;case
+9:var
+a=n$;break;case
+10:var
+a=oa;break;case
+11:var
+a=ob;break;case
+0:case
+13:var
+a=n2;break;case
+3:case
+14:var
+a=n5;break;default:var
+a=oc}return dT(b,eT(a,c))}function
+oh(b,c){switch(b){case
+1:var
+a=nD;break;case
+2:var
+a=nE;break;case
+4:var
+a=nG;break;case
+5:var
+a=nH;break;case
+6:var
+a=nI;break;case
+7:var
+a=nJ;break;case
+8:var
+a=nK;break;case
+9:var
+a=nL;break;case
+10:var
+a=nM;break;case
+11:var
+a=nN;break;case
+0:case
+13:var
+a=nC;break;case
+3:case
+14:var
+a=nF;break;default:var
+a=nO}return dT(b,yI(a,c))}function
+bA(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return xE(b,i,a)}function
+a=32}return yE(b,i,a)}function
 q(c){var
-a=xw(b);return 3===a?b<0.?nP:nQ:4<=a?nR:c}switch(c[2]){case
+a=yw(b);return 3===a?b<0.?oj:ok:4<=a?ol:c}switch(c[2]){case
 5:var
-e=gv(g5(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=gT(ht(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
-k=G(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=K(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:am(e,nO);return q(v)}case
+v=p?e:as(e,oi);return q(v)}case
 6:return j(0);case
 7:var
-h=bK(j(0)),f=aO(h);if(0===f)var
+h=bP(j(0)),f=aS(h);if(0===f)var
 o=h;else{var
-m=ae(f),n=f-1|0,r=0;if(!(n<0)){var
+m=ak(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=cR(h,a),s=25<g+kx>>>0?g:g+k0|0;$(m,a,s);var
+g=c3(h,a),s=25<g+k3>>>0?g:g+lw|0;af(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aA(o);case
-8:return q(j(0));default:return gv(g5(c,i),b)}}function
-ds(d,x,w,v){var
+o=m}return aE(o);case
+8:return q(j(0));default:return gT(ht(c,i),b)}}function
+dG(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return A(b,[5,a,c],z)};case
+z=c[1];return function(c){return C(b,[5,a,c],z)};case
 1:var
-B=c[1];return function(c){var
+A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=l1;else
-if(gd<=c)e=1;else
+d=mv;else
+if(gz<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=l2;else
+d=mw;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=l3;break;case
+d=mx;break;case
 9:var
-d=l4;break;case
+d=my;break;case
 10:var
-d=l5;break;case
+d=mz;break;case
 13:var
-d=l6;break;default:e=1}switch(e){case
+d=mA;break;default:e=1}switch(e){case
 1:var
-f=ae(4);$(f,0,92);$(f,1,48+(c/kE|0)|0);$(f,2,48+((c/10|0)%10|0)|0);$(f,3,48+(c%10|0)|0);var
-d=aA(f);break;case
+f=ak(4);af(f,0,92);af(f,1,48+(c/k_|0)|0);af(f,2,48+((c/10|0)%10|0)|0);af(f,3,48+(c%10|0)|0);var
+d=aE(f);break;case
 2:var
-g=ae(1);$(g,0,c);var
-d=aA(g);break}var
-h=y(d),i=b8(h+2|0,39);bo(d,0,i,1,h);return A(b,[4,a,aA(i)],B)};case
+g=ak(1);af(g,0,c);var
+d=aE(g);break}var
+h=y(d),i=cc(h+2|0,39);bu(d,0,i,1,h);return C(b,[4,a,aE(i)],A)};case
 2:var
-C=c[2],D=c[1];return eO(b,a,C,D,function(a){return a});case
-3:return eO(b,a,c[2],c[1],mU);case
-4:return dG(b,a,c[4],c[2],c[3],nK,c[1]);case
-5:return dG(b,a,c[4],c[2],c[3],nL,c[1]);case
-6:return dG(b,a,c[4],c[2],c[3],nM,c[1]);case
-7:return dG(b,a,c[4],c[2],c[3],nN,c[1]);case
+B=c[2],D=c[1];return e7(b,a,B,D,function(a){return a});case
+3:return e7(b,a,c[2],c[1],no);case
+4:return dU(b,a,c[4],c[2],c[3],oe,c[1]);case
+5:return dU(b,a,c[4],c[2],c[3],of,c[1]);case
+6:return dU(b,a,c[4],c[2],c[3],og,c[1]);case
+7:return dU(b,a,c[4],c[2],c[3],oh,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return A(b,[4,a,bu(g,d,c)],h)}:function(c){return A(b,[4,a,bu(g,eM(g),c)],h)};var
-_=i[1];return function(c){return A(b,[4,a,bu(g,_,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return C(b,[4,a,bA(g,d,c)],h)}:function(c){return C(b,[4,a,bA(g,e5(g),c)],h)};var
+Z=i[1];return function(c){return C(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return A(b,[4,a,aM(n,m,bu(g,d,c))],h)}:function(c){return A(b,[4,a,aM(n,m,bu(g,eM(g),c))],h)};var
-aa=i[1];return function(c){return A(b,[4,a,aM(n,m,bu(g,aa,c))],h)}}var
+i==="number")return i?function(d,c){return C(b,[4,a,aP(n,m,bA(g,d,c))],h)}:function(c){return C(b,[4,a,aP(n,m,bA(g,e5(g),c))],h)};var
+_=i[1];return function(c){return C(b,[4,a,aP(n,m,bA(g,_,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return A(b,[4,a,aM(o,e,bu(g,d,c))],h)}:function(d,c){return A(b,[4,a,aM(o,d,bu(g,eM(g),c))],h)};var
-ac=i[1];return function(d,c){return A(b,[4,a,aM(o,d,bu(g,ac,c))],h)}}case
-9:return eO(b,a,c[2],c[1],lW);case
+i==="number")return i?function(e,d,c){return C(b,[4,a,aP(o,e,bA(g,d,c))],h)}:function(d,c){return C(b,[4,a,aP(o,d,bA(g,e5(g),c))],h)};var
+$=i[1];return function(d,c){return C(b,[4,a,aP(o,d,bA(g,$,c))],h)}}case
+9:return e7(b,a,c[2],c[1],mq);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1683,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-F=c[3],G=c[2],p=g1(16);eN(p,G);var
-u=g3(p);return function(c){return A(b,[4,a,u],F)};case
+E=c[3],F=c[2],p=hp(16);e6(p,F);var
+u=hr(p);return function(c){return C(b,[4,a,u],E)};case
 14:var
-I=c[3],J=c[2];return function(d){var
-e=d[1],c=H(e,V(ab(J)));if(typeof
-c[2]==="number")return A(b,a,O(c[1],I));throw an};case
+G=c[3],H=c[2];return function(d){var
+e=d[1],c=L(e,aa(ah(H)));if(typeof
+c[2]==="number")return C(b,a,U(c[1],G));throw at};case
 15:var
-K=c[1];return function(d,c){return A(b,[6,a,function(a){return Y(d,a,c)}],K)};case
+J=c[1];return function(d,c){return C(b,[6,a,function(a){return S(d,a,c)}],J)};case
 16:var
-L=c[1];return function(c){return A(b,[6,a,c],L)};case
+K=c[1];return function(c){return C(b,[6,a,c],K)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-M=c[2],N=l[1][1],Q=0,b=function(b,c,d){return function(a){return A(c,[1,b,[0,a]],d)}}(a,b,M),a=Q,c=N;continue}var
-R=c[2],S=l[1][1],T=0,b=function(b,c,d){return function(a){return A(c,[1,b,[1,a]],d)}}(a,b,R),a=T,c=S;continue;case
-19:throw[0,P,nT];case
+M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return C(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
+P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return C(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
+19:throw[0,V,on];case
 20:var
-U=c[3],W=[8,a,nU];return function(a){return A(b,W,U)};case
+T=c[3],W=[8,a,oo];return function(a){return C(b,W,T)};case
 21:var
-X=c[2];return function(c){return A(b,[4,a,eA(nV,c)],X)};case
+X=c[2];return function(c){return C(b,[4,a,eT(op,c)],X)};case
 22:var
-Z=c[1];return function(c){return A(b,[5,a,c],Z)};case
+Y=c[1];return function(c){return C(b,[5,a,c],Y)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-2:throw[0,P,nW];default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}else
+0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+2:throw[0,V,oq];default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-1:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-2:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-3:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-4:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-5:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-6:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-7:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
-8:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);case
+0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+2:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+3:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+4:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+5:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+6:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+7:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+8:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?f1(d+1|0,b,a,t,f):ar(f1,[0,b,a,t,f]);case
-10:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f]);default:return d<50?E(d+1|0,b,a,f):ar(E,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?f0(d+1|0,b,a,q,r,s):ar(f0,[0,b,a,q,r,s])}}function
-f1(e,d,c,a,b){if(typeof
-a==="number")return e<50?E(e+1|0,d,c,b):ar(E,[0,d,c,b]);else
+t=k[2];return d<50?gm(d+1|0,b,a,t,f):ax(gm,[0,b,a,t,f]);case
+10:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gl(d+1|0,b,a,q,r,s):ax(gl,[0,b,a,q,r,s])}}function
+gm(e,d,c,a,b){if(typeof
+a==="number")return e<50?I(e+1|0,d,c,b):ax(I,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aQ(d,c,f,b)};case
+f=a[1];return function(a){return aU(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aQ(d,c,g,b)};case
+g=a[1];return function(a){return aU(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aQ(d,c,h,b)};case
+h=a[1];return function(a){return aU(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aQ(d,c,i,b)};case
+i=a[1];return function(a){return aU(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aQ(d,c,j,b)};case
+j=a[1];return function(a){return aU(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aQ(d,c,k,b)};case
+k=a[1];return function(a){return aU(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aQ(d,c,l,b)};case
+l=a[1];return function(a){return aU(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aQ(d,c,m,b)};case
+m=a[1];return function(a){return aU(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aQ(d,c,n,b)};case
+n=a[2];return function(a){return aU(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=ag(ab(a[1]),p);return function(a){return aQ(d,c,aB(q,o),b)};case
+o=a[3],p=a[2],q=am(ah(a[1]),p);return function(a){return aU(d,c,aF(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aQ(d,c,r,b)};case
+r=a[1];return function(e,a){return aU(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aQ(d,c,s,b)};case
+s=a[1];return function(a){return aU(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aQ(d,c,t,b)};case
-13:throw[0,P,nX];default:throw[0,P,nY]}}function
-E(d,b,e,a){var
-c=[8,e,nZ];return d<50?ds(d+1|0,b,c,a):ar(ds,[0,b,c,a])}function
-f0(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return nS(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?ds(h+1|0,b,g,a):ar(ds,[0,b,g,a])}function
-A(a,b,c){return gH(ds(0,a,b,c))}function
-aQ(a,b,c,d){return gH(f1(0,a,b,c,d))}function
-nS(a,b,c,d,e){return gH(f0(0,a,b,c,d,e))}function
-eO(f,d,c,a,b){if(typeof
-a==="number")return function(a){return A(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return A(f,[4,d,aM(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return A(f,[4,d,aM(i,g,e(b,a))],c)}}}function
-dG(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return aU(d,c,t,b)};case
+13:throw[0,V,or];default:throw[0,V,os]}}function
+I(d,b,e,a){var
+c=[8,e,ot];return d<50?dG(d+1|0,b,c,a):ax(dG,[0,b,c,a])}function
+gl(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return om(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?dG(h+1|0,b,g,a):ax(dG,[0,b,g,a])}function
+C(a,b,c){return g5(dG(0,a,b,c))}function
+aU(a,b,c,d){return g5(gm(0,a,b,c,d))}function
+om(a,b,c,d,e){return g5(gl(0,a,b,c,d,e))}function
+e7(f,d,c,a,b){if(typeof
+a==="number")return function(a){return C(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return C(f,[4,d,aP(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return C(f,[4,d,aP(i,g,e(b,a))],c)}}}function
+dU(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return A(f,[4,e,cp(g,Y(b,a,c))],d)}:function(c){return A(f,[4,e,Y(b,a,c)],d)};var
-k=c[1];return function(c){return A(f,[4,e,cp(k,Y(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return C(f,[4,e,cA(g,S(b,a,c))],d)}:function(c){return C(f,[4,e,S(b,a,c)],d)};var
+k=c[1];return function(c){return C(f,[4,e,cA(k,S(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return A(f,[4,e,aM(i,h,cp(g,Y(b,a,c)))],d)}:function(c){return A(f,[4,e,aM(i,h,Y(b,a,c))],d)};var
-l=c[1];return function(c){return A(f,[4,e,aM(i,h,cp(l,Y(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return C(f,[4,e,aP(i,h,cA(g,S(b,a,c)))],d)}:function(c){return C(f,[4,e,aP(i,h,S(b,a,c))],d)};var
+l=c[1];return function(c){return C(f,[4,e,aP(i,h,cA(l,S(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return A(f,[4,e,aM(j,h,cp(g,Y(b,a,c)))],d)}:function(g,c){return A(f,[4,e,aM(j,g,Y(b,a,c))],d)};var
-m=c[1];return function(g,c){return A(f,[4,e,aM(j,g,cp(m,Y(b,a,c)))],d)}}}function
-bv(b,f){var
+c==="number")return c?function(h,g,c){return C(f,[4,e,aP(j,h,cA(g,S(b,a,c)))],d)}:function(g,c){return C(f,[4,e,aP(j,g,S(b,a,c))],d)};var
+m=c[1];return function(g,c){return C(f,[4,e,aP(j,g,cA(m,S(b,a,c)))],d)}}}function
+bB(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=g4(a[2]);bv(b,g);return cW(b,h);case
+g=a[1],h=hs(a[2]);bB(b,g);return c8(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bv(b,d);cW(b,n0);var
+i=c[1];bB(b,d);c8(b,ou);var
 a=i;continue}var
-j=c[1];bv(b,d);cW(b,n1);var
+j=c[1];bB(b,d);c8(b,ov);var
 a=j;continue;case
 6:var
-m=a[2];bv(b,a[1]);return e(m,b);case
-7:bv(b,a[1]);return cT(b);case
+m=a[2];bB(b,a[1]);return e(m,b);case
+7:bB(b,a[1]);return c5(b);case
 8:var
-n=a[2];bv(b,a[1]);return bO(n);case
+n=a[2];bB(b,a[1]);return bT(n);case
 2:case
 4:var
-k=a[2];bv(b,a[1]);return cW(b,k);default:var
-l=a[2];bv(b,a[1]);return lH(b,l)}}function
-bP(b,g){var
+k=a[2];bB(b,a[1]);return c8(b,k);default:var
+l=a[2];bB(b,a[1]);return mc(b,l)}}function
+bU(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=g4(a[2]);bP(b,h);return cZ(b,i);case
+h=a[1],i=hs(a[2]);bU(b,h);return c$(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bP(b,f);cZ(b,n2);var
+j=d[1];bU(b,f);c$(b,ow);var
 a=j;continue}var
-k=d[1];bP(b,f);cZ(b,n3);var
+k=d[1];bU(b,f);c$(b,ox);var
 a=k;continue;case
 6:var
-n=a[2];bP(b,a[1]);return cZ(b,e(n,0));case
+n=a[2];bU(b,a[1]);return c$(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bP(b,a[1]);return bO(o);case
+o=a[2];bU(b,a[1]);return bT(o);case
 2:case
 4:var
-l=a[2];bP(b,a[1]);return cZ(b,l);default:var
-m=a[2];bP(b,a[1]);var
-c=b[2];if(b[3]<=c)g0(b,1);$(b[1],c,m);b[2]=c+1|0;return 0}}function
-g6(d,c){var
-a=c[1],b=0;return A(function(a){bv(d,a);return 0},b,a)}function
-eP(a){return g6(bs,a)}function
-ba(b){var
-a=b[1];return A(function(d){var
-e=64,b=cX<64?cX:e,c=ae(b),a=[0,c,0,b,c];bP(a,d);return gV(a[1],0,a[2])},0,a)}var
-dH=[0,0];function
-eR(i,h){var
+l=a[2];bU(b,a[1]);return c$(b,l);default:var
+m=a[2];bU(b,a[1]);var
+c=b[2];if(b[3]<=c)ho(b,1);af(b[1],c,m);b[2]=c+1|0;return 0}}function
+hu(d,c){var
+a=c[1],b=0;return C(function(a){bB(d,a);return 0},b,a)}function
+e8(a){return hu(by,a)}function
+bd(b){var
+a=b[1];return C(function(d){var
+e=64,b=c9<64?c9:e,c=ak(b),a=[0,c,0,b,c];bU(a,d);return hj(a[1],0,a[2])},0,a)}var
+dV=[0,0];function
+e_(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eF(a)===ew)return e(ba(n4),a);if(eF(a)===253){var
-c=gv(l0,a),b=0,g=y(c);for(;;){if(g<=b)return am(c,lZ);var
-d=G(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(eY(a)===eP)return e(bd(oy),a);if(eY(a)===253){var
+c=gT(mu,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mt);var
+d=K(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return n5}return e(ba(n6),a)}function
-g7(b,a){if(b.length-1<=a)return n7;var
-c=g7(b,a+1|0),d=eR(b,a);return Y(ba(n8),d,c)}function
-eS(a){function
+b=b+1|0;continue}return c}}return oz}return e(bd(oA),a)}function
+hv(b,a){if(b.length-1<=a)return oB;var
+c=hv(b,a+1|0),d=e_(b,a);return S(bd(oC),d,c)}function
+e$(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dH[1]);if(h)return h[1];if(a===eK)return ob;if(a===gP)return oc;if(a[1]===gO){var
-c=a[2],i=c[3],p=c[2],q=c[1];return f2(ba(eQ),q,p,i,i+5|0,od)}if(a[1]===P){var
-d=a[2],j=d[3],r=d[2],s=d[1];return f2(ba(eQ),s,r,j,j+6|0,oe)}if(a[1]===gR){var
-f=a[2],k=f[3],t=f[2],u=f[1];return f2(ba(eQ),u,t,k,k+6|0,of)}if(0===eF(a)){var
+h=o(dV[1]);if(h)return h[1];if(a===e3)return oH;if(a===hc)return oI;if(a[1]===hb){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gn(bd(e9),q,p,i,i+5|0,oJ)}if(a[1]===V){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gn(bd(e9),s,r,j,j+6|0,oK)}if(a[1]===he){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gn(bd(e9),u,t,k,k+6|0,oL)}if(0===eY(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=g7(a,2),m=eR(a,1),b=Y(ba(n9),m,l);else
+l=hv(a,2),m=e_(a,1),b=S(bd(oD),m,l);else
 switch(g){case
 0:var
-b=n_;break;case
+b=oE;break;case
 1:var
-b=n$;break;default:var
-n=eR(a,1),b=e(ba(oa),n)}return am(v,b)}return a[1]}function
-eT(t,s){var
-d=xy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=oF;break;default:var
+n=e_(a,1),b=e(bd(oG),n)}return as(v,b)}return a[1]}function
+fa(t,s){var
+d=yy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=lv(d,b)[1+b],f=function(a){return function(b){return b?0===a?og:oh:0===a?oi:oj}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?ok:om,l=a[2],m=a[7],n=f(a[1]),c=[0,xn(ba(ol),n,m,l,k,j,i,h)];else
+a=l2(d,b)[1+b],f=function(a){return function(b){return b?0===a?oM:oN:0===a?oO:oP}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?oQ:oS,l=a[2],m=a[7],n=f(a[1]),c=[0,yn(bd(oR),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(ba(on),o)];if(c){var
-q=c[1];e(g6(t,oo),q)}var
+o=f(0),c=[0,e(bd(oT),o)];if(c){var
+q=c[1];e(hu(t,oU),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-g8(c){for(;;){var
-a=dH[1],d=[0,c,a],e=dH[1]===a?(dH[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oq=op.slice();function
-or(d,c){var
-f=eS(d);e(eP(os),f);eT(bs,c);var
-a=xX(0);if(a<0){var
-b=dD(a);gS(lv(oq,b)[1+b])}return cT(bs)}var
-ot=[0];gF(a(jD),function(d,i){try{try{var
-b=i?ot:lB(0);try{eL(0)}catch(a){}try{var
-a=or(d,b),c=a}catch(a){a=eI(a);var
-g=eS(d);e(eP(ov),g);eT(bs,b);var
-h=eS(a);e(eP(ow),h);eT(bs,lB(0));var
-c=cT(bs)}var
-f=c}catch(a){a=eI(a);if(a!==eK)throw a;var
-f=gS(ou)}return f}catch(a){return 0}});var
-g9=[ak,oy,eB(0)],eU=[0,g9,[0]],ox=eF(eU)===ak?eU:eU[1];gF(a(f8),ox);(function(a){throw a});var
-oz=u.Array;g8(function(a){return a[1]===g9?[0,a$(a[2].toString())]:0});g8(function(a){return a
+hw(c){for(;;){var
+a=dV[1],d=[0,c,a],e=dV[1]===a?(dV[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+oW=oV.slice();function
+oX(d,c){var
+f=e$(d);e(e8(oY),f);fa(by,c);var
+a=yX(0);if(a<0){var
+b=dR(a);hf(l2(oW,b)[1+b])}return c5(by)}var
+oZ=[0];g3(a(j9),function(d,i){try{try{var
+b=i?oZ:l8(0);try{e4(0)}catch(a){}try{var
+a=oX(d,b),c=a}catch(a){a=e1(a);var
+g=e$(d);e(e8(o1),g);fa(by,b);var
+h=e$(a);e(e8(o2),h);fa(by,l8(0));var
+c=c5(by)}var
+f=c}catch(a){a=e1(a);if(a!==e3)throw a;var
+f=hf(o0)}return f}catch(a){return 0}});var
+hx=[ap,o4,eU(0)],fb=[0,hx,[0]],o3=eY(fb)===ap?fb:fb[1];g3(a(gs),o3);(function(a){throw a});var
+o5=u.Array;hw(function(a){return a[1]===hx?[0,bc(a[2].toString())]:0});hw(function(a){return a
 instanceof
-oz?0:[0,a$(a.toString())]});var
-d=aP(0),c=aP(1);function
-j(a){return z(a,c)}function
-g_(b,a){return z(aP(b),a)}function
-b(b,a){return n(aP(b),a)}function
-bb(b,a){return[0,gJ(b,a),lS(b,a)]}function
-eV(b,a){return B(b,a)?b:a}function
-b9(b,a){return B(b,a)?a:b}function
-aU(a){return a?0:1}function
-aw(b,a){var
+o5?0:[0,bc(a.toString())]});var
+d=aT(0),c=aT(1);function
+k(a){return z(a,c)}function
+hy(b,a){return z(aT(b),a)}function
+b(b,a){return o(aT(b),a)}function
+be(b,a){return[0,g8(b,a),mm(b,a)]}function
+fc(b,a){return D(b,a)?b:a}function
+cd(b,a){return D(b,a)?a:b}function
+aV(a){return a?0:1}function
+ab(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-dI(a){return a[1]}function
-eW(a){return a[2]}function
-l(a){var
-b=a?[0,l(a[2])]:a;return b}function
+db(a){return a[1]}function
+dc(a){return a[2]}function
+n(a){var
+b=a?[0,n(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-g$(a){return typeof
-a==="number"?0:[0,g$(a[1])]}function
-ha(d,c){var
+hz(a){return typeof
+a==="number"?0:[0,hz(a[1])]}function
+hA(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1928,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dJ(a){return ha(a,0)}function
-hb(a){if(typeof
-a==="number")return oB;else
+dW(a){return hA(a,0)}function
+hB(a){if(typeof
+a==="number")return o7;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1940,144 +1944,144 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hb(a[1])]}}function
-a3(a){if(typeof
-a==="number")return oC;else
+8:return[9,a[1]];default:return[0,hB(a[1])]}}function
+a6(a){if(typeof
+a==="number")return o8;else
 switch(a[0]){case
-0:return[1,a2(a[1])];case
-1:return[3,a2(a[1])];case
-2:return[5,a2(a[1])];case
-3:return[7,a2(a[1])];case
-4:return[9,a2(a[1])];case
-5:return[1,a3(a[1])];case
-6:return[3,a3(a[1])];case
-7:return[5,a3(a[1])];case
-8:return[7,a3(a[1])];default:return[9,a3(a[1])]}}function
-a2(a){if(typeof
+0:return[1,a5(a[1])];case
+1:return[3,a5(a[1])];case
+2:return[5,a5(a[1])];case
+3:return[7,a5(a[1])];case
+4:return[9,a5(a[1])];case
+5:return[1,a6(a[1])];case
+6:return[3,a6(a[1])];case
+7:return[5,a6(a[1])];case
+8:return[7,a6(a[1])];default:return[9,a6(a[1])]}}function
+a5(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a2(a[1])];case
-1:return[2,a2(a[1])];case
-2:return[4,a2(a[1])];case
-3:return[6,a2(a[1])];case
-4:return[8,a2(a[1])];case
-5:return[0,a3(a[1])];case
-6:return[2,a3(a[1])];case
-7:return[4,a3(a[1])];case
-8:return[6,a3(a[1])];default:return[8,a3(a[1])]}}function
-c1(a){return a?a[1]:a}function
-W(b,a){return b?[0,W(b[1],a)]:a}function
-c2(a,b){return a?W(b,c2(a[1],b)):a}function
-dK(b,a){return b?a:a?0:1}function
-aC(d,c){var
+0:return[0,a5(a[1])];case
+1:return[2,a5(a[1])];case
+2:return[4,a5(a[1])];case
+3:return[6,a5(a[1])];case
+4:return[8,a5(a[1])];case
+5:return[0,a6(a[1])];case
+6:return[2,a6(a[1])];case
+7:return[4,a6(a[1])];case
+8:return[6,a6(a[1])];default:return[8,a6(a[1])]}}function
+cB(a){return a?a[1]:a}function
+M(b,a){return b?[0,M(b[1],a)]:a}function
+dd(a,b){return a?M(b,dd(a[1],b)):a}function
+dX(b,a){return b?a:a?0:1}function
+ai(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hc(b,a){return _([0,b],a)}function
-hd(c){var
+hC(b,a){return Z([0,b],a)}function
+hD(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eX(c,b,a){return c?e(b,eX(c[1],b,a)):a}function
-he(a){if(a)var
-b=a[1],d=b?[0,he(b[1])]:b,c=d;else
+fd(c,b,a){return c?e(b,fd(c[1],b,a)):a}function
+hE(a){if(a)var
+b=a[1],d=b?[0,hE(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dL(a){if(B(a,c))return c;var
-b=bb(a,aP(2)),e=b[1];return as(b[2],d)?j(dL(e)):j(dL(e))}function
-dM(c,b){var
-a=lR(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hf(b,i,h){var
-e=i,a=h;for(;;){if(B(e,c))return a;var
-f=bb(e,aP(2)),g=f[1];if(as(f[2],d)){var
-e=g,a=Y(b,a,a);continue}return Y(b,a,hf(b,g,Y(b,a,a)))}}function
-c3(a){return hf(W,a,oE)}function
-eY(a){return a?j(eY(a[1])):c}function
-bw(f,e){var
+dY(a){if(D(a,c))return c;var
+b=be(a,aT(2)),e=b[1];return al(b[2],d)?k(dY(e)):k(dY(e))}function
+dZ(c,b){var
+a=g7(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hF(b,i,h){var
+e=i,a=h;for(;;){if(D(e,c))return a;var
+f=be(e,aT(2)),g=f[1];if(al(f[2],d)){var
+e=g,a=S(b,a,a);continue}return S(b,a,hF(b,g,S(b,a,a)))}}function
+de(a){return hF(M,a,o_)}function
+fe(a){return a?k(fe(a[1])):c}function
+bC(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=n(b(2,j(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=o(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,n(b(2,j(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=z(c,o(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=n(b(2,j(b(2,b(2,c)))),d),k=z(b(2,c),i),a=a[1],d=k;continue;case
+i=o(b(2,k(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-l=n(b(2,j(b(2,b(2,c)))),d),m=z(j(b(2,c)),l),a=a[1],d=m;continue;case
+l=o(b(2,k(b(2,b(2,c)))),d),m=z(k(b(2,c)),l),a=a[1],d=m;continue;case
 4:var
-o=n(b(2,j(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),o),a=a[1],d=p;continue;case
+n=o(b(2,k(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),n),a=a[1],d=p;continue;case
 5:var
-q=n(b(2,j(b(2,b(2,c)))),d),r=z(j(b(2,b(2,c))),q),a=a[1],d=r;continue;case
+q=o(b(2,k(b(2,b(2,c)))),d),r=z(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
 6:var
-s=n(b(2,j(b(2,b(2,c)))),d),t=z(b(2,j(b(2,c))),s),a=a[1],d=t;continue;case
+s=o(b(2,k(b(2,b(2,c)))),d),t=z(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=n(b(2,j(b(2,b(2,c)))),d),v=z(j(b(2,j(b(2,c)))),u),a=a[1],d=v;continue;case
+u=o(b(2,k(b(2,b(2,c)))),d),v=z(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=n(b(2,j(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=n(b(2,j(b(2,b(2,c)))),d),A=z(j(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-eZ(a){if(B(a,c))return oF;var
-b=bb(a,aP(2)),e=b[1];return as(b[2],d)?a2(eZ(e)):a3(eZ(e))}function
-dN(a){return dJ(eZ(a))}function
-hg(k,f){if(0<=br(f)){var
-g=gK(f);if(0<=g){var
+w=o(b(2,k(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=o(b(2,k(b(2,b(2,c)))),d),A=z(k(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+ff(a){if(D(a,c))return o$;var
+b=be(a,aT(2)),e=b[1];return al(b[2],d)?a5(ff(e)):a6(ff(e))}function
+d0(a){return dW(ff(a))}function
+hG(k,f){if(0<=bx(f)){var
+g=g9(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=n(b,b),j=1===(a&1)?n(e,b):e,e=j,b=i,a=h;continue}}return bO(oA)}return d}function
-hh(a){return 0<=br(a)?a:d}function
-e0(a){var
-b=br(a);return 0===b?c:0<b?a:c}function
-hi(n){var
+h=a>>>1|0,i=o(b,b),j=1===(a&1)?o(e,b):e,e=j,b=i,a=h;continue}}return bT(o6)}return d}function
+hH(a){return 0<=bx(a)?a:d}function
+fg(a){var
+b=bx(a);return 0===b?c:0<b?a:c}function
+hI(n){var
 a=n;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bw(a[1],c);case
+1:return bC(a[1],c);case
 2:var
-e=b(2,c);return bw(a[1],e);case
+e=b(2,c);return bC(a[1],e);case
 3:var
-f=j(b(2,c));return bw(a[1],f);case
+f=k(b(2,c));return bC(a[1],f);case
 4:var
-g=b(2,b(2,c));return bw(a[1],g);case
+g=b(2,b(2,c));return bC(a[1],g);case
 5:var
-h=j(b(2,b(2,c)));return bw(a[1],h);case
+h=k(b(2,b(2,c)));return bC(a[1],h);case
 6:var
-i=b(2,j(b(2,c)));return bw(a[1],i);case
+i=b(2,k(b(2,c)));return bC(a[1],i);case
 7:var
-k=j(b(2,j(b(2,c))));return bw(a[1],k);case
+j=k(b(2,k(b(2,c))));return bC(a[1],j);case
 8:var
-l=b(2,b(2,b(2,c)));return bw(a[1],l);default:var
-m=j(b(2,b(2,b(2,c))));return bw(a[1],m)}}function
-bQ(b,a){var
-c=br(a);return 0===c?d:1===c?gJ(b,a):g_(-1,gJ(g_(-1,b),a))}function
-hj(a){return 0<br(a)?yf(a):d}function
-c4(b,c){var
-a=gK(c);return 0<=a?lT(b,a):lU(b,-a|0)}function
-cq(b,c){var
-a=gK(c);return 0<=a?lU(b,a):lT(b,-a|0)}function
-e1(b,a){return a?a[1]:b}function
-hk(a){var
+l=b(2,b(2,b(2,c)));return bC(a[1],l);default:var
+m=k(b(2,b(2,b(2,c))));return bC(a[1],m)}}function
+bV(b,a){var
+c=bx(a);return 0===c?d:1===c?g8(b,a):hy(-1,g8(hy(-1,b),a))}function
+hJ(a){return 0<bx(a)?zf(a):d}function
+df(b,c){var
+a=g9(c);return 0<=a?mn(b,a):mo(b,-a|0)}function
+cC(b,c){var
+a=g9(c);return 0<=a?mo(b,a):mn(b,-a|0)}function
+fh(b,a){return a?a[1]:b}function
+hK(a){var
 b=a?a[2]:a;return b}function
-L(e,d,c){var
+P(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aV(d,c){var
+aJ(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hl(a){if(a){var
-b=[0,a[1],0];return g(hl(a[2]),b)}return a}function
+hL(a){if(a){var
+b=[0,a[1],0];return g(hL(a[2]),b)}return a}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-C(b,a){if(a){var
-c=C(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cr(c,b,a){if(a){var
-d=cr(c,b,a[2]);return Y(c,a[1],d)}return b}function
-bx(f,d){var
+N(b,a){if(a){var
+c=N(b,a[2]);return g(e(b,a[1]),c)}return a}function
+cD(c,b,a){if(a){var
+d=cD(c,b,a[2]);return S(c,a[1],d)}return b}function
+bD(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
@@ -2088,179 +2092,179 @@ p(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cs(b,a){if(b)if(a)var
-d=cs(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cE(b,a){if(b)if(a)var
+d=cE(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hm(b,a){if(b)if(a)var
-d=hm(b[1],a[2]),c=[0,a[1],d];else
+hM(b,a){if(b)if(a)var
+d=hM(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-c5(b,a){var
-c=a?[0,b,c5([0,b],a[1])]:a;return c}function
-ct(b,a){var
-c=a?[0,b,ct(b,a[1])]:a;return c}function
-hn(a){if(a){var
-e=hn(a[2]),f=n(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-dO(j){function
+cF(b,a){var
+c=a?[0,b,cF([0,b],a[1])]:a;return c}function
+ce(b,a){var
+c=a?[0,b,ce(b,a[1])]:a;return c}function
+hN(a){if(a){var
+e=hN(a[2]),f=o(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+d1(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hn([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<br(b)?c3(b):0}function
-ho(c,b){var
-a=lR(n(c[1],b[2]),n(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hp(b,a){return B(n(b[1],a[2]),n(a[1],b[2]))}function
-hq(b,a){return[0,z(n(b[1],a[2]),n(a[1],b[2])),n(b[2],a[2])]}function
-hr(b,a){return[0,n(b[1],a[1]),n(b[2],a[2])]}function
-aN(a){if(typeof
-a==="number")return oI;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?de(b):0}function
+hO(c,b){var
+a=g7(o(c[1],b[2]),o(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+hP(b,a){return D(o(b[1],a[2]),o(a[1],b[2]))}function
+hQ(b,a){return[0,z(o(b[1],a[2]),o(a[1],b[2])),o(b[2],a[2])]}function
+hR(b,a){return[0,o(b[1],a[1]),o(b[2],a[2])]}function
+aQ(a){if(typeof
+a==="number")return pc;else
 switch(a[0]){case
 0:var
-b=aN(a[1]);return am(aT(1,48),b);case
+b=aQ(a[1]);return as(aY(1,48),b);case
 1:var
-c=aN(a[1]);return am(aT(1,49),c);case
+c=aQ(a[1]);return as(aY(1,49),c);case
 2:var
-d=aN(a[1]);return am(aT(1,50),d);case
+d=aQ(a[1]);return as(aY(1,50),d);case
 3:var
-e=aN(a[1]);return am(aT(1,51),e);case
+e=aQ(a[1]);return as(aY(1,51),e);case
 4:var
-f=aN(a[1]);return am(aT(1,52),f);case
+f=aQ(a[1]);return as(aY(1,52),f);case
 5:var
-g=aN(a[1]);return am(aT(1,53),g);case
+g=aQ(a[1]);return as(aY(1,53),g);case
 6:var
-h=aN(a[1]);return am(aT(1,54),h);case
+h=aQ(a[1]);return as(aY(1,54),h);case
 7:var
-i=aN(a[1]);return am(aT(1,55),i);case
+i=aQ(a[1]);return as(aY(1,55),i);case
 8:var
-j=aN(a[1]);return am(aT(1,56),j);default:var
-k=aN(a[1]);return am(aT(1,57),k)}}function
-c6(a){return typeof
-a==="number"?oJ:aN(a)}function
-b_(a){return hg(b(2,c),a)}function
-hs(b,a){return cq(a,b)}function
-ht(b,a){return N(cq(N(a),b))}function
-dP(b,a){return N(bQ(N(b),a))}function
-by(c,b){var
-a=c4(b,c);return[0,a,a]}function
-S(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-ah(b,a){return[0,b7(b[1],a[2]),b7(b[2],a[1])]}function
-aD(a){return[0,N(a[2]),N(a[1])]}function
-hu(e,c,b,a){if(B(d,e))return B(d,b)?[0,n(e,b),n(c,a)]:B(a,d)?[0,n(c,b),n(e,a)]:[0,n(c,b),n(c,a)];if(B(c,d))return B(d,b)?[0,n(e,a),n(c,b)]:B(a,d)?[0,n(c,a),n(e,b)]:[0,n(e,a),n(e,b)];if(B(d,b))return[0,n(e,a),n(c,a)];if(B(a,d))return[0,n(c,b),n(e,b)];var
-f=b9(n(e,b),n(c,a));return[0,eV(n(e,a),n(c,b)),f]}function
-D(c,b,a){var
-d=hu(b[1],b[2],a[1],a[2]),e=ht(c,d[2]);return[0,hs(c,d[1]),e]}function
-ax(b,a){var
-c=n(a[1],a[1]),e=n(a[2],a[2]),h=ht(b,b9(c,e)),g=0;if(af(a[1],d)&&af(d,a[2])){var
+j=aQ(a[1]);return as(aY(1,56),j);default:var
+k=aQ(a[1]);return as(aY(1,57),k)}}function
+dg(a){return typeof
+a==="number"?pd:aQ(a)}function
+cf(a){return hG(b(2,c),a)}function
+hS(b,a){return cC(a,b)}function
+hT(b,a){return T(cC(T(a),b))}function
+d2(b,a){return T(bV(T(b),a))}function
+aZ(c,b){var
+a=df(b,c);return[0,a,a]}function
+H(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+O(b,a){return[0,cb(b[1],a[2]),cb(b[2],a[1])]}function
+aA(a){return[0,T(a[2]),T(a[1])]}function
+hU(e,c,b,a){if(D(d,e))return D(d,b)?[0,o(e,b),o(c,a)]:D(a,d)?[0,o(c,b),o(e,a)]:[0,o(c,b),o(c,a)];if(D(c,d))return D(d,b)?[0,o(e,a),o(c,b)]:D(a,d)?[0,o(c,a),o(e,b)]:[0,o(e,a),o(e,b)];if(D(d,b))return[0,o(e,a),o(c,a)];if(D(a,d))return[0,o(c,b),o(e,b)];var
+f=cd(o(e,b),o(c,a));return[0,fc(o(e,a),o(c,b)),f]}function
+B(c,b,a){var
+d=hU(b[1],b[2],a[1],a[2]),e=hT(c,d[2]);return[0,hS(c,d[1]),e]}function
+aj(b,a){var
+c=o(a[1],a[1]),e=o(a[2],a[2]),h=hT(b,cd(c,e)),g=0;if(ag(a[1],d)&&ag(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hs(b,eV(c,e));return[0,f,h]}function
-hv(b,a){var
-c=c4(b_(b),b),d=dP(c,a[1]);return[0,bQ(c,a[2]),d]}function
-cu(b,a){if(af(d,a[1]))return[0,hv(b,a)];var
-c=af(a[2],d),e=c?[0,aD(hv(b,aD(a)))]:c;return e}function
-dQ(f,b){var
-g=af(d,b[1]);if(g)var
-e=c4(b[2],f),a=hj(e),i=as(n(a,a),e)?a:z(a,c),h=[0,[0,hj(c4(b[1],f)),i]];else
+f=hS(b,fc(c,e));return[0,f,h]}function
+hV(b,a){var
+c=df(cf(b),b),d=d2(c,a[1]);return[0,bV(c,a[2]),d]}function
+cg(b,a){if(ag(d,a[1]))return[0,hV(b,a)];var
+c=ag(a[2],d),e=c?[0,aA(hV(b,aA(a)))]:c;return e}function
+cG(f,b){var
+g=ag(d,b[1]);if(g)var
+e=df(b[2],f),a=hJ(e),i=al(o(a,a),e)?a:z(a,c),h=[0,[0,hJ(df(b[1],f)),i]];else
 var
 h=g;return h}function
-aW(e,d,c,b,a){if(b){if(a){var
-g=aW(e,d,c,b[2],a[2]);return[0,Y(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bR(b,a){return cq(b,a)}function
-cv(a,c,b){if(B(d,a)){var
-e=b[1],f=N(bR(N(n(a,b[2])),c));return[0,bR(n(a,e),c),f]}var
-g=b[2],h=N(bR(N(n(a,b[1])),c));return[0,bR(n(a,g),c),h]}function
-dR(a){var
-b=N(cq(N(a[2]),c));return[0,cq(a[1],c),b]}function
-e2(c,b,a){var
-e=hu(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=af(f,d)?a[2]:a[1],i=dP(f,h),j=af(g,d)?a[1]:a[2];return[0,bQ(g,j),i]}var
-aE=[0,d,d];function
-e3(a){return[0,a[1],a[1]]}function
-e4(a){return[0,a[2],a[2]]}function
-ay(a,b){switch(b[0]){case
+a0(e,d,c,b,a){if(b){if(a){var
+g=a0(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bW(b,a){return cC(b,a)}function
+bX(a,c,b){if(D(d,a)){var
+e=b[1],f=T(bW(T(o(a,b[2])),c));return[0,bW(o(a,e),c),f]}var
+g=b[2],h=T(bW(T(o(a,b[1])),c));return[0,bW(o(a,g),c),h]}function
+d3(a){var
+b=T(cC(T(a[2]),c));return[0,cC(a[1],c),b]}function
+fi(c,b,a){var
+e=hU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ag(f,d)?a[2]:a[1],i=d2(f,h),j=ag(g,d)?a[1]:a[2];return[0,bV(g,j),i]}var
+_=[0,d,d];function
+fj(a){return[0,a[1],a[1]]}function
+d4(a){return[0,a[2],a[2]]}function
+au(a,b){switch(b[0]){case
 0:var
-n=b[2],m=c4(b[1],a),t=dP(m,n);return[0,[0,bQ(m,n),t]];case
+n=b[2],m=df(b[1],a),t=d2(m,n);return[0,[0,bV(m,n),t]];case
 1:var
-c=ay(a,b[1]);if(c)var
-d=ay(a,b[2]),u=d?[0,S(c[1],d[1])]:d,o=u;else
+c=au(a,b[1]);if(c)var
+d=au(a,b[2]),u=d?[0,H(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=ay(a,b[1]);if(e)var
-f=ay(a,b[2]),v=f?[0,ah(e[1],f[1])]:f,p=v;else
+e=au(a,b[1]);if(e)var
+f=au(a,b[2]),v=f?[0,O(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=ay(a,b[1]);if(g)var
-h=ay(a,b[2]),w=h?[0,D(a,g[1],h[1])]:h,q=w;else
+g=au(a,b[1]);if(g)var
+h=au(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=ay(a,b[1]);if(i){var
-j=ay(a,b[2]);if(j)var
-k=cu(a,j[1]),x=k?[0,D(a,i[1],k[1])]:k,r=x;else
+i=au(a,b[1]);if(i){var
+j=au(a,b[2]);if(j)var
+k=cg(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=ay(a,b[1]);return l?dQ(a,l[1]):l}}function
-hw(a){var
-e=b9(N(a),d);return e0(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hx(a){return hh(z(hw(a),a))}function
-b$(f,a,e){var
-b=ay(z(f,hw(a)),e);if(b)var
-c=b[1],g=hx(a),h=N(bR(N(c[2]),g)),i=hx(a),d=[0,[0,bR(c[1],i),h]];else
+l=au(a,b[1]);return l?cG(a,l[1]):l}}function
+hW(a){var
+e=cd(T(a),d);return fg(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+hX(a){return hH(z(hW(a),a))}function
+ch(f,a,e){var
+b=au(z(f,hW(a)),e);if(b)var
+c=b[1],g=hX(a),h=T(bW(T(c[2]),g)),i=hX(a),d=[0,[0,bW(c[1],i),h]];else
 var
 d=b;return d}function
-aX(d,a){var
-b=b$(d,a[2],a[1][1]);if(b)var
-c=b$(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+a1(d,a){var
+b=ch(d,a[2],a[1][1]);if(b)var
+c=ch(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hy(b,a){var
-c=N(bR(N(a[2]),b));return[0,bR(a[1],b),c]}function
-e5(b,a){var
-c=dP(b[2],a);return[0,bQ(b[1],a),c]}function
-e6(a,f,b){if(b){var
-d=b[1],g=e6(a,f,d),h=g[2],i=eY(W(c2(oL,d),oK)),j=n(eY(c2(oM,d)),i),e=e5(D(a,g[1],f),j),k=hd(b)?S(h,e):ah(h,e);return[0,e,k]}var
-l=by(a,c);return[0,by(a,c),l]}function
-hz(f){var
-g=c3(f),e=oN[1],b=g,c=0,a=e;for(;;){if(b){var
+hY(b,a){var
+c=T(bW(T(a[2]),b));return[0,bW(a[1],b),c]}function
+fk(b,a){var
+c=d2(b[2],a);return[0,bV(b[1],a),c]}function
+fl(a,f,b){if(b){var
+d=b[1],g=fl(a,f,d),h=g[2],i=fe(M(dd(pf,d),pe)),j=o(fe(dd(pg,d)),i),e=fk(B(a,g[1],f),j),k=hD(b)?H(h,e):O(h,e);return[0,e,k]}var
+l=aZ(a,c);return[0,aZ(a,c),l]}function
+hZ(f){var
+g=de(f),e=ph[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return W(oO,c)}}function
-hA(a,d){var
-g=b_(a),h=n(b(2,b(2,c)),g),e=B(d[2],h);if(e)var
-i=e6(a,d,c2(oQ,W(hz(a),oP)))[2][2],f=[0,[0,e6(a,d,W(c2(oS,hz(a)),oR))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return M(pi,c)}}function
+h0(a,d){var
+g=cf(a),h=o(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
+i=fl(a,d,dd(pk,M(hZ(a),pj)))[2][2],f=[0,[0,fl(a,d,M(dd(pm,hZ(a)),pl))[2][1],i]];else
 var
 f=e;return f}function
-hB(i){function
+h1(i){function
 a(h){var
-m=bQ(b_(i),h),g=c3(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,bQ(f,a)),l=N(bQ(f,n(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(j(b(2,j(b(2,j(b(2,j(b(2,b(2,j(b(2,j(b(2,c)))))))))))))),f=n(b(2,b(2,c)),e),g=a(j(b(2,b(2,c))));return b7(n(b(2,b(2,b(2,b(2,c)))),g),f)}function
-hC(e,a){var
-f=B(d,a);if(f){var
-g=b(2,b(2,c));return hA(e,e5(ax(e,[0,a,a]),g))}return f}function
-hD(a,d){var
-b=ax(a,d),e=by(a,c);return ah(S(b,b),e)}function
-dS(o,u){var
-h=ay(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=b7(hB(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),k=z(hB(a),r),f=hC(a,i);if(f){var
-g=hC(a,k);if(g)var
-l=af(d,f[1][1]),m=l?af(g[1][2],d):l,n=m?[0,[0,i,k]]:m;else
+m=bV(cf(i),h),g=de(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,bV(f,a)),l=T(bV(f,o(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=o(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return cb(o(b(2,b(2,b(2,b(2,c)))),g),f)}function
+h2(e,a){var
+f=D(d,a);if(f){var
+g=b(2,b(2,c));return h0(e,fk(aj(e,[0,a,a]),g))}return f}function
+h3(a,d){var
+b=aj(a,d),e=aZ(a,c);return O(H(b,b),e)}function
+d5(o,u){var
+h=au(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cb(h1(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(h1(a),r),f=h2(a,i);if(f){var
+g=h2(a,j);if(g)var
+l=ag(d,f[1][1]),m=l?ag(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
 var
 n=g;var
 e=n}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))))),t=hA(a,ax(a,e5(D(a,v,e[1]),s))),p=aw(function(b){return hD(a,hD(a,b))},t);else
+s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=h0(a,aj(a,fk(B(a,v,e[1]),s))),p=ab(function(b){return h3(a,h3(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return aw(function(a){return hy(w,a)},p)}return h}function
-e7(d,a){return dS(d,[2,a,[0,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))),c]])}function
-dT(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ab(function(a){return hY(w,a)},p)}return h}function
+fm(d,a){return d5(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
+d6(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2274,127 +2278,127 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bz(j,i){var
+bf(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?aC(b[1],a[1]):0;case
-1:return 1===a[0]?aC(b[1],a[1]):0;case
-2:return 2===a[0]?as(b[1],a[1]):0;case
+0:return 0===a[0]?ai(b[1],a[1]):0;case
+1:return 1===a[0]?ai(b[1],a[1]):0;case
+2:return 2===a[0]?al(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bz(b[1],a[1]);if(e){var
+e=bf(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bz(b[1],a[1]);if(f){var
+f=bf(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bz(b[1],a[1]);if(g){var
+g=bf(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bz(b[1],a[1]);if(h){var
+h=bf(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-dU(b){var
+d7(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bc(c,b){var
-a=dU(b);return a?as(c,a[1]):a}function
-c7(a){return af(eJ(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-r(a){return[0,[2,a]]}function
-T(b,a){if(bc(d,b))return a;if(bc(d,a))return b;var
-c=dU(b);if(c){var
-e=c[1],f=dU(a);if(f){var
-g=f[1];if(c7(e)&&c7(g))return r(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ca(a){var
+bg(c,b){var
+a=d7(b);return a?al(c,a[1]):a}function
+dh(a){return ag(e2(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+q(a){return[0,[2,a]]}function
+G(b,a){if(bg(d,b))return a;if(bg(d,a))return b;var
+c=d7(b);if(c){var
+e=c[1],f=d7(a);if(f){var
+g=f[1];if(dh(e)&&dh(g))return q(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ci(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return c7(c)?r(N(c)):[0,[5,a]];case
+c=b[1];return dh(c)?q(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-I(b,a){return bc(d,a)?b:bc(d,b)?ca(a):[0,[4,b,a]]}function
-ao(a){var
-c=dU(a);if(c){var
-b=c[1];return c7(b)?r(n(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bc(d,a)&&!bc(c,b)){if(!bc(d,b)&&!bc(c,a))return bz(a,b)?ao(a):[0,[6,a,b]];return b}return a}function
-aI(b,a){return bc(c,a)?b:[0,[7,b,a]]}function
-cw(a){return bc(c,a)?a:[0,[9,a]]}function
-c8(g,f,d,c){var
+A(b,a){return bg(d,a)?b:bg(d,b)?ci(a):[0,[4,b,a]]}function
+ac(a){var
+c=d7(a);if(c){var
+b=c[1];return dh(b)?q(o(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bg(d,a)&&!bg(c,b)){if(!bg(d,b)&&!bg(c,a))return bf(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
+aK(b,a){return bg(c,a)?b:[0,[7,b,a]]}function
+cH(a){return bg(c,a)?a:[0,[9,a]]}function
+cI(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,dT(function(b){return function(a){return L(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-cx(a){var
+h=b[1],i=[0,e(f,d6(function(b){return function(a){return P(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+d8(a){var
 b=0;function
-c(a){return[0,a]}return c8(r(d),c,a,b)}function
-e8(b,a){if(a){if(bz(b,a[1]))return oT;var
-c=e8(b,a[2]);return aw(function(a){return[0,a]},c)}return a}function
-bS(c,b){var
-a=e8(b,c),d=a?a[1]:a;return d}function
-dV(d,a){if(e8(d,a[1]))return a;var
+c(a){return[0,a]}return cI(q(d),c,a,b)}function
+fn(b,a){if(a){if(bf(b,a[1]))return pn;var
+c=fn(b,a[2]);return ab(function(a){return[0,a]},c)}return a}function
+bY(c,b){var
+a=fn(b,c),d=a?a[1]:a;return d}function
+d9(d,a){if(fn(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=dV(b[1],a);break;case
+c=d9(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=dV(b[1],a),c=dV(b[2],h)}var
-e=c[2],f=c[1],g=[0,dT(function(a){return bS(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-dW(c){var
-b=c,a=oU;for(;;){if(b){var
-d=dV(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bS(e,a)},c);return[0,hl(a[2]),g]}}function
-hE(a){return cr(function(a,b){return z(b9(a[2],N(a[1])),b)},d,a)}function
-cy(b,c,a){var
-d=hE(a),e=eV(c[2],z(b[2],d)),f=hE(a);return[0,b,[0,b9(c[1],b7(b[1],f)),e],a]}function
-bd(a){return[0,a,a,0]}function
-e9(b,a){return a?e(b,a[1]):a}function
-dX(d,b,a){if(b){if(a)return Y(d,b[1],a[1]);var
+h=d9(b[1],a),c=d9(b[2],h)}var
+e=c[2],f=c[1],g=[0,d6(function(a){return bY(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+d_(c){var
+b=c,a=po;for(;;){if(b){var
+d=d9(b[1],a),b=b[2],a=d;continue}var
+e=a[1],g=f(function(a){return bY(e,a)},c);return[0,hL(a[2]),g]}}function
+h4(a){return cD(function(a,b){return z(cd(a[2],T(a[1])),b)},d,a)}function
+cJ(b,c,a){var
+d=h4(a),e=fc(c[2],z(b[2],d)),f=h4(a);return[0,b,[0,cd(c[1],cb(b[1],f)),e],a]}function
+bh(a){return[0,a,a,0]}function
+fo(b,a){return a?e(b,a[1]):a}function
+d$(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-e_(a,e,d){var
-c=bd(aE);return function(b){switch(b[0]){case
-0:return[0,L(b[1],e,c)];case
-1:return[0,L(b[1],d,c)];case
-2:return[0,bd(by(a,b[1]))];case
+fp(a,e,d){var
+c=bh(_);return function(b){switch(b[0]){case
+0:return[0,P(b[1],e,c)];case
+1:return[0,P(b[1],d,c)];case
+2:return[0,bh(aZ(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return dX(function(b,a){var
+g=b[2],h=b[1];return d$(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aW(function(a){return a},e,S,d,c),g=S(b[2],a[2]);return[0,cy(S(b[1],a[1]),g,f)]},h,g);case
+f=a0(function(a){return a},e,H,d,c),g=H(b[2],a[2]);return[0,cJ(H(b[1],a[1]),g,f)]},h,g);case
 4:var
-i=b[2],j=b[1];return dX(function(b,a){var
-c=a[3],d=b[3],e=aW(function(a){return a},aD,ah,d,c),f=ah(b[2],a[2]);return[0,cy(ah(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return d$(function(b,a){var
+c=a[3],d=b[3],e=a0(function(a){return a},aA,O,d,c),f=O(b[2],a[2]);return[0,cJ(O(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return e9(function(a){var
-b=f(aD,a[3]),c=aD(a[2]);return[0,[0,aD(a[1]),c,b]]},k);case
+k=b[1];return fo(function(a){var
+b=f(aA,a[3]),c=aA(a[2]);return[0,[0,aA(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return dX(function(c,b){var
-d=S(b[2],b[1]),e=S(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return d$(function(c,b){var
+d=H(b[2],b[1]),e=H(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=D(a,e,b);return dR(S(D(a,d,c),f))}function
-i(b){return dR(D(a,e,b))}var
-j=aW(function(b){return dR(D(a,d,b))},i,h,g,f),k=D(a,c[2],b[2]);return[0,cy(D(a,c[1],b[1]),k,j)]},m,l);case
+f=B(a,e,b);return d3(H(B(a,d,c),f))}function
+i(b){return d3(B(a,e,b))}var
+j=a0(function(b){return d3(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cJ(B(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return dX(function(e,g){var
-b=cu(a,g[1]);if(b){var
-c=cu(a,g[2]);if(c)var
-h=c[1],d=D(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return ah(c,D(a,d,b))},n=function(b){return aD(D(a,d,b))},o=aW(function(a){return a},n,m,l,k),p=f(function(b){return D(a,h,b)},o),i=[0,cy(d,D(a,e[2],h),p)];else
+n=b[2],o=b[1];return d$(function(e,g){var
+b=cg(a,g[1]);if(b){var
+c=cg(a,g[2]);if(c)var
+h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return O(c,B(a,d,b))},n=function(b){return aA(B(a,d,b))},o=a0(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cJ(d,B(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return e9(function(b){var
-c=b[3],d=S(b[2],b[1]),e=f(function(b){return D(a,d,b)},c),g=ax(a,b[2]);return[0,cy(ax(a,b[1]),g,e)]},p);default:var
-q=b[1];return e9(function(e){var
-b=dQ(a,e[1]);if(b){var
-g=b[1],c=dQ(a,e[2]);if(c){var
-h=c[1],d=cu(a,S(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cy(g,h,f(function(b){return D(a,m,b)},l))];else
+p=b[1];return fo(function(b){var
+c=b[3],d=H(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cJ(aj(a,b[1]),g,e)]},p);default:var
+q=b[1];return fo(function(e){var
+b=cG(a,e[1]);if(b){var
+g=b[1],c=cG(a,e[2]);if(c){var
+h=c[1],d=cg(a,H(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cJ(g,h,f(function(b){return B(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2403,126 +2407,130 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-oV(a){return a}function
-oW(a){return a}function
-oX(a,b){return aW(oW,oV,S,a,b)}function
-oY(a){return a}function
-oZ(a){return a}function
-e$(b,a,c){if(a){var
+pp(a){return a}function
+pq(a){return a}function
+pr(a,b){return a0(pq,pp,H,a,b)}function
+ps(a){return a}function
+pt(a){return a}function
+h5(a,b){return a0(pt,ps,pr,a,b)}function
+fq(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=e$(b,e,c[2]),h=c[1],i=function(c,a){return ah(c,e2(d,a,b))},j=function(a){return aD(e2(d,a,b))};return[0,aW(function(a){return a},j,i,h,a),g]}var
-k=e$(b,e,0);return[0,f(function(a){return aD(e2(d,a,b))},a),k]}return c}function
-hF(a){if(a){var
+g=fq(b,e,c[2]),h=c[1],i=function(c,a){return O(c,fi(d,a,b))},j=function(a){return aA(fi(d,a,b))};return[0,a0(function(a){return a},j,i,h,a),g]}var
+k=fq(b,e,0);return[0,f(function(a){return aA(fi(d,a,b))},a),k]}return c}function
+h6(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=af(d,c[1]),h=e?[0,e$(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=ag(d,c[1]),h=e?[0,fq(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-hG(f,e){var
+h7(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hF(b);if(c){var
+c=h6(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-hH(d,b,a){if(b)if(a)var
-e=a[1],f=hH(d,b[2],a[2]),g=dK(d,b[1])?e3(e):e4(e),c=[0,g,f];else
+h8(d,b,a){if(b)if(a)var
+e=a[1],f=h8(d,b[2],a[2]),g=dX(d,b[1])?fj(e):d4(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-hI(a,b){if(a)if(b)var
-d=hI(a[2],b[2]),c=[0,hH(a[1],a,b[1]),d];else
+h9(a,b){if(a)if(b)var
+d=h9(a[2],b[2]),c=[0,h8(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bT(a){if(a){var
-b=a[1],c=bT(b),d=f(function(a){return[0,1,a]},c),e=bT(b);return g(f(function(a){return[0,0,a]},e),d)}return o0}function
-dY(a){var
-b=l(a);if(hG(b,a))return 1;var
-c=bT(c1(b));return p(function(c){return hG(b,hI([0,0,c],a))},c)}function
-bU(a){function
+bZ(a){if(a){var
+b=a[1],c=bZ(b),d=f(function(a){return[0,1,a]},c),e=bZ(b);return g(f(function(a){return[0,0,a]},e),d)}return pu}function
+ea(a){var
+b=n(a);if(h7(b,a))return 1;var
+c=bZ(cB(b));return p(function(c){return h7(b,h9([0,0,c],a))},c)}function
+a7(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-c9(h,e){var
+di(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?S(a,d):ah(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hJ(c,b,a){var
-d=bT(c);return p(function(c){return e(a,e(bU(function(a){return c9(c,a)}),b))},d)}function
-hK(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return cv(b,z(h,c),a)},k=hK(h,j,i),l=function(c,b){var
-d=a(b,e);return S(a(f,c),d)},m=function(b){return a(b,e)},n=aW(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,S(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?H(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+h_(c,b,a){var
+d=bZ(c);return p(function(c){return e(a,e(a7(function(a){return di(c,a)}),b))},d)}function
+h$(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bX(b,z(h,c),a)},k=h$(h,j,i),l=function(c,b){var
+d=a(b,e);return H(a(f,c),d)},m=function(b){return a(b,e)},n=a0(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,H(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-hL(d,l,k,j){var
-c=l,b=k,a=j;for(;;){if(c){if(b){var
-e=b[1],f=c[1],g=e4(e[2]),m=e[1],h=function(e){return function(a,b){var
-c=cv(b,d,e);return ah(S(a,a),c)}}(g),i=function(b){return function(a){return aD(cv(a,d,b))}}(g),n=aW(oZ,oY,oX,a,hK(d,f,aW(function(a){return S(a,a)},i,h,m,f))),c=c[2],b=b[2],a=n;continue}return a}return a}}function
-hM(b,a){return[0,[0,0,b],a]}function
-c_(b,c,g,f,a){function
+ia(b,d,a,c){function
+e(c,d){var
+e=bX(d,b,a);return O(H(c,c),e)}function
+f(c){return aA(bX(c,b,a))}return a0(function(a){return H(a,a)},f,e,d,c)}function
+fr(d,i,h,g){var
+c=i,b=h,a=g;for(;;){if(c){if(b){var
+e=b[1],f=c[1],j=d4(e[2]),k=h5(a,h$(d,f,ia(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+ib(b,a){return[0,[0,0,b],a]}function
+dj(b,c,g,f,a){function
 d(a){if(a){var
-h=ct([0,aD(a[1][2]),0],b),c=hL(g,f,a[2],h),d=aC(l(c),b);if(d)return dY(c);var
+h=ce([0,aA(a[1][2]),0],b),c=fr(g,f,a[2],h),d=ai(n(c),b);if(d)return ea(c);var
 e=d}else
 var
-e=a;return e}return hJ(b,hM(c,a),d)}function
-hN(f,e){var
+e=a;return e}return h_(b,ib(c,a),d)}function
+ic(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=hF([0,[0,e3(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=h6([0,[0,fj(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fa(b,c,a){function
+fs(b,c,a){function
 d(a){if(a){var
-h=ct([0,a[1][2],0],b),c=hN(a[2],h);if(c){var
-d=c[1],e=aC(l(d),b);if(e)return dY(d);var
+h=ce([0,a[1][2],0],b),c=ic(a[2],h);if(c){var
+d=c[1],e=ai(n(d),b);if(e)return ea(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return hJ(b,hM(c,a),d)}function
-hO(a,b){var
-c=b[3],d=a[3],e=aW(function(a){return a},aD,ah,d,c),f=a[2];return[0,ah(a[1],b[1]),f,e]}function
-dZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bV(c,b,a){var
-d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
-d0(b,a){var
+g=a;return g}return h_(b,ib(c,a),d)}function
+id(a,b){var
+c=b[3],d=a[3],e=a0(function(a){return a},aA,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
+eb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b0(c,b,a){var
+d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
+ec(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-d1(b,a){var
-c=aI(b[3],a),d=aI(b[2],a);return[0,aI(b[1],a),d,c]}function
-aJ(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return T(T(v(b[1],a[1]),d),c)}function
-fb(a){return d1(a,cw(aJ(a,a)))}function
-hP(a){return f(function(a){var
-b=a[2];return[0,dZ(a[1]),b]},a)}function
-hQ(a){return f(function(a){var
-b=r(c);return[0,dZ(a[3]),b]},a)}function
-bA(a){return cq(z(a[1],a[2]),c)}function
-cz(a){var
-b=bA(a);return b7(a[2],b)}function
-hR(c,b){if(b)var
-a=b[1],e=hR([0,c],b[2]),f=cz(a),h=[0,[0,cz(a),f],0],i=g(ct(aE,c),h),j=bA(a),d=[0,[0,[0,bA(a),j],a,i],e];else
+ed(b,a){var
+c=aK(b[3],a),d=aK(b[2],a);return[0,aK(b[1],a),d,c]}function
+aB(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
+ft(a){return ed(a,cH(aB(a,a)))}function
+ie(a){return f(function(a){var
+b=a[2];return[0,eb(a[1]),b]},a)}function
+ig(a){return f(function(a){var
+b=q(c);return[0,eb(a[3]),b]},a)}function
+bE(a){return cC(z(a[1],a[2]),c)}function
+cK(a){var
+b=bE(a);return cb(a[2],b)}function
+ih(c,b){if(b)var
+a=b[1],e=ih([0,c],b[2]),f=cK(a),h=[0,[0,cK(a),f],0],i=g(ce(_,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
 var
 d=b;return d}function
-d2(d,b){if(b){var
+ee(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d2(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bA(a),f],c],h=bA(a);return[0,[0,[0,a[1],h],c],g]}return o1}function
-hS(d,c,b,a){var
-e=f(bd,b);return c8(0,e_(d,hR(0,a),e),c,0)}function
-aY(a){if(a){var
+e=ee(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pv}function
+ii(d,c,b,a){var
+e=f(bh,b);return cI(0,fp(d,ih(0,a),e),c,0)}function
+aW(a){if(a){var
 b=a[1];if(b)var
-c=aY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return o2}function
-hT(b,a){if(a){var
-h=a[1],n=h[1],c=aY(f(function(a){return L(a,b,0)},n));if(c){var
-e=L(h[2],b,0);if(e){var
-i=e[1],g=hT(b,a[2]);if(g)var
-j=af(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pw}function
+ij(b,a){if(a){var
+h=a[1],n=h[1],c=aW(f(function(a){return P(a,b,0)},n));if(c){var
+e=P(h[2],b,0);if(e){var
+i=e[1],g=ij(b,a[2]);if(g)var
+j=ag(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2530,146 +2538,146 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return o3}function
-cb(d,c,b){var
-a=hT(d,c);return a?e(b,a[1]):a}function
-fd(a,b){return p(function(c){var
-a=L(c,b,0),d=a?1:a;return d},a)}function
-d3(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aW(function(a){return a},f,S,e,d),h=a[2];return[0,S(a[1],c[1]),h,g]}return a}function
-fe(b,a){return b?hO(a,b[1]):a}function
-ff(h,g,b,f){var
-a=L(f,h,0);if(a){var
+m=c;return m}return px}function
+cj(d,c,b){var
+a=ij(d,c);return a?e(b,a[1]):a}function
+fv(a,b){return p(function(c){var
+a=P(c,b,0),d=a?1:a;return d},a)}function
+ef(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a0(function(a){return a},f,H,e,d),h=a[2];return[0,H(a[1],c[1]),h,g]}return a}function
+fw(b,a){return b?id(a,b[1]):a}function
+fx(h,g,b,f){var
+a=P(f,h,0);if(a){var
 c=a[1];if(b){var
-i=hO(c,b[1]),e=bT(g);return p(function(a){return B(d,c9(a,i)[1])},e)}return B(d,c[2][1])}return a}function
-hU(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=id(c,b[1]),e=bZ(g);return p(function(a){return D(d,di(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+ik(m,j,q,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fd(l,b);if(r){var
-B=a[2],C=a[1],E=d3(g,bd(k));return cb(b,j,function(a){return c_(e,E,C,B,a)})}return r;case
+r=fv(l,b);if(r){var
+C=a[2],D=a[1],E=ef(g,bh(k));return cj(b,j,function(a){return dj(e,E,D,C,a)})}return r;case
 1:var
-s=fd(l,b);if(s){var
-F=a[2],G=a[1],H=d3(g,bd(k));return cb(b,q,function(a){return c_(e,H,G,F,a)})}return s;case
+s=fv(l,b);if(s){var
+F=a[2],G=a[1],H=ef(g,bh(k));return cj(b,q,function(a){return dj(e,H,G,F,a)})}return s;case
 2:var
-t=fd(l,b);if(t){if(g)return 0;var
-u=as(k[1],d),v=u?as(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cb(b,j,function(a){var
-b=[0,aE,aE,0];return c_(e,[0,aE,aE,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=fv(l,b);if(t){if(g)return 0;var
+u=al(k[1],d),v=u?al(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cj(b,j,function(a){var
+b=[0,_,_,0];return dj(e,[0,_,_,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fe(g,bd(x));return cb(b,q,function(a){return fa(e,K,a)})}if(!a){var
-L=fe(g,bd(x));return cb(b,j,function(a){return fa(e,L,a)})}}return 0;case
+K=fw(g,bh(x));return cj(b,q,function(a){return fs(e,K,a)})}if(!a){var
+L=fw(g,bh(x));return cj(b,j,function(a){return fs(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return cv(a,y,by(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),aE,A];else
+y=a[1],n=a[3],o=function(a){return bX(a,y,aZ(m,c))};if(n)var
+A=f(o,n[2]),i=[0,o(n[1]),_,A];else
 var
-i=bd(aE);var
-z=h[1],M=a[2];return cb(b,j,function(c){var
-h=bT(e),a=p(function(a){return af(d,c9(a,i)[1])},h),b=a?c_(e,d3(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return D(m,z,a)},j),l=i[2];return fa(e,fe(g,[0,D(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=bh(_);var
+z=h[1],M=a[2];return cj(b,j,function(c){var
+h=bZ(e),a=p(function(a){return ag(d,di(a,i)[1])},h),b=a?dj(e,ef(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fs(e,fw(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ff(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fx(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=d3(g,bd(h[2])),Q=function(a){return c_(e,P,O,N,a)};return cb(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=ef(g,bh(h[2])),Q=function(a){return dj(e,P,O,N,a)};return cj(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ff(b,e,g,h[1]);case
-2:return ff(b,e,g,h[2])}return 0}}function
-fg(b,a){if(a){var
+0:return fx(b,e,g,h[1]);case
+2:return fx(b,e,g,h[2])}return 0}}function
+eg(b,a){if(a){var
 c=a[2];if(b){var
-e=fg(b[1],c);return[0,a[1],e]}var
+e=eg(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hV(r,V,H,G,F,U,T,E,c,D,C){if(D){var
-I=hS(r,V,U,c),g=D,b=C;for(;;){if(g){var
-v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
+il(r,V,H,G,F,U,T,E,c,C,B){if(C){var
+I=ii(r,V,U,c),g=C,b=B;for(;;){if(g){var
+v=g[1],a=v[2],m=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
-m=e(E,c);if(m)var
-S=m[1],M=bT(l(c)),o=p(function(b){return function(a){return af(c9(a,b)[2],d)}}(S),M);else
+l=e(E,c);if(l)var
+S=l[1],L=bZ(n(c)),o=p(function(b){return function(a){return ag(di(a,b)[2],d)}}(S),L);else
 var
-o=m;if(o){var
+o=l;if(o){var
 g=w,b=f(function(a){return 0},b);continue}return o}var
-x=L(n,b,0);if(x){var
-q=aV(T,n);if(q){var
+x=P(m,b,0);if(x){var
+q=aJ(T,m);if(q){var
 y=q[1],J=0;if(typeof
 a==="number"||!(5===a[0]))J=1;else{var
 i=a[2],j=e(E,c),K=0;if(j){var
-s=B(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return cv(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,cv(i,t,k[1]),P,O]],h=hU(r,H,G,F,I,l(c),R,y,Q);K=1}else
+s=D(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],M=k[3],N=f(function(b,c){return function(a){return bX(b,c,a)}}(i,t),M),O=k[2],R=[0,[0,bX(i,t,k[1]),O,N]],h=ik(r,H,G,F,I,n(c),R,y,Q);K=1}else
 var
 u=s}else
 var
 u=j;if(!K)var
 h=u}if(J)var
-h=hU(r,H,G,F,I,l(c),0,y,a);if(h){var
-g=w,b=fg(n,b);continue}var
+h=ik(r,H,G,F,I,n(c),0,y,a);if(h){var
+g=w,b=eg(m,b);continue}var
 z=h}else
 var
 z=q;var
 A=z}else
 var
-A=x;return A}return[0,b]}}return[0,C]}function
-fh(j,i,h,g,f,e,d,c,u,t,s){var
+A=x;return A}return[0,b]}}return[0,B]}function
+fy(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=hV(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aU,l[1]):l}var
-m=hV(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d2(a[2],b),q=fh(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+l=il(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aV,l[1]):l}var
+m=il(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=ee(a[2],b),q=fy(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
 b=o[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hW(a){return f(function(a){return 1},a)}function
-cA(m,q){var
+im(a){return f(function(a){return 1},a)}function
+ck(m,r){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(B(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(B(j,c)){var
-k=as(b,n),l=k?c7(b):k;if(l)var
-o=as(m[2],d),g=o||as(b,d);else
+i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(D(j,c)){var
+k=al(b,n),l=k?dh(b):k;if(l)var
+o=al(m[2],d),g=o||al(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=as(bb(j,aP(2))[2],d)?0:0}else
+a=al(be(j,aT(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=as(bb(i,aP(2))[2],d)?0:0}else
+a=al(be(i,aT(2))[2],d)?0:0}else
 var
-a=0;return a?r(a[1]):[0,[1,q]]}function
-d4(b,a){if(a)var
-d=d4([0,b],a[2]),c=[0,cA(a[1],b),d];else
+a=0;return a?q(a[1]):[0,[1,r]]}function
+eh(b,a){if(a)var
+d=eh([0,b],a[2]),c=[0,ck(a[1],b),d];else
 var
 c=a;return c}function
-be(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fi(b,d,a){switch(a[0]){case
+bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fz(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(be(c[3],b),f),i=g(be(c[2],b),h);return g(be(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
 1:var
-e=a[3],j=e?be(e[1],d):e,k=g(be(a[2],b),j);return g(be(a[1],b),k);default:return be(a[1],d)}}function
-bB(b,a){var
-c=r(d),e=L(W(o4,a),b,c),f=r(d),g=L(W(o5,a),b,f);return[0,L(a,b,r(d)),g,e]}function
-hX(b,a){return bV(I,bV(T,fc,a),b)}function
-hY(c,b,a){if(a){var
-e=a[2],f=hY(c,hk(b),e),h=a[1];return g(fi(c,e1(d,b),h),f)}return a}function
-hZ(m,k,h,x){if(h){var
-e=h[1],J=W(x,l(fi(m,e1(d,k),e))),K=h[2],M=hZ(m,hk(k),K,J),a=d4(x,fi(m,e1(d,k),e));switch(e[0]){case
+e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
+bF(b,a){var
+c=q(d),e=P(M(py,a),b,c),f=q(d),g=P(M(pz,a),b,f);return[0,P(a,b,q(d)),g,e]}function
+io(b,a){return b0(A,b0(G,fu,a),b)}function
+ip(c,b,a){if(a){var
+e=a[2],f=ip(c,hK(b),e),h=a[1];return g(fz(c,fh(d,b),h),f)}return a}function
+iq(l,k,h,x){if(h){var
+e=h[1],K=M(x,n(fz(l,fh(d,k),e))),L=h[2],N=iq(l,hK(k),L,K),a=eh(x,fz(l,fh(d,k),e));switch(e[0]){case
 0:var
-E=e[1][5],u=L(o6,a,r(d)),g=fb(bB(a,0)),F=bB(a,o7),v=hX(bB(a,o8),F),o=aJ(g,v),f=bV(I,v,d0(o,g)),z=aJ(f,f),p=I(ao(u),z),q=cw(p),i=E?q:ca(q),A=I(o,i),B=bV(T,g,d1(f,i)),n=[0,bV(T,f,d0(i,g)),p,B,A,[0,u],0];break;case
+F=e[1][5],u=P(pA,a,q(d)),g=ft(bF(a,0)),H=bF(a,pB),v=io(bF(a,pC),H),o=aB(g,v),f=b0(A,v,ec(o,g)),z=aB(f,f),p=A(ac(u),z),r=cH(p),i=F?r:ci(r),B=A(o,i),C=b0(G,g,ed(f,i)),m=[0,b0(G,f,ec(i,g)),p,C,B,[0,u],0];break;case
 1:var
-w=e[3],G=w?[0,fb(bB(a,o9))]:w,H=bB(a,o_),b=hX(bB(a,0),H),s=aJ(b,b),t=cw(s),C=aw(function(a){return bV(I,b,d0(aJ(a,b),a))},G),n=[0,b,s,d1(b,t),t,0,C];break;default:var
-j=fb(bB(a,0)),D=aJ(j,fc),n=[0,j,r(c),j,D,0,0]}var
-y=[0,n,M]}else
+w=e[3],I=w?[0,ft(bF(a,pD))]:w,J=bF(a,pE),b=io(bF(a,0),J),s=aB(b,b),t=cH(s),D=ab(function(a){return b0(A,b,ec(aB(a,b),a))},I),m=[0,b,s,ed(b,t),t,0,D];break;default:var
+j=ft(bF(a,0)),E=aB(j,fu),m=[0,j,q(c),j,E,0,0]}var
+y=[0,m,N]}else
 var
 y=h;return y}function
-cc(k,a){if(typeof
+cl(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2686,96 +2694,96 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fj(d,c,b,a){var
-e=v(c,b);return I(v(d,a),e)}function
-cB(a){return C(function(a){return g(a[1],[0,a[2],0])},a)}function
-h0(a){if(a){var
+fA(d,c,b,a){var
+e=v(c,b);return A(v(d,a),e)}function
+cL(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
+ir(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=h0(a[2]);if(d)var
-g=d[1],h=aJ(c,c),e=[0,[0,[0,dZ(c),h],g]];else
+c=b[1],d=ir(a[2]);if(d)var
+g=d[1],h=aB(c,c),e=[0,[0,[0,eb(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return o$}function
-fk(b,d,c,a){if(typeof
+f=b;return f}return pF}function
+fB(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=cA(cc(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,dZ(a[1]),b]},b)];case
-9:return h0(b)}return 0}function
-h1(b,s,r,a){var
-e=cA(cc(s,a),r),p=0;if(typeof
+e=ck(cl(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,eb(a[1]),b]},b)];case
+9:return ir(b)}return 0}function
+is(b,s,r,a){var
+e=ck(cl(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
-K=function(a){return[0,I(a[4],e),0]},g=K,f=a[1];break;case
+L=function(a){return[0,A(a[4],e),0]},g=L,f=a[1];break;case
 3:var
-L=function(a){return[0,I(e,a[4]),0]},g=L,f=a[1];break;case
+M=function(a){return[0,A(e,a[4]),0]},g=M,f=a[1];break;case
 4:var
-M=function(b){var
-a=b[1],c=ao(a[3]),d=ao(a[2]),f=ao(a[1]),g=b[2];return[0,I(I(I(v(ao(e),g),f),d),c),0]},g=M,f=a[1];break;case
-6:var
 N=function(b){var
+a=b[1],c=ac(a[3]),d=ac(a[2]),f=ac(a[1]),g=b[2];return[0,A(A(A(v(ac(e),g),f),d),c),0]},g=N,f=a[1];break;case
+6:var
+O=function(b){var
 a=b[5];if(a)var
-d=ao(a[1]),f=v(ao(e),d),c=[0,I(b[2],f),0];else
+d=ac(a[1]),f=v(ac(e),d),c=[0,A(b[2],f),0];else
 var
-c=a;return c},g=N,f=a[1];break;case
+c=a;return c},g=O,f=a[1];break;case
 7:if(b){var
 h=b[2];if(h){var
 i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],E=fj(d[1],d[2],c[1],c[2]),F=v(n[3],E),G=fj(d[1],d[3],c[1],c[3]),H=v(n[2],G),J=fj(d[2],d[3],c[2],c[3]),q=T(I(v(n[1],J),H),F),O=m[1],P=l[1],x=v(v(v(e,k[1]),P),O),Q=[0,ca(T(q,x)),0],y=[0,I(q,x),Q];else
+c=t[1],d=u[1],n=w[1],F=fA(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fA(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fA(d[2],d[3],c[2],c[3]),q=G(A(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ci(G(q,x)),0],y=[0,A(q,x),R];else
 var
 y=m;var
 z=y}else
 var
 z=l;var
-A=z}else
+B=z}else
 var
-A=k;var
-B=A}else
-var
-B=i;var
+B=k;var
 C=B}else
 var
-C=h;var
+C=i;var
 D=C}else
 var
-D=b;return D;case
+D=h;var
+E=D}else
+var
+E=b;return E;case
 8:case
 9:var
-o=fk(b,s,r,a);return o?cB(o[1]):o;default:p=1}if(p)return 0;var
-j=aV(b,f);return j?g(j[1]):j}function
-h2(d,c,b,a){if(a){var
-e=h2(d,c,[0,b],a[2]);return g(h1(d,c,b,a[1]),e)}return a}function
-h3(a,g,k,f,j,i){if(i){var
-B=h3(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+o=fB(b,s,r,a);return o?cL(o[1]):o;default:p=1}if(p)return 0;var
+j=aJ(b,f);return j?g(j[1]):j}function
+it(d,c,b,a){if(a){var
+e=it(d,c,[0,b],a[2]);return g(is(d,c,b,a[1]),e)}return a}function
+iu(a,g,k,f,j,i){if(i){var
+B=iu(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,aE]];else
+d=[0,[0,_]];else
 switch(b[0]){case
 0:var
-u=aX(a,cc(f,b)),d=aw(function(b){return[0,ax(a,b)]},u);break;case
+u=a1(a,cl(f,b)),d=ab(function(b){return[0,aj(a,b)]},u);break;case
 1:var
-v=aX(a,cc(f,b)),d=aw(function(b){return[1,ax(a,b)]},v);break;case
+v=a1(a,cl(f,b)),d=ab(function(b){return[1,aj(a,b)]},v);break;case
 5:var
-x=aX(a,cc(f,b)),d=aw(function(b){return[2,ax(a,b)]},x);break;case
+x=a1(a,cl(f,b)),d=ab(function(b){return[2,aj(a,b)]},x);break;case
 8:var
-y=fk(k,f,j,b),d=aw(function(b){var
-d=by(a,c);return[4,e(bU(g),b),d]},y);break;case
+y=fB(k,f,j,b),d=ab(function(b){var
+d=aZ(a,c);return[4,e(a7(g),b),d]},y);break;case
 9:var
-m=fk(k,f,j,b);if(m){var
-n=aX(a,cc(f,b));if(n)var
-z=ax(a,n[1]),A=m[1],r=[0,[4,e(bU(g),A),z]];else
+m=fB(k,f,j,b);if(m){var
+n=a1(a,cl(f,b));if(n)var
+z=aj(a,n[1]),A=m[1],r=[0,[4,e(a7(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=h1(k,f,j,b),o=0;if(h){var
+h=is(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2786,169 +2794,169 @@ d=q}var
 t=[0,d,B]}else
 var
 t=i;return t}function
-pa(a){if(typeof
+pG(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cd(s,r){var
+cm(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=as(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(B(f,c))return B(e,c)?1:as(bb(e,aP(2))[2],d)?0:0;var
-i=bb(f,aP(2)),j=i[1];if(as(i[2],d)){if(B(e,c))return 0;var
-g=bb(e,aP(2)),p=g[1];if(as(g[2],d)){var
-f=j,e=p;continue}return 0}if(B(e,c))return 0;var
-h=bb(e,aP(2)),q=h[1];if(as(h[2],d))return 0;var
+k=al(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(be(e,aT(2))[2],d)?0:0;var
+i=be(f,aT(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
+g=be(e,aT(2)),p=g[1];if(al(g[2],d)){var
+f=j,e=p;continue}return 0}if(D(e,c))return 0;var
+h=be(e,aT(2)),q=h[1];if(al(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cd(b[1],a[1]);if(l){var
+l=cm(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cd(b[1],a[1]);if(m){var
+m=cm(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cd(b[1],a[1]);if(n){var
+n=cm(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cd(b[1],a[1]);if(o){var
+o=cm(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-d5(a){switch(a[0]){case
+ei(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hq(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hQ(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hq(b,[0,N(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hQ(b,[0,T(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hr(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hR(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(ho(a,[0,d,c]))return 0;var
-b=a[1],e=br(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,N(a[2]),N(b)];return[0,hr(g,f)]};break;default:return 0}var
-g=d5(e);if(g){var
-h=d5(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hO(a,[0,d,c]))return 0;var
+b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,hR(g,f)]};break;default:return 0}var
+g=ei(e);if(g){var
+h=ei(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
-o(i,e,b){var
-f=d5(b);if(f){var
-g=f[1];return e?aU(hp(g,[0,d,c])):hp([0,d,c],g)}var
-a=ay(i,b);if(a){var
-h=a[1];return e?af(d,h[1]):B(d,h[1])}return a}function
-h4(c,b){var
-a=ay(c,b),d=a?1:a;return d}function
-bW(c,a,b){var
-d=cd(a,b),e=d?h4(c,a):d;return e?e:o(c,0,[2,b,a])}function
-aR(c,b,a){var
-d=Y(c,b[3],a[3]),e=Y(c,b[2],a[2]);return[0,Y(c,b[1],a[1]),e,d]}function
-a4(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-J(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-az(a){return a4([4,[0,c,c],[5,J(a,a)]],a)}function
-ce(c,b,a){var
-d=bW(c,b[1],a);return d?bW(c,a,b[2]):d}function
-aK(c,b,a){var
-d=ce(c,b[1],a[1]),e=d?ce(c,b[2],a[2]):d;return e?ce(c,b[3],a[3]):e}function
-h5(c,a,b){if(0===a[0])return aK(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=o(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?o(c,0,d):g;return h?ce(c,a[4],b[3]):h}function
-h6(a,D,G,F){var
-h=D[1],d=G;for(;;){if(h){if(d){var
+l(i,e,b){var
+f=ei(b);if(f){var
+g=f[1];return e?aV(hP(g,[0,d,c])):hP([0,d,c],g)}var
+a=au(i,b);if(a){var
+h=a[1];return e?ag(d,h[1]):D(d,h[1])}return a}function
+iv(c,b){var
+a=au(c,b),d=a?1:a;return d}function
+bj(c,a,b){var
+d=cm(a,b),e=d?iv(c,a):d;return e?e:l(c,0,[2,b,a])}function
+aL(c,b,a){var
+d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
+aM(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aD(a){return aM([4,[0,c,c],[5,E(a,a)]],a)}function
+cn(c,b,a){var
+d=bj(c,b[1],a);return d?bj(c,a,b[2]):d}function
+aN(c,b,a){var
+d=cn(c,b[1],a[1]),e=d?cn(c,b[2],a[2]):d;return e?cn(c,b[3],a[3]):e}function
+iw(c,a,b){if(0===a[0])return aN(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cn(c,a[4],b[3]):h}function
+ix(a,D,H,G){var
+h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-n=b[4],i=b[1],p=aK(a,f[1],i),q=p?o(a,1,J(i,i)):p,r=q?aK(a,f[2],b[2]):q,s=r?aK(a,f[3],b[3]):r,t=s?ce(a,f[4],n):s,u=t?o(a,1,n):t,c=u?dK(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aN(a,f[1],i),q=p?l(a,1,E(i,i)):p,r=q?aN(a,f[2],b[2]):q,s=r?aN(a,f[3],b[3]):r,t=s?cn(a,f[4],o):s,u=t?l(a,1,o):t,c=u?dX(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aK(a,e[1],b[1]),x=w?aK(a,e[2],b[2]):w,m=0;if(x)if(v){var
-E=0;if(g){var
-j=g[1],y=aK(a,v[1],j);if(y){var
-c=o(a,1,J(j,j));E=1}else
+g=b[3],w=aN(a,e[1],b[1]),x=w?aN(a,e[2],b[2]):w,n=0;if(x)if(v){var
+F=0;if(g){var
+j=g[1],y=aN(a,v[1],j);if(y){var
+c=l(a,1,E(j,j));F=1}else
 var
 z=y}else
 var
-z=g;if(!E)var
+z=g;if(!F)var
 c=z}else
 if(g)var
 c=0;else{var
-A=1;m=1}else{var
-A=x;m=1}if(m)var
+A=1;n=1}else{var
+A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aK(a,e[1],k),c=B?o(a,1,J(k,k)):B;else
+k=b[1],B=aN(a,e[1],k),c=B?l(a,1,E(k,k)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
 C=c}else
 var
 C=d;var
-l=C}else
+m=C}else
 var
-l=d?0:1;return l?h5(a,D[2],F):l}}function
-bC(c,b,a){var
-d=aR(function(b,a){return[1,b,a]},a,b);return aR(function(b,a){return[2,b,a]},d,c)}function
-fl(a,e,d,c){var
-b=bC(e,d,c),f=az(a),g=a4(J(az(a),b),f);return aR(function(b,a){return[2,b,a]},b,g)}function
-c$(f,e,d,a,c){var
-b=fl(f,e,d,c);return[2,[3,a,a],J(b,b)]}function
-da(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
-cC(a,b){switch(a[0]){case
+m=d?0:1;return m?iw(a,D[2],G):m}}function
+bG(c,b,a){var
+d=aL(function(b,a){return[1,b,a]},a,b);return aL(function(b,a){return[2,b,a]},d,c)}function
+fC(a,e,d,c){var
+b=bG(e,d,c),f=aD(a),g=aM(E(aD(a),b),f);return aL(function(b,a){return[2,b,a]},b,g)}function
+dk(f,e,d,a,c){var
+b=fC(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
+dl(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+cM(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fl(d,f,e,b),h=c$(d,f,e,a[4],b),i=a4([4,[0,c,c],da(a[5],h)],g),j=az(d);return aR(function(b,a){return[1,b,a]},j,i);case
-1:return az(bC(a[1],a[2],b));default:return az(a[1])}}function
-h7(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fC(d,f,e,b),h=dk(d,f,e,a[4],b),i=aM([4,[0,c,c],dl(a[5],h)],g),j=aD(d);return aL(function(b,a){return[1,b,a]},j,i);case
+1:return aD(bG(a[1],a[2],b));default:return aD(a[1])}}function
+iy(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c$(e,d,c,a[4],b),i=da(a[5],h),j=bC(d,c,b);return[2,J(az(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=dk(e,d,c,a[4],b),i=dl(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bC(g,f,b);return[5,J(bC(g,f,b),k)];default:return J(az(a[1]),b)}}function
-db(e,b,a){var
-f=[0,d,c];return cr(function(c,d){var
-e=J(cC(c,b),a);return[1,[3,J(cC(c,b),a),e],d]},f,e)}function
-h8(a){var
+f=a[2],g=a[1],k=bG(g,f,b);return[5,E(bG(g,f,b),k)];default:return E(aD(a[1]),b)}}function
+dm(e,b,a){var
+f=[0,d,c];return cD(function(c,d){var
+e=E(cM(c,b),a);return[1,[3,E(cM(c,b),a),e],d]},f,e)}function
+iz(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fm(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=az(b),h=c$(b,f,e,d,c),i=a4(da(a[5],h),g),j=fl(b,f,e,c);return[0,[0,aR(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-h9(d,i){if(d){var
+fD(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=dk(b,f,e,d,c),i=aM(dl(a[5],h),g),j=fC(b,f,e,c);return[0,[0,aL(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+iA(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bC(a[1],a[2],i),k=az(f),l=a4(J(az(f),g),k),h=[0,aR(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aM(E(aD(f),g),k),h=[0,aL(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=h9(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=iA(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pb}function
-h_(g,f,e,b,m,a){function
-y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],J(b,b)]}if(typeof
+j=b;return j}return pH}function
+iB(g,f,e,b,n,a){function
+y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=db(f,e,b);return o(g,1,[2,y(a[1]),U]);case
+U=dm(f,e,b);return l(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return o(g,1,[2,db(f,e,b),V]);case
+V=y(a[1]);return l(g,1,[2,dm(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,h7(a,e)]},p=X,n=a[1];break;case
+W=a[2],X=function(a){return[2,W,iy(a,e)]},p=X,o=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,h7(a,e),Y]},p=Z,n=a[1];break;case
+Y=a[2],Z=function(a){return[2,iy(a,e),Y]},p=Z,o=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=cC(a,e);return[2,[3,[3,A,A],J(cC(a,e),b)],[3,z,z]]},p=_,n=a[1];break;case
+b=cM(a,e);return[2,[3,[3,A,A],E(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
 5:var
-B=a[1],$=J(b,b),aa=[3,[3,B,B],[3,db(f,e,m),$]],ab=J(m,m);return o(g,1,[2,[3,db(f,e,b),ab],aa]);case
+B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dm(f,e,n),$]],ab=E(n,n);return l(g,1,[2,[3,dm(f,e,b),ab],aa]);case
 6:var
-C=a[2],r=aV(f,a[1]);if(r){var
+C=a[2],r=aJ(f,a[1]);if(r){var
 h=r[1];if(0===h[0]){var
-s=h[4],ac=c$(h[1],h[2],h[3],s,e),D=da(h[5],ac);return o(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
-E=0}else
+s=h[4],ac=dk(h[1],h[2],h[3],s,e),D=dl(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+F=0}else
 var
-E=r;return E;case
+F=r;return F;case
 7:if(f){var
 k=f[2];if(k){var
-l=k[2];if(l){if(l[2])return 0;var
-t=fm(f[1],e);if(t){var
-F=t[1],u=fm(k[1],e);if(u){var
-G=u[1],v=fm(l[1],e);if(v){var
-H=v[1],I=[3,[3,[3,a[1],F[2]],G[2]],H[2]],i=H[1],j=G[1],x=J(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=o(g,1,[2,I,x]);if(K)return o(g,1,[1,I,x]);var
+m=k[2];if(m){if(m[2])return 0;var
+t=fD(f[1],e);if(t){var
+G=t[1],u=fD(k[1],e);if(u){var
+H=u[1],v=fD(m[1],e);if(v){var
+I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
 L=K}else
 var
 L=v;var
@@ -2960,7 +2968,7 @@ var
 N=t;var
 O=N}else
 var
-O=l;var
+O=m;var
 P=O}else
 var
 P=k;var
@@ -2968,25 +2976,25 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=db(f,e,b),ae=J(b,b);return o(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=h9(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cr(function(a,c){var
-d=J(az(a),b);return[1,[3,J(az(a),b),d],c]},S,af);return o(g,1,[2,[3,[3,R,R],J(b,b)],T])}return w}var
-q=aV(f,n);return q?o(g,1,p(q[1])):q}function
-bX(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-pc(a){switch(a[0]){case
+ad=dm(f,e,b),ae=E(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=iA(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cD(function(a,c){var
+d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
+q=aJ(f,o);return q?l(g,1,p(q[1])):q}function
+b1(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+pI(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bX(b[3]),f=bX(b[2]);return[0,bX(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b1(b[3]),f=b1(b[2]);return[0,b1(b[1]),f,e,d,c];case
 1:var
-g=aw(bX,a[3]),h=bX(a[2]);return[1,bX(a[1]),h,g];default:return[2,bX(a[1])]}}function
-cD(b,a){if(b){if(a){var
-e=cD(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-h$(a,l,k,f){var
-b=ay(a,l);if(b){var
-c=ay(a,k);if(c){var
-d=dS(a,f);if(d){var
-e=e7(a,f);if(e)var
-m=D(a,b[1],e[1]),g=[0,ah(D(a,c[1],d[1]),m)];else
+g=ab(b1,a[3]),h=b1(a[2]);return[1,b1(a[1]),h,g];default:return[2,b1(a[1])]}}function
+cN(b,a){if(b){if(a){var
+e=cN(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+iC(a,l,k,f){var
+b=au(a,l);if(b){var
+c=au(a,k);if(c){var
+d=d5(a,f);if(d){var
+e=fm(a,f);if(e)var
+m=B(a,b[1],e[1]),g=[0,O(B(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2998,38 +3006,43 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-ia(f,B,r,A,a,e){function
-s(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cD(a,a)]}var
-C=r[1];function
+iD(f,D,s,C,a,e){function
+t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cN(a,a)]}var
+E=s[1];function
 g(b){var
-a=[0,d,c];return cr(function(a,c){var
-d=cD(a,b);return[1,[3,cD(a,b),d],c]},a,C)}var
-t=p(function(a){return aC(l(a),B)},a);if(t){if(typeof
-e==="number")return 0;else
+a=[0,d,c];return cD(function(a,c){var
+d=cN(a,b);return[1,[3,cN(a,b),d],c]},a,E)}var
+u=p(function(a){return ai(n(a),D)},a);if(u){var
+r=0;if(typeof
+e==="number")r=1;else
 switch(e[0]){case
 0:if(a){if(a[2])return 0;var
-u=a[1],D=g(u);return o(f,1,[2,s(e[1],u),D])}return a;case
+w=a[1],F=g(w);return l(f,1,[2,t(e[1],w),F])}return a;case
 1:if(a){if(a[2])return 0;var
-v=a[1],E=s(e[1],v);return o(f,1,[2,g(v),E])}return a;case
+x=a[1],G=t(e[1],x);return l(f,1,[2,g(x),G])}return a;case
 2:if(a)return 0;var
-F=e[2],G=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,F,a[1]]);return 0},k=G,i=e[1];break;case
-3:if(a)return 0;var
 H=e[2],I=function(a){if(typeof
-a!=="number"&&0===a[0])return o(f,1,[2,a[1],H]);return 0},k=I,i=e[1];break;case
+a!=="number"&&0===a[0])return l(f,1,[2,H,a[1]]);return 0},j=I,i=e[1];break;case
+3:if(a)return 0;var
+J=e[2],K=function(a){if(typeof
+a!=="number"&&0===a[0])return l(f,1,[2,a[1],J]);return 0},j=K,i=e[1];break;case
 4:if(a)return 0;var
-w=e[3],x=e[2],J=function(a){if(typeof
+y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],k=o(f,0,[2,[1,x,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],w]);if(k){if(A){var
-e=h$(f,i,h,x);return e?af(e[1][2],d):e}var
-g=h$(f,i,h,w);return g?af(d,g[1][1]):g}return k}return 0},k=J,i=e[1];break;default:if(a){var
+h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
+e=iC(f,i,h,z);return e?ag(e[1][2],d):e}var
+g=iC(f,i,h,y);return g?ag(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
+5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-n=h[1],q=a[1],y=e[1],K=cD(q,q),L=[3,[3,y,y],[3,g(n),K]],M=cD(n,n);return o(f,1,[2,[3,g(q),M],L])}var
-z=h}else
+o=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(o),M]],O=cN(o,o);return l(f,1,[2,[3,g(q),O],N])}var
+B=h}else
 var
-z=a;return z}var
-m=aV(r[2],i);return m?k(m[1]):m}return t}function
-ib(h,g){var
+B=a;return B;default:r=1}if(!r){var
+m=aJ(s[2],i);return m?j(m[1]):m}var
+v=0}else
+var
+v=u;return v}function
+iE(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3039,44 +3052,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pd(a){return f(function(a){return[0,a,c]},a)}function
-ic(e,l,b,k,a){if(typeof
+pJ(a){return f(function(a){return[0,a,c]},a)}function
+iF(e,m,b,k,a){if(typeof
 a==="number"){var
-q=b[3];return bx(function(a){return o(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=ib(a[1],k);if(g){var
-m=g[1],r=m[1],s=f(pd,a[2]);return ia(e,l,b,m[2],s,r)}return g}var
-h=ib(a[1],k);if(h){var
-n=h[1],i=n[1];if(typeof
+q=b[3];return bD(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=iE(a[1],k);if(g){var
+n=g[1],r=n[1],s=f(pJ,a[2]);return iD(e,m,b,n[2],s,r)}return g}var
+h=iE(a[1],k);if(h){var
+o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aV(b[1],a[2]);return j?ia(e,l,b,n[2],[0,j[1],0],[1,i[1]]):j}var
+j=aJ(b[1],a[2]);return j?iD(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fn(a){var
-b=az(a[1]),c=a4(J(b,a[2]),b),d=a[2];return aR(function(b,a){return[2,b,a]},d,c)}function
-fo(a){return az(fn(a))}function
-id(c){var
-a=fo(c),b=az(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fp(a,b){return bC(a[3],a[4],b)}function
-fq(a,b){var
-c=fp(a,b);return J(fo(a),c)}function
-fr(a,b){var
-c=fp(a,b);return J(id(a),c)}function
-ie(a,b){var
-c=fp(a,b);return J(az(a[1]),c)}function
-fs(b,a){var
-c=fr(b,a),d=fq(b,a);return[1,[3,d,d],[3,c,c]]}function
-ft(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=ie(a,d);return[4,[1,fs(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-ig(a,b){var
-f=a[5],c=[2,ft(a,b),f],d=ie(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-fu(a,b){var
-c=ig(a,b);return da(a[7],c)}function
-ih(b,a){var
-c=fs(b,a),d=fr(b,a),e=[3,fu(b,a),d],f=fq(b,a);return[4,[1,[3,ft(b,a),f],e],c]}function
-ii(b,a){var
-c=fs(b,a),d=fq(b,a),e=[3,fu(b,a),d],f=fr(b,a);return[4,[2,[3,ft(b,a),f],e],c]}function
-bf(c){var
+fE(a){var
+b=aD(a[1]),c=aM(E(b,a[2]),b),d=a[2];return aL(function(b,a){return[2,b,a]},d,c)}function
+fF(a){return aD(fE(a))}function
+iG(c){var
+a=fF(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fG(a,b){return bG(a[3],a[4],b)}function
+fH(a,b){var
+c=fG(a,b);return E(fF(a),c)}function
+fI(a,b){var
+c=fG(a,b);return E(iG(a),c)}function
+iH(a,b){var
+c=fG(a,b);return E(aD(a[1]),c)}function
+fJ(b,a){var
+c=fI(b,a),d=fH(b,a);return[1,[3,d,d],[3,c,c]]}function
+fK(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iH(a,d);return[4,[1,fJ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iI(a,b){var
+f=a[5],c=[2,fK(a,b),f],d=iH(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+fL(a,b){var
+c=iI(a,b);return dl(a[7],c)}function
+iJ(b,a){var
+c=fJ(b,a),d=fI(b,a),e=[3,fL(b,a),d],f=fH(b,a);return[4,[1,[3,fK(b,a),f],e],c]}function
+iK(b,a){var
+c=fJ(b,a),d=fH(b,a),e=[3,fL(b,a),d],f=fI(b,a);return[4,[2,[3,fK(b,a),f],e],c]}function
+bk(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3085,162 +3098,123 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bf(a[2]);return g(bf(a[1]),e)}}function
-bg(e,a,b){switch(a[0]){case
+e=bk(a[2]);return g(bk(a[1]),e)}}function
+bl(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return cA([0,[0,p,p],d],b);case
+p=a[1];return ck([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=r(d);for(;;){if(g){var
-m=g[1];if(lz(m[1],s))return m[2];var
+s=a[1],g=e,t=q(d);for(;;){if(g){var
+l=g[1];if(l6(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return ca(bg(e,a[1],b));case
+2:return ci(bl(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=T;break;case
+i=a[2],f=a[1],h=G;break;case
 4:var
-i=a[2],f=a[1],h=I;break;case
+i=a[2],f=a[1],h=A;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aI;break;case
+i=a[2],f=a[1],h=aK;break;case
 7:var
-j=c3(a[2]),k=bg(e,a[1],b);if(j){if(j[1]){var
-n=ao(k),q=function(a){return v(a,n)},o=eX(c1(he(j)),q,n);return hd(j)?o:v(o,k)}return k}return r(c);default:return cw(bg(e,a[1],b))}var
-u=bg(e,i,W(b,l(bf(f))));return h(bg(e,f,b),u)}function
-cf(c,f,b){var
+j=de(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
+m=ac(k),r=function(a){return v(a,m)},o=fd(cB(hE(j)),r,m);return hD(j)?o:v(o,k)}return k}return q(c);default:return cH(bl(e,a[1],b))}var
+u=bl(e,i,M(b,n(bk(f))));return h(bl(e,f,b),u)}function
+co(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=W(b,l(bf(e))),k=cf(c,a[2],j),m=g(cf(c,e,b),k);return[0,bg(c,a,b),m];case
+e=a[1],j=M(b,n(bk(e))),k=co(c,a[2],j),l=g(co(c,e,b),k);return[0,bl(c,a,b),l];case
 8:var
-n=cf(c,a[1],b);return[0,bg(c,a,b),n];case
+m=co(c,a[1],b);return[0,bl(c,a,b),m];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=W(b,l(bf(d))),i=cf(c,a[2],h);return g(cf(c,d,b),i)}}function
-ij(c,a,b){if(a){var
-e=a[1],d=e[2],f=W(b,l(bf(d))),h=a[2],i=bg(c,d,b),j=ij([0,[0,e[1],i],c],h,f);return g(cf(c,d,b),j)}return a}function
-dc(a){return C(bf,a)}function
-ik(c,a,b){if(a)var
-d=a[1],f=W(b,l(bf(d))),g=ik(c,a[2],f),e=[0,bg(c,d,b),g];else
+d=a[1],h=M(b,n(bk(d))),i=co(c,a[2],h);return g(co(c,d,b),i)}}function
+iL(c,a,b){if(a){var
+e=a[1],d=e[2],f=M(b,n(bk(d))),h=a[2],i=bl(c,d,b),j=iL([0,[0,e[1],i],c],h,f);return g(co(c,d,b),j)}return a}function
+dn(a){return N(bk,a)}function
+iM(c,a,b){if(a)var
+d=a[1],f=M(b,n(bk(d))),g=iM(c,a[2],f),e=[0,bl(c,d,b),g];else
 var
 e=a;return e}function
-il(c,a,b){if(a){var
-d=a[1],e=W(b,l(bf(d))),f=il(c,a[2],e);return g(cf(c,d,b),f)}return a}function
-im(c,a,b){if(a)var
-d=a[1],f=W(b,l(dc(d))),g=im(c,a[2],f),e=[0,ik(c,d,b),g];else
+iN(c,a,b){if(a){var
+d=a[1],e=M(b,n(bk(d))),f=iN(c,a[2],e);return g(co(c,d,b),f)}return a}function
+iO(c,a,b){if(a)var
+d=a[1],f=M(b,n(dn(d))),g=iO(c,a[2],f),e=[0,iM(c,d,b),g];else
 var
 e=a;return e}function
-io(c,a,b){if(a){var
-d=a[1],e=W(b,l(dc(d))),f=io(c,a[2],e);return g(il(c,d,b),f)}return a}function
-ip(a){return f(function(a){return[0,a[2],d]},a)}function
-iq(a){var
-c=d4(0,ip(a[2])),d=c5(0,l(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cs(f(dI,a[2]),c);return g(cs(a[1],e),b)}function
-pf(a){if(typeof
+iP(c,a,b){if(a){var
+d=a[1],e=M(b,n(dn(d))),f=iP(c,a[2],e);return g(iN(c,d,b),f)}return a}function
+iQ(a){return f(function(a){return[0,a[2],d]},a)}function
+iR(a){var
+c=eh(0,iQ(a[2])),d=cF(0,n(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cE(f(db,a[2]),c);return g(cE(a[1],e),b)}function
+pL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fv(b,d){var
+fM(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bx(function(a){return av(e,a)},b);case
+e=a[1];return bD(function(a){return aC(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fv(b,a[1]);if(c){var
+c=fM(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-d6(a){return 1===a?pj:pk}function
-ir(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-is(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fw(a,c,b){var
-d=[3,ir(a),b],e=[1,[3,is(a),c],d],f=[3,is(a),b];return[0,[2,[3,ir(a),c],f],e]}function
-it(c,a){var
-b=fw(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iu(h,b,a){if(0===h[0])return b?b[2]?a:it(b[1],a):a;if(b){var
-c=b[2];if(c){var
-d=c[2];if(d){if(d[2])return a;var
-e=fw(b[1],a[2],a[3]),g=e[1],f=fw(c[1],e[2],a[1]);return it(d[1],[0,f[2],g,f[1]])}return a}return a}return a}function
-fx(d,c,b,a){var
-e=a[1],f=iu(d,c,a[2]),g=aR(function(b,a){return[1,b,a]},b,f);return aR(function(b,a){return[2,b,a]},g,e)}function
-iv(b){var
-a=d5(b);return a?ho(a[1],[0,d,c]):a}function
-iw(a,m,j,i){if(iv(i)){var
-q=m?[2,[0,d,c],j]:j;return o(a,0,q)}var
-f=ay(a,j);if(f){var
-g=dS(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=e7(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=D(a,f[1],g[1]),k=[0,ah(h[1],p)];else
+iS(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+iT(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+fN(a,c,b){var
+d=[3,iS(a),b],e=[1,[3,iT(a),c],d],f=[3,iT(a),b];return[0,[2,[3,iS(a),c],f],e]}function
+iU(c,a){var
+b=fN(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+iV(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+iW(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:iU(d[1],a):a;case
+1:if(d){var
+f=d[2];if(f){var
+g=f[2];if(g){if(g[2])return a;var
+j=fN(d[1],a[2],a[3]),m=j[1],k=fN(f[1],j[2],a[1]);return iU(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+h=d[2];if(h){var
+i=h[2];if(i){if(i[2])return a;var
+e=[0,d[1],h[1],i[1]],l=E(e,e),n=iV(e,a),o=aM([0,b(2,c),c],n),p=E(e,a),q=aM([3,[0,b(2,c),c],p],e),r=aM([2,[0,c,c],l],a),s=aL(function(b,a){return[1,b,a]},r,q);return aM([4,[0,c,c],[1,[0,c,c],l]],aL(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+iX(b){var
+a=ei(b);return a?hO(a[1],[0,d,c]):a}function
+iY(a,n,j,i){if(iX(i)){var
+q=n?[2,[0,d,c],j]:j;return l(a,0,q)}var
+f=au(a,j);if(f){var
+g=d5(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fm(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=B(a,f[1],g[1]),k=[0,O(h[1],p)];else
 var
 k=h;var
-l=k}else
+m=k}else
 var
-l=g;var
-e=l}else
+m=g;var
+e=m}else
 var
 e=f;if(e){var
-n=e[1];return m?B(d,n[1]):B(n[2],d)}return e}function
-d7(b,a,c){var
-d=bW(b,a[1],a[2]),e=d?iw(b,0,c,a[1]):d;return e?iw(b,1,c,a[2]):e}function
-dd(b,d){var
-a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,W(b,c[1])]]:[0,dT(function(a){return dd(b,a)},a)]}return[0,dT(function(a){return dd(b,a)},a)]}function
-de(d,b,h){var
-c=h;for(;;){var
-a=c[1];switch(a[0]){case
-0:var
-e=a[1],f=aU(aC(e,b));return f?aU(aC(e,W(d,b))):f;case
-1:case
-2:return 1;case
-5:case
-8:case
-9:var
-c=a[1];continue;default:var
-g=de(d,b,a[1]);if(g){var
-c=a[2];continue}return g}}}function
-df(c,b,m){var
-d=m;for(;;){var
-a=d[1];switch(a[0]){case
-5:var
-d=a[1];continue;case
-6:var
-f=a[2],g=a[1],h=de(c,b,g),i=h?df(c,b,f):h;if(i)var
-j=i;else{var
-k=df(c,b,g);if(k)return de(c,b,f);var
-j=k}return j;case
-7:var
-l=df(c,b,a[1]);return l?de(c,b,a[2]):l;case
-3:case
-4:var
-e=df(c,b,a[1]);if(e){var
-d=a[2];continue}return e;case
-8:case
-9:return de(c,b,a[1]);default:return 1}}}function
-ix(c,e){var
-b=e;for(;;){var
-a=b[1];switch(a[0]){case
-0:return hc(a[1],c);case
-1:case
-2:return 1;case
-5:case
-8:case
-9:var
-b=a[1];continue;default:var
-d=ix(c,a[1]);if(d){var
-b=a[2];continue}return d}}}function
-iy(c,e){if(e){var
-k=iy(c,e[2]),d=e[1],a=[0,d[1],d[1]],b=[0,d[2],d[2]],g=[0,[0,b,ax(c,b)],0],h=D(c,a,b),i=[0,[0,dR(S(a,b)),h],g],j=[0,[0,a,ax(c,a)],i];return C(function(a){return f(function(b){return[0,a,b]},k)},j)}return pl}function
-dg(b,a){return a?e(b,a[1]):a}function
-d8(c,b,a){return dg(function(b){return dg(e(c,b),a)},b)}function
-iz(d,a){if(a){var
-b=L(a[1],d,0);if(b)var
-c=iz(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dp(b,a,c){var
+d=bj(b,a[1],a[2]),e=d?iY(b,0,c,a[1]):d;return e?iY(b,1,c,a[2]):e}function
+dq(a,d){if(iX(d))return[0,_];var
+e=d5(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fm(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=H(aZ(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ab(function(d){var
+e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+g=f}else
 var
-e=b;return e}return pm}function
-fy(b,a){if(a){var
-g=a[1],c=iz(b,g[1]);if(c){var
-e=L(g[2],b,0);if(e){var
-h=e[1],f=fy(b,a[2]);if(f)var
-i=af(d,h[1]),j=i?[0,[0,[0,c[1],h],f[1]]]:i;else
+g=e;return g}function
+fO(d,a){var
+e=l(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+cp(a){return[0,[2,[0,d,c],a],a]}function
+iZ(a,b,n,m){var
+h=bj(a,[0,d,c],b),i=h?fO(a,b):h;if(i){var
+e=dq(a,b);if(e){var
+f=au(a,n);if(f){var
+g=au(a,m);if(g){var
+o=f[1],p=g[1];return D(d,O(B(a,aj(a,e[1]),p),o)[1])}var
+j=g}else
 var
 j=f;var
 k=j}else
@@ -3248,191 +3222,579 @@ var
 k=e;var
 l=k}else
 var
-l=c;return l}return pn}function
-iA(c,a){var
-b=aC(l(a),c);return b?dY(a):b}function
-iB(c,U,T,R,k,Q,w,v){if(w){var
-V=iy(c,Q),n=f(function(a){var
-d=f(eW,a),b=0,n=g(f(dI,a),d);return c8(0,function(a){switch(a[0]){case
-0:return[0,L(a[1],n,aE)];case
-1:return[0,L(a[1],T,aE)];case
-2:return[0,by(c,a[1])];case
-3:var
-b=a[2],d=a[1];return d8(function(b,a){return[0,S(b,a)]},d,b);case
-4:var
-e=a[2],f=a[1];return d8(function(b,a){return[0,ah(b,a)]},f,e);case
-5:var
-g=a[1];return dg(function(a){return[0,aD(a)]},g);case
-6:var
-h=a[2],i=a[1];return d8(function(b,a){return[0,D(c,b,a)]},i,h);case
-7:var
-j=a[2],k=a[1];return d8(function(b,a){var
-d=cu(c,a);return aw(function(a){return D(c,b,a)},d)},k,j);case
-8:var
-l=a[1];return dg(function(a){return[0,ax(c,a)]},l);default:var
-m=a[1];return dg(function(a){return dQ(c,a)},m)}},U,b)},V),j=w,i=v;for(;;){if(j){var
-r=j[1],l=r[1],s=L(l,i,0);if(s){var
-m=aV(R,l);if(m){var
-b=r[2],e=m[1];switch(e[0]){case
+l=i;return l}function
+dr(a){return 1===a?pP:pQ}function
+fP(d,c,b,a){var
+e=a[1],f=iW(d,c,a[2]),g=aL(function(b,a){return[1,b,a]},b,f);return aL(function(b,a){return[2,b,a]},g,e)}function
+ds(b,d){var
+a=d[1];if(8===a[0]){var
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,d6(function(a){return ds(b,a)},a)]}return[0,d6(function(a){return ds(b,a)},a)]}function
+cO(d,b,h){var
+c=h;for(;;){var
+a=c[1];switch(a[0]){case
 0:var
-x=0;if(typeof
-b==="number"||!(6===b[0]))x=1;else{var
-h=b[1],y=0;if(typeof
-h!=="number"&&0===h[0]){var
-F=e[3],G=e[2],H=e[1],I=h[2],J=h[1],a=p(function(g,h,i,j,l){return function(e){var
-a=fy(e,i);if(a){var
-b=L(h,e,0);if(b){var
-f=ct([0,aD(D(c,g,b[1])),0],k);return iA(k,hL(l,j,a[1],f))}var
-d=b}else
+e=a[1],f=aV(ai(e,b));return f?aV(ai(e,M(d,b))):f;case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+c=a[1];continue;default:var
+g=cO(d,b,a[1]);if(g){var
+c=a[2];continue}return g}}}function
+dt(c,b,m){var
+d=m;for(;;){var
+a=d[1];switch(a[0]){case
+5:var
+d=a[1];continue;case
+6:var
+f=a[2],g=a[1],h=cO(c,b,g),i=h?dt(c,b,f):h;if(i)var
+j=i;else{var
+k=dt(c,b,g);if(k)return cO(c,b,f);var
+j=k}return j;case
+7:var
+l=dt(c,b,a[1]);return l?cO(c,b,a[2]):l;case
+3:case
+4:var
+e=dt(c,b,a[1]);if(e){var
+d=a[2];continue}return e;case
+8:case
+9:return cO(c,b,a[1]);default:return 1}}}function
+cq(c,e){var
+b=e;for(;;){var
+a=b[1];switch(a[0]){case
+0:return aV(ai(a[1],c));case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+d=cq(c,a[1]);if(d){var
+b=a[2];continue}return d}}}function
+fQ(d,b,m){var
+c=m;for(;;){var
+a=c[1];switch(a[0]){case
+3:var
+f=fQ(d,b,a[1]);if(f){var
+c=a[2];continue}return f;case
+4:var
+g=fQ(d,b,a[1]);return g?cq(b,a[2]):g;case
+6:var
+h=a[2],i=a[1],j=cq(b,i);if(j){var
+k=cq(b,h);if(k)var
+e=k;else{var
+l=bf(i,d);if(l){var
+c=h;continue}var
+e=l}}else
 var
-d=a;return d}}(F,G,H,I,J),n);y=1}if(!y)var
-a=0}if(x)var
-a=0;break;case
+e=j;return e;case
+0:case
+1:case
+2:return 1;default:return cq(b,c)}}}function
+i0(c,e){var
+b=e;for(;;){var
+a=b[1];switch(a[0]){case
+0:return hC(a[1],c);case
+1:case
+2:return 1;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+d=i0(c,a[1]);if(d){var
+b=a[2];continue}return d}}}function
+b2(b,a){return a?e(b,a[1]):a}function
+b3(c,b,a){return b2(function(b){return b2(e(c,b),a)},b)}function
+pR(a){return 0===a[0]?a[1]:0}function
+bm(b,a){switch(a[0]){case
+0:return[0,e(b,a[1])];case
+1:return[1,bm(b,a[1])];default:var
+c=bm(b,a[3]),d=bm(b,a[2]);return[2,bm(b,a[1]),d,c]}}function
+aR(b,c,a){switch(c[0]){case
+0:return bm(e(b,c[1]),a);case
 1:var
-z=0;if(typeof
-b==="number"||!(6===b[0]))z=1;else{var
-o=b[1],A=0;if(typeof
-o==="number"&&!o){var
-K=e[3],M=e[2],N=e[1],a=p(function(i,j,l){return function(g){var
-a=fy(g,l);if(a){var
-b=L(j,g,0);if(b){var
-h=ct([0,D(c,i,b[1]),0],k),d=hN(a[1],h);if(d)return iA(k,d[1]);var
-e=d}else
+d=c[1];switch(a[0]){case
+0:var
+k=a[1];return[1,bm(function(a){return S(b,a,k)},d)];case
+1:return[1,aR(b,d,a[1])];default:var
+l=aR(b,d,a[3]),m=aR(b,d,a[2]);return[2,aR(b,d,a[1]),m,l]}default:var
+f=c[3],g=c[2],h=c[1];switch(a[0]){case
+0:var
+n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+1:var
+j=a[1],r=aR(b,f,j),s=aR(b,g,j);return[2,aR(b,h,j),s,r];default:var
+t=aR(b,f,a[3]),u=aR(b,g,a[2]);return[2,aR(b,h,a[1]),u,t]}}}function
+fR(c,g,a){if(a)var
+d=a[1],b=function(i){var
+a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
+0:var
+f=[0,a,aj(c,a)];break;case
+1:var
+h=B(c,a,b),f=[0,d3(H(a,b)),h];break;default:var
+f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=fR(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
-e=b;var
-f=e}else
+h=a;return h}function
+i1(a){if(a){var
+b=a[1];if(b)var
+c=i1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-f=a;return f}}(K,M,N),n);A=1}if(!A)var
-a=0}if(z)var
-a=0;break;default:var
-C=0;if(typeof
-b==="number"||!(6===b[0]))C=1;else{var
-q=b[1],E=0;if(typeof
-q==="number"&&!q){var
-O=e[1],a=p(function(c){return function(b){var
-a=L(c,b,0);return a?B(d,a[1][1]):a}}(O),n);E=1}if(!E)var
-a=0}if(C)var
-a=0}if(a){var
-P=fg(l,i),j=j[2],i=P;continue}var
-t=a}else
+d=b;return d}return pT}function
+du(a){if(a){var
+g=a[1],b=g[2],c=i1(g[1]);if(c)if(b){var
+h=b[1],e=du(a[2]);if(e)var
+i=ag(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
-t=m;var
-u=t}else
+j=e;var
+f=j}else
 var
-u=s;return u}return[0,i]}}return[0,v]}function
-iC(g,f,e,d,c,r,q,o){var
-b=r,h=q,a=o;for(;;){if(0===a[0]){var
-i=iB(g,f,e,d,c,b,a[1],h);return i?p(aU,i[1]):i}var
-j=iB(g,f,e,d,c,b,a[1],h);if(j){var
-k=j[1],l=d2(a[2],b),m=iC(g,f,e,d,c,l[1],k,a[3]);if(m){var
-b=l[2],h=k,a=a[4];continue}var
-n=m}else
+f=b;else
 var
-n=j;return n}}function
-dh(a){var
-b=ao(a);return T(r(c),b)}function
-d9(i,g){var
-h=dh(g),j=ao(g),e=I(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,ca(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ca(f),a,e]]:[0,[0,h,a,a],[0,a,e,ca(f)],[0,a,f,e]]}function
-iD(b,a){function
+f=c;return f}return pU}function
+fS(b,a){var
+c=a[3],d=ab(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a7(b),g),f,d]}function
+i2(f,d,c,b){if(d){var
+j=d[1],a=function(e){var
+a=fS(function(a){switch(a[0]){case
+0:return a;case
+1:return a[1];default:var
+b=a[3],c=a[2],d=a[1];switch(e){case
+0:return d;case
+1:return c;default:return b}}},b);return i2(cB(f),j,c,a)},g=a(0);if(g){var
+h=a(2);if(h)return f?1:a(1);var
+i=h}else
+var
+i=g;return i}return e(c,fS(pR,b))}function
+dv(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ab(function(a){return bX(f,e,a)},d)}return[0,_]}function
+i3(d,b,a){if(b){if(a){var
+e=i3(d,b[2],a[2]);return H(bX(b[1],z(d,c),a[1]),e)}return _}return _}function
+i4(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(e,a,b)},j=i4(e,h),k=f(function(a){var
+e=b(d,a[2]);return H(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,H(b(d,c),l),k],j];else
+var
+i=a;return i}function
+i5(e,b,d,a){if(b)if(a)var
+f=b[1],g=i5(e,b[2],d,a[2]),c=[0,[0,f,ia(e,a[1][1],d,f)],g];else
+var
+c=a;else
+var
+c=b;return c}function
+i6(e,d,c,b,a){if(a){var
+g=a[2];if(d){var
+i=i6(e,d[1],c,b,g);return[0,[0,O(_,b),0],i]}var
+j=f(function(a){return[0,O(_,b),0]},g),h=[0,[0,O(aA(B(e,c,d4(a[1][2]))),b),0],j]}else
+var
+h=a;return h}function
+ej(c,a){var
+b=ai(n(a),c);return b?ea(a):b}function
+pV(c){var
+a=c[2];if(a){var
+b=dv(c[3]);if(b)return D(d,O(a[1],b[1])[1]);var
+e=b}else
+var
+e=a;return e}function
+i7(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
+i8(a,c,b){var
+e=P(b,c,q(d)),f=cF(0,a);return p(function(b){return dt(a,b,e)},f)}function
+dw(a){var
+b=ac(a);return G(q(c),b)}function
+ek(i,g){var
+h=dw(g),j=ac(g),e=A(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ci(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ci(f),a,e]]:[0,[0,h,a,a],[0,a,e,ci(f)],[0,a,f,e]]}function
+i9(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aJ(a,c(function(a){return a[3]})),d=aJ(a,c(function(a){return a[2]}));return[0,aJ(a,c(function(a){return a[1]})),d,b]}var
+b=aB(a,c(function(a){return a[3]})),d=aB(a,c(function(a){return a[2]}));return[0,aB(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-fz(d,a){var
-e=ao(a),f=v(v(r(b(2,c)),a),d);return T(I(ao(d),f),e)}function
-fA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d_(b,a){var
-c=be(a[2],b);return g(be(a[1],b),c)}function
-iE(q,k,p,t,o,j,s){if(j){var
-u=j[1],w=d4(s,d_(o,u)),P=W(s,l(d_(o,u))),Q=iE(q,k,p,t,o,j[2],P),i=bB(w,pz),m=bB(w,0);switch(q){case
-0:var
-g=[0,pw,pv,r(d)];break;case
-1:var
-g=fc;break;default:var
-F=r(d),G=r(d),g=[0,r(d),G,F]}var
-e=bV(I,g,m),y=aJ(k[3],i),z=aJ(k[2],i),a=[0,aJ(k[1],i),z,y],H=fz(g[3],m[3]),J=fz(g[2],m[2]),K=fz(g[1],m[1]),L=T(T(T(aJ(i,i),K),J),H),M=aJ(a,e),N=v(r(b(2,c)),M),O=T(v(p,L),N),A=v(a[2],e[1]),B=I(v(a[1],e[2]),A),C=v(a[1],e[3]),D=I(v(a[3],e[1]),C),E=v(a[3],e[2]),f=d1([0,I(v(a[2],e[3]),E),D,B],t),h=bV(T,d0(p,e),a);switch(q){case
-0:var
-n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
-1:var
-n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,n,O],Q]}else
+i_(a){switch(a[0]){case
+0:return[0,a[1],0];case
+1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
+2:return[0,cp(a[1]),0];default:var
+b=[0,cp(a[2]),0];return[0,cp(a[1]),b]}}function
+cP(a){return[0,[0,a[1]],[0,a[2]]]}function
+i$(a,b){if(0===b[0])return dq(a,b[1]);var
+d=dq(a,b[1]);if(d){var
+e=dq(a,b[2]);if(e){var
+g=aj(a,e[1]),h=cG(a,H(aZ(a,c),g)),i=d[1];return ab(function(b){return B(a,i,b)},h)}var
+f=e}else
 var
-x=j;return x}function
-iF(a,d){if(iv(d))return[0,aE];var
-e=dS(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=e7(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=S(by(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cu(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return aw(function(d){var
-e=D(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hy(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=d;return f}function
+ja(j,z,c,y,x,b,a){switch(b[0]){case
+0:var
+m=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
+a==="number")l=1;else
+switch(a[0]){case
+0:var
+A=a[2],C=a[1],i=o,h=p,g=function(e){var
+a=du(e[1]);if(a){var
+b=e[2];if(b){var
+d=dv(e[3]);if(d){var
+h=d[1],i=ce([0,O(aA(B(j,k,b[1])),h),0],c);return ej(c,fr(C,A,a[1],i))}var
+f=d}else
+var
+f=b;var
 g=f}else
 var
-g=e;return g}function
-iG(d,a){var
-e=o(d,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]);return e?o(d,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],a]):e}function
-iH(f,a){if(typeof
+g=a;return g},e=m;break;case
+2:var
+q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+E=a[2],F=a[1],i=o,h=p,g=function(e){var
+a=du(e[1]);if(a){var
+b=dv(e[3]);if(b){var
+g=ce([0,O(_,b[1]),0],c),h=a[1];return ej(c,fr(F,E,f(function(a){return[0,a[1],_]},h),g))}var
+d=b}else
+var
+d=a;return d},e=m;break;default:l=1}if(l)return 0;break;case
+1:var
+u=0;if(typeof
+a==="number"&&!a)var
+G=b[2],H=b[1],I=b[3],i=G,h=H,J=0,g=function(f){var
+a=du(f[1]);if(a){var
+b=f[2];if(b){var
+d=dv(f[3]);if(d){var
+k=d[1],l=ce([0,O(B(j,I,b[1]),k),0],c),e=ic(a[1],l);if(e)return ej(c,e[1]);var
+g=e}else
+var
+g=d;var
+h=g}else
+var
+h=b;var
+i=h}else
+var
+i=a;return i},e=J;else
+u=1;if(u)return 0;break;case
+2:var
+v=0;if(typeof
+a==="number"||!(0===a[0]))v=1;else
+var
+s=a[2],t=a[1],K=b[3],L=b[2],M=b[4],N=b[1],Q=function(f){var
+a=du(f[1]);if(a){var
+b=a[1],d=f[2];if(d){var
+e=dv(f[3]);if(e){var
+g=ai(n(b),c),h=g?ai(n(s),c):g;if(h){var
+m=i4(t,i5(t,s,d[1],b));return ej(c,h5(i6(j,N,M,e[1],b),m))}var
+i=h}else
+var
+i=e;var
+k=i}else
+var
+k=d;var
+l=k}else
+var
+l=a;return l},i=K,h=L,g=Q,e=b[5];if(v)return 0;break;default:var
+w=0;if(typeof
+a==="number"&&!a)var
+i=b[1],h=0,g=pV,e=0;else
+w=1;if(w)return 0}var
+D=[0,h,i,x];return i2(e,z,g,fS(function(a){return P(a,y,p9)},D))}function
+jb(m,l,k,f,j,i,e){if(typeof
+e!=="number"&&6===e[0]){var
+a=e[1];if(typeof
+a!=="number"&&7===a[0]){if(f){var
+n=a[3],o=a[2],p=D(d,o);if(p)var
+h=g7(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+var
+g=p;if(g)return ja(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+q=g}else
+var
+q=f;return q}return ja(m,l,k,j,0,i,a)}return 0}function
+p_(a){if(a[1])return 0;var
+b=a[2];if(typeof
+b==="number"&&4<=b)return 1;return 0}function
+jc(a,J,I,G,F,E,h,o,D,V){if(p(p_,D))var
+q=0;else
+var
+S=fR(a,dc,o),R=0,T=g(fR(a,db,o),S),q=cI(pS,function(b){switch(b[0]){case
+0:return P(b[1],T,[0,[0,_]]);case
+1:return[0,[0,P(b[1],I,_)]];case
+2:return[0,[0,aZ(a,b[1])]];case
+3:var
+c=b[2],d=b[1],e=function(b,a){return[0,H(b,a)]};return aR(function(a,b){return b3(e,a,b)},d,c);case
+4:var
+f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return aR(function(a,b){return b3(h,a,b)},g,f);case
+5:var
+i=b[1],j=function(a){return[0,aA(a)]};return bm(function(a){return b2(j,a)},i);case
+6:var
+k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aR(function(a,b){return b3(m,a,b)},l,k);case
+7:var
+n=b[2],o=b[1],p=function(c,b){var
+d=cg(a,b);return ab(function(b){return B(a,c,b)},d)};return aR(function(a,b){return b3(p,a,b)},o,n);case
+8:var
+q=b[1],r=function(b){return[0,aj(a,b)]};return bm(function(a){return b2(r,a)},q);default:var
+s=b[1],t=function(b){return cG(a,b)};return bm(function(a){return b2(t,a)},s)}},J,R);var
+e=D,b=V;for(;;){if(e){var
+t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
+u=P(c,b,0);if(u){var
+l=aJ(G,c);if(l){var
+v=jb(a,F,E,h,q,l[1],i);if(v){var
+e=k,b=eg(c,b);continue}var
+w=v}else
+var
+w=l;var
+x=w}else
+var
+x=u;return x}if(typeof
+i==="number"&&4<=i){var
+K=0;if(h){var
+U=0,r=f(function(b){return[0,b,aj(a,b)]},o),M=f(dc,r),L=0,N=g(f(db,r),M),Q=cI(0,function(n){return function(b){switch(b[0]){case
+0:return[0,P(b[1],n,_)];case
+1:return[0,P(b[1],I,_)];case
+2:return[0,aZ(a,b[1])];case
+3:var
+c=b[2],d=b[1];return b3(function(b,a){return[0,H(b,a)]},d,c);case
+4:var
+e=b[2],f=b[1];return b3(function(b,a){return[0,O(b,a)]},f,e);case
+5:var
+g=b[1];return b2(function(a){return[0,aA(a)]},g);case
+6:var
+h=b[2],i=b[1];return b3(function(c,b){return[0,B(a,c,b)]},i,h);case
+7:var
+j=b[2],k=b[1];return b3(function(c,b){var
+d=cg(a,b);return ab(function(b){return B(a,c,b)},d)},k,j);case
+8:var
+l=b[1];return b2(function(b){return[0,aj(a,b)]},l);default:var
+m=b[1];return b2(function(b){return cG(a,b)},m)}}}(N),J,L),j=P(h[1],Q,U);if(j){var
+m=ag(j[1][2],d);K=1}else
+var
+s=j}else
+var
+s=h;if(!K)var
+m=s;if(m){var
+e=k,b=f(function(a){return 0},b);continue}return m}var
+y=P(c,b,0);if(y){var
+n=aJ(G,c);if(n){var
+z=jb(a,F,E,h,q,n[1],i);if(z){var
+e=k,b=eg(c,b);continue}var
+A=z}else
+var
+A=n;var
+C=A}else
+var
+C=y;return C}return[0,b]}}function
+jd(i,h,g,f,e,d,c,t,s,r){var
+b=t,j=s,a=r;for(;;){if(0===a[0]){var
+k=jc(i,h,g,f,e,d,c,b,a[1],j);return k?p(aV,k[1]):k}var
+l=jc(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=ee(a[2],b),o=jd(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
+b=n[2],j=m,a=a[4];continue}var
+q=o}else
+var
+q=l;return q}}function
+fT(d,a){var
+e=ac(a),f=v(v(q(b(2,c)),a),d);return G(A(ac(d),f),e)}function
+fU(a){switch(a){case
+0:return qb;case
+1:return qc;default:return 0}}function
+el(b,a){var
+c=bi(a[2],b);return g(bi(a[1],b),c)}function
+je(r,k,p,t,o,j,s){if(j){var
+u=j[1],w=eh(s,el(o,u)),R=M(s,n(el(o,u))),S=je(r,k,p,t,o,j[2],R),i=bF(w,qd),l=bF(w,0);switch(r){case
+0:var
+g=[0,qa,p$,q(d)];break;case
+1:var
+g=fu;break;default:var
+H=q(d),I=q(d),g=[0,q(d),I,H]}var
+e=b0(A,g,l),y=aB(k[3],i),z=aB(k[2],i),a=[0,aB(k[1],i),z,y],J=fT(g[3],l[3]),K=fT(g[2],l[2]),L=fT(g[1],l[1]),N=G(G(G(aB(i,i),L),K),J),O=aB(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=A(v(a[1],e[2]),B),D=v(a[1],e[3]),E=A(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ed([0,A(v(a[2],e[3]),F),E,C],t),h=b0(G,ec(p,e),a);switch(r){case
+0:var
+m=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+1:var
+m=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+m=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,m,Q],S]}else
+var
+x=j;return x}function
+fV(g,a){if(typeof
 a!=="number")switch(a[0]){case
+8:var
+f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
-e=a[2];return[0,[0,e,e],f]}var
+e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fB(e,d,m,l,k,a){var
-f=v(ao(cA(iH(l,a),k)),m);if(typeof
+fW(e,d,n,m,k,a){var
+f=v(ac(ck(fV(m,a),k)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aV(d,a[1]);if(b)var
-g=o(e,0,a[2]),h=g?[0,I(b[1][2],f)]:g;else
+b=aJ(d,a[1]);if(b)var
+g=l(e,0,a[2]),h=g?[0,A(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aV(d,a[1]);if(c)var
-i=o(e,0,a[2]),j=i?[0,I(f,c[1][2])]:i;else
+c=aJ(d,a[1]);if(c)var
+i=l(e,0,a[2]),j=i?[0,A(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-iI(h,a,g,f,m,l,j){if(j){var
-w=iI(h,a,g,f,m,[0,l],j[2]),b=j[1],n=0;if(typeof
-b==="number")var
-q=e(a,f),i=[0,[0,e(bU(a),g),q,aE]];else
-switch(b[0]){case
+jf(a,d,c,b){return f(function(a){var
+e=ck(fV(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+jg(b,g,s,f,i,q,p,o){if(o){var
+X=jg(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+a==="number")var
+M=e(g,i),h=[0,t(e(a7(g),f),M,_)];else
+switch(a[0]){case
 0:var
-r=[4,[0,c,c],b[1]],k=r,o=function(c,b,a){return[0,c,b,a]};n=1;break;case
+j=[4,[0,c,c],a[1]],n=f,m=t;k=1;break;case
 1:var
-t=[4,[0,c,c],b[1]],k=t,o=function(c,b,a){return[1,c,b,a]};n=1;break;case
+O=[4,[0,c,c],a[1]],j=O,n=f,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
 2:var
-u=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},u);break;case
+P=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},P);break;case
 3:var
-v=fB(h,g,f,m,l,b),i=aw(function(b){return[2,e(a,b)]},v);break;default:var
-i=0}if(n)var
-s=aX(h,[0,[0,k,k],d]),i=aw(function(b){var
-c=ax(h,b),d=e(a,f);return o(e(bU(a),g),d,c)},s);var
-p=[0,i,w]}else
+Q=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},Q);break;case
+6:var
+u=a[3],v=a[2],r=aJ(f,a[1]),K=0;if(r){var
+w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
+R=[4,u,v],S=[0,r[1],0],j=R,n=S,m=function(c,b,a){return[1,c,b,a]};k=1;K=1}else
 var
-p=j;return p}function
-iJ(h,f,e,d,c,a){if(a){var
-i=iJ(h,f,e,d,[0,c],a[2]),b=fB(h,f,e,d,c,a[1]),j=b?[0,b[1],0]:b;return g(j,i)}return a}function
-pA(a){if(typeof
+y=x}else
+var
+y=r;if(!K)var
+h=y;break;case
+7:var
+z=a[3],A=a[2],B=a[1],C=aJ(f,B),L=0;if(C){var
+D=l(b,1,A),E=D?l(b,1,z):D;if(E){var
+T=[4,A,z],j=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};k=1;L=1}else
+var
+F=E}else
+var
+F=C;if(!L)var
+h=F;break;case
+8:var
+G=l(b,1,a[1]),H=G?l(b,1,a[2]):G;if(H)var
+U=aZ(b,c),V=e(g,i),W=jf(f,q,p,a),I=[0,[0,e(a7(g),W),V,U,0]];else
+var
+I=H;var
+h=I;break;default:var
+h=0}if(k)var
+N=a1(b,[0,[0,j,j],d]),h=ab(function(a){var
+c=aj(b,a),d=e(g,i);return m(e(a7(g),n),d,c)},N);var
+J=[0,h,X]}else
+var
+J=o;return J}function
+jh(j,h,i,e,d,a){if(a){var
+n=jh(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+b!=="number"&&8===b[0]){var
+k=f(dc,jf(h,e,d,b));l=1}if(!l)var
+c=fW(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+qe(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-d$(a){var
-b=cd(a[1],[0,d,c]);return b?cd(a[2],[0,d,c]):b}function
-ea(b,a){return bW(b,a[1],a[2])}function
-fC(b,a){var
-c=ea(b,a[1]),d=c?ea(b,a[2]):c;return d?ea(b,a[3]):d}var
-ec=I(r(c),eb);function
-iK(e){var
-a=ao(ec);if(e)var
-f=v(r(b(2,c)),a),g=T(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aI(T(r(c),h),g);else
+em(a){var
+b=cm(a[1],[0,d,c]);return b?cm(a[2],[0,d,c]):b}function
+qf(j,a,k,be){var
+w=a[1],h=dr(w),ap=a[3],bg=[0,[0,[0,ap,ap],k],0],bh=a[2],aq=g(N(function(a){return el(k,a)},bh),bg),R=n(aq),bi=a[2],bj=n(N(function(a){return el(k,a)},bi)),ar=a[3],bk=ck([0,[0,ar,ar],k],bj),bl=fU(w),bm=a[5];function
+i(a){return[0,[0,M(bl,a)]]}switch(bm[0]){case
+0:var
+aV=dw(i(0)),F=[0,ek(pW,i(0)),aV];break;case
+1:var
+aX=dw(i(0)),aY=v(dw(i(pX)),aX),aZ=v(dw(i(pY)),aY),a0=ek(0,i(0)),a2=i9(ek(p0,i(pZ)),a0),F=[0,i9(ek(p2,i(p1)),a2),aZ];break;default:var
+a3=i(p3),a4=i(p4),u=[0,i(0),a4,a3],a5=aB(u,u),a6=G(q(c),a5),aM=aB(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
+d=ac(a),e=v(q(b(2,c)),d);return G(A(q(c),aM),e)},y=function(f,e,d,a){var
+g=S(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(A,r,t,s),aO,aN],aQ=y(A,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(A,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
+B=F[2],H=je(w,F[1],B,bk,k,a[2],0),bn=M(R,n(a[6])),bo=fU(w),bp=a[5];function
+z(a){return[0,[0,M(bo,a)]]}var
+af=ac([0,[1,bn]]);switch(bp[0]){case
+2:var
+a8=z(p5),a9=z(p6),ag=[0,z(0),a9,a8],m=[0,A(af,aB(ag,ag))];break;case
+3:var
+a_=ac(z(p7)),a$=ac(z(0)),ba=ac(z(p8)),m=[0,A(A(v(af,G(q(c),ba)),a$),a_)];break;default:var
+m=0}var
+bq=m?[0,m[1],0]:m,br=[0,B,g(jh(j,H,B,k,R,a[6]),bq)],T=g(cL(H),br),as=d_(f(function(a){return ds(h,a)},T))[1],C=d8(as);function
+x(a){return bY(C,ds(h,a))}var
+bs=ab(x,m),bt=x(B),at=e(a7(x),H),am=fU(w),an=ai(n(at),h);if(an)var
+ao=ab(function(a){return[0,[0,a,d],d]},bs),E=function(a){return P(a,C,q(d))},ae=E(bt),aL=cF(0,am),Q=p(function(a){var
+b=cO(h,a,ae),c=b?p(function(b){var
+d=b[1],c=p(function(b){var
+c=E(b);return cq(M(h,a),c)},d);if(c){var
+e=E(b[2]);return fQ(ae,M(h,a),e)}return c},at):b;if(c){if(ao){var
+e=E(ao[1][1][1]);return cq(M(h,a),e)}var
+d=1}else
 var
-i=T(r(b(2,c)),a),j=ao(eb),d=aI(T(v(r(b(2,c)),j),a),i);return cw(d)}function
-iL(d,b,a){if(d){var
-e=iK(b),f=T(r(c),e),g=v(I(r(c),a),f);return I(r(c),g)}var
-h=r(c),i=iK(b),j=aI(r(c),i);return I(v(a,T(r(c),j)),h)}function
-cE(f,e,d,a){var
-g=ao(a),h=ao(d),i=I(I(r(b(2,c)),h),g),j=f?e?ec:aI(ec,v(r(b(2,c)),eb)):aI(ec,r(b(2,c))),k=v(ao(j),i);return cw(T(r(c),k))}function
-iM(g,d){var
+d=c;return d},aL);else
+var
+Q=an;var
+bd=Q?am:Q,au=p(function(a){var
+b=ds(h,a),c=q(d);return bf(P(x(a),C,c),b)},T),av=au?p(function(a){return i0(h,a)},T):au,aw=av?bD(qe,a[6]):av;if(aw){var
+I=a[4];switch(w){case
+0:var
+U=em(I[3]);break;case
+1:var
+U=1;break;default:var
+ak=em(I[1]),al=ak?em(I[2]):ak,U=al?em(I[3]):al}var
+V=U}else
+var
+V=aw;var
+ax=V?l(j,1,a[3]):V;if(ax)var
+bu=i_(a[5]),W=p(function(a){var
+b=fO(j,a[1]);return b?fO(j,a[2]):b},bu);else
+var
+W=ax;if(W){var
+bv=a[6],bw=g(aq,f(function(a){return fV(k,a)},bv)),X=aW(f(function(a){return a1(j,a)},bw));if(X){var
+D=a[4];switch(w){case
+0:var
+Y=[0,D[1],[0,D[2],0]];break;case
+1:var
+Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
+Y=0}var
+Z=aW(f(function(a){return a1(j,[0,a,k])},Y));if(Z){var
+ay=Z[1],o=a[5];switch(o[0]){case
+0:var
+J=[0,cP(o[1]),0];break;case
+1:var
+bb=[0,cP(o[3]),0],bc=[0,cP(o[2]),bb],J=[0,cP(o[1]),bc];break;case
+2:var
+L=cP(cp(o[1])),J=[0,L,[0,L,[0,L,0]]];break;default:var
+O=o[2],ah=o[1],aj=[0,[1,cp(ah)[1],O],[1,ah,O]],J=[0,aj,[0,aj,[0,cP(cp(O)),0]]]}var
+_=aW(f(function(d){var
+a=i$(j,d[1]);if(a)var
+b=i$(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+var
+c=a;return c},J));if(_){var
+az=_[1],aA=a[5],bx=1<aA[0]?[0,aA[1],0]:0,$=aW(f(function(a){return dq(j,a)},bx));if($){var
+aa=aW(jg(j,x,bd,H,B,k,R,a[6]));if(aa){var
+ad=aa[1],aC=ai(n(g(ay,az)),h),aD=aC?p(function(a){switch(a[0]){case
+2:var
+d=i7(a[2]),b=[0,a[3],d];break;case
+3:var
+b=[0,a[1],0];break;default:var
+c=i7(a[1]),b=[0,a[2],c]}return p(function(a){return i8(h,C,a)},b)},ad):aC,aE=aD?m?i8(h,C,x(m[1])):1:aD;if(aE){var
+by=f(function(a){return 1},ad),bz=g(ay,az),bA=ab(x,m);return jd(j,as,g(X[1],$[1]),ad,h,h,bA,bz,by,be)}var
+aF=aE}else
+var
+aF=aa;var
+aG=aF}else
+var
+aG=$;var
+aH=aG}else
+var
+aH=_;var
+aI=aH}else
+var
+aI=Z;var
+aJ=aI}else
+var
+aJ=X;var
+aK=aJ}else
+var
+aK=W;return aK}function
+en(b,a){return bj(b,a[1],a[2])}function
+fX(b,a){var
+c=en(b,a[1]),d=c?en(b,a[2]):c;return d?en(b,a[3]):d}var
+ep=A(q(c),eo);function
+ji(e){var
+a=ac(ep);if(e)var
+f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aK(G(q(c),h),g);else
+var
+i=G(q(b(2,c)),a),j=ac(eo),d=aK(G(v(q(b(2,c)),j),a),i);return cH(d)}function
+jj(d,b,a){if(d){var
+e=ji(b),f=G(q(c),e),g=v(A(q(c),a),f);return A(q(c),g)}var
+h=q(c),i=ji(b),j=aK(q(c),i);return A(v(a,G(q(c),j)),h)}function
+cQ(f,e,d,a){var
+g=ac(a),h=ac(d),i=A(A(q(b(2,c)),h),g),j=f?e?ep:aK(ep,v(q(b(2,c)),eo)):aK(ep,q(b(2,c))),k=v(ac(j),i);return cH(G(q(c),k))}function
+jk(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?S(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fD(u,t,s){var
-a=f(function(a){return L(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?H(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+fY(u,t,s){var
+a=f(function(a){return P(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3441,7 +3803,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return dY([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ea([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3463,12 +3825,12 @@ q=g;var
 r=q}else
 var
 r=a;return r}function
-iN(f,i,e,b,h){var
-j=f?c:d,a=by(i,j);function
+jl(f,i,e,b,h){var
+j=f?c:d,a=aZ(i,j);function
 g(b){var
-c=f?e3(b):e4(b);return ah(c,a)}var
-k=[0,bd(h),0],l=[0,[0,a,b,[0,aE,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-iO(r,g,q,p,e,o,n){if(o){var
+c=f?fj(b):d4(b);return O(c,a)}var
+k=[0,bh(h),0],l=[0,[0,a,b,[0,_,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+jm(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3477,16 +3839,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(c9,bT(pD)),a=fD(p,hS(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(di,bZ(qi)),a=fY(p,ii(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=B(k[2],l[1]);b=1;c=1;d=1;break}else
+a=D(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(iM,pE),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=f(jk,qj),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=f(iM,pF),a=fD(p,c8(0,e_(g,iN(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+B=f(jk,qk),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3496,27 +3858,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?pG:a}else
+y=a?ql:a}else
 var
 y=n;return y}return[0,n]}function
-iP(f,e,d,c,p,o,n){var
+jn(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=iO(f,e,d,c,b,a[1],g);return h?aU(h[1]):h}var
-i=iO(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d2(a[2],b),l=iP(f,e,d,c,k[1],j,a[3]);if(l){var
+h=jm(f,e,d,c,b,a[1],g);return h?aV(h[1]):h}var
+i=jm(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ee(a[2],b),l=jn(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fE(a){return hg(b(2,c),b7(a,c))}function
-cF(i,a,e,w,u){var
-l=a?c:N(c),f=r(l),g=iL(a,e,pB),h=iL(a,e,pC),m=aI(g,cE(a,e,f,g)),n=[0,T(aI(h,cE(a,e,h,f)),m),0],o=aI(f,cE(a,e,f,g)),p=[0,T(aI(h,cE(a,e,g,h)),o),n],q=aI(f,cE(a,e,h,f)),s=[0,T(aI(g,cE(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eb):r(b(2,b(2,c))),j=dW([0,t,s]),k=[0,d,b_(i)];return iP(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-iQ(a,g,b){if(af(g,fE(a))){if(b){var
+fZ(a){return hG(b(2,c),cb(a,c))}function
+cR(i,a,e,w,u){var
+l=a?c:T(c),f=q(l),g=jj(a,e,qg),h=jj(a,e,qh),m=aK(g,cQ(a,e,f,g)),n=[0,G(aK(h,cQ(a,e,h,f)),m),0],o=aK(f,cQ(a,e,f,g)),p=[0,G(aK(h,cQ(a,e,g,h)),o),n],r=aK(f,cQ(a,e,h,f)),s=[0,G(aK(g,cQ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eo):q(b(2,b(2,c))),j=d_([0,t,s]),k=[0,d,cf(i)];return jn(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+jo(a,g,b){if(ag(g,fZ(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fE(a)],v=b_(a),i=[0,fE(a),v],j=cF(a,0,1,h,b[1]),k=j?cF(a,0,0,i,c[1]):j;if(k){var
-l=cF(a,1,1,h,d[1]);if(l)return cF(a,1,0,i,e[1]);var
+h=[0,g,fZ(a)],v=cf(a),i=[0,fZ(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
+l=cR(a,1,1,h,d[1]);if(l)return cR(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -3533,170 +3895,177 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,b_(a)],s=cF(a,0,0,r,b[1]);if(s)return cF(a,1,0,r,f[1]);var
+r=[0,g,cf(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-fF(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,pH,fF(b)]);var
+f0(a){if(a){var
+b=a[2],c=a[1];if(b)return g(c,[0,qm,f0(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,pJ,g(fF(a),pI)]}function
-M(a){return[0,pL,g(fF(a),pK)]}function
-ai(a){return[0,pN,[0,a,pM]]}function
-h(b,a){return[0,am(pP,am(b,pO)),a]}function
-K(b,a){return M([0,h(b,a),0])}function
-cG(d){var
-b=d,a=oD,e=0;for(;;){if(b){var
-c=hb(a),b=b[1],a=c;continue}return[0,c6(dJ(a)),e]}}function
-fG(a){return[0,c6(dN(a)),0]}function
-iR(a){var
-c=br(a),f=0,b=0===c?oH:0<c?[0,dN(a)]:[1,dN(N(a))];if(0===b[0])var
-d=c6(b[1]);else
+w(a){return[0,qo,g(f0(a),qn)]}function
+Q(a){return[0,qq,g(f0(a),qp)]}function
+an(a){return[0,qs,[0,a,qr]]}function
+h(b,a){return[0,as(qu,as(b,qt)),a]}function
+F(b,a){return Q([0,h(b,a),0])}function
+cS(d){var
+b=d,a=o9,e=0;for(;;){if(b){var
+c=hB(a),b=b[1],a=c;continue}return[0,dg(dW(a)),e]}}function
+f1(a){return[0,dg(d0(a)),0]}function
+f2(a){var
+c=bx(a),f=0,b=0===c?pb:0<c?[0,d0(a)]:[1,d0(T(a))];if(0===b[0])var
+d=dg(b[1]);else
 var
-e=c6(b[1]),d=am(aT(1,45),e);return[0,d,f]}function
-iS(a){var
-b=0,c=0<br(a)?dN(a):oG;return[0,c6(c),b]}function
-fH(a){switch(a[0]){case
-2:return pR;case
-3:return 2<=a[1]?pS:pT;case
-4:return pU;default:return pQ}}function
-di(b,a){function
-c(c,a){return _(c,fH(a))?di(b,a):[0,p0,g(di(b,a),pZ)]}switch(a[0]){case
+e=dg(b[1]),d=as(aY(1,45),e);return[0,d,f]}function
+f3(a){var
+b=0,c=0<bx(a)?d0(a):pa;return[0,dg(c),b]}function
+f4(a){switch(a[0]){case
+2:return qw;case
+3:return 2<=a[1]?qx:qy;case
+4:return qz;default:return qv}}function
+dx(b,a){function
+c(c,a){return Z(c,f4(a))?dx(b,a):[0,qF,g(dx(b,a),qE)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aN(h),0];var
-i=[0,p1,[0,aN(f),0]];return[0,aN(h),i];case
+f==="number")return[0,aQ(h),0];var
+i=[0,qG,[0,aQ(f),0]];return[0,aQ(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,p3,c(p2,a[1])];case
+2:return[0,qI,c(qH,a[1])];case
 3:var
-j=a[3],k=c([0,fH(a)],j);switch(a[1]){case
+j=a[3],k=c([0,f4(a)],j);switch(a[1]){case
 0:var
-d=pV;break;case
+d=qA;break;case
 1:var
-d=pW;break;case
+d=qB;break;case
 2:var
-d=pX;break;default:var
-d=pY}var
-l=a[2];return g(c(fH(a),l),[0,d,k]);case
+d=qC;break;default:var
+d=qD}var
+l=a[2];return g(c(f4(a),l),[0,d,k]);case
 4:var
-m=[0,p4,fG(a[2])];return g(c(p5,a[1]),m);default:return[0,p7,g(di(b,a[1]),p6)]}}function
-U(a){return[0,p_,g(di(function(a){throw[0,P,p9]},a),p8)]}function
-iT(a){return[0,qa,g(di(function(a){return a},a),p$)]}function
-bY(a){if(0===a[0])return U(a[1]);var
-b=[0,h(qb,U(a[2])),0];return M([0,h(qc,U(a[1])),b])}function
-ed(b,a){var
+m=[0,qJ,f1(a[2])];return g(c(qK,a[1]),m);default:return[0,qM,g(dx(b,a[1]),qL)]}}function
+R(a){return[0,qP,g(dx(function(a){throw[0,V,qO]},a),qN)]}function
+jp(a){return[0,qR,g(dx(function(a){return a},a),qQ)]}function
+b4(a){if(0===a[0])return R(a[1]);var
+b=[0,h(qS,R(a[2])),0];return Q([0,h(qT,R(a[1])),b])}function
+eq(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qd(a){function
-b(a){return ed(bY,a)}switch(a[0]){case
+qU(a){function
+b(a){return eq(b4,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qe:qm,i=[0,h(qf,ai(f)),e],j=[0,h(qg,bY(a[4])),i],k=[0,h(qh,b(a[3])),j],l=[0,h(qi,b(a[2])),k],m=[0,h(qj,b(a[1])),l],c=[0,h(ql,ai(qk)),m];break;case
+e=0,f=a[5]?qV:q3,i=[0,h(qW,an(f)),e],j=[0,h(qX,b4(a[4])),i],k=[0,h(qY,b(a[3])),j],l=[0,h(qZ,b(a[2])),k],m=[0,h(q0,b(a[1])),l],c=[0,h(q2,an(q1)),m];break;case
 1:var
-d=a[3],n=d?[0,h(qn,b(d[1])),0]:d,o=[0,h(qo,b(a[2])),0],p=[0,h(qp,b(a[1])),o],c=g([0,h(qr,ai(qq)),p],n);break;default:var
-q=[0,h(qs,b(a[1])),0],c=[0,h(qu,ai(qt)),q]}return M(c)}function
-qv(a){function
-b(a){return ed(bY,a)}var
-c=0,d=a[7]?qw:qG,e=[0,h(qx,ai(d)),c],f=[0,h(qy,bY(a[6])),e],g=[0,h(qz,bY(a[5])),f],i=[0,h(qA,b(a[4])),g],j=[0,h(qB,b(a[3])),i],k=[0,h(qC,b(a[2])),j],l=[0,h(qD,b(a[1])),k];return M([0,h(qF,ai(qE)),l])}function
-fI(a){switch(a){case
-0:return qH;case
-1:return qI;case
-2:return qJ;case
-3:return qK;case
-4:return qL;case
-5:return qM;case
-6:return qN;default:return qO}}function
-fJ(a){switch(a[0]){case
-0:return qP;case
-1:return qQ;default:return qR}}function
-dj(a){var
+d=a[3],n=d?[0,h(q4,b(d[1])),0]:d,o=[0,h(q5,b(a[2])),0],p=[0,h(q6,b(a[1])),o],c=g([0,h(q8,an(q7)),p],n);break;default:var
+q=[0,h(q9,b(a[1])),0],c=[0,h(q$,an(q_)),q]}return Q(c)}function
+ra(a){function
+b(a){return eq(b4,a)}var
+c=0,d=a[7]?rb:rl,e=[0,h(rc,an(d)),c],f=[0,h(rd,b4(a[6])),e],g=[0,h(re,b4(a[5])),f],i=[0,h(rf,b(a[4])),g],j=[0,h(rg,b(a[3])),i],k=[0,h(rh,b(a[2])),j],l=[0,h(ri,b(a[1])),k];return Q([0,h(rk,an(rj)),l])}function
+f5(a){switch(a){case
+0:return rm;case
+1:return rn;case
+2:return ro;case
+3:return rp;case
+4:return rq;case
+5:return rr;case
+6:return rs;case
+7:return rt;default:return ru}}function
+f6(a){switch(a[0]){case
+0:return rv;case
+1:return rw;default:return rx}}function
+dy(a){var
 b=a[4],j=0;if(2===b[0])var
-i=[0,U(b[2]),0],e=w([0,U(b[1]),i]);else
+i=[0,R(b[2]),0],e=w([0,R(b[1]),i]);else
 var
-e=U(b[1]);var
-k=[0,h(qS,e),j],l=[0,h(qT,ai(fJ(a[4]))),k],c=a[3];if(c)var
-n=w([0,U(c[1]),0]),m=0,o=6===a[1]?qU:qY,f=[0,h(qV,K(o,n)),m];else
+e=R(b[1]);var
+k=[0,h(ry,e),j],l=[0,h(rz,an(f6(a[4]))),k],c=a[3];if(c)var
+n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rA:rE,f=[0,h(rB,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(qW,cG(d[1])),0]:d,r=g(q,p);return M([0,h(qX,ai(fI(a[1]))),r])}function
-iU(a){if(0===a[0]){var
-b=[0,h(qZ,ed(U,a[2])),0];return K(q1,M([0,h(q0,ed(U,a[1])),b]))}var
-c=[0,U(a[5]),0],d=[0,h(q2,w([0,U(a[4]),c])),0],e=[0,h(q3,U(a[3])),d],f=[0,U(a[2]),0];return K(q5,M([0,h(q4,w([0,U(a[1]),f])),e]))}function
-q9(a){function
-b(a){return w(f(bY,a))}var
-c=[0,h(q_,b(a[2])),0],d=[0,h(q$,b(a[1])),c];return M([0,h(rb,ai(ra)),d])}function
-rh(a){switch(a[0]){case
+p=g(f,l),d=a[2],q=d?[0,h(rC,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(rD,an(f5(a[1]))),r])}function
+jq(a){if(0===a[0]){var
+b=[0,h(rF,eq(R,a[2])),0];return F(rH,Q([0,h(rG,eq(R,a[1])),b]))}var
+c=[0,R(a[5]),0],d=[0,h(rI,w([0,R(a[4]),c])),0],e=[0,h(rJ,R(a[3])),d],f=[0,R(a[2]),0];return F(rL,Q([0,h(rK,w([0,R(a[1]),f])),e]))}function
+rP(a){function
+b(a){return w(f(b4,a))}var
+c=[0,h(rQ,b(a[2])),0],d=[0,h(rR,b(a[1])),c];return Q([0,h(rT,an(rS)),d])}function
+r3(a){switch(a[0]){case
 0:var
-n=[0,h(ri,w(f(dj,a[3]))),0],o=[0,h(rj,iU(a[2])),n];return K(rm,M([0,h(rl,K(rk,w(f(qd,a[1])))),o]));case
+o=[0,h(r4,w(f(dy,a[3]))),0],p=[0,h(r5,jq(a[2])),o];return F(r8,Q([0,h(r7,F(r6,w(f(qU,a[1])))),p]));case
 1:var
-p=[0,h(rn,w(f(dj,a[3]))),0],q=[0,h(ro,iU(a[2])),p];return K(rr,M([0,h(rq,K(rp,w(f(qv,a[1])))),q]));case
+q=[0,h(r9,w(f(dy,a[3]))),0],r=[0,h(r_,jq(a[2])),q];return F(sb,Q([0,h(sa,F(r$,w(f(ra,a[1])))),r]));case
 2:var
-r=[0,h(rs,w(f(dj,a[7]))),0],b=a[6],c=function(b,a){var
-c=[0,U(a),0];return w([0,U(b),c])};if(0===b[0])var
-j=K(rc,c(b[1],b[2]));else
-var
-e=b[3],g=b[2],i=b[1],l=[0,h(rd,c(e[1],e[2])),0],m=[0,h(re,c(g[1],g[2])),l],j=K(rg,M([0,h(rf,c(i[1],i[2])),m]));var
-s=[0,h(rt,j),r],t=[0,h(ru,w(f(U,a[5]))),0],u=[0,h(rx,K(rw,M([0,h(rv,w(f(U,a[4]))),t]))),s],v=[0,h(ry,U(a[3])),0],x=M([0,h(rz,w(f(q9,a[2]))),v]);switch(a[1]){case
+s=[0,h(sc,w(f(dy,a[7]))),0],b=a[6],c=function(b,a){var
+c=[0,R(a),0];return w([0,R(b),c])};switch(b[0]){case
 0:var
-d=q6;break;case
+d=F(rU,c(b[1],b[2]));break;case
 1:var
-d=q7;break;default:var
-d=q8}return K(rB,M([0,h(rA,K(d,x)),u]));case
-3:var
-y=[0,h(rC,w(f(dj,a[7]))),0],z=[0,h(rD,w(f(U,a[6]))),0],A=[0,h(rG,K(rF,M([0,h(rE,w(f(U,a[5]))),z]))),y],B=0,C=a[4],D=[0,h(rI,w(f(function(a){return K(rH,w(f(iT,a)))},C))),B],E=a[3],F=[0,h(rJ,w(f(function(a){var
-b=[0,iT(a[2]),0];return w([0,ai(a[1]),b])},E))),D],G=a[2],H=[0,h(rK,w(f(function(a){var
-b=[0,bY(a[2]),0];return w([0,ai(a[1]),b])},G))),F];return K(rO,M([0,h(rN,K(rM,M([0,h(rL,w(f(ai,a[1]))),H]))),A]));case
-4:var
-I=[0,h(rP,w(f(dj,a[3]))),0],J=[0,h(rS,K(rR,M([0,h(rQ,U(a[2])),0]))),I];return K(rW,M([0,h(rV,K(rU,M([0,h(rT,U(a[1])),0]))),J]));default:var
-k=a[1],L=0,N=k?bY(k[1]):ai(rZ);return K(rY,M([0,h(rX,N),L]))}}function
-fK(a){return w(f(iR,a))}function
-iV(b,a){var
-c=[0,h(r0,iS(a)),0];return M([0,h(r1,w(f(fK,b))),c])}function
-fL(a){switch(a[0]){case
-0:return ai(a[1]);case
-1:var
-b=iV(a[2],a[3]);return K(a[1],b);case
+g=b[3],i=b[2],j=b[1],l=[0,h(rV,c(g[1],g[2])),0],m=[0,h(rW,c(i[1],i[2])),l],d=F(rY,Q([0,h(rX,c(j[1],j[2])),m]));break;case
 2:var
-c=a[1]?r2:r4;return K(r3,ai(c));case
+d=F(rZ,R(b[1]));break;default:var
+n=[0,h(r0,R(b[2])),0],d=F(r2,Q([0,h(r1,R(b[1])),n]))}var
+t=[0,h(sd,d),s],u=[0,h(se,w(f(R,a[5]))),0],v=[0,h(sh,F(sg,Q([0,h(sf,w(f(R,a[4]))),u]))),t],x=[0,h(si,R(a[3])),0],y=Q([0,h(sj,w(f(rP,a[2]))),x]);switch(a[1]){case
+0:var
+e=rM;break;case
+1:var
+e=rN;break;default:var
+e=rO}return F(sl,Q([0,h(sk,F(e,y)),v]));case
 3:var
-d=[0,fK(a[3]),0];return K(r5,w([0,iV(a[1],a[2]),d]));case
+z=[0,h(sm,w(f(dy,a[7]))),0],A=[0,h(sn,w(f(R,a[6]))),0],B=[0,h(sq,F(sp,Q([0,h(so,w(f(R,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(ss,w(f(function(a){return F(sr,w(f(jp,a)))},D))),C],G=a[3],H=[0,h(st,w(f(function(a){var
+b=[0,jp(a[2]),0];return w([0,an(a[1]),b])},G))),E],I=a[2],J=[0,h(su,w(f(function(a){var
+b=[0,b4(a[2]),0];return w([0,an(a[1]),b])},I))),H];return F(sy,Q([0,h(sx,F(sw,Q([0,h(sv,w(f(an,a[1]))),J]))),B]));case
 4:var
-e=[0,iS(a[3]),0],f=[0,iR(a[2]),e];return K(r6,w([0,fL(a[1]),f]));default:return K(r7,fL(a[1]))}}function
-r8(a){var
-b=[0,fL(a[2]),0];return w([0,cG(a[1]),b])}function
-r9(c){var
-b=c[2],d=b?[0,h(r_,cG(b[1])),0]:b,a=c[1],e=a?[0,h(r$,w(f(r8,[0,a[1],a[2]]))),0]:a;return M(g(e,d))}function
-fM(a){var
-b=gZ(gY(y(a),function(b){return G(a,b)}));return p(function(a){var
-b=aU(34===a?1:0),c=b?aU(92===a?1:0):b,d=c?_(sw,dO(a)):c;return d?_(dO(a),sx):d},b)}function
-ee(b){function
+K=[0,h(sz,w(f(dy,a[3]))),0],L=[0,h(sC,F(sB,Q([0,h(sA,R(a[2])),0]))),K];return F(sG,Q([0,h(sF,F(sE,Q([0,h(sD,R(a[1])),0]))),L]));default:var
+k=a[1],M=0,N=k?b4(k[1]):an(sJ);return F(sI,Q([0,h(sH,N),M]))}}function
+f7(a){return w(f(f2,a))}function
+jr(b,a){var
+c=[0,h(sK,f3(a)),0];return Q([0,h(sL,w(f(f7,b))),c])}function
+er(a){switch(a[0]){case
+0:return an(a[1]);case
+1:var
+b=jr(a[2],a[3]);return F(a[1],b);case
+2:var
+c=a[1]?sM:sO;return F(sN,an(c));case
+3:var
+d=[0,f7(a[3]),0];return F(sP,w([0,jr(a[1],a[2]),d]));case
+4:var
+e=[0,f3(a[3]),0],f=[0,f2(a[2]),e];return F(sQ,w([0,er(a[1]),f]));case
+5:var
+g=[0,f3(a[3]),0],h=[0,f2(a[2]),g];return F(sR,w([0,er(a[1]),h]));default:return F(sS,er(a[1]))}}function
+sT(a){var
+b=[0,er(a[2]),0];return w([0,cS(a[1]),b])}function
+sU(c){var
+b=c[2],d=b?[0,h(sV,cS(b[1])),0]:b,a=c[1],e=a?[0,h(sW,w(f(sT,[0,a[1],a[2]]))),0]:a;return Q(g(e,d))}function
+f8(a){var
+b=hn(hm(y(a),function(b){return K(a,b)}));return p(function(a){var
+b=aV(34===a?1:0),c=b?aV(92===a?1:0):b,d=c?Z(th,d1(a)):c;return d?Z(d1(a),ti):d},b)}function
+es(b){function
 c(f){var
-a=dO(f),b=_(sy,a),c=b?_(a,sz):b;if(c)var
+a=d1(f),b=Z(tj,a),c=b?Z(a,tk):b;if(c)var
 d=c;else{var
-e=_(sA,a);if(e)return _(a,sB);var
+e=Z(tl,a);if(e)return Z(a,tm);var
 d=e}return d}var
-a=gZ(gY(y(b),function(a){return G(b,a)}));if(a){var
+a=hn(hm(y(b),function(a){return K(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?p(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=dO(a),f=_(sC,e),h=f?_(e,sD):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?_(l(d),sE):f;if(g)return aU(av(b,sF));var
+e=d1(a),f=Z(tn,e),h=f?Z(e,to):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(n(d),tp):f;if(g)return aV(aC(b,tq));var
 h=g}else
 var
 h=a;return h}function
-fN(c){var
+f9(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ee(a[1]);case
+1:return es(a[1]);case
 3:var
-b=fN(a[2]);if(b){var
+b=f9(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-cH(m){var
+cT(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -3707,66 +4076,66 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dJ(a[2]);if(typeof
+f=dW(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=cH(a[2]);if(i){var
+i=cT(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cH(a[1]),l=k?dM(b(2,c),j):k;return l?dM(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=cT(a[1]),l=k?dZ(b(2,c),j):k;return l?dZ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-cI(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-fO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bZ(a){return C(cI,fO(a))}function
-sG(a){switch(a[0]){case
+cU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+f_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b5(a){return N(cU,f_(a))}function
+tr(a){switch(a[0]){case
 0:var
-c=cI(a[4]),d=g(bZ(a[3]),c),e=g(bZ(a[2]),d);return g(bZ(a[1]),e);case
+c=cU(a[4]),d=g(b5(a[3]),c),e=g(b5(a[2]),d);return g(b5(a[1]),e);case
 1:var
-b=a[3],f=b?bZ(b[1]):b,h=g(bZ(a[2]),f);return g(bZ(a[1]),h);default:return bZ(a[1])}}function
-sH(a){var
-b=C(cI,[0,a[5],[0,a[6],0]]);return g(C(bZ,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-iW(a){if(0===a[0]){var
-b=fO(a[2]);return g(fO(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dk(c){var
+b=a[3],f=b?b5(b[1]):b,h=g(b5(a[2]),f);return g(b5(a[1]),h);default:return b5(a[1])}}function
+ts(a){var
+b=N(cU,[0,a[5],[0,a[6],0]]);return g(N(b5,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+js(a){if(0===a[0]){var
+b=f_(a[2]);return g(f_(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+dz(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-iX(a){var
-d=dM(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dM(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-iY(a,b){return b?[3,iY(a,b[1]),a]:a}function
+jt(a){var
+d=dZ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dZ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+ju(a,b){return b?[3,ju(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],k=b(2,j(b(2,b(2,c)))),l=function(a){return n(k,a)},m=eX(g$(h),l,c);return[0,hi(ha(dJ(a[1]),h)),m];case
-1:throw[0,P,sI];case
+h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return o(j,a)},m=fd(hz(h),l,c);return[0,hI(hA(dW(a[1]),h)),m];case
+1:throw[0,V,tt];case
 2:var
-e=i(a[1]);return 0===e[0]?[0,N(e[1]),e[2]]:[2,[0,d,c],e];case
+e=i(a[1]);return 0===e[0]?[0,T(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
 f=i(a[2]),g=i(a[3]);switch(a[1]){case
 0:return[1,f,g];case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-o=c1(c3(a[2]));return iY(i(a[1]),o);default:return[5,i(a[1])]}}function
-bD(a){if(0===a[0]){var
+n=cB(de(a[2]));return ju(i(a[1]),n);default:return[5,i(a[1])]}}function
+bH(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-a5(a){var
-b=bD(a[3]),c=bD(a[2]);return[0,bD(a[1]),c,b]}function
-sJ(a){switch(a[0]){case
+a8(a){var
+b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
+tu(a){switch(a[0]){case
 0:var
-b=a[5],c=bD(a[4]),d=a5(a[3]),e=a5(a[2]);return[0,[0,a5(a[1]),e,d,c,b]];case
+b=a[5],c=bH(a[4]),d=a8(a[3]),e=a8(a[2]);return[0,[0,a8(a[1]),e,d,c,b]];case
 1:var
-f=aw(a5,a[3]),g=a5(a[2]);return[1,a5(a[1]),g,f];default:return[2,a5(a[1])]}}function
-iZ(a){if(0===a[0]){var
+f=ab(a8,a[3]),g=a8(a[2]);return[1,a8(a[1]),g,f];default:return[2,a8(a[1])]}}function
+jv(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-sK(a){if(a[1])return 0;var
+tv(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-fP(c,j,b){var
-x=l(c),d=C(function(a){switch(a[1]){case
+f$(c,j,b){var
+x=n(c),d=N(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
@@ -3792,108 +4161,131 @@ n=a[4];if(0===n[0]){var
 e=a[3];if(e)var
 w=i(n[1]),o=[0,[8,i(e[1]),w],0];else
 var
-o=e;return o}return 0;default:var
-p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0}var
-h=a[2],r=h?[0,c1(h[1]),0]:c5(0,x);return f(b,r)},b),a=C(sK,b),e=a?[0,a[1],a[2]]:sM,h=g(e,d),k=iZ(j);return[0,f(sJ,c),k,h]}function
-sN(a){if(a[1])return 0;var
+o=e;return o}return 0;case
+7:var
+p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;default:return 0}var
+h=a[2],r=h?[0,cB(h[1]),0]:cF(0,x);return f(b,r)},b),a=N(tv,b),e=a?[0,a[1],a[2]]:tx,h=g(e,d),k=jv(j);return[0,f(tu,c),k,h]}function
+ty(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-cJ(n,b){var
-c=C(function(b){switch(b[1]){case
+cV(z,b){var
+c=N(function(a){switch(a[1]){case
 0:var
-d=b[4];return 0===d[0]?[0,[1,i(d[1])],0]:0;case
+h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
-a=b[4];switch(a[0]){case
+b=a[4];switch(b[0]){case
 0:var
-h=a[1],c=function(a){return[2,a,i(h)]};break;case
+p=b[1],c=function(a){return[2,a,i(p)]};break;case
 1:var
-k=a[1],c=function(a){return[3,a,i(k)]};break;default:var
-l=a[2],m=a[1],c=function(a){var
-b=i(l);return[4,a,i(m),b]}}var
-e=b[2],j=e?[0,c1(e[1]),0]:c5(0,n);return f(c,j);case
+r=b[1],c=function(a){return[3,a,i(r)]};break;default:var
+s=b[2],t=b[1],c=function(a){var
+b=i(s);return[4,a,i(t),b]}}break;case
+2:var
+k=a[4];if(1!==k[0])return 0;var
+d=a[3],u=k[1];if(!d)return d;var
+v=d[1],c=function(a){var
+b=i(u);return[6,a,i(v),b]};break;case
 3:var
-g=b[4];return 1===g[0]?[0,[5,i(g[1])],0]:0;default:return 0}},b),a=C(sN,b),d=a?[0,a[1],a[2]]:sO;return g(d,c)}function
-fQ(h,g,a){switch(a[1]){case
+l=a[4];return 1===l[0]?[0,[5,i(l[1])],0]:0;case
+6:var
+m=a[4];if(0===m[0]){var
+e=a[3];if(e)var
+w=i(m[1]),n=[0,[8,i(e[1]),w],0];else
+var
+n=e;return n}return 0;case
+8:var
+o=a[4];if(1!==o[0])return 0;var
+g=a[3],x=o[1];if(!g)return g;var
+y=g[1],c=function(a){var
+b=i(x);return[7,a,i(y),b]};break;default:return 0}var
+j=a[2],q=j?[0,cB(j[1]),0]:cF(0,z);return f(c,q)},b),a=N(ty,b),d=a?[0,a[1],a[2]]:tz;return g(d,c)}function
+bI(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dK(h,i);if(b){var
+i=2===a[4][0]?1:0,b=dX(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=_(sP,d);return e?_(d,g):e}var
+d=c[1],e=Z(tA,d);return e?Z(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cg(a){switch(a[0]){case
+cr(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cg(a[1])];case
+2:return[2,cr(a[1])];case
 3:var
-b=cg(a[2]),c=cg(a[3]);switch(a[1]){case
+b=cr(a[2]),c=cr(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cg(a[1]),d];default:return[8,cg(a[1])]}}function
-i0(b){function
+d=a[2];return[7,cr(a[1]),d];default:return[8,cr(a[1])]}}function
+jw(b){function
 a(e){var
-a=[0,d,c];return L(e,b,[0,a,a])}var
-e=a(sQ),f=a(sR);return[0,a(0),f,e]}function
-fR(a){function
+a=[0,d,c];return P(e,b,[0,a,a])}var
+e=a(tC),f=a(tD);return[0,a(0),f,e]}function
+ga(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}if(0===a[0])return[0,b([0,a[1],a[2]])];var
-c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c]}function
-i1(j,a,h,g,e,d,c){function
-b(a){return i0(f(bD,a))}var
-k=cJ(l(a),c),m=fR(d),n=cs(g,e),o=i0(f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
-c=b(a[2]);return[0,b(a[1]),c]},a),p,o,m,k]}function
-sS(a){var
-b=a[7],c=bD(a[6]),d=bD(a[5]),e=a5(a[4]),f=a5(a[3]),g=a5(a[2]);return[0,a5(a[1]),g,f,e,d,c,b]}var
+b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+0:return[0,b([0,a[1],a[2]])];case
+1:var
+c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
+2:return[2,i(a[1])];default:var
+e=i(a[2]);return[3,i(a[1]),e]}}function
+jx(j,a,h,g,e,d,c){function
+b(a){return jw(f(bH,a))}var
+k=cV(n(a),c),l=ga(d),m=cE(g,e),o=jw(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},m)),p=i(h);return[0,j,f(function(a){var
+c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
+tE(a){var
+b=a[7],c=bH(a[6]),d=bH(a[5]),e=a8(a[4]),f=a8(a[3]),g=a8(a[2]);return[0,a8(a[1]),g,f,e,d,c,b]}var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dl(h){var
-a=cr(function(f,e){var
-a=ay(m,f);if(a)var
-b=a[1],c=b9(eJ(b[1]),eJ(b[2]));else
+dA(h){var
+a=cD(function(f,e){var
+a=au(m,f);if(a)var
+b=a[1],c=cd(e2(b[1]),e2(b[2]));else
 var
-c=d;return b9(c,e)},d,h);if(af(d,a)){var
-f=br(a);if(0===f||!(0<f&&!B(a,c)))var
+c=d;return cd(c,e)},d,h);if(ag(d,a)){var
+f=bx(a);if(0===f||!(0<f&&!D(a,c)))var
 g=d;else
 var
-b=bb(a,aP(2)),e=b[1],g=as(b[2],d)?dL(e):dL(e);return b7(g,m)}return d}function
-ef(a){return[0,a[1],[0,a[2],0]]}function
-bE(a){var
-b=ef(a[3]),c=g(ef(a[2]),b);return g(ef(a[1]),c)}function
-sT(a){return 0===a[0]?ef(a[1][4]):0}function
-sU(a){switch(a[0]){case
+b=be(a,aT(2)),e=b[1],g=al(b[2],d)?dY(e):dY(e);return cb(g,m)}return d}function
+et(a){return[0,a[1],[0,a[2],0]]}function
+bJ(a){var
+b=et(a[3]),c=g(et(a[2]),b);return g(et(a[1]),c)}function
+tF(a){return 0===a[0]?et(a[1][4]):0}function
+tG(a){switch(a[0]){case
 0:var
-b=a[1],c=bE(b[3]);return g(bE(b[2]),c);case
+b=a[1],c=bJ(b[3]);return g(bJ(b[2]),c);case
 1:var
-d=bE(a[2]);return g(bE(a[1]),d);default:return 0}}function
-sV(a){switch(a[0]){case
-0:return dl(bE(a[1][1]));case
+d=bJ(a[2]);return g(bJ(a[1]),d);default:return 0}}function
+tH(a){switch(a[0]){case
+0:return dA(bJ(a[1][1]));case
 1:var
-b=a[3];return b?dl(bE(b[1])):d;default:return dl(bE(a[1]))}}function
-fS(a){switch(a[0]){case
+b=a[3];return b?dA(bJ(b[1])):d;default:return dA(bJ(a[1]))}}function
+eu(a){switch(a[0]){case
 0:var
-b=a[1];if(av(b,sW))return sX;if(av(b,sY))return sZ;if(av(b,s0))return s1;if(av(b,s2))return s3;var
-g=av(b,s4),i=g?s5:g;return i;case
+b=a[1];if(aC(b,tI))return tJ;if(aC(b,tK))return tL;if(aC(b,tM))return tN;if(aC(b,tO))return tP;var
+h=aC(b,tQ),j=h?tR:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(av(e,s6))return[0,[0,c,d]];if(av(e,s7))return[0,[1,c,d]];var
-h=av(e,s8),j=h?[0,[2,c,d]]:h;return j;case
+c=a[3],d=a[2],e=a[1];if(aC(e,tS))return[0,[0,c,d]];if(aC(e,tT))return[0,[1,c,d]];var
+i=aC(e,tU),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=fS(a[1]),k=f?[0,[5,f[1],a[2],a[3]]]:f;return k;default:var
-l=fS(a[1]);return aw(function(a){return[6,a]},l)}}function
-i2(a){if(a){var
-d=a[1],b=fS(d[2]);if(b)var
-c=i2(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+f=eu(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+5:var
+g=eu(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=eu(a[1]);return ab(function(a){return[6,a]},n)}}function
+jy(a){if(a){var
+d=a[1],b=eu(d[2]);if(b)var
+c=jy(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return s9}function
-cK(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=i2(g[1]);if(c){var
+e=b;return e}return tV}function
+cW(b,a){if(b)if(a){var
+g=a[1],h=g[2],i=a[2],j=b[1],c=jy(g[1]);if(c){var
 k=c[1];if(h){var
-d=cK(j,i);if(d){var
-l=d[1],e=cK(j,l[2]);if(e)var
+d=cW(j,i);if(d){var
+l=d[1],e=cW(j,l[2]);if(e)var
 m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
 n=e;var
@@ -3908,120 +4300,138 @@ var
 f=a;else
 var
 f=b;return f}function
-fT(d,a){if(d){if(a){var
-b=cK(l(a),a);if(b)var
-e=b[1],c=fT(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+gb(d,a){if(d){if(a){var
+b=cW(n(a),a);if(b)var
+e=b[1],c=gb(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return s_}return a?0:s$}function
-ch(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-a6(a,e){var
-b=ch(a[1],e),c=ch(a[2],b[2]),d=ch(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-i3(d,c){if(d){var
+f=b;return f}return tW}return a?0:tX}function
+cs(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+a9(a,e){var
+b=cs(a[1],e),c=cs(a[2],b[2]),d=cs(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jz(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a6(a[1],c),f=a6(a[2],e[2]),g=a6(a[3],f[2]),h=ch(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=a9(a[1],c),f=a9(a[2],e[2]),g=a9(a[3],f[2]),h=cs(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=a6(a[1],c),k=j[1],l=a6(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=a6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=a9(a[1],c),k=j[1],l=a9(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=a9(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=a6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=i3(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-i4(b,i){if(b){var
-a=b[1],c=a6(a[1],i),d=a6(a[2],c[2]),e=a6(a[3],d[2]),f=a6(a[4],e[2]),g=ch(a[5],f[2]),h=ch(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=i4(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-fU(a,b){if(a){var
-c=ch(a[1],b),d=fU(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-fV(b){function
-a(a){return L(a,b,[0,d,c])}var
-e=a(tb),f=a(tc);return[0,a(0),f,e]}function
-i5(a,b){if(a){var
-c=a[1],d=fU(c[1],b),e=fU(c[2],d[2]),f=i5(a[2],e[2]),g=f[2],h=f[1],i=fV(e[1]);return[0,[0,[0,fV(d[1]),i],h],g]}return[0,0,b]}function
-i6(a){return typeof
+p=a9(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=jz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jA(b,i){if(b){var
+a=b[1],c=a9(a[1],i),d=a9(a[2],c[2]),e=a9(a[3],d[2]),f=a9(a[4],e[2]),g=cs(a[5],f[2]),h=cs(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gc(a,b){if(a){var
+c=cs(a[1],b),d=gc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gd(b){function
+a(a){return P(a,b,[0,d,c])}var
+e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
+jB(a,b){if(a){var
+c=a[1],d=gc(c[1],b),e=gc(c[2],d[2]),f=jB(a[2],e[2]),g=f[2],h=f[1],i=gd(e[1]);return[0,[0,[0,gd(d[1]),i],h],g]}return[0,0,b]}function
+jC(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-eg(a){return h4(m,a)}function
-td(a){if(typeof
+ev(a){return iv(m,a)}function
+t1(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=o(m,1,a[2]);return b?o(m,1,a[3]):b;case
-5:return o(m,1,[2,a[1],[0,c,c]]);case
-6:return o(m,1,a[2]);case
+b=l(m,1,a[2]);return b?l(m,1,a[3]):b;case
+5:return l(m,1,[2,a[1],[0,c,c]]);case
+6:return l(m,1,a[2]);case
 8:var
-d=o(m,1,a[1]);return d?o(m,1,a[2]):d;case
+d=l(m,1,a[1]);return d?l(m,1,a[2]):d;case
 2:case
-3:return eg(a[2]);default:return o(m,1,a[1])}}function
-fW(a){if(typeof
+3:return ev(a[2]);default:return l(m,1,a[1])}}function
+ge(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=o(m,1,[2,d,e]),g=f?o(m,1,[2,[1,e,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c]],d]):f,h=g?o(m,0,[1,e,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c]]):g;return h?o(m,0,[2,[0,b(2,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c))))))))))),c],d]):h;case
-5:return o(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=l(m,1,[2,d,e]),g=f?l(m,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(m,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?l(m,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
+5:return l(m,1,[2,a[1],[0,c,c]]);case
+8:var
+j=l(m,1,a[1]);return j?l(m,1,a[2]):j;case
 0:case
-1:return o(m,1,a[1]);default:return eg(a[2])}}function
-eh(d){var
+1:return l(m,1,a[1]);case
+2:case
+3:return ev(a[2]);default:var
+i=l(m,1,a[2]);return i?l(m,1,a[3]):i}}function
+ew(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aU(bx(function(d){return function(a){var
-h=fI(a[1]),e=av(fI(d[1]),h);if(e)var
-i=fJ(a[4]),b=av(fJ(d[4]),i);else
+b=a[2],e=a[1],c=aV(bD(function(d){return function(a){var
+h=f5(a[1]),e=aC(f5(d[1]),h);if(e)var
+i=f6(a[4]),b=aC(f6(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?aC(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?ai(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dm(a){if(0===a[0])return eg(i(a[1]));var
-b=i(a[1]);return o(m,1,[2,i(a[2]),b])}function
-a7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-te(a){switch(a[0]){case
+dB(a){if(0===a[0])return ev(i(a[1]));var
+b=i(a[1]);return l(m,1,[2,i(a[2]),b])}function
+a_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+t2(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e);case
+c=[0,a[4],0],d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e);case
 1:var
-b=a[3],f=b?a7(b[1]):b,h=g(a7(a[2]),f);return g(a7(a[1]),h);default:return a7(a[1])}}function
-tf(a){var
-b=[0,a[5],[0,a[6],0]],c=g(a7(a[4]),b),d=g(a7(a[3]),c),e=g(a7(a[2]),d);return g(a7(a[1]),e)}function
-fX(a){switch(a){case
-0:return tj;case
-1:return tk;default:return 0}}function
-ei(a){var
-f=a[1],d=o(m,1,[1,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],f]),e=d?bW(m,a[1],a[2]):d;if(e){var
-g=a[2];return o(m,1,[2,[0,b(2,b(2,j(b(2,b(2,j(b(2,j(b(2,b(2,c)))))))))),c],g])}return e}function
-i7(b,a,B,r,q,n,e){function
-s(a){var
-d=b?th:ti,c=aC(l(a),d);return c?p(dm,a):c}var
-t=p(function(a){var
-b=s(a[1]);return b?s(a[2]):b},a);if(t)var
-C=l(a),f=_(d6(b),C);else
+b=a[3],f=b?a_(b[1]):b,h=g(a_(a[2]),f);return g(a_(a[1]),h);default:return a_(a[1])}}function
+t3(a){var
+b=[0,a[5],[0,a[6],0]],c=g(a_(a[4]),b),d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e)}function
+gf(a){switch(a){case
+0:return t7;case
+1:return t8;default:return 0}}function
+ex(a){var
+f=a[1],d=l(m,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(m,a[1],a[2]):d;if(e){var
+g=a[2];return l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
+gg(a){var
+e=bj(m,[0,d,c],a);return e?l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
+jD(c,d,D,t,s,r,g){function
+u(a){var
+d=c?t5:t6,b=ai(n(a),d);return b?p(dB,a):b}var
+v=p(function(a){var
+b=u(a[1]);return b?u(a[2]):b},d);if(v)var
+E=n(d),h=Z(dr(c),E);else
 var
-f=t;var
-u=f?_(l(a),tl):f,v=u?o(m,1,i(B)):u;if(v)var
-D=fX(b),g=aC(l(r),D);else
+h=v;var
+w=h?Z(n(d),t9):h,x=w?l(m,1,i(D)):w;if(x)var
+F=gf(c),j=ai(n(t),F);else
 var
-g=v;if(g)var
-E=fX(b),h=aC(l(q),E);else
+j=x;if(j)var
+G=gf(c),k=ai(n(s),G);else
 var
-h=g;if(h)var
-F=cs(r,q),j=p(function(a){var
-b=i(a[2]);return bW(m,i(a[1]),b)},F);else
+k=j;if(k)var
+H=cE(t,s),o=p(function(a){var
+b=i(a[2]);return bj(m,i(a[1]),b)},H);else
 var
-j=h;if(j)if(b){var
-c=fR(n);if(0===c[0])var
-w=0;else
+o=k;if(o)if(c){var
+a=ga(r);switch(a[0]){case
+0:var
+e=0;break;case
+1:var
+z=ex(a[1]),A=z?ex(a[2]):z,e=A?ex(a[3]):A;break;case
+2:var
+e=gg(a[1]);break;default:var
+B=gg(a[1]),e=B?gg(a[2]):B}var
+f=e}else
 var
-y=ei(c[1]),z=y?ei(c[2]):y,w=z?ei(c[3]):z;var
-d=w}else
+C=ga(r),J=0===C[0]?ex(C[1]):0,f=J;else
 var
-A=fR(n),I=0===A[0]?ei(A[1]):0,d=I;else
+f=o;if(f)var
+b=n(d),I=dr(c),q=p(function(a){var
+d=a[2];if(d)var
+e=d[1],f=Z(tB,e),g=f?Z(e,b):f,c=g;else
 var
-d=j;if(d)var
-G=l(a),H=0,k=p(function(a){return fQ(H,G,a)},e);else
+c=1;switch(a[1]){case
+2:return 1===a[4][0]?a[3]?c:bI(0,b,a):bI(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bI(0,b,a):bI(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?ai(b,I):c:bI(0,b,a):bI(0,b,a);default:return bI(0,b,a)}},g);else
 var
-k=d;var
-x=k?eh(e):k;return x?p(fW,cJ(l(a),e)):x}function
-i8(a,c,g){var
-d=_(tm,l(a));if(d)var
-m=l(a),b=p(function(a){switch(a[1]){case
+q=f;var
+y=q?ew(g):q;return y?p(ge,cV(n(d),g)):y}function
+jE(a,c,g){var
+d=Z(t_,n(a));if(d)var
+l=n(a),b=p(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4036,92 +4446,95 @@ b=e[1];break;case
 h=a[2];if(!h)return a[3]?0:1;if(a[3])return 0;var
 b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
-i=a[3],k=i?1:i;return k}return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=_(sL,b);return d?_(b,m):d},c);else
+i=a[3],k=i?1:i;return k}return 0;case
+8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
+d=Z(tw,b);return d?Z(b,l):d},c);else
 var
 b=d;var
-e=b?eh(c):b,f=e?p(dm,C(te,a)):e;return f?p(td,g[3]):f}function
-i9(b,a){return p(function(c){var
-a=c[2];return a?hc(a[1],b):1},a)}function
-tn(s){var
-eS=fM(s[3]),eT=eS?fM(s[4]):eS;if(eT){var
-aj=s[1];if(3===aj[0]){var
-eX=p(ee,aj[1]);if(eX)var
-hD=aj[2],co=p(function(a){return ee(a[1])},hD);else
+e=b?ew(c):b,f=e?p(dB,N(t2,a)):e;return f?p(t1,g[3]):f}function
+jF(b,a){return p(function(c){var
+a=c[2];return a?hC(a[1],b):1},a)}function
+t$(r){var
+eo=f8(r[3]),ep=eo?f8(r[4]):eo;if(ep){var
+ad=r[1];if(3===ad[0]){var
+et=p(es,ad[1]);if(et)var
+gS=ad[2],b5=p(function(a){return es(a[1])},gS);else
 var
-co=eX;if(co)var
-hE=aj[3],cp=p(function(a){var
-b=ee(a[1]),c=b?fN(a[2]):b;return c?cH(a[2]):c},hE);else
+b5=et;if(b5)var
+gT=ad[3],b6=p(function(a){var
+b=es(a[1]),c=b?f9(a[2]):b;return c?cT(a[2]):c},gT);else
 var
-cp=co;if(cp)var
-hF=aj[4],hG=function(a){var
-b=fN(a);return b?cH(a):b},cl=p(function(a){return p(hG,a)},hF);else
+b6=b5;if(b6)var
+gU=ad[4],gV=function(a){var
+b=f9(a);return b?cT(a):b},b2=p(function(a){return p(gV,a)},gU);else
 var
-cl=cp}else
+b2=b6}else
 var
-cl=1;var
-cm=cl}else
+b2=1;var
+b3=b2}else
 var
-cm=eT;if(cm){var
-h=s[1];switch(h[0]){case
+b3=ep;if(b3){var
+j=r[1];switch(j[0]){case
 0:var
-hn=C(dk,h[3]),ho=g(iW(h[2]),hn),U=g(C(sG,h[1]),ho);break;case
+gC=N(dz,j[3]),gD=g(js(j[2]),gC),S=g(N(tr,j[1]),gD);break;case
 1:var
-hp=C(dk,h[3]),hq=g(iW(h[2]),hp),U=g(C(sH,h[1]),hq);break;case
+gE=N(dz,j[3]),gF=g(js(j[2]),gE),S=g(N(ts,j[1]),gF);break;case
 2:var
-hr=C(dk,h[7]),T=h[6];if(0===T[0])var
-eR=[0,T[1],[0,T[2],0]];else
-var
-eO=T[3],eP=T[2],eQ=T[1],eR=[0,eQ[1],[0,eQ[2],[0,eP[1],[0,eP[2],[0,eO[1],[0,eO[2],0]]]]]];var
-hs=g(eR,hr),ht=g(h[5],hs),hu=g(h[4],ht),hv=[0,h[3],hu],hw=h[2],U=g(C(function(a){return C(cI,g(a[1],a[2]))},hw),hv);break;case
+gG=N(dz,j[7]),G=j[6];switch(G[0]){case
+1:var
+ek=G[3],el=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
+2:var
+bZ=[0,G[1],0];break;default:var
+bZ=[0,G[1],[0,G[2],0]]}var
+gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],S=g(N(function(a){return N(cU,g(a[1],a[2]))},gL),gK);break;case
 3:var
-hx=C(dk,h[7]),hy=g(h[6],hx),hz=g(h[5],hy),hA=h[2],U=g(C(function(a){return cI(a[2])},hA),hz);break;case
+gM=N(dz,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],S=g(N(function(a){return cU(a[2])},gP),gO);break;case
 4:var
-hB=C(dk,h[3]),U=[0,h[1],[0,h[2],hB]];break;default:var
-ck=h[1],U=ck?cI(ck[1]):ck}var
-cn=p(cH,U)}else
+gQ=N(dz,j[3]),S=[0,j[1],[0,j[2],gQ]];break;default:var
+b0=j[1],S=b0?cU(b0[1]):b0}var
+b4=p(cT,S)}else
 var
-cn=cm;if(cn){var
-V=s[2];if(0===V[0]){var
-eU=iX(V[1]);if(eU)var
-hC=V[2],ak=p(function(a){var
+b4=b3;if(b4){var
+T=r[2];if(0===T[0]){var
+eq=jt(T[1]);if(eq)var
+gR=T[2],ae=p(function(a){var
 b=a[1];return p(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return fM(a[1]);case
-4:case
-5:var
-a=a[1];continue;default:return 1}},b)},hC);else
+1:return f8(a[1]);case
+2:case
+3:return 1;default:var
+a=a[1];continue}},b)},gR);else
 var
-ak=eU}else
+ae=eq}else
 var
-eV=iX(V[1]),ak=eV?p(cH,g(V[2],V[3])):eV}else
+er=jt(T[1]),ae=er?p(cT,g(T[2],T[3])):er}else
 var
-ak=cn;if(ak){var
-a=s[1];switch(a[0]){case
+ae=b4;if(ae){var
+a=r[1];switch(a[0]){case
 0:var
-al=a[3],cL=a[2],X=a[1],Y=s[2];if(0===Y[0]){var
-fe=Y[2],n=fP(X,cL,al),cM=cK(l(fe),fe);if(cM){var
-ff=cM[1];if(ff[2])return 0;var
-fg=i8(X,al,n);if(fg){var
-hX=ff[1],fi=f(sV,n[1]),fj=n[1],ct=C(sT,fj),hO=ct?[0,ct[1],ct[2]]:C(sU,fj),x=z(c,dl(hO)),u=Y[1],ac=n[2],gu=0===ac[0]?bX(ac[1]):[0,ac[1],ac[2],ac[4][1]],dq=h6(m,n,f(pc,n[1]),gu);if(dq){var
-c6=hY(x,fi,n[1]),O=hZ(x,fi,n[1],0),c7=l(c6),gc=h2(O,x,c7,n[3]),gd=g(cB(hQ(O)),gc),c8=g(cB(hP(O)),gd),c9=dW(c8)[1],ab=cx(c9),c_=p(function(a){var
-b=r(d);return bz(L(bS(ab,a),ab,b),a)},c8);if(c_){var
-da=bx(pa,n[3]);if(da){var
-ge=n[3],gf=g(c6,f(function(a){return cc(x,a)},ge)),bq=aY(f(function(a){return aX(u,a)},gf));if(bq){var
-P=n[2];if(0===P[0])var
-db=P[1];else
+af=a[3],ci=a[2],U=a[1],V=r[2];if(0===V[0]){var
+eO=V[2],k=f$(U,ci,af),cj=cW(n(eO),eO);if(cj){var
+eP=cj[1];if(eP[2])return 0;var
+eQ=jE(U,af,k);if(eQ){var
+g9=eP[1],eR=f(tH,k[1]),eS=k[1],b9=N(tF,eS),g3=b9?[0,b9[1],b9[2]]:N(tG,eS),v=z(c,dA(g3)),t=V[1],aa=k[2],fU=0===aa[0]?b1(aa[1]):[0,aa[1],aa[2],aa[4][1]],c6=ix(m,k,f(pI,k[1]),fU);if(c6){var
+cP=ip(v,eR,k[1]),K=iq(v,eR,k[1],0),cQ=n(cP),fw=it(K,v,cQ,k[3]),fx=g(cL(ig(K)),fw),cR=g(cL(ie(K)),fx),cS=d_(cR)[1],$=d8(cS),cX=p(function(a){var
+b=q(d);return bf(P(bY($,a),$,b),a)},cR);if(cX){var
+cY=bD(pG,k[3]);if(cY){var
+fz=k[3],fA=g(cP,f(function(a){return cl(v,a)},fz)),bn=aW(f(function(a){return a1(t,a)},fA));if(bn){var
+L=k[2];if(0===L[0])var
+cZ=L[1];else
 var
-ap=P[3],c3=P[2],c4=P[1],db=[0,[0,[2,c4,ap],[1,c4,ap]],[0,[2,c3,ap],[1,c3,ap]],P[4]];var
-gg=be(db,x),br=aY(f(function(a){return aX(u,a)},gg));if(br){var
-gh=n[3],bs=aY(h3(u,function(a){return bS(ab,a)},O,x,c7,gh));if(bs){var
-de=bs[1],gi=hW(de),aq=n[2],gj=br[1],gk=function(d){if(0===aq[0])return 0;if(d){var
+an=L[3],cN=L[2],cO=L[1],cZ=[0,[0,[2,cO,an],[1,cO,an]],[0,[2,cN,an],[1,cN,an]],L[4]];var
+fB=bi(cZ,v),bo=aW(f(function(a){return a1(t,a)},fB));if(bo){var
+fC=k[3],bp=aW(iu(t,function(a){return bY($,a)},K,v,cQ,fC));if(bp){var
+c0=bp[1],fD=im(c0),ao=k[2],fG=bo[1],fH=function(d){if(0===ao[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=b$(u,x,aq[1]);if(f){var
-g=b$(u,x,aq[2]);if(g){var
-h=b$(u,x,aq[3]);if(h)var
-q=f[1],r=bA(c),i=ah([0,bA(c),r],q),s=g[1],t=bA(b),j=ah([0,bA(b),t],s),v=cz(b),w=[0,cz(b),v],y=[0,D(u,aD(S(j,j)),w),0],z=cz(c),A=[0,cz(c),z],B=[0,D(u,aD(S(i,i)),A),y],C=ax(u,j),E=ax(u,i),k=[0,[0,ah(ah(ax(u,h[1]),E),C),aE,B]];else
+b=a[1],c=d[1],f=ch(t,v,ao[1]);if(f){var
+g=ch(t,v,ao[2]);if(g){var
+h=ch(t,v,ao[3]);if(h)var
+q=f[1],r=bE(c),i=O([0,bE(c),r],q),s=g[1],u=bE(b),j=O([0,bE(b),u],s),w=cK(b),x=[0,cK(b),w],y=[0,B(t,aA(H(j,j)),x),0],z=cK(c),A=[0,cK(c),z],C=[0,B(t,aA(H(i,i)),A),y],D=aj(t,j),E=aj(t,i),k=[0,[0,O(O(aj(t,h[1]),E),D),_,C]];else
 var
 k=h;var
 l=k}else
@@ -4138,299 +4551,267 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},gl=bq[1],gm=0,gn=hQ(O),go=e(bU(function(a){return bS(ab,a)}),gn),gp=hP(O);return fh(u,c9,e(bU(function(a){return bS(ab,a)}),gp),go,gm,gl,de,gk,gj,gi,hX)}var
-dg=bs}else
+p=d;return p},fI=bn[1],fJ=0,fK=ig(K),fN=e(a7(function(a){return bY($,a)}),fK),fO=ie(K);return fy(t,cS,e(a7(function(a){return bY($,a)}),fO),fN,fJ,fI,c0,fH,fG,fD,g9)}var
+c1=bp}else
 var
-dg=br;var
-di=dg}else
+c1=bo;var
+c2=c1}else
 var
-di=bq;var
-bt=di}else
+c2=bn;var
+bq=c2}else
 var
-bt=da}else
+bq=cY}else
 var
-bt=c_;return bt}return dq}var
-fk=fg}else
+bq=cX;return bq}return c6}var
+eT=eQ}else
 var
-fk=cM;return fk}var
-a1=Y[2];if(a1){var
-a2=a1[2];if(a2){var
-a3=a2[2];if(a3){if(a3[2])return 0;var
-fl=i3(X,f(i,Y[3]));if(fl[2])return 0;var
-Z=Y[4];if(typeof
-Z==="number")var
-y=ta;else
-if(0===Z[0]){var
-cu=Z[2],cv=Z[1];if(cu){var
-aQ=cu[1],cX=0;if(aQ){var
-aS=aQ[2],bn=0;if(aS){var
-aT=aS[2],bo=0;if(aT)if(aT[2]){var
-y=0;bn=1;bo=1}else{var
-cw=aT[1],cy=aS[1],cD=aQ[1],cE=cu[2];if(cE){var
-aW=cE[1],f$=0;if(aW){var
-aZ=aW[2],ga=0;if(aZ){var
-a0=aZ[2],gb=0;if(a0)if(a0[2]||cE[2]){var
-y=0;bn=1;bo=1;f$=1;ga=1;gb=1}else
+eT=cj;return eT}var
+aT=V[2];if(aT){var
+aU=aT[2];if(aU){var
+aX=aU[2];if(aX){if(aX[2])return 0;var
+eU=jz(U,f(i,V[3]));if(eU[2])return 0;var
+W=V[4];if(typeof
+W==="number")var
+w=tY;else
+if(0===W[0]){var
+b_=W[2],b$=W[1];if(b_){var
+aK=b_[1],cy=0;if(aK){var
+aO=aK[2],bg=0;if(aO){var
+aP=aO[2],bh=0;if(aP)if(aP[2]){var
+w=0;bg=1;bh=1}else{var
+ca=aP[1],cb=aO[1],cc=aK[1],cd=b_[2];if(cd){var
+aQ=cd[1],ft=0;if(aQ){var
+aR=aQ[2],fu=0;if(aR){var
+aS=aR[2],fv=0;if(aS)if(aS[2]||cd[2]){var
+w=0;bg=1;bh=1;ft=1;fu=1;fv=1}else
 var
-e3=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,aW[1],aZ[1]],a0[1]]]];else
+eB=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,aQ[1],aR[1]],aS[1]]]];else
 var
-e3=a0;if(!gb)var
-e4=e3}else
-var
-e4=aZ;if(!ga)var
-e5=e4}else
-var
-e5=aW;if(!f$){var
-y=e5;bn=1;bo=1}}else
-var
-e6=[0,[0,cv,[0,[0,cD,cy],cw],[0,[0,cD,cy],cw]]]}else
-var
-e6=aT;if(!bo)var
-e7=e6}else
-var
-e7=aS;if(!bn){var
-e8=e7;cX=1}}else{var
-e8=aQ;cX=1}if(cX)var
-y=e8}else
-var
-e9=[0,[0,d,d],d],y=[0,[0,cv,e9,e9]]}else
-var
-y=[0,[1,Z[1],Z[2]]];if(y){var
-fm=i8(X,al,fP(X,cL,al));if(fm){var
-M=y[1],h0=i(a3[1]),h1=i(a2[1]),G=[0,i(a1[1]),h1,h0],am=fl[1],cN=fP(X,cL,al),dj=h6(m,cN,am,G);if(dj)if(typeof
-M==="number")return bx(function(a){switch(a[0]){case
-0:var
-b=[0,c$(a[1],a[2],a[3],a[4],G)];break;case
-1:var
-e=a[2],f=a[1],g=bC(f,e,G),b=[0,J(bC(f,e,G),g)];break;default:var
-b=0}return b?o(m,0,[2,[0,d,c],b[1]]):b},am);else{if(0===M[0]){var
-bu=aV(cN[3],M[1]);if(bu){var
-gq=bu[1],gr=h8(M[3]);return h_(m,am,G,h8(M[2]),gr,gq)}return bu}var
-bv=aV(cN[3],M[1]);if(bv){var
-bw=aV(am,M[2]);if(bw){var
-dn=bw[1],gs=bv[1],gt=cC(dn,G);return h_(m,am,G,cC(dn,G),gt,gs)}var
-dp=bw}else
-var
-dp=bv;return dp}return dj}var
-fp=fm}else
-var
-fp=y;var
-fq=fp}else
-var
-fq=a3;var
-fr=fq}else
-var
-fr=a2;var
-fs=fr}else
-var
-fs=a1;return fs;case
-1:var
-a5=a[3],N=a[1],a6=s[2];if(0===a6[0])return 0;var
-a7=a6[2];if(a7){var
-a8=a7[2];if(a8){var
-a9=a8[2];if(a9){if(a9[2])return 0;var
-ft=i4(N,f(i,a6[3]));if(ft[2])return 0;var
-e_=_(tg,l(N));if(e_)var
-hR=l(N),hS=1,cF=p(function(a){return fQ(hS,hR,a)},a5);else
-var
-cF=e_;var
-e$=cF?eh(a5):cF,fa=e$?p(dm,C(tf,N)):e$,fw=fa?p(fW,cJ(l(N),a5)):fa;if(fw){var
-h4=i6(a6[4]),h7=i(a9[1]),h9=i(a8[1]),H=[0,i(a7[1]),h9,h7],a_=ft[1],h$=a[2],hK=cJ(l(N),a5),hL=iZ(h$),ar=f(sS,N),Q=a_;for(;;){if(ar){if(Q){var
-q=Q[1],K=ar[1],dr=aK(m,K[1],q[1]),ds=dr?aK(m,K[2],q[2]):dr,dt=ds?aK(m,K[3],q[3]):ds,du=dt?aK(m,K[4],q[4]):dt,dv=du?ce(m,K[5],q[5]):du,dw=dv?ce(m,K[6],q[6]):dv,dx=dw?o(m,1,q[5]):dw,dy=dx?o(m,1,q[6]):dx,dz=dy?o(m,1,J(q[1],q[1])):dy;if(dz)var
-gv=fn(q),by=o(m,1,J(fn(q),gv));else
-var
-by=dz;var
-dA=by?dK(K[7],q[7]):by;if(dA){var
-ar=ar[2],Q=Q[2];continue}var
-dB=dA}else
-var
-dB=Q;var
-bB=dB}else
-var
-bB=Q?0:1;var
-dC=bB?h5(m,hL,H):bB;if(dC){var
-gw=f(function(a){return ig(a,H)},a_),gx=f(function(a){var
-b=ii(a,H);return[1,ih(a,H),b]},a_);return ic(m,pe,[0,f(function(a){var
-d=id(a),e=a4(ii(a,H),d),f=fo(a),g=a4(ih(a,H),f),h=aR(function(b,a){return[1,b,a]},g,e),i=a4(a[5],h),j=a[3],k=aR(function(b,a){return[1,b,a]},j,i),l=a[4],m=aR(function(b,a){return[1,b,a]},H,l),n=aR(function(b,a){return[2,b,a]},m,k),o=fu(a,H),b=a4([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a_),gx,gw],hK,h4)}return dC}}var
-fy=fw}else
-var
-fy=a9;var
-fz=fy}else
-var
-fz=a8;var
-fB=fz}else
-var
-fB=a7;return fB;case
-2:var
-a$=a[7],ba=a[6],bb=a[5],bc=a[4],bd=a[3],an=a[2],$=a[1],aa=s[2];if(0===aa[0]){var
-cO=aa[2],j=i1($,an,bd,bc,bb,ba,a$),cP=cK(l(cO),cO);if(cP){var
-fD=cP[1];if(fD[2])return 0;var
-fE=i7($,an,bd,bc,bb,ba,a$),fF=fE?i9(d6($),cO):fE;if(fF){var
-ia=fD[1],ib=j[2],A=z(c,dl(C(function(a){var
-b=bE(a[2]);return g(bE(a[1]),b)},ib))),w=aa[1],hj=j[2],eG=p(function(a){var
-b=fC(m,a[1]);return b?fC(m,a[2]):b},hj),eH=eG?fC(m,j[4]):eG;if(eH)var
-hk=fA(j[5]),ch=p(function(a){return ea(m,a)},hk);else
-var
-ch=eH;if(ch){var
-ag=j[1],E=d6(ag),eo=j[3],g8=[0,[0,[0,eo,eo],A],0],g9=j[2],ep=g(C(function(a){return d_(A,a)},g9),g8),eq=l(ep),g_=j[2],g$=l(C(function(a){return d_(A,a)},g_)),er=j[3],ha=cA([0,[0,er,er],A],g$);switch(ag){case
-0:var
-b1=px;break;case
-1:var
-b1=py;break;default:var
-b1=0}var
-hb=j[5],B=function(a){return[0,[0,W(b1,a)]]};if(0===hb[0])var
-g2=dh(B(0)),b2=[0,d9(po,B(0)),g2];else
-var
-g3=dh(B(0)),g4=v(dh(B(pp)),g3),g5=v(dh(B(pq)),g4),g6=d9(0,B(0)),g7=iD(d9(ps,B(pr)),g6),b2=[0,iD(d9(pu,B(pt)),g7),g5];var
-aJ=b2[2],b3=iE(ag,b2[1],aJ,ha,A,j[2],0),hc=[0,aJ,iJ(w,b3,aJ,A,eq,j[6])],b4=g(cB(b3),hc),aL=dW(f(function(a){return dd(E,a)},b4))[1],es=function(a){var
-b=dd(E,a);return bS(cx(aL),b)},et=p(function(a){var
-b=dd(E,a),c=r(d),e=cx(aL);return bz(L(es(a),e,c),b)},b4),eu=et?p(function(a){return ix(E,a)},b4):et,ev=eu?bx(pA,j[6]):eu;if(ev){var
-aM=j[4];switch(ag){case
-0:var
-b5=d$(aM[3]);break;case
-1:var
-b5=1;break;default:var
-em=d$(aM[1]),en=em?d$(aM[2]):em,b5=en?d$(aM[3]):en}var
-b6=b5}else
-var
-b6=ev;var
-ew=b6?o(w,1,j[3]):b6;if(ew)var
-hd=fA(j[5]),b7=p(function(a){var
-b=iG(w,a[1]);return b?iG(w,a[2]):b},hd);else
-var
-b7=ew;if(b7){var
-he=j[6],hf=g(ep,f(function(a){return iH(A,a)},he)),b8=aY(f(function(a){return aX(w,a)},hf));if(b8){var
-ai=j[4];switch(ag){case
-0:var
-b9=[0,ai[1],[0,ai[2],0]];break;case
-1:var
-b9=[0,ai[1],[0,ai[2],[0,ai[3],0]]];break;default:var
-b9=0}var
-ca=aY(f(function(a){return aX(w,[0,a,A])},b9));if(ca){var
-ex=ca[1],hg=fA(j[5]),cb=aY(f(function(d){var
-a=iF(w,d[1]);if(a)var
-b=iF(w,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
-var
-c=a;return c},hg));if(cb){var
-ey=cb[1],cd=aY(iI(w,es,b3,aJ,A,eq,j[6]));if(cd){var
-cf=cd[1],ez=aC(l(g(ex,ey)),E),eA=ez?p(function(a){if(2===a[0])var
-b=[0,a[1],0];else
-var
-e=a[1],c=C(function(a){return g(a[1],[0,a[2],0])},e),b=[0,a[2],c];return p(function(c){var
-a=c5(0,E);return p(function(b){var
-a=r(d);return df(E,b,L(c,cx(aL),a))},a)},b)},cf):ez;if(eA){var
-hh=f(function(a){return 1},cf),hi=g(ex,ey);return iC(w,aL,b8[1],cf,E,hi,hh,ia)}var
-eB=eA}else
-var
-eB=cd;var
+eB=aS;if(!fv)var
 eC=eB}else
 var
-eC=cb;var
+eC=aR;if(!fu)var
 eD=eC}else
 var
-eD=ca;var
-eE=eD}else
+eD=aQ;if(!ft){var
+w=eD;bg=1;bh=1}}else
 var
-eE=b8;var
+eE=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,cc,cb],ca]]]}else
+var
+eE=aP;if(!bh)var
 eF=eE}else
 var
-eF=b7;return eF}return ch}var
-fG=fF}else
+eF=aO;if(!bg){var
+eG=eF;cy=1}}else{var
+eG=aK;cy=1}if(cy)var
+w=eG}else
 var
-fG=cP;return fG}var
-fH=f(i,aa[2]),fI=fX($),fJ=i5(an,f(i,aa[3]));if(fJ[2])return 0;var
-fK=i7($,an,bd,bc,bb,ba,a$);if(fK){var
-bp=fI,k=fH,ie=i6(aa[4]);for(;;){if(bp&&k){var
-bp=bp[1],k=k[2];continue}var
-bh=fV(hm(fI,fH)),bi=fJ[1],I=i1($,an,bd,bc,bb,ba,a$),aG=I[2],R=bi;for(;;){if(aG){if(R){var
-ed=R[1],ef=aG[1],ei=aK(m,ef[1],ed[1]),ej=ei?aK(m,ef[2],ed[2]):ei;if(ej){var
-aG=aG[2],R=R[2];continue}var
-ek=ej}else
+eH=[0,[0,d,d],d],w=[0,[0,b$,eH,eH]]}else
 var
-ek=R;var
-bZ=ek}else
+w=[0,[1,W[1],W[2]]];if(w){var
+eV=jE(U,af,f$(U,ci,af));if(eV){var
+I=w[1],g_=i(aX[1]),g$=i(aU[1]),A=[0,i(aT[1]),g$,g_],ah=eU[1],ck=f$(U,ci,af),c3=ix(m,ck,ah,A);if(c3)if(typeof
+I==="number")return bD(function(a){switch(a[0]){case
+0:var
+b=[0,dk(a[1],a[2],a[3],a[4],A)];break;case
+1:var
+e=a[2],f=a[1],g=bG(f,e,A),b=[0,E(bG(f,e,A),g)];break;default:var
+b=0}return b?l(m,0,[2,[0,d,c],b[1]]):b},ah);else{if(0===I[0]){var
+br=aJ(ck[3],I[1]);if(br){var
+fQ=br[1],fR=iz(I[3]);return iB(m,ah,A,iz(I[2]),fR,fQ)}return br}var
+bs=aJ(ck[3],I[1]);if(bs){var
+bt=aJ(ah,I[2]);if(bt){var
+c4=bt[1],fS=bs[1],fT=cM(c4,A);return iB(m,ah,A,cM(c4,A),fT,fS)}var
+c5=bt}else
 var
-bZ=R?0:1;var
-el=bZ?aK(m,I[4],bh):bZ;if(el){var
-ae=I[5];if(0===ae[0])var
-aH=k?k[2]?0:d7(m,ae[1],k[1]):k;else{var
-cY=0;if(k){var
-aB=k[2],cZ=0;if(aB){var
-aF=aB[2],c0=0;if(aF)if(aF[2]){var
-aH=0;cZ=1;c0=1}else{var
-d4=d7(m,ae[1],k[1]),d5=d4?d7(m,ae[2],aB[1]):d4;if(d5){var
-aH=d7(m,ae[3],aF[1]);cZ=1;c0=1}else
+c5=bs;return c5}return c3}var
+eW=eV}else
 var
-d8=d5}else
+eW=w;var
+eX=eW}else
 var
-d8=aF;if(!c0)var
-eb=d8}else
+eX=aX;var
+eY=eX}else
 var
-eb=aB;if(!cZ){var
-ec=eb;cY=1}}else{var
-ec=k;cY=1}if(cY)var
-aH=ec}var
-b0=aH}else
+eY=aU;var
+eZ=eY}else
 var
-b0=el;if(b0){var
-aI=I[5],gZ=I[6],g0=I[3],g1=I[1],d3=function(a){var
-b=fx(aI,k,bh,a);return J(fx(aI,k,bh,a),b)},gW=f(d3,bi),gX=f(function(a){return[0,[5,d3(a)]]},bi),gY=[0,f(function(e){var
-a=az(fx(aI,k,bh,e)),d=iu(aI,k,e[2]),b=a4([4,[0,c,c],g0],[0,[2,[3,d[2],a[3]],[3,d[3],a[2]]],[2,[3,d[3],a[1]],[3,d[1],a[3]]],[2,[3,d[1],a[2]],[3,d[2],a[1]]]]);switch(g1){case
-0:return[0,a[1],[0,a[2],[0,b[3],0]]];case
-1:return[0,a[1],[0,a[2],[0,a[3],[0,b[1],[0,b[2],[0,b[3],0]]]]]];default:return[0,b[1],[0,b[2],[0,b[3],0]]]}},bi),gX,gW];return ic(m,d6(I[1]),gY,gZ,ie)}return b0}}}return fK;case
+eZ=aT;return eZ;case
+1:var
+aY=a[3],J=a[1],aZ=r[2];if(0===aZ[0])return 0;var
+a0=aZ[2];if(a0){var
+a2=a0[2];if(a2){var
+a3=a2[2];if(a3){if(a3[2])return 0;var
+e0=jA(J,f(i,aZ[3]));if(e0[2])return 0;var
+eI=Z(t4,n(J));if(eI)var
+g4=n(J),g5=1,ce=p(function(a){return bI(g5,g4,a)},aY);else
+var
+ce=eI;var
+eJ=ce?ew(aY):ce,eK=eJ?p(dB,N(t3,J)):eJ,e1=eK?p(ge,cV(n(J),aY)):eK;if(e1){var
+ha=jC(aZ[4]),hb=i(a3[1]),hc=i(a2[1]),C=[0,i(a0[1]),hc,hb],a4=e0[1],hd=a[2],gZ=cV(n(J),aY),g0=jv(hd),ap=f(tE,J),Q=a4;for(;;){if(ap){if(Q){var
+o=Q[1],F=ap[1],c7=aN(m,F[1],o[1]),c8=c7?aN(m,F[2],o[2]):c7,c9=c8?aN(m,F[3],o[3]):c8,c_=c9?aN(m,F[4],o[4]):c9,c$=c_?cn(m,F[5],o[5]):c_,da=c$?cn(m,F[6],o[6]):c$,dd=da?l(m,1,o[5]):da,de=dd?l(m,1,o[6]):dd,df=de?l(m,1,E(o[1],o[1])):de;if(df)var
+fV=fE(o),bu=l(m,1,E(fE(o),fV));else
+var
+bu=df;var
+dg=bu?dX(F[7],o[7]):bu;if(dg){var
+ap=ap[2],Q=Q[2];continue}var
+dh=dg}else
+var
+dh=Q;var
+bv=dh}else
+var
+bv=Q?0:1;var
+di=bv?iw(m,g0,C):bv;if(di){var
+fW=f(function(a){return iI(a,C)},a4),fY=f(function(a){var
+b=iK(a,C);return[1,iJ(a,C),b]},a4);return iF(m,pK,[0,f(function(a){var
+d=iG(a),e=aM(iK(a,C),d),f=fF(a),g=aM(iJ(a,C),f),h=aL(function(b,a){return[1,b,a]},g,e),i=aM(a[5],h),j=a[3],k=aL(function(b,a){return[1,b,a]},j,i),l=a[4],m=aL(function(b,a){return[1,b,a]},C,l),n=aL(function(b,a){return[2,b,a]},m,k),o=fL(a,C),b=aM([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fY,fW],gZ,ha)}return di}}var
+e2=e1}else
+var
+e2=a3;var
+e3=e2}else
+var
+e3=a2;var
+e4=e3}else
+var
+e4=a0;return e4;case
+2:var
+a5=a[7],a6=a[6],a8=a[5],a9=a[4],a_=a[3],ak=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
+cm=Y[2],al=jx(X,ak,a_,a9,a8,a6,a5),co=cW(n(cm),cm);if(co){var
+e5=co[1];if(e5[2])return 0;var
+e6=jD(X,ak,a_,a9,a8,a6,a5),e7=e6?jF(dr(X),cm):e6;if(e7){var
+he=e5[1],hf=al[2],hg=z(c,dA(N(function(a){var
+b=bJ(a[2]);return g(bJ(a[1]),b)},hf))),hh=Y[1],gz=al[2],ec=p(function(a){var
+b=fX(m,a[1]);return b?fX(m,a[2]):b},gz),ed=ec?fX(m,al[4]):ec;if(ed)var
+gA=i_(al[5]),bV=p(function(a){return en(m,a)},gA);else
+var
+bV=ed;return bV?qf(hh,al,hg,he):bV}var
+e8=e7}else
+var
+e8=co;return e8}var
+e9=f(i,Y[2]),e_=gf(X),e$=jB(ak,f(i,Y[3]));if(e$[2])return 0;var
+fa=jD(X,ak,a_,a9,a8,a6,a5);if(fa){var
+bm=e_,b=e9,hi=jC(Y[4]);for(;;){if(bm&&b){var
+bm=bm[1],b=b[2];continue}var
+a$=gd(hM(e_,e9)),ba=e$[1],D=jx(X,ak,a_,a9,a8,a6,a5),aE=D[2],R=ba;for(;;){if(aE){if(R){var
+d6=R[1],d7=aE[1],d9=aN(m,d7[1],d6[1]),d$=d9?aN(m,d7[2],d6[2]):d9;if(d$){var
+aE=aE[2],R=R[2];continue}var
+ea=d$}else
+var
+ea=R;var
+bT=ea}else
+var
+bT=R?0:1;var
+eb=bT?aN(m,D[4],a$):bT;if(eb){var
+x=D[5];switch(x[0]){case
+0:var
+u=b?b[2]?0:dp(m,x[1],b[1]):b;break;case
+1:var
+cz=0;if(b){var
+av=b[2],cA=0;if(av){var
+aw=av[2],cB=0;if(aw)if(aw[2]){var
+u=0;cA=1;cB=1}else{var
+dO=dp(m,x[1],b[1]),dP=dO?dp(m,x[2],av[1]):dO;if(dP){var
+u=dp(m,x[3],aw[1]);cA=1;cB=1}else
+var
+dQ=dP}else
+var
+dQ=aw;if(!cB)var
+dR=dQ}else
+var
+dR=av;if(!cA){var
+dS=dR;cz=1}}else{var
+dS=b;cz=1}if(cz)var
+u=dS;break;case
+2:var
+cC=0;if(b){var
+ax=b[2],cD=0;if(ax){var
+ay=ax[2];if(ay)if(ay[2]){var
+u=0;cD=1}else{var
+dT=ay[1],dU=ax[1],dV=b[1],gs=E([0,dV,dU,dT],[0,dV,dU,dT]),u=iZ(m,x[1],gs,[0,c,c]);cD=1}else
+var
+dW=ay}else
+var
+dW=ax;if(!cD){var
+dY=dW;cC=1}}else{var
+dY=b;cC=1}if(cC)var
+u=dY;break;default:var
+cF=0;if(b){var
+az=b[2],cG=0;if(az){var
+aB=az[2],cH=0;if(aB)if(aB[2]){var
+u=0;cG=1;cH=1}else{var
+bS=aB[1],dZ=az[1],d0=b[1],d1=iZ(m,x[1],[1,[3,d0,d0],[3,dZ,dZ]],[1,[0,c,c],[3,bS,bS]]);if(d1){var
+u=dp(m,cp(x[2]),bS);cG=1;cH=1}else
+var
+d2=d1}else
+var
+d2=aB;if(!cH)var
+d3=d2}else
+var
+d3=az;if(!cG){var
+d4=d3;cF=1}}else{var
+d4=b;cF=1}if(cF)var
+u=d4}var
+bU=u}else
+var
+bU=eb;if(bU){var
+aF=D[5],gw=D[6],gx=D[3],gy=D[1],d5=function(a){var
+c=fP(aF,b,a$,a);return E(fP(aF,b,a$,a),c)},gt=f(d5,ba),gu=f(function(a){return[0,[5,d5(a)]]},ba),gv=[0,f(function(e){var
+d=aD(fP(aF,b,a$,e)),a=aM([4,[0,c,c],gx],iV(iW(aF,b,e[2]),d));switch(gy){case
+0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
+1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},ba),gu,gt];return iF(m,dr(D[1]),gv,gw,hi)}return bU}}}return fa;case
 3:var
-bj=a[7],fL=a[6],fO=a[5],bk=a[4],fR=a[2],fS=a[1],cQ=s[2];if(0===cQ[0]){var
-cR=cQ[2],cS=cK(l(cR),cR);if(cS){var
-fU=cS[1];if(fU[2])return 0;var
-hT=l(fL),fb=aC(l(fO),hT);if(fb)var
-hU=l(bk),hV=0,cG=p(function(a){return fQ(hV,hU,a)},bj);else
+bb=a[7],fb=a[6],fc=a[5],bc=a[4],fd=a[2],fe=a[1],cq=r[2];if(0===cq[0]){var
+cs=cq[2],ct=cW(n(cs),cs);if(ct){var
+ff=ct[1];if(ff[2])return 0;var
+g6=n(fb),eL=ai(n(fc),g6);if(eL)var
+g7=n(bc),g8=0,cg=p(function(a){return bI(g8,g7,a)},bb);else
 var
-cG=fb;var
-fc=cG?eh(bj):cG,fd=fc?p(function(a){return dm(a[2])},fR):fc,fY=fd?p(fW,cJ(l(bk),bj)):fd,fZ=fY?i9(l(fS),cR):fY;if(fZ){var
-ik=fU[1],il=a[3],eY=cJ(l(bk),bj),hH=cs(fO,fL),cq=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},hH),hI=f(function(a){return f(cg,a)},bk),hJ=f(function(a){var
-b=cg(a[2]);return[0,a[1],b]},il),b=[0,fS,f(function(a){var
-b=bD(a[2]);return[0,a[1],b]},fR),hJ,hI],ao=cQ[1],gQ=f(dI,b[2]),bP=g(b[1],gQ),aA=l(b[1]),dV=_(pg,aA),dX=dV?_(aA,ph):dV,dY=dX?_(aA,l(b[4])):dX,dZ=dY?_(l(b[4]),pi):dY;if(dZ)var
-gR=b[4],bQ=p(function(a){return aC(l(a),aA)},gR);else
+cg=eL;var
+eM=cg?ew(bb):cg,eN=eM?p(function(a){return dB(a[2])},fd):eM,fg=eN?p(ge,cV(n(bc),bb)):eN,fh=fg?jF(n(fe),cs):fg;if(fh){var
+hj=ff[1],hk=a[3],eu=cV(n(bc),bb),gW=cE(fc,fb),b7=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(cr,a)},bc),gY=f(function(a){var
+b=cr(a[2]);return[0,a[1],b]},hk),h=[0,fe,f(function(a){var
+b=bH(a[2]);return[0,a[1],b]},fd),gY,gX],am=cq[1],gm=f(db,h[2]),bM=g(h[1],gm),au=n(h[1]),dH=Z(pM,au),dI=dH?Z(au,pN):dH,dJ=dI?Z(au,n(h[4])):dI,dK=dJ?Z(n(h[4]),pO):dJ;if(dK)var
+gn=h[4],bN=p(function(a){return ai(n(a),au)},gn);else
 var
-bQ=dZ;if(bQ){var
-ay=bP;for(;;){if(ay){var
-dT=ay[2],gP=ay[1],dU=aU(bx(function(b){return function(a){return lz(b,a)}}(gP),dT));if(dU){var
-ay=dT;continue}var
-d0=dU}else
+bN=dK;if(bN){var
+at=bM;for(;;){if(at){var
+dF=at[2],gl=at[1],dG=aV(bD(function(b){return function(a){return l6(b,a)}}(gl),dF));if(dG){var
+at=dF;continue}var
+dL=dG}else
 var
-d0=1;var
-bR=d0;break}}else
+dL=1;var
+bO=dL;break}}else
 var
-bR=bQ;if(bR){var
-au=bP,at=b[3];for(;;){if(at){var
-dP=at[1],dQ=dP[1],dR=aU(bx(function(b){return function(a){return av(b,a)}}(dQ),au)),dS=dR?fv(au,dP[2]):dR;if(dS){var
-au=[0,dQ,au],at=at[2];continue}var
-d1=dS}else
+bO=bN;if(bO){var
+as=bM,ar=h[3];for(;;){if(ar){var
+dy=ar[1],dC=dy[1],dD=aV(bD(function(b){return function(a){return aC(b,a)}}(dC),as)),dE=dD?fM(as,dy[2]):dD;if(dE){var
+as=[0,dC,as],ar=ar[2];continue}var
+dM=dE}else
 var
-d1=1;var
-bT=d1;break}}else
+dM=1;var
+bP=dM;break}}else
 var
-bT=bR;if(bT)var
-gS=b[4],gT=g(f(dI,b[3]),bP),gU=function(a){return fv(gT,a)},bV=p(function(a){return p(gU,a)},gS);else
+bP=bO;if(bP)var
+go=h[4],gp=g(f(db,h[3]),bM),gq=function(a){return fM(gp,a)},bQ=p(function(a){return p(gq,a)},go);else
 var
-bV=bT;if(bV)var
-gV=b[2],bY=p(function(a){return bW(m,a[2][1],a[2][2])},gV);else
+bQ=bP;if(bQ)var
+gr=h[2],bR=p(function(a){return bj(m,a[2][1],a[2][2])},gr);else
 var
-bY=bV;var
-d2=bY?p(function(a){return bW(m,a[1],a[2])},cq):bY;if(d2){var
-gE=l(b[1]),bG=l(b[2]),dF=W(bG,l(dc(f(eW,b[3])))),gF=b[3],ad=iq(b),as=gF,bF=bG;for(;;){if(as){var
-dD=as[1],dE=dD[2],gy=W(bF,l(bf(dE))),gz=as[2],gA=bg(ad,dE,bF),ad=[0,[0,dD[1],gA],ad],as=gz,bF=gy;continue}var
-gG=im(ad,b[4],dF),bH=f(function(a){return[0,a,r(c)]},gG),gH=io(ad,b[4],dF),gI=b[3],bI=g(ij(iq(b),gI,bG),gH),bJ=dW(g(cB(bH),bI))[1],gJ=cx(bJ),bK=function(a){return bS(gJ,a)},dG=e(bU(bK),bH),dH=aC(l(cq),gE);if(dH)var
-gK=g(cB(bH),bI),bL=p(function(a){var
-b=r(d),c=cx(bJ);return bz(L(bK(a),c,b),a)},gK);else
+bR=bQ;var
+dN=bR?p(function(a){return bj(m,a[1],a[2])},b7):bR;if(dN){var
+f5=n(h[1]),bx=n(h[2]),dm=M(bx,n(dn(f(dc,h[3])))),f6=h[3],ac=iR(h),aq=f6,bw=bx;for(;;){if(aq){var
+dj=aq[1],dl=dj[2],fZ=M(bw,n(bk(dl))),f0=aq[2],f1=bl(ac,dl,bw),ac=[0,[0,dj[1],f1],ac],aq=f0,bw=fZ;continue}var
+f7=iO(ac,h[4],dm),by=f(function(a){return[0,a,q(c)]},f7),f_=iP(ac,h[4],dm),ga=h[3],bz=g(iL(iR(h),ga,bx),f_),bA=d_(g(cL(by),bz))[1],gc=d8(bA),bB=function(a){return bY(gc,a)},dq=e(a7(bB),by),ds=ai(n(b7),f5);if(ds)var
+gg=g(cL(by),bz),bC=p(function(a){var
+b=q(d),c=d8(bA);return bf(P(bB(a),c,b),a)},gg);else
 var
-bL=dH;var
-dJ=bL?bx(pf,eY):bL;if(dJ){var
-gB=C(dc,b[4]),gC=g(dc(f(eW,b[3])),gB),gD=g(ip(b[2]),gC),bM=aY(f(function(a){return aX(ao,a)},gD));if(bM){var
-bN=aY(f(function(a){return aX(ao,[0,a,d])},cq));if(bN){var
-bO=aY(f(function(a){if(typeof
-a==="number")return[0,[0,aE]];else
+bC=ds;var
+dt=bC?bD(pL,eu):bC;if(dt){var
+f2=N(dn,h[4]),f3=g(dn(f(dc,h[3])),f2),f4=g(iQ(h[2]),f3),bF=aW(f(function(a){return a1(am,a)},f4));if(bF){var
+bK=aW(f(function(a){return a1(am,[0,a,d])},b7));if(bK){var
+bL=aW(f(function(a){if(typeof
+a==="number")return[0,[0,_]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4438,111 +4819,111 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=aX(ao,[0,[0,b,b],d]);return aw(function(a){return e(ax(ao,a))},g)},eY));if(bO){var
-dL=bO[1],gL=hW(dL),gM=bN[1],gN=function(a){return 0},gO=bM[1];return fh(ao,bJ,dG,dG,f(bK,bI),gO,dL,gN,gM,gL,ik)}var
-dM=bO}else
+g=a1(am,[0,[0,b,b],d]);return ab(function(a){return e(aj(am,a))},g)},eu));if(bL){var
+du=bL[1],gh=im(du),gi=bK[1],gj=function(a){return 0},gk=bF[1];return fy(am,bA,dq,dq,f(bB,bz),gk,du,gj,gi,gh,hj)}var
+dv=bL}else
 var
-dM=bN;var
-dN=dM}else
+dv=bK;var
+dw=dv}else
 var
-dN=bM;var
-dO=dN}else
+dw=bF;var
+dx=dw}else
 var
-dO=dJ;return dO}}return d2}var
-f0=fZ}else
+dx=dt;return dx}}return dN}var
+fi=fh}else
 var
-f0=cS;return f0}return 0;case
-4:if(0===s[2][0]){var
-f1=eg(i(a[1]));if(f1){var
-bl=a[3];if(bl){var
-aN=bl[1],cr=aN[4],F=bl[2];if(aN[1]||aN[2]||aN[3])var
-t=0;else
-switch(cr[0]){case
+fi=ct;return fi}return 0;case
+4:if(0===r[2][0]){var
+fj=ev(i(a[1]));if(fj){var
+bd=a[3];if(bd){var
+aG=bd[1],b8=aG[4],y=bd[2];if(aG[1]||aG[2]||aG[3])var
+s=0;else
+switch(b8[0]){case
 0:var
-c1=0;if(F){var
-aO=F[1],eZ=aO[4];if(aO[1]||aO[2]||aO[3])var
-t=0;else
-if(1===eZ[0])if(F[2])var
-t=0;else
+cI=0;if(y){var
+aH=y[1],ex=aH[4];if(aH[1]||aH[2]||aH[3])var
+s=0;else
+if(1===ex[0])if(y[2])var
+s=0;else
 var
-hM=i(eZ[1]),t=[0,[0,i(cr[1]),hM]];else{var
-e0=0;c1=1}}else{var
-e0=F;c1=1}if(c1)var
-t=e0;break;case
+g1=i(ex[1]),s=[0,[0,i(b8[1]),g1]];else{var
+ey=0;cI=1}}else{var
+ey=y;cI=1}if(cI)var
+s=ey;break;case
 1:var
-c2=0;if(F){var
-aP=F[1],e1=aP[4];if(aP[1]||aP[2]||aP[3])var
-t=0;else
-if(0===e1[0])if(F[2])var
-t=0;else
+cJ=0;if(y){var
+aI=y[1],ez=aI[4];if(aI[1]||aI[2]||aI[3])var
+s=0;else
+if(0===ez[0])if(y[2])var
+s=0;else
 var
-hN=i(cr[1]),t=[0,[0,i(e1[1]),hN]];else{var
-e2=0;c2=1}}else{var
-e2=F;c2=1}if(c2)var
-t=e2;break;default:var
-t=0}}else
+g2=i(b8[1]),s=[0,[0,i(ez[1]),g2]];else{var
+eA=0;cJ=1}}else{var
+eA=y;cJ=1}if(cJ)var
+s=eA;break;default:var
+s=0}}else
 var
-t=bl;if(t){var
-f2=t[1],f3=f2[2],f4=f2[1],eL=o(m,1,i(a[2])),eM=eL?o(m,1,[2,f3,[0,c,c]]):eL,eN=eM?o(m,1,f4):eM;return eN?o(m,0,[2,[4,[0,c,c],f3],f4]):eN}var
-f5=t}else
+s=bd;if(s){var
+fk=s[1],fl=fk[2],fm=fk[1],eh=l(m,1,i(a[2])),ei=eh?l(m,1,[2,fl,[0,c,c]]):eh,ej=ei?l(m,1,fm):ei;return ej?l(m,0,[2,[4,[0,c,c],fl],fm]):ej}var
+fn=s}else
 var
-f5=f1;return f5}return 0;default:var
-f6=a[1];if(f6){var
-f7=f6[1],cT=s[2];if(0===cT[0]){var
-cU=fT(to,cT[2]);if(cU){var
-f8=dm(f7);if(f8){var
-ir=cU[1],f9=bD(f7)[2],bm=cT[1],ci=b$(bm,d,f9);if(ci){var
-cj=b$(bm,d,[4,[0,c,c],f9]);if(cj){var
-hl=ci[1][1],eI=af(b_(bm),hl);if(eI)return iQ(bm,cj[1][1],ir);var
-eJ=eI}else
+fn=fj;return fn}return 0;default:var
+fo=a[1];if(fo){var
+fp=fo[1],cu=r[2];if(0===cu[0]){var
+cv=gb(ua,cu[2]);if(cv){var
+fq=dB(fp);if(fq){var
+hl=cv[1],fr=bH(fp)[2],be=cu[1],bW=ch(be,d,fr);if(bW){var
+bX=ch(be,d,[4,[0,c,c],fr]);if(bX){var
+gB=bW[1][1],ee=ag(cf(be),gB);if(ee)return jo(be,bX[1][1],hl);var
+ef=ee}else
 var
-eJ=cj;var
-eK=eJ}else
+ef=bX;var
+eg=ef}else
 var
-eK=ci;return eK}var
-f_=f8}else
+eg=bW;return eg}var
+fs=fq}else
 var
-f_=cU;return f_}return 0}var
-cV=s[2];if(0===cV[0]){var
-cW=fT(tp,cV[2]);return cW?iQ(cV[1],d,cW[1]):cW}return 0}}return ak}var
-x=[ak,ts,eB(0)],i_=[ak,tt,eB(0)];function
-tq(z,c){var
-s=[0,h(sm,ai(c[4])),0],t=[0,h(so,M([0,h(sn,ai(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sa,w(f(r9,a[2]))),0],i=K(sc,M([0,h(sb,fG(a[1])),k]));else{var
+fs=cv;return fs}return 0}var
+cw=r[2];if(0===cw[0]){var
+cx=gb(ub,cw[2]);return cx?jo(cw[1],d,cx[1]):cx}return 0}}return ae}var
+x=[ap,ue,eU(0)],jG=[ap,uf,eU(0)];function
+uc(z,c){var
+s=[0,h(s9,an(c[4])),0],t=[0,h(s$,Q([0,h(s_,an(c[3])),s])),0],a=c[2];if(0===a[0])var
+k=[0,h(sX,w(f(sU,a[2]))),0],i=F(sZ,Q([0,h(sY,f1(a[1])),k]));else{var
 b=a[4],d=a[3],l=0;if(typeof
 b==="number")var
-e=ai(sd);else
+e=an(s0);else
 if(0===b[0])var
-q=[0,w(f(fK,b[2])),0],e=K(sj,w([0,cG(b[1]),q]));else
+q=[0,w(f(f7,b[2])),0],e=F(s6,w([0,cS(b[1]),q]));else
 var
-r=[0,cG(b[2]),0],e=K(sk,w([0,cG(b[1]),r]));var
-m=[0,h(se,e),l],n=d?[0,h(sf,w(f(U,d))),0]:d,o=g(n,m),p=[0,h(sg,w(f(U,a[2]))),0],i=K(si,M(g([0,h(sh,fG(a[1])),p],o)))}var
-u=[0,h(sp,i),t],v=0===c[2][0]?sq:sv,x=[0,h(sr,ai(v)),u],y=[0,h(ss,rh(c[1])),x],j=av(gX(tr,g(M([0,h(su,ai(st)),y]),sl)),z);return j?tn(c):j}function
-X(a){if(0===a[0])return a[1];throw x}function
-Q(a){if(1===a[0])return a[1];throw x}function
-aS(a){if(2===a[0])return a[1];throw x}function
-dn(a){if(3===a[0])return a[1];throw x}function
-aZ(f,e){var
+r=[0,cS(b[2]),0],e=F(s7,w([0,cS(b[1]),r]));var
+m=[0,h(s1,e),l],n=d?[0,h(s2,w(f(R,d))),0]:d,o=g(n,m),p=[0,h(s3,w(f(R,a[2]))),0],i=F(s5,Q(g([0,h(s4,f1(a[1])),p],o)))}var
+u=[0,h(ta,i),t],v=0===c[2][0]?tb:tg,x=[0,h(tc,an(v)),u],y=[0,h(td,r3(c[1])),x],j=aC(hl(ud,g(Q([0,h(tf,an(te)),y]),s8)),z);return j?t$(c):j}function
+W(a){if(0===a[0])return a[1];throw x}function
+X(a){if(1===a[0])return a[1];throw x}function
+aX(a){if(2===a[0])return a[1];throw x}function
+dC(a){if(3===a[0])return a[1];throw x}function
+a2(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===xx(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===yx(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-q(c,b){var
-a=aZ(c,b);if(a)return a[1];throw x}function
-ej(b,a){var
+r(c,b){var
+a=a2(c,b);if(a)return a[1];throw x}function
+ey(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cL(a){switch(a[0]){case
+cX(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],tu]}throw x}function
-dp(e,d){var
-a=R(e,Q(d));if(a){var
+2:return[0,a[1],ug]}throw x}function
+dD(e,d){var
+a=Y(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-ek(i){var
-f=bK(i),d=[0,0],e=aO(f)-1|0;if(!(e<0)){var
+ez(i){var
+f=bP(i),d=[0,0],e=aS(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=cR(f,c)+f6|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=c3(f,c)+gq|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4564,47 +4945,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dq(a){return hi(ek(a))}function
-i$(b){var
-a=dn(b);return 45===G(a,0)?N(dq(cY(a,1,y(a)-1|0))):dq(a)}function
-ja(a){return e0(dq(dn(a)))}function
-jb(a){return hh(dq(dn(a)))}function
-cM(c){var
-a=dn(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gB(a))}function
-jc(a){var
-b=97<=a?1:0,c=b?a<=lg?1:0:b;if(c)var
+dE(a){return hI(ez(a))}function
+gh(b){var
+a=dC(b);return 45===K(a,0)?T(dE(c_(a,1,y(a)-1|0))):dE(a)}function
+jH(a){return fg(dE(dC(a)))}function
+gi(a){return hH(dE(dC(a)))}function
+cY(c){var
+a=dC(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(gZ(a))}function
+jI(a){var
+b=97<=a?1:0,c=b?a<=lO?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jd(A,b){var
+jJ(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?G(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?K(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=G(b,a[1])&&!(57<G(b,a[1]))){a[1]++;continue}return cY(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=K(b,a[1])&&!(57<K(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
-i(j){if(64<j)throw x;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
-f=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&av(cY(b,a[1],5),tw)){a[1]=a[1]+4|0;var
-f=[5,n(j)]}else
+i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
+f=n(k);else{var
+u=0;if((a[1]+5|0)<=d&&aC(c_(b,a[1],5),ui)){a[1]=a[1]+4|0;var
+f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jc(G(b,a[1]))){var
+v=0;if(a[1]<d&&jI(K(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jc(G(b,a[1]))&&95!==G(b,a[1])&&(!(48<=G(b,a[1]))||57<G(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,cY(b,o,a[1]-o|0))];break}}else
+w=0;if(!jI(K(b,a[1]))&&95!==K(b,a[1])&&(!(48<=K(b,a[1]))||57<K(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,c_(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=av(h,tx);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aC(h,uj);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===G(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(av(l,ty)||48===G(l,y(l)-1|0))z=1;else
+t=1<y(h)?1:0,s=t?48===K(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(aC(l,uk)||48===K(l,y(l)-1|0))z=1;else
 var
-B=ek(l),f=[0,ek(h),B];if(z)throw x}else
+B=ez(l),f=[0,ez(h),B];if(z)throw x}else
 var
-f=[0,ek(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(k(g,tv)){if(!(2<y(g))&&2<=gB(g)&&!(64<gB(g)))return[4,f,e0(dq(g))];throw x}throw x}return f}function
+f=[0,ez(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(j(g,uh)){if(!(2<y(g))&&2<=gZ(g)&&!(64<gZ(g)))return[4,f,fg(dE(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -4614,158 +4995,187 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-je(a){return jd(function(a){throw x},a)}function
-jf(a){var
-b=aS(a);return jd(function(a){return a},b)}function
-aa(a){return je(aS(a))}function
-bF(a){if(2===a[0])return[0,je(a[1])];var
-b=X(a),c=aa(q(b,tz));return[1,aa(q(b,tA)),c]}function
-ac(a){throw[0,i_,am(gX(tC,a),tB)]}function
-jg(c){var
-a=aS(c);if(k(a,tD)){var
-b=k(a,tE);if(b)throw x;return b}return 1}function
-tF(d){var
-b=X(d);function
-a(a){return dp(bF,q(b,a))}var
-c=aS(q(b,tG));if(k(c,tH)){if(k(c,tI)){if(k(c,tJ))return ac([0,tL,[0,c,tK]]);var
-e=aZ(b,tM),f=ej(function(a){return dp(bF,a)},e),g=a(tN);return[1,a(tO),g,f]}var
-h=jg(q(b,tP)),i=bF(q(b,tQ)),j=a(tR),l=a(tS);return[0,a(tT),l,j,i,h]}return[2,a(tU)]}function
-jh(d){var
+jK(a){return jJ(function(a){throw x},a)}function
+jL(a){var
+b=aX(a);return jJ(function(a){return a},b)}function
+$(a){return jK(aX(a))}function
+bK(a){if(2===a[0])return[0,jK(a[1])];var
+b=W(a),c=$(r(b,ul));return[1,$(r(b,um)),c]}function
+ae(a){throw[0,jG,as(hl(uo,a),un)]}function
+jM(c){var
+a=aX(c);if(j(a,up)){var
+b=j(a,uq);if(b)throw x;return b}return 1}function
+ur(d){var
+b=W(d);function
+a(a){return dD(bK,r(b,a))}var
+c=aX(r(b,us));if(j(c,ut)){if(j(c,uu)){if(j(c,uv))return ae([0,ux,[0,c,uw]]);var
+e=a2(b,uy),f=ey(function(a){return dD(bK,a)},e),g=a(uz);return[1,a(uA),g,f]}var
+h=jM(r(b,uB)),i=bK(r(b,uC)),k=a(uD),l=a(uE);return[0,a(uF),l,k,i,h]}return[2,a(uG)]}function
+jN(d){var
+a=W(d);if(a){var
+b=a[1];if(!j(b[1],uH)){var
+c=b[2];if(2===c[0]&&!j(c[1],uI))return 1}}return 0}function
+uJ(c){var
+a=W(c);if(1-jN(c))throw x;function
+b(b){return dD(bK,r(a,b))}var
+d=jM(r(a,uK)),e=bK(r(a,uL)),f=bK(r(a,uM)),g=b(uN),h=b(uO),i=b(uP);return[0,b(uQ),i,h,g,f,e,d]}function
+dF(c,d){var
 a=X(d);if(a){var
-b=a[1];if(!k(b[1],tV)){var
-c=b[2];if(2===c[0]&&!k(c[1],tW))return 1}}return 0}function
-tX(c){var
-a=X(c);if(1-jh(c))throw x;function
-b(b){return dp(bF,q(a,b))}var
-d=jg(q(a,tY)),e=bF(q(a,tZ)),f=bF(q(a,t0)),g=b(t1),h=b(t2),i=b(t3);return[0,b(t4),i,h,g,f,e,d]}function
-dr(c,d){var
-a=Q(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-ji(i){var
-c=X(i),b=aS(q(c,t5));if(k(b,t6))if(k(b,t7))if(k(b,t8))if(k(b,t9))if(k(b,t_))if(k(b,t$))if(k(b,ua))var
-g=k(b,ub),a=g?ac([0,ud,[0,b,uc]]):g;else
+gj(i){var
+c=W(i),a=aX(r(c,uR));if(j(a,uS))if(j(a,uT))if(j(a,uU))if(j(a,uV))if(j(a,uW))if(j(a,uX))if(j(a,uY))if(j(a,uZ))var
+g=j(a,u0),b=g?ae([0,u2,[0,a,u1]]):g;else
 var
-a=6;else
+b=6;else
 var
-a=4;else
+b=4;else
 var
-a=5;else
+b=5;else
 var
-a=2;else
+b=2;else
 var
-a=1;else
+b=1;else
 var
-a=7;else
+b=8;else
 var
-a=3;function
-f(a){return q(c,ue)}var
-d=aS(q(c,uf));if(k(d,ug))if(k(d,uh))if(k(d,ui))var
-e=ac([0,uk,[0,d,uj]]);else
+b=7;else
 var
-h=dr(aa,f(0)),e=[2,h[1],h[2]];else
+b=3;function
+f(a){return r(c,u3)}var
+d=aX(r(c,u4));if(j(d,u5))if(j(d,u6))if(j(d,u7))var
+e=ae([0,u9,[0,d,u8]]);else
 var
-e=[0,aa(f(0))];else
+h=dF($,f(0)),e=[2,h[1],h[2]];else
 var
-e=[1,aa(f(0))];function
-j(m){var
-b=X(m),e=0;if(2===a){if(b){var
-g=b[1];if(!k(g[1],ul)){var
+e=[0,$(f(0))];else
+var
+e=[1,$(f(0))];function
+k(m){var
+a=W(m),e=0;switch(b){case
+6:if(a){var
+k=a[1];if(!j(k[1],u$)){var
+l=k[2];if(1===l[0]){var
+d=l[1],f=0;if(d&&!d[2])if(a[2])f=1;else{var
+i=d[1];e=1;f=1}if(!f&&!a[2])return ae(va)}}}break;case
+2:case
+8:if(a){var
+g=a[1];if(!j(g[1],u_)){var
 h=g[2];if(1===h[0]){var
-c=h[1];if(c&&!c[2]&&!b[2]){var
-i=c[1];e=1}}}}}else
-if(6===a&&b){var
-j=b[1];if(!k(j[1],um)){var
-l=j[2];if(1===l[0]){var
-d=l[1],f=0;if(d&&!d[2])if(b[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!b[2])return ac(un)}}}if(e)return aa(i);throw x}var
-l=ej(j,aZ(c,uo));return[0,a,ej(cM,aZ(c,up)),l,e]}function
-fY(c){var
-a=ji(c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(uq)}function
-ux(U){var
-i=cL(U),j=i[1];if(k(j,uy)){if(k(j,uz))return ac([0,uB,[0,j,uA]]);var
-l=q(X(i[2]),uC),K=0;if(2===l[0]){var
-y=k(l[1],uD);if(!y){var
-w=y;K=1}}if(!K)var
-w=[0,bF(l)];return[5,w]}var
-c=X(i[2]);function
-z(a){return R(ji,Q(q(c,uE)))}var
-f=cL(q(c,uF)),a=cL(q(c,uG));if(0===aZ(c,uH)){var
-b=f[1];if(k(b,uI)&&k(b,uJ)&&k(b,uK)){if(0===aZ(c,uL)){if(k(b,uM)){var
-L=0;if(k(b,uN)){if(!k(b,uO)){var
-A=a[1],M=0;if(k(A,uR)&&k(A,uS)){L=1;M=1}if(!M){var
-m=Q(f[2]),d=X(a[2]);if(k(a[1],ur))var
-u=dr(aa,q(d,us)),v=dr(aa,q(d,ut)),O=v[2],P=v[1],S=aa(q(d,uu)),n=[1,u[1],u[2],S,P,O];else
+c=h[1];if(c&&!c[2]&&!a[2]){var
+i=c[1];e=1}}}}break}if(e)return $(i);throw x}var
+l=ey(k,a2(c,vb));return[0,b,ey(cY,a2(c,vc)),l,e]}function
+vd(b){var
+a=gj(b);return 8<=a[1]?ae(ve):a}function
+gk(c){var
+a=gj(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(vf)}function
+vg(a){var
+b=gj(a);switch(b[1]){case
+2:case
+6:case
+8:return b;default:return gk(a)}}function
+vn(P){var
+l=cX(P),m=l[1];if(j(m,vo)){if(j(m,vp))return ae([0,vr,[0,m,vq]]);var
+n=r(W(l[2]),vs),I=0;if(2===n[0]){var
+v=j(n[1],vt);if(!v){var
+u=v;I=1}}if(!I)var
+u=[0,bK(n)];return[5,u]}var
+c=W(l[2]);function
+w(a){return Y(vd,X(r(c,vu)))}var
+f=cX(r(c,vv)),a=cX(r(c,vw));if(0===a2(c,vx)){var
+b=f[1];if(j(b,vy)&&j(b,vz)&&j(b,vA)){if(0===a2(c,vB)){if(j(b,vC)){var
+J=0;if(j(b,vD)){if(!j(b,vE)){var
+y=a[1],K=0;if(j(y,vH)&&j(y,vI)){J=1;K=1}if(!K){var
+o=X(f[2]),d=W(a[2]);if(j(a[1],vh))var
+s=dF($,r(d,vi)),t=dF($,r(d,vj)),L=t[2],M=t[1],N=$(r(d,vk)),p=[1,s[1],s[2],N,M,L];else
 var
-T=dp(aa,q(d,uv)),n=[0,dp(aa,q(d,uw)),T];var
-g=m;for(;;){if(g){var
-N=g[2],t=jh(g[1]);if(!t){var
-g=N;continue}var
-B=t}else
-var
-B=0;if(B){var
-V=R(fY,Q(q(c,uV)));return[1,R(tX,m),n,V]}var
-W=z(0);return[0,R(tF,m),n,W]}}}}else
-if(!k(a[1],uW)){var
-Y=z(0),Z=aa(q(X(a[2]),uX));return[4,aa(q(X(f[2]),uY)),Z,Y]}if(!L)return ac([0,uQ,[0,b,uP]])}else
-if(!k(a[1],uZ)){var
-h=X(f[2]),C=X(a[2]),D=function(c,a){var
-b=Q(a);return R(function(d){var
-a=Q(d);if(a){var
-b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aS(a[1]),f]}}throw x},b)},_=function(d){var
+O=dD($,r(d,vl)),p=[0,dD($,r(d,vm)),O];if(hh(jN,o)){var
+Q=Y(gk,X(r(c,vL)));return[1,Y(uJ,o),p,Q]}var
+R=w(0);return[0,Y(ur,o),p,R]}}}else
+if(!j(a[1],vM)){var
+S=w(0),T=$(r(W(a[2]),vN));return[4,$(r(W(f[2]),vO)),T,S]}if(!J)return ae([0,vG,[0,b,vF]])}else
+if(!j(a[1],vP)){var
+h=W(f[2]),z=W(a[2]),A=function(c,a){var
+b=X(a);return Y(function(d){var
 a=X(d);if(a){var
-b=a[1],c=b[1];if(k(c,u0)){if(!k(c,u1)&&!a[2])return R(jf,Q(b[2]))}else
-if(!a[2])return ac(u2)}throw x},$=R(fY,Q(q(c,u3))),ab=R(aa,Q(q(C,u4))),ad=R(aa,Q(q(C,u5))),ae=R(_,Q(q(h,u6))),af=D(jf,q(h,u7)),ag=D(bF,q(h,u8));return[3,R(aS,Q(q(h,u9))),ag,af,ae,ad,ab,$]}return ac([0,uU,[0,a[1],uT]])}throw x}var
-E=a[1],F=X(f[2]),G=X(a[2]);if(k(E,u_))ac([0,va,[0,E,u$]]);var
-H=aZ(F,vb),ah=H?aa(H[1]):ac([0,vy,[0,b,vx]]),ai=function(d){var
-a=X(d);function
-b(b){return R(bF,Q(q(a,b)))}var
-c=aS(q(a,vc)),e=aZ(a,vd);if(!k(c,ve)&&!e){var
-f=b(vh);return[0,b(vi),f]}return ac([0,vg,[0,c,vf]])},o=cL(q(c,vj)),p=o[1];if(k(p,vk))if(k(p,vl))var
-r=ac([0,vn,[0,p,vm]]);else
+b=a[2];if(b&&!b[2]){var
+f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},U=function(d){var
+a=W(d);if(a){var
+b=a[1],c=b[1];if(j(c,vQ)){if(!j(c,vR)&&!a[2])return Y(jL,X(b[2]))}else
+if(!a[2])return ae(vS)}throw x},V=Y(gk,X(r(c,vT))),Z=Y($,X(r(z,vU))),_=Y($,X(r(z,vV))),aa=Y(U,X(r(h,vW))),ab=A(jL,r(h,vX)),ac=A(bK,r(h,vY));return[3,Y(aX,X(r(h,vZ))),ac,ab,aa,_,Z,V]}return ae([0,vK,[0,a[1],vJ]])}throw x}var
+B=a[1],C=W(f[2]),D=W(a[2]);if(j(B,v0))ae([0,v2,[0,B,v1]]);var
+E=a2(C,v3),ad=E?$(E[1]):ae([0,wq,[0,b,wp]]),af=function(d){var
+a=W(d);function
+b(b){return Y(bK,X(r(a,b)))}var
+c=aX(r(a,v4)),e=a2(a,v5);if(!j(c,v6)&&!e){var
+f=b(v9);return[0,b(v_),f]}return ae([0,v8,[0,c,v7]])},g=cX(r(c,v$)),i=g[1];if(j(i,wa))if(j(i,wb))if(j(i,wc)){if(j(i,wd))throw x;var
+F=g[2],ag=$(r(W(F),we)),k=[3,$(r(W(F),wf)),ag]}else
 var
-an=o[2],s=function(a){return dr(aa,q(X(an),a))},ao=s(vu),ap=s(vv),r=[1,s(vw),ap,ao];else
+al=g[2],q=function(a){return dF($,r(W(al),a))},am=q(wm),an=q(wn),k=[1,q(wo),an,am];else
 var
-J=dr(aa,o[2]),r=[0,J[1],J[2]];var
-I=k(b,vo),aj=I?k(b,vp)?2:1:I,ak=R(fY,Q(q(c,vq))),al=R(aa,Q(q(G,vr))),am=R(aa,Q(q(G,vs)));return[2,aj,R(ai,Q(q(F,vt))),ah,am,al,r,ak]}return ac(vz)}function
-jj(a){return R(i$,Q(a))}function
-fZ(e,h){var
-t=e[2];function
-u(c,b){var
-a=jj(b);if(cn(a)!==c)throw x;return a}switch(h[0]){case
+H=dF($,g[2]),k=[0,H[1],H[2]];else
+var
+k=[2,$(g[2])];var
+G=j(b,wg),ah=G?j(b,wh)?2:1:G,ai=Y(vg,X(r(c,wi))),aj=Y($,X(r(D,wj))),ak=Y($,X(r(D,wk)));return[2,ah,Y(af,X(r(C,wl))),ad,ak,aj,k,ai]}return ae(wr)}function
+jO(a){return Y(gh,X(a))}function
+eA(g,m){var
+D=g[2];function
+E(c,b){var
+a=jO(b);if(cy(a)!==c)throw x;return a}switch(m[0]){case
 0:var
-b=h[1];if(b){var
-d=b[1],a=d[1],c=0;if(k(a,vC))if(k(a,vD))if(k(a,vE))if(k(a,vF)){var
-C=0;if(k(a,vG)&&k(a,vH)&&k(a,vI))C=1;if(!C)if(b[2])c=1;else{var
-D=d[2],w=D,v=function(c,b){return[1,a,c,b]};c=2}}else{var
-A=d[2];if(1===A[0]){var
-i=A[1];if(i){var
-j=i[2];if(j){var
-l=j[2];if(l&&!l[2]){if(!b[2]){var
-G=jb(l[1]),H=i$(j[1]);return[4,fZ(e,i[1]),H,G]}c=1}}}}}else{if(!b[2]){var
-p=aS(d[2]),r=k(p,vA);if(r){if(k(p,vB))throw x;var
-s=1}else
+c=m[1];if(c){var
+e=c[1],b=e[1],d=0;if(j(b,wu))if(j(b,wv))if(j(b,ww))if(j(b,wx)){var
+O=0;if(j(b,wy)&&j(b,wz)&&j(b,wA))O=1;if(!O)if(c[2])d=1;else{var
+Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
+J=e[2];if(1===J[0]){var
+n=J[1];if(n){var
+o=n[2];if(o){var
+p=o[2];if(p&&!p[2]){if(!c[2]){var
+T=gi(p[1]),U=gh(o[1]);return[4,eA(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
+A=aX(e[2]),B=j(A,ws);if(B){if(j(A,wt))throw x;var
+C=1}else
 var
-s=r;return[2,s]}c=1}else{var
-f=d[2],g=0;switch(f[0]){case
+C=B;return[2,C]}d=1}else{if(!c[2]){var
+h=e[2],l=0;switch(h[0]){case
 0:var
-m=f[1];if(!m||k(m[1][1],vN)||m[2])g=1;break;case
-2:if(k(f[1],vO))g=1;break;default:g=1}if(!g){if(!b[2])return[5,fZ(e,f)];c=1}}else{var
-B=d[2];if(1===B[0]){var
-n=B[1];if(n){var
-o=n[2];if(o&&!o[2])if(b[2])c=1;else{var
-I=o[1],J=n[1],w=J,v=function(b,a){return[3,b,a,u(t+1|0,I)]};c=2}}}}switch(c){case
-0:if(!b[2])return ac([0,vK,[0,a,vJ]]);break;case
+i=h[1];if(i){var
+L=i[1],u=L[1],a=0;if(j(u,wF)&&j(u,wG))if(j(u,wH))a=1;else{var
+M=L[2];if(1===M[0]){var
+v=M[1];if(v){var
+k=v[1],f=0;switch(k[0]){case
+0:var
+w=k[1];if(w){var
+N=w[1][1],P=0;if(j(N,wJ)&&j(N,wK)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(j(k[1],wL)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+y=v[2];if(y){var
+z=y[2];if(z&&!(z[2]||i[2])){var
+_=gi(z[1]),$=gh(y[1]),q=[5,eA(g,k),$,_];l=1;a=1}else
+a=1}else
+a=1}}else
+a=1}else
+a=1}if(!a&&!i[2])l=2}break;case
+2:if(!j(h[1],wM))l=2;break}switch(l){case
+0:var
+q=ae(wI);break;case
+2:var
+q=eA(g,h);break}return[6,q]}d=1}else{var
+K=e[2];if(1===K[0]){var
+s=K[1];if(s){var
+t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
+V=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,V)]};d=2}}}}switch(d){case
+0:if(!c[2])return ae([0,wC,[0,b,wB]]);break;case
 1:break;default:var
-y=X(w),E=Q(q(y,vL)),z=R(function(a){return u(t,a)},E),F=e[1];if(cn(z)!==F)throw x;return v(z,jb(q(y,vM)))}}break;case
-2:return[0,h[1]]}throw x}function
-v_(a){return 5===a[2][0]?1:0}function
-v$(d){var
+H=W(G),R=X(r(H,wD)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cy(I)!==S)throw x;return F(I,gi(r(H,wE)))}}break;case
+2:return[0,m[1]]}throw x}function
+w8(c){var
+b=c[2],a=0;switch(b[0]){case
+0:if(!j(b[1],w9))a=1;break;case
+6:a=1;break}return a?1:0}function
+w_(d){var
 f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return G(d,a[1]);throw x}function
+g(b){if(a[1]<f)return K(d,a[1]);throw x}function
 h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,G(d,a[1]))){a[1]++;continue}return cY(d,b,a[1]-b|0)}}function
+C(b,c){for(;;){if(a[1]<f&&e(c,K(d,a[1]))){a[1]++;continue}return c_(d,b,a[1]-b|0)}}function
 D(d){h(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
@@ -4779,61 +5189,65 @@ i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
 f=i;continue}h(d);var
 b=i,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-p(c,k){if(64<c)throw x;var
+q(c,k){if(64<c)throw x;var
 b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return p(f,a)},e)]}if(123===b){a[1]++;var
+e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
 i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,p(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
+a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
 j=a[1];a[1]++;return[3,C(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=p(0,0),F=a[1]<f?1:0,N=F?10===G(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=X(M);if(k(aS(q(m,wa)),wb))throw x;var
-b=ux(q(m,wc));switch(b[0]){case
+M=q(0,0),F=a[1]<f?1:0,N=F?10===K(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
+m=W(M);if(j(aX(r(m,w$)),xa))throw x;var
+b=vn(r(m,xb));switch(b[0]){case
 0:var
-n=[0,cn(b[1]),3];break;case
+n=[0,cy(b[1]),3];break;case
 2:var
-Z=1===b[1]?6:3,n=[0,cn(b[2]),Z];break;case
+_=1===b[1]?6:3,n=[0,cy(b[2]),_];break;case
 3:var
-_=cn(b[1]),n=[0,cn(b[4]),_];break;default:var
-n=wk}var
-w=cL(q(m,wd)),z=w[1];if(k(z,v0))if(k(z,v1))var
-c=ac([0,v3,[0,z,v2]]);else{var
-j=X(w[2]),A=aZ(j,v4),S=A?R(aa,Q(A[1])):A,r=cL(q(j,v5)),i=r[1],o=0;if(k(i,vV)){var
-H=k(i,vW);if(H){if(!k(i,vX)){var
-I=r[2];if(1===I[0]){var
-s=I[1];if(s){var
-t=s[2];if(t&&!t[2]){var
-O=cM(t[1]),l=[1,cM(s[1]),O];o=1}}}}}else{var
-l=H;o=1}}else{var
-J=r[2];if(1===J[0]){var
-u=J[1];if(u){var
-v=u[2];if(v&&!v[2]){var
-P=R(jj,Q(v[1])),l=[0,cM(u[1]),P];o=1}}}}if(!o)var
-l=ac([0,vZ,[0,i,vY]]);var
-T=R(aa,Q(q(j,v6))),c=[1,ja(q(j,v7)),T,S,l]}else
+aa=cy(b[1]),n=[0,cy(b[4]),aa];break;default:var
+n=xk}var
+z=cX(r(m,xc)),A=z[1];if(j(A,wY))if(j(A,wZ))var
+c=ae([0,w1,[0,A,w0]]);else{var
+k=W(z[2]),B=a2(k,w2),Q=B?Y($,X(B[1])):B,s=cX(r(k,w3)),i=s[1],o=0;if(j(i,wT)){var
+G=j(i,wU);if(G){if(!j(i,wV)){var
+H=s[2];if(1===H[0]){var
+t=H[1];if(t){var
+u=t[2];if(u&&!u[2]){var
+O=cY(u[1]),l=[1,cY(t[1]),O];o=1}}}}}else{var
+l=G;o=1}}else{var
+I=s[2];if(1===I[0]){var
+v=I[1];if(v){var
+w=v[2];if(w&&!w[2]){var
+P=Y(jO,X(w[1])),l=[0,cY(v[1]),P];o=1}}}}if(!o)var
+l=ae([0,wX,[0,i,wW]]);var
+R=Y($,X(r(k,w4))),c=[1,jH(r(k,w5)),R,Q,l]}else
 var
-K=X(w[2]),U=Q(q(K,v8)),V=R(function(f){var
-a=X(f);if(0!==aZ(a,vR))ac(vS);var
-d=ej(cM,aZ(a,vT)),b=aZ(a,vU);if(b)var
-e=Q(b[1]),c=R(function(g){var
-b=Q(g);if(b){var
+J=W(z[2]),S=X(r(J,w6)),T=Y(function(f){var
+a=W(f);if(0!==a2(a,wP))ae(wQ);var
+d=ey(cY,a2(a,wR)),b=a2(a,wS);if(b)var
+e=X(b[1]),c=Y(function(g){var
+b=X(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!k(c[1],vP)){if(!a[2]){if(k(dn(e),vQ))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wN)){if(!a[2]){if(j(dC(e),wO))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=fZ(n,c);return[0,cM(e),f]}}}throw x},e);else
+f=eA(n,c);return[0,cY(e),f]}}}throw x},e);else
 var
-c=b;return[0,c,d]},U),c=[0,ja(q(K,v9)),V];var
-B=0;switch(b[0]){case
-1:if(0===c[0]){ac(wh);B=1}break;case
+c=b;return[0,c,d]},S),c=[0,jH(r(J,w7)),T];var
+p=0;switch(b[0]){case
+1:if(0===c[0]){ae(xg);p=1}break;case
 2:if(0===c[0]){var
-Y=c[2];if(!gT(function(a){return gT(v_,a[1])},Y)){ac(wi);B=1}}break;case
-3:if(1===c[0]){ac(wj);B=1}break}var
-L=X(q(m,we)),W=aS(q(L,wf));return[0,b,c,aS(q(L,wg)),W]}function
-wl(c){try{try{var
-d=0,a=v$(c);d=1}catch(a){a=eI(a);if(a[1]===i_)var
+V=c[2];if(!hg(function(a){return hg(w8,a[1])},V)){ae(xh);p=1}}else{var
+Z=b[7];if(hh(function(a){switch(a[1]){case
+2:case
+6:case
+8:return 1;default:return 0}},Z)){ae(xi);p=1}}break;case
+3:if(1===c[0]){ae(xj);p=1}break}var
+L=W(r(m,xd)),U=aX(r(L,xe));return[0,b,c,aX(r(L,xf)),U]}function
+xl(c){try{try{var
+d=0,a=w_(c);d=1}catch(a){a=e1(a);if(a[1]===jG)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=tq(c,a)?0===a[2][0]?0:1:2}catch(a){return wm}if(typeof
+b=uc(c,a)?0===a[2][0]?0:1:2}catch(a){return xm}if(typeof
 b==="number")switch(b){case
-0:return wn;case
-1:return wo;default:return wp}return am(wq,b[1])}yb.orthocert_verify=xT(function(b){return bN(wl(a(b)))});eL(0);return}(globalThis));
+0:return xn;case
+1:return xo;default:return xp}return as(xq,b[1])}zb.orthocert_verify=yT(function(b){return bS(xl(a(b)))});e4(0);return}(globalThis));
