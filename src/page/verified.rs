@@ -129,10 +129,8 @@ fn is_by_configuration(claim: &MachineClaim, verdict: Verdict) -> bool {
     let MachineClaim { mechanism, workspace, orientation, bodies, require } = claim;
     let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
     let is_strut = |leg: &Leg| matches!(leg, Leg::Strut { base_axis: None, .. });
-    let turns = matches!(
-        mechanism,
-        Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_)
-    );
+    let turns =
+        matches!(mechanism, Mechanism::Planar(_) | Mechanism::Spatial(_) | Mechanism::Spherical(_));
     let is_required = |requirement: &Requirement| match requirement.quantity.as_str() {
         "transmission" | "conditioning" | "joint_range" => true,
         "joint_speed" | "joint_force" | "stiffness" => {

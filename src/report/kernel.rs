@@ -228,10 +228,10 @@ impl<'a> Facts<'a> {
     /// The value at a witness, in certified digits: a bound in its place that the witness refutes too.
     fn beyond(&self, number: usize, witness: &Witness) -> Option<String> {
         let quality = Quality::Obligation(number);
-        // What fails of a pose that is off fails of both bounds on it together.
+        // What is shown is of both bounds together.
         if matches!(&self.problem.obligations[number].test, Test::Accuracy(test) if test.turn.is_some())
         {
-            return Some("no pose within both bounds, or none alone".to_owned());
+            return Some("no pose within both bounds".to_owned());
         }
         let (name, _, relation, sides) = self.demanded(quality);
         let place = self.sampler.place_of(&witness.point, &witness.machine)?;

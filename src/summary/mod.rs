@@ -25,11 +25,12 @@ use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
 use crate::search::{Budget, Control};
 use crate::solver::extremes::{enclose, is_singular, Enclosed, NotEnclosed};
+use crate::solver::value::Bounded;
 use crate::solver::{sector, Verification};
 use asked::{asked, Asked};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
-use orthocert_kernel::claim::{Bound, MachineClaim};
+use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::problem::Problem;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -218,7 +219,9 @@ fn tightened(
         let same = own.quantity == one.quantity && own.given == one.given;
         same && (own.leg.is_none() || own.leg == leg)
     });
-    let mut bounds = own.filter_map(|own| match (&own.bound, extreme.is_greatest()) {
+    let bounded =
+        |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
+    let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
         (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
             exactly(bound)?.as_rational().cloned()
         }

@@ -51,6 +51,48 @@ fn two_sliders(length: &str, requirements: &str) -> String {
     )
 }
 
+/// Where a platform turns, how far and by which angle it is off are two things.
+#[test]
+fn an_accuracy_has_two_bounds() {
+    let folder = Folder::new();
+    let leg = |anchor: &str, platform: &str| {
+        format!("[[mechanism.legs]]\ndrive = \"strut\"\nanchor = {anchor}\nplatform = {platform}\n")
+    };
+    let legs = [
+        leg("[0, \"4 ± 0.001\"]", "[\"sqrt(3)/2\", \"1/2\"]"),
+        leg("[\"-2*sqrt(3) ± 0.001\", -2]", "[\"-sqrt(3)/2\", \"1/2\"]"),
+        leg("[\"2*sqrt(3) ± 0.001\", -2]", "[0, -1]"),
+    ];
+    let design = |angle: &str| {
+        format!(
+            "[mechanism]\nkind = \"planar\"\ncharacteristic_length = 1\n{}[workspace]\n\
+             min = [\"-1/2\", \"-1/2\"]\nmax = [\"1/2\", \"1/2\"]\norientation = {{ angle = [-20, 20] }}\n\
+             [requirements]\naccuracy = {{ joint_error = 0.001, max = 0.005, max_angle = {angle} }}\n",
+            legs.join("")
+        )
+    };
+    // At most 0.144 degrees, and at most 0.003, are found.
+    folder.write("near.toml", design("0.16"));
+    let answer = summary(&folder, &["near.toml"], 0);
+    let nearest = &answer["nearest"];
+    assert_eq!(nearest["requirement"], "accuracy of the angle, deg", "{nearest}");
+    let margin = [number(&nearest["margin_at_least"]), number(&nearest["margin_at_most"])];
+    assert!(0.03 < margin[0] && margin[0] < 0.102 && margin[1] > 0.1, "{nearest}");
+    let rows = answer["values"].as_array().unwrap();
+    let rows: Vec<&Value> = rows.iter().filter(|row| row["quantity"] == "accuracy").collect();
+    let [off, angle] = rows[..] else { panic!("{answer}") };
+    assert!(off["unit"] != "deg" && angle["unit"] == "deg", "{off} {angle}");
+    encloses(off, 0.002986, 0.0005);
+    encloses(angle, 0.14386, 0.02);
+    let answer: Value = {
+        folder.write("near.toml", design("0.14"));
+        let json = folder.run(&["verify", "near.toml", "--format", "json"]).exits(1).stdout;
+        serde_json::from_str(&json).unwrap()
+    };
+    let told = answer["counterexample"]["value"].as_str().unwrap();
+    assert_eq!(told, "no pose within both bounds");
+}
+
 #[test]
 fn the_prototype_has_the_strokes_and_speeds_of_its_theory() {
     let folder = Folder::new();
