@@ -7,9 +7,56 @@
 //! starts.
 
 use super::sample::{Place, Quality, Sampler, Worst};
+use super::violation;
+use orthocert_kernel::formula::Formula;
+use orthocert_kernel::machine::{Joint, Leg};
+use std::f64::consts::TAU;
 
 /// Places from which the search goes on, of those of the grid.
 const STARTS: usize = 4;
+impl Sampler<'_> {
+    /// Of an accuracy, the machine that is farthest off at a point, to first order: each tolerance at the end
+    /// that, by differences of the joint coordinates, goes with the worst signs. One end after the other
+    /// would stop at other signs.
+    pub(super) fn farthest_off(&self, quality: Quality, place: &Place) -> Option<Place> {
+        let test = self.accuracy(quality).filter(|_| !self.free.is_empty())?;
+        let rho = |t: &[f64]| -> Option<Vec<f64>> {
+            let values = self.at_machine(quality, &Place { t: t.to_vec(), ..place.clone() });
+            let joint = |leg: &Leg| match leg.rho? {
+                Joint::Length(rho) => values.of(rho),
+                Joint::Angle { cos, sin } => Some(values.of(sin)?.atan2(values.of(cos)?)),
+            };
+            self.problem().legs.iter().map(joint).collect()
+        };
+        let change = |j: usize| {
+            let [low, high] = [0.0, 1.0].map(|end| {
+                let mut t = place.t.clone();
+                t[j] = end;
+                rho(&t)
+            });
+            // Angles, to whole turns.
+            let turned = |x: f64| if x.abs() > 3.0 { x - TAU * (x / TAU).round() } else { x };
+            Some(high?.iter().zip(low?).map(|(high, low)| turned(high - low)).collect())
+        };
+        let changes: Vec<Vec<f64>> = (0..self.free.len()).map(change).collect::<Option<_>>()?;
+        let at = self.at_machine(quality, place);
+        let d = at.of(test.distance)?;
+        let beta = |(i, (error, _)): (usize, &(Formula, _))| {
+            let all: f64 = changes.iter().map(|change| change[i].abs()).sum();
+            Some(at.of(*error)? + all / (2.0 * d))
+        };
+        let beta: Vec<f64> = test.joints.iter().enumerate().map(beta).collect::<Option<_>>()?;
+        let signs = violation::farthest(&at, test, &beta)?;
+        let mut found = place.clone();
+        for (t, change) in found.t.iter_mut().zip(&changes) {
+            let along: f64 = change.iter().zip(&signs).map(|(x, sign)| x * sign).sum();
+            // What the joint has less than the machine in the middle, it is off by.
+            *t = if along > 0.0 { 0.0 } else { 1.0 };
+        }
+        Some(found)
+    }
+}
+
 /// Machines at pseudo-random ends of the tolerances, from which it is begun too.
 const MACHINES: usize = 8;
 /// Most alternations of machine and point.

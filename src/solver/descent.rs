@@ -67,6 +67,12 @@ impl Sampler<'_> {
 
     /// Puts each parameter in turn at the worse end of its tolerance.
     pub(super) fn to_ends(&self, worst: &mut Worst) -> bool {
+        if let Some(place) = self.farthest_off(worst.quality, &worst.place) {
+            let margin = self.margin_at(worst.quality, &place);
+            if margin < worst.margin {
+                (worst.place, worst.margin) = (place, margin);
+            }
+        }
         let m = self.box_.len();
         let axes = m..m + self.frees();
         let ends = axes.flat_map(|axis| [(axis, 0.0), (axis, 1.0)]);
@@ -122,8 +128,13 @@ impl Sampler<'_> {
     pub fn worst_values(&self, finest: i32) -> Vec<Worst> {
         let grid: Vec<_> = self.grid().into_iter().map(|p| (self.at(&p), p)).collect();
         let worst = |quality| {
+            // Tolerances are the most of what an accuracy is.
+            let margin = |values, p: &Place| match self.farthest_off(quality, p) {
+                Some(worse) => self.margin_at(quality, &worse),
+                None => self.margin(quality, values),
+            };
             let mut starts: Vec<(f64, &Place)> =
-                grid.iter().map(|(values, p)| (self.margin(quality, values), p)).collect();
+                grid.iter().map(|(values, p)| (margin(values, p), p)).collect();
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut apart: Vec<&Place> = Vec::new();
             for (_, start) in starts {

@@ -15,6 +15,7 @@ use orthocert_kernel::input::{ClaimError, Value};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
+use orthocert_kernel::test::accuracy::Accuracy;
 
 /// Points of a grid along each coordinate, by their number; beyond, its corners, the middles of its
 /// faces and its centre.
@@ -93,7 +94,7 @@ pub struct Sampler<'a> {
     pub(super) box_: Vec<(f64, f64)>,
     parameters: Vec<Pair>,
     /// The parameters that are intervals; over a cell of an atlas also those that vary by themselves.
-    free: Vec<usize>,
+    pub(super) free: Vec<usize>,
     /// Of an atlas, the values in the middle and the slopes of parameters that vary with its names.
     varying: Vec<(usize, f64, Vec<f64>)>,
     /// Radicands that depend on the point.
@@ -384,12 +385,30 @@ impl<'a> Sampler<'a> {
             .unwrap_or_else(|| self.least_radicand(values).min(0.0) - UNDEFINED)
     }
 
+    /// The test of an accuracy.
+    pub(super) fn accuracy(&self, quality: Quality) -> Option<&'a Accuracy> {
+        let Quality::Obligation(number) = quality else { return None };
+        match &self.problem.obligations[number].test {
+            Test::Accuracy(test) => Some(test),
+            _ => None,
+        }
+    }
+
+    /// The problem.
+    pub(super) fn problem(&self) -> &'a Problem {
+        self.problem
+    }
+
+    /// What a quality needs at a place.
+    pub(super) fn at_machine(&self, quality: Quality, place: &Place) -> At {
+        let needed = self.needed.iter().find(|(own, _)| *own == quality);
+        let needed = needed.map(|(_, needed)| needed.as_slice());
+        self.at_parts(place, needed, self.accuracy(quality).is_some())
+    }
+
     /// The same at a place; nothing else is computed there.
     pub fn margin_at(&self, quality: Quality, place: &Place) -> f64 {
-        let needed = self.needed.iter().find(|(own, _)| *own == quality);
-        let is_accuracy = matches!(quality, Quality::Obligation(number)
-            if matches!(self.problem.obligations[number].test, Test::Accuracy(_)));
-        let values = self.at_parts(place, needed.map(|(_, needed)| needed.as_slice()), is_accuracy);
+        let values = self.at_machine(quality, place);
         self.defined(quality, &values).unwrap_or_else(|| self.margin(quality, &self.at(place)))
     }
 

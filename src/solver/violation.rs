@@ -123,6 +123,22 @@ pub fn displaced(at: &At, legs: &[Leg], test: &Accuracy) -> Option<DVector<f64>>
     all.max_by(|a, b| own(a).total_cmp(&own(b)))
 }
 
+/// The signs with which joint coordinates off by `beta` put a test's part farthest, to first order.
+pub fn farthest(at: &At, test: &Accuracy, beta: &[f64]) -> Option<Vec<f64>> {
+    let inverse = matrix(at, &test.rows)?.try_inverse()?;
+    let n = beta.len();
+    let signs = |signs: usize| -> Vec<f64> {
+        (0..n).map(|i| if signs >> i & 1 == 1 { -1.0 } else { 1.0 }).collect()
+    };
+    let off = |signs: &Vec<f64>| {
+        let u = &inverse * DVector::from_fn(n, |i, _| signs[i] * beta[i]);
+        part(&u, test).norm()
+    };
+    // All signs the other way are as far.
+    let all = (0..1usize << n.checked_sub(1)?).map(signs);
+    all.max_by(|a, b| off(a).total_cmp(&off(b)))
+}
+
 /// The part of `u` that a test is about.
 pub fn part<'u>(u: &'u DVector<f64>, test: &Accuracy) -> DVectorView<'u, f64> {
     u.rows(test.part.start, test.part.len())
