@@ -23,9 +23,10 @@ pub(super) const ACCURACY: Quantity = Quantity {
     tests,
 };
 
-/// One [`Accuracy`] for all joints, and each part of what the platform is off by. Nothing is claimed of joint limits, which an error may pass, nor of
-/// positions farther than the bound; `P'` need not be in the workspace. With more joints than
-/// coordinates, joint coordinates near those commanded belong to no position.
+/// One [`Accuracy`] for all joints, and each part of what the platform is off by. Nothing is claimed of
+/// joint limits, which an error may pass, nor of positions farther than the bound; `P'` need not be in the
+/// workspace. With more joints than coordinates, joint coordinates near those commanded belong to no
+/// position.
 fn tests(context: &mut Context<'_>, _: Option<&Leg>) -> Result<Vec<Test>, ClaimError> {
     context.not_redundant()?;
     let max = context.greatest()?.clone();

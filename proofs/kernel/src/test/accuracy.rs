@@ -129,8 +129,9 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Num
 }
 
 /// **Accuracy.** Let `Y`, `kappa > 0` and `p >= 0` be given, every formula be defined [`near`] the cell for
-/// every machine, `g` the [`spread`] of the far rows there, `z = 1 - g/(2 kappa)`, and `V` the matrix `W` with `2^p` times the columns that are not of the test's part. If `g < kappa`
-/// and at the vertices, with `T_v = V_v Y^T + Y V_v^T - Y Y^T` and
+/// every machine, `g` the [`spread`] of the far rows there, `z = 1 - g/(2 kappa)`, and `V` the matrix `W`
+/// with `2^p` times the columns that are not of the test's part. If `g < kappa` and at the vertices, with
+/// `T_v = V_v Y^T + Y V_v^T - Y Y^T` and
 /// `beta_vi = e_i/d + sum_j (r_j/d) |(d rho_i/d theta_j)_v|`,
 ///
 /// ```text
@@ -160,9 +161,9 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Num
 ///    `f(u) - f(0) - W u = int_0^1 (J(t u) - J(0)) u dt` is at most `g ||u||^2/2 <= g/2`, so this part of
 ///    `F(u)` is at most `z + g/(2 kappa) = 1`. And with
 ///    `|f(u) - f(u') - W (u - u')| <= g max(||u||, ||u'||) ||u - u'|| <= g ||u - u'||`, this part of
-///    `F(u) - F(u')` is at most `(g/kappa) ||u - u'||`, `g < kappa`. If each part is met, with numbers of its own, `F` maps that set into
-///    itself and contracts it: by Banach's theorem `F` has exactly one fixed point, and its fixed points are
-///    what is looked for. ∎
+///    `F(u) - F(u')` is at most `(g/kappa) ||u - u'||`, `g < kappa`. If each part is met, with
+///    numbers of its own, `F` maps that set into itself and contracts it: by Banach's theorem `F` has
+///    exactly one fixed point, and its fixed points are what is looked for. ∎
 ///
 /// `c` with `|c| <= tau = tan(a/2)` are the rotations by at most `a < 180` degrees, each once.
 ///
