@@ -46,6 +46,11 @@ impl Sampler<'_> {
         if place == worst.place {
             return false;
         }
+        self.taken(worst, place)
+    }
+
+    /// Takes a place if it is worse than the worst known.
+    fn taken(&self, worst: &mut Worst, place: Place) -> bool {
         let margin = self.margin_at(worst.quality, &place);
         let worse = margin < worst.margin;
         if worse {
@@ -68,10 +73,7 @@ impl Sampler<'_> {
     /// Puts each parameter in turn at the worse end of its tolerance.
     pub(super) fn to_ends(&self, worst: &mut Worst) -> bool {
         if let Some(place) = self.farthest_off(worst.quality, &worst.place) {
-            let margin = self.margin_at(worst.quality, &place);
-            if margin < worst.margin {
-                (worst.place, worst.margin) = (place, margin);
-            }
+            self.taken(worst, place);
         }
         let m = self.box_.len();
         let axes = m..m + self.frees();

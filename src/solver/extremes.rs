@@ -206,18 +206,7 @@ impl Extreme {
 
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
     fn claim(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
-        let bound = number(bound)?;
-        if self.bounded.angle {
-            let mut requirement = self.bounded.requirement.clone();
-            requirement.given.insert("max_angle".to_owned(), vec![bound]);
-            return Some(alone(claim, vec![requirement]));
-        }
-        let bound = match &self.bounded.requirement.bound {
-            Bound::Min(_) => Bound::Min(bound),
-            Bound::Max(_) => Bound::Max(bound),
-            Bound::Within(_) | Bound::Holds => return None,
-        };
-        let mut require = vec![Requirement { bound, ..self.bounded.requirement.clone() }];
+        let mut require = vec![self.bounded.bounded_by(number(bound)?)?];
         require.extend(defining(claim));
         Some(alone(claim, require))
     }

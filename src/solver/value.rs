@@ -109,8 +109,7 @@ impl Bounded {
     pub fn of(claim: &MachineClaim, problem: &Problem, obligation: usize) -> Option<Self> {
         let obligation = problem.obligations.get(obligation)?;
         let requirement = claim.require.get(obligation.requirement?)?.clone();
-        let angle = matches!(&obligation.test, Test::Accuracy(test) if test.is_of_angle());
-        Some(Bounded { requirement, leg: obligation.leg, angle })
+        Some(Bounded { requirement, leg: obligation.leg, angle: is_of_angle(obligation) })
     }
 
     /// Its name: `greatest psi`, `least rho_2`, `joint speed 1`.
@@ -162,21 +161,23 @@ impl Bounded {
         }
     }
 
-    /// The same with another bound, on this leg alone; a range has none.
-    fn with(&self, x: f64) -> Option<Requirement> {
-        let bound = number(&BigRational::from_f64(x)?)?;
-        if self.angle {
-            let mut requirement = self.requirement.clone();
-            requirement.given.insert("max_angle".to_owned(), vec![bound]);
-            return Some(requirement);
-        }
-        let bound = match &self.requirement.bound {
-            Bound::Min(_) => Bound::Min(bound),
-            Bound::Max(_) => Bound::Max(bound),
+    /// The requirement with another bound; a range has none.
+    pub fn bounded_by(&self, bound: Expression) -> Option<Requirement> {
+        let mut requirement = self.requirement.clone();
+        match &mut requirement.bound {
+            _ if self.angle => {
+                requirement.given.insert("max_angle".to_owned(), vec![bound]);
+            }
+            Bound::Min(own) | Bound::Max(own) => *own = bound,
             Bound::Within(_) | Bound::Holds => return None,
-        };
-        let leg = self.leg.map(|leg| leg + 1);
-        Some(Requirement { bound, leg, ..self.requirement.clone() })
+        }
+        Some(requirement)
+    }
+
+    /// The same, on this leg alone.
+    fn with(&self, x: f64) -> Option<Requirement> {
+        let requirement = self.bounded_by(number(&BigRational::from_f64(x)?)?)?;
+        Some(Requirement { leg: self.leg.map(|leg| leg + 1), ..requirement })
     }
 
     /// The value at a place: of the quantities of velocities by their definition, of all others as the
@@ -242,8 +243,9 @@ impl Bounded {
     ) -> Option<f64> {
         let own = problem.obligations.iter().enumerate().filter(|(_, own)| {
             let requirement = own.requirement.and_then(|r| sampler.claim().require.get(r));
-            let angle = matches!(&own.test, Test::Accuracy(test) if test.is_of_angle());
-            requirement == Some(&self.requirement) && own.leg == self.leg && angle == self.angle
+            requirement == Some(&self.requirement)
+                && own.leg == self.leg
+                && is_of_angle(own) == self.angle
         });
         let value = |(number, own): (usize, &Obligation)| {
             let margin = sampler.margin(Quality::Obligation(number), at);
@@ -357,6 +359,11 @@ pub(super) fn alone(claim: &MachineClaim, require: Vec<Requirement>) -> MachineC
         claim.bodies.clear();
     }
     claim
+}
+
+/// Whether it is about the angle of an accuracy.
+fn is_of_angle(own: &Obligation) -> bool {
+    matches!(&own.test, Test::Accuracy(test) if test.is_of_angle())
 }
 
 /// `|eta_i|/L_i`.

@@ -263,8 +263,7 @@ impl Motion {
         }
         let (own, mixed) = (tape.mul(turn.weight, square), tape.dot(&n, from_base));
         let mixed = tape.mul(two, mixed);
-        let along = tape.scaled(turn.weight, from_base);
-        let along = tape.plus(&along, &n);
+        let along = self.vector(tape, &[*a, *b], false);
         let a = self.row(tape, &along, |tape, turn| turn.moment(tape, &n, from_base));
         Row { a, d: tape.add(own, mixed) }
     }

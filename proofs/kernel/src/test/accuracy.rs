@@ -204,19 +204,21 @@ pub fn accuracy<E: Enclosure>(
         }
         let z = e.sub(&one, &e.halve(&e.mul(&g, &e.recip(&kappa)?)?)?)?;
         let (square, kappa) = (e.sqr(&z)?, e.sqr(&kappa)?);
-        let given = (evidence, p);
-        match over.controls {
-            None => {
-                let holds = |v| at_vertex(over, test, v, given, [&kappa, &square]);
-                over.vertices().all(|v| holds(v) == Some(true)).then_some(())
+        let slopes = match over.controls {
+            None => None,
+            Some(_) if n == test.scaled.len() => {
+                Some((sum(over, test, |by| Some(over.of(by)?.range.clone()))?, roots(over, test)?))
             }
-            Some(_) => {
-                let (beta, q) = (greatest(over, test)?, roots(over, test)?);
-                let holds = |v| at_control(over, test, v, given, [&kappa, &square], [&beta, &q]);
-                (n == test.scaled.len() && over.vertices().all(|v| holds(v) == Some(true)))
-                    .then_some(())
-            }
-        }
+            Some(_) => return None,
+        };
+        let holds = |v| {
+            let shown = match &slopes {
+                None => at_vertex(over, test, v, p)?,
+                Some((beta, q)) => at_control(over, test, v, p, [beta, q])?,
+            };
+            shown.holds(over, v, evidence, [&kappa, &square])
+        };
+        over.vertices().all(|v| holds(v) == Some(true)).then_some(())
     };
     shape && weighted && shown().is_some()
 }
@@ -268,10 +270,6 @@ fn sum<E: Enclosure>(
     test.joints.iter().map(joint).collect()
 }
 
-fn greatest<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Number>> {
-    sum(over, test, |by| over.of(by).map(|by| by.range.clone()))
-}
-
 /// `q_i`: `sqrt(D_i)` at the first control point and the last, in the middle of both.
 fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Number>> {
     let e = over.slopes.arithmetic;
@@ -292,62 +290,73 @@ fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Num
     test.scaled.iter().map(root).collect()
 }
 
+/// What is shown at a vertex or control point: the rows with their weight, what `kappa^2` is multiplied by in
+/// each row, and `b`.
+struct Shown<N> {
+    rows: Vec<Vec<N>>,
+    weight: N,
+    d: Vec<N>,
+    b: Vec<N>,
+}
+
 fn at_vertex<E: Enclosure>(
     over: &Over<'_, E>,
     test: &Accuracy,
     v: Vertex,
-    (evidence, p): (&Multiplier, u32),
-    [kappa_squared, square]: [&E::Number; 2],
-) -> Option<bool> {
+    p: u32,
+) -> Option<Shown<E::Number>> {
     let e = over.slopes.arithmetic;
     let at = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
     let rows: Vec<Vec<E::Number>> = test.rows.iter().map(at).collect::<Option<_>>()?;
-    let rows: Vec<&[E::Number]> = rows.iter().map(Vec::as_slice).collect();
-    let start = over.less_inside(e.integer(0)?, v)?;
-    let below = below_square(e, &rows, (&e.integer(1)?, &start), evidence)?;
-    let square = over.less_inside(square.clone(), v)?;
-    let mut least = below.clone();
-    for row in &mut least {
-        let own = row.first_mut()?;
-        *own = e.sub(own, kappa_squared)?;
-    }
-    let beta = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
-    Some(
-        is_positive_definite(e, least)
-            && are_positive_definite(e, &below, signed(e, &beta)?, &square),
-    )
+    let weight = e.integer(1)?;
+    let d = vec![weight.clone(); rows.len()];
+    let b = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
+    Some(Shown { rows, weight, d, b })
 }
 
 fn at_control<E: Enclosure>(
     over: &Over<'_, E>,
     test: &Accuracy,
     v: Vertex,
-    (evidence, p): (&Multiplier, u32),
-    [kappa_squared, square]: [&E::Number; 2],
+    p: u32,
     [beta, q]: [&[E::Number]; 2],
-) -> Option<bool> {
+) -> Option<Shown<E::Number>> {
     let e = over.slopes.arithmetic;
     let weight = over.at(test.weight?, v)?;
     let at = |row: &Row<Formula>| weighted(e, test, p, row.a.iter().map(|&f| over.at(f, v)));
-    let rows: Vec<Vec<E::Number>> = test.scaled.iter().map(at).collect::<Option<_>>()?;
-    let rows: Vec<&[E::Number]> = rows.iter().map(Vec::as_slice).collect();
+    let rows = test.scaled.iter().map(at).collect::<Option<_>>()?;
     let d: Vec<E::Number> =
         test.scaled.iter().map(|row| over.at(row.d, v)).collect::<Option<_>>()?;
-    let start = over.less_inside(e.integer(0)?, v)?;
-    let below = below_square(e, &rows, (&weight, &start), evidence)?;
-    let corner = over.less_inside(e.mul(&weight, square)?, v)?;
-    let mut least = below.clone();
-    for (row, d) in least.iter_mut().zip(&d) {
-        let own = row.first_mut()?;
-        *own = e.sub(own, &e.mul(kappa_squared, d)?)?;
-    }
     let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
         let both =
             e.add(&e.halve(&e.ratio(d, &e.integer(1)?, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
         e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
     };
-    let b: Vec<E::Number> = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
-    Some(
-        is_positive_definite(e, least) && are_positive_definite(e, &below, signed(e, &b)?, &corner),
-    )
+    let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
+    Some(Shown { rows, weight, d, b })
+}
+
+impl<N: Clone> Shown<N> {
+    fn holds<E: Enclosure<Number = N>>(
+        &self,
+        over: &Over<'_, E>,
+        v: Vertex,
+        evidence: &Multiplier,
+        [kappa_squared, square]: [&N; 2],
+    ) -> Option<bool> {
+        let e = over.slopes.arithmetic;
+        let rows: Vec<&[N]> = self.rows.iter().map(Vec::as_slice).collect();
+        let start = over.less_inside(e.integer(0)?, v)?;
+        let below = below_square(e, &rows, (&self.weight, &start), evidence)?;
+        let corner = over.less_inside(e.mul(&self.weight, square)?, v)?;
+        let mut least = below.clone();
+        for (row, d) in least.iter_mut().zip(&self.d) {
+            let own = row.first_mut()?;
+            *own = e.sub(own, &e.mul(kappa_squared, d)?)?;
+        }
+        Some(
+            is_positive_definite(e, least)
+                && are_positive_definite(e, &below, signed(e, &self.b)?, &corner),
+        )
+    }
 }

@@ -125,7 +125,7 @@ struct Motion {
     text: &'static str,
 }
 
-const MOTIONS: [Motion; 6] = [
+static MOTIONS: [Motion; 6] = [
     Motion { mechanism: "planar", orientation: "none", velocity: &[0, 1], spin: &[], text: "" },
     Motion {
         mechanism: "planar",
@@ -220,7 +220,7 @@ impl Moved {
 }
 
 /// A leg of a motion, its text and its numbers.
-fn leg(random: &mut Random, motion: &Motion, which: usize) -> (String, [V; 2], Drive) {
+fn leg(random: &mut Random, motion: &Motion, which: usize) -> Drawn {
     let plane = motion.mechanism == "planar";
     let mut vector = |size: f64| -> V {
         let v = [0; 3].map(|_: i64| number(random, -size, size));
@@ -267,17 +267,32 @@ fn leg(random: &mut Random, motion: &Motion, which: usize) -> (String, [V; 2], D
     (format!("{{{drive_text},{ends}{comma}{rest}}}"), [a, b], drive)
 }
 
+/// A leg, its text, its ends and its drive.
+type Drawn = (String, [V; 2], Drive);
+
+/// A motion with as many legs of one drive as it has coordinates; which drive that is.
+fn machine(random: &mut Random, round: usize) -> (&'static Motion, usize, Vec<Drawn>) {
+    let motion = &MOTIONS[round % MOTIONS.len()];
+    let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
+    let m = motion.velocity.len() + motion.spin.len();
+    (motion, which, (0..m).map(|_| leg(random, motion, which)).collect())
+}
+
+/// The texts of legs, and what follows them.
+fn written(motion: &Motion, legs: &[Drawn]) -> (String, &'static str) {
+    let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
+    let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+    (text.join(","), ell)
+}
+
 #[test]
 fn rows_are_derivatives_in_the_twist() {
     let mut random = Random(11);
     let (mut reached, mut curved) = (0, 0);
     for round in 0..360 {
-        let motion = &MOTIONS[round % MOTIONS.len()];
-        let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
-        let m = motion.velocity.len() + motion.spin.len();
-        let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
-        let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
-        let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+        let (motion, which, legs) = machine(&mut random, round);
+        let m = legs.len();
+        let (text, ell) = written(motion, &legs);
         let stroke = match which {
             0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"},"#,
             _ => "",
@@ -289,7 +304,7 @@ fn rows_are_derivatives_in_the_twist() {
         let claim = claim(&format!(
             r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{require}]}}"#,
             motion.mechanism,
-            text.join(","),
+            text,
             corner("-1"),
             corner("1"),
             motion.text
@@ -406,12 +421,8 @@ fn joints_and_bodies_are_where_the_pose_puts_them() {
     let mut random = Random(17);
     let (mut angles, mut segments) = ([0; 3], 0);
     for round in 0..360 {
-        let motion = &MOTIONS[round % MOTIONS.len()];
-        let which = if motion.mechanism == "spherical" { 0 } else { round / MOTIONS.len() % 3 };
-        let m = motion.velocity.len() + motion.spin.len();
-        let legs: Vec<_> = (0..m).map(|_| leg(&mut random, motion, which)).collect();
-        let text: Vec<&str> = legs.iter().map(|leg| leg.0.as_str()).collect();
-        let ell = if motion.spin.is_empty() { "" } else { r#","characteristic_length":"3/2""# };
+        let (motion, _, legs) = machine(&mut random, round);
+        let (text, ell) = written(motion, &legs);
         let plane = motion.mechanism == "planar";
         let mut vector = || {
             let v: V = [0; 3].map(|_: i64| number(&mut random, -1.0, 1.0));
@@ -434,7 +445,7 @@ fn joints_and_bodies_are_where_the_pose_puts_them() {
         let claim = claim(&format!(
             r#"{{"mechanism":{{"{}":{{"legs":[{}]{ell}}}}},"bodies":[{{"on":"leg","leg":1,"radius":"1/8","trim":["1/8","1/4"]}},{{"on":"platform","from":[{}],"to":[{}],"radius":"1/8"}}],"workspace":{{"box":{{"min":[{}],"max":[{}]}}}}{},"require":[{},{},{{"quantity":"clearance","end":"min","bound":"1/4"}}]}}"#,
             motion.mechanism,
-            text.join(","),
+            text,
             texts(&from),
             texts(&to),
             corner("-1"),
