@@ -1,9 +1,10 @@
-//! What refutations cost: designs with one bound 0.1 % inside an extreme.
+//! What verdicts cost: designs with one bound 0.1 % inside an extreme, or beyond it.
 //!
-//! `cargo bench --bench refute -- [DESIGNS] [BOXES] [PARTS]` draws machines, workspaces, tolerances and
+//! `cargo bench --bench decide -- [DESIGNS] [BOXES] [PARTS]` draws machines, workspaces, tolerances and
 //! quantities, finds an extreme by random ascents, which share nothing with the prover's, puts the bound
-//! 0.1 % (one of 1000 parts; of accuracies ten) inside, and refutes. Told of each kind of optimum: designs, how many needed boxes, and the
-//! processor time of the thread, median and greatest. With `ORTHOCERT_SHOW=1` the slow ones follow.
+//! 0.1 % (one of 1000 parts; of accuracies ten) inside, and refutes; or, of fewer than no parts, beyond, and
+//! certifies. Told of each kind of optimum: designs, how many were not decided so, how many needed boxes,
+//! the processor time of the thread, median and greatest, and leaves. With `ORTHOCERT_SHOW=1` the slow ones follow.
 
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -92,7 +93,7 @@ fn drawn(random: &mut Random, toleranced: bool) -> (&'static str, String) {
         }
     };
     let mut text = String::from("[mechanism]\n");
-    let family = match random.below(6) {
+    let family = match random.below(8) {
         0 | 1 => {
             let radius = random.from(100.0, 200.0);
             let length = radius * random.from(1.6, 2.4);
@@ -147,6 +148,37 @@ fn drawn(random: &mut Random, toleranced: bool) -> (&'static str, String) {
             text += &around(random, 60.0, [z, top]);
             "rotary Delta"
         }
+        5 => {
+            text += "kind = \"planar\"\ncharacteristic_length = 100\n";
+            for i in 0..3 {
+                let turn = 90.0 + 120.0 * f64::from(i);
+                let [x, y] = on_circle(random.from(350.0, 450.0), turn + random.from(-10.0, 10.0));
+                let [s, t] = on_circle(random.from(80.0, 120.0), turn - random.from(50.0, 70.0));
+                let (x, y) = (random.built(x, tolerance(0.2)), random.built(y, tolerance(0.2)));
+                text += &format!("[[mechanism.legs]]\ndrive = \"strut\"\nanchor = [{x}, {y}]\nplatform = [{s:.3}, {t:.3}]\n");
+            }
+            let [a, b, c, d] = [(); 4].map(|()| random.told(20.0, 60.0));
+            let [e, f] = [(); 2].map(|()| random.told(5.0, 20.0));
+            text += &format!("[workspace]\nmin = [-{a}, -{b}]\nmax = [{c}, {d}]\norientation = {{ angle = [-{e}, {f}] }}\n");
+            "planar"
+        }
+        6 => {
+            text += "kind = \"spherical\"\ncharacteristic_length = 100\n";
+            for i in 0..3 {
+                let turn = 120.0 * f64::from(i);
+                let [x, y] = on_circle(random.from(130.0, 170.0), turn + random.from(-8.0, 8.0));
+                let [s, t] = on_circle(random.from(90.0, 110.0), turn + random.from(80.0, 100.0));
+                let (x, y) = (random.built(x, tolerance(0.1)), random.built(y, tolerance(0.1)));
+                let z = random.told(130.0, 170.0);
+                text += &format!("[[mechanism.legs]]\ndrive = \"strut\"\nanchor = [{x}, {y}, -{z}]\nplatform = [{s:.3}, {t:.3}, 0]\n");
+            }
+            text += match random.below(3) {
+                0 => "[workspace]\norientation = { angle = 15 }\n",
+                1 => "[workspace]\norientation = { tilt = 20, torsion = 15 }\n",
+                _ => "[workspace]\norientation = { roll = [-15, 14], pitch = [-13, 15], yaw = [-14, 12] }\n",
+            };
+            "spherical"
+        }
         _ => {
             text += "kind = \"spatial\"\ncharacteristic_length = 100\n";
             for i in 0..6u8 {
@@ -194,7 +226,7 @@ fn asked(random: &mut Random, family: &str, toleranced: bool) -> &'static str {
     ];
     let accuracy = ["accuracy = { joint_error = 0.05, max = 1 }"];
     let mut all = psi.to_vec();
-    if family == "hexapod" {
+    if matches!(family, "hexapod" | "planar" | "spherical") {
         all.extend(turned);
     } else {
         all.extend(translational);
@@ -271,8 +303,9 @@ fn bounded(claim: &MachineClaim, bound: f64) -> Option<MachineClaim> {
     Some(claim)
 }
 
-/// A claim that is refutable by `INSIDE`, and on how many ends of the workspace.
-fn refutable(
+/// A claim that is refutable by `inside`, or holds by that with the other sign, and on how many ends of the
+/// workspace its extreme is.
+fn bounded_by(
     random: &mut Random,
     claim: &MachineClaim,
     inside: f64,
@@ -338,10 +371,12 @@ fn processor_time() -> f64 {
 }
 
 fn main() {
-    let numbers: Vec<usize> = std::env::args().filter_map(|x| x.parse().ok()).collect();
-    let designs = numbers.first().copied().unwrap_or(500);
-    let max_boxes = numbers.get(1).copied().unwrap_or(2000);
-    let inside = numbers.get(2).map_or(INSIDE, |&n| 1.0 / n as f64);
+    let numbers: Vec<i32> = std::env::args().filter_map(|x| x.parse().ok()).collect();
+    let whole = |at: usize, otherwise: usize| {
+        numbers.get(at).map_or(otherwise, |&n| usize::try_from(n).expect("a number of things"))
+    };
+    let (designs, max_boxes) = (whole(0, 500), whole(1, 2000));
+    let inside = numbers.get(2).map_or(INSIDE, |&n| 1.0 / f64::from(n));
     let show = std::env::var_os("ORTHOCERT_SHOW").is_some();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
     pool.install(|| run(designs, max_boxes, inside, show));
@@ -349,7 +384,8 @@ fn main() {
 
 fn run(designs: usize, max_boxes: usize, inside: f64, show: bool) {
     let mut random = Random(1);
-    let mut all: BTreeMap<String, Vec<(f64, usize, bool)>> = BTreeMap::new();
+    let mut all: BTreeMap<String, Vec<(f64, usize, Option<usize>)>> = BTreeMap::new();
+    let expected = if inside > 0.0 { Verdict::Refuted } else { Verdict::Certified };
     let mut count = 0;
     while count < designs {
         let toleranced = random.below(2) == 0;
@@ -375,7 +411,7 @@ fn run(designs: usize, max_boxes: usize, inside: f64, show: bool) {
                 ),
             };
         }
-        let Some((claim, place, kind)) = refutable(&mut random, &claim, inside) else { continue };
+        let Some((claim, place, kind)) = bounded_by(&mut random, &claim, inside) else { continue };
         count += 1;
         let cancel = AtomicBool::new(false);
         let budget = Budget { max_boxes, deadline: None };
@@ -383,15 +419,16 @@ fn run(designs: usize, max_boxes: usize, inside: f64, show: bool) {
         let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
         let found = verify(&claim, budget, &mut control).expect("a claim");
         let time = processor_time() - before;
-        let refuted = match &found.answer {
+        // Of an ascent that stopped short of the extreme, what is beyond it may be inside.
+        let leaves = match &found.answer {
             Answer::Decided { accepted, .. } => {
-                assert_eq!(accepted.verdict, Verdict::Refuted, "{text}");
-                true
+                assert!(accepted.verdict == expected || inside < 0.0, "{text}");
+                Some(accepted.size.leaves).filter(|_| accepted.verdict == expected)
             }
-            _ => false,
+            _ => None,
         };
-        if show && (!refuted || found.boxes > 0 || time > SLOW) {
-            println!("{count}: {family}, {kind}: {asked}: {time:.3} s, {} boxes, refuted: {refuted}, {:?} {:?} bound {:?}", found.boxes, place.u, place.t, claim.require[0].bound);
+        if show && (leaves.is_none() || time > SLOW && inside > 0.0) {
+            println!("{count}: {family}, {kind}: {asked}: {time:.3} s, {} boxes, leaves: {leaves:?}, {:?} {:?} bound {:?}", found.boxes, place.u, place.t, claim.require[0].bound);
             println!(
                 "    found {:?}",
                 found
@@ -409,23 +446,35 @@ fn run(designs: usize, max_boxes: usize, inside: f64, show: bool) {
             tolerance.to_owned(),
             " all".to_owned(),
         ] {
-            all.entry(key).or_default().push((time, found.boxes, refuted));
+            all.entry(key).or_default().push((time, found.boxes, leaves));
         }
     }
     println!(
-        "{:20} {:>7} {:>11} {:>11} {:>10} {:>12}",
-        "", "designs", "not refuted", "with boxes", "median, ms", "greatest, ms"
+        "{:20} {:>7} {:>11} {:>10} {:>10} {:>12} {:>7} {:>8}",
+        "",
+        "designs",
+        "not decided",
+        "with boxes",
+        "median, ms",
+        "greatest, ms",
+        "leaves",
+        "greatest"
     );
     for (key, mut found) in all {
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let not = found.iter().filter(|one| !one.2).count();
+        let not = found.iter().filter(|one| one.2.is_none()).count();
         let boxes = found.iter().filter(|one| one.1 > 0).count();
+        let mut leaves: Vec<usize> = found.iter().filter_map(|one| one.2).collect();
+        leaves.sort_unstable();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (median, most) = (found[found.len() / 2].0, found[found.len() - 1].0);
+        let (middle, last) = (leaves.get(leaves.len() / 2), leaves.last());
         println!(
-            "{key:20} {:7} {not:11} {boxes:11} {:10.1} {:12.1}",
+            "{key:20} {:7} {not:11} {boxes:10} {:10.1} {:12.1} {:7} {:8}",
             found.len(),
             1e3 * median,
-            1e3 * most
+            1e3 * most,
+            middle.copied().unwrap_or(0),
+            last.copied().unwrap_or(0)
         );
     }
 }
