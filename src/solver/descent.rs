@@ -6,8 +6,11 @@ use super::sample::{Place, Quality, Sampler, Worst};
 const COARSE: i32 = 7;
 /// Axes up to which descents go along diagonals at every step.
 const MOST_AXES: usize = 3;
-/// Starts of coarse descents.
+/// Starts of coarse descents, and of more than [`MOST_AXES`] coordinates where the worst found holds by
+/// at most this: searches there cost far more.
 const STARTS: usize = 3;
+const MORE_STARTS: usize = 16;
+const CLOSE: f64 = 0.02;
 /// What starts differ by, at least, in some coordinate.
 const APART: f64 = 0.3;
 
@@ -138,15 +141,25 @@ impl Sampler<'_> {
             let mut starts: Vec<(f64, &Place)> =
                 grid.iter().map(|(values, p)| (margin(values, p), p)).collect();
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let most = if self.box_.len() > MOST_AXES { MORE_STARTS } else { STARTS };
             let mut apart: Vec<&Place> = Vec::new();
             for (_, start) in starts {
-                if apart.len() < STARTS && apart.iter().all(|other| distance(other, start) > APART)
-                {
+                if apart.len() < most && apart.iter().all(|other| distance(other, start) > APART) {
                     apart.push(start);
                 }
             }
-            let coarse = apart.into_iter().map(|start| self.descend(quality, start, COARSE));
-            let mut worst = coarse.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
+            let mut worst: Option<Worst> = None;
+            for (number, start) in apart.into_iter().enumerate() {
+                let is_close = |worst: &Worst| (0.0..CLOSE).contains(&worst.margin);
+                if number >= STARTS && !worst.as_ref().is_some_and(is_close) {
+                    break;
+                }
+                let found = self.descend(quality, start, COARSE);
+                if worst.as_ref().is_none_or(|worst| found.margin < worst.margin) {
+                    worst = Some(found);
+                }
+            }
+            let mut worst = worst?;
             self.compass(&mut worst, 0..self.box_.len(), COARSE + 1..=finest);
             Some(worst)
         };
