@@ -84,7 +84,7 @@ pub(super) fn refuted(
 
 /// The points at which the claim's obligations are nearest to failing, if none is seen to fail.
 fn promising(over: &MachineClaim, problem: &Problem) -> Option<Vec<Vec<f64>>> {
-    let sampler = Sampler::new(over, problem).ok()?.quick();
+    let sampler = Sampler::new(over, problem).ok()?;
     let holds = |w: &Worst| (w.margin > HOPELESS).then(|| sampler.point(&w.place.u));
     let worst = sampler.worst_on_grid();
     worst.iter().map(holds).collect::<Option<Vec<_>>>()?;
@@ -127,7 +127,7 @@ fn common_witness(
 ) -> Option<Witness> {
     let nominal = design.at(&middle(design, part)?);
     let problem = Problem::new(&nominal).ok()?;
-    let sampler = Sampler::new(&nominal, &problem).ok()?.quick();
+    let sampler = Sampler::new(&nominal, &problem).ok()?;
     let named = Named { claim: &claim.machine, over, cell };
     let fails = |witness: &Witness| {
         let there = claim.witness_over(part, witness);

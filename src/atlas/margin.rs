@@ -94,7 +94,7 @@ pub(super) fn margin_to(claim: &MachineClaim, finest: i32) -> f64 {
 
 fn sampled(claim: &MachineClaim, finest: i32) -> Option<f64> {
     let problem = Problem::new(claim).ok()?;
-    let sampler = Sampler::new(claim, &problem).ok()?.quick();
+    let sampler = Sampler::new(claim, &problem).ok()?;
     let rooms = sampler.worst_on_grid().into_iter().map(|worst| {
         let Quality::Obligation(number) = worst.quality else {
             return if worst.margin > 0.0 { f64::INFINITY } else { -1.0 };

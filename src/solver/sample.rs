@@ -102,8 +102,6 @@ pub struct Sampler<'a> {
     /// The entries of the tape that each quality needs.
     needed: Vec<(Quality, Vec<bool>)>,
     sign: f64,
-    /// Whether singular values are computed by [`violation::extremes`].
-    quick: bool,
 }
 
 /// Moves parts in `[0, 1]` toward their middle to a distance of at most `radius`, of which 1 is that of
@@ -156,17 +154,11 @@ impl<'a> Sampler<'a> {
             radicands: problem.tape.ops().iter().filter_map(radicand).collect(),
             needed: Vec::new(),
             sign: 1.0,
-            quick: false,
         };
         sampler.needed = needed(problem, &sampler.radicands, &sampler.qualities());
         let centre = sampler.at(&sampler.centre());
         sampler.sign = sampler.determinant(&centre).unwrap_or(1.0).signum();
         Ok(sampler)
-    }
-
-    /// The same for many short looks around: singular values are computed otherwise.
-    pub fn quick(self) -> Self {
-        Sampler { quick: true, ..self }
     }
 
     /// The claim.
@@ -359,12 +351,7 @@ impl<'a> Sampler<'a> {
 
     /// The least and the greatest singular value of `M`.
     pub fn xi(&self, values: &At) -> Option<[f64; 2]> {
-        let m = self.matrix(values)?;
-        if self.quick {
-            return Some(violation::extremes(m));
-        }
-        let xi = m.singular_values();
-        Some([xi.min(), xi.max()])
+        Some(violation::extremes(self.matrix(values)?))
     }
 
     /// What is asked for: reach and freedom from singularities, and every obligation.

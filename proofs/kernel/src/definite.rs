@@ -41,15 +41,36 @@ pub fn is_positive_definite<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Nu
 /// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
 /// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
 /// is undefined, the answer is no.
-fn eliminates<E: Enclosure>(arithmetic: &E, matrix: Triangle<E::Number>) -> bool {
-    let mut rest = matrix;
-    while !rest.is_empty() {
-        match eliminated(arithmetic, rest) {
-            Some(next) => rest = next,
-            None => return false,
+fn eliminates<E: Enclosure>(arithmetic: &E, mut matrix: Triangle<E::Number>) -> bool {
+    let mut rest = &mut matrix[..];
+    while let Some((first, below)) = rest.split_first_mut() {
+        if eliminate(arithmetic, first, below).is_none() {
+            return false;
         }
+        rest = below;
     }
     true
+}
+
+/// Makes `C` of `[[a, b^T], [b, C]]` its Schur complement, given `(a, b)`; `None` unless `a` is certainly
+/// positive.
+pub(crate) fn eliminate<E: Enclosure>(
+    e: &E,
+    row: &[E::Number],
+    below: &mut [Vec<E::Number>],
+) -> Option<()> {
+    let (a, mut b) = row.split_first()?;
+    if !e.is_positive(a) {
+        return None;
+    }
+    for entries in below {
+        let from = b.first()?;
+        for (c, b) in entries.iter_mut().zip(b) {
+            *c = e.sub(c, &e.ratio(from, b, a)?)?;
+        }
+        b = b.get(1..)?;
+    }
+    Some(())
 }
 
 /// Whether every `[[T, b], [b^T, c]]` is certainly positive definite, for each `b`: by one elimination of
@@ -60,13 +81,18 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
     mut columns: impl Iterator<Item = Vec<E::Number>>,
     corner: &E::Number,
 ) -> bool {
-    let (mut steps, mut rest) = (Vec::new(), Some(t.clone()));
-    while let Some(now) = rest.take_if(|rest| !rest.is_empty()) {
-        steps.extend(now.first().cloned());
-        rest = eliminated(e, now);
-    }
+    let mut steps = t.clone();
+    let mut rest = &mut steps[..];
+    let mut eliminates = || {
+        while let Some((first, below)) = std::mem::take(&mut rest).split_first_mut() {
+            eliminate(e, first, below)?;
+            rest = below;
+        }
+        Some(())
+    };
+    let is_eliminated = eliminates();
     let last = |mut b: Vec<E::Number>| {
-        rest.as_ref()?;
+        is_eliminated?;
         let mut corner = corner.clone();
         for (at, step) in steps.iter().enumerate() {
             let (a, row) = step.split_first()?;
@@ -85,24 +111,4 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
         t
     };
     columns.all(|b| last(b.clone()) == Some(true) || is_positive_definite(e, bordered(b)))
-}
-
-/// The Schur complement of the first entry; `None` unless that is certainly positive.
-pub(crate) fn eliminated<E: Enclosure>(
-    arithmetic: &E,
-    matrix: Triangle<E::Number>,
-) -> Option<Triangle<E::Number>> {
-    let mut rows = matrix.into_iter();
-    let first = rows.next()?;
-    let (a, b) = first.split_first()?;
-    if !arithmetic.is_positive(a) {
-        return None;
-    }
-    let row = |(j, row): (usize, Vec<E::Number>)| {
-        let from = b.get(j)?;
-        let entry =
-            |(c, b): (&E::Number, &E::Number)| arithmetic.sub(c, &arithmetic.ratio(from, b, a)?);
-        row.iter().zip(&b[j..]).map(entry).collect()
-    };
-    rows.enumerate().map(row).collect()
 }

@@ -168,18 +168,18 @@ impl Integer for i64 {
         if *divisor <= 0 {
             return None;
         }
-        // Euclid's quotient by a positive divisor is the floor.
-        let product = i128::from(*self) * i128::from(*other);
-        product.div_euclid(i128::from(*divisor)).try_into().ok()
+        let (product, divisor) = (i128::from(*self) * i128::from(*other), i128::from(*divisor));
+        // Rounded toward zero, which is the floor unless the product is negative and something is left.
+        let quotient = product / divisor;
+        (quotient - i128::from(quotient * divisor > product)).try_into().ok()
     }
 
     #[inline]
     fn inverse(&self, bits: u32) -> Option<Self> {
         let one = 1i128.checked_shl(2 * bits).filter(|&one| one > 0)?;
-        let quotient = one.checked_div_euclid(i128::from(*self))?;
-        // For a negative divisor Euclid's quotient is the ceiling.
-        let floor = quotient - i128::from(*self < 0 && one % i128::from(*self) != 0);
-        floor.try_into().ok()
+        let quotient = one.checked_div(i128::from(*self))?;
+        // Rounded toward zero, as above.
+        (quotient - i128::from(*self < 0 && quotient * i128::from(*self) != one)).try_into().ok()
     }
 
     #[inline]

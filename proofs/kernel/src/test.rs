@@ -30,7 +30,7 @@ use self::tolerances::{less_changes, Tolerances};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::control::Controls;
-use crate::definite::{eliminated, is_positive_definite, Triangle};
+use crate::definite::{eliminate, is_positive_definite, Triangle};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
@@ -141,9 +141,9 @@ impl<'a, E: Enclosure> Over<'a, E> {
         let value = |f: &Formula| self.at(*f, vertex);
         let row = |row: &Row<Formula>| {
             let a = row.a.iter().map(value).collect::<Option<_>>()?;
-            let formulas: Vec<Formula> = row.a.iter().copied().chain([row.d]).collect();
             let split = |mut s: Vec<E::Number>| s.pop().map(|d| Row { a: s, d });
-            let changes = self.changes(&formulas, vertex)?.into_iter().map(split);
+            let changes =
+                self.changes(row.a.iter().chain([&row.d]), vertex)?.into_iter().map(split);
             Some((Row { a, d: value(&row.d)? }, changes.collect::<Option<_>>()?))
         };
         rows.iter().map(row).collect()
@@ -338,18 +338,23 @@ pub fn sigma_max<E: Enclosure>(
     let e = over.slopes.arithmetic;
     over.at_vertices(rows, |v, rows| {
         let bound = k_squared(v).and_then(|k| over.less_inside(k, v));
-        let start = bound.and_then(|bound| scalar(e, width(&rows), &bound));
         // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        let rest = rows.iter().fold(start, |rest, (row, changes)| {
-            let [least, _] = e.ends(&row.d);
-            let mut bordered = vec![std::iter::once(least).chain(row.a.iter().cloned()).collect()];
-            bordered.extend(rest?);
-            if !changes.is_empty() {
-                bordered = less_changed_row(over, bordered, row, changes)?;
+        let complement = || {
+            let mut rest = scalar(e, width(&rows), &bound?)?;
+            for (row, changes) in &rows {
+                let [least, _] = e.ends(&row.d);
+                let mut first: Vec<_> =
+                    std::iter::once(least).chain(row.a.iter().cloned()).collect();
+                if !changes.is_empty() {
+                    rest.insert(0, first);
+                    rest = less_changed_row(over, rest, row, changes)?;
+                    first = rest.remove(0);
+                }
+                eliminate(e, &first, &mut rest)?;
             }
-            eliminated(e, bordered)
-        });
-        rest.is_some_and(|rest| is_positive_definite(e, rest))
+            Some(rest)
+        };
+        complement().is_some_and(|rest| is_positive_definite(e, rest))
     })
 }
 

@@ -45,16 +45,21 @@ pub struct Tolerances<'a, E: Enclosure> {
 impl<E: Enclosure> Over<'_, E> {
     /// At a vertex, for each step of a quantity on which one of the formulas depends the `s_vk` of all of
     /// them, in the order of parameters.
-    pub(super) fn changes(&self, formulas: &[Formula], v: Vertex) -> Option<Vec<Vec<E::Number>>> {
+    pub(super) fn changes<'f>(
+        &self,
+        formulas: impl Iterator<Item = &'f Formula> + Clone,
+        v: Vertex,
+    ) -> Option<Vec<Vec<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
         let mut all: BTreeMap<usize, Vec<E::Number>> = BTreeMap::new();
-        for (k, formula) in formulas.iter().enumerate() {
+        let length = formulas.clone().count();
+        for (k, formula) in formulas.enumerate() {
             // It is defined for all machines.
             self.of(*formula)?;
             for (j, derivative) in tolerances.derivatives.get(formula)? {
                 let zero = e.integer(0)?;
-                let own = all.entry(*j).or_insert_with(|| vec![zero; formulas.len()]);
+                let own = all.entry(*j).or_insert_with(|| vec![zero; length]);
                 *own.get_mut(k)? = v.value(&self.slopes, self.of(*derivative)?)?;
             }
         }
@@ -70,22 +75,27 @@ impl<E: Enclosure> Over<'_, E> {
     /// At a vertex, the most by which tolerances lessen a sum of formulas, some subtracted.
     pub(super) fn greatest_loss(&self, parts: &[(Formula, bool)], v: Vertex) -> Option<E::Number> {
         let e = self.slopes.arithmetic;
-        let formulas: Vec<Formula> = parts.iter().map(|&(f, _)| f).collect();
         let zero = e.integer(0)?;
-        self.changes(&formulas, v)?.iter().try_fold(zero.clone(), |sum, change| {
-            let mut terms = change.iter().zip(parts);
-            let less =
-                terms.try_fold(zero.clone(), |less, (s, &(_, subtracted))| match subtracted {
-                    true => e.add(&less, s),
-                    false => e.sub(&less, s),
-                })?;
-            let [_, less] = e.ends(&less);
-            if e.is_positive(&less) {
-                e.add(&sum, &less)
-            } else {
-                Some(sum)
-            }
-        })
+        self.changes(parts.iter().map(|(f, _)| f), v)?.iter().try_fold(
+            zero.clone(),
+            |sum, change| {
+                let mut terms = change.iter().zip(parts);
+                let less =
+                    terms.try_fold(
+                        zero.clone(),
+                        |less, (s, &(_, subtracted))| match subtracted {
+                            true => e.add(&less, s),
+                            false => e.sub(&less, s),
+                        },
+                    )?;
+                let [_, less] = e.ends(&less);
+                if e.is_positive(&less) {
+                    e.add(&sum, &less)
+                } else {
+                    Some(sum)
+                }
+            },
+        )
     }
 
     /// One of the directions.
