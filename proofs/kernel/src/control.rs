@@ -31,7 +31,7 @@
 //! So these are to a formula what [`crate::cell::Vertex`] values are, and the tests are the same; but
 //! nothing is lost to slopes.
 
-use crate::arithmetic::Enclosure;
+use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::formula::{Formula, Op, Tape};
 use crate::slope::MOST_COORDINATES;
 use std::collections::HashMap;
@@ -101,50 +101,153 @@ impl Control {
     ) -> Option<Controls<E::Number>> {
         let nodes = |(range, &degree): (&[E::Number; 3], &u8)| nodes(e, &range[1], degree);
         let nodes = edges.iter().zip(&self.degrees).map(nodes).collect::<Option<Vec<_>>>()?;
-        let points: usize = nodes.iter().map(Vec::len).product();
-        let mut values: HashMap<Formula, Vec<Option<E::Number>>> = HashMap::new();
-        for point in 0..points {
-            let (mut rest, mut own) = (point, Vec::with_capacity(nodes.len()));
-            for nodes in &nodes {
-                own.push(nodes.get(rest % nodes.len())?);
-                rest /= nodes.len();
-            }
-            let at = self.tape.run(e, |op| match op {
-                Op::Coordinate(k) if k < self.m => own.get(k).map(|[lin, _]| lin.clone()),
-                Op::Coordinate(k) => own.get(k - self.m).map(|[_, square]| square.clone()),
-                Op::Parameter(j) => parameters.get(j).cloned(),
-                _ => None,
-            });
-            for (&f, (image, _)) in &self.images {
-                values.entry(f).or_default().push(at.of(*image).cloned());
+        let counts = std::array::from_fn(|k| nodes.get(k).map_or(1, Vec::len));
+        let own = |k: usize, part: usize| {
+            let values = nodes.get(k)?.iter().map(|node| node[part].clone()).collect();
+            Some(Tensor { depends: std::array::from_fn(|other| other == k), values })
+        };
+        let at = self.tape.run(&Tensors { e, nodes: counts }, |op| match op {
+            Op::Coordinate(k) if k < self.m => own(k, 0),
+            Op::Coordinate(k) => own(k - self.m, 1),
+            Op::Parameter(j) => parameters.get(j).cloned().map(Tensor::constant),
+            _ => None,
+        });
+        let values =
+            self.images.iter().filter_map(|(&f, (image, _))| Some((f, at.of(*image)?.clone())));
+        Some(Controls { nodes: counts, values: values.collect() })
+    }
+}
+
+/// The values of a formula at the nodes of the coordinates that it depends on, those of the first one next to
+/// each other.
+#[derive(Clone, Debug)]
+struct Tensor<N> {
+    depends: [bool; MOST_COORDINATES],
+    values: Vec<N>,
+}
+
+impl<N> Tensor<N> {
+    fn constant(value: N) -> Self {
+        Tensor { depends: [false; MOST_COORDINATES], values: vec![value] }
+    }
+}
+
+/// The arithmetic of values at all nodes; of so many a coordinate.
+struct Tensors<'a, E> {
+    e: &'a E,
+    nodes: [usize; MOST_COORDINATES],
+}
+
+impl<E: Enclosure> Tensors<'_, E> {
+    /// From one node of each coordinate to the next; 0 where nothing depends on it.
+    fn strides(&self, depends: &[bool; MOST_COORDINATES]) -> [usize; MOST_COORDINATES] {
+        let mut size = 1;
+        std::array::from_fn(|k| {
+            let stride = if depends[k] { size } else { 0 };
+            size *= if depends[k] { self.nodes[k] } else { 1 };
+            stride
+        })
+    }
+
+    fn each(
+        &self,
+        a: &Tensor<E::Number>,
+        of: impl Fn(&E::Number) -> Option<E::Number>,
+    ) -> Option<Tensor<E::Number>> {
+        let values = a.values.iter().map(of).collect::<Option<_>>()?;
+        Some(Tensor { depends: a.depends, values })
+    }
+
+    fn both(
+        &self,
+        a: &Tensor<E::Number>,
+        b: &Tensor<E::Number>,
+        of: impl Fn(&E::Number, &E::Number) -> Option<E::Number>,
+    ) -> Option<Tensor<E::Number>> {
+        let depends = std::array::from_fn(|k| a.depends[k] || b.depends[k]);
+        let (p, q) = (self.strides(&a.depends), self.strides(&b.depends));
+        let along: Vec<usize> = (0..MOST_COORDINATES).filter(|&k| depends[k]).collect();
+        let size = along.iter().map(|&k| self.nodes[k]).product();
+        let mut values = Vec::with_capacity(size);
+        let (mut i, mut j, mut node) = (0, 0, [0; MOST_COORDINATES]);
+        while values.len() < size {
+            values.push(of(a.values.get(i)?, b.values.get(j)?)?);
+            for &k in &along {
+                (i, j, node[k]) = (i + p[k], j + q[k], node[k] + 1);
+                if node[k] < self.nodes[k] {
+                    break;
+                }
+                (i, j, node[k]) = (i - p[k] * node[k], j - q[k] * node[k], 0);
             }
         }
-        let nodes = nodes.iter().map(Vec::len).collect();
-        Some(Controls { points, nodes, values })
+        Some(Tensor { depends, values })
+    }
+}
+
+impl<E: Enclosure> Arithmetic for Tensors<'_, E> {
+    type Number = Tensor<E::Number>;
+
+    fn integer(&self, n: i64) -> Option<Self::Number> {
+        self.e.integer(n).map(Tensor::constant)
+    }
+
+    fn add(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number> {
+        self.both(a, b, |a, b| self.e.add(a, b))
+    }
+
+    fn sub(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number> {
+        self.both(a, b, |a, b| self.e.sub(a, b))
+    }
+
+    fn neg(&self, a: &Self::Number) -> Option<Self::Number> {
+        self.each(a, |a| self.e.neg(a))
+    }
+
+    fn mul(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number> {
+        self.both(a, b, |a, b| self.e.mul(a, b))
+    }
+
+    fn div(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number> {
+        self.both(a, b, |a, b| self.e.div(a, b))
+    }
+
+    fn sqr(&self, a: &Self::Number) -> Option<Self::Number> {
+        self.each(a, |a| self.e.sqr(a))
+    }
+
+    fn sqrt(&self, a: &Self::Number) -> Option<Self::Number> {
+        self.each(a, |a| self.e.sqrt(a))
     }
 }
 
 /// Formulas at the control points of a cell.
 #[derive(Clone, Debug)]
 pub struct Controls<N> {
-    points: usize,
     /// How many nodes each coordinate has.
-    nodes: Vec<usize>,
-    values: HashMap<Formula, Vec<Option<N>>>,
+    nodes: [usize; MOST_COORDINATES],
+    values: HashMap<Formula, Tensor<N>>,
 }
 
 impl<N> Controls<N> {
     /// How many points there are.
     #[allow(clippy::len_without_is_empty, reason = "there is one at least")]
     pub fn len(&self) -> usize {
-        self.points
+        self.nodes.iter().product()
+    }
+
+    /// The number of control point `j`'s node of each coordinate.
+    fn node(&self, mut j: usize) -> [usize; MOST_COORDINATES] {
+        self.nodes.map(|nodes| {
+            let node = j % nodes;
+            j /= nodes;
+            node
+        })
     }
 
     /// Where between the ends of its range, as -1, 0 and 1, control point `j` has coordinate `k`; `None` of a
     /// coordinate that no formula has.
     pub fn place(&self, k: usize, j: usize) -> Option<i64> {
-        let node = j / self.nodes.get(..k)?.iter().product::<usize>() % self.nodes.get(k)?;
-        match (self.nodes.get(k)?, node) {
+        match (self.nodes.get(k)?, self.node(j).get(k)?) {
             (2, 0) | (3, 0) => Some(-1),
             (3, 1) => Some(0),
             (2, 1) | (3, 2) => Some(1),
@@ -152,9 +255,11 @@ impl<N> Controls<N> {
         }
     }
 
-    /// Encloses `f_j`; `None` where it is not defined, or the formula has not the form.
+    /// Encloses `f_j`; `None` where it is not defined at all control points, or the formula has not the form.
     pub fn at(&self, formula: Formula, j: usize) -> Option<&N> {
-        self.values.get(&formula)?.get(j)?.as_ref()
+        let Tensor { depends, values } = self.values.get(&formula)?;
+        let own = self.node(j).into_iter().zip(self.nodes).zip(depends).filter(|(_, &own)| own);
+        values.get(own.rev().fold(0, |at, ((node, nodes), _)| at * nodes + node))
     }
 }
 
