@@ -336,6 +336,16 @@ impl Tape {
     ///
     /// where the cross factors are left out if `E = F`.
     pub fn gradient(&mut self, f: Formula, by: &[Op]) -> Gradient {
+        self.differentiated(f, by, false)
+    }
+
+    /// The same, each quotient taken where it arises, so that all denominators are 1: cross factors, which
+    /// stand above and below, widen ranges.
+    pub fn derivatives(&mut self, f: Formula, by: &[Op]) -> Vec<Formula> {
+        self.differentiated(f, by, true).numerators
+    }
+
+    fn differentiated(&mut self, f: Formula, by: &[Op], at_once: bool) -> Gradient {
         let (zero, one) = (self.integer(0), self.integer(1));
         let needed = self.parts(&[f]);
         let unneeded = Gradient { numerators: Vec::new(), denominator: one };
@@ -387,7 +397,10 @@ impl Tape {
                     }
                 }
             };
-            known.push(gradient);
+            known.push(match at_once {
+                true => Gradient { numerators: gradient.quotients(self), denominator: one },
+                false => gradient,
+            });
         }
         known.swap_remove(f.0)
     }

@@ -210,8 +210,8 @@ impl Problem {
             if spent > MOST_DERIVATIVES {
                 return None;
             }
-            let gradient = tape.gradient(formula, &own);
-            let each = own.into_iter().zip(gradient.quotients(&mut tape));
+            let derivatives = tape.derivatives(formula, &own);
+            let each = own.into_iter().zip(derivatives);
             let each = each.filter_map(|(op, derivative)| match op {
                 Op::Parameter(j) if derivative != zero => Some((j, derivative)),
                 _ => None,
