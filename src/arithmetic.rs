@@ -9,7 +9,7 @@ const BITS: u32 = 256;
 
 /// `a + b`, `a - b`, `a b` or `a/b`; `None` where its text is too long for a claim.
 pub fn apply(operator: Operator, a: &Expression, b: &Expression) -> Option<Expression> {
-    let whole = Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()));
+    let whole = Expression::Binary(operator, a.clone().into(), b.clone().into());
     match whole.rational() {
         Some(value) => number(&value),
         None => Some(whole),

@@ -272,12 +272,12 @@ fn part_of(part: f64) -> Option<Expression> {
 }
 
 fn over(operator: Operator, left: Expression, right: Expression) -> Expression {
-    Expression::Binary(operator, Box::new(left), Box::new(right))
+    Expression::Binary(operator, left.into(), right.into())
 }
 
 /// The number with names in the place of their ranges.
 fn by_name(x: &Expression) -> Expression {
-    let of = |x: &Expression| Box::new(by_name(x));
+    let of = |x: &Expression| by_name(x).into();
     match x {
         Expression::Varying(range) => Expression::Name(range.name.clone()),
         Expression::Literal { .. } | Expression::Name(_) => x.clone(),

@@ -74,7 +74,7 @@ pub fn tightened(claim: &MachineClaim, margin: &BigRational) -> Option<MachineCl
 
 /// The result of an operation, as one number where it is rational.
 fn over(operator: Operator, left: &Expression, right: &Expression) -> Option<Expression> {
-    let both = Expression::Binary(operator, Box::new(left.clone()), Box::new(right.clone()));
+    let both = Expression::Binary(operator, left.clone().into(), right.clone().into());
     match both.rational() {
         Some(value) => written(&Exact::Rational(value)),
         None => Some(both),

@@ -65,7 +65,7 @@ fn fraction(share: &BigRational) -> Expression {
     let (p, q) = (whole(share.numer()), whole(share.denom()));
     match share.denom().is_one() {
         true => p,
-        false => Expression::Binary(Operator::Div, Box::new(p), Box::new(q)),
+        false => Expression::Binary(Operator::Div, p.into(), q.into()),
     }
 }
 

@@ -54,12 +54,12 @@ pub fn written(number: &Exact) -> Option<Expression> {
 }
 
 fn translated(number: &Exact) -> Expression {
-    let boxed = |x: &Exact| Box::new(translated(x));
-    let binary = |operator, x: &Exact, y: &Exact| Expression::Binary(operator, boxed(x), boxed(y));
+    let of = |x: &Exact| translated(x).into();
+    let binary = |operator, x: &Exact, y: &Exact| Expression::Binary(operator, of(x), of(y));
     match number {
         Exact::Rational(x) => rational(x),
-        Exact::Neg(x) => Expression::Neg(boxed(x)),
-        Exact::Sqrt(x) => Expression::Sqrt(boxed(x)),
+        Exact::Neg(x) => Expression::Neg(of(x)),
+        Exact::Sqrt(x) => Expression::Sqrt(of(x)),
         Exact::Add(x, y) => binary(Operator::Add, x, y),
         Exact::Sub(x, y) => binary(Operator::Sub, x, y),
         Exact::Mul(x, y) => binary(Operator::Mul, x, y),
@@ -73,7 +73,7 @@ pub(super) fn rational(x: &BigRational) -> Expression {
     let literal = |digits: BigInt, places: u32| {
         let positive = Expression::Literal { digits: digits.abs(), places };
         if digits.is_negative() {
-            Expression::Neg(Box::new(positive))
+            Expression::Neg(positive.into())
         } else {
             positive
         }
@@ -86,8 +86,8 @@ pub(super) fn rational(x: &BigRational) -> Expression {
         }
         None => Expression::Binary(
             Operator::Div,
-            Box::new(literal(x.numer().clone(), 0)),
-            Box::new(literal(x.denom().clone(), 0)),
+            literal(x.numer().clone(), 0).into(),
+            literal(x.denom().clone(), 0).into(),
         ),
     }
 }

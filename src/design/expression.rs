@@ -238,7 +238,7 @@ impl Reader<'_, '_> {
             }
             _ => Meaning::Varying,
         };
-        let (left, right) = (Box::new(left.expression), Box::new(right.expression));
+        let (left, right) = (left.expression.into(), right.expression.into());
         Ok(Formula { expression: Expression::Binary(operator, left, right), meaning })
     }
 
@@ -265,10 +265,7 @@ impl Reader<'_, '_> {
                 Meaning::Constant(x) => Meaning::Constant(Interval { lo: -x.hi, hi: -x.lo }),
                 Meaning::Varying => Meaning::Varying,
             };
-            return Ok(Formula {
-                expression: Expression::Neg(Box::new(inner.expression)),
-                meaning,
-            });
+            return Ok(Formula { expression: Expression::Neg(inner.expression.into()), meaning });
         }
         self.blanks();
         let start = self.at;
@@ -302,7 +299,7 @@ impl Reader<'_, '_> {
                 Meaning::Constant(power)
             }
         };
-        Ok(Formula { expression: Expression::Power(Box::new(base.expression), n), meaning })
+        Ok(Formula { expression: Expression::Power(base.expression.into(), n), meaning })
     }
 
     fn atom(&mut self) -> Read {
@@ -356,7 +353,7 @@ impl Reader<'_, '_> {
                 Meaning::Constant(root(radicand))
             }
         };
-        Ok(Formula { expression: Expression::Sqrt(Box::new(inner.expression)), meaning })
+        Ok(Formula { expression: Expression::Sqrt(inner.expression.into()), meaning })
     }
 
     fn name(&mut self, name: String, at: Range<usize>) -> Read {

@@ -5,6 +5,7 @@ use crate::exact::{Exact, NumberErrorKind};
 use num_rational::BigRational;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::number::Expression;
+use std::sync::Arc;
 
 /// Why an expression has no value.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -72,9 +73,11 @@ fn put_in(x: &mut Expression, known: &[(&str, Expression)]) -> bool {
             None => false,
         },
         Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-            put_in(inner, known)
+            put_in(Arc::make_mut(inner), known)
         }
-        Expression::Binary(_, left, right) => put_in(left, known) | put_in(right, known),
+        Expression::Binary(_, left, right) => {
+            put_in(Arc::make_mut(left), known) | put_in(Arc::make_mut(right), known)
+        }
     }
 }
 
@@ -86,11 +89,11 @@ fn fold(x: &mut Expression) {
     match x {
         Expression::Literal { .. } | Expression::Varying(_) | Expression::Name(_) => {}
         Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-            fold(inner);
+            fold(Arc::make_mut(inner));
         }
         Expression::Binary(_, left, right) => {
-            fold(left);
-            fold(right);
+            fold(Arc::make_mut(left));
+            fold(Arc::make_mut(right));
         }
     }
 }

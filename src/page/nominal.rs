@@ -164,5 +164,5 @@ pub fn of_postulate(claim: &PostulateClaim) -> Option<MachineClaim> {
     else {
         return None;
     };
-    Some(of_side(Expression::Binary(Operator::Div, Box::new(one), Box::new(length.clone()))))
+    Some(of_side(Expression::Binary(Operator::Div, one.into(), length.clone().into())))
 }

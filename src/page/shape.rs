@@ -90,7 +90,7 @@ fn least_of_cube(claim: &MachineClaim) -> Option<f64> {
     };
     let Quantity::Exactly(base) = anchor.first()? else { return None };
     let add = |x: Expression, y: &Expression| {
-        Expression::Binary(Operator::Add, Box::new(x), Box::new(y.clone()))
+        Expression::Binary(Operator::Add, x.into(), y.clone().into())
     };
     approximate(&add(add(base.clone(), offset), length))
 }

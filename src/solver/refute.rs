@@ -275,7 +275,7 @@ pub fn number(x: &BigRational) -> Option<Expression> {
         None => {
             let (p, q) = (literal(x.numer().abs(), 0), literal(x.denom().clone(), 0));
             let over = orthocert_kernel::number::Operator::Div;
-            return Some(Expression::Binary(over, Box::new(signed(x, p)), Box::new(q)));
+            return Some(Expression::Binary(over, signed(x, p).into(), q.into()));
         }
     };
     Some(signed(x, positive))
@@ -283,7 +283,7 @@ pub fn number(x: &BigRational) -> Option<Expression> {
 
 fn signed(x: &BigRational, positive: Expression) -> Expression {
     if x.is_negative() {
-        Expression::Neg(Box::new(positive))
+        Expression::Neg(positive.into())
     } else {
         positive
     }

@@ -75,11 +75,11 @@ impl Cube {
         // sin(beta) = t/sqrt(1 + 2 t^2).
         let sine = |t: &Expression| {
             let square = binary(Mul, &two, &binary(Mul, t, t));
-            binary(Div, t, &Expression::Sqrt(Box::new(binary(Add, &one, &square))))
+            binary(Div, t, &Expression::Sqrt(binary(Add, &one, &square).into()))
         };
         let (s1, s2) = (sine(&t1), sine(&t2));
         let length = binary(Div, side, &binary(Add, &s1, &s2));
-        let q1 = Expression::Neg(Box::new(binary(Mul, &length, &s1)));
+        let q1 = Expression::Neg(binary(Mul, &length, &s1).into());
         let q2 = binary(Mul, &length, &s2);
         let base = binary(Sub, &binary(Sub, &q1, offset), &length);
         let zero = Expression::integer(0);
@@ -90,7 +90,7 @@ impl Cube {
         let leg = |i: usize| Leg::Slider {
             direction: along(i, &one),
             anchor: along(i, &base),
-            platform: along(i, &Expression::Neg(Box::new(offset.clone()))),
+            platform: along(i, &Expression::Neg(offset.clone().into())),
             length: Quantity::Exactly(length.clone()),
             mode: Sign::Plus,
         };

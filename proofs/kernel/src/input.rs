@@ -10,6 +10,7 @@ use crate::vary;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use std::fmt;
+use std::sync::Arc;
 
 /// Bits in which a claim is held to be well formed.
 pub(crate) const SIGN_BITS: u32 = 512;
@@ -189,8 +190,12 @@ fn half_tangent(degrees: &Expression, scale: i64, bits: u32) -> Option<Interval<
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A
 /// choice of unit, with no effect on what is true.
 pub(crate) fn magnitude<'a>(numbers: impl Iterator<Item = &'a Expression>) -> Option<i64> {
-    let mut greatest = None;
+    let (mut greatest, mut last) = (None, None);
     for x in numbers {
+        // Both ends of an exact number, and equal legs.
+        if last.replace(x) == Some(x) {
+            continue;
+        }
         let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
         let bits = x.lo.abs().max(x.hi.abs()).bits();
         if bits > 0 {
@@ -216,7 +221,7 @@ pub(crate) fn sign(x: &Expression) -> Option<[bool; 2]> {
 
 /// `a - b` and the like.
 pub(crate) fn binary(operator: Operator, a: &Expression, b: &Expression) -> Expression {
-    Expression::Binary(operator, Box::new(a.clone()), Box::new(b.clone()))
+    Expression::Binary(operator, Arc::new(a.clone()), Arc::new(b.clone()))
 }
 
 /// `x > 0`, or an error.

@@ -21,7 +21,9 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::fmt;
+use std::sync::Arc;
 
 /// Most bytes of an expression.
 pub const MOST_BYTES: usize = 8192;
@@ -54,13 +56,13 @@ pub enum Expression {
     /// A name that stands for every number of a range; read from no text.
     Varying(Box<Range>),
     /// `-a`.
-    Neg(Box<Expression>),
+    Neg(Arc<Expression>),
     /// `a + b`, `a - b`, `a b`, `a / b`.
-    Binary(Operator, Box<Expression>, Box<Expression>),
+    Binary(Operator, Arc<Expression>, Arc<Expression>),
     /// `a^n`, `n >= 2`.
-    Power(Box<Expression>, u32),
+    Power(Arc<Expression>, u32),
     /// `sqrt(a)`.
-    Sqrt(Box<Expression>),
+    Sqrt(Arc<Expression>),
 }
 
 /// An operation on two numbers.
@@ -170,7 +172,7 @@ impl Reader<'_> {
                 return self.error("fewer operations");
             }
             let right = self.chain(strength + 1)?;
-            left = Expression::Binary(operator, Box::new(left), Box::new(right));
+            left = Expression::Binary(operator, left.into(), right.into());
         }
     }
 
@@ -186,7 +188,7 @@ impl Reader<'_> {
 
     fn factor(&mut self) -> Read {
         if self.take(b'-') {
-            return Ok(Expression::Neg(Box::new(self.deeper(Self::factor)?)));
+            return Ok(Expression::Neg(self.deeper(Self::factor)?.into()));
         }
         let atom = self.atom()?;
         if !self.take(b'^') {
@@ -194,7 +196,7 @@ impl Reader<'_> {
         }
         let digits = std::str::from_utf8(self.span(u8::is_ascii_digit)).unwrap_or_default();
         match digits.parse::<u32>() {
-            Ok(n) if (2..=MOST_POWER).contains(&n) => Ok(Expression::Power(Box::new(atom), n)),
+            Ok(n) if (2..=MOST_POWER).contains(&n) => Ok(Expression::Power(atom.into(), n)),
             _ => self.error("an exponent from 2 to 64"),
         }
     }
@@ -207,7 +209,7 @@ impl Reader<'_> {
                 let name = self.span(|b| b.is_ascii_alphanumeric() || *b == b'_').to_vec();
                 let name = String::from_utf8(name).unwrap_or_default();
                 match name.as_str() {
-                    "sqrt" => Ok(Expression::Sqrt(Box::new(self.parenthesised()?))),
+                    "sqrt" => Ok(Expression::Sqrt(self.parenthesised()?.into())),
                     _ if name.len() <= MOST_NAME => Ok(Expression::Name(name)),
                     _ => self.error("a shorter name"),
                 }
@@ -318,7 +320,7 @@ impl Expression {
     pub fn integer(n: i64) -> Self {
         let literal = Expression::Literal { digits: n.unsigned_abs().into(), places: 0 };
         if n < 0 {
-            Expression::Neg(Box::new(literal))
+            Expression::Neg(literal.into())
         } else {
             literal
         }
@@ -350,7 +352,26 @@ impl Expression {
         arithmetic: &Fixed<BigInt>,
         name: &impl Fn(&str) -> Option<Interval<BigInt>>,
     ) -> Option<Interval<BigInt>> {
-        let of = |inner: &Expression| inner.enclose(arithmetic, name).filter(is_moderate);
+        self.enclose_once(arithmetic, name, &mut HashMap::new())
+    }
+
+    /// The same; parts that several have are enclosed once.
+    fn enclose_once<'a>(
+        &'a self,
+        arithmetic: &Fixed<BigInt>,
+        name: &impl Fn(&str) -> Option<Interval<BigInt>>,
+        known: &mut HashMap<*const Expression, Option<Interval<BigInt>>>,
+    ) -> Option<Interval<BigInt>> {
+        let mut of = |inner: &'a Arc<Expression>| {
+            if let Some(known) = known.get(&Arc::as_ptr(inner)) {
+                return known.clone();
+            }
+            let value = inner.enclose_once(arithmetic, name, known).filter(is_moderate);
+            if Arc::strong_count(inner) > 1 {
+                known.insert(Arc::as_ptr(inner), value.clone());
+            }
+            value
+        };
         match self {
             Expression::Literal { digits, places } => {
                 let ten = BigInt::from(10).pow(*places);

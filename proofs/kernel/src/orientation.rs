@@ -115,7 +115,7 @@ pub(crate) fn is_less_than_half_a_turn(orientation: &Orientation) -> bool {
         Orientation::Angle(angle) => below(angle, 90),
         Orientation::Tilt { tilt, torsion } => below(&of(Operator::Add, tilt, torsion), 90),
         Orientation::RollPitchYaw { roll, pitch: [min, max], yaw } => {
-            below(&Expression::Neg(Box::new(min.clone())), 90)
+            below(&Expression::Neg(min.clone().into()), 90)
                 && below(max, 90)
                 && below(&of(Operator::Add, &span(roll), &span(yaw)), 180)
         }
@@ -175,14 +175,14 @@ fn end(value: Value) -> Input {
 
 /// What is made of `-angle`, and of `angle`: odd functions of it.
 fn symmetric(angle: &Expression, of: impl Fn(Expression) -> Value) -> [Input; 2] {
-    [Expression::Neg(Box::new(angle.clone())), angle.clone()].map(|angle| end(of(angle)))
+    [Expression::Neg(angle.clone().into()), angle.clone()].map(|angle| end(of(angle)))
 }
 
 /// The half tangents of a range of angles, between which the tangent increases.
 fn range([min, max]: &[Expression; 2]) -> Result<[Input; 2], ClaimError> {
     let half_turn = Expression::integer(180);
     ordered(PLACE, min, max, false)?;
-    ordered(PLACE, &Expression::Neg(Box::new(half_turn.clone())), min, true)
+    ordered(PLACE, &Expression::Neg(half_turn.clone().into()), min, true)
         .and_then(|()| ordered(PLACE, max, &half_turn, true))
         .map_err(|_| number_error(PLACE, "between -180 and 180 degrees"))?;
     Ok([min, max].map(|angle| end(Value::HalfTangent(angle.clone()))))

@@ -75,6 +75,8 @@ pub struct Derived {
 
 /// Most entries of a tape with these.
 const MOST_DERIVED: usize = 1 << 14;
+/// Inputs before one that are compared with it.
+const NEAR: usize = 32;
 /// Most work of what they change of an obligation.
 const MOST_CHANGES: usize = 1 << 16;
 
@@ -318,25 +320,22 @@ impl Problem {
         machine: &[Expression],
     ) -> Result<Vec<Interval<Z>>, ClaimError> {
         let mut machine = machine.iter();
-        // Equal legs have equal numbers: each is enclosed once.
-        let mut known: HashMap<(&Expression, i64), Interval<Z>> = HashMap::new();
         let mut enclose = |input: &Input| {
             let value = if input.has_two_ends() { machine.next() } else { None };
             let x = input.enclose(bits, value);
             x.and_then(|x| narrowed(&x)).ok_or_else(|| number_error(&input.place, "a number"))
         };
-        let mut all = Vec::with_capacity(self.inputs.len());
-        for input in &self.inputs {
-            let Value::Quantity(Quantity::Exactly(number)) = &input.value else {
-                all.push(enclose(input)?);
-                continue;
+        let mut all: Vec<Interval<Z>> = Vec::with_capacity(self.inputs.len());
+        for (at, input) in self.inputs.iter().enumerate() {
+            // Equal legs have equal numbers: each is enclosed once.
+            let is_same = |k: &usize| {
+                let other = &self.inputs[*k];
+                !input.has_two_ends() && other.scale == input.scale && other.value == input.value
             };
-            let x = match known.get(&(number, input.scale)) {
-                Some(x) => x.clone(),
+            all.push(match (at.saturating_sub(NEAR)..at).rev().find(is_same) {
+                Some(k) => all[k].clone(),
                 None => enclose(input)?,
-            };
-            known.insert((number, input.scale), x.clone());
-            all.push(x);
+            });
         }
         Ok(all)
     }
@@ -452,8 +451,11 @@ fn corners(workspace: &Workspace) -> Result<[Vec<Expression>; 2], ClaimError> {
     if min.len() != max.len() {
         return Err(shape_error("workspace", "as many least as greatest coordinates"));
     }
-    for (min, max) in min.iter().zip(&max) {
-        ordered("workspace", min, max, false)?;
+    let pairs = || min.iter().zip(&max);
+    for (k, pair) in pairs().enumerate() {
+        if pairs().take(k).next_back() != Some(pair) {
+            ordered("workspace", pair.0, pair.1, false)?;
+        }
     }
     Ok([min, max])
 }

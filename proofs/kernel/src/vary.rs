@@ -16,6 +16,7 @@ use crate::slope::{Slope, Slopes};
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_rational::BigRational;
+use std::sync::Arc;
 
 /// A name, and the values that it stands for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -58,11 +59,11 @@ pub(crate) fn vary(x: &mut Expression, ranges: &[Range]) {
             }
         }
         Expression::Neg(inner) | Expression::Power(inner, _) | Expression::Sqrt(inner) => {
-            vary(inner, ranges);
+            vary(Arc::make_mut(inner), ranges);
         }
         Expression::Binary(_, left, right) => {
-            vary(left, ranges);
-            vary(right, ranges);
+            vary(Arc::make_mut(left), ranges);
+            vary(Arc::make_mut(right), ranges);
         }
     }
 }

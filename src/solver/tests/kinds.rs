@@ -182,7 +182,7 @@ fn joints_and_bodies_of_platforms_that_turn() {
             assert_eq!(accepted.verdict, Verdict::Refuted, "{name} {quantity}");
             // The other way the leg points away, and squares are the same.
             let other: Vec<Expression> =
-                axis.iter().map(|x| Expression::Neg(Box::new(x.clone()))).collect();
+                axis.iter().map(|x| Expression::Neg(x.clone().into())).collect();
             let (_, accepted) = decided(&of(&other, found));
             assert_eq!(accepted.verdict, Verdict::Refuted, "{name} {quantity}");
         }

@@ -42,7 +42,7 @@ fn tests(context: &mut Context<'_>, leg: Option<&Leg>) -> Result<Vec<Test>, Clai
     Ok(match (rho, &context.requirement.bound) {
         (Some(Joint::Length(rho)), Bound::Min(min)) => {
             let is_cube = matches!(context.claim.mechanism, Mechanism::Orthoglide { .. });
-            let least = Expression::Neg(Box::new(min.clone()));
+            let least = Expression::Neg(min.clone().into());
             let min = context.number(min, 1);
             let rest = context.tape().sub(rho, min);
             if is_cube && matches!(sign(&least), Some([_, true])) {

@@ -30,9 +30,8 @@ use orthocert_kernel::test::{Multiplier, Over};
 fn toleranced(machine: &MachineClaim, half: f64) -> MachineClaim {
     let wide = |x: &mut Quantity| {
         let Quantity::Exactly(middle) = x.clone() else { return };
-        let end = |operator| {
-            Expression::Binary(operator, Box::new(middle.clone()), Box::new(number(half)))
-        };
+        let end =
+            |operator| Expression::Binary(operator, middle.clone().into(), number(half).into());
         *x = Quantity::Between { min: end(Operator::Sub), max: end(Operator::Add) };
     };
     let mut machine = machine.clone();
@@ -125,9 +124,8 @@ fn accuracy() {
         let middle: Vec<Expression> = problem
             .tolerances()
             .map(|(_, min, max)| {
-                let sum =
-                    Expression::Binary(Operator::Add, Box::new(min.clone()), Box::new(max.clone()));
-                Expression::Binary(Operator::Div, Box::new(sum), Box::new(Expression::integer(2)))
+                let sum = Expression::Binary(Operator::Add, min.clone().into(), max.clone().into());
+                Expression::Binary(Operator::Div, sum.into(), Expression::integer(2).into())
             })
             .collect();
         let nominal = Built::new(&problem, &middle);
