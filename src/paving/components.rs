@@ -85,12 +85,15 @@ pub fn components<R: Read>(
         if nodes.len() + inner.len() + waiting.len() > most {
             return Ok(None);
         }
+        if visited.cell.is_part() {
+            continue;
+        }
         let mut done = match visited.item.kind {
             Kind::Split(axis) => {
                 waiting.push((axis, None));
                 continue;
             }
-            Kind::Inner => {
+            Kind::Inner | Kind::Part(_) => {
                 inner.push(visited.cell);
                 nodes.push(Node::Inner(inner.len() as u32 - 1));
                 nodes.len() as u32 - 1
@@ -224,6 +227,7 @@ impl Union<'_> {
             best_conditioned(decider, centre_of(cell), |point| held(point).is_some())
         });
         let (point, conditioning) = best.unwrap_or(([0; 3], f64::INFINITY));
+        let best = best.filter(|(_, conditioning)| conditioning.is_finite());
         let best_box = best.and_then(|(point, _)| held(&point));
         let best_root = best_box.map(|found| self.root(found));
         let copies = |planes: u8| match planes.count_ones() {
@@ -285,7 +289,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let mut header = header(&design.claim, 9);
+        let mut header = header(&design.claim, None, 9);
         if !symmetric {
             header.symmetry = None;
         }

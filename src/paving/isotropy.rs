@@ -79,7 +79,7 @@ mod tests {
              transmission = {{ min = \"1/2\", max = 2 }}\n"
         );
         let design = crate::design::Design::parse(&text, "test").unwrap();
-        Subject::new(&header(&design.claim, 9)).unwrap()
+        Subject::new(&header(&design.claim, None, 9)).unwrap()
     }
 
     #[test]

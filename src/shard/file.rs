@@ -65,7 +65,7 @@ impl Place {
             within.then_some(Edge { index: index.into(), level })
         };
         let [x, y, z] = self.edges;
-        Some(Cell { edges: [edge(x)?, edge(y)?, edge(z)?] })
+        Some(Cell { edges: [edge(x)?, edge(y)?, edge(z)?], ..Cell::ROOT })
     }
 }
 

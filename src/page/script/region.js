@@ -65,8 +65,7 @@ const startRegion = (data) => {
   const context = canvas.getContext("2d");
   const control = (id) => document.getElementById(id);
   const readout = control("region-readout");
-  const { code, least, width, shape, marks } = data.region;
-  const axes = ["x", "y", "z"];
+  const { code, least, width, shape, marks, axes } = data.region;
   const tree = regionOf(code);
   const HOME = { azimuth: 32, elevation: 24, zoom: 1 };
   const state = { axis: 0, cut: 1, ...HOME };

@@ -16,7 +16,7 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
                 min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                 transmission = { min = \"1/2\", max = 2 }\n";
     let design = crate::design::Design::parse(text, "test").unwrap();
-    let mut header = header(&design.claim, 30);
+    let mut header = header(&design.claim, None, 30);
     if !symmetric {
         header.symmetry = None;
     }

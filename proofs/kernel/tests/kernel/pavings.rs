@@ -39,6 +39,7 @@ fn header_of(claim: MachineClaim, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
         claim,
+        coordinates: None,
         precision: 36,
         depth,
         symmetry: None,
@@ -69,7 +70,7 @@ fn item(judge: &Judge<'_>, subject: &Subject, cell: &Cell, depth: u32) -> Item {
     if depth == subject.header.depth {
         return bare(Kind::Boundary);
     }
-    let axes = Axis::ALL.iter().take(subject.header.dimension().unwrap());
+    let axes = Axis::ALL.iter().take(subject.order[0].len());
     let axis = *axes.min_by_key(|axis| cell.edges[axis.index()].level).unwrap();
     bare(Kind::Split(axis))
 }
@@ -313,7 +314,7 @@ fn what_is_inherited_need_not_be_shown_again() {
     let judge = Judge::new(&subject).unwrap();
     // Off the region by sigma_min alone.
     let edge = |index| Edge { index, level: 4 };
-    let cell = Cell { edges: [edge(4), edge(4), edge(4)] };
+    let cell = Cell { edges: [edge(4), edge(4), edge(4)], ..Cell::ROOT };
     let visited = |inherited, item| Visited { cell, inherited, depth: 12, node: 7, item };
     let of = |inherited| judge.check(&visited(inherited, bare(Kind::Inner)));
     assert!(matches!(of(0), Err(Rejected::Step(7, 0))), "{:?}", of(0));
@@ -405,7 +406,7 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
             let level = random(4) as u32;
             Edge { index: random(1 << level).into(), level }
         });
-        let cell = Cell { edges };
+        let cell = Cell { edges, ..Cell::ROOT };
         // Count on the grid of level 3: of a cube on the diagonal a sixth is ordered, of one on a
         // plane a half.
         let mut count = 0;
@@ -433,10 +434,10 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
     let deep = |index: u128| Edge { index, level: 40 };
     let last = (1 << 40) - 1;
     let whole = Edge { index: 0, level: 0 };
-    assert_eq!(six_ordered(&Cell { edges: [deep(5); 3] }), 1);
-    assert_eq!(six_ordered(&Cell { edges: [deep(0), deep(7), deep(last)] }), 6);
-    assert_eq!(six_ordered(&Cell { edges: [deep(8), deep(7), deep(last)] }), 0);
-    assert!(six_ordered(&Cell { edges: [whole, deep(last / 3), whole] }) > 0);
+    assert_eq!(six_ordered(&Cell { edges: [deep(5); 3], ..Cell::ROOT }), 1);
+    assert_eq!(six_ordered(&Cell { edges: [deep(0), deep(7), deep(last)], ..Cell::ROOT }), 6);
+    assert_eq!(six_ordered(&Cell { edges: [deep(8), deep(7), deep(last)], ..Cell::ROOT }), 0);
+    assert!(six_ordered(&Cell { edges: [whole, deep(last / 3), whole], ..Cell::ROOT }) > 0);
 }
 
 #[test]
@@ -541,7 +542,7 @@ fn claims_that_have_no_region_are_refused() {
     let cylinder = r#"{"cylinder":{"center":["0","0"],"radius":"1","z":["0","1"]}}"#;
     let workspace: Workspace = serde_json::from_str(cylinder).unwrap();
     let round = MachineClaim { workspace, ..orthoglide("-0.5", "0.5") };
-    assert!(refused(round).contains("not about a box"));
+    assert!(refused(round).contains("not a box of positive volume"));
     let mut of_two_points = orthoglide("-0.5", "0.5");
     let one_to_one = r#"{"quantity":"one_to_one","end":"holds"}"#;
     of_two_points.require.push(serde_json::from_str(one_to_one).unwrap());
