@@ -210,8 +210,8 @@ const startRegion = (data) => {
       const unit = Math.min(size * 1e-6, (high - low) * width[k] * 1e-3);
       const places = Math.max(1, Math.ceil(-Math.log10(unit)));
       const [a, b] = within(data.ends[k], [low, high], places);
-      return `${name} from ${a} to ${b}`;
-    });
+      return name ? `${name} from ${a} to ${b}` : "";
+    }).filter((edge) => edge);
     const what = leaf.kind === "#" ? "Inner, all requirements hold" : "Undecided";
     readout.textContent = `${what}: ${edges.join(", ")}.`;
   };

@@ -35,7 +35,7 @@ fn orthoglide(low: &str, high: &str) -> MachineClaim {
 /// Three joints, the third of which keeps to a quarter of a disc of area `pi/8`, told by `x` and `y`.
 const DISC: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[],"definitions":[],"joints":[{"rho":"x"},{"rho":"y"},{"rho":"x^2+y^2"}]}},"workspace":{"box":{"min":["0","0"],"max":["1","1"]}},"require":[{"quantity":"joint_range","leg":3,"end":"max","bound":"1/2"}]}"#;
 
-fn header_of(claim: MachineClaim, depth: u32) -> Header {
+pub fn header_of(claim: MachineClaim, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
         claim,
@@ -52,7 +52,7 @@ fn header(symmetric: bool) -> Header {
     Header { symmetry, ..header_of(orthoglide("-0.7", "0.7"), 10) }
 }
 
-fn bare(kind: Kind) -> Item {
+pub fn bare(kind: Kind) -> Item {
     Item { steps: Vec::new(), kind }
 }
 
@@ -76,7 +76,7 @@ fn item(judge: &Judge<'_>, subject: &Subject, cell: &Cell, depth: u32) -> Item {
 }
 
 /// A paving of few cells, and its items.
-fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
+pub fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
     let subject = Subject::new(header).unwrap();
     let judge = Judge::new(&subject).unwrap();
     let (mut items, mut waiting) = (Vec::new(), vec![(Cell::ROOT, 0)]);
@@ -91,7 +91,7 @@ fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
     (written(header, &items), items)
 }
 
-fn body(header: &Header, items: &[Item]) -> Vec<u8> {
+pub fn body(header: &Header, items: &[Item]) -> Vec<u8> {
     let mut bytes = serde_json::to_vec(header).unwrap();
     bytes.push(b'\n');
     for item in items {
@@ -101,7 +101,7 @@ fn body(header: &Header, items: &[Item]) -> Vec<u8> {
 }
 
 /// The bytes of a paving with the summary that its tree has.
-fn written(header: &Header, items: &[Item]) -> Vec<u8> {
+pub fn written(header: &Header, items: &[Item]) -> Vec<u8> {
     let mut bytes = body(header, items);
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while let Ok(Some(_)) = reader.next() {}
@@ -111,12 +111,12 @@ fn written(header: &Header, items: &[Item]) -> Vec<u8> {
     bytes
 }
 
-fn checked(bytes: &[u8]) -> Result<Accepted, Rejected> {
+pub fn checked(bytes: &[u8]) -> Result<Accepted, Rejected> {
     check(bytes, Extent::All)
 }
 
 /// The reason for which these bytes are rejected.
-fn reason(bytes: &[u8]) -> String {
+pub fn reason(bytes: &[u8]) -> String {
     checked(bytes).expect_err("rejected").to_string()
 }
 
