@@ -171,6 +171,25 @@ fn coordinates_that_are_bound_to_others_have_no_name() {
     assert_eq!(named(DISC), "x y");
 }
 
+/// The document's instance, byte for byte.
+#[test]
+fn the_instance_of_the_document_is_accepted() {
+    let document = include_str!("../../../FORMAT.md");
+    let at = document.find(r#"{"format":"orthocert-paving/3""#).unwrap();
+    let mut lines = document[at..].lines();
+    let [first, nodes, last] = [(); 3].map(|()| lines.next().unwrap());
+    let nodes = nodes.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap());
+    let nodes: Vec<u8> = nodes.collect();
+    let bytes = [first.as_bytes(), b"\n", &nodes, last.as_bytes(), b"\n"].concat();
+    let found = checked(&bytes).unwrap();
+    assert_eq!((found.checked, found.decided), (4, 4));
+    for at in first.len() + 1..bytes.len() {
+        let mut changed = bytes.clone();
+        changed[at] ^= 1;
+        assert!(checked(&changed).is_err(), "byte {at}");
+    }
+}
+
 /// Struts of at most 1/10 fail wherever the platform is, but only orientations of the set count.
 #[test]
 fn values_off_the_set_of_orientations_refute_nothing() {
