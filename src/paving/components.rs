@@ -297,7 +297,7 @@ mod tests {
     }
 
     /// The components where the cells of a grid of eight along each axis are inner as told.
-    fn of(symmetric: bool, inner: impl Fn([u128; 3]) -> bool) -> Vec<(u64, u64)> {
+    fn of(symmetric: bool, inner: impl Fn([u64; 3]) -> bool) -> Vec<(u64, u64)> {
         let header = claimed(symmetric);
         let mut bytes = serde_json::to_vec(&header).unwrap();
         bytes.push(b'\n');
@@ -331,8 +331,8 @@ mod tests {
         assert_eq!(of(false, |[x, y, z]| x == y && z == 0), [(1, 1); 8]);
         assert_eq!(of(false, |[x, y, z]| (x == y || x == y + 1) && z == 0), [(15, 1)]);
         // A shell, and what is within it.
-        let shell = |x: u128| x == 0 || x == 7;
-        let apart = |[x, y, z]: [u128; 3]| {
+        let shell = |x: u64| x == 0 || x == 7;
+        let apart = |[x, y, z]: [u64; 3]| {
             shell(x) || shell(y) || shell(z) || [x, y, z].iter().all(|k| (2..6).contains(k))
         };
         assert_eq!(of(false, apart), [(296, 1), (64, 1)]);

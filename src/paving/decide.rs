@@ -221,7 +221,7 @@ impl<'a> Decider<'a> {
         if let Some(for_all) = &self.for_all {
             return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
         }
-        let part = |edge: &orthocert_kernel::paving::Edge, end: u128| {
+        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
             (edge.index + end) as f64 * (-f64::from(edge.level)).exp2()
         };
         let edge = |(&(lo, hi), edge): (&Pair, &_)| {

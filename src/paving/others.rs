@@ -63,7 +63,7 @@ impl<'a> ForAll<'a> {
     /// The ranges of a cell's coordinates, in the problem's order and unit.
     fn ranges(&self, prover: &Prover<'_>, cell: &Cell) -> Vec<Pair> {
         let between = |edge: &Edge, (lo, hi): Pair| {
-            let at = |j: u128| {
+            let at = |j: u64| {
                 let part = (edge.index + j) as f64 * (-f64::from(edge.level)).exp2();
                 lo * (1.0 - part) + hi * part
             };

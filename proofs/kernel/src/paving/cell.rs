@@ -41,7 +41,7 @@ impl Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Edge {
     /// Number of equal parts before this one.
-    pub index: u128,
+    pub index: u64,
     /// How often the axis was halved.
     pub level: u32,
 }
@@ -101,7 +101,7 @@ impl Cell {
     }
 
     fn halved(&self, edge: impl Fn(&mut Cell) -> Option<&mut Edge>) -> Option<(Cell, Cell)> {
-        let half = |upper: u128| {
+        let half = |upper: u64| {
             let mut cell = *self;
             let edge = edge(&mut cell).filter(|edge| edge.level < MAX_AXIS_LEVEL)?;
             *edge = Edge { index: 2 * edge.index + upper, level: edge.level + 1 };
@@ -157,12 +157,12 @@ mod tests {
             hi: (n * unit).div_euclid(d) + 1,
         };
         for level in [0, 1, 5, 20, MAX_AXIS_LEVEL] {
-            let parts = 1u128 << level;
+            let parts = 1u64 << level;
             for index in [0, parts / 3, parts / 2, parts - 1] {
                 let ends = Edge { index, level }.ends().unwrap();
                 let range = Edge::range(&e, level, ends, [&around(-1, 3), &around(10, 7)]).unwrap();
                 // 21 2^level (min + (max - min) j/2^level) = -7 2^level + 37 j.
-                let end = |j: u128| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);
+                let end = |j: u64| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);
                 let scaled = |x: i64| 21 * parts as i128 * i128::from(x);
                 assert!(scaled(range.lo) <= end(index) && end(index + 1) <= scaled(range.hi));
                 assert!(scaled(range.hi - range.lo - 8) <= end(index + 1) - end(index));

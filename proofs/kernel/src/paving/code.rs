@@ -229,12 +229,8 @@ fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
         Evidence::Conditioning(y, _) => (CONDITIONING, Some(y)),
         Evidence::Accuracy(y, ..) => (ACCURACY, Some(y)),
         Evidence::Control(of) => return write_about(out, CONTROL, &[], of),
-        Evidence::Turned(of, n, places) => {
-            return write_about(out, TURNED, &[*n, i64::from(*places)], of)
-        }
-        Evidence::Inside(of, n, places) => {
-            return write_about(out, INSIDE, &[*n, i64::from(*places)], of)
-        }
+        Evidence::Turned(of, n, p) => return write_about(out, TURNED, &[*n, (*p).into()], of),
+        Evidence::Inside(of, n, p) => return write_about(out, INSIDE, &[*n, (*p).into()], of),
         _ => return None,
     };
     out.push(tag);

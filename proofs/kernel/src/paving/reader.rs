@@ -42,9 +42,7 @@ impl Root {
 pub struct Reader<R> {
     input: R,
     header: Header,
-    dimension: usize,
-    /// How many other coordinates there are.
-    others: usize,
+    order: [Vec<usize>; 2],
     /// What is to be read, and what is read already of a node whose byte has its halves.
     waiting: Vec<(Root, Option<Kind>)>,
     nodes: u64,
@@ -111,11 +109,9 @@ impl<R: Read> Reader<R> {
     /// # Errors
     /// If the header's claim cannot be paved.
     pub fn below(input: R, header: &Header, root: Root) -> Result<Self, Rejected> {
-        let [paved, others] = header.order()?;
         Ok(Reader {
             input,
-            dimension: paved.len(),
-            others: others.len(),
+            order: header.order()?,
             header: header.clone(),
             waiting: vec![(root, None)],
             nodes: 0,
@@ -157,7 +153,7 @@ impl<R: Read> Reader<R> {
         }
         let halved = match item.kind {
             Kind::Split(axis) => Some((self.halves(&cell, axis, depth), depth + 1)),
-            Kind::Part(k) => Some((cell.parts(k).filter(|_| k < self.others), depth)),
+            Kind::Part(k) => Some((cell.parts(k).filter(|_| k < self.order[1].len()), depth)),
             _ => None,
         };
         if let Some((cells, depth)) = halved {
@@ -172,7 +168,7 @@ impl<R: Read> Reader<R> {
     }
 
     fn halves(&self, cell: &Cell, axis: Axis, depth: u32) -> Option<(Cell, Cell)> {
-        let may = depth < self.header.depth && axis.index() < self.dimension;
+        let may = depth < self.header.depth && axis.index() < self.order[0].len();
         may.then(|| cell.halves(axis)).flatten()
     }
 

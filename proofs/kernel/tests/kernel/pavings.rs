@@ -404,7 +404,7 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
     for _ in 0..500 {
         let edges: [Edge; 3] = std::array::from_fn(|_| {
             let level = random(4) as u32;
-            Edge { index: random(1 << level).into(), level }
+            Edge { index: random(1 << level), level }
         });
         let cell = Cell { edges, ..Cell::ROOT };
         // Count on the grid of level 3: of a cube on the diagonal a sixth is ordered, of one on a
@@ -431,7 +431,7 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
         }
     }
     // The deepest cells, far from the diagonal and on it.
-    let deep = |index: u128| Edge { index, level: 40 };
+    let deep = |index: u64| Edge { index, level: 40 };
     let last = (1 << 40) - 1;
     let whole = Edge { index: 0, level: 0 };
     assert_eq!(six_ordered(&Cell { edges: [deep(5); 3], ..Cell::ROOT }), 1);
