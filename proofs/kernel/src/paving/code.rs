@@ -1,6 +1,6 @@
 //! The bytes of a node: its steps, then its kind.
 
-use super::cell::{Axis, MOST_OTHERS};
+use super::cell::Axis;
 use super::reader::bytes;
 use super::{Rejected, MOST_OBLIGATIONS};
 use crate::certificate::{Evidence, Failure};
@@ -65,7 +65,6 @@ const OUTSIDE: u8 = 0x0b;
 const OWN_STEP: u8 = 0x10;
 /// With the four that follow: halved along this other coordinate.
 const PART: u8 = 0x20;
-const PART_LAST: u8 = PART + MOST_OTHERS as u8 - 1;
 /// With the 63 that follow: outer in this obligation.
 const OUTER: u8 = 0x40;
 /// With the 74 that follow: split, with halves of the kinds of [`plain`]. `25 axis + 5 lower + upper`.
@@ -132,7 +131,7 @@ impl Item {
                     continue;
                 }
                 OUTSIDE => (Kind::Outside, None),
-                PART..=PART_LAST => (Kind::Part(usize::from(code - PART)), None),
+                PART..0x25 => (Kind::Part(usize::from(code - PART)), None),
                 0..INNER => (Kind::Split(Axis::ALL[usize::from(code)]), None),
                 INNER => (Kind::Inner, None),
                 BOUNDARY => (Kind::Boundary, None),
@@ -175,7 +174,7 @@ impl Item {
         let small = |n: usize| u8::try_from(n).ok();
         match &self.kind {
             Kind::Split(axis) => out.push(*axis as u8),
-            Kind::Part(other) => out.push(PART + small(*other).filter(|k| *k <= PART_LAST - PART)?),
+            Kind::Part(other) => out.push(PART + small(*other).filter(|k| *k < 5)?),
             Kind::Outside => out.push(OUTSIDE),
             Kind::At(at, outer) => {
                 out.push(AT);

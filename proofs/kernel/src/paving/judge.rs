@@ -9,12 +9,10 @@ use crate::cell::Cell as Ranges;
 use crate::certificate::PRECISIONS;
 use crate::check::{Checker, Place};
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::Values;
 use crate::input::{binary, narrowed, Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::Slope;
 use crate::test::Over;
 use num_bigint::BigInt;
 
@@ -186,12 +184,12 @@ impl<'a, Z: Integer> Side<'a, Z> {
     }
 
     /// For each of the problem's coordinates its expansion point, range and half-width over a cell, the
-    /// others at these values where they are given.
+    /// others at the values where it is said to fail.
     ///
     /// **Lemma.** All points of the cell are in the ranges, at these values of the others. *Proof.*
     /// [`Edge::range`], of the angles themselves where these are paved: the tangent of half of them
     /// increases. ∎
-    fn edges(&self, subject: &Subject, cell: &Cell, at: Option<&[i64]>) -> Option<Edges<Z>> {
+    fn edges(&self, subject: &Subject, cell: &Cell, kind: &Kind) -> Option<Edges<Z>> {
         let (e, [min, max], [paved, others]) = (self.arithmetic, &self.corners, &subject.order);
         let places = subject.problem.corners[0].len();
         let mut ranges = min.clone();
@@ -203,20 +201,14 @@ impl<'a, Z: Integer> Side<'a, Z> {
             };
         }
         for (i, (edge, &k)) in cell.others.iter().zip(others).enumerate() {
-            let (level, ends) = match at {
-                None => (edge.level, edge.ends()?),
-                Some(at) => (AT_BITS, [*at.get(i)?; 2]),
+            let (level, ends) = match kind {
+                Kind::At(at, _) => (AT_BITS, [*at.get(i)?; 2]),
+                _ => (edge.level, edge.ends()?),
             };
             *ranges.get_mut(k)? = Edge::range(e, level, ends, [min.get(k)?, max.get(k)?])?;
         }
-        let is_all = at.is_none_or(|at| at.len() == others.len());
-        is_all.then(|| Ranges(ranges).edges())?
-    }
-
-    /// Whether points are certainly in the workspace, whose box they are in.
-    fn is_inside(&self, problem: &Problem, values: &Values<Slope<Interval<Z>>>) -> bool {
-        let mut all = problem.inside.iter().map(|inside| inside.g).chain(problem.turned);
-        all.all(|g| values.of(g).is_some_and(|g| self.arithmetic.is_nonnegative(&g.range)))
+        let is_more = matches!(kind, Kind::At(at, _) if at.len() > others.len());
+        Ranges(ranges).edges().filter(|_| !is_more)
     }
 
     /// An inner node's cell has every obligation discharged: on its path, by its steps, or by the
@@ -228,11 +220,7 @@ impl<'a, Z: Integer> Side<'a, Z> {
         inherited: u128,
         item: &Item,
     ) -> Result<(), Flaw> {
-        let at = match &item.kind {
-            Kind::At(at, _) => Some(at.as_slice()),
-            _ => None,
-        };
-        let edges = self.edges(subject, cell, at).ok_or(Flaw::Outer)?;
+        let edges = self.edges(subject, cell, &item.kind).ok_or(Flaw::Outer)?;
         let is_given = item.steps.iter().any(|step| step.1.is_some())
             || matches!(item.kind, Kind::Outer(Outer::Given(_)) | Kind::At(..) | Kind::Outside);
         let values = match is_given {
@@ -253,6 +241,10 @@ impl<'a, Z: Integer> Side<'a, Z> {
             holds.then_some(()).ok_or(Flaw::Step(obligation))
         };
         item.steps.iter().try_for_each(|Step(o, evidence)| shown(*o, evidence.as_ref()))?;
+        // Points whose box is that of the workspace are certainly in it.
+        let is_inside = |g| values.of(g).is_some_and(|g| self.arithmetic.is_nonnegative(&g.range));
+        let bound =
+            subject.problem.inside.iter().map(|inside| inside.g).chain(subject.problem.turned);
         let fails = match &item.kind {
             Kind::Inner => {
                 let open = subject.all() & !discharged(inherited, &item.steps);
@@ -261,13 +253,11 @@ impl<'a, Z: Integer> Side<'a, Z> {
                     .try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
             }
             Kind::Outside => self.checker.is_outside(&over, &place),
-            Kind::At(..) if !self.is_inside(&subject.problem, &values) => false,
-            Kind::Outer(Outer::Own(o)) | Kind::At(_, Outer::Own(o)) => {
-                self.checker.fails_own(&values, m, *o)
-            }
-            Kind::Outer(Outer::Given(failure)) | Kind::At(_, Outer::Given(failure)) => {
-                self.checker.fails(&values, m, failure)
-            }
+            Kind::At(..) if !bound.clone().all(is_inside) => false,
+            Kind::Outer(outer) | Kind::At(_, outer) => match outer {
+                Outer::Own(o) => self.checker.fails_own(&values, m, *o),
+                Outer::Given(failure) => self.checker.fails(&values, m, failure),
+            },
             Kind::Split(_) | Kind::Part(_) | Kind::Boundary | Kind::Mirrored => true,
         };
         fails.then_some(()).ok_or(Flaw::Outer)
