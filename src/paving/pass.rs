@@ -20,6 +20,7 @@ use std::sync::atomic::AtomicBool;
 const COARSE: u32 = 18;
 /// The same of some coordinates for all values of the others, where a cell takes far more.
 const COARSE_FOR_ALL: u32 = 6;
+const WINDOW_FOR_ALL: usize = 8;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
 pub(super) const WINDOW: usize = 128;
 /// Deepest tree that is searched for.
@@ -264,8 +265,9 @@ impl<'a> Pass<'a> {
         };
         // What is grown waits for the disk while the next is grown.
         let mut grown: Vec<Grown> = Vec::new();
+        let most = if self.grower.decider.is_for_all() { WINDOW_FOR_ALL } else { WINDOW };
         while done < self.segments.len() || !grown.is_empty() {
-            let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
+            let window = &self.segments[done..self.segments.len().min(done + most)];
             let (written, next) = std::thread::scope(|scope| {
                 let writer = scope.spawn(|| written(file, &grown));
                 let next = self.grower.grow_all(window);

@@ -73,7 +73,9 @@ impl Grower<'_> {
     pub fn grow(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Result<(), Cancelled> {
         let mut waiting = vec![root];
         while let Some(root) = waiting.pop() {
-            if tally.boxes.is_multiple_of(256) && self.cancel.load(Ordering::Relaxed) {
+            // A box for all values of other coordinates may take a second.
+            let is_asked = tally.boxes.is_multiple_of(256) || self.decider.is_for_all();
+            if is_asked && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
             if let Some((lower, upper)) = self.node(root, out, tally) {
