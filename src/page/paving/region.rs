@@ -226,8 +226,9 @@ impl Region<'_> {
         let [low, high] = self.inner_extent();
         let most = self.width[0].max(self.width[1]);
         let [w, h] = [0, 1].map(|k| self.width[k].max(NARROWEST * most));
-        let scale = PANEL / w.max(h);
-        let slices = if self.axes[2].is_empty() { 1 } else { SLICES };
+        let (slices, side) =
+            if self.axes[2].is_empty() { (1, 2.0 * PANEL) } else { (SLICES, PANEL) };
+        let scale = side / w.max(h);
         let (panel, rows) = ([w * scale, h * scale], slices.div_ceil(ROW));
         let mut out = Elements::default();
         for i in 0..slices {
@@ -254,7 +255,7 @@ impl Region<'_> {
         Picture {
             name: "slices".to_owned(),
             title: "Slices of the paving: inner, undecided and outer boxes".to_owned(),
-            size: [GAP + ROW as f64 * (PANEL + GAP), height],
+            size: [GAP + slices.min(ROW) as f64 * (side + GAP), height],
             attributes: String::new(),
             content: out.0,
         }
