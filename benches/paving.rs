@@ -36,11 +36,11 @@ fn claim() -> MachineClaim {
 
 fn cell(u: [f64; 3], level: u32) -> Cell {
     let parts = f64::from(level).exp2();
-    Cell { edges: u.map(|u| Edge { index: (u * parts) as u128, level }) }
+    Cell { edges: u.map(|u| Edge { index: (u * parts) as u64, level }), ..Cell::ROOT }
 }
 
 fn paving(c: &mut Criterion) {
-    let header = header(&claim(), DEPTH);
+    let header = header(&claim(), None, DEPTH);
     let subject = Subject::new(&header).expect("a header");
     let decider = Decider::new(&subject).expect("a header");
     let mut group = c.benchmark_group("decide");

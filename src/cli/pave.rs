@@ -7,15 +7,15 @@ use orthocert::digest::Summed;
 use orthocert::exact::Exact;
 use orthocert::output::{self, OutputError};
 use orthocert::paving::{
-    components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal, PaveError,
-    Resume, DEEPEST,
+    are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
+    PaveError, Resume, DEEPEST,
 };
 use orthocert::report::paving::PavingReport;
 use orthocert::search::Control;
 use orthocert_checker::shown::Named;
-use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
-use orthocert_kernel::paving::{Reader, Rejected, Subject};
+use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
 use std::cmp::Ordering;
 use std::fs::{self, OpenOptions};
 use std::io::{BufRead, BufReader, Read};
@@ -33,7 +33,8 @@ pub const MEMORY: u64 = 1024;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The box is [workspace] min and max of the design, or --box. The region is the set of its points at which all
-requirements hold, for every machine of the tolerance. Without --precision and --volume-gap the gap
+requirements hold, for every machine of the tolerance; with --coordinates, the set of their values at which
+all requirements hold for every machine and all values of the others in the workspace. Without --precision and --volume-gap the gap
 that is aimed at is 0.05. An interrupted run leaves PAVING.part, which --resume takes up again: the
 paving is the same, byte for byte. So it is for every number of threads. While a run writes
 PAVING.part, another one is refused; nothing is said of bytes that another program put there.")]
@@ -44,6 +45,10 @@ pub struct Arguments {
     /// The box that is searched, in the place of the design's workspace, which may then be any
     #[arg(long = "box", value_name = "X0,X1,Y0,Y1,Z0,Z1", allow_hyphen_values = true)]
     search_box: Option<String>,
+    /// Pave these coordinates, one to three, for all values of the others in the workspace: x, y, z, roll,
+    /// pitch, yaw, of planar machines angle, or those of formulas
+    #[arg(long, value_name = "NAME,...")]
+    coordinates: Option<String>,
     /// Split undecided boxes until the geometric mean of their edges is at most E, in the design's
     /// unit of length
     #[arg(long, value_name = "E", conflicts_with = "volume_gap", allow_hyphen_values = true)]
@@ -83,7 +88,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let design = Design::read(&arguments.design).map_err(Failure::input)?;
     let claim = &design.claim;
     let claim = &searched(claim, arguments.search_box.as_deref())?;
-    let goal = arguments.goal(claim)?;
+    let coordinates = chosen(claim, arguments.coordinates.as_deref())?;
+    let coordinates = coordinates.as_deref();
+    let goal = arguments.goal(claim, coordinates)?;
     let target = arguments.target()?;
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
@@ -99,7 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut progress = |now| bar.show(now);
     let mut control = Control { cancel: interrupt::cancelled(), progress: &mut progress };
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };
-    let paved = pave(claim, &goal, &target, resume, &mut control);
+    let paved = pave(claim, coordinates, &goal, &target, resume, &mut control);
     bar.clear();
     let paved = paved.map_err(|error| failure(error, &target))?;
     let elapsed = started.elapsed();
@@ -180,6 +187,40 @@ fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
     (m, names)
 }
 
+/// The coordinates that `--coordinates` names, where it does, and where these are not all.
+fn chosen(claim: &MachineClaim, text: Option<&str>) -> Result<Option<Vec<String>>, Failure> {
+    let names = names(claim);
+    let known: Vec<String> = names.iter().flatten().cloned().collect();
+    let list = match &claim.orientation {
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => {
+            format!("{}; of orientations by roll, pitch and yaw these also", known.join(", "))
+        }
+        _ => known.join(", "),
+    };
+    let Some(text) = text else {
+        return match claim.orientation.is_some() || names.len() > 3 {
+            true => Err(Failure::Input(format!(
+                "[workspace]: found {} coordinates{}; accepted: up to three without orientation, or \
+                 --coordinates NAME,.. with up to three to be paved for all values of the others: {list}",
+                names.len(),
+                if claim.orientation.is_some() { ", with orientation" } else { "" }
+            ))),
+            false => Ok(None),
+        };
+    };
+    let chosen: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+    let is_known = |name: &String| known.contains(name);
+    let repeated = (1..chosen.len()).any(|k| chosen[..k].contains(&chosen[k]));
+    if chosen.len() > 3 || repeated || !chosen.iter().all(is_known) {
+        return Err(Failure::Input(format!(
+            "--coordinates: found {text}; accepted: one to three different ones of {list}"
+        )));
+    }
+    // All in their order are paved as without the flag.
+    let is_all = claim.orientation.is_none() && chosen == known && known.len() == names.len();
+    Ok(Some(chosen).filter(|_| !is_all))
+}
+
 fn expression(number: &Exact) -> Result<Expression, Failure> {
     written(number).ok_or_else(|| {
         let refused = "a number is too long; accepted: at most 8,192 characters and 512 operations";
@@ -188,9 +229,10 @@ fn expression(number: &Exact) -> Result<Expression, Failure> {
 }
 
 impl Arguments {
-    fn goal(&self, claim: &MachineClaim) -> Result<Goal, Failure> {
-        is_a_box(claim)?;
-        let depth = self.precision.as_deref().map(|edge| depth(claim, edge)).transpose()?;
+    fn goal(&self, claim: &MachineClaim, coordinates: Option<&[String]>) -> Result<Goal, Failure> {
+        is_a_box(claim, coordinates)?;
+        let depth = self.precision.as_deref();
+        let depth = depth.map(|edge| depth_to(claim, coordinates, edge)).transpose()?;
         let gap = match (&self.volume_gap, depth) {
             (None, Some(_)) => None,
             (text, _) => {
@@ -236,9 +278,10 @@ fn is_left(part: &Path) -> Result<bool, Failure> {
     )))
 }
 
-/// Demands a box as the workspace.
-fn is_a_box(claim: &MachineClaim) -> Result<(), Failure> {
+/// Demands a box as the workspace; of a cylinder, z may be paved for all x and y.
+fn is_a_box(claim: &MachineClaim, coordinates: Option<&[String]>) -> Result<(), Failure> {
     let found = match claim.workspace {
+        Workspace::Cylinder { .. } if coordinates.is_some() => return Ok(()),
         Workspace::Box { .. } => return Ok(()),
         Workspace::Cylinder { .. } => "cylinder",
         Workspace::Cube { .. } => "cube",
@@ -259,9 +302,23 @@ fn positive(option: &str, text: &str) -> Result<Exact, Failure> {
 
 /// The depth at which boxes have the edges that `--precision` asks for.
 pub fn depth(claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
-    is_a_box(claim)?;
+    depth_to(claim, None, precision)
+}
+
+fn depth_to(
+    claim: &MachineClaim,
+    coordinates: Option<&[String]>,
+    precision: &str,
+) -> Result<u32, Failure> {
+    is_a_box(claim, coordinates)?;
+    if !are_places(claim, coordinates) {
+        let refused = format!(
+            "--precision: found {precision}, and coordinates that are angles; accepted: --volume-gap"
+        );
+        return Err(Failure::Input(refused));
+    }
     let edge = expression(&positive("--precision", precision)?)?;
-    depth_for_edge(claim, &edge).ok_or_else(|| {
+    depth_for_edge(claim, coordinates, &edge).ok_or_else(|| {
         Failure::Input(format!(
             "--precision: found {precision}; accepted: an edge that at most {DEEPEST} splits lead to"
         ))

@@ -85,12 +85,15 @@ pub fn components<R: Read>(
         if nodes.len() + inner.len() + waiting.len() > most {
             return Ok(None);
         }
+        if visited.cell.is_part() {
+            continue;
+        }
         let mut done = match visited.item.kind {
             Kind::Split(axis) => {
                 waiting.push((axis, None));
                 continue;
             }
-            Kind::Inner => {
+            Kind::Inner | Kind::Part(_) => {
                 inner.push(visited.cell);
                 nodes.push(Node::Inner(inner.len() as u32 - 1));
                 nodes.len() as u32 - 1
@@ -224,6 +227,7 @@ impl Union<'_> {
             best_conditioned(decider, centre_of(cell), |point| held(point).is_some())
         });
         let (point, conditioning) = best.unwrap_or(([0; 3], f64::INFINITY));
+        let best = best.filter(|(_, conditioning)| conditioning.is_finite());
         let best_box = best.and_then(|(point, _)| held(&point));
         let best_root = best_box.map(|found| self.root(found));
         let copies = |planes: u8| match planes.count_ones() {
@@ -285,7 +289,7 @@ mod tests {
                     min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                     transmission = { min = \"1/2\", max = 2 }\n";
         let design = crate::design::Design::parse(text, "test").unwrap();
-        let mut header = header(&design.claim, 9);
+        let mut header = header(&design.claim, None, 9);
         if !symmetric {
             header.symmetry = None;
         }
@@ -293,7 +297,7 @@ mod tests {
     }
 
     /// The components where the cells of a grid of eight along each axis are inner as told.
-    fn of(symmetric: bool, inner: impl Fn([u128; 3]) -> bool) -> Vec<(u64, u64)> {
+    fn of(symmetric: bool, inner: impl Fn([u64; 3]) -> bool) -> Vec<(u64, u64)> {
         let header = claimed(symmetric);
         let mut bytes = serde_json::to_vec(&header).unwrap();
         bytes.push(b'\n');
@@ -327,8 +331,8 @@ mod tests {
         assert_eq!(of(false, |[x, y, z]| x == y && z == 0), [(1, 1); 8]);
         assert_eq!(of(false, |[x, y, z]| (x == y || x == y + 1) && z == 0), [(15, 1)]);
         // A shell, and what is within it.
-        let shell = |x: u128| x == 0 || x == 7;
-        let apart = |[x, y, z]: [u128; 3]| {
+        let shell = |x: u64| x == 0 || x == 7;
+        let apart = |[x, y, z]: [u64; 3]| {
             shell(x) || shell(y) || shell(z) || [x, y, z].iter().all(|k| (2..6).contains(k))
         };
         assert_eq!(of(false, apart), [(296, 1), (64, 1)]);

@@ -4,6 +4,7 @@
 //! coordinate moves it. Where that decides the test, the exact judge is asked; where it does not, the
 //! cell is split along the coordinate that moves most what is closest to failing.
 
+use super::others::ForAll;
 use crate::paving::spectrum::Spectrum;
 use crate::solver::doubles::{magnitude, middle, Pair, Single};
 use crate::solver::evidence::{Over, Prover};
@@ -31,6 +32,8 @@ pub struct Decider<'a> {
     judge: Judge<'a>,
     prover: Prover<'a>,
     sampler: Sampler<'a>,
+    /// Of some coordinates, for all values of the others.
+    for_all: Option<ForAll<'a>>,
     /// Of a claim about machines within tolerances, evidence may have to be given.
     has_tolerances: bool,
     /// So it may of that, and has to be where tests have none of their own.
@@ -44,6 +47,14 @@ pub struct Decision {
     pub steps: Vec<Step>,
     /// What it is.
     pub fate: Fate,
+    /// The nodes of its parts, if it is in parts.
+    pub parts: Vec<Item>,
+}
+
+impl Decision {
+    pub(super) fn closed(kind: Kind) -> Self {
+        Decision { steps: Vec::new(), fate: Fate::Closed(kind), parts: Vec::new() }
+    }
 }
 
 /// What a cell is.
@@ -172,6 +183,7 @@ impl<'a> Decider<'a> {
             judge: Judge::new(subject)?,
             prover: Prover::new(problem)?,
             sampler: Sampler::new(claim, problem)?,
+            for_all: ForAll::new(subject),
             has_tolerances,
             gives_evidence: has_tolerances || is_general,
         })
@@ -187,6 +199,11 @@ impl<'a> Decider<'a> {
         self.subject.header.symmetry.is_some()
     }
 
+    /// Whether some coordinates are paved, for all values of the others.
+    pub fn is_for_all(&self) -> bool {
+        self.for_all.is_some()
+    }
+
     /// The share of the box that a cell stands for.
     pub fn share(&self, cell: &Cell) -> u128 {
         self.subject.header.share(cell)
@@ -199,9 +216,12 @@ impl<'a> Decider<'a> {
     /// Decides a cell on which `inherited` is discharged already.
     pub fn decide(&self, cell: &Cell, inherited: u128) -> Decision {
         if self.is_symmetric() && is_mirrored(cell) {
-            return closed(Kind::Mirrored);
+            return Decision::closed(Kind::Mirrored);
         }
-        let part = |edge: &orthocert_kernel::paving::Edge, end: u128| {
+        if let Some(for_all) = &self.for_all {
+            return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
+        }
+        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
             (edge.index + end) as f64 * (-f64::from(edge.level)).exp2()
         };
         let edge = |(&(lo, hi), edge): (&Pair, &_)| {
@@ -237,7 +257,7 @@ impl<'a> Decider<'a> {
                 None => self.fails_elsewise(cell, o),
             };
             if let Some(outer) = outer {
-                return closed(Kind::Outer(outer));
+                return Decision::closed(Kind::Outer(outer));
             }
         }
         // What is closest to failing, or fails at the centre.
@@ -260,7 +280,7 @@ impl<'a> Decider<'a> {
             self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
         };
         if left.is_empty() && confirms(&steps, Kind::Inner) {
-            return Decision { steps, fate: Fate::Closed(Kind::Inner) };
+            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let is_split = || Kind::Split(Axis::X);
         steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
@@ -278,7 +298,7 @@ impl<'a> Decider<'a> {
         }
         let done = discharged(inherited, &steps);
         if done == self.subject.all() {
-            return Decision { steps, fate: Fate::Closed(Kind::Inner) };
+            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let along = match worst {
             Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => worst.weights(),
@@ -295,7 +315,7 @@ impl<'a> Decider<'a> {
             // The first of equals.
             weight(a).total_cmp(&weight(b)).then(b.cmp(&a))
         });
-        Decision { steps, fate: Fate::Open(axis) }
+        Decision { steps, fate: Fate::Open(axis), parts: Vec::new() }
     }
 
     /// The failure of an obligation in its own directions, where the judge confirms it.
@@ -344,7 +364,7 @@ impl<'a> Decider<'a> {
         if seems(&Failure::Reach) {
             let kind = Kind::Outer(Outer::Given(Failure::Reach));
             if self.judge.confirms(cell, 0, &item(kind.clone())) {
-                return closed(kind);
+                return Decision::closed(kind);
             }
         }
         for &o in open {
@@ -356,7 +376,7 @@ impl<'a> Decider<'a> {
                 _ => false,
             };
             if let Some(outer) = is_of_values.then(|| self.fails(cell, o)).flatten() {
-                return closed(Kind::Outer(outer));
+                return Decision::closed(Kind::Outer(outer));
             }
         }
         let divisors = problem.legs.iter().map(|leg| leg.row.d);
@@ -405,8 +425,12 @@ impl<'a> Decider<'a> {
         })
     }
 
-    /// `sigma_max / sigma_min` at the point with these parts of the box, nearly; infinite out of reach.
+    /// `sigma_max / sigma_min` at the point with these parts of the box, nearly; infinite out of reach,
+    /// and of some coordinates alone.
     pub(super) fn conditioning(&self, u: [f64; 3]) -> f64 {
+        if self.for_all.is_some() {
+            return f64::INFINITY;
+        }
         let point: Vec<f64> =
             self.prover.root.iter().zip(u).map(|((lo, hi), u)| lo * (1.0 - u) + hi * u).collect();
         let problem = &self.subject.problem;
@@ -430,10 +454,6 @@ impl Margin {
         let (centre, along) = (middle(&slope.at_centre), std::array::from_fn(along));
         Margin { centre, along, ..Margin::default() }
     }
-}
-
-fn closed(kind: Kind) -> Decision {
-    Decision { steps: Vec::new(), fate: Fate::Closed(kind) }
 }
 
 /// Whether a test has no [`Margin`].

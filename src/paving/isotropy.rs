@@ -11,7 +11,7 @@ const STEPS: std::ops::Range<u32> = 3..34;
 const MOST: usize = 32;
 
 /// A point of the box: parts of its edges in units of `2^-LEVEL`.
-pub(super) type Point = [u128; 3];
+pub(super) type Point = [u64; 3];
 
 /// A cell's centre.
 pub(super) fn centre_of(cell: &Cell) -> Point {
@@ -54,8 +54,8 @@ pub(super) fn best_conditioned(
 }
 
 /// The points of the box that are a step or none away along each axis.
-fn neighbours(point: &Point, step: u128) -> impl Iterator<Item = Point> + '_ {
-    let moved = move |at: u128, way: usize| match way {
+fn neighbours(point: &Point, step: u64) -> impl Iterator<Item = Point> + '_ {
+    let moved = move |at: u64, way: usize| match way {
         0 => at.checked_sub(step),
         1 => Some(at),
         _ => Some(at + step).filter(|at| *at < 1 << LEVEL),
@@ -79,7 +79,7 @@ mod tests {
              transmission = {{ min = \"1/2\", max = 2 }}\n"
         );
         let design = crate::design::Design::parse(&text, "test").unwrap();
-        Subject::new(&header(&design.claim, 9)).unwrap()
+        Subject::new(&header(&design.claim, None, 9)).unwrap()
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! | module     | does                                                              |
 //! |------------|-------------------------------------------------------------------|
 //! | `decide`   | what becomes of one cell                                          |
+//! | `others`   | the same of some coordinates, for all values of the others        |
 //! | `spectrum` | extreme singular values of a matrix                               |
 //! | `tree`     | grows the tree, cut into subtrees                                 |
 //! | `plan`     | how deep the tree has to go                                       |
@@ -21,6 +22,7 @@
 mod components;
 mod decide;
 mod isotropy;
+mod others;
 mod parts;
 mod pass;
 mod plan;
@@ -47,9 +49,9 @@ use crate::solver::refute::approximate;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_kernel::certificate::Provenance;
-use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
-use orthocert_kernel::paving::{is_symmetric, Header, Symmetry, FORMAT};
+use orthocert_kernel::paving::{is_symmetric, names, Header, Symmetry, FORMAT};
 use orthocert_kernel::problem::Problem;
 
 /// Fractional bits of the exact check: most of those for which it can be done in machine words, and
@@ -70,14 +72,15 @@ pub struct Goal {
     pub max_boxes: u64,
 }
 
-/// The first line of a paving of a claim.
-pub fn header(claim: &MachineClaim, depth: u32) -> Header {
+/// The first line of a paving of a claim: of all of its coordinates, or of these alone.
+pub fn header(claim: &MachineClaim, coordinates: Option<&[String]>, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
         claim: claim.clone(),
+        coordinates: coordinates.map(<[String]>::to_vec),
         precision: precision(claim),
         depth,
-        symmetry: is_symmetric(claim).then_some(Symmetry::Permutations),
+        symmetry: (coordinates.is_none() && is_symmetric(claim)).then_some(Symmetry::Permutations),
         provenance: Provenance {
             tool: env!("CARGO_PKG_NAME").to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -95,32 +98,70 @@ fn precision(claim: &MachineClaim) -> u32 {
     }
 }
 
-/// The corners of a claim's box.
-fn corners(claim: &MachineClaim) -> Option<[&[Expression]; 2]> {
-    match &claim.workspace {
-        Workspace::Box { min, max } => Some([min, max]),
-        Workspace::Cylinder { .. } | Workspace::Cube { .. } => None,
+/// The ends of the coordinates that are paved: of all of a claim's box, or of those that are named, angles
+/// in degrees. `None` where these are none.
+pub fn ranges<'a>(
+    claim: &'a MachineClaim,
+    coordinates: Option<&[String]>,
+) -> Option<Vec<[&'a Expression; 2]>> {
+    let mut all: Vec<[&Expression; 2]> = match &claim.workspace {
+        Workspace::Box { min, max } => min.iter().zip(max).map(|(min, max)| [min, max]).collect(),
+        // That of z; the others have no name.
+        Workspace::Cylinder { z: [min, max], .. } if coordinates.is_some() => vec![[min, max]; 3],
+        Workspace::Cylinder { .. } | Workspace::Cube { .. } => return None,
+    };
+    let Some(coordinates) = coordinates else { return Some(all) };
+    match &claim.orientation {
+        Some(Orientation::Range([min, max])) => all.push([min, max]),
+        Some(Orientation::RollPitchYaw { roll, pitch, yaw }) => {
+            all.extend([roll, pitch, yaw].map(|[min, max]| [min, max]));
+        }
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) | None => {}
     }
+    let names = names(claim);
+    let range =
+        |own: &String| all.get(names.iter().position(|name| name.as_ref() == Some(own))?).copied();
+    coordinates.iter().map(range).collect()
 }
 
-/// The volume of a claim's box, where it is rational.
-pub fn box_volume(claim: &MachineClaim) -> Option<BigRational> {
-    let [min, max] = corners(claim)?;
-    let edges = min.iter().zip(max).map(|(min, max)| Some(max.rational()? - min.rational()?));
+/// Whether all coordinates that are paved are of places, or of formulas: these are in one unit.
+pub fn are_places(claim: &MachineClaim, coordinates: Option<&[String]>) -> bool {
+    let is_angle = |name: &String| ["angle", "roll", "pitch", "yaw"].contains(&name.as_str());
+    let turned = claim.orientation.is_some();
+    !turned || !coordinates.is_some_and(|names| names.iter().any(is_angle))
+}
+
+/// The volume of the box that is paved, where it is rational, and in one unit.
+pub fn box_volume(claim: &MachineClaim, coordinates: Option<&[String]>) -> Option<BigRational> {
+    let edges = ranges(claim, coordinates).filter(|_| are_places(claim, coordinates))?;
+    let edges = edges.iter().map(|[min, max]| Some(max.rational()? - min.rational()?));
     edges.product()
 }
 
-/// The ends of a claim's box along each of its axes, nearly.
-pub fn box_ends(claim: &MachineClaim) -> Option<Vec<Pair>> {
-    let [min, max] = corners(claim)?;
-    min.iter().zip(max).map(|(min, max)| Some((approximate(min)?, approximate(max)?))).collect()
+/// The ends of the box that is paved along each of its axes, nearly.
+pub fn box_ends(claim: &MachineClaim, coordinates: Option<&[String]>) -> Option<Vec<Pair>> {
+    let ends = ranges(claim, coordinates)?;
+    ends.iter().map(|[min, max]| Some((approximate(min)?, approximate(max)?))).collect()
+}
+
+/// The names of the axes of a paving.
+pub fn axes(header: &Header) -> [String; 3] {
+    let names = header.coordinates.clone().unwrap_or_default();
+    let or = |(k, other): (usize, &str)| match &header.coordinates {
+        Some(_) => names.get(k).cloned().unwrap_or_default(),
+        None => other.to_owned(),
+    };
+    [(0, "x"), (1, "y"), (2, "z")].map(or)
 }
 
 /// The depth at which boxes have edges of at most `edge` in the geometric mean: the volume of the
 /// workspace's box is at most `2^depth edge^m`. `None` if the workspace is not a box, or the depth
 /// is beyond what pavings have.
-pub fn depth_for_edge(claim: &MachineClaim, edge: &Expression) -> Option<u32> {
-    let [min, max] = corners(claim)?;
+pub fn depth_for_edge(
+    claim: &MachineClaim,
+    coordinates: Option<&[String]>,
+    edge: &Expression,
+) -> Option<u32> {
     let enclosed = |x: &Expression| {
         let x = x.enclose(&orthocert_kernel::fixed::Fixed::<BigInt>::new(4 * BITS), &|_| None)?;
         let end = |x| BigRational::new(x, BigInt::from(1) << (4 * BITS));
@@ -133,7 +174,7 @@ pub fn depth_for_edge(claim: &MachineClaim, edge: &Expression) -> Option<u32> {
     let mut volume = BigRational::from_integer(1.into());
     let mut cube = volume.clone();
     let [least, _] = number(edge)?;
-    for (min, max) in min.iter().zip(max) {
+    for [min, max] in ranges(claim, coordinates)? {
         let ([low, _], [_, high]) = (number(min)?, number(max)?);
         volume *= high - low;
         cube *= &least;

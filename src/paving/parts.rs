@@ -32,7 +32,7 @@ impl Parts {
     /// # Errors
     /// If the claim cannot be paved.
     pub fn new(claim: &MachineClaim, depth: u32) -> Result<Self, PaveError> {
-        let subject = Subject::new(&header(claim, depth)).map_err(PaveError::Claim)?;
+        let subject = Subject::new(&header(claim, None, depth)).map_err(PaveError::Claim)?;
         Decider::new(&subject).map_err(PaveError::Claim)?;
         Ok(Parts { subject })
     }

@@ -18,6 +18,9 @@ use std::sync::atomic::AtomicBool;
 
 /// Depth of the subtrees' roots: some thousands of them.
 const COARSE: u32 = 18;
+/// The same of some coordinates for all values of the others, where a cell takes far more.
+const COARSE_FOR_ALL: u32 = 6;
+const WINDOW_FOR_ALL: usize = 8;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
 pub(super) const WINDOW: usize = 128;
 /// Deepest tree that is searched for.
@@ -113,13 +116,14 @@ pub fn unfinished(path: &Path) -> PathBuf {
 /// [`PaveError`].
 pub fn pave(
     claim: &MachineClaim,
+    coordinates: Option<&[String]>,
     goal: &Goal,
     path: &Path,
     mut resume: Resume,
     control: &mut Control<'_>,
 ) -> Result<Paved, PaveError> {
     let part = unfinished(path);
-    let subject = Subject::new(&header(claim, DEEPEST)).map_err(PaveError::Claim)?;
+    let subject = Subject::new(&header(claim, coordinates, DEEPEST)).map_err(PaveError::Claim)?;
     let decider = Decider::new(&subject).map_err(PaveError::Claim)?;
     let mut held = match resume {
         Resume::Yes => Some(taken_up(&part)?),
@@ -127,7 +131,7 @@ pub fn pave(
     };
     let mut depth = match &held {
         Some(file) => {
-            let depth = earlier_depth(claim, file, &part)?;
+            let depth = earlier_depth(claim, coordinates, file, &part)?;
             if goal.depth.is_some_and(|asked| depth > asked) {
                 let reason =
                     "it was begun with a smaller --precision; accepted: the same".to_owned();
@@ -138,7 +142,8 @@ pub fn pave(
         None => planned(&decider, goal, control)?,
     };
     loop {
-        let mut pass = Pass::new(&decider, header(claim, depth), &part, control.cancel)?;
+        let mut pass =
+            Pass::new(&decider, header(claim, coordinates, depth), &part, control.cancel)?;
         let file = match held {
             Some(ref file) => file,
             None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
@@ -169,11 +174,16 @@ fn taken_up(part: &Path) -> Result<File, PaveError> {
 }
 
 /// The depth in the first line of an unfinished paving of the same claim.
-fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, PaveError> {
+fn earlier_depth(
+    claim: &MachineClaim,
+    coordinates: Option<&[String]>,
+    file: &File,
+    part: &Path,
+) -> Result<u32, PaveError> {
     let fails = |reason: String| PaveError::Resume(part.to_owned(), reason);
     let found =
         paving::header(&mut BufReader::new(file)).map_err(|reason| fails(reason.to_string()))?;
-    if found == header(claim, found.depth) {
+    if found == header(claim, coordinates, found.depth) {
         Ok(found.depth)
     } else {
         Err(fails("it is the beginning of another design's paving".to_owned()))
@@ -182,11 +192,19 @@ fn earlier_depth(claim: &MachineClaim, file: &File, part: &Path) -> Result<u32, 
 
 fn planned(decider: &Decider<'_>, goal: &Goal, control: &Control<'_>) -> Result<u32, PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
-    let coarse = COARSE.min(deepest);
+    let coarse = coarse(decider).min(deepest);
     let grower = Grower { decider, depth: deepest, cancel: control.cancel };
     let mut above = Tally::up_to(deepest);
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
     Ok(plan::depth(&grower, &segments, &above, coarse, goal)?)
+}
+
+fn coarse(decider: &Decider<'_>) -> u32 {
+    if decider.is_for_all() {
+        COARSE_FOR_ALL
+    } else {
+        COARSE
+    }
 }
 
 /// Writes segments so that they stay.
@@ -215,7 +233,8 @@ impl<'a> Pass<'a> {
     ) -> Result<Self, PaveError> {
         let grower = Grower { decider, depth: header.depth, cancel };
         let mut above = Tally::up_to(header.depth);
-        let segments = grower.segments(Root::WHOLE, COARSE.min(header.depth), &mut above)?;
+        let segments =
+            grower.segments(Root::WHOLE, coarse(decider).min(header.depth), &mut above)?;
         let (part, sum) = (part.to_owned(), Sha256::new());
         Ok(Pass { grower, header, part, segments, boxes: above.boxes, sum })
     }
@@ -246,8 +265,9 @@ impl<'a> Pass<'a> {
         };
         // What is grown waits for the disk while the next is grown.
         let mut grown: Vec<Grown> = Vec::new();
+        let most = if self.grower.decider.is_for_all() { WINDOW_FOR_ALL } else { WINDOW };
         while done < self.segments.len() || !grown.is_empty() {
-            let window = &self.segments[done..self.segments.len().min(done + WINDOW)];
+            let window = &self.segments[done..self.segments.len().min(done + most)];
             let (written, next) = std::thread::scope(|scope| {
                 let writer = scope.spawn(|| written(file, &grown));
                 let next = self.grower.grow_all(window);

@@ -103,7 +103,9 @@ pub fn surface<R: Read>(reader: Reader<R>, cancel: &AtomicBool) -> Result<Surfac
 /// The ends of the box that is paved, nearly; along axes that there are not, 0 and 1.
 pub fn ends(header: &Header) -> Option<[[f64; 2]; 3]> {
     let mut ends = [[0.0, 1.0]; 3];
-    for (end, (min, max)) in ends.iter_mut().zip(box_ends(&header.claim)?) {
+    for (end, (min, max)) in
+        ends.iter_mut().zip(box_ends(&header.claim, header.coordinates.as_deref())?)
+    {
         *end = [min, max];
     }
     ends.as_flattened().iter().all(|x| x.is_finite()).then_some(ends)

@@ -73,7 +73,9 @@ impl Grower<'_> {
     pub fn grow(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Result<(), Cancelled> {
         let mut waiting = vec![root];
         while let Some(root) = waiting.pop() {
-            if tally.boxes.is_multiple_of(256) && self.cancel.load(Ordering::Relaxed) {
+            // A box for all values of other coordinates may take a second.
+            let is_asked = tally.boxes.is_multiple_of(256) || self.decider.is_for_all();
+            if is_asked && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
             if let Some((lower, upper)) = self.node(root, out, tally) {
@@ -129,11 +131,12 @@ impl Grower<'_> {
     /// Decides a node and appends it; returns its halves, if it is split. Halves that may not be split
     /// are appended with it, in one byte where that does for them.
     fn node(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Option<(Root, Root)> {
-        let (item, halves) = self.decided(root, tally);
+        let (item, halves, parts) = self.decided(root, tally);
         // Every step and failure that a decision makes has a code.
         let written = match (&item.kind, halves) {
             (Kind::Split(axis), Some((lower, upper))) if lower.depth == self.depth => {
-                let [(lower, _), (upper, _)] = [lower, upper].map(|half| self.decided(half, tally));
+                let [(lower, _, of_lower), (upper, _, of_upper)] =
+                    [lower, upper].map(|half| self.decided(half, tally));
                 let is_bare = lower.steps.is_empty() && upper.steps.is_empty();
                 let steps = write_steps(&item.steps, out);
                 let pair = || {
@@ -147,19 +150,20 @@ impl Grower<'_> {
                     return None;
                 }
                 let split = Item { steps: Vec::new(), kind: item.kind.clone() };
-                let items = [&split, &lower, &upper];
-                let written =
-                    steps.and_then(|()| items.iter().try_for_each(|item| item.write(out)));
+                let of_lower = [&split, &lower].into_iter().chain(&of_lower);
+                let mut items = of_lower.chain([&upper]).chain(&of_upper);
+                let written = steps.and_then(|()| items.try_for_each(|item| item.write(out)));
                 debug_assert!(written.is_some());
                 return None;
             }
-            _ => item.write(out),
+            _ => [&item].into_iter().chain(&parts).try_for_each(|item| item.write(out)),
         };
         debug_assert!(written.is_some());
         halves
     }
 
-    fn decided(&self, root: Root, tally: &mut Tally) -> (Item, Option<(Root, Root)>) {
+    /// A node, its halves, and the nodes of its parts.
+    fn decided(&self, root: Root, tally: &mut Tally) -> (Item, Option<(Root, Root)>, Vec<Item>) {
         let decision = self.decider.decide(&root.cell, root.inherited);
         let at = root.depth as usize;
         tally.boxes += 1;
@@ -175,13 +179,14 @@ impl Grower<'_> {
             (Fate::Open(_), None) => Kind::Boundary,
         };
         match kind {
-            Kind::Inner => tally.inner_at[at] += self.decider.share(&root.cell),
+            Kind::Inner | Kind::Part(_) => tally.inner_at[at] += self.decider.share(&root.cell),
             Kind::Split(_) | Kind::Boundary => tally.open_at[at] += self.decider.share(&root.cell),
-            Kind::Outer(_) | Kind::Mirrored => {}
+            Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored => {}
         }
         let steps = if kind == Kind::Boundary { Vec::new() } else { decision.steps };
         let inherited = discharged(root.inherited, &steps);
         let half = |cell| Root { cell, inherited, depth: root.depth + 1 };
-        (Item { steps, kind }, halves.map(|(lower, upper)| (half(lower), half(upper))))
+        let halves = halves.map(|(lower, upper)| (half(lower), half(upper)));
+        (Item { steps, kind }, halves, decision.parts)
     }
 }

@@ -3,6 +3,7 @@
 use crate::decimal::{grouped, percent, rounded, significant, Toward};
 use crate::exact::Exact;
 use crate::paving::{box_ends, box_volume, Component, Components, Paved};
+use crate::solver::doubles::Pair;
 use num_rational::BigRational;
 use num_traits::Zero;
 use orthocert_checker::shown::Shown;
@@ -24,6 +25,9 @@ pub struct PavingReport {
     pub title: Option<String>,
     /// The design's file, or what it was merged from.
     pub design: String,
+    /// The coordinates that are paved, for all values of the others, where there are such.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coordinates: Option<Vec<String>>,
     /// Where the paving is.
     pub paving: String,
     /// Its length.
@@ -60,10 +64,13 @@ pub struct ComponentsReport {
     pub count: u64,
     /// The largest, by descending volume.
     pub largest: Vec<ComponentReport>,
-    /// The least condition number `sigma_max / sigma_min` found in an inner box.
-    pub best_conditioning: f64,
+    /// The least condition number `sigma_max / sigma_min` found in an inner box; none where it depends on
+    /// other coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub best_conditioning: Option<f64>,
     /// Where that is, about.
-    pub best_conditioned_at: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub best_conditioned_at: Option<Vec<f64>>,
     /// What that point is.
     #[serde(skip)]
     what_is_there: &'static str,
@@ -102,7 +109,8 @@ impl PavingReport {
         components: Option<&Components>,
         target: &Path,
     ) -> Self {
-        let volume = box_volume(claim);
+        let coordinates = paved.header.coordinates.as_deref();
+        let volume = box_volume(claim, coordinates);
         let part = |boxes: u64, share: Share| {
             let share = share.fraction();
             let volume = volume.as_ref().map(|volume| Exact::Rational(volume * &share));
@@ -120,6 +128,7 @@ impl PavingReport {
         PavingReport {
             title: None,
             design: String::new(),
+            coordinates: paved.header.coordinates.clone(),
             paving: target.to_string_lossy().into_owned(),
             bytes: paved.bytes,
             sha256: paved.sha256.clone(),
@@ -130,7 +139,8 @@ impl PavingReport {
             boundary: part(summary.boundary, summary.boundary_share),
             mirrored: summary.mirrored,
             depth: paved.header.depth,
-            components: components.map(|found| described(claim, found)),
+            components: components
+                .map(|found| described(found, &box_ends(claim, coordinates).unwrap_or_default())),
             boxes: paved.boxes,
             seconds: 0.0,
         }
@@ -167,6 +177,12 @@ impl PavingReport {
             )
         };
         let mut out = first + "\n";
+        if let Some(own) = &self.coordinates {
+            let own = own.join(", ");
+            out += &format!(
+                "  Of ({own}), for all values of the other coordinates in the workspace.\n\n"
+            );
+        }
         out += &row("inner", &self.inner, Toward::Below, "all requirements hold at every point");
         out += &row("outer", &self.outer, Toward::Below, "some requirement fails at every point");
         out += &row("boundary", &self.boundary, Toward::Above, "undecided");
@@ -194,19 +210,19 @@ impl PavingReport {
     }
 }
 
-fn described(claim: &MachineClaim, found: &Components) -> ComponentsReport {
+fn described(found: &Components, ends: &[Pair]) -> ComponentsReport {
     let described = |component: &Component| ComponentReport {
         share: rounded_down(component.share),
         boxes: component.boxes,
         copies: component.copies,
         best_conditioned: component.best_conditioned,
     };
-    let at = found.point(&box_ends(claim).unwrap_or_default());
+    let is_found = found.conditioning.is_finite();
     ComponentsReport {
         count: found.all.iter().map(|component| component.copies).sum(),
         largest: found.all.iter().take(SHOWN).map(described).collect(),
-        best_conditioning: found.conditioning,
-        best_conditioned_at: at,
+        best_conditioning: is_found.then_some(found.conditioning),
+        best_conditioned_at: is_found.then(|| found.point(ends)),
         what_is_there: found.what_is_there(),
     }
 }
@@ -228,8 +244,8 @@ impl ComponentReport {
 }
 
 fn components_text(components: &ComponentsReport) -> String {
-    let at: Vec<String> =
-        components.best_conditioned_at.iter().map(|x| significant(*x, 3)).collect();
+    let at = components.best_conditioned_at.iter().flatten();
+    let at: Vec<String> = at.map(|x| significant(*x, 3)).collect();
     let at = at.join(", ");
     let mut out = format!(
         "\n  components {:>10}, by shared faces; they may join in undecided boxes\n",
@@ -246,7 +262,8 @@ fn components_text(components: &ComponentsReport) -> String {
             grouped(component.boxes)
         );
         if component.best_conditioned {
-            let least = significant(components.best_conditioning, 4);
+            let least = components.best_conditioning.map(|least| significant(least, 4));
+            let least = least.unwrap_or_default();
             out += &format!(
                 "              has the {}, ({at}):\n              \
                  sigma_max/sigma_min = {least}\n",

@@ -43,6 +43,7 @@ mod cache;
 mod calculator;
 mod certificates;
 mod files;
+mod for_all;
 mod hostile;
 mod import;
 mod interruption;

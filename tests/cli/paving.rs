@@ -562,10 +562,10 @@ fn machines_of_every_kind_that_do_not_turn_are_paved() {
 }
 
 #[test]
-fn machines_that_turn_are_refused() {
+fn machines_that_turn_are_refused_unless_it_is_said_what_is_paved() {
     let folder = Folder::new();
     let design = folder.run(&["init", "--kind", "planar"]).exits(0).stdout;
     folder.write("d.toml", design);
-    folder.run(&["pave", "d.toml"]).exits(2).complains(&["without orientations"]);
+    folder.run(&["pave", "d.toml"]).exits(2).complains(&["without orientation, or --coordinates"]);
     assert_eq!(folder.names(), ["d.toml"]);
 }

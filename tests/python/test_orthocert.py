@@ -125,6 +125,22 @@ class Commands(unittest.TestCase):
         self.assertEqual(found.verdict, "certified")
         self.assertTrue(any(v.quantity == "joint_speed" for v in found.values))
 
+    def test_some_coordinates_are_paved_for_all_values_of_the_others(self):
+        for name, coordinates, whole in (
+            ("planar-3-rpr", ["y", "x"], 100.0**2),
+            ("planar-3-rpr", ["angle"], 40.0),
+            ("hexapod-linuxcnc", ["z"], 8.0),
+        ):
+            paving = oc.pave(DESIGNS / "kernel" / f"{name}.toml", coordinates=coordinates, volume_gap="1/2")
+            self.assertEqual(paving.answer["coordinates"], coordinates)
+            boxes = paving.boxes()
+            volume = {kind: np.prod(cells[..., 1] - cells[..., 0], axis=1).sum() for kind, cells in boxes.items()}
+            self.assertAlmostEqual(sum(volume.values()), whole, places=9)
+            self.assertAlmostEqual(volume["inner"], whole * float(paving.inner_share), places=9)
+            self.assertEqual(paving.inner_volume is None, coordinates == ["angle"])
+            self.assertTrue(oc.check(paving).accepted)
+            self.assertIn("inner", paving._repr_html_())
+
     def test_the_boxes_of_a_paving_have_its_shares(self):
         paving = oc.pave(
             {

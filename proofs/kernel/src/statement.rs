@@ -37,15 +37,24 @@ pub fn statement(claim: &MachineClaim, verdict: Verdict) -> Result<String, fmt::
 /// # Errors
 /// Only if the formatter fails.
 pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
-    let Accepted { header, summary, shares, checked } = accepted;
+    let Accepted { header, summary, shares, checked, decided } = accepted;
     let claim = &header.claim;
     let mut out = String::new();
-    writeln!(out, "Let R be the set of the points at which all of the following holds.")?;
+    let (points, of) = match &header.coordinates {
+        None => ("the points at which".to_owned(), String::new()),
+        Some(own) => {
+            let own = format!("({})", list(own));
+            let others = "for all values of the other coordinates, with angles in degrees,";
+            (format!("the values of {own} at which, {others}"), format!(" of {own}"))
+        }
+    };
+    writeln!(out, "Let R be the set of {points} all of the following holds.")?;
     machine(&mut out, claim)?;
     workspace(&mut out, claim)?;
+    orientation(&mut out, claim)?;
     bodies(&mut out, claim)?;
     requirements(&mut out, claim)?;
-    writeln!(out, "The box is cut into boxes that overlap in faces only, of which")?;
+    writeln!(out, "The box{of} is cut into boxes that overlap in faces only, of which")?;
     writeln!(out, "  {} lie in R and {} do not meet R;", summary.inner, summary.outer)?;
     writeln!(out, "  {} are left undecided;", summary.boundary)?;
     if header.symmetry.is_some() {
@@ -56,13 +65,12 @@ pub fn paving(accepted: &Accepted) -> Result<String, fmt::Error> {
         )?;
         writeln!(out, "  point with x < y < z;")?;
     }
-    let evidence = summary.inner.saturating_add(summary.outer);
-    if *checked == evidence {
+    if checked == decided {
         writeln!(out, "It is proved: the volume of R is at least the share")?;
     } else {
         writeln!(
             out,
-            "The evidence of {checked} of the {evidence} boxes in R or off it, drawn at random, was \
+            "The evidence of {checked} of the {decided} boxes in R or off it, drawn at random, was \
              checked and holds."
         )?;
         writeln!(out, "If that of the others holds: the volume of R is at least the share")?;

@@ -15,12 +15,12 @@ use super::isomap::Mark;
 use super::legs::Point;
 use super::{drawing, mechanism, shape, stem, File, Framed, Picture};
 use crate::decimal::{percent, rounded, Toward};
-use crate::paving::{box_ends, box_volume, ends, Components, Tree};
+use crate::paving::{axes, box_ends, box_volume, ends, ranges, Components, Tree};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use orthocert_checker::certificate;
 use orthocert_kernel::certificate::Provenance;
-use orthocert_kernel::claim::{MachineClaim, Workspace};
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Fixed;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{Accepted, Share};
@@ -56,6 +56,8 @@ pub struct PavingPage<'a> {
     /// the paving is there.
     depths: [Option<u32>; 3],
     pictures: Vec<Picture>,
+    /// The names of the axes.
+    axes: [String; 3],
 }
 
 impl<'a> PavingPage<'a> {
@@ -69,16 +71,17 @@ impl<'a> PavingPage<'a> {
         title: Option<&str>,
     ) -> Option<Self> {
         let claim = &accepted.header.claim;
-        let ends = ends(&accepted.header)?;
+        let (ends, axes) = (ends(&accepted.header)?, axes(&accepted.header));
         let least: Point = ends.map(|[least, _]| least);
         let width: Point = ends.map(|[least, most]| most - least);
         let is_shown = |x: &f64| x.abs() < 1e60;
         if !ends.as_flattened().iter().all(is_shown) || width.iter().any(|w| *w <= 0.0) {
             return None;
         }
-        let box_ends = box_ends(claim)?;
+        let box_ends = box_ends(claim, accepted.header.coordinates.as_deref())?;
         let components = components.filter(|found| !found.all.is_empty());
-        let mark = components.map(|found| Mark {
+        let best = components.filter(|found| found.conditioning.is_finite());
+        let mark = best.map(|found| Mark {
             name: "best conditioned".to_owned(),
             // Along axes that there are not, in the middle.
             at: found.point(&box_ends).into_iter().chain([0.5; 3]).take(3).collect(),
@@ -95,7 +98,7 @@ impl<'a> PavingPage<'a> {
         let (of_picture, coarse) = fitting(MOST_IN_PICTURE);
         let in_slices = |depth: u32| {
             let tree = tree.to_depth(depth);
-            (depth, Region { tree: &tree, least, width }.slices(&marks))
+            (depth, Region { tree: &tree, least, width, axes: &axes }.slices(&marks))
         };
         let is_small = |slices: &Picture| slices.content.len() <= MOST_OF_SLICES;
         let mut slices = (0..=deepest).rev().map(in_slices);
@@ -108,7 +111,7 @@ impl<'a> PavingPage<'a> {
         let machine = shape::shape(claim);
         let mut pictures: Vec<Picture> =
             machine.iter().map(|machine| drawing::drawing(machine, &[])).collect();
-        pictures.push(Region { tree: &coarse, least, width }.picture());
+        pictures.push(Region { tree: &coarse, least, width, axes: &axes }.picture());
         pictures.push(slices);
         Some(PavingPage {
             claim,
@@ -122,6 +125,7 @@ impl<'a> PavingPage<'a> {
             dimension: box_ends.len(),
             depths,
             pictures,
+            axes,
         })
     }
 
@@ -138,7 +142,7 @@ impl<'a> PavingPage<'a> {
     /// The HTML file.
     pub fn html(&self) -> String {
         let [least, width] = self.ends;
-        let region = Region { tree: &self.tree, least, width };
+        let region = Region { tree: &self.tree, least, width, axes: &self.axes };
         let data = json!({
             "trees": [], "marks": [], "region": region.data(&self.marks), "ends": self.exact_ends(),
         });
@@ -172,10 +176,11 @@ impl<'a> PavingPage<'a> {
     fn volume(&self) -> [String; 2] {
         let summary = &self.accepted.summary;
         let (inner, open) = (summary.inner_share.fraction(), summary.boundary_share.fraction());
-        let (unit, whole) = match box_volume(self.claim) {
-            Some(volume) => ("", volume),
-            None => (" of the box", BigRational::from_integer(1.into())),
-        };
+        let (unit, whole) =
+            match box_volume(self.claim, self.accepted.header.coordinates.as_deref()) {
+                Some(volume) => ("", volume),
+                None => (" of the box", BigRational::from_integer(1.into())),
+            };
         let low = rounded(&(&inner * &whole), DIGITS, Toward::Below);
         let high = rounded(&((inner + open) * whole), DIGITS, Toward::Above);
         [low + unit, high + unit]
@@ -188,9 +193,7 @@ impl<'a> PavingPage<'a> {
     /// ends, is not below what the former give, and not above what the latter give. *Proof.* Both
     /// weights are not negative. ∎
     fn exact_ends(&self) -> Option<Vec<[[String; 4]; 2]>> {
-        let Workspace::Box { min, max } = &self.claim.workspace else {
-            return None;
-        };
+        let ranges = ranges(self.claim, self.accepted.header.coordinates.as_deref())?;
         let enclosed = |x: &Expression| match x.rational() {
             Some(x) => Some([x.clone(), x]),
             None => {
@@ -201,8 +204,9 @@ impl<'a> PavingPage<'a> {
         };
         let constant = |x: i64| Expression::integer(x);
         let ends = |k: usize| {
-            let end = |of: &[Expression], other| enclosed(of.get(k).unwrap_or(&constant(other)));
-            let (least, most) = (end(min, 0)?, end(max, 1)?);
+            let none = [0, 1].map(constant);
+            let [min, max] = ranges.get(k).copied().unwrap_or([&none[0], &none[1]]);
+            let (least, most) = (enclosed(min)?, enclosed(max)?);
             Some([0, 1].map(|side| {
                 let (a, b) = (&least[side], &most[side]);
                 [a.numer(), a.denom(), b.numer(), b.denom()].map(ToString::to_string)

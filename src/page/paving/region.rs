@@ -15,6 +15,8 @@ const GAP: f64 = 26.0;
 const ROW: usize = 3;
 /// Slices.
 const SLICES: usize = 6;
+/// Least width of a panel, relative to the greatest: axes may have different units.
+const NARROWEST: f64 = 0.2;
 
 /// The region: a tree of which lengths are parts of the box's edges, and where that box is.
 pub struct Region<'a> {
@@ -24,6 +26,8 @@ pub struct Region<'a> {
     pub least: Point,
     /// Its edges.
     pub width: Point,
+    /// The names of the axes; empty of one that there is not.
+    pub axes: &'a [String; 3],
 }
 
 /// The ends of a cell.
@@ -79,6 +83,7 @@ impl Region<'_> {
             "least": self.least,
             "width": self.width,
             "shape": self.shape(),
+            "axes": self.axes,
             "marks": marks,
         })
     }
@@ -128,7 +133,7 @@ impl Region<'_> {
                 }
             }
         }
-        for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+        for (k, name) in self.axes.iter().enumerate() {
             // Beside the lowest edge along the axis that does not end in the farthest corner's.
             let (b, c) = ((k + 1) % 3, (k + 2) % 3);
             let middle = |x: f64, y: f64| {
@@ -216,25 +221,31 @@ impl Region<'_> {
         true
     }
 
-    /// Slices at constant z, through the inner part.
+    /// Slices at constant values of the last coordinate, through the inner part; one where there is none.
     pub fn slices(&self, marks: &[Mark]) -> Picture {
         let [low, high] = self.inner_extent();
-        let [w, h] = [self.width[0], self.width[1]];
-        let scale = PANEL / w.max(h);
-        let (panel, rows) = ([w * scale, h * scale], SLICES.div_ceil(ROW));
+        let most = self.width[0].max(self.width[1]);
+        let [w, h] = [0, 1].map(|k| self.width[k].max(NARROWEST * most));
+        let (slices, side) =
+            if self.axes[2].is_empty() { (1, 2.0 * PANEL) } else { (SLICES, PANEL) };
+        let scale = side / w.max(h);
+        let (panel, rows) = ([w * scale, h * scale], slices.div_ceil(ROW));
         let mut out = Elements::default();
-        for i in 0..SLICES {
-            let u = low + (high - low) * (i as f64 + 0.5) / SLICES as f64;
+        for i in 0..slices {
+            let u = low + (high - low) * (i as f64 + 0.5) / slices as f64;
             let corner = [
                 GAP + (i % ROW) as f64 * (PANEL + GAP),
                 GAP + (i / ROW) as f64 * (panel[1] + 1.6 * GAP),
             ];
             self.slice(&mut out, u, corner, panel);
             let z = crate::decimal::significant(self.least[2] + u * self.width[2], 4);
-            out.text("map-title start", [corner[0], corner[1] - 8.0], &format!("z = {z}"));
+            if slices > 1 {
+                let title = format!("{} = {z}", self.axes[2]);
+                out.text("map-title start", [corner[0], corner[1] - 8.0], &title);
+            }
             for mark in marks.iter().filter(|_| self.width[2] > 0.0) {
                 let at: Point = from_fn(|k| (mark.at[k] - self.least[k]) / self.width[k]);
-                if (at[2] - u).abs() <= (high - low) / SLICES as f64 / 2.0 {
+                if (at[2] - u).abs() <= (high - low) / slices as f64 / 2.0 {
                     let p = [corner[0] + at[0] * panel[0], corner[1] + (1.0 - at[1]) * panel[1]];
                     out.dot("mark", p, 3.5);
                 }
@@ -243,9 +254,8 @@ impl Region<'_> {
         let height = GAP + rows as f64 * (panel[1] + 1.6 * GAP);
         Picture {
             name: "slices".to_owned(),
-            title: "Slices of the paving at constant z: inner, undecided and outer boxes"
-                .to_owned(),
-            size: [GAP + ROW as f64 * (PANEL + GAP), height],
+            title: "Slices of the paving: inner, undecided and outer boxes".to_owned(),
+            size: [GAP + slices.min(ROW) as f64 * (side + GAP), height],
             attributes: String::new(),
             content: out.0,
         }
@@ -286,8 +296,8 @@ impl Region<'_> {
         out.raw(&format!(
             "<rect class=\"slice-frame\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/>"
         ));
-        out.text("axis middle", [x + w / 2.0, y + h + 13.0], "x");
-        out.text("axis middle", [x - 9.0, y + h / 2.0], "y");
+        out.text("axis middle", [x + w / 2.0, y + h + 13.0], &self.axes[0]);
+        out.text("axis middle", [x - 9.0, y + h / 2.0], &self.axes[1]);
     }
 
     /// The least and the greatest z of inner cells, as parts of the box; of the box, without any.

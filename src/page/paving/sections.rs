@@ -76,6 +76,14 @@ impl PavingPage<'_> {
             );
         }
         out.push_str("</tbody></table></div>");
+        if let Some(own) = &header.coordinates {
+            let own = xml(&own.join(", "));
+            let _ = write!(
+                out,
+                "<p class=\"note\">Paved are ({own}), for all values of the other coordinates in the workspace; \
+                 angles are in degrees.</p>"
+            );
+        }
         if header.symmetry.is_some() {
             out.push_str(
                 "<p class=\"note\">The machine looks the same from permuted axes: only points with x \u{2264} y \
@@ -99,11 +107,16 @@ impl PavingPage<'_> {
 
     fn region_section(&self) -> String {
         let [view, picture, _] = self.depths;
+        let named = self.axes.iter().enumerate().filter(|(_, name)| !name.is_empty());
+        let option =
+            |(k, name): (usize, &String)| format!("<option value=\"{k}\">{}</option>", xml(name));
+        let options: String = named.map(option).collect();
         format!(
             "<section id=\"region\"><h2>The region in space</h2>\
              <p>The surface of the inner boxes: within it, all requirements are proved. Outside, up to the \
-             undecided boxes, they may hold too.</p>{VIEWER}<p class=\"note scripted\">{}</p>\
+             undecided boxes, they may hold too.</p>{}<p class=\"note scripted\">{}</p>\
              <figure class=\"static\">{}<figcaption>{}</figcaption></figure>{LEGEND}</section>\n",
+            VIEWER.join(&options),
             Self::stops(view),
             self.picture("region"),
             Self::stops(picture)
@@ -112,13 +125,23 @@ impl PavingPage<'_> {
 
     fn slices_section(&self) -> String {
         format!(
-            "<section id=\"slices\"><h2>Slices</h2><figure>{}<figcaption>Planes z = const through the inner \
-             part, x to the right and y up. White: outer, no point meets the requirements.{} {}</figcaption>\
-             </figure>{SLICE_LEGEND}</section>\n",
+            "<section id=\"slices\"><h2>Slices</h2><figure>{}<figcaption>{} White: outer, no point meets the \
+             requirements.{} {}</figcaption></figure>{SLICE_LEGEND}</section>\n",
             self.picture("slices"),
+            self.planes(),
             if self.marks.is_empty() { "" } else { " Dot: the best conditioned point found, near its plane." },
             Self::stops(self.depths[2])
         )
+    }
+
+    fn planes(&self) -> String {
+        let [x, y, z] = self.axes.each_ref().map(|name| xml(name));
+        let axes = format!("{x} to the right and {y} up.");
+        match (y.is_empty(), z.is_empty()) {
+            (true, _) => format!("{x} to the right."),
+            (_, true) => axes,
+            _ => format!("Planes {z} = const through the inner part, {axes}"),
+        }
     }
 
     fn components_section(&self) -> String {
@@ -200,10 +223,9 @@ impl PavingPage<'_> {
     }
 }
 
-/// The controls of the view in space.
-const VIEWER: &str = "<div class=\"scripted\" id=\"region-viewer\"><div class=\"controls\">\
-    <label for=\"region-axis\">cut along <select id=\"region-axis\"><option value=\"0\">x</option>\
-    <option value=\"1\">y</option><option value=\"2\">z</option></select></label>\
+/// The controls of the view in space, between them the axes' names.
+const VIEWER: [&str; 2] = ["<div class=\"scripted\" id=\"region-viewer\"><div class=\"controls\">\
+    <label for=\"region-axis\">cut along <select id=\"region-axis\">", "</select></label>\
     <label for=\"region-cut\">at <input type=\"range\" id=\"region-cut\" min=\"0\" max=\"1000\" value=\"1000\"></label>\
     <output id=\"region-cut-value\" for=\"region-cut\"></output>\
     <button type=\"button\" id=\"region-reset\">Reset view</button></div>\
@@ -211,7 +233,7 @@ const VIEWER: &str = "<div class=\"scripted\" id=\"region-viewer\"><div class=\"
     the paving in space; arrow keys turn the view\"></canvas>\
     <output class=\"readout\" id=\"region-readout\" aria-live=\"polite\"></output>\
     <p class=\"note\">Drag, or use the arrow keys, to turn; <kbd>+</kbd> <kbd>\u{2212}</kbd> to scale; <kbd>[</kbd> \
-    <kbd>]</kbd> move the cut; point at a box, or press <kbd>Enter</kbd> for the one in the middle, to read it.</p></div>";
+    <kbd>]</kbd> move the cut; point at a box, or press <kbd>Enter</kbd> for the one in the middle, to read it.</p></div>"];
 
 const LEGEND: &str = "<ul class=\"legend\" aria-label=\"Colours\">\
     <li><svg class=\"figure\" viewBox=\"0 0 26 16\" aria-hidden=\"true\"><rect class=\"wall-1\" width=\"26\" height=\"16\"/></svg>\

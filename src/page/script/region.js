@@ -65,8 +65,7 @@ const startRegion = (data) => {
   const context = canvas.getContext("2d");
   const control = (id) => document.getElementById(id);
   const readout = control("region-readout");
-  const { code, least, width, shape, marks } = data.region;
-  const axes = ["x", "y", "z"];
+  const { code, least, width, shape, marks, axes } = data.region;
   const tree = regionOf(code);
   const HOME = { azimuth: 32, elevation: 24, zoom: 1 };
   const state = { axis: 0, cut: 1, ...HOME };
@@ -211,8 +210,8 @@ const startRegion = (data) => {
       const unit = Math.min(size * 1e-6, (high - low) * width[k] * 1e-3);
       const places = Math.max(1, Math.ceil(-Math.log10(unit)));
       const [a, b] = within(data.ends[k], [low, high], places);
-      return `${name} from ${a} to ${b}`;
-    });
+      return name ? `${name} from ${a} to ${b}` : "";
+    }).filter((edge) => edge);
     const what = leaf.kind === "#" ? "Inner, all requirements hold" : "Undecided";
     readout.textContent = `${what}: ${edges.join(", ")}.`;
   };

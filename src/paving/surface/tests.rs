@@ -16,7 +16,7 @@ fn paving(symmetric: bool, fate: impl Fn(&Cell) -> Fate) -> Vec<u8> {
                 min = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.1, 0.1]\n[requirements]\n\
                 transmission = { min = \"1/2\", max = 2 }\n";
     let design = crate::design::Design::parse(text, "test").unwrap();
-    let mut header = header(&design.claim, 30);
+    let mut header = header(&design.claim, None, 30);
     if !symmetric {
         header.symmetry = None;
     }
@@ -86,7 +86,7 @@ fn area(surface: &Surface) -> f64 {
 }
 
 /// Splits the longest edge, of x before y before z, down to cells of `2^-level`.
-fn grid(cell: &Cell, level: u32, inner: impl Fn([u128; 3]) -> bool) -> Fate {
+fn grid(cell: &Cell, level: u32, inner: impl Fn([u64; 3]) -> bool) -> Fate {
     let shortest = cell.edges.iter().map(|e| e.level).min().unwrap();
     match Axis::ALL.into_iter().find(|axis| cell.edges[axis.index()].level == shortest) {
         Some(axis) if shortest < level => Fate::Split(axis),
@@ -132,7 +132,7 @@ fn images_make_up_the_whole_surface() {
         assert_eq!(found.quads.len(), 6 * images, "{cell:?}");
     }
     // A symmetric set: the surface is that which is found without symmetry.
-    let ball = |c: [u128; 3]| c.iter().map(|x| (2 * x + 1).abs_diff(7).pow(2)).sum::<u128>() < 40;
+    let ball = |c: [u64; 3]| c.iter().map(|x| (2 * x + 1).abs_diff(7).pow(2)).sum::<u64>() < 40;
     held(true, |at| grid(at, 3, ball));
     let [whole, sixth] = [false, true].map(|symmetric| {
         let bytes = paving(symmetric, |at| grid(at, 3, ball));
@@ -188,7 +188,7 @@ fn surfaces_of_random_trees_are_closed() {
     for seed in 0..60_u64 {
         let random = |cell: &Cell| {
             let place = cell.edges.iter().fold(seed, |hash, edge| {
-                (hash ^ edge.index as u64 ^ u64::from(edge.level) << 40)
+                (hash ^ edge.index ^ u64::from(edge.level) << 40)
                     .wrapping_mul(0x9e37_79b9_7f4a_7c15)
                     .rotate_left(29)
             });
@@ -207,7 +207,7 @@ fn surfaces_of_random_trees_are_closed() {
 
 #[test]
 fn a_depth_keeps_only_what_is_inner_throughout() {
-    let ball = |c: [u128; 3]| c.iter().map(|x| (2 * x + 1).abs_diff(16).pow(2)).sum::<u128>() < 200;
+    let ball = |c: [u64; 3]| c.iter().map(|x| (2 * x + 1).abs_diff(16).pow(2)).sum::<u64>() < 200;
     let sixth = paving(true, |cell| grid(cell, 4, ball));
     let share = |depth: u32| {
         let reader = Reader::new(sixth.as_slice()).unwrap();

@@ -86,14 +86,17 @@ impl Tree {
             if cancel.load(Ordering::Relaxed) {
                 return Err(SurfaceError::Cancelled);
             }
+            if visited.cell.is_part() {
+                continue;
+            }
             let mut done = match visited.item.kind {
                 Kind::Split(axis) => {
                     waiting.push((axis, None));
                     continue;
                 }
-                Kind::Inner => INNER,
+                Kind::Inner | Kind::Part(_) => INNER,
                 Kind::Boundary => UNDECIDED,
-                Kind::Outer(_) | Kind::Mirrored => OUTER,
+                Kind::Outer(_) | Kind::At(..) | Kind::Outside | Kind::Mirrored => OUTER,
             };
             while let Some((axis, lower)) = waiting.pop() {
                 let Some(lower) = lower else {

@@ -20,7 +20,7 @@ import json
 import threading
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 from ._answers import (
     Bound,
@@ -189,6 +189,7 @@ def summary(
 def pave(
     design: AnyDesign,
     *,
+    coordinates: Optional[Sequence[str]] = None,
     volume_gap: Optional[Number] = None,
     precision: Optional[Number] = None,
     max_boxes: Optional[int] = None,
@@ -196,14 +197,17 @@ def pave(
     progress: Optional[Progress] = None,
     cancel: Optional[threading.Event] = None,
 ) -> Paving:
-    """Cuts the workspace into cells where all requirements hold, where some fails, and the rest."""
+    """Cuts the workspace into cells where all requirements hold, where some fails, and the rest; or the box of up to
+    three `coordinates`, for all values of the others."""
     flags = _flags(volume_gap=volume_gap, precision=precision, max_boxes=max_boxes, threads=threads)
+    flags += [] if coordinates is None else ["--coordinates", ",".join(coordinates)]
     with folder_of(as_design(design)) as (folder, file):
         output = ["-o", "result.paving"]
         found = answer(["pave", file.name, *output, *flags], folder=folder, progress=progress, cancel=cancel)
         data = (folder / "result.paving").read_bytes()
     inner, outer, undecided = (Fraction(found[part]["share"]) for part in ("inner", "outer", "boundary"))
-    return Paving(inner, outer, undecided, Fraction(found["inner"]["volume"]), data, found)
+    volume = found["inner"].get("volume")
+    return Paving(inner, outer, undecided, None if volume is None else Fraction(volume), data, found)
 
 
 def _certificate(certificate: Union[Verification, Paving, bytes, str, Path]) -> bytes:

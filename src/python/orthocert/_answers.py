@@ -271,7 +271,7 @@ class Paving:
     inner_share: Fraction
     outer_share: Fraction
     undecided_share: Fraction
-    inner_volume: Fraction
+    inner_volume: Optional[Fraction]
     file: bytes = field(repr=False)
     """The paving's file, which `orthocert check` re-proves."""
     answer: dict[str, Any] = field(repr=False)
@@ -288,7 +288,7 @@ class Paving:
 
     def _repr_html_(self) -> str:
         rows = [
-            ("inner", _decimal(self.inner_share), _decimal(self.inner_volume)),
+            ("inner", _decimal(self.inner_share), "" if self.inner_volume is None else _decimal(self.inner_volume)),
             ("outer", _decimal(self.outer_share), ""),
             ("undecided", _decimal(self.undecided_share), ""),
         ]

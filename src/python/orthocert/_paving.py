@@ -39,15 +39,21 @@ class _Bytes:
 
 
 def _steps(nodes: _Bytes) -> int:
-    """Skips a node's steps; its kind's byte."""
+    """Skips a node's steps, and the values of other coordinates; its kind's byte."""
     while True:
         kind = nodes.byte()
         if 0x10 <= kind < 0x20:
+            continue
+        if kind == 0x0A:
+            nodes.list()
             continue
         if kind != 0x09:
             return kind
         nodes.integer()
         tag = nodes.byte()
+        while tag in (9, 10, 11):
+            nodes.list()
+            tag = nodes.byte()
         if tag in (2, 3, 4, 7):
             nodes.matrix()
         elif tag in (5, 6):
@@ -63,9 +69,9 @@ def boxes(data: bytes) -> dict[str, Any]:
     header = json.loads(first)
     if header.get("format") != "orthocert-paving/3":
         raise OrthocertError(f"no paving of the format orthocert-paving/3: {header.get('format')!r}")
-    box = header["claim"]["machine"]["workspace"]["box"]
-    least = [_value(x) for x in box["min"]]
-    width = [_value(y) - _value(x) for x, y in zip(box["min"], box["max"])]
+    ranges = _ranges(header["claim"]["machine"], header.get("coordinates"))
+    least = [_value(x) for x, _ in ranges]
+    width = [_value(y) - _value(x) for x, y in ranges]
     found: dict[str, list[list[tuple[float, float]]]] = {"inner": [], "outer": [], "undecided": [], "mirrored": []}
     nodes = _Bytes(rest)
     whole = [(0, 0)] * len(least)
@@ -81,6 +87,11 @@ def boxes(data: bytes) -> dict[str, Any]:
     while waiting:
         cell = waiting.pop()
         kind = _steps(nodes)
+        if 0x20 <= kind < 0x25:  # In parts: inner, whatever these are in.
+            parts_left = 2
+            while parts_left:
+                parts_left += 1 if 0x20 <= _steps(nodes) < 0x25 else -1
+            kind = 3
         if kind <= 2 or kind >= 0x80:
             k, halves = (kind, None) if kind <= 2 else ((kind - 0x80) // 25, (kind - 0x80) % 25)
             i, level = cell[k]
@@ -101,6 +112,25 @@ def boxes(data: bytes) -> dict[str, Any]:
         add(name, cell)
     shape = (-1, len(least), 2)
     return {kind: np.array(cells, dtype=float).reshape(shape) for kind, cells in found.items()}
+
+
+def _ranges(claim: dict[str, Any], coordinates: list[str] | None) -> list[tuple[str, str]]:
+    """The ends of what is paved, angles in degrees."""
+    workspace = claim["workspace"]
+    if coordinates is None:
+        return list(zip(workspace["box"]["min"], workspace["box"]["max"]))
+    found: dict[str, tuple[str, str]] = {}
+    if "box" in workspace:
+        formulas = claim["mechanism"].get("formulas")
+        names = formulas["coordinates"] if formulas else "xyz"
+        found.update(zip(names, zip(workspace["box"]["min"], workspace["box"]["max"])))
+    else:
+        found["z"] = tuple(workspace["cylinder"]["z"])
+    turned = claim.get("orientation", {})
+    found.update({name: tuple(ends) for name, ends in turned.get("roll_pitch_yaw", {}).items()})
+    if "range" in turned:
+        found["angle"] = tuple(turned["range"])
+    return [found[name] for name in coordinates]
 
 
 def _value(number: str) -> Fraction:

@@ -3,14 +3,18 @@
 //! The box is the image of `[0, 1]^m` under `u -> min + (max - min) u`, coordinate by coordinate,
 //! `m <= 3`. A cell is `prod_k [index_k / 2^level_k, (index_k + 1) / 2^level_k]`: integers, so that two
 //! halves cover their parent by construction, whatever the box's numbers are. Axes beyond the `m`
-//! coordinates are whole in every cell.
+//! coordinates are whole in every cell. Of a paving of some coordinates for all values of the others, a
+//! cell has parts, in which the others are halved in the same way.
 
 use crate::fixed::{Fixed, Integer, Interval};
+use crate::slope::MOST_COORDINATES;
 use crate::{arithmetic::Arithmetic, arithmetic::Enclosure};
 use std::fmt;
 
 /// Deepest bisection of one axis: three of them are [`SHARE_BITS`](super::SHARE_BITS).
 pub const MAX_AXIS_LEVEL: u32 = 40;
+/// Most coordinates beside those that are paved.
+pub const MOST_OTHERS: usize = MOST_COORDINATES - 1;
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,66 +41,83 @@ impl Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Edge {
     /// Number of equal parts before this one.
-    pub index: u128,
+    pub index: u64,
     /// How often the axis was halved.
     pub level: u32,
+}
+
+impl Edge {
+    const WHOLE: Edge = Edge { index: 0, level: 0 };
+
+    /// The values `((2^level - j) min + j max)/2^level` for `j` from `from` to `to`, of ends that are
+    /// enclosed.
+    ///
+    /// **Lemma.** They are in this range. *Proof.* They lie between those of both `j`, of which it
+    /// encloses the least and the greatest: `j` and `2^level - j` are not negative. ∎
+    pub(super) fn range<Z: Integer>(
+        e: &Fixed<Z>,
+        level: u32,
+        [from, to]: [i64; 2],
+        [min, max]: [&Interval<Z>; 2],
+    ) -> Option<Interval<Z>> {
+        let at = |j: i64| {
+            let rest =
+                1i64.checked_shl(level)?.checked_sub(j).filter(|rest| j >= 0 && *rest >= 0)?;
+            e.add(&e.dyadic(rest, level, min)?, &e.dyadic(j, level, max)?)
+        };
+        Some(Interval { lo: at(from)?.lo, hi: at(to)?.hi })
+    }
+
+    /// Its parts before it, and those before its end.
+    pub(super) fn ends(&self) -> Option<[i64; 2]> {
+        let index = i64::try_from(self.index).ok()?;
+        Some([index, index.checked_add(1)?])
+    }
 }
 
 /// A box of the bisection tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cell {
-    /// The edges along x, y and z.
+    /// The edges along x, y and z: of the coordinates that are paved.
     pub edges: [Edge; 3],
+    /// The edges of the other coordinates.
+    pub others: [Edge; MOST_OTHERS],
 }
 
 impl Cell {
     /// The whole box.
-    pub const ROOT: Cell = Cell { edges: [Edge { index: 0, level: 0 }; 3] };
+    pub const ROOT: Cell = Cell { edges: [Edge::WHOLE; 3], others: [Edge::WHOLE; MOST_OTHERS] };
 
     /// The lower and the upper half along `axis`; `None` beyond [`MAX_AXIS_LEVEL`].
     ///
     /// `[i, i+1] / 2^l = [2i, 2i+1] / 2^(l+1) u [2i+1, 2i+2] / 2^(l+1)`.
     pub fn halves(&self, axis: Axis) -> Option<(Cell, Cell)> {
-        let k = axis.index();
-        let Edge { index, level } = self.edges[k];
-        if level >= MAX_AXIS_LEVEL {
-            return None;
-        }
-        let half = |index| {
+        self.halved(|cell| cell.edges.get_mut(axis.index()))
+    }
+
+    /// The same along another coordinate.
+    pub fn parts(&self, other: usize) -> Option<(Cell, Cell)> {
+        self.halved(|cell| cell.others.get_mut(other))
+    }
+
+    fn halved(&self, edge: impl Fn(&mut Cell) -> Option<&mut Edge>) -> Option<(Cell, Cell)> {
+        let half = |upper: u64| {
             let mut cell = *self;
-            cell.edges[k] = Edge { index, level: level + 1 };
-            cell
+            let edge = edge(&mut cell).filter(|edge| edge.level < MAX_AXIS_LEVEL)?;
+            *edge = Edge { index: 2 * edge.index + upper, level: edge.level + 1 };
+            Some(cell)
         };
-        Some((half(2 * index), half(2 * index + 1)))
+        Some((half(0)?, half(1)?))
+    }
+
+    /// Whether it is part of a cell: some other coordinate is halved.
+    pub fn is_part(&self) -> bool {
+        self.others.iter().any(|edge| edge.level > 0)
     }
 
     /// The splits above it.
     pub fn depth(&self) -> u32 {
         self.edges.iter().map(|edge| edge.level).sum()
-    }
-
-    /// For each coordinate of a box whose corners are enclosed, the cell's expansion point, range and
-    /// half-width, as of [`crate::cell::Cell::edges`].
-    ///
-    /// **Lemma.** The cell's points are in the ranges. *Proof.* They lie between those with the
-    /// coordinates `((2^l - j) min + j max)/2^l` for `j = i` and `j = i + 1`, of which this encloses
-    /// both: `j` and `2^l - j` are not negative. ∎
-    pub(super) fn within<Z: Integer>(
-        &self,
-        e: &Fixed<Z>,
-        corners: &[Vec<Interval<Z>>; 2],
-    ) -> Option<Vec<[Interval<Z>; 3]>> {
-        let range = |((edge, min), max): ((&Edge, &Interval<Z>), &Interval<Z>)| {
-            let (parts, index) = (1i64.checked_shl(edge.level)?, i64::try_from(edge.index).ok()?);
-            let at = |j: i64| {
-                let least = e.dyadic(parts.checked_sub(j)?, edge.level, min)?;
-                e.add(&least, &e.dyadic(j, edge.level, max)?)
-            };
-            Some(Interval { lo: at(index)?.lo, hi: at(index.checked_add(1)?)?.hi })
-        };
-        let [min, max] = corners;
-        let ranges = self.edges.iter().zip(min).zip(max).map(range).collect::<Option<_>>()?;
-        crate::cell::Cell(ranges).edges()
     }
 }
 
@@ -135,20 +156,16 @@ mod tests {
             lo: (n * unit).div_euclid(d),
             hi: (n * unit).div_euclid(d) + 1,
         };
-        let corners = [vec![around(-1, 3)], vec![around(10, 7)]];
         for level in [0, 1, 5, 20, MAX_AXIS_LEVEL] {
-            let parts = 1u128 << level;
+            let parts = 1u64 << level;
             for index in [0, parts / 3, parts / 2, parts - 1] {
-                let edge = Edge { index, level };
-                let cell = Cell { edges: [edge, Cell::ROOT.edges[1], Cell::ROOT.edges[2]] };
-                let found = cell.within(&e, &corners).unwrap();
-                let [[centre, range, half]] = &found[..] else { panic!("one coordinate") };
+                let ends = Edge { index, level }.ends().unwrap();
+                let range = Edge::range(&e, level, ends, [&around(-1, 3), &around(10, 7)]).unwrap();
                 // 21 2^level (min + (max - min) j/2^level) = -7 2^level + 37 j.
-                let end = |j: u128| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);
+                let end = |j: u64| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);
                 let scaled = |x: i64| 21 * parts as i128 * i128::from(x);
                 assert!(scaled(range.lo) <= end(index) && end(index + 1) <= scaled(range.hi));
                 assert!(scaled(range.hi - range.lo - 8) <= end(index + 1) - end(index));
-                assert!(centre.lo - half.hi <= range.lo && centre.hi + half.hi == range.hi);
             }
         }
     }

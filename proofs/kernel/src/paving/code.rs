@@ -26,10 +26,16 @@ pub struct Step(pub usize, pub Option<Evidence>);
 pub enum Kind {
     /// Halved along this axis.
     Split(Axis),
+    /// Halved along this other coordinate: inner if both parts are, or outside.
+    Part(usize),
     /// The claim holds at every point: what no step on the path discharges, its own evidence does.
     Inner,
+    /// Of a part: no point of it is in the workspace.
+    Outside,
     /// The claim fails at every point, for every machine.
     Outer(Outer),
+    /// It fails so where each other coordinate, in its order, has the value `min + (max - min) n/2^16`.
+    At(Vec<i64>, Outer),
     /// Undecided.
     Boundary,
     /// Left out by symmetry.
@@ -52,8 +58,13 @@ const REACH: u8 = 0x06;
 const ROW: u8 = 0x07;
 const FAILS: u8 = 0x08;
 const STEP: u8 = 0x09;
+/// Before an outer kind: where it fails.
+const AT: u8 = 0x0a;
+const OUTSIDE: u8 = 0x0b;
 /// With the 15 that follow: the own step of this obligation.
 const OWN_STEP: u8 = 0x10;
+/// With the four that follow: halved along this other coordinate.
+const PART: u8 = 0x20;
 /// With the 63 that follow: outer in this obligation.
 const OUTER: u8 = 0x40;
 /// With the 74 that follow: split, with halves of the kinds of [`plain`]. `25 axis + 5 lower + upper`.
@@ -68,6 +79,10 @@ const CONDITIONING: u8 = 5;
 const ACCURACY: u8 = 6;
 const DIRECTION: u8 = 7;
 const NEGATIVE: u8 = 8;
+/// About evidence with a greater tag, or none of these three.
+const CONTROL: u8 = 9;
+const TURNED: u8 = 10;
+const INSIDE: u8 = 11;
 
 /// Most rows of a matrix, most entries of a row, most directions: more than any claim has.
 const MOST: u8 = 16;
@@ -95,7 +110,7 @@ impl Item {
     /// the same byte.
     pub fn read(input: &mut impl Read, node: u64) -> Result<(Self, Option<[Kind; 2]>), Rejected> {
         let mut source = Source { input, node };
-        let mut steps = Vec::new();
+        let (mut steps, mut at) = (Vec::new(), None);
         loop {
             let code = source.byte()?;
             // None is discharged twice, and there are no more than so many.
@@ -108,9 +123,15 @@ impl Item {
                     continue;
                 }
                 STEP => {
-                    steps.push(Step(usize::from(source.byte()?), Some(source.evidence()?)));
+                    steps.push(Step(usize::from(source.byte()?), Some(source.evidence(0)?)));
                     continue;
                 }
+                AT if at.is_none() => {
+                    at = Some(source.integers()?);
+                    continue;
+                }
+                OUTSIDE => (Kind::Outside, None),
+                PART..0x25 => (Kind::Part(usize::from(code - PART)), None),
                 0..INNER => (Kind::Split(Axis::ALL[usize::from(code)]), None),
                 INNER => (Kind::Inner, None),
                 BOUNDARY => (Kind::Boundary, None),
@@ -138,6 +159,11 @@ impl Item {
                     pair.ok_or(Rejected::BadCode(node, code))?
                 }
             };
+            let kind = match (at, kind) {
+                (None, kind) => kind,
+                (Some(at), Kind::Outer(outer)) => Kind::At(at, outer),
+                _ => return Err(Rejected::BadCode(node, code)),
+            };
             return Ok((Item { steps, kind }, halves));
         }
     }
@@ -148,6 +174,13 @@ impl Item {
         let small = |n: usize| u8::try_from(n).ok();
         match &self.kind {
             Kind::Split(axis) => out.push(*axis as u8),
+            Kind::Part(other) => out.push(PART + small(*other).filter(|k| *k < 5)?),
+            Kind::Outside => out.push(OUTSIDE),
+            Kind::At(at, outer) => {
+                out.push(AT);
+                put(out, at)?;
+                Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) }.write(out)?;
+            }
             Kind::Inner => out.push(INNER),
             Kind::Boundary => out.push(BOUNDARY),
             Kind::Mirrored => out.push(MIRRORED),
@@ -193,8 +226,10 @@ fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
         Evidence::Rank(y) => (RANK, Some(y)),
         Evidence::Direction(y) => (DIRECTION, Some(y)),
         Evidence::Conditioning(y, _) => (CONDITIONING, Some(y)),
-        // Of platforms that do not turn.
-        Evidence::Accuracy(y, _, 0) => (ACCURACY, Some(y)),
+        Evidence::Accuracy(y, ..) => (ACCURACY, Some(y)),
+        Evidence::Control(of) => return write_about(out, CONTROL, &[], of),
+        Evidence::Turned(of, n, p) => return write_about(out, TURNED, &[*n, (*p).into()], of),
+        Evidence::Inside(of, n, p) => return write_about(out, INSIDE, &[*n, (*p).into()], of),
         _ => return None,
     };
     out.push(tag);
@@ -204,9 +239,17 @@ fn write_evidence(out: &mut Vec<u8>, evidence: &Evidence) -> Option<()> {
     }
     match evidence {
         Evidence::Conditioning(_, mu) => put(out, mu),
-        Evidence::Accuracy(_, kappa, _) => put(out, &[*kappa]),
+        Evidence::Accuracy(_, kappa, 0) => put(out, &[*kappa]),
+        Evidence::Accuracy(_, kappa, p) => put(out, &[*kappa, i64::from(*p)]),
         _ => Some(()),
     }
+}
+
+/// Evidence about other evidence.
+fn write_about(out: &mut Vec<u8>, tag: u8, numbers: &[i64], of: &Evidence) -> Option<()> {
+    out.push(tag);
+    put(out, numbers)?;
+    write_evidence(out, of)
 }
 
 fn count(n: usize) -> Option<u8> {
@@ -271,8 +314,19 @@ impl<R: Read> Source<'_, R> {
         Ok(Multiplier { y, places })
     }
 
-    fn evidence(&mut self) -> Result<Evidence, Rejected> {
+    /// Evidence; about others with tags from `least` on alone.
+    fn evidence(&mut self, least: u8) -> Result<Evidence, Rejected> {
         Ok(match self.byte()? {
+            tag @ CONTROL..=INSIDE if tag >= least => {
+                let numbers = self.integers()?;
+                let of = Box::new(self.evidence(tag + 1)?);
+                match (tag, &numbers[..]) {
+                    (CONTROL, []) => Evidence::Control(of),
+                    (TURNED, &[n, places @ 0..=255]) => Evidence::Turned(of, n, places as u32),
+                    (INSIDE, &[n, places @ 0..=255]) => Evidence::Inside(of, n, places as u32),
+                    _ => return Err(Rejected::BadCode(self.node, tag)),
+                }
+            }
             TEST => Evidence::Test,
             DIVIDED => Evidence::Divided,
             NEGATIVE => Evidence::Negative,
@@ -285,6 +339,7 @@ impl<R: Read> Source<'_, R> {
                 let y = self.multiplier()?;
                 match self.integers()?[..] {
                     [kappa] => Evidence::Accuracy(y, kappa, 0),
+                    [kappa, p @ 1..=255] => Evidence::Accuracy(y, kappa, p as u32),
                     _ => return Err(Rejected::BadCode(self.node, ACCURACY)),
                 }
             }

@@ -1,16 +1,23 @@
 //! What is shown of a cell, in exact arithmetic.
 
-use super::cell::Cell;
+use super::cell::{Cell, Edge};
 use super::code::{Item, Kind, Outer, Step};
 use super::reader::Visited;
 use super::{symmetry, Header, Rejected, MOST_OBLIGATIONS};
+use crate::arithmetic::Enclosure as _;
+use crate::cell::Cell as Ranges;
 use crate::certificate::PRECISIONS;
 use crate::check::{Checker, Place};
 use crate::fixed::{Fixed, Integer, Interval};
+use crate::input::{binary, narrowed, Input, Value};
+use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::test::Over;
 use num_bigint::BigInt;
+
+/// Where a cell fails, other coordinates are multiples of `2^-AT_BITS` of their range.
+pub const AT_BITS: u32 = 16;
 
 /// What the nodes of a paving are about.
 pub struct Subject {
@@ -18,6 +25,8 @@ pub struct Subject {
     pub header: Header,
     /// Its claim, compiled.
     pub problem: Problem,
+    /// The coordinates that are paved, and the others, by their places in the problem.
+    pub order: [Vec<usize>; 2],
     words: Fixed<i64>,
     any_size: Fixed<BigInt>,
 }
@@ -28,12 +37,13 @@ impl Subject {
     /// # Errors
     /// If it is not admissible.
     pub fn new(header: &Header) -> Result<Self, Rejected> {
-        header.dimension()?;
+        let order = header.order()?;
         let bits = header.precision;
         if !PRECISIONS.contains(&bits) {
             return Err(Rejected::Precision(bits));
         }
-        if header.symmetry.is_some() && !symmetry::is_symmetric(&header.claim) {
+        let is_whole = header.coordinates.is_none();
+        if header.symmetry.is_some() && !(is_whole && symmetry::is_symmetric(&header.claim)) {
             return Err(Rejected::NotSymmetric);
         }
         let problem = Problem::new(&header.claim)?;
@@ -45,16 +55,23 @@ impl Subject {
             return Err(Rejected::TooMany);
         }
         let (words, any_size) = (Fixed::new(bits), Fixed::new(bits));
-        let subject = Subject { header: header.clone(), problem, words, any_size };
+        let subject = Subject { header: header.clone(), problem, order, words, any_size };
         let [min, max] = subject.corners::<BigInt>()?;
-        let has_volume = min.iter().zip(&max).all(|(min, max)| min.hi < max.lo);
+        let has_volume = |k: &usize| min.get(*k).zip(max.get(*k)).is_some_and(|(a, b)| a.hi < b.lo);
+        let has_volume = subject.order[0].iter().all(has_volume);
         has_volume.then_some(subject).ok_or(Rejected::NotABox)
     }
 
     fn corners<Z: Integer>(&self) -> Result<[Vec<Interval<Z>>; 2], Rejected> {
-        let [min, max] = &self.problem.corners;
-        let corner = |x| self.problem.point(x, self.header.precision).ok_or(Rejected::NotABox);
-        Ok([corner(min)?, corner(max)?])
+        let bits = self.header.precision;
+        let corner = |side: usize| {
+            let mut corner = self.problem.point(&self.problem.corners[side], bits)?;
+            for ends in &self.problem.orientation {
+                corner.push(narrowed(&ends[side].enclose(bits, None)?)?);
+            }
+            Some(corner)
+        };
+        corner(0).zip(corner(1)).map(|(min, max)| [min, max]).ok_or(Rejected::NotABox)
     }
 
     /// What is shown on the path to a cell on which nothing is left to be shown.
@@ -125,7 +142,9 @@ impl<'a> Judge<'a> {
             return Err(Rejected::Step(*node, *o));
         }
         match &item.kind {
-            Kind::Outer(Outer::Own(o)) if *o >= obligations.len() => Err(Rejected::Outer(*node)),
+            Kind::Outer(Outer::Own(o)) | Kind::At(_, Outer::Own(o)) if *o >= obligations.len() => {
+                Err(Rejected::Outer(*node))
+            }
             _ => Ok(()),
         }
     }
@@ -139,12 +158,12 @@ impl<'a> Judge<'a> {
         self.claims(visited)?;
         match &item.kind {
             Kind::Boundary => return Ok(()),
-            Kind::Split(_) if item.steps.is_empty() => return Ok(()),
+            Kind::Split(_) | Kind::Part(_) if item.steps.is_empty() => return Ok(()),
             Kind::Mirrored => {
                 let is = self.subject.header.symmetry.is_some() && symmetry::is_mirrored(cell);
                 return is.then_some(()).ok_or(Rejected::NotMirrored(*node));
             }
-            Kind::Split(_) | Kind::Inner | Kind::Outer(_) => {}
+            _ => {}
         }
         let words = self.words.as_ref();
         if words.is_some_and(|side| side.item(self.subject, cell, *inherited, item).is_ok()) {
@@ -164,6 +183,34 @@ impl<'a, Z: Integer> Side<'a, Z> {
         Ok(Side { arithmetic, checker, corners: subject.corners()? })
     }
 
+    /// For each of the problem's coordinates its expansion point, range and half-width over a cell, the
+    /// others at the values where it is said to fail.
+    ///
+    /// **Lemma.** All points of the cell are in the ranges, at these values of the others. *Proof.*
+    /// [`Edge::range`], of the angles themselves where these are paved: the tangent of half of them
+    /// increases. ∎
+    fn edges(&self, subject: &Subject, cell: &Cell, kind: &Kind) -> Option<Edges<Z>> {
+        let (e, [min, max], [paved, others]) = (self.arithmetic, &self.corners, &subject.order);
+        let places = subject.problem.corners[0].len();
+        let mut ranges = min.clone();
+        for (edge, &k) in cell.edges.iter().zip(paved) {
+            let angle = k.checked_sub(places).map(|j| subject.problem.orientation.get(j));
+            *ranges.get_mut(k)? = match angle {
+                None => Edge::range(e, edge.level, edge.ends()?, [min.get(k)?, max.get(k)?])?,
+                Some(ends) => turned(edge, ends?, e.bits())?,
+            };
+        }
+        for (i, (edge, &k)) in cell.others.iter().zip(others).enumerate() {
+            let (level, ends) = match kind {
+                Kind::At(at, _) => (AT_BITS, [*at.get(i)?; 2]),
+                _ => (edge.level, edge.ends()?),
+            };
+            *ranges.get_mut(k)? = Edge::range(e, level, ends, [min.get(k)?, max.get(k)?])?;
+        }
+        let is_more = matches!(kind, Kind::At(at, _) if at.len() > others.len());
+        Ranges(ranges).edges().filter(|_| !is_more)
+    }
+
     /// An inner node's cell has every obligation discharged: on its path, by its steps, or by the
     /// obligation's own evidence.
     fn item(
@@ -173,9 +220,9 @@ impl<'a, Z: Integer> Side<'a, Z> {
         inherited: u128,
         item: &Item,
     ) -> Result<(), Flaw> {
-        let edges = cell.within(self.arithmetic, &self.corners).ok_or(Flaw::Outer)?;
+        let edges = self.edges(subject, cell, &item.kind).ok_or(Flaw::Outer)?;
         let is_given = item.steps.iter().any(|step| step.1.is_some())
-            || matches!(item.kind, Kind::Outer(Outer::Given(_)));
+            || matches!(item.kind, Kind::Outer(Outer::Given(_)) | Kind::At(..) | Kind::Outside);
         let values = match is_given {
             true => self.checker.evaluate(&edges),
             false => self.checker.evaluate_own(&edges),
@@ -194,6 +241,10 @@ impl<'a, Z: Integer> Side<'a, Z> {
             holds.then_some(()).ok_or(Flaw::Step(obligation))
         };
         item.steps.iter().try_for_each(|Step(o, evidence)| shown(*o, evidence.as_ref()))?;
+        // Points whose box is that of the workspace are certainly in it.
+        let is_inside = |g| values.of(g).is_some_and(|g| self.arithmetic.is_nonnegative(&g.range));
+        let bound =
+            subject.problem.inside.iter().map(|inside| inside.g).chain(subject.problem.turned);
         let fails = match &item.kind {
             Kind::Inner => {
                 let open = subject.all() & !discharged(inherited, &item.steps);
@@ -201,10 +252,34 @@ impl<'a, Z: Integer> Side<'a, Z> {
                 return all
                     .try_for_each(|o| if open & bit(o) == 0 { Ok(()) } else { shown(o, None) });
             }
-            Kind::Outer(Outer::Own(o)) => self.checker.fails_own(&values, m, *o),
-            Kind::Outer(Outer::Given(failure)) => self.checker.fails(&values, m, failure),
-            Kind::Split(_) | Kind::Boundary | Kind::Mirrored => true,
+            Kind::Outside => self.checker.is_outside(&over, &place),
+            Kind::At(..) if !bound.clone().all(is_inside) => false,
+            Kind::Outer(outer) | Kind::At(_, outer) => match outer {
+                Outer::Own(o) => self.checker.fails_own(&values, m, *o),
+                Outer::Given(failure) => self.checker.fails(&values, m, failure),
+            },
+            Kind::Split(_) | Kind::Part(_) | Kind::Boundary | Kind::Mirrored => true,
         };
         fails.then_some(()).ok_or(Flaw::Outer)
     }
+}
+
+/// Centre, range and half-width of coordinates.
+type Edges<Z> = Vec<[Interval<Z>; 3]>;
+
+/// The tangents of half of a range of angles, of which the edge is a part.
+fn turned<Z: Integer>(edge: &Edge, ends: &[Input; 2], bits: u32) -> Option<Interval<Z>> {
+    let [Value::HalfTangent(min), Value::HalfTangent(max)] = [&ends[0].value, &ends[1].value]
+    else {
+        return None;
+    };
+    let parts = 1i64.checked_shl(edge.level)?;
+    let at = |j: i64| {
+        let part = |end, n| binary(Operator::Mul, end, &Expression::integer(n));
+        let sum = binary(Operator::Add, &part(min, parts.checked_sub(j)?), &part(max, j));
+        let angle = binary(Operator::Div, &sum, &Expression::integer(parts));
+        Input { value: Value::HalfTangent(angle), ..ends[0].clone() }.enclose(bits, None)
+    };
+    let [from, to] = edge.ends()?;
+    narrowed(&Interval { lo: at(from)?.lo, hi: at(to)?.hi })
 }

@@ -12,6 +12,8 @@
 //! A claim about a box is true or false of each point of it: the *region* is the set of the points
 //! at which it is true for every machine of the claim. A paving is a bisection tree of the
 //! box; nothing of it is kept in memory but the path to the node that is read.
+//!
+//! A paving may be of some of the coordinates, for all values of the others: see [`Header::order`].
 
 mod cell;
 mod code;
@@ -20,7 +22,7 @@ mod reader;
 mod symmetry;
 
 use crate::certificate::Provenance;
-use crate::claim::{MachineClaim, Workspace};
+use crate::claim::{MachineClaim, Mechanism, Orientation, Workspace};
 use crate::input::ClaimError;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -28,9 +30,9 @@ use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 use std::io::{self, BufRead};
 
-pub use cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL};
+pub use cell::{Axis, Cell, Edge, MAX_AXIS_LEVEL, MOST_OTHERS};
 pub use code::{write_pair, write_steps, Item, Kind, Outer, Step};
-pub use judge::{bit, discharged, Judge, Subject};
+pub use judge::{bit, discharged, Judge, Subject, AT_BITS};
 pub use reader::{header, Reader, Root, Visited};
 pub use symmetry::{is_mirrored, is_symmetric, six_ordered};
 
@@ -52,6 +54,9 @@ pub struct Header {
     /// The claim whose region is paved: about a box.
     #[serde(with = "machine")]
     pub claim: MachineClaim,
+    /// The coordinates that are paved, for all values of the others; none if there are no others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinates: Option<Vec<String>>,
     /// Fractional bits of the arithmetic.
     pub precision: u32,
     /// Most splits on a path.
@@ -90,22 +95,63 @@ pub enum Symmetry {
     Permutations,
 }
 
+/// The names of a claim's coordinates: positions, then orientations, these as angles in degrees; none of
+/// one that cannot be paved for all values of the others.
+///
+/// **Lemma (product).** The workspace is the product of the ranges of the coordinates with names and a
+/// set, which is not empty, of values of all others. *Proof.* Of a box and of ranges of angles that is
+/// so. A cylinder binds x and y alone, and has its axis. An angle, or tilt and torsion, bind the
+/// coordinates of orientation alone, and 0 is among these. ∎
+pub fn names(claim: &MachineClaim) -> Vec<Option<String>> {
+    let named = |names: &str| -> Vec<Option<String>> {
+        names.split(' ').map(|name| Some(name.to_owned()).filter(|name| name != "-")).collect()
+    };
+    let mut all = match (&claim.mechanism, &claim.workspace) {
+        (Mechanism::Formulas(formulas), Workspace::Box { .. }) => {
+            formulas.coordinates.iter().cloned().map(Some).collect()
+        }
+        (Mechanism::Formulas(_), _) | (_, Workspace::Cube { .. }) => named("- - -"),
+        (_, Workspace::Cylinder { .. }) => named("- - z"),
+        (Mechanism::Planar(_), _) => named("x y"),
+        (Mechanism::Spherical(_), _) => Vec::new(),
+        _ => named("x y z"),
+    };
+    all.extend(match &claim.orientation {
+        None => Vec::new(),
+        Some(Orientation::Range(_)) => named("angle"),
+        Some(Orientation::RollPitchYaw { .. }) => named("roll pitch yaw"),
+        Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => named("- - -"),
+    });
+    all
+}
+
 impl Header {
-    /// The number of coordinates of the claim's box, if it is about one that may be paved.
+    /// The coordinates that are paved, and the others, by their places among the claim's.
+    ///
+    /// **Lemma (others).** Let the *region* be the set of the values of the paved coordinates at which
+    /// the claim is true for every machine and all values of the others that are in the workspace with
+    /// them. A cell is in it if the claim holds at all points of its parts that are in the workspace; it
+    /// does not meet it if at one value of the others in the workspace, or at all, the claim fails on
+    /// all of the cell. *Proof.* The parts of a cell cover its product with the box of the others. By
+    /// the lemma *product*, the values of the others are the same for all of the cell. ∎
     ///
     /// # Errors
     /// [`Rejected::NotABox`].
-    pub fn dimension(&self) -> Result<usize, Rejected> {
-        match &self.claim.workspace {
-            Workspace::Box { min, max }
-                if self.claim.orientation.is_none()
-                    && (1..=3).contains(&min.len())
-                    && min.len() == max.len() =>
-            {
-                Ok(min.len())
-            }
-            _ => Err(Rejected::NotABox),
-        }
+    pub fn order(&self) -> Result<[Vec<usize>; 2], Rejected> {
+        let names = names(&self.claim);
+        let place = |own: &String| names.iter().position(|name| name.as_ref() == Some(own));
+        let paved: Option<Vec<usize>> = match &self.coordinates {
+            Some(own) => own.iter().map(place).collect(),
+            None if self.claim.orientation.is_none() => names.iter().flatten().map(place).collect(),
+            None => None,
+        };
+        let paved = paved.filter(|paved| (1..=3).contains(&paved.len()));
+        let paved = paved.ok_or(Rejected::NotABox)?;
+        let others: Vec<usize> = (0..names.len()).filter(|k| !paved.contains(k)).collect();
+        // None stands there twice, and none is left over where it is not said which are paved.
+        let is_order = paved.len() + others.len() == names.len()
+            && (others.is_empty() || self.coordinates.is_some());
+        is_order.then_some([paved, others]).ok_or(Rejected::NotABox)
     }
 }
 
@@ -179,7 +225,7 @@ pub enum Rejected {
     Format(String),
     /// The claim is not well formed.
     Claim(ClaimError),
-    /// The claim is not about a box of one to three coordinates that has a volume.
+    /// What is paved is not a box of one to three coordinates that has a volume.
     NotABox,
     /// The claim is about two points at a time.
     OfTwoPoints,
@@ -206,6 +252,8 @@ pub enum Rejected {
     Repeated(u64, usize),
     /// A cell is not shown to be outside.
     Outer(u64),
+    /// A part of a cell is neither inner, nor in parts, nor outside the workspace.
+    Part(u64),
     /// A cell is not left out by symmetry.
     NotMirrored(u64),
     /// The last line is not the summary of the tree.
@@ -235,8 +283,8 @@ impl fmt::Display for Rejected {
             Rejected::Claim(error) => write!(f, "the claim is not well formed: {error}"),
             Rejected::NotABox => write!(
                 f,
-                "the claim is not about a box of positive volume, of one to three coordinates \
-                 without orientations"
+                "what is paved is not a box of positive volume, of one to three coordinates without \
+                 orientations, or of one to three different ones that are named"
             ),
             Rejected::OfTwoPoints => {
                 write!(f, "the claim is about two points at a time: one_to_one has no region")
@@ -269,6 +317,10 @@ impl fmt::Display for Rejected {
             Rejected::Outer(node) => {
                 write!(f, "node {node} is not outer: it does not certainly fail throughout")
             }
+            Rejected::Part(node) => write!(
+                f,
+                "node {node}: parts of a cell, and they alone, are inner, in parts, or outside the workspace"
+            ),
             Rejected::NotMirrored(node) => write!(
                 f,
                 "node {node} is left out by symmetry, but has points with u_x < u_y < u_z"
@@ -315,8 +367,10 @@ pub struct Accepted {
     pub summary: Summary,
     /// The shares of the volume.
     pub shares: Shares,
-    /// Inner and outer cells whose evidence was evaluated.
+    /// Inner and outer cells, and inner parts of cells, whose evidence was evaluated.
     pub checked: u64,
+    /// How many there are.
+    pub decided: u64,
 }
 
 /// Checks a paving, in one pass over its bytes. The shape of the tree, what every node claims, the
@@ -332,17 +386,18 @@ pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected>
         Extent::All => None,
         Extent::Sample { size, seed } => Some(Sample::new(size, seed)),
     };
-    let mut checked = 0;
+    let (mut checked, mut decided) = (0, 0);
     while let Some(visited) = reader.next()? {
-        let decided = matches!(visited.item.kind, Kind::Inner | Kind::Outer(_));
+        let is_decided = matches!(visited.item.kind, Kind::Inner | Kind::Outer(_) | Kind::At(..));
+        decided += u64::from(is_decided);
         match &mut sample {
-            Some(sample) if decided => {
+            Some(sample) if is_decided => {
                 judge.claims(&visited)?;
                 sample.offer(visited);
             }
             _ => {
                 judge.check(&visited)?;
-                checked += u64::from(decided);
+                checked += u64::from(is_decided);
             }
         }
     }
@@ -352,7 +407,7 @@ pub fn check<R: BufRead>(input: R, extent: Extent) -> Result<Accepted, Rejected>
         judge.check(&visited)?;
         checked += 1;
     }
-    Ok(Accepted { header, summary, shares, checked })
+    Ok(Accepted { header, summary, shares, checked, decided })
 }
 
 /// Draws `size` of however many cells are offered: the one after `seen` others takes the place of one

@@ -42,11 +42,11 @@ impl Root {
 pub struct Reader<R> {
     input: R,
     header: Header,
-    dimension: usize,
+    order: [Vec<usize>; 2],
     /// What is to be read, and what is read already of a node whose byte has its halves.
     waiting: Vec<(Root, Option<Kind>)>,
     nodes: u64,
-    /// Nodes of each kind: split, inner, outer, boundary, mirrored.
+    /// Nodes of each kind, but for those of parts: split, inner, outer, boundary, mirrored.
     counts: [u64; 5],
     shares: Shares,
 }
@@ -111,7 +111,7 @@ impl<R: Read> Reader<R> {
     pub fn below(input: R, header: &Header, root: Root) -> Result<Self, Rejected> {
         Ok(Reader {
             input,
-            dimension: header.dimension()?,
+            order: header.order()?,
             header: header.clone(),
             waiting: vec![(root, None)],
             nodes: 0,
@@ -147,9 +147,18 @@ impl<R: Read> Reader<R> {
         };
         self.nodes += 1;
         let done = refuse_repetition(inherited, &item, node)?;
-        if let Kind::Split(axis) = item.kind {
-            let (lower, upper) = self.halves(&cell, axis, depth).ok_or(Rejected::TooDeep(node))?;
-            let below = |cell| Root { cell, inherited: done, depth: depth + 1 };
+        let is_of_part = matches!(item.kind, Kind::Part(_) | Kind::Inner | Kind::Outside);
+        if cell.is_part() && !is_of_part || item.kind == Kind::Outside && !cell.is_part() {
+            return Err(Rejected::Part(node));
+        }
+        let halved = match item.kind {
+            Kind::Split(axis) => Some((self.halves(&cell, axis, depth), depth + 1)),
+            Kind::Part(k) => Some((cell.parts(k).filter(|_| k < self.order[1].len()), depth)),
+            _ => None,
+        };
+        if let Some((cells, depth)) = halved {
+            let (lower, upper) = cells.ok_or(Rejected::TooDeep(node))?;
+            let below = |cell| Root { cell, inherited: done, depth };
             let [first, second] = halves.map_or([None, None], |halves| halves.map(Some));
             self.waiting.push((below(upper), second));
             self.waiting.push((below(lower), first));
@@ -159,19 +168,23 @@ impl<R: Read> Reader<R> {
     }
 
     fn halves(&self, cell: &Cell, axis: Axis, depth: u32) -> Option<(Cell, Cell)> {
-        let may = depth < self.header.depth && axis.index() < self.dimension;
+        let may = depth < self.header.depth && axis.index() < self.order[0].len();
         may.then(|| cell.halves(axis)).flatten()
     }
 
     fn count(&mut self, cell: &Cell, kind: &Kind) {
+        if cell.is_part() {
+            return;
+        }
         let share = || self.header.share(cell);
         let position = match kind {
             Kind::Split(_) => 0,
-            Kind::Inner => {
+            // All parts are shown to be inner, or outside, or the paving is rejected.
+            Kind::Part(_) | Kind::Outside | Kind::Inner => {
                 self.shares.inner += share();
                 1
             }
-            Kind::Outer(_) => 2,
+            Kind::Outer(_) | Kind::At(..) => 2,
             Kind::Boundary => {
                 self.shares.boundary += share();
                 3
@@ -246,7 +259,7 @@ fn refuse_repetition(inherited: u128, item: &Item, node: u64) -> Result<u128, Re
         done |= new;
     }
     match item.kind {
-        Kind::Split(_) | Kind::Inner => Ok(done),
+        Kind::Split(_) | Kind::Part(_) | Kind::Inner => Ok(done),
         _ if item.steps.is_empty() => Ok(done),
         _ => Err(Rejected::IdleSteps(node)),
     }

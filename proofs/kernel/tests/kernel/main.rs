@@ -11,6 +11,7 @@ mod directions;
 mod document;
 mod false_claims;
 mod false_poses;
+mod for_all;
 mod leaves;
 mod machines;
 mod motions;

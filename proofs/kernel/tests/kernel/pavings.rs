@@ -35,10 +35,11 @@ fn orthoglide(low: &str, high: &str) -> MachineClaim {
 /// Three joints, the third of which keeps to a quarter of a disc of area `pi/8`, told by `x` and `y`.
 const DISC: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"parameters":[],"definitions":[],"joints":[{"rho":"x"},{"rho":"y"},{"rho":"x^2+y^2"}]}},"workspace":{"box":{"min":["0","0"],"max":["1","1"]}},"require":[{"quantity":"joint_range","leg":3,"end":"max","bound":"1/2"}]}"#;
 
-fn header_of(claim: MachineClaim, depth: u32) -> Header {
+pub fn header_of(claim: MachineClaim, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
         claim,
+        coordinates: None,
         precision: 36,
         depth,
         symmetry: None,
@@ -51,7 +52,7 @@ fn header(symmetric: bool) -> Header {
     Header { symmetry, ..header_of(orthoglide("-0.7", "0.7"), 10) }
 }
 
-fn bare(kind: Kind) -> Item {
+pub fn bare(kind: Kind) -> Item {
     Item { steps: Vec::new(), kind }
 }
 
@@ -69,13 +70,13 @@ fn item(judge: &Judge<'_>, subject: &Subject, cell: &Cell, depth: u32) -> Item {
     if depth == subject.header.depth {
         return bare(Kind::Boundary);
     }
-    let axes = Axis::ALL.iter().take(subject.header.dimension().unwrap());
+    let axes = Axis::ALL.iter().take(subject.order[0].len());
     let axis = *axes.min_by_key(|axis| cell.edges[axis.index()].level).unwrap();
     bare(Kind::Split(axis))
 }
 
 /// A paving of few cells, and its items.
-fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
+pub fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
     let subject = Subject::new(header).unwrap();
     let judge = Judge::new(&subject).unwrap();
     let (mut items, mut waiting) = (Vec::new(), vec![(Cell::ROOT, 0)]);
@@ -90,7 +91,7 @@ fn paving(header: &Header) -> (Vec<u8>, Vec<Item>) {
     (written(header, &items), items)
 }
 
-fn body(header: &Header, items: &[Item]) -> Vec<u8> {
+pub fn body(header: &Header, items: &[Item]) -> Vec<u8> {
     let mut bytes = serde_json::to_vec(header).unwrap();
     bytes.push(b'\n');
     for item in items {
@@ -100,7 +101,7 @@ fn body(header: &Header, items: &[Item]) -> Vec<u8> {
 }
 
 /// The bytes of a paving with the summary that its tree has.
-fn written(header: &Header, items: &[Item]) -> Vec<u8> {
+pub fn written(header: &Header, items: &[Item]) -> Vec<u8> {
     let mut bytes = body(header, items);
     let mut reader = Reader::new(bytes.as_slice()).unwrap();
     while let Ok(Some(_)) = reader.next() {}
@@ -110,12 +111,12 @@ fn written(header: &Header, items: &[Item]) -> Vec<u8> {
     bytes
 }
 
-fn checked(bytes: &[u8]) -> Result<Accepted, Rejected> {
+pub fn checked(bytes: &[u8]) -> Result<Accepted, Rejected> {
     check(bytes, Extent::All)
 }
 
 /// The reason for which these bytes are rejected.
-fn reason(bytes: &[u8]) -> String {
+pub fn reason(bytes: &[u8]) -> String {
     checked(bytes).expect_err("rejected").to_string()
 }
 
@@ -313,7 +314,7 @@ fn what_is_inherited_need_not_be_shown_again() {
     let judge = Judge::new(&subject).unwrap();
     // Off the region by sigma_min alone.
     let edge = |index| Edge { index, level: 4 };
-    let cell = Cell { edges: [edge(4), edge(4), edge(4)] };
+    let cell = Cell { edges: [edge(4), edge(4), edge(4)], ..Cell::ROOT };
     let visited = |inherited, item| Visited { cell, inherited, depth: 12, node: 7, item };
     let of = |inherited| judge.check(&visited(inherited, bare(Kind::Inner)));
     assert!(matches!(of(0), Err(Rejected::Step(7, 0))), "{:?}", of(0));
@@ -403,9 +404,9 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
     for _ in 0..500 {
         let edges: [Edge; 3] = std::array::from_fn(|_| {
             let level = random(4) as u32;
-            Edge { index: random(1 << level).into(), level }
+            Edge { index: random(1 << level), level }
         });
-        let cell = Cell { edges };
+        let cell = Cell { edges, ..Cell::ROOT };
         // Count on the grid of level 3: of a cube on the diagonal a sixth is ordered, of one on a
         // plane a half.
         let mut count = 0;
@@ -430,13 +431,13 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
         }
     }
     // The deepest cells, far from the diagonal and on it.
-    let deep = |index: u128| Edge { index, level: 40 };
+    let deep = |index: u64| Edge { index, level: 40 };
     let last = (1 << 40) - 1;
     let whole = Edge { index: 0, level: 0 };
-    assert_eq!(six_ordered(&Cell { edges: [deep(5); 3] }), 1);
-    assert_eq!(six_ordered(&Cell { edges: [deep(0), deep(7), deep(last)] }), 6);
-    assert_eq!(six_ordered(&Cell { edges: [deep(8), deep(7), deep(last)] }), 0);
-    assert!(six_ordered(&Cell { edges: [whole, deep(last / 3), whole] }) > 0);
+    assert_eq!(six_ordered(&Cell { edges: [deep(5); 3], ..Cell::ROOT }), 1);
+    assert_eq!(six_ordered(&Cell { edges: [deep(0), deep(7), deep(last)], ..Cell::ROOT }), 6);
+    assert_eq!(six_ordered(&Cell { edges: [deep(8), deep(7), deep(last)], ..Cell::ROOT }), 0);
+    assert!(six_ordered(&Cell { edges: [whole, deep(last / 3), whole], ..Cell::ROOT }) > 0);
 }
 
 #[test]
@@ -541,7 +542,7 @@ fn claims_that_have_no_region_are_refused() {
     let cylinder = r#"{"cylinder":{"center":["0","0"],"radius":"1","z":["0","1"]}}"#;
     let workspace: Workspace = serde_json::from_str(cylinder).unwrap();
     let round = MachineClaim { workspace, ..orthoglide("-0.5", "0.5") };
-    assert!(refused(round).contains("not about a box"));
+    assert!(refused(round).contains("not a box of positive volume"));
     let mut of_two_points = orthoglide("-0.5", "0.5");
     let one_to_one = r#"{"quantity":"one_to_one","end":"holds"}"#;
     of_two_points.require.push(serde_json::from_str(one_to_one).unwrap());
