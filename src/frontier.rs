@@ -8,14 +8,13 @@
 //! are not so ordered, [`limit`](crate::limit) looks for a value of each verdict.
 
 use crate::exact::Exact;
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Largest factor between one value and the next that is of use.
@@ -108,13 +107,17 @@ impl Walk {
 /// Those of `test`.
 pub fn frontier<T>(
     walk: &Walk,
-    mut test: impl FnMut(&BigRational) -> Result<Option<T>, NoAnswer>,
+    control: &mut Control<'_>,
+    mut test: impl FnMut(&BigRational, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
 ) -> Result<Option<(BigRational, T)>, NoAnswer> {
+    let mut steps = Steps::default();
     let (mut best, mut failed) = (None, None);
     let (mut x, mut factor) = (walk.start, walk.factor);
     while !walk.is_over() && (walk.limits.0..=walk.limits.1).contains(&x) {
         let Some(value) = decimal(x, walk.gap) else { break };
-        let found = test(&value)?;
+        // A few more steps outward, then halves.
+        let left = 2 + halves(factor, walk.gap);
+        let found = steps.next(control, left, |control| test(&value, control))?;
         let success = found.is_some();
         match found {
             Some(found) => best = Some((x, value, found)),
@@ -132,12 +135,18 @@ pub fn frontier<T>(
         }
         let middle = (good * bad).sqrt();
         let Some(value) = decimal(middle, walk.gap).filter(|value| value != last) else { break };
-        match test(&value)? {
+        let left = halves((good / bad).max(bad / good), walk.gap);
+        match steps.next(control, left, |control| test(&value, control))? {
             Some(found) => best = Some((middle, value, found)),
             None => failed = Some(middle),
         }
     }
     Ok(best.map(|(_, value, found)| (value, found)))
+}
+
+/// How often a factor is to be halved until it is one of `1 + gap`.
+fn halves(factor: f64, gap: f64) -> usize {
+    (factor.ln() / gap.ln_1p()).log2().ceil().clamp(1.0, 64.0) as usize
 }
 
 /// The decimal nearest to `x > 0` with three digits more than a relative distance of `gap` needs.
@@ -176,7 +185,7 @@ pub fn refutation(
 }
 
 fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
-    match control.cancel.load(Ordering::Relaxed) {
+    match control.is_cancelled() {
         true => Err(NoAnswer::Cancelled),
         false => Ok(found),
     }
@@ -185,6 +194,8 @@ fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::search::Progress;
+    use std::sync::atomic::AtomicBool;
 
     const WALK: Walk = Walk {
         start: 1.0,
@@ -198,8 +209,13 @@ mod tests {
     };
 
     fn found(walk: Walk, succeeds: impl Fn(f64) -> bool) -> Option<f64> {
-        let test = |x: &BigRational| Ok(x.to_f64().filter(|x| succeeds(*x)));
-        frontier(&walk, test).unwrap().map(|(value, seen)| {
+        let test = |x: &BigRational, _: &mut Control<'_>| Ok(x.to_f64().filter(|x| succeeds(*x)));
+        let cancel = AtomicBool::new(false);
+        let mut shares = Vec::new();
+        let mut note = |now: Progress| shares.push(now.share);
+        let found = frontier(&walk, &mut Control { cancel: &cancel, progress: &mut note }, test);
+        assert!(shares.is_sorted() && shares.iter().all(|x| (0.0..=1.0).contains(x)), "{shares:?}");
+        found.unwrap().map(|(value, seen)| {
             assert_eq!(value.to_f64(), Some(seen));
             seen
         })

@@ -12,7 +12,7 @@ use orthocert::frontier::NoAnswer;
 use orthocert::output;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
-use orthocert::search::{Budget, Control, Progress};
+use orthocert::search::{Budget, Control};
 use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::Certificate;
 use orthocert_checker::statement;
@@ -105,11 +105,9 @@ impl Files<'_> {
 
 /// All cells of a design's map.
 fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
-    let mut bar = Bar::new("", quiet);
-    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
-    let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
-    let grown = atlas::grow(&mut growing, design.whole(), None);
-    bar.clear();
+    let grown = Bar::new("cells", quiet).run("", 1, |control| {
+        atlas::grow(&mut Growing::new(design, control), design.whole(), None)
+    });
     let top = grown.map_err(|stopped| match stopped {
         Stopped::Cancelled => Failure::Interrupted,
         Stopped::TooLarge => Failure::Input(stopped.to_string()),

@@ -122,19 +122,21 @@ fn rows(
     };
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
-    let singular = effort
-        .run("singularities", |control| is_singular(claim, budget, control))
+    let extremes = Extreme::of(claim, problem.legs.len());
+    let (mut bar, all) = (effort.bar(), extremes.len());
+    let singular = bar
+        .run("singularities", all + 1, |control| is_singular(claim, budget, control))
         .map_err(failure)?;
     let mut rows = exact_rows(claim);
-    let extremes = Extreme::of(claim, problem.legs.len());
-    let all = extremes.len();
     for (number, extreme) in extremes.into_iter().enumerate() {
         let found = if singular {
             Err(NotEnclosed::Singular)
         } else {
             let end = if extreme.is_greatest() { "greatest" } else { "least" };
             let task = format!("{} of {all}, {end} {}", number + 1, extreme.quantity());
-            effort.run(&task, |control| enclose(claim, &extreme, relative, budget, control))
+            bar.run(&task, all - number, |control| {
+                enclose(claim, &extreme, relative, budget, control)
+            })
         };
         let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
         match found {

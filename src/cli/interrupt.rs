@@ -3,7 +3,7 @@
 //! The search looks at [`cancelled`] between batches of boxes. What does not look, such as the exact
 //! check of a large proof, is ended with the process, but never while a file is being written.
 
-use super::print;
+use super::{print, progress};
 use orthocert::output;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -56,6 +56,7 @@ pub fn end() -> ExitCode {
 
 fn say() {
     if !SAID.swap(true, Ordering::Relaxed) {
+        progress::clear();
         print::diagnostic("interrupted");
     }
 }

@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(target)?;
     }
     effort.start_threads()?;
-    let found = effort.run("", |control| match &side {
+    let found = effort.run(|control| match &side {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });

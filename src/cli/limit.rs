@@ -155,16 +155,19 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         deadline: budget.deadline,
     };
     let variable = &variable;
-    let own = effort.run("own value", |control| {
-        DesignFamily { variable, budget, control }.decide(&design.claim)
+    let mut bar = effort.bar();
+    let own = bar.run("own value", 20, |control| {
+        DesignFamily { variable, budget, control }.decide(&design.claim, [0.0, 1.0])
     });
     let own = own.map_err(explain)?;
     let verdict = own.as_ref().map(|(verdict, _)| *verdict);
     let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
-    let found = effort
-        .run("", |control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
+    let found = bar.run(&arguments.key, 1, |control| {
+        limits(&question, own, &mut DesignFamily { variable, budget, control })
+    });
+    drop(bar);
     let limits = found.map_err(explain)?;
     let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
     let answer = Answer {

@@ -1,6 +1,6 @@
 //! `orthocert pave`.
 
-use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
+use super::{effort, input, print, progress::Bar, Failure, Format, Status};
 use orthocert::batch::plan::identity;
 use orthocert::design::{written, Design};
 use orthocert::digest::Summed;
@@ -11,7 +11,6 @@ use orthocert::paving::{
     Resume, DEEPEST,
 };
 use orthocert::report::paving::PavingReport;
-use orthocert::search::Control;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
@@ -95,15 +94,14 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         ));
     }
     effort::start_threads(arguments.threads)?;
-    let mut bar = Bar::new("", arguments.quiet);
-    let mut progress = |now| bar.show(now);
-    let mut control = Control { cancel: interrupt::cancelled(), progress: &mut progress };
+    let mut bar = Bar::new("boxes", arguments.quiet);
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };
-    let paved = pave(claim, &goal, &target, resume, &mut control);
-    bar.clear();
+    let paved = bar.run("", 2, |control| pave(claim, &goal, &target, resume, control));
     let paved = paved.map_err(|error| failure(error, &target))?;
     let elapsed = started.elapsed();
-    let found = connected(&target, &paved.sha256, arguments.memory)?;
+    let found =
+        bar.run("components", 1, |_| connected(&target, &paved.sha256, arguments.memory))?;
+    drop(bar);
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
     report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;

@@ -90,13 +90,17 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;
-    let family = Family::new(claim, &side, width).map_err(explain)?;
-    let found = effort
-        .run("placement", |control| family.smallest(width, budget, control))
+    let mut bar = effort.bar();
+    let family =
+        bar.run("place of the cube", 5, |control| Family::new(claim, &side, width, control));
+    let family = family.map_err(explain)?;
+    let found = bar
+        .run("this place", 2, |control| family.smallest(width, budget, control))
         .map_err(explain)?;
-    let excluded = effort
-        .run("every placement", |control| family.excluded(width, budget, control))
+    let excluded = bar
+        .run("every place", 1, |control| family.excluded(width, budget, control))
         .map_err(explain)?;
+    drop(bar);
     let answer = answer(&family, (found, excluded), side, width, arguments)?;
     let answer = Answer { length_unit: design.unit, ..answer };
     match effort.format {

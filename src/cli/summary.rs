@@ -75,8 +75,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         one_unit: !turns || design.sources.position(key).is_some(),
         gap: gap.unwrap_or_else(of_size),
     };
+    let mut bar = effort.bar();
     let found =
-        effort.run("verdict", |control| verify(claim, budget, control)).map_err(Failure::input)?;
+        bar.run("verdict", 5, |control| verify(claim, budget, control)).map_err(Failure::input)?;
     if found.is_cancelled() {
         return Err(Failure::Interrupted);
     }
@@ -89,9 +90,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         print::answer(&(headline_of(verdict, name, print::style()) + "\n"))?;
         return Ok(status(verdict));
     }
-    let summary = effort.run("quantities", |control| {
+    let summary = bar.run("quantities", 1, |control| {
         summary(claim, &found, &question, of_widths, started, control)
     });
+    drop(bar);
     let summary = summary.map_err(|error| match error {
         NotEnclosed::Cancelled => Failure::Interrupted,
         error => Failure::input(error),

@@ -118,12 +118,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
-    let bracket = |scheme: &Scheme| {
+    let legs = if arguments.by_leg { legs_of(&claim.mechanism) } else { 0 };
+    let mut left = schemes(&kinds).len() + usize::from(mixed(&kinds)) + kinds.len() * legs;
+    let mut bar = effort.bar();
+    let mut bracket = |scheme: &Scheme| {
         let own = each.and_then(|each| Instant::now().checked_add(each));
         let deadline = [budget.deadline, own].into_iter().flatten().min();
         let budget = Budget { deadline, ..budget };
-        let found =
-            effort.run(&words(scheme), |control| widest(claim, scheme, width, budget, control));
+        left -= 1;
+        let found = bar
+            .run(&words(scheme), left + 1, |control| widest(claim, scheme, width, budget, control));
         let out_of_time = deadline.is_some_and(|deadline| Instant::now() >= deadline);
         found.map(|found| (found, out_of_time)).map_err(explain)
     };
@@ -159,6 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     interrupt::grant();
     let filled = fill();
+    drop(bar);
     // What was found before is told.
     match filled {
         Err(Failure::Interrupted) if !rows.is_empty() => {}
@@ -256,7 +261,7 @@ fn nodes_or_status(
     let refuted = refutation(nominal);
     let counterexample = refuted.as_deref().and_then(counterexample);
     if refuted.is_none() {
-        let found = effort.run("nominal", |control| proof(nominal, budget, control));
+        let found = effort.run(|control| proof(nominal, budget, control));
         if interrupt::cancelled().load(Ordering::Relaxed) {
             return Err(Failure::Interrupted);
         }

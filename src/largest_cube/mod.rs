@@ -13,7 +13,7 @@ mod exclude;
 use crate::arithmetic::at_most;
 use crate::frontier::{proof, NoAnswer};
 use crate::placement::{best_place, cube_about, Centres};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::{self, approximate, number};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -79,18 +79,21 @@ pub fn largest_cube(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
-    let Some(place) = best_place(claim, Centres::Workspace, gap * PLACEMENT)? else {
+    let place = control.part([0.0, 0.3], |control| {
+        best_place(claim, Centres::Workspace, gap * PLACEMENT, control)
+    })?;
+    let Some(place) = place else {
         return Ok(Bracket::default());
     };
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
-    let inside = nearest(|share| {
+    let inside = nearest(control, [0.3, 0.6], |share, control| {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
         match side.filter(BigRational::is_positive).and_then(|side| number(&side)) {
             Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
             None => Ok(None),
         }
     })?;
-    let too_large = nearest(|share| {
+    let too_large = nearest(control, [0.6, 1.0], |share, control| {
         let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
         let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
         let excluded = exclude(claim, &side, budget, control)?;
@@ -107,8 +110,14 @@ pub fn largest_cube(
 /// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
 /// none of those that are enough, from there towards the last for which nothing was found.
 fn nearest<T>(
-    mut found: impl FnMut(f64) -> Result<Option<T>, NoAnswer>,
+    control: &mut Control<'_>,
+    part: [f64; 2],
+    mut found: impl FnMut(f64, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
 ) -> Result<Option<T>, NoAnswer> {
+    let mut steps = Steps::default();
+    let mut found = |share| {
+        control.part(part, |control| steps.next(control, 2, |control| found(share, control)))
+    };
     let mut least = 0.0;
     for share in SHARES {
         let Some(mut best) = found(share)? else {
@@ -142,7 +151,7 @@ pub fn cube_of_side(
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
     let wanted = approximate(side).unwrap_or(f64::INFINITY);
-    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT)?;
+    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, control)?;
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
@@ -197,9 +206,11 @@ mod tests {
 
     #[test]
     fn the_nearest_share_that_works_is_come_near_to() {
+        let cancel = std::sync::atomic::AtomicBool::new(false);
+        let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
         for least in [0.2, 0.3, 0.4, 0.6, 7.3, 49.0, 300.0, 9e4] {
             let mut tries = 0;
-            let found = nearest(|share| {
+            let found = nearest(control, [0.0, 1.0], |share, _| {
                 tries += 1;
                 Ok((share >= least).then_some(share))
             });
@@ -208,7 +219,9 @@ mod tests {
             assert!((least..=enough).contains(&found), "{least}: {found}");
             assert!(tries <= SHARES.len() + NEARER);
         }
-        assert_eq!(nearest(|_| Ok(None::<f64>)).unwrap(), None);
-        assert!(nearest(|_| Err::<Option<f64>, _>(NoAnswer::Cancelled)).is_err());
+        let all = [0.0, 1.0];
+        assert_eq!(nearest(control, all, |_, _| Ok(None::<f64>)).unwrap(), None);
+        let cancelled = |_, _: &mut Control<'_>| Err::<Option<f64>, _>(NoAnswer::Cancelled);
+        assert!(nearest(control, all, cancelled).is_err());
     }
 }

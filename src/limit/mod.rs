@@ -48,11 +48,15 @@ pub trait Family {
     /// If the value is not admissible.
     fn claim(&self, value: &BigRational) -> Result<Self::Claim, String>;
 
-    /// A claim's verdict, if one is found.
+    /// A claim's verdict, if one is found: these shares of all the work.
     ///
     /// # Errors
     /// If it was cancelled.
-    fn decide(&mut self, claim: &Self::Claim) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
+    fn decide(
+        &mut self,
+        claim: &Self::Claim,
+        part: [f64; 2],
+    ) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
 }
 
 /// Away from the number's own value.

@@ -9,6 +9,8 @@ struct Known<V> {
     verdict: V,
     ends: (i64, i64),
     tried: Vec<BigRational>,
+    /// The share that was done when the last value was asked for.
+    done: f64,
 }
 
 impl<V: Fn(&BigRational) -> Option<Verdict>> Family for Known<V> {
@@ -24,7 +26,13 @@ impl<V: Fn(&BigRational) -> Option<Verdict>> Family for Known<V> {
         }
     }
 
-    fn decide(&mut self, x: &BigRational) -> Result<Option<(Verdict, BigRational)>, NoAnswer> {
+    fn decide(
+        &mut self,
+        x: &BigRational,
+        [from, to]: [f64; 2],
+    ) -> Result<Option<(Verdict, BigRational)>, NoAnswer> {
+        assert!(self.done <= from && from <= to && to <= 1.0, "{} {from} {to}", self.done);
+        self.done = from;
         self.tried.push(x.clone());
         Ok((self.verdict)(x).map(|verdict| (verdict, x.clone())))
     }
@@ -45,8 +53,8 @@ fn found(
     let size = if own == number(0, 1) { number(50, 1) } else { own.abs() };
     let (gap, directions) = (number(1, 1_000_000), directions.to_vec());
     let question = Question { own, size, gap, directions, deadline: None };
-    let mut family = Known { verdict, ends: (-100_000, 100_000), tried: Vec::new() };
-    let start = family.decide(&question.own).unwrap();
+    let mut family = Known { verdict, ends: (-100_000, 100_000), tried: Vec::new(), done: 0.0 };
+    let start = family.decide(&question.own, [0.0, 1.0]).unwrap();
     let limits = limits(&question, start, &mut family).unwrap();
     for limit in &limits {
         for (end, verdict) in [(&limit.certified, Certified), (&limit.refuted, Refuted)] {
@@ -193,7 +201,7 @@ fn without_time_nothing_is_tried() {
         deadline: Some(Instant::now()),
     };
     let verdict = |_: &BigRational| Some(Certified);
-    let mut family = Known { verdict, ends: (0, 10), tried: Vec::new() };
+    let mut family = Known { verdict, ends: (0, 10), tried: Vec::new(), done: 0.0 };
     let own = Some((Certified, number(1, 1)));
     let limits = limits(&question, own, &mut family).unwrap();
     assert!(family.tried.is_empty());

@@ -23,7 +23,7 @@ pub use shares::{Share, Shares};
 use crate::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::extremes::{enclose, is_singular, Enclosed, NotEnclosed};
 use crate::solver::value::Bounded;
 use crate::solver::{sector, Verification};
@@ -142,10 +142,15 @@ pub fn summary(
     let problem = Problem::new(claim)?;
     let Some(report) = Report::new(claim, verification, Duration::ZERO) else { return Ok(None) };
     let certified = report.verdict == Outcome::Decided(Verdict::Certified);
-    let singular = !certified && is_singular(claim, budget, control)?;
+    let mut steps = Steps::default();
     let (all, left_out) = asked(claim, &problem, question);
+    let shares = shares::deviations(claim);
+    let mut left = 1 + all.len() + shares;
+    let singular =
+        !certified && steps.next(control, left, |control| is_singular(claim, budget, control))?;
     let mut found = Vec::new();
     for asked in all {
+        left -= 1;
         let ends = match &asked {
             _ if singular => Err(NotEnclosed::Singular),
             Asked::Known(_, value) => {
@@ -159,11 +164,15 @@ pub fn summary(
             }
             _ if is_over(budget) => Err(NotEnclosed::Undecided),
             Asked::Extreme(extreme) => {
-                let found = enclose(claim, extreme, &question.gap, budget, control);
+                let found = steps.next(control, left, |control| {
+                    enclose(claim, extreme, &question.gap, budget, control)
+                });
                 found.map(|found| vec![End::from(found)])
             }
             Asked::Angle(leg) => {
-                let found = sector::enclose(claim, *leg, &question.gap, budget, control);
+                let found = steps.next(control, left, |control| {
+                    sector::enclose(claim, *leg, &question.gap, budget, control)
+                });
                 found.map(|found| {
                     let sides = found.certified.into_iter().zip(found.reached);
                     let end = |(certified, reached)| {
@@ -186,7 +195,9 @@ pub fn summary(
     });
     let accuracy = match singular {
         true => None,
-        false => shares::shares(claim, &question.gap, &found, budget, control)?,
+        false => steps.next(control, 1, |control| {
+            shares::shares(claim, &question.gap, &found, budget, control)
+        })?,
     };
     let angular = asked::is_angular(&problem);
     let toleranced = problem.tolerances().next().is_some();
