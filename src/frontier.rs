@@ -101,7 +101,8 @@ impl Walk {
     }
 }
 
-/// The last value found at which `test` succeeds, and what it gave; `None` where none did.
+/// The last value found at which `test` succeeds, and what it gave; `None` where none did. Cancelled, it
+/// has what was found before.
 ///
 /// # Errors
 /// Those of `test`.
@@ -117,7 +118,10 @@ pub fn frontier<T>(
         let Some(value) = decimal(x, walk.gap) else { break };
         // A few more steps outward, then halves.
         let left = 2 + halves(factor, walk.gap);
-        let found = steps.next(control, left, |control| test(&value, control))?;
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
         let success = found.is_some();
         match found {
             Some(found) => best = Some((x, value, found)),
@@ -130,13 +134,20 @@ pub fn frontier<T>(
         factor = (factor * factor).min(walk.most);
     }
     while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
-        if walk.is_over() || (good / bad).max(bad / good) <= 1.0 + walk.gap {
+        if walk.is_over()
+            || control.is_cancelled()
+            || (good / bad).max(bad / good) <= 1.0 + walk.gap
+        {
             break;
         }
         let middle = (good * bad).sqrt();
         let Some(value) = decimal(middle, walk.gap).filter(|value| value != last) else { break };
         let left = halves((good / bad).max(bad / good), walk.gap);
-        match steps.next(control, left, |control| test(&value, control))? {
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
+        match found {
             Some(found) => best = Some((middle, value, found)),
             None => failed = Some(middle),
         }
@@ -240,6 +251,25 @@ mod tests {
         let walk = Walk { improve: false, start: 0.3, ..WALK };
         assert_eq!(found(walk, |x| x <= 5.0), Some(0.3));
         assert!(found(walk, |x| x <= 0.2).is_some_and(|x| x <= 0.2 && x > 0.199_999));
+    }
+
+    #[test]
+    fn cancelled_it_has_what_was_found_before() {
+        let cancel = AtomicBool::new(false);
+        for most in 0..20 {
+            let mut tried = Vec::new();
+            let test = |x: &BigRational, _: &mut Control<'_>| {
+                if tried.len() == most {
+                    return Err(NoAnswer::Cancelled);
+                }
+                tried.push(x.clone());
+                Ok(x.to_f64().filter(|x| *x <= 42.0))
+            };
+            let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+            let found = frontier(&WALK, control, test).unwrap().map(|(value, _)| value);
+            let forty_two = BigRational::from_integer(42.into());
+            assert_eq!(found, tried.into_iter().filter(|x| *x <= forty_two).max());
+        }
     }
 
     #[test]

@@ -184,7 +184,12 @@ impl Family {
             let share = f64::max(below, SHARE * gap);
             let Some(size) = decimal(self.expected * (1.0 - share), gap) else { break };
             let Some(claim) = self.centres(&size) else { break };
-            match steps.next(control, 2, |control| exclude(&claim, &side, budget, control))? {
+            let found = steps.next(control, 2, |control| exclude(&claim, &side, budget, control));
+            let found = match found {
+                Err(NoAnswer::Cancelled) => break,
+                found => found?,
+            };
+            match found {
                 Some(certificate) => best = Some((size, certificate)),
                 None => break,
             }

@@ -1,6 +1,7 @@
 //! Growing the tree of cells, from the whole box or from cells of it.
 
 use super::decide::{decide, Decision};
+use super::kept::{Kept, KeptError};
 use crate::design::AtlasDesign;
 use crate::search::{Control, Progress};
 use orthocert_checker::certificate::MOST_BYTES;
@@ -9,13 +10,20 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 /// Why a tree was not grown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stopped {
     /// It was cancelled.
     #[error("interrupted")]
     Cancelled,
+    /// The time was up.
+    #[error("the time was up")]
+    Time,
+    /// What was decided could not be kept.
+    #[error("{0}")]
+    Unkept(String),
     /// Its cells would not fit into a certificate.
     #[error(
         "the map has more cells or longer proofs than a certificate holds ({MOST_BYTES} bytes); \
@@ -44,6 +52,8 @@ pub struct Growing<'a, 'c> {
     design: &'a AtlasDesign,
     claim: AtlasClaim,
     control: &'a mut Control<'c>,
+    kept: Option<&'a mut Kept>,
+    deadline: Option<Instant>,
 }
 
 /// A node of a tree of cells that may not be grown to its end, in preorder.
@@ -59,7 +69,12 @@ pub enum Top {
 impl<'a, 'c> Growing<'a, 'c> {
     /// The growth of a design's tree.
     pub fn new(design: &'a AtlasDesign, control: &'a mut Control<'c>) -> Self {
-        Growing { design, claim: design.claim(), control }
+        Growing { design, claim: design.claim(), control, kept: None, deadline: None }
+    }
+
+    /// The same until a deadline, from what is kept, which grows with it.
+    pub fn keeping(self, kept: &'a mut Kept, deadline: Option<Instant>) -> Self {
+        Growing { kept: Some(kept), deadline, ..self }
     }
 }
 
@@ -70,7 +85,7 @@ pub(super) fn least_halved(part: &[(u64, u32)], finest: u32) -> Option<usize> {
 }
 
 /// The halvings above a cell.
-fn depth(part: &[(u64, u32)]) -> u32 {
+pub(super) fn depth(part: &[(u64, u32)]) -> u32 {
     part.iter().map(|(_, level)| level).sum()
 }
 
@@ -119,28 +134,37 @@ pub fn grow(
     let (design, claim, cancel) = (growing.design, &growing.claim, growing.control.cancel);
     let finest = design.resolution * root.len() as u32;
     let mut level = vec![(0, root)];
-    let done = Mutex::new((Done::default(), &mut *growing.control.progress));
+    let deadline = growing.deadline;
+    let done = Mutex::new((Done::default(), &mut *growing.control.progress, &mut growing.kept));
+    let lock = || done.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_over = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let unkept = |error: KeptError| Stopped::Unkept(error.to_string());
     while !level.is_empty() && enough.is_none_or(|enough| level.len() < enough) {
         let mut next = Vec::new();
         {
-            let (done, _) = &mut *done.lock().unwrap_or_else(PoisonError::into_inner);
+            let (done, ..) = &mut *lock();
             done.level = [level.len(), 0, 0];
             done.below = level.iter().map(|(_, cell)| finest - depth(cell)).max().unwrap_or(0);
         }
         for batch in level.chunks(64) {
-            if cancel.load(Ordering::Relaxed) {
-                return Err(Stopped::Cancelled);
-            }
             let decided = |(_, cell): &(usize, Part)| {
-                let decision = decide(design, claim, cell, cancel);
-                let mut now = done.lock().unwrap_or_else(PoisonError::into_inner);
-                let (now, tell) = &mut *now;
+                let known = lock().2.as_ref().and_then(|kept| kept.known(cell).cloned());
+                let decision = match known {
+                    Some(ref decision) => decision.clone(),
+                    None if cancel.load(Ordering::Relaxed) => Decision::Cancelled,
+                    None if is_over() => return Err(Stopped::Time),
+                    None => decide(design, claim, cell, cancel),
+                };
+                let (now, tell, kept) = &mut *lock();
+                if let (Some(kept), None) = (kept, known) {
+                    kept.keep(cell, &decision).map_err(unkept)?;
+                }
                 tell(now.with(decision == Decision::Open && depth(cell) < finest));
-                decision
+                Ok(decision)
             };
-            let decisions: Vec<Decision> = batch.par_iter().map(decided).collect();
+            let decisions: Vec<Result<Decision, Stopped>> = batch.par_iter().map(decided).collect();
             for ((at, cell), decision) in batch.iter().zip(decisions) {
-                let leaf = match (decision, least_halved(cell, design.resolution)) {
+                let leaf = match (decision?, least_halved(cell, design.resolution)) {
                     (Decision::Cancelled, _) => return Err(Stopped::Cancelled),
                     (Decision::Decided(leaf), _) => leaf,
                     (Decision::Open, None) => AtlasCell::Undecided,

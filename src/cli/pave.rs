@@ -87,11 +87,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
-    if !arguments.resume && is_left(&part)? {
-        let part = part.shown();
-        print::diagnostic(&format!(
-            "{part}, which another run left, is not taken up: --resume would"
-        ));
+    if !arguments.resume {
+        not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
     }
     effort::start_threads(arguments.threads)?;
     let mut bar = Bar::new("boxes", arguments.quiet);
@@ -214,28 +211,39 @@ impl Arguments {
     }
 }
 
-/// Whether an earlier run left an unfinished paving there; anything else stays.
-fn is_left(part: &Path) -> Result<bool, Failure> {
-    const START: &[u8] = b"{\"format\":\"orthocert-paving/";
+/// Says so where an earlier run left an unfinished paving or map, which begins like this; anything else stays.
+pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failure> {
     if fs::symlink_metadata(part).is_err() {
-        return Ok(false);
+        return Ok(());
     }
     let mut start = Vec::new();
     let read = output::open_own(part, OpenOptions::new().read(true))?
-        .take(START.len() as u64)
+        .take(begins.len() as u64)
         .read_to_end(&mut start);
     read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
-    if START.starts_with(&start) {
-        return Ok(!start.is_empty());
-    }
     let part = part.shown();
-    Err(Failure::Input(format!(
-        "--output: {part} is in the way, which is no unfinished paving; accepted: another path"
-    )))
+    if !begins.starts_with(&start) {
+        return Err(Failure::Input(format!(
+            "--output: {part} is in the way, which is no unfinished {what}; accepted: another path"
+        )));
+    }
+    if !start.is_empty() {
+        print::diagnostic(&format!(
+            "{part}, which another run left, is not taken up: --resume would"
+        ));
+    }
+    Ok(())
 }
 
 /// Demands a box as the workspace.
 fn is_a_box(claim: &MachineClaim) -> Result<(), Failure> {
+    if claim.orientation.is_some() {
+        return Err(Failure::Input(
+            "workspace.orientation: found a platform that turns; accepted by pave: a machine that does \
+             not turn its platform, in one to three coordinates"
+                .to_owned(),
+        ));
+    }
     let found = match claim.workspace {
         Workspace::Box { .. } => return Ok(()),
         Workspace::Cylinder { .. } => "cylinder",

@@ -1,7 +1,7 @@
 //! `orthocert summary`.
 
 use super::effort::{self, Effort};
-use super::{input, print, Failure, Format, Status};
+use super::{input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::report::text::headline_of;
@@ -75,6 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         one_unit: !turns || design.sources.position(key).is_some(),
         gap: gap.unwrap_or_else(of_size),
     };
+    interrupt::grant();
     let mut bar = effort.bar();
     let found =
         bar.run("verdict", 5, |control| verify(claim, budget, control)).map_err(Failure::input)?;
@@ -106,9 +107,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());
     match effort.format {
         Format::Json => print::json(&summary)?,
+        Format::Text if summary.interrupted => {
+            let text = text::text(&summary, print::style());
+            print::answer(&format!("{text}\n  {}\n", interrupt::PARTIAL))?;
+        }
         Format::Text => print::answer(&text::text(&summary, print::style()))?,
     }
-    Ok(status(summary.verdict))
+    interrupt::unless_cancelled(status(summary.verdict))
 }
 
 fn status(verdict: Outcome) -> Status {

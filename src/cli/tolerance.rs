@@ -122,13 +122,17 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut left = schemes(&kinds).len() + usize::from(mixed(&kinds)) + kinds.len() * legs;
     let mut bar = effort.bar();
     let mut bracket = |scheme: &Scheme| {
+        if interrupt::is_cancelled() {
+            return Err(Failure::Interrupted);
+        }
         let own = each.and_then(|each| Instant::now().checked_add(each));
         let deadline = [budget.deadline, own].into_iter().flatten().min();
         let budget = Budget { deadline, ..budget };
         left -= 1;
         let found = bar
             .run(&words(scheme), left + 1, |control| widest(claim, scheme, width, budget, control));
-        let out_of_time = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let out_of_time = interrupt::is_cancelled()
+            || deadline.is_some_and(|deadline| Instant::now() >= deadline);
         found.map(|found| (found, out_of_time)).map_err(explain)
     };
     let mut rows = Vec::new();
@@ -170,16 +174,19 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         filled => filled?,
     }
     match effort.format {
-        Format::Json => print::json(&serde_json::json!({
-            "nominal": "certified", "each": &arguments.each, "tolerances": rows,
-        }))?,
+        Format::Json => {
+            let each = &arguments.each;
+            let mut answer =
+                serde_json::json!({ "nominal": "certified", "each": each, "tolerances": rows });
+            if interrupt::is_cancelled() {
+                answer["interrupted"] = true.into();
+            }
+            print::json(&answer)?;
+        }
         Format::Text => print::answer(&text(&rows, arguments, design.unit, started))?,
     }
-    if interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
     let complete = rows.iter().all(|row| row.gap_reached);
-    Ok(if complete { Status::Done } else { Status::Undecided })
+    interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
 }
 
 fn too_large() -> Failure {
@@ -407,6 +414,9 @@ fn text(
         };
         let _ = writeln!(out, "{}", line.trim_end());
     }
+    if interrupt::is_cancelled() {
+        let _ = writeln!(out, "\n  {}", interrupt::PARTIAL);
+    }
     if quiet {
         return out;
     }
@@ -421,7 +431,7 @@ fn text(
     if rows.iter().any(|row| row.out_of_time) {
         wrap(
             &mut out,
-            "* The time was up: with more of it the ends may be nearer to each other.",
+            "* The time was up, or it was interrupted: with more time the ends may be nearer to each other.",
             2,
         );
     }

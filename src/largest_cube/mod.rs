@@ -12,7 +12,7 @@ mod exclude;
 
 use crate::arithmetic::at_most;
 use crate::frontier::{proof, NoAnswer};
-use crate::placement::{best_place, cube_about, Centres};
+use crate::placement::{best_place, cube_about, is_endless, Centres};
 use crate::search::{Budget, Control, Steps};
 use crate::solver::{self, approximate, number};
 use num_bigint::BigInt;
@@ -51,6 +51,8 @@ pub struct Bracket {
     pub inside: Option<Inside>,
     /// The least side that was excluded.
     pub too_large: Option<TooLarge>,
+    /// Whether no end was found of the cubes that seem to fit.
+    pub endless: bool,
     /// What fails in a cube of that side about the centre of the one that fits.
     pub fails: Option<Box<Certificate>>,
 }
@@ -93,22 +95,29 @@ pub fn largest_cube(
             None => Ok(None),
         }
     })?;
-    let too_large = nearest(control, [0.6, 1.0], |share, control| {
-        let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
-        let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
-        let excluded = exclude(claim, &side, budget, control)?;
-        Ok(excluded.map(|certificate| TooLarge { side, certificate }))
-    })?;
+    let width = approximate_width(claim);
+    let endless = width.is_some_and(|width| is_endless(&place, width));
+    let too_large = if endless {
+        None
+    } else {
+        nearest(control, [0.6, 1.0], |share, control| {
+            let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
+            let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
+            let excluded = exclude(claim, &side, budget, control)?;
+            Ok(excluded.map(|certificate| TooLarge { side, certificate }))
+        })?
+    };
     let fails = match (&inside, &too_large) {
         (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => cube_about(centre, side)
             .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
         _ => None,
     };
-    Ok(Bracket { inside, too_large, fails })
+    Ok(Bracket { inside, too_large, endless, fails })
 }
 
 /// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
-/// none of those that are enough, from there towards the last for which nothing was found.
+/// none of those that are enough, from there towards the last for which nothing was found. Cancelled, it
+/// has what was found before.
 fn nearest<T>(
     control: &mut Control<'_>,
     part: [f64; 2],
@@ -116,11 +125,18 @@ fn nearest<T>(
 ) -> Result<Option<T>, NoAnswer> {
     let mut steps = Steps::default();
     let mut found = |share| {
-        control.part(part, |control| steps.next(control, 2, |control| found(share, control)))
+        let found =
+            control.part(part, |control| steps.next(control, 2, |control| found(share, control)));
+        // What was found before is the answer.
+        match found {
+            Err(NoAnswer::Cancelled) => Ok(Err(())),
+            found => found.map(Ok),
+        }
     };
     let mut least = 0.0;
     for share in SHARES {
-        let Some(mut best) = found(share)? else {
+        let Ok(tried) = found(share)? else { return Ok(None) };
+        let Some(mut best) = tried else {
             least = share;
             continue;
         };
@@ -128,8 +144,9 @@ fn nearest<T>(
         for _ in 0..if share > ENOUGH { NEARER } else { 0 } {
             let between = (least * most).sqrt();
             match found(between)? {
-                Some(better) => (best, most) = (better, between),
-                None => least = between,
+                Ok(Some(better)) => (best, most) = (better, between),
+                Ok(None) => least = between,
+                Err(()) => break,
             }
         }
         return Ok(Some(best));
@@ -184,6 +201,15 @@ fn certified(
     Ok(certificate.map(|certificate| Inside { side: side.clone(), centre, certificate }))
 }
 
+/// The greatest edge of the workspace, a box, about.
+fn approximate_width(claim: &MachineClaim) -> Option<f64> {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return None;
+    };
+    let edges = min.iter().zip(max).map(|(min, max)| Some(approximate(max)? - approximate(min)?));
+    edges.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)
+}
+
 /// Whether a point is provably in the workspace, a box.
 fn contains(claim: &MachineClaim, point: &[BigRational; 3]) -> bool {
     let Workspace::Box { min, max } = &claim.workspace else {
@@ -222,6 +248,10 @@ mod tests {
         let all = [0.0, 1.0];
         assert_eq!(nearest(control, all, |_, _| Ok(None::<f64>)).unwrap(), None);
         let cancelled = |_, _: &mut Control<'_>| Err::<Option<f64>, _>(NoAnswer::Cancelled);
-        assert!(nearest(control, all, cancelled).is_err());
+        assert_eq!(nearest(control, all, cancelled), Ok(None));
+        let mut found = Some(5.0);
+        let then_cancelled =
+            |_, _: &mut Control<'_>| found.take().map(Some).ok_or(NoAnswer::Cancelled);
+        assert_eq!(nearest(control, all, then_cancelled), Ok(Some(5.0)));
     }
 }

@@ -127,7 +127,7 @@ pub struct Limit<P> {
     pub undecided: Option<[BigRational; 2]>,
     /// Where the search ended for want of a claim.
     pub end: Option<End>,
-    /// Whether the search ended for want of time.
+    /// Whether the search ended for want of time, or was cancelled.
     pub out_of_time: bool,
 }
 

@@ -21,15 +21,18 @@ pub(super) fn between(a: &BigRational, b: &BigRational) -> BigRational {
 
 /// Looks for the limits about the own value, whose verdict is known unless it is undecided.
 ///
+/// Cancelled, it has what was found before.
+///
 /// # Errors
-/// If it was cancelled.
+/// Those of the family.
 pub fn limits<F: Family>(
     question: &Question,
     own: Option<(Verdict, F::Proof)>,
     family: &mut F,
 ) -> Result<Vec<Limit<F::Proof>>, NoAnswer> {
+    let directions = question.directions.len();
     let mut search =
-        Search { question, family, steps: Steps::default(), directions: question.directions.len() };
+        Search { question, family, steps: Steps::default(), directions, cancelled: false };
     let starts = match own {
         Some((verdict, proof)) => {
             let own = Decided { value: question.own.clone(), verdict, proof };
@@ -171,6 +174,8 @@ struct Search<'a, F> {
     /// What is done, and the directions in which it is not.
     steps: Steps,
     directions: usize,
+    /// Whether it is to end, with what was found.
+    cancelled: bool,
 }
 
 impl<F: Family> Search<'_, F> {
@@ -178,7 +183,17 @@ impl<F: Family> Search<'_, F> {
     fn decide(&mut self, claim: &F::Claim, here: usize) -> Result<Found<F>, NoAnswer> {
         let others = self.directions.saturating_sub(1) * (STEPS as usize / 2 + self.halves(1.0));
         let part = self.steps.take(here + others);
-        self.family.decide(claim, part)
+        match self.family.decide(claim, part) {
+            Err(NoAnswer::Cancelled) => {
+                self.cancelled = true;
+                Ok(None)
+            }
+            found => found,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.cancelled || self.question.is_over()
     }
 
     /// How often a relative distance is to be halved.
@@ -211,7 +226,7 @@ impl<F: Family> Search<'_, F> {
         if walk.step == STEPS || walk.end.is_some() {
             return Ok(false);
         }
-        if self.question.is_over() {
+        if self.is_over() {
             walk.out_of_time = true;
             return Ok(false);
         }
@@ -221,7 +236,9 @@ impl<F: Family> Search<'_, F> {
                 // As likely now as later.
                 let outward = (STEPS - walk.step) as usize / 2 + 1;
                 let found = self.decide(&claim, outward + self.halves(1.0))?;
-                walk.put(value, found);
+                if !self.cancelled {
+                    walk.put(value, found);
+                }
             }
             Err(reason) => {
                 let last = match walk.step.checked_sub(1) {
@@ -233,7 +250,9 @@ impl<F: Family> Search<'_, F> {
                 if inside != last {
                     if let Ok(claim) = self.family.claim(&inside) {
                         let found = self.decide(&claim, 1)?;
-                        walk.put(inside, found);
+                        if !self.cancelled {
+                            walk.put(inside, found);
+                        }
                     }
                 }
             }
@@ -258,7 +277,7 @@ impl<F: Family> Search<'_, F> {
     /// this ends.
     fn narrowed(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
         while let Some((value, part)) = self.next(&walk) {
-            if self.question.is_over() {
+            if self.is_over() {
                 walk.out_of_time = true;
                 break;
             }
@@ -271,7 +290,9 @@ impl<F: Family> Search<'_, F> {
                 Ok(claim) => self.decide(&claim, self.halves(distance.unwrap_or(1.0)))?,
                 Err(_) => None,
             };
-            walk.put_between(value, part, found);
+            if !self.cancelled {
+                walk.put_between(value, part, found);
+            }
         }
         self.directions = self.directions.saturating_sub(1);
         Ok(walk)

@@ -184,7 +184,7 @@ fn grown(
             let tree = grow(&mut growing, place.part(design.parameters.len()), None).map_err(
                 |stopped| match stopped {
                     Stopped::Cancelled => RunError::Interrupted,
-                    Stopped::TooLarge => RunError::Claim(stopped.to_string()),
+                    other => RunError::Claim(other.to_string()),
                 },
             )?;
             let cells = tree.into_iter().map(|node| match node {

@@ -84,7 +84,7 @@ fn of_atlas(
     let top =
         grow(&mut growing, design.whole(), Some(enough)).map_err(|stopped| match stopped {
             Stopped::Cancelled => SplitError::Interrupted,
-            Stopped::TooLarge => SplitError::TooLarge,
+            Stopped::TooLarge | Stopped::Time | Stopped::Unkept(_) => SplitError::TooLarge,
         })?;
     let cells = waiting(&top, design.whole()).unwrap_or_default();
     let places = cells.iter().map(|part| Place::of_part(part)).collect();

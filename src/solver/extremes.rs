@@ -68,7 +68,7 @@ pub enum NotEnclosed {
     #[error("not enclosed within the budget")]
     Undecided,
     /// It was cancelled.
-    #[error("cancelled")]
+    #[error("interrupted")]
     Cancelled,
     /// The claim is not well formed.
     #[error("{0}")]
@@ -303,6 +303,9 @@ pub fn enclose(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
+    if control.is_cancelled() {
+        return Err(NotEnclosed::Cancelled);
+    }
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
     let budget = of_one_width(budget, &Problem::new(&probe)?);
     let mut known = Found::worst(&probe, extreme)?;

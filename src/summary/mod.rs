@@ -65,6 +65,9 @@ pub struct Summary {
     pub accuracy: Option<Shares>,
     /// What was asked for, and why there is no value.
     pub left_out: Vec<String>,
+    /// Whether it was interrupted: what was found before is told.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
     /// Whether the machine has tolerances.
     #[serde(skip)]
     pub toleranced: bool,
@@ -129,8 +132,10 @@ struct Found {
 /// Summarises a claim of which it is known whether it holds; `None` where its numbers exceed what can be
 /// shown.
 ///
+/// Cancelled, it has what was found before.
+///
 /// # Errors
-/// If it was cancelled, or is not well formed.
+/// If it is not well formed.
 pub fn summary(
     claim: &MachineClaim,
     verification: &Verification,
@@ -146,8 +151,14 @@ pub fn summary(
     let (all, left_out) = asked(claim, &problem, question);
     let shares = shares::deviations(claim);
     let mut left = 1 + all.len() + shares;
-    let singular =
-        !certified && steps.next(control, left, |control| is_singular(claim, budget, control))?;
+    let singular = match certified {
+        true => Ok(false),
+        false => steps.next(control, left, |control| is_singular(claim, budget, control)),
+    };
+    let singular = match singular {
+        Err(NotEnclosed::Cancelled) => false,
+        known => known?,
+    };
     let mut found = Vec::new();
     for asked in all {
         left -= 1;
@@ -162,6 +173,7 @@ pub fn summary(
                     vec![End { certified: value, reached, relative }]
                 })
             }
+            _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
             _ if is_over(budget) => Err(NotEnclosed::Undecided),
             Asked::Extreme(extreme) => {
                 let found = steps.next(control, left, |control| {
@@ -183,7 +195,7 @@ pub fn summary(
                 })
             }
         };
-        if let Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) = ends {
+        if let Err(error @ NotEnclosed::Claim(_)) = ends {
             return Err(error);
         }
         let ends = if certified { tightened(claim, &asked, ends) } else { ends };
@@ -193,7 +205,7 @@ pub fn summary(
     let nearest = facts.filter(|_| !singular).and_then(|facts| {
         nearest::nearest(claim, &problem, &facts, verification, &found, certified)
     });
-    let accuracy = match singular {
+    let accuracy = match singular || control.is_cancelled() {
         true => None,
         false => steps.next(control, 1, |control| {
             shares::shares(claim, &question.gap, &found, budget, control)
@@ -213,6 +225,7 @@ pub fn summary(
         values: found.iter().flat_map(|found| found.values(angular)).collect(),
         accuracy,
         left_out,
+        interrupted: control.is_cancelled(),
         toleranced,
         seconds: started.elapsed().as_secs_f64(),
     }))

@@ -95,7 +95,7 @@ pub fn deviations(claim: &MachineClaim) -> usize {
 /// The shares of a claim that bounds its accuracy and has tolerances.
 ///
 /// # Errors
-/// If it was cancelled.
+/// If a claim is not well formed.
 pub fn shares(
     claim: &MachineClaim,
     gap: &BigRational,
@@ -141,7 +141,6 @@ pub fn shares(
         };
         match bound {
             Ok(found) => rows.push((name, found.outer)),
-            Err(NotEnclosed::Cancelled) => return Err(NotEnclosed::Cancelled),
             Err(_) => not_enclosed.push(named(&name)),
         }
     }

@@ -566,6 +566,6 @@ fn machines_that_turn_are_refused() {
     let folder = Folder::new();
     let design = folder.run(&["init", "--kind", "planar"]).exits(0).stdout;
     folder.write("d.toml", design);
-    folder.run(&["pave", "d.toml"]).exits(2).complains(&["without orientations"]);
+    folder.run(&["pave", "d.toml"]).exits(2).complains(&["found a platform that turns"]);
     assert_eq!(folder.names(), ["d.toml"]);
 }
