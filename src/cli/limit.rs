@@ -319,6 +319,10 @@ fn words(answer: &Answer, quiet: bool) -> String {
     }
     if !quiet {
         out += "\n  Each value has its own certificate; nothing is claimed of other values.\n";
+        if answer.limits.iter().all(|row| row.gap.is_none() && !row.open) {
+            out += "  No limit was found, for which the exit code is 3: no value that was tried has the\n  \
+                    other verdict.\n";
+        }
         if !answer.interrupted && answer.limits.iter().any(|row| row.open) {
             out += "  Where values are undecided, no proof was found, and no place that fails:\n  \
                     a larger --max-boxes or --timeout may help.\n";

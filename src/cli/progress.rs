@@ -8,6 +8,7 @@ use orthocert::report::text::duration;
 use orthocert::search::{Control, Progress, Steps};
 use std::fmt;
 use std::io::{self, IsTerminal};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -102,12 +103,12 @@ fn message(task: &str, boxes: usize, counted: &str) -> String {
     format!(": {}", parts.join(", "))
 }
 
-/// `, about 4 s left`, or nothing yet.
-fn left(share: f64, elapsed: Duration) -> String {
-    if share < ESTIMATED.0 || share >= 1.0 || elapsed < ESTIMATED.1 {
+/// `, about 4 s left`, or nothing yet: `known` is the share that was there as soon as it was looked.
+fn left(known: f64, share: f64, elapsed: Duration) -> String {
+    if share < known + ESTIMATED.0 || share >= 1.0 || elapsed < ESTIMATED.1 {
         return String::new();
     }
-    let left = elapsed.as_secs_f64() * (1.0 - share) / share;
+    let left = elapsed.as_secs_f64() * (1.0 - share) / (share - known);
     format!(", about {} left", duration(left.ceil().max(1.0)))
 }
 
@@ -131,13 +132,16 @@ impl Drawn {
     fn new() -> Self {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         let share = |state: &ProgressState| f64::from(state.fraction());
+        let known = Arc::new(AtomicU64::new(0));
+        let at_first = Arc::clone(&known);
         let template = "{spinner} {elapsed} {bar:24} {share}{msg}{left}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             let percent = move |state: &ProgressState, out: &mut dyn fmt::Write| {
                 let _ = write!(out, "{:.0} %", (100.0 * share(state)).floor());
             };
             let rest = move |state: &ProgressState, out: &mut dyn fmt::Write| {
-                let _ = out.write_str(&left(share(state), state.elapsed()));
+                let known = at_first.load(Ordering::Relaxed) as f64 / STEPS as f64;
+                let _ = out.write_str(&left(known, share(state), state.elapsed()));
             };
             let style = style.progress_chars("=> ");
             bar.set_style(style.with_key("share", percent).with_key("left", rest));
@@ -152,6 +156,7 @@ impl Drawn {
             let (over, _) = waited.unwrap_or_else(PoisonError::into_inner);
             // The lock is held: it is not removed meanwhile.
             if !*over {
+                known.store(drawn.position(), Ordering::Relaxed);
                 drawn.set_draw_target(ProgressDrawTarget::stderr());
                 drawn.enable_steady_tick(TICK);
                 *DRAWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(drawn);
@@ -197,10 +202,11 @@ mod tests {
         assert_eq!(message("psi", 2000, "boxes"), ": psi, 2,000 boxes");
         assert_eq!(message("", 0, "cells"), "");
         assert_eq!(message("psi", 0, "boxes"), ": psi");
-        assert_eq!(left(0.25, 10 * second), ", about 30 s left");
-        assert_eq!(left(0.999, 10 * second), ", about 1 s left");
+        assert_eq!(left(0.0, 0.25, 10 * second), ", about 30 s left");
+        assert_eq!(left(0.5, 0.75, 10 * second), ", about 10 s left");
+        assert_eq!(left(0.0, 0.999, 10 * second), ", about 1 s left");
         for (share, elapsed) in [(0.5, second), (0.0, 10 * second), (1.0, 10 * second)] {
-            assert_eq!(left(share, elapsed), "");
+            assert_eq!(left(0.0, share, elapsed), "");
         }
     }
 }

@@ -454,11 +454,12 @@ fn text(
     if rows.iter().any(|row| row.measure == Measure::Share) {
         wrap(&mut out, "A share widens every kind by this part of its own certified t above.", 2);
     }
-    if rows.iter().any(|row| row.refuted.is_some() && !row.gap_reached) {
+    if rows.iter().any(|row| !row.gap_reached) {
         wrap(
             &mut out,
-            "Where the gap is wider than asked for, the tolerances between are undecided: no proof was \
-             found, and no machine that fails; the exit code is 3 for that.",
+            "Where the gap is wider than asked for, or an end not found, the tolerances between, or \
+             beyond, are undecided: no proof was found, and no machine that fails; the exit code is 3 for \
+             that.",
             2,
         );
     }
