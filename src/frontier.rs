@@ -8,14 +8,13 @@
 //! are not so ordered, [`limit`](crate::limit) looks for a value of each verdict.
 
 use crate::exact::Exact;
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Largest factor between one value and the next that is of use.
@@ -102,19 +101,27 @@ impl Walk {
     }
 }
 
-/// The last value found at which `test` succeeds, and what it gave; `None` where none did.
+/// The last value found at which `test` succeeds, and what it gave; `None` where none did. Cancelled, it
+/// has what was found before.
 ///
 /// # Errors
 /// Those of `test`.
 pub fn frontier<T>(
     walk: &Walk,
-    mut test: impl FnMut(&BigRational) -> Result<Option<T>, NoAnswer>,
+    control: &mut Control<'_>,
+    mut test: impl FnMut(&BigRational, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
 ) -> Result<Option<(BigRational, T)>, NoAnswer> {
+    let mut steps = Steps::default();
     let (mut best, mut failed) = (None, None);
     let (mut x, mut factor) = (walk.start, walk.factor);
     while !walk.is_over() && (walk.limits.0..=walk.limits.1).contains(&x) {
         let Some(value) = decimal(x, walk.gap) else { break };
-        let found = test(&value)?;
+        // A few more steps outward, then halves.
+        let left = 2 + halves(factor, walk.gap);
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
         let success = found.is_some();
         match found {
             Some(found) => best = Some((x, value, found)),
@@ -127,17 +134,30 @@ pub fn frontier<T>(
         factor = (factor * factor).min(walk.most);
     }
     while let (Some((good, last, _)), Some(bad)) = (&best, failed) {
-        if walk.is_over() || (good / bad).max(bad / good) <= 1.0 + walk.gap {
+        if walk.is_over()
+            || control.is_cancelled()
+            || (good / bad).max(bad / good) <= 1.0 + walk.gap
+        {
             break;
         }
         let middle = (good * bad).sqrt();
         let Some(value) = decimal(middle, walk.gap).filter(|value| value != last) else { break };
-        match test(&value)? {
+        let left = halves((good / bad).max(bad / good), walk.gap);
+        let found = match steps.next(control, left, |control| test(&value, control)) {
+            Err(NoAnswer::Cancelled) => break,
+            found => found?,
+        };
+        match found {
             Some(found) => best = Some((middle, value, found)),
             None => failed = Some(middle),
         }
     }
     Ok(best.map(|(_, value, found)| (value, found)))
+}
+
+/// How often a factor is to be halved until it is one of `1 + gap`.
+fn halves(factor: f64, gap: f64) -> usize {
+    (factor.ln() / gap.ln_1p()).log2().ceil().clamp(1.0, 64.0) as usize
 }
 
 /// The decimal nearest to `x > 0` with three digits more than a relative distance of `gap` needs.
@@ -176,7 +196,7 @@ pub fn refutation(
 }
 
 fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
-    match control.cancel.load(Ordering::Relaxed) {
+    match control.is_cancelled() {
         true => Err(NoAnswer::Cancelled),
         false => Ok(found),
     }
@@ -185,6 +205,8 @@ fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::search::Progress;
+    use std::sync::atomic::AtomicBool;
 
     const WALK: Walk = Walk {
         start: 1.0,
@@ -198,8 +220,13 @@ mod tests {
     };
 
     fn found(walk: Walk, succeeds: impl Fn(f64) -> bool) -> Option<f64> {
-        let test = |x: &BigRational| Ok(x.to_f64().filter(|x| succeeds(*x)));
-        frontier(&walk, test).unwrap().map(|(value, seen)| {
+        let test = |x: &BigRational, _: &mut Control<'_>| Ok(x.to_f64().filter(|x| succeeds(*x)));
+        let cancel = AtomicBool::new(false);
+        let mut shares = Vec::new();
+        let mut note = |now: Progress| shares.push(now.share);
+        let found = frontier(&walk, &mut Control { cancel: &cancel, progress: &mut note }, test);
+        assert!(shares.is_sorted() && shares.iter().all(|x| (0.0..=1.0).contains(x)), "{shares:?}");
+        found.unwrap().map(|(value, seen)| {
             assert_eq!(value.to_f64(), Some(seen));
             seen
         })
@@ -224,6 +251,25 @@ mod tests {
         let walk = Walk { improve: false, start: 0.3, ..WALK };
         assert_eq!(found(walk, |x| x <= 5.0), Some(0.3));
         assert!(found(walk, |x| x <= 0.2).is_some_and(|x| x <= 0.2 && x > 0.199_999));
+    }
+
+    #[test]
+    fn cancelled_it_has_what_was_found_before() {
+        let cancel = AtomicBool::new(false);
+        for most in 0..20 {
+            let mut tried = Vec::new();
+            let test = |x: &BigRational, _: &mut Control<'_>| {
+                if tried.len() == most {
+                    return Err(NoAnswer::Cancelled);
+                }
+                tried.push(x.clone());
+                Ok(x.to_f64().filter(|x| *x <= 42.0))
+            };
+            let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+            let found = frontier(&WALK, control, test).unwrap().map(|(value, _)| value);
+            let forty_two = BigRational::from_integer(42.into());
+            assert_eq!(found, tried.into_iter().filter(|x| *x <= forty_two).max());
+        }
     }
 
     #[test]

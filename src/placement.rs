@@ -2,6 +2,7 @@
 
 use crate::arithmetic::apply;
 use crate::frontier::NoAnswer;
+use crate::search::{Control, Progress};
 use crate::solver::number;
 use crate::solver::sample::{Quality, Sampler};
 use num_rational::BigRational;
@@ -63,15 +64,22 @@ pub fn best_place(
     claim: &MachineClaim,
     centres: Centres,
     precision: f64,
+    control: &mut Control<'_>,
 ) -> Result<Option<Cube>, NoAnswer> {
     let problem = Problem::new(claim)?;
     let cubes = Cubes::new(Sampler::new(claim, &problem)?, centres)?;
     let mut starts = cubes.starts();
     starts.sort_by(|a, b| b.side.total_cmp(&a.side));
-    let found = starts.into_iter().filter(|cube| cube.side > 0.0).take(STARTS);
-    let best = found.map(|start| match cubes.is_endless(&start) {
-        true => start,
-        false => cubes.ascend(start, precision.max(FINEST)),
+    starts.retain(|cube| cube.side > 0.0);
+    starts.truncate(STARTS);
+    let all = starts.len() as f64;
+    let best = starts.into_iter().enumerate().map(|(number, start)| {
+        let found = match cubes.is_endless(&start) {
+            true => start,
+            false => cubes.ascend(start, precision.max(FINEST)),
+        };
+        (control.progress)(Progress { boxes: 0, share: (number + 1) as f64 / all });
+        found
     });
     Ok(best.max_by(|a, b| a.side.total_cmp(&b.side)))
 }

@@ -129,7 +129,7 @@ impl Search<'_> {
         if let Some(evidence) = self.closing(cell) {
             growing.nodes.push(Node { by: vec![Step(0, evidence)], ..Node::default() });
             growing.closed += share;
-            let progress = Progress { boxes: growing.nodes.len(), closed: growing.closed };
+            let progress = Progress { boxes: growing.nodes.len(), share: growing.closed };
             (growing.control.progress)(progress);
             return Ok(());
         }

@@ -16,7 +16,7 @@ use crate::frontier::{
 };
 use crate::largest_cube::exclude;
 use crate::placement::{best_place, cube_about, is_endless, Centres, Cube};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::{approximate, number};
 use crate::tolerance::parameters;
 use num_rational::BigRational;
@@ -76,11 +76,16 @@ impl Family {
     ///
     /// # Errors
     /// If the requirements depend on the unit of length, or no placement is found.
-    pub fn new(claim: &MachineClaim, side: &BigRational, gap: f64) -> Result<Self, NoAnswer> {
+    pub fn new(
+        claim: &MachineClaim,
+        side: &BigRational,
+        gap: f64,
+        control: &mut Control<'_>,
+    ) -> Result<Self, NoAnswer> {
         let claim = as_box(claim)?;
         scale_free(&claim)?;
         let orthoglide = leg_length(&claim);
-        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT)?;
+        let place = placed(&claim, orthoglide.is_some(), gap * PLACEMENT, control)?;
         let (unknown, own) = match orthoglide {
             Some(length) => (Unknown::LegLength, length),
             None => (Unknown::Scale, 1.0),
@@ -173,12 +178,18 @@ impl Family {
     ) -> Result<Option<Certified>, NoAnswer> {
         let Some(side) = number(&self.side) else { return Ok(None) };
         let (mut best, mut below) = (None, EXCLUDED.0);
+        let mut steps = Steps::default();
         // A size far below is excluded by few boxes, and what fails costs most.
         loop {
             let share = f64::max(below, SHARE * gap);
             let Some(size) = decimal(self.expected * (1.0 - share), gap) else { break };
             let Some(claim) = self.centres(&size) else { break };
-            match exclude(&claim, &side, budget, control)? {
+            let found = steps.next(control, 2, |control| exclude(&claim, &side, budget, control));
+            let found = match found {
+                Err(NoAnswer::Cancelled) => break,
+                found => found?,
+            };
+            match found {
                 Some(certificate) => best = Some((size, certificate)),
                 None => break,
             }
@@ -211,15 +222,19 @@ impl Family {
             gap,
             deadline: budget.deadline,
         };
-        let certified = frontier(&walk, |x| match self.claim(x) {
-            Some(claim) => proof(&claim, budget, control),
-            None => Ok(None),
+        let certified = control.part([0.0, 0.5], |control| {
+            frontier(&walk, control, |x, control| match self.claim(x) {
+                Some(claim) => proof(&claim, budget, control),
+                None => Ok(None),
+            })
         })?;
         let start = self.expected * (1.0 - SHARE * gap);
         let walk = Walk { start, succeeds: Succeeds::Below, ..walk };
-        let refuted = frontier(&walk, |x| match self.claim(x) {
-            Some(claim) => refutation(&claim, control),
-            None => Ok(None),
+        let refuted = control.part([0.5, 1.0], |control| {
+            frontier(&walk, control, |x, control| match self.claim(x) {
+                Some(claim) => refutation(&claim, control),
+                None => Ok(None),
+            })
         })?;
         Ok(Bracket { certified, refuted })
     }
@@ -241,7 +256,12 @@ fn bounding_box(workspace: &Workspace) -> Option<[Vec<Expression>; 2]> {
 }
 
 /// The best place found for a cube, searched from a cube about the claim's workspace.
-fn placed(claim: &MachineClaim, diagonal: bool, precision: f64) -> Result<Cube, NoAnswer> {
+fn placed(
+    claim: &MachineClaim,
+    diagonal: bool,
+    precision: f64,
+    control: &mut Control<'_>,
+) -> Result<Cube, NoAnswer> {
     let refused = |why: &str| NoAnswer::Claim(why.to_owned());
     let too_large = || refused("the design's numbers are too large");
     let [min, max] = bounding_box(&claim.workspace).ok_or_else(too_large)?;
@@ -255,7 +275,8 @@ fn placed(claim: &MachineClaim, diagonal: bool, precision: f64) -> Result<Cube, 
     let workspace = centre.zip(side).and_then(|(centre, side)| cube_about(&centre, &side));
     let workspace = workspace.ok_or_else(too_large)?;
     let centres = if diagonal { Centres::Diagonal } else { Centres::Anywhere };
-    let place = best_place(&MachineClaim { workspace, ..claim.clone() }, centres, precision)?;
+    let claim = MachineClaim { workspace, ..claim.clone() };
+    let place = best_place(&claim, centres, precision, control)?;
     let place = place.ok_or_else(|| {
         refused(
             "no point of the workspace was found at which every requirement holds, to put a cube \

@@ -239,15 +239,18 @@ pub fn widest(
             now + end.saturating_duration_since(now) / 3
         }),
     };
-    let mut refute = |walk: &Walk| {
-        frontier(walk, |t| match scheme.claim(claim, t) {
+    let refute = |walk: &Walk, control: &mut Control<'_>| {
+        frontier(walk, control, |t, control| match scheme.claim(claim, t) {
             Some(claim) => refutation(&claim, control),
             None => Ok(None),
         })
     };
-    let refuted = match refute(&walk)? {
+    let refuted = match control.part([0.0, 0.4], |control| refute(&walk, control))? {
         // Beyond some tolerance there is no machine, a direction being zero: less far, then.
-        None => refute(&Walk { start: LAST * scale, factor: SHORT, most: SHORT, ..walk })?,
+        None => {
+            let short = Walk { start: LAST * scale, factor: SHORT, most: SHORT, ..walk };
+            control.part([0.4, 0.6], |control| refute(&short, control))?
+        }
         found => found,
     };
     let walk = Walk { succeeds: Succeeds::Below, gap, deadline: budget.deadline, ..walk };
@@ -261,9 +264,11 @@ pub fn widest(
         },
         None => walk,
     };
-    let certified = frontier(&walk, |t| match scheme.claim(claim, t) {
-        Some(claim) => proof(&claim, budget, control),
-        None => Ok(None),
+    let certified = control.part([0.6, 1.0], |control| {
+        frontier(&walk, control, |t, control| match scheme.claim(claim, t) {
+            Some(claim) => proof(&claim, budget, control),
+            None => Ok(None),
+        })
     })?;
     Ok(Bracket { certified, refuted })
 }

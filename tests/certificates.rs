@@ -156,9 +156,8 @@ fn committed_atlases_are_what_the_prover_writes() {
         let mut design = AtlasDesign::read(&path).unwrap();
         design.resolution = resolution;
         let cancel = AtomicBool::new(false);
-        let mut done = |_: usize, _: f64| {};
-        let top =
-            grow(&mut Growing::new(&design, &cancel, &mut done), design.whole(), None).unwrap();
+        let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+        let top = grow(&mut Growing::new(&design, &mut control), design.whole(), None).unwrap();
         let (certificate, _) = certify(&design, assemble(top, Vec::new()).unwrap()).unwrap();
         is_committed(name, &certificate);
     }

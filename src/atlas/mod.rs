@@ -8,6 +8,7 @@
 mod best;
 mod contours;
 mod decide;
+mod kept;
 mod margin;
 mod page;
 mod part;
@@ -17,6 +18,7 @@ mod widest;
 pub use best::{best, ends, verdict_at, Best, Standing};
 pub use contours::{contours, Contour};
 pub use decide::{decide, Decision};
+pub use kept::{Kept, KeptError, FORMAT};
 pub use margin::{margin, tightened, without_margin};
 pub use page::page;
 pub use part::{assemble, grow, waiting, Growing, Stopped, Top};

@@ -1,19 +1,29 @@
 //! Growing the tree of cells, from the whole box or from cells of it.
 
 use super::decide::{decide, Decision};
+use super::kept::{Kept, KeptError};
 use crate::design::AtlasDesign;
+use crate::search::{Control, Progress};
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_kernel::atlas::{halves, AtlasCell, AtlasClaim, Part};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 /// Why a tree was not grown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stopped {
     /// It was cancelled.
     #[error("interrupted")]
     Cancelled,
+    /// The time was up.
+    #[error("the time was up")]
+    Time,
+    /// What was decided could not be kept.
+    #[error("{0}")]
+    Unkept(String),
     /// Its cells would not fit into a certificate.
     #[error(
         "the map has more cells or longer proofs than a certificate holds ({MOST_BYTES} bytes); \
@@ -38,13 +48,12 @@ impl Room {
 }
 
 /// A tree of cells that grows.
-pub struct Growing<'a> {
+pub struct Growing<'a, 'c> {
     design: &'a AtlasDesign,
     claim: AtlasClaim,
-    /// Cells decided, and the share of the box that they are, for progress.
-    pub done: &'a mut dyn FnMut(usize, f64),
-    /// Set to make the work end.
-    pub cancel: &'a AtomicBool,
+    control: &'a mut Control<'c>,
+    kept: Option<&'a mut Kept>,
+    deadline: Option<Instant>,
 }
 
 /// A node of a tree of cells that may not be grown to its end, in preorder.
@@ -57,20 +66,15 @@ pub enum Top {
     Waiting,
 }
 
-impl<'a> Growing<'a> {
+impl<'a, 'c> Growing<'a, 'c> {
     /// The growth of a design's tree.
-    pub fn new(
-        design: &'a AtlasDesign,
-        cancel: &'a AtomicBool,
-        done: &'a mut dyn FnMut(usize, f64),
-    ) -> Self {
-        Growing { design, claim: design.claim(), done, cancel }
+    pub fn new(design: &'a AtlasDesign, control: &'a mut Control<'c>) -> Self {
+        Growing { design, claim: design.claim(), control, kept: None, deadline: None }
     }
 
-    /// The axis on which a cell is split: the one that was halved least, the first of these; `None`
-    /// at the finest resolution.
-    fn axis(&self, part: &[(u64, u32)]) -> Option<usize> {
-        least_halved(part, self.design.resolution)
+    /// The same until a deadline, from what is kept, which grows with it.
+    pub fn keeping(self, kept: &'a mut Kept, deadline: Option<Instant>) -> Self {
+        Growing { kept: Some(kept), deadline, ..self }
     }
 }
 
@@ -80,31 +84,87 @@ pub(super) fn least_halved(part: &[(u64, u32)], finest: u32) -> Option<usize> {
     (level < finest).then_some(axis)
 }
 
+/// The halvings above a cell.
+pub(super) fn depth(part: &[(u64, u32)]) -> u32 {
+    part.iter().map(|(_, level)| level).sum()
+}
+
+/// The share of cells that a border has halved, in two dimensions, and the cells after which as much is
+/// seen of a level itself.
+const BORDER: f64 = 0.7;
+const SEEN: f64 = 16.0;
+
+/// What is done of a tree of cells.
+#[derive(Default)]
+struct Done {
+    cells: usize,
+    share: f64,
+    /// Of the level that is under way: its cells, those tried, those open, and the levels below it.
+    level: [usize; 3],
+    below: u32,
+}
+
+impl Done {
+    /// With one more cell: each level is expected to grow as this one does, down to the last, and before
+    /// much is seen of it, as a border does.
+    fn with(&mut self, open: bool) -> Progress {
+        let [all, tried, halved] = &mut self.level;
+        (*tried, *halved) = (*tried + 1, *halved + usize::from(open));
+        self.cells += 1;
+        let growth = 2.0 * (*halved as f64 + SEEN * BORDER) / (*tried as f64 + SEEN);
+        let deeper: f64 = (1..=self.below).map(|level| growth.powf(f64::from(level))).sum();
+        let left = (*all - *tried) as f64 + *all as f64 * deeper;
+        self.share = self.share.max(self.cells as f64 / (self.cells as f64 + left));
+        Progress { boxes: self.cells, share: self.share }
+    }
+}
+
 /// Grows the tree below `root` level by level, until nothing is open or, at the end of a level, at
 /// least `enough` cells wait.
 ///
 /// # Errors
 /// If it was cancelled, or is too large for a certificate.
 pub fn grow(
-    growing: &mut Growing<'_>,
+    growing: &mut Growing<'_, '_>,
     root: Part,
     enough: Option<usize>,
 ) -> Result<Vec<Top>, Stopped> {
     let mut room = Room::default();
     let mut nodes = vec![Node::Waiting];
+    let (design, claim, cancel) = (growing.design, &growing.claim, growing.control.cancel);
+    let finest = design.resolution * root.len() as u32;
     let mut level = vec![(0, root)];
-    let (mut decided, mut closed) = (0, 0.0);
+    let deadline = growing.deadline;
+    let done = Mutex::new((Done::default(), &mut *growing.control.progress, &mut growing.kept));
+    let lock = || done.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_over = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let unkept = |error: KeptError| Stopped::Unkept(error.to_string());
     while !level.is_empty() && enough.is_none_or(|enough| level.len() < enough) {
-        let (design, claim, cancel) = (growing.design, &growing.claim, growing.cancel);
         let mut next = Vec::new();
+        {
+            let (done, ..) = &mut *lock();
+            done.level = [level.len(), 0, 0];
+            done.below = level.iter().map(|(_, cell)| finest - depth(cell)).max().unwrap_or(0);
+        }
         for batch in level.chunks(64) {
-            if cancel.load(Ordering::Relaxed) {
-                return Err(Stopped::Cancelled);
-            }
-            let decisions: Vec<Decision> =
-                batch.par_iter().map(|(_, cell)| decide(design, claim, cell, cancel)).collect();
+            let decided = |(_, cell): &(usize, Part)| {
+                let known = lock().2.as_ref().and_then(|kept| kept.known(cell).cloned());
+                let decision = match known {
+                    Some(ref decision) => decision.clone(),
+                    None if cancel.load(Ordering::Relaxed) => Decision::Cancelled,
+                    None if is_over() => return Err(Stopped::Time),
+                    None => decide(design, claim, cell, cancel),
+                };
+                let (now, tell, kept) = &mut *lock();
+                if let (Some(kept), None) = (kept, known) {
+                    kept.keep(cell, &decision).map_err(unkept)?;
+                }
+                tell(now.with(decision == Decision::Open && depth(cell) < finest));
+                Ok(decision)
+            };
+            let decisions: Vec<Result<Decision, Stopped>> = batch.par_iter().map(decided).collect();
             for ((at, cell), decision) in batch.iter().zip(decisions) {
-                let leaf = match (decision, growing.axis(cell)) {
+                let leaf = match (decision?, least_halved(cell, design.resolution)) {
                     (Decision::Cancelled, _) => return Err(Stopped::Cancelled),
                     (Decision::Decided(leaf), _) => leaf,
                     (Decision::Open, None) => AtlasCell::Undecided,
@@ -118,13 +178,9 @@ pub fn grow(
                         continue;
                     }
                 };
-                let depth: u32 = cell.iter().map(|(_, level)| level).sum();
                 room.take(&leaf)?;
-                decided += 1;
-                closed += (-f64::from(depth)).exp2();
                 nodes[*at] = Node::Leaf(leaf);
             }
-            (growing.done)(decided, closed);
         }
         level = next;
     }

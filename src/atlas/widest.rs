@@ -331,9 +331,8 @@ mod tests {
     #[test]
     fn the_widest_margin_is_between_its_two_certificates() {
         let (design, cancel) = (orthoglides(), AtomicBool::new(false));
-        let mut done = |_: usize, _: f64| {};
-        let top =
-            grow(&mut Growing::new(&design, &cancel, &mut done), design.whole(), None).unwrap();
+        let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+        let top = grow(&mut Growing::new(&design, &mut control), design.whole(), None).unwrap();
         let cells = assemble(top, Vec::new()).unwrap();
         let Widest { at, margin, certificate, bound } =
             widest(&design, &cells, &cancel).unwrap().unwrap();

@@ -1,20 +1,27 @@
 //! `orthocert atlas`, and what it has in common with a merge of parts of an atlas.
 
-use super::effort::Work;
+use super::effort::{time, Work};
+use super::pave::not_taken_up;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
-use orthocert::atlas::{self, Bound, Growing, Point, Standing, Stopped, Widest};
+use orthocert::atlas::{
+    self, Bound, Growing, Kept, KeptError, Point, Standing, Stopped, Top, Widest, FORMAT,
+};
+use orthocert::batch::plan::identity;
+use orthocert::decimal::grouped;
 use orthocert::design::{AtlasDesign, Objective};
 use orthocert::digest::sha256;
 use orthocert::exact::Exact;
 use orthocert::folder::{self, FolderError, SUMS};
 use orthocert::frontier::NoAnswer;
 use orthocert::output;
+use orthocert::paving::unfinished as part_of;
 use orthocert::report::atlas::{AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, MARGIN};
 use orthocert::report::CertificateFile;
-use orthocert::search::{Budget, Control, Progress};
+use orthocert::search::{Budget, Control};
 use orthocert::solver::{verify, Answer};
 use orthocert_checker::certificate::Certificate;
+use orthocert_checker::shown::Named;
 use orthocert_checker::statement;
 use orthocert_kernel::atlas::AtlasCell;
 use orthocert_kernel::certificate::Claim;
@@ -34,6 +41,12 @@ const NAMES: [&str; 5] = [CERTIFICATE, BEST, BOUND, PICTURE, PAGE];
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+A run that is interrupted, killed, or out of time leaves DIR.part, with what it has decided, which --resume
+takes up again: the map is the same, byte for byte. While a run writes DIR.part, another one is refused;
+what it holds is checked again with the whole map.
+
+Exit code 0 if the map decides anything; 3 if nothing, or if the time was up.")]
 pub struct Arguments {
     /// The atlas: a design file with [parameters] and [atlas]
     #[arg(value_name = "ATLAS.toml")]
@@ -42,6 +55,12 @@ pub struct Arguments {
     /// [default: NAME.atlas beside NAME.toml]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Take up the interrupted run that left DIR.part
+    #[arg(long)]
+    resume: bool,
+    /// Time after which no further cell is tried: seconds, or a number with ms, s, min or h
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    timeout: Option<String>,
     #[command(flatten)]
     work: Work,
 }
@@ -55,8 +74,16 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         None => arguments.atlas.with_extension("atlas"),
     };
     probe(&folder)?;
+    let timeout = arguments.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;
+    let deadline = timeout.and_then(|timeout| started.checked_add(timeout));
+    let mut kept = kept(&design, &folder, arguments)?;
+    interrupt::grant();
     arguments.work.start_threads()?;
-    let cells = map(&design, arguments.work.quiet)?;
+    let grown = map(&design, &mut kept, deadline, arguments.work.quiet);
+    let cells = match grown {
+        Ok(top) => atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)?,
+        Err(stopped) => return unfinished(stopped, &kept, &folder),
+    };
     let name = arguments.atlas.to_string_lossy().into_owned();
     let report =
         publish(&design, name, cells, &folder, started).map_err(|failure| match failure {
@@ -64,7 +91,49 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             Failure::Rejected(reason) => Failure::Output(reason),
             failure => failure,
         })?;
+    kept.remove();
     answer(&report, &arguments.work)
+}
+
+/// Where what is decided is kept: that of an earlier run, if it is asked for.
+fn kept(design: &AtlasDesign, folder: &Path, arguments: &Arguments) -> Result<Kept, Failure> {
+    let part = part_of(folder);
+    if identity(&part) == identity(&arguments.atlas) {
+        let part = part.shown();
+        return Err(Failure::Input(format!(
+            "--output: {part}, where what is decided is kept, is the atlas itself; accepted: another folder"
+        )));
+    }
+    let found = match arguments.resume {
+        true => Kept::take_up(&part, design),
+        false => {
+            not_taken_up(&part, FORMAT.as_bytes(), "map")?;
+            Kept::begin(&part, design)
+        }
+    };
+    found.map_err(|error| match error {
+        KeptError::Output(error) => Failure::from(error),
+        error => Failure::input(error),
+    })
+}
+
+/// What a run that did not end leaves.
+fn unfinished(stopped: Stopped, kept: &Kept, folder: &Path) -> Result<Status, Failure> {
+    let (cells, share) = (grouped(kept.cells as u64), 100.0 * kept.share);
+    let part = part_of(folder);
+    let status = match stopped.clone() {
+        Stopped::Cancelled => Err(Failure::Interrupted),
+        Stopped::Time => Ok(Status::Undecided),
+        Stopped::Unkept(reason) => return Err(Failure::Output(reason)),
+        Stopped::TooLarge => return Err(Failure::Input(stopped.to_string())),
+    };
+    let why = if stopped == Stopped::Time { "the time was up: " } else { "" };
+    print::diagnostic(&format!(
+        "{why}{} holds what is done, {cells} cells, by which {share:.2} % of the box is decided; \
+         --resume takes it up",
+        part.shown()
+    ));
+    status
 }
 
 /// Finds out, before the work, whether the map can be written there.
@@ -104,17 +173,16 @@ impl Files<'_> {
 }
 
 /// All cells of a design's map.
-fn map(design: &AtlasDesign, quiet: bool) -> Result<Vec<AtlasCell>, Failure> {
-    let mut bar = Bar::new("", quiet);
-    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
-    let mut growing = Growing::new(design, interrupt::cancelled(), &mut done);
-    let grown = atlas::grow(&mut growing, design.whole(), None);
-    bar.clear();
-    let top = grown.map_err(|stopped| match stopped {
-        Stopped::Cancelled => Failure::Interrupted,
-        Stopped::TooLarge => Failure::Input(stopped.to_string()),
-    })?;
-    atlas::assemble(top, Vec::new()).ok_or(Failure::Defect)
+fn map(
+    design: &AtlasDesign,
+    kept: &mut Kept,
+    deadline: Option<Instant>,
+    quiet: bool,
+) -> Result<Vec<Top>, Stopped> {
+    Bar::new("cells", quiet).run("", 1, |control| {
+        let mut growing = Growing::new(design, control).keeping(kept, deadline);
+        atlas::grow(&mut growing, design.whole(), None)
+    })
 }
 
 /// Has the map accepted by the checker, and writes everything there is to write of it: a function

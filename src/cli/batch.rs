@@ -7,14 +7,14 @@ use orthocert::batch::run::{run as run_jobs, Outcome};
 use orthocert::batch::{junit::junit, sarif::sarif, summary, Batch, Ending, Entry};
 use orthocert::design::{Design, ReadError};
 use orthocert::report::Report;
-use orthocert::search::{Budget, Control};
+use orthocert::search::{Budget, Control, Progress};
 use orthocert::solver;
 use orthocert::{escape, output};
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::shown::Named;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Instant;
 
@@ -94,9 +94,15 @@ pub fn run(
     effort.start_threads()?;
     interrupt::grant();
     let jobs: Arc<[Planned]> = planned.into();
+    let bar = Arc::new(Mutex::new(effort.bar()));
+    let shown = {
+        let (bar, one) = (Arc::clone(&bar), 1.0 / jobs.len().max(1) as f64);
+        // A design's share of the whole, for what of it was done since.
+        move |since: f64| bar.lock().unwrap_or_else(PoisonError::into_inner).add(one * since)
+    };
     let work = {
         let budget = effort.clone();
-        move |one: &Planned| prove(one, reprove, &budget)
+        move |one: &Planned| prove(one, reprove, &budget, &shown)
     };
     let tell = |index: usize, outcome: &Outcome<Entry>| {
         let Some(entry) = jobs.get(index).map(|one| entry(one, outcome)) else { return };
@@ -108,6 +114,7 @@ pub fn run(
     };
     let workers = workers(flags.jobs);
     let outcomes = run_jobs(Arc::clone(&jobs), workers, interrupt::cancelled(), work, tell);
+    bar.lock().unwrap_or_else(PoisonError::into_inner).end();
     let interrupted = interrupt::is_cancelled();
     let entries = jobs.iter().zip(&outcomes).map(|(one, outcome)| entry(one, outcome)).collect();
     let batch = Batch::new(entries, interrupted, started.elapsed().as_secs_f64());
@@ -150,13 +157,20 @@ fn report(batch: &Batch, flags: &Flags, effort: &Effort) -> Result<(), Failure> 
 }
 
 /// Proves one design; whatever goes wrong with it is told of it alone.
-fn prove(one: &Planned, reprove: bool, effort: &Effort) -> Entry {
+fn prove(one: &Planned, reprove: bool, effort: &Effort, shown: &(dyn Fn(f64) + Sync)) -> Entry {
     let started = Instant::now();
-    let mut entry =
-        attempt(one, reprove, effort, started).unwrap_or_else(|(ending, line, message)| {
+    let mut done = 0.0;
+    let mut show = |share: f64| {
+        shown(share - done);
+        done = share;
+    };
+    let mut entry = attempt(one, reprove, (effort, &mut show), started).unwrap_or_else(
+        |(ending, line, message)| {
             let name = one.design.to_string_lossy().into_owned();
             Entry { line, ..Entry::without_verdict(name, ending, message) }
-        });
+        },
+    );
+    show(1.0);
     entry.seconds = started.elapsed().as_secs_f64();
     entry
 }
@@ -167,7 +181,7 @@ type Wrong = (Ending, Option<usize>, String);
 fn attempt(
     one: &Planned,
     reprove: bool,
-    effort: &Effort,
+    (effort, show): (&Effort, &mut (dyn FnMut(f64) + Send)),
     started: Instant,
 ) -> Result<Entry, Wrong> {
     let design = Design::read(&one.design).map_err(|error| {
@@ -191,9 +205,9 @@ fn attempt(
     let task = Task { design: &design, file, target, below, reprove, table: false, started };
     let budget: Budget = effort.budget(started).map_err(wrong)?;
     let search = |claim: &_| {
-        let mut silent = |_| {};
+        let mut progress = |now: Progress| show(now.share);
         let cancel = interrupt::cancelled();
-        solver::verify(claim, budget, &mut Control { cancel, progress: &mut silent })
+        solver::verify(claim, budget, &mut Control { cancel, progress: &mut progress })
     };
     let (report, status) = task.run(search).map_err(wrong)?;
     Ok(known(&design, report, status))

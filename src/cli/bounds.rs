@@ -96,17 +96,20 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     interrupt::grant();
     let rows = rows(claim, &relative, arguments, budget)?;
     match effort.format {
-        Format::Json => match design.unit {
-            Some(unit) => print::json(&serde_json::json!({ "bounds": rows, "length_unit": unit }))?,
-            None => print::json(&serde_json::json!({ "bounds": rows }))?,
-        },
+        Format::Json => {
+            let mut answer = serde_json::json!({ "bounds": rows });
+            if let Some(unit) = design.unit {
+                answer["length_unit"] = unit.into();
+            }
+            if interrupt::is_cancelled() {
+                answer["interrupted"] = true.into();
+            }
+            print::json(&answer)?;
+        }
         Format::Text => print::answer(&text(&rows, &design, &relative, effort.quiet, started))?,
     }
-    if interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
     let complete = rows.iter().all(|row| row.not_enclosed.is_none());
-    Ok(if complete { Status::Done } else { Status::Undecided })
+    interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
 }
 
 fn rows(
@@ -122,19 +125,23 @@ fn rows(
     };
     let problem = Problem::new(claim).map_err(Failure::input)?;
     let angular = problem.legs.iter().any(Leg::is_angular);
-    let singular = effort
-        .run("singularities", |control| is_singular(claim, budget, control))
+    let extremes = Extreme::of(claim, problem.legs.len());
+    let (mut bar, all) = (effort.bar(), extremes.len());
+    let singular = bar
+        .run("singularities", all + 1, |control| is_singular(claim, budget, control))
         .map_err(failure)?;
     let mut rows = exact_rows(claim);
-    let extremes = Extreme::of(claim, problem.legs.len());
-    let all = extremes.len();
     for (number, extreme) in extremes.into_iter().enumerate() {
         let found = if singular {
             Err(NotEnclosed::Singular)
+        } else if interrupt::is_cancelled() {
+            Err(NotEnclosed::Cancelled)
         } else {
             let end = if extreme.is_greatest() { "greatest" } else { "least" };
             let task = format!("{} of {all}, {end} {}", number + 1, extreme.quantity());
-            effort.run(&task, |control| enclose(claim, &extreme, relative, budget, control))
+            bar.run(&task, all - number, |control| {
+                enclose(claim, &extreme, relative, budget, control)
+            })
         };
         let mut row = Row::new(extreme.quantity(), extreme.unit(angular), extreme.is_greatest());
         match found {
@@ -312,6 +319,9 @@ fn text(
         });
         let wide = row.relative.as_deref().filter(|_| row.wide);
         line([name, row.end, &own.from, &own.to, &at], wide);
+    }
+    if interrupt::is_cancelled() {
+        let _ = writeln!(out, "\n  {}", interrupt::PARTIAL);
     }
     if quiet {
         return out;

@@ -2,7 +2,7 @@
 
 use super::input::Begun;
 use super::pave::searched;
-use super::{audit, print, Failure, Format, Status};
+use super::{audit, input, print, Failure, Format, Status};
 use orthocert::design::Design;
 use orthocert::digest::Summed;
 use orthocert::report::Size;
@@ -212,8 +212,7 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
             let path = &arguments.certificate;
-            let is_design = path.extension().is_some_and(|extension| extension == "toml");
-            let hint = if is_design { "; `orthocert verify` reads designs" } else { "" };
+            let hint = input::design_hint(path);
             print::diagnostic(&format!("{}: REJECTED: {reason}{hint}", path.shown()))
         }
     }

@@ -1,6 +1,6 @@
 //! The flags that all commands with a search share: its budget, its threads, its answer's form.
 
-use super::{input, interrupt, Failure, Format};
+use super::{input, Failure, Format};
 use crate::cli::progress::Bar;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -60,15 +60,14 @@ impl Effort {
         start_threads(self.threads)
     }
 
-    /// Runs searches that can be interrupted and shows their progress, under a name where the command
-    /// does other work, too.
-    pub fn run<T>(&self, task: &str, search: impl FnOnce(&mut Control<'_>) -> T) -> T {
-        let mut bar = Bar::new(task, self.quiet);
-        let mut progress = |now| bar.show(now);
-        let found =
-            search(&mut Control { cancel: interrupt::cancelled(), progress: &mut progress });
-        bar.clear();
-        found
+    /// Shows the progress of a command.
+    pub fn bar(&self) -> Bar {
+        Bar::new("boxes", self.quiet)
+    }
+
+    /// Runs a search that can be interrupted and shows its progress.
+    pub fn run<T>(&self, search: impl FnOnce(&mut Control<'_>) -> T) -> T {
+        self.bar().run("", 1, search)
     }
 }
 

@@ -99,3 +99,11 @@ pub fn apart_in(folder: &Path, design: &Path) -> Result<(), Failure> {
         None => Ok(()),
     }
 }
+
+/// What to do with a file that is no certificate, but named as designs are.
+pub fn design_hint(path: &Path) -> &'static str {
+    match path.extension().is_some_and(|extension| extension == "toml") {
+        true => "; `orthocert verify` reads designs",
+        false => "",
+    }
+}

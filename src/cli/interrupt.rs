@@ -3,7 +3,7 @@
 //! The search looks at [`cancelled`] between batches of boxes. What does not look, such as the exact
 //! check of a large proof, is ended with the process, but never while a file is being written.
 
-use super::print;
+use super::{print, progress, Failure, Status};
 use orthocert::output;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -46,6 +46,17 @@ pub fn grant() {
     GRACE.store(5000, Ordering::Relaxed);
 }
 
+/// The status of an answer: a signal that came before it was complete counts, whatever was found.
+pub fn unless_cancelled(status: Status) -> Result<Status, Failure> {
+    match is_cancelled() {
+        true => Err(Failure::Interrupted),
+        false => Ok(status),
+    }
+}
+
+/// What an answer that is not complete says of itself, for people.
+pub const PARTIAL: &str = "PARTIAL: interrupted; what stands here was found before, and holds.";
+
 /// Says once that the command was interrupted; returns the exit code. From now on no file is begun,
 /// so that the process may end under the threads that are left.
 pub fn end() -> ExitCode {
@@ -56,6 +67,7 @@ pub fn end() -> ExitCode {
 
 fn say() {
     if !SAID.swap(true, Ordering::Relaxed) {
+        progress::clear();
         print::diagnostic("interrupted");
     }
 }

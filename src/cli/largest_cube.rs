@@ -1,6 +1,6 @@
 //! `orthocert largest-cube`.
 
-use super::{certify, effort::Effort, input, print, size, Failure, Format, Status};
+use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
 use num_traits::ToPrimitive;
 use orthocert::decimal::{grouped, readable, significant};
 use orthocert::design::{written, Design};
@@ -16,6 +16,9 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Why there is no upper bound where cubes a million times as large as the box of the centres seem to fit.
+const ENDLESS: &str = "the requirements seem to hold in cubes of any size";
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -60,12 +63,18 @@ struct Answer {
     /// `(max - min) / min`.
     #[serde(skip_serializing_if = "Option::is_none")]
     gap: Option<f64>,
+    /// Why it is more than was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missed: Option<&'static str>,
     /// What fails first in the cube of side `max` about the same centre.
     #[serde(skip_serializing_if = "Option::is_none")]
     limited_by: Option<Counterexample>,
     #[serde(skip_serializing_if = "Option::is_none")]
     length_unit: Option<&'static str>,
     certificates: Vec<CertificateFile>,
+    /// Whether it was interrupted: this is what was found before.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    interrupted: bool,
     seconds: f64,
 }
 
@@ -83,11 +92,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         output::probe(target)?;
     }
     effort.start_threads()?;
-    let found = effort.run("", |control| match &side {
+    interrupt::grant();
+    let found = effort.run(|control| match &side {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });
     let bracket = found.map_err(size::explain)?;
+    if bracket.inside.is_none() && bracket.too_large.is_none() && interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
     let mut certificates = Vec::new();
     let inside = bracket.inside.as_ref().map(|inside| &inside.certificate);
     let too_large = bracket.too_large.as_ref().map(|too_large| &too_large.certificate);
@@ -96,22 +109,31 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             certificates.push(stored(certificate, arguments.output.as_deref(), target)?);
         }
     }
+    let found = reached(&bracket);
+    let missed = match &side {
+        None if found.is_some_and(|found| found <= gap) || interrupt::is_cancelled() => None,
+        None if bracket.endless => Some(ENDLESS),
+        Some(_) if bracket.inside.is_some() || bracket.too_large.is_some() => None,
+        _ => Some(size::missed(budget)),
+    };
     let answer = Answer {
         title: design.title.clone(),
-        gap: reached(&bracket),
+        gap: found,
+        missed,
         limited_by: bracket.fails.as_deref().and_then(counterexample),
         length_unit: design.unit,
         min: bracket.inside.as_ref().map(|inside| inside.side.clone()),
         centre: bracket.inside.map(|inside| inside.centre.map(Exact::Rational)),
         max: bracket.too_large.map(|too_large| too_large.side),
         certificates,
+        interrupted: interrupt::is_cancelled(),
         seconds: started.elapsed().as_secs_f64(),
     };
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, effort.quiet))?,
     }
-    Ok(match (&answer.min, &answer.max, side) {
+    interrupt::unless_cancelled(match (&answer.min, &answer.max, side) {
         (Some(_), _, Some(_)) => Status::Decided(Verdict::Certified),
         (_, Some(_), Some(_)) => Status::Decided(Verdict::Refuted),
         // Both sides are rounded to a hundredth of the gap.
@@ -193,6 +215,9 @@ fn text(answer: &Answer, quiet: bool) -> String {
         (None, Some(max)) => format!("no cube of side {}{unit} fits\n", exactly(max)),
         (None, None) => "undecided: no cube is certified, and no side is excluded\n".to_owned(),
     };
+    if answer.interrupted {
+        let _ = writeln!(out, "{}", interrupt::PARTIAL);
+    }
     if quiet {
         return out;
     }
@@ -207,6 +232,9 @@ fn text(answer: &Answer, quiet: bool) -> String {
     }
     if let Some(gap) = answer.gap {
         labelled(&mut out, "gap", &significant(gap, 3));
+    }
+    if let Some(why) = answer.missed {
+        labelled(&mut out, "gap missed", why);
     }
     for CertificateFile { path, bytes, .. } in &answer.certificates {
         verbatim(&mut out, "certificate", &format!("{path} ({} bytes)", grouped(*bytes as u64)));

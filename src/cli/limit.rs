@@ -1,7 +1,7 @@
 //! `orthocert limit`.
 
 use super::size::{explain, gap_text};
-use super::{certify, effort::Effort, input, print, Failure, Format, Status};
+use super::{certify, effort::Effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use orthocert::decimal::{exact, grouped, significant};
 use orthocert::design::{text_of, Design, Variable};
@@ -86,6 +86,9 @@ struct Answer {
     tolerance: Option<String>,
     verdict: Outcome,
     limits: Vec<Row>,
+    /// Whether it was interrupted: this is what was found before.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    interrupted: bool,
     seconds: f64,
 }
 
@@ -155,16 +158,23 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         deadline: budget.deadline,
     };
     let variable = &variable;
-    let own = effort.run("own value", |control| {
-        DesignFamily { variable, budget, control }.decide(&design.claim)
+    interrupt::grant();
+    let mut bar = effort.bar();
+    let own = bar.run("own value", 20, |control| {
+        DesignFamily { variable, budget, control }.decide(&design.claim, [0.0, 1.0])
     });
     let own = own.map_err(explain)?;
+    if own.is_none() && interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
     let verdict = own.as_ref().map(|(verdict, _)| *verdict);
     let nodes = own.as_ref().map_or(0, |(_, certificate)| nodes(&certificate.proof));
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
-    let found = effort
-        .run("", |control| limits(&question, own, &mut DesignFamily { variable, budget, control }));
+    let found = bar.run(&arguments.key, 1, |control| {
+        limits(&question, own, &mut DesignFamily { variable, budget, control })
+    });
+    drop(bar);
     let limits = found.map_err(explain)?;
     let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
     let answer = Answer {
@@ -175,13 +185,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         tolerance: variable.tolerance().map(str::to_owned),
         verdict: verdict.map_or(Outcome::Undecided, Outcome::Decided),
         limits: rows.collect::<Result<_, _>>()?,
+        interrupted: interrupt::is_cancelled(),
         seconds: started.elapsed().as_secs_f64(),
     };
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&words(&answer, effort.quiet))?,
     }
-    Ok(if is_complete(&answer) { Status::Done } else { Status::Undecided })
+    let status = if is_complete(&answer) { Status::Done } else { Status::Undecided };
+    interrupt::unless_cancelled(status)
 }
 
 /// Whether a limit was found as near as was asked for, and none is left open: of a certified design
@@ -302,9 +314,16 @@ fn words(answer: &Answer, quiet: bool) -> String {
             limit(&mut out, row);
         }
     }
+    if answer.interrupted {
+        let _ = writeln!(out, "{}{}", if quiet { "" } else { "\n  " }, interrupt::PARTIAL);
+    }
     if !quiet {
         out += "\n  Each value has its own certificate; nothing is claimed of other values.\n";
-        if answer.limits.iter().any(|row| row.open) {
+        if answer.limits.iter().all(|row| row.gap.is_none() && !row.open) {
+            out += "  No limit was found, for which the exit code is 3: no value that was tried has the\n  \
+                    other verdict.\n";
+        }
+        if !answer.interrupted && answer.limits.iter().any(|row| row.open) {
             out += "  Where values are undecided, no proof was found, and no place that fails:\n  \
                     a larger --max-boxes or --timeout may help.\n";
         }
@@ -366,7 +385,8 @@ fn limit(out: &mut String, row: &Row) {
         line(out, "not a design", &format!("{}: {}", exact(&end.value), end.reason));
     }
     if row.out_of_time {
-        line(out, "", "the time was up");
+        let why = if interrupt::is_cancelled() { "interrupted" } else { "the time was up" };
+        line(out, "", why);
     }
     for Value { certificate, .. } in [&row.certified, &row.refuted].into_iter().flatten() {
         let bytes = grouped(certificate.bytes as u64);

@@ -1,6 +1,6 @@
 //! `orthocert pave`.
 
-use super::{effort, input, interrupt, print, progress::Bar, Failure, Format, Status};
+use super::{effort, input, print, progress::Bar, Failure, Format, Status};
 use orthocert::batch::plan::identity;
 use orthocert::design::{written, Design};
 use orthocert::digest::Summed;
@@ -11,7 +11,6 @@ use orthocert::paving::{
     PaveError, Resume, DEEPEST,
 };
 use orthocert::report::paving::PavingReport;
-use orthocert::search::Control;
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
@@ -95,22 +94,18 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
     let part = unfinished(&target);
-    if !arguments.resume && is_left(&part)? {
-        let part = part.shown();
-        print::diagnostic(&format!(
-            "{part}, which another run left, is not taken up: --resume would"
-        ));
+    if !arguments.resume {
+        not_taken_up(&part, b"{\"format\":\"orthocert-paving/", "paving")?;
     }
     effort::start_threads(arguments.threads)?;
-    let mut bar = Bar::new("", arguments.quiet);
-    let mut progress = |now| bar.show(now);
-    let mut control = Control { cancel: interrupt::cancelled(), progress: &mut progress };
+    let mut bar = Bar::new("boxes", arguments.quiet);
     let resume = if arguments.resume { Resume::Yes } else { Resume::No };
-    let paved = pave(claim, coordinates, &goal, &target, resume, &mut control);
-    bar.clear();
+    let paved = bar.run("", 2, |control| pave(claim, coordinates, &goal, &target, resume, control));
     let paved = paved.map_err(|error| failure(error, &target))?;
     let elapsed = started.elapsed();
-    let found = connected(&target, &paved.sha256, arguments.memory)?;
+    let found =
+        bar.run("components", 1, |_| connected(&target, &paved.sha256, arguments.memory))?;
+    drop(bar);
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
     report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;
@@ -258,24 +253,28 @@ impl Arguments {
     }
 }
 
-/// Whether an earlier run left an unfinished paving there; anything else stays.
-fn is_left(part: &Path) -> Result<bool, Failure> {
-    const START: &[u8] = b"{\"format\":\"orthocert-paving/";
+/// Says so where an earlier run left an unfinished paving or map, which begins like this; anything else stays.
+pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failure> {
     if fs::symlink_metadata(part).is_err() {
-        return Ok(false);
+        return Ok(());
     }
     let mut start = Vec::new();
     let read = output::open_own(part, OpenOptions::new().read(true))?
-        .take(START.len() as u64)
+        .take(begins.len() as u64)
         .read_to_end(&mut start);
     read.map_err(|error| Failure::from(OutputError::Io(part.to_owned(), error)))?;
-    if START.starts_with(&start) {
-        return Ok(!start.is_empty());
-    }
     let part = part.shown();
-    Err(Failure::Input(format!(
-        "--output: {part} is in the way, which is no unfinished paving; accepted: another path"
-    )))
+    if !begins.starts_with(&start) {
+        return Err(Failure::Input(format!(
+            "--output: {part} is in the way, which is no unfinished {what}; accepted: another path"
+        )));
+    }
+    if !start.is_empty() {
+        print::diagnostic(&format!(
+            "{part}, which another run left, is not taken up: --resume would"
+        ));
+    }
+    Ok(())
 }
 
 /// Demands a box as the workspace; of a cylinder, z may be paved for all x and y.

@@ -44,8 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     parts(&claim).map_err(|error| arguments.refused(&error))?;
     target.as_deref().map_or(Ok(()), output::probe)?;
     effort.start_threads()?;
-    let mut found =
-        effort.run("", |control| prove(&claim, budget, control)).map_err(Failure::input)?;
+    let mut found = effort.run(|control| prove(&claim, budget, control)).map_err(Failure::input)?;
     let decision = certify::decided(&mut found)?;
     let report = PostulateReport::new(&claim, &found, started.elapsed());
     let mut report = report.ok_or(Failure::Interrupted)?;

@@ -1,6 +1,6 @@
 //! Standard output and standard error: every byte that this program prints passes through here.
 
-use super::Failure;
+use super::{progress, Failure};
 use orthocert::escape;
 use orthocert::report::text::Style;
 use orthocert_checker::shown::lines;
@@ -44,13 +44,17 @@ pub fn diagnostic(message: &str) {
 
 /// Lines about work under way, on standard error.
 pub fn line(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", lines(text, marks(error_style())));
+    progress::beside(|| {
+        let _ = writeln!(io::stderr().lock(), "{}", lines(text, marks(error_style())));
+    });
 }
 
 /// Commands to the runner of GitHub, which it reads from standard error too, where they leave the
 /// answer alone.
 pub fn commands(text: &str) {
-    let _ = write!(io::stderr().lock(), "{text}");
+    progress::beside(|| {
+        let _ = write!(io::stderr().lock(), "{text}");
+    });
 }
 
 /// What sets words off.

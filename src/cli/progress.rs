@@ -1,96 +1,150 @@
 //! Progress: on standard error, on a terminal, of what takes long enough to see it. It moves also while a
-//! search has nothing to say.
+//! search has nothing to say: what turns, the time, and the estimate of what is left.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use orthocert::decimal::{grouped, significant};
+use super::interrupt;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use orthocert::decimal::grouped;
 use orthocert::report::text::duration;
-use orthocert::search::Progress;
+use orthocert::search::{Control, Progress, Steps};
+use std::fmt;
 use std::io::{self, IsTerminal};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Runs shorter than this show nothing.
 const PATIENCE: Duration = Duration::from_millis(150);
 /// The time between two pictures of what turns.
 const TICK: Duration = Duration::from_millis(120);
 /// Steps of the bar.
-const STEPS: u64 = 1000;
+const STEPS: u64 = 1_000_000;
 /// From this share on, and after this time, what is left is estimated.
-const ESTIMATED: (f64, Duration) = (0.02, Duration::from_secs(2));
+const ESTIMATED: (f64, Duration) = (0.01, Duration::from_secs(2));
 
-/// The progress of a task: of one search, or of several after each other.
+/// What is drawn, of which there is at most one.
+static DRAWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// The progress of a command, in one task or in several after each other.
 pub struct Bar {
     task: String,
-    /// Searches begun, and when the last was.
-    searches: usize,
-    started: Instant,
-    /// Boxes of that search, as it last said.
-    boxes: usize,
+    /// What is counted.
+    counted: &'static str,
+    /// Shares of the tasks begun.
+    steps: Steps,
+    /// The share of the command that is done.
+    share: f64,
+    /// Boxes of the searches that ended, and of the one under way.
+    boxes: [usize; 2],
     /// None where nobody looks.
-    shown: Option<Shown>,
+    shown: Option<Drawn>,
 }
 
 /// What is drawn once the patience is over.
-struct Shown {
+struct Drawn {
     bar: ProgressBar,
     over: Arc<(Mutex<bool>, Condvar)>,
 }
 
 impl Bar {
-    /// For a task, named in a few words, or in none where the command has but one.
-    pub fn new(task: &str, quiet: bool) -> Self {
+    /// Of a command that begins, which counts boxes, or cells.
+    pub fn new(counted: &'static str, quiet: bool) -> Self {
         let wanted = !quiet && io::stderr().is_terminal();
-        let shown = wanted.then(Shown::new);
-        Bar { task: task.to_owned(), searches: 1, started: Instant::now(), boxes: 0, shown }
+        let (task, steps) = (String::new(), Steps::default());
+        let shown = wanted.then(Drawn::new);
+        Bar { task, counted, steps, share: 0.0, boxes: [0, 0], shown }
     }
 
-    /// Shows how far a search is; one that has tried fewer boxes than before is another.
+    /// Does a task, which can be interrupted, one of `left`: named in a few words, or in none where the
+    /// command has but one.
+    pub fn run<T>(
+        &mut self,
+        task: &str,
+        left: usize,
+        work: impl FnOnce(&mut Control<'_>) -> T,
+    ) -> T {
+        task.clone_into(&mut self.task);
+        let part = self.steps.take(left);
+        let mut show = |now| self.show(now);
+        Control { cancel: interrupt::cancelled(), progress: &mut show }.part(part, work)
+    }
+
+    /// Shows how far the command is: never less than before.
     pub fn show(&mut self, now: Progress) {
-        if now.boxes < self.boxes {
-            self.searches += 1;
-            self.started = Instant::now();
+        if now.boxes < self.boxes[1] {
+            self.boxes[0] += self.boxes[1];
         }
-        self.boxes = now.boxes;
-        let Some(Shown { bar, .. }) = &self.shown else { return };
-        bar.set_position((now.closed * STEPS as f64) as u64);
-        bar.set_message(message(&self.task, self.searches, now, self.started.elapsed()));
+        self.boxes[1] = now.boxes;
+        self.share = self.share.max(now.share.min(1.0));
+        let Some(Drawn { bar, .. }) = &self.shown else { return };
+        bar.set_position((self.share * STEPS as f64) as u64);
+        bar.set_message(message(&self.task, self.boxes[0] + self.boxes[1], self.counted));
+    }
+
+    /// Shows that so much more is done.
+    pub fn add(&mut self, share: f64) {
+        self.show(Progress { boxes: 0, share: self.share + share });
     }
 
     /// Removes it.
-    pub fn clear(&mut self) {
+    pub fn end(&mut self) {
         self.shown = None;
     }
 }
 
-/// `psi, search 3: 43 % of volume, 2,000 boxes, 100,000 boxes/s, about 4 s left`.
-fn message(task: &str, searches: usize, now: Progress, elapsed: Duration) -> String {
-    let name = match (task, searches) {
-        ("", 1) => String::new(),
-        (task, 1) => format!("{task}: "),
-        ("", number) => format!("search {number}: "),
-        (task, number) => format!("{task}, search {number}: "),
-    };
-    let rate = now.boxes as f64 / elapsed.as_secs_f64().max(1e-3);
-    let mut out = format!(
-        "{name}{} % of volume, {} boxes, {} boxes/s",
-        significant(100.0 * now.closed, 4),
-        grouped(now.boxes as u64),
-        grouped(rate as u64)
-    );
-    if now.closed >= ESTIMATED.0 && elapsed >= ESTIMATED.1 {
-        let left = elapsed.as_secs_f64() * (1.0 - now.closed) / now.closed;
-        out += &format!(", about {} left", duration(left.ceil().max(1.0)));
+/// `: psi, 2,000 boxes`.
+fn message(task: &str, boxes: usize, counted: &str) -> String {
+    let boxes = (boxes > 0).then(|| format!("{} {counted}", grouped(boxes as u64)));
+    let parts = (!task.is_empty()).then(|| task.to_owned()).into_iter().chain(boxes);
+    let parts: Vec<String> = parts.collect();
+    if parts.is_empty() {
+        return String::new();
     }
-    out
+    format!(": {}", parts.join(", "))
 }
 
-impl Shown {
+/// `, about 4 s left`, or nothing yet: `known` is the share that was there as soon as it was looked.
+fn left(known: f64, share: f64, elapsed: Duration) -> String {
+    if share < known + ESTIMATED.0 || share >= 1.0 || elapsed < ESTIMATED.1 {
+        return String::new();
+    }
+    let left = elapsed.as_secs_f64() * (1.0 - share) / (share - known);
+    format!(", about {} left", duration(left.ceil().max(1.0)))
+}
+
+/// Writes to standard error beside what is drawn.
+pub fn beside(write: impl FnOnce()) {
+    let drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*drawn {
+        Some(bar) => bar.suspend(write),
+        None => write(),
+    }
+}
+
+/// Removes what is drawn.
+pub fn clear() {
+    let drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner).take();
+    drawn.iter().for_each(ProgressBar::finish_and_clear);
+}
+
+impl Drawn {
     /// Nothing yet; drawn from a thread of its own when the patience is over.
     fn new() -> Self {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}") {
-            bar.set_style(style.progress_chars("=> "));
+        let share = |state: &ProgressState| f64::from(state.fraction());
+        let known = Arc::new(AtomicU64::new(0));
+        let at_first = Arc::clone(&known);
+        let template = "{spinner} {elapsed} {bar:24} {share}{msg}{left}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            let percent = move |state: &ProgressState, out: &mut dyn fmt::Write| {
+                let _ = write!(out, "{:.0} %", (100.0 * share(state)).floor());
+            };
+            let rest = move |state: &ProgressState, out: &mut dyn fmt::Write| {
+                let known = at_first.load(Ordering::Relaxed) as f64 / STEPS as f64;
+                let _ = out.write_str(&left(known, share(state), state.elapsed()));
+            };
+            let style = style.progress_chars("=> ");
+            bar.set_style(style.with_key("share", percent).with_key("left", rest));
         }
         let over = Arc::new((Mutex::new(false), Condvar::new()));
         let (of_thread, drawn) = (Arc::clone(&over), bar.clone());
@@ -102,20 +156,23 @@ impl Shown {
             let (over, _) = waited.unwrap_or_else(PoisonError::into_inner);
             // The lock is held: it is not removed meanwhile.
             if !*over {
+                known.store(drawn.position(), Ordering::Relaxed);
                 drawn.set_draw_target(ProgressDrawTarget::stderr());
                 drawn.enable_steady_tick(TICK);
+                *DRAWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(drawn);
             }
         });
-        Shown { bar, over }
+        Drawn { bar, over }
     }
 }
 
-impl Drop for Shown {
+impl Drop for Drawn {
     fn drop(&mut self) {
         let (over, changed) = &*self.over;
         *over.lock().unwrap_or_else(PoisonError::into_inner) = true;
         changed.notify_all();
         self.bar.finish_and_clear();
+        clear();
     }
 }
 
@@ -124,23 +181,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn searches_are_counted_and_what_is_left_is_estimated() {
-        let mut bar = Bar::new("psi", true);
-        let at = |boxes, closed| Progress { boxes, closed };
-        for (now, searches) in
-            [(at(10, 0.1), 1), (at(20, 0.2), 1), (at(5, 0.0), 2), (at(9, 0.5), 2)]
+    fn a_command_s_share_never_falls_and_its_boxes_add_up() {
+        let mut bar = Bar::new("boxes", true);
+        let tasks = [("one", 4), ("another", 3), ("the last", 1)];
+        for ((task, left), (share, boxes)) in
+            tasks.into_iter().zip([(0.25, 20), (0.5, 40), (1.0, 60)])
         {
-            bar.show(now);
-            assert_eq!(bar.searches, searches);
+            bar.run(task, left, |control| {
+                for (boxes, share) in [(10, 0.5), (20, 0.2)] {
+                    (control.progress)(Progress { boxes, share });
+                }
+            });
+            assert_eq!((bar.share, bar.boxes[0] + bar.boxes[1]), (share, boxes));
         }
+    }
+
+    #[test]
+    fn what_is_left_is_estimated_once_there_is_something_to_judge_by() {
         let second = Duration::from_secs(1);
-        assert_eq!(
-            message("", 1, at(2000, 0.4375), second),
-            "43.75 % of volume, 2,000 boxes, 2,000 boxes/s"
-        );
-        assert_eq!(
-            message("psi", 2, at(2000, 0.25), 10 * second),
-            "psi, search 2: 25 % of volume, 2,000 boxes, 200 boxes/s, about 30 s left"
-        );
+        assert_eq!(message("psi", 2000, "boxes"), ": psi, 2,000 boxes");
+        assert_eq!(message("", 0, "cells"), "");
+        assert_eq!(message("psi", 0, "boxes"), ": psi");
+        assert_eq!(left(0.0, 0.25, 10 * second), ", about 30 s left");
+        assert_eq!(left(0.5, 0.75, 10 * second), ", about 10 s left");
+        assert_eq!(left(0.0, 0.999, 10 * second), ", about 1 s left");
+        for (share, elapsed) in [(0.5, second), (0.0, 10 * second), (1.0, 10 * second)] {
+            assert_eq!(left(0.0, share, elapsed), "");
+        }
     }
 }

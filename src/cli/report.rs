@@ -181,8 +181,8 @@ fn reject(arguments: &Arguments, reason: &str) -> Result<Status, Failure> {
     match arguments.format {
         Format::Json => print::json(&Answer::Rejected { accepted: false, reason })?,
         Format::Text => {
-            let path = arguments.certificate.shown();
-            print::diagnostic(&format!("{path}: REJECTED: {reason}; no report is written"));
+            let (path, hint) = (arguments.shown(), input::design_hint(&arguments.certificate));
+            print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}; no report is written"));
         }
     }
     Ok(Status::Rejected)

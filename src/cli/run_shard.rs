@@ -1,10 +1,10 @@
 //! `orthocert run-shard`.
 
 use super::effort::Work;
-use super::{interrupt, print, Failure, Format, Status};
+use super::{print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use orthocert::batch::plan::identity;
-use orthocert::search::Progress;
+use orthocert::search::Control;
 use orthocert::shard::{self, Ran, RunError};
 use orthocert_checker::shown::Named;
 use orthocert_checker::shown::Shown;
@@ -47,11 +47,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         )));
     }
     arguments.work.start_threads()?;
-    let mut bar = Bar::new("", arguments.work.quiet);
-    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
-    let cancel = interrupt::cancelled();
-    let ran = shard::run(&arguments.file, &shard, &answers, cancel, &mut done);
-    bar.clear();
+    let run = |control: &mut Control<'_>| shard::run(&arguments.file, &shard, &answers, control);
+    let ran = Bar::new("boxes", arguments.work.quiet).run("", 1, run);
     let ran = ran.map_err(|error| match error {
         RunError::Interrupted => Failure::Interrupted,
         RunError::Output(error) => Failure::from(error),

@@ -87,8 +87,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
-            let path = arguments.certificate.shown();
-            print::diagnostic(&format!("{path}: REJECTED: {reason}"));
+            let (path, hint) =
+                (arguments.certificate.shown(), input::design_hint(&arguments.certificate));
+            print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}"));
             return Ok(Status::Rejected);
         }
     };

@@ -1,6 +1,6 @@
 //! `orthocert size`, and what it has in common with `orthocert tolerance`.
 
-use super::{certify, effort, input, print, Failure, Format, Status};
+use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use orthocert::decimal::{exact, outward, readable, rounded, Toward};
@@ -9,6 +9,7 @@ use orthocert::frontier::{Bracket, Certified, NoAnswer};
 use orthocert::output;
 use orthocert::report::text::{duration, labelled, verbatim, wrap};
 use orthocert::report::{counterexample, CertificateFile, Counterexample};
+use orthocert::search::Budget;
 use orthocert::size::{is_side, Family, Scope, Unknown};
 use orthocert_checker::certificate::Certificate;
 use serde::Serialize;
@@ -58,6 +59,9 @@ struct Answer {
     /// `certified/refuted - 1`, rounded up.
     gap: Option<String>,
     gap_reached: bool,
+    /// Why not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    missed: Option<&'static str>,
     /// The greatest that was refuted for more than one placement.
     excluded: Option<Exact>,
     /// For which; `null` if that is not known how to prove.
@@ -72,6 +76,9 @@ struct Answer {
     limited_by: Option<Counterexample>,
     #[serde(skip_serializing_if = "Option::is_none")]
     length_unit: Option<&'static str>,
+    /// Whether it was interrupted: this is what was found before.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    interrupted: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     certificates: Vec<CertificateFile>,
 }
@@ -90,20 +97,32 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     }
     effort.start_threads()?;
     let budget = effort.budget_or(BOXES, started)?;
-    let family = Family::new(claim, &side, width).map_err(explain)?;
-    let found = effort
-        .run("placement", |control| family.smallest(width, budget, control))
+    interrupt::grant();
+    let mut bar = effort.bar();
+    let family =
+        bar.run("place of the cube", 5, |control| Family::new(claim, &side, width, control));
+    let family = family.map_err(explain)?;
+    let found = bar
+        .run("this place", 2, |control| family.smallest(width, budget, control))
         .map_err(explain)?;
-    let excluded = effort
-        .run("every placement", |control| family.excluded(width, budget, control))
+    let excluded = bar
+        .run("every place", 1, |control| family.excluded(width, budget, control))
         .map_err(explain)?;
+    drop(bar);
+    let nothing = found.certified.is_none() && found.refuted.is_none() && excluded.is_none();
+    if nothing && interrupt::is_cancelled() {
+        return Err(Failure::Interrupted);
+    }
     let answer = answer(&family, (found, excluded), side, width, arguments)?;
-    let answer = Answer { length_unit: design.unit, ..answer };
+    let why = !answer.gap_reached && !answer.interrupted;
+    let missed = why.then(|| missed(budget));
+    let answer = Answer { length_unit: design.unit, missed, ..answer };
     match effort.format {
         Format::Json => print::json(&answer)?,
         Format::Text => print::answer(&text(&answer, effort.quiet, started))?,
     }
-    Ok(if answer.gap_reached { Status::Done } else { Status::Undecided })
+    let status = if answer.gap_reached { Status::Done } else { Status::Undecided };
+    interrupt::unless_cancelled(status)
 }
 
 fn side(text: &str) -> Result<BigRational, Failure> {
@@ -144,6 +163,14 @@ pub fn file(
 ) -> Result<CertificateFile, Failure> {
     let text = certificate.to_text().map_err(|_| Failure::Defect)?;
     certify::store(Some(folder), &folder.join(name), &text)
+}
+
+/// Why an answer is wider than the gap that was asked for, if neither was interrupted nor endless.
+pub fn missed(budget: Budget) -> &'static str {
+    match budget.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+        true => "the time was up",
+        false => "no nearer proof was found within the boxes of a search; --max-boxes sets them",
+    }
 }
 
 /// A relative width, two digits, rounded up.
@@ -196,12 +223,14 @@ fn answer(
         refuted_for,
         gap: found.gap().as_ref().map(gap_text),
         gap_reached: reaches(&found),
+        missed: None,
         excluded,
         excluded_for,
         centre_for_size_one: family.centre.clone().map(Exact::Rational),
         centre,
         limited_by: limit,
         length_unit: None,
+        interrupted: interrupt::is_cancelled(),
         certificates,
     })
 }
@@ -259,6 +288,9 @@ fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
         }
         (None, None) => format!("undecided: no {name} is certified for a cube of side {cube}\n"),
     };
+    if answer.interrupted {
+        let _ = writeln!(out, "{}", interrupt::PARTIAL);
+    }
     if quiet {
         return out;
     }
@@ -283,6 +315,9 @@ fn text(answer: &Answer, quiet: bool, started: Instant) -> String {
     }
     if let Some(gap) = &answer.gap {
         labelled(&mut out, "gap", gap);
+    }
+    if let Some(why) = answer.missed {
+        labelled(&mut out, "gap missed", why);
     }
     if let Some(found) = &answer.limited_by {
         labelled(&mut out, "limited by", &found.limit());

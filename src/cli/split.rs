@@ -1,12 +1,11 @@
 //! `orthocert split`.
 
 use super::effort::Work;
-use super::{atlas, interrupt, pave, print, Failure, Format, Status};
+use super::{atlas, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use orthocert::decimal::{counted, grouped};
 use orthocert::design::{is_atlas, AtlasDesign, Design};
 use orthocert::output;
-use orthocert::search::Progress;
 use orthocert::shard::{self, name_of, Name, Pave, SplitError, Task, Verify, JOB_FILE, MAX_SHARDS};
 use orthocert_checker::shown::{Named, Shown};
 use orthocert_kernel::check::MOST_NODES;
@@ -71,11 +70,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let folder = &arguments.out;
     empty(folder)?;
     arguments.work.start_threads()?;
-    let mut bar = Bar::new("", arguments.work.quiet);
-    let mut done = |cells, closed| bar.show(Progress { boxes: cells, closed });
     let count = usize::try_from(arguments.shards).unwrap_or(1);
-    let split = shard::split(&task, count, interrupt::cancelled(), &mut done);
-    bar.clear();
+    let split = Bar::new("boxes", arguments.work.quiet)
+        .run("", 1, |control| shard::split(&task, count, control));
     let (job, texts) = split.map_err(|error| match error {
         SplitError::Interrupted => Failure::Interrupted,
         error => Failure::Input(format!("{}: {error}", arguments.job.shown())),

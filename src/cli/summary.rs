@@ -1,7 +1,7 @@
 //! `orthocert summary`.
 
 use super::effort::{self, Effort};
-use super::{input, print, Failure, Format, Status};
+use super::{input, interrupt, print, Failure, Format, Status};
 use num_rational::BigRational;
 use num_traits::Signed;
 use orthocert::report::text::headline_of;
@@ -75,8 +75,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         one_unit: !turns || design.sources.position(key).is_some(),
         gap: gap.unwrap_or_else(of_size),
     };
+    interrupt::grant();
+    let mut bar = effort.bar();
     let found =
-        effort.run("verdict", |control| verify(claim, budget, control)).map_err(Failure::input)?;
+        bar.run("verdict", 5, |control| verify(claim, budget, control)).map_err(Failure::input)?;
     if found.is_cancelled() {
         return Err(Failure::Interrupted);
     }
@@ -89,9 +91,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         print::answer(&(headline_of(verdict, name, print::style()) + "\n"))?;
         return Ok(status(verdict));
     }
-    let summary = effort.run("quantities", |control| {
+    let summary = bar.run("quantities", 1, |control| {
         summary(claim, &found, &question, of_widths, started, control)
     });
+    drop(bar);
     let summary = summary.map_err(|error| match error {
         NotEnclosed::Cancelled => Failure::Interrupted,
         error => Failure::input(error),
@@ -104,9 +107,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     summary.design = arguments.design.as_ref().map(|path| path.to_string_lossy().into_owned());
     match effort.format {
         Format::Json => print::json(&summary)?,
+        Format::Text if summary.interrupted => {
+            let text = text::text(&summary, print::style());
+            print::answer(&format!("{text}\n  {}\n", interrupt::PARTIAL))?;
+        }
         Format::Text => print::answer(&text::text(&summary, print::style()))?,
     }
-    Ok(status(summary.verdict))
+    interrupt::unless_cancelled(status(summary.verdict))
 }
 
 fn status(verdict: Outcome) -> Status {

@@ -118,13 +118,21 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     let enough = BOXES.0.max(BOXES.1.saturating_mul(nodes));
     let budget = effort.budget_or(enough as u64, started)?;
-    let bracket = |scheme: &Scheme| {
+    let legs = if arguments.by_leg { legs_of(&claim.mechanism) } else { 0 };
+    let mut left = schemes(&kinds).len() + usize::from(mixed(&kinds)) + kinds.len() * legs;
+    let mut bar = effort.bar();
+    let mut bracket = |scheme: &Scheme| {
+        if interrupt::is_cancelled() {
+            return Err(Failure::Interrupted);
+        }
         let own = each.and_then(|each| Instant::now().checked_add(each));
         let deadline = [budget.deadline, own].into_iter().flatten().min();
         let budget = Budget { deadline, ..budget };
-        let found =
-            effort.run(&words(scheme), |control| widest(claim, scheme, width, budget, control));
-        let out_of_time = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        left -= 1;
+        let found = bar
+            .run(&words(scheme), left + 1, |control| widest(claim, scheme, width, budget, control));
+        let out_of_time = interrupt::is_cancelled()
+            || deadline.is_some_and(|deadline| Instant::now() >= deadline);
         found.map(|found| (found, out_of_time)).map_err(explain)
     };
     let mut rows = Vec::new();
@@ -159,22 +167,26 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     };
     interrupt::grant();
     let filled = fill();
+    drop(bar);
     // What was found before is told.
     match filled {
         Err(Failure::Interrupted) if !rows.is_empty() => {}
         filled => filled?,
     }
     match effort.format {
-        Format::Json => print::json(&serde_json::json!({
-            "nominal": "certified", "each": &arguments.each, "tolerances": rows,
-        }))?,
+        Format::Json => {
+            let each = &arguments.each;
+            let mut answer =
+                serde_json::json!({ "nominal": "certified", "each": each, "tolerances": rows });
+            if interrupt::is_cancelled() {
+                answer["interrupted"] = true.into();
+            }
+            print::json(&answer)?;
+        }
         Format::Text => print::answer(&text(&rows, arguments, design.unit, started))?,
     }
-    if interrupt::is_cancelled() {
-        return Err(Failure::Interrupted);
-    }
     let complete = rows.iter().all(|row| row.gap_reached);
-    Ok(if complete { Status::Done } else { Status::Undecided })
+    interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
 }
 
 fn too_large() -> Failure {
@@ -256,7 +268,7 @@ fn nodes_or_status(
     let refuted = refutation(nominal);
     let counterexample = refuted.as_deref().and_then(counterexample);
     if refuted.is_none() {
-        let found = effort.run("nominal", |control| proof(nominal, budget, control));
+        let found = effort.run(|control| proof(nominal, budget, control));
         if interrupt::cancelled().load(Ordering::Relaxed) {
             return Err(Failure::Interrupted);
         }
@@ -402,6 +414,9 @@ fn text(
         };
         let _ = writeln!(out, "{}", line.trim_end());
     }
+    if interrupt::is_cancelled() {
+        let _ = writeln!(out, "\n  {}", interrupt::PARTIAL);
+    }
     if quiet {
         return out;
     }
@@ -416,7 +431,7 @@ fn text(
     if rows.iter().any(|row| row.out_of_time) {
         wrap(
             &mut out,
-            "* The time was up: with more of it the ends may be nearer to each other.",
+            "* The time was up, or it was interrupted: with more time the ends may be nearer to each other.",
             2,
         );
     }
@@ -439,11 +454,12 @@ fn text(
     if rows.iter().any(|row| row.measure == Measure::Share) {
         wrap(&mut out, "A share widens every kind by this part of its own certified t above.", 2);
     }
-    if rows.iter().any(|row| row.refuted.is_some() && !row.gap_reached) {
+    if rows.iter().any(|row| !row.gap_reached) {
         wrap(
             &mut out,
-            "Where the gap is wider than asked for, the tolerances between are undecided: no proof was \
-             found, and no machine that fails; the exit code is 3 for that.",
+            "Where the gap is wider than asked for, or an end not found, the tolerances between, or \
+             beyond, are undecided: no proof was found, and no machine that fails; the exit code is 3 for \
+             that.",
             2,
         );
     }

@@ -78,7 +78,7 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
         started,
     };
     let (mut report, status) =
-        task.run(|claim| effort.run("", |control| solver::verify(claim, budget, control)))?;
+        task.run(|claim| effort.run(|control| solver::verify(claim, budget, control)))?;
     if task.table {
         report.margins = margins(&report, &design.claim, effort);
     }
@@ -104,13 +104,14 @@ fn margins(report: &Report, claim: &MachineClaim, effort: &Effort) -> Vec<Margin
     let width = BigRational::new(1.into(), 1000.into());
     let Ok(problem) = Problem::new(claim) else { return Vec::new() };
     let angular = problem.legs.iter().any(orthocert_kernel::machine::Leg::is_angular);
-    let enclosed = |extreme: Extreme| {
+    let all = Extreme::required(claim, problem.legs.len());
+    let (mut bar, count) = (effort.bar(), all.len());
+    let enclosed = |(number, extreme): (usize, Extreme)| {
         let find = |control: &mut Control<'_>| enclose(claim, &extreme, &width, budget, control);
-        let found = effort.run("margins", find).ok()?;
+        let found = bar.run("margins", count - number, find).ok()?;
         Some(Margin::of(&extreme, found.outer, angular))
     };
-    let all = Extreme::required(claim, problem.legs.len());
-    all.into_iter().filter_map(enclosed).collect()
+    all.into_iter().enumerate().filter_map(enclosed).collect()
 }
 
 /// Where the certificate goes: never over the design.

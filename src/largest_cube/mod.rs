@@ -12,8 +12,8 @@ mod exclude;
 
 use crate::arithmetic::at_most;
 use crate::frontier::{proof, NoAnswer};
-use crate::placement::{best_place, cube_about, Centres};
-use crate::search::{Budget, Control};
+use crate::placement::{best_place, cube_about, is_endless, Centres};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::{self, approximate, number};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -51,6 +51,8 @@ pub struct Bracket {
     pub inside: Option<Inside>,
     /// The least side that was excluded.
     pub too_large: Option<TooLarge>,
+    /// Whether no end was found of the cubes that seem to fit.
+    pub endless: bool,
     /// What fails in a cube of that side about the centre of the one that fits.
     pub fails: Option<Box<Certificate>>,
 }
@@ -79,39 +81,62 @@ pub fn largest_cube(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Bracket, NoAnswer> {
-    let Some(place) = best_place(claim, Centres::Workspace, gap * PLACEMENT)? else {
+    let place = control.part([0.0, 0.3], |control| {
+        best_place(claim, Centres::Workspace, gap * PLACEMENT, control)
+    })?;
+    let Some(place) = place else {
         return Ok(Bracket::default());
     };
     let budget = Budget { max_boxes: budget.max_boxes.min(BOXES), ..budget };
-    let inside = nearest(|share| {
+    let inside = nearest(control, [0.3, 0.6], |share, control| {
         let side = decimal(place.side * (1.0 - share * gap), place.side * gap);
         match side.filter(BigRational::is_positive).and_then(|side| number(&side)) {
             Some(side) => certified(claim, &side, &place.centre, gap, budget, control),
             None => Ok(None),
         }
     })?;
-    let too_large = nearest(|share| {
-        let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
-        let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
-        let excluded = exclude(claim, &side, budget, control)?;
-        Ok(excluded.map(|certificate| TooLarge { side, certificate }))
-    })?;
+    let width = approximate_width(claim);
+    let endless = width.is_some_and(|width| is_endless(&place, width));
+    let too_large = if endless {
+        None
+    } else {
+        nearest(control, [0.6, 1.0], |share, control| {
+            let side = decimal(place.side * (1.0 + share * gap), place.side * gap);
+            let Some(side) = side.and_then(|side| number(&side)) else { return Ok(None) };
+            let excluded = exclude(claim, &side, budget, control)?;
+            Ok(excluded.map(|certificate| TooLarge { side, certificate }))
+        })?
+    };
     let fails = match (&inside, &too_large) {
         (Some(Inside { centre, .. }), Some(TooLarge { side, .. })) => cube_about(centre, side)
             .and_then(|workspace| solver::refutation(&MachineClaim { workspace, ..claim.clone() })),
         _ => None,
     };
-    Ok(Bracket { inside, too_large, fails })
+    Ok(Bracket { inside, too_large, endless, fails })
 }
 
 /// What is found for the least share of the gap for which something is: of [`SHARES`], and, if it is
-/// none of those that are enough, from there towards the last for which nothing was found.
+/// none of those that are enough, from there towards the last for which nothing was found. Cancelled, it
+/// has what was found before.
 fn nearest<T>(
-    mut found: impl FnMut(f64) -> Result<Option<T>, NoAnswer>,
+    control: &mut Control<'_>,
+    part: [f64; 2],
+    mut found: impl FnMut(f64, &mut Control<'_>) -> Result<Option<T>, NoAnswer>,
 ) -> Result<Option<T>, NoAnswer> {
+    let mut steps = Steps::default();
+    let mut found = |share| {
+        let found =
+            control.part(part, |control| steps.next(control, 2, |control| found(share, control)));
+        // What was found before is the answer.
+        match found {
+            Err(NoAnswer::Cancelled) => Ok(Err(())),
+            found => found.map(Ok),
+        }
+    };
     let mut least = 0.0;
     for share in SHARES {
-        let Some(mut best) = found(share)? else {
+        let Ok(tried) = found(share)? else { return Ok(None) };
+        let Some(mut best) = tried else {
             least = share;
             continue;
         };
@@ -119,8 +144,9 @@ fn nearest<T>(
         for _ in 0..if share > ENOUGH { NEARER } else { 0 } {
             let between = (least * most).sqrt();
             match found(between)? {
-                Some(better) => (best, most) = (better, between),
-                None => least = between,
+                Ok(Some(better)) => (best, most) = (better, between),
+                Ok(None) => least = between,
+                Err(()) => break,
             }
         }
         return Ok(Some(best));
@@ -142,7 +168,7 @@ pub fn cube_of_side(
     const FINE: f64 = 1e-9;
     let mut bracket = Bracket::default();
     let wanted = approximate(side).unwrap_or(f64::INFINITY);
-    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT)?;
+    let place = best_place(claim, Centres::Workspace, FINE * PLACEMENT, control)?;
     if let Some(place) = place.filter(|place| place.side >= wanted * (1.0 - 1e-12)) {
         bracket.inside = certified(claim, side, &place.centre, FINE, budget, control)?;
     }
@@ -175,6 +201,15 @@ fn certified(
     Ok(certificate.map(|certificate| Inside { side: side.clone(), centre, certificate }))
 }
 
+/// The greatest edge of the workspace, a box, about.
+fn approximate_width(claim: &MachineClaim) -> Option<f64> {
+    let Workspace::Box { min, max } = &claim.workspace else {
+        return None;
+    };
+    let edges = min.iter().zip(max).map(|(min, max)| Some(approximate(max)? - approximate(min)?));
+    edges.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)
+}
+
 /// Whether a point is provably in the workspace, a box.
 fn contains(claim: &MachineClaim, point: &[BigRational; 3]) -> bool {
     let Workspace::Box { min, max } = &claim.workspace else {
@@ -197,9 +232,11 @@ mod tests {
 
     #[test]
     fn the_nearest_share_that_works_is_come_near_to() {
+        let cancel = std::sync::atomic::AtomicBool::new(false);
+        let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
         for least in [0.2, 0.3, 0.4, 0.6, 7.3, 49.0, 300.0, 9e4] {
             let mut tries = 0;
-            let found = nearest(|share| {
+            let found = nearest(control, [0.0, 1.0], |share, _| {
                 tries += 1;
                 Ok((share >= least).then_some(share))
             });
@@ -208,7 +245,13 @@ mod tests {
             assert!((least..=enough).contains(&found), "{least}: {found}");
             assert!(tries <= SHARES.len() + NEARER);
         }
-        assert_eq!(nearest(|_| Ok(None::<f64>)).unwrap(), None);
-        assert!(nearest(|_| Err::<Option<f64>, _>(NoAnswer::Cancelled)).is_err());
+        let all = [0.0, 1.0];
+        assert_eq!(nearest(control, all, |_, _| Ok(None::<f64>)).unwrap(), None);
+        let cancelled = |_, _: &mut Control<'_>| Err::<Option<f64>, _>(NoAnswer::Cancelled);
+        assert_eq!(nearest(control, all, cancelled), Ok(None));
+        let mut found = Some(5.0);
+        let then_cancelled =
+            |_, _: &mut Control<'_>| found.take().map(Some).ok_or(NoAnswer::Cancelled);
+        assert_eq!(nearest(control, all, then_cancelled), Ok(Some(5.0)));
     }
 }

@@ -33,8 +33,10 @@ impl Family for DesignFamily<'_, '_> {
     fn decide(
         &mut self,
         claim: &MachineClaim,
+        part: [f64; 2],
     ) -> Result<Option<(Verdict, Box<Certificate>)>, NoAnswer> {
-        let found = solver::verify(claim, self.budget, self.control);
+        let budget = self.budget;
+        let found = self.control.part(part, |control| solver::verify(claim, budget, control));
         let certificate = match found.map_err(|error| NoAnswer::Claim(error.to_string()))?.answer {
             solver::Answer::Decided { certificate, .. } => Some(certificate),
             solver::Answer::Undecided { .. } => None,

@@ -48,11 +48,15 @@ pub trait Family {
     /// If the value is not admissible.
     fn claim(&self, value: &BigRational) -> Result<Self::Claim, String>;
 
-    /// A claim's verdict, if one is found.
+    /// A claim's verdict, if one is found: these shares of all the work.
     ///
     /// # Errors
     /// If it was cancelled.
-    fn decide(&mut self, claim: &Self::Claim) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
+    fn decide(
+        &mut self,
+        claim: &Self::Claim,
+        part: [f64; 2],
+    ) -> Result<Option<(Verdict, Self::Proof)>, NoAnswer>;
 }
 
 /// Away from the number's own value.
@@ -123,7 +127,7 @@ pub struct Limit<P> {
     pub undecided: Option<[BigRational; 2]>,
     /// Where the search ended for want of a claim.
     pub end: Option<End>,
-    /// Whether the search ended for want of time.
+    /// Whether the search ended for want of time, or was cancelled.
     pub out_of_time: bool,
 }
 

@@ -3,7 +3,9 @@
 use super::{Decided, Direction, End, Family, Limit, Question, Side, STEPS};
 use crate::decimal::shortest;
 use crate::frontier::NoAnswer;
+use crate::search::Steps;
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Verdict;
 
 /// A short decimal well between two values.
@@ -19,14 +21,18 @@ pub(super) fn between(a: &BigRational, b: &BigRational) -> BigRational {
 
 /// Looks for the limits about the own value, whose verdict is known unless it is undecided.
 ///
+/// Cancelled, it has what was found before.
+///
 /// # Errors
-/// If it was cancelled.
+/// Those of the family.
 pub fn limits<F: Family>(
     question: &Question,
     own: Option<(Verdict, F::Proof)>,
     family: &mut F,
 ) -> Result<Vec<Limit<F::Proof>>, NoAnswer> {
-    let mut search = Search { question, family };
+    let directions = question.directions.len();
+    let mut search =
+        Search { question, family, steps: Steps::default(), directions, cancelled: false };
     let starts = match own {
         Some((verdict, proof)) => {
             let own = Decided { value: question.own.clone(), verdict, proof };
@@ -40,6 +46,7 @@ pub fn limits<F: Family>(
     {
         if one.verdict != other.verdict {
             let walk = Walk::about(one.clone(), other.clone(), &question.own);
+            search.directions += 1;
             found.push(search.narrowed(walk)?.limit());
         }
     }
@@ -54,6 +61,9 @@ pub fn limits<F: Family>(
     found.sort_by_key(|limit| limit.side);
     Ok(found)
 }
+
+/// A verdict with what shows it, where there is one.
+type Found<F> = Option<(Verdict, <F as Family>::Proof)>;
 
 /// A search in one direction: what is known from the own value outward.
 struct Walk<P> {
@@ -161,9 +171,37 @@ enum Part {
 struct Search<'a, F> {
     question: &'a Question,
     family: &'a mut F,
+    /// What is done, and the directions in which it is not.
+    steps: Steps,
+    directions: usize,
+    /// Whether it is to end, with what was found.
+    cancelled: bool,
 }
 
 impl<F: Family> Search<'_, F> {
+    /// A claim's verdict, where so many are still to be found in this direction.
+    fn decide(&mut self, claim: &F::Claim, here: usize) -> Result<Found<F>, NoAnswer> {
+        let others = self.directions.saturating_sub(1) * (STEPS as usize / 2 + self.halves(1.0));
+        let part = self.steps.take(here + others);
+        match self.family.decide(claim, part) {
+            Err(NoAnswer::Cancelled) => {
+                self.cancelled = true;
+                Ok(None)
+            }
+            found => found,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.cancelled || self.question.is_over()
+    }
+
+    /// How often a relative distance is to be halved.
+    fn halves(&self, distance: f64) -> usize {
+        let gap = self.question.gap.to_f64().unwrap_or(f64::MIN_POSITIVE);
+        (distance / gap).log2().ceil().clamp(1.0, 64.0) as usize
+    }
+
     /// From an undecided own value: the first verdict in each direction.
     fn starts(&mut self) -> Result<Vec<Walk<F::Proof>>, NoAnswer> {
         let question = self.question;
@@ -188,13 +226,20 @@ impl<F: Family> Search<'_, F> {
         if walk.step == STEPS || walk.end.is_some() {
             return Ok(false);
         }
-        if self.question.is_over() {
+        if self.is_over() {
             walk.out_of_time = true;
             return Ok(false);
         }
         let value = self.question.step(direction, walk.step);
         match self.family.claim(&value) {
-            Ok(claim) => walk.put(value, self.family.decide(&claim)?),
+            Ok(claim) => {
+                // As likely now as later.
+                let outward = (STEPS - walk.step) as usize / 2 + 1;
+                let found = self.decide(&claim, outward + self.halves(1.0))?;
+                if !self.cancelled {
+                    walk.put(value, found);
+                }
+            }
             Err(reason) => {
                 let last = match walk.step.checked_sub(1) {
                     Some(step) => self.question.step(direction, step),
@@ -204,7 +249,10 @@ impl<F: Family> Search<'_, F> {
                 walk.end = Some(end);
                 if inside != last {
                     if let Ok(claim) = self.family.claim(&inside) {
-                        walk.put(inside, self.family.decide(&claim)?);
+                        let found = self.decide(&claim, 1)?;
+                        if !self.cancelled {
+                            walk.put(inside, found);
+                        }
                     }
                 }
             }
@@ -229,16 +277,24 @@ impl<F: Family> Search<'_, F> {
     /// this ends.
     fn narrowed(&mut self, mut walk: Walk<F::Proof>) -> Result<Walk<F::Proof>, NoAnswer> {
         while let Some((value, part)) = self.next(&walk) {
-            if self.question.is_over() {
+            if self.is_over() {
                 walk.out_of_time = true;
                 break;
             }
+            let ends = [&walk.near, &walk.far].map(|end| end.as_ref().map(|end| &end.value));
+            let distance = match ends {
+                [Some(near), Some(far)] => self.question.distance(near, far).to_f64(),
+                _ => None,
+            };
             let found = match self.family.claim(&value) {
-                Ok(claim) => self.family.decide(&claim)?,
+                Ok(claim) => self.decide(&claim, self.halves(distance.unwrap_or(1.0)))?,
                 Err(_) => None,
             };
-            walk.put_between(value, part, found);
+            if !self.cancelled {
+                walk.put_between(value, part, found);
+            }
         }
+        self.directions = self.directions.saturating_sub(1);
         Ok(walk)
     }
 

@@ -9,6 +9,10 @@ struct Known<V> {
     verdict: V,
     ends: (i64, i64),
     tried: Vec<BigRational>,
+    /// Values after which it is cancelled.
+    most: usize,
+    /// The share that was done when the last value was asked for.
+    done: f64,
 }
 
 impl<V: Fn(&BigRational) -> Option<Verdict>> Family for Known<V> {
@@ -24,7 +28,16 @@ impl<V: Fn(&BigRational) -> Option<Verdict>> Family for Known<V> {
         }
     }
 
-    fn decide(&mut self, x: &BigRational) -> Result<Option<(Verdict, BigRational)>, NoAnswer> {
+    fn decide(
+        &mut self,
+        x: &BigRational,
+        [from, to]: [f64; 2],
+    ) -> Result<Option<(Verdict, BigRational)>, NoAnswer> {
+        assert!(self.done <= from && from <= to && to <= 1.0, "{} {from} {to}", self.done);
+        self.done = from;
+        if self.tried.len() == self.most {
+            return Err(NoAnswer::Cancelled);
+        }
         self.tried.push(x.clone());
         Ok((self.verdict)(x).map(|verdict| (verdict, x.clone())))
     }
@@ -45,8 +58,14 @@ fn found(
     let size = if own == number(0, 1) { number(50, 1) } else { own.abs() };
     let (gap, directions) = (number(1, 1_000_000), directions.to_vec());
     let question = Question { own, size, gap, directions, deadline: None };
-    let mut family = Known { verdict, ends: (-100_000, 100_000), tried: Vec::new() };
-    let start = family.decide(&question.own).unwrap();
+    let mut family = Known {
+        verdict,
+        ends: (-100_000, 100_000),
+        tried: Vec::new(),
+        most: usize::MAX,
+        done: 0.0,
+    };
+    let start = family.decide(&question.own, [0.0, 1.0]).unwrap();
     let limits = limits(&question, start, &mut family).unwrap();
     for limit in &limits {
         for (end, verdict) in [(&limit.certified, Certified), (&limit.refuted, Refuted)] {
@@ -193,7 +212,8 @@ fn without_time_nothing_is_tried() {
         deadline: Some(Instant::now()),
     };
     let verdict = |_: &BigRational| Some(Certified);
-    let mut family = Known { verdict, ends: (0, 10), tried: Vec::new() };
+    let mut family =
+        Known { verdict, ends: (0, 10), tried: Vec::new(), most: usize::MAX, done: 0.0 };
     let own = Some((Certified, number(1, 1)));
     let limits = limits(&question, own, &mut family).unwrap();
     assert!(family.tried.is_empty());
@@ -284,4 +304,31 @@ fn shortest_decimals_have_no_digit_too_many() {
         assert!(min <= value && value <= max, "{found}");
         assert!(found.len() <= text.len(), "{found} {text}");
     }
+}
+
+/// What is found before is told, whenever it is cancelled, and is open.
+#[test]
+fn cancelled_it_has_what_was_found_before() {
+    let own = number(5, 1);
+    let verdict = |x: &BigRational| Some(if *x <= number(10, 1) { Certified } else { Refuted });
+    let directions = vec![Direction::Up];
+    let (size, gap) = (number(5, 1), number(1, 1_000_000));
+    let question = Question { own, size, gap, directions, deadline: None };
+    let of = |most| {
+        let (ends, tried) = ((-100_000, 100_000), Vec::new());
+        let mut family = Known { verdict, ends, tried, most, done: 0.0 };
+        let start = family.decide(&question.own, [0.0, 0.1]).unwrap();
+        let limit = limits(&question, start, &mut family).unwrap().remove(0);
+        (limit, family.tried)
+    };
+    let all = of(usize::MAX).1.len();
+    for most in 1..all {
+        let (limit, tried) = of(most);
+        let best = tried.iter().filter(|x| verdict(x) == Some(Certified)).max();
+        assert_eq!(limit.certified.as_ref().map(|end| &end.value), best);
+        let least = tried.iter().filter(|x| verdict(x) == Some(Refuted)).min();
+        assert_eq!(limit.refuted.as_ref().map(|end| &end.value), least);
+        assert!(limit.out_of_time && limit.undecided.is_none() && question.is_open(&limit));
+    }
+    assert!(!of(all).0.out_of_time);
 }

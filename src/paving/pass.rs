@@ -4,7 +4,7 @@ use super::tree::{Cancelled, Grower, Grown, Segment, Tally};
 use super::{header, plan, Decider, Goal};
 use crate::digest::{hexadecimal, Summed};
 use crate::output::{self, OutputError};
-use crate::search::{Control, Progress};
+use crate::search::{Control, Progress, Steps};
 use orthocert_checker::shown::Named;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{
@@ -141,6 +141,8 @@ pub fn pave(
         }
         None => planned(&decider, goal, control)?,
     };
+    // The plan mostly holds.
+    let mut steps = Steps::default();
     loop {
         let mut pass =
             Pass::new(&decider, header(claim, coordinates, depth), &part, control.cancel)?;
@@ -148,7 +150,7 @@ pub fn pave(
             Some(ref file) => file,
             None => held.insert(output::open_locked(&part, true).map_err(PaveError::Output)?),
         };
-        pass.run(file, resume, control)?;
+        steps.next(control, 2, |control| pass.run(file, resume, control))?;
         let paved = finish(file, &part, pass.sum, pass.boxes)?;
         let gap = paved.shares.boundary as f64 / paved.shares.inner as f64;
         let wanted = goal.gap.filter(|_| goal.depth.is_none());
@@ -278,9 +280,9 @@ impl<'a> Pass<'a> {
             grown.iter().for_each(|(bytes, _)| self.sum.update(bytes));
             done += window.len();
             self.boxes += grown.iter().map(|(_, boxes)| boxes).sum::<u64>();
-            let closed = done as f64 / self.segments.len() as f64;
+            let share = done as f64 / self.segments.len() as f64;
             let boxes = usize::try_from(self.boxes).unwrap_or(usize::MAX);
-            (control.progress)(Progress { boxes, closed });
+            (control.progress)(Progress { boxes, share });
         }
         Ok(())
     }

@@ -21,7 +21,6 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 /// A cell that is done, a line of the progress file.
 #[derive(Serialize, Deserialize)]
@@ -101,8 +100,7 @@ pub fn run(
     path: &Path,
     shard: &Shard,
     answers: &str,
-    cancel: &AtomicBool,
-    done: &mut dyn FnMut(usize, f64),
+    control: &mut Control<'_>,
 ) -> Result<Ran, RunError> {
     let [target, progress, nodes] = written(path, shard);
     let in_nodes = matches!(shard.task, Task::Pave(_));
@@ -134,14 +132,16 @@ pub fn run(
         let found = match part.take() {
             Some(found) => found,
             None => {
-                let found = grown(shard, number, (&nodes, at), cancel)?;
+                let share = |number: usize| number as f64 / shard.parts() as f64;
+                let found = control.part([share(number), share(number + 1)], |control| {
+                    grown(shard, number, (&nodes, at), control)
+                })?;
                 append(&progress, answers, number, &found)?;
                 found
             }
         };
         at += found.bytes();
         *part = Some(found);
-        done(number + 1, (number + 1) as f64 / shard.parts() as f64);
     }
     if in_nodes {
         paving::close(&nodes, at)?;
@@ -158,13 +158,12 @@ fn grown(
     shard: &Shard,
     number: usize,
     nodes: (&Path, u64),
-    cancel: &AtomicBool,
+    control: &mut Control<'_>,
 ) -> Result<Part, RunError> {
     if let Task::Verify(task) = &shard.task {
         let branch = shard.branches.get(number).ok_or(RunError::Interrupted)?;
         let budget = Budget { max_boxes: task.boxes, deadline: None };
-        let mut control = Control { cancel, progress: &mut |_| {} };
-        let found = solver::below(&task.claim, branch, budget, &mut control)
+        let found = solver::below(&task.claim, branch, budget, control)
             .map_err(|error| RunError::Claim(error.to_string()))?;
         let found = found.ok_or_else(|| RunError::Claim("a branch that is none".to_owned()))?;
         return match found.stop {
@@ -178,15 +177,14 @@ fn grown(
     // Every place was seen to be a cell when the shard was read.
     let place = shard.cells.get(number).ok_or(RunError::Interrupted)?;
     let root = place.cell().ok_or(RunError::Interrupted)?;
-    let mut unseen = |_: usize, _: f64| {};
     match &shard.task {
         Task::Verify(_) => Err(RunError::Interrupted),
         Task::Atlas(design) => {
-            let mut growing = Growing::new(design, cancel, &mut unseen);
+            let mut growing = Growing::new(design, control);
             let tree = grow(&mut growing, place.part(design.parameters.len()), None).map_err(
                 |stopped| match stopped {
                     Stopped::Cancelled => RunError::Interrupted,
-                    Stopped::TooLarge => RunError::Claim(stopped.to_string()),
+                    other => RunError::Claim(other.to_string()),
                 },
             )?;
             let cells = tree.into_iter().map(|node| match node {
@@ -197,7 +195,7 @@ fn grown(
             Ok(Part::Cells(cells.collect()))
         }
         Task::Pave(task) => {
-            paving::grown(nodes, task, (root, &place.left), cancel).map(Part::Nodes)
+            paving::grown(nodes, task, (root, &place.left), control.cancel).map(Part::Nodes)
         }
     }
 }

@@ -8,7 +8,6 @@ use crate::design::AtlasDesign;
 use crate::search::{Control, Stop};
 use crate::solver;
 use crate::solver::search::Branch;
-use std::sync::atomic::AtomicBool;
 
 /// Cells that a shard has at least, where the tree has as many: dealt out in turn, so that costly
 /// regions are shared out.
@@ -48,21 +47,20 @@ pub enum SplitError {
 pub fn split(
     task: &Task,
     shards: usize,
-    cancel: &AtomicBool,
-    done: &mut dyn FnMut(usize, f64),
+    control: &mut Control<'_>,
 ) -> Result<(Job, Vec<String>), SplitError> {
     let enough = shards.saturating_mul(CELLS_A_SHARD);
     let (top, cells, branches) = match task {
         Task::Atlas(design) => {
-            let (top, cells) = of_atlas(design, enough, cancel, done)?;
+            let (top, cells) = of_atlas(design, enough, control)?;
             (top, cells, Vec::new())
         }
         Task::Verify(task) => {
-            let (top, branches) = of_design(task, enough, cancel, done)?;
+            let (top, branches) = of_design(task, enough, control)?;
             (top, Vec::new(), branches)
         }
         Task::Pave(task) => {
-            let (top, cells) = paving::top(task, shards, cancel)?;
+            let (top, cells) = paving::top(task, shards, control.cancel)?;
             (top, cells, Vec::new())
         }
     };
@@ -80,14 +78,13 @@ pub fn split(
 fn of_atlas(
     design: &AtlasDesign,
     enough: usize,
-    cancel: &AtomicBool,
-    done: &mut dyn FnMut(usize, f64),
+    control: &mut Control<'_>,
 ) -> Result<(JobTop, Vec<Place>), SplitError> {
-    let mut growing = Growing::new(design, cancel, done);
+    let mut growing = Growing::new(design, control);
     let top =
         grow(&mut growing, design.whole(), Some(enough)).map_err(|stopped| match stopped {
             Stopped::Cancelled => SplitError::Interrupted,
-            Stopped::TooLarge => SplitError::TooLarge,
+            Stopped::TooLarge | Stopped::Time | Stopped::Unkept(_) => SplitError::TooLarge,
         })?;
     let cells = waiting(&top, design.whole()).unwrap_or_default();
     let places = cells.iter().map(|part| Place::of_part(part)).collect();
@@ -97,12 +94,9 @@ fn of_atlas(
 fn of_design(
     task: &Verify,
     enough: usize,
-    cancel: &AtomicBool,
-    done: &mut dyn FnMut(usize, f64),
+    control: &mut Control<'_>,
 ) -> Result<(JobTop, Vec<Branch>), SplitError> {
-    let mut progress = |now: crate::search::Progress| done(now.boxes, now.closed);
-    let mut control = Control { cancel, progress: &mut progress };
-    let found = solver::top(&task.claim, enough, &mut control)
+    let found = solver::top(&task.claim, enough, control)
         .map_err(|error| SplitError::Claim(error.to_string()))?;
     let found = found.ok_or(SplitError::Refuted)?;
     if found.stop == Stop::Cancelled {

@@ -10,7 +10,7 @@ use super::search::{search, Branch, Ends};
 use super::value::{alone, Bounded};
 use super::{accepted, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
-use crate::search::{Budget, Control, Stop};
+use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Zero};
 use orthocert_checker::certificate::{Certificate, Verdict};
@@ -68,7 +68,7 @@ pub enum NotEnclosed {
     #[error("not enclosed within the budget")]
     Undecided,
     /// It was cancelled.
-    #[error("cancelled")]
+    #[error("interrupted")]
     Cancelled,
     /// The claim is not well formed.
     #[error("{0}")]
@@ -303,17 +303,24 @@ pub fn enclose(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Enclosed, NotEnclosed> {
+    if control.is_cancelled() {
+        return Err(NotEnclosed::Cancelled);
+    }
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
     let budget = of_one_width(budget, &Problem::new(&probe)?);
     let mut known = Found::worst(&probe, extreme)?;
     let mut width = relative.clone();
+    let mut steps = Steps::default();
     while width <= loosest() {
         let mut looser = 2;
         for _ in 0..ROUNDS {
             let step = &width * known.size()?;
             let (inner, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
-            match certify(&outer_claim, &mut known, extreme, budget, control)? {
+            let found = steps.next(control, 2, |control| {
+                certify(&outer_claim, &mut known, extreme, budget, control)
+            });
+            match found? {
                 Attempt::Certified(certified, boxes) => {
                     let inner_claim = extreme.claim(claim, &inner);
                     let well_formed = inner_claim.filter(|claim| Problem::new(claim).is_ok());

@@ -121,23 +121,28 @@ pub fn verify(
     if let Some(witness) = on_the_spot(claim, &problem, &sampler, &worst) {
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
-    let derived = match in_ranges(&problem, budget, control) {
+    let [ranges, rest, checks] = parts_of(&problem);
+    let derived = match control.part(ranges, |control| in_ranges(&problem, budget, control)) {
         Ok(nodes) => {
             let boxes = nodes.len();
-            let answer = accepted(claim, &Prover::new(&problem)?, nodes);
+            let answer = control.part(checks, |_| {
+                Ok::<_, ClaimError>(accepted(claim, &Prover::new(&problem)?, nodes))
+            })?;
             return Ok(Verification { answer, worst, boxes });
         }
         Err(derived) => derived,
     };
     let prover = Prover::new(&derived)?;
-    let found = search(&prover, &Branch::whole(&prover), Ends::default(), budget, control)
+    let whole = Branch::whole(&prover);
+    let found = control
+        .part(rest, |control| search(&prover, &whole, Ends::default(), budget, control))
         .expect("the root is a box of the tree");
     let boxes = found.boxes;
     if found.stop == Stop::Cancelled {
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
     }
     if found.is_proof() {
-        let answer = accepted(claim, &prover, found.nodes);
+        let answer = control.part(checks, |_| accepted(claim, &prover, found.nodes));
         return Ok(Verification { answer, worst, boxes });
     }
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
@@ -148,6 +153,12 @@ pub fn verify(
         }
     };
     Ok(Verification { answer, worst, boxes })
+}
+
+/// Shares of the work: the search in ranges, which only tolerances have, the search, and the exact check.
+fn parts_of(problem: &Problem) -> [[f64; 2]; 3] {
+    let ranges = if problem.tolerances().next().is_some() { 0.3 } else { 0.0 };
+    [[0.0, ranges], [ranges, 0.8], [0.8, 1.0]]
 }
 
 /// A witness against a claim that sampling alone finds.
@@ -222,13 +233,16 @@ pub fn proof(
     control: &mut Control<'_>,
 ) -> Result<Box<Certificate>, Stop> {
     let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
-    let (problem, nodes) = match in_ranges(&problem, budget, control) {
+    let [ranges, rest, checks] = parts_of(&problem);
+    let in_ranges = control.part(ranges, |control| in_ranges(&problem, budget, control));
+    let (problem, nodes) = match in_ranges {
         Ok(nodes) => (problem, Some(nodes)),
         Err(derived) => (*derived, None),
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
-    let found = nodes.map_or_else(|| from_root(&prover, budget, control), Ok)?;
-    match accepted(claim, &prover, found) {
+    let search = |control: &mut Control<'_>| from_root(&prover, budget, control);
+    let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
+    match control.part(checks, |_| accepted(claim, &prover, found)) {
         Answer::Decided { certificate, .. } => Ok(certificate),
         Answer::Undecided(_) | Answer::Cancelled => Err(Stop::Exhausted),
     }

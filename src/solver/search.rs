@@ -21,7 +21,7 @@ const HOPELESS_HALVINGS: u32 = 4;
 /// Boxes of a level from which on the thread pool takes them.
 const PARALLEL_FROM: usize = 32;
 /// Boxes between two looks at the clock.
-const BATCH: usize = 1024;
+const BATCH: usize = 128;
 
 /// A box on which something is open.
 #[derive(Clone, Debug)]
@@ -143,11 +143,11 @@ pub fn search(
 ) -> Option<Outcome> {
     let mut tree = vec![branch.begin(problem)?];
     let mut level = vec![0];
-    let (mut boxes, mut closed, mut stop) = (0, 0.0, Stop::Exhausted);
+    let (mut boxes, mut share, mut stop) = (0, 0.0f64, Stop::Exhausted);
     let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
     while !level.is_empty() && few(&level) && stop == Stop::Exhausted {
         let affordable = level.len().min(budget.max_boxes.saturating_sub(boxes));
-        let mut next = Vec::new();
+        let (mut next, mut tried_here) = (Vec::new(), 0);
         for batch in level[..affordable].chunks(BATCH) {
             if let Some(reason) = interrupted(&budget, control) {
                 stop = reason;
@@ -156,14 +156,18 @@ pub fn search(
             let trials = tried(problem, &tree, batch);
             let hopeless = trials.iter().any(|trial| trial.hopeless);
             for (&at, trial) in batch.iter().zip(trials) {
-                closed += settle(&mut tree, at, trial, &mut next);
+                settle(&mut tree, at, trial, &mut next);
             }
-            boxes += batch.len();
+            (boxes, tried_here) = (boxes + batch.len(), tried_here + batch.len());
             if hopeless && ends.hopeless {
                 stop = Stop::Hopeless;
                 break;
             }
-            (control.progress)(Progress { boxes, closed });
+            let growth = next.len() as f64 / tried_here as f64;
+            let waiting = level.len() - tried_here + next.len();
+            let most = budget.max_boxes.saturating_sub(boxes);
+            share = share.max(done(boxes, waiting, growth, most));
+            (control.progress)(Progress { boxes, share });
         }
         if stop == Stop::Exhausted && affordable < level.len() {
             stop = Stop::Boxes;
@@ -198,15 +202,26 @@ fn tried(problem: &impl Boxes, tree: &[Growing], batch: &[usize]) -> Vec<Trial> 
     }
 }
 
-/// Records a trial, and halves the box if something is open there; the volume that is closed.
-fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize>) -> f64 {
+/// The share that is done once so many boxes are tried and others wait, of which at most `most` can be: a
+/// box below which levels grow by a factor `g < 1` has `1/(1 - g)` below it, with itself. While they do
+/// not become smaller, nothing tells how many there will be: as many digits of them as of the most are done.
+fn done(boxes: usize, waiting: usize, growth: f64, most: usize) -> f64 {
+    let (boxes, most) = (boxes as f64, most as f64);
+    if growth < 1.0 {
+        return boxes / (boxes + (waiting as f64 / (1.0 - growth)).min(most));
+    }
+    0.8 * boxes.ln_1p() / (boxes + most).ln_1p()
+}
+
+/// Records a trial, and halves the box if something is open there.
+fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize>) {
     let grown = &mut tree[at];
     grown.tried = true;
     grown.node = trial.node;
     grown.item.obligations = trial.open;
     let Open { cell, depth, obligations } = grown.item.clone();
     if obligations.is_empty() {
-        return (-f64::from(depth)).exp2();
+        return;
     }
     let halvings = grown.halvings.clone();
     let splittable =
@@ -218,7 +233,7 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     };
     let axis = splittable.fold(None, greatest);
     let axis = axis.filter(|_| !trial.hopeless);
-    let Some((k, edges)) = axis.and_then(|k| Some((k, halves(cell[k])?))) else { return 0.0 };
+    let Some((k, edges)) = axis.and_then(|k| Some((k, halves(cell[k])?))) else { return };
     grown.node.split = Some(k);
     let first = tree.len();
     tree[at].halves = Some([first, first + 1]);
@@ -231,7 +246,6 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
         next.push(tree.len());
         tree.push(growing(half, halvings));
     }
-    0.0
 }
 
 type InPreorder = (Vec<Node>, Vec<Open>, Vec<(usize, Branch)>);

@@ -5,13 +5,12 @@ use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::value::{alone, Bounded};
 use super::{proof, refutation};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::claim::{Bound, MachineClaim, Requirement};
 use orthocert_kernel::problem::Problem;
 use std::collections::BTreeMap;
-use std::sync::atomic::Ordering;
 
 /// Finest step of the search for the ends.
 const FINEST: i32 = 30;
@@ -47,13 +46,14 @@ pub fn enclose(
     let (lo, hi) = lo.zip(hi).ok_or(NotEnclosed::Undecided)?;
     let third = BigRational::new(1.into(), 3.into());
     let mut width = relative.clone();
+    let mut steps = Steps::default();
     while width <= loosest() {
         let step = &width * (&hi - &lo);
         let (inward, outward) = (&step * &third, &step * (&third + &third));
         let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];
         let outer = within(claim, leg, &certified).ok_or(NotEnclosed::Undecided)?;
         let budget = of_one_width(budget, &Problem::new(&outer)?);
-        if proof(&outer, budget, control).is_ok() {
+        if steps.next(control, 2, |control| proof(&outer, budget, control)).is_ok() {
             let [least, greatest] = certified.clone();
             let beyond = |ends: [&BigRational; 2]| {
                 let claim = within(claim, leg, &ends.map(BigRational::clone))?;
@@ -67,7 +67,7 @@ pub fn enclose(
             let reached = [found[0].then_some(one), found[1].then_some(other)];
             return Ok(Sector { certified, reached, width });
         }
-        if control.cancel.load(Ordering::Relaxed) {
+        if control.is_cancelled() {
             return Err(NotEnclosed::Cancelled);
         }
         width *= BigRational::from_integer(2.into());

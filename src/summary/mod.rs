@@ -23,7 +23,7 @@ pub use shares::{Share, Shares};
 use crate::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::extremes::{enclose, is_singular, Enclosed, NotEnclosed};
 use crate::solver::value::Bounded;
 use crate::solver::{sector, Verification};
@@ -65,6 +65,9 @@ pub struct Summary {
     pub accuracy: Option<Shares>,
     /// What was asked for, and why there is no value.
     pub left_out: Vec<String>,
+    /// Whether it was interrupted: what was found before is told.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
     /// Whether the machine has tolerances.
     #[serde(skip)]
     pub toleranced: bool,
@@ -129,8 +132,10 @@ struct Found {
 /// Summarises a claim of which it is known whether it holds; `None` where its numbers exceed what can be
 /// shown.
 ///
+/// Cancelled, it has what was found before.
+///
 /// # Errors
-/// If it was cancelled, or is not well formed.
+/// If it is not well formed.
 pub fn summary(
     claim: &MachineClaim,
     verification: &Verification,
@@ -142,10 +147,21 @@ pub fn summary(
     let problem = Problem::new(claim)?;
     let Some(report) = Report::new(claim, verification, Duration::ZERO) else { return Ok(None) };
     let certified = report.verdict == Outcome::Decided(Verdict::Certified);
-    let singular = !certified && is_singular(claim, budget, control)?;
+    let mut steps = Steps::default();
     let (all, left_out) = asked(claim, &problem, question);
+    let shares = shares::deviations(claim);
+    let mut left = 1 + all.len() + shares;
+    let singular = match certified {
+        true => Ok(false),
+        false => steps.next(control, left, |control| is_singular(claim, budget, control)),
+    };
+    let singular = match singular {
+        Err(NotEnclosed::Cancelled) => false,
+        known => known?,
+    };
     let mut found = Vec::new();
     for asked in all {
+        left -= 1;
         let ends = match &asked {
             _ if singular => Err(NotEnclosed::Singular),
             Asked::Known(_, value) => {
@@ -157,13 +173,18 @@ pub fn summary(
                     vec![End { certified: value, reached, relative }]
                 })
             }
+            _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
             _ if is_over(budget) => Err(NotEnclosed::Undecided),
             Asked::Extreme(extreme) => {
-                let found = enclose(claim, extreme, &question.gap, budget, control);
+                let found = steps.next(control, left, |control| {
+                    enclose(claim, extreme, &question.gap, budget, control)
+                });
                 found.map(|found| vec![End::from(found)])
             }
             Asked::Angle(leg) => {
-                let found = sector::enclose(claim, *leg, &question.gap, budget, control);
+                let found = steps.next(control, left, |control| {
+                    sector::enclose(claim, *leg, &question.gap, budget, control)
+                });
                 found.map(|found| {
                     let sides = found.certified.into_iter().zip(found.reached);
                     let end = |(certified, reached)| {
@@ -174,7 +195,7 @@ pub fn summary(
                 })
             }
         };
-        if let Err(error @ (NotEnclosed::Cancelled | NotEnclosed::Claim(_))) = ends {
+        if let Err(error @ NotEnclosed::Claim(_)) = ends {
             return Err(error);
         }
         let ends = if certified { tightened(claim, &asked, ends) } else { ends };
@@ -184,9 +205,11 @@ pub fn summary(
     let nearest = facts.filter(|_| !singular).and_then(|facts| {
         nearest::nearest(claim, &problem, &facts, verification, &found, certified)
     });
-    let accuracy = match singular {
+    let accuracy = match singular || control.is_cancelled() {
         true => None,
-        false => shares::shares(claim, &question.gap, &found, budget, control)?,
+        false => steps.next(control, 1, |control| {
+            shares::shares(claim, &question.gap, &found, budget, control)
+        })?,
     };
     let angular = asked::is_angular(&problem);
     let toleranced = problem.tolerances().next().is_some();
@@ -202,6 +225,7 @@ pub fn summary(
         values: found.iter().flat_map(|found| found.values(angular)).collect(),
         accuracy,
         left_out,
+        interrupted: control.is_cancelled(),
         toleranced,
         seconds: started.elapsed().as_secs_f64(),
     }))

@@ -3,7 +3,7 @@
 use super::{is_over, End, Found};
 use crate::exact::Exact;
 use crate::report::parameter;
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Steps};
 use crate::solver::extremes::{enclose, Extreme, NotEnclosed};
 use crate::tolerance::{around, parameters};
 use num_rational::BigRational;
@@ -78,10 +78,24 @@ fn alone(claim: &MachineClaim, kept: Option<usize>) -> Option<MachineClaim> {
     Some(claim)
 }
 
+/// The accuracy that is required; about a point, no position is off.
+fn bounded(claim: &MachineClaim) -> Option<&Requirement> {
+    let own = claim.require.iter().find(|own| own.quantity == "accuracy");
+    own.filter(|_| !matches!(claim.mechanism, Mechanism::Spherical(_)))
+}
+
+/// How many tolerances [`shares`] takes alone.
+pub fn deviations(claim: &MachineClaim) -> usize {
+    let mut own = claim.clone();
+    let all = quantities(&mut own.mechanism).into_iter();
+    let count = all.filter(|q| matches!(q, Quantity::Between { .. })).count();
+    bounded(claim).map_or(0, |_| count)
+}
+
 /// The shares of a claim that bounds its accuracy and has tolerances.
 ///
 /// # Errors
-/// If it was cancelled.
+/// If a claim is not well formed.
 pub fn shares(
     claim: &MachineClaim,
     gap: &BigRational,
@@ -89,18 +103,9 @@ pub fn shares(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Shares>, NotEnclosed> {
-    let own = claim.require.iter().find(|own| own.quantity == "accuracy");
-    // About a point, no position is off.
-    let still = matches!(claim.mechanism, Mechanism::Spherical(_));
-    let Some(own) = own.filter(|_| !still) else {
+    let (Some(own), count @ 1..) = (bounded(claim), deviations(claim)) else {
         return Ok(None);
     };
-    let mut own_claim = claim.clone();
-    let all = quantities(&mut own_claim.mechanism).into_iter();
-    let count = all.filter(|q| matches!(q, Quantity::Between { .. })).count();
-    if count == 0 {
-        return Ok(None);
-    }
     let exact_joints = {
         let mut given = own.given.clone();
         given.insert("joint_error".to_owned(), vec![Expression::integer(0)]);
@@ -113,7 +118,8 @@ pub fn shares(
     let mut rows = Vec::new();
     let mut not_enclosed = Vec::new();
     let deviations = (0..count).map(Some).chain(has_error.then_some(None));
-    for kept in deviations {
+    let mut steps = Steps::default();
+    for (number, kept) in deviations.enumerate() {
         let requirement = if kept.is_some() { exact_joints.clone() } else { own.clone() };
         let one = alone(claim, kept).zip(Extreme::on(requirement, None));
         let Some((mut one, extreme)) = one else { continue };
@@ -129,11 +135,12 @@ pub fn shares(
         };
         let bound = match is_over(budget) {
             true => Err(NotEnclosed::Undecided),
-            false => enclose(&one, &extreme, gap, budget, control),
+            false => steps.next(control, 1 + count - number.min(count), |control| {
+                enclose(&one, &extreme, gap, budget, control)
+            }),
         };
         match bound {
             Ok(found) => rows.push((name, found.outer)),
-            Err(NotEnclosed::Cancelled) => return Err(NotEnclosed::Cancelled),
             Err(_) => not_enclosed.push(named(&name)),
         }
     }

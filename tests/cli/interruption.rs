@@ -92,6 +92,110 @@ fn an_interrupted_limit_writes_nothing() {
     assert_eq!(folder.names(), [LONG]);
 }
 
+/// What was found before a signal is printed, or there was nothing yet; never a verdict of the whole.
+#[test]
+fn interrupted_answers_tell_what_was_found_and_exit_with_4() {
+    let design = "orthoglide-as-built.toml";
+    let commands: [&[&str]; 4] = [
+        &["limit", design, "workspace.max.0", "--gap", "1e-9"],
+        &["largest-cube", design, "--gap", "1e-9"],
+        &["summary", design, "--gap", "1e-9"],
+        &["tolerance", design, "--gap", "1e-6"],
+    ];
+    for arguments in commands {
+        let folder = Folder::with(&[design]);
+        let mut command = folder.command(&[arguments, &["--threads", "1"]].concat());
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        wait_until_caught(&mut child, 2);
+        sleep(Duration::from_millis(300));
+        send(&child, 2);
+        let run = Run::from(child.wait_with_output().unwrap()).exits(4);
+        assert!(run.stderr.contains("interrupted"), "{}", run.stderr);
+        assert!(
+            run.stdout.is_empty() || run.stdout.contains("PARTIAL: interrupted"),
+            "{arguments:?}"
+        );
+    }
+}
+
+/// Runs an atlas until what it keeps has so many bytes, then sends a signal; what it said, if it did not
+/// end before.
+fn interrupted_atlas(folder: &Folder, more: &[&str], bytes: u64, signal: u32) -> Option<Run> {
+    let mut command = folder.command(&[&["atlas", "map.toml", "--threads", "1"], more].concat());
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let part = folder.path("map.atlas.part");
+    while fs::metadata(&part).map_or(0, |file| file.len()) < bytes {
+        if child.try_wait().unwrap().is_some() {
+            return None;
+        }
+        sleep(Duration::from_millis(1));
+    }
+    send(&child, signal);
+    Some(Run::from(child.wait_with_output().unwrap()))
+}
+
+#[test]
+fn a_map_that_was_interrupted_is_taken_up_to_the_same_bytes() {
+    const SIGKILL: u32 = 9;
+    let whole = crate::atlas::coarse();
+    whole.run(&["atlas", "map.toml"]).exits(0);
+    assert_eq!(whole.names(), ["map.atlas", "map.toml"]);
+    let folder = crate::atlas::coarse();
+    let mut more: &[&str] = &[];
+    let mut interrupted = 0;
+    for (bytes, signal) in [(1, 2), (2_000, SIGKILL), (5_000, 2), (10_000, SIGKILL)] {
+        let Some(run) = interrupted_atlas(&folder, more, bytes, signal) else { break };
+        if signal == 2 {
+            run.exits(4).complains(&[
+                "interrupted",
+                "map.atlas.part holds what is done",
+                "--resume",
+            ]);
+        }
+        assert_eq!(folder.names(), ["map.atlas.part", "map.toml"]);
+        (more, interrupted) = (&["--resume"], interrupted + 1);
+        // As a run leaves it that is killed while it writes.
+        let mut part = File::options().append(true).open(folder.path("map.atlas.part")).unwrap();
+        part.write_all(b"{\"sha256\":\"0").unwrap();
+    }
+    assert!(interrupted > 1, "{interrupted}");
+    if folder.path("map.atlas.part").exists() {
+        folder.run(&["atlas", "map.toml", "--resume"]).exits(0);
+    }
+    assert_eq!(folder.names(), ["map.atlas", "map.toml"]);
+    for file in ["atlas.cert.json", "best.cert.json", "map.svg", "index.html", "SHA256SUMS"] {
+        let file = format!("map.atlas/{file}");
+        assert_eq!(folder.read(&file), whole.read(&file), "{file}");
+    }
+}
+
+#[test]
+fn a_map_out_of_time_exits_3_and_only_its_own_part_is_taken_up() {
+    let folder = crate::atlas::coarse();
+    let run = folder.run(&["atlas", "map.toml", "--timeout", "0"]).exits(3);
+    run.complains(&["the time was up", "map.atlas.part holds what is done, 0 cells", "--resume"]);
+    let text = String::from_utf8(folder.read("map.toml")).unwrap();
+    let own = folder.read("map.atlas.part");
+    for (from, to) in [("resolution = 4", "resolution = 3"), ("max = 4,", "max = 5,")] {
+        assert!(text.contains(from));
+        let text = text.replace(from, to);
+        folder.write("other.toml", &text);
+        folder.write("other.atlas.part", &own);
+        let run = folder.run(&["atlas", "other.toml", "--resume"]);
+        run.exits(2).complains(&["other.atlas.part", "the map of another design"]);
+    }
+    folder.write("other.atlas.part", "notes");
+    for more in [&[][..], &["--resume"]] {
+        let run = folder.run(&[&["atlas", "other.toml"], more].concat()).exits(2);
+        run.complains(&["other.atlas.part", "no unfinished map"]);
+    }
+    assert_eq!(folder.read("other.atlas.part"), b"notes");
+    let run = folder.run(&["atlas", "map.toml", "-o", "elsewhere", "--resume"]).exits(2);
+    run.complains(&["--resume", "elsewhere.part"]);
+    let run = folder.run(&["atlas", "map.toml"]).exits(0);
+    assert!(run.stderr.contains("is not taken up: --resume would"), "{}", run.stderr);
+}
+
 #[test]
 fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
     let folder = Folder::new();

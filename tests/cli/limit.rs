@@ -256,6 +256,15 @@ fn keys_without_a_number_are_refused_before_anything_is_written() {
 
 #[cfg(unix)]
 #[test]
+fn where_no_value_fails_the_exit_code_is_explained() {
+    let folder = Folder::with(&["tripteron.toml"]);
+    let run = folder.run(&["limit", "tripteron.toml", "workspace.max.0"]).exits(3);
+    run.says(&["No limit was found, for which the exit code is 3"]);
+    let run = folder.run(&["largest-cube", "tripteron.toml"]).exits(3);
+    run.says(&["gap missed", "the requirements seem to hold in cubes of any size"]);
+}
+
+#[test]
 fn the_design_is_not_overwritten_through_a_link() {
     let folder = Folder::with(&[BOX]);
     let before = folder.read(BOX);

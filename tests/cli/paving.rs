@@ -569,3 +569,12 @@ fn machines_that_turn_are_refused_unless_it_is_said_what_is_paved() {
     folder.run(&["pave", "d.toml"]).exits(2).complains(&["without orientation, or --coordinates"]);
     assert_eq!(folder.names(), ["d.toml"]);
 }
+
+#[test]
+fn files_given_to_the_wrong_command_name_the_right_one() {
+    let folder = Folder::new();
+    folder.write("d.toml", DESIGN);
+    for command in ["check", "show", "report"] {
+        folder.run(&[command, "d.toml"]).exits(5).complains(&["`orthocert verify` reads designs"]);
+    }
+}

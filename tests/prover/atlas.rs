@@ -23,8 +23,8 @@ fn atlas(name: &str, resolution: u32) -> AtlasDesign {
 
 fn grown(design: &AtlasDesign, root: Part, enough: Option<usize>) -> Vec<Top> {
     let cancel = AtomicBool::new(false);
-    let mut done = |_: usize, _: f64| {};
-    grow(&mut Growing::new(design, &cancel, &mut done), root, enough).unwrap()
+    let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
+    grow(&mut Growing::new(design, &mut control), root, enough).unwrap()
 }
 
 fn map(design: &AtlasDesign) -> Vec<AtlasCell> {
