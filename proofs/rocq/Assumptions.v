@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Machine Problem Faces Witness Closed Trig Arm Written Turning Control Pose Certificate.
+From Orthocert.kernel Require Machine Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Control Pose Certificate.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
 Local Open Scope R_scope.
 Set Printing Width 100.
@@ -129,6 +129,8 @@ Print Assumptions DeltaMargin.certified.
 
 Check kernel.Witness.refute_sound.
 Print Assumptions kernel.Witness.refute_sound.
+Check kernel.NoCube.check_no_cube_sound.
+Print Assumptions kernel.NoCube.check_no_cube_sound.
 Check kernel.Closed.check_closed_sound.
 Print Assumptions kernel.Closed.check_closed_sound.
 Check kernel.Trig.cosine_sound.

@@ -9,13 +9,14 @@ use orthocert_kernel::certificate::{Claim, Evidence, Proof, Step, Verdict};
 use orthocert_kernel::claim::{
     Bound, JointFormula, Leg, MachineClaim, Mechanism, Requirement, Turning, Workspace,
 };
+use orthocert_kernel::no_cube::NoCubeClaim;
 use serde_json::Value;
 
 /// The program: it defines `orthocert_verify(text)`.
 pub const PROGRAM: &str = include_str!("../../proofs/rocq/program/verified.js");
 
 /// Most bytes of a certificate in a page: what a browser checks in a second or two.
-pub const MOST_BYTES: usize = 1 << 16;
+pub const MOST_BYTES: usize = 1 << 17;
 
 /// Most tests at control points, of all steps of a certificate in a page: ten thousand take a browser a second.
 pub const MOST_POINTS: usize = 25_000;
@@ -95,7 +96,10 @@ fn is_covered(claim: &Claim, verdict: Verdict) -> bool {
     match claim {
         Claim::Postulate(_) => true,
         Claim::Machine(claim) => is_machine_covered(claim) || is_by_configuration(claim, verdict),
-        Claim::NoCube(_) | Claim::Atlas(_) => false,
+        Claim::NoCube(NoCubeClaim { machine, .. }) => {
+            matches!(machine.workspace, Workspace::Box { .. }) && is_machine_covered(machine)
+        }
+        Claim::Atlas(_) => false,
     }
 }
 

@@ -5,12 +5,12 @@
     from what is printed is refused; [means] is what it says; and what [verify]
     accepts is true ([verify_sound]).  To know what has been proved, read [print],
     [claim_of] and [means], with the definitions of Statement.v, Witness.v,
-    Closed.v and Kinematics.v. *)
+    Cubes.v, Closed.v and Kinematics.v. *)
 
 From Coq Require Import ZArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
 From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Pose.
-From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed.
+From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
 Local Open Scope list_scope.
 Local Open Scope string_scope.
@@ -73,6 +73,8 @@ Inductive subject :=
       (rows : list (list (term string))) (min max : list expression) (require : list written_requirement)
   (* the Orthoglide on the paper's cube *)
   | Closed_ (offset side : expression) (require : list written_requirement)
+  (* no cube of this side, with its centre in the box *)
+  | NoCube_ (legs : list written_leg) (min max : triple expression) (require : list written_requirement) (side : expression)
   (* [None]: every psi *)
   | Postulate_ (psi : option quantity).
 
@@ -84,9 +86,11 @@ Inductive step :=
   | Inside_ (s : step) (n : Z) (places : N)
   | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step).
-Record node := Node { by_ : list (nat * step); split_ : option nat }.
 
 Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat).
+
+(** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
+Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
 
 Inductive proof :=
   | Nodes (precision : positive) (nodes : list node)
@@ -99,10 +103,15 @@ Record certificate := Certificate { subject_ : subject; proof_ : proof; tool : s
 
 Definition text := list string.
 
+(** [a ++ b], with a stack that does not grow: texts are long. *)
+Definition join (a b : text) : text := rev_append (rev_append a []) b.
+Lemma join_app : forall a b, join a b = (a ++ b)%list.
+Proof. intros. unfold join. rewrite !rev_append_rev, app_nil_r, rev_involutive. reflexivity. Qed.
+
 Fixpoint separated (l : list text) : text :=
-  match l with [] => [] | [t] => t | t :: l' => t ++ "," :: separated l' end%list.
-Definition array (l : list text) : text := ("[" :: separated l ++ ["]"])%list.
-Definition object (l : list text) : text := ("{" :: separated l ++ ["}"])%list.
+  match l with [] => [] | [t] => t | t :: l' => join t ("," :: separated l')%list end.
+Definition array (l : list text) : text := "[" :: join (separated l) ["]"].
+Definition object (l : list text) : text := "{" :: join (separated l) ["}"].
 Definition quoted (s : string) : text := [""""; s; """"].
 Definition field (key : string) (value : text) : text := (("""" ++ key ++ """:")%string :: value)%list.
 (** A variant. *)
@@ -199,12 +208,13 @@ Definition orientation_text (o : written_orientation) : text :=
   | Tilt_ a b => variant "tilt" (object [field "tilt" (number a); field "torsion" (number b)])
   end.
 
+Definition machine_text (legs : list written_leg) (w : written_region) (rs : list written_requirement) : text :=
+  object [field "mechanism" (variant "translational" (array (map leg_text legs)));
+    field "workspace" (region_text w); field "require" (array (map requirement_text rs))].
 Definition subject_text (s : subject) : text :=
   match s with
-  | Machine_ legs w rs => variant "machine" (object
-      [field "mechanism" (variant "translational" (array (map leg_text legs)));
-       field "workspace" (region_text w);
-       field "require" (array (map requirement_text rs))])
+  | Machine_ legs w rs => variant "machine" (machine_text legs w rs)
+  | NoCube_ legs a b rs side => variant "no_cube" (object [field "machine" (machine_text legs (Box_ a b) rs); field "side" (number side)])
   | Arms_ legs w rs => variant "machine" (object
       [field "mechanism" (variant "translational" (array (map arm_text legs)));
        field "workspace" (region_text w);
@@ -245,9 +255,17 @@ Fixpoint evidence_text (s : step) : text :=
   | AtControls_ s => variant "control" (evidence_text s)
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
+Definition violation_text (f : violation) : text :=
+  match f with
+  | Reach => quoted "reach"
+  | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
+  | Row i l => variant "row" (array [natural i; natural l])
+  end.
 Definition node_text (n : node) : text :=
   object (match by_ n with [] => [] | l => [field "by" (array (map step_text l))] end ++
-    match split_ n with Some k => [field "split" (natural k)] | None => [] end)%list.
+    match split_ n with Some k => [field "split" (natural k)] | None => [] end ++
+    match fails_ n with Some f => [field "fails" (violation_text f)] | None => [] end ++
+    match offset_ n with [] => [] | l => [field "at" (integers_text l)] end)%list.
 
 Definition proof_text (p : proof) : text :=
   match p with
@@ -256,19 +274,15 @@ Definition proof_text (p : proof) : text :=
   | ByWitness bits point machine fails => variant "witness" (object
       ([field "precision" (positive_text bits); field "point" (array (map number point))] ++
        match machine with [] => [] | l => [field "machine" (array (map number l))] end ++
-       [field "fails" match fails with
-         | Reach => quoted "reach"
-         | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
-         | Row i l => variant "row" (array [natural i; natural l])
-         end]))
+       [field "fails" (violation_text fails)]))
   end%list.
 
 Definition print (c : certificate) : text :=
-  (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
+  join (object [field "format" (quoted "orthocert/2"); field "claim" (subject_text (subject_ c));
     field "verdict" (quoted (match proof_ c with Nodes _ _ => "certified" | ByWitness _ _ _ _ => "refuted" end));
     field "proof" (proof_text (proof_ c));
-    field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])]
-   ++ [String "010" ""])%list.
+    field "provenance" (object [field "tool" (quoted (tool c)); field "version" (quoted (version c))])])
+    [String "010" ""].
 
 (** Nothing in it ends a string of JSON. *)
 Definition is_plain (s : string) : bool :=
@@ -336,6 +350,7 @@ Definition in_subject (s : subject) : list expression :=
       flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: a ++ b ++ in_orientation o ++ flat_map in_requirement rs
   | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
   | Closed_ offset side rs => offset :: side :: flat_map in_requirement rs
+  | NoCube_ ls a b rs side => side :: flat_map in_leg ls ++ in_triple a ++ in_triple b ++ flat_map in_requirement rs
   | Postulate_ (Some q) => in_quantity q
   | Postulate_ None => []
   end%list.
@@ -526,6 +541,8 @@ Definition means (c : certificate) : Prop :=
       written_holds c /\ exists theta x, is_about_written c theta x
   | Closed_ offset side rs, Nodes _ _ =>
       match closed_bounds rs with Some (least, greatest) => closed_design_holds (denoted side) least greatest (value (denoted offset)) | None => False end
+  | NoCube_ ls a b rs side, Nodes _ _ => let c := claim_of ls (Box_ a b) rs in
+      has_no_cube c (denoted side) /\ exists m C, is_about c m C
   | Postulate_ None, Nodes _ _ => forall psi, 1 < psi -> postulate_for psi
   | Postulate_ (Some q), Nodes _ _ => 1 < value (greatest (tolerance_of q)) /\
       forall psi, 1 < psi -> within (tolerance_of q) psi -> postulate_for psi
@@ -581,7 +598,7 @@ Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
 (** The tree that the first nodes are, and those that are left; [depth] is that of the nodes' list. *)
 Fixpoint tree_of (depth : nat) (l : list node) : option (tree * list node) :=
   match depth, l with
-  | S d, Node by_ split :: rest =>
+  | S d, Node by_ split None [] :: rest =>
       match steps_of by_, split with
       | Some s, None => Some (Leaf s, rest)
       | Some s, Some k =>
@@ -601,6 +618,21 @@ Fixpoint trees_of (most : nat) (l : list node) : option (list tree) :=
       | None => None
       end
   | O, _ => None
+  end.
+
+Definition nfailure_of (f : violation) : nfailure :=
+  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
+
+(** The same of a tree whose leaves fail, and that has no steps. *)
+Fixpoint failing_tree_of (depth : nat) (l : list node) : option (failing_tree * list node) :=
+  match depth, l with
+  | S d, Node [] None (Some f) at_ :: rest => Some (Fails_ at_ (nfailure_of f), rest)
+  | S d, Node [] (Some k) None [] :: rest =>
+      match failing_tree_of d rest with
+      | Some (a, rest) => match failing_tree_of d rest with Some (b, rest) => Some (Halved k a b, rest) | None => None end
+      | None => None
+      end
+  | _, _ => None
   end.
 
 (** A machine by the numbers that stand for its tolerances. *)
@@ -660,9 +692,6 @@ Fixpoint take_struts (ws : list (list quantity * list quantity)) (l : list Claim
   | (a, p) :: ws' => let (a, l) := take_list a l in let (p, l) := take_list p l in let (es, l) := take_struts ws' l in
       (StrutNumbers (numbers_of a) (numbers_of p) :: es, l)
   end.
-
-Definition nfailure_of (f : violation) : nfailure :=
-  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg end.
 
 (** What the format asks of bounds. *)
 Definition is_number : Claim.number -> bool := Witness.is_number exact_bits.
@@ -729,8 +758,17 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | _, _ => false
   end && forallb (is_turning_demand (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands (length ls) rs).
 
+(** No machine within the tolerances has a direction that is zero. *)
+Definition is_nonzero (t : tolerances) : bool :=
+  match map (enclose_parameter exact_bits) (three t (order_of (ends3 t))) with
+  | [Some x; Some y; Some z] => let square := Fixed.sqr exact_bits in (0 <? Fixed.lo (Fixed.add (Fixed.add (square x) (square y)) (square z)))%Z
+  | _ => false
+  end.
+Definition has_direction (d : drive) : bool :=
+  match d with SliderLeg c => is_nonzero (direction c) | PlanarLeg n => is_nonzero n | StrutLeg _ _ (Some k) => is_nonzero k
+  | StrutLeg _ _ None => true end.
 Definition is_well_formed (ls : list written_leg) (rs : list written_requirement) (c : claim) : bool :=
-  Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
+  forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
 (** Nodes are halved along coordinates that there are. *)
 Definition splits_below (n : nat) (nodes : list node) : bool :=
@@ -755,6 +793,13 @@ Definition accept (c : certificate) : bool :=
       | [x; y; z], (m, []), Some f => is_well_formed ls rs (claim_of ls w rs) &&
           refute exact_bits (claim_of ls w rs) m (Numbers (denoted x) (denoted y) (denoted z)) f
       | _, _, _ => false
+      end
+  | NoCube_ ls a b rs side, Nodes bits nodes =>
+      let k := claim_of ls (Box_ a b) rs in
+      match failing_tree_of (length nodes) nodes with
+      | Some (t, []) => is_well_formed ls rs k &&
+          (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
+      | _ => false
       end
   | Arms_ ls w rs, ByWitness bits point machine fails =>
       match point, take_arms ls (map denoted machine) with
@@ -795,7 +840,7 @@ Definition accept (c : certificate) : bool :=
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
+  destruct s as [ls w rs | ls w rs | k ls ell a b o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |]], p as [bits nodes | bits point machine fails]; try discriminate.
   - cbv zeta in h. destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_sound _ _ _ _ _ _ h).
   - destruct point as [| x [| y [| z [|]]]]; try discriminate. destruct (take_legs _ _) as [m [|]]; [| discriminate].
@@ -811,6 +856,8 @@ Proof.
   - destruct (tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ h).
   - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
+  - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+    exact (check_no_cube_certified _ _ _ _ _ _ _ h).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
   - destruct (trees_of 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.

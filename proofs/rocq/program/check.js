@@ -97,6 +97,83 @@ wrong.forEach((text, i) => {
 });
 fs.rmSync(aside, { recursive: true });
 
+// No cube: each way to fail, at bounds ever nearer to the last with which it is shown, where one bit decides.
+const triple = (x, y, z) => `["${x}","${y}","${z}"]`;
+const sliders = (length) => [0, 1, 2].map((i) => `{"drive":"slider","direction":${triple(...[0, 1, 2].map((k) => +(k === i)))},` +
+  `"anchor":${triple(0, 0, 0)},"platform":${triple(0, 0, 0)},"length":${length},"mode":"+"}`);
+const struts = [[1, 0], [-1, 2], [-1, -2]].map(([x, y]) => `{"drive":"strut","anchor":${triple(200 * x, 100 * y, 0)},` +
+  `"platform":${triple(50 * x, 30 * y, 0)},"base_axis":${triple(-y, 2 * x, 0)}}`);
+const three = sliders('"310"'), toleranced = sliders('{"min":"309.9","max":"310.1"}');
+const mixed = [three[0], struts[1], plane("0", "3", "1")];
+const about = (quantity, end, more = "") => (b) => [`{"quantity":"${quantity}"${more},"end":"${end}","bound":"${b}"}`];
+const noCube = (legs, center, requirements, fails, offset) => `{"format":"orthocert/2","claim":{"no_cube":{"machine":{"mechanism":` +
+  `{"translational":[${legs}]},"workspace":{"box":{"min":[${center.map((x) => `"${x - 3}"`)}],"max":[${center.map((x) => `"${x + 2}"`)}]}},` +
+  `"require":[${requirements}]},"side":"40"}},"verdict":"certified","proof":{"tree":{"precision":32,"nodes":[{"fails":${fails},` +
+  `"at":[${offset}]}]}},"provenance":{"tool":"t","version":"1"}}\n`;
+const ways = [
+  [toleranced, [110, 110, 110], about("transmission", "max"), '{"obligation":[0,[[10,-9,1]]]}', 1, 4],
+  [mixed, [60, 40, 190], about("transmission", "max"), '{"obligation":[0,[[5,-7,3]]]}', 0.05, 40],
+  [toleranced, [110, 110, 110], about("transmission", "min"), '{"obligation":[1,[[3,3,4]]]}', 0.1, 4],
+  [three, [120, 110, 100], about("transmission", "min"), '{"row":[1,1]}', 0.1, 4],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,0]}', 0.5, 2],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,1]}', 0.5, 2],
+  [mixed, [60, 40, 190], about("transmission", "min"), '{"row":[1,2]}', 0.5, 2],
+  [three, [110, 110, 110], about("conditioning", "max"), '{"obligation":[1,[[1,1,1],[1,-1,0]]]}', 1.01, 9],
+  [toleranced, [90, 80, 70], about("joint_range", "min", ',"leg":2'), '{"obligation":[1,[]]}', -400, 400],
+  [mixed, [60, 40, 190], about("joint_range", "max"), '{"obligation":[2,[]]}', -400, 400],
+  [toleranced, [90, 80, 70], about("joint_speed", "max", ',"given":{"tool":["100"]}'), '{"obligation":[3,[]]}', 50, 300],
+  [three, [90, 80, 70], about("serial_margin", "min"), '{"obligation":[1,[]]}', 0.2, 1],
+  [toleranced, [110, 110, 110], about("parallel_margin", "min"), '{"obligation":[1,[]]}', 0.2, 3],
+  [mixed, [60, 40, 190], about("stiffness", "min", ',"given":{"joint":["3"]}'), '{"obligation":[1,[[1,2,-3]]]}', 0.1, 9],
+  [struts, [20, 10, 300], about("constraint_margin", "min"), '{"obligation":[1,[[1,2,20]]]}', 0.01, 2],
+];
+const beside = fs.mkdtempSync(path.join(os.tmpdir(), "cubes-"));
+const one = path.join(beside, "one.json");
+const all = (text) => {
+  fs.writeFileSync(one, text);
+  return [verify(text), exactly(one)];
+};
+let shown = 0;
+for (const [legs, center, bound, fails, low, high] of ways) {
+  const seen = new Set();
+  const answer = (b) => {
+    const text = noCube(legs, center, bound(String(+b.toFixed(12))), fails, [8, -3, 5]);
+    const [formal, right] = all(text);
+    if (formal !== right) fail(`no cube: ${formal}, and ${right} by orthocert-check: ${text}`);
+    seen.add(right);
+    return right;
+  };
+  let [from, to] = [low, high];
+  const first = answer(from);
+  answer(to);
+  for (let i = 0; i < 40; i++) {
+    const middle = (from + to) / 2;
+    if (answer(middle) === first) from = middle;
+    else to = middle;
+  }
+  if (seen.size === 2) shown++;
+  else fail(`no cube: ${[...seen]} alone, of ${bound(0)}`);
+}
+// Beyond reach, by one of three legs, and by half the side and no more.
+for (const [x, at, right] of [[301, 8, "CERTIFIED"], [301, 0, "REJECTED"], [301, 9, "REJECTED"], [301, -8, "REJECTED"], [400, 0, "CERTIFIED"]]) {
+  const text = noCube(three, [0, x, 0], about("transmission", "max")(9), '"reach"', [0, at, 0]);
+  if (all(text).some((answer) => answer !== right)) fail(`reach: ${all(text)}: ${text}`);
+}
+for (const [legs, fails, offset] of [
+  [[three[0], three[1], plane(0, 0, 0)], '"reach"', [0, 0, 0]], // a plane without a direction
+  [three, '{"row":[0,0]}', [0, 0, 0]],
+  [three, '{"obligation":[7,[[1,1,1]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[[0,0,0]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[[1,1]]]}', [0, 0, 0]],
+  [three, '{"obligation":[0,[]]}', [0, 0, 0]],
+  [three, '"reach"', [0, 0]],
+]) {
+  const text = noCube(legs, [0, 400, 0], about("transmission", "max")(9), fails, offset);
+  if (all(text).some((answer) => answer !== "REJECTED")) fail(`no cube: ${all(text)}: ${text}`);
+}
+fs.rmSync(beside, { recursive: true });
+console.log(`no cube: ${shown} of ${ways.length} ways to fail, with one answer at 42 bounds each`);
+
 // Mutants: one number, key or element of a certificate is another.
 const edited = (text) => {
   const certificate = JSON.parse(text);

@@ -210,7 +210,7 @@ let region (kind, v) =
     let x, y = two number (get l "center") and bottom, top = two number (get l "z") in
     Cylinder_ (x, y, number (get l "radius"), bottom, top)
 
-let subject v =
+let rec subject v =
   match variant v with
   | "postulate", v -> Postulate_ (match get (members v) "psi_max" with String "all" -> None | v -> Some (quantity v))
   | "machine", v ->
@@ -260,6 +260,11 @@ let subject v =
        Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require ())
      | (("translational" | "formulas"), _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
      | (mechanism, _), _ -> not_covered [ "the mechanism \""; mechanism; "\"" ])
+  | "no_cube", v ->
+    let l = members v in
+    (match subject (Object [ ("machine", get l "machine") ]) with
+     | Machine_ (legs, Box_ (min, max), require) -> NoCube_ (legs, min, max, require, number (get l "side"))
+     | _ -> not_covered [ "a claim that no cube of such a machine fits" ])
   | claim, _ -> not_covered [ "a claim of the kind \""; claim; "\"" ]
 
 (* Proofs *)
@@ -292,16 +297,16 @@ let step n v =
   | [ i; String "outside" ] when digits i <> "0" -> raise Malformed
   | [ i; e ] -> (count i, evidence n e)
   | _ -> raise Malformed
-let node n v =
-  let l = members v in
-  if find l "fails" <> None then not_covered [ "a leaf that fails" ];
-  { by_ = (match find l "by" with Some v -> List.map (step n) (array v) | None -> []); split_ = optional count (find l "split") }
 let fails v =
   match variant v with
   | "reach", _ -> Reach
   | "obligation", Array [ i; vs ] -> Obligation (count i, List.map integers (array vs))
   | "row", Array [ i; leg ] -> Row (count i, count leg)
   | name, _ -> not_covered [ "the failure \""; name; "\"" ]
+let node n v =
+  let l = members v in
+  let list f key = match find l key with Some v -> List.map f (array v) | None -> [] in
+  { by_ = list (step n) "by"; split_ = optional count (find l "split"); fails_ = optional fails (find l "fails"); offset_ = list integer "at" }
 let proof n v =
   match variant v with
   | "tree", t ->
@@ -322,7 +327,7 @@ let certificate text =
    | format -> raise Malformed);
   let subject_ = subject (get l "claim") in
   let shape = match subject_ with
-    | Machine_ (legs, _, _) -> (List.length legs, 3)
+    | Machine_ (legs, _, _) | NoCube_ (legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
     | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
     | Arms_ _ | Closed_ _ | Postulate_ _ -> (3, 3) in
@@ -333,6 +338,9 @@ let certificate text =
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ -> true | _ -> false) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | NoCube_ _, Nodes (_, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
+   | NoCube_ _, _ -> ()
+   | _, Nodes (_, nodes) when List.exists (fun n -> n.fails_ <> None) nodes -> not_covered [ "a leaf that fails" ]
    | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in

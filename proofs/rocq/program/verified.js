@@ -4,85 +4,85 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(u){"use strict";var
-zb=typeof
-module==="object"&&module.exports||u,gJ="spatial",kR="Invalid_argument",eF="precision",aq='"',kQ="@[",lr="this quantity of such a mechanism",gt=1255,kP="inside",lq="Fatal error: exception %s\n",kh=255,kO="yaw",lo="(",lp=0x800,kf="range",kg="tree",gs="jsError",bn=0x8000,kM='the mechanism "',kN="%ni",lR="sqrt(",ln=256,kL="offset",lm="obligation",b_="machine",ke="End_of_file",eH="strut",kd="center",eR="arm",gr="Failure",lP="serial_margin",lQ="parameters",bO=0xff,kc="\n",gO="outside",gA="base_axis",gI="ENOENT",lO=122,aG="0",ll="([^/]+)",gH=0xf,dK=128,gq=-48,kb=0xdc00,kK="Sys_blocked_io",lN="fd ",ka="given",lk="ENOTEMPTY",ap=248,lj="bound",ao="camlinternalFormat.ml",li="Division_by_zero",lL="by",lM=1027,j$="Sys_error",kJ="slider",kI="postulate",lh="torsion",lg="proof",kH="%u",c0="mechanism",eM="row",j_="EEXIST",kG="roll_pitch_yaw",gG="%d",j9="Printexc.handle_uncaught_exception",kF="y",eE="lower",kE="within",lf="cube",le="buffer.ml",lK="turned",eD="int_of_string",ld="control",kD="definitions",gz=127,dJ=1024,kC="@{",gN="e",j7=120,j8=103,kB=" : flags Open_rdonly and Open_wronly are not compatible",lc="orthocert/2",lJ="reach",j6=512,a3="-",lI="witness",b7="platform",j5=0x7ff0,j4="pitch",gM=": Not a directory",kA=" : file already exists",bp="min",c1="workspace",kz="claim",lb="split",lH="legs",bN=0xffffff,la="joint",j2="formulas",j3="0x",ky='the workspace "',k$="roll",lF="nodes",lG="Out_of_memory",j1="psi_max",gL="orientation",kx="angle",eL=254,gK="index out of bounds",k_=100,j0="end",eQ="_bigarr02",jZ="%Li",k9=" : flags Open_text and Open_binary are not compatible",b8="drive",k8="coordinates",kw=", characters ",k7="lower_divided",kv="joints",lE="cylinder",br=0xffff,ku=12520,kt="axis",lD="parallel_margin",jY='the drive "',gy="fails",gF="Unix.Unix_error",lC="infinity",eC="tool",gp="mkdir",dI=1000,go="translational",s="",k6="Stack_overflow",lB="characteristic_length",gx="^",eB=": No such file or directory",k5="places",k4="/static/",cZ=0x3f,k3=-97,k1="stiffness",k2="Not_found",dH="planar",eK="mode",lA="joint_speed",ks="Match_failure",jX=", ",jW="transmission",b6="anchor",eP=252,jV="joint_force",kr="leg",b9=".",bo="+",gE="rmdir",lz=0xf0,ly="spherical",kq="verified.ml",ko="REJECTED",kp="%li",k0=1026,bq="max",eO="direction",kZ="orthoglide",eN="rank",lx="constraint_margin",lw=-32,jT="Pervasives.do_at_exit",jU="utf8",gD="test",bL=" ",eG="conditioning",gC="Fatal error: exception ",ba=0x80,jS="Undefined_recursive_module",gw=")",eJ="length",lv="quantity",kY="joint_range",eI="tilt",jR="Q2",gv="nan",kn="reference",kX="point",km=0xe0,lu="corner",kk="z",kl=0xdfff,kV="version",kW="_",a$="/",gB="compare: functional value",lt="Assert_failure",kj="provenance",jP="radius",jQ="%i",bM="require",kU="side",ls="format",gu="ENOTDIR",kT="Q1",kS="all",ct="box",ki=250;function
-g4(c,b,a){var
+zJ=typeof
+module==="object"&&module.exports||u,gZ="spatial",la="Invalid_argument",eQ="precision",aq='"',k$="@[",lL="this quantity of such a mechanism",gK=1255,k_="inside",lK="Fatal error: exception %s\n",kB=255,k9="yaw",lI="(",lJ=0x800,kz="range",kA="tree",gJ="jsError",bs=0x8000,k7='the mechanism "',k8="%ni",ma="sqrt(",lH=256,k6="offset",lG="obligation",bf="machine",ky="End_of_file",eT="strut",kx="center",e4="arm",gI="Failure",l_="serial_margin",l$="parameters",bQ=0xff,kw="\n",g4="outside",gQ="base_axis",gY="ENOENT",l9=122,aH="0",lF="([^/]+)",gX=0xf,dR=128,gH=-48,kv=0xdc00,k5="Sys_blocked_io",l8="fd ",ku="given",lE="ENOTEMPTY",ap=248,lD="bound",ao="camlinternalFormat.ml",lC="Division_by_zero",l6="by",l7=1027,kt="Sys_error",k4="slider",k3="postulate",lB="torsion",lA="proof",k2="%u",c2="mechanism",eZ="row",ks="EEXIST",k1="roll_pitch_yaw",gW="%d",kr="Printexc.handle_uncaught_exception",k0="y",eP="lower",kZ="within",lz="cube",ly="buffer.ml",l5="turned",eO="int_of_string",lx="control",kY="definitions",gP=127,dQ=1024,kX="@{",g3="e",kp=120,kq=103,kW=" : flags Open_rdonly and Open_wronly are not compatible",lw="orthocert/2",l4="reach",ko=512,a5="-",l3="witness",b_="platform",kn=0x7ff0,km="pitch",g2=": Not a directory",kV=" : file already exists",bu="min",c3="workspace",kU="claim",lv="split",l2="legs",bP=0xffffff,lu="joint",kk="formulas",kl="0x",kT='the workspace "',lt="roll",l0="nodes",l1="Out_of_memory",kj="psi_max",g1="orientation",kS="angle",eY=254,g0="index out of bounds",ls=100,ki="end",e3="_bigarr02",kh="%Li",lr=" : flags Open_text and Open_binary are not compatible",b$="drive",lq="coordinates",kR=", characters ",lp="lower_divided",kQ="joints",lZ="cylinder",bw=0xffff,kP=12520,kO="axis",kN="no_cube",lY="parallel_margin",kg='the drive "',eS="fails",gV="Unix.Unix_error",lX="infinity",eN="tool",gG="mkdir",dP=1000,gF="translational",s="",lo="Stack_overflow",lW="characteristic_length",gO="^",eM=": No such file or directory",ln="places",lm="/static/",c1=0x3f,ll=-97,lj="stiffness",lk="Not_found",dO="planar",eX="mode",lV="joint_speed",kM="Match_failure",kf=", ",ke="transmission",b9="anchor",lU="at",e2=252,kd="joint_force",kL="leg",ca=".",bt="+",gU="rmdir",lT=0xf0,lS="spherical",kK="verified.ml",kI="REJECTED",kJ="%li",li=1026,bv="max",e1="direction",lh="orthoglide",e0="rank",lR="constraint_margin",lQ=-32,kb="Pervasives.do_at_exit",kc="utf8",gT="test",bN=" ",eR="conditioning",gS="Fatal error: exception ",be=0x80,ka="Undefined_recursive_module",gN=")",eW="length",lP="quantity",lg="joint_range",eV="tilt",j$="Q2",gM="nan",kH="reference",lf="point",kG=0xe0,lO="corner",kE="z",kF=0xdfff,ld="version",le="_",bd="/",gR="compare: functional value",lN="Assert_failure",kD="provenance",j9="radius",j_="%i",bO="require",eU="side",lM="format",gL="ENOTDIR",lc="Q1",lb="all",cx="box",kC=250;function
+hi(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=s;for(;0<a;b+=dJ,a-=dJ)e+=d.apply(null,c.slice(b,b+Math.min(a,dJ)));return e}function
-eS(b){if(u.Uint8Array)var
+e=s;for(;0<a;b+=dQ,a-=dQ)e+=d.apply(null,c.slice(b,b+Math.min(a,dQ)));return e}function
+e5(b){if(u.Uint8Array)var
 c=new(u.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-ca(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?g4(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)eS(b);var
+cc(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?hi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?hi(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)e5(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-bP(a){return a}function
-bu(a,b,c,d,e){ca(bP(a),b,c,d,e);return 0}function
-y6(b,a){throw[0,b,a]}function
-c6(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
+bR(a){return a}function
+bz(a,b,c,d,e){cc(bR(a),b,c,d,e);return 0}function
+zC(b,a){throw[0,b,a]}function
+c8(b,a){if(b==0)return s;if(a.repeat)return a.repeat(b);var
 d=s,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-c4(a){if(a.t==2)a.c+=c6(a.l-a.c.length,"\0");else
-a.c=g4(a.c,0,a.c.length);a.t=0}function
-ml(a){if(a.length<24){for(var
-b=0;b<a.length;b++)if(a.charCodeAt(b)>gz)return false;return true}else
+c6(a){if(a.t==2)a.c+=c8(a.l-a.c.length,"\0");else
+a.c=hi(a.c,0,a.c.length);a.t=0}function
+mG(a){if(a.length<24){for(var
+b=0;b<a.length;b++)if(a.charCodeAt(b)>gP)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-g6(e){for(var
-j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<ba){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<ba;d++);if(d-b>j6){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(f<<6);if(f<km){a=g-0x3080;if(a<ba)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK){g=h+(g<<6);if(f<lz){a=g-0xe2080;if(a<lp||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dK&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>br)c+=String.fromCharCode(0xd7c0+(a>>10),kb+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>dJ){c.substr(0,1);j+=c;c=s}}return j+c}function
-bs(c,a,b){this.t=c;this.c=a;this.l=b}bs.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:c4(this);case
-0:if(ml(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bs.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return g6(a)};bs.prototype.slice=function(){var
+hk(e){for(var
+j=s,c=s,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<be){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<be;d++);if(d-b>ko){c.substr(0,1);j+=c;c=s;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR){g=h+(f<<6);if(f<kG){a=g-0x3080;if(a<be)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR){g=h+(g<<6);if(f<lT){a=g-0xe2080;if(a<lJ||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==dR&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>bw)c+=String.fromCharCode(0xd7c0+(a>>10),kv+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>dQ){c.substr(0,1);j+=c;c=s}}return j+c}function
+bx(c,a,b){this.t=c;this.c=a;this.l=b}bx.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:c6(this);case
+0:if(mG(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bx.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return hk(a)};bx.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bs(this.t,a,this.l)};function
-l1(a){return new
-bs(0,a,a.length)}function
-a(a){return l1(a)}function
-g2(c,b){y6(c,a(b))}var
-ad=[0];function
-ar(a){g2(ad.Invalid_argument,a)}function
-lZ(){ar(gK)}function
-af(a,c,b){b&=bO;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}eS(a)}a.c[c]=b;return 0}function
-cu(b,a,c){if(a>>>0>=b.l)lZ();return af(b,a,c)}function
-c3(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+bx(this.t,a,this.l)};function
+mk(a){return new
+bx(0,a,a.length)}function
+a(a){return mk(a)}function
+hg(c,b){zC(c,a(b))}var
+ae=[0];function
+ar(a){hg(ae.Invalid_argument,a)}function
+mi(){ar(g0)}function
+ah(a,c,b){b&=bQ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}e5(a)}a.c[c]=b;return 0}function
+cy(b,a,c){if(a>>>0>=b.l)mi();return ah(b,a,c)}function
+c5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-bQ(c,a){if(c.fun)return bQ(c.fun,a);if(typeof
+bS(c,a){if(c.fun)return bS(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return bQ(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return bS(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bQ(c,d)}}function
-dL(){ar(gK)}function
-l2(a,b){if(b>>>0>=a.length-1)dL();return a}function
-yw(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
-bS(a){a.t&6&&c4(a);return a.c}var
-zd=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-zc(a){if(zd)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return bS(c,d)}}function
+dS(){ar(g0)}function
+ml(a,b){if(b>>>0>=a.length-1)dS();return a}function
+y4(a){if(isFinite(a)){if(Math.abs(a)>=2.2250738585072014e-308)return 0;if(a!=0)return 1;return 2}return isNaN(a)?4:3}function
+bU(a){a.t&6&&c6(a);return a.c}var
+zL=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+zK(a){if(zL)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-gU(c){var
+g_(c){var
 a=new(u.Float32Array)(1);a[0]=c;var
 b=new(u.Int32Array)(a.buffer);return b[0]|0}var
-l$=Math.pow(2,-24);function
-y4(a){throw a}function
-mg(){y4(ad.Division_by_zero)}function
-t(b,c,a){this.lo=b&bN;this.mi=c&bN;this.hi=a&br}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
+mu=Math.pow(2,-24);function
+zA(a){throw a}function
+mB(){zA(ae.Division_by_zero)}function
+t(b,c,a){this.lo=b&bP;this.mi=c&bP;this.hi=a&bw}t.prototype.caml_custom="_j";t.prototype.copy=function(){return new
 t(this.lo,this.mi,this.hi)};t.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};t.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -91,7 +91,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 t(b,c,d)};t.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*l$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*l$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*mu|0)+this.mi*a.lo+this.lo*a.mi,d=(c*mu|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 t(b,c,d)};t.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};t.prototype.isNeg=function(){return this.hi<<16<0};t.prototype.and=function(a){return new
 t(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};t.prototype.or=function(a){return new
 t(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};t.prototype.xor=function(a){return new
@@ -105,27 +105,27 @@ t(this.hi>>a-48,0,0)};t.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 t(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&br);return new
-t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bN;this.lo=this.lo<<1&bN};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bN;this.mi=(this.mi>>>1|this.hi<<23)&bN;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
+t(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&bw);return new
+t(this.hi<<16>>a-32,b,b)};t.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&bP;this.lo=this.lo<<1&bP};t.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&bP;this.mi=(this.mi>>>1|this.hi<<23)&bP;this.hi=this.hi>>>1};t.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 t(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};t.prototype.div=function(a){var
-b=this;if(a.isZero())mg();var
-d=b.hi^a.hi;if(b.hi&bn)b=b.neg();if(a.hi&bn)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bn)c=c.neg();return c};t.prototype.mod=function(b){var
-a=this;if(b.isZero())mg();var
-d=a.hi;if(a.hi&bn)a=a.neg();if(b.hi&bn)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bn)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bO,this.mi>>16,this.mi>>8&bO,this.mi&bO,this.lo>>16,this.lo>>8&bO,this.lo&bO]};t.prototype.lo32=function(){return this.lo|(this.mi&bO)<<24};t.prototype.hi32=function(){return this.mi>>>8&br|this.hi<<16};function
-eW(b,c,a){return new
+b=this;if(a.isZero())mB();var
+d=b.hi^a.hi;if(b.hi&bs)b=b.neg();if(a.hi&bs)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bs)c=c.neg();return c};t.prototype.mod=function(b){var
+a=this;if(b.isZero())mB();var
+d=a.hi;if(a.hi&bs)a=a.neg();if(b.hi&bs)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bs)c=c.neg();return c};t.prototype.toInt=function(){return this.lo|this.mi<<24};t.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};t.prototype.toArray=function(){return[this.hi>>8,this.hi&bQ,this.mi>>16,this.mi>>8&bQ,this.mi&bQ,this.lo>>16,this.lo>>8&bQ,this.lo&bQ]};t.prototype.lo32=function(){return this.lo|(this.mi&bQ)<<24};t.prototype.hi32=function(){return this.mi>>>8&bw|this.hi<<16};function
+e9(b,c,a){return new
 t(b,c,a)}function
-eV(a){if(!isFinite(a)){if(isNaN(a))return eW(1,0,j5);return a>0?eW(0,0,j5):eW(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bn:a>=0?0:bn;if(f)a=-a;var
-b=zc(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-k0)}else{a/=Math.pow(2,b-lM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+e8(a){if(!isFinite(a)){if(isNaN(a))return e9(1,0,kn);return a>0?e9(0,0,kn):e9(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bs:a>=0?0:bs;if(f)a=-a;var
+b=zK(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-li)}else{a/=Math.pow(2,b-l7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&gH|f|b<<4;return eW(g,e,c)}function
-dO(a){return a.toArray()}function
-lY(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==eQ)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<br)c.write(16,b.dims[a]);else{c.write(16,br);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&gX|f|b<<4;return e9(g,e,c)}function
+dV(a){return a.toArray()}function
+mh(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==e3)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<bw)c.write(16,b.dims[a]);else{c.write(16,bw);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -142,29 +142,29 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=dO(b.get(a));for(var
+e=dV(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=dO(eV(b.get(a)));for(var
+e=dV(e8(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=gU(b.get(a));c.write(32,e)}break;case
+e=g_(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,gU(d[1]));c.write(32,gU(d[2]))}break;case
+d=b.get(a);c.write(32,g_(d[1]));c.write(32,g_(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=dO(eV(f[1]));for(var
+f=b.get(a),e=dV(e8(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=dO(eV(f[2]));for(var
+e=dV(e8(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-lW(a){switch(a){case
+mf(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-yq(c,e){var
+yY(c,e){var
 b=u,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -180,49 +180,49 @@ b=u,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)ar("Bigarray.create: unsupported kind");var
 d=new
-a(e*lW(c));return d}function
-gV(c){var
+a(e*mf(c));return d}function
+g$(c){var
 a=new(u.Int32Array)(1);a[0]=c;var
 b=new(u.Float32Array)(a.buffer);return b[0]}function
-dN(a){return new
+dU(a){return new
 t(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-gW(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gH)==0?b&bn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&gH);if(c>0){a+=16;a*=Math.pow(2,c-lM)}else
-a*=Math.pow(2,-k0);if(b&bn)a=-a;return a}function
-gP(b){var
+ha(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&gX)==0?b&bs?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&gX);if(c>0){a+=16;a*=Math.pow(2,c-l7)}else
+a*=Math.pow(2,-li);if(b&bs)a=-a;return a}function
+g5(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)ar("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-yH(b,a){return new
-t(b&bN,b>>>24&bO|(a&br)<<8,a>>>16&br)}function
-gX(a){return a.hi32()}function
-gY(a){return a.lo32()}var
-yr=eQ;function
-b$(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}b$.prototype.caml_custom=yr;b$.prototype.offset=function(b){var
+zd(b,a){return new
+t(b&bP,b>>>24&bQ|(a&bw)<<8,a>>>16&bw)}function
+hb(a){return a.hi32()}function
+hc(a){return a.lo32()}var
+yZ=e3;function
+cb(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cb.prototype.caml_custom=yZ;cb.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))ar("bigarray.js: invalid offset");if(this.dims.length!=b.length)ar("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dL();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])dS();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dL();c=c*this.dims[a]+(b[a]-1)}return c};b$.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])dS();c=c*this.dims[a]+(b[a]-1)}return c};cb.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return yH(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return zd(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[eL,e,c];default:return this.data[a]}};b$.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=gY(b);this.data[a*2+1]=gX(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[eY,e,c];default:return this.data[a]}};cb.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=hc(b);this.data[a*2+1]=hb(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};b$.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cb.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=gY(b),e=gX(b);if(c==e)this.data.fill(c);else
+c=hc(b),e=hb(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};b$.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cb.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -242,26 +242,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-c2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c2.prototype=new
-b$();c2.prototype.offset=function(a){if(typeof
+c4(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c4.prototype=new
+cb();c4.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dL();return a};c2.prototype.get=function(a){return this.data[a]};c2.prototype.set=function(a,b){this.data[a]=b;return 0};c2.prototype.fill=function(a){this.data.fill(a);return 0};function
-lU(c,d,a,b){var
-e=lW(c);if(gP(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-c2(c,d,a,b);return new
-b$(c,d,a,b)}function
-bb(b){if(!ad.Failure)ad.Failure=[ap,a(gr),-3];g2(ad.Failure,b)}function
-lV(b,v,r){var
-i=b.read32s();if(i<0||i>16)bb("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&bO,o=p>>8&1,h=[];if(r==eQ)for(var
+ar("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])dS();return a};c4.prototype.get=function(a){return this.data[a]};c4.prototype.set=function(a,b){this.data[a]=b;return 0};c4.prototype.fill=function(a){this.data.fill(a);return 0};function
+md(c,d,a,b){var
+e=mf(c);if(g5(a)*e!=b.length)ar("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+c4(c,d,a,b);return new
+cb(c,d,a,b)}function
+bg(b){if(!ae.Failure)ae.Failure=[ap,a(gI),-3];hg(ae.Failure,b)}function
+me(b,v,r){var
+i=b.read32s();if(i<0||i>16)bg("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&bQ,o=p>>8&1,h=[];if(r==e3)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==br){var
-t=b.read32u(),u=b.read32u();if(t!=0)bb("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==bw){var
+t=b.read32u(),u=b.read32u();if(t!=0)bg("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=gP(h),f=yq(j,d),g=lU(j,o,h,f);switch(j){case
+d=g5(h),f=yY(j,d),g=md(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -275,129 +275,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bb("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bg("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=dN(e);g.set(a,q)}break;case
+q=dU(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=gW(dN(e));g.set(a,k)}break;case
+k=ha(dU(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=gV(b.read32s());g.set(a,k)}break;case
+k=g$(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=gV(b.read32s()),l=gV(b.read32s());g.set(a,[eL,m,l])}break;case
+m=g$(b.read32s()),l=g$(b.read32s());g.set(a,[eY,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=gW(dN(e));for(var
+m=ha(dU(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=gW(dN(e));g.set(a,[eL,m,l])}break}v[0]=(4+i)*4;return lU(j,o,h,f)}function
-lT(a,b,c){return a.compare(b,c)}function
-md(a,b){return Math.imul(a,b)}function
-bR(b,a){a=md(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=md(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-yD(a,b){a=bR(a,gY(b));a=bR(a,gX(b));return a}function
-l_(a,b){return yD(a,eV(b))}function
-lX(c){var
-b=gP(c.dims),d=0;switch(c.kind){case
+l=ha(dU(e));g.set(a,[eY,m,l])}break}v[0]=(4+i)*4;return md(j,o,h,f)}function
+mc(a,b,c){return a.compare(b,c)}function
+my(a,b){return Math.imul(a,b)}function
+bT(b,a){a=my(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=my(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+y$(a,b){a=bT(a,hc(b));a=bT(a,hb(b));return a}function
+mt(a,b){return y$(a,e8(b))}function
+mg(c){var
+b=g5(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ln)b=ln;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bR(d,e)}e=0;switch(b&3){case
+12:if(b>lH)b=lH;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=bT(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=bR(d,e)}break;case
+1:e|=c.data[a+0];d=bT(d,e)}break;case
 4:case
-5:if(b>dK)b=dK;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bR(d,e)}if((b&1)!=0)d=bR(d,c.data[a]);break;case
+5:if(b>dR)b=dR;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=bT(d,e)}if((b&1)!=0)d=bT(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bT(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bT(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=bR(d,c.data[a]);break;case
+a=0;a<b;a++)d=bT(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=l_(d,c.data[a]);break;case
+a=0;a<b;a++)d=mt(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=l_(d,c.data[a]);break}return d}function
-yF(a,b){b[0]=4;return a.read32s()}function
-y1(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=mt(d,c.data[a]);break}return d}function
+zb(a,b){b[0]=4;return a.read32s()}function
+zx(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bb("input_value: native integer value too large");default:bb("input_value: ill-formed native integer")}}function
-yQ(c,d){var
+2:bg("input_value: native integer value too large");default:bg("input_value: ill-formed native integer")}}function
+zm(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dN(b)}function
-yM(e,d,b){var
-c=dO(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return dU(b)}function
+zi(e,d,b){var
+c=dV(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-yG(a,b,c){return a.compare(b)}function
-yJ(a){return a.lo32()^a.hi32()}var
-l5={"_j":{deserialize:yQ,serialize:yM,fixed_length:8,compare:yG,hash:yJ},"_i":{deserialize:yF,fixed_length:4},"_n":{deserialize:y1,fixed_length:4},"_bigarray":{deserialize:function(a,b){return lV(a,b,"_bigarray")},serialize:lY,compare:lT,hash:lX},"_bigarr02":{deserialize:function(a,b){return lV(a,b,eQ)},serialize:lY,compare:lT,hash:lX}};function
-gR(a){return l5[a.caml_custom]&&l5[a.caml_custom].compare}function
-l3(f,c,d,e){var
-b=gR(c);if(b){var
+zc(a,b,c){return a.compare(b)}function
+zf(a){return a.lo32()^a.hi32()}var
+mo={"_j":{deserialize:zm,serialize:zi,fixed_length:8,compare:zc,hash:zf},"_i":{deserialize:zb,fixed_length:4},"_n":{deserialize:zx,fixed_length:4},"_bigarray":{deserialize:function(a,b){return me(a,b,"_bigarray")},serialize:mh,compare:mc,hash:mg},"_bigarr02":{deserialize:function(a,b){return me(a,b,e3)},serialize:mh,compare:mc,hash:mg}};function
+g7(a){return mo[a.caml_custom]&&mo[a.caml_custom].compare}function
+mm(f,c,d,e){var
+b=g7(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-eX(a){return a
+e_(a){return a
 instanceof
-bs}function
-g0(a){return eX(a)}function
-l4(a){if(typeof
-a==="number")return dI;else
-if(eX(a))return eP;else
-if(g0(a))return 1252;else
+bx}function
+he(a){return e_(a)}function
+mn(a){if(typeof
+a==="number")return dP;else
+if(e_(a))return e2;else
+if(he(a))return 1252;else
 if(a
 instanceof
-Array&&a[0]===a[0]>>>0&&a[0]<=kh){var
-b=a[0]|0;return b==eL?0:b}else
+Array&&a[0]===a[0]>>>0&&a[0]<=kB){var
+b=a[0]|0;return b==eY?0:b}else
 if(a
 instanceof
-String)return ku;else
+String)return kP;else
 if(typeof
-a=="string")return ku;else
+a=="string")return kP;else
 if(a
 instanceof
-Number)return dI;else
-if(a&&a.caml_custom)return gt;else
+Number)return dP;else
+if(a&&a.caml_custom)return gK;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-yR(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-l0(a,b){a.t&6&&c4(a);b.t&6&&c4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-zh(a,b){return l0(a,b)}function
-gQ(a,b,d){var
+zn(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+mj(a,b){a.t&6&&c6(a);b.t&6&&c6(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+zP(a,b){return mj(a,b)}function
+g6(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=l4(a);if(f==ki){a=a[1];continue}var
-g=l4(b);if(g==ki){b=b[1];continue}if(f!==g){if(f==dI){if(g==gt)return l3(a,b,-1,d);return-1}if(g==dI){if(f==gt)return l3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:ar(gB);break;case
+f=mn(a);if(f==kC){a=a[1];continue}var
+g=mn(b);if(g==kC){b=b[1];continue}if(f!==g){if(f==dP){if(g==gK)return mm(a,b,-1,d);return-1}if(g==dP){if(f==gK)return mm(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:ar(gR);break;case
 248:var
-c=yR(a[2],b[2]);if(c!=0)return c|0;break;case
-249:ar(gB);break;case
+c=zn(a[2],b[2]);if(c!=0)return c|0;break;case
+249:ar(gR);break;case
 250:ar("equal: got Forward_tag, should not happen");break;case
 251:ar("equal: abstract value");break;case
 252:if(a!==b){var
-c=l0(a,b);if(c!=0)return c|0}break;case
+c=mj(a,b);if(c!=0)return c|0}break;case
 253:ar("equal: got Double_tag, should not happen");break;case
 254:ar("equal: got Double_array_tag, should not happen");break;case
 255:ar("equal: got Custom_tag, should not happen");break;case
-1247:ar(gB);break;case
+1247:ar(gR);break;case
 1255:var
-i=gR(a);if(i!=gR(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
+i=g7(a);if(i!=g7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)ar("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,238 +405,238 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=bS(a),b=bS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=bU(a),b=bU(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-yx(a,b){return gQ(a,b,true)}function
-yy(){return[0]}function
-ak(a){if(a<0)ar("Bytes.create");return new
-bs(a?2:9,s,a)}function
-l6(a,b){return+(gQ(a,b,false)==0)}function
-yA(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c6(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)eS(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
-g1(d){d=bS(d);var
+y5(a,b){return g6(a,b,true)}function
+y6(){return[0]}function
+al(a){if(a<0)ar("Bytes.create");return new
+bx(a?2:9,s,a)}function
+mp(a,b){return+(g6(a,b,false)==0)}function
+y8(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=s;a.t=2}else{a.c=c8(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)e5(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}function
+hf(d){d=bU(d);var
 e=d.length;if(e>31)ar("format_int: format too long");var
-a={justify:bo,signstyle:a3,filler:bL,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
+a={justify:bt,signstyle:a5,filler:bN,alternate:false,base:0,signedconv:false,width:0,uppercase:false,sign:1,prec:-1,conv:"f"};for(var
 c=0;c<e;c++){var
-b=d.charAt(c);switch(b){case"-":a.justify=a3;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aG;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
-gS(b,f){if(b.uppercase)f=f.toUpperCase();var
-e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a3))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
-c=s;if(b.justify==bo&&b.filler==bL)for(var
-d=e;d<b.width;d++)c+=bL;if(b.signedconv)if(b.sign<0)c+=a3;else
-if(b.signstyle!=a3)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aG;if(b.alternate&&b.base==16)c+=j3;if(b.justify==bo&&b.filler==aG)for(var
-d=e;d<b.width;d++)c+=aG;c+=f;if(b.justify==a3)for(var
-d=e;d<b.width;d++)c+=bL;return a(c)}function
-gT(i,c){function
+b=d.charAt(c);switch(b){case"-":a.justify=a5;break;case"+":case" ":a.signstyle=b;break;case"0":a.filler=aH;break;case"#":a.alternate=true;break;case"1":case"2":case"3":case"4":case"5":case"6":case"7":case"8":case"9":a.width=0;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.width=a.width*10+b;c++}c--;break;case".":a.prec=0;c++;while(b=d.charCodeAt(c)-48,b>=0&&b<=9){a.prec=a.prec*10+b;c++}c--;case"d":case"i":a.signedconv=true;case"u":a.base=10;break;case"x":a.base=16;break;case"X":a.base=16;a.uppercase=true;break;case"o":a.base=8;break;case"e":case"f":case"g":a.signedconv=true;a.conv=b;break;case"E":case"F":case"G":a.signedconv=true;a.uppercase=true;a.conv=b.toLowerCase();break}}return a}function
+g8(b,f){if(b.uppercase)f=f.toUpperCase();var
+e=f.length;if(b.signedconv&&(b.sign<0||b.signstyle!=a5))e++;if(b.alternate){if(b.base==8)e+=1;if(b.base==16)e+=2}var
+c=s;if(b.justify==bt&&b.filler==bN)for(var
+d=e;d<b.width;d++)c+=bN;if(b.signedconv)if(b.sign<0)c+=a5;else
+if(b.signstyle!=a5)c+=b.signstyle;if(b.alternate&&b.base==8)c+=aH;if(b.alternate&&b.base==16)c+=kl;if(b.justify==bt&&b.filler==aH)for(var
+d=e;d<b.width;d++)c+=aH;c+=f;if(b.justify==a5)for(var
+d=e;d<b.width;d++)c+=bN;return a(c)}function
+g9(i,c){function
 j(a,b){if(Math.abs(a)<1.0)return a.toFixed(b);else{var
-c=parseInt(a.toString().split(bo)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
-Array(c+1).join(aG);if(b>0)a=a+b9+new
-Array(b+1).join(aG);return a}else
+c=parseInt(a.toString().split(bt)[1]);if(c>20){c-=20;a/=Math.pow(10,c);a+=new
+Array(c+1).join(aH);if(b>0)a=a+ca+new
+Array(b+1).join(aH);return a}else
 return a.toFixed(b)}}var
-a,e=g1(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gv;e.filler=bL}else
-if(!isFinite(c)){a="inf";e.filler=bL}else
+a,e=hf(i),d=e.prec<0?6:e.prec;if(c<0||c==0&&1/c==-Infinity){e.sign=-1;c=-c}if(isNaN(c)){a=gM;e.filler=bN}else
+if(!isFinite(c)){a="inf";e.filler=bN}else
 switch(e.conv){case"e":var
-a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
-h=a.indexOf(gN),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
-b=h-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==gN)a=a.slice(0,b-1)+aG+a.slice(b-1);break}else{var
+a=c.toExponential(d),b=a.length;if(a.charAt(b-3)==g3)a=a.slice(0,b-1)+aH+a.slice(b-1);break;case"f":a=j(c,d);break;case"g":d=d?d:1;a=c.toExponential(d-1);var
+h=a.indexOf(g3),g=+a.slice(h+1);if(g<-4||c>=1e21||c.toFixed(0).length>d){var
+b=h-1;while(a.charAt(b)==aH)b--;if(a.charAt(b)==ca)b--;a=a.slice(0,b+1)+a.slice(h);b=a.length;if(a.charAt(b-3)==g3)a=a.slice(0,b-1)+aH+a.slice(b-1);break}else{var
 f=d;if(g<0){f-=g+1;a=c.toFixed(f)}else
 while(a=c.toFixed(f),a.length>d+1)f--;if(f){var
-b=a.length-1;while(a.charAt(b)==aG)b--;if(a.charAt(b)==b9)b--;a=a.slice(0,b+1)}}break}return gS(e,a)}function
-eT(e,c){if(bS(e)==gG)return a(s+c);var
-b=g1(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
+b=a.length-1;while(a.charAt(b)==aH)b--;if(a.charAt(b)==ca)b--;a=a.slice(0,b+1)}}break}return g8(e,a)}function
+e6(e,c){if(bU(e)==gW)return a(s+c);var
+b=hf(e);if(c<0)if(b.signedconv){b.sign=-1;c=-c}else
 c>>>=0;var
-d=c.toString(b.base);if(b.prec>=0){b.filler=bL;var
-f=b.prec-d.length;if(f>0)d=c6(f,aG)+d}return gS(b,d)}var
-y2=0;function
-eU(){return y2++}function
-yU(a){return a.toUtf16()}function
-dQ(){return typeof
+d=c.toString(b.base);if(b.prec>=0){b.filler=bN;var
+f=b.prec-d.length;if(f>0)d=c8(f,aH)+d}return g8(b,d)}var
+zy=0;function
+e7(){return zy++}function
+zq(a){return a.toUtf16()}function
+dX(){return typeof
 u.process!=="undefined"&&typeof
 u.process.versions!=="undefined"&&typeof
 u.process.versions.node!=="undefined"}function
-ze(){function
-a(a){if(a.charAt(0)===a$)return[s,a.substring(1)];return}function
+zM(){function
+a(a){if(a.charAt(0)===bd)return[s,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||s,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dQ()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
-g_=ze();function
-mj(a){return a.slice(-1)!==a$?a+a$:a}if(dQ()&&u.process&&u.process.cwd)var
-dM=u.process.cwd().replace(/\\/g,a$);else
+d=a[1]||s,f=a[2]||s;return[d,c.substring(d.length+f.length)]}return}return dX()&&u.process&&u.process.platform?u.process.platform==="win32"?b:a:a}var
+ho=zM();function
+mE(a){return a.slice(-1)!==bd?a+bd:a}if(dX()&&u.process&&u.process.cwd)var
+dT=u.process.cwd().replace(/\\/g,bd);else
 var
-dM="/static";dM=mj(dM);function
-yV(a){a=yU(a);if(!g_(a))a=dM+a;var
-e=g_(a),d=e[1].split(a$),b=[];for(var
+dT="/static";dT=mE(dT);function
+zr(a){a=zq(a);if(!ho(a))a=dT+a;var
+e=ho(a),d=e[1].split(bd),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-y_(e){for(var
-f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<ba){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<ba;d++);if(d-c>j6){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<lp){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(ba|a&cZ)}else
-if(a<0xd800||a>=kl)b+=String.fromCharCode(km|a>>12,ba|a>>6&cZ,ba|a&cZ);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kb||h>kl)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lz|a>>18,ba|a>>12&cZ,ba|a>>6&cZ,ba|a&cZ)}if(b.length>dJ){b.substr(0,1);f+=b;b=s}}return f+b}function
-yv(a){var
-b=9;if(!ml(a))b=8,a=y_(a);return new
-bs(b,a,a.length)}function
-bc(a){return yv(a)}var
-zg=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",j_,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gI,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gu,lk,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-cx(d,f,e,a){var
-b=zg.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,bc(f||s),bc(e||s)];return c}var
-me={};function
-cv(a){return me[a]}function
-cw(b,a){throw[0,b].concat(a)}function
-yu(a){return new
-bs(4,a,a.length)}function
-J(a){g2(ad.Sys_error,a)}function
-y5(a){J(a+eB)}function
-yt(b,a){if(a>>>0>=b.l)lZ();return c3(b,a)}function
-aS(a){return a.l}function
-lS(){}function
-av(a){this.data=a}av.prototype=new
-lS();av.prototype.truncate=function(a){var
-b=this.data;this.data=ak(a|0);ca(b,0,this.data,0,a)};av.prototype.length=function(){return aS(this.data)};av.prototype.write=function(b,d,g,a){var
+zG(e){for(var
+f=s,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<be){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<be;d++);if(d-c>ko){b.substr(0,1);f+=b;b=s;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<lJ){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(be|a&c1)}else
+if(a<0xd800||a>=kF)b+=String.fromCharCode(kG|a>>12,be|a>>6&c1,be|a&c1);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<kv||h>kF)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(lT|a>>18,be|a>>12&c1,be|a>>6&c1,be|a&c1)}if(b.length>dQ){b.substr(0,1);f+=b;b=s}}return f+b}function
+y3(a){var
+b=9;if(!mG(a))b=8,a=zG(a);return new
+bx(b,a,a.length)}function
+bh(a){return y3(a)}var
+zO=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",ks,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",gY,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",gL,lE,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+cB(d,f,e,a){var
+b=zO.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,bh(f||s),bh(e||s)];return c}var
+mz={};function
+cz(a){return mz[a]}function
+cA(b,a){throw[0,b].concat(a)}function
+y2(a){return new
+bx(4,a,a.length)}function
+M(a){hg(ae.Sys_error,a)}function
+zB(a){M(a+eM)}function
+y1(b,a){if(a>>>0>=b.l)mi();return c5(b,a)}function
+aV(a){return a.l}function
+mb(){}function
+aw(a){this.data=a}aw.prototype=new
+mb();aw.prototype.truncate=function(a){var
+b=this.data;this.data=al(a|0);cc(b,0,this.data,0,a)};aw.prototype.length=function(){return aV(this.data)};aw.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=ak(b+a),f=this.data;this.data=e;ca(f,0,this.data,0,c)}bu(d,g,this.data,b,a);return 0};av.prototype.read=function(c,a,d,b){var
-e=this.length();ca(this.data,c,a,d,b);return 0};av.prototype.read_one=function(a){return yt(this.data,a)};av.prototype.close=function(){};av.prototype.constructor=av;function
-aH(b,a){this.content={};this.root=b;this.lookupFun=a}aH.prototype.nm=function(a){return this.root+a};aH.prototype.create_dir_if_needed=function(d){var
-c=d.split(a$),b=s;for(var
-a=0;a<c.length-1;a++){b+=c[a]+a$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aH.prototype.slash=function(a){return/\/$/.test(a)?a:a+a$};aH.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=al(b+a),f=this.data;this.data=e;cc(f,0,this.data,0,c)}bz(d,g,this.data,b,a);return 0};aw.prototype.read=function(c,a,d,b){var
+e=this.length();cc(this.data,c,a,d,b);return 0};aw.prototype.read_one=function(a){return y1(this.data,a)};aw.prototype.close=function(){};aw.prototype.constructor=aw;function
+aI(b,a){this.content={};this.root=b;this.lookupFun=a}aI.prototype.nm=function(a){return this.root+a};aI.prototype.create_dir_if_needed=function(d){var
+c=d.split(bd),b=s;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bd;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aI.prototype.slash=function(a){return/\/$/.test(a)?a:a+bd};aI.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-av(bP(c[1]))}}};aH.prototype.exists=function(a){if(a==s)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aH.prototype.mkdir=function(c,e,d){var
-b=d&&cv(gF);if(this.exists(c))if(b)cw(b,cx(j_,gp,this.nm(c)));else
-J(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cw(b,cx(gI,gp,this.nm(a)));else
-J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gp,this.nm(a)));else
-J(a+gM);this.create_dir_if_needed(this.slash(c))};aH.prototype.rmdir=function(a,f){var
-b=f&&cv(gF),c=a==s?s:this.slash(a),e=new
-RegExp(gx+c+ll);if(!this.exists(a))if(b)cw(b,cx(gI,gE,this.nm(a)));else
-J(a+eB);if(!this.is_dir(a))if(b)cw(b,cx(gu,gE,this.nm(a)));else
-J(a+gM);for(var
+aw(bR(c[1]))}}};aI.prototype.exists=function(a){if(a==s)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aI.prototype.mkdir=function(c,e,d){var
+b=d&&cz(gV);if(this.exists(c))if(b)cA(b,cB(ks,gG,this.nm(c)));else
+M(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||s;if(!this.exists(a))if(b)cA(b,cB(gY,gG,this.nm(a)));else
+M(a+eM);if(!this.is_dir(a))if(b)cA(b,cB(gL,gG,this.nm(a)));else
+M(a+g2);this.create_dir_if_needed(this.slash(c))};aI.prototype.rmdir=function(a,f){var
+b=f&&cz(gV),c=a==s?s:this.slash(a),e=new
+RegExp(gO+c+lF);if(!this.exists(a))if(b)cA(b,cB(gY,gU,this.nm(a)));else
+M(a+eM);if(!this.is_dir(a))if(b)cA(b,cB(gL,gU,this.nm(a)));else
+M(a+g2);for(var
 d
 in
-this.content)if(d.match(e))if(b)cw(b,cx(lk,gE,this.nm(a)));else
-J(this.nm(a)+": Directory not empty");delete
-this.content[c]};aH.prototype.readdir=function(a){var
-f=a==s?s:this.slash(a);if(!this.exists(a))J(a+eB);if(!this.is_dir(a))J(a+gM);var
+this.content)if(d.match(e))if(b)cA(b,cB(lE,gU,this.nm(a)));else
+M(this.nm(a)+": Directory not empty");delete
+this.content[c]};aI.prototype.readdir=function(a){var
+f=a==s?s:this.slash(a);if(!this.exists(a))M(a+eM);if(!this.is_dir(a))M(a+g2);var
 g=new
-RegExp(gx+f+ll),d={},c=[];for(var
+RegExp(gO+f+lF),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aH.prototype.is_dir=function(a){if(a==s)return true;var
-b=this.slash(a);return this.content[b]?1:0};aH.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aI.prototype.is_dir=function(a){if(a==s)return true;var
+b=this.slash(a);return this.content[b]?1:0};aI.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aH.prototype.open=function(a,b){if(b.rdonly&&b.wronly)J(this.nm(a)+kB);if(b.text&&b.binary)J(this.nm(a)+k9);this.lookup(a);if(this.content[a]){if(this.is_dir(a))J(this.nm(a)+" : is a directory");if(b.create&&b.excl)J(this.nm(a)+kA);var
+this.content[a];return b};aI.prototype.open=function(a,b){if(b.rdonly&&b.wronly)M(this.nm(a)+kW);if(b.text&&b.binary)M(this.nm(a)+lr);this.lookup(a);if(this.content[a]){if(this.is_dir(a))M(this.nm(a)+" : is a directory");if(b.create&&b.excl)M(this.nm(a)+kV);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-av(ak(0));return this.content[a]}else
-y5(this.nm(a))};aH.prototype.register=function(c,a){var
-b;if(this.content[c])J(this.nm(c)+kA);if(eX(a))b=new
-av(a);if(g0(a))b=new
-av(bP(a));else
+aw(al(0));return this.content[a]}else
+zB(this.nm(a))};aI.prototype.register=function(c,a){var
+b;if(this.content[c])M(this.nm(c)+kV);if(e_(a))b=new
+aw(a);if(he(a))b=new
+aw(bR(a));else
 if(a
 instanceof
 Array)b=new
-av(yu(a));else
+aw(y2(a));else
 if(typeof
 a==="string")b=new
-av(l1(a));else
+aw(mk(a));else
 if(a.toString){var
-d=bP(bc(a.toString()));b=new
-av(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-J(this.nm(c)+" : registering file with invalid content type")};aH.prototype.constructor=aH;function
-y(a){return aS(a)}function
-bw(b,a){return c3(b,a)}function
-yp(d){var
+d=bR(bh(a.toString()));b=new
+aw(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+M(this.nm(c)+" : registering file with invalid content type")};aI.prototype.constructor=aI;function
+y(a){return aV(a)}function
+bB(b,a){return c5(b,a)}function
+yX(d){var
 c=y(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=bw(d,a);return b}function
-yo(a){if(a.t!=4)eS(a);return a.c}function
-bt(a){this.fs=require("fs");this.fd=a}bt.prototype=new
-lS();bt.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){J(a.toString())}};bt.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){J(a.toString())}};bt.prototype.write=function(f,b,c,e){var
-a=yp(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=bB(d,a);return b}function
+yW(a){if(a.t!=4)e5(a);return a.c}function
+by(a){this.fs=require("fs");this.fd=a}by.prototype=new
+mb();by.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){M(a.toString())}};by.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){M(a.toString())}};by.prototype.write=function(f,b,c,e){var
+a=yX(b);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){J(a.toString())}return 0};bt.prototype.read=function(g,d,c,f){var
-a=yo(d);if(!(a
+d=u.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){M(a.toString())}return 0};by.prototype.read=function(g,d,c,f){var
+a=yW(d);if(!(a
 instanceof
 u.Uint8Array))a=new(u.Uint8Array)(a);var
-e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){J(a.toString())}for(var
-b=0;b<f;b++)cu(d,c+b,e[c+b]);return 0};bt.prototype.read_one=function(c){var
-b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){J(a.toString())}return a[0]};bt.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){J(a.toString())}};bt.prototype.constructor=bt;function
-aw(a){this.fs=require("fs");this.root=a}aw.prototype.nm=function(a){return this.root+a};aw.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aw.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){J(a.toString())}};aw.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.open=function(f,c,g){var
+e=u.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){M(a.toString())}for(var
+b=0;b<f;b++)cy(d,c+b,e[c+b]);return 0};by.prototype.read_one=function(c){var
+b=new(u.Uint8Array)(1),a=u.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){M(a.toString())}return a[0]};by.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){M(a.toString())}};by.prototype.constructor=by;function
+ax(a){this.fs=require("fs");this.root=a}ax.prototype.nm=function(a){return this.root+a};ax.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ax.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){M(a.toString())}};ax.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bt(d)}catch(a){this.raise_nodejs_error(a,g)}};aw.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aw.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),jU);return bc(a)}catch(a){this.raise_nodejs_error(a,c)}};aw.prototype.raise_nodejs_error=function(a,d){var
-b=cv(gF);if(d&&b){var
-c=cx(a.code,a.syscall,a.path,a.errno);cw(b,c)}else
-J(a.toString())};aw.prototype.stats_from_js=function(a){var
+by(d)}catch(a){this.raise_nodejs_error(a,g)}};ax.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ax.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),kc);return bh(a)}catch(a){this.raise_nodejs_error(a,c)}};ax.prototype.raise_nodejs_error=function(a,d){var
+b=cz(gV);if(d&&b){var
+c=cB(a.code,a.syscall,a.path,a.errno);cA(b,c)}else
+M(a.toString())};ax.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aw.prototype.constructor=aw;function
-l9(b){var
-a=g_(b);if(!a)return;return a[0]+a$}var
-eZ=l9(dM)||bb("unable to compute caml_root"),c7=[];if(dQ())c7.push({path:eZ,device:new
-aw(eZ)});else
-c7.push({path:eZ,device:new
-aH(eZ)});c7.push({path:k4,device:new
-aH(k4)});function
-mp(b){var
-g=yV(b),b=g.join(a$),f=mj(b),c;for(var
-e=0;e<c7.length;e++){var
-a=c7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dQ()){var
-d=l9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ax.prototype.constructor=ax;function
+ms(b){var
+a=ho(b);if(!a)return;return a[0]+bd}var
+fa=ms(dT)||bg("unable to compute caml_root"),c9=[];if(dX())c9.push({path:fa,device:new
+ax(fa)});else
+c9.push({path:fa,device:new
+aI(fa)});c9.push({path:lm,device:new
+aI(lm)});function
+mK(b){var
+g=zr(b),b=g.join(bd),f=mE(b),c;for(var
+e=0;e<c9.length;e++){var
+a=c9[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&dX()){var
+d=ms(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aw(d)};c7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;J("no device found for "+f)}function
-yz(c,b){var
-a=mp(c);if(!a.device.register)bb("cannot register file");a.device.register(a.rest,b);return 0}function
-mk(c,b){var
-c=a(c),b=a(b);return yz(c,b)}function
-yC(){var
+ax(d)};c9.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;M("no device found for "+f)}function
+y7(c,b){var
+a=mK(c);if(!a.device.register)bg("cannot register file");a.device.register(a.rest,b);return 0}function
+mF(c,b){var
+c=a(c),b=a(b);return y7(c,b)}function
+y_(){var
 b=u.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)mk(b[a].name,b[a].content);u.jsoo_create_file=mk;u.caml_fs_tmp=[];return 0}function
-l8(){return[0]}function
-yE(a,c,k){if(!isFinite(a)){if(isNaN(a))return bc(gv);return bc(a>0?lC:"-infinity")}var
+a=0;a<b.length;a++)mF(b[a].name,b[a].content);u.jsoo_create_file=mF;u.caml_fs_tmp=[];return 0}function
+mr(){return[0]}function
+za(a,c,k){if(!isFinite(a)){if(isNaN(a))return bh(gM);return bh(a>0?lX:"-infinity")}var
 i=a==0&&1/a==-Infinity?1:a>=0?0:1;if(i)a=-a;var
 d=0;if(a==0);else
 if(a<1)while(a<1&&d>-1022){a*=2;d--}else
 while(a>=2){a/=2;d++}var
-j=d<0?s:bo,e=s;if(i)e=a3;else
+j=d<0?s:bt,e=s;if(i)e=a5;else
 switch(k){case
-43:e=bo;break;case
-32:e=bL;break;default:break}if(c>=0&&c<13){var
+43:e=bt;break;case
+32:e=bN;break;default:break}if(c>=0&&c<13){var
 g=Math.pow(2,c*4);a=Math.round(a*g)/g}var
 b=a.toString(16);if(c>=0){var
-h=b.indexOf(b9);if(h<0)b+=b9+c6(c,aG);else{var
-f=h+1+c;if(b.length<f)b+=c6(f-b.length,aG);else
-b=b.substr(0,f)}}return bc(e+j3+b+"p"+j+d.toString(10))}function
-yL(a){return+a.isZero()}function
-yO(a){return new
-t(a&bN,a>>24&bN,a>>31&br)}function
-yP(a){return a.toInt()}function
-yK(a){return+a.isNeg()}function
-yN(a){return a.neg()}function
-yI(g,c){var
-a=g1(g);if(a.signedconv&&yK(c)){a.sign=-1;c=yN(c)}var
-b=s,h=yO(a.base),f="0123456789abcdef";do{var
-e=c.udivmod(h);c=e.quotient;b=f.charAt(yP(e.modulus))+b}while(!yL(c));if(a.prec>=0){a.filler=bL;var
-d=a.prec-b.length;if(d>0)b=c6(d,aG)+b}return gS(a,b)}function
-y3(c){var
-a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
+h=b.indexOf(ca);if(h<0)b+=ca+c8(c,aH);else{var
+f=h+1+c;if(b.length<f)b+=c8(f-b.length,aH);else
+b=b.substr(0,f)}}return bh(e+kl+b+"p"+j+d.toString(10))}function
+zh(a){return+a.isZero()}function
+zk(a){return new
+t(a&bP,a>>24&bP,a>>31&bw)}function
+zl(a){return a.toInt()}function
+zg(a){return+a.isNeg()}function
+zj(a){return a.neg()}function
+ze(g,c){var
+a=hf(g);if(a.signedconv&&zg(c)){a.sign=-1;c=zj(c)}var
+b=s,h=zk(a.base),f="0123456789abcdef";do{var
+e=c.udivmod(h);c=e.quotient;b=f.charAt(zl(e.modulus))+b}while(!zh(c));if(a.prec>=0){a.filler=bN;var
+d=a.prec-b.length;if(d>0)b=c8(d,aH)+b}return g8(a,b)}function
+zz(c){var
+a=0,e=y(c),b=10,d=1;if(e>0)switch(bB(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&bw(c,a)==48)switch(bw(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&bB(c,a)==48)switch(bB(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -645,39 +645,39 @@ a=0,e=y(c),b=10,d=1;if(e>0)switch(bw(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-mf(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=lO)return a-87;return-1}function
-gZ(f){var
-h=y3(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bw(f,c):0,b=mf(e);if(b<0||b>=d)bb(eD);var
-a=b;for(c++;c<g;c++){e=bw(f,c);if(e==95)continue;b=mf(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bb(eD)}if(c!=g)bb(eD);a=i*a;if(d==10&&(a|0)!=a)bb(eD);return a|0}function
-yT(d){return function(){var
+mA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=l9)return a-87;return-1}function
+hd(f){var
+h=zz(f),c=h[0],i=h[1],d=h[2],g=y(f),j=-1>>>0,e=c<g?bB(f,c):0,b=mA(e);if(b<0||b>=d)bg(eO);var
+a=b;for(c++;c<g;c++){e=bB(f,c);if(e==95)continue;b=mA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bg(eO)}if(c!=g)bg(eO);a=i*a;if(d==10&&(a|0)!=a)bg(eO);return a|0}function
+zp(d){return function(){var
 b=arguments.length;if(b>0){var
 c=new
 Array(b);for(var
-a=0;a<b;a++)c[a]=arguments[a];return bQ(d,c)}else
-return bQ(d,[undefined])}}function
-yW(a,d){if(a<0)dL();var
+a=0;a<b;a++)c[a]=arguments[a];return bS(d,c)}else
+return bS(d,[undefined])}}function
+zs(a,d){if(a<0)dS();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}function
-yX(){return 0}var
-bv=new
+zt(){return 0}var
+bA=new
 Array();function
-c5(c){var
-a=bv[c];if(!a.opened)J("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ad.fds[a.fd]&&ad.fds[a.fd].output){var
-b=ad.fds[a.fd].output;switch(b.length){case
+c7(c){var
+a=bA[c];if(!a.opened)M("Cannot flush a closed channel");if(!a.buffer||a.buffer==s)return 0;if(a.fd&&ae.fds[a.fd]&&ae.fds[a.fd].output){var
+b=ae.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=s;return 0}function
-mi(e,f){var
-b=bv[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-y$(a){var
-a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+mD(e,f){var
+b=bA[e],d=a(f),c=y(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+zH(a){var
+a=hk(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-za(a){var
-a=g6(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+zI(a){var
+a=hk(a),b=u;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-e0(c,e,d,a){if(ad.fds===undefined)ad.fds=new
+fb(c,e,d,a){if(ae.fds===undefined)ae.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ad.fds[c]=b;if(!ad.fd_last_idx||c>ad.fd_last_idx)ad.fd_last_idx=c;return c}function
-zi(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ae.fds[c]=b;if(!ae.fd_last_idx||c>ae.fd_last_idx)ae.fd_last_idx=c;return c}function
+zQ(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -687,380 +687,380 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)J(bS(c)+kB);if(a.text&&a.binary)J(bS(c)+k9);var
-d=mp(c),e=d.device.open(d.rest,a),f=ad.fd_last_idx?ad.fd_last_idx:0;return e0(f+1,mi,e,a)}e0(0,mi,new
-av(ak(0)));e0(1,za,new
-av(ak(0)));e0(2,y$,new
-av(ak(0)));function
-yY(a){var
-c=ad.fds[a];if(c.flags.wronly)J(lN+a+" is writeonly");var
-d=null;if(a==0&&dQ()){var
-e=require("fs");d=function(){return bc(e.readFileSync(0,jU))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bv[b.fd]=b;return b.fd}function
-ma(c){var
-b=ad.fds[c];if(b.flags.rdonly)J(lN+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bv[a.fd]=a;return a.fd}function
-yZ(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)M(bU(c)+kW);if(a.text&&a.binary)M(bU(c)+lr);var
+d=mK(c),e=d.device.open(d.rest,a),f=ae.fd_last_idx?ae.fd_last_idx:0;return fb(f+1,mD,e,a)}fb(0,mD,new
+aw(al(0)));fb(1,zI,new
+aw(al(0)));fb(2,zH,new
+aw(al(0)));function
+zu(a){var
+c=ae.fds[a];if(c.flags.wronly)M(l8+a+" is writeonly");var
+d=null;if(a==0&&dX()){var
+e=require("fs");d=function(){return bh(e.readFileSync(0,kc))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};bA[b.fd]=b;return b.fd}function
+mv(c){var
+b=ae.fds[c];if(b.flags.rdonly)M(l8+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:s};bA[a.fd]=a;return a.fd}function
+zv(){var
 b=0;for(var
-a=0;a<bv.length;a++)if(bv[a]&&bv[a].opened&&bv[a].out)b=[0,bv[a].fd,b];return b}function
-aE(a){return a}function
-y0(g,d,h,f){var
-b=bv[g];if(!b.opened)J("Cannot output to a closed channel");var
-a;if(h==0&&aS(d)==f)a=d;else{a=ak(f);ca(d,h,a,0,f)}var
-i=aE(a),c=bS(i),e=c.lastIndexOf(kc);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c5(g);b.buffer+=c.substr(e+1)}return 0}function
-mb(b,a,d,c){return y0(b,bP(a),d,c)}function
-mc(c,b){var
-d=a(String.fromCharCode(b));mb(c,d,0,1);return 0}function
-dP(a,b){return+(gQ(a,b,false)!=0)}function
-eY(a){if(a
+a=0;a<bA.length;a++)if(bA[a]&&bA[a].opened&&bA[a].out)b=[0,bA[a].fd,b];return b}function
+aF(a){return a}function
+zw(g,d,h,f){var
+b=bA[g];if(!b.opened)M("Cannot output to a closed channel");var
+a;if(h==0&&aV(d)==f)a=d;else{a=al(f);cc(d,h,a,0,f)}var
+i=aF(a),c=bU(i),e=c.lastIndexOf(kw);if(e<0)b.buffer+=c;else{b.buffer+=c.substr(0,e+1);c7(g);b.buffer+=c.substr(e+1)}return 0}function
+mw(b,a,d,c){return zw(b,bR(a),d,c)}function
+mx(c,b){var
+d=a(String.fromCharCode(b));mw(c,d,0,1);return 0}function
+dW(a,b){return+(g6(a,b,false)!=0)}function
+e$(a){if(a
 instanceof
 Array&&a[0]==a[0]>>>0)return a[0];else
-if(eX(a))return eP;else
-if(g0(a))return eP;else
+if(e_(a))return e2;else
+if(he(a))return e2;else
 if(a
 instanceof
 Function||typeof
 a=="function")return 247;else
-if(a&&a.caml_custom)return kh;else
-return dI}function
-a4(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ad[b+1]=c;if(a)ad[a]=c}function
-g3(a,b){me[bS(a)]=b;return 0}function
-ys(a,b){if(a===b)return 1;a.t&6&&c4(a);b.t&6&&c4(b);return a.c==b.c?1:0}function
-aC(a,b){return ys(a,b)}function
-y8(){ar(gK)}function
-K(b,a){if(a>>>0>=y(b))y8();return bw(b,a)}function
-j(a,b){return 1-aC(a,b)}function
-y9(){return 0x7FFFFFFF/4|0}function
-g5(a){var
+if(a&&a.caml_custom)return kB;else
+return dP}function
+a6(b,c,a){if(a&&u.toplevelReloc)b=u.toplevelReloc(a);ae[b+1]=c;if(a)ae[a]=c}function
+hh(a,b){mz[bU(a)]=b;return 0}function
+y0(a,b){if(a===b)return 1;a.t&6&&c6(a);b.t&6&&c6(b);return a.c==b.c?1:0}function
+aD(a,b){return y0(a,b)}function
+zE(){ar(g0)}function
+N(b,a){if(a>>>0>=y(b))zE();return bB(b,a)}function
+j(a,b){return 1-aD(a,b)}function
+zF(){return 0x7FFFFFFF/4|0}function
+hj(a){var
 b=1;while(a&&a.joo_tramp){a=a.joo_tramp.apply(null,a.joo_args);b++}return a}function
-ax(b,a){return{joo_tramp:b,joo_args:a}}function
-mh(a){return a}function
-e1(a){if(a
+ay(b,a){return{joo_tramp:b,joo_args:a}}function
+mC(a){return a}function
+fc(a){if(a
 instanceof
 Array)return a;if(u.RangeError&&a
 instanceof
-u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mh(ad.Stack_overflow);if(u.InternalError&&a
+u.RangeError&&a.message&&a.message.match(/maximum call stack/i))return mC(ae.Stack_overflow);if(u.InternalError&&a
 instanceof
-u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mh(ad.Stack_overflow);if(a
+u.InternalError&&a.message&&a.message.match(/too much recursion/i))return mC(ae.Stack_overflow);if(a
 instanceof
-u.Error&&cv(gs))return[0,cv(gs),a];return[0,ad.Failure,bc(String(a))]}function
-e2(a){return a<0?-a:a}function
+u.Error&&cz(gJ))return[0,cz(gJ),a];return[0,ae.Failure,bh(String(a))]}function
+fd(a){return a<0?-a:a}function
 z(a,b){return a+b}function
-g7(a,b){return a<b?-1:a>b?1:0}function
-mm(c,b){var
-a=c%b;return a<0?a+e2(b):a}function
-g8(a,b){return(a-mm(a,b))/b}function
-al(a,b){return a==b?1:0}function
-D(a,b){return a<=b?1:0}function
-ag(a,b){return a<b?1:0}function
-o(a,b){return a*b}function
+hl(a,b){return a<b?-1:a>b?1:0}function
+mH(c,b){var
+a=c%b;return a<0?a+fd(b):a}function
+hm(a,b){return(a-mH(a,b))/b}function
+ai(a,b){return a==b?1:0}function
+A(a,b){return a<=b?1:0}function
+af(a,b){return a<b?1:0}function
+q(a,b){return a*b}function
 T(a){return-a}function
-aT(a){return u.BigInt(a)}function
-mn(a,b){return a<<u.BigInt(b)}function
-mo(a,b){return a>>u.BigInt(b)}function
-bx(a){return a<0?-1:a>0?1:0}function
-zf(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
+aW(a){return u.BigInt(a)}function
+mI(a,b){return a<<u.BigInt(b)}function
+mJ(a,b){return a>>u.BigInt(b)}function
+bC(a){return a<0?-1:a>0?1:0}function
+zN(a){if(a<0)throw new(u.Error)("a root of a negative number");if(a<2)return a;var
 d=u.BigInt(1),b=d<<u.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-cb(a,b){return a-b}function
-g9(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
-yS(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-yB(b){var
-a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&yS(b[1]))var
+cd(a,b){return a-b}function
+hn(a){if(a>0x7fffffff||a<-0x80000000)throw new(u.Error)("a number of more than 32 bits");return u.Number(a)}function
+zo(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+y9(b){var
+a=s;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&zo(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=lo;for(var
-d=f;d<e.length;d++){if(d>f)a+=jX;var
+f=2,e=b;a+=lI;for(var
+d=f;d<e.length;d++){if(d>f)a+=kf;var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bs)a+=aq+c.toString()+aq;else
+bx)a+=aq+c.toString()+aq;else
 if(typeof
 c=="string")a+=aq+c.toString()+aq;else
-a+=kW}a+=gw}else
+a+=le}a+=gN}else
 if(b[0]==ap)a+=b[1];return a}function
-l7(a){if(a
+mq(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==ap)){var
-c=cv(j9);if(c)c(a,false);else{var
-d=yB(a),b=cv(jT);if(b)b(0);u.console.error(gC+d+kc)}}else
+c=cz(kr);if(c)c(a,false);else{var
+d=y9(a),b=cz(kb);if(b)b(0);u.console.error(gS+d+kw)}}else
 throw a}function
-y7(){var
-a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){l7(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)l7(a.error)})}y7();function
-e(a,b){return a.length==1?a(b):bQ(a,[b])}function
-S(a,b,c){return a.length==2?a(b,c):bQ(a,[b,c])}function
-gn(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bQ(a,[b,c,d,e,f])}function
-yn(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bQ(a,[b,c,d,e,f,g,h])}yC();var
-e3=[ap,a(lG),-1],hd=[ap,a(j$),-2],ha=[ap,a(gr),-3],g$=[ap,a(kR),-4],hb=[ap,a(ks),-8],hc=[ap,a(k6),-9],V=[ap,a(lt),-11],he=[ap,a(jS),-12],xr=[4,0,0,0,[12,45,[4,0,0,0,0]]],e9=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kw),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],xs=[0,0],xt=[0,[0,[0,[0,0]]]],xu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xt]]]]]]]]]]],xv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xu]]]]]]]]]]],xw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xv]]]]]]]]]]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xx]]]]]]]]]]],xz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xy]]]]]]]]]]],xA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xz]]]]]]]]]]],xB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xA]]]]]]]]]]],xC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],xD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xC]]]]]]]]]]],xE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xD]]]]]]]]]]],xF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xE]]]]]]]]]]],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xF]]]]]]]]]]],xH=[0,[0,0]],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xH]]]]]]]]]]],xJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xI]]]]]]]]]]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xJ]]]]]]]]]]],xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xK]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xL]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xM]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xN]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xP]]]]]]]]]]],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xQ]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xR]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xS]]]]]]]]]]],xU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xT]]]]]]]]]]],xV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xU]]]]]]]]]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xV]]]]]]]]]]],xX=[0,0],xY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xX]]]]]]]]]]],xZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xY]]]]]]]]]]],x0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xZ]]]]]]]]]]],x1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,0]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,0],ym=[0,[0,[0,[0,[0,0]]]]],fu=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eo=[0,[0,[0,[0,0]]]];a4(11,he,jS);a4(10,V,lt);a4(9,[ap,a(kK),-10],kK);a4(8,hc,k6);a4(7,hb,ks);a4(6,[ap,a(k2),-7],k2);a4(5,[ap,a(li),-6],li);a4(4,[ap,a(ke),-5],ke);a4(3,g$,kR);a4(2,ha,gr);a4(1,hd,j$);a4(0,e3,lG);var
-mu=a("%.12g"),mt=a(b9),mr=a("true"),ms=a("false"),mv=a("\\\\"),mw=a("\\'"),mx=a("\\b"),my=a("\\t"),mz=a("\\n"),mA=a("\\r"),mD=a("String.blit / Bytes.blit_string"),mC=a("Bytes.blit"),mB=a("String.sub / Bytes.sub"),mF=a(s),mE=a("String.concat"),mG=a("Array.init"),mJ=a("Buffer.add: cannot grow buffer"),mI=[0,a(le),93,2],mH=[0,a(le),94,2],mS=a("%c"),mT=a("%s"),mU=a(jQ),mV=a(kp),mW=a(kN),mX=a(jZ),mY=a("%f"),mZ=a("%B"),m0=a("%{"),m1=a("%}"),m2=a("%("),m3=a("%)"),m4=a("%a"),m5=a("%t"),m6=a("%?"),m7=a("%r"),m8=a("%_r"),m9=[0,a(ao),850,23],ni=[0,a(ao),814,21],na=[0,a(ao),815,21],nj=[0,a(ao),818,21],nb=[0,a(ao),819,21],nk=[0,a(ao),822,19],nc=[0,a(ao),823,19],nl=[0,a(ao),826,22],nd=[0,a(ao),827,22],nm=[0,a(ao),831,30],ne=[0,a(ao),832,30],ng=[0,a(ao),836,26],m_=[0,a(ao),837,26],nh=[0,a(ao),846,28],m$=[0,a(ao),847,28],nf=[0,a(ao),851,23],op=a(kH),on=[0,a(ao),1558,4],oo=a("Printf: bad conversion %["),oq=[0,a(ao),1626,39],or=[0,a(ao),1649,31],os=[0,a(ao),1650,31],ot=a("Printf: bad conversion %_"),ou=a(kC),ov=a(kQ),ow=a(kC),ox=a(kQ),ol=a(gv),oj=a("neg_infinity"),ok=a(lC),oi=a(b9),od=[0,j8],n3=a("%+nd"),n4=a("% nd"),n6=a("%+ni"),n7=a("% ni"),n8=a("%nx"),n9=a("%#nx"),n_=a("%nX"),n$=a("%#nX"),oa=a("%no"),ob=a("%#no"),n2=a("%nd"),n5=a(kN),oc=a("%nu"),nQ=a("%+ld"),nR=a("% ld"),nT=a("%+li"),nU=a("% li"),nV=a("%lx"),nW=a("%#lx"),nX=a("%lX"),nY=a("%#lX"),nZ=a("%lo"),n0=a("%#lo"),nP=a("%ld"),nS=a(kp),n1=a("%lu"),nD=a("%+Ld"),nE=a("% Ld"),nG=a("%+Li"),nH=a("% Li"),nI=a("%Lx"),nJ=a("%#Lx"),nK=a("%LX"),nL=a("%#LX"),nM=a("%Lo"),nN=a("%#Lo"),nC=a("%Ld"),nF=a(jZ),nO=a("%Lu"),nq=a("%+d"),nr=a("% d"),nt=a("%+i"),nu=a("% i"),nv=a("%x"),nw=a("%#x"),nx=a("%X"),ny=a("%#X"),nz=a("%o"),nA=a("%#o"),np=a(gG),ns=a(jQ),nB=a(kH),mK=a("@]"),mL=a("@}"),mM=a("@?"),mN=a("@\n"),mO=a("@."),mP=a("@@"),mQ=a("@%"),mR=a("@"),nn=a("CamlinternalFormat.Type_mismatch"),oB=a(s),oC=[0,[11,a(jX),[2,0,[2,0,0]]],a(", %s%s")],o1=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],o2=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],o0=a("Fatal error: out of memory in uncaught exception handler"),oY=[0,[11,a(gC),[2,0,[12,10,0]]],a(lq)],oU=[0,[2,0,[12,10,0]],a("%s\n")],oM=a("Raised at"),oN=a("Re-raised at"),oO=a("Raised by primitive operation at"),oP=a("Called from"),oQ=a(" (inlined)"),oS=a(s),oR=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kw),xr]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],oT=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],oH=a("Out of memory"),oI=a("Stack overflow"),oJ=a("Pattern matching failed"),oK=a("Assertion failed"),oL=a("Undefined recursive module"),oD=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oE=a(s),oF=a(s),oG=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oA=[0,[4,0,0,0,0],a(gG)],oy=[0,[3,0,0],a("%S")],oz=a(kW),oV=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],o4=a("Jsoo_runtime.Error.Exn"),o6=a("power"),pe=[0,0],pf=[0,[0,0]],pg=[0,[0,0]],pn=[0,0],pu=[0,0,0],pv=[0,0,0],pw=[0,0],px=[0,0],pF=[0,0],pH=[0,0],pT=[0,0],pU=[0,0],qd=[0,[0,[0,0]]],qm=a(","),qE=[0,a(gw),0],qF=a(lo),qG=a(b9),qH=[0,[0,[0,0]]],qI=a(a3),qJ=a(gx),qK=[0,[0,[0,[0,[0,0]]]]],qL=[0,a(gw),0],qM=a(lR),sM=a(jR),sO=a(kT),sN=a(lu),sP=a(eG),sQ=a(kP),sR=a(lK),sS=a(ld),tt=[0,a(kq),7077,12],tI=a(gD),tJ=[0,0],tK=a("divided"),tL=[0,1],tM=a("mirror"),tN=[0,3],tO=a("negative"),tP=[0,2],tQ=a(gO),tR=[0,4],tS=a(eE),tT=a(k7),tU=a(eN),tV=[0,0],tW=[0,0],tX=[0,0],ud=a(s),ua=[0,[0,[0,[0,0]]]],ub=[0,[0,[0,[0,0]]]],t_=[0,[0,[0,0]]],t9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xs]]]]]]]]]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t5=[0,[0,[0,0]]],t6=[0,[0,0]],t4=[0,[0,[0,0]]],tZ=[0,[0,0]],t0=[0,0],tY=[0,0],tC=[0,[0,0]],tD=[0,0],tB=[0,0],tA=[0,0],tz=[0,0,0],tx=[0,0,0],tw=[0,0],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xw]]]]]]]]]]],to=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xB]]]]]]]]]]],tj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xG]]]]]]]]]]],tk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xO]]]]]]]]]]],tl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,xW]]]]]]]]]]],tm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],tp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tq=a("sqrt"),th=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],ti=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],s8=[0,a("\n"),0],s9=a(kV),s_=a(eC),s$=a(kj),ta=a(lg),tb=a("certified"),tg=a("refuted"),tc=a("verdict"),td=a(kz),te=a(lc),tf=a(ls),sX=a(lF),sY=a(eF),sZ=a(kg),s0=a(lJ),s6=a(lm),s7=a(eM),s1=a(gy),s2=a(b_),s3=a(kX),s4=a(eF),s5=a(lI),sV=a(lb),sW=a(lL),sK=a(k5),sL=a(kF),sr=a(eM),r4=a(bM),r5=a(c1),r6=a(go),r7=a(c0),r8=a(b_),r9=a(bM),r_=a(c1),r$=a(go),sa=a(c0),sb=a(b_),sc=a(bM),sd=a(gL),se=a(bq),sf=a(bp),sg=a(ct),sh=a(c1),si=a(lB),sj=a(lH),sk=a(c0),sl=a(b_),sm=a(bM),sn=a(bq),so=a(bp),sp=a(ct),sq=a(c1),ss=a(kv),st=a(kD),su=a(lQ),sv=a(k8),sw=a(j2),sx=a(c0),sy=a(b_),sz=a(bM),sA=a(kU),sB=a(lf),sC=a(c1),sD=a(kL),sE=a(kZ),sF=a(c0),sG=a(b_),sJ=a(kS),sH=a(j1),sI=a(kI),rU=a(kf),rV=a(kO),rW=a(j4),rX=a(k$),rY=a(kG),rZ=a(kx),r0=a(lh),r1=a(eI),r2=a(eI),rQ=a(b7),rR=a(b6),rS=a(eH),rT=a(b8),rM=a(dH),rN=a(gJ),rO=a(ly),rF=a(bq),rG=a(bp),rH=a(ct),rI=a(kk),rJ=a(jP),rK=a(kd),rL=a(lE),ry=a(lj),rz=a(j0),rE=a(eC),rA=a(la),rB=a(ka),rC=a(kr),rD=a(lv),rv=a(bp),rw=a(bq),rx=a(kE),rm=a(jW),rn=a(kY),ro=a(lA),rp=a(eG),rq=a(lP),rr=a(lD),rs=a(k1),rt=a(lx),ru=a(jV),rb=a(bo),rl=a(a3),rc=a(eK),rd=a(eJ),re=a(eR),rf=a(b7),rg=a(b6),rh=a(kn),ri=a(kt),rj=a(eR),rk=a(b8),qV=a(bo),q3=a(a3),qW=a(eK),qX=a(eJ),qY=a(b7),qZ=a(b6),q0=a(eO),q1=a(kJ),q2=a(b8),q4=a(gA),q5=a(b7),q6=a(b6),q7=a(eH),q8=a(b8),q9=a(eO),q_=a(dH),q$=a(b8),qS=a(bq),qT=a(bp),qQ=[0,a(aq),0],qR=a(aq),qO=[0,a(kq),6453,36],qN=[0,a(aq),0],qP=a(aq),qA=a(bo),qB=a(a3),qC=a("*"),qD=a(a$),qv=[0,[0,[0,[0,[0,0]]]]],qw=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,0],qz=[0,[0,[0,[0,0]]]],qt=a('":'),qu=a(aq),qr=[0,a(aq),0],qs=a(aq),qp=[0,a("}"),0],qq=a("{"),qn=[0,a("]"),0],qo=a("["),ql=[0,0],qi=[0,[0,[0,0]]],qj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qg=[0,[0,0]],qh=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,[0,[0,0]]],p$=[0,[0,[0,0]]],qa=[0,[0,0]],p9=[0,0],p5=[0,[0,0]],p6=[0,0],p7=[0,0],p8=[0,[0,0]],pW=[0,[0,0]],pX=[0,0],pY=[0,[0,0]],pZ=[0,0],p0=[0,0],p1=[0,[0,0]],p2=[0,[0,0]],p3=[0,[0,0]],p4=[0,0],pS=[0,0],pQ=[0,[0,[0,0]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pM=[0,0],pN=[0,[0,[0,[0,[0,[0,0]]]]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],pK=[0,[0,[0,0]]],pA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,0]]],pD=[0,[0,[0,[0,[0,[0,0]]]]]],pE=[0,[0,[0,0]]],py=[0,[0,0]],pz=[0,0],po=[0,0,0],pj=[0,0],pk=[0,[0,0]],pl=[0,0],pm=[0,[0,0]],ph=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],pd=a(aG),pc=a(s),pb=[0,[0,0]],pa=[0,0],o$=[1,0],o_=[0,0],o9=[0,0],o7=[1,0],o8=[1,0],wu=a(eG),wv=a(ld),ww=a(lu),wx=a(kP),wy=a(eE),wz=a(k7),wA=a(eN),wB=[0,a(aq),0],wC=a('the evidence "'),wD=a(kF),wE=a(k5),wF=a(eE),wG=a(eN),wH=a(lK),wJ=a(eE),wK=a(eN),wL=a(gD),wM=a(gD),wI=[0,a("this evidence at control points"),0],w$=a(ls),xa=a(lc),xb=a(kz),xk=[0,3,3],xc=a(lg),xg=[0,a('the drive "arm" in a claim that is certified'),0],xh=[0,a("a step of a platform that turns that is not at control points"),0],xi=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xj=[0,a("a mechanism by formulas in a claim that is refuted"),0],xd=a(kj),xe=a(kV),xf=a(eC),w9=a(gO),wY=a(kg),wZ=a(lI),w2=a(b_),w3=a(gy),w4=a(kX),w5=a(eF),w6=a(lF),w7=a(eF),w0=[0,a(aq),0],w1=a('a proof of the kind "'),wT=a(lm),wU=a(lJ),wV=a(eM),wW=[0,a(aq),0],wX=a('the failure "'),wP=a(gy),wQ=[0,a("a leaf that fails"),0],wR=a(lb),wS=a(lL),wN=a(gO),wO=a(aG),ws=a(kT),wt=a(jR),v4=a(b8),v5=a(gA),v6=a(eH),v9=a(b7),v_=a(b6),v7=[0,a('" of such a platform'),0],v8=a(jY),vQ=a("rho"),vR=a(eM),vS=[0,a("a joint by its coordinate"),0],vu=a(bM),vo=a(b_),vp=a(kI),vs=a(j1),vt=a(kS),vv=a(c0),vw=a(c1),vx=a("bodies"),wr=[0,a("a machine with bodies"),0],vy=a(dH),vz=a(gJ),vA=a(ly),vB=a(gL),vC=a(j2),vD=a(kZ),vE=a(go),vH=a(ct),vI=a(lE),vL=a(bM),vM=a(lf),vN=a(kU),vO=a(kL),vP=a(ct),vT=a(bM),vU=a(bq),vV=a(bp),vW=a(kv),vX=a(kD),vY=a(lQ),vZ=a(k8),vF=[0,a(aq),0],vG=a(kM),v0=a(ct),v1=[0,a('" of a platform that turns'),0],v2=a(ky),v3=a(lB),wp=[0,a('" that does not turn'),0],wq=a(kM),v$=a(gL),wa=a(kx),wb=a(kf),wc=a(kG),wd=a(eI),we=a(lh),wf=a(eI),wm=a(kO),wn=a(j4),wo=a(k$),wg=a(dH),wh=a(gJ),wi=a(bM),wj=a(bq),wk=a(bp),wl=a(lH),vJ=[0,a(aq),0],vK=a(ky),vq=[0,a(aq),0],vr=a('a claim of the kind "'),vh=a(ct),vl=a(bq),vm=a(bp),vi=a(kd),vj=a(kk),vk=a(jP),vf=[0,a(lr),0],ve=[0,a(lr),0],u$=a(la),va=[0,a("a stiffness for each joint"),0],u_=a(eC),u3=a(lj),uR=a(lv),uS=a(eG),uT=a(lx),uU=a(jV),uV=a(kY),uW=a(lA),uX=a(lD),uY=a(lP),uZ=a(k1),u0=a(jW),u1=[0,a(aq),0],u2=a('the quantity "'),u4=a(j0),u5=a(bq),u6=a(bp),u7=a(kE),u8=[0,a(aq),0],u9=a('a bound "'),vb=a(ka),vc=a(kr),uK=a(eK),uL=a(eJ),uM=a(eR),uN=a(b7),uO=a(b6),uP=a(kn),uQ=a(kt),uH=a(b8),uI=a(eR),us=a(b8),ut=a(dH),uu=a(kJ),uv=a(eH),uy=a(gA),uz=a(b7),uA=a(b6),uB=a(eK),uC=a(eJ),uD=a(b7),uE=a(b6),uF=a(eO),uG=a(eO),uw=[0,a(aq),0],ux=a(jY),up=a(bo),uq=a(a3),un=a(" is not covered by the verified checker"),uo=a(s),ul=a(bq),um=a(bp),uh=a(s),ui=a(lR),uj=a(s),uk=a(s),ug=[1,0],ue=a("Reader.Malformed"),uf=a("Reader.Not_covered"),xm=a(ko),xn=a("CERTIFIED"),xo=a("REFUTED"),xp=a(ko),xq=a("NOT COVERED: ");function
-aa(a){if(typeof
+zD(){var
+a=u;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){mq(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)mq(a.error)})}zD();function
+e(a,b){return a.length==1?a(b):bS(a,[b])}function
+S(a,b,c){return a.length==2?a(b,c):bS(a,[b,c])}function
+gE(a,b,c,d,e,f){return a.length==5?a(b,c,d,e,f):bS(a,[b,c,d,e,f])}function
+yV(a,b,c,d,e,f,g,h){return a.length==7?a(b,c,d,e,f,g,h):bS(a,[b,c,d,e,f,g,h])}y_();var
+fe=[ap,a(l1),-1],ht=[ap,a(kt),-2],hq=[ap,a(gI),-3],hp=[ap,a(la),-4],hr=[ap,a(kM),-8],hs=[ap,a(lo),-9],W=[ap,a(lN),-11],hu=[ap,a(ka),-12],xZ=[4,0,0,0,[12,45,[4,0,0,0,0]]],fk=[0,[11,a('File "'),[2,0,[11,a('", line '),[4,0,0,0,[11,a(kR),[4,0,0,0,[12,45,[4,0,0,0,[11,a(": "),[2,0,0]]]]]]]]]],a('File "%s", line %d, characters %d-%d: %s')],x0=[0,0],x1=[0,[0,[0,[0,0]]]],x2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x1]]]]]]]]]]],x3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x2]]]]]]]]]]],x4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x3]]]]]]]]]]],x5=[0,[0,0]],x6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x5]]]]]]]]]]],x7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x6]]]]]]]]]]],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x7]]]]]]]]]]],x9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x8]]]]]]]]]]],x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x_]]]]]]]]]]],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x$]]]]]]]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ya]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yb]]]]]]]]]]],yd=[0,[0,0]],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yd]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ye]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yf]]]]]]]]]]],yh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yg]]]]]]]]]]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yh]]]]]]]]]]],yj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yi]]]]]]]]]]],yk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yj]]]]]]]]]]],yl=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ym=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yl]]]]]]]]]]],yn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ym]]]]]]]]]]],yo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yn]]]]]]]]]]],yp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yo]]]]]]]]]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yp]]]]]]]]]]],yr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yq]]]]]]]]]]],ys=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yr]]]]]]]]]]],yt=[0,0],yu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yt]]]]]]]]]]],yv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yu]]]]]]]]]]],yw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yv]]]]]]]]]]],yx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yw]]]]]]]]]]],yy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yx]]]]]]]]]]],yz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yy]]]]]]]]]]],yA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yz]]]]]]]]]]],yB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yA]]]]]]]]]]],yC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yB]]]]]]]]]]],yD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yC]]]]]]]]]]],yE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],yF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yE]]]]]]]]]]],yG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],yH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yG]]]]]]]]]]],yI=[0,[0,[0,[0,[0,0]]]]],yJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yI]]]]]]]]]]],yK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yJ]]]]]]]]]]],yL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yK]]]]]]]]]]],yM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yL]]]]]]]]]]],yN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yM]]]]]]]]]]],yO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yN]]]]]]]]]]],yP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yO]]]]]]]]]]],yQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yP]]]]]]]]]]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yQ]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yR]]]]]]]]]]],yT=[0,0],yU=[0,[0,[0,[0,[0,0]]]]],fG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],eu=[0,[0,[0,[0,0]]]];a6(11,hu,ka);a6(10,W,lN);a6(9,[ap,a(k5),-10],k5);a6(8,hs,lo);a6(7,hr,kM);a6(6,[ap,a(lk),-7],lk);a6(5,[ap,a(lC),-6],lC);a6(4,[ap,a(ky),-5],ky);a6(3,hp,la);a6(2,hq,gI);a6(1,ht,kt);a6(0,fe,l1);var
+mP=a("%.12g"),mO=a(ca),mM=a("true"),mN=a("false"),mQ=a("\\\\"),mR=a("\\'"),mS=a("\\b"),mT=a("\\t"),mU=a("\\n"),mV=a("\\r"),mY=a("String.blit / Bytes.blit_string"),mX=a("Bytes.blit"),mW=a("String.sub / Bytes.sub"),m0=a(s),mZ=a("String.concat"),m1=a("Array.init"),m4=a("Buffer.add: cannot grow buffer"),m3=[0,a(ly),93,2],m2=[0,a(ly),94,2],nb=a("%c"),nc=a("%s"),nd=a(j_),ne=a(kJ),nf=a(k8),ng=a(kh),nh=a("%f"),ni=a("%B"),nj=a("%{"),nk=a("%}"),nl=a("%("),nm=a("%)"),nn=a("%a"),no=a("%t"),np=a("%?"),nq=a("%r"),nr=a("%_r"),ns=[0,a(ao),850,23],nD=[0,a(ao),814,21],nv=[0,a(ao),815,21],nE=[0,a(ao),818,21],nw=[0,a(ao),819,21],nF=[0,a(ao),822,19],nx=[0,a(ao),823,19],nG=[0,a(ao),826,22],ny=[0,a(ao),827,22],nH=[0,a(ao),831,30],nz=[0,a(ao),832,30],nB=[0,a(ao),836,26],nt=[0,a(ao),837,26],nC=[0,a(ao),846,28],nu=[0,a(ao),847,28],nA=[0,a(ao),851,23],oK=a(k2),oI=[0,a(ao),1558,4],oJ=a("Printf: bad conversion %["),oL=[0,a(ao),1626,39],oM=[0,a(ao),1649,31],oN=[0,a(ao),1650,31],oO=a("Printf: bad conversion %_"),oP=a(kX),oQ=a(k$),oR=a(kX),oS=a(k$),oG=a(gM),oE=a("neg_infinity"),oF=a(lX),oD=a(ca),oy=[0,kq],om=a("%+nd"),on=a("% nd"),op=a("%+ni"),oq=a("% ni"),or=a("%nx"),os=a("%#nx"),ot=a("%nX"),ou=a("%#nX"),ov=a("%no"),ow=a("%#no"),ol=a("%nd"),oo=a(k8),ox=a("%nu"),n$=a("%+ld"),oa=a("% ld"),oc=a("%+li"),od=a("% li"),oe=a("%lx"),of=a("%#lx"),og=a("%lX"),oh=a("%#lX"),oi=a("%lo"),oj=a("%#lo"),n_=a("%ld"),ob=a(kJ),ok=a("%lu"),nY=a("%+Ld"),nZ=a("% Ld"),n1=a("%+Li"),n2=a("% Li"),n3=a("%Lx"),n4=a("%#Lx"),n5=a("%LX"),n6=a("%#LX"),n7=a("%Lo"),n8=a("%#Lo"),nX=a("%Ld"),n0=a(kh),n9=a("%Lu"),nL=a("%+d"),nM=a("% d"),nO=a("%+i"),nP=a("% i"),nQ=a("%x"),nR=a("%#x"),nS=a("%X"),nT=a("%#X"),nU=a("%o"),nV=a("%#o"),nK=a(gW),nN=a(j_),nW=a(k2),m5=a("@]"),m6=a("@}"),m7=a("@?"),m8=a("@\n"),m9=a("@."),m_=a("@@"),m$=a("@%"),na=a("@"),nI=a("CamlinternalFormat.Type_mismatch"),oW=a(s),oX=[0,[11,a(kf),[2,0,[2,0,0]]],a(", %s%s")],pk=[0,[11,a(gS),[2,0,[12,10,0]]],a(lK)],pl=[0,[11,a("Fatal error in uncaught exception handler: exception "),[2,0,[12,10,0]]],a("Fatal error in uncaught exception handler: exception %s\n")],pj=a("Fatal error: out of memory in uncaught exception handler"),ph=[0,[11,a(gS),[2,0,[12,10,0]]],a(lK)],pd=[0,[2,0,[12,10,0]],a("%s\n")],o7=a("Raised at"),o8=a("Re-raised at"),o9=a("Raised by primitive operation at"),o_=a("Called from"),o$=a(" (inlined)"),pb=a(s),pa=[0,[2,0,[12,32,[2,0,[11,a(' in file "'),[2,0,[12,34,[2,0,[11,a(", line "),[4,0,0,0,[11,a(kR),xZ]]]]]]]]]],a('%s %s in file "%s"%s, line %d, characters %d-%d')],pc=[0,[2,0,[11,a(" unknown location"),0]],a("%s unknown location")],o2=a("Out of memory"),o3=a("Stack overflow"),o4=a("Pattern matching failed"),o5=a("Assertion failed"),o6=a("Undefined recursive module"),oY=[0,[12,40,[2,0,[2,0,[12,41,0]]]],a("(%s%s)")],oZ=a(s),o0=a(s),o1=[0,[12,40,[2,0,[12,41,0]]],a("(%s)")],oV=[0,[4,0,0,0,0],a(gW)],oT=[0,[3,0,0],a("%S")],oU=a(le),pe=[0,a(s),a("(Cannot print locations:\n bytecode executable program file not found)"),a("(Cannot print locations:\n bytecode executable program file appears to be corrupt)"),a("(Cannot print locations:\n bytecode executable program file has wrong magic number)"),a("(Cannot print locations:\n bytecode executable program file cannot be opened;\n -- too many open files. Try running with OCAMLRUNPARAM=b=2)")],pn=a("Jsoo_runtime.Error.Exn"),pp=a("power"),pz=[0,0],pA=[0,[0,0]],pB=[0,[0,0]],pI=[0,0],pP=[0,0,0],pQ=[0,0,0],pR=[0,0],pS=[0,0],p0=[0,0],p2=[0,0],qc=[0,0],qd=[0,0],qy=[0,[0,[0,0]]],qK=a(","),q2=[0,a(gN),0],q3=a(lI),q4=a(ca),q5=[0,[0,[0,0]]],q6=a(a5),q7=a(gO),q8=[0,[0,[0,[0,[0,0]]]]],q9=[0,a(gN),0],q_=a(ma),tb=a(j$),td=a(lc),tc=a(lO),te=a(eR),tf=a(k_),tg=a(l5),th=a(lx),tV=[0,a(kK),7393,12],t9=a(gT),t_=[0,0],t$=a("divided"),ua=[0,1],ub=a("mirror"),uc=[0,3],ud=a("negative"),ue=[0,2],uf=a(g4),ug=[0,4],uh=a(eP),ui=a(lp),uj=a(e0),uk=[0,0],ul=[0,0],um=[0,0],uF=a(s),uC=[0,[0,[0,[0,0]]]],uD=[0,[0,[0,[0,0]]]],uA=[0,[0,[0,0]]],uy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x0]]]]]]]]]]],uw=[0,[0,0]],ux=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],uv=[0,[0,0]],ut=[0,[0,[0,0]]],uo=[0,[0,0]],up=[0,0],un=[0,0],t4=[0,[0,0]],t5=[0,0],t3=[0,0],t2=[0,0],t1=[0,0,0],tZ=[0,0,0],tY=[0,0],tQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x4]]]]]]]]]]],tR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,x9]]]]]]]]]]],tM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yc]]]]]]]]]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yk]]]]]]]]]]],tO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ys]]]]]]]]]]],tP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yD]]]]]]]]]]],tS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yF]]]]]]]]]]],tT=a("sqrt"),tK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yH]]]]]]]]]]],tL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yS]]]]]]]]]]],tz=[0,a("\n"),0],tA=a(ld),tB=a(eN),tC=a(kD),tD=a(lA),tE=a("certified"),tJ=a("refuted"),tF=a("verdict"),tG=a(kU),tH=a(lw),tI=a(lM),tr=a(l0),ts=a(eQ),tt=a(kA),tu=a(eS),tv=a(bf),tw=a(lf),tx=a(eQ),ty=a(l3),tn=a(lU),to=a(eS),tp=a(lv),tq=a(l6),tj=a(l4),tk=a(lG),tl=a(eZ),s$=a(ln),ta=a(k0),sP=a(eZ),su=a(bf),sv=a(bO),sw=a(c3),sx=a(gF),sy=a(c2),sz=a(bf),sA=a(bO),sB=a(g1),sC=a(bv),sD=a(bu),sE=a(cx),sF=a(c3),sG=a(lW),sH=a(l2),sI=a(c2),sJ=a(bf),sK=a(bO),sL=a(bv),sM=a(bu),sN=a(cx),sO=a(c3),sQ=a(kQ),sR=a(kY),sS=a(l$),sT=a(lq),sU=a(kk),sV=a(c2),sW=a(bf),sX=a(bO),sY=a(eU),sZ=a(lz),s0=a(c3),s1=a(k6),s2=a(lh),s3=a(c2),s4=a(bf),s5=a(eU),s6=a(bf),s7=a(kN),s_=a(lb),s8=a(kj),s9=a(k3),sp=a(bO),sq=a(c3),sr=a(gF),ss=a(c2),sg=a(kz),sh=a(k9),si=a(km),sj=a(lt),sk=a(k1),sl=a(kS),sm=a(lB),sn=a(eV),so=a(eV),sc=a(b_),sd=a(b9),se=a(eT),sf=a(b$),r_=a(dO),r$=a(gZ),sa=a(lS),r3=a(bv),r4=a(bu),r5=a(cx),r6=a(kE),r7=a(j9),r8=a(kx),r9=a(lZ),rW=a(lD),rX=a(ki),r2=a(eN),rY=a(lu),rZ=a(ku),r0=a(kL),r1=a(lP),rT=a(bu),rU=a(bv),rV=a(kZ),rK=a(ke),rL=a(lg),rM=a(lV),rN=a(eR),rO=a(l_),rP=a(lY),rQ=a(lj),rR=a(lR),rS=a(kd),rz=a(bt),rJ=a(a5),rA=a(eX),rB=a(eW),rC=a(e4),rD=a(b_),rE=a(b9),rF=a(kH),rG=a(kO),rH=a(e4),rI=a(b$),rh=a(bt),rp=a(a5),ri=a(eX),rj=a(eW),rk=a(b_),rl=a(b9),rm=a(e1),rn=a(k4),ro=a(b$),rq=a(gQ),rr=a(b_),rs=a(b9),rt=a(eT),ru=a(b$),rv=a(e1),rw=a(dO),rx=a(b$),re=a(bv),rf=a(bu),rc=[0,a(aq),0],rd=a(aq),ra=[0,a(kK),6744,36],q$=[0,a(aq),0],rb=a(aq),qY=a(bt),qZ=a(a5),q0=a("*"),q1=a(bd),qT=[0,[0,[0,[0,[0,0]]]]],qU=[0,[0,[0,0]]],qV=[0,[0,0]],qW=[0,0],qX=[0,[0,[0,[0,0]]]],qR=a('":'),qS=a(aq),qP=[0,a(aq),0],qQ=a(aq),qN=[0,a("}"),0],qO=a("{"),qL=[0,a("]"),0],qM=a("["),qJ=[0,[0,[0,0]]],qI=[0,[0,[0,0]]],qG=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qB=[0,[0,0]],qC=[0,[0,[0,0]]],qw=[0,[0,0]],qx=[0,[0,[0,0]]],qu=[0,[0,[0,0]]],qv=[0,[0,0]],qs=[0,0],qo=[0,[0,0]],qp=[0,0],qq=[0,0],qr=[0,[0,0]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,0],qj=[0,0],qk=[0,[0,0]],ql=[0,[0,0]],qm=[0,[0,0]],qn=[0,0],qb=[0,0],p$=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p7=[0,0],p8=[0,[0,[0,[0,[0,[0,0]]]]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yT]]]]]]]]]]],p5=[0,[0,[0,0]]],pV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pW=[0,[0,[0,[0,[0,[0,0]]]]]],pX=[0,[0,[0,0]]],pY=[0,[0,[0,[0,[0,[0,0]]]]]],pZ=[0,[0,[0,0]]],pT=[0,[0,0]],pU=[0,0],pJ=[0,0,0],pE=[0,0],pF=[0,[0,0]],pG=[0,0],pH=[0,[0,0]],pC=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,yU]]]]]]]]]]],py=a(aH),px=a(s),pw=[0,[0,0]],pv=[0,0],pu=[1,0],pt=[0,0],ps=[0,0],pq=[1,0],pr=[1,0],wy=a(b$),wz=a(gQ),wA=a(eT),wD=a(b_),wE=a(b9),wB=[0,a('" of such a platform'),0],wC=a(kg),wk=a("rho"),wl=a(eZ),wm=[0,a("a joint by its coordinate"),0],v0=a(bO),vP=a(bf),vQ=a(kN),vR=a(k3),vU=a(kj),vV=a(lb),vW=a(bf),vX=a(bf),vY=a(eU),vZ=[0,a("a claim that no cube of such a machine fits"),0],v1=a(c2),v2=a(c3),v3=a("bodies"),wX=[0,a("a machine with bodies"),0],v4=a(dO),v5=a(gZ),v6=a(lS),v7=a(g1),v8=a(kk),v9=a(lh),v_=a(gF),wb=a(cx),wc=a(lZ),wf=a(bO),wg=a(lz),wh=a(eU),wi=a(k6),wj=a(cx),wn=a(bO),wo=a(bv),wp=a(bu),wq=a(kQ),wr=a(kY),ws=a(l$),wt=a(lq),v$=[0,a(aq),0],wa=a(k7),wu=a(cx),wv=[0,a('" of a platform that turns'),0],ww=a(kT),wx=a(lW),wV=[0,a('" that does not turn'),0],wW=a(k7),wF=a(g1),wG=a(kS),wH=a(kz),wI=a(k1),wJ=a(eV),wK=a(lB),wL=a(eV),wS=a(k9),wT=a(km),wU=a(lt),wM=a(dO),wN=a(gZ),wO=a(bO),wP=a(bv),wQ=a(bu),wR=a(l2),wd=[0,a(aq),0],we=a(kT),vS=[0,a(aq),0],vT=a('a claim of the kind "'),w0=a(eR),w1=a(lx),w2=a(lO),w3=a(k_),w4=a(eP),w5=a(lp),w6=a(e0),w7=[0,a(aq),0],w8=a('the evidence "'),w9=a(k0),w_=a(ln),w$=a(eP),xa=a(e0),xb=a(l5),xd=a(eP),xe=a(e0),xf=a(gT),xg=a(gT),xc=[0,a("this evidence at control points"),0],xF=a(lM),xG=a(lw),xH=a(kU),xS=[0,3,3],xI=a(lA),xN=[0,a('the drive "arm" in a claim that is certified'),0],xO=[0,a("a step of a platform that turns that is not at control points"),0],xP=[0,a("this quantity of such a mechanism in a claim that is refuted"),0],xQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],xR=[0,a("a step in a proof that no cube fits"),0],xJ=[0,a("a leaf that fails"),0],xK=a(kD),xL=a(ld),xM=a(eN),xD=a(g4),xs=a(kA),xt=a(l3),xw=a(bf),xx=a(eS),xy=a(lf),xz=a(eQ),xA=a(l0),xB=a(eQ),xu=[0,a(aq),0],xv=a('a proof of the kind "'),xo=a(lU),xp=a(eS),xq=a(lv),xr=a(l6),xj=a(lG),xk=a(l4),xl=a(eZ),xm=[0,a(aq),0],xn=a('the failure "'),xh=a(g4),xi=a(aH),wY=a(lc),wZ=a(j$),vJ=a(cx),vN=a(bv),vO=a(bu),vK=a(kx),vL=a(kE),vM=a(j9),vH=[0,a(lL),0],vG=[0,a(lL),0],vB=a(lu),vC=[0,a("a stiffness for each joint"),0],vA=a(eN),vt=a(lD),vh=a(lP),vi=a(eR),vj=a(lR),vk=a(kd),vl=a(lg),vm=a(lV),vn=a(lY),vo=a(l_),vp=a(lj),vq=a(ke),vr=[0,a(aq),0],vs=a('the quantity "'),vu=a(ki),vv=a(bv),vw=a(bu),vx=a(kZ),vy=[0,a(aq),0],vz=a('a bound "'),vD=a(ku),vE=a(kL),va=a(eX),vb=a(eW),vc=a(e4),vd=a(b_),ve=a(b9),vf=a(kH),vg=a(kO),u9=a(b$),u_=a(e4),uU=a(b$),uV=a(dO),uW=a(k4),uX=a(eT),u0=a(gQ),u1=a(b_),u2=a(b9),u3=a(eX),u4=a(eW),u5=a(b_),u6=a(b9),u7=a(e1),u8=a(e1),uY=[0,a(aq),0],uZ=a(kg),uR=a(bt),uS=a(a5),uP=a(" is not covered by the verified checker"),uQ=a(s),uN=a(bv),uO=a(bu),uJ=a(s),uK=a(ma),uL=a(s),uM=a(s),uI=[1,0],uG=a("Reader.Malformed"),uH=a("Reader.Not_covered"),xU=a(kI),xV=a("CERTIFIED"),xW=a("REFUTED"),xX=a(kI),xY=a("NOT COVERED: ");function
+ab(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,aa(a[1])];case
-1:return[1,aa(a[1])];case
-2:return[2,aa(a[1])];case
-3:return[3,aa(a[1])];case
-4:return[4,aa(a[1])];case
-5:return[5,aa(a[1])];case
-6:return[6,aa(a[1])];case
-7:return[7,aa(a[1])];case
+0:return[0,ab(a[1])];case
+1:return[1,ab(a[1])];case
+2:return[2,ab(a[1])];case
+3:return[3,ab(a[1])];case
+4:return[4,ab(a[1])];case
+5:return[5,ab(a[1])];case
+6:return[6,ab(a[1])];case
+7:return[7,ab(a[1])];case
 8:var
-c=a[1];return[8,c,aa(a[2])];case
+c=a[1];return[8,c,ab(a[2])];case
 9:var
-b=a[1];return[9,b,b,aa(a[3])];case
-10:return[10,aa(a[1])];case
-11:return[11,aa(a[1])];case
-12:return[12,aa(a[1])];case
-13:return[13,aa(a[1])];default:return[14,aa(a[1])]}}function
-aF(a,b){if(typeof
+b=a[1];return[9,b,b,ab(a[3])];case
+10:return[10,ab(a[1])];case
+11:return[11,ab(a[1])];case
+12:return[12,ab(a[1])];case
+13:return[13,ab(a[1])];default:return[14,ab(a[1])]}}function
+aG(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,aF(a[1],b)];case
-1:return[1,aF(a[1],b)];case
-2:return[2,aF(a[1],b)];case
-3:return[3,aF(a[1],b)];case
-4:return[4,aF(a[1],b)];case
-5:return[5,aF(a[1],b)];case
-6:return[6,aF(a[1],b)];case
-7:return[7,aF(a[1],b)];case
+0:return[0,aG(a[1],b)];case
+1:return[1,aG(a[1],b)];case
+2:return[2,aG(a[1],b)];case
+3:return[3,aG(a[1],b)];case
+4:return[4,aG(a[1],b)];case
+5:return[5,aG(a[1],b)];case
+6:return[6,aG(a[1],b)];case
+7:return[7,aG(a[1],b)];case
 8:var
-c=a[1];return[8,c,aF(a[2],b)];case
+c=a[1];return[8,c,aG(a[2],b)];case
 9:var
-d=a[2],e=a[1];return[9,e,d,aF(a[3],b)];case
-10:return[10,aF(a[1],b)];case
-11:return[11,aF(a[1],b)];case
-12:return[12,aF(a[1],b)];case
-13:return[13,aF(a[1],b)];default:return[14,aF(a[1],b)]}}function
-U(a,b){if(typeof
+d=a[2],e=a[1];return[9,e,d,aG(a[3],b)];case
+10:return[10,aG(a[1],b)];case
+11:return[11,aG(a[1],b)];case
+12:return[12,aG(a[1],b)];case
+13:return[13,aG(a[1],b)];default:return[14,aG(a[1],b)]}}function
+V(a,b){if(typeof
 a==="number")return b;else
 switch(a[0]){case
-0:return[0,U(a[1],b)];case
-1:return[1,U(a[1],b)];case
+0:return[0,V(a[1],b)];case
+1:return[1,V(a[1],b)];case
 2:var
-c=a[1];return[2,c,U(a[2],b)];case
+c=a[1];return[2,c,V(a[2],b)];case
 3:var
-d=a[1];return[3,d,U(a[2],b)];case
+d=a[1];return[3,d,V(a[2],b)];case
 4:var
-e=a[3],f=a[2],g=a[1];return[4,g,f,e,U(a[4],b)];case
+e=a[3],f=a[2],g=a[1];return[4,g,f,e,V(a[4],b)];case
 5:var
-h=a[3],i=a[2],j=a[1];return[5,j,i,h,U(a[4],b)];case
+h=a[3],i=a[2],j=a[1];return[5,j,i,h,V(a[4],b)];case
 6:var
-k=a[3],l=a[2],m=a[1];return[6,m,l,k,U(a[4],b)];case
+k=a[3],l=a[2],m=a[1];return[6,m,l,k,V(a[4],b)];case
 7:var
-n=a[3],o=a[2],p=a[1];return[7,p,o,n,U(a[4],b)];case
+n=a[3],o=a[2],p=a[1];return[7,p,o,n,V(a[4],b)];case
 8:var
-q=a[3],r=a[2],s=a[1];return[8,s,r,q,U(a[4],b)];case
+q=a[3],r=a[2],s=a[1];return[8,s,r,q,V(a[4],b)];case
 9:var
-t=a[1];return[9,t,U(a[2],b)];case
-10:return[10,U(a[1],b)];case
+t=a[1];return[9,t,V(a[2],b)];case
+10:return[10,V(a[1],b)];case
 11:var
-u=a[1];return[11,u,U(a[2],b)];case
+u=a[1];return[11,u,V(a[2],b)];case
 12:var
-v=a[1];return[12,v,U(a[2],b)];case
+v=a[1];return[12,v,V(a[2],b)];case
 13:var
-w=a[2],x=a[1];return[13,x,w,U(a[3],b)];case
+w=a[2],x=a[1];return[13,x,w,V(a[3],b)];case
 14:var
-y=a[2],z=a[1];return[14,z,y,U(a[3],b)];case
-15:return[15,U(a[1],b)];case
-16:return[16,U(a[1],b)];case
+y=a[2],z=a[1];return[14,z,y,V(a[3],b)];case
+15:return[15,V(a[1],b)];case
+16:return[16,V(a[1],b)];case
 17:var
-A=a[1];return[17,A,U(a[2],b)];case
+A=a[1];return[17,A,V(a[2],b)];case
 18:var
-B=a[1];return[18,B,U(a[2],b)];case
-19:return[19,U(a[1],b)];case
+B=a[1];return[18,B,V(a[2],b)];case
+19:return[19,V(a[1],b)];case
 20:var
-C=a[2],D=a[1];return[20,D,C,U(a[3],b)];case
+C=a[2],D=a[1];return[20,D,C,V(a[3],b)];case
 21:var
-E=a[1];return[21,E,U(a[2],b)];case
-22:return[22,U(a[1],b)];case
+E=a[1];return[21,E,V(a[2],b)];case
+22:return[22,V(a[1],b)];case
 23:var
-F=a[1];return[23,F,U(a[2],b)];default:var
-G=a[2],H=a[1];return[24,H,G,U(a[3],b)]}}function
-bT(a){throw[0,g$,a]}function
-dR(a){return 0<=a?a:-a|0}function
+F=a[1];return[23,F,V(a[2],b)];default:var
+G=a[2],H=a[1];return[24,H,G,V(a[3],b)]}}function
+bV(a){throw[0,hp,a]}function
+dY(a){return 0<=a?a:-a|0}function
 as(d,c){var
-a=y(d),e=y(c),b=ak(a+e|0);bu(d,0,b,0,a);bu(c,0,b,a,e);return aE(b)}function
-mq(a){return a?mr:ms}yY(0);ma(1);var
-by=ma(2);function
-c8(b,a){return mb(b,a,0,y(a))}function
-hf(a){c8(by,a);mc(by,10);return c5(by)}function
-e4(b){function
+a=y(d),e=y(c),b=al(a+e|0);bz(d,0,b,0,a);bz(c,0,b,a,e);return aF(b)}function
+mL(a){return a?mM:mN}zu(0);mv(1);var
+bD=mv(2);function
+c_(b,a){return mw(b,a,0,y(a))}function
+hv(a){c_(bD,a);mx(bD,10);return c7(bD)}function
+ff(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{c5(d)}catch(a){a=e1(a);if(a[1]!==hd)throw a;var
+c=a[2],d=a[1];try{c7(d)}catch(a){a=fc(a);if(a[1]!==ht)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(yZ(0))}g3(a(jT),e4);var
-c9=(4*y9(0)|0)-1|0;function
-cy(c){var
+a=c;continue}return 0}}return a(zv(0))}hh(a(kb),ff);var
+c$=(4*zF(0)|0)-1|0;function
+cC(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-Y(b,a){if(a){var
-c=a[2],d=e(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-hg(d,c){var
+Z(b,a){if(a){var
+c=a[2],d=e(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+hw(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b){var
 a=f;continue}return b}return 1}}function
-hh(d,c){var
+dZ(d,c){var
 a=c;for(;;){if(a){var
 f=a[2],b=e(d,a[1]);if(b)return b;var
 a=f;continue}return 0}}function
-cc(a,c){var
-b=ak(a);yA(b,0,a,c);return b}function
-hi(c,b,a){if(0<=b&&0<=a&&!((aS(c)-a|0)<b)){var
-d=ak(a);ca(c,b,d,0,a);return d}return bT(mB)}function
-hj(c,b,a){return aE(hi(c,b,a))}function
-hk(e,c,d,b,a){if(0<=a&&0<=c&&!((aS(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return ca(e,c,d,b,a);return bT(mC)}function
-bz(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aS(d)-a|0)<b))return bu(e,c,d,b,a);return bT(mD)}function
-aY(b,a){return aE(cc(b,a))}function
-c_(c,b,a){return aE(hi(bP(c),b,a))}function
-hl(k,g){if(g){var
+ce(a,c){var
+b=al(a);y8(b,0,a,c);return b}function
+hx(c,b,a){if(0<=b&&0<=a&&!((aV(c)-a|0)<b)){var
+d=al(a);cc(c,b,d,0,a);return d}return bV(mW)}function
+hy(c,b,a){return aF(hx(c,b,a))}function
+hz(e,c,d,b,a){if(0<=a&&0<=c&&!((aV(e)-a|0)<c)&&0<=b&&!((aV(d)-a|0)<b))return cc(e,c,d,b,a);return bV(mX)}function
+bE(e,c,d,b,a){if(0<=a&&0<=c&&!((y(e)-a|0)<c)&&0<=b&&!((aV(d)-a|0)<b))return bz(e,c,d,b,a);return bV(mY)}function
+a1(b,a){return aF(ce(b,a))}function
+da(c,b,a){return aF(hx(bR(c),b,a))}function
+hA(k,g){if(g){var
 h=y(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bT(mE),c=n,b=m;continue}var
+j=(y(i)+h|0)+c|0,m=b[2],n=c<=j?j:bV(mZ),c=n,b=m;continue}var
 l=y(i)+c|0}else
 var
 l=c;var
-f=ak(l),e=p,d=g;for(;;){if(d){var
+f=al(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];bu(a,0,f,e,y(a));bu(k,0,f,e+y(a)|0,h);var
-e=(e+y(a)|0)+h|0,d=o;continue}bu(a,0,f,e,y(a))}return aE(f)}}}return mF}function
-hm(b,c){if(0===b)return[0];if(0<=b){var
-d=yW(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
+o=d[2];bz(a,0,f,e,y(a));bz(k,0,f,e+y(a)|0,h);var
+e=(e+y(a)|0)+h|0,d=o;continue}bz(a,0,f,e,y(a))}return aF(f)}}}return m0}function
+hB(b,c){if(0===b)return[0];if(0<=b){var
+d=zs(b,e(c,0)),f=b-1|0,g=1;if(!(f<1)){var
 a=g;for(;;){d[1+a]=e(c,a);var
 h=a+1|0;if(f!==a){var
-a=h;continue}break}}return d}return bT(mG)}function
-hn(c){var
+a=h;continue}break}}return d}return bV(m1)}function
+hC(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}function
-ho(a,c){var
-d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c9<b[1]){if(!((d+c|0)<=c9))throw[0,ha,mJ];b[1]=c9}var
-e=ak(b[1]);hk(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,V,mH]}throw[0,V,mI]}}function
-c$(a,c){var
-b=y(c),d=a[2]+b|0;if(a[3]<d)ho(a,b);bu(c,0,a[1],a[2],b);a[2]=d;return 0}function
-e5(a){return 5===a[2]?12:-6}function
-hp(a){return[0,0,ak(a)]}function
-hq(a,h){var
-b=aS(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
-e=b*2|0,i=c<=e?e:c,f=ak(i);hk(a[2],0,f,0,b);a[2]=f;var
+hD(a,c){var
+d=a[2],b=[0,a[3]];for(;;){if(b[1]<(d+c|0)){b[1]=2*b[1]|0;continue}if(c$<b[1]){if(!((d+c|0)<=c$))throw[0,hq,m4];b[1]=c$}var
+e=al(b[1]);hz(a[1],0,e,0,a[2]);a[1]=e;a[3]=b[1];if((a[2]+c|0)<=a[3]){if((d+c|0)<=a[3])return 0;throw[0,W,m2]}throw[0,W,m3]}}function
+db(a,c){var
+b=y(c),d=a[2]+b|0;if(a[3]<d)hD(a,b);bz(c,0,a[1],a[2],b);a[2]=d;return 0}function
+fg(a){return 5===a[2]?12:-6}function
+hE(a){return[0,0,al(a)]}function
+hF(a,h){var
+b=aV(a[2]),c=a[1]+h|0,d=b<c?1:0;if(d){var
+e=b*2|0,i=c<=e?e:c,f=al(i);hz(a[2],0,f,0,b);a[2]=f;var
 g=0}else
 var
 g=d;return g}function
-cz(a,b){hq(a,1);cu(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
-ay(a,c){var
-b=y(c);hq(a,b);bz(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
-hr(a){return hj(a[2],0,a[1])}function
-hs(a){if(typeof
+cD(a,b){hF(a,1);cy(a[2],a[1],b);a[1]=a[1]+1|0;return 0}function
+az(a,c){var
+b=y(c);hF(a,b);bE(c,0,a[2],a[1],b);a[1]=a[1]+b|0;return 0}function
+hG(a){return hy(a[2],0,a[1])}function
+hH(a){if(typeof
 a==="number")switch(a){case
-0:return mK;case
-1:return mL;case
-2:return mM;case
-3:return mN;case
-4:return mO;case
-5:return mP;default:return mQ}else
+0:return m5;case
+1:return m6;case
+2:return m7;case
+3:return m8;case
+4:return m9;case
+5:return m_;default:return m$}else
 switch(a[0]){case
 0:return a[1];case
-1:return a[1];default:return as(mR,aY(1,a[1]))}}function
-e6(b,c){var
+1:return a[1];default:return as(na,a1(1,a[1]))}}function
+fh(b,c){var
 a=c;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-d=a[1];ay(b,mS);var
+d=a[1];az(b,nb);var
 a=d;continue;case
 1:var
-e=a[1];ay(b,mT);var
+e=a[1];az(b,nc);var
 a=e;continue;case
 2:var
-f=a[1];ay(b,mU);var
+f=a[1];az(b,nd);var
 a=f;continue;case
 3:var
-g=a[1];ay(b,mV);var
+g=a[1];az(b,ne);var
 a=g;continue;case
 4:var
-h=a[1];ay(b,mW);var
+h=a[1];az(b,nf);var
 a=h;continue;case
 5:var
-i=a[1];ay(b,mX);var
+i=a[1];az(b,ng);var
 a=i;continue;case
 6:var
-j=a[1];ay(b,mY);var
+j=a[1];az(b,nh);var
 a=j;continue;case
 7:var
-k=a[1];ay(b,mZ);var
+k=a[1];az(b,ni);var
 a=k;continue;case
 8:var
-l=a[2],m=a[1];ay(b,m0);e6(b,m);ay(b,m1);var
+l=a[2],m=a[1];az(b,nj);fh(b,m);az(b,nk);var
 a=l;continue;case
 9:var
-n=a[3],o=a[1];ay(b,m2);e6(b,o);ay(b,m3);var
+n=a[3],o=a[1];az(b,nl);fh(b,o);az(b,nm);var
 a=n;continue;case
 10:var
-p=a[1];ay(b,m4);var
+p=a[1];az(b,nn);var
 a=p;continue;case
 11:var
-q=a[1];ay(b,m5);var
+q=a[1];az(b,no);var
 a=q;continue;case
 12:var
-r=a[1];ay(b,m6);var
+r=a[1];az(b,np);var
 a=r;continue;case
 13:var
-s=a[1];ay(b,m7);var
+s=a[1];az(b,nq);var
 a=s;continue;default:var
-t=a[1];ay(b,m8);var
+t=a[1];az(b,nr);var
 a=t;continue}}function
-ah(a){if(typeof
+ak(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,ah(a[1])];case
-1:return[1,ah(a[1])];case
-2:return[2,ah(a[1])];case
-3:return[3,ah(a[1])];case
-4:return[4,ah(a[1])];case
-5:return[5,ah(a[1])];case
-6:return[6,ah(a[1])];case
-7:return[7,ah(a[1])];case
+0:return[0,ak(a[1])];case
+1:return[1,ak(a[1])];case
+2:return[2,ak(a[1])];case
+3:return[3,ak(a[1])];case
+4:return[4,ak(a[1])];case
+5:return[5,ak(a[1])];case
+6:return[6,ak(a[1])];case
+7:return[7,ak(a[1])];case
 8:var
-b=a[1];return[8,b,ah(a[2])];case
+b=a[1];return[8,b,ak(a[2])];case
 9:var
-c=a[2],d=a[1];return[9,c,d,ah(a[3])];case
-10:return[10,ah(a[1])];case
-11:return[11,ah(a[1])];case
-12:return[12,ah(a[1])];case
-13:return[13,ah(a[1])];default:return[14,ah(a[1])]}}function
-az(a){if(typeof
+c=a[2],d=a[1];return[9,c,d,ak(a[3])];case
+10:return[10,ak(a[1])];case
+11:return[11,ak(a[1])];case
+12:return[12,ak(a[1])];case
+13:return[13,ak(a[1])];default:return[14,ak(a[1])]}}function
+aA(a){if(typeof
 a==="number"){var
 s=function(a){return 0},t=function(a){return 0},u=function(a){return 0};return[0,function(a){return 0},u,t,s]}else
 switch(a[0]){case
 0:var
-b=az(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
+b=aA(a[1]),v=b[4],w=b[3],x=b[2],y=b[1],z=function(a){e(x,0);return 0};return[0,function(a){e(y,0);return 0},z,w,v];case
 1:var
-c=az(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
+c=aA(a[1]),A=c[4],B=c[3],C=c[2],D=c[1],E=function(a){e(C,0);return 0};return[0,function(a){e(D,0);return 0},E,B,A];case
 2:var
-d=az(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
+d=aA(a[1]),F=d[4],G=d[3],H=d[2],I=d[1],J=function(a){e(H,0);return 0};return[0,function(a){e(I,0);return 0},J,G,F];case
 3:var
-f=az(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
+f=aA(a[1]),K=f[4],L=f[3],M=f[2],N=f[1],O=function(a){e(M,0);return 0};return[0,function(a){e(N,0);return 0},O,L,K];case
 4:var
-g=az(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
+g=aA(a[1]),P=g[4],Q=g[3],R=g[2],S=g[1],T=function(a){e(R,0);return 0};return[0,function(a){e(S,0);return 0},T,Q,P];case
 5:var
-h=az(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
+h=aA(a[1]),U=h[4],V=h[3],W=h[2],X=h[1],Y=function(a){e(W,0);return 0};return[0,function(a){e(X,0);return 0},Y,V,U];case
 6:var
-i=az(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
+i=aA(a[1]),Z=i[4],_=i[3],$=i[2],aa=i[1],ab=function(a){e($,0);return 0};return[0,function(a){e(aa,0);return 0},ab,_,Z];case
 7:var
-j=az(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
+j=aA(a[1]),ac=j[4],ad=j[3],ae=j[2],af=j[1],ag=function(a){e(ae,0);return 0};return[0,function(a){e(af,0);return 0},ag,ad,ac];case
 8:var
-k=az(a[2]),ai=k[4],aj=k[3],ak=k[2],al=k[1],an=function(a){e(ak,0);return 0};return[0,function(a){e(al,0);return 0},an,aj,ai];case
+k=aA(a[2]),ah=k[4],ai=k[3],aj=k[2],al=k[1],an=function(a){e(aj,0);return 0};return[0,function(a){e(al,0);return 0},an,ai,ah];case
 9:var
-ao=a[2],ap=a[1],l=az(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=az(am(ah(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},aA=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,aA,ay];case
+ao=a[2],ap=a[1],l=aA(a[3]),aq=l[4],ar=l[3],as=l[2],at=l[1],m=aA(am(ak(ap),ao)),au=m[4],av=m[3],aw=m[2],ax=m[1],ay=function(a){e(au,0);e(aq,0);return 0},az=function(a){e(ar,0);e(av,0);return 0},aB=function(a){e(aw,0);e(as,0);return 0};return[0,function(a){e(at,0);e(ax,0);return 0},aB,az,ay];case
 10:var
-n=az(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
+n=aA(a[1]),aC=n[4],aD=n[3],aE=n[2],aF=n[1],aG=function(a){e(aE,0);return 0};return[0,function(a){e(aF,0);return 0},aG,aD,aC];case
 11:var
-o=az(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
+o=aA(a[1]),aH=o[4],aI=o[3],aJ=o[2],aK=o[1],aL=function(a){e(aJ,0);return 0};return[0,function(a){e(aK,0);return 0},aL,aI,aH];case
 12:var
-p=az(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
+p=aA(a[1]),aM=p[4],aN=p[3],aO=p[2],aP=p[1],aQ=function(a){e(aO,0);return 0};return[0,function(a){e(aP,0);return 0},aQ,aN,aM];case
 13:var
-q=az(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
-r=az(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
+q=aA(a[1]),aR=q[4],aS=q[3],aT=q[2],aU=q[1],aV=function(a){e(aR,0);return 0},aW=function(a){e(aS,0);return 0},aX=function(a){e(aT,0);return 0};return[0,function(a){e(aU,0);return 0},aX,aW,aV];default:var
+r=aA(a[1]),aY=r[4],aZ=r[3],a0=r[2],a1=r[1],a2=function(a){e(aY,0);return 0},a3=function(a){e(aZ,0);return 0},a4=function(a){e(a0,0);return 0};return[0,function(a){e(a1,0);return 0},a4,a3,a2]}}function
 am(c,b){var
 a=0;if(typeof
 c==="number")if(typeof
@@ -1072,7 +1072,7 @@ switch(b[0]){case
 13:a=3;break;case
 14:a=4;break;case
 8:a=5;break;case
-9:a=6;break;default:throw[0,V,m9]}else
+9:a=6;break;default:throw[0,W,ns]}else
 switch(c[0]){case
 0:var
 d=0,t=c[1];if(typeof
@@ -1178,35 +1178,35 @@ D=b[1],E=am(B,b[2]);return[8,am(C,D),E];case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:m=1}if(m)throw[0,V,ng];break;case
+14:a=4;break;default:m=1}if(m)throw[0,W,nB];break;case
 9:var
 n=0,F=c[3],G=c[2],H=c[1];if(typeof
 b==="number")n=1;else
 switch(b[0]){case
 8:a=5;break;case
 9:var
-I=b[3],J=b[2],K=b[1],s=az(am(ah(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
+I=b[3],J=b[2],K=b[1],s=aA(am(ak(G),K)),L=s[4];e(s[2],0);e(L,0);return[9,H,J,am(F,I)];case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:a=4;break;default:n=1}if(n)throw[0,V,nh];break;case
+14:a=4;break;default:n=1}if(n)throw[0,W,nC];break;case
 10:var
 M=c[1];if(typeof
-b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,V,ni];case
+b!=="number"&&10===b[0])return[10,am(M,b[1])];throw[0,W,nD];case
 11:var
 o=0,N=c[1];if(typeof
 b==="number")o=1;else
 switch(b[0]){case
 10:break;case
-11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,V,nj];break;case
+11:return[11,am(N,b[1])];default:o=1}if(o)throw[0,W,nE];break;case
 12:var
 p=0,O=c[1];if(typeof
 b==="number")p=1;else
 switch(b[0]){case
 10:break;case
 11:a=1;break;case
-12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,V,nk];break;case
+12:return[12,am(O,b[1])];default:p=1}if(p)throw[0,W,nF];break;case
 13:var
 q=0,P=c[1];if(typeof
 b==="number")q=1;else
@@ -1214,7 +1214,7 @@ switch(b[0]){case
 10:break;case
 11:a=1;break;case
 12:a=2;break;case
-13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,V,nl];break;default:var
+13:return[13,am(P,b[1])];default:q=1}if(q)throw[0,W,nG];break;default:var
 r=0,Q=c[1];if(typeof
 b==="number")r=1;else
 switch(b[0]){case
@@ -1222,206 +1222,206 @@ switch(b[0]){case
 11:a=1;break;case
 12:a=2;break;case
 13:a=3;break;case
-14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,V,nm]}switch(a){case
-0:throw[0,V,na];case
-1:throw[0,V,nb];case
-2:throw[0,V,nc];case
-3:throw[0,V,nd];case
-4:throw[0,V,ne];case
-5:throw[0,V,m_];case
-6:throw[0,V,m$];default:throw[0,V,nf]}}var
-at=[ap,nn,eU(0)];function
-dS(b,a){if(typeof
+14:return[14,am(Q,b[1])];default:r=1}if(r)throw[0,W,nH]}switch(a){case
+0:throw[0,W,nv];case
+1:throw[0,W,nw];case
+2:throw[0,W,nx];case
+3:throw[0,W,ny];case
+4:throw[0,W,nz];case
+5:throw[0,W,nt];case
+6:throw[0,W,nu];default:throw[0,W,nA]}}var
+at=[ap,nI,e7(0)];function
+d0(b,a){if(typeof
 b==="number")return[0,0,a];else{if(0===b[0])return[0,[0,b[1],b[2]],a];if(typeof
 a!=="number"&&2===a[0])return[0,[1,b[1]],a[1]];throw at}}function
-da(e,b,d){var
-a=dS(e,d);if(typeof
+dc(e,b,d){var
+a=d0(e,d);if(typeof
 b==="number"){if(b){var
 c=a[2];if(typeof
 c!=="number"&&2===c[0])return[0,a[1],1,c[1]];throw at}return[0,a[1],0,a[2]]}return[0,a[1],[0,b[1]],a[2]]}function
-aI(b,c,a){if(typeof
-b==="number")return[0,0,L(c,a)];else
+aJ(b,c,a){if(typeof
+b==="number")return[0,0,O(c,a)];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-g=aI(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
+g=aJ(b[1],c,a[1]);return[0,[0,g[1]],g[2]]}break;case
 1:if(typeof
 a!=="number"&&1===a[0]){var
-h=aI(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
+h=aJ(b[1],c,a[1]);return[0,[1,h[1]],h[2]]}break;case
 2:if(typeof
 a!=="number"&&2===a[0]){var
-i=aI(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
+i=aJ(b[1],c,a[1]);return[0,[2,i[1]],i[2]]}break;case
 3:if(typeof
 a!=="number"&&3===a[0]){var
-j=aI(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
+j=aJ(b[1],c,a[1]);return[0,[3,j[1]],j[2]]}break;case
 4:if(typeof
 a!=="number"&&4===a[0]){var
-k=aI(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
+k=aJ(b[1],c,a[1]);return[0,[4,k[1]],k[2]]}break;case
 5:if(typeof
 a!=="number"&&5===a[0]){var
-l=aI(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
+l=aJ(b[1],c,a[1]);return[0,[5,l[1]],l[2]]}break;case
 6:if(typeof
 a!=="number"&&6===a[0]){var
-m=aI(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
+m=aJ(b[1],c,a[1]);return[0,[6,m[1]],m[2]]}break;case
 7:if(typeof
 a!=="number"&&7===a[0]){var
-n=aI(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
+n=aJ(b[1],c,a[1]);return[0,[7,n[1]],n[2]]}break;case
 8:if(typeof
 a!=="number"&&8===a[0]){var
-o=a[1],w=a[2],x=b[2];if(dP([0,b[1]],[0,o]))throw at;var
-p=aI(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
+o=a[1],w=a[2],x=b[2];if(dW([0,b[1]],[0,o]))throw at;var
+p=aJ(x,c,w);return[0,[8,o,p[1]],p[2]]}break;case
 9:if(typeof
 a!=="number"&&9===a[0]){var
-d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,aa(f)];if(dP([0,aa(B)],C))throw at;var
-D=[0,aa(d)];if(dP([0,aa(A)],D))throw at;var
-q=az(am(ah(f),d)),E=q[4];e(q[2],0);e(E,0);var
-r=aI(aa(z),c,y),F=r[2];return[0,[9,f,d,ah(r[1])],F]}break;case
+d=a[2],f=a[1],y=a[3],z=b[3],A=b[2],B=b[1],C=[0,ab(f)];if(dW([0,ab(B)],C))throw at;var
+D=[0,ab(d)];if(dW([0,ab(A)],D))throw at;var
+q=aA(am(ak(f),d)),E=q[4];e(q[2],0);e(E,0);var
+r=aJ(ab(z),c,y),F=r[2];return[0,[9,f,d,ak(r[1])],F]}break;case
 10:if(typeof
 a!=="number"&&10===a[0]){var
-s=aI(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
+s=aJ(b[1],c,a[1]);return[0,[10,s[1]],s[2]]}break;case
 11:if(typeof
 a!=="number"&&11===a[0]){var
-t=aI(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
+t=aJ(b[1],c,a[1]);return[0,[11,t[1]],t[2]]}break;case
 13:if(typeof
 a!=="number"&&13===a[0]){var
-u=aI(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
+u=aJ(b[1],c,a[1]);return[0,[13,u[1]],u[2]]}break;case
 14:if(typeof
 a!=="number"&&14===a[0]){var
-v=aI(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
-L(b,a){if(typeof
+v=aJ(b[1],c,a[1]);return[0,[14,v[1]],v[2]]}break}throw at}function
+O(b,a){if(typeof
 b==="number")return[0,0,a];else
 switch(b[0]){case
 0:if(typeof
 a!=="number"&&0===a[0]){var
-s=L(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
+s=O(b[1],a[1]);return[0,[0,s[1]],s[2]]}break;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-t=L(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
+t=O(b[1],a[1]);return[0,[1,t[1]],t[2]]}break;case
 2:var
-ac=b[2],u=dS(b[1],a),e=u[2],ad=u[1];if(typeof
+ac=b[2],u=d0(b[1],a),e=u[2],ad=u[1];if(typeof
 e!=="number"&&1===e[0]){var
-v=L(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
+v=O(ac,e[1]);return[0,[2,ad,v[1]],v[2]]}throw at;case
 3:var
-ae=b[2],w=dS(b[1],a),f=w[2],af=w[1];if(typeof
+ae=b[2],w=d0(b[1],a),f=w[2],af=w[1];if(typeof
 f!=="number"&&1===f[0]){var
-x=L(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
+x=O(ae,f[1]);return[0,[3,af,x[1]],x[2]]}throw at;case
 4:var
-ag=b[4],ah=b[1],g=da(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
+ag=b[4],ah=b[1],g=dc(b[2],b[3],a),h=g[3],ai=g[1];if(typeof
 h!=="number"&&2===h[0]){var
-aj=g[2],y=L(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
+aj=g[2],y=O(ag,h[1]);return[0,[4,ah,ai,aj,y[1]],y[2]]}throw at;case
 5:var
-ak=b[4],al=b[1],i=da(b[2],b[3],a),j=i[3],am=i[1];if(typeof
+ak=b[4],al=b[1],i=dc(b[2],b[3],a),j=i[3],am=i[1];if(typeof
 j!=="number"&&3===j[0]){var
-an=i[2],z=L(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
+an=i[2],z=O(ak,j[1]);return[0,[5,al,am,an,z[1]],z[2]]}throw at;case
 6:var
-ao=b[4],ap=b[1],k=da(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
+ao=b[4],ap=b[1],k=dc(b[2],b[3],a),l=k[3],aq=k[1];if(typeof
 l!=="number"&&4===l[0]){var
-ar=k[2],A=L(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
+ar=k[2],A=O(ao,l[1]);return[0,[6,ap,aq,ar,A[1]],A[2]]}throw at;case
 7:var
-as=b[4],au=b[1],m=da(b[2],b[3],a),n=m[3],av=m[1];if(typeof
+as=b[4],au=b[1],m=dc(b[2],b[3],a),n=m[3],av=m[1];if(typeof
 n!=="number"&&5===n[0]){var
-aw=m[2],B=L(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
+aw=m[2],B=O(as,n[1]);return[0,[7,au,av,aw,B[1]],B[2]]}throw at;case
 8:var
-ax=b[4],ay=b[1],o=da(b[2],b[3],a),p=o[3],az=o[1];if(typeof
+ax=b[4],ay=b[1],o=dc(b[2],b[3],a),p=o[3],az=o[1];if(typeof
 p!=="number"&&6===p[0]){var
-aA=o[2],C=L(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
+aA=o[2],C=O(ax,p[1]);return[0,[8,ay,az,aA,C[1]],C[2]]}throw at;case
 9:var
-aB=b[2],D=dS(b[1],a),q=D[2],aC=D[1];if(typeof
+aB=b[2],D=d0(b[1],a),q=D[2],aC=D[1];if(typeof
 q!=="number"&&7===q[0]){var
-E=L(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
+E=O(aB,q[1]);return[0,[9,aC,E[1]],E[2]]}throw at;case
 10:var
-F=L(b[1],a);return[0,[10,F[1]],F[2]];case
+F=O(b[1],a);return[0,[10,F[1]],F[2]];case
 11:var
-aD=b[1],G=L(b[2],a);return[0,[11,aD,G[1]],G[2]];case
+aD=b[1],G=O(b[2],a);return[0,[11,aD,G[1]],G[2]];case
 12:var
-aE=b[1],H=L(b[2],a);return[0,[12,aE,H[1]],H[2]];case
+aE=b[1],H=O(b[2],a);return[0,[12,aE,H[1]],H[2]];case
 13:if(typeof
 a!=="number"&&8===a[0]){var
-I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dP([0,b[2]],[0,I]))throw at;var
-J=L(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
+I=a[1],aF=a[2],aG=b[3],aH=b[1];if(dW([0,b[2]],[0,I]))throw at;var
+J=O(aG,aF);return[0,[13,aH,I,J[1]],J[2]]}break;case
 14:if(typeof
 a!=="number"&&9===a[0]){var
-K=a[1],aJ=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,aa(K)];if(dP([0,aa(aL)],aN))throw at;var
-M=L(aK,aa(aJ));return[0,[14,aM,K,M[1]],M[2]]}break;case
+K=a[1],aI=a[3],aK=b[3],aL=b[2],aM=b[1],aN=[0,ab(K)];if(dW([0,ab(aL)],aN))throw at;var
+L=O(aK,ab(aI));return[0,[14,aM,K,L[1]],L[2]]}break;case
 15:if(typeof
 a!=="number"&&10===a[0]){var
-N=L(b[1],a[1]);return[0,[15,N[1]],N[2]]}break;case
+M=O(b[1],a[1]);return[0,[15,M[1]],M[2]]}break;case
 16:if(typeof
 a!=="number"&&11===a[0]){var
-O=L(b[1],a[1]);return[0,[16,O[1]],O[2]]}break;case
+N=O(b[1],a[1]);return[0,[16,N[1]],N[2]]}break;case
 17:var
-aP=b[1],P=L(b[2],a);return[0,[17,aP,P[1]],P[2]];case
+aO=b[1],P=O(b[2],a);return[0,[17,aO,P[1]],P[2]];case
 18:var
 Q=b[2],r=b[1];if(0===r[0]){var
-U=r[1],aT=U[2],V=L(U[1],a),aU=V[1],W=L(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
-X=r[1],aV=X[2],Y=L(X[1],a),aW=Y[1],Z=L(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
+U=r[1],aT=U[2],V=O(U[1],a),aU=V[1],W=O(Q,V[2]);return[0,[18,[0,[0,aU,aT]],W[1]],W[2]]}var
+X=r[1],aV=X[2],Y=O(X[1],a),aW=Y[1],Z=O(Q,Y[2]);return[0,[18,[1,[0,aW,aV]],Z[1]],Z[2]];case
 19:if(typeof
 a!=="number"&&13===a[0]){var
-R=L(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
+R=O(b[1],a[1]);return[0,[19,R[1]],R[2]]}break;case
 20:if(typeof
 a!=="number"&&1===a[0]){var
-aQ=b[2],aR=b[1],S=L(b[3],a[1]);return[0,[20,aR,aQ,S[1]],S[2]]}break;case
+aP=b[2],aQ=b[1],S=O(b[3],a[1]);return[0,[20,aQ,aP,S[1]],S[2]]}break;case
 21:if(typeof
 a!=="number"&&2===a[0]){var
-aS=b[1],T=L(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
+aS=b[1],T=O(b[2],a[1]);return[0,[21,aS,T[1]],T[2]]}break;case
 23:var
 d=b[2],c=b[1];if(typeof
 c==="number")switch(c){case
-0:return aO(c,d,a);case
-1:return aO(c,d,a);case
+0:return aR(c,d,a);case
+1:return aR(c,d,a);case
 2:if(typeof
 a!=="number"&&14===a[0]){var
-_=L(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aO(c,d,a)}else
+_=O(d,a[1]);return[0,[23,2,_[1]],_[2]]}throw at;default:return aR(c,d,a)}else
 switch(c[0]){case
-0:return aO(c,d,a);case
-1:return aO(c,d,a);case
-2:return aO(c,d,a);case
-3:return aO(c,d,a);case
-4:return aO(c,d,a);case
-5:return aO(c,d,a);case
-6:return aO(c,d,a);case
-7:return aO(c,d,a);case
-8:return aO([8,c[1],c[2]],d,a);case
+0:return aR(c,d,a);case
+1:return aR(c,d,a);case
+2:return aR(c,d,a);case
+3:return aR(c,d,a);case
+4:return aR(c,d,a);case
+5:return aR(c,d,a);case
+6:return aR(c,d,a);case
+7:return aR(c,d,a);case
+8:return aR([8,c[1],c[2]],d,a);case
 9:var
-aX=c[1],$=aI(c[2],d,a),ab=$[2];return[0,[23,[9,aX,$[1]],ab[1]],ab[2]];case
-10:return aO(c,d,a);default:return aO(c,d,a)}}throw at}function
-aO(d,c,b){var
-a=L(c,b);return[0,[23,d,a[1]],a[2]]}function
-aP(k,g,a){var
-b=y(a),h=0<=g?k:0,d=dR(g);if(d<=b)return a;var
-l=2===h?48:32,c=cc(d,l);switch(h){case
-0:bz(a,0,c,0,b);break;case
-1:bz(a,0,c,d-b|0,b);break;default:var
+aX=c[1],$=aJ(c[2],d,a),aa=$[2];return[0,[23,[9,aX,$[1]],aa[1]],aa[2]];case
+10:return aR(c,d,a);default:return aR(c,d,a)}}throw at}function
+aR(d,c,b){var
+a=O(c,b);return[0,[23,d,a[1]],a[2]]}function
+aS(k,g,a){var
+b=y(a),h=0<=g?k:0,d=dY(g);if(d<=b)return a;var
+l=2===h?48:32,c=ce(d,l);switch(h){case
+0:bE(a,0,c,0,b);break;case
+1:bE(a,0,c,d-b|0,b);break;default:var
 e=0;if(0<b){var
-i=0;if(43!==K(a,0)&&45!==K(a,0)&&32!==K(a,0)){e=1;i=1}if(!i){cu(c,0,K(a,0));bz(a,1,c,(d-b|0)+1|0,b-1|0)}}else
+i=0;if(43!==N(a,0)&&45!==N(a,0)&&32!==N(a,0)){e=1;i=1}if(!i){cy(c,0,N(a,0));bE(a,1,c,(d-b|0)+1|0,b-1|0)}}else
 e=1;if(e){var
-f=0;if(1<b&&48===K(a,0)){var
-j=0;if(j7!==K(a,1)&&88!==K(a,1)){f=1;j=1}if(!j){cu(c,1,K(a,1));bz(a,2,c,(d-b|0)+2|0,b-2|0)}}else
-f=1;if(f)bz(a,0,c,d-b|0,b)}}return aE(c)}function
-cA(k,b){var
-c=dR(k),a=y(b),d=K(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+k3>>>0))e=1}else
+f=0;if(1<b&&48===N(a,0)){var
+j=0;if(kp!==N(a,1)&&88!==N(a,1)){f=1;j=1}if(!j){cy(c,1,N(a,1));bE(a,2,c,(d-b|0)+2|0,b-2|0)}}else
+f=1;if(f)bE(a,0,c,d-b|0,b)}}return aF(c)}function
+cE(k,b){var
+c=dY(k),a=y(b),d=N(b,0),e=0;if(58<=d){if(71<=d){if(!(5<d+ll>>>0))e=1}else
 if(65<=d)e=1}else{var
 f=0;if(32!==d)if(43<=d)switch(d-43|0){case
 5:if(a<(c+2|0)&&1<a){var
-j=0;if(j7===K(b,1)||88===K(b,1))j=1;if(j){var
-h=cc(c+2|0,48);cu(h,1,K(b,1));bz(b,2,h,(c-a|0)+4|0,a-2|0);return aE(h)}}e=1;f=1;break;case
+j=0;if(kp===N(b,1)||88===N(b,1))j=1;if(j){var
+h=ce(c+2|0,48);cy(h,1,N(b,1));bE(b,2,h,(c-a|0)+4|0,a-2|0);return aF(h)}}e=1;f=1;break;case
 0:case
 2:break;case
 1:case
 3:case
 4:f=1;break;default:e=1;f=1}else
 f=1;if(!f&&a<(c+1|0)){var
-g=cc(c+1|0,48);cu(g,0,d);bz(b,1,g,(c-a|0)+2|0,a-1|0);return aE(g)}}if(e&&a<c){var
-i=cc(c,48);bz(b,0,i,c-a|0,a);return aE(i)}return b}function
-no(k){var
+g=ce(c+1|0,48);cy(g,0,d);bE(b,1,g,(c-a|0)+2|0,a-1|0);return aF(g)}}if(e&&a<c){var
+i=ce(c,48);bE(b,0,i,c-a|0,a);return aF(i)}return b}function
+nJ(k){var
 j=0,D=y(k);for(;;){if(D<=j)var
 o=k;else{var
-n=bw(k,j)+lw|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
+n=bB(k,j)+lQ|0,p=0;if(59<n>>>0){if(33<n-61>>>0)p=1}else
 if(2===n)p=1;if(!p){var
 j=j+1|0;continue}var
-e=bP(k),a=[0,0],t=aS(e)-1|0,z=0;if(!(t<0)){var
+e=bR(k),a=[0,0],t=aV(e)-1|0,z=0;if(!(t<0)){var
 i=z;for(;;){var
-f=c3(e,i),g=0;if(32<=f){var
+f=c5(e,i),g=0;if(32<=f){var
 l=f-34|0,q=0;if(58<l>>>0){if(93<=l)q=1}else
 if(56<l-1>>>0){g=1;q=1}if(!q){var
 m=1;g=2}}else
@@ -1432,33 +1432,33 @@ m=4;break;case
 1:var
 m=2;break}a[1]=a[1]+m|0;var
 C=i+1|0;if(t!==i){var
-i=C;continue}break}}if(a[1]===aS(e)){var
-r=aS(e),s=ak(r);ca(e,0,s,0,r);var
+i=C;continue}break}}if(a[1]===aV(e)){var
+r=aV(e),s=al(r);cc(e,0,s,0,r);var
 v=s}else{var
-b=ak(a[1]);a[1]=0;var
-u=aS(e)-1|0,A=0;if(!(u<0)){var
+b=al(a[1]);a[1]=0;var
+u=aV(e)-1|0,A=0;if(!(u<0)){var
 h=A;for(;;){var
-c=c3(e,h),d=0;if(35<=c)if(92===c)d=2;else
-if(gz<=c)d=1;else
+c=c5(e,h),d=0;if(35<=c)if(92===c)d=2;else
+if(gP<=c)d=1;else
 d=3;else
 if(32<=c)if(34<=c)d=2;else
 d=3;else
 if(14<=c)d=1;else
 switch(c){case
-8:af(b,a[1],92);a[1]++;af(b,a[1],98);break;case
-9:af(b,a[1],92);a[1]++;af(b,a[1],116);break;case
-10:af(b,a[1],92);a[1]++;af(b,a[1],110);break;case
-13:af(b,a[1],92);a[1]++;af(b,a[1],114);break;default:d=1}switch(d){case
-1:af(b,a[1],92);a[1]++;af(b,a[1],48+(c/k_|0)|0);a[1]++;af(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;af(b,a[1],48+(c%10|0)|0);break;case
-2:af(b,a[1],92);a[1]++;af(b,a[1],c);break;case
-3:af(b,a[1],c);break}a[1]++;var
+8:ah(b,a[1],92);a[1]++;ah(b,a[1],98);break;case
+9:ah(b,a[1],92);a[1]++;ah(b,a[1],116);break;case
+10:ah(b,a[1],92);a[1]++;ah(b,a[1],110);break;case
+13:ah(b,a[1],92);a[1]++;ah(b,a[1],114);break;default:d=1}switch(d){case
+1:ah(b,a[1],92);a[1]++;ah(b,a[1],48+(c/ls|0)|0);a[1]++;ah(b,a[1],48+((c/10|0)%10|0)|0);a[1]++;ah(b,a[1],48+(c%10|0)|0);break;case
+2:ah(b,a[1],92);a[1]++;ah(b,a[1],c);break;case
+3:ah(b,a[1],c);break}a[1]++;var
 B=h+1|0;if(u!==h){var
 h=B;continue}break}}var
 v=b}var
-o=aE(v)}var
-w=y(o),x=cc(w+2|0,34);bu(o,0,x,1,w);return aE(x)}}function
-ht(d,f){var
-g=dR(f),e=od[1];switch(d[2]){case
+o=aF(v)}var
+w=y(o),x=ce(w+2|0,34);bz(o,0,x,1,w);return aF(x)}}function
+hI(d,f){var
+g=dY(f),e=oy[1];switch(d[2]){case
 0:var
 b=102;break;case
 1:var
@@ -1466,7 +1466,7 @@ b=101;break;case
 2:var
 b=69;break;case
 3:var
-b=j8;break;case
+b=kq;break;case
 4:var
 b=71;break;case
 5:var
@@ -1476,210 +1476,210 @@ b=104;break;case
 7:var
 b=72;break;default:var
 b=70}var
-c=hp(16);cz(c,37);switch(d[1]){case
+c=hE(16);cD(c,37);switch(d[1]){case
 0:break;case
-1:cz(c,43);break;default:cz(c,32)}if(8<=d[2])cz(c,35);cz(c,46);ay(c,a(s+g));cz(c,b);return hr(c)}function
-dT(m,a){if(13<=m){var
+1:cD(c,43);break;default:cD(c,32)}if(8<=d[2])cD(c,35);cD(c,46);az(c,a(s+g));cD(c,b);return hG(c)}function
+d1(m,a){if(13<=m){var
 g=[0,0],h=y(a)-1|0,n=0;if(!(h<0)){var
-c=n;for(;;){if(!(9<bw(a,c)+gq>>>0))g[1]++;var
+c=n;for(;;){if(!(9<bB(a,c)+gH>>>0))g[1]++;var
 q=c+1|0;if(h!==c){var
 c=q;continue}break}}var
-i=g[1],j=ak(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cu(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
+i=g[1],j=al(y(a)+((i-1|0)/3|0)|0),k=[0,0],d=function(a){cy(j,k[1],a);k[1]++;return 0},e=[0,((i-1|0)%3|0)+1|0],l=y(a)-1|0,o=0;if(!(l<0)){var
 b=o;for(;;){var
-f=bw(a,b);if(9<f+gq>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
+f=bB(a,b);if(9<f+gH>>>0)d(f);else{if(0===e[1]){d(95);e[1]=3}e[1]+=-1;d(f)}var
 p=b+1|0;if(l!==b){var
-b=p;continue}break}}return aE(j)}return a}function
-oe(b,c){switch(b){case
+b=p;continue}break}}return aF(j)}return a}function
+oz(b,c){switch(b){case
 1:var
-a=nq;break;case
-2:var
-a=nr;break;case
-4:var
-a=nt;break;case
-5:var
-a=nu;break;case
-6:var
-a=nv;break;case
-7:var
-a=nw;break;case
-8:var
-a=nx;break;case
-9:var
-a=ny;break;case
-10:var
-a=nz;break;case
-11:var
-a=nA;break;case
-0:case
-13:var
-a=np;break;case
-3:case
-14:var
-a=ns;break;default:var
-a=nB}return dT(b,eT(a,c))}function
-of(b,c){switch(b){case
-1:var
-a=nQ;break;case
-2:var
-a=nR;break;case
-4:var
-a=nT;break;case
-5:var
-a=nU;break;case
-6:var
-a=nV;break;case
-7:var
-a=nW;break;case
-8:var
-a=nX;break;case
-9:var
-a=nY;break;case
-10:var
-a=nZ;break;case
-11:var
-a=n0;break;case
-0:case
-13:var
-a=nP;break;case
-3:case
-14:var
-a=nS;break;default:var
-a=n1}return dT(b,eT(a,c))}function
-og(b,c){switch(b){case
-1:var
-a=n3;break;case
-2:var
-a=n4;break;case
-4:var
-a=n6;break;case
-5:var
-a=n7;break;case
-6:var
-a=n8;break;case
-7:var
-a=n9;break;case
-8:var
-a=n_;break;case
-9:var
-a=n$;break;case
-10:var
-a=oa;break;case
-11:var
-a=ob;break;case
-0:case
-13:var
-a=n2;break;case
-3:case
-14:var
-a=n5;break;default:var
-a=oc}return dT(b,eT(a,c))}function
-oh(b,c){switch(b){case
-1:var
-a=nD;break;case
-2:var
-a=nE;break;case
-4:var
-a=nG;break;case
-5:var
-a=nH;break;case
-6:var
-a=nI;break;case
-7:var
-a=nJ;break;case
-8:var
-a=nK;break;case
-9:var
 a=nL;break;case
-10:var
+2:var
 a=nM;break;case
+4:var
+a=nO;break;case
+5:var
+a=nP;break;case
+6:var
+a=nQ;break;case
+7:var
+a=nR;break;case
+8:var
+a=nS;break;case
+9:var
+a=nT;break;case
+10:var
+a=nU;break;case
 11:var
-a=nN;break;case
+a=nV;break;case
 0:case
 13:var
-a=nC;break;case
+a=nK;break;case
 3:case
 14:var
-a=nF;break;default:var
-a=nO}return dT(b,yI(a,c))}function
-bA(c,i,b){function
+a=nN;break;default:var
+a=nW}return d1(b,e6(a,c))}function
+oA(b,c){switch(b){case
+1:var
+a=n$;break;case
+2:var
+a=oa;break;case
+4:var
+a=oc;break;case
+5:var
+a=od;break;case
+6:var
+a=oe;break;case
+7:var
+a=of;break;case
+8:var
+a=og;break;case
+9:var
+a=oh;break;case
+10:var
+a=oi;break;case
+11:var
+a=oj;break;case
+0:case
+13:var
+a=n_;break;case
+3:case
+14:var
+a=ob;break;default:var
+a=ok}return d1(b,e6(a,c))}function
+oB(b,c){switch(b){case
+1:var
+a=om;break;case
+2:var
+a=on;break;case
+4:var
+a=op;break;case
+5:var
+a=oq;break;case
+6:var
+a=or;break;case
+7:var
+a=os;break;case
+8:var
+a=ot;break;case
+9:var
+a=ou;break;case
+10:var
+a=ov;break;case
+11:var
+a=ow;break;case
+0:case
+13:var
+a=ol;break;case
+3:case
+14:var
+a=oo;break;default:var
+a=ox}return d1(b,e6(a,c))}function
+oC(b,c){switch(b){case
+1:var
+a=nY;break;case
+2:var
+a=nZ;break;case
+4:var
+a=n1;break;case
+5:var
+a=n2;break;case
+6:var
+a=n3;break;case
+7:var
+a=n4;break;case
+8:var
+a=n5;break;case
+9:var
+a=n6;break;case
+10:var
+a=n7;break;case
+11:var
+a=n8;break;case
+0:case
+13:var
+a=nX;break;case
+3:case
+14:var
+a=n0;break;default:var
+a=n9}return d1(b,ze(a,c))}function
+bF(c,i,b){function
 j(d){switch(c[1]){case
 0:var
 a=45;break;case
 1:var
 a=43;break;default:var
-a=32}return yE(b,i,a)}function
+a=32}return za(b,i,a)}function
 q(c){var
-a=yw(b);return 3===a?b<0.?oj:ok:4<=a?ol:c}switch(c[2]){case
+a=y4(b);return 3===a?b<0.?oE:oF:4<=a?oG:c}switch(c[2]){case
 5:var
-e=gT(ht(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
+e=g9(hI(c,i),b),d=0,u=y(e);for(;;){if(d===u)var
 p=0;else{var
-k=K(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
+k=N(e,d)-46|0,l=0;if(23<k>>>0){if(55===k)l=1}else
 if(21<k-1>>>0)l=1;if(!l){var
 d=d+1|0;continue}var
 p=1}var
-v=p?e:as(e,oi);return q(v)}case
+v=p?e:as(e,oD);return q(v)}case
 6:return j(0);case
 7:var
-h=bP(j(0)),f=aS(h);if(0===f)var
+h=bR(j(0)),f=aV(h);if(0===f)var
 o=h;else{var
-m=ak(f),n=f-1|0,r=0;if(!(n<0)){var
+m=al(f),n=f-1|0,r=0;if(!(n<0)){var
 a=r;for(;;){var
-g=c3(h,a),s=25<g+k3>>>0?g:g+lw|0;af(m,a,s);var
+g=c5(h,a),s=25<g+ll>>>0?g:g+lQ|0;ah(m,a,s);var
 t=a+1|0;if(n!==a){var
 a=t;continue}break}}var
-o=m}return aE(o);case
-8:return q(j(0));default:return gT(ht(c,i),b)}}function
-dG(d,x,w,v){var
+o=m}return aF(o);case
+8:return q(j(0));default:return g9(hI(c,i),b)}}function
+dN(d,x,w,v){var
 b=x,a=w,c=v;for(;;)if(typeof
 c==="number")return e(b,a);else
 switch(c[0]){case
 0:var
-z=c[1];return function(c){return C(b,[5,a,c],z)};case
+z=c[1];return function(c){return D(b,[5,a,c],z)};case
 1:var
 A=c[1];return function(c){var
 e=0;if(40<=c)if(92===c)var
-d=mv;else
-if(gz<=c)e=1;else
+d=mQ;else
+if(gP<=c)e=1;else
 e=2;else
 if(32<=c)if(39<=c)var
-d=mw;else
+d=mR;else
 e=2;else
 if(14<=c)e=1;else
 switch(c){case
 8:var
-d=mx;break;case
+d=mS;break;case
 9:var
-d=my;break;case
+d=mT;break;case
 10:var
-d=mz;break;case
+d=mU;break;case
 13:var
-d=mA;break;default:e=1}switch(e){case
+d=mV;break;default:e=1}switch(e){case
 1:var
-f=ak(4);af(f,0,92);af(f,1,48+(c/k_|0)|0);af(f,2,48+((c/10|0)%10|0)|0);af(f,3,48+(c%10|0)|0);var
-d=aE(f);break;case
+f=al(4);ah(f,0,92);ah(f,1,48+(c/ls|0)|0);ah(f,2,48+((c/10|0)%10|0)|0);ah(f,3,48+(c%10|0)|0);var
+d=aF(f);break;case
 2:var
-g=ak(1);af(g,0,c);var
-d=aE(g);break}var
-h=y(d),i=cc(h+2|0,39);bu(d,0,i,1,h);return C(b,[4,a,aE(i)],A)};case
+g=al(1);ah(g,0,c);var
+d=aF(g);break}var
+h=y(d),i=ce(h+2|0,39);bz(d,0,i,1,h);return D(b,[4,a,aF(i)],A)};case
 2:var
-B=c[2],D=c[1];return e7(b,a,B,D,function(a){return a});case
-3:return e7(b,a,c[2],c[1],no);case
-4:return dU(b,a,c[4],c[2],c[3],oe,c[1]);case
-5:return dU(b,a,c[4],c[2],c[3],of,c[1]);case
-6:return dU(b,a,c[4],c[2],c[3],og,c[1]);case
-7:return dU(b,a,c[4],c[2],c[3],oh,c[1]);case
+B=c[2],C=c[1];return fi(b,a,B,C,function(a){return a});case
+3:return fi(b,a,c[2],c[1],nJ);case
+4:return d2(b,a,c[4],c[2],c[3],oz,c[1]);case
+5:return d2(b,a,c[4],c[2],c[3],oA,c[1]);case
+6:return d2(b,a,c[4],c[2],c[3],oB,c[1]);case
+7:return d2(b,a,c[4],c[2],c[3],oC,c[1]);case
 8:var
 h=c[4],i=c[3],j=c[2],g=c[1];if(typeof
 j==="number"){if(typeof
-i==="number")return i?function(d,c){return C(b,[4,a,bA(g,d,c)],h)}:function(c){return C(b,[4,a,bA(g,e5(g),c)],h)};var
-Z=i[1];return function(c){return C(b,[4,a,bA(g,Z,c)],h)}}else{if(0===j[0]){var
+i==="number")return i?function(d,c){return D(b,[4,a,bF(g,d,c)],h)}:function(c){return D(b,[4,a,bF(g,fg(g),c)],h)};var
+Z=i[1];return function(c){return D(b,[4,a,bF(g,Z,c)],h)}}else{if(0===j[0]){var
 m=j[2],n=j[1];if(typeof
-i==="number")return i?function(d,c){return C(b,[4,a,aP(n,m,bA(g,d,c))],h)}:function(c){return C(b,[4,a,aP(n,m,bA(g,e5(g),c))],h)};var
-_=i[1];return function(c){return C(b,[4,a,aP(n,m,bA(g,_,c))],h)}}var
+i==="number")return i?function(d,c){return D(b,[4,a,aS(n,m,bF(g,d,c))],h)}:function(c){return D(b,[4,a,aS(n,m,bF(g,fg(g),c))],h)};var
+_=i[1];return function(c){return D(b,[4,a,aS(n,m,bF(g,_,c))],h)}}var
 o=j[1];if(typeof
-i==="number")return i?function(e,d,c){return C(b,[4,a,aP(o,e,bA(g,d,c))],h)}:function(d,c){return C(b,[4,a,aP(o,d,bA(g,e5(g),c))],h)};var
-$=i[1];return function(d,c){return C(b,[4,a,aP(o,d,bA(g,$,c))],h)}}case
-9:return e7(b,a,c[2],c[1],mq);case
+i==="number")return i?function(e,d,c){return D(b,[4,a,aS(o,e,bF(g,d,c))],h)}:function(d,c){return D(b,[4,a,aS(o,d,bF(g,fg(g),c))],h)};var
+$=i[1];return function(d,c){return D(b,[4,a,aS(o,d,bF(g,$,c))],h)}}case
+9:return fi(b,a,c[2],c[1],mL);case
 10:var
 a=[7,a],c=c[1];continue;case
 11:var
@@ -1687,229 +1687,229 @@ a=[2,a,c[1]],c=c[2];continue;case
 12:var
 a=[3,a,c[1]],c=c[2];continue;case
 13:var
-E=c[3],F=c[2],p=hp(16);e6(p,F);var
-u=hr(p);return function(c){return C(b,[4,a,u],E)};case
+E=c[3],F=c[2],p=hE(16);fh(p,F);var
+u=hG(p);return function(c){return D(b,[4,a,u],E)};case
 14:var
 G=c[3],H=c[2];return function(d){var
-e=d[1],c=L(e,aa(ah(H)));if(typeof
-c[2]==="number")return C(b,a,U(c[1],G));throw at};case
+e=d[1],c=O(e,ab(ak(H)));if(typeof
+c[2]==="number")return D(b,a,V(c[1],G));throw at};case
 15:var
-J=c[1];return function(d,c){return C(b,[6,a,function(a){return S(d,a,c)}],J)};case
+I=c[1];return function(d,c){return D(b,[6,a,function(a){return S(d,a,c)}],I)};case
 16:var
-K=c[1];return function(c){return C(b,[6,a,c],K)};case
+J=c[1];return function(c){return D(b,[6,a,c],J)};case
 17:var
 a=[0,a,c[1]],c=c[2];continue;case
 18:var
 l=c[1];if(0===l[0]){var
-M=c[2],N=l[1][1],O=0,b=function(b,c,d){return function(a){return C(c,[1,b,[0,a]],d)}}(a,b,M),a=O,c=N;continue}var
-P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return C(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
-19:throw[0,V,on];case
+K=c[2],M=l[1][1],N=0,b=function(b,c,d){return function(a){return D(c,[1,b,[0,a]],d)}}(a,b,K),a=N,c=M;continue}var
+P=c[2],Q=l[1][1],R=0,b=function(b,c,d){return function(a){return D(c,[1,b,[1,a]],d)}}(a,b,P),a=R,c=Q;continue;case
+19:throw[0,W,oI];case
 20:var
-T=c[3],W=[8,a,oo];return function(a){return C(b,W,T)};case
+T=c[3],U=[8,a,oJ];return function(a){return D(b,U,T)};case
 21:var
-X=c[2];return function(c){return C(b,[4,a,eT(op,c)],X)};case
+X=c[2];return function(c){return D(b,[4,a,e6(oK,c)],X)};case
 22:var
-Y=c[1];return function(c){return C(b,[5,a,c],Y)};case
+Y=c[1];return function(c){return D(b,[5,a,c],Y)};case
 23:var
 f=c[2],k=c[1];if(typeof
 k==="number")switch(k){case
-0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-2:throw[0,V,oq];default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}else
+0:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+1:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+2:throw[0,W,oL];default:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f])}else
 switch(k[0]){case
-0:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-1:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-2:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-3:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-4:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-5:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-6:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-7:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
-8:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);case
+0:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+1:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+2:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+3:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+4:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+5:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+6:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+7:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
+8:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);case
 9:var
-t=k[2];return d<50?gm(d+1|0,b,a,t,f):ax(gm,[0,b,a,t,f]);case
-10:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f]);default:return d<50?I(d+1|0,b,a,f):ax(I,[0,b,a,f])}default:var
-q=c[3],r=c[1],s=e(c[2],0);return d<50?gl(d+1|0,b,a,q,r,s):ax(gl,[0,b,a,q,r,s])}}function
-gm(e,d,c,a,b){if(typeof
-a==="number")return e<50?I(e+1|0,d,c,b):ax(I,[0,d,c,b]);else
+t=k[2];return d<50?gD(d+1|0,b,a,t,f):ay(gD,[0,b,a,t,f]);case
+10:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f]);default:return d<50?L(d+1|0,b,a,f):ay(L,[0,b,a,f])}default:var
+q=c[3],r=c[1],s=e(c[2],0);return d<50?gC(d+1|0,b,a,q,r,s):ay(gC,[0,b,a,q,r,s])}}function
+gD(e,d,c,a,b){if(typeof
+a==="number")return e<50?L(e+1|0,d,c,b):ay(L,[0,d,c,b]);else
 switch(a[0]){case
 0:var
-f=a[1];return function(a){return aU(d,c,f,b)};case
+f=a[1];return function(a){return aX(d,c,f,b)};case
 1:var
-g=a[1];return function(a){return aU(d,c,g,b)};case
+g=a[1];return function(a){return aX(d,c,g,b)};case
 2:var
-h=a[1];return function(a){return aU(d,c,h,b)};case
+h=a[1];return function(a){return aX(d,c,h,b)};case
 3:var
-i=a[1];return function(a){return aU(d,c,i,b)};case
+i=a[1];return function(a){return aX(d,c,i,b)};case
 4:var
-j=a[1];return function(a){return aU(d,c,j,b)};case
+j=a[1];return function(a){return aX(d,c,j,b)};case
 5:var
-k=a[1];return function(a){return aU(d,c,k,b)};case
+k=a[1];return function(a){return aX(d,c,k,b)};case
 6:var
-l=a[1];return function(a){return aU(d,c,l,b)};case
+l=a[1];return function(a){return aX(d,c,l,b)};case
 7:var
-m=a[1];return function(a){return aU(d,c,m,b)};case
+m=a[1];return function(a){return aX(d,c,m,b)};case
 8:var
-n=a[2];return function(a){return aU(d,c,n,b)};case
+n=a[2];return function(a){return aX(d,c,n,b)};case
 9:var
-o=a[3],p=a[2],q=am(ah(a[1]),p);return function(a){return aU(d,c,aF(q,o),b)};case
+o=a[3],p=a[2],q=am(ak(a[1]),p);return function(a){return aX(d,c,aG(q,o),b)};case
 10:var
-r=a[1];return function(e,a){return aU(d,c,r,b)};case
+r=a[1];return function(e,a){return aX(d,c,r,b)};case
 11:var
-s=a[1];return function(a){return aU(d,c,s,b)};case
+s=a[1];return function(a){return aX(d,c,s,b)};case
 12:var
-t=a[1];return function(a){return aU(d,c,t,b)};case
-13:throw[0,V,or];default:throw[0,V,os]}}function
-I(d,b,e,a){var
-c=[8,e,ot];return d<50?dG(d+1|0,b,c,a):ax(dG,[0,b,c,a])}function
-gl(h,b,f,a,d,c){if(d){var
-i=d[1];return function(d){return om(b,f,a,i,e(c,d))}}var
-g=[4,f,c];return h<50?dG(h+1|0,b,g,a):ax(dG,[0,b,g,a])}function
-C(a,b,c){return g5(dG(0,a,b,c))}function
-aU(a,b,c,d){return g5(gm(0,a,b,c,d))}function
-om(a,b,c,d,e){return g5(gl(0,a,b,c,d,e))}function
-e7(f,d,c,a,b){if(typeof
-a==="number")return function(a){return C(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
-g=a[2],h=a[1];return function(a){return C(f,[4,d,aP(h,g,e(b,a))],c)}}var
-i=a[1];return function(g,a){return C(f,[4,d,aP(i,g,e(b,a))],c)}}}function
-dU(f,e,d,g,c,b,a){if(typeof
+t=a[1];return function(a){return aX(d,c,t,b)};case
+13:throw[0,W,oM];default:throw[0,W,oN]}}function
+L(d,b,e,a){var
+c=[8,e,oO];return d<50?dN(d+1|0,b,c,a):ay(dN,[0,b,c,a])}function
+gC(h,b,f,a,d,c){if(d){var
+i=d[1];return function(d){return oH(b,f,a,i,e(c,d))}}var
+g=[4,f,c];return h<50?dN(h+1|0,b,g,a):ay(dN,[0,b,g,a])}function
+D(a,b,c){return hj(dN(0,a,b,c))}function
+aX(a,b,c,d){return hj(gD(0,a,b,c,d))}function
+oH(a,b,c,d,e){return hj(gC(0,a,b,c,d,e))}function
+fi(f,d,c,a,b){if(typeof
+a==="number")return function(a){return D(f,[4,d,e(b,a)],c)};else{if(0===a[0]){var
+g=a[2],h=a[1];return function(a){return D(f,[4,d,aS(h,g,e(b,a))],c)}}var
+i=a[1];return function(g,a){return D(f,[4,d,aS(i,g,e(b,a))],c)}}}function
+d2(f,e,d,g,c,b,a){if(typeof
 g==="number"){if(typeof
-c==="number")return c?function(g,c){return C(f,[4,e,cA(g,S(b,a,c))],d)}:function(c){return C(f,[4,e,S(b,a,c)],d)};var
-k=c[1];return function(c){return C(f,[4,e,cA(k,S(b,a,c))],d)}}else{if(0===g[0]){var
+c==="number")return c?function(g,c){return D(f,[4,e,cE(g,S(b,a,c))],d)}:function(c){return D(f,[4,e,S(b,a,c)],d)};var
+k=c[1];return function(c){return D(f,[4,e,cE(k,S(b,a,c))],d)}}else{if(0===g[0]){var
 h=g[2],i=g[1];if(typeof
-c==="number")return c?function(g,c){return C(f,[4,e,aP(i,h,cA(g,S(b,a,c)))],d)}:function(c){return C(f,[4,e,aP(i,h,S(b,a,c))],d)};var
-l=c[1];return function(c){return C(f,[4,e,aP(i,h,cA(l,S(b,a,c)))],d)}}var
+c==="number")return c?function(g,c){return D(f,[4,e,aS(i,h,cE(g,S(b,a,c)))],d)}:function(c){return D(f,[4,e,aS(i,h,S(b,a,c))],d)};var
+l=c[1];return function(c){return D(f,[4,e,aS(i,h,cE(l,S(b,a,c)))],d)}}var
 j=g[1];if(typeof
-c==="number")return c?function(h,g,c){return C(f,[4,e,aP(j,h,cA(g,S(b,a,c)))],d)}:function(g,c){return C(f,[4,e,aP(j,g,S(b,a,c))],d)};var
-m=c[1];return function(g,c){return C(f,[4,e,aP(j,g,cA(m,S(b,a,c)))],d)}}}function
-bB(b,f){var
+c==="number")return c?function(h,g,c){return D(f,[4,e,aS(j,h,cE(g,S(b,a,c)))],d)}:function(g,c){return D(f,[4,e,aS(j,g,S(b,a,c))],d)};var
+m=c[1];return function(g,c){return D(f,[4,e,aS(j,g,cE(m,S(b,a,c)))],d)}}}function
+bG(b,f){var
 a=f;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-g=a[1],h=hs(a[2]);bB(b,g);return c8(b,h);case
+g=a[1],h=hH(a[2]);bG(b,g);return c_(b,h);case
 1:var
 c=a[2],d=a[1];if(0===c[0]){var
-i=c[1];bB(b,d);c8(b,ou);var
+i=c[1];bG(b,d);c_(b,oP);var
 a=i;continue}var
-j=c[1];bB(b,d);c8(b,ov);var
+j=c[1];bG(b,d);c_(b,oQ);var
 a=j;continue;case
 6:var
-m=a[2];bB(b,a[1]);return e(m,b);case
-7:bB(b,a[1]);return c5(b);case
+m=a[2];bG(b,a[1]);return e(m,b);case
+7:bG(b,a[1]);return c7(b);case
 8:var
-n=a[2];bB(b,a[1]);return bT(n);case
+n=a[2];bG(b,a[1]);return bV(n);case
 2:case
 4:var
-k=a[2];bB(b,a[1]);return c8(b,k);default:var
-l=a[2];bB(b,a[1]);return mc(b,l)}}function
-bU(b,g){var
+k=a[2];bG(b,a[1]);return c_(b,k);default:var
+l=a[2];bG(b,a[1]);return mx(b,l)}}function
+bW(b,g){var
 a=g;for(;;)if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-h=a[1],i=hs(a[2]);bU(b,h);return c$(b,i);case
+h=a[1],i=hH(a[2]);bW(b,h);return db(b,i);case
 1:var
 d=a[2],f=a[1];if(0===d[0]){var
-j=d[1];bU(b,f);c$(b,ow);var
+j=d[1];bW(b,f);db(b,oR);var
 a=j;continue}var
-k=d[1];bU(b,f);c$(b,ox);var
+k=d[1];bW(b,f);db(b,oS);var
 a=k;continue;case
 6:var
-n=a[2];bU(b,a[1]);return c$(b,e(n,0));case
+n=a[2];bW(b,a[1]);return db(b,e(n,0));case
 7:var
 a=a[1];continue;case
 8:var
-o=a[2];bU(b,a[1]);return bT(o);case
+o=a[2];bW(b,a[1]);return bV(o);case
 2:case
 4:var
-l=a[2];bU(b,a[1]);return c$(b,l);default:var
-m=a[2];bU(b,a[1]);var
-c=b[2];if(b[3]<=c)ho(b,1);af(b[1],c,m);b[2]=c+1|0;return 0}}function
-hu(d,c){var
-a=c[1],b=0;return C(function(a){bB(d,a);return 0},b,a)}function
-e8(a){return hu(by,a)}function
-bd(b){var
-a=b[1];return C(function(d){var
-e=64,b=c9<64?c9:e,c=ak(b),a=[0,c,0,b,c];bU(a,d);return hj(a[1],0,a[2])},0,a)}var
-dV=[0,0];function
-e_(i,h){var
+l=a[2];bW(b,a[1]);return db(b,l);default:var
+m=a[2];bW(b,a[1]);var
+c=b[2];if(b[3]<=c)hD(b,1);ah(b[1],c,m);b[2]=c+1|0;return 0}}function
+hJ(d,c){var
+a=c[1],b=0;return D(function(a){bG(d,a);return 0},b,a)}function
+fj(a){return hJ(bD,a)}function
+bi(b){var
+a=b[1];return D(function(d){var
+e=64,b=c$<64?c$:e,c=al(b),a=[0,c,0,b,c];bW(a,d);return hy(a[1],0,a[2])},0,a)}var
+d3=[0,0];function
+fl(i,h){var
 a=i[1+h];if(1-(typeof
-a==="number"?1:0)){if(eY(a)===eP)return e(bd(oy),a);if(eY(a)===253){var
-c=gT(mu,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mt);var
-d=K(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
+a==="number"?1:0)){if(e$(a)===e2)return e(bi(oT),a);if(e$(a)===253){var
+c=g9(mP,a),b=0,g=y(c);for(;;){if(g<=b)return as(c,mO);var
+d=N(c,b),f=0;if(48<=d){if(!(58<=d))f=1}else
 if(45===d)f=1;if(f){var
-b=b+1|0;continue}return c}}return oz}return e(bd(oA),a)}function
-hv(b,a){if(b.length-1<=a)return oB;var
-c=hv(b,a+1|0),d=e_(b,a);return S(bd(oC),d,c)}function
-e$(a){function
+b=b+1|0;continue}return c}}return oU}return e(bi(oV),a)}function
+hK(b,a){if(b.length-1<=a)return oW;var
+c=hK(b,a+1|0),d=fl(b,a);return S(bi(oX),d,c)}function
+fm(a){function
 o(f){var
 b=f;for(;;){if(b){var
 g=b[2],h=b[1];try{var
 d=0,c=e(h,a);d=1}catch(a){}if(d&&c)return[0,c[1]];var
 b=g;continue}return 0}}var
-h=o(dV[1]);if(h)return h[1];if(a===e3)return oH;if(a===hc)return oI;if(a[1]===hb){var
-c=a[2],i=c[3],p=c[2],q=c[1];return gn(bd(e9),q,p,i,i+5|0,oJ)}if(a[1]===V){var
-d=a[2],j=d[3],r=d[2],s=d[1];return gn(bd(e9),s,r,j,j+6|0,oK)}if(a[1]===he){var
-f=a[2],k=f[3],t=f[2],u=f[1];return gn(bd(e9),u,t,k,k+6|0,oL)}if(0===eY(a)){var
+h=o(d3[1]);if(h)return h[1];if(a===fe)return o2;if(a===hs)return o3;if(a[1]===hr){var
+c=a[2],i=c[3],p=c[2],q=c[1];return gE(bi(fk),q,p,i,i+5|0,o4)}if(a[1]===W){var
+d=a[2],j=d[3],r=d[2],s=d[1];return gE(bi(fk),s,r,j,j+6|0,o5)}if(a[1]===hu){var
+f=a[2],k=f[3],t=f[2],u=f[1];return gE(bi(fk),u,t,k,k+6|0,o6)}if(0===e$(a)){var
 g=a.length-1,v=a[1][1];if(2<g>>>0)var
-l=hv(a,2),m=e_(a,1),b=S(bd(oD),m,l);else
+l=hK(a,2),m=fl(a,1),b=S(bi(oY),m,l);else
 switch(g){case
 0:var
-b=oE;break;case
+b=oZ;break;case
 1:var
-b=oF;break;default:var
-n=e_(a,1),b=e(bd(oG),n)}return as(v,b)}return a[1]}function
-fa(t,s){var
-d=yy(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
+b=o0;break;default:var
+n=fl(a,1),b=e(bi(o1),n)}return as(v,b)}return a[1]}function
+fn(t,s){var
+d=y6(s),g=d.length-1-1|0,p=0;if(!(g<0)){var
 b=p;for(;;){var
-a=l2(d,b)[1+b],f=function(a){return function(b){return b?0===a?oM:oN:0===a?oO:oP}}(b);if(0===a[0])var
-h=a[5],i=a[4],j=a[3],k=a[6]?oQ:oS,l=a[2],m=a[7],n=f(a[1]),c=[0,yn(bd(oR),n,m,l,k,j,i,h)];else
+a=ml(d,b)[1+b],f=function(a){return function(b){return b?0===a?o7:o8:0===a?o9:o_}}(b);if(0===a[0])var
+h=a[5],i=a[4],j=a[3],k=a[6]?o$:pb,l=a[2],m=a[7],n=f(a[1]),c=[0,yV(bi(pa),n,m,l,k,j,i,h)];else
 if(a[1])var
 c=0;else
 var
-o=f(0),c=[0,e(bd(oT),o)];if(c){var
-q=c[1];e(hu(t,oU),q)}var
+o=f(0),c=[0,e(bi(pc),o)];if(c){var
+q=c[1];e(hJ(t,pd),q)}var
 r=b+1|0;if(g!==b){var
 b=r;continue}break}}return 0}function
-hw(c){for(;;){var
-a=dV[1],d=[0,c,a],e=dV[1]===a?(dV[1]=d,1):0,b=1-e;if(b)continue;return b}}var
-oW=oV.slice();function
-oX(d,c){var
-f=e$(d);e(e8(oY),f);fa(by,c);var
-a=yX(0);if(a<0){var
-b=dR(a);hf(l2(oW,b)[1+b])}return c5(by)}var
-oZ=[0];g3(a(j9),function(d,i){try{try{var
-b=i?oZ:l8(0);try{e4(0)}catch(a){}try{var
-a=oX(d,b),c=a}catch(a){a=e1(a);var
-g=e$(d);e(e8(o1),g);fa(by,b);var
-h=e$(a);e(e8(o2),h);fa(by,l8(0));var
-c=c5(by)}var
-f=c}catch(a){a=e1(a);if(a!==e3)throw a;var
-f=hf(o0)}return f}catch(a){return 0}});var
-hx=[ap,o4,eU(0)],fb=[0,hx,[0]],o3=eY(fb)===ap?fb:fb[1];g3(a(gs),o3);(function(a){throw a});var
-o5=u.Array;hw(function(a){return a[1]===hx?[0,bc(a[2].toString())]:0});hw(function(a){return a
+hL(c){for(;;){var
+a=d3[1],d=[0,c,a],e=d3[1]===a?(d3[1]=d,1):0,b=1-e;if(b)continue;return b}}var
+pf=pe.slice();function
+pg(d,c){var
+f=fm(d);e(fj(ph),f);fn(bD,c);var
+a=zt(0);if(a<0){var
+b=dY(a);hv(ml(pf,b)[1+b])}return c7(bD)}var
+pi=[0];hh(a(kr),function(d,i){try{try{var
+b=i?pi:mr(0);try{ff(0)}catch(a){}try{var
+a=pg(d,b),c=a}catch(a){a=fc(a);var
+g=fm(d);e(fj(pk),g);fn(bD,b);var
+h=fm(a);e(fj(pl),h);fn(bD,mr(0));var
+c=c7(bD)}var
+f=c}catch(a){a=fc(a);if(a!==fe)throw a;var
+f=hv(pj)}return f}catch(a){return 0}});var
+hM=[ap,pn,e7(0)],fo=[0,hM,[0]],pm=e$(fo)===ap?fo:fo[1];hh(a(gJ),pm);(function(a){throw a});var
+po=u.Array;hL(function(a){return a[1]===hM?[0,bh(a[2].toString())]:0});hL(function(a){return a
 instanceof
-o5?0:[0,bc(a.toString())]});var
-d=aT(0),c=aT(1);function
-k(a){return z(a,c)}function
-hy(b,a){return z(aT(b),a)}function
-b(b,a){return o(aT(b),a)}function
-be(b,a){return[0,g8(b,a),mm(b,a)]}function
-fc(b,a){return D(b,a)?b:a}function
-cd(b,a){return D(b,a)?a:b}function
-aV(a){return a?0:1}function
-ab(b,a){var
+po?0:[0,bh(a.toString())]});var
+d=aW(0),c=aW(1);function
+n(a){return z(a,c)}function
+hN(b,a){return z(aW(b),a)}function
+b(b,a){return q(aW(b),a)}function
+bj(b,a){return[0,hm(b,a),mH(b,a)]}function
+fp(b,a){return A(b,a)?b:a}function
+cf(b,a){return A(b,a)?a:b}function
+aK(a){return a?0:1}function
+ac(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-db(a){return a[1]}function
-dc(a){return a[2]}function
-n(a){var
-b=a?[0,n(a[2])]:a;return b}function
+dd(a){return a[1]}function
+de(a){return a[2]}function
+m(a){var
+b=a?[0,m(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-hz(a){return typeof
-a==="number"?0:[0,hz(a[1])]}function
-hA(d,c){var
+hO(a){return typeof
+a==="number"?0:[0,hO(a[1])]}function
+hP(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -1932,9 +1932,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-dW(a){return hA(a,0)}function
-hB(a){if(typeof
-a==="number")return o7;else
+d4(a){return hP(a,0)}function
+hQ(a){if(typeof
+a==="number")return pq;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -1944,327 +1944,333 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,hB(a[1])]}}function
-a6(a){if(typeof
-a==="number")return o8;else
+8:return[9,a[1]];default:return[0,hQ(a[1])]}}function
+a8(a){if(typeof
+a==="number")return pr;else
 switch(a[0]){case
-0:return[1,a5(a[1])];case
-1:return[3,a5(a[1])];case
-2:return[5,a5(a[1])];case
-3:return[7,a5(a[1])];case
-4:return[9,a5(a[1])];case
-5:return[1,a6(a[1])];case
-6:return[3,a6(a[1])];case
-7:return[5,a6(a[1])];case
-8:return[7,a6(a[1])];default:return[9,a6(a[1])]}}function
-a5(a){if(typeof
+0:return[1,a7(a[1])];case
+1:return[3,a7(a[1])];case
+2:return[5,a7(a[1])];case
+3:return[7,a7(a[1])];case
+4:return[9,a7(a[1])];case
+5:return[1,a8(a[1])];case
+6:return[3,a8(a[1])];case
+7:return[5,a8(a[1])];case
+8:return[7,a8(a[1])];default:return[9,a8(a[1])]}}function
+a7(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,a5(a[1])];case
-1:return[2,a5(a[1])];case
-2:return[4,a5(a[1])];case
-3:return[6,a5(a[1])];case
-4:return[8,a5(a[1])];case
-5:return[0,a6(a[1])];case
-6:return[2,a6(a[1])];case
-7:return[4,a6(a[1])];case
-8:return[6,a6(a[1])];default:return[8,a6(a[1])]}}function
-cB(a){return a?a[1]:a}function
-M(b,a){return b?[0,M(b[1],a)]:a}function
-dd(a,b){return a?M(b,dd(a[1],b)):a}function
-dX(b,a){return b?a:a?0:1}function
-ai(d,c){var
+0:return[0,a7(a[1])];case
+1:return[2,a7(a[1])];case
+2:return[4,a7(a[1])];case
+3:return[6,a7(a[1])];case
+4:return[8,a7(a[1])];case
+5:return[0,a8(a[1])];case
+6:return[2,a8(a[1])];case
+7:return[4,a8(a[1])];case
+8:return[6,a8(a[1])];default:return[8,a8(a[1])]}}function
+cF(a){return a?a[1]:a}function
+H(b,a){return b?[0,H(b[1],a)]:a}function
+df(a,b){return a?H(b,df(a[1],b)):a}function
+d5(b,a){return b?a:a?0:1}function
+ag(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-hC(b,a){return Z([0,b],a)}function
-hD(c){var
+hR(b,a){return _([0,b],a)}function
+hS(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fd(c,b,a){return c?e(b,fd(c[1],b,a)):a}function
-hE(a){if(a)var
-b=a[1],d=b?[0,hE(b[1])]:b,c=d;else
+fq(c,b,a){return c?e(b,fq(c[1],b,a)):a}function
+hT(a){if(a)var
+b=a[1],d=b?[0,hT(b[1])]:b,c=d;else
 var
 c=a;return c}function
-dY(a){if(D(a,c))return c;var
-b=be(a,aT(2)),e=b[1];return al(b[2],d)?k(dY(e)):k(dY(e))}function
-dZ(c,b){var
-a=g7(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
-hF(b,i,h){var
-e=i,a=h;for(;;){if(D(e,c))return a;var
-f=be(e,aT(2)),g=f[1];if(al(f[2],d)){var
-e=g,a=S(b,a,a);continue}return S(b,a,hF(b,g,S(b,a,a)))}}function
-de(a){return hF(M,a,o_)}function
-fe(a){return a?k(fe(a[1])):c}function
-bC(f,e){var
+d6(a){if(A(a,c))return c;var
+b=bj(a,aW(2)),e=b[1];return ai(b[2],d)?n(d6(e)):n(d6(e))}function
+d7(c,b){var
+a=hl(c,b),d=0===a?0:0<=a?2:1;return 2<=d?0:1}function
+hU(b,i,h){var
+e=i,a=h;for(;;){if(A(e,c))return a;var
+f=bj(e,aW(2)),g=f[1];if(ai(f[2],d)){var
+e=g,a=S(b,a,a);continue}return S(b,a,hU(b,g,S(b,a,a)))}}function
+dg(a){return hU(H,a,pt)}function
+fr(a){return a?n(fr(a[1])):c}function
+bH(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=o(b(2,k(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=q(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,o(b(2,k(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=z(c,q(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=o(b(2,k(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=q(b(2,n(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-l=o(b(2,k(b(2,b(2,c)))),d),m=z(k(b(2,c)),l),a=a[1],d=m;continue;case
+k=q(b(2,n(b(2,b(2,c)))),d),l=z(n(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-n=o(b(2,k(b(2,b(2,c)))),d),p=z(b(2,b(2,c)),n),a=a[1],d=p;continue;case
+m=q(b(2,n(b(2,b(2,c)))),d),o=z(b(2,b(2,c)),m),a=a[1],d=o;continue;case
 5:var
-q=o(b(2,k(b(2,b(2,c)))),d),r=z(k(b(2,b(2,c))),q),a=a[1],d=r;continue;case
+p=q(b(2,n(b(2,b(2,c)))),d),r=z(n(b(2,b(2,c))),p),a=a[1],d=r;continue;case
 6:var
-s=o(b(2,k(b(2,b(2,c)))),d),t=z(b(2,k(b(2,c))),s),a=a[1],d=t;continue;case
+s=q(b(2,n(b(2,b(2,c)))),d),t=z(b(2,n(b(2,c))),s),a=a[1],d=t;continue;case
 7:var
-u=o(b(2,k(b(2,b(2,c)))),d),v=z(k(b(2,k(b(2,c)))),u),a=a[1],d=v;continue;case
+u=q(b(2,n(b(2,b(2,c)))),d),v=z(n(b(2,n(b(2,c)))),u),a=a[1],d=v;continue;case
 8:var
-w=o(b(2,k(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=o(b(2,k(b(2,b(2,c)))),d),A=z(k(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-ff(a){if(D(a,c))return o$;var
-b=be(a,aT(2)),e=b[1];return al(b[2],d)?a5(ff(e)):a6(ff(e))}function
-d0(a){return dW(ff(a))}function
-hG(k,f){if(0<=bx(f)){var
-g=g9(f);if(0<=g){var
+w=q(b(2,n(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=q(b(2,n(b(2,b(2,c)))),d),A=z(n(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+fs(a){if(A(a,c))return pu;var
+b=bj(a,aW(2)),e=b[1];return ai(b[2],d)?a7(fs(e)):a8(fs(e))}function
+d8(a){return d4(fs(a))}function
+hV(k,f){if(0<=bC(f)){var
+g=hn(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=o(b,b),j=1===(a&1)?o(e,b):e,e=j,b=i,a=h;continue}}return bT(o6)}return d}function
-hH(a){return 0<=bx(a)?a:d}function
-fg(a){var
-b=bx(a);return 0===b?c:0<b?a:c}function
-hI(n){var
-a=n;for(;;)if(typeof
+h=a>>>1|0,i=q(b,b),j=1===(a&1)?q(e,b):e,e=j,b=i,a=h;continue}}return bV(pp)}return d}function
+hW(a){return 0<=bC(a)?a:d}function
+ft(a){var
+b=bC(a);return 0===b?c:0<b?a:c}function
+hX(m){var
+a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bC(a[1],c);case
+1:return bH(a[1],c);case
 2:var
-e=b(2,c);return bC(a[1],e);case
+e=b(2,c);return bH(a[1],e);case
 3:var
-f=k(b(2,c));return bC(a[1],f);case
+f=n(b(2,c));return bH(a[1],f);case
 4:var
-g=b(2,b(2,c));return bC(a[1],g);case
+g=b(2,b(2,c));return bH(a[1],g);case
 5:var
-h=k(b(2,b(2,c)));return bC(a[1],h);case
+h=n(b(2,b(2,c)));return bH(a[1],h);case
 6:var
-i=b(2,k(b(2,c)));return bC(a[1],i);case
+i=b(2,n(b(2,c)));return bH(a[1],i);case
 7:var
-j=k(b(2,k(b(2,c))));return bC(a[1],j);case
+j=n(b(2,n(b(2,c))));return bH(a[1],j);case
 8:var
-l=b(2,b(2,b(2,c)));return bC(a[1],l);default:var
-m=k(b(2,b(2,b(2,c))));return bC(a[1],m)}}function
-bV(b,a){var
-c=bx(a);return 0===c?d:1===c?g8(b,a):hy(-1,g8(hy(-1,b),a))}function
-hJ(a){return 0<bx(a)?zf(a):d}function
-df(b,c){var
-a=g9(c);return 0<=a?mn(b,a):mo(b,-a|0)}function
-cC(b,c){var
-a=g9(c);return 0<=a?mo(b,a):mn(b,-a|0)}function
-fh(b,a){return a?a[1]:b}function
-hK(a){var
+k=b(2,b(2,b(2,c)));return bH(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bH(a[1],l)}}function
+bX(b,a){var
+c=bC(a);return 0===c?d:1===c?hm(b,a):hN(-1,hm(hN(-1,b),a))}function
+hY(a){return 0<bC(a)?zN(a):d}function
+dh(b,c){var
+a=hn(c);return 0<=a?mI(b,a):mJ(b,-a|0)}function
+cG(b,c){var
+a=hn(c);return 0<=a?mJ(b,a):mI(b,-a|0)}function
+fu(b,a){return a?a[1]:b}function
+hZ(a){var
 b=a?a[2]:a;return b}function
-P(e,d,c){var
+I(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-aJ(d,c){var
+au(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-hL(a){if(a){var
-b=[0,a[1],0];return g(hL(a[2]),b)}return a}function
+h0(a){if(a){var
+b=[0,a[1],0];return g(h0(a[2]),b)}return a}function
+h1(d,c){var
+a=d,b=c;for(;;){if(a){var
+e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 f(b,a){if(a)var
 d=f(b,a[2]),c=[0,e(b,a[1]),d];else
 var
 c=a;return c}function
-N(b,a){if(a){var
-c=N(b,a[2]);return g(e(b,a[1]),c)}return a}function
-cD(c,b,a){if(a){var
-d=cD(c,b,a[2]);return S(c,a[1],d)}return b}function
-bD(f,d){var
+J(b,a){if(a){var
+c=J(b,a[2]);return g(e(b,a[1]),c)}return a}function
+h2(e,d,c){var
+a=d,b=c;for(;;){if(a){var
+f=S(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+cH(c,b,a){if(a){var
+d=cH(c,b,a[2]);return S(c,a[1],d)}return b}function
+a9(f,d){var
 a=d;for(;;){if(a){var
 b=e(f,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-p(d,c){var
+o(d,c){var
 a=c;for(;;){if(a){var
 b=e(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cE(b,a){if(b)if(a)var
-d=cE(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+cg(b,a){if(b)if(a)var
+d=cg(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-hM(b,a){if(b)if(a)var
-d=hM(b[1],a[2]),c=[0,a[1],d];else
+h3(b,a){if(b)if(a)var
+d=h3(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cF(b,a){var
-c=a?[0,b,cF([0,b],a[1])]:a;return c}function
-ce(b,a){var
-c=a?[0,b,ce(b,a[1])]:a;return c}function
-hN(a){if(a){var
-e=hN(a[2]),f=o(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-d1(j){function
+cI(b,a){var
+c=a?[0,b,cI([0,b],a[1])]:a;return c}function
+ch(b,a){var
+c=a?[0,b,ch(b,a[1])]:a;return c}function
+h4(a){if(a){var
+e=h4(a[2]),f=q(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+d9(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=hN([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bx(b)?de(b):0}function
-hO(c,b){var
-a=g7(o(c[1],b[2]),o(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-hP(b,a){return D(o(b[1],a[2]),o(a[1],b[2]))}function
-hQ(b,a){return[0,z(o(b[1],a[2]),o(a[1],b[2])),o(b[2],a[2])]}function
-hR(b,a){return[0,o(b[1],a[1]),o(b[2],a[2])]}function
-aQ(a){if(typeof
-a==="number")return pc;else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=h4([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<bC(b)?dg(b):0}function
+h5(c,b){var
+a=hl(q(c[1],b[2]),q(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+h6(b,a){return A(q(b[1],a[2]),q(a[1],b[2]))}function
+h7(b,a){return[0,z(q(b[1],a[2]),q(a[1],b[2])),q(b[2],a[2])]}function
+h8(b,a){return[0,q(b[1],a[1]),q(b[2],a[2])]}function
+aT(a){if(typeof
+a==="number")return px;else
 switch(a[0]){case
 0:var
-b=aQ(a[1]);return as(aY(1,48),b);case
+b=aT(a[1]);return as(a1(1,48),b);case
 1:var
-c=aQ(a[1]);return as(aY(1,49),c);case
+c=aT(a[1]);return as(a1(1,49),c);case
 2:var
-d=aQ(a[1]);return as(aY(1,50),d);case
+d=aT(a[1]);return as(a1(1,50),d);case
 3:var
-e=aQ(a[1]);return as(aY(1,51),e);case
+e=aT(a[1]);return as(a1(1,51),e);case
 4:var
-f=aQ(a[1]);return as(aY(1,52),f);case
+f=aT(a[1]);return as(a1(1,52),f);case
 5:var
-g=aQ(a[1]);return as(aY(1,53),g);case
+g=aT(a[1]);return as(a1(1,53),g);case
 6:var
-h=aQ(a[1]);return as(aY(1,54),h);case
+h=aT(a[1]);return as(a1(1,54),h);case
 7:var
-i=aQ(a[1]);return as(aY(1,55),i);case
+i=aT(a[1]);return as(a1(1,55),i);case
 8:var
-j=aQ(a[1]);return as(aY(1,56),j);default:var
-k=aQ(a[1]);return as(aY(1,57),k)}}function
-dg(a){return typeof
-a==="number"?pd:aQ(a)}function
-cf(a){return hG(b(2,c),a)}function
-hS(b,a){return cC(a,b)}function
-hT(b,a){return T(cC(T(a),b))}function
-d2(b,a){return T(bV(T(b),a))}function
-aZ(c,b){var
-a=df(b,c);return[0,a,a]}function
-H(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-O(b,a){return[0,cb(b[1],a[2]),cb(b[2],a[1])]}function
-aA(a){return[0,T(a[2]),T(a[1])]}function
-hU(e,c,b,a){if(D(d,e))return D(d,b)?[0,o(e,b),o(c,a)]:D(a,d)?[0,o(c,b),o(e,a)]:[0,o(c,b),o(c,a)];if(D(c,d))return D(d,b)?[0,o(e,a),o(c,b)]:D(a,d)?[0,o(c,a),o(e,b)]:[0,o(e,a),o(e,b)];if(D(d,b))return[0,o(e,a),o(c,a)];if(D(a,d))return[0,o(c,b),o(e,b)];var
-f=cd(o(e,b),o(c,a));return[0,fc(o(e,a),o(c,b)),f]}function
+j=aT(a[1]);return as(a1(1,56),j);default:var
+k=aT(a[1]);return as(a1(1,57),k)}}function
+di(a){return typeof
+a==="number"?py:aT(a)}function
+ci(a){return hV(b(2,c),a)}function
+h9(b,a){return cG(a,b)}function
+h_(b,a){return T(cG(T(a),b))}function
+d_(b,a){return T(bX(T(b),a))}function
+aY(c,b){var
+a=dh(b,c);return[0,a,a]}function
+E(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+P(b,a){return[0,cd(b[1],a[2]),cd(b[2],a[1])]}function
+aB(a){return[0,T(a[2]),T(a[1])]}function
+h$(e,c,b,a){if(A(d,e))return A(d,b)?[0,q(e,b),q(c,a)]:A(a,d)?[0,q(c,b),q(e,a)]:[0,q(c,b),q(c,a)];if(A(c,d))return A(d,b)?[0,q(e,a),q(c,b)]:A(a,d)?[0,q(c,a),q(e,b)]:[0,q(e,a),q(e,b)];if(A(d,b))return[0,q(e,a),q(c,a)];if(A(a,d))return[0,q(c,b),q(e,b)];var
+f=cf(q(e,b),q(c,a));return[0,fp(q(e,a),q(c,b)),f]}function
 B(c,b,a){var
-d=hU(b[1],b[2],a[1],a[2]),e=hT(c,d[2]);return[0,hS(c,d[1]),e]}function
+d=h$(b[1],b[2],a[1],a[2]),e=h_(c,d[2]);return[0,h9(c,d[1]),e]}function
 aj(b,a){var
-c=o(a[1],a[1]),e=o(a[2],a[2]),h=hT(b,cd(c,e)),g=0;if(ag(a[1],d)&&ag(d,a[2])){var
+c=q(a[1],a[1]),e=q(a[2],a[2]),h=h_(b,cf(c,e)),g=0;if(af(a[1],d)&&af(d,a[2])){var
 f=d;g=1}if(!g)var
-f=hS(b,fc(c,e));return[0,f,h]}function
-hV(b,a){var
-c=df(cf(b),b),d=d2(c,a[1]);return[0,bV(c,a[2]),d]}function
-cg(b,a){if(ag(d,a[1]))return[0,hV(b,a)];var
-c=ag(a[2],d),e=c?[0,aA(hV(b,aA(a)))]:c;return e}function
-cG(f,b){var
-g=ag(d,b[1]);if(g)var
-e=df(b[2],f),a=hJ(e),i=al(o(a,a),e)?a:z(a,c),h=[0,[0,hJ(df(b[1],f)),i]];else
+f=h9(b,fp(c,e));return[0,f,h]}function
+ia(b,a){var
+c=dh(ci(b),b),d=d_(c,a[1]);return[0,bX(c,a[2]),d]}function
+cj(b,a){if(af(d,a[1]))return[0,ia(b,a)];var
+c=af(a[2],d),e=c?[0,aB(ia(b,aB(a)))]:c;return e}function
+cJ(f,b){var
+g=af(d,b[1]);if(g)var
+e=dh(b[2],f),a=hY(e),i=ai(q(a,a),e)?a:z(a,c),h=[0,[0,hY(dh(b[1],f)),i]];else
 var
 h=g;return h}function
-a0(e,d,c,b,a){if(b){if(a){var
-g=a0(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
-bW(b,a){return cC(b,a)}function
-bX(a,c,b){if(D(d,a)){var
-e=b[1],f=T(bW(T(o(a,b[2])),c));return[0,bW(o(a,e),c),f]}var
-g=b[2],h=T(bW(T(o(a,b[1])),c));return[0,bW(o(a,g),c),h]}function
-d3(a){var
-b=T(cC(T(a[2]),c));return[0,cC(a[1],c),b]}function
-fi(c,b,a){var
-e=hU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=ag(f,d)?a[2]:a[1],i=d2(f,h),j=ag(g,d)?a[1]:a[2];return[0,bV(g,j),i]}var
-_=[0,d,d];function
-fj(a){return[0,a[1],a[1]]}function
-d4(a){return[0,a[2],a[2]]}function
-au(a,b){switch(b[0]){case
+a2(e,d,c,b,a){if(b){if(a){var
+g=a2(e,d,c,b[2],a[2]);return[0,S(c,b[1],a[1]),g]}return f(e,b)}return f(d,a)}function
+bY(b,a){return cG(b,a)}function
+bZ(a,c,b){if(A(d,a)){var
+e=b[1],f=T(bY(T(q(a,b[2])),c));return[0,bY(q(a,e),c),f]}var
+g=b[2],h=T(bY(T(q(a,b[1])),c));return[0,bY(q(a,g),c),h]}function
+d$(a){var
+b=T(cG(T(a[2]),c));return[0,cG(a[1],c),b]}function
+fv(c,b,a){var
+e=h$(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=af(f,d)?a[2]:a[1],i=d_(f,h),j=af(g,d)?a[1]:a[2];return[0,bX(g,j),i]}var
+$=[0,d,d];function
+fw(a){return[0,a[1],a[1]]}function
+ea(a){return[0,a[2],a[2]]}function
+av(a,b){switch(b[0]){case
 0:var
-n=b[2],m=df(b[1],a),t=d2(m,n);return[0,[0,bV(m,n),t]];case
+n=b[2],m=dh(b[1],a),t=d_(m,n);return[0,[0,bX(m,n),t]];case
 1:var
-c=au(a,b[1]);if(c)var
-d=au(a,b[2]),u=d?[0,H(c[1],d[1])]:d,o=u;else
+c=av(a,b[1]);if(c)var
+d=av(a,b[2]),u=d?[0,E(c[1],d[1])]:d,o=u;else
 var
 o=c;return o;case
 2:var
-e=au(a,b[1]);if(e)var
-f=au(a,b[2]),v=f?[0,O(e[1],f[1])]:f,p=v;else
+e=av(a,b[1]);if(e)var
+f=av(a,b[2]),v=f?[0,P(e[1],f[1])]:f,p=v;else
 var
 p=e;return p;case
 3:var
-g=au(a,b[1]);if(g)var
-h=au(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
+g=av(a,b[1]);if(g)var
+h=av(a,b[2]),w=h?[0,B(a,g[1],h[1])]:h,q=w;else
 var
 q=g;return q;case
 4:var
-i=au(a,b[1]);if(i){var
-j=au(a,b[2]);if(j)var
-k=cg(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
+i=av(a,b[1]);if(i){var
+j=av(a,b[2]);if(j)var
+k=cj(a,j[1]),x=k?[0,B(a,i[1],k[1])]:k,r=x;else
 var
 r=j;var
 s=r}else
 var
 s=i;return s;default:var
-l=au(a,b[1]);return l?cG(a,l[1]):l}}function
-hW(a){var
-e=cd(T(a),d);return fg(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-hX(a){return hH(z(hW(a),a))}function
-ch(f,a,e){var
-b=au(z(f,hW(a)),e);if(b)var
-c=b[1],g=hX(a),h=T(bW(T(c[2]),g)),i=hX(a),d=[0,[0,bW(c[1],i),h]];else
+l=av(a,b[1]);return l?cJ(a,l[1]):l}}function
+ib(a){var
+e=cf(T(a),d);return ft(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+ic(a){return hW(z(ib(a),a))}function
+b0(f,a,e){var
+b=av(z(f,ib(a)),e);if(b)var
+c=b[1],g=ic(a),h=T(bY(T(c[2]),g)),i=ic(a),d=[0,[0,bY(c[1],i),h]];else
 var
 d=b;return d}function
-a1(d,a){var
-b=ch(d,a[2],a[1][1]);if(b)var
-c=ch(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aL(d,a){var
+b=b0(d,a[2],a[1][1]);if(b)var
+c=b0(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-hY(b,a){var
-c=T(bW(T(a[2]),b));return[0,bW(a[1],b),c]}function
-fk(b,a){var
-c=d2(b[2],a);return[0,bV(b[1],a),c]}function
-fl(a,f,b){if(b){var
-d=b[1],g=fl(a,f,d),h=g[2],i=fe(M(dd(pf,d),pe)),j=o(fe(dd(pg,d)),i),e=fk(B(a,g[1],f),j),k=hD(b)?H(h,e):O(h,e);return[0,e,k]}var
-l=aZ(a,c);return[0,aZ(a,c),l]}function
-hZ(f){var
-g=de(f),e=ph[1],b=g,c=0,a=e;for(;;){if(b){var
+id(b,a){var
+c=T(bY(T(a[2]),b));return[0,bY(a[1],b),c]}function
+fx(b,a){var
+c=d_(b[2],a);return[0,bX(b[1],a),c]}function
+fy(a,f,b){if(b){var
+d=b[1],g=fy(a,f,d),h=g[2],i=fr(H(df(pA,d),pz)),j=q(fr(df(pB,d)),i),e=fx(B(a,g[1],f),j),k=hS(b)?E(h,e):P(h,e);return[0,e,k]}var
+l=aY(a,c);return[0,aY(a,c),l]}function
+ie(f){var
+g=dg(f),e=pC[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return M(pi,c)}}function
-h0(a,d){var
-g=cf(a),h=o(b(2,b(2,c)),g),e=D(d[2],h);if(e)var
-i=fl(a,d,dd(pk,M(hZ(a),pj)))[2][2],f=[0,[0,fl(a,d,M(dd(pm,hZ(a)),pl))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return H(pD,c)}}function
+ig(a,d){var
+g=ci(a),h=q(b(2,b(2,c)),g),e=A(d[2],h);if(e)var
+i=fy(a,d,df(pF,H(ie(a),pE)))[2][2],f=[0,[0,fy(a,d,H(df(pH,ie(a)),pG))[2][1],i]];else
 var
 f=e;return f}function
-h1(i){function
+ih(i){function
 a(h){var
-m=bV(cf(i),h),g=de(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,bV(f,a)),l=T(bV(f,o(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(k(b(2,k(b(2,k(b(2,k(b(2,b(2,k(b(2,k(b(2,c)))))))))))))),f=o(b(2,b(2,c)),e),g=a(k(b(2,b(2,c))));return cb(o(b(2,b(2,b(2,b(2,c)))),g),f)}function
-h2(e,a){var
-f=D(d,a);if(f){var
-g=b(2,b(2,c));return h0(e,fk(aj(e,[0,a,a]),g))}return f}function
-h3(a,d){var
-b=aj(a,d),e=aZ(a,c);return O(H(b,b),e)}function
-d5(o,u){var
-h=au(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
-v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cb(h1(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(h1(a),r),f=h2(a,i);if(f){var
-g=h2(a,j);if(g)var
-l=ag(d,f[1][1]),m=l?ag(g[1][2],d):l,n=m?[0,[0,i,j]]:m;else
+m=bX(ci(i),h),g=dg(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,bX(f,a)),l=T(bX(f,q(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=q(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return cd(q(b(2,b(2,b(2,b(2,c)))),g),f)}function
+ii(e,a){var
+f=A(d,a);if(f){var
+g=b(2,b(2,c));return ig(e,fx(aj(e,[0,a,a]),g))}return f}function
+ij(a,d){var
+b=aj(a,d),e=aY(a,c);return P(E(b,b),e)}function
+eb(o,u){var
+h=av(z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),u);if(h){var
+v=h[1],a=z(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),q=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),i=cd(ih(a),q),r=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),j=z(ih(a),r),f=ii(a,i);if(f){var
+g=ii(a,j);if(g)var
+k=af(d,f[1][1]),l=k?af(g[1][2],d):k,m=l?[0,[0,i,j]]:l;else
 var
-n=g;var
-e=n}else
+m=g;var
+e=m}else
 var
 e=f;if(e)var
-s=b(2,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))))),t=h0(a,aj(a,fk(B(a,v,e[1]),s))),p=ab(function(b){return h3(a,h3(a,b))},t);else
+s=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),t=ig(a,aj(a,fx(B(a,v,e[1]),s))),p=ac(function(b){return ij(a,ij(a,b))},t);else
 var
 p=e;var
-w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ab(function(a){return hY(w,a)},p)}return h}function
-fm(d,a){return d5(d,[2,a,[0,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))),c]])}function
-d6(b,a){switch(a[0]){case
+w=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return ac(function(a){return id(w,a)},p)}return h}function
+fz(d,a){return eb(d,[2,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+dj(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -2278,127 +2284,125 @@ f=e(b,a[2]);return[6,e(b,a[1]),f];case
 7:var
 g=e(b,a[2]);return[7,e(b,a[1]),g];case
 8:return[8,e(b,a[1])];default:return[9,e(b,a[1])]}}function
-bf(j,i){var
+a_(j,i){var
 d=j,c=i;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?ai(b[1],a[1]):0;case
-1:return 1===a[0]?ai(b[1],a[1]):0;case
-2:return 2===a[0]?al(b[1],a[1]):0;case
+0:return 0===a[0]?ag(b[1],a[1]):0;case
+1:return 1===a[0]?ag(b[1],a[1]):0;case
+2:return 2===a[0]?ai(b[1],a[1]):0;case
 3:if(3===a[0]){var
-e=bf(b[1],a[1]);if(e){var
+e=a_(b[1],a[1]);if(e){var
 d=b[2],c=a[2];continue}return e}return 0;case
 4:if(4===a[0]){var
-f=bf(b[1],a[1]);if(f){var
+f=a_(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-g=bf(b[1],a[1]);if(g){var
+g=a_(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 7:if(7===a[0]){var
-h=bf(b[1],a[1]);if(h){var
+h=a_(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0}}}function
-d7(b){var
+ec(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-bg(c,b){var
-a=d7(b);return a?al(c,a[1]):a}function
-dh(a){return ag(e2(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-q(a){return[0,[2,a]]}function
-G(b,a){if(bg(d,b))return a;if(bg(d,a))return b;var
-c=d7(b);if(c){var
-e=c[1],f=d7(a);if(f){var
-g=f[1];if(dh(e)&&dh(g))return q(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-ci(a){var
+bk(c,b){var
+a=ec(b);return a?ai(c,a[1]):a}function
+dk(a){return af(fd(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+r(a){return[0,[2,a]]}function
+K(b,a){if(bk(d,b))return a;if(bk(d,a))return b;var
+c=ec(b);if(c){var
+e=c[1],f=ec(a);if(f){var
+g=f[1];if(dk(e)&&dk(g))return r(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+ck(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dh(c)?q(T(c)):[0,[5,a]];case
+c=b[1];return dk(c)?r(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-A(b,a){return bg(d,a)?b:bg(d,b)?ci(a):[0,[4,b,a]]}function
-ac(a){var
-c=d7(a);if(c){var
-b=c[1];return dh(b)?q(o(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-v(a,b){if(!bg(d,a)&&!bg(c,b)){if(!bg(d,b)&&!bg(c,a))return bf(a,b)?ac(a):[0,[6,a,b]];return b}return a}function
-aK(b,a){return bg(c,a)?b:[0,[7,b,a]]}function
-cH(a){return bg(c,a)?a:[0,[9,a]]}function
-cI(g,f,d,c){var
+C(b,a){return bk(d,a)?b:bk(d,b)?ck(a):[0,[4,b,a]]}function
+ad(a){var
+c=ec(a);if(c){var
+b=c[1];return dk(b)?r(q(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+v(a,b){if(!bk(d,a)&&!bk(c,b)){if(!bk(d,b)&&!bk(c,a))return a_(a,b)?ad(a):[0,[6,a,b]];return b}return a}function
+aM(b,a){return bk(c,a)?b:[0,[7,b,a]]}function
+cl(a){return bk(c,a)?a:[0,[9,a]]}function
+cm(g,f,d,c){var
 b=d,a=c;for(;;){if(b){var
-h=b[1],i=[0,e(f,d6(function(b){return function(a){return P(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
-d8(a){var
+h=b[1],i=[0,e(f,dj(function(b){return function(a){return I(a,b,g)}}(a),h)),a],b=b[2],a=i;continue}return a}}function
+dl(a){var
 b=0;function
-c(a){return[0,a]}return cI(q(d),c,a,b)}function
-fn(b,a){if(a){if(bf(b,a[1]))return pn;var
-c=fn(b,a[2]);return ab(function(a){return[0,a]},c)}return a}function
-bY(c,b){var
-a=fn(b,c),d=a?a[1]:a;return d}function
-d9(d,a){if(fn(d,a[1]))return a;var
+c(a){return[0,a]}return cm(r(d),c,a,b)}function
+fA(b,a){if(a){if(a_(b,a[1]))return pI;var
+c=fA(b,a[2]);return ac(function(a){return[0,a]},c)}return a}function
+bl(c,b){var
+a=fA(b,c),d=a?a[1]:a;return d}function
+ed(d,a){if(fA(d,a[1]))return a;var
 b=d[1];switch(b[0]){case
 5:case
 8:case
 9:var
-c=d9(b[1],a);break;case
+c=ed(b[1],a);break;case
 0:case
 1:case
 2:var
 c=a;break;default:var
-h=d9(b[1],a),c=d9(b[2],h)}var
-e=c[2],f=c[1],g=[0,d6(function(a){return bY(f,a)},b),e];return[0,[0,d,c[1]],g]}function
-d_(c){var
-b=c,a=po;for(;;){if(b){var
-d=d9(b[1],a),b=b[2],a=d;continue}var
-e=a[1],g=f(function(a){return bY(e,a)},c);return[0,hL(a[2]),g]}}function
-h4(a){return cD(function(a,b){return z(cd(a[2],T(a[1])),b)},d,a)}function
-cJ(b,c,a){var
-d=h4(a),e=fc(c[2],z(b[2],d)),f=h4(a);return[0,b,[0,cd(c[1],cb(b[1],f)),e],a]}function
-bh(a){return[0,a,a,0]}function
-fo(b,a){return a?e(b,a[1]):a}function
-d$(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
+h=ed(b[1],a),c=ed(b[2],h)}var
+e=c[2],f=c[1],g=[0,dj(function(a){return bl(f,a)},b),e];return[0,[0,d,c[1]],g]}function
+dm(a){var
+b=h2(function(b,a){return ed(a,b)},a,pJ),c=b[1],d=f(function(a){return bl(c,a)},a);return[0,h0(b[2]),d]}function
+ik(a){return cH(function(a,b){return z(cf(a[2],T(a[1])),b)},d,a)}function
+cK(b,c,a){var
+d=ik(a),e=fp(c[2],z(b[2],d)),f=ik(a);return[0,b,[0,cf(c[1],cd(b[1],f)),e],a]}function
+a$(a){return[0,a,a,0]}function
+fB(b,a){return a?e(b,a[1]):a}function
+ee(d,b,a){if(b){if(a)return S(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-fp(a,e,d){var
-c=bh(_);return function(b){switch(b[0]){case
-0:return[0,P(b[1],e,c)];case
-1:return[0,P(b[1],d,c)];case
-2:return[0,bh(aZ(a,b[1]))];case
+dn(a,e,d){var
+c=a$($);return function(b){switch(b[0]){case
+0:return[0,I(b[1],e,c)];case
+1:return[0,I(b[1],d,c)];case
+2:return[0,a$(aY(a,b[1]))];case
 3:var
-g=b[2],h=b[1];return d$(function(b,a){var
+g=b[2],h=b[1];return ee(function(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=a0(function(a){return a},e,H,d,c),g=H(b[2],a[2]);return[0,cJ(H(b[1],a[1]),g,f)]},h,g);case
+f=a2(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return[0,cK(E(b[1],a[1]),g,f)]},h,g);case
 4:var
-i=b[2],j=b[1];return d$(function(b,a){var
-c=a[3],d=b[3],e=a0(function(a){return a},aA,O,d,c),f=O(b[2],a[2]);return[0,cJ(O(b[1],a[1]),f,e)]},j,i);case
+i=b[2],j=b[1];return ee(function(b,a){var
+c=a[3],d=b[3],e=a2(function(a){return a},aB,P,d,c),f=P(b[2],a[2]);return[0,cK(P(b[1],a[1]),f,e)]},j,i);case
 5:var
-k=b[1];return fo(function(a){var
-b=f(aA,a[3]),c=aA(a[2]);return[0,[0,aA(a[1]),c,b]]},k);case
+k=b[1];return fB(function(a){var
+b=f(aB,a[3]),c=aB(a[2]);return[0,[0,aB(a[1]),c,b]]},k);case
 6:var
-l=b[2],m=b[1];return d$(function(c,b){var
-d=H(b[2],b[1]),e=H(c[2],c[1]),f=b[3],g=c[3];function
+l=b[2],m=b[1];return ee(function(c,b){var
+d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=B(a,e,b);return d3(H(B(a,d,c),f))}function
-i(b){return d3(B(a,e,b))}var
-j=a0(function(b){return d3(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cJ(B(a,c[1],b[1]),k,j)]},m,l);case
+f=B(a,e,b);return d$(E(B(a,d,c),f))}function
+i(b){return d$(B(a,e,b))}var
+j=a2(function(b){return d$(B(a,d,b))},i,h,g,f),k=B(a,c[2],b[2]);return[0,cK(B(a,c[1],b[1]),k,j)]},m,l);case
 7:var
-n=b[2],o=b[1];return d$(function(e,g){var
-b=cg(a,g[1]);if(b){var
-c=cg(a,g[2]);if(c)var
-h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return O(c,B(a,d,b))},n=function(b){return aA(B(a,d,b))},o=a0(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cJ(d,B(a,e[2],h),p)];else
+n=b[2],o=b[1];return ee(function(e,g){var
+b=cj(a,g[1]);if(b){var
+c=cj(a,g[2]);if(c)var
+h=c[1],d=B(a,e[1],b[1]),k=g[3],l=e[3],m=function(c,b){return P(c,B(a,d,b))},n=function(b){return aB(B(a,d,b))},o=a2(function(a){return a},n,m,l,k),p=f(function(b){return B(a,h,b)},o),i=[0,cK(d,B(a,e[2],h),p)];else
 var
 i=c;var
 j=i}else
 var
 j=b;return j},o,n);case
 8:var
-p=b[1];return fo(function(b){var
-c=b[3],d=H(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cJ(aj(a,b[1]),g,e)]},p);default:var
-q=b[1];return fo(function(e){var
-b=cG(a,e[1]);if(b){var
-g=b[1],c=cG(a,e[2]);if(c){var
-h=c[1],d=cg(a,H(h,g));if(d)var
-l=e[3],m=d[1],i=[0,cJ(g,h,f(function(b){return B(a,m,b)},l))];else
+p=b[1];return fB(function(b){var
+c=b[3],d=E(b[2],b[1]),e=f(function(b){return B(a,d,b)},c),g=aj(a,b[2]);return[0,cK(aj(a,b[1]),g,e)]},p);default:var
+q=b[1];return fB(function(e){var
+b=cJ(a,e[1]);if(b){var
+g=b[1],c=cJ(a,e[2]);if(c){var
+h=c[1],d=cj(a,E(h,g));if(d)var
+l=e[3],m=d[1],i=[0,cK(g,h,f(function(b){return B(a,m,b)},l))];else
 var
 i=d;var
 j=i}else
@@ -2407,130 +2411,130 @@ j=c;var
 k=j}else
 var
 k=b;return k},q)}}}function
-pp(a){return a}function
-pq(a){return a}function
-pr(a,b){return a0(pq,pp,H,a,b)}function
-ps(a){return a}function
-pt(a){return a}function
-h5(a,b){return a0(pt,ps,pr,a,b)}function
-fq(b,a,c){if(a){var
+pK(a){return a}function
+pL(a){return a}function
+pM(a,b){return a2(pL,pK,E,a,b)}function
+pN(a){return a}function
+pO(a){return a}function
+il(a,b){return a2(pO,pN,pM,a,b)}function
+fC(b,a,c){if(a){var
 e=a[2],d=a[1];if(c){var
-g=fq(b,e,c[2]),h=c[1],i=function(c,a){return O(c,fi(d,a,b))},j=function(a){return aA(fi(d,a,b))};return[0,a0(function(a){return a},j,i,h,a),g]}var
-k=fq(b,e,0);return[0,f(function(a){return aA(fi(d,a,b))},a),k]}return c}function
-h6(a){if(a){var
+g=fC(b,e,c[2]),h=c[1],i=function(c,a){return P(c,fv(d,a,b))},j=function(a){return aB(fv(d,a,b))};return[0,a2(function(a){return a},j,i,h,a),g]}var
+k=fC(b,e,0);return[0,f(function(a){return aB(fv(d,a,b))},a),k]}return c}function
+im(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=ag(d,c[1]),h=e?[0,fq(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=af(d,c[1]),h=e?[0,fC(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-h7(f,e){var
+io(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=h6(b);if(c){var
+c=im(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-h8(d,b,a){if(b)if(a)var
-e=a[1],f=h8(d,b[2],a[2]),g=dX(d,b[1])?fj(e):d4(e),c=[0,g,f];else
+ip(d,b,a){if(b)if(a)var
+e=a[1],f=ip(d,b[2],a[2]),g=d5(d,b[1])?fw(e):ea(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-h9(a,b){if(a)if(b)var
-d=h9(a[2],b[2]),c=[0,h8(a[1],a,b[1]),d];else
+iq(a,b){if(a)if(b)var
+d=iq(a[2],b[2]),c=[0,ip(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bZ(a){if(a){var
-b=a[1],c=bZ(b),d=f(function(a){return[0,1,a]},c),e=bZ(b);return g(f(function(a){return[0,0,a]},e),d)}return pu}function
-ea(a){var
-b=n(a);if(h7(b,a))return 1;var
-c=bZ(cB(b));return p(function(c){return h7(b,h9([0,0,c],a))},c)}function
-a7(a){function
+b1(a){if(a){var
+b=a[1],c=b1(b),d=f(function(a){return[0,1,a]},c),e=b1(b);return g(f(function(a){return[0,0,a]},e),d)}return pP}function
+ef(a){var
+b=m(a);if(io(b,a))return 1;var
+c=b1(cF(b));return o(function(c){return io(b,iq([0,0,c],a))},c)}function
+aZ(a){function
 b(b){var
 c=e(a,b[2]);return[0,f(a,b[1]),c]}return function(a){return f(b,a)}}function
-di(h,e){var
+dp(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?H(a,d):O(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-h_(c,b,a){var
-d=bZ(c);return p(function(c){return e(a,e(a7(function(a){return di(c,a)}),b))},d)}function
-h$(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bX(b,z(h,c),a)},k=h$(h,j,i),l=function(c,b){var
-d=a(b,e);return H(a(f,c),d)},m=function(b){return a(b,e)},n=a0(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,H(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?E(a,d):P(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+ir(c,b,a){var
+d=b1(c);return o(function(c){return e(a,e(aZ(function(a){return dp(c,a)}),b))},d)}function
+is(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return bZ(b,z(h,c),a)},k=is(h,j,i),l=function(c,b){var
+d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=a2(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-ia(b,d,a,c){function
+it(b,d,a,c){function
 e(c,d){var
-e=bX(d,b,a);return O(H(c,c),e)}function
-f(c){return aA(bX(c,b,a))}return a0(function(a){return H(a,a)},f,e,d,c)}function
-fr(d,i,h,g){var
+e=bZ(d,b,a);return P(E(c,c),e)}function
+f(c){return aB(bZ(c,b,a))}return a2(function(a){return E(a,a)},f,e,d,c)}function
+fD(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=d4(e[2]),k=h5(a,h$(d,f,ia(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-ib(b,a){return[0,[0,0,b],a]}function
-dj(b,c,g,f,a){function
+e=b[1],f=c[1],j=ea(e[2]),k=il(a,is(d,f,it(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iu(b,a){return[0,[0,0,b],a]}function
+dq(b,c,g,f,a){function
 d(a){if(a){var
-h=ce([0,aA(a[1][2]),0],b),c=fr(g,f,a[2],h),d=ai(n(c),b);if(d)return ea(c);var
+h=ch([0,aB(a[1][2]),0],b),c=fD(g,f,a[2],h),d=ag(m(c),b);if(d)return ef(c);var
 e=d}else
 var
-e=a;return e}return h_(b,ib(c,a),d)}function
-ic(f,e){var
+e=a;return e}return ir(b,iu(c,a),d)}function
+iv(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=h6([0,[0,fj(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=im([0,[0,fw(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-fs(b,c,a){function
+fE(b,c,a){function
 d(a){if(a){var
-h=ce([0,a[1][2],0],b),c=ic(a[2],h);if(c){var
-d=c[1],e=ai(n(d),b);if(e)return ea(d);var
+h=ch([0,a[1][2],0],b),c=iv(a[2],h);if(c){var
+d=c[1],e=ag(m(d),b);if(e)return ef(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return h_(b,ib(c,a),d)}function
-id(a,b){var
-c=b[3],d=a[3],e=a0(function(a){return a},aA,O,d,c),f=a[2];return[0,O(a[1],b[1]),f,e]}function
-eb(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b0(c,b,a){var
+g=a;return g}return ir(b,iu(c,a),d)}function
+iw(a,b){var
+c=b[3],d=a[3],e=a2(function(a){return a},aB,P,d,c),f=a[2];return[0,P(a[1],b[1]),f,e]}function
+eg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b2(c,b,a){var
 d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-ec(b,a){var
+eh(b,a){var
 c=v(b,a[3]),d=v(b,a[2]);return[0,v(b,a[1]),d,c]}function
-ed(b,a){var
-c=aK(b[3],a),d=aK(b[2],a);return[0,aK(b[1],a),d,c]}function
-aB(b,a){var
-c=v(b[3],a[3]),d=v(b[2],a[2]);return G(G(v(b[1],a[1]),d),c)}function
-ft(a){return ed(a,cH(aB(a,a)))}function
-ie(a){return f(function(a){var
-b=a[2];return[0,eb(a[1]),b]},a)}function
-ig(a){return f(function(a){var
-b=q(c);return[0,eb(a[3]),b]},a)}function
-bE(a){return cC(z(a[1],a[2]),c)}function
-cK(a){var
-b=bE(a);return cb(a[2],b)}function
-ih(c,b){if(b)var
-a=b[1],e=ih([0,c],b[2]),f=cK(a),h=[0,[0,cK(a),f],0],i=g(ce(_,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
+ei(b,a){var
+c=aM(b[3],a),d=aM(b[2],a);return[0,aM(b[1],a),d,c]}function
+aC(b,a){var
+c=v(b[3],a[3]),d=v(b[2],a[2]);return K(K(v(b[1],a[1]),d),c)}function
+fF(a){return ei(a,cl(aC(a,a)))}function
+ej(a){return f(function(a){var
+b=a[2];return[0,eg(a[1]),b]},a)}function
+ix(a){return f(function(a){var
+b=r(c);return[0,eg(a[3]),b]},a)}function
+bm(a){return cG(z(a[1],a[2]),c)}function
+cL(a){var
+b=bm(a);return cd(a[2],b)}function
+fH(c,b){if(b)var
+a=b[1],e=fH([0,c],b[2]),f=cL(a),h=[0,[0,cL(a),f],0],i=g(ch($,c),h),j=bm(a),d=[0,[0,[0,bm(a),j],a,i],e];else
 var
 d=b;return d}function
-ee(d,b){if(b){var
+dr(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ee(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return pv}function
-ii(d,c,b,a){var
-e=f(bh,b);return cI(0,fp(d,ih(0,a),e),c,0)}function
-aW(a){if(a){var
+e=dr(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bm(a),f],c],h=bm(a);return[0,[0,[0,a[1],h],c],g]}return pQ}function
+iy(d,c,b,a){var
+e=f(a$,b);return cm(0,dn(d,fH(0,a),e),c,0)}function
+aN(a){if(a){var
 b=a[1];if(b)var
-c=aW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aN(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pw}function
-ij(b,a){if(a){var
-h=a[1],n=h[1],c=aW(f(function(a){return P(a,b,0)},n));if(c){var
-e=P(h[2],b,0);if(e){var
-i=e[1],g=ij(b,a[2]);if(g)var
-j=ag(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return pR}function
+iz(b,a){if(a){var
+h=a[1],n=h[1],c=aN(f(function(a){return I(a,b,0)},n));if(c){var
+e=I(h[2],b,0);if(e){var
+i=e[1],g=iz(b,a[2]);if(g)var
+j=af(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -2538,146 +2542,146 @@ var
 l=e;var
 m=l}else
 var
-m=c;return m}return px}function
-cj(d,c,b){var
-a=ij(d,c);return a?e(b,a[1]):a}function
-fv(a,b){return p(function(c){var
-a=P(c,b,0),d=a?1:a;return d},a)}function
-ef(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a0(function(a){return a},f,H,e,d),h=a[2];return[0,H(a[1],c[1]),h,g]}return a}function
-fw(b,a){return b?id(a,b[1]):a}function
-fx(h,g,b,f){var
-a=P(f,h,0);if(a){var
+m=c;return m}return pS}function
+cn(d,c,b){var
+a=iz(d,c);return a?e(b,a[1]):a}function
+fI(a,b){return o(function(c){var
+a=I(c,b,0),d=a?1:a;return d},a)}function
+ek(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=a2(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
+fJ(b,a){return b?iw(a,b[1]):a}function
+fK(h,g,b,f){var
+a=I(f,h,0);if(a){var
 c=a[1];if(b){var
-i=id(c,b[1]),e=bZ(g);return p(function(a){return D(d,di(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-ik(m,j,q,l,b,e,g,h,a){switch(h[0]){case
+i=iw(c,b[1]),e=b1(g);return o(function(a){return A(d,dp(a,i)[1])},e)}return A(d,c[2][1])}return a}function
+iA(m,j,q,l,b,e,g,h,a){switch(h[0]){case
 0:var
 k=h[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-r=fv(l,b);if(r){var
-C=a[2],D=a[1],E=ef(g,bh(k));return cj(b,j,function(a){return dj(e,E,D,C,a)})}return r;case
+r=fI(l,b);if(r){var
+C=a[2],D=a[1],E=ek(g,a$(k));return cn(b,j,function(a){return dq(e,E,D,C,a)})}return r;case
 1:var
-s=fv(l,b);if(s){var
-F=a[2],G=a[1],H=ef(g,bh(k));return cj(b,q,function(a){return dj(e,H,G,F,a)})}return s;case
+s=fI(l,b);if(s){var
+F=a[2],G=a[1],H=ek(g,a$(k));return cn(b,q,function(a){return dq(e,H,G,F,a)})}return s;case
 2:var
-t=fv(l,b);if(t){if(g)return 0;var
-u=al(k[1],d),v=u?al(k[2],d):u;if(v){var
-I=a[2],J=a[1];return cj(b,j,function(a){var
-b=[0,_,_,0];return dj(e,[0,_,_,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
+t=fI(l,b);if(t){if(g)return 0;var
+u=ai(k[1],d),v=u?ai(k[2],d):u;if(v){var
+I=a[2],J=a[1];return cn(b,j,function(a){var
+b=[0,$,$,0];return dq(e,[0,$,$,0],J,I,f(function(a){return[0,a[1],b]},a))})}var
 w=v}else
 var
 w=t;return w}return 0;case
 1:var
 x=h[1];if(typeof
 a==="number"){if(1===a){var
-K=fw(g,bh(x));return cj(b,q,function(a){return fs(e,K,a)})}if(!a){var
-L=fw(g,bh(x));return cj(b,j,function(a){return fs(e,L,a)})}}return 0;case
+K=fJ(g,a$(x));return cn(b,q,function(a){return fE(e,K,a)})}if(!a){var
+L=fJ(g,a$(x));return cn(b,j,function(a){return fE(e,L,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-y=a[1],n=a[3],o=function(a){return bX(a,y,aZ(m,c))};if(n)var
-A=f(o,n[2]),i=[0,o(n[1]),_,A];else
+y=a[1],n=a[3],p=function(a){return bZ(a,y,aY(m,c))};if(n)var
+A=f(p,n[2]),i=[0,p(n[1]),$,A];else
 var
-i=bh(_);var
-z=h[1],M=a[2];return cj(b,j,function(c){var
-h=bZ(e),a=p(function(a){return ag(d,di(a,i)[1])},h),b=a?dj(e,ef(g,i),y,M,c):a;if(b){var
-j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fs(e,fw(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
+i=a$($);var
+z=h[1],M=a[2];return cn(b,j,function(c){var
+h=b1(e),a=o(function(a){return af(d,dp(a,i)[1])},h),b=a?dq(e,ek(g,i),y,M,c):a;if(b){var
+j=i[3],k=f(function(a){return B(m,z,a)},j),l=i[2];return fE(e,fJ(g,[0,B(m,z,i[1]),l,k]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return fx(b,e,g,h[1]);return 0;case
+a==="number"&&!a)return fK(b,e,g,h[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-N=a[2],O=a[1],P=ef(g,bh(h[2])),Q=function(a){return dj(e,P,O,N,a)};return cj(b,h[1],Q)}return 0;default:if(typeof
+N=a[2],O=a[1],P=ek(g,a$(h[2])),Q=function(a){return dq(e,P,O,N,a)};return cn(b,h[1],Q)}return 0;default:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return fx(b,e,g,h[1]);case
-2:return fx(b,e,g,h[2])}return 0}}function
-eg(b,a){if(a){var
+0:return fK(b,e,g,h[1]);case
+2:return fK(b,e,g,h[2])}return 0}}function
+el(b,a){if(a){var
 c=a[2];if(b){var
-e=eg(b[1],c);return[0,a[1],e]}var
+e=el(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-il(r,V,H,G,F,U,T,E,c,C,B){if(C){var
-I=ii(r,V,U,c),g=C,b=B;for(;;){if(g){var
-v=g[1],a=v[2],m=v[1],w=g[2];if(typeof
+iB(r,V,H,G,F,U,T,E,c,D,C){if(D){var
+J=iy(r,V,U,c),g=D,b=C;for(;;){if(g){var
+v=g[1],a=v[2],n=v[1],w=g[2];if(typeof
 a==="number"&&4<=a){var
 l=e(E,c);if(l)var
-S=l[1],L=bZ(n(c)),o=p(function(b){return function(a){return ag(di(a,b)[2],d)}}(S),L);else
+S=l[1],M=b1(m(c)),p=o(function(b){return function(a){return af(dp(a,b)[2],d)}}(S),M);else
 var
-o=l;if(o){var
-g=w,b=f(function(a){return 0},b);continue}return o}var
-x=P(m,b,0);if(x){var
-q=aJ(T,m);if(q){var
-y=q[1],J=0;if(typeof
-a==="number"||!(5===a[0]))J=1;else{var
-i=a[2],j=e(E,c),K=0;if(j){var
-s=D(d,i);if(s){var
-k=j[1],t=a[3],Q=a[1],M=k[3],N=f(function(b,c){return function(a){return bX(b,c,a)}}(i,t),M),O=k[2],R=[0,[0,bX(i,t,k[1]),O,N]],h=ik(r,H,G,F,I,n(c),R,y,Q);K=1}else
+p=l;if(p){var
+g=w,b=f(function(a){return 0},b);continue}return p}var
+x=I(n,b,0);if(x){var
+q=au(T,n);if(q){var
+y=q[1],K=0;if(typeof
+a==="number"||!(5===a[0]))K=1;else{var
+i=a[2],j=e(E,c),L=0;if(j){var
+s=A(d,i);if(s){var
+k=j[1],t=a[3],Q=a[1],N=k[3],O=f(function(b,c){return function(a){return bZ(b,c,a)}}(i,t),N),P=k[2],R=[0,[0,bZ(i,t,k[1]),P,O]],h=iA(r,H,G,F,J,m(c),R,y,Q);L=1}else
 var
 u=s}else
 var
-u=j;if(!K)var
-h=u}if(J)var
-h=ik(r,H,G,F,I,n(c),0,y,a);if(h){var
-g=w,b=eg(m,b);continue}var
+u=j;if(!L)var
+h=u}if(K)var
+h=iA(r,H,G,F,J,m(c),0,y,a);if(h){var
+g=w,b=el(n,b);continue}var
 z=h}else
 var
 z=q;var
-A=z}else
+B=z}else
 var
-A=x;return A}return[0,b]}}return[0,B]}function
-fy(j,i,h,g,f,e,d,c,u,t,s){var
+B=x;return B}return[0,b]}}return[0,C]}function
+fL(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=il(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(aV,l[1]):l}var
-m=il(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=ee(a[2],b),q=fy(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
-b=o[2],k=n,a=a[4];continue}var
+l=iB(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(aK,l[1]):l}var
+m=iB(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=dr(a[2],b),q=fL(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-im(a){return f(function(a){return 1},a)}function
-ck(m,r){var
+iC(a){return f(function(a){return 1},a)}function
+co(m,q){var
 h=m[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(D(i,c))if(0===e[0]){var
-j=e[2],n=e[1];if(D(j,c)){var
-k=al(b,n),l=k?dh(b):k;if(l)var
-o=al(m[2],d),g=o||al(b,d);else
+i=f[2],b=f[1];if(A(i,c))if(0===e[0]){var
+j=e[2],n=e[1];if(A(j,c)){var
+k=ai(b,n),l=k?dk(b):k;if(l)var
+o=ai(m[2],d),g=o||ai(b,d);else
 var
 g=l;var
 p=g?[0,b]:g,a=p}else
 var
-a=al(be(j,aT(2))[2],d)?0:0}else
+a=ai(bj(j,aW(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=al(be(i,aT(2))[2],d)?0:0}else
+a=ai(bj(i,aW(2))[2],d)?0:0}else
 var
-a=0;return a?q(a[1]):[0,[1,r]]}function
-eh(b,a){if(a)var
-d=eh([0,b],a[2]),c=[0,ck(a[1],b),d];else
+a=0;return a?r(a[1]):[0,[1,q]]}function
+em(b,a){if(a)var
+d=em([0,b],a[2]),c=[0,co(a[1],b),d];else
 var
 c=a;return c}function
-bi(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fz(b,d,a){switch(a[0]){case
+a3(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fM(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bi(c[3],b),f),i=g(bi(c[2],b),h);return g(bi(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(a3(c[3],b),f),i=g(a3(c[2],b),h);return g(a3(c[1],d),i);case
 1:var
-e=a[3],j=e?bi(e[1],d):e,k=g(bi(a[2],b),j);return g(bi(a[1],b),k);default:return bi(a[1],d)}}function
-bF(b,a){var
-c=q(d),e=P(M(py,a),b,c),f=q(d),g=P(M(pz,a),b,f);return[0,P(a,b,q(d)),g,e]}function
-io(b,a){return b0(A,b0(G,fu,a),b)}function
-ip(c,b,a){if(a){var
-e=a[2],f=ip(c,hK(b),e),h=a[1];return g(fz(c,fh(d,b),h),f)}return a}function
-iq(l,k,h,x){if(h){var
-e=h[1],K=M(x,n(fz(l,fh(d,k),e))),L=h[2],N=iq(l,hK(k),L,K),a=eh(x,fz(l,fh(d,k),e));switch(e[0]){case
+e=a[3],j=e?a3(e[1],d):e,k=g(a3(a[2],b),j);return g(a3(a[1],b),k);default:return a3(a[1],d)}}function
+bI(b,a){var
+c=r(d),e=I(H(pT,a),b,c),f=r(d),g=I(H(pU,a),b,f);return[0,I(a,b,r(d)),g,e]}function
+iD(b,a){return b2(C,b2(K,fG,a),b)}function
+fN(c,b,a){if(a){var
+e=a[2],f=fN(c,hZ(b),e),h=a[1];return g(fM(c,fu(d,b),h),f)}return a}function
+fO(l,k,h,x){if(h){var
+e=h[1],M=H(x,m(fM(l,fu(d,k),e))),N=h[2],O=fO(l,hZ(k),N,M),a=em(x,fM(l,fu(d,k),e));switch(e[0]){case
 0:var
-F=e[1][5],u=P(pA,a,q(d)),g=ft(bF(a,0)),H=bF(a,pB),v=io(bF(a,pC),H),o=aB(g,v),f=b0(A,v,ec(o,g)),z=aB(f,f),p=A(ac(u),z),r=cH(p),i=F?r:ci(r),B=A(o,i),C=b0(G,g,ed(f,i)),m=[0,b0(G,f,ec(i,g)),p,C,B,[0,u],0];break;case
+F=e[1][5],u=I(pV,a,r(d)),g=fF(bI(a,0)),G=bI(a,pW),v=iD(bI(a,pX),G),o=aC(g,v),f=b2(C,v,eh(o,g)),z=aC(f,f),p=C(ad(u),z),q=cl(p),i=F?q:ck(q),A=C(o,i),B=b2(K,g,ei(f,i)),n=[0,b2(K,f,eh(i,g)),p,B,A,[0,u],0];break;case
 1:var
-w=e[3],I=w?[0,ft(bF(a,pD))]:w,J=bF(a,pE),b=io(bF(a,0),J),s=aB(b,b),t=cH(s),D=ab(function(a){return b0(A,b,ec(aB(a,b),a))},I),m=[0,b,s,ed(b,t),t,0,D];break;default:var
-j=ft(bF(a,0)),E=aB(j,fu),m=[0,j,q(c),j,E,0,0]}var
-y=[0,m,N]}else
+w=e[3],J=w?[0,fF(bI(a,pY))]:w,L=bI(a,pZ),b=iD(bI(a,0),L),s=aC(b,b),t=cl(s),D=ac(function(a){return b2(C,b,eh(aC(a,b),a))},J),n=[0,b,s,ei(b,t),t,0,D];break;default:var
+j=fF(bI(a,0)),E=aC(j,fG),n=[0,j,r(c),j,E,0,0]}var
+y=[0,n,O]}else
 var
 y=h;return y}function
-cl(k,a){if(typeof
+b3(k,a){if(typeof
 a==="number"){var
 b=[0,d,c];return[0,[0,b,b],d]}else
 switch(a[0]){case
@@ -2694,39 +2698,39 @@ e=[4,[0,c,c],a[1]];return[0,[0,e,e],d];case
 3:var
 f=a[2];return[0,[0,f,f],k];default:var
 h=a[1];return[0,[0,h,h],d]}}function
-fA(d,c,b,a){var
-e=v(c,b);return A(v(d,a),e)}function
-cL(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
-ir(a){if(a){var
+fP(d,c,b,a){var
+e=v(c,b);return C(v(d,a),e)}function
+cp(a){return J(function(a){return g(a[1],[0,a[2],0])},a)}function
+iE(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=ir(a[2]);if(d)var
-g=d[1],h=aB(c,c),e=[0,[0,[0,eb(c),h],g]];else
+c=b[1],d=iE(a[2]);if(d)var
+g=d[1],h=aC(c,c),e=[0,[0,[0,eg(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pF}function
-fB(b,d,c,a){if(typeof
+f=b;return f}return p0}function
+en(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-e=ck(cl(d,a),c);return[0,f(function(a){var
-b=v(a[2],e);return[0,eb(a[1]),b]},b)];case
-9:return ir(b)}return 0}function
-is(b,s,r,a){var
-e=ck(cl(s,a),r),p=0;if(typeof
+e=co(b3(d,a),c);return[0,f(function(a){var
+b=v(a[2],e);return[0,eg(a[1]),b]},b)];case
+9:return iE(b)}return 0}function
+fQ(b,s,r,a){var
+e=co(b3(s,a),r),p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 2:var
-L=function(a){return[0,A(a[4],e),0]},g=L,f=a[1];break;case
+L=function(a){return[0,C(a[4],e),0]},g=L,f=a[1];break;case
 3:var
-M=function(a){return[0,A(e,a[4]),0]},g=M,f=a[1];break;case
+M=function(a){return[0,C(e,a[4]),0]},g=M,f=a[1];break;case
 4:var
 N=function(b){var
-a=b[1],c=ac(a[3]),d=ac(a[2]),f=ac(a[1]),g=b[2];return[0,A(A(A(v(ac(e),g),f),d),c),0]},g=N,f=a[1];break;case
+a=b[1],c=ad(a[3]),d=ad(a[2]),f=ad(a[1]),g=b[2];return[0,C(C(C(v(ad(e),g),f),d),c),0]},g=N,f=a[1];break;case
 6:var
 O=function(b){var
 a=b[5];if(a)var
-d=ac(a[1]),f=v(ac(e),d),c=[0,A(b[2],f),0];else
+d=ad(a[1]),f=v(ad(e),d),c=[0,C(b[2],f),0];else
 var
 c=a;return c},g=O,f=a[1];break;case
 7:if(b){var
@@ -2735,19 +2739,19 @@ i=h[2];if(i){if(i[2])return 0;var
 t=i[1],u=h[1],w=b[1],k=w[5];if(k){var
 l=u[5];if(l){var
 m=t[5];if(m)var
-c=t[1],d=u[1],n=w[1],F=fA(d[1],d[2],c[1],c[2]),H=v(n[3],F),I=fA(d[1],d[3],c[1],c[3]),J=v(n[2],I),K=fA(d[2],d[3],c[2],c[3]),q=G(A(v(n[1],K),J),H),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ci(G(q,x)),0],y=[0,A(q,x),R];else
+c=t[1],d=u[1],n=w[1],F=fP(d[1],d[2],c[1],c[2]),G=v(n[3],F),H=fP(d[1],d[3],c[1],c[3]),I=v(n[2],H),J=fP(d[2],d[3],c[2],c[3]),q=K(C(v(n[1],J),I),G),P=m[1],Q=l[1],x=v(v(v(e,k[1]),Q),P),R=[0,ck(K(q,x)),0],y=[0,C(q,x),R];else
 var
 y=m;var
 z=y}else
 var
 z=l;var
-B=z}else
+A=z}else
 var
-B=k;var
-C=B}else
+A=k;var
+B=A}else
 var
-C=i;var
-D=C}else
+B=i;var
+D=B}else
 var
 D=h;var
 E=D}else
@@ -2755,35 +2759,35 @@ var
 E=b;return E;case
 8:case
 9:var
-o=fB(b,s,r,a);return o?cL(o[1]):o;default:p=1}if(p)return 0;var
-j=aJ(b,f);return j?g(j[1]):j}function
-it(d,c,b,a){if(a){var
-e=it(d,c,[0,b],a[2]);return g(is(d,c,b,a[1]),e)}return a}function
-iu(a,g,k,f,j,i){if(i){var
-B=iu(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
+o=en(b,s,r,a);return o?cp(o[1]):o;default:p=1}if(p)return 0;var
+j=au(b,f);return j?g(j[1]):j}function
+fR(d,c,b,a){if(a){var
+e=fR(d,c,[0,b],a[2]);return g(fQ(d,c,b,a[1]),e)}return a}function
+iF(a,g,k,f,j,i){if(i){var
+B=iF(a,g,k,f,[0,j],i[2]),b=i[1];if(typeof
 b==="number")var
-d=[0,[0,_]];else
+d=[0,[0,$]];else
 switch(b[0]){case
 0:var
-u=a1(a,cl(f,b)),d=ab(function(b){return[0,aj(a,b)]},u);break;case
+u=aL(a,b3(f,b)),d=ac(function(b){return[0,aj(a,b)]},u);break;case
 1:var
-v=a1(a,cl(f,b)),d=ab(function(b){return[1,aj(a,b)]},v);break;case
+v=aL(a,b3(f,b)),d=ac(function(b){return[1,aj(a,b)]},v);break;case
 5:var
-x=a1(a,cl(f,b)),d=ab(function(b){return[2,aj(a,b)]},x);break;case
+x=aL(a,b3(f,b)),d=ac(function(b){return[2,aj(a,b)]},x);break;case
 8:var
-y=fB(k,f,j,b),d=ab(function(b){var
-d=aZ(a,c);return[4,e(a7(g),b),d]},y);break;case
+y=en(k,f,j,b),d=ac(function(b){var
+d=aY(a,c);return[4,e(aZ(g),b),d]},y);break;case
 9:var
-m=fB(k,f,j,b);if(m){var
-n=a1(a,cl(f,b));if(n)var
-z=aj(a,n[1]),A=m[1],r=[0,[4,e(a7(g),A),z]];else
+m=en(k,f,j,b);if(m){var
+n=aL(a,b3(f,b));if(n)var
+z=aj(a,n[1]),A=m[1],r=[0,[4,e(aZ(g),A),z]];else
 var
 r=n;var
 s=r}else
 var
 s=m;var
 d=s;break;default:var
-h=is(k,f,j,b),o=0;if(h){var
+h=fQ(k,f,j,b),o=0;if(h){var
 l=h[2],p=h[1];if(l)if(l[2])var
 d=0;else
 var
@@ -2794,85 +2798,85 @@ d=q}var
 t=[0,d,B]}else
 var
 t=i;return t}function
-pG(a){if(typeof
+p1(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-cm(s,r){var
+cq(s,r){var
 b=s,a=r;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-k=al(b[1],a[1]);if(k){var
-f=b[2],e=a[2];for(;;){if(D(f,c))return D(e,c)?1:al(be(e,aT(2))[2],d)?0:0;var
-i=be(f,aT(2)),j=i[1];if(al(i[2],d)){if(D(e,c))return 0;var
-g=be(e,aT(2)),p=g[1];if(al(g[2],d)){var
-f=j,e=p;continue}return 0}if(D(e,c))return 0;var
-h=be(e,aT(2)),q=h[1];if(al(h[2],d))return 0;var
+k=ai(b[1],a[1]);if(k){var
+f=b[2],e=a[2];for(;;){if(A(f,c))return A(e,c)?1:ai(bj(e,aW(2))[2],d)?0:0;var
+i=bj(f,aW(2)),j=i[1];if(ai(i[2],d)){if(A(e,c))return 0;var
+g=bj(e,aW(2)),p=g[1];if(ai(g[2],d)){var
+f=j,e=p;continue}return 0}if(A(e,c))return 0;var
+h=bj(e,aW(2)),q=h[1];if(ai(h[2],d))return 0;var
 f=j,e=q;continue}}return k}return 0;case
 1:if(1===a[0]){var
-l=cm(b[1],a[1]);if(l){var
+l=cq(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 2:if(2===a[0]){var
-m=cm(b[1],a[1]);if(m){var
+m=cq(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 3:if(3===a[0]){var
-n=cm(b[1],a[1]);if(n){var
+n=cq(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 4:if(4===a[0]){var
-o=cm(b[1],a[1]);if(o){var
+o=cq(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(5===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ei(a){switch(a[0]){case
+eo(a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:var
-j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,hQ(b,a)]};break;case
+j=a[2],k=a[1],f=j,e=k,b=function(b,a){return[0,h7(b,a)]};break;case
 2:var
-l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,hQ(b,[0,T(a[1]),a[2]])]};break;case
+l=a[2],m=a[1],f=l,e=m,b=function(b,a){return[0,h7(b,[0,T(a[1]),a[2]])]};break;case
 3:var
-n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,hR(b,a)]};break;case
+n=a[2],o=a[1],f=n,e=o,b=function(b,a){return[0,h8(b,a)]};break;case
 4:var
-p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(hO(a,[0,d,c]))return 0;var
-b=a[1],e=bx(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,hR(g,f)]};break;default:return 0}var
-g=ei(e);if(g){var
-h=ei(f);if(h)return b(g[1],h[1]);var
+p=a[2],q=a[1],f=p,e=q,b=function(g,a){if(h5(a,[0,d,c]))return 0;var
+b=a[1],e=bC(b),f=0===e?[0,d,c]:0<e?[0,a[2],b]:[0,T(a[2]),T(b)];return[0,h8(g,f)]};break;default:return 0}var
+g=eo(e);if(g){var
+h=eo(f);if(h)return b(g[1],h[1]);var
 i=h}else
 var
 i=g;return i}function
 l(i,e,b){var
-f=ei(b);if(f){var
-g=f[1];return e?aV(hP(g,[0,d,c])):hP([0,d,c],g)}var
-a=au(i,b);if(a){var
-h=a[1];return e?ag(d,h[1]):D(d,h[1])}return a}function
-iv(c,b){var
-a=au(c,b),d=a?1:a;return d}function
-bj(c,a,b){var
-d=cm(a,b),e=d?iv(c,a):d;return e?e:l(c,0,[2,b,a])}function
-aL(c,b,a){var
+f=eo(b);if(f){var
+g=f[1];return e?aK(h6(g,[0,d,c])):h6([0,d,c],g)}var
+a=av(i,b);if(a){var
+h=a[1];return e?af(d,h[1]):A(d,h[1])}return a}function
+iG(c,b){var
+a=av(c,b),d=a?1:a;return d}function
+bn(c,a,b){var
+d=cq(a,b),e=d?iG(c,a):d;return e?e:l(c,0,[2,b,a])}function
+aO(c,b,a){var
 d=S(c,b[3],a[3]),e=S(c,b[2],a[2]);return[0,S(c,b[1],a[1]),e,d]}function
-aM(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
-E(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
-aD(a){return aM([4,[0,c,c],[5,E(a,a)]],a)}function
-cn(c,b,a){var
-d=bj(c,b[1],a);return d?bj(c,a,b[2]):d}function
-aN(c,b,a){var
-d=cn(c,b[1],a[1]),e=d?cn(c,b[2],a[2]):d;return e?cn(c,b[3],a[3]):e}function
-iw(c,a,b){if(0===a[0])return aN(c,a[1],b);var
-d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cn(c,a[4],b[3]):h}function
-ix(a,D,H,G){var
+aP(b,a){return[0,[3,b,a[1]],[3,b,a[2]],[3,b,a[3]]]}function
+G(b,a){return[1,[1,[3,b[1],a[1]],[3,b[2],a[2]]],[3,b[3],a[3]]]}function
+aE(a){return aP([4,[0,c,c],[5,G(a,a)]],a)}function
+cr(c,b,a){var
+d=bn(c,b[1],a);return d?bn(c,a,b[2]):d}function
+aQ(c,b,a){var
+d=cr(c,b[1],a[1]),e=d?cr(c,b[2],a[2]):d;return e?cr(c,b[3],a[3]):e}function
+iH(c,a,b){if(0===a[0])return aQ(c,a[1],b);var
+d=a[3],e=[2,b[1],a[1]],f=[2,b[2],a[2]],g=l(c,0,[2,[2,[3,d,d],[3,e,e]],[3,f,f]]),h=g?l(c,0,d):g;return h?cr(c,a[4],b[3]):h}function
+iI(a,D,H,F){var
 h=D[1],d=H;for(;;){if(h){if(d){var
 b=d[1],e=h[1];switch(e[0]){case
 0:var
 f=e[1];if(0===b[0])var
-o=b[4],i=b[1],p=aN(a,f[1],i),q=p?l(a,1,E(i,i)):p,r=q?aN(a,f[2],b[2]):q,s=r?aN(a,f[3],b[3]):r,t=s?cn(a,f[4],o):s,u=t?l(a,1,o):t,c=u?dX(f[5],b[5]):u;else
+o=b[4],i=b[1],p=aQ(a,f[1],i),q=p?l(a,1,G(i,i)):p,r=q?aQ(a,f[2],b[2]):q,s=r?aQ(a,f[3],b[3]):r,t=s?cr(a,f[4],o):s,u=t?l(a,1,o):t,c=u?d5(f[5],b[5]):u;else
 var
 c=0;break;case
 1:var
 v=e[3];if(1===b[0]){var
-g=b[3],w=aN(a,e[1],b[1]),x=w?aN(a,e[2],b[2]):w,n=0;if(x)if(v){var
-F=0;if(g){var
-j=g[1],y=aN(a,v[1],j);if(y){var
-c=l(a,1,E(j,j));F=1}else
+g=b[3],w=aQ(a,e[1],b[1]),x=w?aQ(a,e[2],b[2]):w,n=0;if(x)if(v){var
+E=0;if(g){var
+j=g[1],y=aQ(a,v[1],j);if(y){var
+c=l(a,1,G(j,j));E=1}else
 var
 z=y}else
 var
-z=g;if(!F)var
+z=g;if(!E)var
 c=z}else
 if(g)var
 c=0;else{var
@@ -2881,7 +2885,7 @@ A=x;n=1}if(n)var
 c=A}else
 var
 c=0;break;default:if(2===b[0])var
-k=b[1],B=aN(a,e[1],k),c=B?l(a,1,E(k,k)):B;else
+k=b[1],B=aQ(a,e[1],k),c=B?l(a,1,G(k,k)):B;else
 var
 c=0}if(c){var
 h=h[2],d=d[2];continue}var
@@ -2890,73 +2894,73 @@ var
 C=d;var
 m=C}else
 var
-m=d?0:1;return m?iw(a,D[2],G):m}}function
-bG(c,b,a){var
-d=aL(function(b,a){return[1,b,a]},a,b);return aL(function(b,a){return[2,b,a]},d,c)}function
-fC(a,e,d,c){var
-b=bG(e,d,c),f=aD(a),g=aM(E(aD(a),b),f);return aL(function(b,a){return[2,b,a]},b,g)}function
-dk(f,e,d,a,c){var
-b=fC(f,e,d,c);return[2,[3,a,a],E(b,b)]}function
-dl(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
+m=d?0:1;return m?iH(a,D[2],F):m}}function
+bJ(c,b,a){var
+d=aO(function(b,a){return[1,b,a]},a,b);return aO(function(b,a){return[2,b,a]},d,c)}function
+fS(a,e,d,c){var
+b=bJ(e,d,c),f=aE(a),g=aP(G(aE(a),b),f);return aO(function(b,a){return[2,b,a]},b,g)}function
+ds(f,e,d,a,c){var
+b=fS(f,e,d,c);return[2,[3,a,a],G(b,b)]}function
+dt(b,a){return b?[5,a]:[2,[0,d,c],[5,a]]}function
 cM(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fC(d,f,e,b),h=dk(d,f,e,a[4],b),i=aM([4,[0,c,c],dl(a[5],h)],g),j=aD(d);return aL(function(b,a){return[1,b,a]},j,i);case
-1:return aD(bG(a[1],a[2],b));default:return aD(a[1])}}function
-iy(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fS(d,f,e,b),h=ds(d,f,e,a[4],b),i=aP([4,[0,c,c],dt(a[5],h)],g),j=aE(d);return aO(function(b,a){return[1,b,a]},j,i);case
+1:return aE(bJ(a[1],a[2],b));default:return aE(a[1])}}function
+iJ(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=dk(e,d,c,a[4],b),i=dl(a[5],h),j=bG(d,c,b);return[2,E(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=ds(e,d,c,a[4],b),i=dt(a[5],h),j=bJ(d,c,b);return[2,G(aE(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bG(g,f,b);return[5,E(bG(g,f,b),k)];default:return E(aD(a[1]),b)}}function
-dm(e,b,a){var
-f=[0,d,c];return cD(function(c,d){var
-e=E(cM(c,b),a);return[1,[3,E(cM(c,b),a),e],d]},f,e)}function
-iz(a){var
+f=a[2],g=a[1],k=bJ(g,f,b);return[5,G(bJ(g,f,b),k)];default:return G(aE(a[1]),b)}}function
+du(e,b,a){var
+f=[0,d,c];return cH(function(c,d){var
+e=G(cM(c,b),a);return[1,[3,G(cM(c,b),a),e],d]},f,e)}function
+iK(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-fD(a,c){if(0===a[0]){var
-d=a[4],e=a[3],f=a[2],b=a[1],g=aD(b),h=dk(b,f,e,d,c),i=aM(dl(a[5],h),g),j=fC(b,f,e,c);return[0,[0,aL(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
-iA(d,i){if(d){var
+fT(a,c){if(0===a[0]){var
+d=a[4],e=a[3],f=a[2],b=a[1],g=aE(b),h=ds(b,f,e,d,c),i=aP(dt(a[5],h),g),j=fS(b,f,e,c);return[0,[0,aO(function(b,a){return[1,b,a]},j,i),d]]}return 0}function
+iL(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bG(a[1],a[2],i),k=aD(f),l=aM(E(aD(f),g),k),h=[0,aL(function(b,a){return[2,b,a]},g,l)];else
+f=c[1],g=bJ(a[1],a[2],i),k=aE(f),l=aP(G(aE(f),g),k),h=[0,aO(function(b,a){return[2,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=iA(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=iL(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pH}function
-iB(g,f,e,b,n,a){function
-y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],E(b,b)]}if(typeof
+j=b;return j}return p2}function
+iM(g,f,e,b,n,a){function
+y(a){return[3,[3,[4,[0,c,c],a],[4,[0,c,c],a]],G(b,b)]}if(typeof
 a==="number")return 0;else
 switch(a[0]){case
 0:var
-U=dm(f,e,b);return l(g,1,[2,y(a[1]),U]);case
+U=du(f,e,b);return l(g,1,[2,y(a[1]),U]);case
 1:var
-V=y(a[1]);return l(g,1,[2,dm(f,e,b),V]);case
+V=y(a[1]);return l(g,1,[2,du(f,e,b),V]);case
 2:var
-W=a[2],X=function(a){return[2,W,iy(a,e)]},p=X,o=a[1];break;case
+W=a[2],X=function(a){return[2,W,iJ(a,e)]},p=X,o=a[1];break;case
 3:var
-Y=a[2],Z=function(a){return[2,iy(a,e),Y]},p=Z,o=a[1];break;case
+Y=a[2],Z=function(a){return[2,iJ(a,e),Y]},p=Z,o=a[1];break;case
 4:var
 z=a[3],A=a[2],_=function(a){var
-b=cM(a,e);return[2,[3,[3,A,A],E(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
+b=cM(a,e);return[2,[3,[3,A,A],G(cM(a,e),b)],[3,z,z]]},p=_,o=a[1];break;case
 5:var
-B=a[1],$=E(b,b),aa=[3,[3,B,B],[3,dm(f,e,n),$]],ab=E(n,n);return l(g,1,[2,[3,dm(f,e,b),ab],aa]);case
+B=a[1],$=G(b,b),aa=[3,[3,B,B],[3,du(f,e,n),$]],ab=G(n,n);return l(g,1,[2,[3,du(f,e,b),ab],aa]);case
 6:var
-C=a[2],r=aJ(f,a[1]);if(r){var
+C=a[2],r=au(f,a[1]);if(r){var
 h=r[1];if(0===h[0]){var
-s=h[4],ac=dk(h[1],h[2],h[3],s,e),D=dl(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
-F=0}else
+s=h[4],ac=ds(h[1],h[2],h[3],s,e),D=dt(h[5],ac);return l(g,1,[2,[3,[3,C,s],[3,C,s]],[3,D,D]])}var
+E=0}else
 var
-F=r;return F;case
+E=r;return E;case
 7:if(f){var
 k=f[2];if(k){var
 m=k[2];if(m){if(m[2])return 0;var
-t=fD(f[1],e);if(t){var
-G=t[1],u=fD(k[1],e);if(u){var
-H=u[1],v=fD(m[1],e);if(v){var
-I=v[1],J=[3,[3,[3,a[1],G[2]],H[2]],I[2]],i=I[1],j=H[1],x=E(G[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
+t=fT(f[1],e);if(t){var
+F=t[1],u=fT(k[1],e);if(u){var
+H=u[1],v=fT(m[1],e);if(v){var
+I=v[1],J=[3,[3,[3,a[1],F[2]],H[2]],I[2]],i=I[1],j=H[1],x=G(F[1],[0,[2,[3,j[2],i[3]],[3,j[3],i[2]]],[2,[3,j[3],i[1]],[3,j[1],i[3]]],[2,[3,j[1],i[2]],[3,j[2],i[1]]]]),K=l(g,1,[2,J,x]);if(K)return l(g,1,[1,J,x]);var
 L=K}else
 var
 L=v;var
@@ -2976,25 +2980,27 @@ Q=P}else
 var
 Q=f;return Q;case
 8:var
-ad=dm(f,e,b),ae=E(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
-R=a[1],w=iA(f,e);if(w){var
-af=w[1],S=[0,d,c],T=cD(function(a,c){var
-d=E(aD(a),b);return[1,[3,E(aD(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],E(b,b)],T])}return w}var
-q=aJ(f,o);return q?l(g,1,p(q[1])):q}function
-b1(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-pI(a){switch(a[0]){case
+ad=du(f,e,b),ae=G(b,b);return l(g,1,[2,[3,[4,a[2],a[1]],ae],ad]);default:var
+R=a[1],w=iL(f,e);if(w){var
+af=w[1],S=[0,d,c],T=cH(function(a,c){var
+d=G(aE(a),b);return[1,[3,G(aE(a),b),d],c]},S,af);return l(g,1,[2,[3,[3,R,R],G(b,b)],T])}return w}var
+q=au(f,o);return q?l(g,1,p(q[1])):q}function
+b4(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+p3(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=b1(b[3]),f=b1(b[2]);return[0,b1(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=b4(b[3]),f=b4(b[2]);return[0,b4(b[1]),f,e,d,c];case
 1:var
-g=ab(b1,a[3]),h=b1(a[2]);return[1,b1(a[1]),h,g];default:return[2,b1(a[1])]}}function
+g=ac(b4,a[3]),h=b4(a[2]);return[1,b4(a[1]),h,g];default:return[2,b4(a[1])]}}function
+iN(c,b){var
+a=b[2],d=0===a[0]?b4(a[1]):[0,a[1],a[2],a[4][1]];return iI(c,b,f(p3,b[1]),d)}function
 cN(b,a){if(b){if(a){var
 e=cN(b[2],a[2]);return[1,[3,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-iC(a,l,k,f){var
-b=au(a,l);if(b){var
-c=au(a,k);if(c){var
-d=d5(a,f);if(d){var
-e=fm(a,f);if(e)var
-m=B(a,b[1],e[1]),g=[0,O(B(a,c[1],d[1]),m)];else
+iO(a,l,k,f){var
+b=av(a,l);if(b){var
+c=av(a,k);if(c){var
+d=eb(a,f);if(d){var
+e=fz(a,f);if(e)var
+m=B(a,b[1],e[1]),g=[0,P(B(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3006,13 +3012,13 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-iD(f,D,s,C,a,e){function
+iP(f,D,s,C,a,e){function
 t(b,a){return[3,[3,[4,[0,c,c],b],[4,[0,c,c],b]],cN(a,a)]}var
 E=s[1];function
 g(b){var
-a=[0,d,c];return cD(function(a,c){var
+a=[0,d,c];return cH(function(a,c){var
 d=cN(a,b);return[1,[3,cN(a,b),d],c]},a,E)}var
-u=p(function(a){return ai(n(a),D)},a);if(u){var
+u=o(function(a){return ag(m(a),D)},a);if(u){var
 r=0;if(typeof
 e==="number")r=1;else
 switch(e[0]){case
@@ -3029,20 +3035,20 @@ a!=="number"&&0===a[0])return l(f,1,[2,a[1],J]);return 0},j=K,i=e[1];break;case
 4:if(a)return 0;var
 y=e[3],z=e[2],L=function(a){if(typeof
 a!=="number"&&1===a[0]){var
-h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
-e=iC(f,i,h,z);return e?ag(e[1][2],d):e}var
-g=iC(f,i,h,y);return g?ag(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
+h=a[2],i=a[1],j=l(f,0,[2,[1,z,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],y]);if(j){if(C){var
+e=iO(f,i,h,z);return e?af(e[1][2],d):e}var
+g=iO(f,i,h,y);return g?af(d,g[1][1]):g}return j}return 0},j=L,i=e[1];break;case
 5:if(a){var
 h=a[2];if(h){if(h[2])return 0;var
-o=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(o),M]],O=cN(o,o);return l(f,1,[2,[3,g(q),O],N])}var
+p=h[1],q=a[1],A=e[1],M=cN(q,q),N=[3,[3,A,A],[3,g(p),M]],O=cN(p,p);return l(f,1,[2,[3,g(q),O],N])}var
 B=h}else
 var
 B=a;return B;default:r=1}if(!r){var
-m=aJ(s[2],i);return m?j(m[1]):m}var
+k=au(s[2],i);return k?j(k[1]):k}var
 v=0}else
 var
 v=u;return v}function
-iE(h,g){var
+iQ(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3052,44 +3058,44 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-pJ(a){return f(function(a){return[0,a,c]},a)}function
-iF(e,m,b,k,a){if(typeof
+p4(a){return f(function(a){return[0,a,c]},a)}function
+iR(e,m,b,k,a){if(typeof
 a==="number"){var
-q=b[3];return bD(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
-g=iE(a[1],k);if(g){var
-n=g[1],r=n[1],s=f(pJ,a[2]);return iD(e,m,b,n[2],s,r)}return g}var
-h=iE(a[1],k);if(h){var
+q=b[3];return a9(function(a){return l(e,0,[2,[0,d,c],a])},q)}else{if(0===a[0]){var
+g=iQ(a[1],k);if(g){var
+n=g[1],r=n[1],s=f(p4,a[2]);return iP(e,m,b,n[2],s,r)}return g}var
+h=iQ(a[1],k);if(h){var
 o=h[1],i=o[1];if(typeof
 i!=="number"&&1===i[0]){var
-j=aJ(b[1],a[2]);return j?iD(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
+j=au(b[1],a[2]);return j?iP(e,m,b,o[2],[0,j[1],0],[1,i[1]]):j}var
 p=0}else
 var
 p=h;return p}}function
-fE(a){var
-b=aD(a[1]),c=aM(E(b,a[2]),b),d=a[2];return aL(function(b,a){return[2,b,a]},d,c)}function
-fF(a){return aD(fE(a))}function
-iG(c){var
-a=fF(c),b=aD(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-fG(a,b){return bG(a[3],a[4],b)}function
-fH(a,b){var
-c=fG(a,b);return E(fF(a),c)}function
-fI(a,b){var
-c=fG(a,b);return E(iG(a),c)}function
-iH(a,b){var
-c=fG(a,b);return E(aD(a[1]),c)}function
-fJ(b,a){var
-c=fI(b,a),d=fH(b,a);return[1,[3,d,d],[3,c,c]]}function
-fK(a,d){var
-h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iH(a,d);return[4,[1,fJ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
-iI(a,b){var
-f=a[5],c=[2,fK(a,b),f],d=iH(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
-fL(a,b){var
-c=iI(a,b);return dl(a[7],c)}function
-iJ(b,a){var
-c=fJ(b,a),d=fI(b,a),e=[3,fL(b,a),d],f=fH(b,a);return[4,[1,[3,fK(b,a),f],e],c]}function
-iK(b,a){var
-c=fJ(b,a),d=fH(b,a),e=[3,fL(b,a),d],f=fI(b,a);return[4,[2,[3,fK(b,a),f],e],c]}function
-bk(c){var
+fU(a){var
+b=aE(a[1]),c=aP(G(b,a[2]),b),d=a[2];return aO(function(b,a){return[2,b,a]},d,c)}function
+fV(a){return aE(fU(a))}function
+iS(c){var
+a=fV(c),b=aE(c[1]);return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+fW(a,b){return bJ(a[3],a[4],b)}function
+fX(a,b){var
+c=fW(a,b);return G(fV(a),c)}function
+fY(a,b){var
+c=fW(a,b);return G(iS(a),c)}function
+iT(a,b){var
+c=fW(a,b);return G(aE(a[1]),c)}function
+fZ(b,a){var
+c=fY(b,a),d=fX(b,a);return[1,[3,d,d],[3,c,c]]}function
+f0(a,d){var
+h=a[5],i=[3,[0,b(2,c),c],h],e=a[6],f=a[5],g=iT(a,d);return[4,[1,fZ(a,d),[1,[3,g,g],[2,[3,f,f],[3,e,e]]]],i]}function
+iU(a,b){var
+f=a[5],c=[2,f0(a,b),f],d=iT(a,b),e=a[6];return[2,[2,[3,e,e],[3,d,d]],[3,c,c]]}function
+f1(a,b){var
+c=iU(a,b);return dt(a[7],c)}function
+iV(b,a){var
+c=fZ(b,a),d=fY(b,a),e=[3,f1(b,a),d],f=fX(b,a);return[4,[1,[3,f0(b,a),f],e],c]}function
+iW(b,a){var
+c=fZ(b,a),d=fX(b,a),e=[3,f1(b,a),d],f=fY(b,a);return[4,[2,[3,f0(b,a),f],e],c]}function
+bo(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -3098,94 +3104,94 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bk(a[2]);return g(bk(a[1]),e)}}function
-bl(e,a,b){switch(a[0]){case
+e=bo(a[2]);return g(bo(a[1]),e)}}function
+bp(e,a,b){switch(a[0]){case
 0:var
-p=a[1];return ck([0,[0,p,p],d],b);case
+p=a[1];return co([0,[0,p,p],d],b);case
 1:var
-s=a[1],g=e,t=q(d);for(;;){if(g){var
-l=g[1];if(l6(l[1],s))return l[2];var
+s=a[1],g=e,t=r(d);for(;;){if(g){var
+l=g[1];if(mp(l[1],s))return l[2];var
 g=g[2];continue}return t}case
-2:return ci(bl(e,a[1],b));case
+2:return ck(bp(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=G;break;case
+i=a[2],f=a[1],h=K;break;case
 4:var
-i=a[2],f=a[1],h=A;break;case
+i=a[2],f=a[1],h=C;break;case
 5:var
 i=a[2],f=a[1],h=v;break;case
 6:var
-i=a[2],f=a[1],h=aK;break;case
+i=a[2],f=a[1],h=aM;break;case
 7:var
-j=de(a[2]),k=bl(e,a[1],b);if(j){if(j[1]){var
-m=ac(k),r=function(a){return v(a,m)},o=fd(cB(hE(j)),r,m);return hD(j)?o:v(o,k)}return k}return q(c);default:return cH(bl(e,a[1],b))}var
-u=bl(e,i,M(b,n(bk(f))));return h(bl(e,f,b),u)}function
-co(c,f,b){var
+j=dg(a[2]),k=bp(e,a[1],b);if(j){if(j[1]){var
+n=ad(k),q=function(a){return v(a,n)},o=fq(cF(hT(j)),q,n);return hS(j)?o:v(o,k)}return k}return r(c);default:return cl(bp(e,a[1],b))}var
+u=bp(e,i,H(b,m(bo(f))));return h(bp(e,f,b),u)}function
+cs(c,f,b){var
 a=f;for(;;)switch(a[0]){case
 6:var
-e=a[1],j=M(b,n(bk(e))),k=co(c,a[2],j),l=g(co(c,e,b),k);return[0,bl(c,a,b),l];case
+e=a[1],j=H(b,m(bo(e))),k=cs(c,a[2],j),l=g(cs(c,e,b),k);return[0,bp(c,a,b),l];case
 8:var
-m=co(c,a[1],b);return[0,bl(c,a,b),m];case
+n=cs(c,a[1],b);return[0,bp(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=M(b,n(bk(d))),i=co(c,a[2],h);return g(co(c,d,b),i)}}function
-iL(c,a,b){if(a){var
-e=a[1],d=e[2],f=M(b,n(bk(d))),h=a[2],i=bl(c,d,b),j=iL([0,[0,e[1],i],c],h,f);return g(co(c,d,b),j)}return a}function
-dn(a){return N(bk,a)}function
-iM(c,a,b){if(a)var
-d=a[1],f=M(b,n(bk(d))),g=iM(c,a[2],f),e=[0,bl(c,d,b),g];else
+d=a[1],h=H(b,m(bo(d))),i=cs(c,a[2],h);return g(cs(c,d,b),i)}}function
+iX(c,a,b){if(a){var
+e=a[1],d=e[2],f=H(b,m(bo(d))),h=a[2],i=bp(c,d,b),j=iX([0,[0,e[1],i],c],h,f);return g(cs(c,d,b),j)}return a}function
+dv(a){return J(bo,a)}function
+iY(c,a,b){if(a)var
+d=a[1],f=H(b,m(bo(d))),g=iY(c,a[2],f),e=[0,bp(c,d,b),g];else
 var
 e=a;return e}function
-iN(c,a,b){if(a){var
-d=a[1],e=M(b,n(bk(d))),f=iN(c,a[2],e);return g(co(c,d,b),f)}return a}function
-iO(c,a,b){if(a)var
-d=a[1],f=M(b,n(dn(d))),g=iO(c,a[2],f),e=[0,iM(c,d,b),g];else
+iZ(c,a,b){if(a){var
+d=a[1],e=H(b,m(bo(d))),f=iZ(c,a[2],e);return g(cs(c,d,b),f)}return a}function
+i0(c,a,b){if(a)var
+d=a[1],f=H(b,m(dv(d))),g=i0(c,a[2],f),e=[0,iY(c,d,b),g];else
 var
 e=a;return e}function
-iP(c,a,b){if(a){var
-d=a[1],e=M(b,n(dn(d))),f=iP(c,a[2],e);return g(iN(c,d,b),f)}return a}function
-iQ(a){return f(function(a){return[0,a[2],d]},a)}function
-iR(a){var
-c=eh(0,iQ(a[2])),d=cF(0,n(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cE(f(db,a[2]),c);return g(cE(a[1],e),b)}function
-pL(a){if(typeof
+i1(c,a,b){if(a){var
+d=a[1],e=H(b,m(dv(d))),f=i1(c,a[2],e);return g(iZ(c,d,b),f)}return a}function
+i2(a){return f(function(a){return[0,a[2],d]},a)}function
+i3(a){var
+c=em(0,i2(a[2])),d=cI(0,m(a[1])),e=f(function(a){return[0,[0,a]]},d),b=cg(f(dd,a[2]),c);return g(cg(a[1],e),b)}function
+p6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-fM(b,d){var
+f2(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return bD(function(a){return aC(e,a)},b);case
+e=a[1];return a9(function(a){return aD(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=fM(b,a[1]);if(c){var
+c=f2(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-iS(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
-iT(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
-fN(a,c,b){var
-d=[3,iS(a),b],e=[1,[3,iT(a),c],d],f=[3,iT(a),b];return[0,[2,[3,iS(a),c],f],e]}function
-iU(c,a){var
-b=fN(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-iV(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
-iW(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:iU(d[1],a):a;case
+i4(a){return[4,[2,[0,c,c],[3,a,a]],[1,[0,c,c],[3,a,a]]]}function
+i5(a){return[4,[3,[0,b(2,c),c],a],[1,[0,c,c],[3,a,a]]]}function
+f3(a,c,b){var
+d=[3,i4(a),b],e=[1,[3,i5(a),c],d],f=[3,i5(a),b];return[0,[2,[3,i4(a),c],f],e]}function
+i6(c,a){var
+b=f3(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+i7(b,a){return[0,[2,[3,b[2],a[3]],[3,b[3],a[2]]],[2,[3,b[3],a[1]],[3,b[1],a[3]]],[2,[3,b[1],a[2]],[3,b[2],a[1]]]]}function
+i8(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:i6(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=fN(d[1],a[2],a[3]),m=j[1],k=fN(f[1],j[2],a[1]);return iU(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=f3(d[1],a[2],a[3]),m=j[1],k=f3(f[1],j[2],a[1]);return i6(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=E(e,e),n=iV(e,a),o=aM([0,b(2,c),c],n),p=E(e,a),q=aM([3,[0,b(2,c),c],p],e),r=aM([2,[0,c,c],l],a),s=aL(function(b,a){return[1,b,a]},r,q);return aM([4,[0,c,c],[1,[0,c,c],l]],aL(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
-iX(b){var
-a=ei(b);return a?hO(a[1],[0,d,c]):a}function
-iY(a,n,j,i){if(iX(i)){var
+e=[0,d[1],h[1],i[1]],l=G(e,e),n=i7(e,a),o=aP([0,b(2,c),c],n),p=G(e,a),q=aP([3,[0,b(2,c),c],p],e),r=aP([2,[0,c,c],l],a),s=aO(function(b,a){return[1,b,a]},r,q);return aP([4,[0,c,c],[1,[0,c,c],l]],aO(function(b,a){return[1,b,a]},s,o))}return a}return a}return a}}function
+i9(b){var
+a=eo(b);return a?h5(a[1],[0,d,c]):a}function
+i_(a,n,j,i){if(i9(i)){var
 q=n?[2,[0,d,c],j]:j;return l(a,0,q)}var
-f=au(a,j);if(f){var
-g=d5(a,[4,i,[0,b(2,c),c]]);if(g){var
-h=fm(a,[4,i,[0,b(2,c),c]]);if(h)var
-p=B(a,f[1],g[1]),k=[0,O(h[1],p)];else
+f=av(a,j);if(f){var
+g=eb(a,[4,i,[0,b(2,c),c]]);if(g){var
+h=fz(a,[4,i,[0,b(2,c),c]]);if(h)var
+p=B(a,f[1],g[1]),k=[0,P(h[1],p)];else
 var
 k=h;var
 m=k}else
@@ -3194,26 +3200,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dp(b,a,c){var
-d=bj(b,a[1],a[2]),e=d?iY(b,0,c,a[1]):d;return e?iY(b,1,c,a[2]):e}function
-dq(a,d){if(iX(d))return[0,_];var
-e=d5(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fm(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=H(aZ(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ab(function(d){var
-e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return hY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?A(d,o[1]):A(o[2],d)}return e}function
+dw(b,a,c){var
+d=bn(b,a[1],a[2]),e=d?i_(b,0,c,a[1]):d;return e?i_(b,1,c,a[2]):e}function
+dx(a,d){if(i9(d))return[0,$];var
+e=eb(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fz(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=E(aY(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cj(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return ac(function(d){var
+e=B(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return id(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-fO(d,a){var
-e=l(d,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-cp(a){return[0,[2,[0,d,c],a],a]}function
-iZ(a,b,n,m){var
-h=bj(a,[0,d,c],b),i=h?fO(a,b):h;if(i){var
-e=dq(a,b);if(e){var
-f=au(a,n);if(f){var
-g=au(a,m);if(g){var
-o=f[1],p=g[1];return D(d,O(B(a,aj(a,e[1]),p),o)[1])}var
+f4(d,a){var
+e=l(d,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?l(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+ct(a){return[0,[2,[0,d,c],a],a]}function
+i$(a,b,n,m){var
+h=bn(a,[0,d,c],b),i=h?f4(a,b):h;if(i){var
+e=dx(a,b);if(e){var
+f=av(a,n);if(f){var
+g=av(a,m);if(g){var
+o=f[1],p=g[1];return A(d,P(B(a,aj(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3223,17 +3229,17 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-dr(a){return 1===a?pP:pQ}function
-fP(d,c,b,a){var
-e=a[1],f=iW(d,c,a[2]),g=aL(function(b,a){return[1,b,a]},b,f);return aL(function(b,a){return[2,b,a]},g,e)}function
-ds(b,d){var
+dy(a){return 1===a?p_:p$}function
+f5(d,c,b,a){var
+e=a[1],f=i8(d,c,a[2]),g=aO(function(b,a){return[1,b,a]},b,f);return aO(function(b,a){return[2,b,a]},g,e)}function
+dz(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,d6(function(a){return ds(b,a)},a)]}return[0,d6(function(a){return ds(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,H(b,c[1])]]:[0,dj(function(a){return dz(b,a)},a)]}return[0,dj(function(a){return dz(b,a)},a)]}function
 cO(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=aV(ai(e,b));return f?aV(ai(e,M(d,b))):f;case
+e=a[1],f=aK(ag(e,b));return f?aK(ag(e,H(d,b))):f;case
 1:case
 2:return 1;case
 5:case
@@ -3242,219 +3248,219 @@ e=a[1],f=aV(ai(e,b));return f?aV(ai(e,M(d,b))):f;case
 c=a[1];continue;default:var
 g=cO(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dt(c,b,m){var
+dA(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cO(c,b,g),i=h?dt(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cO(c,b,g),i=h?dA(c,b,f):h;if(i)var
 j=i;else{var
-k=dt(c,b,g);if(k)return cO(c,b,f);var
+k=dA(c,b,g);if(k)return cO(c,b,f);var
 j=k}return j;case
 7:var
-l=dt(c,b,a[1]);return l?cO(c,b,a[2]):l;case
+l=dA(c,b,a[1]);return l?cO(c,b,a[2]):l;case
 3:case
 4:var
-e=dt(c,b,a[1]);if(e){var
+e=dA(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return cO(c,b,a[1]);default:return 1}}}function
-cq(c,e){var
+cu(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aV(ai(a[1],c));case
+0:return aK(ag(a[1],c));case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cq(c,a[1]);if(d){var
+d=cu(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fQ(d,b,m){var
+f6(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fQ(d,b,a[1]);if(f){var
+f=f6(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fQ(d,b,a[1]);return g?cq(b,a[2]):g;case
+g=f6(d,b,a[1]);return g?cu(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cq(b,i);if(j){var
-k=cq(b,h);if(k)var
+h=a[2],i=a[1],j=cu(b,i);if(j){var
+k=cu(b,h);if(k)var
 e=k;else{var
-l=bf(i,d);if(l){var
+l=a_(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cq(b,c)}}}function
-i0(c,e){var
+2:return 1;default:return cu(b,c)}}}function
+ja(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return hC(a[1],c);case
+0:return hR(a[1],c);case
 1:case
 2:return 1;case
 5:case
 8:case
 9:var
 b=a[1];continue;default:var
-d=i0(c,a[1]);if(d){var
+d=ja(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-b2(b,a){return a?e(b,a[1]):a}function
-b3(c,b,a){return b2(function(b){return b2(e(c,b),a)},b)}function
-pR(a){return 0===a[0]?a[1]:0}function
-bm(b,a){switch(a[0]){case
+b5(b,a){return a?e(b,a[1]):a}function
+b6(c,b,a){return b5(function(b){return b5(e(c,b),a)},b)}function
+qa(a){return 0===a[0]?a[1]:0}function
+bq(b,a){switch(a[0]){case
 0:return[0,e(b,a[1])];case
-1:return[1,bm(b,a[1])];default:var
-c=bm(b,a[3]),d=bm(b,a[2]);return[2,bm(b,a[1]),d,c]}}function
-aR(b,c,a){switch(c[0]){case
-0:return bm(e(b,c[1]),a);case
+1:return[1,bq(b,a[1])];default:var
+c=bq(b,a[3]),d=bq(b,a[2]);return[2,bq(b,a[1]),d,c]}}function
+aU(b,c,a){switch(c[0]){case
+0:return bq(e(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bm(function(a){return S(b,a,k)},d)];case
-1:return[1,aR(b,d,a[1])];default:var
-l=aR(b,d,a[3]),m=aR(b,d,a[2]);return[2,aR(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bq(function(a){return S(b,a,k)},d)];case
+1:return[1,aU(b,d,a[1])];default:var
+l=aU(b,d,a[3]),m=aU(b,d,a[2]);return[2,aU(b,d,a[1]),m,l]}default:var
 f=c[3],g=c[2],h=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bm(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
+n=a[1],o=function(a){return S(b,a,n)},i=function(a){return bq(o,a)},p=i(f),q=i(g);return[2,i(h),q,p];case
 1:var
-j=a[1],r=aR(b,f,j),s=aR(b,g,j);return[2,aR(b,h,j),s,r];default:var
-t=aR(b,f,a[3]),u=aR(b,g,a[2]);return[2,aR(b,h,a[1]),u,t]}}}function
-fR(c,g,a){if(a)var
+j=a[1],r=aU(b,f,j),s=aU(b,g,j);return[2,aU(b,h,j),s,r];default:var
+t=aU(b,f,a[3]),u=aU(b,g,a[2]);return[2,aU(b,h,a[1]),u,t]}}}function
+f7(c,g,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
 f=[0,a,aj(c,a)];break;case
 1:var
-h=B(c,a,b),f=[0,d3(H(a,b)),h];break;default:var
-f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=fR(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
+h=B(c,a,b),f=[0,d$(E(a,b)),h];break;default:var
+f=[0,b,aj(c,b)]}return[0,[0,e(g,f)]]},i=f7(c,g,a[2]),j=f(function(a){return[1,a]},i),k=b(2),l=b(1),h=[0,[2,b(0),l,k],j];else
 var
 h=a;return h}function
-i1(a){if(a){var
+jb(a){if(a){var
 b=a[1];if(b)var
-c=i1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pT}function
-du(a){if(a){var
-g=a[1],b=g[2],c=i1(g[1]);if(c)if(b){var
-h=b[1],e=du(a[2]);if(e)var
-i=ag(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qc}function
+dB(a){if(a){var
+g=a[1],b=g[2],c=jb(g[1]);if(c)if(b){var
+h=b[1],e=dB(a[2]);if(e)var
+i=af(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return pU}function
-fS(b,a){var
-c=a[3],d=ab(function(a){var
-c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(a7(b),g),f,d]}function
-i2(f,d,c,b){if(d){var
+f=c;return f}return qd}function
+f8(b,a){var
+c=a[3],d=ac(function(a){var
+c=a[2],d=a[1][2];return[0,[0,e(b,a[1][1]),d],c]},c),f=e(b,a[2]),g=a[1];return[0,e(aZ(b),g),f,d]}function
+jc(f,d,c,b){if(d){var
 j=d[1],a=function(e){var
-a=fS(function(a){switch(a[0]){case
+a=f8(function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(e){case
 0:return d;case
-1:return c;default:return b}}},b);return i2(cB(f),j,c,a)},g=a(0);if(g){var
+1:return c;default:return b}}},b);return jc(cF(f),j,c,a)},g=a(0);if(g){var
 h=a(2);if(h)return f?1:a(1);var
 i=h}else
 var
-i=g;return i}return e(c,fS(pR,b))}function
-dv(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ab(function(a){return bX(f,e,a)},d)}return[0,_]}function
-i3(d,b,a){if(b){if(a){var
-e=i3(d,b[2],a[2]);return H(bX(b[1],z(d,c),a[1]),e)}return _}return _}function
-i4(e,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return i3(e,a,b)},j=i4(e,h),k=f(function(a){var
-e=b(d,a[2]);return H(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,H(b(d,c),l),k],j];else
+i=g;return i}return e(c,f8(qa,b))}function
+dC(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return ac(function(a){return bZ(f,e,a)},d)}return[0,$]}function
+jd(d,b,a){if(b){if(a){var
+e=jd(d,b[2],a[2]);return E(bZ(b[1],z(d,c),a[1]),e)}return $}return $}function
+je(e,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jd(e,a,b)},j=je(e,h),k=f(function(a){var
+e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-i5(e,b,d,a){if(b)if(a)var
-f=b[1],g=i5(e,b[2],d,a[2]),c=[0,[0,f,ia(e,a[1][1],d,f)],g];else
+jf(e,b,d,a){if(b)if(a)var
+f=b[1],g=jf(e,b[2],d,a[2]),c=[0,[0,f,it(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-i6(e,d,c,b,a){if(a){var
+jg(e,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=i6(e,d[1],c,b,g);return[0,[0,O(_,b),0],i]}var
-j=f(function(a){return[0,O(_,b),0]},g),h=[0,[0,O(aA(B(e,c,d4(a[1][2]))),b),0],j]}else
+i=jg(e,d[1],c,b,g);return[0,[0,P($,b),0],i]}var
+j=f(function(a){return[0,P($,b),0]},g),h=[0,[0,P(aB(B(e,c,ea(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-ej(c,a){var
-b=ai(n(a),c);return b?ea(a):b}function
-pV(c){var
+ep(c,a){var
+b=ag(m(a),c);return b?ef(a):b}function
+qe(c){var
 a=c[2];if(a){var
-b=dv(c[3]);if(b)return D(d,O(a[1],b[1])[1]);var
+b=dC(c[3]);if(b)return A(d,P(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-i7(a){return N(function(a){return g(a[1],[0,a[2],0])},a)}function
-i8(a,c,b){var
-e=P(b,c,q(d)),f=cF(0,a);return p(function(b){return dt(a,b,e)},f)}function
-dw(a){var
-b=ac(a);return G(q(c),b)}function
-ek(i,g){var
-h=dw(g),j=ac(g),e=A(q(c),j),f=v(q(b(2,c)),g),a=q(d);return i?i[1]?[0,[0,e,ci(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ci(f),a,e]]:[0,[0,h,a,a],[0,a,e,ci(f)],[0,a,f,e]]}function
-i9(b,a){function
+jh(a){return J(function(a){return g(a[1],[0,a[2],0])},a)}function
+ji(a,c,b){var
+e=I(b,c,r(d)),f=cI(0,a);return o(function(b){return dA(a,b,e)},f)}function
+dD(a){var
+b=ad(a);return K(r(c),b)}function
+eq(i,g){var
+h=dD(g),j=ad(g),e=C(r(c),j),f=v(r(b(2,c)),g),a=r(d);return i?i[1]?[0,[0,e,ck(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,ck(f),a,e]]:[0,[0,h,a,a],[0,a,e,ck(f)],[0,a,f,e]]}function
+jj(b,a){function
 c(b){var
 c=e(b,a[3]),d=e(b,a[2]);return[0,e(b,a[1]),d,c]}function
 d(a){var
-b=aB(a,c(function(a){return a[3]})),d=aB(a,c(function(a){return a[2]}));return[0,aB(a,c(function(a){return a[1]})),d,b]}var
+b=aC(a,c(function(a){return a[3]})),d=aC(a,c(function(a){return a[2]}));return[0,aC(a,c(function(a){return a[1]})),d,b]}var
 f=d(b[3]),g=d(b[2]);return[0,d(b[1]),g,f]}function
-i_(a){switch(a[0]){case
+jk(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cp(a[1]),0];default:var
-b=[0,cp(a[2]),0];return[0,cp(a[1]),b]}}function
+2:return[0,ct(a[1]),0];default:var
+b=[0,ct(a[2]),0];return[0,ct(a[1]),b]}}function
 cP(a){return[0,[0,a[1]],[0,a[2]]]}function
-i$(a,b){if(0===b[0])return dq(a,b[1]);var
-d=dq(a,b[1]);if(d){var
-e=dq(a,b[2]);if(e){var
-g=aj(a,e[1]),h=cG(a,H(aZ(a,c),g)),i=d[1];return ab(function(b){return B(a,i,b)},h)}var
+jl(a,b){if(0===b[0])return dx(a,b[1]);var
+d=dx(a,b[1]);if(d){var
+e=dx(a,b[2]);if(e){var
+g=aj(a,e[1]),h=cJ(a,E(aY(a,c),g)),i=d[1];return ac(function(b){return B(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-ja(j,z,c,y,x,b,a){switch(b[0]){case
+jm(j,z,c,y,x,b,a){switch(b[0]){case
 0:var
-m=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
+n=b[4],k=b[3],o=b[2],p=b[1],l=0;if(typeof
 a==="number")l=1;else
 switch(a[0]){case
 0:var
 A=a[2],C=a[1],i=o,h=p,g=function(e){var
-a=du(e[1]);if(a){var
+a=dB(e[1]);if(a){var
 b=e[2];if(b){var
-d=dv(e[3]);if(d){var
-h=d[1],i=ce([0,O(aA(B(j,k,b[1])),h),0],c);return ej(c,fr(C,A,a[1],i))}var
+d=dC(e[3]);if(d){var
+h=d[1],i=ch([0,P(aB(B(j,k,b[1])),h),0],c);return ep(c,fD(C,A,a[1],i))}var
 f=d}else
 var
 f=b;var
 g=f}else
 var
-g=a;return g},e=m;break;case
+g=a;return g},e=n;break;case
 2:var
-q=al(k[1],d),r=q?al(k[2],d):q;if(!r)return r;var
+q=ai(k[1],d),r=q?ai(k[2],d):q;if(!r)return r;var
 E=a[2],F=a[1],i=o,h=p,g=function(e){var
-a=du(e[1]);if(a){var
-b=dv(e[3]);if(b){var
-g=ce([0,O(_,b[1]),0],c),h=a[1];return ej(c,fr(F,E,f(function(a){return[0,a[1],_]},h),g))}var
+a=dB(e[1]);if(a){var
+b=dC(e[3]);if(b){var
+g=ch([0,P($,b[1]),0],c),h=a[1];return ep(c,fD(F,E,f(function(a){return[0,a[1],$]},h),g))}var
 d=b}else
 var
-d=a;return d},e=m;break;default:l=1}if(l)return 0;break;case
+d=a;return d},e=n;break;default:l=1}if(l)return 0;break;case
 1:var
 u=0;if(typeof
 a==="number"&&!a)var
-G=b[2],H=b[1],I=b[3],i=G,h=H,J=0,g=function(f){var
-a=du(f[1]);if(a){var
+G=b[2],H=b[1],J=b[3],i=G,h=H,K=0,g=function(f){var
+a=dB(f[1]);if(a){var
 b=f[2];if(b){var
-d=dv(f[3]);if(d){var
-k=d[1],l=ce([0,O(B(j,I,b[1]),k),0],c),e=ic(a[1],l);if(e)return ej(c,e[1]);var
+d=dC(f[3]);if(d){var
+k=d[1],l=ch([0,P(B(j,J,b[1]),k),0],c),e=iv(a[1],l);if(e)return ep(c,e[1]);var
 g=e}else
 var
 g=d;var
@@ -3463,18 +3469,18 @@ var
 h=b;var
 i=h}else
 var
-i=a;return i},e=J;else
+i=a;return i},e=K;else
 u=1;if(u)return 0;break;case
 2:var
 v=0;if(typeof
 a==="number"||!(0===a[0]))v=1;else
 var
-s=a[2],t=a[1],K=b[3],L=b[2],M=b[4],N=b[1],Q=function(f){var
-a=du(f[1]);if(a){var
+s=a[2],t=a[1],L=b[3],M=b[2],N=b[4],O=b[1],Q=function(f){var
+a=dB(f[1]);if(a){var
 b=a[1],d=f[2];if(d){var
-e=dv(f[3]);if(e){var
-g=ai(n(b),c),h=g?ai(n(s),c):g;if(h){var
-m=i4(t,i5(t,s,d[1],b));return ej(c,h5(i6(j,N,M,e[1],b),m))}var
+e=dC(f[3]);if(e){var
+g=ag(m(b),c),h=g?ag(m(s),c):g;if(h){var
+n=je(t,jf(t,s,d[1],b));return ep(c,il(jg(j,O,N,e[1],b),n))}var
 i=h}else
 var
 i=e;var
@@ -3483,53 +3489,53 @@ var
 k=d;var
 l=k}else
 var
-l=a;return l},i=K,h=L,g=Q,e=b[5];if(v)return 0;break;default:var
+l=a;return l},i=L,h=M,g=Q,e=b[5];if(v)return 0;break;default:var
 w=0;if(typeof
 a==="number"&&!a)var
-i=b[1],h=0,g=pV,e=0;else
+i=b[1],h=0,g=qe,e=0;else
 w=1;if(w)return 0}var
-D=[0,h,i,x];return i2(e,z,g,fS(function(a){return P(a,y,p9)},D))}function
-jb(m,l,k,f,j,i,e){if(typeof
+D=[0,h,i,x];return jc(e,z,g,f8(function(a){return I(a,y,qs)},D))}function
+jn(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=D(d,o);if(p)var
-h=g7(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+n=a[3],o=a[2],p=A(d,o);if(p)var
+h=hl(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return ja(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return jm(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return ja(m,l,k,j,0,i,a)}return 0}function
-p_(a){if(a[1])return 0;var
+q=f;return q}return jm(m,l,k,j,0,i,a)}return 0}function
+qt(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4<=b)return 1;return 0}function
-jc(a,J,I,G,F,E,h,o,D,V){if(p(p_,D))var
+jo(a,K,J,H,G,F,h,p,D,V){if(o(qt,D))var
 q=0;else
 var
-S=fR(a,dc,o),R=0,T=g(fR(a,db,o),S),q=cI(pS,function(b){switch(b[0]){case
-0:return P(b[1],T,[0,[0,_]]);case
-1:return[0,[0,P(b[1],I,_)]];case
-2:return[0,[0,aZ(a,b[1])]];case
+S=f7(a,de,p),R=0,T=g(f7(a,dd,p),S),q=cm(qb,function(b){switch(b[0]){case
+0:return I(b[1],T,[0,[0,$]]);case
+1:return[0,[0,I(b[1],J,$)]];case
+2:return[0,[0,aY(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,H(b,a)]};return aR(function(a,b){return b3(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,E(b,a)]};return aU(function(a,b){return b6(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,O(b,a)]};return aR(function(a,b){return b3(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,P(b,a)]};return aU(function(a,b){return b6(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,aA(a)]};return bm(function(a){return b2(j,a)},i);case
+i=b[1],j=function(a){return[0,aB(a)]};return bq(function(a){return b5(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aR(function(a,b){return b3(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,B(a,c,b)]};return aU(function(a,b){return b6(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cg(a,b);return ab(function(b){return B(a,c,b)},d)};return aR(function(a,b){return b3(p,a,b)},o,n);case
+d=cj(a,b);return ac(function(b){return B(a,c,b)},d)};return aU(function(a,b){return b6(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,aj(a,b)]};return bm(function(a){return b2(r,a)},q);default:var
-s=b[1],t=function(b){return cG(a,b)};return bm(function(a){return b2(t,a)},s)}},J,R);var
+q=b[1],r=function(b){return[0,aj(a,b)]};return bq(function(a){return b5(r,a)},q);default:var
+s=b[1],t=function(b){return cJ(a,b)};return bq(function(a){return b5(t,a)},s)}},K,R);var
 e=D,b=V;for(;;){if(e){var
 t=e[1],i=t[2],c=t[1],k=e[2];if(c){var
-u=P(c,b,0);if(u){var
-l=aJ(G,c);if(l){var
-v=jb(a,F,E,h,q,l[1],i);if(v){var
-e=k,b=eg(c,b);continue}var
+u=I(c,b,0);if(u){var
+l=au(H,c);if(l){var
+v=jn(a,G,F,h,q,l[1],i);if(v){var
+e=k,b=el(c,b);continue}var
 w=v}else
 var
 w=l;var
@@ -3537,75 +3543,75 @@ x=w}else
 var
 x=u;return x}if(typeof
 i==="number"&&4<=i){var
-K=0;if(h){var
-U=0,r=f(function(b){return[0,b,aj(a,b)]},o),M=f(dc,r),L=0,N=g(f(db,r),M),Q=cI(0,function(n){return function(b){switch(b[0]){case
-0:return[0,P(b[1],n,_)];case
-1:return[0,P(b[1],I,_)];case
-2:return[0,aZ(a,b[1])];case
+L=0;if(h){var
+U=0,r=f(function(b){return[0,b,aj(a,b)]},p),N=f(de,r),M=0,O=g(f(dd,r),N),Q=cm(0,function(n){return function(b){switch(b[0]){case
+0:return[0,I(b[1],n,$)];case
+1:return[0,I(b[1],J,$)];case
+2:return[0,aY(a,b[1])];case
 3:var
-c=b[2],d=b[1];return b3(function(b,a){return[0,H(b,a)]},d,c);case
+c=b[2],d=b[1];return b6(function(b,a){return[0,E(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return b3(function(b,a){return[0,O(b,a)]},f,e);case
+e=b[2],f=b[1];return b6(function(b,a){return[0,P(b,a)]},f,e);case
 5:var
-g=b[1];return b2(function(a){return[0,aA(a)]},g);case
+g=b[1];return b5(function(a){return[0,aB(a)]},g);case
 6:var
-h=b[2],i=b[1];return b3(function(c,b){return[0,B(a,c,b)]},i,h);case
+h=b[2],i=b[1];return b6(function(c,b){return[0,B(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return b3(function(c,b){var
-d=cg(a,b);return ab(function(b){return B(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return b6(function(c,b){var
+d=cj(a,b);return ac(function(b){return B(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return b2(function(b){return[0,aj(a,b)]},l);default:var
-m=b[1];return b2(function(b){return cG(a,b)},m)}}}(N),J,L),j=P(h[1],Q,U);if(j){var
-m=ag(j[1][2],d);K=1}else
+l=b[1];return b5(function(b){return[0,aj(a,b)]},l);default:var
+m=b[1];return b5(function(b){return cJ(a,b)},m)}}}(O),K,M),j=I(h[1],Q,U);if(j){var
+m=af(j[1][2],d);L=1}else
 var
 s=j}else
 var
-s=h;if(!K)var
+s=h;if(!L)var
 m=s;if(m){var
 e=k,b=f(function(a){return 0},b);continue}return m}var
-y=P(c,b,0);if(y){var
-n=aJ(G,c);if(n){var
-z=jb(a,F,E,h,q,n[1],i);if(z){var
-e=k,b=eg(c,b);continue}var
+y=I(c,b,0);if(y){var
+n=au(H,c);if(n){var
+z=jn(a,G,F,h,q,n[1],i);if(z){var
+e=k,b=el(c,b);continue}var
 A=z}else
 var
 A=n;var
 C=A}else
 var
 C=y;return C}return[0,b]}}function
-jd(i,h,g,f,e,d,c,t,s,r){var
+jp(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=jc(i,h,g,f,e,d,c,b,a[1],j);return k?p(aV,k[1]):k}var
-l=jc(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],n=ee(a[2],b),o=jd(i,h,g,f,e,d,c,n[1],m,a[3]);if(o){var
+k=jo(i,h,g,f,e,d,c,b,a[1],j);return k?o(aK,k[1]):k}var
+l=jo(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],n=dr(a[2],b),p=jp(i,h,g,f,e,d,c,n[1],m,a[3]);if(p){var
 b=n[2],j=m,a=a[4];continue}var
-q=o}else
+q=p}else
 var
 q=l;return q}}function
-fT(d,a){var
-e=ac(a),f=v(v(q(b(2,c)),a),d);return G(A(ac(d),f),e)}function
-fU(a){switch(a){case
-0:return qb;case
-1:return qc;default:return 0}}function
-el(b,a){var
-c=bi(a[2],b);return g(bi(a[1],b),c)}function
-je(r,k,p,t,o,j,s){if(j){var
-u=j[1],w=eh(s,el(o,u)),R=M(s,n(el(o,u))),S=je(r,k,p,t,o,j[2],R),i=bF(w,qd),l=bF(w,0);switch(r){case
+f9(d,a){var
+e=ad(a),f=v(v(r(b(2,c)),a),d);return K(C(ad(d),f),e)}function
+f_(a){switch(a){case
+0:return qw;case
+1:return qx;default:return 0}}function
+er(b,a){var
+c=a3(a[2],b);return g(a3(a[1],b),c)}function
+jq(q,k,p,t,o,j,s){if(j){var
+u=j[1],w=em(s,er(o,u)),R=H(s,m(er(o,u))),S=jq(q,k,p,t,o,j[2],R),i=bI(w,qy),l=bI(w,0);switch(q){case
 0:var
-g=[0,qa,p$,q(d)];break;case
+g=[0,qv,qu,r(d)];break;case
 1:var
-g=fu;break;default:var
-H=q(d),I=q(d),g=[0,q(d),I,H]}var
-e=b0(A,g,l),y=aB(k[3],i),z=aB(k[2],i),a=[0,aB(k[1],i),z,y],J=fT(g[3],l[3]),K=fT(g[2],l[2]),L=fT(g[1],l[1]),N=G(G(G(aB(i,i),L),K),J),O=aB(a,e),P=v(q(b(2,c)),O),Q=G(v(p,N),P),B=v(a[2],e[1]),C=A(v(a[1],e[2]),B),D=v(a[1],e[3]),E=A(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ed([0,A(v(a[2],e[3]),F),E,C],t),h=b0(G,ec(p,e),a);switch(r){case
+g=fG;break;default:var
+G=r(d),I=r(d),g=[0,r(d),I,G]}var
+e=b2(C,g,l),y=aC(k[3],i),z=aC(k[2],i),a=[0,aC(k[1],i),z,y],J=f9(g[3],l[3]),L=f9(g[2],l[2]),M=f9(g[1],l[1]),N=K(K(K(aC(i,i),M),L),J),O=aC(a,e),P=v(r(b(2,c)),O),Q=K(v(p,N),P),A=v(a[2],e[1]),B=C(v(a[1],e[2]),A),D=v(a[1],e[3]),E=C(v(a[3],e[1]),D),F=v(a[3],e[2]),f=ei([0,C(v(a[2],e[3]),F),E,B],t),h=b2(K,eh(p,e),a);switch(q){case
 0:var
-m=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
+n=[0,h[1],[0,h[2],[0,f[3],0]]];break;case
 1:var
-m=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
-m=[0,f[1],[0,f[2],[0,f[3],0]]]}var
-x=[0,[0,m,Q],S]}else
+n=[0,h[1],[0,h[2],[0,h[3],[0,f[1],[0,f[2],[0,f[3],0]]]]]];break;default:var
+n=[0,f[1],[0,f[2],[0,f[3],0]]]}var
+x=[0,[0,n,Q],S]}else
 var
 x=j;return x}function
-fV(g,a){if(typeof
+f$(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[4,a[2],a[1]];return[0,[0,f,f],d];case
@@ -3613,36 +3619,36 @@ f=[4,a[2],a[1]];return[0,[0,f,f],d];case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
 b=[0,d,c];return[0,[0,b,b],d]}function
-fW(e,d,n,m,k,a){var
-f=v(ac(ck(fV(m,a),k)),n);if(typeof
+ga(e,d,n,m,k,a){var
+f=v(ad(co(f$(m,a),k)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=aJ(d,a[1]);if(b)var
-g=l(e,0,a[2]),h=g?[0,A(b[1][2],f)]:g;else
+b=au(d,a[1]);if(b)var
+g=l(e,0,a[2]),h=g?[0,C(b[1][2],f)]:g;else
 var
 h=b;return h;case
 3:var
-c=aJ(d,a[1]);if(c)var
-i=l(e,0,a[2]),j=i?[0,A(f,c[1][2])]:i;else
+c=au(d,a[1]);if(c)var
+i=l(e,0,a[2]),j=i?[0,C(f,c[1][2])]:i;else
 var
 j=c;return j}return 0}function
-jf(a,d,c,b){return f(function(a){var
-e=ck(fV(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
-jg(b,g,s,f,i,q,p,o){if(o){var
-X=jg(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
+jr(a,d,c,b){return f(function(a){var
+e=co(f$(d,b),c),f=v(a[2],e);return[0,a[1],f]},a)}function
+js(b,g,s,f,i,q,p,o){if(o){var
+X=js(b,g,s,f,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},k=0;if(typeof
 a==="number")var
-M=e(g,i),h=[0,t(e(a7(g),f),M,_)];else
+M=e(g,i),h=[0,t(e(aZ(g),f),M,$)];else
 switch(a[0]){case
 0:var
 j=[4,[0,c,c],a[1]],n=f,m=t;k=1;break;case
 1:var
 O=[4,[0,c,c],a[1]],j=O,n=f,m=function(c,b,a){return[1,c,b,a]};k=1;break;case
 2:var
-P=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},P);break;case
+P=ga(b,f,i,q,p,a),h=ac(function(a){return[3,e(g,a)]},P);break;case
 3:var
-Q=fW(b,f,i,q,p,a),h=ab(function(a){return[3,e(g,a)]},Q);break;case
+Q=ga(b,f,i,q,p,a),h=ac(function(a){return[3,e(g,a)]},Q);break;case
 6:var
-u=a[3],v=a[2],r=aJ(f,a[1]),K=0;if(r){var
+u=a[3],v=a[2],r=au(f,a[1]),K=0;if(r){var
 w=l(b,1,v),x=w?l(b,0,u):w;if(x){var
 R=[4,u,v],S=[0,r[1],0],j=R,n=S,m=function(c,b,a){return[1,c,b,a]};k=1;K=1}else
 var
@@ -3651,7 +3657,7 @@ var
 y=r;if(!K)var
 h=y;break;case
 7:var
-z=a[3],A=a[2],B=a[1],C=aJ(f,B),L=0;if(C){var
+z=a[3],A=a[2],B=a[1],C=au(f,B),L=0;if(C){var
 D=l(b,1,A),E=D?l(b,1,z):D;if(E){var
 T=[4,A,z],j=T,n=f,m=function(c,b,a){return[2,B,c,b,a,s]};k=1;L=1}else
 var
@@ -3661,103 +3667,103 @@ F=C;if(!L)var
 h=F;break;case
 8:var
 G=l(b,1,a[1]),H=G?l(b,1,a[2]):G;if(H)var
-U=aZ(b,c),V=e(g,i),W=jf(f,q,p,a),I=[0,[0,e(a7(g),W),V,U,0]];else
+U=aY(b,c),V=e(g,i),W=jr(f,q,p,a),I=[0,[0,e(aZ(g),W),V,U,0]];else
 var
 I=H;var
 h=I;break;default:var
 h=0}if(k)var
-N=a1(b,[0,[0,j,j],d]),h=ab(function(a){var
-c=aj(b,a),d=e(g,i);return m(e(a7(g),n),d,c)},N);var
+N=aL(b,[0,[0,j,j],d]),h=ac(function(a){var
+c=aj(b,a),d=e(g,i);return m(e(aZ(g),n),d,c)},N);var
 J=[0,h,X]}else
 var
 J=o;return J}function
-jh(j,h,i,e,d,a){if(a){var
-n=jh(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
+jt(j,h,i,e,d,a){if(a){var
+n=jt(j,h,i,e,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=f(dc,jf(h,e,d,b));l=1}if(!l)var
-c=fW(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
-qe(a){if(typeof
+k=f(de,jr(h,e,d,b));l=1}if(!l)var
+c=ga(j,h,i,e,d,b),m=c?[0,c[1],0]:c,k=m;return g(k,n)}return a}function
+qz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-em(a){var
-b=cm(a[1],[0,d,c]);return b?cm(a[2],[0,d,c]):b}function
-qf(j,a,k,be){var
-w=a[1],h=dr(w),ap=a[3],bg=[0,[0,[0,ap,ap],k],0],bh=a[2],aq=g(N(function(a){return el(k,a)},bh),bg),R=n(aq),bi=a[2],bj=n(N(function(a){return el(k,a)},bi)),ar=a[3],bk=ck([0,[0,ar,ar],k],bj),bl=fU(w),bm=a[5];function
-i(a){return[0,[0,M(bl,a)]]}switch(bm[0]){case
+es(a){var
+b=cq(a[1],[0,d,c]);return b?cq(a[2],[0,d,c]):b}function
+qA(j,a,k,bg){var
+w=a[1],h=dy(w),ap=a[3],bh=[0,[0,[0,ap,ap],k],0],bi=a[2],aq=g(J(function(a){return er(k,a)},bi),bh),R=m(aq),bj=a[2],bk=m(J(function(a){return er(k,a)},bj)),ar=a[3],bm=co([0,[0,ar,ar],k],bk),bn=f_(w),bo=a[5];function
+i(a){return[0,[0,H(bn,a)]]}switch(bo[0]){case
 0:var
-aV=dw(i(0)),F=[0,ek(pW,i(0)),aV];break;case
+aX=dD(i(0)),F=[0,eq(qf,i(0)),aX];break;case
 1:var
-aX=dw(i(0)),aY=v(dw(i(pX)),aX),aZ=v(dw(i(pY)),aY),a0=ek(0,i(0)),a2=i9(ek(p0,i(pZ)),a0),F=[0,i9(ek(p2,i(p1)),a2),aZ];break;default:var
-a3=i(p3),a4=i(p4),u=[0,i(0),a4,a3],a5=aB(u,u),a6=G(q(c),a5),aM=aB(u,u),r=u[1],s=u[2],t=u[3],K=function(a){var
-d=ac(a),e=v(q(b(2,c)),d);return G(A(q(c),aM),e)},y=function(f,e,d,a){var
-g=S(f,v(e,d),a);return v(q(b(2,c)),g)},aN=K(t),aO=y(G,s,t,r),aP=[0,y(A,r,t,s),aO,aN],aQ=y(A,s,t,r),aR=K(s),aS=[0,y(G,r,s,t),aR,aQ],aT=y(G,r,t,s),aU=y(A,r,s,t),F=[0,[0,[0,K(r),aU,aT],aS,aP],a6]}var
-B=F[2],H=je(w,F[1],B,bk,k,a[2],0),bn=M(R,n(a[6])),bo=fU(w),bp=a[5];function
-z(a){return[0,[0,M(bo,a)]]}var
-af=ac([0,[1,bn]]);switch(bp[0]){case
+aY=dD(i(0)),a0=v(dD(i(qg)),aY),a1=v(dD(i(qh)),a0),a2=eq(0,i(0)),a3=jj(eq(qj,i(qi)),a2),F=[0,jj(eq(ql,i(qk)),a3),a1];break;default:var
+a4=i(qm),a5=i(qn),u=[0,i(0),a5,a4],a6=aC(u,u),a7=K(r(c),a6),aO=aC(u,u),q=u[1],s=u[2],t=u[3],N=function(a){var
+d=ad(a),e=v(r(b(2,c)),d);return K(C(r(c),aO),e)},y=function(f,e,d,a){var
+g=S(f,v(e,d),a);return v(r(b(2,c)),g)},aP=N(t),aQ=y(K,s,t,q),aR=[0,y(C,q,t,s),aQ,aP],aS=y(C,s,t,q),aT=N(s),aU=[0,y(K,q,s,t),aT,aS],aV=y(K,q,t,s),aW=y(C,q,s,t),F=[0,[0,[0,N(q),aW,aV],aU,aR],a7]}var
+A=F[2],G=jq(w,F[1],A,bm,k,a[2],0),bp=H(R,m(a[6])),bq=f_(w),br=a[5];function
+z(a){return[0,[0,H(bq,a)]]}var
+af=ad([0,[1,bp]]);switch(br[0]){case
 2:var
-a8=z(p5),a9=z(p6),ag=[0,z(0),a9,a8],m=[0,A(af,aB(ag,ag))];break;case
+a8=z(qo),a$=z(qp),ah=[0,z(0),a$,a8],n=[0,C(af,aC(ah,ah))];break;case
 3:var
-a_=ac(z(p7)),a$=ac(z(0)),ba=ac(z(p8)),m=[0,A(A(v(af,G(q(c),ba)),a$),a_)];break;default:var
-m=0}var
-bq=m?[0,m[1],0]:m,br=[0,B,g(jh(j,H,B,k,R,a[6]),bq)],T=g(cL(H),br),as=d_(f(function(a){return ds(h,a)},T))[1],C=d8(as);function
-x(a){return bY(C,ds(h,a))}var
-bs=ab(x,m),bt=x(B),at=e(a7(x),H),am=fU(w),an=ai(n(at),h);if(an)var
-ao=ab(function(a){return[0,[0,a,d],d]},bs),E=function(a){return P(a,C,q(d))},ae=E(bt),aL=cF(0,am),Q=p(function(a){var
-b=cO(h,a,ae),c=b?p(function(b){var
-d=b[1],c=p(function(b){var
-c=E(b);return cq(M(h,a),c)},d);if(c){var
-e=E(b[2]);return fQ(ae,M(h,a),e)}return c},at):b;if(c){if(ao){var
-e=E(ao[1][1][1]);return cq(M(h,a),e)}var
+ba=ad(z(qq)),bb=ad(z(0)),bc=ad(z(qr)),n=[0,C(C(v(af,K(r(c),bc)),bb),ba)];break;default:var
+n=0}var
+bs=n?[0,n[1],0]:n,bt=[0,A,g(jt(j,G,A,k,R,a[6]),bs)],T=g(cp(G),bt),as=dm(f(function(a){return dz(h,a)},T))[1],B=dl(as);function
+x(a){return bl(B,dz(h,a))}var
+bu=ac(x,n),bv=x(A),at=e(aZ(x),G),am=f_(w),an=ag(m(at),h);if(an)var
+ao=ac(function(a){return[0,[0,a,d],d]},bu),E=function(a){return I(a,B,r(d))},ae=E(bv),aM=cI(0,am),Q=o(function(a){var
+b=cO(h,a,ae),c=b?o(function(b){var
+d=b[1],c=o(function(b){var
+c=E(b);return cu(H(h,a),c)},d);if(c){var
+e=E(b[2]);return f6(ae,H(h,a),e)}return c},at):b;if(c){if(ao){var
+e=E(ao[1][1][1]);return cu(H(h,a),e)}var
 d=1}else
 var
-d=c;return d},aL);else
+d=c;return d},aM);else
 var
 Q=an;var
-bd=Q?am:Q,au=p(function(a){var
-b=ds(h,a),c=q(d);return bf(P(x(a),C,c),b)},T),av=au?p(function(a){return i0(h,a)},T):au,aw=av?bD(qe,a[6]):av;if(aw){var
-I=a[4];switch(w){case
+bf=Q?am:Q,au=o(function(a){var
+b=dz(h,a),c=r(d);return a_(I(x(a),B,c),b)},T),av=au?o(function(a){return ja(h,a)},T):au,aw=av?a9(qz,a[6]):av;if(aw){var
+L=a[4];switch(w){case
 0:var
-U=em(I[3]);break;case
+U=es(L[3]);break;case
 1:var
 U=1;break;default:var
-ak=em(I[1]),al=ak?em(I[2]):ak,U=al?em(I[3]):al}var
+ak=es(L[1]),al=ak?es(L[2]):ak,U=al?es(L[3]):al}var
 V=U}else
 var
 V=aw;var
 ax=V?l(j,1,a[3]):V;if(ax)var
-bu=i_(a[5]),W=p(function(a){var
-b=fO(j,a[1]);return b?fO(j,a[2]):b},bu);else
+bw=jk(a[5]),W=o(function(a){var
+b=f4(j,a[1]);return b?f4(j,a[2]):b},bw);else
 var
 W=ax;if(W){var
-bv=a[6],bw=g(aq,f(function(a){return fV(k,a)},bv)),X=aW(f(function(a){return a1(j,a)},bw));if(X){var
+bx=a[6],by=g(aq,f(function(a){return f$(k,a)},bx)),X=aN(f(function(a){return aL(j,a)},by));if(X){var
 D=a[4];switch(w){case
 0:var
 Y=[0,D[1],[0,D[2],0]];break;case
 1:var
 Y=[0,D[1],[0,D[2],[0,D[3],0]]];break;default:var
 Y=0}var
-Z=aW(f(function(a){return a1(j,[0,a,k])},Y));if(Z){var
-ay=Z[1],o=a[5];switch(o[0]){case
+Z=aN(f(function(a){return aL(j,[0,a,k])},Y));if(Z){var
+ay=Z[1],p=a[5];switch(p[0]){case
 0:var
-J=[0,cP(o[1]),0];break;case
+M=[0,cP(p[1]),0];break;case
 1:var
-bb=[0,cP(o[3]),0],bc=[0,cP(o[2]),bb],J=[0,cP(o[1]),bc];break;case
+bd=[0,cP(p[3]),0],be=[0,cP(p[2]),bd],M=[0,cP(p[1]),be];break;case
 2:var
-L=cP(cp(o[1])),J=[0,L,[0,L,[0,L,0]]];break;default:var
-O=o[2],ah=o[1],aj=[0,[1,cp(ah)[1],O],[1,ah,O]],J=[0,aj,[0,aj,[0,cP(cp(O)),0]]]}var
-_=aW(f(function(d){var
-a=i$(j,d[1]);if(a)var
-b=i$(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
+O=cP(ct(p[1])),M=[0,O,[0,O,[0,O,0]]];break;default:var
+P=p[2],ai=p[1],aj=[0,[1,ct(ai)[1],P],[1,ai,P]],M=[0,aj,[0,aj,[0,cP(ct(P)),0]]]}var
+_=aN(f(function(d){var
+a=jl(j,d[1]);if(a)var
+b=jl(j,d[2]),e=b?[0,[0,a[1][1],b[1][2]]]:b,c=e;else
 var
-c=a;return c},J));if(_){var
-az=_[1],aA=a[5],bx=1<aA[0]?[0,aA[1],0]:0,$=aW(f(function(a){return dq(j,a)},bx));if($){var
-aa=aW(jg(j,x,bd,H,B,k,R,a[6]));if(aa){var
-ad=aa[1],aC=ai(n(g(ay,az)),h),aD=aC?p(function(a){switch(a[0]){case
+c=a;return c},M));if(_){var
+az=_[1],aA=a[5],bz=1<aA[0]?[0,aA[1],0]:0,$=aN(f(function(a){return dx(j,a)},bz));if($){var
+aa=aN(js(j,x,bf,G,A,k,R,a[6]));if(aa){var
+ab=aa[1],aB=ag(m(g(ay,az)),h),aD=aB?o(function(a){switch(a[0]){case
 2:var
-d=i7(a[2]),b=[0,a[3],d];break;case
+d=jh(a[2]),b=[0,a[3],d];break;case
 3:var
 b=[0,a[1],0];break;default:var
-c=i7(a[1]),b=[0,a[2],c]}return p(function(a){return i8(h,C,a)},b)},ad):aC,aE=aD?m?i8(h,C,x(m[1])):1:aD;if(aE){var
-by=f(function(a){return 1},ad),bz=g(ay,az),bA=ab(x,m);return jd(j,as,g(X[1],$[1]),ad,h,h,bA,bz,by,be)}var
+c=jh(a[1]),b=[0,a[2],c]}return o(function(a){return ji(h,B,a)},b)},ab):aB,aE=aD?n?ji(h,B,x(n[1])):1:aD;if(aE){var
+bA=f(function(a){return 1},ab),bB=g(ay,az),bC=ac(x,n);return jp(j,as,g(X[1],$[1]),ab,h,h,bC,bB,bA,bg)}var
 aF=aE}else
 var
 aF=aa;var
@@ -3776,25 +3782,25 @@ aJ=X;var
 aK=aJ}else
 var
 aK=W;return aK}function
-en(b,a){return bj(b,a[1],a[2])}function
-fX(b,a){var
-c=en(b,a[1]),d=c?en(b,a[2]):c;return d?en(b,a[3]):d}var
-ep=A(q(c),eo);function
-ji(e){var
-a=ac(ep);if(e)var
-f=v(q(b(2,c)),a),g=G(q(b(2,b(2,c))),f),h=v(q(b(2,c)),a),d=aK(G(q(c),h),g);else
+et(b,a){return bn(b,a[1],a[2])}function
+gb(b,a){var
+c=et(b,a[1]),d=c?et(b,a[2]):c;return d?et(b,a[3]):d}var
+ev=C(r(c),eu);function
+ju(e){var
+a=ad(ev);if(e)var
+f=v(r(b(2,c)),a),g=K(r(b(2,b(2,c))),f),h=v(r(b(2,c)),a),d=aM(K(r(c),h),g);else
 var
-i=G(q(b(2,c)),a),j=ac(eo),d=aK(G(v(q(b(2,c)),j),a),i);return cH(d)}function
-jj(d,b,a){if(d){var
-e=ji(b),f=G(q(c),e),g=v(A(q(c),a),f);return A(q(c),g)}var
-h=q(c),i=ji(b),j=aK(q(c),i);return A(v(a,G(q(c),j)),h)}function
+i=K(r(b(2,c)),a),j=ad(eu),d=aM(K(v(r(b(2,c)),j),a),i);return cl(d)}function
+jv(d,b,a){if(d){var
+e=ju(b),f=K(r(c),e),g=v(C(r(c),a),f);return C(r(c),g)}var
+h=r(c),i=ju(b),j=aM(r(c),i);return C(v(a,K(r(c),j)),h)}function
 cQ(f,e,d,a){var
-g=ac(a),h=ac(d),i=A(A(q(b(2,c)),h),g),j=f?e?ep:aK(ep,v(q(b(2,c)),eo)):aK(ep,q(b(2,c))),k=v(ac(j),i);return cH(G(q(c),k))}function
-jk(g,d){var
+g=ad(a),h=ad(d),i=C(C(r(b(2,c)),h),g),j=f?e?ev:aM(ev,v(r(b(2,c)),eu)):aM(ev,r(b(2,c))),k=v(ad(j),i);return cl(K(r(c),k))}function
+jw(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?H(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-fY(u,t,s){var
-a=f(function(a){return P(a,t,0)},u);if(a){var
+e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+gc(u,t,s){var
+a=f(function(a){return I(a,t,0)},u);if(a){var
 g=a[1];if(g){var
 b=a[2];if(b){var
 h=b[1];if(h){var
@@ -3802,8 +3808,8 @@ c=b[2];if(c){var
 i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-v=j[1],w=i[1],x=h[1],y=g[1];return p(function(a){var
-c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ea([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+v=j[1],w=i[1],x=h[1],y=g[1];return o(function(a){var
+c=e(a,v),d=e(a,w),f=e(a,x),b=e(a,y);return ef([0,[0,b,[0,f,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 k=j}else
 var
 k=d;var
@@ -3816,21 +3822,21 @@ m=c;var
 n=m}else
 var
 n=h;var
-o=n}else
+p=n}else
 var
-o=b;var
-q=o}else
+p=b;var
+q=p}else
 var
 q=g;var
 r=q}else
 var
 r=a;return r}function
-jl(f,i,e,b,h){var
-j=f?c:d,a=aZ(i,j);function
+jx(f,i,e,b,h){var
+j=f?c:d,a=aY(i,j);function
 g(b){var
-c=f?fj(b):d4(b);return O(c,a)}var
-k=[0,bh(h),0],l=[0,[0,a,b,[0,_,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-jm(r,g,q,p,e,o,n){if(o){var
+c=f?fw(b):ea(b);return P(c,a)}var
+k=[0,a$(h),0],l=[0,[0,a,b,[0,$,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+jy(r,g,q,p,e,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(e){var
 h=e[2],b=0;if(h){var
@@ -3839,16 +3845,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=e[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=f(di,bZ(qi)),a=fY(p,ii(g,q,0,e),z);b=1;c=1;d=1;break;case
+z=f(dp,b1(qD)),a=gc(p,iy(g,q,0,e),z);b=1;c=1;d=1;break;case
 3:var
-a=D(k[2],l[1]);b=1;c=1;d=1;break}else
+a=A(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=f(jk,qj),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+B=f(jw,qE),a=gc(p,cm(0,dn(g,jx(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=f(jk,qk),a=fY(p,cI(0,fp(g,jl(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+C=f(jw,qF),a=gc(p,cm(0,dn(g,jx(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -3858,26 +3864,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=e;s=1}if(s)var
 a=w;var
-y=a?ql:a}else
+y=a?qG:a}else
 var
 y=n;return y}return[0,n]}function
-jn(f,e,d,c,p,o,n){var
+jz(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=jm(f,e,d,c,b,a[1],g);return h?aV(h[1]):h}var
-i=jm(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ee(a[2],b),l=jn(f,e,d,c,k[1],j,a[3]);if(l){var
+h=jy(f,e,d,c,b,a[1],g);return h?aK(h[1]):h}var
+i=jy(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=dr(a[2],b),l=jz(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-fZ(a){return hG(b(2,c),cb(a,c))}function
+gd(a){return hV(b(2,c),cd(a,c))}function
 cR(i,a,e,w,u){var
-l=a?c:T(c),f=q(l),g=jj(a,e,qg),h=jj(a,e,qh),m=aK(g,cQ(a,e,f,g)),n=[0,G(aK(h,cQ(a,e,h,f)),m),0],o=aK(f,cQ(a,e,f,g)),p=[0,G(aK(h,cQ(a,e,g,h)),o),n],r=aK(f,cQ(a,e,h,f)),s=[0,G(aK(g,cQ(a,e,g,h)),r),p],t=a?e?q(b(2,c)):v(q(b(2,b(2,c))),eo):q(b(2,b(2,c))),j=d_([0,t,s]),k=[0,d,cf(i)];return jn(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
-jo(a,g,b){if(ag(g,fZ(a))){if(b){var
+l=a?c:T(c),f=r(l),g=jv(a,e,qB),h=jv(a,e,qC),m=aM(g,cQ(a,e,f,g)),n=[0,K(aM(h,cQ(a,e,h,f)),m),0],o=aM(f,cQ(a,e,f,g)),p=[0,K(aM(h,cQ(a,e,g,h)),o),n],q=aM(f,cQ(a,e,h,f)),s=[0,K(aM(g,cQ(a,e,g,h)),q),p],t=a?e?r(b(2,c)):v(r(b(2,b(2,c))),eu):r(b(2,b(2,c))),j=dm([0,t,s]),k=[0,d,ci(i)];return jz(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,u)}function
+jA(a,g,b){if(af(g,gd(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,fZ(a)],v=cf(a),i=[0,fZ(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,gd(a)],v=ci(a),i=[0,gd(a),v],j=cR(a,0,1,h,b[1]),k=j?cR(a,0,0,i,c[1]):j;if(k){var
 l=cR(a,1,1,h,d[1]);if(l)return cR(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -3895,174 +3901,199 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cf(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
+r=[0,g,ci(a)],s=cR(a,0,0,r,b[1]);if(s)return cR(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-f0(a){if(a){var
-b=a[2],c=a[1];if(b)return g(c,[0,qm,f0(b)]);var
+ge(a){var
+b=[1,[2,d]];return h2(function(b,a){return[1,[3,b,a]]},a,b)}function
+ew(a){return ge(f(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+ex(a,c){return ge(f(function(a){var
+d=[0,a[2]],b=cg(a[1],c);return[1,[7,[1,[8,ge(f(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+jB(f,d,c,b,a){if(0===a[0])return I(a[1],b,0);var
+g=a[1],h=dj(function(a){return jB(f,d,c,b,a)},g);return e(dn(f,d,c),h)}function
+jC(a){var
+b=a[5];return b?b[1]:cl(a[2])}function
+qH(a){var
+b=ag(m(a),qI);return b?a9(function(a){return aK(ai(a,d))},a):b}function
+jD(c,f,b,a){if(b)if(a)var
+d=b[1],g=B(c,aY(c,a[1]),f),h=jD(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+var
+e=a;else
+var
+e=b;return e}function
+ey(b,a){return h1(h1(b,0),a)}function
+gf(a){if(a){var
+b=a[2],c=a[1];if(b)return ey(c,[0,qK,gf(b)]);var
 d=c}else
 var
 d=a;return d}function
-w(a){return[0,qo,g(f0(a),qn)]}function
-Q(a){return[0,qq,g(f0(a),qp)]}function
-an(a){return[0,qs,[0,a,qr]]}function
-h(b,a){return[0,as(qu,as(b,qt)),a]}function
+w(a){return[0,qM,ey(gf(a),qL)]}function
+Q(a){return[0,qO,ey(gf(a),qN)]}function
+an(a){return[0,qQ,[0,a,qP]]}function
+h(b,a){return[0,as(qS,as(b,qR)),a]}function
 F(b,a){return Q([0,h(b,a),0])}function
 cS(d){var
-b=d,a=o9,e=0;for(;;){if(b){var
-c=hB(a),b=b[1],a=c;continue}return[0,dg(dW(a)),e]}}function
-f1(a){return[0,dg(d0(a)),0]}function
-f2(a){var
-c=bx(a),f=0,b=0===c?pb:0<c?[0,d0(a)]:[1,d0(T(a))];if(0===b[0])var
-d=dg(b[1]);else
+b=d,a=ps,e=0;for(;;){if(b){var
+c=hQ(a),b=b[1],a=c;continue}return[0,di(d4(a)),e]}}function
+gg(a){return[0,di(d8(a)),0]}function
+gh(a){var
+c=bC(a),f=0,b=0===c?pw:0<c?[0,d8(a)]:[1,d8(T(a))];if(0===b[0])var
+d=di(b[1]);else
 var
-e=dg(b[1]),d=as(aY(1,45),e);return[0,d,f]}function
-f3(a){var
-b=0,c=0<bx(a)?d0(a):pa;return[0,dg(c),b]}function
-f4(a){switch(a[0]){case
-2:return qw;case
-3:return 2<=a[1]?qx:qy;case
-4:return qz;default:return qv}}function
-dx(b,a){function
-c(c,a){return Z(c,f4(a))?dx(b,a):[0,qF,g(dx(b,a),qE)]}switch(a[0]){case
+e=di(b[1]),d=as(a1(1,45),e);return[0,d,f]}function
+gi(a){var
+b=0,c=0<bC(a)?d8(a):pv;return[0,di(c),b]}function
+gj(a){switch(a[0]){case
+2:return qU;case
+3:return 2<=a[1]?qV:qW;case
+4:return qX;default:return qT}}function
+dE(b,a){function
+c(c,a){return _(c,gj(a))?dE(b,a):[0,q3,g(dE(b,a),q2)]}switch(a[0]){case
 0:var
 f=a[2],h=a[1];if(typeof
-f==="number")return[0,aQ(h),0];var
-i=[0,qG,[0,aQ(f),0]];return[0,aQ(h),i];case
+f==="number")return[0,aT(h),0];var
+i=[0,q4,[0,aT(f),0]];return[0,aT(h),i];case
 1:return[0,e(b,a[1]),0];case
-2:return[0,qI,c(qH,a[1])];case
+2:return[0,q6,c(q5,a[1])];case
 3:var
-j=a[3],k=c([0,f4(a)],j);switch(a[1]){case
+j=a[3],k=c([0,gj(a)],j);switch(a[1]){case
 0:var
-d=qA;break;case
+d=qY;break;case
 1:var
-d=qB;break;case
+d=qZ;break;case
 2:var
-d=qC;break;default:var
-d=qD}var
-l=a[2];return g(c(f4(a),l),[0,d,k]);case
+d=q0;break;default:var
+d=q1}var
+l=a[2];return g(c(gj(a),l),[0,d,k]);case
 4:var
-m=[0,qJ,f1(a[2])];return g(c(qK,a[1]),m);default:return[0,qM,g(dx(b,a[1]),qL)]}}function
-R(a){return[0,qP,g(dx(function(a){throw[0,V,qO]},a),qN)]}function
-jp(a){return[0,qR,g(dx(function(a){return a},a),qQ)]}function
-b4(a){if(0===a[0])return R(a[1]);var
-b=[0,h(qS,R(a[2])),0];return Q([0,h(qT,R(a[1])),b])}function
-eq(b,a){var
+m=[0,q7,gg(a[2])];return g(c(q8,a[1]),m);default:return[0,q_,g(dE(b,a[1]),q9)]}}function
+R(a){return[0,rb,g(dE(function(a){throw[0,W,ra]},a),q$)]}function
+jE(a){return[0,rd,g(dE(function(a){return a},a),rc)]}function
+b7(a){if(0===a[0])return R(a[1]);var
+b=[0,h(re,R(a[2])),0];return Q([0,h(rf,R(a[1])),b])}function
+ez(b,a){var
 c=[0,e(b,a[3]),0],d=[0,e(b,a[2]),c];return w([0,e(b,a[1]),d])}function
-qU(a){function
-b(a){return eq(b4,a)}switch(a[0]){case
+rg(a){function
+b(a){return ez(b7,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?qV:q3,i=[0,h(qW,an(f)),e],j=[0,h(qX,b4(a[4])),i],k=[0,h(qY,b(a[3])),j],l=[0,h(qZ,b(a[2])),k],m=[0,h(q0,b(a[1])),l],c=[0,h(q2,an(q1)),m];break;case
+e=0,f=a[5]?rh:rp,i=[0,h(ri,an(f)),e],j=[0,h(rj,b7(a[4])),i],k=[0,h(rk,b(a[3])),j],l=[0,h(rl,b(a[2])),k],m=[0,h(rm,b(a[1])),l],c=[0,h(ro,an(rn)),m];break;case
 1:var
-d=a[3],n=d?[0,h(q4,b(d[1])),0]:d,o=[0,h(q5,b(a[2])),0],p=[0,h(q6,b(a[1])),o],c=g([0,h(q8,an(q7)),p],n);break;default:var
-q=[0,h(q9,b(a[1])),0],c=[0,h(q$,an(q_)),q]}return Q(c)}function
-ra(a){function
-b(a){return eq(b4,a)}var
-c=0,d=a[7]?rb:rl,e=[0,h(rc,an(d)),c],f=[0,h(rd,b4(a[6])),e],g=[0,h(re,b4(a[5])),f],i=[0,h(rf,b(a[4])),g],j=[0,h(rg,b(a[3])),i],k=[0,h(rh,b(a[2])),j],l=[0,h(ri,b(a[1])),k];return Q([0,h(rk,an(rj)),l])}function
-f5(a){switch(a){case
-0:return rm;case
-1:return rn;case
-2:return ro;case
-3:return rp;case
-4:return rq;case
-5:return rr;case
-6:return rs;case
-7:return rt;default:return ru}}function
-f6(a){switch(a[0]){case
-0:return rv;case
-1:return rw;default:return rx}}function
-dy(a){var
+d=a[3],n=d?[0,h(rq,b(d[1])),0]:d,o=[0,h(rr,b(a[2])),0],p=[0,h(rs,b(a[1])),o],c=g([0,h(ru,an(rt)),p],n);break;default:var
+q=[0,h(rv,b(a[1])),0],c=[0,h(rx,an(rw)),q]}return Q(c)}function
+ry(a){function
+b(a){return ez(b7,a)}var
+c=0,d=a[7]?rz:rJ,e=[0,h(rA,an(d)),c],f=[0,h(rB,b7(a[6])),e],g=[0,h(rC,b7(a[5])),f],i=[0,h(rD,b(a[4])),g],j=[0,h(rE,b(a[3])),i],k=[0,h(rF,b(a[2])),j],l=[0,h(rG,b(a[1])),k];return Q([0,h(rI,an(rH)),l])}function
+gk(a){switch(a){case
+0:return rK;case
+1:return rL;case
+2:return rM;case
+3:return rN;case
+4:return rO;case
+5:return rP;case
+6:return rQ;case
+7:return rR;default:return rS}}function
+gl(a){switch(a[0]){case
+0:return rT;case
+1:return rU;default:return rV}}function
+dF(a){var
 b=a[4],j=0;if(2===b[0])var
 i=[0,R(b[2]),0],e=w([0,R(b[1]),i]);else
 var
 e=R(b[1]);var
-k=[0,h(ry,e),j],l=[0,h(rz,an(f6(a[4]))),k],c=a[3];if(c)var
-n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rA:rE,f=[0,h(rB,F(o,n)),m];else
+k=[0,h(rW,e),j],l=[0,h(rX,an(gl(a[4]))),k],c=a[3];if(c)var
+n=w([0,R(c[1]),0]),m=0,o=6===a[1]?rY:r2,f=[0,h(rZ,F(o,n)),m];else
 var
 f=c;var
-p=g(f,l),d=a[2],q=d?[0,h(rC,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(rD,an(f5(a[1]))),r])}function
-jq(a){if(0===a[0]){var
-b=[0,h(rF,eq(R,a[2])),0];return F(rH,Q([0,h(rG,eq(R,a[1])),b]))}var
-c=[0,R(a[5]),0],d=[0,h(rI,w([0,R(a[4]),c])),0],e=[0,h(rJ,R(a[3])),d],f=[0,R(a[2]),0];return F(rL,Q([0,h(rK,w([0,R(a[1]),f])),e]))}function
-rP(a){function
-b(a){return w(f(b4,a))}var
-c=[0,h(rQ,b(a[2])),0],d=[0,h(rR,b(a[1])),c];return Q([0,h(rT,an(rS)),d])}function
-r3(a){switch(a[0]){case
-0:var
-o=[0,h(r4,w(f(dy,a[3]))),0],p=[0,h(r5,jq(a[2])),o];return F(r8,Q([0,h(r7,F(r6,w(f(qU,a[1])))),p]));case
+p=g(f,l),d=a[2],q=d?[0,h(r0,cS(d[1])),0]:d,r=g(q,p);return Q([0,h(r1,an(gk(a[1]))),r])}function
+jF(a){if(0===a[0]){var
+b=[0,h(r3,ez(R,a[2])),0];return F(r5,Q([0,h(r4,ez(R,a[1])),b]))}var
+c=[0,R(a[5]),0],d=[0,h(r6,w([0,R(a[4]),c])),0],e=[0,h(r7,R(a[3])),d],f=[0,R(a[2]),0];return F(r9,Q([0,h(r8,w([0,R(a[1]),f])),e]))}function
+sb(a){function
+b(a){return w(f(b7,a))}var
+c=[0,h(sc,b(a[2])),0],d=[0,h(sd,b(a[1])),c];return Q([0,h(sf,an(se)),d])}function
+jG(c,b,a){var
+d=[0,h(sp,w(f(dF,a))),0],e=[0,h(sq,jF(b)),d];return Q([0,h(ss,F(sr,w(f(rg,c)))),e])}function
+st(a){switch(a[0]){case
+0:return F(su,jG(a[1],a[2],a[3]));case
 1:var
-q=[0,h(r9,w(f(dy,a[3]))),0],r=[0,h(r_,jq(a[2])),q];return F(sb,Q([0,h(sa,F(r$,w(f(ra,a[1])))),r]));case
+o=[0,h(sv,w(f(dF,a[3]))),0],p=[0,h(sw,jF(a[2])),o];return F(sz,Q([0,h(sy,F(sx,w(f(ry,a[1])))),p]));case
 2:var
-s=[0,h(sc,w(f(dy,a[7]))),0],b=a[6],c=function(b,a){var
+q=[0,h(sA,w(f(dF,a[7]))),0],b=a[6],c=function(b,a){var
 c=[0,R(a),0];return w([0,R(b),c])};switch(b[0]){case
 0:var
-d=F(rU,c(b[1],b[2]));break;case
+d=F(sg,c(b[1],b[2]));break;case
 1:var
-g=b[3],i=b[2],j=b[1],l=[0,h(rV,c(g[1],g[2])),0],m=[0,h(rW,c(i[1],i[2])),l],d=F(rY,Q([0,h(rX,c(j[1],j[2])),m]));break;case
+g=b[3],i=b[2],j=b[1],l=[0,h(sh,c(g[1],g[2])),0],m=[0,h(si,c(i[1],i[2])),l],d=F(sk,Q([0,h(sj,c(j[1],j[2])),m]));break;case
 2:var
-d=F(rZ,R(b[1]));break;default:var
-n=[0,h(r0,R(b[2])),0],d=F(r2,Q([0,h(r1,R(b[1])),n]))}var
-t=[0,h(sd,d),s],u=[0,h(se,w(f(R,a[5]))),0],v=[0,h(sh,F(sg,Q([0,h(sf,w(f(R,a[4]))),u]))),t],x=[0,h(si,R(a[3])),0],y=Q([0,h(sj,w(f(rP,a[2]))),x]);switch(a[1]){case
+d=F(sl,R(b[1]));break;default:var
+n=[0,h(sm,R(b[2])),0],d=F(so,Q([0,h(sn,R(b[1])),n]))}var
+r=[0,h(sB,d),q],s=[0,h(sC,w(f(R,a[5]))),0],t=[0,h(sF,F(sE,Q([0,h(sD,w(f(R,a[4]))),s]))),r],u=[0,h(sG,R(a[3])),0],v=Q([0,h(sH,w(f(sb,a[2]))),u]);switch(a[1]){case
 0:var
-e=rM;break;case
+e=r_;break;case
 1:var
-e=rN;break;default:var
-e=rO}return F(sl,Q([0,h(sk,F(e,y)),v]));case
+e=r$;break;default:var
+e=sa}return F(sJ,Q([0,h(sI,F(e,v)),t]));case
 3:var
-z=[0,h(sm,w(f(dy,a[7]))),0],A=[0,h(sn,w(f(R,a[6]))),0],B=[0,h(sq,F(sp,Q([0,h(so,w(f(R,a[5]))),A]))),z],C=0,D=a[4],E=[0,h(ss,w(f(function(a){return F(sr,w(f(jp,a)))},D))),C],G=a[3],H=[0,h(st,w(f(function(a){var
-b=[0,jp(a[2]),0];return w([0,an(a[1]),b])},G))),E],I=a[2],J=[0,h(su,w(f(function(a){var
-b=[0,b4(a[2]),0];return w([0,an(a[1]),b])},I))),H];return F(sy,Q([0,h(sx,F(sw,Q([0,h(sv,w(f(an,a[1]))),J]))),B]));case
+x=[0,h(sK,w(f(dF,a[7]))),0],y=[0,h(sL,w(f(R,a[6]))),0],z=[0,h(sO,F(sN,Q([0,h(sM,w(f(R,a[5]))),y]))),x],A=0,B=a[4],C=[0,h(sQ,w(f(function(a){return F(sP,w(f(jE,a)))},B))),A],D=a[3],E=[0,h(sR,w(f(function(a){var
+b=[0,jE(a[2]),0];return w([0,an(a[1]),b])},D))),C],G=a[2],H=[0,h(sS,w(f(function(a){var
+b=[0,b7(a[2]),0];return w([0,an(a[1]),b])},G))),E];return F(sW,Q([0,h(sV,F(sU,Q([0,h(sT,w(f(an,a[1]))),H]))),z]));case
 4:var
-K=[0,h(sz,w(f(dy,a[3]))),0],L=[0,h(sC,F(sB,Q([0,h(sA,R(a[2])),0]))),K];return F(sG,Q([0,h(sF,F(sE,Q([0,h(sD,R(a[1])),0]))),L]));default:var
-k=a[1],M=0,N=k?b4(k[1]):an(sJ);return F(sI,Q([0,h(sH,N),M]))}}function
-f7(a){return w(f(f2,a))}function
-jr(b,a){var
-c=[0,h(sK,f3(a)),0];return Q([0,h(sL,w(f(f7,b))),c])}function
-er(a){switch(a[0]){case
+I=[0,h(sX,w(f(dF,a[3]))),0],J=[0,h(s0,F(sZ,Q([0,h(sY,R(a[2])),0]))),I];return F(s4,Q([0,h(s3,F(s2,Q([0,h(s1,R(a[1])),0]))),J]));case
+5:var
+K=[0,h(s5,R(a[5])),0];return F(s7,Q([0,h(s6,jG(a[1],[0,a[2],a[3]],a[4])),K]));default:var
+k=a[1],L=0,M=k?b7(k[1]):an(s_);return F(s9,Q([0,h(s8,M),L]))}}function
+eA(a){return w(f(gh,a))}function
+jH(b,a){var
+c=[0,h(s$,gi(a)),0];return Q([0,h(ta,w(f(eA,b))),c])}function
+eB(a){switch(a[0]){case
 0:return an(a[1]);case
 1:var
-b=jr(a[2],a[3]);return F(a[1],b);case
+b=jH(a[2],a[3]);return F(a[1],b);case
 2:var
-c=a[1]?sM:sO;return F(sN,an(c));case
+c=a[1]?tb:td;return F(tc,an(c));case
 3:var
-d=[0,f7(a[3]),0];return F(sP,w([0,jr(a[1],a[2]),d]));case
+d=[0,eA(a[3]),0];return F(te,w([0,jH(a[1],a[2]),d]));case
 4:var
-e=[0,f3(a[3]),0],f=[0,f2(a[2]),e];return F(sQ,w([0,er(a[1]),f]));case
+e=[0,gi(a[3]),0],f=[0,gh(a[2]),e];return F(tf,w([0,eB(a[1]),f]));case
 5:var
-g=[0,f3(a[3]),0],h=[0,f2(a[2]),g];return F(sR,w([0,er(a[1]),h]));default:return F(sS,er(a[1]))}}function
-sT(a){var
-b=[0,er(a[2]),0];return w([0,cS(a[1]),b])}function
-sU(c){var
-b=c[2],d=b?[0,h(sV,cS(b[1])),0]:b,a=c[1],e=a?[0,h(sW,w(f(sT,[0,a[1],a[2]]))),0]:a;return Q(g(e,d))}function
-f8(a){var
-b=hn(hm(y(a),function(b){return K(a,b)}));return p(function(a){var
-b=aV(34===a?1:0),c=b?aV(92===a?1:0):b,d=c?Z(th,d1(a)):c;return d?Z(d1(a),ti):d},b)}function
-es(b){function
+g=[0,gi(a[3]),0],h=[0,gh(a[2]),g];return F(tg,w([0,eB(a[1]),h]));default:return F(th,eB(a[1]))}}function
+ti(a){var
+b=[0,eB(a[2]),0];return w([0,cS(a[1]),b])}function
+jI(a){if(typeof
+a==="number")return an(tj);else{if(0===a[0]){var
+b=[0,w(f(eA,a[2])),0];return F(tk,w([0,cS(a[1]),b]))}var
+c=[0,cS(a[2]),0];return F(tl,w([0,cS(a[1]),c]))}}function
+tm(a){var
+b=a[4],i=b?[0,h(tn,eA([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(to,jI(d[1])),0]:d,k=g(j,i),e=a[2],l=e?[0,h(tp,cS(e[1])),0]:e,m=g(l,k),c=a[1],n=c?[0,h(tq,w(f(ti,[0,c[1],c[2]]))),0]:c;return Q(g(n,m))}function
+gm(a){var
+b=hC(hB(y(a),function(b){return N(a,b)}));return o(function(a){var
+b=aK(34===a?1:0),c=b?aK(92===a?1:0):b,d=c?_(tK,d9(a)):c;return d?_(d9(a),tL):d},b)}function
+eC(b){function
 c(f){var
-a=d1(f),b=Z(tj,a),c=b?Z(a,tk):b;if(c)var
+a=d9(f),b=_(tM,a),c=b?_(a,tN):b;if(c)var
 d=c;else{var
-e=Z(tl,a);if(e)return Z(a,tm);var
+e=_(tO,a);if(e)return _(a,tP);var
 d=e}return d}var
-a=hn(hm(y(b),function(a){return K(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?p(function(a){var
+a=hC(hB(y(b),function(a){return N(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=d1(a),f=Z(tn,e),h=f?Z(e,to):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(n(d),tp):f;if(g)return aV(aC(b,tq));var
+e=d9(a),f=_(tQ,e),h=f?_(e,tR):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?_(m(d),tS):f;if(g)return aK(aD(b,tT));var
 h=g}else
 var
 h=a;return h}function
-f9(c){var
+gn(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return es(a[1]);case
+1:return eC(a[1]);case
 3:var
-b=f9(a[2]);if(b){var
+b=gn(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 cT(m){var
@@ -4076,7 +4107,7 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=dW(a[2]);if(typeof
+f=d4(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
@@ -4086,29 +4117,29 @@ g=d;return g;case
 i=cT(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=cT(a[1]),l=k?dZ(b(2,c),j):k;return l?dZ(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=cT(a[1]),l=k?d7(b(2,c),j):k;return l?d7(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 cU(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-f_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-b5(a){return N(cU,f_(a))}function
-tr(a){switch(a[0]){case
+dG(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+b8(a){return J(cU,dG(a))}function
+jJ(a){switch(a[0]){case
 0:var
-c=cU(a[4]),d=g(b5(a[3]),c),e=g(b5(a[2]),d);return g(b5(a[1]),e);case
+c=cU(a[4]),d=g(b8(a[3]),c),e=g(b8(a[2]),d);return g(b8(a[1]),e);case
 1:var
-b=a[3],f=b?b5(b[1]):b,h=g(b5(a[2]),f);return g(b5(a[1]),h);default:return b5(a[1])}}function
-ts(a){var
-b=N(cU,[0,a[5],[0,a[6],0]]);return g(N(b5,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
-js(a){if(0===a[0]){var
-b=f_(a[2]);return g(f_(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-dz(c){var
+b=a[3],f=b?b8(b[1]):b,h=g(b8(a[2]),f);return g(b8(a[1]),h);default:return b8(a[1])}}function
+tU(a){var
+b=J(cU,[0,a[5],[0,a[6],0]]);return g(J(b8,[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]]),b)}function
+jK(a){if(0===a[0]){var
+b=dG(a[2]);return g(dG(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+cV(c){var
 a=c[4],d=2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],b=c[3],e=b?[0,b[1],0]:b;return g(e,d)}function
-jt(a){var
-d=dZ(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?dZ(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-ju(a,b){return b?[3,ju(a,b[1]),a]:a}function
+jL(a){var
+d=d7(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?d7(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+jM(a,b){return b?[3,jM(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-h=a[2],j=b(2,k(b(2,b(2,c)))),l=function(a){return o(j,a)},m=fd(hz(h),l,c);return[0,hI(hA(dW(a[1]),h)),m];case
-1:throw[0,V,tt];case
+h=a[2],j=b(2,n(b(2,b(2,c)))),k=function(a){return q(j,a)},l=fq(hO(h),k,c);return[0,hX(hP(d4(a[1]),h)),l];case
+1:throw[0,W,tV];case
 2:var
 e=i(a[1]);return 0===e[0]?[0,T(e[1]),e[2]]:[2,[0,d,c],e];case
 3:var
@@ -4117,25 +4148,25 @@ f=i(a[2]),g=i(a[3]);switch(a[1]){case
 1:return[2,f,g];case
 2:return[3,f,g];default:return[4,f,g]}case
 4:var
-n=cB(de(a[2]));return ju(i(a[1]),n);default:return[5,i(a[1])]}}function
-bH(a){if(0===a[0]){var
+m=cF(dg(a[2]));return jM(i(a[1]),m);default:return[5,i(a[1])]}}function
+bK(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-a8(a){var
-b=bH(a[3]),c=bH(a[2]);return[0,bH(a[1]),c,b]}function
-tu(a){switch(a[0]){case
+ba(a){var
+b=bK(a[3]),c=bK(a[2]);return[0,bK(a[1]),c,b]}function
+tW(a){switch(a[0]){case
 0:var
-b=a[5],c=bH(a[4]),d=a8(a[3]),e=a8(a[2]);return[0,[0,a8(a[1]),e,d,c,b]];case
+b=a[5],c=bK(a[4]),d=ba(a[3]),e=ba(a[2]);return[0,[0,ba(a[1]),e,d,c,b]];case
 1:var
-f=ab(a8,a[3]),g=a8(a[2]);return[1,a8(a[1]),g,f];default:return[2,a8(a[1])]}}function
-jv(a){if(0===a[0]){var
+f=ac(ba,a[3]),g=ba(a[2]);return[1,ba(a[1]),g,f];default:return[2,ba(a[1])]}}function
+jN(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(e(a,c));return[0,i(e(a,d)),b]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),g,f]]}var
 h=i(a[5]),j=[0,i(a[4]),h],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,j]}function
-tv(a){if(a[1])return 0;var
+tX(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-f$(c,j,b){var
-x=n(c),d=N(function(a){switch(a[1]){case
+eD(c,j,b){var
+x=m(c),d=J(function(a){switch(a[1]){case
 0:var
 g=a[4];return 0===g[0]?[0,[1,i(g[1])],0]:0;case
 1:var
@@ -4164,11 +4195,11 @@ var
 o=e;return o}return 0;case
 7:var
 p=a[4];return 0===p[0]?[0,[9,i(p[1])],0]:0;default:return 0}var
-h=a[2],r=h?[0,cB(h[1]),0]:cF(0,x);return f(b,r)},b),a=N(tv,b),e=a?[0,a[1],a[2]]:tx,h=g(e,d),k=jv(j);return[0,f(tu,c),k,h]}function
-ty(a){if(a[1])return 0;var
+h=a[2],r=h?[0,cF(h[1]),0]:cI(0,x);return f(b,r)},b),a=J(tX,b),e=a?[0,a[1],a[2]]:tZ,h=g(e,d),k=jN(j);return[0,f(tW,c),k,h]}function
+t0(a){if(a[1])return 0;var
 b=a[4];return 1===b[0]?[0,[0,i(b[1])],0]:0}function
-cV(z,b){var
-c=N(function(a){switch(a[1]){case
+cW(z,b){var
+c=J(function(a){switch(a[1]){case
 0:var
 h=a[4];return 0===h[0]?[0,[1,i(h[1])],0]:0;case
 1:var
@@ -4197,33 +4228,33 @@ o=a[4];if(1!==o[0])return 0;var
 g=a[3],x=o[1];if(!g)return g;var
 y=g[1],c=function(a){var
 b=i(x);return[7,a,i(y),b]};break;default:return 0}var
-j=a[2],q=j?[0,cB(j[1]),0]:cF(0,z);return f(c,q)},b),a=N(ty,b),d=a?[0,a[1],a[2]]:tz;return g(d,c)}function
-bI(h,g,a){switch(a[1]){case
+j=a[2],q=j?[0,cF(j[1]),0]:cI(0,z);return f(c,q)},b),a=J(t0,b),d=a?[0,a[1],a[2]]:t1;return g(d,c)}function
+bL(h,g,a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(a[3])return 0;var
-i=2===a[4][0]?1:0,b=dX(h,i);if(b){var
+i=2===a[4][0]?1:0,b=d5(h,i);if(b){var
 c=a[2];if(c){var
-d=c[1],e=Z(tA,d);return e?Z(d,g):e}var
+d=c[1],e=_(t2,d);return e?_(d,g):e}var
 f=1}else
 var
 f=b;return f;case
 3:return 1===a[4][0]?a[2]?0:a[3]?0:1:0;default:return 0}}function
-cr(a){switch(a[0]){case
+cv(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cr(a[1])];case
+2:return[2,cv(a[1])];case
 3:var
-b=cr(a[2]),c=cr(a[3]);switch(a[1]){case
+b=cv(a[2]),c=cv(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cr(a[1]),d];default:return[8,cr(a[1])]}}function
-jw(b){function
+d=a[2];return[7,cv(a[1]),d];default:return[8,cv(a[1])]}}function
+jO(b){function
 a(e){var
-a=[0,d,c];return P(e,b,[0,a,a])}var
-e=a(tC),f=a(tD);return[0,a(0),f,e]}function
-ga(a){function
+a=[0,d,c];return I(e,b,[0,a,a])}var
+e=a(t4),f=a(t5);return[0,a(0),f,e]}function
+go(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4231,207 +4262,253 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-jx(j,a,h,g,e,d,c){function
-b(a){return jw(f(bH,a))}var
-k=cV(n(a),c),l=ga(d),m=cE(g,e),o=jw(f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},m)),p=i(h);return[0,j,f(function(a){var
+jP(j,a,h,g,e,d,c){function
+b(a){return jO(f(bK,a))}var
+k=cW(m(a),c),l=go(d),n=cg(g,e),o=jO(f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},n)),p=i(h);return[0,j,f(function(a){var
 c=b(a[2]);return[0,b(a[1]),c]},a),p,o,l,k]}function
-tE(a){var
-b=a[7],c=bH(a[6]),d=bH(a[5]),e=a8(a[4]),f=a8(a[3]),g=a8(a[2]);return[0,a8(a[1]),g,f,e,d,c,b]}var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-dA(h){var
-a=cD(function(f,e){var
-a=au(m,f);if(a)var
-b=a[1],c=cd(e2(b[1]),e2(b[2]));else
+t6(a){var
+b=a[7],c=bK(a[6]),d=bK(a[5]),e=ba(a[4]),f=ba(a[3]),g=ba(a[2]);return[0,ba(a[1]),g,f,e,d,c,b]}var
+k=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+cX(h){var
+a=cH(function(f,e){var
+a=av(k,f);if(a)var
+b=a[1],c=cf(fd(b[1]),fd(b[2]));else
 var
-c=d;return cd(c,e)},d,h);if(ag(d,a)){var
-f=bx(a);if(0===f||!(0<f&&!D(a,c)))var
+c=d;return cf(c,e)},d,h);if(af(d,a)){var
+f=bC(a);if(0===f||!(0<f&&!A(a,c)))var
 g=d;else
 var
-b=be(a,aT(2)),e=b[1],g=al(b[2],d)?dY(e):dY(e);return cb(g,m)}return d}function
-et(a){return[0,a[1],[0,a[2],0]]}function
-bJ(a){var
-b=et(a[3]),c=g(et(a[2]),b);return g(et(a[1]),c)}function
-tF(a){return 0===a[0]?et(a[1][4]):0}function
-tG(a){switch(a[0]){case
+b=bj(a,aW(2)),e=b[1],g=ai(b[2],d)?d6(e):d6(e);return cd(g,k)}return d}function
+eE(a){return[0,a[1],[0,a[2],0]]}function
+br(a){var
+b=eE(a[3]),c=g(eE(a[2]),b);return g(eE(a[1]),c)}function
+t7(a){return 0===a[0]?eE(a[1][4]):0}function
+t8(a){switch(a[0]){case
 0:var
-b=a[1],c=bJ(b[3]);return g(bJ(b[2]),c);case
+b=a[1],c=br(b[3]);return g(br(b[2]),c);case
 1:var
-d=bJ(a[2]);return g(bJ(a[1]),d);default:return 0}}function
-tH(a){switch(a[0]){case
-0:return dA(bJ(a[1][1]));case
+d=br(a[2]);return g(br(a[1]),d);default:return 0}}function
+jQ(a){switch(a[0]){case
+0:return cX(br(a[1][1]));case
 1:var
-b=a[3];return b?dA(bJ(b[1])):d;default:return dA(bJ(a[1]))}}function
-eu(a){switch(a[0]){case
+b=a[3];return b?cX(br(b[1])):d;default:return cX(br(a[1]))}}function
+jR(b){var
+a=J(t7,b),d=a?[0,a[1],a[2]]:J(t8,b);return z(c,cX(d))}function
+eF(a){switch(a[0]){case
 0:var
-b=a[1];if(aC(b,tI))return tJ;if(aC(b,tK))return tL;if(aC(b,tM))return tN;if(aC(b,tO))return tP;var
-h=aC(b,tQ),j=h?tR:h;return j;case
+b=a[1];if(aD(b,t9))return t_;if(aD(b,t$))return ua;if(aD(b,ub))return uc;if(aD(b,ud))return ue;var
+h=aD(b,uf),j=h?ug:h;return j;case
 1:var
-c=a[3],d=a[2],e=a[1];if(aC(e,tS))return[0,[0,c,d]];if(aC(e,tT))return[0,[1,c,d]];var
-i=aC(e,tU),k=i?[0,[2,c,d]]:i;return k;case
+c=a[3],d=a[2],e=a[1];if(aD(e,uh))return[0,[0,c,d]];if(aD(e,ui))return[0,[1,c,d]];var
+i=aD(e,uj),k=i?[0,[2,c,d]]:i;return k;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:var
-f=eu(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
+f=eF(a[1]),l=f?[0,[5,f[1],a[2],a[3]]]:f;return l;case
 5:var
-g=eu(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
-n=eu(a[1]);return ab(function(a){return[6,a]},n)}}function
-jy(a){if(a){var
-d=a[1],b=eu(d[2]);if(b)var
-c=jy(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
+g=eF(a[1]),m=g?[0,[7,g[1],a[2],a[3]]]:g;return m;default:var
+n=eF(a[1]);return ac(function(a){return[6,a]},n)}}function
+jS(a){if(a){var
+d=a[1],b=eF(d[2]);if(b)var
+c=jS(a[2]),f=c?[0,[0,[0,d[1],b[1]],c[1]]]:c,e=f;else
 var
-e=b;return e}return tV}function
-cW(b,a){if(b)if(a){var
-g=a[1],h=g[2],i=a[2],j=b[1],c=jy(g[1]);if(c){var
-k=c[1];if(h){var
-d=cW(j,i);if(d){var
-l=d[1],e=cW(j,l[2]);if(e)var
-m=e[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
+e=b;return e}return uk}function
+cY(c,a){if(c)if(a){var
+b=a[1];if(b[3])return 0;if(b[4])return 0;var
+h=b[2],i=a[2],j=c[1],d=jS(b[1]);if(d){var
+k=d[1];if(h){var
+e=cY(j,i);if(e){var
+l=e[1],f=cY(j,l[2]);if(f)var
+m=f[1],n=[0,[0,[1,k,h[1],l[1],m[1]],m[2]]];else
 var
-n=e;var
+n=f;var
 o=n}else
 var
-o=d;return o}var
+o=e;return o}var
 p=[0,[0,[0,k],i]]}else
 var
-p=c;var
-f=p}else
+p=d;var
+g=p}else
 var
-f=a;else
+g=a;else
 var
-f=b;return f}function
-gb(d,a){if(d){if(a){var
-b=cW(n(a),a);if(b)var
-e=b[1],c=gb(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
+g=c;return g}function
+gp(d,a){if(d){if(a){var
+b=cY(m(a),a);if(b)var
+e=b[1],c=gp(d[1],e[2]),g=c?[0,[0,e[1],c[1]]]:c,f=g;else
 var
-f=b;return f}return tW}return a?0:tX}function
-cs(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-a9(a,e){var
-b=cs(a[1],e),c=cs(a[2],b[2]),d=cs(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-jz(d,c){if(d){var
+f=b;return f}return ul}return a?0:um}function
+gq(a){return typeof
+a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
+gr(d,a){if(d)if(a){var
+b=a[1];if(b[1])return 0;var
+h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
+e=gr(k,j);if(e){var
+l=e[1],f=gr(k,l[2]);if(f)var
+m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
+var
+n=f;var
+o=n}else
+var
+o=e;return o}var
+p=c?[0,[0,[0,h,gq(c[1])],j]]:c,g=p}else
+var
+g=a;else
+var
+g=d;return g}function
+cw(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+bb(a,e){var
+b=cw(a[1],e),c=cw(a[2],b[2]),d=cw(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+jT(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=a9(a[1],c),f=a9(a[2],e[2]),g=a9(a[3],f[2]),h=cs(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=bb(a[1],c),f=bb(a[2],e[2]),g=bb(a[3],f[2]),h=cw(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=a9(a[1],c),k=j[1],l=a9(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=a9(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=bb(a[1],c),k=j[1],l=bb(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=bb(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=a9(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=jz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-jA(b,i){if(b){var
-a=b[1],c=a9(a[1],i),d=a9(a[2],c[2]),e=a9(a[3],d[2]),f=a9(a[4],e[2]),g=cs(a[5],f[2]),h=cs(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jA(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
-gc(a,b){if(a){var
-c=cs(a[1],b),d=gc(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-gd(b){function
-a(a){return P(a,b,[0,d,c])}var
-e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
-jB(a,b){if(a){var
-c=a[1],d=gc(c[1],b),e=gc(c[2],d[2]),f=jB(a[2],e[2]),g=f[2],h=f[1],i=gd(e[1]);return[0,[0,[0,gd(d[1]),i],h],g]}return[0,0,b]}function
-jC(a){return typeof
-a==="number"?0:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-ev(a){return iv(m,a)}function
-t1(a){if(typeof
+p=bb(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=jT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+jU(b,i){if(b){var
+a=b[1],c=bb(a[1],i),d=bb(a[2],c[2]),e=bb(a[3],d[2]),f=bb(a[4],e[2]),g=cw(a[5],f[2]),h=cw(a[6],g[2]),k=[0,c[1],d[1],e[1],f[1],g[1],h[1],a[7]],j=jU(b[2],h[2]);return[0,[0,k,j[1]],j[2]]}return[0,0,i]}function
+gs(a,b){if(a){var
+c=cw(a[1],b),d=gs(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+gt(b){function
+a(a){return I(a,b,[0,d,c])}var
+e=a(uo),f=a(up);return[0,a(0),f,e]}function
+jV(a,b){if(a){var
+c=a[1],d=gs(c[1],b),e=gs(c[2],d[2]),f=jV(a[2],e[2]),g=f[2],h=f[1],i=gt(e[1]);return[0,[0,[0,gt(d[1]),i],h],g]}return[0,0,b]}function
+eG(a){return iG(k,a)}function
+uq(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-b=l(m,1,a[2]);return b?l(m,1,a[3]):b;case
-5:return l(m,1,[2,a[1],[0,c,c]]);case
-6:return l(m,1,a[2]);case
+b=l(k,1,a[2]);return b?l(k,1,a[3]):b;case
+5:return l(k,1,[2,a[1],[0,c,c]]);case
+6:return l(k,1,a[2]);case
 8:var
-d=l(m,1,a[1]);return d?l(m,1,a[2]):d;case
+d=l(k,1,a[1]);return d?l(k,1,a[2]):d;case
 2:case
-3:return ev(a[2]);default:return l(m,1,a[1])}}function
-ge(a){if(typeof
+3:return eG(a[2]);default:return l(k,1,a[1])}}function
+gu(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=l(m,1,[2,d,e]),g=f?l(m,1,[2,[1,e,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(m,0,[1,e,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c]]):g;return h?l(m,0,[2,[0,b(2,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c))))))))))),c],d]):h;case
-5:return l(m,1,[2,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=l(k,1,[2,d,e]),g=f?l(k,1,[2,[1,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,h=g?l(k,0,[1,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):g;return h?l(k,0,[2,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):h;case
+5:return l(k,1,[2,a[1],[0,c,c]]);case
 8:var
-j=l(m,1,a[1]);return j?l(m,1,a[2]):j;case
+j=l(k,1,a[1]);return j?l(k,1,a[2]):j;case
 0:case
-1:return l(m,1,a[1]);case
+1:return l(k,1,a[1]);case
 2:case
-3:return ev(a[2]);default:var
-i=l(m,1,a[2]);return i?l(m,1,a[3]):i}}function
-ew(d){var
+3:return eG(a[2]);default:var
+i=l(k,1,a[2]);return i?l(k,1,a[3]):i}}function
+eH(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=aV(bD(function(d){return function(a){var
-h=f5(a[1]),e=aC(f5(d[1]),h);if(e)var
-i=f6(a[4]),b=aC(f6(d[4]),i);else
+b=a[2],e=a[1],c=aK(a9(function(d){return function(a){var
+h=gk(a[1]),e=aD(gk(d[1]),h);if(e)var
+i=gl(a[4]),b=aD(gl(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?ai(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?ag(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-dB(a){if(0===a[0])return ev(i(a[1]));var
-b=i(a[1]);return l(m,1,[2,i(a[2]),b])}function
-a_(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-t2(a){switch(a[0]){case
+dH(a){if(0===a[0])return eG(i(a[1]));var
+b=i(a[1]);return l(k,1,[2,i(a[2]),b])}function
+bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ur(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e);case
+c=[0,a[4],0],d=g(bc(a[3]),c),e=g(bc(a[2]),d);return g(bc(a[1]),e);case
 1:var
-b=a[3],f=b?a_(b[1]):b,h=g(a_(a[2]),f);return g(a_(a[1]),h);default:return a_(a[1])}}function
-t3(a){var
-b=[0,a[5],[0,a[6],0]],c=g(a_(a[4]),b),d=g(a_(a[3]),c),e=g(a_(a[2]),d);return g(a_(a[1]),e)}function
-gf(a){switch(a){case
-0:return t7;case
-1:return t8;default:return 0}}function
-ex(a){var
-f=a[1],d=l(m,1,[1,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],f]),e=d?bj(m,a[1],a[2]):d;if(e){var
-g=a[2];return l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],g])}return e}function
-gg(a){var
-e=bj(m,[0,d,c],a);return e?l(m,1,[2,[0,b(2,b(2,k(b(2,b(2,k(b(2,k(b(2,b(2,c)))))))))),c],a]):e}function
-jD(c,d,D,t,s,r,g){function
+b=a[3],f=b?bc(b[1]):b,h=g(bc(a[2]),f);return g(bc(a[1]),h);default:return bc(a[1])}}function
+us(a){var
+b=[0,a[5],[0,a[6],0]],c=g(bc(a[4]),b),d=g(bc(a[3]),c),e=g(bc(a[2]),d);return g(bc(a[1]),e)}function
+gv(a){switch(a){case
+0:return uw;case
+1:return ux;default:return 0}}function
+eI(a){var
+f=a[1],d=l(k,1,[1,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?bn(k,a[1],a[2]):d;if(e){var
+g=a[2];return l(k,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],g])}return e}function
+gw(a){var
+e=bn(k,[0,d,c],a);return e?l(k,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+jW(c,d,D,t,s,r,g){function
 u(a){var
-d=c?t5:t6,b=ai(n(a),d);return b?p(dB,a):b}var
-v=p(function(a){var
+d=c?uu:uv,b=ag(m(a),d);return b?o(dH,a):b}var
+v=o(function(a){var
 b=u(a[1]);return b?u(a[2]):b},d);if(v)var
-E=n(d),h=Z(dr(c),E);else
+E=m(d),h=_(dy(c),E);else
 var
 h=v;var
-w=h?Z(n(d),t9):h,x=w?l(m,1,i(D)):w;if(x)var
-F=gf(c),j=ai(n(t),F);else
+w=h?_(m(d),uy):h,x=w?l(k,1,i(D)):w;if(x)var
+F=gv(c),j=ag(m(t),F);else
 var
 j=x;if(j)var
-G=gf(c),k=ai(n(s),G);else
+G=gv(c),n=ag(m(s),G);else
 var
-k=j;if(k)var
-H=cE(t,s),o=p(function(a){var
-b=i(a[2]);return bj(m,i(a[1]),b)},H);else
+n=j;if(n)var
+H=cg(t,s),p=o(function(a){var
+b=i(a[2]);return bn(k,i(a[1]),b)},H);else
 var
-o=k;if(o)if(c){var
-a=ga(r);switch(a[0]){case
+p=n;if(p)if(c){var
+a=go(r);switch(a[0]){case
 0:var
 e=0;break;case
 1:var
-z=ex(a[1]),A=z?ex(a[2]):z,e=A?ex(a[3]):A;break;case
+z=eI(a[1]),A=z?eI(a[2]):z,e=A?eI(a[3]):A;break;case
 2:var
-e=gg(a[1]);break;default:var
-B=gg(a[1]),e=B?gg(a[2]):B}var
+e=gw(a[1]);break;default:var
+B=gw(a[1]),e=B?gw(a[2]):B}var
 f=e}else
 var
-C=ga(r),J=0===C[0]?ex(C[1]):0,f=J;else
+C=go(r),J=0===C[0]?eI(C[1]):0,f=J;else
 var
-f=o;if(f)var
-b=n(d),I=dr(c),q=p(function(a){var
+f=p;if(f)var
+b=m(d),I=dy(c),q=o(function(a){var
 d=a[2];if(d)var
-e=d[1],f=Z(tB,e),g=f?Z(e,b):f,c=g;else
+e=d[1],f=_(t3,e),g=f?_(e,b):f,c=g;else
 var
 c=1;switch(a[1]){case
-2:return 1===a[4][0]?a[3]?c:bI(0,b,a):bI(0,b,a);case
-6:return 0===a[4][0]?a[3]?a[2]?0:1:bI(0,b,a):bI(0,b,a);case
-8:return 1===a[4][0]?a[3]?c?ai(b,I):c:bI(0,b,a):bI(0,b,a);default:return bI(0,b,a)}},g);else
+2:return 1===a[4][0]?a[3]?c:bL(0,b,a):bL(0,b,a);case
+6:return 0===a[4][0]?a[3]?a[2]?0:1:bL(0,b,a):bL(0,b,a);case
+8:return 1===a[4][0]?a[3]?c?ag(b,I):c:bL(0,b,a):bL(0,b,a);default:return bL(0,b,a)}},g);else
 var
 q=f;var
-y=q?ew(g):q;return y?p(ge,cV(n(d),g)):y}function
-jE(a,c,g){var
-d=Z(t_,n(a));if(d)var
-l=n(a),b=p(function(a){switch(a[1]){case
+y=q?eH(g):q;return y?o(gu,cW(m(d),g)):y}function
+gx(j){var
+q=a3(j,cX(br(j))),a=f(function(a){return aL(k,a)},q);if(a){var
+e=a[1];if(e){var
+b=a[2];if(b){var
+g=b[1];if(g){var
+c=b[2];if(c){var
+h=c[1];if(h){if(c[2])return 0;var
+i=function(a){return aj(k,a)},r=i(h[1]),s=i(g[1]);return af(d,E(E(i(e[1]),s),r)[1])}var
+l=h}else
+var
+l=c;var
+m=l}else
+var
+m=g;var
+n=m}else
+var
+n=b;var
+o=n}else
+var
+o=e;var
+p=o}else
+var
+p=a;return p}function
+uz(a){switch(a[0]){case
+0:return gx(a[1][1]);case
+1:var
+b=a[3];return b?gx(b[1]):1;default:return gx(a[1])}}function
+gy(a,d,c){var
+e=o(uz,c[1]),f=e?_(uA,m(a)):e;if(f)var
+l=m(a),b=o(function(a){switch(a[1]){case
 0:return 2===a[4][0]?0:a[2]?0:a[3]?0:1;case
 1:if(2===a[4][0])return 0;var
 c=a[2];if(!c)return a[3]?0:1;if(a[3])return 0;var
@@ -4448,93 +4525,95 @@ b=h[1];break;case
 6:if(0===a[4][0]){if(a[2])return 0;var
 i=a[3],k=i?1:i;return k}return 0;case
 8:return 0;default:return 0===a[4][0]?a[2]?0:a[3]?0:1:0}var
-d=Z(tw,b);return d?Z(b,l):d},c);else
+d=_(tY,b);return d?_(b,l):d},d);else
 var
-b=d;var
-e=b?ew(c):b,f=e?p(dB,N(t2,a)):e;return f?p(t1,g[3]):f}function
-jF(b,a){return p(function(c){var
-a=c[2];return a?hC(a[1],b):1},a)}function
-t$(r){var
-eo=f8(r[3]),ep=eo?f8(r[4]):eo;if(ep){var
-ad=r[1];if(3===ad[0]){var
-et=p(es,ad[1]);if(et)var
-gS=ad[2],b5=p(function(a){return es(a[1])},gS);else
+b=f;var
+g=b?eH(d):b,h=g?o(dH,J(ur,a)):g;return h?o(uq,c[3]):h}function
+jX(b,a){return o(function(c){var
+a=c[2];return a?hR(a[1],b):1},a)}function
+uB(p){var
+e0=gm(p[3]),e1=e0?gm(p[4]):e0;if(e1){var
+ao=p[1];if(3===ao[0]){var
+e4=o(eC,ao[1]);if(e4)var
+hQ=ao[2],ck=o(function(a){return eC(a[1])},hQ);else
 var
-b5=et;if(b5)var
-gT=ad[3],b6=p(function(a){var
-b=es(a[1]),c=b?f9(a[2]):b;return c?cT(a[2]):c},gT);else
+ck=e4;if(ck)var
+hR=ao[3],cl=o(function(a){var
+b=eC(a[1]),c=b?gn(a[2]):b;return c?cT(a[2]):c},hR);else
 var
-b6=b5;if(b6)var
-gU=ad[4],gV=function(a){var
-b=f9(a);return b?cT(a):b},b2=p(function(a){return p(gV,a)},gU);else
+cl=ck;if(cl)var
+hS=ao[4],hT=function(a){var
+b=gn(a);return b?cT(a):b},cf=o(function(a){return o(hT,a)},hS);else
 var
-b2=b6}else
+cf=cl}else
 var
-b2=1;var
-b3=b2}else
+cf=1;var
+ch=cf}else
 var
-b3=ep;if(b3){var
-j=r[1];switch(j[0]){case
+ch=e1;if(ch){var
+h=p[1];switch(h[0]){case
 0:var
-gC=N(dz,j[3]),gD=g(js(j[2]),gC),S=g(N(tr,j[1]),gD);break;case
+hw=J(cV,h[3]),hx=g(jK(h[2]),hw),S=g(J(jJ,h[1]),hx);break;case
 1:var
-gE=N(dz,j[3]),gF=g(js(j[2]),gE),S=g(N(ts,j[1]),gF);break;case
+hy=J(cV,h[3]),hz=g(jK(h[2]),hy),S=g(J(tU,h[1]),hz);break;case
 2:var
-gG=N(dz,j[7]),G=j[6];switch(G[0]){case
+hA=J(cV,h[7]),R=h[6];switch(R[0]){case
 1:var
-ek=G[3],el=G[2],em=G[1],bZ=[0,em[1],[0,em[2],[0,el[1],[0,el[2],[0,ek[1],[0,ek[2],0]]]]]];break;case
+eX=R[3],eY=R[2],eZ=R[1],cd=[0,eZ[1],[0,eZ[2],[0,eY[1],[0,eY[2],[0,eX[1],[0,eX[2],0]]]]]];break;case
 2:var
-bZ=[0,G[1],0];break;default:var
-bZ=[0,G[1],[0,G[2],0]]}var
-gH=g(bZ,gG),gI=g(j[5],gH),gJ=g(j[4],gI),gK=[0,j[3],gJ],gL=j[2],S=g(N(function(a){return N(cU,g(a[1],a[2]))},gL),gK);break;case
+cd=[0,R[1],0];break;default:var
+cd=[0,R[1],[0,R[2],0]]}var
+hB=g(cd,hA),hC=g(h[5],hB),hD=g(h[4],hC),hE=[0,h[3],hD],hF=h[2],S=g(J(function(a){return J(cU,g(a[1],a[2]))},hF),hE);break;case
 3:var
-gM=N(dz,j[7]),gN=g(j[6],gM),gO=g(j[5],gN),gP=j[2],S=g(N(function(a){return cU(a[2])},gP),gO);break;case
+hG=J(cV,h[7]),hH=g(h[6],hG),hI=g(h[5],hH),hJ=h[2],S=g(J(function(a){return cU(a[2])},hJ),hI);break;case
 4:var
-gQ=N(dz,j[3]),S=[0,j[1],[0,j[2],gQ]];break;default:var
-b0=j[1],S=b0?cU(b0[1]):b0}var
-b4=p(cT,S)}else
+hK=J(cV,h[3]),S=[0,h[1],[0,h[2],hK]];break;case
+5:var
+hL=J(cV,h[4]),hM=g(dG(h[3]),hL),hN=g(dG(h[2]),hM),hO=g(J(jJ,h[1]),hN),S=[0,h[5],hO];break;default:var
+ce=h[1],S=ce?cU(ce[1]):ce}var
+cj=o(cT,S)}else
 var
-b4=b3;if(b4){var
-T=r[2];if(0===T[0]){var
-eq=jt(T[1]);if(eq)var
-gR=T[2],ae=p(function(a){var
-b=a[1];return p(function(b){var
+cj=ch;if(cj){var
+ab=p[2];if(0===ab[0]){var
+e2=jL(ab[1]);if(e2)var
+hP=ab[2],ap=o(function(a){var
+b=a[1];return o(function(b){var
 a=b[2];for(;;)switch(a[0]){case
 0:case
-1:return f8(a[1]);case
+1:return gm(a[1]);case
 2:case
 3:return 1;default:var
-a=a[1];continue}},b)},gR);else
+a=a[1];continue}},b)},hP);else
 var
-ae=eq}else
+ap=e2}else
 var
-er=jt(T[1]),ae=er?p(cT,g(T[2],T[3])):er}else
+e3=jL(ab[1]),ap=e3?o(cT,g(ab[2],ab[3])):e3}else
 var
-ae=b4;if(ae){var
-a=r[1];switch(a[0]){case
+ap=cj;if(ap){var
+a=p[1];switch(a[0]){case
 0:var
-af=a[3],ci=a[2],U=a[1],V=r[2];if(0===V[0]){var
-eO=V[2],k=f$(U,ci,af),cj=cW(n(eO),eO);if(cj){var
-eP=cj[1];if(eP[2])return 0;var
-eQ=jE(U,af,k);if(eQ){var
-g9=eP[1],eR=f(tH,k[1]),eS=k[1],b9=N(tF,eS),g3=b9?[0,b9[1],b9[2]]:N(tG,eS),v=z(c,dA(g3)),t=V[1],aa=k[2],fU=0===aa[0]?b1(aa[1]):[0,aa[1],aa[2],aa[4][1]],c6=ix(m,k,f(pI,k[1]),fU);if(c6){var
-cP=ip(v,eR,k[1]),K=iq(v,eR,k[1],0),cQ=n(cP),fw=it(K,v,cQ,k[3]),fx=g(cL(ig(K)),fw),cR=g(cL(ie(K)),fx),cS=d_(cR)[1],$=d8(cS),cX=p(function(a){var
-b=q(d);return bf(P(bY($,a),$,b),a)},cR);if(cX){var
-cY=bD(pG,k[3]);if(cY){var
-fz=k[3],fA=g(cP,f(function(a){return cl(v,a)},fz)),bn=aW(f(function(a){return a1(t,a)},fA));if(bn){var
-L=k[2];if(0===L[0])var
-cZ=L[1];else
+aq=a[3],cB=a[2],ad=a[1],ae=p[2];if(0===ae[0]){var
+fl=ae[2],t=eD(ad,cB,aq),cC=cY(m(fl),fl);if(cC){var
+fm=cC[1];if(fm[2])return 0;var
+fn=gy(ad,aq,t);if(fn){var
+h7=fm[1],fo=f(jQ,t[1]),x=jR(t[1]),u=ae[1],dt=iN(k,t);if(dt){var
+c_=fN(x,fo,t[1]),W=fO(x,fo,t[1],0),c$=m(c_),gw=fR(W,x,c$,t[3]),gx=g(cp(ix(W)),gw),da=g(cp(ej(W)),gx),db=dm(da)[1],am=dl(db),dc=o(function(a){var
+b=r(d);return a_(I(bl(am,a),am,b),a)},da);if(dc){var
+df=a9(p1,t[3]);if(df){var
+gz=t[3],gA=g(c_,f(function(a){return b3(x,a)},gz)),bA=aN(f(function(a){return aL(u,a)},gA));if(bA){var
+X=t[2];if(0===X[0])var
+dg=X[1];else
 var
-an=L[3],cN=L[2],cO=L[1],cZ=[0,[0,[2,cO,an],[1,cO,an]],[0,[2,cN,an],[1,cN,an]],L[4]];var
-fB=bi(cZ,v),bo=aW(f(function(a){return a1(t,a)},fB));if(bo){var
-fC=k[3],bp=aW(iu(t,function(a){return bY($,a)},K,v,cQ,fC));if(bp){var
-c0=bp[1],fD=im(c0),ao=k[2],fG=bo[1],fH=function(d){if(0===ao[0])return 0;if(d){var
+aw=X[3],c8=X[2],c9=X[1],dg=[0,[0,[2,c9,aw],[1,c9,aw]],[0,[2,c8,aw],[1,c8,aw]],X[4]];var
+gB=a3(dg,x),bB=aN(f(function(a){return aL(u,a)},gB));if(bB){var
+gC=t[3],bC=aN(iF(u,function(a){return bl(am,a)},W,x,c$,gC));if(bC){var
+dh=bC[1],gD=iC(dh),ax=t[2],gE=bB[1],gF=function(d){if(0===ax[0])return 0;if(d){var
 a=d[2];if(a){var
 e=a[2];if(e){if(e[2])return 0;var
-b=a[1],c=d[1],f=ch(t,v,ao[1]);if(f){var
-g=ch(t,v,ao[2]);if(g){var
-h=ch(t,v,ao[3]);if(h)var
-q=f[1],r=bE(c),i=O([0,bE(c),r],q),s=g[1],u=bE(b),j=O([0,bE(b),u],s),w=cK(b),x=[0,cK(b),w],y=[0,B(t,aA(H(j,j)),x),0],z=cK(c),A=[0,cK(c),z],C=[0,B(t,aA(H(i,i)),A),y],D=aj(t,j),E=aj(t,i),k=[0,[0,O(O(aj(t,h[1]),E),D),_,C]];else
+b=a[1],c=d[1],f=b0(u,x,ax[1]);if(f){var
+g=b0(u,x,ax[2]);if(g){var
+h=b0(u,x,ax[3]);if(h)var
+q=f[1],r=bm(c),i=P([0,bm(c),r],q),s=g[1],t=bm(b),j=P([0,bm(b),t],s),v=cL(b),w=[0,cL(b),v],y=[0,B(u,aB(E(j,j)),w),0],z=cL(c),A=[0,cL(c),z],C=[0,B(u,aB(E(i,i)),A),y],D=aj(u,j),F=aj(u,i),k=[0,[0,P(P(aj(u,h[1]),F),D),$,C]];else
 var
 k=h;var
 l=k}else
@@ -4551,267 +4630,267 @@ var
 o=a;var
 p=o}else
 var
-p=d;return p},fI=bn[1],fJ=0,fK=ig(K),fN=e(a7(function(a){return bY($,a)}),fK),fO=ie(K);return fy(t,cS,e(a7(function(a){return bY($,a)}),fO),fN,fJ,fI,c0,fH,fG,fD,g9)}var
-c1=bp}else
+p=d;return p},gG=bA[1],gH=0,gI=ix(W),gJ=e(aZ(function(a){return bl(am,a)}),gI),gK=ej(W);return fL(u,db,e(aZ(function(a){return bl(am,a)}),gK),gJ,gH,gG,dh,gF,gE,gD,h7)}var
+di=bC}else
 var
-c1=bo;var
-c2=c1}else
+di=bB;var
+dj=di}else
 var
-c2=bn;var
-bq=c2}else
+dj=bA;var
+bD=dj}else
 var
-bq=cY}else
+bD=df}else
 var
-bq=cX;return bq}return c6}var
-eT=eQ}else
+bD=dc;return bD}return dt}var
+fp=fn}else
 var
-eT=cj;return eT}var
-aT=V[2];if(aT){var
-aU=aT[2];if(aU){var
-aX=aU[2];if(aX){if(aX[2])return 0;var
-eU=jz(U,f(i,V[3]));if(eU[2])return 0;var
-W=V[4];if(typeof
-W==="number")var
-w=tY;else
-if(0===W[0]){var
-b_=W[2],b$=W[1];if(b_){var
-aK=b_[1],cy=0;if(aK){var
-aO=aK[2],bg=0;if(aO){var
-aP=aO[2],bh=0;if(aP)if(aP[2]){var
-w=0;bg=1;bh=1}else{var
-ca=aP[1],cb=aO[1],cc=aK[1],cd=b_[2];if(cd){var
-aQ=cd[1],ft=0;if(aQ){var
-aR=aQ[2],fu=0;if(aR){var
-aS=aR[2],fv=0;if(aS)if(aS[2]||cd[2]){var
-w=0;bg=1;bh=1;ft=1;fu=1;fv=1}else
+fp=cC;return fp}var
+a6=ae[2];if(a6){var
+a7=a6[2];if(a7){var
+a8=a7[2];if(a8){if(a8[2])return 0;var
+fq=jT(ad,f(i,ae[3]));if(fq[2])return 0;var
+ah=ae[4];if(typeof
+ah==="number")var
+y=un;else
+if(0===ah[0]){var
+cq=ah[2],cs=ah[1];if(cq){var
+aY=cq[1],cR=0;if(aY){var
+a0=aY[2],bx=0;if(a0){var
+a1=a0[2],by=0;if(a1)if(a1[2]){var
+y=0;bx=1;by=1}else{var
+cu=a1[1],cw=a0[1],cx=aY[1],cy=cq[2];if(cy){var
+a2=cy[1],gl=0;if(a2){var
+a4=a2[2],go=0;if(a4){var
+a5=a4[2],gs=0;if(a5)if(a5[2]||cy[2]){var
+y=0;bx=1;by=1;gl=1;go=1;gs=1}else
 var
-eB=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,aQ[1],aR[1]],aS[1]]]];else
+e_=[0,[0,cs,[0,[0,cx,cw],cu],[0,[0,a2[1],a4[1]],a5[1]]]];else
 var
-eB=aS;if(!fv)var
-eC=eB}else
+e_=a5;if(!gs)var
+e$=e_}else
 var
-eC=aR;if(!fu)var
-eD=eC}else
+e$=a4;if(!go)var
+fa=e$}else
 var
-eD=aQ;if(!ft){var
-w=eD;bg=1;bh=1}}else
+fa=a2;if(!gl){var
+y=fa;bx=1;by=1}}else
 var
-eE=[0,[0,b$,[0,[0,cc,cb],ca],[0,[0,cc,cb],ca]]]}else
+fb=[0,[0,cs,[0,[0,cx,cw],cu],[0,[0,cx,cw],cu]]]}else
 var
-eE=aP;if(!bh)var
-eF=eE}else
+fb=a1;if(!by)var
+fc=fb}else
 var
-eF=aO;if(!bg){var
-eG=eF;cy=1}}else{var
-eG=aK;cy=1}if(cy)var
-w=eG}else
+fc=a0;if(!bx){var
+fd=fc;cR=1}}else{var
+fd=aY;cR=1}if(cR)var
+y=fd}else
 var
-eH=[0,[0,d,d],d],w=[0,[0,b$,eH,eH]]}else
+fe=[0,[0,d,d],d],y=[0,[0,cs,fe,fe]]}else
 var
-w=[0,[1,W[1],W[2]]];if(w){var
-eV=jE(U,af,f$(U,ci,af));if(eV){var
-I=w[1],g_=i(aX[1]),g$=i(aU[1]),A=[0,i(aT[1]),g$,g_],ah=eU[1],ck=f$(U,ci,af),c3=ix(m,ck,ah,A);if(c3)if(typeof
-I==="number")return bD(function(a){switch(a[0]){case
+y=[0,[1,ah[1],ah[2]]];if(y){var
+fr=gy(ad,aq,eD(ad,cB,aq));if(fr){var
+U=y[1],h8=i(a8[1]),h9=i(a7[1]),K=[0,i(a6[1]),h9,h8],ar=fq[1],cD=eD(ad,cB,aq),dk=iI(k,cD,ar,K);if(dk)if(typeof
+U==="number")return a9(function(a){switch(a[0]){case
 0:var
-b=[0,dk(a[1],a[2],a[3],a[4],A)];break;case
+b=[0,ds(a[1],a[2],a[3],a[4],K)];break;case
 1:var
-e=a[2],f=a[1],g=bG(f,e,A),b=[0,E(bG(f,e,A),g)];break;default:var
-b=0}return b?l(m,0,[2,[0,d,c],b[1]]):b},ah);else{if(0===I[0]){var
-br=aJ(ck[3],I[1]);if(br){var
-fQ=br[1],fR=iz(I[3]);return iB(m,ah,A,iz(I[2]),fR,fQ)}return br}var
-bs=aJ(ck[3],I[1]);if(bs){var
-bt=aJ(ah,I[2]);if(bt){var
-c4=bt[1],fS=bs[1],fT=cM(c4,A);return iB(m,ah,A,cM(c4,A),fT,fS)}var
-c5=bt}else
+e=a[2],f=a[1],g=bJ(f,e,K),b=[0,G(bJ(f,e,K),g)];break;default:var
+b=0}return b?l(k,0,[2,[0,d,c],b[1]]):b},ar);else{if(0===U[0]){var
+bE=au(cD[3],U[1]);if(bE){var
+gL=bE[1],gM=iK(U[3]);return iM(k,ar,K,iK(U[2]),gM,gL)}return bE}var
+bF=au(cD[3],U[1]);if(bF){var
+bG=au(ar,U[2]);if(bG){var
+dp=bG[1],gN=bF[1],gO=cM(dp,K);return iM(k,ar,K,cM(dp,K),gO,gN)}var
+dq=bG}else
 var
-c5=bs;return c5}return c3}var
-eW=eV}else
+dq=bF;return dq}return dk}var
+fs=fr}else
 var
-eW=w;var
-eX=eW}else
+fs=y;var
+ft=fs}else
 var
-eX=aX;var
-eY=eX}else
+ft=a8;var
+fu=ft}else
 var
-eY=aU;var
-eZ=eY}else
+fu=a7;var
+fv=fu}else
 var
-eZ=aT;return eZ;case
+fv=a6;return fv;case
 1:var
-aY=a[3],J=a[1],aZ=r[2];if(0===aZ[0])return 0;var
-a0=aZ[2];if(a0){var
-a2=a0[2];if(a2){var
-a3=a2[2];if(a3){if(a3[2])return 0;var
-e0=jA(J,f(i,aZ[3]));if(e0[2])return 0;var
-eI=Z(t4,n(J));if(eI)var
-g4=n(J),g5=1,ce=p(function(a){return bI(g5,g4,a)},aY);else
+ba=a[3],V=a[1],bb=p[2];if(0===bb[0])return 0;var
+bc=bb[2];if(bc){var
+bd=bc[2];if(bd){var
+be=bd[2];if(be){if(be[2])return 0;var
+fw=jU(V,f(i,bb[3]));if(fw[2])return 0;var
+ff=_(ut,m(V));if(ff)var
+h1=m(V),h2=1,cz=o(function(a){return bL(h2,h1,a)},ba);else
 var
-ce=eI;var
-eJ=ce?ew(aY):ce,eK=eJ?p(dB,N(t3,J)):eJ,e1=eK?p(ge,cV(n(J),aY)):eK;if(e1){var
-ha=jC(aZ[4]),hb=i(a3[1]),hc=i(a2[1]),C=[0,i(a0[1]),hc,hb],a4=e0[1],hd=a[2],gZ=cV(n(J),aY),g0=jv(hd),ap=f(tE,J),Q=a4;for(;;){if(ap){if(Q){var
-o=Q[1],F=ap[1],c7=aN(m,F[1],o[1]),c8=c7?aN(m,F[2],o[2]):c7,c9=c8?aN(m,F[3],o[3]):c8,c_=c9?aN(m,F[4],o[4]):c9,c$=c_?cn(m,F[5],o[5]):c_,da=c$?cn(m,F[6],o[6]):c$,dd=da?l(m,1,o[5]):da,de=dd?l(m,1,o[6]):dd,df=de?l(m,1,E(o[1],o[1])):de;if(df)var
-fV=fE(o),bu=l(m,1,E(fE(o),fV));else
+cz=ff;var
+fg=cz?eH(ba):cz,fh=fg?o(dH,J(us,V)):fg,fx=fh?o(gu,cW(m(V),ba)):fh;if(fx){var
+h_=gq(bb[4]),h$=i(be[1]),ia=i(bd[1]),L=[0,i(bc[1]),ia,h$],bf=fw[1],ib=a[2],hX=cW(m(V),ba),hY=jN(ib),ay=f(t6,V),Y=bf;for(;;){if(ay){if(Y){var
+q=Y[1],Q=ay[1],du=aQ(k,Q[1],q[1]),dx=du?aQ(k,Q[2],q[2]):du,dz=dx?aQ(k,Q[3],q[3]):dx,dA=dz?aQ(k,Q[4],q[4]):dz,dB=dA?cr(k,Q[5],q[5]):dA,dC=dB?cr(k,Q[6],q[6]):dB,dD=dC?l(k,1,q[5]):dC,dE=dD?l(k,1,q[6]):dD,dF=dE?l(k,1,G(q[1],q[1])):dE;if(dF)var
+gP=fU(q),bH=l(k,1,G(fU(q),gP));else
 var
-bu=df;var
-dg=bu?dX(F[7],o[7]):bu;if(dg){var
-ap=ap[2],Q=Q[2];continue}var
-dh=dg}else
+bH=dF;var
+dI=bH?d5(Q[7],q[7]):bH;if(dI){var
+ay=ay[2],Y=Y[2];continue}var
+dJ=dI}else
 var
-dh=Q;var
-bv=dh}else
+dJ=Y;var
+bI=dJ}else
 var
-bv=Q?0:1;var
-di=bv?iw(m,g0,C):bv;if(di){var
-fW=f(function(a){return iI(a,C)},a4),fY=f(function(a){var
-b=iK(a,C);return[1,iJ(a,C),b]},a4);return iF(m,pK,[0,f(function(a){var
-d=iG(a),e=aM(iK(a,C),d),f=fF(a),g=aM(iJ(a,C),f),h=aL(function(b,a){return[1,b,a]},g,e),i=aM(a[5],h),j=a[3],k=aL(function(b,a){return[1,b,a]},j,i),l=a[4],m=aL(function(b,a){return[1,b,a]},C,l),n=aL(function(b,a){return[2,b,a]},m,k),o=fL(a,C),b=aM([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},a4),fY,fW],gZ,ha)}return di}}var
-e2=e1}else
+bI=Y?0:1;var
+dK=bI?iH(k,hY,L):bI;if(dK){var
+gQ=f(function(a){return iU(a,L)},bf),gR=f(function(a){var
+b=iW(a,L);return[1,iV(a,L),b]},bf);return iR(k,p5,[0,f(function(a){var
+d=iS(a),e=aP(iW(a,L),d),f=fV(a),g=aP(iV(a,L),f),h=aO(function(b,a){return[1,b,a]},g,e),i=aP(a[5],h),j=a[3],k=aO(function(b,a){return[1,b,a]},j,i),l=a[4],m=aO(function(b,a){return[1,b,a]},L,l),n=aO(function(b,a){return[2,b,a]},m,k),o=f1(a,L),b=aP([4,[0,c,c],[3,a[5],o]],n);return[0,b[1],[0,b[2],[0,b[3],0]]]},bf),gR,gQ],hX,h_)}return dK}}var
+fy=fx}else
 var
-e2=a3;var
-e3=e2}else
+fy=be;var
+fz=fy}else
 var
-e3=a2;var
-e4=e3}else
+fz=bd;var
+fA=fz}else
 var
-e4=a0;return e4;case
+fA=bc;return fA;case
 2:var
-a5=a[7],a6=a[6],a8=a[5],a9=a[4],a_=a[3],ak=a[2],X=a[1],Y=r[2];if(0===Y[0]){var
-cm=Y[2],al=jx(X,ak,a_,a9,a8,a6,a5),co=cW(n(cm),cm);if(co){var
-e5=co[1];if(e5[2])return 0;var
-e6=jD(X,ak,a_,a9,a8,a6,a5),e7=e6?jF(dr(X),cm):e6;if(e7){var
-he=e5[1],hf=al[2],hg=z(c,dA(N(function(a){var
-b=bJ(a[2]);return g(bJ(a[1]),b)},hf))),hh=Y[1],gz=al[2],ec=p(function(a){var
-b=fX(m,a[1]);return b?fX(m,a[2]):b},gz),ed=ec?fX(m,al[4]):ec;if(ed)var
-gA=i_(al[5]),bV=p(function(a){return en(m,a)},gA);else
+bg=a[7],bh=a[6],bi=a[5],bj=a[4],bk=a[3],as=a[2],ak=a[1],al=p[2];if(0===al[0]){var
+cE=al[2],at=jP(ak,as,bk,bj,bi,bh,bg),cF=cY(m(cE),cE);if(cF){var
+fB=cF[1];if(fB[2])return 0;var
+fC=jW(ak,as,bk,bj,bi,bh,bg),fD=fC?jX(dy(ak),cE):fC;if(fD){var
+ic=fB[1],id=at[2],ie=z(c,cX(J(function(a){var
+b=br(a[2]);return g(br(a[1]),b)},id))),ig=al[1],hl=at[2],ez=o(function(a){var
+b=gb(k,a[1]);return b?gb(k,a[2]):b},hl),eA=ez?gb(k,at[4]):ez;if(eA)var
+hm=jk(at[5]),b7=o(function(a){return et(k,a)},hm);else
 var
-bV=ed;return bV?qf(hh,al,hg,he):bV}var
-e8=e7}else
+b7=eA;return b7?qA(ig,at,ie,ic):b7}var
+fE=fD}else
 var
-e8=co;return e8}var
-e9=f(i,Y[2]),e_=gf(X),e$=jB(ak,f(i,Y[3]));if(e$[2])return 0;var
-fa=jD(X,ak,a_,a9,a8,a6,a5);if(fa){var
-bm=e_,b=e9,hi=jC(Y[4]);for(;;){if(bm&&b){var
-bm=bm[1],b=b[2];continue}var
-a$=gd(hM(e_,e9)),ba=e$[1],D=jx(X,ak,a_,a9,a8,a6,a5),aE=D[2],R=ba;for(;;){if(aE){if(R){var
-d6=R[1],d7=aE[1],d9=aN(m,d7[1],d6[1]),d$=d9?aN(m,d7[2],d6[2]):d9;if(d$){var
-aE=aE[2],R=R[2];continue}var
+fE=cF;return fE}var
+fF=f(i,al[2]),fG=gv(ak),fI=jV(as,f(i,al[3]));if(fI[2])return 0;var
+fJ=jW(ak,as,bk,bj,bi,bh,bg);if(fJ){var
+bz=fG,j=fF,ih=gq(al[4]);for(;;){if(bz&&j){var
+bz=bz[1],j=j[2];continue}var
+bq=gt(h3(fG,fF)),bs=fI[1],M=jP(ak,as,bk,bj,bi,bh,bg),aT=M[2],Z=bs;for(;;){if(aT){if(Z){var
+eq=Z[1],er=aT[1],es=aQ(k,er[1],eq[1]),eu=es?aQ(k,er[2],eq[2]):es;if(eu){var
+aT=aT[2],Z=Z[2];continue}var
+ev=eu}else
+var
+ev=Z;var
+b5=ev}else
+var
+b5=Z?0:1;var
+ey=b5?aQ(k,M[4],bq):b5;if(ey){var
+C=M[5];switch(C[0]){case
+0:var
+v=j?j[2]?0:dw(k,C[1],j[1]):j;break;case
+1:var
+cS=0;if(j){var
+aH=j[2],cZ=0;if(aH){var
+aI=aH[2],c0=0;if(aI)if(aI[2]){var
+v=0;cZ=1;c0=1}else{var
+d9=dw(k,C[1],j[1]),d_=d9?dw(k,C[2],aH[1]):d9;if(d_){var
+v=dw(k,C[3],aI[1]);cZ=1;c0=1}else
+var
+d$=d_}else
+var
+d$=aI;if(!c0)var
 ea=d$}else
 var
-ea=R;var
-bT=ea}else
-var
-bT=R?0:1;var
-eb=bT?aN(m,D[4],a$):bT;if(eb){var
-x=D[5];switch(x[0]){case
-0:var
-u=b?b[2]?0:dp(m,x[1],b[1]):b;break;case
-1:var
-cz=0;if(b){var
-av=b[2],cA=0;if(av){var
-aw=av[2],cB=0;if(aw)if(aw[2]){var
-u=0;cA=1;cB=1}else{var
-dO=dp(m,x[1],b[1]),dP=dO?dp(m,x[2],av[1]):dO;if(dP){var
-u=dp(m,x[3],aw[1]);cA=1;cB=1}else
-var
-dQ=dP}else
-var
-dQ=aw;if(!cB)var
-dR=dQ}else
-var
-dR=av;if(!cA){var
-dS=dR;cz=1}}else{var
-dS=b;cz=1}if(cz)var
-u=dS;break;case
+ea=aH;if(!cZ){var
+eb=ea;cS=1}}else{var
+eb=j;cS=1}if(cS)var
+v=eb;break;case
 2:var
-cC=0;if(b){var
-ax=b[2],cD=0;if(ax){var
-ay=ax[2];if(ay)if(ay[2]){var
-u=0;cD=1}else{var
-dT=ay[1],dU=ax[1],dV=b[1],gs=E([0,dV,dU,dT],[0,dV,dU,dT]),u=iZ(m,x[1],gs,[0,c,c]);cD=1}else
+c1=0;if(j){var
+aJ=j[2],c2=0;if(aJ){var
+aM=aJ[2];if(aM)if(aM[2]){var
+v=0;c2=1}else{var
+ec=aM[1],ed=aJ[1],ee=j[1],he=G([0,ee,ed,ec],[0,ee,ed,ec]),v=i$(k,C[1],he,[0,c,c]);c2=1}else
 var
-dW=ay}else
+ef=aM}else
 var
-dW=ax;if(!cD){var
-dY=dW;cC=1}}else{var
-dY=b;cC=1}if(cC)var
-u=dY;break;default:var
-cF=0;if(b){var
-az=b[2],cG=0;if(az){var
-aB=az[2],cH=0;if(aB)if(aB[2]){var
-u=0;cG=1;cH=1}else{var
-bS=aB[1],dZ=az[1],d0=b[1],d1=iZ(m,x[1],[1,[3,d0,d0],[3,dZ,dZ]],[1,[0,c,c],[3,bS,bS]]);if(d1){var
-u=dp(m,cp(x[2]),bS);cG=1;cH=1}else
+ef=aJ;if(!c2){var
+eg=ef;c1=1}}else{var
+eg=j;c1=1}if(c1)var
+v=eg;break;default:var
+c3=0;if(j){var
+aR=j[2],c4=0;if(aR){var
+aS=aR[2],c5=0;if(aS)if(aS[2]){var
+v=0;c4=1;c5=1}else{var
+b4=aS[1],eh=aR[1],ei=j[1],ek=i$(k,C[1],[1,[3,ei,ei],[3,eh,eh]],[1,[0,c,c],[3,b4,b4]]);if(ek){var
+v=dw(k,ct(C[2]),b4);c4=1;c5=1}else
 var
-d2=d1}else
+el=ek}else
 var
-d2=aB;if(!cH)var
-d3=d2}else
+el=aS;if(!c5)var
+em=el}else
 var
-d3=az;if(!cG){var
-d4=d3;cF=1}}else{var
-d4=b;cF=1}if(cF)var
-u=d4}var
-bU=u}else
+em=aR;if(!c4){var
+eo=em;c3=1}}else{var
+eo=j;c3=1}if(c3)var
+v=eo}var
+b6=v}else
 var
-bU=eb;if(bU){var
-aF=D[5],gw=D[6],gx=D[3],gy=D[1],d5=function(a){var
-c=fP(aF,b,a$,a);return E(fP(aF,b,a$,a),c)},gt=f(d5,ba),gu=f(function(a){return[0,[5,d5(a)]]},ba),gv=[0,f(function(e){var
-d=aD(fP(aF,b,a$,e)),a=aM([4,[0,c,c],gx],iV(iW(aF,b,e[2]),d));switch(gy){case
-0:return[0,d[1],[0,d[2],[0,a[3],0]]];case
-1:return[0,d[1],[0,d[2],[0,d[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},ba),gu,gt];return iF(m,dr(D[1]),gv,gw,hi)}return bU}}}return fa;case
+b6=ey;if(b6){var
+aU=M[5],hi=M[6],hj=M[3],hk=M[1],ep=function(a){var
+b=f5(aU,j,bq,a);return G(f5(aU,j,bq,a),b)},hf=f(ep,bs),hg=f(function(a){return[0,[5,ep(a)]]},bs),hh=[0,f(function(d){var
+b=aE(f5(aU,j,bq,d)),a=aP([4,[0,c,c],hj],i7(i8(aU,j,d[2]),b));switch(hk){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}},bs),hg,hf];return iR(k,dy(M[1]),hh,hi,ih)}return b6}}}return fJ;case
 3:var
-bb=a[7],fb=a[6],fc=a[5],bc=a[4],fd=a[2],fe=a[1],cq=r[2];if(0===cq[0]){var
-cs=cq[2],ct=cW(n(cs),cs);if(ct){var
-ff=ct[1];if(ff[2])return 0;var
-g6=n(fb),eL=ai(n(fc),g6);if(eL)var
-g7=n(bc),g8=0,cg=p(function(a){return bI(g8,g7,a)},bb);else
+bt=a[7],fK=a[6],fM=a[5],bu=a[4],fP=a[2],fS=a[1],cG=p[2];if(0===cG[0]){var
+cH=cG[2],cI=cY(m(cH),cH);if(cI){var
+fT=cI[1];if(fT[2])return 0;var
+h4=m(fK),fi=ag(m(fM),h4);if(fi)var
+h5=m(bu),h6=0,cA=o(function(a){return bL(h6,h5,a)},bt);else
 var
-cg=eL;var
-eM=cg?ew(bb):cg,eN=eM?p(function(a){return dB(a[2])},fd):eM,fg=eN?p(ge,cV(n(bc),bb)):eN,fh=fg?jF(n(fe),cs):fg;if(fh){var
-hj=ff[1],hk=a[3],eu=cV(n(bc),bb),gW=cE(fc,fb),b7=f(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gW),gX=f(function(a){return f(cr,a)},bc),gY=f(function(a){var
-b=cr(a[2]);return[0,a[1],b]},hk),h=[0,fe,f(function(a){var
-b=bH(a[2]);return[0,a[1],b]},fd),gY,gX],am=cq[1],gm=f(db,h[2]),bM=g(h[1],gm),au=n(h[1]),dH=Z(pM,au),dI=dH?Z(au,pN):dH,dJ=dI?Z(au,n(h[4])):dI,dK=dJ?Z(n(h[4]),pO):dJ;if(dK)var
-gn=h[4],bN=p(function(a){return ai(n(a),au)},gn);else
+cA=fi;var
+fj=cA?eH(bt):cA,fk=fj?o(function(a){return dH(a[2])},fP):fj,fW=fk?o(gu,cW(m(bu),bt)):fk,fX=fW?jX(m(fS),cH):fW;if(fX){var
+ii=fT[1],ij=a[3],e5=cW(m(bu),bt),hU=cg(fM,fK),cn=f(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},hU),hV=f(function(a){return f(cv,a)},bu),hW=f(function(a){var
+b=cv(a[2]);return[0,a[1],b]},ij),n=[0,fS,f(function(a){var
+b=bK(a[2]);return[0,a[1],b]},fP),hW,hV],av=cG[1],g_=f(dd,n[2]),bW=g(n[1],g_),aG=m(n[1]),d1=_(p7,aG),d2=d1?_(aG,p8):d1,d3=d2?_(aG,m(n[4])):d2,d4=d3?_(m(n[4]),p9):d3;if(d4)var
+g$=n[4],bX=o(function(a){return ag(m(a),aG)},g$);else
 var
-bN=dK;if(bN){var
-at=bM;for(;;){if(at){var
-dF=at[2],gl=at[1],dG=aV(bD(function(b){return function(a){return l6(b,a)}}(gl),dF));if(dG){var
-at=dF;continue}var
-dL=dG}else
+bX=d4;if(bX){var
+aF=bW;for(;;){if(aF){var
+dZ=aF[2],g9=aF[1],d0=aK(a9(function(b){return function(a){return mp(b,a)}}(g9),dZ));if(d0){var
+aF=dZ;continue}var
+d6=d0}else
 var
-dL=1;var
-bO=dL;break}}else
+d6=1;var
+bY=d6;break}}else
 var
-bO=bN;if(bO){var
-as=bM,ar=h[3];for(;;){if(ar){var
-dy=ar[1],dC=dy[1],dD=aV(bD(function(b){return function(a){return aC(b,a)}}(dC),as)),dE=dD?fM(as,dy[2]):dD;if(dE){var
-as=[0,dC,as],ar=ar[2];continue}var
-dM=dE}else
+bY=bX;if(bY){var
+aC=bW,aA=n[3];for(;;){if(aA){var
+dV=aA[1],dW=dV[1],dX=aK(a9(function(b){return function(a){return aD(b,a)}}(dW),aC)),dY=dX?f2(aC,dV[2]):dX;if(dY){var
+aC=[0,dW,aC],aA=aA[2];continue}var
+d7=dY}else
 var
-dM=1;var
-bP=dM;break}}else
+d7=1;var
+bZ=d7;break}}else
 var
-bP=bO;if(bP)var
-go=h[4],gp=g(f(db,h[3]),bM),gq=function(a){return fM(gp,a)},bQ=p(function(a){return p(gq,a)},go);else
+bZ=bY;if(bZ)var
+ha=n[4],hb=g(f(dd,n[3]),bW),hc=function(a){return f2(hb,a)},b1=o(function(a){return o(hc,a)},ha);else
 var
-bQ=bP;if(bQ)var
-gr=h[2],bR=p(function(a){return bj(m,a[2][1],a[2][2])},gr);else
+b1=bZ;if(b1)var
+hd=n[2],b2=o(function(a){return bn(k,a[2][1],a[2][2])},hd);else
 var
-bR=bQ;var
-dN=bR?p(function(a){return bj(m,a[1],a[2])},b7):bR;if(dN){var
-f5=n(h[1]),bx=n(h[2]),dm=M(bx,n(dn(f(dc,h[3])))),f6=h[3],ac=iR(h),aq=f6,bw=bx;for(;;){if(aq){var
-dj=aq[1],dl=dj[2],fZ=M(bw,n(bk(dl))),f0=aq[2],f1=bl(ac,dl,bw),ac=[0,[0,dj[1],f1],ac],aq=f0,bw=fZ;continue}var
-f7=iO(ac,h[4],dm),by=f(function(a){return[0,a,q(c)]},f7),f_=iP(ac,h[4],dm),ga=h[3],bz=g(iL(iR(h),ga,bx),f_),bA=d_(g(cL(by),bz))[1],gc=d8(bA),bB=function(a){return bY(gc,a)},dq=e(a7(bB),by),ds=ai(n(b7),f5);if(ds)var
-gg=g(cL(by),bz),bC=p(function(a){var
-b=q(d),c=d8(bA);return bf(P(bB(a),c,b),a)},gg);else
+b2=b1;var
+d8=b2?o(function(a){return bn(k,a[1],a[2])},cn):b2;if(d8){var
+gY=m(n[1]),bN=m(n[2]),dN=H(bN,m(dv(f(de,n[3])))),gZ=n[3],an=i3(n),az=gZ,bM=bN;for(;;){if(az){var
+dL=az[1],dM=dL[2],gS=H(bM,m(bo(dM))),gT=az[2],gU=bp(an,dM,bM),an=[0,[0,dL[1],gU],an],az=gT,bM=gS;continue}var
+g0=i0(an,n[4],dN),bO=f(function(a){return[0,a,r(c)]},g0),g1=i1(an,n[4],dN),g2=n[3],bP=g(iX(i3(n),g2,bN),g1),bQ=dm(g(cp(bO),bP))[1],g3=dl(bQ),bR=function(a){return bl(g3,a)},dO=e(aZ(bR),bO),dP=ag(m(cn),gY);if(dP)var
+g4=g(cp(bO),bP),bS=o(function(a){var
+b=r(d),c=dl(bQ);return a_(I(bR(a),c,b),a)},g4);else
 var
-bC=ds;var
-dt=bC?bD(pL,eu):bC;if(dt){var
-f2=N(dn,h[4]),f3=g(dn(f(dc,h[3])),f2),f4=g(iQ(h[2]),f3),bF=aW(f(function(a){return a1(am,a)},f4));if(bF){var
-bK=aW(f(function(a){return a1(am,[0,a,d])},b7));if(bK){var
-bL=aW(f(function(a){if(typeof
-a==="number")return[0,[0,_]];else
+bS=dP;var
+dQ=bS?a9(p6,e5):bS;if(dQ){var
+gV=J(dv,n[4]),gW=g(dv(f(de,n[3])),gV),gX=g(i2(n[2]),gW),bT=aN(f(function(a){return aL(av,a)},gX));if(bT){var
+bU=aN(f(function(a){return aL(av,[0,a,d])},cn));if(bU){var
+bV=aN(f(function(a){if(typeof
+a==="number")return[0,[0,$]];else
 switch(a[0]){case
 0:var
 f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
@@ -4819,111 +4898,230 @@ f=[4,[0,c,c],a[1]],b=f,e=function(a){return[0,a]};break;case
 h=[4,[0,c,c],a[1]],b=h,e=function(a){return[1,a]};break;case
 5:var
 i=a[1],b=i,e=function(a){return[2,a]};break;default:return 0}var
-g=a1(am,[0,[0,b,b],d]);return ab(function(a){return e(aj(am,a))},g)},eu));if(bL){var
-du=bL[1],gh=im(du),gi=bK[1],gj=function(a){return 0},gk=bF[1];return fy(am,bA,dq,dq,f(bB,bz),gk,du,gj,gi,gh,hj)}var
-dv=bL}else
+g=aL(av,[0,[0,b,b],d]);return ac(function(a){return e(aj(av,a))},g)},e5));if(bV){var
+dR=bV[1],g5=iC(dR),g6=bU[1],g7=function(a){return 0},g8=bT[1];return fL(av,bQ,dO,dO,f(bR,bP),g8,dR,g7,g6,g5,ii)}var
+dS=bV}else
 var
-dv=bK;var
-dw=dv}else
+dS=bU;var
+dT=dS}else
 var
-dw=bF;var
-dx=dw}else
+dT=bT;var
+dU=dT}else
 var
-dx=dt;return dx}}return dN}var
-fi=fh}else
+dU=dQ;return dU}}return d8}var
+fY=fX}else
 var
-fi=ct;return fi}return 0;case
-4:if(0===r[2][0]){var
-fj=ev(i(a[1]));if(fj){var
-bd=a[3];if(bd){var
-aG=bd[1],b8=aG[4],y=bd[2];if(aG[1]||aG[2]||aG[3])var
+fY=cI;return fY}return 0;case
+4:if(0===p[2][0]){var
+fZ=eG(i(a[1]));if(fZ){var
+bv=a[3];if(bv){var
+aV=bv[1],co=aV[4],F=bv[2];if(aV[1]||aV[2]||aV[3])var
 s=0;else
-switch(b8[0]){case
+switch(co[0]){case
 0:var
-cI=0;if(y){var
-aH=y[1],ex=aH[4];if(aH[1]||aH[2]||aH[3])var
+c6=0;if(F){var
+aW=F[1],e6=aW[4];if(aW[1]||aW[2]||aW[3])var
 s=0;else
-if(1===ex[0])if(y[2])var
+if(1===e6[0])if(F[2])var
 s=0;else
 var
-g1=i(ex[1]),s=[0,[0,i(b8[1]),g1]];else{var
-ey=0;cI=1}}else{var
-ey=y;cI=1}if(cI)var
-s=ey;break;case
+hZ=i(e6[1]),s=[0,[0,i(co[1]),hZ]];else{var
+e7=0;c6=1}}else{var
+e7=F;c6=1}if(c6)var
+s=e7;break;case
 1:var
-cJ=0;if(y){var
-aI=y[1],ez=aI[4];if(aI[1]||aI[2]||aI[3])var
+c7=0;if(F){var
+aX=F[1],e8=aX[4];if(aX[1]||aX[2]||aX[3])var
 s=0;else
-if(0===ez[0])if(y[2])var
+if(0===e8[0])if(F[2])var
 s=0;else
 var
-g2=i(b8[1]),s=[0,[0,i(ez[1]),g2]];else{var
-eA=0;cJ=1}}else{var
-eA=y;cJ=1}if(cJ)var
-s=eA;break;default:var
+h0=i(co[1]),s=[0,[0,i(e8[1]),h0]];else{var
+e9=0;c7=1}}else{var
+e9=F;c7=1}if(c7)var
+s=e9;break;default:var
 s=0}}else
 var
-s=bd;if(s){var
-fk=s[1],fl=fk[2],fm=fk[1],eh=l(m,1,i(a[2])),ei=eh?l(m,1,[2,fl,[0,c,c]]):eh,ej=ei?l(m,1,fm):ei;return ej?l(m,0,[2,[4,[0,c,c],fl],fm]):ej}var
-fn=s}else
+s=bv;if(s){var
+f0=s[1],f3=f0[2],f4=f0[1],eI=l(k,1,i(a[2])),eJ=eI?l(k,1,[2,f3,[0,c,c]]):eI,eK=eJ?l(k,1,f4):eJ;return eK?l(k,0,[2,[4,[0,c,c],f3],f4]):eK}var
+f6=s}else
 var
-fn=fj;return fn}return 0;default:var
-fo=a[1];if(fo){var
-fp=fo[1],cu=r[2];if(0===cu[0]){var
-cv=gb(ua,cu[2]);if(cv){var
-fq=dB(fp);if(fq){var
-hl=cv[1],fr=bH(fp)[2],be=cu[1],bW=ch(be,d,fr);if(bW){var
-bX=ch(be,d,[4,[0,c,c],fr]);if(bX){var
-gB=bW[1][1],ee=ag(cf(be),gB);if(ee)return jo(be,bX[1][1],hl);var
-ef=ee}else
+f6=fZ;return f6}return 0;case
+5:var
+f7=a[4],f8=a[1],cJ=p[2];if(0===cJ[0]){var
+f9=cJ[2],w=eD(f8,[0,a[2],a[3]],f7),cK=gr(m(f9),f9);if(cK){var
+f_=cK[1];if(f_[2])return 0;var
+f$=gy(f8,f7,w);if(f$){var
+ga=iN(k,w);if(ga){var
+ik=f_[1],gc=f(jQ,w[1]),N=jR(w[1]),gd=i(a[5]),O=cJ[1],eN=fN(N,gc,w[1]),D=fO(N,gc,w[1],0),b_=m(eN),ho=fR(D,N,b_,w[3]),hp=g(f(jC,D),ho),eO=g(cp(ej(D)),hp),eP=dm(eO)[1],b$=dl(eP),eQ=w[2];if(0===eQ[0]){var
+eR=o(function(a){var
+b=r(d);return a_(I(bl(b$,a),b$,b),a)},eO),eS=eR?l(k,1,gd):eR;if(eS){var
+hq=w[3],hr=g(eN,f(function(a){return b3(N,a)},hq)),ca=aN(f(function(a){return aL(O,a)},hr));if(ca){var
+hs=a3(eQ[1],N),cb=aN(f(function(a){return aL(O,a)},hs));if(cb){var
+cc=b0(O,N,[4,gd,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(cc){var
+eT=w[3],ht=cb[1],hu=cc[1],hv=ca[1],aa=function(a){return bl(b$,a)},eL=f(a$,hv),eM=function(y,x){var
+g=y,a=x;for(;;){if(0===a[0]){var
+h=a[1],j=ag(m(h),qJ),k=j?o(function(a){var
+d=A(T(b(2,b(2,b(2,c)))),a);return d?A(a,b(2,b(2,b(2,c)))):d},h):j;if(k){var
+n=jD(O,hu,fH(0,g),h),z=a[2],$=cm(0,dn(O,n,eL),eP,0),q=function(b){var
+a=jB(O,n,eL,$,b);return a?af(d,a[1][2][1]):a};return function(i){if(typeof
+i==="number")return a9(function(b){var
+a=I(aa(b[2]),$,0);return a?A(a[1][2][2],d):a},D);else{if(0===i[0]){var
+S=i[1],r=au(eT,S);if(r){var
+a=i[2],g=r[1],s=H(b_,S),ae=ej(D),h=e(aZ(aa),ae),j=[1,[8,[1,[1,s]]]],y=function(c,b,a){var
+d=ex(c,a);return[1,[4,[1,[6,b,ew(a)]],d]]},v=0;if(typeof
+g==="number")v=1;else
+switch(g[0]){case
+4:var
+k=l(O,1,g[2]);break;case
+8:var
+k=l(O,1,[4,g[2],g[1]]);break;default:v=1}if(v)var
+k=1;var
+z=k?o(qH,a):k;if(z){var
+w=0;if(typeof
+g==="number")var
+b=0;else
+switch(g[0]){case
+0:var
+ab=0;if(a)if(a[2]){var
+b=0;ab=1}else
 var
-ef=bX;var
-eg=ef}else
+B=[0,[0,h,[0,y(h,j,a[1]),0]]];else
 var
-eg=bW;return eg}var
-fs=fq}else
+B=a;if(!ab)var
+b=B;break;case
+1:var
+ac=0;if(a)if(a[2]){var
+b=0;ac=1}else
 var
-fs=cv;return fs}return 0}var
-cw=r[2];if(0===cw[0]){var
-cx=gb(ub,cw[2]);return cx?jo(cw[1],d,cx[1]):cx}return 0}}return ae}var
-x=[ap,ue,eU(0)],jG=[ap,uf,eU(0)];function
-uc(z,c){var
-s=[0,h(s9,an(c[4])),0],t=[0,h(s$,Q([0,h(s_,an(c[3])),s])),0],a=c[2];if(0===a[0])var
-k=[0,h(sX,w(f(sU,a[2]))),0],i=F(sZ,Q([0,h(sY,f1(a[1])),k]));else{var
-b=a[4],d=a[3],l=0;if(typeof
-b==="number")var
-e=an(s0);else
-if(0===b[0])var
-q=[0,w(f(f7,b[2])),0],e=F(s6,w([0,cS(b[1]),q]));else
+C=a[1],af=[1,[6,j,ew(C)]],E=[0,[0,h,[0,[1,[4,ex(h,C),af]],0]]];else
 var
-r=[0,cS(b[2]),0],e=F(s7,w([0,cS(b[1]),r]));var
-m=[0,h(s1,e),l],n=d?[0,h(s2,w(f(R,d))),0]:d,o=g(n,m),p=[0,h(s3,w(f(R,a[2]))),0],i=F(s5,Q(g([0,h(s4,f1(a[1])),p],o)))}var
-u=[0,h(ta,i),t],v=0===c[2][0]?tb:tg,x=[0,h(tc,an(v)),u],y=[0,h(td,r3(c[1])),x],j=aC(hl(ud,g(Q([0,h(tf,an(te)),y]),s8)),z);return j?t$(c):j}function
-W(a){if(0===a[0])return a[1];throw x}function
+E=a;if(!ac)var
+b=E;break;case
+5:var
+x=0;if(a){var
+n=a[2],ad=0;if(n)if(n[2]){var
+b=0;ad=1}else
+var
+G=n[1],J=a[1],ah=ew(J),ai=[1,[6,j,[1,[6,ex(h,G),ah]]]],aj=ew(G),K=[0,[0,h,[0,[1,[4,[1,[6,ex(h,J),aj]],ai]],0]]];else
+var
+K=n;if(!ad){var
+L=K;x=1}}else{var
+L=a;x=1}if(x)var
+b=L;break;case
+8:if(a)if(a[2])var
+b=0;else{var
+P=a[1],M=[1,[2,c]];w=1}else
+var
+b=a;break;case
+9:if(a)if(a[2])var
+b=0;else{var
+P=a[1],M=j;w=1}else
+var
+b=a;break;default:if(a)var
+b=0;else{var
+m=fQ(D,N,s,g);if(m)var
+ag=[0,m[1],m[2]],F=[0,[0,0,f(function(a){return[1,[5,[0,aa(a)]]]},ag)]];else
+var
+F=m;var
+b=F}}if(w){var
+p=en(D,N,s,g);if(p)var
+ak=p[1],Q=e(aZ(aa),ak),R=[0,[0,Q,[0,y(Q,M,P),0]]];else
+var
+R=p;var
+b=R}}else
+var
+b=z;if(b){var
+T=b[1],am=T[1],U=o(function(a){return q([0,a[2]])},am);if(U)return o(q,T[2]);var
+V=U}else
+var
+V=b;var
+W=V}else
+var
+W=r;return W}var
+X=i[1],t=au(eT,X);if(t){var
+Y=t[1];if(typeof
+Y!=="number"&&1===Y[0]){var
+u=au(D,i[2]);if(u){var
+an=H(b_,X),_=u[1],al=[1,[6,[1,[8,[1,[1,an]]]],[0,aa(_[2])]]];return q([1,[4,[1,[8,[0,aa(jC(_))]]],al]])}return u}var
+Z=0}else
+var
+Z=t;return Z}}(z)}return k}var
+p=a[1],i=au(g,p);if(i){var
+r=i[1],B=r[1],s=aK(ai(bm(r),B));if(s){var
+t=dr(p,g),u=eM(t[1],a[2]);if(u){var
+g=t[2],a=a[3];continue}var
+v=u}else
+var
+v=s;var
+w=v}else
+var
+w=i;return w}};return eM(ht,ik)}var
+eU=cc}else
+var
+eU=cb;var
+eV=eU}else
+var
+eV=ca;var
+eW=eV}else
+var
+eW=eS;return eW}return 0}var
+ge=ga}else
+var
+ge=f$;var
+gf=ge}else
+var
+gf=cK;return gf}return 0;default:var
+gg=a[1];if(gg){var
+gh=gg[1],cN=p[2];if(0===cN[0]){var
+cO=gp(uC,cN[2]);if(cO){var
+gi=dH(gh);if(gi){var
+il=cO[1],gj=bK(gh)[2],bw=cN[1],b8=b0(bw,d,gj);if(b8){var
+b9=b0(bw,d,[4,[0,c,c],gj]);if(b9){var
+hn=b8[1][1],eB=af(ci(bw),hn);if(eB)return jA(bw,b9[1][1],il);var
+eE=eB}else
+var
+eE=b9;var
+eF=eE}else
+var
+eF=b8;return eF}var
+gk=gi}else
+var
+gk=cO;return gk}return 0}var
+cP=p[2];if(0===cP[0]){var
+cQ=gp(uD,cP[2]);return cQ?jA(cP[1],d,cQ[1]):cQ}return 0}}return ap}var
+x=[ap,uG,e7(0)],jY=[ap,uH,e7(0)];function
+uE(t,b){var
+n=[0,h(tA,an(b[4])),0],o=[0,h(tC,Q([0,h(tB,an(b[3])),n])),0],a=b[2];if(0===a[0])var
+i=[0,h(tr,w(f(tm,a[2]))),0],d=F(tt,Q([0,h(ts,gg(a[1])),i]));else
+var
+c=a[3],j=[0,h(tu,jI(a[4])),0],k=c?[0,h(tv,w(f(R,c))),0]:c,l=g(k,j),m=[0,h(tw,w(f(R,a[2]))),0],d=F(ty,Q(g([0,h(tx,gg(a[1])),m],l)));var
+p=[0,h(tD,d),o],q=0===b[2][0]?tE:tJ,r=[0,h(tF,an(q)),p],s=[0,h(tG,st(b[1])),r],e=aD(hA(uF,ey(Q([0,h(tI,an(tH)),s]),tz)),t);return e?uB(b):e}function
+U(a){if(0===a[0])return a[1];throw x}function
 X(a){if(1===a[0])return a[1];throw x}function
-aX(a){if(2===a[0])return a[1];throw x}function
-dC(a){if(3===a[0])return a[1];throw x}function
-a2(f,e){var
+a0(a){if(2===a[0])return a[1];throw x}function
+dI(a){if(3===a[0])return a[1];throw x}function
+a4(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===yx(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===y5(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-r(c,b){var
-a=a2(c,b);if(a)return a[1];throw x}function
-ey(b,a){var
+p(c,b){var
+a=a4(c,b);if(a)return a[1];throw x}function
+dJ(b,a){var
 c=a?[0,e(b,a[1])]:a;return c}function
-cX(a){switch(a[0]){case
+cZ(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],ug]}throw x}function
-dD(e,d){var
-a=Y(e,X(d));if(a){var
+2:return[0,a[1],uI]}throw x}function
+dK(e,d){var
+a=Z(e,X(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw x}function
-ez(i){var
-f=bP(i),d=[0,0],e=aS(f)-1|0;if(!(e<0)){var
+eJ(i){var
+f=bR(i),d=[0,0],e=aV(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=c3(f,c)+gq|0;if(9<g>>>0)throw x;switch(g){case
+a=d[1],g=c5(f,c)+gH|0;if(9<g>>>0)throw x;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -4945,47 +5143,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-dE(a){return hI(ez(a))}function
-gh(b){var
-a=dC(b);return 45===K(a,0)?T(dE(c_(a,1,y(a)-1|0))):dE(a)}function
-jH(a){return fg(dE(dC(a)))}function
-gi(a){return hH(dE(dC(a)))}function
-cY(c){var
-a=dC(c);if(6<y(a))throw x;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(gZ(a))}function
-jI(a){var
-b=97<=a?1:0,c=b?a<=lO?1:0:b;if(c)var
+dL(a){return hX(eJ(a))}function
+eK(b){var
+a=dI(b);return 45===N(a,0)?T(dL(da(a,1,y(a)-1|0))):dL(a)}function
+jZ(a){return ft(dL(dI(a)))}function
+gz(a){return hW(dL(dI(a)))}function
+c0(c){var
+a=dI(c);if(6<y(a))throw x;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hd(a))}function
+j0(a){var
+b=97<=a?1:0,c=b?a<=l9?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-jJ(A,b){var
+j1(A,b){var
 d=y(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?K(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?N(b,a[1])===e?1:0:c;return f}function
 m(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=K(b,a[1])&&!(57<K(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=N(b,a[1])&&!(57<N(b,a[1]))){a[1]++;continue}return da(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=g(b+1|0);if(c(41)){a[1]++;return d}throw x}function
 i(k){if(64<k)throw x;if(c(45)){a[1]++;return[2,i(k+1|0)]}if(c(40))var
 f=n(k);else{var
-u=0;if((a[1]+5|0)<=d&&aC(c_(b,a[1],5),ui)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aD(da(b,a[1],5),uK)){a[1]=a[1]+4|0;var
 f=[5,n(k)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&jI(K(b,a[1]))){var
+v=0;if(a[1]<d&&j0(N(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!jI(K(b,a[1]))&&95!==K(b,a[1])&&(!(48<=K(b,a[1]))||57<K(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-f=[1,e(A,c_(b,o,a[1]-o|0))];break}}else
+w=0;if(!j0(N(b,a[1]))&&95!==N(b,a[1])&&(!(48<=N(b,a[1]))||57<N(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+f=[1,e(A,da(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aC(h,uj);if(r)var
+h=m(0),p=c(46),q=p?(a[1]++,[0,m(0)]):p,r=aD(h,uL);if(r)var
 s=r;else
 var
-t=1<y(h)?1:0,s=t?48===K(h,0)?1:0:t;if(s)throw x;if(q){var
-l=q[1],z=0;if(aC(l,uk)||48===K(l,y(l)-1|0))z=1;else
+t=1<y(h)?1:0,s=t?48===N(h,0)?1:0:t;if(s)throw x;if(q){var
+l=q[1],z=0;if(aD(l,uM)||48===N(l,y(l)-1|0))z=1;else
 var
-B=ez(l),f=[0,ez(h),B];if(z)throw x}else
+B=eJ(l),f=[0,eJ(h),B];if(z)throw x}else
 var
-f=[0,ez(h),0]}}}if(c(94)){a[1]++;var
-g=m(0);if(j(g,uh)){if(!(2<y(g))&&2<=gZ(g)&&!(64<gZ(g)))return[4,f,fg(dE(g))];throw x}throw x}return f}function
+f=[0,eJ(h),0]}}}if(c(94)){a[1]++;var
+g=m(0);if(j(g,uJ)){if(!(2<y(g))&&2<=hd(g)&&!(64<hd(g)))return[4,f,ft(dL(g))];throw x}throw x}return f}function
 f(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -4995,37 +5193,37 @@ b=f(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,f(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,f(d)];continue}return b}}var
 h=g(0);if(a[1]<d)throw x;return h}function
-jK(a){return jJ(function(a){throw x},a)}function
-jL(a){var
-b=aX(a);return jJ(function(a){return a},b)}function
-$(a){return jK(aX(a))}function
-bK(a){if(2===a[0])return[0,jK(a[1])];var
-b=W(a),c=$(r(b,ul));return[1,$(r(b,um)),c]}function
-ae(a){throw[0,jG,as(hl(uo,a),un)]}function
-jM(c){var
-a=aX(c);if(j(a,up)){var
-b=j(a,uq);if(b)throw x;return b}return 1}function
-ur(d){var
-b=W(d);function
-a(a){return dD(bK,r(b,a))}var
-c=aX(r(b,us));if(j(c,ut)){if(j(c,uu)){if(j(c,uv))return ae([0,ux,[0,c,uw]]);var
-e=a2(b,uy),f=ey(function(a){return dD(bK,a)},e),g=a(uz);return[1,a(uA),g,f]}var
-h=jM(r(b,uB)),i=bK(r(b,uC)),k=a(uD),l=a(uE);return[0,a(uF),l,k,i,h]}return[2,a(uG)]}function
-jN(d){var
-a=W(d);if(a){var
-b=a[1];if(!j(b[1],uH)){var
-c=b[2];if(2===c[0]&&!j(c[1],uI))return 1}}return 0}function
-uJ(c){var
-a=W(c);if(1-jN(c))throw x;function
-b(b){return dD(bK,r(a,b))}var
-d=jM(r(a,uK)),e=bK(r(a,uL)),f=bK(r(a,uM)),g=b(uN),h=b(uO),i=b(uP);return[0,b(uQ),i,h,g,f,e,d]}function
-dF(c,d){var
+j2(a){return j1(function(a){throw x},a)}function
+j3(a){var
+b=a0(a);return j1(function(a){return a},b)}function
+Y(a){return j2(a0(a))}function
+bM(a){if(2===a[0])return[0,j2(a[1])];var
+b=U(a),c=Y(p(b,uN));return[1,Y(p(b,uO)),c]}function
+aa(a){throw[0,jY,as(hA(uQ,a),uP)]}function
+j4(c){var
+a=a0(c);if(j(a,uR)){var
+b=j(a,uS);if(b)throw x;return b}return 1}function
+uT(d){var
+b=U(d);function
+a(a){return dK(bM,p(b,a))}var
+c=a0(p(b,uU));if(j(c,uV)){if(j(c,uW)){if(j(c,uX))return aa([0,uZ,[0,c,uY]]);var
+e=a4(b,u0),f=dJ(function(a){return dK(bM,a)},e),g=a(u1);return[1,a(u2),g,f]}var
+h=j4(p(b,u3)),i=bM(p(b,u4)),k=a(u5),l=a(u6);return[0,a(u7),l,k,i,h]}return[2,a(u8)]}function
+j5(d){var
+a=U(d);if(a){var
+b=a[1];if(!j(b[1],u9)){var
+c=b[2];if(2===c[0]&&!j(c[1],u_))return 1}}return 0}function
+u$(c){var
+a=U(c);if(1-j5(c))throw x;function
+b(b){return dK(bM,p(a,b))}var
+d=j4(p(a,va)),e=bM(p(a,vb)),f=bM(p(a,vc)),g=b(vd),h=b(ve),i=b(vf);return[0,b(vg),i,h,g,f,e,d]}function
+dM(c,d){var
 a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 f=e(c,b[1]);return[0,e(c,a[1]),f]}}throw x}function
-gj(i){var
-c=W(i),a=aX(r(c,uR));if(j(a,uS))if(j(a,uT))if(j(a,uU))if(j(a,uV))if(j(a,uW))if(j(a,uX))if(j(a,uY))if(j(a,uZ))var
-g=j(a,u0),b=g?ae([0,u2,[0,a,u1]]):g;else
+gA(i){var
+c=U(i),a=a0(p(c,vh));if(j(a,vi))if(j(a,vj))if(j(a,vk))if(j(a,vl))if(j(a,vm))if(j(a,vn))if(j(a,vo))if(j(a,vp))var
+g=j(a,vq),b=g?aa([0,vs,[0,a,vr]]):g;else
 var
 b=6;else
 var
@@ -5042,212 +5240,226 @@ var
 b=7;else
 var
 b=3;function
-f(a){return r(c,u3)}var
-d=aX(r(c,u4));if(j(d,u5))if(j(d,u6))if(j(d,u7))var
-e=ae([0,u9,[0,d,u8]]);else
+f(a){return p(c,vt)}var
+d=a0(p(c,vu));if(j(d,vv))if(j(d,vw))if(j(d,vx))var
+e=aa([0,vz,[0,d,vy]]);else
 var
-h=dF($,f(0)),e=[2,h[1],h[2]];else
+h=dM(Y,f(0)),e=[2,h[1],h[2]];else
 var
-e=[0,$(f(0))];else
+e=[0,Y(f(0))];else
 var
-e=[1,$(f(0))];function
+e=[1,Y(f(0))];function
 k(m){var
-a=W(m),e=0;switch(b){case
+a=U(m),e=0;switch(b){case
 6:if(a){var
-k=a[1];if(!j(k[1],u$)){var
+k=a[1];if(!j(k[1],vB)){var
 l=k[2];if(1===l[0]){var
 d=l[1],f=0;if(d&&!d[2])if(a[2])f=1;else{var
-i=d[1];e=1;f=1}if(!f&&!a[2])return ae(va)}}}break;case
+i=d[1];e=1;f=1}if(!f&&!a[2])return aa(vC)}}}break;case
 2:case
 8:if(a){var
-g=a[1];if(!j(g[1],u_)){var
+g=a[1];if(!j(g[1],vA)){var
 h=g[2];if(1===h[0]){var
 c=h[1];if(c&&!c[2]&&!a[2]){var
-i=c[1];e=1}}}}break}if(e)return $(i);throw x}var
-l=ey(k,a2(c,vb));return[0,b,ey(cY,a2(c,vc)),l,e]}function
-vd(b){var
-a=gj(b);return 8<=a[1]?ae(ve):a}function
-gk(c){var
-a=gj(c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(vf)}function
-vg(a){var
-b=gj(a);switch(b[1]){case
+i=c[1];e=1}}}}break}if(e)return Y(i);throw x}var
+l=dJ(k,a4(c,vD));return[0,b,dJ(c0,a4(c,vE)),l,e]}function
+vF(b){var
+a=gA(b);return 8<=a[1]?aa(vG):a}function
+gB(c){var
+a=gA(c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(vH)}function
+vI(a){var
+b=gA(a);switch(b[1]){case
 2:case
 6:case
-8:return b;default:return gk(a)}}function
-vn(P){var
-l=cX(P),m=l[1];if(j(m,vo)){if(j(m,vp))return ae([0,vr,[0,m,vq]]);var
-n=r(W(l[2]),vs),I=0;if(2===n[0]){var
-v=j(n[1],vt);if(!v){var
-u=v;I=1}}if(!I)var
-u=[0,bK(n)];return[5,u]}var
-c=W(l[2]);function
-w(a){return Y(vd,X(r(c,vu)))}var
-f=cX(r(c,vv)),a=cX(r(c,vw));if(0===a2(c,vx)){var
-b=f[1];if(j(b,vy)&&j(b,vz)&&j(b,vA)){if(0===a2(c,vB)){if(j(b,vC)){var
-J=0;if(j(b,vD)){if(!j(b,vE)){var
-y=a[1],K=0;if(j(y,vH)&&j(y,vI)){J=1;K=1}if(!K){var
-o=X(f[2]),d=W(a[2]);if(j(a[1],vh))var
-s=dF($,r(d,vi)),t=dF($,r(d,vj)),L=t[2],M=t[1],N=$(r(d,vk)),p=[1,s[1],s[2],N,M,L];else
+8:return b;default:return gB(a)}}function
+j6(S){var
+h=cZ(S),i=h[1];if(j(i,vP)){if(j(i,vQ)){if(j(i,vR))return aa([0,vT,[0,i,vS]]);var
+o=p(U(h[2]),vU),L=0;if(2===o[0]){var
+y=j(o[1],vV);if(!y){var
+w=y;L=1}}if(!L)var
+w=[0,bM(o)];return[6,w]}var
+z=U(h[2]),k=j6([0,[0,[0,vX,p(z,vW)],0]]);if(0===k[0]){var
+q=k[2];if(0===q[0]){var
+T=Y(p(z,vY));return[5,k[1],q[1],q[2],k[3],T]}}return aa(vZ)}var
+c=U(h[2]);function
+A(a){return Z(vF,X(p(c,v0)))}var
+f=cZ(p(c,v1)),a=cZ(p(c,v2));if(0===a4(c,v3)){var
+b=f[1];if(j(b,v4)&&j(b,v5)&&j(b,v6)){if(0===a4(c,v7)){if(j(b,v8)){var
+M=0;if(j(b,v9)){if(!j(b,v_)){var
+B=a[1],N=0;if(j(B,wb)&&j(B,wc)){M=1;N=1}if(!N){var
+r=X(f[2]),d=U(a[2]);if(j(a[1],vJ))var
+u=dM(Y,p(d,vK)),v=dM(Y,p(d,vL)),O=v[2],P=v[1],Q=Y(p(d,vM)),s=[1,u[1],u[2],Q,P,O];else
 var
-O=dD($,r(d,vl)),p=[0,dD($,r(d,vm)),O];if(hh(jN,o)){var
-Q=Y(gk,X(r(c,vL)));return[1,Y(uJ,o),p,Q]}var
-R=w(0);return[0,Y(ur,o),p,R]}}}else
-if(!j(a[1],vM)){var
-S=w(0),T=$(r(W(a[2]),vN));return[4,$(r(W(f[2]),vO)),T,S]}if(!J)return ae([0,vG,[0,b,vF]])}else
-if(!j(a[1],vP)){var
-h=W(f[2]),z=W(a[2]),A=function(c,a){var
-b=X(a);return Y(function(d){var
+R=dK(Y,p(d,vN)),s=[0,dK(Y,p(d,vO)),R];if(dZ(j5,r)){var
+V=Z(gB,X(p(c,wf)));return[1,Z(u$,r),s,V]}var
+W=A(0);return[0,Z(uT,r),s,W]}}}else
+if(!j(a[1],wg)){var
+_=A(0),$=Y(p(U(a[2]),wh));return[4,Y(p(U(f[2]),wi)),$,_]}if(!M)return aa([0,wa,[0,b,v$]])}else
+if(!j(a[1],wj)){var
+l=U(f[2]),C=U(a[2]),D=function(c,a){var
+b=X(a);return Z(function(d){var
 a=X(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-f=e(c,b[1]);return[0,aX(a[1]),f]}}throw x},b)},U=function(d){var
-a=W(d);if(a){var
-b=a[1],c=b[1];if(j(c,vQ)){if(!j(c,vR)&&!a[2])return Y(jL,X(b[2]))}else
-if(!a[2])return ae(vS)}throw x},V=Y(gk,X(r(c,vT))),Z=Y($,X(r(z,vU))),_=Y($,X(r(z,vV))),aa=Y(U,X(r(h,vW))),ab=A(jL,r(h,vX)),ac=A(bK,r(h,vY));return[3,Y(aX,X(r(h,vZ))),ac,ab,aa,_,Z,V]}return ae([0,vK,[0,a[1],vJ]])}throw x}var
-B=a[1],C=W(f[2]),D=W(a[2]);if(j(B,v0))ae([0,v2,[0,B,v1]]);var
-E=a2(C,v3),ad=E?$(E[1]):ae([0,wq,[0,b,wp]]),af=function(d){var
-a=W(d);function
-b(b){return Y(bK,X(r(a,b)))}var
-c=aX(r(a,v4)),e=a2(a,v5);if(!j(c,v6)&&!e){var
-f=b(v9);return[0,b(v_),f]}return ae([0,v8,[0,c,v7]])},g=cX(r(c,v$)),i=g[1];if(j(i,wa))if(j(i,wb))if(j(i,wc)){if(j(i,wd))throw x;var
-F=g[2],ag=$(r(W(F),we)),k=[3,$(r(W(F),wf)),ag]}else
+f=e(c,b[1]);return[0,a0(a[1]),f]}}throw x},b)},ab=function(d){var
+a=U(d);if(a){var
+b=a[1],c=b[1];if(j(c,wk)){if(!j(c,wl)&&!a[2])return Z(j3,X(b[2]))}else
+if(!a[2])return aa(wm)}throw x},ac=Z(gB,X(p(c,wn))),ad=Z(Y,X(p(C,wo))),ae=Z(Y,X(p(C,wp))),af=Z(ab,X(p(l,wq))),ag=D(j3,p(l,wr)),ah=D(bM,p(l,ws));return[3,Z(a0,X(p(l,wt))),ah,ag,af,ae,ad,ac]}return aa([0,we,[0,a[1],wd]])}throw x}var
+E=a[1],F=U(f[2]),G=U(a[2]);if(j(E,wu))aa([0,ww,[0,E,wv]]);var
+H=a4(F,wx),ai=H?Y(H[1]):aa([0,wW,[0,b,wV]]),aj=function(d){var
+a=U(d);function
+b(b){return Z(bM,X(p(a,b)))}var
+c=a0(p(a,wy)),e=a4(a,wz);if(!j(c,wA)&&!e){var
+f=b(wD);return[0,b(wE),f]}return aa([0,wC,[0,c,wB]])},g=cZ(p(c,wF)),m=g[1];if(j(m,wG))if(j(m,wH))if(j(m,wI)){if(j(m,wJ))throw x;var
+I=g[2],ak=Y(p(U(I),wK)),n=[3,Y(p(U(I),wL)),ak]}else
 var
-al=g[2],q=function(a){return dF($,r(W(al),a))},am=q(wm),an=q(wn),k=[1,q(wo),an,am];else
+ap=g[2],t=function(a){return dM(Y,p(U(ap),a))},aq=t(wS),ar=t(wT),n=[1,t(wU),ar,aq];else
 var
-H=dF($,g[2]),k=[0,H[1],H[2]];else
+K=dM(Y,g[2]),n=[0,K[1],K[2]];else
 var
-k=[2,$(g[2])];var
-G=j(b,wg),ah=G?j(b,wh)?2:1:G,ai=Y(vg,X(r(c,wi))),aj=Y($,X(r(D,wj))),ak=Y($,X(r(D,wk)));return[2,ah,Y(af,X(r(C,wl))),ad,ak,aj,k,ai]}return ae(wr)}function
-jO(a){return Y(gh,X(a))}function
-eA(g,m){var
+n=[2,Y(g[2])];var
+J=j(b,wM),al=J?j(b,wN)?2:1:J,am=Z(vI,X(p(c,wO))),an=Z(Y,X(p(G,wP))),ao=Z(Y,X(p(G,wQ)));return[2,al,Z(aj,X(p(F,wR))),ai,ao,an,n,am]}return aa(wX)}function
+j7(a){return Z(eK,X(a))}function
+eL(g,m){var
 D=g[2];function
 E(c,b){var
-a=jO(b);if(cy(a)!==c)throw x;return a}switch(m[0]){case
+a=j7(b);if(cC(a)!==c)throw x;return a}switch(m[0]){case
 0:var
 c=m[1];if(c){var
-e=c[1],b=e[1],d=0;if(j(b,wu))if(j(b,wv))if(j(b,ww))if(j(b,wx)){var
-O=0;if(j(b,wy)&&j(b,wz)&&j(b,wA))O=1;if(!O)if(c[2])d=1;else{var
+e=c[1],b=e[1],d=0;if(j(b,w0))if(j(b,w1))if(j(b,w2))if(j(b,w3)){var
+O=0;if(j(b,w4)&&j(b,w5)&&j(b,w6))O=1;if(!O)if(c[2])d=1;else{var
 Q=e[2],G=Q,F=function(c,a){return[1,b,c,a]};d=2}}else{var
 J=e[2];if(1===J[0]){var
 n=J[1];if(n){var
 o=n[2];if(o){var
-p=o[2];if(p&&!p[2]){if(!c[2]){var
-T=gi(p[1]),U=gh(o[1]);return[4,eA(g,n[1]),U,T]}d=1}}}}}else{if(!c[2]){var
-A=aX(e[2]),B=j(A,ws);if(B){if(j(A,wt))throw x;var
+q=o[2];if(q&&!q[2]){if(!c[2]){var
+T=gz(q[1]),V=eK(o[1]);return[4,eL(g,n[1]),V,T]}d=1}}}}}else{if(!c[2]){var
+A=a0(e[2]),B=j(A,wY);if(B){if(j(A,wZ))throw x;var
 C=1}else
 var
 C=B;return[2,C]}d=1}else{if(!c[2]){var
 h=e[2],l=0;switch(h[0]){case
 0:var
 i=h[1];if(i){var
-L=i[1],u=L[1],a=0;if(j(u,wF)&&j(u,wG))if(j(u,wH))a=1;else{var
+L=i[1],u=L[1],a=0;if(j(u,w$)&&j(u,xa))if(j(u,xb))a=1;else{var
 M=L[2];if(1===M[0]){var
 v=M[1];if(v){var
 k=v[1],f=0;switch(k[0]){case
 0:var
 w=k[1];if(w){var
-N=w[1][1],P=0;if(j(N,wJ)&&j(N,wK)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
-2:if(j(k[1],wL)){a=1;f=1}break;default:a=1;f=1}if(!f){var
+N=w[1][1],P=0;if(j(N,xd)&&j(N,xe)){a=1;f=1;P=1}if(!P&&w[2]){a=1;f=1}}else{a=1;f=1}break;case
+2:if(j(k[1],xf)){a=1;f=1}break;default:a=1;f=1}if(!f){var
 y=v[2];if(y){var
 z=y[2];if(z&&!(z[2]||i[2])){var
-_=gi(z[1]),$=gh(y[1]),q=[5,eA(g,k),$,_];l=1;a=1}else
+_=gz(z[1]),$=eK(y[1]),r=[5,eL(g,k),$,_];l=1;a=1}else
 a=1}else
 a=1}}else
 a=1}else
 a=1}if(!a&&!i[2])l=2}break;case
-2:if(!j(h[1],wM))l=2;break}switch(l){case
+2:if(!j(h[1],xg))l=2;break}switch(l){case
 0:var
-q=ae(wI);break;case
+r=aa(xc);break;case
 2:var
-q=eA(g,h);break}return[6,q]}d=1}else{var
+r=eL(g,h);break}return[6,r]}d=1}else{var
 K=e[2];if(1===K[0]){var
 s=K[1];if(s){var
 t=s[2];if(t&&!t[2])if(c[2])d=1;else{var
-V=t[1],Z=s[1],G=Z,F=function(b,a){return[3,b,a,E(D+1|0,V)]};d=2}}}}switch(d){case
-0:if(!c[2])return ae([0,wC,[0,b,wB]]);break;case
+W=t[1],Y=s[1],G=Y,F=function(b,a){return[3,b,a,E(D+1|0,W)]};d=2}}}}switch(d){case
+0:if(!c[2])return aa([0,w8,[0,b,w7]]);break;case
 1:break;default:var
-H=W(G),R=X(r(H,wD)),I=Y(function(a){return E(D,a)},R),S=g[1];if(cy(I)!==S)throw x;return F(I,gi(r(H,wE)))}}break;case
+H=U(G),R=X(p(H,w9)),I=Z(function(a){return E(D,a)},R),S=g[1];if(cC(I)!==S)throw x;return F(I,gz(p(H,w_)))}}break;case
 2:return[0,m[1]]}throw x}function
-w8(c){var
+j8(k){var
+b=cZ(k),a=b[1];if(j(a,xj)){var
+g=j(a,xk);if(!g)return g;if(!j(a,xl)){var
+h=b[2];if(1===h[0]){var
+c=h[1];if(c){var
+d=c[2];if(d&&!d[2]){var
+l=c0(d[1]);return[1,c0(c[1]),l]}}}}}else{var
+i=b[2];if(1===i[0]){var
+e=i[1];if(e){var
+f=e[2];if(f&&!f[2]){var
+m=Z(j7,X(f[1]));return[0,c0(e[1]),m]}}}}return aa([0,xn,[0,a,xm]])}function
+xC(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!j(b[1],w9))a=1;break;case
+0:if(!j(b[1],xD))a=1;break;case
 6:a=1;break}return a?1:0}function
-w_(d){var
-f=y(d),a=[0,0];function
-g(b){if(a[1]<f)return K(d,a[1]);throw x}function
-h(b){if(g(0)===b){a[1]++;return 0}throw x}function
-C(b,c){for(;;){if(a[1]<f&&e(c,K(d,a[1]))){a[1]++;continue}return c_(d,b,a[1]-b|0)}}function
-D(d){h(34);function
+xE(f){var
+g=y(f),a=[0,0];function
+h(b){if(a[1]<g)return N(f,a[1]);throw x}function
+i(b){if(h(0)===b){a[1]++;return 0}throw x}function
+s(b,c){for(;;){if(a[1]<g&&e(c,N(f,a[1]))){a[1]++;continue}return da(f,b,a[1]-b|0)}}function
+t(d){i(34);function
 b(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=C(a[1],b);h(34);return c}function
-E(k,d){if(g(0)===d){a[1]++;return 0}var
+c=s(a[1],b);i(34);return c}function
+u(k,d){if(h(0)===d){a[1]++;return 0}var
 f=0;for(;;){var
-i=[0,e(k,0),f];if(44===g(0)){a[1]++;var
-f=i;continue}h(d);var
-b=i,c=0;for(;;){if(b){var
+g=[0,e(k,0),f];if(44===h(0)){a[1]++;var
+f=g;continue}i(d);var
+b=g,c=0;for(;;){if(b){var
 j=[0,b[1],c],b=b[2],c=j;continue}return c}}}function
-q(c,k){if(64<c)throw x;var
-b=g(0),d=0;if(48<=b){if(91===b){a[1]++;var
-e=93,f=c+1|0;return[1,E(function(a){return q(f,a)},e)]}if(123===b){a[1]++;var
-i=125;return[0,E(function(b){var
-a=D(0);h(58);return[0,a,q(c+1|0,0)]},i)]}if(!(58<=b))d=1}else{if(34===b)return[2,D(0)];if(45===b)d=1}if(d){var
-j=a[1];a[1]++;return[3,C(j,function(a){var
+n(c,k){if(64<c)throw x;var
+b=h(0),d=0;if(48<=b){if(91===b){a[1]++;var
+e=93,f=c+1|0;return[1,u(function(a){return n(f,a)},e)]}if(123===b){a[1]++;var
+g=125;return[0,u(function(b){var
+a=t(0);i(58);return[0,a,n(c+1|0,0)]},g)]}if(!(58<=b))d=1}else{if(34===b)return[2,t(0)];if(45===b)d=1}if(d){var
+j=a[1];a[1]++;return[3,s(j,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw x}var
-M=q(0,0),F=a[1]<f?1:0,N=F?10===K(d,a[1])?1:0:F;if(N)a[1]++;if(a[1]<f)throw x;var
-m=W(M);if(j(aX(r(m,w$)),xa))throw x;var
-b=vn(r(m,xb));switch(b[0]){case
-0:var
-n=[0,cy(b[1]),3];break;case
+B=n(0,0),v=a[1]<g?1:0,C=v?10===N(f,a[1])?1:0:v;if(C)a[1]++;if(a[1]<g)throw x;var
+l=U(B);if(j(a0(p(l,xF)),xG))throw x;var
+c=j6(p(l,xH));switch(c[0]){case
 2:var
-_=1===b[1]?6:3,n=[0,cy(b[2]),_];break;case
+O=1===c[1]?6:3,m=[0,cC(c[2]),O];break;case
 3:var
-aa=cy(b[1]),n=[0,cy(b[4]),aa];break;default:var
-n=xk}var
-z=cX(r(m,xc)),A=z[1];if(j(A,wY))if(j(A,wZ))var
-c=ae([0,w1,[0,A,w0]]);else{var
-k=W(z[2]),B=a2(k,w2),Q=B?Y($,X(B[1])):B,s=cX(r(k,w3)),i=s[1],o=0;if(j(i,wT)){var
-G=j(i,wU);if(G){if(!j(i,wV)){var
-H=s[2];if(1===H[0]){var
-t=H[1];if(t){var
-u=t[2];if(u&&!u[2]){var
-O=cY(u[1]),l=[1,cY(t[1]),O];o=1}}}}}else{var
-l=G;o=1}}else{var
-I=s[2];if(1===I[0]){var
-v=I[1];if(v){var
-w=v[2];if(w&&!w[2]){var
-P=Y(jO,X(w[1])),l=[0,cY(v[1]),P];o=1}}}}if(!o)var
-l=ae([0,wX,[0,i,wW]]);var
-R=Y($,X(r(k,w4))),c=[1,jH(r(k,w5)),R,Q,l]}else
+P=cC(c[1]),m=[0,cC(c[4]),P];break;case
+0:case
+5:var
+m=[0,cC(c[1]),3];break;default:var
+m=xS}var
+o=cZ(p(l,xI)),q=o[1];if(j(q,xs))if(j(q,xt))var
+b=aa([0,xv,[0,q,xu]]);else
 var
-J=W(z[2]),S=X(r(J,w6)),T=Y(function(f){var
-a=W(f);if(0!==a2(a,wP))ae(wQ);var
-d=ey(cY,a2(a,wR)),b=a2(a,wS);if(b)var
-e=X(b[1]),c=Y(function(g){var
+k=U(o[2]),r=a4(k,xw),D=r?Z(Y,X(r[1])):r,E=j8(p(k,xx)),F=Z(Y,X(p(k,xy))),b=[1,jZ(p(k,xz)),F,D,E];else
+var
+w=U(o[2]),G=X(p(w,xA)),H=Z(function(f){var
+a=U(f);function
+b(d,c){var
+b=a4(a,c);return b?Z(d,X(b[1])):b}var
+c=b(eK,xo),d=dJ(j8,a4(a,xp)),e=dJ(c0,a4(a,xq));return[0,b(function(g){var
 b=X(g);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],wN)){if(!a[2]){if(j(dC(e),wO))throw x;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!j(c[1],xh)){if(!a[2]){if(j(dI(e),xi))throw x;d=1}}else
 d=1;if(d&&!a[2]){var
-f=eA(n,c);return[0,cY(e),f]}}}throw x},e);else
-var
-c=b;return[0,c,d]},S),c=[0,jH(r(J,w7)),T];var
-p=0;switch(b[0]){case
-1:if(0===c[0]){ae(xg);p=1}break;case
-2:if(0===c[0]){var
-V=c[2];if(!hg(function(a){return hg(w8,a[1])},V)){ae(xh);p=1}}else{var
-Z=b[7];if(hh(function(a){switch(a[1]){case
+f=eL(m,c);return[0,c0(e),f]}}}throw x},xr),e,d,c]},G),b=[0,jZ(p(w,xB)),H];var
+d=0;switch(c[0]){case
+1:if(0===b[0])aa(xN);else
+d=1;break;case
+2:if(0===b[0]){var
+K=b[2];if(hw(function(a){return hw(xC,a[1])},K))d=2;else
+aa(xO)}else{var
+L=c[7];if(dZ(function(a){switch(a[1]){case
 2:case
 6:case
-8:return 1;default:return 0}},Z)){ae(xi);p=1}}break;case
-3:if(1===c[0]){ae(xj);p=1}break}var
-L=W(r(m,xd)),U=aX(r(L,xe));return[0,b,c,aX(r(L,xf)),U]}function
-xl(c){try{try{var
-d=0,a=w_(c);d=1}catch(a){a=e1(a);if(a[1]===jG)var
+8:return 1;default:return 0}},L))aa(xP);else
+d=1}break;case
+3:if(1===b[0])aa(xQ);else
+d=2;break;case
+5:var
+Q=0;if(0===b[0]){var
+M=b[2];if(dZ(function(a){return 0!==a[1]?1:0},M)){aa(xR);Q=1}}break;default:d=2}var
+A=0;switch(d){case
+2:if(0===b[0]){var
+I=b[2];if(dZ(function(a){return 0!==a[3]?1:0},I)){aa(xJ);A=1}}break;case
+1:break;default:A=1}var
+z=U(p(l,xK)),J=a0(p(z,xL));return[0,c,b,a0(p(z,xM)),J]}function
+xT(c){try{try{var
+d=0,a=xE(c);d=1}catch(a){a=fc(a);if(a[1]===jY)var
 b=[0,a[2]];else{if(a!==x)throw a;var
 b=2}}if(d)var
-b=uc(c,a)?0===a[2][0]?0:1:2}catch(a){return xm}if(typeof
+b=uE(c,a)?0===a[2][0]?0:1:2}catch(a){return xU}if(typeof
 b==="number")switch(b){case
-0:return xn;case
-1:return xo;default:return xp}return as(xq,b[1])}zb.orthocert_verify=yT(function(b){return bS(xl(a(b)))});e4(0);return}(globalThis));
+0:return xV;case
+1:return xW;default:return xX}return as(xY,b[1])}zJ.orthocert_verify=zp(function(b){return bU(xT(a(b)))});ff(0);return}(globalThis));
